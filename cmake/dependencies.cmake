@@ -1,0 +1,23 @@
+# SPDX-License-Identifier: Apache-2.0
+# Everything comes from Debian 12; `./dev deps` installs it.
+find_package(Threads REQUIRED)
+find_package(absl REQUIRED)
+find_package(fmt REQUIRED)
+find_package(spdlog REQUIRED)
+find_package(Protobuf REQUIRED)
+find_package(gRPC CONFIG REQUIRED)
+find_package(GDAL CONFIG REQUIRED)
+find_package(TBB CONFIG REQUIRED)
+find_package(PNG REQUIRED)
+find_package(Boost REQUIRED)
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(GLEW REQUIRED IMPORTED_TARGET glew)
+pkg_check_modules(EGL REQUIRED IMPORTED_TARGET egl)
+pkg_check_modules(TURBOJPEG REQUIRED IMPORTED_TARGET libturbojpeg)
+pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)
+
+find_path(GLM_INCLUDE_DIR glm/glm.hpp REQUIRED)
+add_library(eyrie_glm INTERFACE)
+add_library(eyrie::glm ALIAS eyrie_glm)
+target_include_directories(eyrie_glm SYSTEM INTERFACE ${GLM_INCLUDE_DIR})
+target_compile_definitions(eyrie_glm INTERFACE GLM_FORCE_EXPLICIT_CTOR)

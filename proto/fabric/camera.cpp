@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fabric/camera.h"
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
+
+#include <cmath>
+#include <string_view>
+
+namespace eyrie::fabric {
+namespace {
+
+bool isFinite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+absl::Status invalid(std::string_view field, std::string_view found, std::string_view expected) {
+    return absl::InvalidArgumentError(
+        fmt::format("camera.{} is {}; it must be {}", field, found, expected));
+}
+
+}  // namespace
+
+absl::Status validate(const Camera& camera) {
+    if (!isFinite(camera.eye))
+        return invalid("eye", "not finite", "three finite numbers (world metres)");
+    if (!isFinite(camera.target))
+        return invalid("target", "not finite", "three finite numbers (world metres)");
+    if (!isFinite(camera.up))
+        return invalid("up", "not finite", "three finite numbers");
+    if (!(camera.fovYDegrees >= 1 && camera.fovYDegrees <= 170))
+        return invalid("fovyDegrees", fmt::format("{}", camera.fovYDegrees), "from 1 to 170");
+    const Vec3 forward = camera.target - camera.eye;
+    if (glm::length(forward) == 0)
+        return invalid("target", "equal to camera.eye", "another point");
+    if (glm::length(camera.up) == 0)
+        return invalid("up", "zero", "a direction, such as [0,0,1]");
+    const double sine = glm::length(glm::cross(glm::normalize(forward), glm::normalize(camera.up)));
+    if (!(sine > 1e-9))
+        return invalid("up", "parallel to the view direction", "another direction");
+    return absl::OkStatus();
+}
+
+Mat3 viewFromWorldRotation(const Camera& camera) {
+    const Vec3 forward = glm::normalize(camera.target - camera.eye);
+    const Vec3 right = glm::normalize(glm::cross(forward, glm::normalize(camera.up)));
+    const Vec3 up = glm::cross(right, forward);
+    // glm takes columns; the rows of this rotation are right, up and -forward.
+    return Mat3(right.x, up.x, -forward.x, right.y, up.y, -forward.y, right.z, up.z, -forward.z);
+}
+
+}  // namespace eyrie::fabric

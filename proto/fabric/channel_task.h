@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "fabric/image.h"
+#include "fabric/range.h"
+#include "fabric/statistics.h"
+#include "fabric/viewport.h"
+
+#include <cstdint>
+
+namespace eyrie::fabric {
+
+/// One renderer's part of one frame: which pixels of which view, and which share of the data.
+struct ChannelTask {
+    std::uint64_t frameNumber = 0;
+    std::uint64_t frameDataVersion = 0;
+    /// Size of the whole view in pixels, 1 to 16384 a side. Projection, level of detail and
+    /// rasterisation are the view's, whatever part of it is asked for: that is what makes the
+    /// parts of a sort-first frame equal to the whole.
+    std::int32_t viewWidth = 0;
+    std::int32_t viewHeight = 0;
+    PixelViewport pixelViewport;  ///< the part of the view to draw
+    Range range;                  ///< the share of the data to draw
+    bool wantsDepth = false;      ///< depth is to come back beside colour
+
+    bool operator==(const ChannelTask&) const = default;
+};
+
+/// What came of a task. `image.area` is the covered part of the task's pixel viewport: whatever of
+/// it the image leaves out is background.
+struct ChannelResult {
+    Image image;
+    FrameStatistics statistics;
+};
+
+inline constexpr std::int32_t kMaxViewPixels = 16384;
+
+}  // namespace eyrie::fabric

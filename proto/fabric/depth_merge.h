@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "fabric/image.h"
+
+namespace eyrie::fabric {
+
+/// Sort-last compositing of opaque images: per pixel the nearer one stays (the greater reversed
+/// depth). On equal depth `target` keeps its pixel, so merge in ascending order of range: the
+/// result then depends on the ranges alone, never on the order in which images arrived.
+///
+/// Associative for any order of grouping that keeps that sequence.
+/// Preconditions: both have depth; target.area contains source.area.
+void mergeDepth(const Image& source, Image& target);
+
+}  // namespace eyrie::fabric

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "fabric/camera.h"
+
+#include <cstdint>
+
+namespace eyrie::fabric {
+
+/// How surfaces are drawn.
+enum class Shading { Smooth, Flat, Wireframe };
+
+/// What changes from frame to frame. Versioned: renderers receive each version once, and channel
+/// tasks name the version they are to be drawn with.
+struct FrameData {
+    std::uint64_t version = 0;
+    Camera camera;
+    double tauPixels = 1;  ///< screen-space error asked for; 0.01 to 1000
+    Shading shading = Shading::Smooth;
+
+    bool operator==(const FrameData&) const = default;
+};
+
+inline constexpr double kMinTauPixels = 0.01;
+inline constexpr double kMaxTauPixels = 1000;
+
+}  // namespace eyrie::fabric

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "fabric/viewport.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace eyrie::fabric {
+
+/// Colour of one pixel, 8 bits a channel, not premultiplied; bytes in memory are r, g, b, a.
+struct Rgba {
+    std::uint8_t r = 0;
+    std::uint8_t g = 0;
+    std::uint8_t b = 0;
+    std::uint8_t a = 255;
+
+    bool operator==(const Rgba&) const = default;
+};
+static_assert(sizeof(Rgba) == 4);
+
+/// Pixels of a rectangle of a view. Rows run from the bottom up, pixels from left to right.
+///
+/// `depth` is either empty or as large as `colour`: reversed depth, 1 at the near plane, 0 where
+/// nothing was drawn. Everything outside `area` is background with depth 0.
+struct Image {
+    PixelViewport area;
+    std::vector<Rgba> colour;
+    std::vector<float> depth;
+
+    bool hasDepth() const { return !depth.empty(); }
+    bool operator==(const Image&) const = default;
+};
+
+/// An image of `area` filled with `background` and, if asked for, depth 0.
+Image makeImage(const PixelViewport& area, Rgba background, bool withDepth);
+
+/// The smallest part of `image` outside which its depth is 0; empty when nothing was drawn.
+/// Precondition: image.hasDepth().
+PixelViewport coveredArea(const Image& image);
+
+/// The pixels of `image` inside `area`. Precondition: image.area contains `area`.
+Image crop(const Image& image, const PixelViewport& area);
+
+/// Copies `source` over `target` (sort-first assembly); depth too where both have it.
+/// Precondition: target.area contains source.area.
+void paste(const Image& source, Image& target);
+
+}  // namespace eyrie::fabric

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fabric/scene.h"
+
+#include <fmt/format.h>
+#include <glm/matrix.hpp>
+
+#include <cmath>
+
+namespace eyrie::fabric {
+namespace {
+
+absl::Status validateTransform(const SceneObject& object) {
+    const Mat4& m = object.worldFromObject;
+    for (int column = 0; column < 4; ++column)
+        for (int row = 0; row < 4; ++row)
+            if (!std::isfinite(m[column][row]))
+                return absl::InvalidArgumentError(fmt::format(
+                    "object '{}': transform element [{}][{}] is not finite", object.name, row,
+                    column));
+    if (m[0][3] != 0 || m[1][3] != 0 || m[2][3] != 0 || m[3][3] != 1)
+        return absl::InvalidArgumentError(fmt::format(
+            "object '{}': the transform's last row must be 0 0 0 1 (an affine transform)",
+            object.name));
+    if (std::abs(glm::determinant(Mat3(m))) == 0)
+        return absl::InvalidArgumentError(fmt::format(
+            "object '{}': the transform is singular (it flattens the object)", object.name));
+    return absl::OkStatus();
+}
+
+}  // namespace
+
+absl::Status validate(const Scene& scene) {
+    if (scene.lights.size() > kMaxLights)
+        return absl::InvalidArgumentError(fmt::format(
+            "scene.lights has {} lights; at most {} are drawn", scene.lights.size(), kMaxLights));
+    if (!(scene.ambient >= 0 && scene.ambient <= 1))
+        return absl::InvalidArgumentError(
+            fmt::format("scene.ambient is {}; it must be from 0 to 1", scene.ambient));
+    for (const SceneObject& object : scene.objects) {
+        if (object.name.empty() || object.path.empty())
+            return absl::InvalidArgumentError(fmt::format(
+                "an object of the scene lacks its {}", object.name.empty() ? "name" : "path"));
+        if (absl::Status status = validateTransform(object); !status.ok())
+            return status;
+    }
+    return absl::OkStatus();
+}
+
+}  // namespace eyrie::fabric

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "fabric/box.h"
+#include "fabric/image.h"
+#include "fabric/vec.h"
+
+#include <absl/status/status.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace eyrie::fabric {
+
+enum class ObjectKind { Terrain, Mesh };
+
+/// One data set in a scene.
+struct SceneObject {
+    std::string name;                   ///< for people; not empty
+    ObjectKind kind = ObjectKind::Mesh;
+    std::string path;                   ///< of the .eyt or .eym file
+    Mat4 worldFromObject{1.0};          ///< affine; object space is the file's own, in metres
+    Vec3 colour{0.8, 0.8, 0.8};         ///< linear; meshes without vertex colours only
+
+    bool operator==(const SceneObject&) const = default;
+};
+
+/// A light without distance: `direction` points from the light into the scene, world axes.
+struct DirectionalLight {
+    Vec3 direction{0.4, 0.5, -0.8};
+    Vec3 colour{1, 1, 1};
+
+    bool operator==(const DirectionalLight&) const = default;
+};
+
+/// Everything that is drawn: the init data of a session.
+struct Scene {
+    std::vector<SceneObject> objects;
+    std::vector<DirectionalLight> lights;  ///< at most kMaxLights; none means one at the camera
+    double ambient = 0.25;                 ///< 0 to 1
+    Rgba background{38, 44, 54, 255};
+
+    bool operator==(const Scene&) const = default;
+};
+
+inline constexpr int kMaxLights = 4;
+
+/// InvalidArgument, naming the object and field, when a transform is not finite, not affine or
+/// singular, a name or path is empty, or there are too many lights.
+absl::Status validate(const Scene& scene);
+
+/// What a renderer found in a scene.
+struct SceneInfo {
+    Box bounds;  ///< world space, metres
+    std::uint64_t triangles = 0;  ///< at full resolution
+    std::uint64_t bytes = 0;      ///< of all files
+
+    bool operator==(const SceneInfo&) const = default;
+};
+
+}  // namespace eyrie::fabric

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+
+namespace eyrie::fabric {
+
+/// Wall-clock milliseconds of the stages of a channel or frame.
+struct StageMilliseconds {
+    double cull = 0;
+    double draw = 0;  ///< until the GPU, or llvmpipe, has finished
+    double readback = 0;
+    double encode = 0;
+    double total = 0;
+
+    bool operator==(const StageMilliseconds&) const = default;
+};
+
+/// What a channel (or, summed up, a frame) drew and with what error.
+struct FrameStatistics {
+    double tauAskedPixels = 0;
+    /// Bound on the screen-space error of everything drawn. May exceed what was asked for when the
+    /// data end (the finest level is drawn) or are missing.
+    double tauAchievedPixels = 0;
+    bool complete = true;  ///< false when data that the frame needs could not be read
+    std::uint64_t triangles = 0;
+    std::uint64_t points = 0;
+    std::uint64_t nodes = 0;  ///< LOD nodes drawn
+    std::uint64_t pagesLoaded = 0;
+    StageMilliseconds milliseconds;
+
+    bool operator==(const FrameStatistics&) const = default;
+};
+
+/// Adds what another channel of the same frame did. Times take the maximum (channels run side by
+/// side), counts add up, the error is the worst.
+inline void accumulate(FrameStatistics& sum, const FrameStatistics& part) {
+    sum.tauAskedPixels = std::max(sum.tauAskedPixels, part.tauAskedPixels);
+    sum.tauAchievedPixels = std::max(sum.tauAchievedPixels, part.tauAchievedPixels);
+    sum.complete = sum.complete && part.complete;
+    sum.triangles += part.triangles;
+    sum.points += part.points;
+    sum.nodes += part.nodes;
+    sum.pagesLoaded += part.pagesLoaded;
+    StageMilliseconds& ms = sum.milliseconds;
+    ms.cull = std::max(ms.cull, part.milliseconds.cull);
+    ms.draw = std::max(ms.draw, part.milliseconds.draw);
+    ms.readback = std::max(ms.readback, part.milliseconds.readback);
+    ms.encode = std::max(ms.encode, part.milliseconds.encode);
+    ms.total = std::max(ms.total, part.milliseconds.total);
+}
+
+/// The graphics device a renderer chose.
+struct DeviceInfo {
+    std::string vendor;    ///< GL_VENDOR
+    std::string renderer;  ///< GL_RENDERER
+    std::string driver;    ///< GL_VERSION
+    std::string platform;  ///< "EGL device 0", "EGL surfaceless Mesa"
+    bool software = false; ///< a CPU rasteriser such as llvmpipe
+
+    bool operator==(const DeviceInfo&) const = default;
+};
+
+}  // namespace eyrie::fabric

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <absl/status/status.h>
+#include <absl/status/statusor.h>
+
+#include <string_view>
+#include <utility>
+
+namespace eyrie::fabric {
+
+/// `status` with "context: " before its message; OK stays OK.
+absl::Status withContext(const absl::Status& status, std::string_view context);
+
+}  // namespace eyrie::fabric
+
+#define EYRIE_CONCAT_INNER(a, b) a##b
+#define EYRIE_CONCAT(a, b) EYRIE_CONCAT_INNER(a, b)
+
+/// Returns from the enclosing function when `expression` (an absl::Status) is not OK.
+#define RETURN_IF_ERROR(expression)                                   \
+    do {                                                              \
+        if (absl::Status eyrieStatus = (expression); !eyrieStatus.ok()) \
+            return eyrieStatus;                                       \
+    } while (false)
+
+/// Declares or assigns `target` from an absl::StatusOr, or returns its status.
+#define ASSIGN_OR_RETURN(target, expression) \
+    ASSIGN_OR_RETURN_IMPL(EYRIE_CONCAT(eyrieStatusOr, __LINE__), target, expression)
+#define ASSIGN_OR_RETURN_IMPL(statusOr, target, expression) \
+    auto statusOr = (expression);                           \
+    if (!statusOr.ok())                                     \
+        return std::move(statusOr).status();                \
+    target = *std::move(statusOr)

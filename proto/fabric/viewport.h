@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace eyrie::fabric {
+
+/// A rectangle of whole pixels inside a view, counted from the view's lower left corner.
+struct PixelViewport {
+    std::int32_t x = 0;
+    std::int32_t y = 0;
+    std::int32_t width = 0;
+    std::int32_t height = 0;
+
+    bool isEmpty() const { return width <= 0 || height <= 0; }
+    std::int64_t area() const { return isEmpty() ? 0 : std::int64_t{width} * height; }
+    bool contains(const PixelViewport& inner) const {
+        return inner.x >= x && inner.y >= y && inner.x + inner.width <= x + width &&
+               inner.y + inner.height <= y + height;
+    }
+    bool operator==(const PixelViewport&) const = default;
+};
+
+PixelViewport intersection(const PixelViewport& a, const PixelViewport& b);
+
+/// `count` rectangles side by side along the longer axis that cover `whole` once, differing by at
+/// most one pixel. Fewer when there are not that many pixels.
+std::vector<PixelViewport> split(const PixelViewport& whole, int count);
+
+}  // namespace eyrie::fabric
