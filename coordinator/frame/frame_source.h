@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "fabric/camera.h"
+#include "fabric/frame_data.h"
+#include "fabric/image.h"
+#include "fabric/scene.h"
+#include "fabric/statistics.h"
+
+#include <absl/status/statusor.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace eyrie::coordinator {
+
+/// What somebody wants to see.
+struct FrameRequest {
+    fabric::Camera camera;
+    double tauPixels = 1;
+    fabric::Shading shading = fabric::Shading::Smooth;
+    int width = 1280;   ///< pixels, 1 to fabric::kMaxViewPixels
+    int height = 720;
+    bool wantsDepth = false;
+
+    bool operator==(const FrameRequest&) const = default;
+};
+
+/// A whole, composited picture: `image.area` is {0, 0, width, height}.
+struct RenderedFrame {
+    fabric::Image image;
+    fabric::FrameStatistics statistics;
+    fabric::DeviceInfo device;  ///< of the first renderer that took part
+};
+
+struct RendererStatus {
+    std::string id;
+    fabric::DeviceInfo device;
+    bool alive = true;
+};
+
+/// What a person should know about the coordinator now.
+struct Status {
+    std::vector<RendererStatus> renderers;
+    fabric::Scene scene;
+    fabric::SceneInfo sceneInfo;
+    /// Why there is no picture, for a person to read; empty while there is one.
+    std::string problem;
+};
+
+/// Where pictures come from. All functions may be called from any thread.
+class FrameSource {
+public:
+    virtual ~FrameSource() = default;
+
+    /// Draws one frame; blocks until it is complete. Calls from several threads take turns.
+    /// A renderer that fails has its part drawn by another, so an error means that no complete
+    /// frame can be had: InvalidArgument (the request), Unavailable (no renderer, or no scene), or
+    /// what the last renderer said.
+    virtual absl::StatusOr<RenderedFrame> renderFrame(const FrameRequest& request) = 0;
+
+    virtual Status status() const = 0;
+
+    /// Calls `listener`, from any thread and without locks held, after each change of status().
+    /// Returns a handle for unsubscribe; after unsubscribe returns, the listener runs no more.
+    virtual int subscribe(std::function<void()> listener) = 0;
+    virtual void unsubscribe(int handle) = 0;
+};
+
+}  // namespace eyrie::coordinator
