@@ -17,6 +17,10 @@ struct Frustum {
     bool operator==(const Frustum&) const = default;
 };
 
+/// Distance of the near plane of every picture. Reversed floating-point depth has the same relative
+/// precision at any distance, so a near plane this close costs nothing.
+inline constexpr double kNearMetres = 1e-3;
+
 /// The symmetric frustum of a whole vertical field of view and a width / height ratio.
 Frustum symmetricFrustum(double fovYDegrees, double aspect);
 

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/gl/framebuffer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace eyrie::gl {
+
+absl::Status Framebuffer::resize(int width, int height) {
+    if (width <= width_ && height <= height_)
+        return absl::OkStatus();
+    GLint limit = 0;
+    glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &limit);
+    const int newWidth = std::max(width, width_);
+    const int newHeight = std::max(height, height_);
+    if (newWidth > limit || newHeight > limit)
+        return absl::ResourceExhaustedError(
+            fmt::format("a view of {} x {} pixels exceeds this device's limit of {} x {}", width,
+                        height, limit, limit));
+    width_ = newWidth;
+    height_ = newHeight;
+    glNamedRenderbufferStorage(colour_.id(), GL_RGBA8, width_, height_);
+    glNamedRenderbufferStorage(depth_.id(), GL_DEPTH_COMPONENT32F, width_, height_);
+    glNamedFramebufferRenderbuffer(framebuffer_.id(), GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER,
+                                   colour_.id());
+    glNamedFramebufferRenderbuffer(framebuffer_.id(), GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER,
+                                   depth_.id());
+    const GLenum status = glCheckNamedFramebufferStatus(framebuffer_.id(), GL_DRAW_FRAMEBUFFER);
+    if (status == GL_FRAMEBUFFER_COMPLETE)
+        return absl::OkStatus();
+    width_ = height_ = 0;
+    return absl::ResourceExhaustedError(
+        fmt::format("the device refuses a framebuffer of {} x {} pixels (status 0x{:x})", newWidth,
+                    newHeight, status));
+}
+
+void Framebuffer::begin(int viewWidth, int viewHeight, const fabric::PixelViewport& part,
+                        fabric::Rgba background) {
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
+    glViewport(0, 0, viewWidth, viewHeight);
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(part.x, part.y, part.width, part.height);
+    glDepthMask(GL_TRUE);
+    const auto unit = [](std::uint8_t value) { return static_cast<float>(value) / 255.0F; };
+    const std::array<GLfloat, 4> colour = {unit(background.r), unit(background.g),
+                                           unit(background.b), unit(background.a)};
+    constexpr GLfloat kInfinitelyFar = 0;
+    glClearNamedFramebufferfv(framebuffer_.id(), GL_COLOR, 0, colour.data());
+    glClearNamedFramebufferfv(framebuffer_.id(), GL_DEPTH, 0, &kInfinitelyFar);
+}
+
+fabric::Image Framebuffer::read(const fabric::PixelViewport& part) {
+    fabric::Image image;
+    image.area = part;
+    image.colour.resize(static_cast<std::size_t>(part.area()));
+    image.depth.resize(static_cast<std::size_t>(part.area()));
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_.id());
+    glReadPixels(part.x, part.y, part.width, part.height, GL_RGBA, GL_UNSIGNED_BYTE,
+                 image.colour.data());
+    glReadPixels(part.x, part.y, part.width, part.height, GL_DEPTH_COMPONENT, GL_FLOAT,
+                 image.depth.data());
+    return image;
+}
+
+}  // namespace eyrie::gl

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "fabric/image.h"
+#include "renderer/gl/object.h"
+
+#include <absl/status/status.h>
+
+namespace eyrie::gl {
+
+/// Colour (RGBA8) and reversed depth (32-bit float) of one view.
+///
+/// It is always as large as the whole view, and a channel draws into its part of it under a
+/// scissor. A shifted viewport would round window coordinates differently from the whole view's
+/// and so move edges by a subpixel: this way every channel rasterises the same bits.
+class Framebuffer {
+public:
+    /// Makes the framebuffer at least as large as the view. ResourceExhausted when the device
+    /// refuses.
+    absl::Status resize(int width, int height);
+
+    /// Binds it, restricts drawing to `part` and clears that part.
+    void begin(int viewWidth, int viewHeight, const fabric::PixelViewport& part,
+               fabric::Rgba background);
+
+    /// Reads `part` back, colour and depth; waits for drawing to finish.
+    fabric::Image read(const fabric::PixelViewport& part);
+
+private:
+    FramebufferObject framebuffer_;
+    Renderbuffer colour_;
+    Renderbuffer depth_;
+    int width_ = 0;
+    int height_ = 0;
+};
+
+}  // namespace eyrie::gl

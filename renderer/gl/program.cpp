@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/gl/program.h"
+
+#include "fabric/status.h"
+
+#include <fmt/format.h>
+
+#include <string>
+
+namespace eyrie::gl {
+namespace {
+
+/// A shader object that lives until its program is linked.
+class Shader {
+public:
+    explicit Shader(GLenum stage) : id_(glCreateShader(stage)) {}
+    ~Shader() { glDeleteShader(id_); }
+    Shader(const Shader&) = delete;
+    Shader& operator=(const Shader&) = delete;
+    GLuint id() const { return id_; }
+
+private:
+    GLuint id_;
+};
+
+absl::Status compile(const Shader& shader, const ShaderSource& source) {
+    const GLchar* text = source.text.data();
+    const auto length = static_cast<GLint>(source.text.size());
+    glShaderSource(shader.id(), 1, &text, &length);
+    glCompileShader(shader.id());
+    GLint ok = GL_FALSE;
+    glGetShaderiv(shader.id(), GL_COMPILE_STATUS, &ok);
+    if (ok == GL_TRUE)
+        return absl::OkStatus();
+    std::string log(4096, '\0');
+    GLsizei written = 0;
+    glGetShaderInfoLog(shader.id(), static_cast<GLsizei>(log.size()), &written, log.data());
+    log.resize(static_cast<std::size_t>(written));
+    return absl::InternalError(fmt::format("{}: {}", source.name, log));
+}
+
+}  // namespace
+
+absl::StatusOr<Program> Program::create(const ShaderSource& vertex, const ShaderSource& fragment) {
+    const Shader vertexShader(GL_VERTEX_SHADER);
+    const Shader fragmentShader(GL_FRAGMENT_SHADER);
+    RETURN_IF_ERROR(compile(vertexShader, vertex));
+    RETURN_IF_ERROR(compile(fragmentShader, fragment));
+    Program program;
+    glAttachShader(program.id(), vertexShader.id());
+    glAttachShader(program.id(), fragmentShader.id());
+    glLinkProgram(program.id());
+    glDetachShader(program.id(), vertexShader.id());
+    glDetachShader(program.id(), fragmentShader.id());
+    GLint ok = GL_FALSE;
+    glGetProgramiv(program.id(), GL_LINK_STATUS, &ok);
+    if (ok == GL_TRUE)
+        return program;
+    std::string log(4096, '\0');
+    GLsizei written = 0;
+    glGetProgramInfoLog(program.id(), static_cast<GLsizei>(log.size()), &written, log.data());
+    log.resize(static_cast<std::size_t>(written));
+    return absl::InternalError(fmt::format("{} + {}: {}", vertex.name, fragment.name, log));
+}
+
+}  // namespace eyrie::gl

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/lod/view.h"
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace eyrie::lod {
+namespace {
+
+using fabric::Box;
+using fabric::Frustum;
+using fabric::Mat3;
+using fabric::Mat4;
+using fabric::Vec3;
+
+/// A convex polygon; a quadrilateral cut by four planes has at most eight corners.
+struct Polygon {
+    std::array<Vec3, 12> corners;
+    int count = 0;
+
+    void add(const Vec3& corner) { corners[static_cast<std::size_t>(count++)] = corner; }
+};
+
+/// Coordinates here are (x, y, depth) in view space, depth growing away from the eye.
+using Corners = std::array<Vec3, 8>;
+
+Corners viewCorners(const Box& bounds, const Mat4& viewFromObject) {
+    Corners corners;
+    for (int i = 0; i < 8; ++i) {
+        const Vec3 p(viewFromObject * fabric::Vec4(bounds.corner(i), 1.0));
+        corners[static_cast<std::size_t>(i)] = {p.x, p.y, -p.z};
+    }
+    return corners;
+}
+
+/// The four sides of a frustum as inward normals of planes through the eye.
+std::array<Vec3, 4> sidePlanes(const Frustum& f) {
+    return {Vec3{1, 0, -f.left}, Vec3{-1, 0, f.right}, Vec3{0, 1, -f.bottom}, Vec3{0, -1, f.top}};
+}
+
+/// Sutherland and Hodgman 1974, one plane.
+Polygon clip(const Polygon& polygon, const Vec3& plane) {
+    Polygon result;
+    for (int i = 0; i < polygon.count; ++i) {
+        const Vec3& a = polygon.corners[static_cast<std::size_t>(i)];
+        const Vec3& b = polygon.corners[static_cast<std::size_t>((i + 1) % polygon.count)];
+        const double da = glm::dot(plane, a);
+        const double db = glm::dot(plane, b);
+        if (da >= 0)
+            result.add(a);
+        if ((da >= 0) != (db >= 0))
+            result.add(a + (b - a) * (da / (da - db)));
+    }
+    return result;
+}
+
+constexpr std::array<std::array<std::size_t, 4>, 6> kFaces = {
+    {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}}};
+
+/// The part of a box inside a frustum: nearest depth and widest tangent off the axis.
+struct VisiblePart {
+    double minDepth = std::numeric_limits<double>::infinity();
+    double maxTangentSquared = 0;
+};
+
+/// The extremes over the box and the frustum lie at corners of their intersection, and those lie
+/// on faces of the box (the eye itself is excluded by the caller).
+VisiblePart visiblePart(const Corners& corners, const Frustum& frustum) {
+    VisiblePart part;
+    const auto planes = sidePlanes(frustum);
+    for (const auto& face : kFaces) {
+        Polygon polygon;
+        for (const std::size_t i : face)
+            polygon.add(corners[i]);
+        for (const Vec3& plane : planes)
+            polygon = clip(polygon, plane);
+        for (int i = 0; i < polygon.count; ++i) {
+            const Vec3& p = polygon.corners[static_cast<std::size_t>(i)];
+            part.minDepth = std::min(part.minDepth, p.z);
+            if (p.z > 0)
+                part.maxTangentSquared =
+                    std::max(part.maxTangentSquared, (p.x * p.x + p.y * p.y) / (p.z * p.z));
+        }
+    }
+    return part;
+}
+
+Frustum widened(const Frustum& f, double tangent) {
+    return {f.left - tangent, f.right + tangent, f.bottom - tangent, f.top + tangent};
+}
+
+/// Largest singular value of a linear map: the root of the largest eigenvalue of mᵀm, by the
+/// trigonometric solution for symmetric 3 x 3 matrices (Smith 1961).
+double largestStretch(const Mat3& m) {
+    const Mat3 a = glm::transpose(m) * m;
+    const double mean = (a[0][0] + a[1][1] + a[2][2]) / 3;
+    const double offDiagonal = a[0][1] * a[0][1] + a[0][2] * a[0][2] + a[1][2] * a[1][2];
+    const Mat3 centred = a - Mat3(mean);
+    const double p = std::sqrt((centred[0][0] * centred[0][0] + centred[1][1] * centred[1][1] +
+                                centred[2][2] * centred[2][2] + 2 * offDiagonal) /
+                               6);
+    if (p <= mean * 1e-12)
+        return std::sqrt(mean + p);
+    const double r = std::clamp(glm::determinant(centred / p) / 2, -1.0, 1.0);
+    return std::sqrt(mean + 2 * p * std::cos(std::acos(r) / 3));
+}
+
+}  // namespace
+
+View::View(const fabric::Camera& camera, int widthPixels, int heightPixels)
+    : eye(camera.eye),
+      viewFromWorldRotation(fabric::viewFromWorldRotation(camera)),
+      frustum(fabric::symmetricFrustum(camera.fovYDegrees,
+                                       static_cast<double>(widthPixels) / heightPixels)),
+      width(widthPixels),
+      height(heightPixels),
+      focalPixels(heightPixels / (frustum.top - frustum.bottom)) {}
+
+Frustum subFrustum(const View& view, const fabric::PixelViewport& part) {
+    const Frustum& f = view.frustum;
+    const double perPixelX = (f.right - f.left) / view.width;
+    const double perPixelY = (f.top - f.bottom) / view.height;
+    return {f.left + perPixelX * part.x, f.left + perPixelX * (part.x + part.width),
+            f.bottom + perPixelY * part.y, f.bottom + perPixelY * (part.y + part.height)};
+}
+
+ObjectView::ObjectView(const View& view, const Mat4& worldFromObject)
+    : view_(view), metresPerObjectUnit_(largestStretch(Mat3(worldFromObject))) {
+    // The eye is subtracted from the translation before anything is rotated, so that two large
+    // world coordinates cancel exactly instead of after rounding.
+    Mat4 relativeFromObject = worldFromObject;
+    relativeFromObject[3] -= fabric::Vec4(view.eye, 0.0);
+    viewFromObject_ = Mat4(view.viewFromWorldRotation) * relativeFromObject;
+}
+
+bool ObjectView::isVisible(const Box& bounds, const Frustum& frustum) const {
+    const Corners corners = viewCorners(bounds, viewFromObject_);
+    const auto allOutside = [&](const Vec3& plane) {
+        return std::all_of(corners.begin(), corners.end(),
+                           [&](const Vec3& p) { return glm::dot(plane, p) < 0; });
+    };
+    if (allOutside({0, 0, 1}))
+        return false;
+    const auto planes = sidePlanes(frustum);
+    return std::none_of(planes.begin(), planes.end(), allOutside);
+}
+
+double ObjectView::screenSpaceErrorPixels(double errorMetres, const Box& bounds) const {
+    if (errorMetres == 0)
+        return 0;
+    const Box grown = bounds.grownBy(errorMetres);
+    const Corners corners = viewCorners(grown, viewFromObject_);
+    const Vec3 eyeInObject(glm::inverse(viewFromObject_)[3]);
+    if (grown.contains(eyeInObject))
+        return std::numeric_limits<double>::infinity();
+    // A visible point may be displaced out of the frustum, so the bound is taken over a frustum
+    // wider by a margin; it holds once it is no larger than that margin (docs/errors.md).
+    for (const double marginPixels : {16.0, 256.0, 4096.0, 65536.0}) {
+        const VisiblePart part =
+            visiblePart(corners, widened(view_.frustum, marginPixels / view_.focalPixels));
+        if (part.minDepth == std::numeric_limits<double>::infinity())
+            return 0;
+        if (part.minDepth <= 0)
+            return std::numeric_limits<double>::infinity();
+        const double bound = errorMetres * metresPerObjectUnit_ * view_.focalPixels *
+                             std::sqrt(1 + part.maxTangentSquared) / part.minDepth;
+        if (bound <= marginPixels)
+            return bound;
+    }
+    return std::numeric_limits<double>::infinity();
+}
+
+}  // namespace eyrie::lod
