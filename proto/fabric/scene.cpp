@@ -2,6 +2,7 @@
 #include "fabric/scene.h"
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 #include <cmath>
@@ -36,6 +37,12 @@ absl::Status validate(const Scene& scene) {
     if (!(scene.ambient >= 0 && scene.ambient <= 1))
         return absl::InvalidArgumentError(
             fmt::format("scene.ambient is {}; it must be from 0 to 1", scene.ambient));
+    for (const DirectionalLight& light : scene.lights) {
+        const double length = glm::length(light.direction);
+        if (!(length > 0 && std::isfinite(length)))
+            return absl::InvalidArgumentError(
+                "scene.lights.direction must be three finite numbers, not all 0");
+    }
     for (const SceneObject& object : scene.objects) {
         if (object.name.empty() || object.path.empty())
             return absl::InvalidArgumentError(fmt::format(

@@ -12,8 +12,10 @@ namespace {
 
 std::atomic<OnGlError> onGlError{OnGlError::Log};
 
-void GLAPIENTRY onMessage(GLenum, GLenum type, GLuint, GLenum severity, GLsizei,
+void GLAPIENTRY onMessage(GLenum source, GLenum type, GLuint, GLenum severity, GLsizei,
                           const GLchar* message, const void*) {
+    if (source == GL_DEBUG_SOURCE_SHADER_COMPILER)
+        return;  // Program reports compile errors, with the shader's name
     if (type == GL_DEBUG_TYPE_ERROR) {
         spdlog::error("OpenGL: {}", message);
         if (onGlError == OnGlError::Abort)

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/draw/mesh_draw.h"
+
+#include "eyrie_shaders.h"
+#include "fabric/status.h"
+#include "renderer/gl/object.h"
+#include "renderer/lod/lattice_view.h"
+#include "renderer/mesh/eym_format.h"
+#include "renderer/page/lru_cache.h"
+
+#include <glm/gtc/matrix_inverse.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/type_ptr.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace eyrie::draw {
+namespace {
+
+enum Attribute : GLuint { kPosition = 0, kNormal = 1, kColour = 2 };
+
+/// A node's geometry on the device: one buffer, sections one after another.
+struct DeviceNode {
+    gl::Buffer buffer;
+    GLintptr normalOffset = 0;
+    GLintptr colourOffset = 0;
+    GLintptr indexOffset = 0;
+    GLsizei indexCount = 0;
+};
+
+template <typename T>
+GLintptr append(std::vector<std::byte>& bytes, std::span<const T> values) {
+    const auto offset = static_cast<GLintptr>(bytes.size());
+    const auto source = std::as_bytes(values);
+    bytes.insert(bytes.end(), source.begin(), source.end());
+    return offset;
+}
+
+DeviceNode upload(const mesh::NodeGeometry& geometry, std::uint64_t& bytesUsed) {
+    DeviceNode node;
+    std::vector<std::byte> bytes;
+    bytes.reserve(geometry.positions.size_bytes() + geometry.normals.size_bytes() +
+                  geometry.colours.size_bytes() + geometry.indices.size_bytes());
+    append(bytes, geometry.positions);
+    node.normalOffset = append(bytes, geometry.normals);
+    node.colourOffset = append(bytes, geometry.colours);
+    node.indexOffset = append(bytes, geometry.indices);
+    node.indexCount = static_cast<GLsizei>(geometry.indices.size());
+    glNamedBufferStorage(node.buffer.id(), static_cast<GLsizeiptr>(bytes.size()), bytes.data(), 0);
+    bytesUsed = bytes.size();
+    return node;
+}
+
+std::uint32_t packedSrgb(const fabric::Vec3& linear) {
+    const auto byte = [](double value) {
+        return static_cast<std::uint32_t>(
+            std::lround(std::sqrt(std::clamp(value, 0.0, 1.0)) * 255));
+    };
+    return byte(linear.x) | byte(linear.y) << 8 | byte(linear.z) << 16 | 0xFF000000U;
+}
+
+class MeshDrawable : public Drawable {
+public:
+    MeshDrawable(const fabric::SceneObject& object, const MeshProgram& program, mesh::EymFile file,
+                 std::uint64_t memoryBytes)
+        : program_(program),
+          worldFromObject_(object.worldFromObject),
+          uniformColour_(packedSrgb(object.colour)),
+          file_(std::move(file)),
+          resident_(memoryBytes) {
+        const mesh::Lattice& lattice = file_.lattice();
+        objectFromLattice_ = glm::scale(glm::translate(fabric::Mat4(1.0), lattice.originMetres),
+                                        fabric::Vec3(lattice.stepMetres));
+        defineVertexFormat();
+    }
+
+    fabric::Box bounds() const override { return file_.bounds(); }
+    std::uint64_t triangles() const override { return file_.triangleCount(); }
+    std::uint64_t bytes() const override { return file_.fileBytes(); }
+
+    Cut selectCut(const lod::ObjectView& view, double tauPixels) override;
+    absl::Status draw(std::span<const Piece> pieces, const FrameState& frame,
+                      fabric::FrameStatistics& statistics) override;
+    void trim() override { resident_.trim(); }
+
+private:
+    void defineVertexFormat();
+    fabric::Box nodeBounds(const mesh::Node& node) const;
+    void visit(std::uint32_t index, bool errorKnown, const lod::ObjectView& view, double tauPixels,
+               Cut& cut) const;
+    void setUniforms(const FrameState& frame) const;
+    absl::StatusOr<const DeviceNode*> residentNode(std::uint32_t index,
+                                                   fabric::FrameStatistics& statistics);
+    void drawNode(const DeviceNode& node) const;
+
+    const MeshProgram& program_;
+    fabric::Mat4 worldFromObject_;
+    fabric::Mat4 objectFromLattice_;
+    std::uint32_t uniformColour_;
+    mesh::EymFile file_;
+    gl::VertexArray vertexArray_;
+    page::LruCache<std::uint32_t, DeviceNode> resident_;
+};
+
+void MeshDrawable::defineVertexFormat() {
+    const GLuint array = vertexArray_.id();
+    glVertexArrayAttribIFormat(array, kPosition, 2, GL_UNSIGNED_INT, 0);
+    glVertexArrayAttribIFormat(array, kNormal, 1, GL_UNSIGNED_INT, 0);
+    glVertexArrayAttribIFormat(array, kColour, 1, GL_UNSIGNED_INT, 0);
+    for (const GLuint attribute : {kPosition, kNormal, kColour})
+        glVertexArrayAttribBinding(array, attribute, attribute);
+    glEnableVertexArrayAttrib(array, kPosition);
+    glEnableVertexArrayAttrib(array, kNormal);
+    if (file_.hasColours())
+        glEnableVertexArrayAttrib(array, kColour);
+}
+
+fabric::Box MeshDrawable::nodeBounds(const mesh::Node& node) const {
+    const mesh::Lattice& lattice = file_.lattice();
+    return {lattice.originMetres + fabric::Vec3(node.boxMin) * lattice.stepMetres,
+            lattice.originMetres + fabric::Vec3(node.boxMax) * lattice.stepMetres};
+}
+
+Cut MeshDrawable::selectCut(const lod::ObjectView& view, double tauPixels) {
+    Cut cut;
+    if (!file_.nodes().empty())
+        visit(0, false, view, tauPixels, cut);
+    return cut;
+}
+
+/// Depth first, so pieces come in the order of the range. A node's error bound covers its whole
+/// subtree: below a node that keeps tau it is not computed again.
+void MeshDrawable::visit(std::uint32_t index, bool errorKnown, const lod::ObjectView& view,
+                         double tauPixels, Cut& cut) const {
+    const mesh::Node& node = file_.nodes()[index];
+    const fabric::Box box = nodeBounds(node);
+    if (!view.isVisible(box))
+        return;
+    const bool isLeaf = node.left < 0;
+    if (!errorKnown) {
+        const double error = view.screenSpaceErrorPixels(node.errorMetres, box);
+        errorKnown = isLeaf || error <= tauPixels;
+        if (errorKnown)
+            cut.tauAchievedPixels = std::max(cut.tauAchievedPixels, error);
+    }
+    if (isLeaf) {
+        const auto total = static_cast<double>(file_.triangleCount());
+        cut.pieces.push_back({index, static_cast<double>(node.triangleBegin) / total, box,
+                              node.triangleEnd - node.triangleBegin});
+        return;
+    }
+    visit(static_cast<std::uint32_t>(node.left), errorKnown, view, tauPixels, cut);
+    visit(static_cast<std::uint32_t>(node.right), errorKnown, view, tauPixels, cut);
+}
+
+void MeshDrawable::setUniforms(const FrameState& frame) const {
+    const lod::LatticeView lattice(frame.view, worldFromObject_ * objectFromLattice_);
+    const glm::mat3 normalMatrix(glm::inverseTranspose(fabric::Mat3(worldFromObject_)));
+    glUniformMatrix4fv(program_.clipFromLattice, 1, GL_FALSE,
+                       glm::value_ptr(lattice.clipFromLattice));
+    glUniformMatrix3fv(program_.metresFromLattice, 1, GL_FALSE,
+                       glm::value_ptr(lattice.metresFromLattice));
+    glUniformMatrix3fv(program_.worldFromNormal, 1, GL_FALSE, glm::value_ptr(normalMatrix));
+    glUniform3iv(program_.cameraLattice, 1, glm::value_ptr(lattice.cameraLattice));
+    glUniform3fv(program_.cameraOffsetMetres, 1, glm::value_ptr(lattice.cameraOffsetMetres));
+    glUniform1i(program_.flatShading, frame.shading == fabric::Shading::Flat ? 1 : 0);
+    program_.lighting.set(frame);
+}
+
+absl::StatusOr<const DeviceNode*> MeshDrawable::residentNode(std::uint32_t index,
+                                                             fabric::FrameStatistics& statistics) {
+    if (const DeviceNode* node = resident_.find(index); node != nullptr)
+        return node;
+    ASSIGN_OR_RETURN(const mesh::NodeGeometry geometry, file_.geometry(index));
+    std::uint64_t bytes = 0;
+    DeviceNode node = upload(geometry, bytes);
+    ++statistics.pagesLoaded;
+    return &resident_.insert(index, std::move(node), bytes);
+}
+
+void MeshDrawable::drawNode(const DeviceNode& node) const {
+    const GLuint array = vertexArray_.id();
+    glVertexArrayVertexBuffer(array, kPosition, node.buffer.id(), 0, 8);
+    glVertexArrayVertexBuffer(array, kNormal, node.buffer.id(), node.normalOffset, 4);
+    if (file_.hasColours())
+        glVertexArrayVertexBuffer(array, kColour, node.buffer.id(), node.colourOffset, 4);
+    glVertexArrayElementBuffer(array, node.buffer.id());
+    glDrawElements(GL_TRIANGLES, node.indexCount, GL_UNSIGNED_SHORT,
+                   reinterpret_cast<const void*>(node.indexOffset));
+}
+
+absl::Status MeshDrawable::draw(std::span<const Piece> pieces, const FrameState& frame,
+                                fabric::FrameStatistics& statistics) {
+    glUseProgram(program_.program.id());
+    glBindVertexArray(vertexArray_.id());
+    glVertexAttribI4ui(kColour, uniformColour_, 0, 0, 0);
+    setUniforms(frame);
+    for (const Piece& piece : pieces) {
+        ASSIGN_OR_RETURN(const DeviceNode* node, residentNode(piece.index, statistics));
+        drawNode(*node);
+    }
+    return absl::OkStatus();
+}
+
+}  // namespace
+
+MeshProgram::MeshProgram(gl::Program linked)
+    : program(std::move(linked)),
+      lighting(program),
+      clipFromLattice(program.uniform("clipFromLattice")),
+      metresFromLattice(program.uniform("metresFromLattice")),
+      worldFromNormal(program.uniform("worldFromNormal")),
+      cameraLattice(program.uniform("cameraLattice")),
+      cameraOffsetMetres(program.uniform("cameraOffsetMetres")),
+      flatShading(program.uniform("flatShading")) {}
+
+absl::StatusOr<MeshProgram> MeshProgram::create() {
+    const std::string fragment = fragmentSource(effects::kMeshFragGlsl);
+    ASSIGN_OR_RETURN(gl::Program program,
+                     gl::Program::create({"mesh.vert.glsl", effects::kMeshVertGlsl},
+                                         {"lighting.glsl + mesh.frag.glsl", fragment}));
+    return MeshProgram(std::move(program));
+}
+
+absl::StatusOr<std::unique_ptr<Drawable>> openMesh(const fabric::SceneObject& object,
+                                                   const MeshProgram& program,
+                                                   std::uint64_t memoryBytes) {
+    ASSIGN_OR_RETURN(mesh::EymFile file, mesh::EymFile::open(object.path));
+    return std::make_unique<MeshDrawable>(object, program, std::move(file), memoryBytes);
+}
+
+}  // namespace eyrie::draw

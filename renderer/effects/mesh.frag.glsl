@@ -1,0 +1,19 @@
+in vec3 relativeMetres;
+in vec3 worldNormal;
+in vec3 albedo;
+
+uniform vec3 cameraOffsetMetres;  // from the snapped camera to the camera, world axes
+uniform int flatShading;
+
+out vec4 colour;
+
+void main() {
+    vec3 towardsEye = normalize(cameraOffsetMetres - relativeMetres);
+    vec3 normal = flatShading != 0 ? cross(dFdx(relativeMetres), dFdy(relativeMetres)) : worldNormal;
+    normal = normalize(normal);
+    // Scans are open surfaces: both sides are lit.
+    if (dot(normal, towardsEye) < 0.0)
+        normal = -normal;
+    vec3 lit = albedo * diffuseLight(normal) + vec3(0.08) * specularLight(normal, towardsEye, 40.0);
+    colour = display(lit);
+}

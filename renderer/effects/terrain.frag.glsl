@@ -1,0 +1,38 @@
+in vec2 normalMapCoordinate;
+in vec3 relativeMetres;
+in float heightMetres;
+
+uniform sampler2D normalMap;      // x and y of the object-space normal
+uniform mat3 worldFromNormal;     // inverse transpose of world from object
+uniform vec2 heightRangeMetres;   // lowest and highest of the data set
+uniform int flatShading;
+
+out vec4 colour;
+
+// Hypsometric tints, linear light: meadow, forest, scrub, rock, scree, snow.
+const vec3 kTints[6] = vec3[](vec3(0.12, 0.19, 0.06), vec3(0.07, 0.14, 0.05), vec3(0.22, 0.21, 0.09),
+                              vec3(0.25, 0.19, 0.13), vec3(0.34, 0.31, 0.28), vec3(0.86, 0.89, 0.93));
+
+vec3 tint(float elevation, float slope) {
+    float t = clamp(elevation, 0.0, 1.0) * 5.0;
+    int i = min(int(t), 4);
+    vec3 tinted = mix(kTints[i], kTints[i + 1], smoothstep(0.0, 1.0, t - float(i)));
+    // Steep ground sheds soil and snow: show rock.
+    return mix(tinted, vec3(0.17, 0.15, 0.13), smoothstep(0.45, 0.9, slope) * 0.75);
+}
+
+void main() {
+    vec3 normal;
+    vec3 objectNormal;
+    objectNormal.xy = textureLod(normalMap, normalMapCoordinate, 0.0).xy;
+    objectNormal.z = sqrt(max(1.0 - dot(objectNormal.xy, objectNormal.xy), 0.0));
+    if (flatShading != 0) {
+        normal = normalize(cross(dFdx(relativeMetres), dFdy(relativeMetres)));
+        normal *= sign(dot(normal, worldFromNormal * objectNormal));
+    } else {
+        normal = normalize(worldFromNormal * objectNormal);
+    }
+    float span = max(heightRangeMetres.y - heightRangeMetres.x, 1.0e-3);
+    float elevation = (heightMetres - heightRangeMetres.x) / span;
+    colour = display(tint(elevation, 1.0 - objectNormal.z) * diffuseLight(normal) * 1.35);
+}

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/renderer.h"
+
+#include "fabric/status.h"
+#include "renderer/draw/drawable.h"
+#include "renderer/draw/mesh_draw.h"
+#include "renderer/draw/terrain_draw.h"
+#include "renderer/gl/egl_context.h"
+#include "renderer/gl/framebuffer.h"
+#include "renderer/lod/view.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+#include <vector>
+
+namespace eyrie {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double millisecondsSince(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+absl::Status validateTask(const fabric::FrameData& frameData, const fabric::ChannelTask& task) {
+    RETURN_IF_ERROR(fabric::validate(frameData.camera));
+    if (!(frameData.tauPixels >= fabric::kMinTauPixels &&
+          frameData.tauPixels <= fabric::kMaxTauPixels))
+        return absl::InvalidArgumentError(
+            fmt::format("tau is {} pixels; it must be from {} to {}", frameData.tauPixels,
+                        fabric::kMinTauPixels, fabric::kMaxTauPixels));
+    const auto inLimits = [](int side) { return side >= 1 && side <= fabric::kMaxViewPixels; };
+    if (!inLimits(task.viewWidth) || !inLimits(task.viewHeight))
+        return absl::InvalidArgumentError(
+            fmt::format("the view is {} x {} pixels; each side must be from 1 to {}",
+                        task.viewWidth, task.viewHeight, fabric::kMaxViewPixels));
+    const fabric::PixelViewport view{0, 0, task.viewWidth, task.viewHeight};
+    if (task.pixelViewport.isEmpty() || !view.contains(task.pixelViewport))
+        return absl::InvalidArgumentError(fmt::format(
+            "the pixel viewport {}x{}+{}+{} is empty or not inside the view of {} x {} pixels",
+            task.pixelViewport.width, task.pixelViewport.height, task.pixelViewport.x,
+            task.pixelViewport.y, task.viewWidth, task.viewHeight));
+    return absl::OkStatus();
+}
+
+/// The state of the one pass: opaque surfaces, nearest wins, the first drawn where depths tie.
+void setPassState(fabric::Shading shading) {
+    glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_GREATER);
+    glDepthMask(GL_TRUE);
+    glDisable(GL_BLEND);
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_DITHER);
+    glPolygonMode(GL_FRONT_AND_BACK, shading == fabric::Shading::Wireframe ? GL_LINE : GL_FILL);
+}
+
+/// A piece of some object in the order in which a frame draws.
+struct OrderedPiece {
+    std::uint32_t object;
+    draw::Piece piece;
+};
+
+struct OpenObject {
+    fabric::Mat4 worldFromObject;
+    std::unique_ptr<draw::Drawable> drawable;
+};
+
+}  // namespace
+
+class Renderer::Impl {
+public:
+    static absl::StatusOr<std::unique_ptr<Impl>> create(const RendererOptions& options);
+
+    const fabric::DeviceInfo& device() const { return context_->device(); }
+    absl::StatusOr<fabric::SceneInfo> openScene(const fabric::Scene& scene);
+    absl::StatusOr<fabric::ChannelResult> render(const fabric::FrameData& frameData,
+                                                 const fabric::ChannelTask& task);
+
+private:
+    Impl(std::unique_ptr<gl::EglContext> context, draw::TerrainProgram terrain,
+         draw::MeshProgram mesh, std::uint64_t memoryBytes)
+        : context_(std::move(context)),
+          terrainProgram_(std::move(terrain)),
+          meshProgram_(std::move(mesh)),
+          memoryBytes_(memoryBytes) {}
+
+    absl::StatusOr<std::unique_ptr<draw::Drawable>> openObject(const fabric::SceneObject& object,
+                                                               std::uint64_t memoryBytes) const;
+    std::vector<OrderedPiece> selectPieces(const lod::View& view, double tauPixels,
+                                           const fabric::ChannelTask& task,
+                                           fabric::FrameStatistics& statistics);
+    absl::Status drawPieces(const std::vector<OrderedPiece>& pieces, const draw::FrameState& frame,
+                            fabric::FrameStatistics& statistics);
+
+    std::unique_ptr<gl::EglContext> context_;  // first: everything below needs it current
+    draw::TerrainProgram terrainProgram_;
+    draw::MeshProgram meshProgram_;
+    gl::Framebuffer framebuffer_;
+    std::uint64_t memoryBytes_;
+    std::optional<fabric::Scene> scene_;
+    std::vector<OpenObject> objects_;
+};
+
+absl::StatusOr<std::unique_ptr<Renderer::Impl>> Renderer::Impl::create(
+    const RendererOptions& options) {
+    ASSIGN_OR_RETURN(auto context, gl::EglContext::create(options.device));
+    ASSIGN_OR_RETURN(draw::TerrainProgram terrain, draw::TerrainProgram::create());
+    ASSIGN_OR_RETURN(draw::MeshProgram mesh, draw::MeshProgram::create());
+    return std::unique_ptr<Impl>(
+        new Impl(std::move(context), std::move(terrain), std::move(mesh), options.memoryBytes));
+}
+
+absl::StatusOr<std::unique_ptr<draw::Drawable>> Renderer::Impl::openObject(
+    const fabric::SceneObject& object, std::uint64_t memoryBytes) const {
+    if (object.kind == fabric::ObjectKind::Terrain)
+        return draw::openTerrain(object, terrainProgram_, memoryBytes);
+    return draw::openMesh(object, meshProgram_, memoryBytes);
+}
+
+absl::StatusOr<fabric::SceneInfo> Renderer::Impl::openScene(const fabric::Scene& scene) {
+    RETURN_IF_ERROR(fabric::validate(scene));
+    std::vector<OpenObject> objects;
+    fabric::SceneInfo info;
+    const std::uint64_t share = memoryBytes_ / std::max<std::size_t>(scene.objects.size(), 1);
+    for (const fabric::SceneObject& object : scene.objects) {
+        ASSIGN_OR_RETURN(auto drawable, openObject(object, share));
+        info.bounds.grow(fabric::transformed(drawable->bounds(), object.worldFromObject));
+        info.triangles += drawable->triangles();
+        info.bytes += drawable->bytes();
+        objects.push_back({object.worldFromObject, std::move(drawable)});
+    }
+    scene_ = scene;
+    objects_ = std::move(objects);
+    return info;
+}
+
+/// The pieces of all objects that fall to the task, in the order of their place in the range.
+/// Every channel of a frame draws in that order, so where depths tie the lower range wins in one
+/// channel as it does in compositing.
+std::vector<OrderedPiece> Renderer::Impl::selectPieces(const lod::View& view, double tauPixels,
+                                                       const fabric::ChannelTask& task,
+                                                       fabric::FrameStatistics& statistics) {
+    std::vector<OrderedPiece> pieces;
+    const fabric::Frustum channel = lod::subFrustum(view, task.pixelViewport);
+    for (std::uint32_t i = 0; i < objects_.size(); ++i) {
+        const lod::ObjectView objectView(view, objects_[i].worldFromObject);
+        const draw::Cut cut = objects_[i].drawable->selectCut(objectView, tauPixels);
+        statistics.tauAchievedPixels =
+            std::max(statistics.tauAchievedPixels, cut.tauAchievedPixels);
+        for (const draw::Piece& piece : cut.pieces)
+            if (task.range.contains(piece.rangePosition) &&
+                objectView.isVisible(piece.bounds, channel))
+                pieces.push_back({i, piece});
+    }
+    std::stable_sort(pieces.begin(), pieces.end(), [](const auto& a, const auto& b) {
+        return a.piece.rangePosition < b.piece.rangePosition;
+    });
+    return pieces;
+}
+
+absl::Status Renderer::Impl::drawPieces(const std::vector<OrderedPiece>& pieces,
+                                        const draw::FrameState& frame,
+                                        fabric::FrameStatistics& statistics) {
+    setPassState(frame.shading);
+    std::vector<draw::Piece> run;
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        run.push_back(pieces[i].piece);
+        statistics.triangles += pieces[i].piece.triangles;
+        if (i + 1 < pieces.size() && pieces[i + 1].object == pieces[i].object)
+            continue;
+        RETURN_IF_ERROR(objects_[pieces[i].object].drawable->draw(run, frame, statistics));
+        run.clear();
+    }
+    statistics.nodes = pieces.size();
+    return absl::OkStatus();
+}
+
+absl::StatusOr<fabric::ChannelResult> Renderer::Impl::render(const fabric::FrameData& frameData,
+                                                             const fabric::ChannelTask& task) {
+    if (!scene_)
+        return absl::FailedPreconditionError("no scene is open; open one before rendering");
+    RETURN_IF_ERROR(validateTask(frameData, task));
+    fabric::ChannelResult result;
+    fabric::FrameStatistics& statistics = result.statistics;
+    statistics.tauAskedPixels = frameData.tauPixels;
+    const auto start = Clock::now();
+
+    const lod::View view(frameData.camera, task.viewWidth, task.viewHeight);
+    const std::vector<OrderedPiece> pieces =
+        selectPieces(view, frameData.tauPixels, task, statistics);
+    statistics.milliseconds.cull = millisecondsSince(start);
+
+    const auto drawStart = Clock::now();
+    RETURN_IF_ERROR(framebuffer_.resize(task.viewWidth, task.viewHeight));
+    framebuffer_.begin(task.viewWidth, task.viewHeight, task.pixelViewport, scene_->background);
+    RETURN_IF_ERROR(drawPieces(pieces, {view, *scene_, frameData.shading}, statistics));
+    glFinish();
+    statistics.milliseconds.draw = millisecondsSince(drawStart);
+
+    const auto readStart = Clock::now();
+    const fabric::Image whole = framebuffer_.read(task.pixelViewport);
+    result.image = fabric::crop(whole, fabric::coveredArea(whole));
+    if (!task.wantsDepth)
+        result.image.depth.clear();
+    statistics.milliseconds.readback = millisecondsSince(readStart);
+    for (const OpenObject& object : objects_)
+        object.drawable->trim();
+    statistics.milliseconds.total = millisecondsSince(start);
+    return result;
+}
+
+absl::StatusOr<std::unique_ptr<Renderer>> Renderer::create(const RendererOptions& options) {
+    ASSIGN_OR_RETURN(auto impl, Impl::create(options));
+    return std::unique_ptr<Renderer>(new Renderer(std::move(impl)));
+}
+
+Renderer::Renderer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Renderer::~Renderer() = default;
+
+const fabric::DeviceInfo& Renderer::device() const { return impl_->device(); }
+
+absl::StatusOr<fabric::SceneInfo> Renderer::openScene(const fabric::Scene& scene) {
+    return impl_->openScene(scene);
+}
+
+absl::StatusOr<fabric::ChannelResult> Renderer::render(const fabric::FrameData& frameData,
+                                                       const fabric::ChannelTask& task) {
+    return impl_->render(frameData, task);
+}
+
+}  // namespace eyrie

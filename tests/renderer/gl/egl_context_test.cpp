@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/gl/egl_context.h"
+
+#include "renderer/gl/debug_output.h"
+#include "renderer/gl/framebuffer.h"
+#include "renderer/gl/program.h"
+
+#include <gtest/gtest.h>
+
+namespace eyrie::gl {
+namespace {
+
+class EglContextTest : public testing::Test {
+protected:
+    static void SetUpTestSuite() { setOnGlError(OnGlError::Abort); }
+};
+
+TEST_F(EglContextTest, OpensWithoutADisplayServerAndSaysWhatItFound) {
+    auto context = EglContext::create(-1);
+    ASSERT_TRUE(context.ok()) << context.status();
+    const fabric::DeviceInfo& device = (*context)->device();
+    EXPECT_FALSE(device.renderer.empty());
+    EXPECT_FALSE(device.platform.empty());
+    GLint major = 0;
+    GLint minor = 0;
+    glGetIntegerv(GL_MAJOR_VERSION, &major);
+    glGetIntegerv(GL_MINOR_VERSION, &minor);
+    EXPECT_GE(major * 10 + minor, 45);
+    EXPECT_EQ(device.software, device.renderer.find("llvmpipe") != std::string::npos);
+}
+
+TEST_F(EglContextTest, RefusesADeviceThatIsNotThere) {
+    auto context = EglContext::create(99);
+    ASSERT_FALSE(context.ok());
+    EXPECT_EQ(context.status().code(), absl::StatusCode::kFailedPrecondition);
+    EXPECT_NE(std::string(context.status().message()).find("index 99"), std::string::npos)
+        << context.status();
+}
+
+TEST_F(EglContextTest, CanBeOpenedAgainAfterItWasClosed) {
+    for (int i = 0; i < 3; ++i) {
+        auto context = EglContext::create(-1);
+        ASSERT_TRUE(context.ok()) << context.status();
+        EXPECT_NE(Buffer().id(), 0U);
+    }
+}
+
+TEST_F(EglContextTest, FramebufferClearsAndReadsOnlyItsPart) {
+    auto context = EglContext::create(-1);
+    ASSERT_TRUE(context.ok()) << context.status();
+    Framebuffer framebuffer;
+    ASSERT_TRUE(framebuffer.resize(64, 32).ok());
+    framebuffer.begin(64, 32, {0, 0, 64, 32}, {1, 2, 3, 255});
+    framebuffer.begin(64, 32, {8, 4, 16, 8}, {200, 100, 50, 255});
+    const fabric::Image image = framebuffer.read({0, 0, 64, 32});
+    EXPECT_EQ(image.colour[0], (fabric::Rgba{1, 2, 3, 255}));
+    EXPECT_EQ(image.colour[4 * 64 + 8], (fabric::Rgba{200, 100, 50, 255}));
+    EXPECT_EQ(image.colour[4 * 64 + 24], (fabric::Rgba{1, 2, 3, 255}));
+    EXPECT_EQ(image.depth[5 * 64 + 9], 0.0F);
+}
+
+TEST_F(EglContextTest, ShaderErrorsNameTheShader) {
+    auto context = EglContext::create(-1);
+    ASSERT_TRUE(context.ok()) << context.status();
+    const auto program = Program::create({"bad.vert.glsl", "#version 450 core\nnonsense"},
+                                         {"good.frag.glsl", "#version 450 core\nvoid main() {}"});
+    ASSERT_FALSE(program.ok());
+    EXPECT_NE(std::string(program.status().message()).find("bad.vert.glsl"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace eyrie::gl

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/lod/view.h"
+
+#include "renderer/lod/lattice_view.h"
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <optional>
+#include <random>
+
+namespace eyrie::lod {
+namespace {
+
+using fabric::Box;
+using fabric::Camera;
+using fabric::Mat4;
+using fabric::Vec2;
+using fabric::Vec3;
+
+/// Where a world point falls in the picture, by the textbook and independent of the code under
+/// test; empty behind the eye.
+std::optional<Vec2> project(const Camera& camera, int width, int height, const Vec3& world) {
+    const Vec3 forward = glm::normalize(camera.target - camera.eye);
+    const Vec3 right = glm::normalize(glm::cross(forward, camera.up));
+    const Vec3 up = glm::cross(right, forward);
+    const Vec3 d = world - camera.eye;
+    const double depth = glm::dot(d, forward);
+    if (depth <= 0)
+        return std::nullopt;
+    const double focal = height / (2 * std::tan(camera.fovYDegrees * M_PI / 360));
+    return Vec2(width / 2.0 + focal * glm::dot(d, right) / depth,
+                height / 2.0 + focal * glm::dot(d, up) / depth);
+}
+
+bool inPicture(const std::optional<Vec2>& p, int width, int height) {
+    return p && p->x >= 0 && p->x <= width && p->y >= 0 && p->y <= height;
+}
+
+/// Random numbers from one seed, so that RapidCheck shrinks and prints just that.
+class Dice {
+public:
+    explicit Dice(unsigned seed) : engine_(seed) {}
+    double in(double low, double high) {
+        return std::uniform_real_distribution<double>(low, high)(engine_);
+    }
+    Vec3 vector(double size) { return {in(-size, size), in(-size, size), in(-size, size)}; }
+    Vec3 direction() {
+        Vec3 v = vector(1);
+        while (glm::length(v) < 0.1)
+            v = vector(1);
+        return glm::normalize(v);
+    }
+
+private:
+    std::mt19937 engine_;
+};
+
+RC_GTEST_PROP(ScreenSpaceError, IsNeverBelowTheMeasuredDisplacement, (unsigned seed)) {
+    Dice dice(seed);
+    const int width = 1280;
+    const int height = 720;
+    Camera camera;
+    camera.eye = dice.vector(50);
+    camera.target = camera.eye + dice.direction();
+    camera.fovYDegrees = dice.in(5, 150);
+    if (!fabric::validate(camera).ok())
+        return;
+    const Box box{Vec3(-1), Vec3(1)};
+    const double scale = std::exp(dice.in(-1, 2));
+    const Mat4 worldFromObject =
+        glm::rotate(glm::scale(glm::translate(Mat4(1.0), dice.vector(20)), Vec3(scale)),
+                    dice.in(0, 6), dice.direction());
+    const double error = std::exp(dice.in(-7, 0));
+    const ObjectView view(View(camera, width, height), worldFromObject);
+    const double bound = view.screenSpaceErrorPixels(error, box);
+    for (int i = 0; i < 200; ++i) {
+        const Vec3 drawn(dice.in(-1, 1), dice.in(-1, 1), dice.in(-1, 1));
+        const Vec3 source = drawn + dice.direction() * error;
+        const auto p = project(camera, width, height, Vec3(worldFromObject * glm::dvec4(drawn, 1)));
+        const auto q =
+            project(camera, width, height, Vec3(worldFromObject * glm::dvec4(source, 1)));
+        if (!inPicture(p, width, height) || !q)
+            continue;
+        RC_ASSERT(glm::distance(*p, *q) <= bound * (1 + 1e-9) + 1e-9);
+    }
+}
+
+TEST(ScreenSpaceError, HoldsInTheCornerOfAWideView) {
+    // The rule without the 1/cos of the angle off axis fails this one (120 degrees, corner).
+    Camera camera;
+    camera.eye = {0, 0, 0};
+    camera.target = {0, 1, 0};
+    camera.fovYDegrees = 120;
+    const View view(camera, 1280, 720);
+    const double tangent = view.frustum.right * 0.99;
+    const Box box = Box{Vec3(tangent * 10, 10, 16), Vec3(tangent * 10, 10, 16)}.grownBy(0.01);
+    const double error = 0.05;
+    const double bound =
+        ObjectView(view, Mat4(1.0)).screenSpaceErrorPixels(error, box);
+    const double withoutSecant = error * view.focalPixels / 10;
+    const Vec3 point = box.centre();
+    double worst = 0;
+    for (int i = 0; i < 360; ++i) {
+        const Vec3 direction =
+            glm::normalize(Vec3(point.x, 0, point.z)) * std::cos(i * M_PI / 180) +
+            Vec3(0, 1, 0) * std::sin(i * M_PI / 180);
+        const auto p = project(camera, 1280, 720, point);
+        const auto q = project(camera, 1280, 720, point + direction * error);
+        worst = std::max(worst, glm::distance(*p, *q));
+    }
+    EXPECT_LE(worst, bound);
+    EXPECT_GT(worst, withoutSecant * 1.5);
+    EXPECT_LT(bound, worst * 1.1) << "the bound should be tight for a small box";
+}
+
+TEST(ScreenSpaceError, IsInfiniteWhenTheEyeIsInsideTheBoundsGrownByTheError) {
+    Camera camera;
+    camera.eye = {0, 0, 1.05};
+    camera.target = {0, 1, 1.05};
+    const ObjectView view(View(camera, 640, 480), Mat4(1.0));
+    EXPECT_TRUE(std::isinf(view.screenSpaceErrorPixels(0.1, Box{Vec3(-1), Vec3(1)})));
+    EXPECT_TRUE(std::isfinite(view.screenSpaceErrorPixels(0.001, Box{Vec3(-1), Vec3(1)})));
+}
+
+TEST(ScreenSpaceError, IsZeroForExactDataAndForWhatCannotBeSeen) {
+    Camera camera;
+    const ObjectView view(View(camera, 640, 480), Mat4(1.0));
+    EXPECT_EQ(view.screenSpaceErrorPixels(0, Box{Vec3(-1), Vec3(1)}), 0);
+    EXPECT_EQ(view.screenSpaceErrorPixels(0.5, Box{Vec3(-1, -30, -1), Vec3(1, -20, 1)}), 0);
+}
+
+RC_GTEST_PROP(Visibility, NeverHidesAPointThatIsInThePicture, (unsigned seed)) {
+    Dice dice(seed);
+    Camera camera;
+    camera.eye = dice.vector(5);
+    camera.target = camera.eye + dice.direction();
+    if (!fabric::validate(camera).ok())
+        return;
+    const View view(camera, 1000, 500);
+    const fabric::PixelViewport part{200, 100, 300, 250};
+    Box box;
+    box.grow(dice.vector(10));
+    box.grow(dice.vector(10));
+    const ObjectView objectView(view, Mat4(1.0));
+    for (int i = 0; i < 200; ++i) {
+        const Vec3 point = box.min + box.size() * Vec3(dice.in(0, 1), dice.in(0, 1), dice.in(0, 1));
+        const auto p = project(camera, 1000, 500, point);
+        if (p && p->x >= 200 && p->x <= 500 && p->y >= 100 && p->y <= 350)
+            RC_ASSERT(objectView.isVisible(box, subFrustum(view, part)));
+    }
+}
+
+TEST(LatticeView, PlacesTheSameWorldPointAlikeAtAnyDistanceFromTheOrigin) {
+    for (const double origin : {0.0, 5e5, 6.378e6}) {
+        Camera camera;
+        camera.eye = Vec3(origin) + Vec3(10.3, -20.7, 5.2);
+        camera.target = Vec3(origin) + Vec3(0.4, 0.2, 0.1);
+        Mat4 worldFromLattice = glm::scale(glm::translate(Mat4(1.0), Vec3(origin)), Vec3(0.25));
+        const LatticeView lattice(View(camera, 1280, 720), worldFromLattice);
+        for (const glm::ivec3 point : {glm::ivec3(0, 0, 0), glm::ivec3(7, -12, 3)}) {
+            const glm::vec4 clip =
+                lattice.clipFromLattice * glm::vec4(glm::vec3(point - lattice.cameraLattice), 1.0F);
+            const Vec2 pixel((clip.x / clip.w + 1) * 640, (clip.y / clip.w + 1) * 360);
+            const auto expected =
+                project(camera, 1280, 720, Vec3(origin) + Vec3(point) * 0.25);
+            ASSERT_TRUE(expected);
+            EXPECT_LT(glm::distance(pixel, *expected), 1e-3) << "origin " << origin;
+        }
+    }
+}
+
+TEST(LatticeView, KeepsFarCamerasInTheRangeWhereDifferencesAreExact) {
+    Camera camera;
+    camera.eye = {1e9, 0, 0};
+    camera.target = {0, 0, 0};
+    const LatticeView lattice(View(camera, 100, 100), glm::scale(Mat4(1.0), Vec3(1e-3)));
+    EXPECT_LE(std::abs(lattice.cameraLattice.x), 1 << 23);
+    const glm::vec4 clip =
+        lattice.clipFromLattice * glm::vec4(glm::vec3(-lattice.cameraLattice), 1.0F);
+    EXPECT_NEAR(clip.x / clip.w, 0, 1e-6);
+    EXPECT_NEAR(clip.w, 1e9, 1e3);
+}
+
+}  // namespace
+}  // namespace eyrie::lod
