@@ -169,7 +169,6 @@ absl::Status Renderer::Impl::drawPieces(const std::vector<OrderedPiece>& pieces,
     std::vector<draw::Piece> run;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         run.push_back(pieces[i].piece);
-        statistics.triangles += pieces[i].piece.triangles;
         if (i + 1 < pieces.size() && pieces[i + 1].object == pieces[i].object)
             continue;
         RETURN_IF_ERROR(objects_[pieces[i].object].drawable->draw(run, frame, statistics));

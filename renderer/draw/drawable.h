@@ -20,7 +20,6 @@ struct Piece {
     std::uint32_t index = 0;      ///< the drawable's own name for it, valid until the next cut
     double rangePosition = 0;     ///< where it starts in the drawable's share [0, 1) of the data
     fabric::Box bounds;           ///< object space, metres
-    std::uint64_t triangles = 0;
 };
 
 /// What a drawable shows of itself in one view.
@@ -49,8 +48,8 @@ public:
     /// Chooses what stands for the object in a whole view. Depends on the view alone.
     virtual Cut selectCut(const lod::ObjectView& view, double tauPixels) = 0;
 
-    /// Draws pieces of the last cut, in order, into the bound framebuffer. Loads what is missing
-    /// and counts it in `statistics.pagesLoaded`. DataLoss when a page is corrupt.
+    /// Draws pieces of the last cut, in order, into the bound framebuffer. Loads what is missing;
+    /// counts triangles and loaded pages in `statistics`. DataLoss when a page is corrupt.
     virtual absl::Status draw(std::span<const Piece> pieces, const FrameState& frame,
                               fabric::FrameStatistics& statistics) = 0;
 

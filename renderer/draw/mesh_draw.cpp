@@ -87,7 +87,6 @@ public:
 
 private:
     void defineVertexFormat();
-    fabric::Box nodeBounds(const mesh::Node& node) const;
     void visit(std::uint32_t index, bool errorKnown, const lod::ObjectView& view, double tauPixels,
                Cut& cut) const;
     void setUniforms(const FrameState& frame) const;
@@ -117,16 +116,9 @@ void MeshDrawable::defineVertexFormat() {
         glEnableVertexArrayAttrib(array, kColour);
 }
 
-fabric::Box MeshDrawable::nodeBounds(const mesh::Node& node) const {
-    const mesh::Lattice& lattice = file_.lattice();
-    return {lattice.originMetres + fabric::Vec3(node.boxMin) * lattice.stepMetres,
-            lattice.originMetres + fabric::Vec3(node.boxMax) * lattice.stepMetres};
-}
-
 Cut MeshDrawable::selectCut(const lod::ObjectView& view, double tauPixels) {
     Cut cut;
-    if (!file_.nodes().empty())
-        visit(0, false, view, tauPixels, cut);
+    visit(0, false, view, tauPixels, cut);
     return cut;
 }
 
@@ -135,10 +127,10 @@ Cut MeshDrawable::selectCut(const lod::ObjectView& view, double tauPixels) {
 void MeshDrawable::visit(std::uint32_t index, bool errorKnown, const lod::ObjectView& view,
                          double tauPixels, Cut& cut) const {
     const mesh::Node& node = file_.nodes()[index];
-    const fabric::Box box = nodeBounds(node);
+    const fabric::Box box = file_.bounds(index);
     if (!view.isVisible(box))
         return;
-    const bool isLeaf = node.left < 0;
+    const bool isLeaf = node.isLeaf();
     if (!errorKnown) {
         const double error = view.screenSpaceErrorPixels(node.errorMetres, box);
         errorKnown = isLeaf || error <= tauPixels;
@@ -147,8 +139,7 @@ void MeshDrawable::visit(std::uint32_t index, bool errorKnown, const lod::Object
     }
     if (isLeaf) {
         const auto total = static_cast<double>(file_.triangleCount());
-        cut.pieces.push_back({index, static_cast<double>(node.triangleBegin) / total, box,
-                              node.triangleEnd - node.triangleBegin});
+        cut.pieces.push_back({index, static_cast<double>(node.triangleBegin) / total, box});
         return;
     }
     visit(static_cast<std::uint32_t>(node.left), errorKnown, view, tauPixels, cut);
@@ -200,6 +191,7 @@ absl::Status MeshDrawable::draw(std::span<const Piece> pieces, const FrameState&
     for (const Piece& piece : pieces) {
         ASSIGN_OR_RETURN(const DeviceNode* node, residentNode(piece.index, statistics));
         drawNode(*node);
+        statistics.triangles += static_cast<std::uint64_t>(node->indexCount) / 3;
     }
     return absl::OkStatus();
 }

@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/mesh/eym_check.h"
+
+#include "fabric/status.h"
+#include "renderer/mesh/kd_tree.h"
+
+#include <absl/status/status.h>
+#include <fmt/format.h>
+
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <string_view>
+#include <vector>
+
+namespace eyrie::mesh {
+namespace {
+
+template <typename Found, typename Expected>
+absl::Status damaged(std::string_view field, const Found& found, const Expected& expected) {
+    return absl::DataLossError(
+        fmt::format("{}: found {}, expected {}; the file is truncated or damaged: import the mesh "
+                    "again",
+                    field, found, expected));
+}
+
+/// Where the sections of a file with these counts lie. Counts are small enough not to overflow.
+absl::Status checkSections(const EymHeader& header) {
+    const auto aligned = [](std::uint64_t offset) { return (offset + 7) / 8 * 8; };
+    std::uint64_t offset = sizeof(EymHeader);
+    if (header.nodesOffset != offset)
+        return damaged("header.nodesOffset", header.nodesOffset, offset);
+    offset += header.nodeCount * sizeof(Node);
+    if (header.positionsOffset != offset)
+        return damaged("header.positionsOffset", header.positionsOffset, offset);
+    offset += header.vertexCount * sizeof(std::uint64_t);
+    if (header.normalsOffset != offset)
+        return damaged("header.normalsOffset", header.normalsOffset, offset);
+    offset = aligned(offset + header.vertexCount * sizeof(std::uint32_t));
+    const bool hasColours = (header.flags & kHasColours) != 0;
+    if (header.coloursOffset != (hasColours ? offset : 0))
+        return damaged("header.coloursOffset", header.coloursOffset, hasColours ? offset : 0);
+    if (hasColours)
+        offset = aligned(offset + header.vertexCount * sizeof(std::uint32_t));
+    if (header.indicesOffset != offset)
+        return damaged("header.indicesOffset", header.indicesOffset, offset);
+    offset = aligned(offset + header.indexCount * sizeof(std::uint16_t));
+    if (header.fileBytes != offset)
+        return damaged("header.fileBytes", header.fileBytes, offset);
+    return absl::OkStatus();
+}
+
+/// No count can exceed the file's bytes, which also keeps the offsets' arithmetic from wrapping.
+absl::Status checkCounts(const EymHeader& header) {
+    const auto limit = header.fileBytes;
+    if (header.nodeCount == 0 || header.nodeCount > limit / sizeof(Node) ||
+        header.nodeCount > 2 * kMaxTriangles)
+        return damaged("header.nodeCount", header.nodeCount, "at least 1, and room for them");
+    if (header.vertexCount > limit / sizeof(std::uint64_t))
+        return damaged("header.vertexCount", header.vertexCount, "room for them");
+    if (header.indexCount > limit / sizeof(std::uint16_t))
+        return damaged("header.indexCount", header.indexCount, "room for them");
+    if (header.triangleCount == 0 || header.triangleCount > kMaxTriangles)
+        return damaged("header.triangleCount", header.triangleCount,
+                       fmt::format("1 to {}", kMaxTriangles));
+    return absl::OkStatus();
+}
+
+absl::Status checkErrors(const EymHeader& header) {
+    if (!(std::isfinite(header.coarsestErrorMetres) && header.finestErrorMetres >= 0 &&
+          header.coarsestErrorMetres >= header.finestErrorMetres))
+        return damaged("header.coarsestErrorMetres", header.coarsestErrorMetres,
+                       "a finite length, not below finestErrorMetres");
+    const Lattice lattice{
+        {header.originMetres[0], header.originMetres[1], header.originMetres[2]},
+        header.stepMetres};
+    if (!isValid(lattice))
+        return damaged("header.originMetres and stepMetres",
+                       fmt::format("({}, {}, {}) and {}", header.originMetres[0],
+                                   header.originMetres[1], header.originMetres[2],
+                                   header.stepMetres),
+                       "a whole multiple of a power of two");
+    return absl::OkStatus();
+}
+
+absl::Status checkKind(std::span<const std::byte> file) {
+    if (file.size() < kEymMagic.size() ||
+        std::memcmp(file.data(), kEymMagic.data(), kEymMagic.size()) != 0)
+        return absl::InvalidArgumentError(
+            "is not an .eym mesh; make one with `eyrie import mesh FILE -o OUT.eym`");
+    if (file.size() < sizeof(EymHeader))
+        return damaged("header", fmt::format("{} bytes", file.size()),
+                       fmt::format("{} bytes", sizeof(EymHeader)));
+    return absl::OkStatus();
+}
+
+/// Walks the table once, checking each node against itself and its parent.
+class NodeCheck {
+public:
+    NodeCheck(const EymHeader& header, std::span<const Node> nodes)
+        : header_(header), nodes_(nodes) {}
+
+    absl::StatusOr<int> run();
+
+private:
+    struct Pending {
+        std::uint32_t node;
+        int level;
+    };
+
+    absl::Status checkNode(std::uint32_t index) const;
+    absl::Status checkBox(std::uint32_t index) const;
+    absl::Status checkArrays(std::uint32_t index) const;
+    absl::Status checkChildren(std::uint32_t index) const;
+    absl::Status checkInside(std::uint32_t childIndex, const Node& parent) const;
+
+    const EymHeader& header_;
+    std::span<const Node> nodes_;
+};
+
+absl::Status NodeCheck::checkBox(std::uint32_t index) const {
+    const Node& node = nodes_[index];
+    if (glm::any(glm::greaterThan(node.boxMin, node.boxMax)) ||
+        glm::any(glm::greaterThan(node.boxMax, glm::uvec3(kMaxLatticeCoordinate))))
+        return damaged(fmt::format("node {}: box", index),
+                       fmt::format("x {} to {}, y {} to {}, z {} to {}", node.boxMin.x,
+                                   node.boxMax.x, node.boxMin.y, node.boxMax.y, node.boxMin.z,
+                                   node.boxMax.z),
+                       fmt::format("ascending and at most {}", kMaxLatticeCoordinate));
+    if (!(std::isfinite(node.errorMetres) && node.errorMetres >= 0))
+        return damaged(fmt::format("node {}: errorMetres", index), node.errorMetres,
+                       "a finite length");
+    return absl::OkStatus();
+}
+
+absl::Status NodeCheck::checkArrays(std::uint32_t index) const {
+    const Node& node = nodes_[index];
+    if (node.vertexCount > kMaxLeafVertices || node.vertexCount > header_.vertexCount ||
+        node.firstVertex > header_.vertexCount - node.vertexCount)
+        return damaged(
+            fmt::format("node {}: firstVertex and vertexCount", index),
+            fmt::format("{} and {}", node.firstVertex, node.vertexCount),
+            fmt::format("at most {}, inside the file's {}", kMaxLeafVertices, header_.vertexCount));
+    if (node.indexCount % 3 != 0 || node.firstIndex % 4 != 0 ||
+        node.indexCount > header_.indexCount ||
+        node.firstIndex > header_.indexCount - node.indexCount)
+        return damaged(fmt::format("node {}: firstIndex and indexCount", index),
+                       fmt::format("{} and {}", node.firstIndex, node.indexCount),
+                       fmt::format("multiples of 4 and 3, inside the file's {}",
+                                   header_.indexCount));
+    if (node.isLeaf() && node.indexCount != 3 * (node.triangleEnd - node.triangleBegin))
+        return damaged(fmt::format("node {}: indexCount", index), node.indexCount,
+                       fmt::format("three for each of its {} triangles",
+                                   node.triangleEnd - node.triangleBegin));
+    return absl::OkStatus();
+}
+
+absl::Status NodeCheck::checkNode(std::uint32_t index) const {
+    const Node& node = nodes_[index];
+    if (node.triangleBegin >= node.triangleEnd || node.triangleEnd > header_.triangleCount)
+        return damaged(fmt::format("node {}: triangleBegin and triangleEnd", index),
+                       fmt::format("{} and {}", node.triangleBegin, node.triangleEnd),
+                       fmt::format("ascending, within {}", header_.triangleCount));
+    RETURN_IF_ERROR(checkBox(index));
+    RETURN_IF_ERROR(checkArrays(index));
+    return node.isLeaf() ? absl::OkStatus() : checkChildren(index);
+}
+
+absl::Status NodeCheck::checkInside(std::uint32_t childIndex, const Node& parent) const {
+    const Node& child = nodes_[childIndex];
+    if (glm::any(glm::lessThan(child.boxMin, parent.boxMin)) ||
+        glm::any(glm::greaterThan(child.boxMax, parent.boxMax)))
+        return damaged(fmt::format("node {}: box", childIndex), "one that leaves its parent's",
+                       "one inside it");
+    if (child.errorMetres > parent.errorMetres)
+        return damaged(fmt::format("node {}: errorMetres", childIndex), child.errorMetres,
+                       fmt::format("at most its parent's {}", parent.errorMetres));
+    return absl::OkStatus();
+}
+
+absl::Status NodeCheck::checkChildren(std::uint32_t index) const {
+    const Node& node = nodes_[index];
+    const std::uint64_t left = static_cast<std::uint32_t>(node.left);
+    const auto right = static_cast<std::int64_t>(node.right);
+    if (left != std::uint64_t{index} + 1 || right <= node.left ||
+        right >= static_cast<std::int64_t>(nodes_.size()))
+        return damaged(fmt::format("node {}: left and right", index),
+                       fmt::format("{} and {}", node.left, node.right),
+                       fmt::format("{} and a later one of {} nodes", index + 1, nodes_.size()));
+    const Node& a = nodes_[static_cast<std::size_t>(node.left)];
+    const Node& b = nodes_[static_cast<std::size_t>(node.right)];
+    if (a.triangleBegin != node.triangleBegin || a.triangleEnd != b.triangleBegin ||
+        b.triangleEnd != node.triangleEnd)
+        return damaged(fmt::format("node {}: its children's triangles", index),
+                       fmt::format("[{}, {}) and [{}, {})", a.triangleBegin, a.triangleEnd,
+                                   b.triangleBegin, b.triangleEnd),
+                       fmt::format("[{}, {}) in two parts", node.triangleBegin, node.triangleEnd));
+    RETURN_IF_ERROR(checkInside(static_cast<std::uint32_t>(node.left), node));
+    return checkInside(static_cast<std::uint32_t>(node.right), node);
+}
+
+absl::StatusOr<int> NodeCheck::run() {
+    if (nodes_[0].triangleBegin != 0 || nodes_[0].triangleEnd != header_.triangleCount)
+        return damaged("node 0: triangleEnd", nodes_[0].triangleEnd, header_.triangleCount);
+    int levels = 0;
+    std::uint32_t next = 0;  // depth first, the tree's nodes come in the table's order
+    std::vector<Pending> stack = {{0, 1}};
+    while (!stack.empty()) {
+        const Pending at = stack.back();
+        stack.pop_back();
+        if (at.node != next++)
+            return damaged("node table", fmt::format("node {} as {}th", at.node, next),
+                           "each node once, depth first");
+        if (at.level > kMaxTreeDepth)
+            return damaged(fmt::format("node {}: level", at.node), at.level,
+                           fmt::format("at most {}", kMaxTreeDepth));
+        RETURN_IF_ERROR(checkNode(at.node));
+        levels = std::max(levels, at.level);
+        const Node& node = nodes_[at.node];
+        if (node.isLeaf())
+            continue;
+        stack.push_back({static_cast<std::uint32_t>(node.right), at.level + 1});
+        stack.push_back({static_cast<std::uint32_t>(node.left), at.level + 1});
+    }
+    if (next != nodes_.size())
+        return damaged("header.nodeCount", nodes_.size(), fmt::format("{}, the tree's", next));
+    return levels;
+}
+
+}  // namespace
+
+absl::Status checkHeader(std::span<const std::byte> file) {
+    RETURN_IF_ERROR(checkKind(file));
+    EymHeader header;
+    std::memcpy(&header, file.data(), sizeof header);
+    if (header.version != kEymVersion)
+        return absl::InvalidArgumentError(
+            fmt::format("header.version is {}, this build reads {}; import the mesh again with this "
+                        "build",
+                        header.version, kEymVersion));
+    if (header.headerBytes != sizeof(EymHeader))
+        return damaged("header.headerBytes", header.headerBytes, sizeof(EymHeader));
+    if (header.fileBytes != file.size())
+        return damaged("header.fileBytes", header.fileBytes,
+                       fmt::format("the file's {}", file.size()));
+    RETURN_IF_ERROR(checkCounts(header));
+    RETURN_IF_ERROR(checkSections(header));
+    return checkErrors(header);
+}
+
+absl::StatusOr<int> checkNodes(const EymHeader& header, std::span<const Node> nodes) {
+    return NodeCheck(header, nodes).run();
+}
+
+}  // namespace eyrie::mesh

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "renderer/mesh/eym_format.h"
+
+#include <absl/status/statusor.h>
+
+#include <cstddef>
+#include <span>
+
+/// What must hold before any offset, count or child of an .eym file is followed. Messages name the
+/// field but not the file.
+namespace eyrie::mesh {
+
+/// Magic, version, lattice, and that every section lies where the format puts it, inside `file`.
+/// Errors: InvalidArgument (another kind of file, another version), DataLoss.
+absl::Status checkHeader(std::span<const std::byte> file);
+
+/// That the nodes form one binary tree, depth first and no deeper than kMaxTreeDepth, with boxes
+/// and triangle ranges nested, and that their arrays lie inside the sections. Returns the levels.
+/// Errors: DataLoss. Precondition: checkHeader(file) is ok.
+absl::StatusOr<int> checkNodes(const EymHeader& header, std::span<const Node> nodes);
+
+}  // namespace eyrie::mesh

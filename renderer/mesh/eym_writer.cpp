@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/mesh/eym_writer.h"
+
+#include "fabric/status.h"
+#include "renderer/mesh/eym_format.h"
+#include "renderer/mesh/leaf_geometry.h"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace eyrie::mesh {
+namespace {
+
+constexpr std::uint64_t kIndexAlignment = 4;  // four 16-bit indices: 8 bytes
+
+std::uint64_t aligned(std::uint64_t value, std::uint64_t alignment) {
+    return (value + alignment - 1) / alignment * alignment;
+}
+
+/// The least float that is not below `value`: an upper bound stays one.
+float roundedUp(double value) {
+    const auto nearest = static_cast<float>(value);
+    return nearest >= value ? nearest
+                            : std::nextafter(nearest, std::numeric_limits<float>::infinity());
+}
+
+std::vector<LeafGeometry> gatherLeaves(const PackedMesh& mesh, const KdTree& tree,
+                                       const std::stop_token& stop) {
+    std::vector<LeafGeometry> leaves(tree.nodes.size());
+    oneapi::tbb::parallel_for(std::size_t{0}, tree.nodes.size(), [&](std::size_t i) {
+        const KdNode& node = tree.nodes[i];
+        if (node.isLeaf() && !stop.stop_requested())
+            leaves[i] =
+                gatherLeaf(mesh, std::span(tree.order)
+                                     .subspan(node.triangleBegin,
+                                              node.triangleEnd - node.triangleBegin));
+    });
+    return leaves;
+}
+
+std::vector<Node> layOutNodes(const PackedMesh& mesh, const KdTree& tree,
+                              const std::vector<LeafGeometry>& leaves) {
+    std::vector<Node> nodes(tree.nodes.size());
+    std::uint64_t vertices = 0;
+    std::uint64_t indices = 0;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const KdNode& from = tree.nodes[i];
+        Node& node = nodes[i];
+        node.boxMin = from.boxMin;
+        node.boxMax = from.boxMax;
+        node.left = from.left;
+        node.right = from.right;
+        node.triangleBegin = from.triangleBegin;
+        node.triangleEnd = from.triangleEnd;
+        node.firstVertex = vertices;
+        node.firstIndex = indices;
+        node.vertexCount = static_cast<std::uint32_t>(leaves[i].positions.size());
+        node.indexCount = static_cast<std::uint32_t>(leaves[i].indices.size());
+        node.errorMetres = roundedUp(mesh.lattice.errorMetres());
+        node.checksum = geometryChecksum({leaves[i].positions, leaves[i].normals,
+                                          leaves[i].colours, leaves[i].indices});
+        vertices += node.vertexCount;
+        indices = aligned(indices + node.indexCount, kIndexAlignment);
+    }
+    return nodes;
+}
+
+std::uint64_t countUsedVertices(const PackedMesh& mesh) {
+    std::vector<bool> used(mesh.positions.size());
+    for (const Triangle& triangle : mesh.triangles)
+        for (const std::uint32_t corner : triangle)
+            used[corner] = true;
+    return static_cast<std::uint64_t>(std::count(used.begin(), used.end(), true));
+}
+
+EymHeader makeHeader(const PackedMesh& mesh, const std::vector<Node>& nodes,
+                     std::uint64_t sourceHash) {
+    EymHeader header;
+    header.sourceHash = sourceHash;
+    header.triangleCount = mesh.triangles.size();
+    header.sourceVertexCount = countUsedVertices(mesh);
+    header.vertexCount = nodes.back().firstVertex + nodes.back().vertexCount;
+    header.indexCount =
+        aligned(nodes.back().firstIndex + nodes.back().indexCount, kIndexAlignment);
+    header.nodeCount = static_cast<std::uint32_t>(nodes.size());
+    header.originMetres = {mesh.lattice.originMetres.x, mesh.lattice.originMetres.y,
+                           mesh.lattice.originMetres.z};
+    header.stepMetres = mesh.lattice.stepMetres;
+    header.coarsestErrorMetres = nodes.front().errorMetres;
+    header.finestErrorMetres = nodes.back().errorMetres;
+    header.nodesOffset = sizeof(EymHeader);
+    header.positionsOffset = header.nodesOffset + nodes.size() * sizeof(Node);
+    header.normalsOffset = header.positionsOffset + header.vertexCount * sizeof(std::uint64_t);
+    std::uint64_t end =
+        aligned(header.normalsOffset + header.vertexCount * sizeof(std::uint32_t), 8);
+    if (!mesh.colours.empty()) {
+        header.flags |= kHasColours;
+        header.coloursOffset = end;
+        end = aligned(end + header.vertexCount * sizeof(std::uint32_t), 8);
+    }
+    header.indicesOffset = end;
+    header.fileBytes = end + header.indexCount * sizeof(std::uint16_t);
+    header.checksum = tableChecksum(header, nodes);
+    return header;
+}
+
+/// One array of every leaf, in order, each padded to `alignment` bytes and the whole to 8.
+template <typename T>
+absl::Status writeSection(std::vector<T> LeafGeometry::*array,
+                          const std::vector<LeafGeometry>& leaves, std::uint64_t alignment,
+                          OutputFile& out, const std::stop_token& stop) {
+    for (const LeafGeometry& leaf : leaves) {
+        if (stop.stop_requested())
+            return absl::CancelledError("writing was cancelled");
+        RETURN_IF_ERROR(out.write(std::as_bytes(std::span(leaf.*array))));
+        if (alignment > 1)
+            RETURN_IF_ERROR(out.padTo(alignment));
+    }
+    return out.padTo(8);
+}
+
+}  // namespace
+
+absl::Status writeEym(const PackedMesh& mesh, const KdTree& tree, std::uint64_t sourceHash,
+                      OutputFile& out, const std::stop_token& stop) {
+    const std::vector<LeafGeometry> leaves = gatherLeaves(mesh, tree, stop);
+    const std::vector<Node> nodes = layOutNodes(mesh, tree, leaves);
+    const EymHeader header = makeHeader(mesh, nodes, sourceHash);
+    RETURN_IF_ERROR(out.write(std::as_bytes(std::span(&header, 1))));
+    RETURN_IF_ERROR(out.write(std::as_bytes(std::span(nodes))));
+    RETURN_IF_ERROR(writeSection(&LeafGeometry::positions, leaves, 1, out, stop));
+    RETURN_IF_ERROR(writeSection(&LeafGeometry::normals, leaves, 1, out, stop));
+    RETURN_IF_ERROR(writeSection(&LeafGeometry::colours, leaves, 1, out, stop));
+    return writeSection(&LeafGeometry::indices, leaves, kIndexAlignment * 2, out, stop);
+}
+
+}  // namespace eyrie::mesh

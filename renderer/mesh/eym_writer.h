@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "renderer/mesh/kd_tree.h"
+#include "renderer/mesh/output_file.h"
+#include "renderer/mesh/packed_mesh.h"
+
+#include <absl/status/status.h>
+
+#include <cstdint>
+#include <stop_token>
+
+namespace eyrie::mesh {
+
+/// Appends `mesh`, cut into the leaves of `tree`, to the empty `out` as an .eym file
+/// (eym_format.h); the caller commits it. The same mesh, tree and `sourceHash` give the same bytes.
+/// Errors: Cancelled, ResourceExhausted, Unavailable. Precondition: at least one triangle.
+absl::Status writeEym(const PackedMesh& mesh, const KdTree& tree, std::uint64_t sourceHash,
+                      OutputFile& out, const std::stop_token& stop = {});
+
+}  // namespace eyrie::mesh

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/mesh/lattice.h"
+
+#include <fmt/format.h>
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace eyrie::mesh {
+namespace {
+
+/// Coordinates keep below this many steps, so that a double holds them and their halves exactly.
+constexpr int kMaxStepBits = 52;
+
+double largestMagnitude(const fabric::Box& box) {
+    const fabric::Vec3 largest = glm::max(glm::abs(box.min), glm::abs(box.max));
+    return std::max({largest.x, largest.y, largest.z});
+}
+
+/// Dividing by a power of two is exact, so the only rounding is the one to the nearest point.
+double nearestStep(double metres, double step) {
+    return std::nearbyint(metres / step);
+}
+
+bool fits(const fabric::Box& box, double step) {
+    for (int axis = 0; axis < 3; ++axis)
+        if (nearestStep(box.max[axis], step) - nearestStep(box.min[axis], step) >
+            kMaxLatticeCoordinate)
+            return false;
+    return true;
+}
+
+}  // namespace
+
+glm::uvec3 Lattice::nearest(const fabric::Vec3& position) const {
+    glm::uvec3 point;
+    for (int axis = 0; axis < 3; ++axis)
+        point[axis] = static_cast<std::uint32_t>(nearestStep(position[axis], stepMetres) -
+                                                 originMetres[axis] / stepMetres);
+    return point;
+}
+
+double Lattice::errorMetres() const {
+    return stepMetres * (std::sqrt(3.0) / 2.0);
+}
+
+absl::StatusOr<Lattice> fitLattice(const fabric::Box& bounds) {
+    const double magnitude = largestMagnitude(bounds);
+    if (bounds.isEmpty() || !(magnitude <= kMaxCoordinateMetres))
+        return absl::InvalidArgumentError(fmt::format(
+            "the vertices span x {} to {}, y {} to {}, z {} to {} m; expected finite coordinates "
+            "within {} m of the origin; check the units, or translate or scale the mesh",
+            bounds.min.x, bounds.max.x, bounds.min.y, bounds.max.y, bounds.min.z, bounds.max.z,
+            kMaxCoordinateMetres));
+    const fabric::Vec3 size = bounds.size();
+    const double extent = std::max({size.x, size.y, size.z});
+    int exponent = kMinStepExponent;
+    if (magnitude > 0)
+        exponent = std::max(exponent, std::ilogb(magnitude) + 1 - kMaxStepBits);
+    if (extent > 0)
+        exponent = std::max(exponent, std::ilogb(extent) - kLatticeBits);
+    while (!fits(bounds, std::ldexp(1.0, exponent)))
+        ++exponent;
+    Lattice lattice;
+    lattice.stepMetres = std::ldexp(1.0, exponent);
+    for (int axis = 0; axis < 3; ++axis)  // + 0.0 turns a negative zero into zero
+        lattice.originMetres[axis] =
+            nearestStep(bounds.min[axis], lattice.stepMetres) * lattice.stepMetres + 0.0;
+    return lattice;
+}
+
+bool isValid(const Lattice& lattice) {
+    int exponent = 0;
+    if (!std::isfinite(lattice.stepMetres) || std::frexp(lattice.stepMetres, &exponent) != 0.5 ||
+        exponent - 1 < kMinStepExponent || lattice.stepMetres > kMaxCoordinateMetres)
+        return false;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double origin = lattice.originMetres[axis];
+        const double steps = origin / lattice.stepMetres;
+        if (!(std::abs(origin) <= 2 * kMaxCoordinateMetres) || steps != std::nearbyint(steps) ||
+            std::abs(steps) > std::ldexp(1.0, kMaxStepBits))
+            return false;
+    }
+    return true;
+}
+
+}  // namespace eyrie::mesh

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/mesh/leaf_geometry.h"
+
+#include "renderer/mesh/vertex_packing.h"
+
+#include <glm/vec3.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <utility>
+
+namespace eyrie::mesh {
+namespace {
+
+/// The 21 low bits of `value`, two zeros before each.
+std::uint64_t spread(std::uint64_t value) {
+    value &= kMaxLatticeCoordinate;
+    value = (value | value << 32) & 0x001F00000000FFFFULL;
+    value = (value | value << 16) & 0x001F0000FF0000FFULL;
+    value = (value | value << 8) & 0x100F00F00F00F00FULL;
+    value = (value | value << 4) & 0x10C30C30C30C30C3ULL;
+    return (value | value << 2) & 0x1249249249249249ULL;
+}
+
+std::uint64_t mortonKey(const PackedMesh& mesh, const Triangle& corners) {
+    const glm::uvec3 centroid = (unpackPosition(mesh.positions[corners[0]]) +
+                                 unpackPosition(mesh.positions[corners[1]]) +
+                                 unpackPosition(mesh.positions[corners[2]])) /
+                                3U;
+    return spread(centroid.x) | spread(centroid.y) << 1 | spread(centroid.z) << 2;
+}
+
+std::vector<std::uint32_t> alongMortonCurve(const PackedMesh& mesh,
+                                            std::span<const std::uint32_t> triangles) {
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> keys;
+    keys.reserve(triangles.size());
+    for (const std::uint32_t triangle : triangles)
+        keys.emplace_back(mortonKey(mesh, mesh.triangles[triangle]), triangle);
+    std::sort(keys.begin(), keys.end());
+    std::vector<std::uint32_t> order;
+    order.reserve(keys.size());
+    for (const auto& [key, triangle] : keys)
+        order.push_back(triangle);
+    return order;
+}
+
+/// Numbers a mesh's vertices in the order they are asked for: an open hash table.
+class LocalIndices {
+public:
+    explicit LocalIndices(std::size_t corners)
+        : slots_(std::bit_ceil(corners * 2 + 2), Slot{0, kFree}), mask_(slots_.size() - 1) {}
+
+    /// The local index of `vertex`, and whether it is new.
+    std::pair<std::uint16_t, bool> number(std::uint32_t vertex) {
+        std::size_t at = (vertex * 0x9E3779B97F4A7C15ULL >> 32) & mask_;
+        while (slots_[at].local != kFree && slots_[at].vertex != vertex)
+            at = (at + 1) & mask_;
+        const bool isNew = slots_[at].local == kFree;
+        if (isNew)
+            slots_[at] = {vertex, count_++};
+        return {static_cast<std::uint16_t>(slots_[at].local), isNew};
+    }
+
+private:
+    static constexpr std::uint32_t kFree = 0xFFFFFFFF;
+    struct Slot {
+        std::uint32_t vertex;
+        std::uint32_t local;
+    };
+    std::vector<Slot> slots_;
+    std::size_t mask_;
+    std::uint32_t count_ = 0;
+};
+
+}  // namespace
+
+LeafGeometry gatherLeaf(const PackedMesh& mesh, std::span<const std::uint32_t> triangles) {
+    LeafGeometry leaf;
+    leaf.indices.reserve(triangles.size() * 3);
+    LocalIndices local(triangles.size() * 3);
+    for (const std::uint32_t triangle : alongMortonCurve(mesh, triangles)) {
+        for (const std::uint32_t vertex : mesh.triangles[triangle]) {
+            const auto [index, isNew] = local.number(vertex);
+            leaf.indices.push_back(index);
+            if (!isNew)
+                continue;
+            leaf.positions.push_back(mesh.positions[vertex]);
+            leaf.normals.push_back(mesh.normals[vertex]);
+            if (!mesh.colours.empty())
+                leaf.colours.push_back(mesh.colours[vertex]);
+        }
+    }
+    return leaf;
+}
+
+}  // namespace eyrie::mesh

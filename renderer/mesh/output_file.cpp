@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/mesh/output_file.h"
+
+#include <absl/status/status.h>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <vector>
+
+namespace eyrie::mesh {
+namespace {
+
+absl::Status systemError(const std::string& path, const char* action, int error) {
+    const std::string message = fmt::format("{}: cannot {}: {}", path, action, strerror(error));
+    if (error == ENOENT || error == ENOTDIR)
+        return absl::NotFoundError(message + "; create the folder first");
+    if (error == EACCES || error == EPERM || error == EROFS)
+        return absl::PermissionDeniedError(message);
+    if (error == ENOSPC || error == EDQUOT || error == EFBIG)
+        return absl::ResourceExhaustedError(message + "; free some space");
+    return absl::UnavailableError(message);
+}
+
+}  // namespace
+
+absl::StatusOr<OutputFile> OutputFile::create(const std::string& path) {
+    std::string partial = fmt::format("{}.partial-{}", path, ::getpid());
+    const int fd = ::open(partial.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (fd < 0)
+        return systemError(path, "create it", errno);
+    return OutputFile(path, std::move(partial), fd);
+}
+
+OutputFile::~OutputFile() {
+    if (fd_ < 0)
+        return;
+    ::close(fd_);
+    ::unlink(partialPath_.c_str());
+}
+
+absl::Status OutputFile::write(std::span<const std::byte> bytes) {
+    while (!bytes.empty()) {
+        const ssize_t written = ::write(fd_, bytes.data(), bytes.size());
+        if (written < 0 && errno == EINTR)
+            continue;
+        if (written < 0)
+            return systemError(path_, "write it", errno);
+        size_ += static_cast<std::uint64_t>(written);
+        bytes = bytes.subspan(static_cast<std::size_t>(written));
+    }
+    return absl::OkStatus();
+}
+
+absl::Status OutputFile::padTo(std::uint64_t alignment) {
+    const std::vector<std::byte> zeros((alignment - size_ % alignment) % alignment);
+    return write(zeros);
+}
+
+absl::Status OutputFile::commit() {
+    if (::fsync(fd_) != 0)
+        return systemError(path_, "flush it to the disk", errno);
+    if (::rename(partialPath_.c_str(), path_.c_str()) != 0)
+        return systemError(path_, "put it in place", errno);
+    ::close(std::exchange(fd_, -1));
+    return absl::OkStatus();
+}
+
+}  // namespace eyrie::mesh

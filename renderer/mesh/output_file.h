@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <absl/status/statusor.h>
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+
+namespace eyrie::mesh {
+
+/// A file that appears under its name only when it is complete.
+///
+/// Bytes go to `PATH.partial-<process id>` beside it; commit() flushes that to the disk and renames
+/// it. Without a successful commit the partial file is removed.
+class OutputFile {
+public:
+    /// Errors: NotFound (no such folder), PermissionDenied, Unavailable.
+    static absl::StatusOr<OutputFile> create(const std::string& path);
+
+    OutputFile(OutputFile&& other) noexcept
+        : path_(std::move(other.path_)),
+          partialPath_(std::move(other.partialPath_)),
+          fd_(std::exchange(other.fd_, -1)),
+          size_(other.size_) {}
+    OutputFile& operator=(OutputFile&&) = delete;
+    ~OutputFile();
+
+    /// Appends. Errors: ResourceExhausted (disk full), Unavailable.
+    absl::Status write(std::span<const std::byte> bytes);
+    /// Appends zeros up to the next multiple of `alignment`.
+    absl::Status padTo(std::uint64_t alignment);
+    absl::Status commit();
+
+    std::uint64_t size() const { return size_; }
+    const std::string& path() const { return path_; }
+
+private:
+    OutputFile(std::string path, std::string partialPath, int fd)
+        : path_(std::move(path)), partialPath_(std::move(partialPath)), fd_(fd) {}
+
+    std::string path_;
+    std::string partialPath_;
+    int fd_;
+    std::uint64_t size_ = 0;
+};
+
+}  // namespace eyrie::mesh

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "fabric/box.h"
+#include "fabric/vec.h"
+#include "renderer/terrain/quadtree.h"
+
+#include <absl/status/statusor.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+/// The .eyt file: a terrain as a quadtree of triangulated tiles.
+///
+/// Everything drawn lies on one integer lattice per file: (i, j) are columns and rows of the source
+/// grid's posts (j grows so that lattice and object space are both right-handed), q counts steps of
+/// height. `objectFromLattice` turns that into metres of the file's CRS. The same post has the same
+/// three integers in every tile of every level.
+///
+/// eyt_layout.h describes the bytes on disk; readers outside this folder need this header only.
+namespace eyrie::terrain {
+
+inline constexpr std::uint32_t kNoPage = 0xffffffff;
+
+/// The share of the index list that belongs to one part of a tile, in indices (3 per triangle).
+struct IndexRange {
+    std::uint32_t first = 0;
+    std::uint32_t count = 0;
+
+    bool operator==(const IndexRange&) const = default;
+};
+
+/// Parts of a tile's index list, in the order in which they are stored: the interior, then each
+/// edge's border triangles as this level draws them, then each edge's border triangles split up to
+/// meet a neighbour that is one level finer. A tile is drawn as its interior and, for each edge,
+/// exactly one of the two. `kOwnPart + edge`, `kFinerPart + edge`.
+inline constexpr int kInteriorPart = 0;
+inline constexpr int kOwnPart = 1;
+inline constexpr int kFinerPart = 5;
+inline constexpr int kTileParts = 9;
+
+/// What is resident of every tile.
+struct TileRecord {
+    /// Vertical distance, at most, between what any form of the tile draws and the source: both
+    /// diagonals of every cell and so the bilinear surface too, quantisation included. Not below
+    /// that of any tile under it. Where data and nodata mix it is the longest edge they mix on.
+    float errorMetres = 0;
+    float minHeightMetres = 0;      ///< of what is drawn and of the source
+    float maxHeightMetres = 0;
+    std::uint32_t triangles = 0;    ///< of interior and own borders; 0: nothing to draw
+
+    bool operator==(const TileRecord&) const = default;
+};
+
+/// Where a page lies in the file.
+struct PageRecord {
+    std::uint64_t offset = 0;
+    std::uint64_t bytes = 0;     ///< 0: none of its tiles has triangles
+    std::uint64_t checksum = 0;  ///< XXH64 of the bytes
+
+    bool operator==(const PageRecord&) const = default;
+};
+
+/// All of an .eyt file but its pages; always resident.
+struct EytIndex {
+    Quadtree quadtree;
+    fabric::Mat4 objectFromLattice{1.0};  ///< affine, right-handed, metres; height on z alone
+    std::string crsWkt;                   ///< empty: not georeferenced
+    std::uint64_t sourceHash = 0;         ///< XXH64 of the bytes of the source file
+    std::uint64_t nodataPosts = 0;
+    std::vector<TileRecord> tiles;        ///< by quadtree.tileIndex
+    std::vector<PageRecord> pages;        ///< by quadtree.pageIndex
+
+    const TileRecord& tile(const TileId& id) const { return tiles[quadtree.tileIndex(id)]; }
+    /// Metres of one step of q, and of q = 0.
+    double heightStepMetres() const { return objectFromLattice[2][2]; }
+    double heightOriginMetres() const { return objectFromLattice[3][2]; }
+    /// Box around what is drawn and the source within a tile; object space, metres.
+    fabric::Box bounds(const TileId& id) const;
+    fabric::Box bounds() const { return bounds(quadtree.top()); }
+    /// Error of the coarsest tile, and the largest of level 0.
+    double coarsestErrorMetres() const { return tile(quadtree.top()).errorMetres; }
+    double finestErrorMetres() const;
+    /// Of level 0.
+    std::uint64_t triangles() const;
+
+    bool operator==(const EytIndex&) const;
+};
+
+/// One tile's geometry as spans into its page.
+///
+/// Vertex n is `words[n * wordsPerVertex]`: bits 0-9 x and 10-19 y in half sample spacings (0 to
+/// 256), bits 20-31 height; with two words a vertex the second is the height instead. So always
+/// height = (word0 >> 20) + word1, word1 = 0 in the short form. The vertex's lattice point is
+///   i = min(tile.x * side + (x << level >> 1), columns - 1), j alike with y,
+///   q = baseHeight + height * heightMultiplier.
+/// Triangles are counter-clockwise seen from above.
+struct TileGeometry {
+    std::span<const std::uint32_t> words;
+    int wordsPerVertex = 1;
+    std::span<const std::uint16_t> indices;
+    std::array<IndexRange, kTileParts> parts;  ///< one after the other, together all indices
+    std::int32_t baseHeight = 0;               ///< q of height 0
+    std::int32_t heightMultiplier = 1;         ///< a power of two
+    /// x and y of the unit surface normal in object space (z > 0), signed normalised, interleaved:
+    /// kTileSamples squared, row by row from the tile's first post, one per sample of the level.
+    std::span<const std::int8_t> normals;
+
+    bool isEmpty() const { return indices.empty(); }
+    std::size_t vertexCount() const {
+        return words.size() / static_cast<std::size_t>(wordsPerVertex);
+    }
+};
+
+/// One page of tiles, checked. Owns its bytes; immutable, so shared freely between threads.
+class Page {
+public:
+    Page(Page&&) = default;
+    Page& operator=(Page&&) = default;
+
+    /// Checks that nothing in `bytes` leads outside of them: every offset, count, index and height.
+    /// Errors: DataLoss. `name` is used in messages only.
+    static absl::StatusOr<Page> decode(std::vector<std::uint32_t> bytes, const std::string& name);
+
+    /// By Quadtree::placeInPage; empty for tiles without triangles.
+    const TileGeometry& tile(int place) const {
+        return tiles_[static_cast<std::size_t>(place)];
+    }
+    std::size_t sizeBytes() const { return storage_.size() * sizeof(std::uint32_t); }
+
+private:
+    Page() = default;
+
+    std::vector<std::uint32_t> storage_;
+    std::array<TileGeometry, kPageTiles * kPageTiles> tiles_;
+};
+
+/// An open .eyt file. Any thread may read pages at any time.
+class EytFile {
+public:
+    /// Reads and checks header and index. Errors: NotFound, InvalidArgument (not an .eyt, or a
+    /// newer version), DataLoss (truncated, or a checksum fails).
+    static absl::StatusOr<std::shared_ptr<const EytFile>> open(const std::string& path);
+
+    EytFile(const EytFile&) = delete;
+    EytFile& operator=(const EytFile&) = delete;
+    ~EytFile();
+
+    const EytIndex& index() const { return index_; }
+    const std::string& path() const { return path_; }
+    std::uint64_t sizeBytes() const { return sizeBytes_; }
+
+    /// Reads one page from disk, without any cache. Errors: DataLoss (checksum, or contents that
+    /// contradict themselves or the index), Unavailable (read error).
+    /// Precondition: page < index().pages.size().
+    absl::StatusOr<std::shared_ptr<const Page>> readPage(std::uint32_t page) const;
+
+private:
+    EytFile(std::string path, int fd, std::uint64_t sizeBytes)
+        : path_(std::move(path)), fd_(fd), sizeBytes_(sizeBytes) {}
+
+    std::string path_;
+    int fd_;
+    std::uint64_t sizeBytes_;
+    EytIndex index_;
+};
+
+}  // namespace eyrie::terrain

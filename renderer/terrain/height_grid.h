@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "fabric/vec.h"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace eyrie::terrain {
+
+inline constexpr float kNodata = std::numeric_limits<float>::quiet_NaN();
+
+/// Posts of an elevation model in memory: row-major, post (i, j) is heights[j * columns + i] metres
+/// high and stands at (x, y) = origin + i * perColumn + j * perRow, in metres. NaN is nodata; there
+/// are no infinities.
+///
+/// perColumn and perRow span a right-handed basis (their determinant is positive): for a raster
+/// with its north row first, row 0 here is the southern one.
+struct HeightGrid {
+    std::int32_t columns = 0;
+    std::int32_t rows = 0;
+    std::vector<float> heights;
+    fabric::Vec2 origin{0, 0};
+    fabric::Vec2 perColumn{1, 0};
+    fabric::Vec2 perRow{0, 1};
+
+    const float* row(std::int32_t j) const {
+        return heights.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(columns);
+    }
+    float* row(std::int32_t j) {
+        return heights.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(columns);
+    }
+    float at(std::int32_t i, std::int32_t j) const { return row(j)[i]; }
+
+    /// Side of a square as large as a cell.
+    double postMetres() const {
+        return std::sqrt(perColumn.x * perRow.y - perColumn.y * perRow.x);
+    }
+};
+
+/// What one pass over all posts tells.
+struct HeightStatistics {
+    float min = std::numeric_limits<float>::infinity();
+    float max = -std::numeric_limits<float>::infinity();  ///< below min: there is no data at all
+    std::uint64_t nodataPosts = 0;
+    bool allIntegers = true;
+};
+
+/// Parallel.
+HeightStatistics heightStatistics(const HeightGrid& grid);
+
+/// The lattice of heights: multiples of a power of two, in metres.
+struct HeightLattice {
+    double stepMetres = 1;
+    bool isLossless = true;  ///< every post lies on it
+
+    /// Precondition: `height` is not NaN and within the statistics the lattice was chosen for.
+    std::int32_t quantise(float height) const {
+        return static_cast<std::int32_t>(std::nearbyint(static_cast<double>(height) / stepMetres));
+    }
+};
+
+/// 1 m for whole metres, otherwise at most 1/256 of a post; coarser only where heights would not
+/// stay below 2^23 steps.
+HeightLattice chooseHeightLattice(const HeightStatistics& statistics, double postMetres);
+
+}  // namespace eyrie::terrain

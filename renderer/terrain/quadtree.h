@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace eyrie::terrain {
+
+/// A tile has 128 x 128 cells and 129 x 129 samples; the border samples are its neighbours' too.
+inline constexpr std::int32_t kTileCells = 128;
+inline constexpr std::int32_t kTileSamples = kTileCells + 1;
+/// A page holds 4 x 4 tiles of one level.
+inline constexpr std::int32_t kPageTiles = 4;
+/// Posts a side: what keeps a lattice point minus the camera's exact in float32.
+inline constexpr std::uint32_t kMaxPosts = 1U << 22;
+
+/// A tile's edges, as index and as bit of a mask.
+enum Edge : int { kEdgeMinX = 0, kEdgeMaxX = 1, kEdgeMinY = 2, kEdgeMaxY = 3 };
+inline constexpr int kEdges = 4;
+
+/// Level 0 is the finest; x and y count tiles of that level from post (0, 0).
+struct TileId {
+    std::int32_t level = 0;
+    std::int32_t x = 0;
+    std::int32_t y = 0;
+
+    bool operator==(const TileId&) const = default;
+};
+
+/// The shape of the quadtree over a grid of posts: a tile of level L covers 128 * 2^L cells a
+/// side, and the only tile of the last level covers the grid. Tiles without a cell of the grid do
+/// not exist. Immutable.
+class Quadtree {
+public:
+    Quadtree() : Quadtree(2, 2) {}
+    /// Precondition: both from 2 to kMaxPosts.
+    Quadtree(std::uint32_t columns, std::uint32_t rows);
+
+    std::int32_t columns() const { return columns_; }
+    std::int32_t rows() const { return rows_; }
+    int levels() const { return static_cast<int>(levels_.size()); }
+    std::int32_t tilesX(int level) const { return levels_[static_cast<std::size_t>(level)].x; }
+    std::int32_t tilesY(int level) const { return levels_[static_cast<std::size_t>(level)].y; }
+    std::int32_t pagesX(int level) const { return (tilesX(level) + kPageTiles - 1) / kPageTiles; }
+    std::int32_t pagesY(int level) const { return (tilesY(level) + kPageTiles - 1) / kPageTiles; }
+
+    /// Cells between a tile's first and last post, before clamping to the grid.
+    static std::int32_t side(int level) { return kTileCells << level; }
+    TileId top() const { return {levels() - 1, 0, 0}; }
+    bool contains(const TileId& tile) const {
+        return tile.level >= 0 && tile.level < levels() && tile.x >= 0 && tile.y >= 0 &&
+               tile.x < tilesX(tile.level) && tile.y < tilesY(tile.level);
+    }
+    static TileId parent(const TileId& tile) {
+        return {tile.level + 1, tile.x >> 1, tile.y >> 1};
+    }
+    /// Child 0 to 3: bit 0 is the half in x, bit 1 in y. May not exist.
+    static TileId child(const TileId& tile, int i) {
+        return {tile.level - 1, 2 * tile.x + (i & 1), 2 * tile.y + (i >> 1)};
+    }
+    /// The tile of the same level beyond `edge`. May not exist.
+    static TileId neighbour(const TileId& tile, int edge) {
+        constexpr std::array<int, kEdges> kDx = {-1, 1, 0, 0};
+        constexpr std::array<int, kEdges> kDy = {0, 0, -1, 1};
+        const auto e = static_cast<std::size_t>(edge);
+        return {tile.level, tile.x + kDx[e], tile.y + kDy[e]};
+    }
+
+    /// Tiles of all levels, finest level first, each level row by row.
+    std::uint32_t tileCount() const { return tileCount_; }
+    std::uint32_t tileIndex(const TileId& tile) const {
+        const Level& level = levels_[static_cast<std::size_t>(tile.level)];
+        return level.firstTile + static_cast<std::uint32_t>(tile.y * level.x + tile.x);
+    }
+    /// Pages of all levels in the same order.
+    std::uint32_t pageCount() const { return pageCount_; }
+    std::uint32_t pageIndex(const TileId& tile) const;
+    /// The tile of lowest x and y in a page: its place 0; place = (y % 4) * 4 + x % 4.
+    TileId firstTileOfPage(std::uint32_t page) const;
+    static int placeInPage(const TileId& tile) {
+        return (tile.y % kPageTiles) * kPageTiles + tile.x % kPageTiles;
+    }
+
+private:
+    struct Level {
+        std::int32_t x;
+        std::int32_t y;
+        std::uint32_t firstTile;
+        std::uint32_t firstPage;
+    };
+
+    std::int32_t columns_;
+    std::int32_t rows_;
+    std::vector<Level> levels_;
+    std::uint32_t tileCount_ = 0;
+    std::uint32_t pageCount_ = 0;
+};
+
+}  // namespace eyrie::terrain

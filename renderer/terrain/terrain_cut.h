@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "renderer/lod/view.h"
+#include "renderer/terrain/eyt_format.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace eyrie::terrain {
+
+/// A tile of a cut and how it is drawn.
+struct TileChoice {
+    TileId id;
+    /// Bit `edge` is set where the neighbour beyond that edge is drawn one level finer: draw
+    /// kFinerPart + edge there, kOwnPart + edge elsewhere.
+    std::uint8_t finerEdges = 0;
+    double screenSpaceErrorPixels = 0;  ///< 0 when the view does not see the tile
+
+    bool operator==(const TileChoice&) const = default;
+};
+
+/// The tiles that stand for a terrain in one view.
+struct TerrainCut {
+    /// Covers the terrain once, seen or not, less tiles without triangles. Depth-first order:
+    /// a parent's children by ascending Quadtree::child, so a share of it is a compact region.
+    std::vector<TileChoice> tiles;
+    double tauAchievedPixels = 0;  ///< bound over all visible tiles
+};
+
+/// The coarsest cut whose visible tiles keep `tauPixels`, as far as the data go. Tiles that share
+/// an edge differ by one level at most. Depends on the view alone, so all channels of a frame,
+/// on whatever node, choose the same.
+TerrainCut selectCut(const EytIndex& index, const lod::ObjectView& view, double tauPixels);
+
+}  // namespace eyrie::terrain

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+// One renderer, one process: every decomposition must give the picture of the single channel.
+#include "fabric/depth_merge.h"
+#include "renderer/gl/debug_output.h"
+#include "renderer/renderer.h"
+#include "tests/renderer/sample_scene.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <random>
+
+namespace eyrie {
+namespace {
+
+using fabric::ChannelTask;
+using fabric::FrameData;
+using fabric::Image;
+using fabric::PixelViewport;
+using fabric::Range;
+
+constexpr int kWidth = 1280;
+constexpr int kHeight = 720;
+constexpr PixelViewport kView{0, 0, kWidth, kHeight};
+constexpr unsigned kSeed = 20261121;
+
+/// Cameras around and close above the scene, the same ones in every run.
+FrameData randomFrame(std::mt19937& random, const fabric::Box& bounds) {
+    const auto in = [&](double low, double high) {
+        return std::uniform_real_distribution<double>(low, high)(random);
+    };
+    const fabric::Vec3 size = bounds.size();
+    FrameData frame;
+    frame.version = 1;
+    frame.camera.target =
+        bounds.min + size * fabric::Vec3(in(0.2, 0.8), in(0.2, 0.8), in(0.2, 0.8));
+    const double azimuth = in(0, 6.283);
+    const double height = in(0.1, 1.2);
+    frame.camera.eye = frame.camera.target + glm::length(size) * in(0.15, 1.2) *
+                                                 fabric::Vec3(std::cos(azimuth) * std::cos(height),
+                                                              std::sin(azimuth) * std::cos(height),
+                                                              std::sin(height));
+    frame.camera.fovYDegrees = in(20, 80);
+    return frame;
+}
+
+ChannelTask wholeView() {
+    ChannelTask task;
+    task.frameDataVersion = 1;
+    task.viewWidth = kWidth;
+    task.viewHeight = kHeight;
+    task.pixelViewport = kView;
+    task.wantsDepth = true;
+    return task;
+}
+
+class DecompositionTest : public testing::TestWithParam<test::SampleKind> {
+protected:
+    void SetUp() override {
+        gl::setOnGlError(gl::OnGlError::Abort);
+        auto renderer = Renderer::create({});
+        ASSERT_TRUE(renderer.ok()) << renderer.status();
+        renderer_ = *std::move(renderer);
+        auto scene = test::sampleScene(GetParam());
+        ASSERT_TRUE(scene.ok()) << scene.status();
+        scene_ = *scene;
+        auto info = renderer_->openScene(scene_);
+        ASSERT_TRUE(info.ok()) << info.status();
+        info_ = *info;
+    }
+
+    Image draw(const FrameData& frame, const ChannelTask& task) {
+        auto result = renderer_->render(frame, task);
+        EXPECT_TRUE(result.ok()) << result.status();
+        return result.ok() ? std::move(result->image) : Image{};
+    }
+
+    Image blank() const { return fabric::makeImage(kView, scene_.background, true); }
+
+    Image single(const FrameData& frame) {
+        Image whole = blank();
+        fabric::paste(draw(frame, wholeView()), whole);
+        return whole;
+    }
+
+    Image sortFirst(const FrameData& frame, int count) {
+        Image whole = blank();
+        for (const PixelViewport& part : fabric::split(kView, count)) {
+            ChannelTask task = wholeView();
+            task.pixelViewport = part;
+            fabric::paste(draw(frame, task), whole);
+        }
+        return whole;
+    }
+
+    Image sortLast(const FrameData& frame, int count) {
+        Image whole = blank();
+        for (const Range& range : fabric::split(Range{}, count)) {
+            ChannelTask task = wholeView();
+            task.range = range;
+            fabric::mergeDepth(draw(frame, task), whole);
+        }
+        return whole;
+    }
+
+    static void expectEqual(const Image& expected, const Image& actual, const std::string& what) {
+        std::size_t different = 0;
+        for (std::size_t i = 0; i < expected.colour.size(); ++i)
+            different += expected.colour[i] == actual.colour[i] &&
+                                 expected.depth[i] == actual.depth[i]
+                             ? 0
+                             : 1;
+        EXPECT_EQ(different, 0U) << what << " differs in so many pixels of "
+                                 << expected.colour.size();
+    }
+
+    std::unique_ptr<Renderer> renderer_;
+    fabric::Scene scene_;
+    fabric::SceneInfo info_;
+};
+
+TEST_P(DecompositionTest, EveryDecompositionEqualsTheSingleChannelAtTwentyCameras) {
+    std::mt19937 random(kSeed);
+    std::size_t covered = 0;
+    for (int camera = 0; camera < 20; ++camera) {
+        const FrameData frame = randomFrame(random, info_.bounds);
+        const Image expected = single(frame);
+        for (const float depth : expected.depth)
+            covered += depth > 0 ? 1 : 0;
+        const std::string name = "camera " + std::to_string(camera) + ", ";
+        expectEqual(expected, sortFirst(frame, 2), name + "2D over 2");
+        expectEqual(expected, sortFirst(frame, 4), name + "2D over 4");
+        expectEqual(expected, sortLast(frame, 2), name + "DB over 2");
+        expectEqual(expected, sortLast(frame, 3), name + "DB over 3");
+        expectEqual(expected, single(frame), name + "drawn again");
+    }
+    EXPECT_GT(covered, 20U * kWidth * kHeight / 10) << "the cameras should see something";
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, DecompositionTest,
+                         testing::Values(test::SampleKind::Mesh, test::SampleKind::Terrain,
+                                         test::SampleKind::Both),
+                         [](const auto& suite) { return test::name(suite.param); });
+
+}  // namespace
+}  // namespace eyrie

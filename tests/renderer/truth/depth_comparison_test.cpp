@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/truth/depth_comparison.h"
+
+#include "renderer/truth/terrain_ray_caster.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace eyrie::truth {
+namespace {
+
+constexpr int kWidth = 160;
+constexpr int kHeight = 120;
+
+/// A ridge across the view, with ground before and behind it.
+TerrainRayCaster ridge(double raisedMetres) {
+    HeightGrid grid{.columns = 101, .rows = 101, .heights = {}, .origin = {0, 1000},
+                    .perColumn = {10, 0}, .perRow = {0, -10}};
+    for (int j = 0; j < grid.rows; ++j)
+        for (int i = 0; i < grid.columns; ++i)
+            grid.heights.push_back(
+                static_cast<float>(raisedMetres + std::max(0, 150 - 10 * std::abs(j - 50))));
+    return TerrainRayCaster(std::move(grid));
+}
+
+Pinhole southernView() {
+    return Pinhole({.eye = {500, -300, 300}, .target = {500, 500, 50}, .fovYDegrees = 45}, kWidth,
+                   kHeight);
+}
+
+std::vector<float> depthOf(const ReferenceSurface& surface, const Pinhole& camera) {
+    std::vector<float> depth;
+    for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x)
+            depth.push_back(
+                static_cast<float>(surface.firstHit(camera.rayThrough(x + 0.5, y + 0.5), kNoHit)));
+    return depth;
+}
+
+TEST(CompareDepth, FindsNoFaultWithTheReferenceItself) {
+    const TerrainRayCaster reference = ridge(0);
+    const Pinhole camera = southernView();
+    const DepthComparison result = compareDepth(camera, depthOf(reference, camera), reference, 1);
+    EXPECT_LT(result.maxPixels, 1e-4);
+    EXPECT_GT(result.compared, 5000U);
+    EXPECT_EQ(result.holes + result.falseHits + result.misplaced, 0U);
+}
+
+TEST(CompareDepth, MeasuresHowFarASurfaceMovedOnTheScreen) {
+    const TerrainRayCaster reference = ridge(0);
+    const Pinhole camera = southernView();
+    const DepthComparison result = compareDepth(camera, depthOf(ridge(2), camera), reference, 2);
+    // 2 m at the nearest 300 m from the eye and f = 145 px, seen from somewhat above.
+    const double nearestPixels = camera.focalPixels() * 2 / 300;
+    EXPECT_LT(result.maxPixels, nearestPixels);
+    EXPECT_GT(result.maxPixels, nearestPixels / 3);
+    EXPECT_LE(result.p99Pixels, result.maxPixels);
+    EXPECT_EQ(result.misplaced, 0U);
+}
+
+TEST(CompareDepth, CountsHoles) {
+    const TerrainRayCaster reference = ridge(0);
+    const Pinhole camera = southernView();
+    auto depth = depthOf(reference, camera);
+    for (const std::size_t pixel : {30U * kWidth + 80U, 31U * kWidth + 20U})
+        depth[pixel] = std::numeric_limits<float>::infinity();
+    EXPECT_EQ(compareDepth(camera, depth, reference, 1).holes, 2U);
+}
+
+TEST(CompareDepth, CountsPixelsDrawnInTheSky) {
+    const TerrainRayCaster reference = ridge(0);
+    const Pinhole camera = southernView();
+    auto depth = depthOf(reference, camera);
+    depth[(kHeight - 2) * kWidth + 80] = 1000;
+    EXPECT_EQ(compareDepth(camera, depth, reference, 1).falseHits, 1U);
+}
+
+TEST(CompareDepth, SeesThatTheGroundBehindAMissingRidgeIsWrongAlthoughItIsReal) {
+    const TerrainRayCaster reference = ridge(0);
+    HeightGrid flat{.columns = 2, .rows = 2, .heights = {0, 0, 0, 0}, .origin = {0, 1000},
+                    .perColumn = {1000, 0}, .perRow = {0, -1000}};
+    const Pinhole camera = southernView();
+    const DepthComparison result =
+        compareDepth(camera, depthOf(TerrainRayCaster(flat), camera), reference, 1);
+    EXPECT_GT(result.misplaced, 200U);
+}
+
+}  // namespace
+}  // namespace eyrie::truth

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/truth/mesh_ray_caster.h"
+
+#include "renderer/truth/triangle.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+namespace eyrie::truth {
+namespace {
+
+using fabric::Vec3;
+
+/// A sphere of unit radius around `centre`, `rings` x 2 `rings` quadrilaterals.
+TriangleMesh sphere(int rings, const Vec3& centre) {
+    TriangleMesh mesh;
+    const int sides = 2 * rings;
+    for (int r = 0; r <= rings; ++r)
+        for (int s = 0; s < sides; ++s) {
+            const double polar = std::numbers::pi * r / rings;
+            const double around = 2 * std::numbers::pi * s / sides;
+            mesh.positions.push_back(centre + Vec3(std::sin(polar) * std::cos(around),
+                                                   std::sin(polar) * std::sin(around),
+                                                   std::cos(polar)));
+        }
+    const auto at = [&](int r, int s) { return static_cast<std::uint32_t>(r * sides + s % sides); };
+    for (int r = 0; r < rings; ++r)
+        for (int s = 0; s < sides; ++s) {
+            mesh.triangles.push_back({at(r, s), at(r + 1, s), at(r + 1, s + 1)});
+            mesh.triangles.push_back({at(r, s), at(r + 1, s + 1), at(r, s + 1)});
+        }
+    return mesh;
+}
+
+Vec3 randomDirection(std::mt19937& random) {
+    std::normal_distribution<double> normal;
+    return glm::normalize(Vec3(normal(random), normal(random), normal(random)));
+}
+
+TEST(MeshRayCaster, HitsASphereWhereItIs) {
+    const Vec3 centre(5e5, 5e6, 100);
+    const int rings = 100;
+    const MeshRayCaster caster(sphere(rings, centre));
+    const double sag = 1 - std::pow(std::cos(std::numbers::pi / 2 / rings), 2);
+    std::mt19937 random(2);
+    for (int n = 0; n < 2000; ++n) {
+        const Vec3 direction = randomDirection(random);
+        const double hit = caster.firstHit({centre - 5.0 * direction, direction});
+        EXPECT_GE(hit, 4 - 1e-9);
+        EXPECT_LE(hit, 4 + sag + 1e-9);
+    }
+}
+
+TEST(MeshRayCaster, NeverSlipsBetweenTriangles) {
+    const TriangleMesh mesh = sphere(24, Vec3(0));
+    const MeshRayCaster caster(mesh);
+    for (const auto& triangle : mesh.triangles)
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Vec3 a = mesh.positions[triangle[i]];
+            const Vec3 middle = (a + mesh.positions[triangle[(i + 1) % 3]]) / 2.0;
+            for (const Vec3& target : {a, middle})
+                ASSERT_LE(caster.firstHit({3.0 * target, -target}), 3);
+        }
+}
+
+TEST(MeshRayCaster, SeesBothSides) {
+    const MeshRayCaster caster(sphere(50, Vec3(0)));
+    EXPECT_NEAR(caster.firstHit({Vec3(0.1, 0.2, 0), Vec3(0, 0, 1)}), std::sqrt(0.95), 1e-3);
+}
+
+TEST(MeshRayCaster, MissesBesideAndBehind) {
+    const MeshRayCaster caster(sphere(20, Vec3(0)));
+    EXPECT_EQ(caster.firstHit({Vec3(0, 1.001, -5), Vec3(0, 0, 1)}), kNoHit);
+    EXPECT_EQ(caster.firstHit({Vec3(0, 0, 5), Vec3(0, 0, 1)}), kNoHit);
+}
+
+TEST(MeshRayCaster, FindsTheClosestPointThatASearchOfAllTrianglesFinds) {
+    const TriangleMesh mesh = sphere(12, Vec3(0));
+    const MeshRayCaster caster(mesh);
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> radius(0, 3);
+    for (int n = 0; n < 300; ++n) {
+        const Vec3 point = radius(random) * randomDirection(random);
+        double nearest = kNoHit;
+        for (const auto& t : mesh.triangles)
+            nearest = std::min(
+                nearest, glm::distance(point, closestPoint({mesh.positions[t[0]],
+                                                            mesh.positions[t[1]],
+                                                            mesh.positions[t[2]]}, point)));
+        EXPECT_NEAR(glm::distance(point, *caster.counterpart(point)), nearest, 1e-12);
+    }
+}
+
+TEST(ClosestPoint, IsOnTheFaceAnEdgeOrACorner) {
+    const Triangle triangle{Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)};
+    const auto expectClosest = [&](const Vec3& point, const Vec3& expected) {
+        EXPECT_NEAR(glm::distance(closestPoint(triangle, point), expected), 0, 1e-12);
+    };
+    expectClosest({1, 1, 7}, {1, 1, 0});
+    expectClosest({2, -3, 1}, {2, 0, 0});
+    expectClosest({3, 3, 0}, {2, 2, 0});
+    expectClosest({-1, 2, 0}, {0, 2, 0});
+    expectClosest({-1, -1, 5}, {0, 0, 0});
+    expectClosest({9, -1, 0}, {4, 0, 0});
+    expectClosest({-1, 9, 0}, {0, 4, 0});
+}
+
+}  // namespace
+}  // namespace eyrie::truth

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/truth/terrain_ray_caster.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <random>
+
+namespace eyrie::truth {
+namespace {
+
+using fabric::Vec2;
+using fabric::Vec3;
+
+constexpr auto kMain = static_cast<std::size_t>(CellSurface::MainDiagonal);
+constexpr auto kOther = static_cast<std::size_t>(CellSurface::OtherDiagonal);
+constexpr auto kBilinear = static_cast<std::size_t>(CellSurface::Bilinear);
+constexpr float kNoData = std::numeric_limits<float>::quiet_NaN();
+
+/// Posts 30 m apart from (5e5, 5e6) to the east and south, as a UTM raster has them.
+HeightGrid gridOf(int columns, int rows, const std::function<double(int, int)>& height) {
+    HeightGrid grid{.columns = columns, .rows = rows, .heights = {}, .origin = {5e5, 5e6},
+                    .perColumn = {30, 0}, .perRow = {0, -30}};
+    for (int j = 0; j < rows; ++j)
+        for (int i = 0; i < columns; ++i)
+            grid.heights.push_back(static_cast<float>(height(i, j)));
+    return grid;
+}
+
+Vec3 world(double i, double j, double z) { return {5e5 + 30 * i, 5e6 - 30 * j, z}; }
+
+Ray rayTo(const Vec3& eye, const Vec3& target) { return {eye, target - eye}; }
+
+TEST(TerrainRayCaster, HitsAPlaneWhereItIs) {
+    const TerrainRayCaster caster(gridOf(100, 60, [](int i, int j) { return 2.0 * i + 3.0 * j; }));
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> column(0.01, 98.99), row(0.01, 58.99), high(400, 4000);
+    for (int n = 0; n < 2000; ++n) {
+        const double i = column(random), j = row(random);
+        const Vec3 target = world(i, j, 2 * i + 3 * j);
+        const Vec3 eye = world(column(random), row(random), high(random));
+        for (const double hit : caster.firstHits(rayTo(eye, target)))
+            EXPECT_NEAR(hit, 1, 1e-9);
+    }
+}
+
+TEST(TerrainRayCaster, ReadsACellByEitherDiagonalOrBilinearly) {
+    // One raised corner: at the middle the main diagonal is down, the other is halfway.
+    const TerrainRayCaster caster(
+        gridOf(2, 2, [](int i, int j) { return i == 1 && j == 0 ? 8.0 : 0.0; }));
+    const auto hits = caster.firstHits({world(0.5, 0.5, 100), {0, 0, -1}});
+    EXPECT_NEAR(hits[kMain], 100, 1e-9);
+    EXPECT_NEAR(hits[kOther], 96, 1e-9);
+    EXPECT_NEAR(hits[kBilinear], 98, 1e-9);
+    const auto heights = caster.heightsAt(world(0.5, 0.5, 0).x, world(0.5, 0.5, 0).y);
+    EXPECT_NEAR(heights[kMain], 0, 1e-9);
+    EXPECT_NEAR(heights[kOther], 4, 1e-9);
+    EXPECT_NEAR(heights[kBilinear], 2, 1e-9);
+}
+
+TEST(TerrainRayCaster, HitsTheNearSideOfAStepFirst) {
+    const TerrainRayCaster caster(gridOf(64, 64, [](int i, int) { return i < 40 ? 0.0 : 500.0; }));
+    // Level at 250 m, going east: the step rises from post 39 to post 40, halfway at 39.5.
+    const auto hits = caster.firstHits(rayTo(world(3, 20.3, 250), world(4, 20.3, 250)));
+    for (const double hit : hits)
+        EXPECT_NEAR(hit, 36.5, 1e-9);
+    // From the west and above, over the edge: lands on the plateau.
+    for (const double hit : caster.firstHits(rayTo(world(3, 20.3, 900), world(50, 20.3, 500))))
+        EXPECT_NEAR(hit, 1, 1e-9);
+}
+
+TEST(TerrainRayCaster, NeverSlipsThroughTheSeamsOfCells) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> height(0, 300);
+    const TerrainRayCaster caster(gridOf(90, 90, [&](int, int) { return height(random); }));
+    std::uniform_int_distribution<int> post(1, 88);
+    std::uniform_real_distribution<double> coordinate(1, 88);
+    for (int n = 0; n < 5000; ++n) {
+        const int i = post(random), j = post(random);
+        const Vec3 eye = world(coordinate(random), coordinate(random), 1000);
+        // Exactly through posts, along grid lines and down onto them.
+        for (const Ray& ray : {rayTo(eye, world(i, j, 0)), rayTo(world(i, 1, 900), world(i, 88, 0)),
+                               Ray{world(i, j, 1000), {0, 0, -1}}})
+            for (const double hit : caster.firstHits(ray)) {
+                ASSERT_LE(hit, 1000);
+                ASSERT_GT(hit, 0);
+            }
+    }
+}
+
+TEST(TerrainRayCaster, AgreesWithAMarchOverTheHeights) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> height(0, 400), coordinate(1, 62);
+    const TerrainRayCaster caster(gridOf(64, 64, [&](int, int) { return height(random); }));
+    for (int n = 0; n < 40; ++n) {
+        const Ray ray = rayTo(world(coordinate(random), coordinate(random), 450),
+                              world(coordinate(random), coordinate(random), -10));
+        const auto hits = caster.firstHits(ray);
+        std::array<double, kCellSurfaces> marched{kNoHit, kNoHit, kNoHit};
+        constexpr int kSteps = 40000;
+        for (int step = 0; step <= kSteps; ++step) {
+            const Vec3 p = ray.at(step / double{kSteps});
+            const auto heights = caster.heightsAt(p.x, p.y);
+            for (std::size_t s = 0; s < kCellSurfaces; ++s)
+                if (marched[s] == kNoHit && p.z <= heights[s])
+                    marched[s] = step / double{kSteps};
+        }
+        for (std::size_t s = 0; s < kCellSurfaces; ++s) {
+            EXPECT_LE(hits[s], marched[s] + 1e-9) << "seed 3, ray " << n;
+            EXPECT_GE(hits[s], marched[s] - 1.0 / kSteps - 1e-9) << "seed 3, ray " << n;
+        }
+    }
+}
+
+TEST(TerrainRayCaster, LooksThroughHolesInTheData) {
+    const TerrainRayCaster caster(
+        gridOf(5, 5, [](int i, int j) { return i == 2 && j == 2 ? kNoData : 10.0; }));
+    for (const double hit : caster.firstHits({world(2, 2, 100), {0, 0, -1}}))
+        EXPECT_EQ(hit, kNoHit);
+    for (const double hit : caster.firstHits({world(0.5, 0.5, 100), {0, 0, -1}}))
+        EXPECT_NEAR(hit, 90, 1e-9);
+    EXPECT_FALSE(caster.counterpart(world(2, 2, 0)));
+}
+
+TEST(TerrainRayCaster, MissesBesideAndAboveThePosts) {
+    const TerrainRayCaster caster(gridOf(20, 20, [](int, int) { return 10.0; }));
+    for (const Ray& ray : {Ray{world(-0.01, 5, 100), {0, 0, -1}}, Ray{world(5, 5, 100), {0, 0, 1}},
+                           Ray{world(5, 5, 100), {1, 0.3, 0}}})
+        EXPECT_EQ(caster.firstHit(ray, kNoHit), kNoHit);
+    EXPECT_FALSE(caster.counterpart(world(-0.01, 5, 0)));
+}
+
+TEST(TerrainRayCaster, TakesRotatedGridsAsTheyAre) {
+    HeightGrid grid = gridOf(20, 20, [](int i, int) { return 10.0 * i; });
+    grid.perColumn = {20, 20};
+    grid.perRow = {20, -20};
+    const Vec2 p = grid.origin + 7.25 * grid.perColumn + 3.5 * grid.perRow;
+    const TerrainRayCaster caster(std::move(grid));
+    EXPECT_NEAR(caster.firstHit({{p.x, p.y, 1000}, {0, 0, -1}}, kNoHit), 1000 - 72.5, 1e-8);
+}
+
+}  // namespace
+}  // namespace eyrie::truth
