@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/mesh/eym_check.h"
 
-#include "fabric/status.h"
-#include "renderer/mesh/kd_tree.h"
-
-#include <absl/status/status.h>
-#include <fmt/format.h>
-
-#include <glm/common.hpp>
-#include <glm/vector_relational.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <string_view>
 #include <vector>
+
+#include <absl/status/status.h>
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
+
+#include "fabric/status.h"
+#include "renderer/mesh/kd_tree.h"
 
 namespace eyrie::mesh {
 namespace {
@@ -74,15 +73,14 @@ absl::Status checkErrors(const EymHeader& header) {
           header.coarsestErrorMetres >= header.finestErrorMetres))
         return damaged("header.coarsestErrorMetres", header.coarsestErrorMetres,
                        "a finite length, not below finestErrorMetres");
-    const Lattice lattice{
-        {header.originMetres[0], header.originMetres[1], header.originMetres[2]},
-        header.stepMetres};
+    const Lattice lattice{{header.originMetres[0], header.originMetres[1], header.originMetres[2]},
+                          header.stepMetres};
     if (!isValid(lattice))
-        return damaged("header.originMetres and stepMetres",
-                       fmt::format("({}, {}, {}) and {}", header.originMetres[0],
-                                   header.originMetres[1], header.originMetres[2],
-                                   header.stepMetres),
-                       "a whole multiple of a power of two");
+        return damaged(
+            "header.originMetres and stepMetres",
+            fmt::format("({}, {}, {}) and {}", header.originMetres[0], header.originMetres[1],
+                        header.originMetres[2], header.stepMetres),
+            "a whole multiple of a power of two");
     return absl::OkStatus();
 }
 
@@ -125,11 +123,11 @@ absl::Status NodeCheck::checkBox(std::uint32_t index) const {
     const Node& node = nodes_[index];
     if (glm::any(glm::greaterThan(node.boxMin, node.boxMax)) ||
         glm::any(glm::greaterThan(node.boxMax, glm::uvec3(kMaxLatticeCoordinate))))
-        return damaged(fmt::format("node {}: box", index),
-                       fmt::format("x {} to {}, y {} to {}, z {} to {}", node.boxMin.x,
-                                   node.boxMax.x, node.boxMin.y, node.boxMax.y, node.boxMin.z,
-                                   node.boxMax.z),
-                       fmt::format("ascending and at most {}", kMaxLatticeCoordinate));
+        return damaged(
+            fmt::format("node {}: box", index),
+            fmt::format("x {} to {}, y {} to {}, z {} to {}", node.boxMin.x, node.boxMax.x,
+                        node.boxMin.y, node.boxMax.y, node.boxMin.z, node.boxMax.z),
+            fmt::format("ascending and at most {}", kMaxLatticeCoordinate));
     if (!(std::isfinite(node.errorMetres) && node.errorMetres >= 0))
         return damaged(fmt::format("node {}: errorMetres", index), node.errorMetres,
                        "a finite length");
@@ -147,10 +145,10 @@ absl::Status NodeCheck::checkArrays(std::uint32_t index) const {
     if (node.indexCount % 3 != 0 || node.firstIndex % 4 != 0 ||
         node.indexCount > header_.indexCount ||
         node.firstIndex > header_.indexCount - node.indexCount)
-        return damaged(fmt::format("node {}: firstIndex and indexCount", index),
-                       fmt::format("{} and {}", node.firstIndex, node.indexCount),
-                       fmt::format("multiples of 4 and 3, inside the file's {}",
-                                   header_.indexCount));
+        return damaged(
+            fmt::format("node {}: firstIndex and indexCount", index),
+            fmt::format("{} and {}", node.firstIndex, node.indexCount),
+            fmt::format("multiples of 4 and 3, inside the file's {}", header_.indexCount));
     if (node.isLeaf() && node.indexCount != 3 * (node.triangleEnd - node.triangleBegin))
         return damaged(fmt::format("node {}: indexCount", index), node.indexCount,
                        fmt::format("three for each of its {} triangles",
@@ -237,10 +235,10 @@ absl::Status checkHeader(std::span<const std::byte> file) {
     EymHeader header;
     std::memcpy(&header, file.data(), sizeof header);
     if (header.version != kEymVersion)
-        return absl::InvalidArgumentError(
-            fmt::format("header.version is {}, this build reads {}; import the mesh again with this "
-                        "build",
-                        header.version, kEymVersion));
+        return absl::InvalidArgumentError(fmt::format(
+            "header.version is {}, this build reads {}; import the mesh again with this "
+            "build",
+            header.version, kEymVersion));
     if (header.headerBytes != sizeof(EymHeader))
         return damaged("header.headerBytes", header.headerBytes, sizeof(EymHeader));
     if (header.fileBytes != file.size())

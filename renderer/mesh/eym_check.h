@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "renderer/mesh/eym_format.h"
+#include <cstddef>
+#include <span>
 
 #include <absl/status/statusor.h>
 
-#include <cstddef>
-#include <span>
+#include "renderer/mesh/eym_format.h"
 
 /// What must hold before any offset, count or child of an .eym file is followed. Messages name the
 /// field but not the file.

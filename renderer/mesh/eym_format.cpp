@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/mesh/eym_format.h"
 
-#include "fabric/status.h"
-#include "renderer/mesh/eym_check.h"
+#include <algorithm>
 
 #include <absl/status/status.h>
 #include <fmt/format.h>
 #include <xxhash.h>
 
-#include <algorithm>
+#include "fabric/status.h"
+#include "renderer/mesh/eym_check.h"
 
 namespace eyrie::mesh {
 namespace {
@@ -37,9 +37,7 @@ absl::StatusOr<std::uint64_t> contentHash(const std::string& path) {
     return contentHash(file.bytes());
 }
 
-std::uint64_t contentHash(std::span<const std::byte> bytes) {
-    return hash(bytes, 0);
-}
+std::uint64_t contentHash(std::span<const std::byte> bytes) { return hash(bytes, 0); }
 
 absl::StatusOr<EymFile> EymFile::open(const std::string& path) {
     ASSIGN_OR_RETURN(MappedFile mapped, MappedFile::open(path));

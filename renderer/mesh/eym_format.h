@@ -1,14 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "fabric/box.h"
-#include "renderer/mesh/lattice.h"
-#include "renderer/mesh/mapped_file.h"
-
-#include <absl/status/statusor.h>
-
-#include <glm/vec3.hpp>
-
 #include <array>
 #include <atomic>
 #include <bit>
@@ -16,6 +8,13 @@
 #include <memory>
 #include <span>
 #include <string>
+
+#include <absl/status/statusor.h>
+#include <glm/vec3.hpp>
+
+#include "fabric/box.h"
+#include "renderer/mesh/lattice.h"
+#include "renderer/mesh/mapped_file.h"
 
 /// The .eym file, version 1: a mesh as a kd-tree of LOD nodes, read in place through a mapping.
 ///
@@ -44,12 +43,12 @@ struct EymHeader {
     std::uint32_t version = kEymVersion;
     std::uint32_t headerBytes = 256;
     std::uint64_t fileBytes = 0;
-    std::uint64_t checksum = 0;  ///< xxh64 of header and node table, this field being 0
+    std::uint64_t checksum = 0;    ///< xxh64 of header and node table, this field being 0
     std::uint64_t sourceHash = 0;  ///< xxh64 of the source file's bytes
     std::uint64_t triangleCount = 0;
     std::uint64_t sourceVertexCount = 0;  ///< vertices of the mesh, each counted once
-    std::uint64_t vertexCount = 0;  ///< stored vertices: one on a border is in several nodes
-    std::uint64_t indexCount = 0;  ///< stored indices, those between nodes included
+    std::uint64_t vertexCount = 0;        ///< stored vertices: one on a border is in several nodes
+    std::uint64_t indexCount = 0;         ///< stored indices, those between nodes included
     std::uint32_t nodeCount = 0;
     std::uint32_t flags = 0;
     std::array<double, 3> originMetres{};  ///< of the lattice
@@ -67,8 +66,8 @@ static_assert(sizeof(EymHeader) == 256);
 
 /// One LOD node, as stored.
 struct Node {
-    glm::uvec3 boxMin{0U};  ///< lattice, closed; covers the source vertices of its triangles,
-    glm::uvec3 boxMax{0U};  ///< lies inside its parent's
+    glm::uvec3 boxMin{0U};   ///< lattice, closed; covers the source vertices of its triangles,
+    glm::uvec3 boxMax{0U};   ///< lies inside its parent's
     std::int32_t left = -1;  ///< its own index plus one; -1 in a leaf
     std::int32_t right = -1;
     /// The full-resolution triangles it stands for, in depth-first order. triangleBegin over the

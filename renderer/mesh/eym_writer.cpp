@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/mesh/eym_writer.h"
 
-#include "fabric/status.h"
-#include "renderer/mesh/eym_format.h"
-#include "renderer/mesh/leaf_geometry.h"
-
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <span>
 #include <vector>
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include "fabric/status.h"
+#include "renderer/mesh/eym_format.h"
+#include "renderer/mesh/leaf_geometry.h"
 
 namespace eyrie::mesh {
 namespace {
@@ -35,10 +35,9 @@ std::vector<LeafGeometry> gatherLeaves(const PackedMesh& mesh, const KdTree& tre
     oneapi::tbb::parallel_for(std::size_t{0}, tree.nodes.size(), [&](std::size_t i) {
         const KdNode& node = tree.nodes[i];
         if (node.isLeaf() && !stop.stop_requested())
-            leaves[i] =
-                gatherLeaf(mesh, std::span(tree.order)
-                                     .subspan(node.triangleBegin,
-                                              node.triangleEnd - node.triangleBegin));
+            leaves[i] = gatherLeaf(
+                mesh, std::span(tree.order)
+                          .subspan(node.triangleBegin, node.triangleEnd - node.triangleBegin));
     });
     return leaves;
 }
@@ -62,8 +61,8 @@ std::vector<Node> layOutNodes(const PackedMesh& mesh, const KdTree& tree,
         node.vertexCount = static_cast<std::uint32_t>(leaves[i].positions.size());
         node.indexCount = static_cast<std::uint32_t>(leaves[i].indices.size());
         node.errorMetres = roundedUp(mesh.lattice.errorMetres());
-        node.checksum = geometryChecksum({leaves[i].positions, leaves[i].normals,
-                                          leaves[i].colours, leaves[i].indices});
+        node.checksum = geometryChecksum(
+            {leaves[i].positions, leaves[i].normals, leaves[i].colours, leaves[i].indices});
         vertices += node.vertexCount;
         indices = aligned(indices + node.indexCount, kIndexAlignment);
     }
@@ -73,8 +72,7 @@ std::vector<Node> layOutNodes(const PackedMesh& mesh, const KdTree& tree,
 std::uint64_t countUsedVertices(const PackedMesh& mesh) {
     std::vector<bool> used(mesh.positions.size());
     for (const Triangle& triangle : mesh.triangles)
-        for (const std::uint32_t corner : triangle)
-            used[corner] = true;
+        for (const std::uint32_t corner : triangle) used[corner] = true;
     return static_cast<std::uint64_t>(std::count(used.begin(), used.end(), true));
 }
 
@@ -85,8 +83,7 @@ EymHeader makeHeader(const PackedMesh& mesh, const std::vector<Node>& nodes,
     header.triangleCount = mesh.triangles.size();
     header.sourceVertexCount = countUsedVertices(mesh);
     header.vertexCount = nodes.back().firstVertex + nodes.back().vertexCount;
-    header.indexCount =
-        aligned(nodes.back().firstIndex + nodes.back().indexCount, kIndexAlignment);
+    header.indexCount = aligned(nodes.back().firstIndex + nodes.back().indexCount, kIndexAlignment);
     header.nodeCount = static_cast<std::uint32_t>(nodes.size());
     header.originMetres = {mesh.lattice.originMetres.x, mesh.lattice.originMetres.y,
                            mesh.lattice.originMetres.z};

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "renderer/mesh/kd_tree.h"
-#include "renderer/mesh/output_file.h"
-#include "renderer/mesh/packed_mesh.h"
+#include <cstdint>
+#include <stop_token>
 
 #include <absl/status/status.h>
 
-#include <cstdint>
-#include <stop_token>
+#include "renderer/mesh/kd_tree.h"
+#include "renderer/mesh/output_file.h"
+#include "renderer/mesh/packed_mesh.h"
 
 namespace eyrie::mesh {
 

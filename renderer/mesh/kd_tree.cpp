@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/mesh/kd_tree.h"
 
-#include "renderer/mesh/vertex_packing.h"
+#include <algorithm>
+#include <limits>
+#include <memory>
 
 #include <absl/status/status.h>
 #include <fmt/format.h>
+#include <glm/common.hpp>
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/parallel_invoke.h>
 
-#include <glm/common.hpp>
-
-#include <algorithm>
-#include <limits>
-#include <memory>
+#include "renderer/mesh/vertex_packing.h"
 
 namespace eyrie::mesh {
 namespace {
@@ -84,16 +83,16 @@ private:
 };
 
 void Builder::fillItems() {
-    oneapi::tbb::parallel_for(
-        oneapi::tbb::blocked_range<std::size_t>(0, items_.size(), 16384), [this](const auto& part) {
-            for (std::size_t i = part.begin(); i != part.end(); ++i) {
-                const Triangle& corners = triangles_[i];
-                items_[i] = {unpackPosition(positions_[corners[0]]) +
-                                 unpackPosition(positions_[corners[1]]) +
-                                 unpackPosition(positions_[corners[2]]),
-                             static_cast<std::uint32_t>(i)};
-            }
-        });
+    oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, items_.size(), 16384),
+                              [this](const auto& part) {
+                                  for (std::size_t i = part.begin(); i != part.end(); ++i) {
+                                      const Triangle& corners = triangles_[i];
+                                      items_[i] = {unpackPosition(positions_[corners[0]]) +
+                                                       unpackPosition(positions_[corners[1]]) +
+                                                       unpackPosition(positions_[corners[2]]),
+                                                   static_cast<std::uint32_t>(i)};
+                                  }
+                              });
 }
 
 std::size_t Builder::countVertices(std::size_t begin, std::size_t end) const {
@@ -138,8 +137,7 @@ std::unique_ptr<Subtree> Builder::buildSubtree(std::size_t begin, std::size_t en
 
 void Builder::split(Subtree& node) {
     Bounds centroids;
-    for (std::size_t i = node.begin; i < node.end; ++i)
-        centroids.grow(items_[i].centroid);
+    for (std::size_t i = node.begin; i < node.end; ++i) centroids.grow(items_[i].centroid);
     const int axis = centroids.longestAxis();
     const std::size_t middle = node.begin + (node.end - node.begin) / 2;
     const auto at = [this](std::size_t i) {
@@ -147,12 +145,11 @@ void Builder::split(Subtree& node) {
     };
     // The index as second key makes the order total: the halves are the same sets whatever
     // nth_element does, and a heap of equal centroids still parts in the middle.
-    std::nth_element(at(node.begin), at(middle), at(node.end),
-                     [axis](const Item& a, const Item& b) {
-                         return a.centroid[axis] != b.centroid[axis]
-                                    ? a.centroid[axis] < b.centroid[axis]
-                                    : a.triangle < b.triangle;
-                     });
+    std::nth_element(
+        at(node.begin), at(middle), at(node.end), [axis](const Item& a, const Item& b) {
+            return a.centroid[axis] != b.centroid[axis] ? a.centroid[axis] < b.centroid[axis]
+                                                        : a.triangle < b.triangle;
+        });
     const auto buildLeft = [&] { node.left = buildSubtree(node.begin, middle); };
     const auto buildRight = [&] { node.right = buildSubtree(middle, node.end); };
     if (node.end - node.begin >= kParallelTriangles) {

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "renderer/mesh/packed_mesh.h"
-
-#include <absl/status/statusor.h>
-
-#include <glm/vec3.hpp>
-
 #include <cstdint>
 #include <span>
 #include <stop_token>
 #include <vector>
+
+#include <absl/status/statusor.h>
+#include <glm/vec3.hpp>
+
+#include "renderer/mesh/packed_mesh.h"
 
 namespace eyrie::mesh {
 
@@ -41,7 +40,7 @@ struct KdNode {
 /// Each triangle is in exactly one leaf. triangleBegin over the triangle count is where a node
 /// starts in the mesh's range [0, 1).
 struct KdTree {
-    std::vector<KdNode> nodes;          ///< empty when there are no triangles
+    std::vector<KdNode> nodes;         ///< empty when there are no triangles
     std::vector<std::uint32_t> order;  ///< triangle indices, leaf after leaf
 
     bool operator==(const KdTree&) const = default;

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/mesh/lattice.h"
 
-#include <fmt/format.h>
-
-#include <glm/common.hpp>
-
 #include <algorithm>
 #include <cmath>
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
 
 namespace eyrie::mesh {
 namespace {
@@ -14,15 +13,19 @@ namespace {
 /// Coordinates keep below this many steps, so that a double holds them and their halves exactly.
 constexpr int kMaxStepBits = 52;
 
-double largestMagnitude(const fabric::Box& box) {
-    const fabric::Vec3 largest = glm::max(glm::abs(box.min), glm::abs(box.max));
-    return std::max({largest.x, largest.y, largest.z});
+double largest(const fabric::Vec3& v) { return std::max({v.x, v.y, v.z}); }
+
+/// False for not-a-number too.
+bool isWithinLimit(const fabric::Box& box) {
+    for (int axis = 0; axis < 3; ++axis)
+        if (!(box.min[axis] >= -kMaxCoordinateMetres && box.min[axis] <= box.max[axis] &&
+              box.max[axis] <= kMaxCoordinateMetres))
+            return false;
+    return true;
 }
 
 /// Dividing by a power of two is exact, so the only rounding is the one to the nearest point.
-double nearestStep(double metres, double step) {
-    return std::nearbyint(metres / step);
-}
+double nearestStep(double metres, double step) { return std::nearbyint(metres / step); }
 
 bool fits(const fabric::Box& box, double step) {
     for (int axis = 0; axis < 3; ++axis)
@@ -42,27 +45,23 @@ glm::uvec3 Lattice::nearest(const fabric::Vec3& position) const {
     return point;
 }
 
-double Lattice::errorMetres() const {
-    return stepMetres * (std::sqrt(3.0) / 2.0);
-}
+double Lattice::errorMetres() const { return stepMetres * (std::sqrt(3.0) / 2.0); }
 
 absl::StatusOr<Lattice> fitLattice(const fabric::Box& bounds) {
-    const double magnitude = largestMagnitude(bounds);
-    if (bounds.isEmpty() || !(magnitude <= kMaxCoordinateMetres))
+    if (!isWithinLimit(bounds))
         return absl::InvalidArgumentError(fmt::format(
             "the vertices span x {} to {}, y {} to {}, z {} to {} m; expected finite coordinates "
             "within {} m of the origin; check the units, or translate or scale the mesh",
             bounds.min.x, bounds.max.x, bounds.min.y, bounds.max.y, bounds.min.z, bounds.max.z,
             kMaxCoordinateMetres));
-    const fabric::Vec3 size = bounds.size();
-    const double extent = std::max({size.x, size.y, size.z});
+    const double magnitude = largest(glm::max(glm::abs(bounds.min), glm::abs(bounds.max)));
+    const double extent = largest(bounds.size());
     int exponent = kMinStepExponent;
     if (magnitude > 0)
         exponent = std::max(exponent, std::ilogb(magnitude) + 1 - kMaxStepBits);
     if (extent > 0)
         exponent = std::max(exponent, std::ilogb(extent) - kLatticeBits);
-    while (!fits(bounds, std::ldexp(1.0, exponent)))
-        ++exponent;
+    while (!fits(bounds, std::ldexp(1.0, exponent))) ++exponent;
     Lattice lattice;
     lattice.stepMetres = std::ldexp(1.0, exponent);
     for (int axis = 0; axis < 3; ++axis)  // + 0.0 turns a negative zero into zero

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "fabric/box.h"
+#include <cstdint>
 
 #include <absl/status/statusor.h>
-
 #include <glm/vec3.hpp>
 
-#include <cstdint>
+#include "fabric/box.h"
 
 namespace eyrie::mesh {
 
@@ -37,7 +36,8 @@ struct Lattice {
     /// The lattice point nearest to `metres`, which must lie in the box the lattice was fitted to.
     glm::uvec3 nearest(const fabric::Vec3& metres) const;
 
-    /// Farthest that rounding to the nearest lattice point moves a position: half a cell's diagonal.
+    /// Farthest that rounding to the nearest lattice point moves a position: half a cell's
+    /// diagonal.
     double errorMetres() const;
 
     bool operator==(const Lattice&) const = default;

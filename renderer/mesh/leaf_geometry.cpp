@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/mesh/leaf_geometry.h"
 
-#include "renderer/mesh/vertex_packing.h"
-
-#include <glm/vec3.hpp>
-
 #include <algorithm>
 #include <bit>
 #include <utility>
+
+#include <glm/vec3.hpp>
+
+#include "renderer/mesh/vertex_packing.h"
 
 namespace eyrie::mesh {
 namespace {
@@ -23,10 +23,10 @@ std::uint64_t spread(std::uint64_t value) {
 }
 
 std::uint64_t mortonKey(const PackedMesh& mesh, const Triangle& corners) {
-    const glm::uvec3 centroid = (unpackPosition(mesh.positions[corners[0]]) +
-                                 unpackPosition(mesh.positions[corners[1]]) +
-                                 unpackPosition(mesh.positions[corners[2]])) /
-                                3U;
+    const glm::uvec3 centroid =
+        (unpackPosition(mesh.positions[corners[0]]) + unpackPosition(mesh.positions[corners[1]]) +
+         unpackPosition(mesh.positions[corners[2]])) /
+        3U;
     return spread(centroid.x) | spread(centroid.y) << 1 | spread(centroid.z) << 2;
 }
 
@@ -39,8 +39,7 @@ std::vector<std::uint32_t> alongMortonCurve(const PackedMesh& mesh,
     std::sort(keys.begin(), keys.end());
     std::vector<std::uint32_t> order;
     order.reserve(keys.size());
-    for (const auto& [key, triangle] : keys)
-        order.push_back(triangle);
+    for (const auto& [key, triangle] : keys) order.push_back(triangle);
     return order;
 }
 
@@ -53,8 +52,7 @@ public:
     /// The local index of `vertex`, and whether it is new.
     std::pair<std::uint16_t, bool> number(std::uint32_t vertex) {
         std::size_t at = (vertex * 0x9E3779B97F4A7C15ULL >> 32) & mask_;
-        while (slots_[at].local != kFree && slots_[at].vertex != vertex)
-            at = (at + 1) & mask_;
+        while (slots_[at].local != kFree && slots_[at].vertex != vertex) at = (at + 1) & mask_;
         const bool isNew = slots_[at].local == kFree;
         if (isNew)
             slots_[at] = {vertex, count_++};

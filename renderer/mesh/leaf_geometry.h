@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "renderer/mesh/packed_mesh.h"
-
 #include <cstdint>
 #include <span>
 #include <vector>
+
+#include "renderer/mesh/packed_mesh.h"
 
 namespace eyrie::mesh {
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/mesh/mapped_file.h"
 
+#include <cerrno>
+#include <cstring>
+
 #include <absl/status/status.h>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-#include <cerrno>
-#include <cstring>
 
 namespace eyrie::mesh {
 namespace {

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/mesh/output_file.h"
 
-#include <absl/status/status.h>
-#include <fcntl.h>
-#include <fmt/format.h>
-#include <unistd.h>
-
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <vector>
+
+#include <absl/status/status.h>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
 
 namespace eyrie::mesh {
 namespace {

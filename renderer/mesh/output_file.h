@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <absl/status/statusor.h>
-
 #include <cstdint>
 #include <span>
 #include <string>
 #include <utility>
+
+#include <absl/status/statusor.h>
 
 namespace eyrie::mesh {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "renderer/mesh/lattice.h"
-
 #include <array>
 #include <cstdint>
 #include <vector>
+
+#include "renderer/mesh/lattice.h"
 
 namespace eyrie::mesh {
 

@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/mesh/vertex_packing.h"
 
-#include <glm/geometric.hpp>
-
 #include <algorithm>
 #include <cmath>
+
+#include <glm/geometric.hpp>
 
 namespace eyrie::mesh {
 namespace {
 
 constexpr double kSnormScale = 32767;
 
-double awayFromZero(double sign) {
-    return sign >= 0 ? 1.0 : -1.0;
-}
+double awayFromZero(double sign) { return sign >= 0 ? 1.0 : -1.0; }
 
 std::uint32_t snorm16(double value) {
     const auto rounded = static_cast<std::int16_t>(std::lround(value * kSnormScale));

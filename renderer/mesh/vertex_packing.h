@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "fabric/image.h"
-#include "renderer/mesh/lattice.h"
+#include <bit>
+#include <cstdint>
 
 #include <glm/vec3.hpp>
 
-#include <bit>
-#include <cstdint>
+#include "fabric/image.h"
+#include "renderer/mesh/lattice.h"
 
 /// How a vertex is stored and sent to the device: 8 bytes of position, 4 of normal, 4 of colour.
 /// effects/mesh.vert.glsl decodes the same bits.
@@ -35,7 +35,11 @@ std::uint32_t packNormal(const glm::vec3& normal);
 glm::vec3 unpackNormal(std::uint32_t packed);
 
 /// Bytes in memory are r, g, b, a (sRGB as in the source): unpackUnorm4x8 gives rgba.
-inline std::uint32_t packColour(fabric::Rgba colour) { return std::bit_cast<std::uint32_t>(colour); }
-inline fabric::Rgba unpackColour(std::uint32_t packed) { return std::bit_cast<fabric::Rgba>(packed); }
+inline std::uint32_t packColour(fabric::Rgba colour) {
+    return std::bit_cast<std::uint32_t>(colour);
+}
+inline fabric::Rgba unpackColour(std::uint32_t packed) {
+    return std::bit_cast<fabric::Rgba>(packed);
+}
 
 }  // namespace eyrie::mesh

@@ -88,8 +88,6 @@ struct EytIndex {
     double finestErrorMetres() const;
     /// Of level 0.
     std::uint64_t triangles() const;
-
-    bool operator==(const EytIndex&) const;
 };
 
 /// One tile's geometry as spans into its page.

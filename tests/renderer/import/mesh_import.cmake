@@ -1,1 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
+eyrie_test(ply_values_test LABEL unit LINK eyrie::mesh_import)
+eyrie_test(ply_reader_test LABEL unit LINK eyrie::mesh_import)
+eyrie_test(ply_damage_test LABEL unit LINK eyrie::mesh_import)
+eyrie_test(ply_files_test LABEL unit LINK eyrie::mesh_import)
+eyrie_test(polygon_test LABEL unit LINK eyrie::mesh_import)
+eyrie_test(weld_test LABEL unit LINK eyrie::mesh_import)
+eyrie_test(pack_mesh_test LABEL unit LINK eyrie::mesh_import TBB::tbb)
+eyrie_test(mesh_import_test LABEL unit LINK eyrie::mesh_import TBB::tbb)
+eyrie_test(mesh_synth_test LABEL unit LINK eyrie::mesh_import TBB::tbb)

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/truth/depth_comparison.h"
 
-#include "renderer/truth/terrain_ray_caster.h"
+#include <cmath>
 
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include "renderer/truth/terrain_ray_caster.h"
 
 namespace eyrie::truth {
 namespace {
@@ -15,8 +15,12 @@ constexpr int kHeight = 120;
 
 /// A ridge across the view, with ground before and behind it.
 TerrainRayCaster ridge(double raisedMetres) {
-    HeightGrid grid{.columns = 101, .rows = 101, .heights = {}, .origin = {0, 1000},
-                    .perColumn = {10, 0}, .perRow = {0, -10}};
+    HeightGrid grid{.columns = 101,
+                    .rows = 101,
+                    .heights = {},
+                    .origin = {0, 1000},
+                    .perColumn = {10, 0},
+                    .perRow = {0, -10}};
     for (int j = 0; j < grid.rows; ++j)
         for (int i = 0; i < grid.columns; ++i)
             grid.heights.push_back(
@@ -78,8 +82,12 @@ TEST(CompareDepth, CountsPixelsDrawnInTheSky) {
 
 TEST(CompareDepth, SeesThatTheGroundBehindAMissingRidgeIsWrongAlthoughItIsReal) {
     const TerrainRayCaster reference = ridge(0);
-    HeightGrid flat{.columns = 2, .rows = 2, .heights = {0, 0, 0, 0}, .origin = {0, 1000},
-                    .perColumn = {1000, 0}, .perRow = {0, -1000}};
+    HeightGrid flat{.columns = 2,
+                    .rows = 2,
+                    .heights = {0, 0, 0, 0},
+                    .origin = {0, 1000},
+                    .perColumn = {1000, 0},
+                    .perRow = {0, -1000}};
     const Pinhole camera = southernView();
     const DepthComparison result =
         compareDepth(camera, depthOf(TerrainRayCaster(flat), camera), reference, 1);

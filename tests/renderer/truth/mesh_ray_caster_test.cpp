@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/truth/mesh_ray_caster.h"
 
-#include "renderer/truth/triangle.h"
+#include <cmath>
+#include <numbers>
+#include <random>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <numbers>
-#include <random>
+#include "renderer/truth/triangle.h"
 
 namespace eyrie::truth {
 namespace {
@@ -23,9 +23,10 @@ TriangleMesh sphere(int rings, const Vec3& centre) {
         for (int s = 0; s < sides; ++s) {
             const double polar = std::numbers::pi * r / rings;
             const double around = 2 * std::numbers::pi * s / sides;
-            mesh.positions.push_back(centre + Vec3(std::sin(polar) * std::cos(around),
-                                                   std::sin(polar) * std::sin(around),
-                                                   std::cos(polar)));
+            // sin(pi) is not quite 0 and would leave a hole at the south pole.
+            const double radius = r == rings ? 0 : std::sin(polar);
+            mesh.positions.push_back(centre + Vec3(radius * std::cos(around),
+                                                   radius * std::sin(around), std::cos(polar)));
         }
     const auto at = [&](int r, int s) { return static_cast<std::uint32_t>(r * sides + s % sides); };
     for (int r = 0; r < rings; ++r)
@@ -87,10 +88,10 @@ TEST(MeshRayCaster, FindsTheClosestPointThatASearchOfAllTrianglesFinds) {
         const Vec3 point = radius(random) * randomDirection(random);
         double nearest = kNoHit;
         for (const auto& t : mesh.triangles)
-            nearest = std::min(
-                nearest, glm::distance(point, closestPoint({mesh.positions[t[0]],
-                                                            mesh.positions[t[1]],
-                                                            mesh.positions[t[2]]}, point)));
+            nearest = std::min(nearest, glm::distance(point, closestPoint({mesh.positions[t[0]],
+                                                                           mesh.positions[t[1]],
+                                                                           mesh.positions[t[2]]},
+                                                                          point)));
         EXPECT_NEAR(glm::distance(point, *caster.counterpart(point)), nearest, 1e-12);
     }
 }

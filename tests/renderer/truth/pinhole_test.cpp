@@ -31,8 +31,8 @@ TEST(Pinhole, PutsEastOnTheRightAndUpAtTheTop) {
 }
 
 TEST(Pinhole, ProjectsAPointOfARayBackToItsPixel) {
-    const Pinhole camera({.eye = {6e5, 5e6, 3000}, .target = {6.1e5, 5.02e6, 500},
-                          .fovYDegrees = 35}, 1280, 720);
+    const Pinhole camera(
+        {.eye = {6e5, 5e6, 3000}, .target = {6.1e5, 5.02e6, 500}, .fovYDegrees = 35}, 1280, 720);
     for (const Vec2 pixel : {Vec2(0.5, 0.5), Vec2(640, 360), Vec2(1279.5, 3.25)}) {
         const Vec3 point = camera.rayThrough(pixel.x, pixel.y).at(12345);
         EXPECT_NEAR(glm::distance(*camera.project(point), pixel), 0, 1e-8);

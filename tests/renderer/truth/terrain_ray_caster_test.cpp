@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/truth/terrain_ray_caster.h"
 
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <random>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
 
 namespace eyrie::truth {
 namespace {
@@ -22,11 +22,14 @@ constexpr float kNoData = std::numeric_limits<float>::quiet_NaN();
 
 /// Posts 30 m apart from (5e5, 5e6) to the east and south, as a UTM raster has them.
 HeightGrid gridOf(int columns, int rows, const std::function<double(int, int)>& height) {
-    HeightGrid grid{.columns = columns, .rows = rows, .heights = {}, .origin = {5e5, 5e6},
-                    .perColumn = {30, 0}, .perRow = {0, -30}};
+    HeightGrid grid{.columns = columns,
+                    .rows = rows,
+                    .heights = {},
+                    .origin = {5e5, 5e6},
+                    .perColumn = {30, 0},
+                    .perRow = {0, -30}};
     for (int j = 0; j < rows; ++j)
-        for (int i = 0; i < columns; ++i)
-            grid.heights.push_back(static_cast<float>(height(i, j)));
+        for (int i = 0; i < columns; ++i) grid.heights.push_back(static_cast<float>(height(i, j)));
     return grid;
 }
 
@@ -42,8 +45,7 @@ TEST(TerrainRayCaster, HitsAPlaneWhereItIs) {
         const double i = column(random), j = row(random);
         const Vec3 target = world(i, j, 2 * i + 3 * j);
         const Vec3 eye = world(column(random), row(random), high(random));
-        for (const double hit : caster.firstHits(rayTo(eye, target)))
-            EXPECT_NEAR(hit, 1, 1e-9);
+        for (const double hit : caster.firstHits(rayTo(eye, target))) EXPECT_NEAR(hit, 1, 1e-9);
     }
 }
 
@@ -65,8 +67,7 @@ TEST(TerrainRayCaster, HitsTheNearSideOfAStepFirst) {
     const TerrainRayCaster caster(gridOf(64, 64, [](int i, int) { return i < 40 ? 0.0 : 500.0; }));
     // Level at 250 m, going east: the step rises from post 39 to post 40, halfway at 39.5.
     const auto hits = caster.firstHits(rayTo(world(3, 20.3, 250), world(4, 20.3, 250)));
-    for (const double hit : hits)
-        EXPECT_NEAR(hit, 36.5, 1e-9);
+    for (const double hit : hits) EXPECT_NEAR(hit, 36.5, 1e-9);
     // From the west and above, over the edge: lands on the plateau.
     for (const double hit : caster.firstHits(rayTo(world(3, 20.3, 900), world(50, 20.3, 500))))
         EXPECT_NEAR(hit, 1, 1e-9);

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <absl/status/status.h>
+
+#include <functional>
+
+namespace CLI {
+class App;
+}
+
+/// The subcommands of `eyrie`, one file each. An add function declares its options under `app` and,
+/// when the user names the subcommand, sets `run` to what it does.
+namespace eyrie::cli {
+
+using Run = std::function<absl::Status()>;
+
+void addServe(CLI::App& app, Run& run);
+void addCoordinator(CLI::App& app, Run& run);
+void addRenderer(CLI::App& app, Run& run);
+void addImport(CLI::App& app, Run& run);
+void addInfo(CLI::App& app, Run& run);
+void addRender(CLI::App& app, Run& run);
+void addSynth(CLI::App& app, Run& run);
+
+}  // namespace eyrie::cli

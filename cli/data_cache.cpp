@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/data_cache.h"
+
+#include "fabric/status.h"
+#include "renderer/import/mesh_import.h"
+#include "renderer/import/terrain_import.h"
+#include "renderer/mesh/eym_format.h"
+#include "renderer/terrain/eyt_format.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <system_error>
+#include <utility>
+
+namespace eyrie::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Raise either when an importer makes something else of the same source.
+constexpr int kMeshImporterVersion = 1;
+constexpr int kTerrainImporterVersion = 1;
+
+/// Files beside a raster that say where it lies: a change of one is a change of the source.
+constexpr std::array<std::string_view, 4> kSidecars = {".hdr", ".prj", ".tfw", ".aux.xml"};
+
+std::string lowerCaseEnding(const std::string& path) {
+    std::string ending = fs::path(path).extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return ending;
+}
+
+/// Name of the import of `source`: what it holds, and what made it.
+absl::StatusOr<std::string> importName(const std::string& source, fabric::ObjectKind kind) {
+    ASSIGN_OR_RETURN(std::uint64_t hash, mesh::contentHash(source));
+    if (kind == fabric::ObjectKind::Mesh)
+        return fmt::format("{:016x}-{}.eym", hash, kMeshImporterVersion);
+    for (const std::string_view ending : kSidecars) {
+        const fs::path sidecar = ending == ".aux.xml"
+                                     ? fs::path(source + std::string(ending))
+                                     : fs::path(source).replace_extension(ending);
+        std::error_code ignored;
+        if (sidecar == source || !fs::is_regular_file(sidecar, ignored))
+            continue;
+        ASSIGN_OR_RETURN(const std::uint64_t part, mesh::contentHash(sidecar.string()));
+        hash = hash * 31 + part;
+    }
+    return fmt::format("{:016x}-{}.eyt", hash, kTerrainImporterVersion);
+}
+
+bool opens(const std::string& path, fabric::ObjectKind kind) {
+    return kind == fabric::ObjectKind::Mesh ? mesh::EymFile::open(path).ok()
+                                            : terrain::EytFile::open(path).ok();
+}
+
+}  // namespace
+
+DataFile dataFileOf(const std::string& path) {
+    const std::string ending = lowerCaseEnding(path);
+    if (ending == ".json")
+        return DataFile::Scene;
+    if (ending == ".eyt")
+        return DataFile::Terrain;
+    if (ending == ".eym")
+        return DataFile::Mesh;
+    return ending == ".ply" ? DataFile::MeshSource : DataFile::TerrainSource;
+}
+
+absl::StatusOr<fs::path> defaultCacheFolder() {
+    const auto variable = [](const char* name) {
+        const char* value = std::getenv(name);
+        return value == nullptr ? std::string() : std::string(value);
+    };
+    if (const std::string cache = variable("XDG_CACHE_HOME"); !cache.empty())
+        return fs::path(cache) / "eyrie";
+    if (const std::string home = variable("HOME"); !home.empty())
+        return fs::path(home) / ".cache" / "eyrie";
+    return absl::FailedPreconditionError(
+        "neither XDG_CACHE_HOME nor HOME is set, so there is no place for imports; name one with "
+        "--cache FOLDER");
+}
+
+DataCache::DataCache(fs::path folder, ProgressBar::Style progress, std::stop_token stop)
+    : folder_(std::move(folder)), progress_(progress), stop_(std::move(stop)) {}
+
+absl::StatusOr<std::string> DataCache::dataFor(const std::string& path, fabric::ObjectKind kind) {
+    switch (dataFileOf(path)) {
+        case DataFile::Terrain:
+        case DataFile::Mesh: return path;
+        case DataFile::Scene:
+            return absl::InvalidArgumentError(
+                fmt::format("{}: a scene cannot be an object of a scene", path));
+        case DataFile::MeshSource:
+        case DataFile::TerrainSource: break;
+    }
+    return imported(path, kind);
+}
+
+absl::StatusOr<std::string> DataCache::imported(const std::string& source,
+                                                fabric::ObjectKind kind) {
+    ASSIGN_OR_RETURN(const std::string name, importName(source, kind));
+    const std::string target = (folder_ / name).string();
+    std::error_code error;
+    if (fs::exists(target, error) && opens(target, kind))
+        return target;
+    fs::create_directories(folder_, error);
+    if (error)
+        return absl::FailedPreconditionError(
+            fmt::format("{}: cannot create this folder for imports ({}); name another with "
+                        "--cache FOLDER",
+                        folder_.string(), error.message()));
+    RETURN_IF_ERROR(import(source, target, kind));
+    return target;
+}
+
+absl::Status DataCache::import(const std::string& source, const std::string& target,
+                               fabric::ObjectKind kind) {
+    std::error_code ignored;
+    const auto megabytes = static_cast<double>(fs::file_size(source, ignored)) / 1e6;
+    ProgressBar bar(fs::path(source).filename().string(), megabytes, "MB", progress_);
+    const import::ImportControl control{bar.callback(), stop_};
+    if (kind == fabric::ObjectKind::Mesh)
+        return import::importMesh(source, target, {}, control).status();
+    return import::importTerrain(source, target, {}, control).status();
+}
+
+}  // namespace eyrie::cli

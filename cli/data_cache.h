@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cli/progress_bar.h"
+#include "fabric/scene.h"
+
+#include <absl/status/statusor.h>
+
+#include <filesystem>
+#include <stop_token>
+#include <string>
+
+namespace eyrie::cli {
+
+/// What a file named on the command line is, told by its ending.
+enum class DataFile {
+    Scene,     ///< .json
+    Terrain,   ///< .eyt
+    Mesh,      ///< .eym
+    MeshSource,     ///< .ply
+    TerrainSource,  ///< anything else: GDAL decides
+};
+DataFile dataFileOf(const std::string& path);
+
+/// $XDG_CACHE_HOME/eyrie or ~/.cache/eyrie. FailedPrecondition when the environment names neither.
+absl::StatusOr<std::filesystem::path> defaultCacheFolder();
+
+/// Imports of source files, kept from run to run and named by the content of what they came from:
+/// a file is imported again only when its bytes, or the importer, have changed.
+class DataCache {
+public:
+    /// Creates `folder` when the first import needs it.
+    DataCache(std::filesystem::path folder, ProgressBar::Style progress, std::stop_token stop);
+
+    /// The .eyt or .eym to draw for `path`: itself, or the import of a source file.
+    /// Errors: those of the importers; InvalidArgument where `path` is a scene.
+    absl::StatusOr<std::string> dataFor(const std::string& path, fabric::ObjectKind kind);
+
+private:
+    absl::StatusOr<std::string> imported(const std::string& source, fabric::ObjectKind kind);
+    absl::Status import(const std::string& source, const std::string& target,
+                        fabric::ObjectKind kind);
+
+    const std::filesystem::path folder_;
+    const ProgressBar::Style progress_;
+    const std::stop_token stop_;
+};
+
+}  // namespace eyrie::cli

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/json_object.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace eyrie::cli {
+namespace {
+
+std::string quoted(std::string_view text) {
+    std::string result = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\')
+            result += fmt::format("\\{}", c);
+        else if (static_cast<unsigned char>(c) < 0x20)
+            result += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+        else
+            result += c;
+    }
+    return result + '"';
+}
+
+/// The shortest text that reads back as the same double.
+std::string shortest(double value) {
+    return std::isfinite(value) ? fmt::format("{}", value) : "null";
+}
+
+std::string triple(const fabric::Vec3& v) {
+    return fmt::format("[{}, {}, {}]", shortest(v.x), shortest(v.y), shortest(v.z));
+}
+
+}  // namespace
+
+JsonObject& JsonObject::raw(std::string_view name, std::string_view json) {
+    fields_ += fmt::format("{}{}: {}", fields_.empty() ? "" : ", ", quoted(name), json);
+    return *this;
+}
+
+JsonObject& JsonObject::text(std::string_view name, std::string_view value) {
+    return raw(name, quoted(value));
+}
+
+JsonObject& JsonObject::number(std::string_view name, double value) {
+    return raw(name, shortest(value));
+}
+
+JsonObject& JsonObject::count(std::string_view name, std::uint64_t value) {
+    return raw(name, fmt::format("{}", value));
+}
+
+JsonObject& JsonObject::object(std::string_view name, const JsonObject& value) {
+    return raw(name, value.str());
+}
+
+JsonObject& JsonObject::objects(std::string_view name, const std::vector<JsonObject>& values) {
+    std::string list;
+    for (const JsonObject& value : values)
+        list += (list.empty() ? "" : ", ") + value.str();
+    return raw(name, "[" + list + "]");
+}
+
+JsonObject& JsonObject::box(std::string_view name, const fabric::Box& value) {
+    return raw(name,
+               fmt::format("{{\"min\": {}, \"max\": {}}}", triple(value.min), triple(value.max)));
+}
+
+}  // namespace eyrie::cli

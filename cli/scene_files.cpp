@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/scene_files.h"
+
+#include "cli/placement.h"
+#include "eyrie/v1/scene.pb.h"
+#include "fabric/status.h"
+#include "renderer/mesh/eym_format.h"
+#include "renderer/terrain/eyt_format.h"
+#include "wire/json.h"
+#include "wire/scene.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <system_error>
+
+namespace eyrie::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uintmax_t kMaxTextBytes = 64 << 20;
+
+fabric::SceneObject objectOf(const std::string& path) {
+    const DataFile file = dataFileOf(path);
+    const bool mesh = file == DataFile::Mesh || file == DataFile::MeshSource;
+    return {.name = fs::path(path).stem().string(),
+            .kind = mesh ? fabric::ObjectKind::Mesh : fabric::ObjectKind::Terrain,
+            .path = path};
+}
+
+/// Objects named on the command line, without a transform of their own, by kind.
+struct LooseObjects {
+    std::vector<fabric::SceneObject*> meshes;
+    std::shared_ptr<const terrain::EytFile> terrain;
+};
+
+absl::StatusOr<LooseObjects> looseObjects(fabric::Scene& scene, std::size_t firstLoose) {
+    LooseObjects loose;
+    for (std::size_t i = firstLoose; i < scene.objects.size(); ++i) {
+        fabric::SceneObject& object = scene.objects[i];
+        if (object.kind == fabric::ObjectKind::Mesh)
+            loose.meshes.push_back(&object);
+        else if (!loose.terrain)
+            ASSIGN_OR_RETURN(loose.terrain, terrain::EytFile::open(object.path));
+    }
+    return loose;
+}
+
+absl::Status placeMeshes(fabric::Scene& scene, std::size_t firstLoose,
+                         std::vector<std::string>& notes) {
+    ASSIGN_OR_RETURN(const LooseObjects loose, looseObjects(scene, firstLoose));
+    if (!loose.terrain)
+        return absl::OkStatus();
+    for (fabric::SceneObject* object : loose.meshes) {
+        ASSIGN_OR_RETURN(const mesh::EymFile file, mesh::EymFile::open(object->path));
+        if (overlapsInPlan(file.bounds(), loose.terrain->index().bounds()))
+            continue;
+        ASSIGN_OR_RETURN(object->worldFromObject, placeOnTerrain(file.bounds(), *loose.terrain));
+        notes.push_back(fmt::format(
+            "{} shares no coordinates with the terrain: it is shown on the ground at its middle, "
+            "scaled {:.3g} times; write a scene file to place it yourself",
+            object->name, object->worldFromObject[0][0]));
+    }
+    return absl::OkStatus();
+}
+
+}  // namespace
+
+absl::StatusOr<std::string> readText(const std::string& path) {
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    if (status.type() == fs::file_type::not_found)
+        return absl::NotFoundError(fmt::format("{}: no such file", path));
+    if (fs::is_directory(status))
+        return absl::InvalidArgumentError(fmt::format("{}: this is a folder, not a file", path));
+    if (fs::is_regular_file(status) && fs::file_size(path, error) > kMaxTextBytes)
+        return absl::InvalidArgumentError(
+            fmt::format("{}: larger than 64 MiB, so it is no scene or camera file", path));
+    std::ifstream in(path, std::ios::binary);
+    std::string text(std::istreambuf_iterator<char>(in), {});
+    if (!in)
+        return absl::InvalidArgumentError(fmt::format("{}: cannot be read", path));
+    return text;
+}
+
+absl::StatusOr<fabric::Scene> readSceneFile(const std::string& path) {
+    ASSIGN_OR_RETURN(const std::string text, readText(path));
+    ASSIGN_OR_RETURN(const v1::Scene message, wire::sceneMessageFromJson(text, path));
+    absl::StatusOr<fabric::Scene> scene = wire::fromMessage(message);
+    if (!scene.ok())
+        return fabric::withContext(scene.status(), path);
+    const fs::path folder = fs::absolute(path).parent_path();
+    for (fabric::SceneObject& object : scene->objects)
+        object.path = (folder / object.path).lexically_normal().string();
+    return scene;
+}
+
+absl::StatusOr<fabric::Scene> assembleScene(std::span<const std::string> paths, DataCache& cache,
+                                            std::vector<std::string>& notes) {
+    std::optional<fabric::Scene> scene;
+    std::vector<fabric::SceneObject> fromScenes;
+    std::vector<fabric::SceneObject> loose;
+    for (const std::string& path : paths) {
+        if (dataFileOf(path) != DataFile::Scene) {
+            loose.push_back(objectOf(path));
+            continue;
+        }
+        ASSIGN_OR_RETURN(fabric::Scene one, readSceneFile(path));
+        fromScenes.insert(fromScenes.end(), one.objects.begin(), one.objects.end());
+        if (!scene)
+            scene = std::move(one);
+    }
+    if (!scene)
+        scene.emplace();
+    scene->objects = std::move(fromScenes);
+    const std::size_t firstLoose = scene->objects.size();
+    scene->objects.insert(scene->objects.end(), loose.begin(), loose.end());
+    for (fabric::SceneObject& object : scene->objects) {
+        ASSIGN_OR_RETURN(const std::string data, cache.dataFor(object.path, object.kind));
+        object.path = fs::absolute(data).string();
+    }
+    RETURN_IF_ERROR(placeMeshes(*scene, firstLoose, notes));
+    RETURN_IF_ERROR(fabric::validate(*scene));
+    return *std::move(scene);
+}
+
+}  // namespace eyrie::cli

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cli/data_cache.h"
+#include "fabric/scene.h"
+
+#include <absl/status/statusor.h>
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace eyrie::cli {
+
+/// The whole text of a file. Errors: NotFound, InvalidArgument (a folder, or more than 64 MiB).
+absl::StatusOr<std::string> readText(const std::string& path);
+
+/// A scene file as it is: paths made absolute, nothing imported.
+absl::StatusOr<fabric::Scene> readSceneFile(const std::string& path);
+
+/// One scene of everything named: scene files, .eyt and .eym files, and sources, which go through
+/// `cache`. Lights, ambient and background are the first scene file's. A mesh that shares no
+/// coordinates with the terrain beside it is placed on it (placeOnTerrain); `notes` says so.
+absl::StatusOr<fabric::Scene> assembleScene(std::span<const std::string> paths, DataCache& cache,
+                                            std::vector<std::string>& notes);
+
+}  // namespace eyrie::cli

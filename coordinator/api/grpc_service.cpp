@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/api/grpc_service.h"
+
+#include "coordinator/api/reachable_address.h"
+#include "coordinator/farm/grpc_renderer.h"
+#include "eyrie/v1/coordinator_service.grpc.pb.h"
+#include "fabric/status.h"
+#include "fabric/version.h"
+#include "wire/listen.h"
+#include "wire/statistics.h"
+#include "wire/status.h"
+
+#include <fmt/format.h>
+#include <grpcpp/ext/health_check_service_server_builder_option.h>
+#include <grpcpp/health_check_service_interface.h>
+#include <grpcpp/server.h>
+
+#include <utility>
+
+namespace eyrie::coordinator {
+namespace {
+
+absl::Status checkVersion(const std::string& version) {
+    if (version == fabric::kVersion)
+        return absl::OkStatus();
+    return absl::FailedPreconditionError(
+        fmt::format("software_version is '{}', the coordinator's is '{}'; install the same Eyrie on "
+                    "both",
+                    version.substr(0, 64), fabric::kVersion));
+}
+
+class CoordinatorService final : public v1::CoordinatorService::CallbackService {
+public:
+    explicit CoordinatorService(Registry& registry) : registry_(registry) {}
+
+    grpc::ServerUnaryReactor* RegisterRenderer(grpc::CallbackServerContext* context,
+                                               const v1::RegisterRendererRequest* request,
+                                               v1::RegisterRendererResponse* response) override {
+        grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
+        reactor->Finish(wire::toGrpc(add(*request, context->peer(), *response)));
+        return reactor;
+    }
+
+    grpc::ServerUnaryReactor* Heartbeat(grpc::CallbackServerContext* context,
+                                        const v1::HeartbeatRequest* request,
+                                        v1::HeartbeatResponse* /*response*/) override {
+        grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
+        reactor->Finish(wire::toGrpc(
+            registry_.heartbeat(request->renderer_id().substr(0, 64), Registry::Clock::now())));
+        return reactor;
+    }
+
+private:
+    absl::Status add(const v1::RegisterRendererRequest& request, const std::string& peer,
+                     v1::RegisterRendererResponse& response) {
+        RETURN_IF_ERROR(checkVersion(request.software_version()));
+        const std::string address = reachableAddress(request.address(), peer);
+        RETURN_IF_ERROR(wire::checkAddress(address));
+        ASSIGN_OR_RETURN(const fabric::DeviceInfo device, wire::fromMessage(request.device()));
+        ASSIGN_OR_RETURN(
+            const std::string id,
+            registry_.add(address, device, connectRenderer(address), Registry::Clock::now()));
+        response.set_renderer_id(id);
+        response.set_heartbeat_milliseconds(
+            static_cast<std::int32_t>(registry_.options().heartbeatInterval.count()));
+        return absl::OkStatus();
+    }
+
+    Registry& registry_;
+};
+
+}  // namespace
+
+class GrpcService::Impl {
+public:
+    explicit Impl(Registry& registry) : service_(registry) {}
+
+    absl::Status listen(const std::vector<std::string>& addresses) {
+        grpc::EnableDefaultHealthCheckService(true);
+        ASSIGN_OR_RETURN(listening_, wire::listen(addresses, service_));
+        return absl::OkStatus();
+    }
+
+    const std::vector<std::string>& addresses() const { return listening_.addresses; }
+
+    void stop() { listening_.server->Shutdown(std::chrono::system_clock::now()); }
+
+private:
+    CoordinatorService service_;
+    wire::Listening listening_;
+};
+
+absl::StatusOr<std::unique_ptr<GrpcService>> GrpcService::start(
+    const std::vector<std::string>& addresses, Registry& registry) {
+    auto impl = std::make_unique<Impl>(registry);
+    RETURN_IF_ERROR(impl->listen(addresses));
+    return std::unique_ptr<GrpcService>(new GrpcService(std::move(impl)));
+}
+
+GrpcService::GrpcService(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+GrpcService::~GrpcService() { stop(); }
+
+const std::vector<std::string>& GrpcService::addresses() const { return impl_->addresses(); }
+void GrpcService::stop() { impl_->stop(); }
+
+}  // namespace eyrie::coordinator

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "fabric/channel_task.h"
+
+#include <vector>
+
+namespace eyrie::coordinator {
+
+/// How one frame is cut into channels for several renderers.
+enum class Decomposition {
+    TwoD,  ///< sort-first: each draws a part of the picture
+    Db,    ///< sort-last: each draws a share of the data, composited by depth
+};
+
+/// `whole` cut into at most `renderers` tasks (fewer when there are fewer pixels), in the order in
+/// which they are to be assembled.
+///
+/// 2D cuts the picture along its longer side, which keeps the parts near square and so the LOD
+/// nodes that two of them share few. DB cuts the range and needs depth, so every task asks for it.
+/// One renderer gets `whole` itself. Precondition: renderers >= 1.
+std::vector<fabric::ChannelTask> decompose(const fabric::ChannelTask& whole,
+                                           Decomposition decomposition, int renderers);
+
+}  // namespace eyrie::coordinator

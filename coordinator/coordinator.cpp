@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/coordinator.h"
+
+#include "coordinator/api/grpc_service.h"
+#include "coordinator/farm/registry.h"
+#include "coordinator/frame/frame_pipeline.h"
+#include "fabric/status.h"
+
+#include <fmt/format.h>
+
+#include <condition_variable>
+#include <mutex>
+#include <stop_token>
+#include <thread>
+#include <utility>
+
+namespace eyrie::coordinator {
+namespace {
+
+/// Gives renderers up whose heartbeats stop.
+void watchHeartbeats(Registry& registry, const std::stop_token& stop) {
+    std::mutex mutex;
+    std::condition_variable_any wake;
+    std::unique_lock lock(mutex);
+    while (!stop.stop_requested()) {
+        wake.wait_for(lock, stop, registry.options().heartbeatInterval / 4, [] { return false; });
+        registry.expire(Registry::Clock::now());
+    }
+}
+
+}  // namespace
+
+class Coordinator::Impl {
+public:
+    Impl(std::unique_ptr<Registry> registry, std::unique_ptr<GrpcService> door,
+         const CoordinatorOptions& options)
+        : registry_(std::move(registry)),
+          pipeline_(*registry_, pipelineOptions(options, *door)),
+          door_(std::move(door)),
+          watcher_([this](const std::stop_token& stop) { watchHeartbeats(*registry_, stop); }) {
+        pipeline_.setScene(options.scene);
+    }
+
+    FramePipeline& frames() { return pipeline_; }
+    const GrpcService& door() const { return *door_; }
+    void stop() { door_->stop(); }
+
+private:
+    static FramePipelineOptions pipelineOptions(const CoordinatorOptions& options,
+                                                const GrpcService& door) {
+        FramePipelineOptions pipeline;
+        pipeline.decomposition = options.decomposition;
+        pipeline.howToJoin = fmt::format("eyrie renderer --coordinator {}", door.addresses().back());
+        return pipeline;
+    }
+
+    const std::unique_ptr<Registry> registry_;
+    FramePipeline pipeline_;
+    const std::unique_ptr<GrpcService> door_;
+    std::jthread watcher_;
+};
+
+absl::StatusOr<std::unique_ptr<Coordinator>> Coordinator::start(const CoordinatorOptions& options) {
+    RETURN_IF_ERROR(fabric::validate(options.scene));
+    if (options.grpcAddresses.empty())
+        return absl::InvalidArgumentError("the coordinator has no address for renderers to register at");
+    auto registry = std::make_unique<Registry>();
+    ASSIGN_OR_RETURN(std::unique_ptr<GrpcService> door,
+                     GrpcService::start(options.grpcAddresses, *registry));
+    return std::unique_ptr<Coordinator>(new Coordinator(
+        std::make_unique<Impl>(std::move(registry), std::move(door), options)));
+}
+
+Coordinator::Coordinator(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Coordinator::~Coordinator() { stop(); }
+
+FrameSource& Coordinator::frames() { return impl_->frames(); }
+
+const std::vector<std::string>& Coordinator::grpcAddresses() const {
+    return impl_->door().addresses();
+}
+
+absl::Status Coordinator::setScene(fabric::Scene scene) {
+    RETURN_IF_ERROR(fabric::validate(scene));
+    impl_->frames().setScene(std::move(scene));
+    return absl::OkStatus();
+}
+
+void Coordinator::stop() { impl_->stop(); }
+
+}  // namespace eyrie::coordinator

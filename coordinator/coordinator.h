@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "coordinator/compound/decompose.h"
+#include "coordinator/frame/frame_source.h"
+#include "fabric/scene.h"
+
+#include <absl/status/statusor.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace eyrie::coordinator {
+
+struct CoordinatorOptions {
+    /// Where renderers register: "host:port" (port 0: the system chooses) or "unix:/path".
+    std::vector<std::string> grpcAddresses{"127.0.0.1:0"};
+    Decomposition decomposition = Decomposition::TwoD;
+    fabric::Scene scene;  ///< of .eyt and .eym files that the renderers can read
+};
+
+/// A coordinator without its doors for browsers: renderers register with it, and it makes frames
+/// with those it has. All functions may be called from any thread.
+class Coordinator {
+public:
+    /// Errors: InvalidArgument (the scene, or an address of another form), Unavailable (an address
+    /// that cannot be listened on).
+    static absl::StatusOr<std::unique_ptr<Coordinator>> start(const CoordinatorOptions& options);
+
+    ~Coordinator();
+    Coordinator(const Coordinator&) = delete;
+    Coordinator& operator=(const Coordinator&) = delete;
+
+    /// Lives as long as the coordinator. End what calls renderFrame before the coordinator.
+    FrameSource& frames();
+
+    /// Where renderers register, with the ports that were chosen.
+    const std::vector<std::string>& grpcAddresses() const;
+
+    /// Has all renderers open `scene` in place of the one before. InvalidArgument: fabric::validate
+    /// refuses it.
+    absl::Status setScene(fabric::Scene scene);
+
+    /// Takes no more registrations; frames can still be made with the renderers there are, until
+    /// their heartbeats are missed. May be called twice.
+    void stop();
+
+private:
+    class Impl;
+    explicit Coordinator(std::unique_ptr<Impl> impl);
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace eyrie::coordinator

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/farm/grpc_renderer.h"
+
+#include "coordinator/farm/picture_assembly.h"
+#include "eyrie/v1/render_service.grpc.pb.h"
+#include "fabric/status.h"
+#include "wire/frame.h"
+#include "wire/scene.h"
+#include "wire/scene_info.h"
+#include "wire/status.h"
+#include "wire/transport.h"
+
+#include <fmt/format.h>
+#include <grpcpp/client_context.h>
+#include <grpcpp/create_channel.h>
+#include <grpcpp/security/credentials.h>
+
+#include <mutex>
+#include <utility>
+
+namespace eyrie::coordinator {
+namespace {
+
+/// The contexts of the calls in progress, so that another thread can end them.
+class Calls {
+public:
+    /// One call, from its start to its end.
+    class Call {
+    public:
+        Call(Calls& calls, ChannelRenderer::Clock::time_point deadline) : calls_(calls) {
+            context_.set_deadline(std::chrono::system_clock::now() +
+                                  (deadline - ChannelRenderer::Clock::now()));
+            const std::lock_guard lock(calls_.mutex_);
+            calls_.current_ = &context_;
+            if (calls_.cancelled_)
+                context_.TryCancel();
+        }
+        ~Call() {
+            const std::lock_guard lock(calls_.mutex_);
+            calls_.current_ = nullptr;
+        }
+        Call(const Call&) = delete;
+        Call& operator=(const Call&) = delete;
+
+        grpc::ClientContext* context() { return &context_; }
+
+    private:
+        Calls& calls_;
+        grpc::ClientContext context_;
+    };
+
+    void cancel() {
+        const std::lock_guard lock(mutex_);
+        cancelled_ = true;
+        if (current_ != nullptr)
+            current_->TryCancel();
+    }
+
+private:
+    std::mutex mutex_;  ///< guards current_ and cancelled_
+    grpc::ClientContext* current_ = nullptr;
+    bool cancelled_ = false;
+};
+
+class GrpcRenderer final : public ChannelRenderer {
+public:
+    explicit GrpcRenderer(const std::string& address)
+        : peer_(fmt::format("renderer at {}", address)),
+          stub_(v1::RenderService::NewStub(grpc::CreateCustomChannel(
+              address, grpc::InsecureChannelCredentials(), wire::clientArguments()))) {}
+
+    absl::StatusOr<fabric::SceneInfo> openScene(const fabric::Scene& scene,
+                                                Clock::time_point deadline) override {
+        v1::OpenSceneRequest request;
+        *request.mutable_scene() = wire::toMessage(scene);
+        v1::OpenSceneResponse response;
+        Calls::Call call(calls_, deadline);
+        RETURN_IF_ERROR(wire::fromGrpc(stub_->OpenScene(call.context(), request, &response), peer_));
+        absl::StatusOr<fabric::SceneInfo> info = wire::fromMessage(response);
+        if (!info.ok())
+            return absl::InternalError(
+                fmt::format("{}: OpenScene answered {}", peer_, info.status().ToString()));
+        return info;
+    }
+
+    absl::Status setFrameData(const fabric::FrameData& frameData,
+                              Clock::time_point deadline) override {
+        v1::SetFrameDataRequest request;
+        *request.mutable_frame_data() = wire::toMessage(frameData);
+        v1::SetFrameDataResponse response;
+        Calls::Call call(calls_, deadline);
+        return wire::fromGrpc(stub_->SetFrameData(call.context(), request, &response), peer_);
+    }
+
+    absl::StatusOr<fabric::ChannelResult> render(const fabric::ChannelTask& task,
+                                                 Clock::time_point deadline) override {
+        v1::RenderChannelRequest request;
+        *request.mutable_task() = wire::toMessage(task);
+        Calls::Call call(calls_, deadline);
+        const auto reader = stub_->RenderChannel(call.context(), request);
+        PictureAssembly assembly(task);
+        const absl::Status received = receive(*reader, assembly);
+        if (!received.ok())
+            call.context()->TryCancel();  // or Finish would wait for the rest
+        const absl::Status finished = wire::fromGrpc(reader->Finish(), peer_);
+        if (!received.ok())
+            return fabric::withContext(received, peer_);
+        RETURN_IF_ERROR(finished);
+        absl::StatusOr<fabric::ChannelResult> result = assembly.finish();
+        if (!result.ok())
+            return fabric::withContext(result.status(), peer_);
+        return result;
+    }
+
+    void cancel() override { calls_.cancel(); }
+
+private:
+    static absl::Status receive(grpc::ClientReader<v1::RenderChannelResponse>& reader,
+                                PictureAssembly& assembly) {
+        v1::RenderChannelResponse part;
+        while (reader.Read(&part)) {
+            if (part.has_header())
+                RETURN_IF_ERROR(assembly.takeHeader(part.header()));
+            else
+                RETURN_IF_ERROR(assembly.takeChunk(part.chunk()));
+        }
+        return absl::OkStatus();
+    }
+
+    const std::string peer_;
+    const std::unique_ptr<v1::RenderService::Stub> stub_;
+    Calls calls_;
+};
+
+}  // namespace
+
+std::shared_ptr<ChannelRenderer> connectRenderer(const std::string& address) {
+    return std::make_shared<GrpcRenderer>(address);
+}
+
+}  // namespace eyrie::coordinator

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "coordinator/farm/channel_renderer.h"
+
+#include <memory>
+#include <string>
+
+namespace eyrie::coordinator {
+
+/// The renderer that serves RenderService at `address`, "host:port" or "unix:/path". Does not wait
+/// for the connection: the first call fails with Unavailable when nobody listens.
+///
+/// Nothing it answers is believed unchecked: what does not fit the task is an Internal error that
+/// names the field.
+std::shared_ptr<ChannelRenderer> connectRenderer(const std::string& address);
+
+}  // namespace eyrie::coordinator

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/frame/flight.h"
+
+#include "fabric/status.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace eyrie::coordinator {
+namespace {
+
+/// How often a flight looks for renderers that have become free or late.
+constexpr std::chrono::milliseconds kLookAgain{20};
+
+}  // namespace
+
+Flight::Flight(Plan plan) : plan_(std::move(plan)), parts_(plan_.tasks.size()) {}
+
+absl::StatusOr<std::vector<Flight::Leg>> Flight::fly(Crew& crew) {
+    std::unique_lock lock(mutex_);
+    while (!isDone()) {
+        RETURN_IF_ERROR(assign(crew));
+        changed_.wait_for(lock, kLookAgain);
+    }
+    std::vector<Leg> legs;
+    for (Part& part : parts_)
+        legs.push_back(std::move(part.leg));
+    return legs;
+}
+
+bool Flight::isDone() const {
+    return std::all_of(parts_.begin(), parts_.end(), [](const Part& part) { return part.done; });
+}
+
+absl::Status Flight::assign(Crew& crew) {
+    const std::vector<std::shared_ptr<Member>> members = crew.ready(plan_.sceneRevision);
+    for (std::size_t i = 0; i < parts_.size(); ++i)
+        if (!parts_[i].done && (parts_[i].running == 0 || Clock::now() >= parts_[i].late))
+            RETURN_IF_ERROR(assign(i, members, crew));
+    return absl::OkStatus();
+}
+
+absl::Status Flight::assign(std::size_t index,
+                            const std::vector<std::shared_ptr<Member>>& members, Crew& crew) {
+    Part& part = parts_[index];
+    bool anyLeft = part.running != 0;
+    for (const std::shared_ptr<Member>& member : members) {
+        if (std::find(part.asked.begin(), part.asked.end(), member->id()) != part.asked.end())
+            continue;
+        anyLeft = true;
+        if (!member->isIdle())
+            continue;
+        if (!part.asked.empty())
+            spdlog::warn("frame {}: {} draws the part that {} {}", plan_.tasks[index].frameNumber,
+                         member->id(), part.asked.back(),
+                         part.running != 0 ? "has not finished" : "could not");
+        start(index, *member, crew);
+        return absl::OkStatus();
+    }
+    return anyLeft ? absl::OkStatus() : part.error;
+}
+
+void Flight::start(std::size_t index, Member& member, Crew& crew) {
+    Part& part = parts_[index];
+    ++part.running;
+    part.asked.push_back(member.id());
+    const Clock::time_point now = Clock::now();
+    part.late = now + plan_.lateAfter;
+    member.draw(plan_.frameData, plan_.tasks[index], plan_.sceneRevision, plan_.callTimeout,
+                [self = shared_from_this(), index, &member, &crew,
+                 now](absl::StatusOr<fabric::ChannelResult> result) {
+                    if (!result.ok())  // even when the flight has ended without it
+                        crew.noteFailure(member.id(), result.status());
+                    self->finish(index, member, now, std::move(result));
+                });
+}
+
+void Flight::finish(std::size_t index, const Member& member, Clock::time_point started,
+                    absl::StatusOr<fabric::ChannelResult> result) {
+    const auto taken =
+        std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - started);
+    {
+        const std::lock_guard lock(mutex_);
+        Part& part = parts_[index];
+        --part.running;
+        if (!result.ok()) {
+            part.error = result.status();
+        } else if (!part.done) {
+            part.done = true;
+            part.leg = {*std::move(result), member.device(), taken};
+        }
+    }
+    changed_.notify_one();
+}
+
+}  // namespace eyrie::coordinator

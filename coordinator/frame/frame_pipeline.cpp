@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/frame/frame_pipeline.h"
+
+#include "coordinator/composite/assemble_2d.h"
+#include "coordinator/composite/assemble_db.h"
+#include "coordinator/frame/problem.h"
+#include "fabric/status.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace eyrie::coordinator {
+namespace {
+
+absl::Status check(const FrameRequest& request) {
+    RETURN_IF_ERROR(fabric::validate(request.camera));
+    const auto [shorter, longer] = std::minmax(request.width, request.height);
+    if (shorter < 1 || longer > fabric::kMaxViewPixels)
+        return absl::InvalidArgumentError(
+            fmt::format("the picture is {}x{} pixels; each side must be from 1 to {}", request.width,
+                        request.height, fabric::kMaxViewPixels));
+    if (!(request.tauPixels >= fabric::kMinTauPixels && request.tauPixels <= fabric::kMaxTauPixels))
+        return absl::InvalidArgumentError(fmt::format("tau is {} pixels; it must be from {} to {}",
+                                                      request.tauPixels, fabric::kMinTauPixels,
+                                                      fabric::kMaxTauPixels));
+    return absl::OkStatus();
+}
+
+}  // namespace
+
+FramePipeline::FramePipeline(Registry& registry, FramePipelineOptions options)
+    : registry_(registry),
+      options_(std::move(options)),
+      patience_(options_.patience),
+      crew_(registry, options_.openTimeout, [this] { listeners_.notify(); }) {}
+
+absl::StatusOr<RenderedFrame> FramePipeline::renderFrame(const FrameRequest& request) {
+    RETURN_IF_ERROR(check(request));
+    const std::lock_guard turn(turn_);
+    const auto start = Registry::Clock::now();
+    while (true) {
+        const Crew::State state = crew_.state();
+        if (const std::string why = problem(state); !why.empty())
+            return absl::UnavailableError(why);
+        absl::StatusOr<std::vector<Flight::Leg>> legs = draw(request, state.revision);
+        if (!legs.ok() && crew_.state().revision != state.revision)
+            continue;  // the scene was replaced meanwhile: draw that one
+        RETURN_IF_ERROR(legs.status());
+        RenderedFrame frame = compose(request, state.scene->background, *std::move(legs));
+        frame.statistics.milliseconds.total =
+            std::chrono::duration<double, std::milli>(Registry::Clock::now() - start).count();
+        return frame;
+    }
+}
+
+absl::StatusOr<std::vector<Flight::Leg>> FramePipeline::draw(const FrameRequest& request,
+                                                             std::uint64_t revision) {
+    const fabric::FrameData& frameData = frameDataFor(request);
+    const fabric::ChannelTask whole{++frameNumber_,
+                                    frameData.version,
+                                    request.width,
+                                    request.height,
+                                    {0, 0, request.width, request.height},
+                                    {},
+                                    request.wantsDepth};
+    auto flight = std::make_shared<Flight>(
+        Flight::Plan{frameData, decompose(whole, options_.decomposition, freeRenderers(revision)),
+                     revision, lateAfter(request, revision), options_.callTimeout});
+    ASSIGN_OR_RETURN(std::vector<Flight::Leg> legs, flight->fly(crew_));
+    for (const Flight::Leg& leg : legs)
+        patience_.record(leg.taken);
+    return legs;
+}
+
+const fabric::FrameData& FramePipeline::frameDataFor(const FrameRequest& request) {
+    const fabric::FrameData asked{frameData_.version, request.camera, request.tauPixels,
+                                  request.shading};
+    if (frameData_.version == 0 || asked != frameData_) {
+        frameData_ = asked;
+        ++frameData_.version;
+    }
+    return frameData_;
+}
+
+std::chrono::milliseconds FramePipeline::lateAfter(const FrameRequest& request,
+                                                   std::uint64_t revision) {
+    FrameRequest likeLast = request;
+    likeLast.camera = lastRequest_.camera;
+    if (likeLast != lastRequest_ || revision != lastRevision_)
+        patience_.forget();
+    lastRequest_ = request;
+    lastRevision_ = revision;
+    return patience_.limit();
+}
+
+/// A renderer that is still busy with an earlier frame's part sits out until it has finished.
+int FramePipeline::freeRenderers(std::uint64_t revision) const {
+    const auto members = crew_.ready(revision);
+    const auto free = std::count_if(members.begin(), members.end(),
+                                    [](const auto& member) { return member->isIdle(); });
+    return std::max(1, static_cast<int>(free));
+}
+
+RenderedFrame FramePipeline::compose(const FrameRequest& request, fabric::Rgba background,
+                                     std::vector<Flight::Leg> legs) const {
+    RenderedFrame frame;
+    frame.device = legs.front().device;
+    frame.statistics.tauAskedPixels = request.tauPixels;
+    std::vector<fabric::Image> images;
+    for (Flight::Leg& leg : legs) {
+        fabric::accumulate(frame.statistics, leg.result.statistics);
+        images.push_back(std::move(leg.result.image));
+    }
+    const fabric::PixelViewport area{0, 0, request.width, request.height};
+    if (images.size() == 1 || options_.decomposition == Decomposition::TwoD) {
+        frame.image = assemble2D(area, background, request.wantsDepth, std::move(images));
+    } else {
+        frame.image = assembleDb(area, background, std::move(images));
+        if (!request.wantsDepth)
+            frame.image.depth.clear();
+    }
+    return frame;
+}
+
+std::string FramePipeline::problem(const Crew::State& state) const {
+    return problemOf({state.ready, state.opening, state.scene->objects.empty(), state.openError,
+                      options_.howToJoin});
+}
+
+Status FramePipeline::status() const {
+    Status status;
+    for (const Registry::Entry& entry : registry_.entries())
+        status.renderers.push_back({entry.id, entry.device, entry.alive});
+    const Crew::State state = crew_.state();
+    status.scene = *state.scene;
+    status.sceneInfo = state.sceneInfo;
+    status.problem = problem(state);
+    return status;
+}
+
+int FramePipeline::subscribe(std::function<void()> listener) {
+    return listeners_.add(std::move(listener));
+}
+
+void FramePipeline::unsubscribe(int handle) { listeners_.remove(handle); }
+
+}  // namespace eyrie::coordinator

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/frame/problem.h"
+
+#include <fmt/format.h>
+
+namespace eyrie::coordinator {
+
+std::string problemOf(const Situation& situation) {
+    if (situation.sceneIsEmpty)
+        return "the scene is empty; open one that names a terrain or a mesh";
+    if (situation.ready > 0)
+        return {};
+    if (situation.opening > 0)
+        return "opening the scene…";
+    if (!situation.openError.empty())
+        return fmt::format("the scene cannot be opened: {}", situation.openError);
+    return fmt::format("no renderer is connected; start one with `{}`", situation.howToJoin);
+}
+
+}  // namespace eyrie::coordinator

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "coordinator/http/context.h"
+
+#include <boost/asio/ip/tcp.hpp>
+
+namespace eyrie::http {
+
+/// Answers the requests of one connection until it closes or becomes a WebSocket.
+void openHttpSession(boost::asio::ip::tcp::socket socket, Context& context, Slot slot);
+
+}  // namespace eyrie::http

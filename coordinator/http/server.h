@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "coordinator/frame/frame_source.h"
+
+#include <absl/status/statusor.h>
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace eyrie::http {
+
+struct ServerOptions {
+    std::string host = "127.0.0.1";    ///< an address to listen on, or "localhost"
+    std::uint16_t port = 8080;         ///< 0 lets the system choose; see Server::url
+    std::filesystem::path webFolder;   ///< the built UI; a page says how to build it where missing
+    std::size_t maxConnections = 64;   ///< one above is answered 503 and closed
+    std::chrono::milliseconds headerTimeout{10'000};  ///< for a whole request; also between requests
+    std::chrono::milliseconds writeTimeout{10'000};   ///< for one message to a viewer
+};
+
+/// The door for browsers: HTTP/1.1 and the viewer's WebSocket on one port.
+///
+///   /          the UI, from webFolder (read once, at start)
+///   /ws        viewer.proto over binary WebSocket messages; cross-origin requests get 403
+///   /healthz   200 while the process lives
+///   /readyz    200 while a renderer is alive and a scene is open, 503 otherwise; JSON says why
+///   /api/v1/status   the same JSON, always 200
+///
+/// All functions may be called from any thread.
+class Server {
+public:
+    /// Listens and serves on threads of its own until stop(). `frames` outlives the server.
+    /// Errors: InvalidArgument (host is no address of this machine), Unavailable (the port is in
+    /// use or not permitted).
+    static absl::StatusOr<std::unique_ptr<Server>> start(const ServerOptions& options,
+                                                         coordinator::FrameSource& frames);
+    ~Server();
+    Server(const Server&) = delete;
+    Server& operator=(const Server&) = delete;
+
+    /// Where it listens: "http://127.0.0.1:8080/", with the port that was chosen.
+    std::string url() const;
+
+    /// Tells viewers that the server goes away (close code 1001), then ends every connection and
+    /// thread. Returns when that is done; waits for a frame being rendered. May be called twice.
+    void stop();
+
+private:
+    class Impl;
+    explicit Server(std::unique_ptr<Impl> impl);
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace eyrie::http

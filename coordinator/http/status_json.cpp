@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/http/status_json.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <string_view>
+
+namespace eyrie::http {
+namespace {
+
+std::string quoted(std::string_view text) {
+    std::string result = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\')
+            result += {'\\', c};
+        else if (static_cast<unsigned char>(c) < 0x20)
+            fmt::format_to(std::back_inserter(result), "\\u{:04x}", static_cast<unsigned>(c));
+        else
+            result += c;
+    }
+    return result + '"';
+}
+
+std::string rendererJson(const coordinator::RendererStatus& renderer) {
+    return fmt::format(
+        R"({{"id":{},"alive":{},"device":{},"driver":{},"platform":{},"software":{}}})",
+        quoted(renderer.id), renderer.alive, quoted(renderer.device.renderer),
+        quoted(renderer.device.driver), quoted(renderer.device.platform), renderer.device.software);
+}
+
+/// The elements as `toJson` writes them, with commas between.
+template <typename Elements, typename ToJson>
+std::string joined(const Elements& elements, ToJson toJson) {
+    std::string result;
+    for (const auto& element : elements) {
+        if (!result.empty())
+            result += ',';
+        result += toJson(element);
+    }
+    return result;
+}
+
+}  // namespace
+
+bool isReady(const coordinator::Status& status) {
+    const bool hasRenderer =
+        std::any_of(status.renderers.begin(), status.renderers.end(),
+                    [](const coordinator::RendererStatus& renderer) { return renderer.alive; });
+    return hasRenderer && status.problem.empty() && !status.sceneInfo.bounds.isEmpty();
+}
+
+std::string statusJson(const coordinator::Status& status) {
+    return fmt::format(
+        R"({{"ready":{},"problem":{},"renderers":[{}],"scene":{{"objects":[{}],"triangles":{}}}}})"
+        "\n",
+        isReady(status), quoted(status.problem), joined(status.renderers, rendererJson),
+        joined(status.scene.objects,
+               [](const fabric::SceneObject& object) { return quoted(object.name); }),
+        status.sceneInfo.triangles);
+}
+
+}  // namespace eyrie::http

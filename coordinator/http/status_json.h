@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "coordinator/frame/frame_source.h"
+
+#include <string>
+
+namespace eyrie::http {
+
+/// A renderer is alive, the scene is open and nothing stands in the way of a picture.
+bool isReady(const coordinator::Status& status);
+
+/// {"ready":true,"problem":"","renderers":[{"id":"…","alive":true,"device":"…","driver":"…",
+/// "platform":"…","software":false}],"scene":{"objects":["…"],"triangles":0}}
+std::string statusJson(const coordinator::Status& status);
+
+}  // namespace eyrie::http

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/http/web_socket.h"
+
+#include "coordinator/stream/viewer.h"
+
+#include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/core/tcp_stream.hpp>
+#include <boost/beast/websocket.hpp>
+
+#include <optional>
+#include <span>
+#include <utility>
+
+namespace eyrie::http {
+namespace {
+
+namespace beast = boost::beast;
+namespace websocket = beast::websocket;
+using boost::asio::ip::tcp;
+using beast::error_code;
+
+constexpr std::size_t kMaxMessageBytes = 64 * 1024;
+constexpr std::chrono::seconds kHandshakeTimeout{10};
+/// A peer that is silent for so long, pings included, is gone.
+constexpr std::chrono::seconds kIdleTimeout{30};
+
+class WebSocket : public Session, public std::enable_shared_from_this<WebSocket> {
+public:
+    WebSocket(tcp::socket socket, std::string received, Context& context, Slot slot)
+        : stream_(std::move(socket)), writeDeadline_(stream_.get_executor()),
+          received_(std::move(received)), context_(context), slot_(std::move(slot)) {
+        context_.sessions.insert(this);
+    }
+
+    ~WebSocket() override {
+        abandon();
+        context_.sessions.erase(this);
+        context_.sessionEnded();
+    }
+
+    void accept() {
+        error_code ignored;
+        beast::get_lowest_layer(stream_).socket().set_option(tcp::no_delay(true), ignored);
+        stream_.set_option(websocket::stream_base::timeout{kHandshakeTimeout, kIdleTimeout, true});
+        stream_.read_message_max(kMaxMessageBytes);
+        stream_.binary(true);
+        stream_.auto_fragment(false);
+        stream_.async_accept(boost::asio::buffer(received_),
+                             [self = shared_from_this()](error_code error) {
+                                 if (!error)
+                                     self->accepted();
+                             });
+    }
+
+    void shutDown() override {
+        if (viewer_ == nullptr)
+            return beast::get_lowest_layer(stream_).cancel();
+        close({websocket::close_code::going_away, "the server is shutting down"});
+    }
+
+    void abandon() override {
+        if (viewer_ == nullptr)
+            return;
+        viewer_->stop();
+        // The slot stays taken until the viewer's threads have ended.
+        boost::asio::post(context_.reaper,
+                          [viewer = std::move(viewer_), slot = std::move(slot_)]() mutable {
+                              viewer.reset();
+                              slot.reset();
+                          });
+    }
+
+private:
+    void accepted() {
+        received_.clear();
+        viewer_ = std::make_shared<stream::Viewer>(
+            context_.frames, [weak = weak_from_this(), executor = stream_.get_executor()] {
+                boost::asio::post(executor, [weak] {
+                    if (const auto self = weak.lock())
+                        self->write();
+                });
+            });
+        read();
+    }
+
+    void read() {
+        stream_.async_read(buffer_, [self = shared_from_this()](error_code error, std::size_t) {
+            self->messageRead(error);
+        });
+    }
+
+    void messageRead(error_code error) {
+        if (error)
+            return end();
+        if (isClosing_)
+            return discard();
+        if (!stream_.got_binary())
+            return close({websocket::close_code::unknown_data, "messages are binary here"});
+        const auto data = buffer_.data();
+        const absl::Status status =
+            viewer_->receive({static_cast<const std::byte*>(data.data()), data.size()});
+        buffer_.clear();
+        if (!status.ok())
+            return close({websocket::close_code::bad_payload,
+                          std::string(status.message().data(), status.message().size())});
+        read();
+    }
+
+    /// Reads on until the peer's own close arrives.
+    void discard() {
+        buffer_.clear();
+        read();
+    }
+
+    /// Sends what the viewer has, one message at a time, so that nothing piles up here.
+    void write() {
+        if (isWriting_ || isClosing_ || viewer_ == nullptr)
+            return;
+        std::optional<std::string> message = viewer_->takeMessage();
+        if (!message.has_value())
+            return;
+        isWriting_ = true;
+        outgoing_ = *std::move(message);
+        expectProgress();
+        stream_.async_write(boost::asio::buffer(outgoing_),
+                            [self = shared_from_this()](error_code error, std::size_t) {
+                                self->writeDeadline_.cancel();
+                                self->isWriting_ = false;
+                                if (!error)
+                                    self->write();
+                            });
+    }
+
+    /// A peer that takes nothing within the time is cut off.
+    void expectProgress() {
+        writeDeadline_.expires_after(context_.options.writeTimeout);
+        writeDeadline_.async_wait([weak = weak_from_this()](error_code error) {
+            const auto self = weak.lock();
+            if (!error && self != nullptr)
+                self->end();
+        });
+    }
+
+    void close(const websocket::close_reason& reason) {
+        if (std::exchange(isClosing_, true))
+            return;
+        abandon();
+        stream_.async_close(reason, [self = shared_from_this()](error_code) { self->end(); });
+    }
+
+    void end() {
+        isClosing_ = true;
+        abandon();
+        writeDeadline_.cancel();
+        beast::get_lowest_layer(stream_).close();
+    }
+
+    websocket::stream<beast::tcp_stream> stream_;
+    boost::asio::steady_timer writeDeadline_;
+    std::string received_;
+    beast::flat_buffer buffer_;
+    std::string outgoing_;
+    bool isWriting_ = false;
+    bool isClosing_ = false;
+    Context& context_;
+    Slot slot_;
+    std::shared_ptr<stream::Viewer> viewer_;
+};
+
+}  // namespace
+
+void openWebSocket(tcp::socket socket, std::string received, Context& context, Slot slot) {
+    std::make_shared<WebSocket>(std::move(socket), std::move(received), context, std::move(slot))
+        ->accept();
+}
+
+}  // namespace eyrie::http

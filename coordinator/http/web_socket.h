@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "coordinator/http/context.h"
+
+#include <boost/asio/ip/tcp.hpp>
+
+#include <string>
+
+namespace eyrie::http {
+
+/// Makes a viewer of a connection. `received` is what came over it so far: the request for the
+/// upgrade and what followed. Lives as long as the connection.
+void openWebSocket(boost::asio::ip::tcp::socket socket, std::string received, Context& context,
+                   Slot slot);
+
+}  // namespace eyrie::http

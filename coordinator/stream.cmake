@@ -1,0 +1,6 @@
+# SPDX-License-Identifier: Apache-2.0
+add_library(eyrie_stream stream/home_camera.cpp stream/pacer.cpp stream/viewer.cpp
+                         stream/viewer_messages.cpp)
+add_library(eyrie::stream ALIAS eyrie_stream)
+target_link_libraries(eyrie_stream PUBLIC eyrie::fabric absl::status
+                                   PRIVATE eyrie::jpeg eyrie::wire eyrie::proto Threads::Threads fmt::fmt)

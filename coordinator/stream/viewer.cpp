@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/stream/viewer.h"
+
+#include "coordinator/stream/pacer.h"
+#include "coordinator/stream/viewer_messages.h"
+#include "wire/jpeg.h"
+
+#include <condition_variable>
+#include <mutex>
+#include <string_view>
+#include <thread>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace eyrie::stream {
+namespace {
+
+std::string_view text(const absl::Status& status) {
+    return {status.message().data(), status.message().size()};
+}
+
+/// A picture as it came from the frame source, for one view.
+struct Picture {
+    ViewRequest view;
+    std::shared_ptr<const coordinator::RenderedFrame> frame;
+    Clock::time_point started;
+};
+
+/// What must be equal for a picture to be still right.
+struct PictureSource {
+    fabric::Scene scene;
+    fabric::SceneInfo sceneInfo;
+    std::vector<std::string> renderers;
+
+    bool operator==(const PictureSource&) const = default;
+};
+
+PictureSource pictureSource(const coordinator::Status& status) {
+    PictureSource source{status.scene, status.sceneInfo, {}};
+    for (const coordinator::RendererStatus& renderer : status.renderers)
+        if (renderer.alive)
+            source.renderers.push_back(renderer.id);
+    return source;
+}
+
+}  // namespace
+
+class Viewer::Impl {
+public:
+    Impl(coordinator::FrameSource& frames, std::function<void()> messageReady,
+         const ViewerOptions& options)
+        : frames_(frames), messageReady_(std::move(messageReady)), options_(options),
+          pacer_(options.framesInFlight) {
+        subscription_ = frames_.subscribe([this] { statusChanged(); });
+        encoder_ = std::thread([this] { encodeLoop(); });
+        renderer_ = std::thread([this] { renderLoop(); });
+    }
+
+    ~Impl() {
+        stop();
+        frames_.unsubscribe(subscription_);
+        renderer_.join();
+        encoder_.join();
+    }
+
+    absl::Status receive(std::span<const std::byte> message) {
+        absl::StatusOr<std::variant<ViewRequest, FrameAck>> request = parseRequest(message);
+        if (absl::IsDataLoss(request.status()))
+            return request.status();
+        std::unique_lock lock(mutex_);
+        if (!request.ok())
+            setProblem(requestProblem_, sanitised(text(request.status())));
+        else if (const auto* view = std::get_if<ViewRequest>(&*request))
+            want(*view);
+        else
+            pacer_.acknowledged(std::get<FrameAck>(*request).frameNumber, Clock::now());
+        const bool hasMessage = mayTakeFrame();
+        lock.unlock();
+        changed_.notify_all();
+        if (hasMessage)
+            messageReady_();
+        return absl::OkStatus();
+    }
+
+    std::optional<std::string> takeMessage() {
+        const std::lock_guard lock(mutex_);
+        if (waitingState_.has_value())
+            return std::exchange(waitingState_, std::nullopt);
+        if (!mayTakeFrame())
+            return std::nullopt;
+        WaitingFrame frame = *std::exchange(waitingFrame_, std::nullopt);
+        pacer_.sent(frame.frameNumber, frame.started, !frame.isStill);
+        return std::move(frame.message);
+    }
+
+    void stop() {
+        {
+            const std::lock_guard lock(mutex_);
+            isStopping_ = true;
+        }
+        changed_.notify_all();
+    }
+
+private:
+    struct WaitingFrame {
+        std::uint64_t frameNumber = 0;
+        bool isStill = false;
+        Clock::time_point started;
+        std::string message;
+    };
+
+    // ---- With mutex_ held.
+
+    void want(const ViewRequest& view) {
+        const bool isOther = !wanted_.has_value() || !(wanted_->frame == view.frame);
+        wanted_ = view;
+        setProblem(requestProblem_, "");
+        if (!isOther)
+            return;
+        isRenderNeeded_ = true;
+        wantedSince_ = Clock::now();
+        retryAt_.reset();
+    }
+
+    void setProblem(std::string& problem, std::string value) {
+        if (problem == value)
+            return;
+        problem = std::move(value);
+        isStateStale_ = true;
+    }
+
+    bool mayTakeFrame() const {
+        return waitingFrame_.has_value() && pacer_.unacknowledged() < pacer_.window();
+    }
+
+    /// Room for one more frame between the start of its rendering and its acknowledgement.
+    bool hasRoom() const {
+        const int underWay = (isRendering_ ? 1 : 0) + (rendered_.has_value() ? 1 : 0) +
+                             (isEncoding_ ? 1 : 0) + (waitingFrame_.has_value() ? 1 : 0);
+        return pacer_.unacknowledged() + underWay < pacer_.window();
+    }
+
+    bool isWaitingToRetry() const { return retryAt_.has_value() && Clock::now() < *retryAt_; }
+
+    bool mayRender() const {
+        return isRenderNeeded_ && wanted_.has_value() && !rendered_.has_value() && hasRoom() &&
+               !isWaitingToRetry();
+    }
+
+    bool hasRested() const { return Clock::now() >= wantedSince_ + options_.restDelay; }
+
+    /// The last picture shows the view that is wanted, and was sent as a moving one.
+    bool needsStill() const {
+        return last_.has_value() && !isLastStill_ && !isRenderNeeded_ && !isRendering_ &&
+               !rendered_.has_value() && last_->view.frame == wanted_->frame;
+    }
+
+    /// Waits for a change, or until `deadline` if there is one.
+    void waitForChange(std::unique_lock<std::mutex>& lock,
+                       std::optional<Clock::time_point> deadline) {
+        if (deadline.has_value())
+            changed_.wait_until(lock, *deadline);
+        else
+            changed_.wait(lock);
+    }
+
+    // ---- The render thread.
+
+    void renderLoop() {
+        std::unique_lock lock(mutex_);
+        while (!isStopping_) {
+            if (mayRender())
+                renderOne(lock);
+            else
+                waitForChange(lock, isWaitingToRetry() ? retryAt_ : std::nullopt);
+        }
+    }
+
+    void renderOne(std::unique_lock<std::mutex>& lock) {
+        const ViewRequest view = *wanted_;
+        const Clock::time_point started = Clock::now();
+        isRenderNeeded_ = false;
+        isRendering_ = true;
+        lock.unlock();
+        absl::StatusOr<coordinator::RenderedFrame> frame = frames_.renderFrame(view.frame);
+        lock.lock();
+        isRendering_ = false;
+        if (frame.ok()) {
+            pacer_.rendered(Clock::now() - started);
+            setProblem(renderProblem_, "");
+            retryAt_.reset();
+            rendered_ = Picture{
+                view, std::make_shared<const coordinator::RenderedFrame>(*std::move(frame)), started};
+        } else {
+            renderFailed(frame.status());
+        }
+        changed_.notify_all();
+    }
+
+    void renderFailed(const absl::Status& status) {
+        setProblem(renderProblem_, sanitised(text(status)));
+        // A newer view is drawn at once; the same one, after a while.
+        if (!isRenderNeeded_)
+            retryAt_ = Clock::now() + options_.retryDelay;
+        isRenderNeeded_ = true;
+    }
+
+    // ---- The encoder thread.
+
+    void encodeLoop() {
+        std::unique_lock lock(mutex_);
+        while (!isStopping_) {
+            if (isStateStale_)
+                composeState(lock);
+            else if (rendered_.has_value())
+                encode(lock, *std::exchange(rendered_, std::nullopt));
+            else if (needsStill() && hasRested() && hasRoom())
+                encode(lock, Picture{last_->view, last_->frame, Clock::now()});
+            else
+                waitForChange(lock, needsStill() && hasRoom()
+                                        ? std::optional(wantedSince_ + options_.restDelay)
+                                        : std::nullopt);
+        }
+    }
+
+    void encode(std::unique_lock<std::mutex>& lock, Picture picture) {
+        const bool isStill = hasRested() && picture.view.frame == wanted_->frame && !isRenderNeeded_;
+        const std::uint64_t frameNumber = ++lastFrameNumber_;
+        isEncoding_ = true;
+        lock.unlock();
+        const absl::StatusOr<std::vector<std::byte>> jpeg = wire::encodeJpeg(
+            picture.frame->image, isStill ? options_.stillQuality : options_.movingQuality,
+            isStill ? wire::ChromaSubsampling::None : wire::ChromaSubsampling::Half);
+        std::string message;
+        if (jpeg.ok())
+            message = frameMessage({frameNumber, picture.view.sequence, isStill, *jpeg}, *picture.frame);
+        lock.lock();
+        isEncoding_ = false;
+        isLastStill_ = isStill || !jpeg.ok();
+        if (jpeg.ok())
+            waitingFrame_ = WaitingFrame{frameNumber, isStill, picture.started, std::move(message)};
+        else
+            setProblem(renderProblem_, sanitised(text(jpeg.status())));
+        last_ = std::move(picture);
+        announce(lock);
+    }
+
+    /// status() may wait for whoever holds the frame source, so it is called here and not where
+    /// messages arrive.
+    void composeState(std::unique_lock<std::mutex>& lock) {
+        isStateStale_ = false;
+        const std::string ownProblem = requestProblem_;
+        const std::string frameProblem = renderProblem_;
+        lock.unlock();
+        const coordinator::Status status = frames_.status();
+        const bool isExplained = ownProblem.empty() && !status.problem.empty();
+        std::string message = stateMessage(
+            status, isExplained ? status.problem : ownProblem.empty() ? frameProblem : ownProblem);
+        PictureSource source = pictureSource(status);
+        lock.lock();
+        if (source_.has_value() && !(*source_ == source) && wanted_.has_value()) {
+            isRenderNeeded_ = true;
+            retryAt_.reset();
+        }
+        source_ = std::move(source);
+        if (message != lastState_) {
+            lastState_ = message;
+            waitingState_ = std::move(message);
+        }
+        announce(lock);
+    }
+
+    void announce(std::unique_lock<std::mutex>& lock) {
+        const bool hasMessage = !isStopping_ && (waitingState_.has_value() || mayTakeFrame());
+        lock.unlock();
+        changed_.notify_all();
+        if (hasMessage)
+            messageReady_();
+        lock.lock();
+    }
+
+    // ---- Threads of the frame source.
+
+    void statusChanged() {
+        {
+            const std::lock_guard lock(mutex_);
+            isStateStale_ = true;
+        }
+        changed_.notify_all();
+    }
+
+    coordinator::FrameSource& frames_;
+    const std::function<void()> messageReady_;
+    const ViewerOptions options_;
+
+    std::mutex mutex_;  // guards everything below, up to the threads
+    std::condition_variable changed_;
+    bool isStopping_ = false;
+    Pacer pacer_;
+
+    std::optional<ViewRequest> wanted_;
+    Clock::time_point wantedSince_;  // when the view, not just its number, became another
+    bool isRenderNeeded_ = false;
+    std::optional<Clock::time_point> retryAt_;  // set after a failure
+    std::optional<PictureSource> source_;
+
+    bool isRendering_ = false;
+    std::optional<Picture> rendered_;  // for the encoder to take
+    bool isEncoding_ = false;
+    std::optional<Picture> last_;
+    bool isLastStill_ = false;
+    std::uint64_t lastFrameNumber_ = 0;
+    std::optional<WaitingFrame> waitingFrame_;
+
+    bool isStateStale_ = true;
+    std::string requestProblem_;
+    std::string renderProblem_;
+    std::string lastState_;
+    std::optional<std::string> waitingState_;
+
+    int subscription_ = 0;
+    std::thread encoder_;
+    std::thread renderer_;
+};
+
+Viewer::Viewer(coordinator::FrameSource& frames, std::function<void()> messageReady,
+               const ViewerOptions& options)
+    : impl_(std::make_unique<Impl>(frames, std::move(messageReady), options)) {}
+
+Viewer::~Viewer() = default;
+
+absl::Status Viewer::receive(std::span<const std::byte> message) {
+    return impl_->receive(message);
+}
+
+std::optional<std::string> Viewer::takeMessage() { return impl_->takeMessage(); }
+
+void Viewer::stop() { impl_->stop(); }
+
+}  // namespace eyrie::stream

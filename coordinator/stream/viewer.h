@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "coordinator/frame/frame_source.h"
+
+#include <absl/status/status.h>
+
+#include <chrono>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+namespace eyrie::stream {
+
+struct ViewerOptions {
+    /// Frames that may be under way at once; absent leaves it to the Pacer's rule.
+    std::optional<int> framesInFlight;
+    /// How long a view rests before it is sent once more at its best.
+    std::chrono::milliseconds restDelay{150};
+    /// How long after a failed frame the same view is tried again.
+    std::chrono::milliseconds retryDelay{1000};
+    int movingQuality = 75;  ///< JPEG, 4:2:0
+    int stillQuality = 95;   ///< JPEG, 4:4:4
+};
+
+/// One browser's stream of frames, without the network: bytes come in by receive() and go out by
+/// takeMessage(), so nothing is ever queued for a browser that does not keep up.
+///
+/// The newest view request replaces the one before. A render thread draws it while a second thread
+/// encodes the frame before. At most as many frames are under way as the Pacer says, and an encoded
+/// frame that still waits is replaced by a newer one. Nothing is rendered while neither the view
+/// nor the scene nor the renderers change. A frame that fails leaves the last picture in place and
+/// becomes the state's problem text.
+///
+/// All functions may be called from any thread.
+class Viewer {
+public:
+    /// Calls `messageReady`, from any thread and without locks held, when takeMessage() may have
+    /// something new. `frames` outlives the viewer.
+    Viewer(coordinator::FrameSource& frames, std::function<void()> messageReady,
+           const ViewerOptions& options = {});
+
+    /// Waits for the frame being rendered. `messageReady` is not called afterwards.
+    ~Viewer();
+    Viewer(const Viewer&) = delete;
+    Viewer& operator=(const Viewer&) = delete;
+
+    /// Takes a message from the browser. DataLoss when it is not in the protocol, after which the
+    /// connection is to be closed. A view that cannot be drawn is no error: the browser is told.
+    absl::Status receive(std::span<const std::byte> message);
+
+    /// The next message to send, if any: the newest state, else the newest frame.
+    std::optional<std::string> takeMessage();
+
+    /// Makes the threads end soon, without waiting for them; the destructor waits.
+    void stop();
+
+private:
+    class Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace eyrie::stream

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "wire/frame.h"
+
+#include "eyrie/v1/frame.pb.h"
+#include "fabric/status.h"
+#include "wire/camera.h"
+
+#include <fmt/format.h>
+
+namespace eyrie::wire {
+namespace {
+
+v1::Shading toMessage(fabric::Shading shading) {
+    switch (shading) {
+        case fabric::Shading::Smooth:
+            return v1::SHADING_SMOOTH;
+        case fabric::Shading::Flat:
+            return v1::SHADING_FLAT;
+        case fabric::Shading::Wireframe:
+            return v1::SHADING_WIREFRAME;
+    }
+    return v1::SHADING_UNSPECIFIED;
+}
+
+absl::StatusOr<fabric::Shading> fromMessage(v1::Shading shading) {
+    switch (shading) {
+        case v1::SHADING_UNSPECIFIED:
+        case v1::SHADING_SMOOTH:
+            return fabric::Shading::Smooth;
+        case v1::SHADING_FLAT:
+            return fabric::Shading::Flat;
+        case v1::SHADING_WIREFRAME:
+            return fabric::Shading::Wireframe;
+        default:
+            return absl::InvalidArgumentError(fmt::format(
+                "frame_data.shading is {}, which this version does not know", static_cast<int>(shading)));
+    }
+}
+
+absl::Status checkPixels(std::int32_t value, std::int32_t least, std::string_view field) {
+    if (value >= least && value <= fabric::kMaxViewPixels)
+        return absl::OkStatus();
+    return absl::InvalidArgumentError(fmt::format("{} is {}; it must be from {} to {} pixels", field,
+                                                  value, least, fabric::kMaxViewPixels));
+}
+
+}  // namespace
+
+v1::FrameData toMessage(const fabric::FrameData& frameData) {
+    v1::FrameData message;
+    message.set_version(frameData.version);
+    *message.mutable_camera() = toMessage(frameData.camera);
+    message.set_tau_pixels(frameData.tauPixels);
+    message.set_shading(toMessage(frameData.shading));
+    return message;
+}
+
+absl::StatusOr<fabric::FrameData> fromMessage(const v1::FrameData& message) {
+    fabric::FrameData frameData;
+    frameData.version = message.version();
+    if (frameData.version == 0)
+        return absl::InvalidArgumentError("frame_data.version is 0; versions start at 1");
+    ASSIGN_OR_RETURN(frameData.camera, fromMessage(message.camera()));
+    frameData.tauPixels = message.tau_pixels();
+    if (!(frameData.tauPixels >= fabric::kMinTauPixels &&
+          frameData.tauPixels <= fabric::kMaxTauPixels))
+        return absl::InvalidArgumentError(
+            fmt::format("frame_data.tau_pixels is {}; it must be from {} to {}",
+                        frameData.tauPixels, fabric::kMinTauPixels, fabric::kMaxTauPixels));
+    ASSIGN_OR_RETURN(frameData.shading, fromMessage(message.shading()));
+    return frameData;
+}
+
+v1::PixelViewport toMessage(const fabric::PixelViewport& viewport) {
+    v1::PixelViewport message;
+    message.set_x(viewport.x);
+    message.set_y(viewport.y);
+    message.set_width(viewport.width);
+    message.set_height(viewport.height);
+    return message;
+}
+
+absl::StatusOr<fabric::PixelViewport> fromMessage(const v1::PixelViewport& message) {
+    RETURN_IF_ERROR(checkPixels(message.x(), 0, "pixel_viewport.x"));
+    RETURN_IF_ERROR(checkPixels(message.y(), 0, "pixel_viewport.y"));
+    RETURN_IF_ERROR(checkPixels(message.width(), 0, "pixel_viewport.width"));
+    RETURN_IF_ERROR(checkPixels(message.height(), 0, "pixel_viewport.height"));
+    return fabric::PixelViewport{message.x(), message.y(), message.width(), message.height()};
+}
+
+v1::Range toMessage(const fabric::Range& range) {
+    v1::Range message;
+    message.set_begin(range.begin);
+    message.set_end(range.end);
+    return message;
+}
+
+absl::StatusOr<fabric::Range> fromMessage(const v1::Range& message) {
+    const fabric::Range range{message.begin(), message.end()};
+    if (!(range.begin >= 0 && range.begin <= range.end && range.end <= 1))
+        return absl::InvalidArgumentError(
+            fmt::format("range is {} to {}; it must be 0 <= begin <= end <= 1", range.begin, range.end));
+    return range;
+}
+
+v1::ChannelTask toMessage(const fabric::ChannelTask& task) {
+    v1::ChannelTask message;
+    message.set_frame_number(task.frameNumber);
+    message.set_frame_data_version(task.frameDataVersion);
+    message.set_view_width(task.viewWidth);
+    message.set_view_height(task.viewHeight);
+    *message.mutable_pixel_viewport() = toMessage(task.pixelViewport);
+    *message.mutable_range() = toMessage(task.range);
+    message.set_wants_depth(task.wantsDepth);
+    return message;
+}
+
+absl::StatusOr<fabric::ChannelTask> fromMessage(const v1::ChannelTask& message) {
+    fabric::ChannelTask task;
+    task.frameNumber = message.frame_number();
+    task.frameDataVersion = message.frame_data_version();
+    task.viewWidth = message.view_width();
+    task.viewHeight = message.view_height();
+    RETURN_IF_ERROR(checkPixels(task.viewWidth, 1, "task.view_width"));
+    RETURN_IF_ERROR(checkPixels(task.viewHeight, 1, "task.view_height"));
+    ASSIGN_OR_RETURN(task.pixelViewport, fromMessage(message.pixel_viewport()));
+    const fabric::PixelViewport& part = task.pixelViewport;
+    if (part.isEmpty() || !fabric::PixelViewport{0, 0, task.viewWidth, task.viewHeight}.contains(part))
+        return absl::InvalidArgumentError(fmt::format(
+            "task.pixel_viewport is {}x{} pixels at {},{}; it must not be empty and lie inside the "
+            "view of {}x{}",
+            part.width, part.height, part.x, part.y, task.viewWidth, task.viewHeight));
+    if (message.has_range()) {
+        ASSIGN_OR_RETURN(task.range, fromMessage(message.range()));
+    }
+    task.wantsDepth = message.wants_depth();
+    return task;
+}
+
+}  // namespace eyrie::wire

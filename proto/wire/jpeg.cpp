@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "wire/jpeg.h"
+
+#include <fmt/format.h>
+#include <turbojpeg.h>
+
+#include <cstdint>
+#include <memory>
+#include <string_view>
+#include <type_traits>
+
+namespace eyrie::wire {
+namespace {
+
+constexpr int kMaxSide = 65500;  // the format's own limit
+constexpr std::int64_t kMaxDecodedPixels = std::int64_t{64} << 20;
+
+struct DestroyHandle {
+    void operator()(void* handle) const { tjDestroy(handle); }
+};
+using Handle = std::unique_ptr<std::remove_pointer_t<tjhandle>, DestroyHandle>;
+
+std::string_view lastError(const Handle& handle) { return tjGetErrorStr2(handle.get()); }
+
+absl::Status checkEncodable(const fabric::Image& image, int quality) {
+    const fabric::PixelViewport& area = image.area;
+    if (area.isEmpty() || area.width > kMaxSide || area.height > kMaxSide)
+        return absl::InvalidArgumentError(
+            fmt::format("jpeg: the image is {}x{} pixels; each side must be 1 to {}", area.width,
+                        area.height, kMaxSide));
+    if (static_cast<std::int64_t>(image.colour.size()) != area.area())
+        return absl::InvalidArgumentError(
+            fmt::format("jpeg: the image has {} pixels of colour for an area of {}x{}",
+                        image.colour.size(), area.width, area.height));
+    if (quality < 1 || quality > 100)
+        return absl::InvalidArgumentError(
+            fmt::format("jpeg: quality is {}; it must be 1 to 100", quality));
+    return absl::OkStatus();
+}
+
+}  // namespace
+
+absl::StatusOr<std::vector<std::byte>> encodeJpeg(const fabric::Image& image, int quality,
+                                                  ChromaSubsampling subsampling) {
+    if (absl::Status status = checkEncodable(image, quality); !status.ok())
+        return status;
+    // A compressor keeps its tables and buffers between pictures, and is not to be shared.
+    thread_local const Handle compressor(tjInitCompress());
+    if (compressor == nullptr)
+        return absl::ResourceExhaustedError("jpeg: no memory for a compressor");
+    const int width = image.area.width;
+    const int height = image.area.height;
+    const bool isMoving = subsampling == ChromaSubsampling::Half;
+    const int format = isMoving ? TJSAMP_420 : TJSAMP_444;
+    // The fast transform loses accuracy only at the qualities that still pictures are given.
+    const int transform = isMoving ? TJFLAG_FASTDCT : TJFLAG_ACCURATEDCT;
+    std::vector<std::byte> jpeg(tjBufSize(width, height, format));
+    auto* destination = reinterpret_cast<unsigned char*>(jpeg.data());
+    unsigned long size = jpeg.size();
+    if (tjCompress2(compressor.get(), reinterpret_cast<const unsigned char*>(image.colour.data()),
+                    width, 0, height, TJPF_RGBA, &destination, &size, format, quality,
+                    TJFLAG_BOTTOMUP | TJFLAG_NOREALLOC | transform) != 0)
+        return absl::InternalError(fmt::format("jpeg: {}", lastError(compressor)));
+    jpeg.resize(size);
+    return jpeg;
+}
+
+absl::StatusOr<fabric::Image> decodeJpeg(std::span<const std::byte> bytes) {
+    thread_local const Handle decompressor(tjInitDecompress());
+    if (decompressor == nullptr)
+        return absl::ResourceExhaustedError("jpeg: no memory for a decompressor");
+    const auto* source = reinterpret_cast<const unsigned char*>(bytes.data());
+    int width = 0;
+    int height = 0;
+    int subsampling = 0;
+    int colourSpace = 0;
+    if (tjDecompressHeader3(decompressor.get(), source, bytes.size(), &width, &height,
+                            &subsampling, &colourSpace) != 0)
+        return absl::InvalidArgumentError(fmt::format("jpeg: {}", lastError(decompressor)));
+    if (std::int64_t{width} * height > kMaxDecodedPixels)
+        return absl::InvalidArgumentError(fmt::format(
+            "jpeg: the picture is {}x{}; at most {} pixels are read", width, height,
+            kMaxDecodedPixels));
+    fabric::Image image = fabric::makeImage({0, 0, width, height}, fabric::Rgba{}, false);
+    if (tjDecompress2(decompressor.get(), source, bytes.size(),
+                      reinterpret_cast<unsigned char*>(image.colour.data()), width, 0, height,
+                      TJPF_RGBA, TJFLAG_BOTTOMUP | TJFLAG_ACCURATEDCT | TJFLAG_STOPONWARNING) != 0)
+        return absl::InvalidArgumentError(fmt::format("jpeg: {}", lastError(decompressor)));
+    return image;
+}
+
+}  // namespace eyrie::wire

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "fabric/image.h"
+
+#include <absl/status/statusor.h>
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace eyrie::wire {
+
+/// How finely colour (as opposed to brightness) is kept.
+enum class ChromaSubsampling {
+    Half,  ///< 4:2:0, half the resolution each way: for moving pictures
+    None,  ///< 4:4:4: for still pictures
+};
+
+/// The colour of `image` as a baseline JPEG, upright (the image's top row comes first). Alpha and
+/// depth are left out. `quality` is 1 to 100. May be called from any thread.
+///
+/// 1280x720 takes about 2 ms at quality 75 4:2:0 and 4 ms at quality 95 4:4:4 on one core.
+/// Errors: InvalidArgument (an empty image, one of more than 65500 pixels a side, colour that does
+/// not fill the area, a quality out of range).
+absl::StatusOr<std::vector<std::byte>> encodeJpeg(const fabric::Image& image, int quality,
+                                                  ChromaSubsampling subsampling);
+
+/// The picture in `bytes`, with alpha 255 and area {0, 0, width, height}.
+/// Errors: InvalidArgument (no JPEG picture, or one of more than 64 Mpixel).
+absl::StatusOr<fabric::Image> decodeJpeg(std::span<const std::byte> bytes);
+
+}  // namespace eyrie::wire

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "wire/json.h"
+
+#include "eyrie/v1/camera.pb.h"
+#include "eyrie/v1/scene.pb.h"
+#include "fabric/status.h"
+#include "wire/camera.h"
+
+#include <fmt/format.h>
+#include <google/protobuf/util/json_util.h>
+#include <google/protobuf/wrappers.pb.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace eyrie::wire {
+namespace {
+
+absl::Status parse(std::string_view text, std::string_view name, std::string_view kind,
+                   google::protobuf::Message& message) {
+    const auto status =
+        google::protobuf::util::JsonStringToMessage({text.data(), text.size()}, &message);
+    if (status.ok())
+        return absl::OkStatus();
+    return absl::InvalidArgumentError(fmt::format("{}: this is no {} file: {}", name, kind,
+                                                  std::string(status.message())));
+}
+
+std::string print(const google::protobuf::Message& message,
+                  const google::protobuf::util::JsonPrintOptions& options) {
+    std::string text;
+    const auto status = google::protobuf::util::MessageToJsonString(message, &text, options);
+    return status.ok() ? text : "{}";
+}
+
+std::string quoted(const std::string& text) {
+    google::protobuf::StringValue value;
+    value.set_value(text);
+    return print(value, {});
+}
+
+/// fmt writes the shortest text that reads back as the same double, in JSON's own form.
+std::string number(double value) {
+    constexpr double kLargest = std::numeric_limits<double>::max();
+    return fmt::format("{}", std::clamp(value, -kLargest, kLargest));
+}
+
+std::string deviceJson(const fabric::DeviceInfo& device) {
+    return fmt::format(
+        R"({{"vendor": {}, "device": {}, "software": {}, "driver": {}, "platform": {}}})",
+        quoted(device.vendor), quoted(device.renderer), device.software, quoted(device.driver),
+        quoted(device.platform));
+}
+
+std::string millisecondsJson(const fabric::StageMilliseconds& milliseconds) {
+    return fmt::format(
+        R"({{"cull": {}, "draw": {}, "readback": {}, "encode": {}, "total": {}}})",
+        number(milliseconds.cull), number(milliseconds.draw), number(milliseconds.readback),
+        number(milliseconds.encode), number(milliseconds.total));
+}
+
+}  // namespace
+
+absl::StatusOr<v1::Scene> sceneMessageFromJson(std::string_view text, std::string_view name) {
+    v1::Scene scene;
+    RETURN_IF_ERROR(parse(text, name, "scene", scene));
+    return scene;
+}
+
+absl::StatusOr<fabric::Camera> cameraFromJson(std::string_view text, std::string_view name) {
+    v1::Camera message;
+    RETURN_IF_ERROR(parse(text, name, "camera", message));
+    absl::StatusOr<fabric::Camera> camera = fromMessage(message);
+    if (!camera.ok())
+        return fabric::withContext(camera.status(), name);
+    return camera;
+}
+
+std::string toJson(const google::protobuf::Message& message) {
+    google::protobuf::util::JsonPrintOptions options;
+    options.add_whitespace = true;
+    return print(message, options);
+}
+
+std::string statisticsJson(const fabric::FrameStatistics& statistics, int width, int height,
+                           const fabric::DeviceInfo& device) {
+    return fmt::format(R"({{
+  "width": {},
+  "height": {},
+  "tauAsked": {},
+  "tauAchieved": {},
+  "complete": {},
+  "triangles": {},
+  "points": {},
+  "nodes": {},
+  "pagesLoaded": {},
+  "milliseconds": {},
+  "renderer": {}
+}}
+)",
+                       width, height, number(statistics.tauAskedPixels),
+                       number(statistics.tauAchievedPixels), statistics.complete,
+                       statistics.triangles, statistics.points, statistics.nodes,
+                       statistics.pagesLoaded, millisecondsJson(statistics.milliseconds),
+                       deviceJson(device));
+}
+
+}  // namespace eyrie::wire

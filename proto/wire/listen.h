@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <absl/status/statusor.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace grpc {
+class Server;
+class Service;
+}  // namespace grpc
+
+namespace eyrie::wire {
+
+struct Listening {
+    std::unique_ptr<grpc::Server> server;
+    std::vector<std::string> addresses;  ///< as given, with the ports that were chosen
+};
+
+/// Serves `service` on "host:port" (port 0: the system chooses) and "unix:/path" addresses, with
+/// the limits of transport.h. `service` outlives the server.
+/// Errors: InvalidArgument (an address of another form), Unavailable (one that cannot be listened
+/// on, such as a port in use).
+absl::StatusOr<Listening> listen(const std::vector<std::string>& addresses, grpc::Service& service);
+
+/// InvalidArgument unless `address` is "host:port" or "unix:/path".
+absl::Status checkAddress(const std::string& address);
+
+}  // namespace eyrie::wire

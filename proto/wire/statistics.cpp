@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "wire/statistics.h"
+
+#include "eyrie/v1/statistics.pb.h"
+#include "fabric/status.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+#include <string_view>
+
+namespace eyrie::wire {
+namespace {
+
+constexpr std::size_t kMaxTextBytes = 1024;
+
+absl::Status checkFinite(double value, std::string_view field) {
+    if (value >= 0 && std::isfinite(value))
+        return absl::OkStatus();
+    return absl::InvalidArgumentError(
+        fmt::format("statistics.{} is {}; it must be 0 or more and finite", field, value));
+}
+
+v1::StageMilliseconds toMessage(const fabric::StageMilliseconds& milliseconds) {
+    v1::StageMilliseconds message;
+    message.set_cull(milliseconds.cull);
+    message.set_draw(milliseconds.draw);
+    message.set_readback(milliseconds.readback);
+    message.set_encode(milliseconds.encode);
+    message.set_total(milliseconds.total);
+    return message;
+}
+
+absl::StatusOr<fabric::StageMilliseconds> fromMessage(const v1::StageMilliseconds& message) {
+    RETURN_IF_ERROR(checkFinite(message.cull(), "milliseconds.cull"));
+    RETURN_IF_ERROR(checkFinite(message.draw(), "milliseconds.draw"));
+    RETURN_IF_ERROR(checkFinite(message.readback(), "milliseconds.readback"));
+    RETURN_IF_ERROR(checkFinite(message.encode(), "milliseconds.encode"));
+    RETURN_IF_ERROR(checkFinite(message.total(), "milliseconds.total"));
+    return fabric::StageMilliseconds{message.cull(), message.draw(), message.readback(),
+                                     message.encode(), message.total()};
+}
+
+absl::Status checkText(const std::string& text, std::string_view field) {
+    if (text.size() <= kMaxTextBytes)
+        return absl::OkStatus();
+    return absl::InvalidArgumentError(fmt::format("device.{} has {} bytes; at most {} are allowed",
+                                                  field, text.size(), kMaxTextBytes));
+}
+
+}  // namespace
+
+v1::FrameStatistics toMessage(const fabric::FrameStatistics& statistics) {
+    v1::FrameStatistics message;
+    message.set_tau_asked(statistics.tauAskedPixels);
+    message.set_tau_achieved(statistics.tauAchievedPixels);
+    message.set_complete(statistics.complete);
+    message.set_triangles(statistics.triangles);
+    message.set_points(statistics.points);
+    message.set_nodes(statistics.nodes);
+    message.set_pages_loaded(statistics.pagesLoaded);
+    *message.mutable_milliseconds() = toMessage(statistics.milliseconds);
+    return message;
+}
+
+absl::StatusOr<fabric::FrameStatistics> fromMessage(const v1::FrameStatistics& message) {
+    fabric::FrameStatistics statistics;
+    RETURN_IF_ERROR(checkFinite(message.tau_asked(), "tau_asked"));
+    if (!(message.tau_achieved() >= 0))
+        return absl::InvalidArgumentError(fmt::format(
+            "statistics.tau_achieved is {}; it must be 0 or more", message.tau_achieved()));
+    statistics.tauAskedPixels = message.tau_asked();
+    statistics.tauAchievedPixels = message.tau_achieved();
+    statistics.complete = message.complete();
+    statistics.triangles = message.triangles();
+    statistics.points = message.points();
+    statistics.nodes = message.nodes();
+    statistics.pagesLoaded = message.pages_loaded();
+    ASSIGN_OR_RETURN(statistics.milliseconds, fromMessage(message.milliseconds()));
+    return statistics;
+}
+
+v1::DeviceInfo toMessage(const fabric::DeviceInfo& device) {
+    v1::DeviceInfo message;
+    message.set_vendor(device.vendor);
+    message.set_device(device.renderer);
+    message.set_driver(device.driver);
+    message.set_platform(device.platform);
+    message.set_software(device.software);
+    return message;
+}
+
+absl::StatusOr<fabric::DeviceInfo> fromMessage(const v1::DeviceInfo& message) {
+    RETURN_IF_ERROR(checkText(message.vendor(), "vendor"));
+    RETURN_IF_ERROR(checkText(message.device(), "device"));
+    RETURN_IF_ERROR(checkText(message.driver(), "driver"));
+    RETURN_IF_ERROR(checkText(message.platform(), "platform"));
+    return fabric::DeviceInfo{message.vendor(), message.device(), message.driver(),
+                              message.platform(), message.software()};
+}
+
+}  // namespace eyrie::wire

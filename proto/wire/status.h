@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <absl/status/status.h>
+
+#include <string>
+
+namespace grpc {
+class Status;
+}
+
+namespace eyrie::wire {
+
+/// The same code and message on the other side: absl::StatusCode has gRPC's numbers.
+/// A message longer than 4 KiB is cut, for it travels in an HTTP header.
+grpc::Status toGrpc(const absl::Status& status);
+
+/// `peer` ("renderer unix:/run/r0") goes before the message, where there is one.
+absl::Status fromGrpc(const grpc::Status& status, const std::string& peer);
+
+}  // namespace eyrie::wire

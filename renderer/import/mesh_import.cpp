@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/import/mesh_import.h"
+
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <filesystem>
+#include <new>
+#include <stdexcept>
+#include <utility>
+
+#include <absl/status/status.h>
+#include <fmt/format.h>
+
+#include "fabric/status.h"
+#include "renderer/import/ply_reader.h"
+#include "renderer/mesh/eym_format.h"
+#include "renderer/mesh/eym_writer.h"
+#include "renderer/mesh/kd_tree.h"
+#include "renderer/mesh/output_file.h"
+
+namespace eyrie::import {
+namespace {
+
+/// Time since the stopwatch, or the lap before, began.
+class Stopwatch {
+public:
+    double lap() {
+        const Clock::time_point now = Clock::now();
+        return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
+    }
+    double total() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+private:
+    using Clock = std::chrono::steady_clock;
+    Clock::time_point start_ = Clock::now();
+    Clock::time_point last_ = start_;
+};
+
+absl::Status checkPaths(const std::string& sourcePath, const std::string& outPath) {
+    std::string extension = std::filesystem::path(sourcePath).extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (extension != ".ply")
+        return absl::InvalidArgumentError(fmt::format(
+            "{}: found the extension '{}', expected .ply, the mesh format that is read; "
+            "convert the file to PLY",
+            sourcePath, extension));
+    std::error_code ignored;
+    if (std::filesystem::equivalent(sourcePath, outPath, ignored))
+        return absl::InvalidArgumentError(
+            fmt::format("{}: is source and output at once; name another output file", outPath));
+    return absl::OkStatus();
+}
+
+absl::Status checkOptions(const MeshImportOptions& options) {
+    if (options.leafTriangles < 1 || options.leafTriangles > mesh::kMaxLeafVertices)
+        return absl::InvalidArgumentError(fmt::format("leafTriangles: found {}, expected 1 to {}",
+                                                      options.leafTriangles,
+                                                      mesh::kMaxLeafVertices));
+    return absl::OkStatus();
+}
+
+absl::StatusOr<MeshImportReport> build(TriangleMesh source, mesh::OutputFile& out,
+                                       const MeshImportOptions& options,
+                                       const ImportControl& control, std::uint64_t sourceHash) {
+    MeshImportReport report;
+    Stopwatch watch;
+    report.droppedFaces = source.droppedFaces;
+    ASSIGN_OR_RETURN(const mesh::PackedMesh packed,
+                     packMesh(std::move(source), report.counts, control));
+    report.seconds.pack = watch.lap();
+
+    control.report("tree", 0);
+    ASSIGN_OR_RETURN(const mesh::KdTree tree,
+                     mesh::buildKdTree(packed.positions, packed.triangles, {options.leafTriangles},
+                                       control.stop));
+    control.report("tree", 1);
+    report.seconds.tree = watch.lap();
+
+    control.report("writing", 0);
+    RETURN_IF_ERROR(mesh::writeEym(packed, tree, sourceHash, out, control.stop));
+    RETURN_IF_ERROR(control.check());
+    RETURN_IF_ERROR(out.commit());
+    control.report("writing", 1);
+    report.seconds.write = watch.lap();
+
+    report.triangles = packed.triangles.size();
+    report.vertices = packed.positions.size();
+    report.nodes = tree.nodes.size();
+    report.bytes = out.size();
+    report.errorMetres = packed.lattice.errorMetres();
+    report.seconds.total = watch.total();
+    return report;
+}
+
+/// Runs `work`, turning what the standard library throws for want of memory into a status.
+template <typename Work>
+absl::StatusOr<MeshImportReport> withinMemory(const std::string& name, const Work& work) {
+    try {
+        return work();
+    } catch (const std::bad_alloc&) {
+    } catch (const std::length_error&) {
+    }
+    return absl::ResourceExhaustedError(
+        fmt::format("{}: memory ran out during the import; free memory or split the mesh", name));
+}
+
+absl::StatusOr<MeshImportReport> importFile(const std::string& sourcePath, mesh::OutputFile& out,
+                                            const MeshImportOptions& options,
+                                            const ImportControl& control) {
+    Stopwatch watch;
+    ASSIGN_OR_RETURN(const mesh::MappedFile file, mesh::MappedFile::open(sourcePath));
+    const auto bytes = file.bytes();
+    ASSIGN_OR_RETURN(
+        TriangleMesh source,
+        parsePly({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, sourcePath, control));
+    const std::uint64_t hash = mesh::contentHash(bytes);
+    const double readSeconds = watch.lap();
+    auto report = build(std::move(source), out, options, control, hash);
+    if (!report.ok())
+        return fabric::withContext(report.status(), sourcePath);
+    report->sourceBytes = bytes.size();
+    report->seconds.read = readSeconds;
+    report->seconds.total = watch.total();
+    return report;
+}
+
+}  // namespace
+
+absl::StatusOr<MeshImportReport> importMesh(const std::string& sourcePath,
+                                            const std::string& outPath,
+                                            const MeshImportOptions& options,
+                                            const ImportControl& control) {
+    RETURN_IF_ERROR(checkPaths(sourcePath, outPath));
+    RETURN_IF_ERROR(checkOptions(options));
+    ASSIGN_OR_RETURN(mesh::OutputFile out, mesh::OutputFile::create(outPath));
+    return withinMemory(sourcePath, [&] { return importFile(sourcePath, out, options, control); });
+}
+
+absl::StatusOr<MeshImportReport> importMesh(TriangleMesh source, const std::string& outPath,
+                                            const MeshImportOptions& options,
+                                            const ImportControl& control,
+                                            std::uint64_t sourceHash) {
+    RETURN_IF_ERROR(checkOptions(options));
+    ASSIGN_OR_RETURN(mesh::OutputFile out, mesh::OutputFile::create(outPath));
+    return withinMemory(
+        outPath, [&] { return build(std::move(source), out, options, control, sourceHash); });
+}
+
+}  // namespace eyrie::import

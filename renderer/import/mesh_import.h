@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include <absl/status/statusor.h>
+
+#include "renderer/import/pack_mesh.h"
+#include "renderer/import/progress.h"
+#include "renderer/import/triangle_mesh.h"
+
+namespace eyrie::import {
+
+struct MeshImportOptions {
+    std::uint32_t leafTriangles = 8192;  ///< triangles a leaf may have; 1 to 65,535
+};
+
+/// Wall-clock seconds of the stages.
+struct MeshImportSeconds {
+    double read = 0;
+    double pack = 0;  ///< lattice, weld and normals
+    double tree = 0;
+    double write = 0;  ///< flushed to the disk
+    double total = 0;
+};
+
+struct MeshImportReport {
+    std::uint64_t triangles = 0;     ///< stored
+    std::uint64_t vertices = 0;      ///< each counted once
+    std::uint64_t droppedFaces = 0;  ///< of the source, with fewer than three corners
+    PackCounts counts;
+    std::uint64_t nodes = 0;
+    std::uint64_t sourceBytes = 0;
+    std::uint64_t bytes = 0;  ///< of the .eym file
+    double errorMetres = 0;   ///< bound on what rounding to the lattice moved
+    MeshImportSeconds seconds;
+};
+
+/// Imports a mesh file into `outPath`, an .eym file that appears only when it is complete.
+/// Reads .ply. Stages reported: "reading", "welding", "normals", "tree", "writing".
+/// Errors, all with nothing left behind: those of readPly; InvalidArgument (another format, nothing
+/// to draw), NotFound, PermissionDenied, Cancelled, ResourceExhausted (memory, disk), Unavailable.
+absl::StatusOr<MeshImportReport> importMesh(const std::string& sourcePath,
+                                            const std::string& outPath,
+                                            const MeshImportOptions& options = {},
+                                            const ImportControl& control = {});
+
+/// The same for a mesh in memory. `sourceHash` is kept in the file (EymFile::sourceHash).
+absl::StatusOr<MeshImportReport> importMesh(TriangleMesh source, const std::string& outPath,
+                                            const MeshImportOptions& options = {},
+                                            const ImportControl& control = {},
+                                            std::uint64_t sourceHash = 0);
+
+}  // namespace eyrie::import

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+// Perlin's noise with two departures: gradients come from a 64-bit hash of lattice point and seed
+// instead of a table, and they are any directions in the cube rather than twelve.
+#include "renderer/import/mesh_synth.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+
+namespace eyrie::import {
+namespace {
+
+using fabric::Vec3;
+
+constexpr double kBaseFrequency = 1.7;   // bumps a radius
+constexpr double kBaseAmplitude = 0.28;  // of the radius
+constexpr double kGain = 0.48;           // amplitude from octave to octave
+constexpr double kMinRadius = 0.2;       // the ball never turns inside out
+
+/// S. Vigna's splitmix64.
+std::uint64_t scramble(std::uint64_t value) {
+    value += 0x9E3779B97F4A7C15ULL;
+    value = (value ^ value >> 30) * 0xBF58476D1CE4E5B9ULL;
+    value = (value ^ value >> 27) * 0x94D049BB133111EBULL;
+    return value ^ value >> 31;
+}
+
+Vec3 gradient(const Vec3& cell, std::uint64_t seed) {
+    std::uint64_t bits = seed;
+    for (int axis = 0; axis < 3; ++axis)
+        bits = scramble(bits ^ static_cast<std::uint64_t>(static_cast<std::int64_t>(cell[axis])));
+    const auto component = [bits](int shift) {
+        return static_cast<double>(bits >> shift & 0xFFFFU) / 32767.5 - 1.0;
+    };
+    return {component(0), component(16), component(32)};
+}
+
+/// Noise within about -1 to 1, zero at whole numbers, twice differentiable.
+double gradientNoise(const Vec3& p, std::uint64_t seed) {
+    const Vec3 cell = glm::floor(p);
+    const Vec3 f = p - cell;
+    const Vec3 fade = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
+    double sum = 0;
+    for (int i = 0; i < 8; ++i) {
+        const Vec3 corner((i & 1) != 0 ? 1 : 0, (i & 2) != 0 ? 1 : 0, (i & 4) != 0 ? 1 : 0);
+        const Vec3 weights = glm::mix(Vec3(1.0) - fade, fade, corner);
+        sum +=
+            weights.x * weights.y * weights.z * glm::dot(gradient(cell + corner, seed), f - corner);
+    }
+    return sum;
+}
+
+double radius(const Vec3& direction, int octaves, std::uint64_t seed) {
+    double height = 0;
+    double amplitude = kBaseAmplitude;
+    double frequency = kBaseFrequency;
+    for (int octave = 0; octave < octaves; ++octave) {
+        const std::uint64_t octaveSeed = scramble(seed + static_cast<std::uint64_t>(octave));
+        height += amplitude * gradientNoise(direction * frequency, octaveSeed);
+        amplitude *= kGain;
+        frequency *= 2;
+    }
+    return std::max(1.0 + height, kMinRadius);
+}
+
+/// An octahedron's faces cut into n^2 triangles each: 2n + 1 rings of vertices from pole to pole,
+/// ring k having 4 min(k, 2n - k) of them, or one at a pole.
+class Octasphere {
+public:
+    explicit Octasphere(std::uint64_t n) : n_(n) {}
+
+    std::uint64_t rings() const { return 2 * n_ + 1; }
+    std::uint64_t side(std::uint64_t ring) const { return std::min(ring, 2 * n_ - ring); }
+    std::uint64_t size(std::uint64_t ring) const {
+        return std::max<std::uint64_t>(4 * side(ring), 1);
+    }
+    std::uint64_t first(std::uint64_t ring) const {
+        if (ring == 0)
+            return 0;
+        if (ring <= n_)
+            return 1 + 2 * ring * (ring - 1);
+        const std::uint64_t below = 2 * n_ - ring;  // mirrored: count from the other pole
+        return vertices() - 1 - 2 * below * (below + 1);
+    }
+    std::uint64_t vertices() const { return 4 * n_ * n_ + 2; }
+
+    /// Unit vector to vertex `i` of `ring`.
+    Vec3 direction(std::uint64_t ring, std::uint64_t i) const {
+        const auto k = static_cast<double>(side(ring));
+        const double z = static_cast<double>(n_) - static_cast<double>(ring);
+        if (k == 0)
+            return {0, 0, z > 0 ? 1 : -1};
+        const auto along = static_cast<double>(i % side(ring));
+        switch (i / side(ring)) {
+            case 0:
+                return glm::normalize(Vec3(k - along, along, z));
+            case 1:
+                return glm::normalize(Vec3(-along, k - along, z));
+            case 2:
+                return glm::normalize(Vec3(along - k, -along, z));
+            default:
+                return glm::normalize(Vec3(along, along - k, z));
+        }
+    }
+
+    /// Appends the triangles between `ring` and the next.
+    void appendBand(std::uint64_t ring,
+                    std::vector<std::array<std::uint32_t, 3>>& triangles) const {
+        const bool isUpper = ring < n_;  // the ring nearer to its pole is the shorter
+        const std::uint64_t shortRing = isUpper ? ring : ring + 1;
+        const std::uint64_t longRing = isUpper ? ring + 1 : ring;
+        const std::uint64_t k = side(shortRing);
+        const auto add = [&](std::uint64_t a, std::uint64_t b, std::uint64_t c) {
+            const auto v = [](std::uint64_t i) { return static_cast<std::uint32_t>(i); };
+            triangles.push_back(isUpper ? std::array{v(a), v(b), v(c)}
+                                        : std::array{v(a), v(c), v(b)});
+        };
+        for (std::uint64_t quarter = 0; quarter < 4; ++quarter) {
+            for (std::uint64_t j = 0; j <= k; ++j) {
+                const std::uint64_t inner = at(shortRing, quarter * k + j);
+                const std::uint64_t outer = at(longRing, quarter * (k + 1) + j);
+                const std::uint64_t outerNext = at(longRing, quarter * (k + 1) + j + 1);
+                add(inner, outer, outerNext);
+                if (j < k)
+                    add(inner, outerNext, at(shortRing, quarter * k + j + 1));
+            }
+        }
+    }
+
+private:
+    std::uint64_t at(std::uint64_t ring, std::uint64_t i) const {
+        return first(ring) + i % size(ring);
+    }
+
+    std::uint64_t n_;
+};
+
+}  // namespace
+
+TriangleMesh synthesizeMesh(std::uint64_t triangles, std::uint64_t seed) {
+    const auto wanted =
+        static_cast<double>(std::clamp<std::uint64_t>(triangles, 8, kMaxSyntheticTriangles));
+    const auto n = static_cast<std::uint64_t>(std::lround(std::sqrt(wanted / 8)));
+    const Octasphere sphere(n);
+    const int octaves = std::clamp(static_cast<int>(std::log2(static_cast<double>(n))), 3, 12);
+    TriangleMesh mesh;
+    mesh.positions.resize(sphere.vertices());
+    oneapi::tbb::parallel_for(std::uint64_t{0}, sphere.rings(), [&](std::uint64_t ring) {
+        for (std::uint64_t i = 0; i < sphere.size(ring); ++i) {
+            const Vec3 direction = sphere.direction(ring, i);
+            mesh.positions[sphere.first(ring) + i] =
+                Vec3(glm::vec3(direction * radius(direction, octaves, seed)));
+        }
+    });
+    mesh.triangles.reserve(8 * n * n);
+    for (std::uint64_t ring = 0; ring + 1 < sphere.rings(); ++ring)
+        sphere.appendBand(ring, mesh.triangles);
+    return mesh;
+}
+
+}  // namespace eyrie::import

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <absl/status/status.h>
+
+#include "renderer/import/ply_header.h"
+
+/// What the elements and properties of a PLY file mean to a mesh.
+namespace eyrie::import {
+
+/// Where a vertex property's value goes: x y z, nx ny nz, r g b a, or nowhere.
+enum VertexSlot : std::size_t {
+    kX = 0,
+    kNormalX = 3,
+    kRed = 6,
+    kAlpha = 9,
+    kIgnored = 10,
+    kVertexSlots = 11
+};
+
+using VertexRow = std::array<double, kVertexSlots>;
+
+/// The slot of each property of a vertex element. Lists, unknown names and repeated ones are
+/// ignored.
+struct VertexLayout {
+    explicit VertexLayout(const PlyElement& element);
+
+    /// Whether the slot and the two after it are filled.
+    bool hasThree(std::size_t first) const {
+        return isFilled[first] && isFilled[first + 1] && isFilled[first + 2];
+    }
+
+    std::vector<std::size_t> slots;             ///< one a property
+    std::array<PlyType, kVertexSlots> types{};  ///< of the property that fills a slot
+    std::array<bool, kVertexSlots> isFilled{};
+};
+
+/// A colour value of a property of `type` as a byte, clamped; not-a-number is 0.
+std::uint8_t colourByte(double value, PlyType type);
+
+/// The property that lists the corners of a face or strip; null if there is none.
+const PlyProperty* findCorners(const PlyElement& element);
+
+/// InvalidArgument unless the header promises a mesh: vertices with positions, few enough for
+/// 32-bit numbers, and faces or strips that list them.
+absl::Status checkIsMesh(const PlyHeader& header);
+
+}  // namespace eyrie::import

@@ -1,0 +1,351 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/import/ply_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <absl/status/status.h>
+#include <fmt/format.h>
+
+#include "fabric/status.h"
+#include "renderer/import/ply_header.h"
+#include "renderer/import/ply_layout.h"
+#include "renderer/import/ply_values.h"
+#include "renderer/import/polygon.h"
+#include "renderer/mesh/mapped_file.h"
+
+namespace eyrie::import {
+namespace {
+
+using Corners = std::array<std::uint32_t, 3>;
+
+constexpr std::uint64_t kPollInterval = 65536;  // elements between looks at the stop token
+constexpr std::string_view kStage = "reading";
+constexpr std::array<std::string_view, 3> kAxisNames = {"x", "y", "z"};
+
+/// Reads a body from text (AsciiValues) or binary (BinaryValues).
+template <typename Values>
+class BodyReader {
+public:
+    BodyReader(const PlyHeader& header, std::string_view body, const ImportControl& control)
+        : header_(header),
+          values_(body),
+          bodyBytes_(body.size()),
+          control_(control),
+          vertexCount_(header.find("vertex")->count) {}
+
+    absl::StatusOr<TriangleMesh> read();
+
+private:
+    /// A face of more than three corners waits until all vertices are known.
+    struct Polygon {
+        std::uint64_t face;
+        std::size_t firstCorner;
+        std::size_t cornerCount;
+    };
+    /// The last two corners of a strip and the turn its next triangle has.
+    struct Strip {
+        std::array<std::uint32_t, 2> last{};
+        std::uint64_t corners = 0;
+    };
+
+    absl::Status readElement(const PlyElement& element);
+    absl::Status readVertices();
+    absl::Status storeVertex(const VertexLayout& layout, const VertexRow& row, std::uint64_t index);
+    absl::Status readList(const PlyProperty& property, std::uint64_t index);
+    absl::Status readFace(const PlyProperty& property, std::uint64_t index, std::uint64_t count);
+    absl::Status readStrip(const PlyProperty& property, std::uint64_t index, std::uint64_t count);
+    void extend(Strip& strip, std::uint32_t corner);
+    absl::Status readCount(const PlyProperty& property, std::uint64_t index, std::uint64_t& count);
+    absl::Status skip(const PlyProperty& property, std::uint64_t index);
+    absl::Status triangulatePolygons();
+    absl::Status begin(std::uint64_t index);
+    absl::Status poll(std::uint64_t index);
+
+    absl::Status unreadable(std::string_view property, std::uint64_t index) const;
+    absl::Status wrong(std::string_view property, std::uint64_t index, const std::string& found,
+                       const std::string& expected, std::string_view remedy) const;
+    absl::Status wrongCorner(std::uint64_t index, std::uint64_t corner, std::int64_t found) const;
+    std::string place(std::string_view property, std::uint64_t index) const;
+
+    const PlyHeader& header_;
+    Values values_;
+    std::uint64_t bodyBytes_;
+    const ImportControl& control_;
+    std::uint64_t vertexCount_;
+    const PlyElement* element_ = nullptr;  // being read
+    std::uint64_t startOffset_ = 0;        // where the one being read starts in the body
+    TriangleMesh mesh_;
+    std::vector<Polygon> polygons_;
+    std::vector<std::uint32_t> polygonCorners_;
+};
+
+template <typename Values>
+std::string BodyReader<Values>::place(std::string_view property, std::uint64_t index) const {
+    std::string where = fmt::format("{} {}, {}", element_->name, index, property);
+    if constexpr (std::is_same_v<Values, AsciiValues>)
+        return where + fmt::format(" (line {})", header_.lines + values_.line(startOffset_));
+    else
+        return where + fmt::format(" (byte {})", header_.bodyOffset + startOffset_);
+}
+
+template <typename Values>
+absl::Status BodyReader<Values>::wrong(std::string_view property, std::uint64_t index,
+                                       const std::string& found, const std::string& expected,
+                                       std::string_view remedy) const {
+    return absl::InvalidArgumentError(fmt::format("{}: found {}, expected {}; {}",
+                                                  place(property, index), found, expected, remedy));
+}
+
+/// For a value that is not there, or no number.
+template <typename Values>
+absl::Status BodyReader<Values>::unreadable(std::string_view property, std::uint64_t index) const {
+    if constexpr (std::is_same_v<Values, AsciiValues>) {
+        if (!values_.atEnd()) {
+            std::string word(values_.nextWord().substr(0, 40));
+            std::replace_if(
+                word.begin(), word.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+            return wrong(property, index, fmt::format("'{}'", word), "a number of its type",
+                         "repair the line or export the mesh again");
+        }
+    }
+    return wrong(property, index, "the end of the file",
+                 fmt::format("{} elements {}", element_->count, element_->name),
+                 "the file is truncated: copy or export it again");
+}
+
+template <typename Values>
+absl::Status BodyReader<Values>::wrongCorner(std::uint64_t index, std::uint64_t corner,
+                                             std::int64_t found) const {
+    return wrong(fmt::format("{}[{}]", findCorners(*element_)->name, corner), index,
+                 fmt::format("{}", found), fmt::format("a vertex from 0 to {}", vertexCount_ - 1),
+                 "repair the face or export the mesh again");
+}
+
+template <typename Values>
+absl::Status BodyReader<Values>::begin(std::uint64_t index) {
+    startOffset_ = values_.offset();
+    return poll(index);
+}
+
+template <typename Values>
+absl::Status BodyReader<Values>::poll(std::uint64_t index) {
+    if (index % kPollInterval != 0)
+        return absl::OkStatus();
+    if (bodyBytes_ != 0)
+        control_.report(kStage,
+                        static_cast<double>(values_.offset()) / static_cast<double>(bodyBytes_));
+    return control_.check();
+}
+
+template <typename Values>
+absl::Status BodyReader<Values>::readCount(const PlyProperty& property, std::uint64_t index,
+                                           std::uint64_t& count) {
+    std::int64_t found = 0;
+    if (!values_.integer(*property.countType, found))
+        return unreadable(fmt::format("count of {}", property.name), index);
+    if (found < 0 || !values_.mayHold(property.type, static_cast<std::uint64_t>(found)))
+        return wrong(fmt::format("count of {}", property.name), index, fmt::format("{}", found),
+                     fmt::format("a list that fits the {} bytes left", values_.bytesLeft()),
+                     "the file is truncated or damaged: copy or export it again");
+    count = static_cast<std::uint64_t>(found);
+    return absl::OkStatus();
+}
+
+template <typename Values>
+absl::Status BodyReader<Values>::skip(const PlyProperty& property, std::uint64_t index) {
+    std::uint64_t count = 1;
+    if (property.isList())
+        RETURN_IF_ERROR(readCount(property, index, count));
+    return values_.skip(property.type, count) ? absl::OkStatus() : unreadable(property.name, index);
+}
+
+template <typename Values>
+absl::Status BodyReader<Values>::storeVertex(const VertexLayout& layout, const VertexRow& row,
+                                             std::uint64_t index) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        if (!std::isfinite(row[axis]))
+            return wrong(kAxisNames[axis], index, fmt::format("{}", row[axis]),
+                         "a finite coordinate", "remove or repair the vertex");
+    mesh_.positions.emplace_back(row[0], row[1], row[2]);
+    if (layout.hasThree(kNormalX))
+        mesh_.normals.emplace_back(static_cast<float>(row[3]), static_cast<float>(row[4]),
+                                   static_cast<float>(row[5]));
+    if (layout.hasThree(kRed))
+        mesh_.colours.push_back(
+            {colourByte(row[6], layout.types[6]), colourByte(row[7], layout.types[7]),
+             colourByte(row[8], layout.types[8]),
+             layout.isFilled[kAlpha] ? colourByte(row[9], layout.types[9]) : std::uint8_t{255}});
+    return absl::OkStatus();
+}
+
+template <typename Values>
+absl::Status BodyReader<Values>::readVertices() {
+    const VertexLayout layout(*element_);
+    mesh_.positions.reserve(vertexCount_);
+    mesh_.normals.reserve(layout.hasThree(kNormalX) ? vertexCount_ : 0);
+    mesh_.colours.reserve(layout.hasThree(kRed) ? vertexCount_ : 0);
+    VertexRow row{};
+    for (std::uint64_t i = 0; i < element_->count; ++i) {
+        RETURN_IF_ERROR(begin(i));
+        for (std::size_t p = 0; p < layout.slots.size(); ++p) {
+            const PlyProperty& property = element_->properties[p];
+            const std::size_t slot = layout.slots[p];
+            if (slot == kIgnored)
+                RETURN_IF_ERROR(skip(property, i));
+            else if (!values_.number(property.type, row[slot]))
+                return unreadable(property.name, i);
+        }
+        RETURN_IF_ERROR(storeVertex(layout, row, i));
+    }
+    return absl::OkStatus();
+}
+
+template <typename Values>
+absl::Status BodyReader<Values>::readFace(const PlyProperty& property, std::uint64_t index,
+                                          std::uint64_t count) {
+    if (count < 3) {
+        ++mesh_.droppedFaces;
+        return values_.skip(property.type, count) ? absl::OkStatus()
+                                                  : unreadable(property.name, index);
+    }
+    Corners triangle{};
+    if (count > 3)
+        polygons_.push_back({index, polygonCorners_.size(), count});
+    for (std::uint64_t i = 0; i < count; ++i) {
+        std::int64_t corner = 0;
+        if (!values_.integer(property.type, corner))
+            return unreadable(property.name, index);
+        if (static_cast<std::uint64_t>(corner) >= vertexCount_)
+            return wrongCorner(index, i, corner);
+        if (count == 3)
+            triangle[i] = static_cast<std::uint32_t>(corner);
+        else
+            polygonCorners_.push_back(static_cast<std::uint32_t>(corner));
+    }
+    if (count == 3)
+        mesh_.triangles.push_back(triangle);
+    return absl::OkStatus();
+}
+
+template <typename Values>
+void BodyReader<Values>::extend(Strip& strip, std::uint32_t corner) {
+    if (strip.corners >= 2) {
+        const bool isTurned = strip.corners % 2 != 0;
+        mesh_.triangles.push_back(
+            {strip.last[isTurned ? 1 : 0], strip.last[isTurned ? 0 : 1], corner});
+    }
+    strip.last = {strip.last[1], corner};
+    ++strip.corners;
+}
+
+template <typename Values>
+absl::Status BodyReader<Values>::readStrip(const PlyProperty& property, std::uint64_t index,
+                                           std::uint64_t count) {
+    Strip strip;
+    for (std::uint64_t i = 0; i < count; ++i) {
+        RETURN_IF_ERROR(poll(i));
+        std::int64_t corner = 0;
+        if (!values_.integer(property.type, corner))
+            return unreadable(property.name, index);
+        if (corner == -1)
+            strip = {};
+        else if (static_cast<std::uint64_t>(corner) >= vertexCount_)
+            return wrongCorner(index, i, corner);
+        else
+            extend(strip, static_cast<std::uint32_t>(corner));
+    }
+    return absl::OkStatus();
+}
+
+template <typename Values>
+absl::Status BodyReader<Values>::readList(const PlyProperty& property, std::uint64_t index) {
+    std::uint64_t count = 0;
+    RETURN_IF_ERROR(readCount(property, index, count));
+    return element_->name == "face" ? readFace(property, index, count)
+                                    : readStrip(property, index, count);
+}
+
+template <typename Values>
+absl::Status BodyReader<Values>::readElement(const PlyElement& element) {
+    element_ = &element;
+    if (element.properties.empty())
+        return absl::OkStatus();  // no bytes, whatever its count
+    if (element.name == "vertex")
+        return readVertices();
+    const bool isSurface = element.name == "face" || element.name == "tristrips";
+    const PlyProperty* corners = isSurface ? findCorners(element) : nullptr;
+    if (element.name == "face")
+        mesh_.triangles.reserve(std::min(element.count, values_.bytesLeft() / 4));
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+        RETURN_IF_ERROR(begin(i));
+        for (const PlyProperty& property : element.properties)
+            RETURN_IF_ERROR(&property == corners ? readList(property, i) : skip(property, i));
+    }
+    return absl::OkStatus();
+}
+
+template <typename Values>
+absl::Status BodyReader<Values>::triangulatePolygons() {
+    element_ = header_.find("face");
+    for (const Polygon& polygon : polygons_) {
+        RETURN_IF_ERROR(control_.check());
+        const std::span<const std::uint32_t> corners =
+            std::span(polygonCorners_).subspan(polygon.firstCorner, polygon.cornerCount);
+        if (!triangulatePolygon(mesh_.positions, corners, mesh_.triangles))
+            return absl::InvalidArgumentError(fmt::format(
+                "face {}: found a concave polygon of {} corners, expected at most {}; triangulate "
+                "it before export",
+                polygon.face, corners.size(), kMaxConcaveCorners));
+    }
+    return absl::OkStatus();
+}
+
+template <typename Values>
+absl::StatusOr<TriangleMesh> BodyReader<Values>::read() {
+    for (const PlyElement& element : header_.elements) RETURN_IF_ERROR(readElement(element));
+    RETURN_IF_ERROR(triangulatePolygons());
+    if (mesh_.triangles.empty())
+        return absl::InvalidArgumentError(
+            fmt::format("found no face with three corners or more ({} with fewer), expected at "
+                        "least one; export the mesh again with its faces",
+                        mesh_.droppedFaces));
+    control_.report(kStage, 1);
+    return std::move(mesh_);
+}
+
+absl::StatusOr<TriangleMesh> parse(std::string_view file, const ImportControl& control) {
+    ASSIGN_OR_RETURN(const PlyHeader header, parsePlyHeader(file));
+    RETURN_IF_ERROR(checkIsMesh(header));
+    const std::string_view body = file.substr(header.bodyOffset);
+    switch (header.encoding) {
+        case PlyEncoding::Ascii:
+            return BodyReader<AsciiValues>(header, body, control).read();
+        case PlyEncoding::LittleEndian:
+            return BodyReader<BinaryValues<false>>(header, body, control).read();
+        case PlyEncoding::BigEndian:
+            return BodyReader<BinaryValues<true>>(header, body, control).read();
+    }
+    return absl::InternalError("unknown PLY encoding");
+}
+
+}  // namespace
+
+absl::StatusOr<TriangleMesh> parsePly(std::string_view file, const std::string& name,
+                                      const ImportControl& control) {
+    absl::StatusOr<TriangleMesh> mesh = parse(file, control);
+    return mesh.ok() ? std::move(mesh) : fabric::withContext(mesh.status(), name);
+}
+
+absl::StatusOr<TriangleMesh> readPly(const std::string& path, const ImportControl& control) {
+    ASSIGN_OR_RETURN(const mesh::MappedFile file, mesh::MappedFile::open(path));
+    const auto bytes = file.bytes();
+    return parsePly({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path, control);
+}
+
+}  // namespace eyrie::import

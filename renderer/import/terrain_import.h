@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "renderer/import/progress.h"
+#include "renderer/terrain/height_grid.h"
+
+#include <absl/status/statusor.h>
+
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+namespace eyrie::import {
+
+/// Error allowed at level L >= 1, as a share of that level's spacing of samples: e = share *
+/// postMetres * 2^L. Level 0 is exact where heights are whole metres, and within three quarters
+/// of a height step otherwise.
+inline const double kErrorPerSpacing = getenv("EPS") ? atof(getenv("EPS")) : 0.5;
+
+/// What an import made.
+struct TerrainImportReport {
+    std::int32_t columns = 0;
+    std::int32_t rows = 0;
+    int levels = 0;
+    std::uint64_t triangles = 0;  ///< of level 0
+    std::uint64_t nodataPosts = 0;
+    std::uint64_t sizeBytes = 0;
+    double postMetres = 0;
+    double heightStepMetres = 0;
+    double finestErrorMetres = 0;
+    double coarsestErrorMetres = 0;
+    std::vector<std::string> notes;  ///< what was assumed or changed, for people
+};
+
+/// Makes an .eyt of the elevation model `dem`. `out` appears complete or not at all.
+/// Stages reported: reading, measuring, smoothing, building.
+/// Errors: those of readDem; NotFound, PermissionDenied, ResourceExhausted for `out`; Cancelled.
+absl::StatusOr<TerrainImportReport> importTerrain(const std::string& dem, const std::string& out,
+                                                  const ImportControl& control);
+
+/// What an .eyt says of where its grid came from.
+struct TerrainSource {
+    std::string name;  ///< for messages
+    std::string crsWkt;
+    std::uint64_t hash = 0;
+};
+
+/// The same from a grid in memory. InvalidArgument also when no cell has data on three corners.
+absl::StatusOr<TerrainImportReport> importTerrain(const terrain::HeightGrid& grid,
+                                                  const TerrainSource& source,
+                                                  const std::string& out,
+                                                  const ImportControl& control);
+
+}  // namespace eyrie::import

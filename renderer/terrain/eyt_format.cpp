@@ -1,0 +1,343 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/terrain/eyt_format.h"
+
+#include "fabric/status.h"
+#include "renderer/terrain/eyt_layout.h"
+#include "renderer/terrain/normal_map.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <glm/matrix.hpp>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <xxhash.h>
+
+#include <algorithm>
+#include <bit>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+namespace eyrie::terrain {
+namespace {
+
+constexpr const char* kRemedy = "import the elevation model again";
+
+absl::Status corrupt(const std::string& name, const std::string& what) {
+    return absl::DataLossError(fmt::format("{}: {}; {}", name, what, kRemedy));
+}
+
+absl::Status readAt(int fd, void* data, std::size_t bytes, std::uint64_t offset,
+                    const std::string& name) {
+    char* next = static_cast<char*>(data);
+    while (bytes > 0) {
+        const ssize_t got = pread(fd, next, bytes, static_cast<off_t>(offset));
+        if (got < 0 && errno == EINTR)
+            continue;
+        if (got < 0)
+            return absl::UnavailableError(
+                fmt::format("{}: read failed: {}", name, std::strerror(errno)));
+        if (got == 0)
+            return corrupt(name, fmt::format("the file ends at byte {}", offset));
+        next += got;
+        bytes -= static_cast<std::size_t>(got);
+        offset += static_cast<std::uint64_t>(got);
+    }
+    return absl::OkStatus();
+}
+
+/// Whether bytes [offset, offset + bytes) lie within the first `limit`.
+bool fits(std::uint64_t offset, std::uint64_t bytes, std::uint64_t limit) {
+    return offset <= limit && bytes <= limit - offset;
+}
+
+fabric::Mat4 matrixOf(const FileHeader& header) {
+    fabric::Mat4 m(1.0);
+    for (int k = 0; k < 16; ++k)
+        m[k / 4][k % 4] = header.objectFromLattice[static_cast<std::size_t>(k)];
+    return m;
+}
+
+bool isRightHandedAffine(const fabric::Mat4& m) {
+    for (int column = 0; column < 4; ++column)
+        for (int row = 0; row < 4; ++row)
+            if (!std::isfinite(m[column][row]))
+                return false;
+    return m[0][3] == 0 && m[1][3] == 0 && m[2][3] == 0 && m[3][3] == 1 && m[0][2] == 0 &&
+           m[1][2] == 0 && m[2][0] == 0 && m[2][1] == 0 && m[2][2] > 0 &&
+           glm::determinant(fabric::Mat3(m)) > 0;
+}
+
+absl::Status checkHeader(const FileHeader& header, std::uint64_t fileBytes,
+                         const std::string& path) {
+    if (header.magic != kEytMagic)
+        return absl::InvalidArgumentError(fmt::format(
+            "{}: is no .eyt terrain (its first bytes are not 'EYRIEEYT'); import a DEM first", path));
+    if (header.version != kEytVersion)
+        return absl::InvalidArgumentError(
+            fmt::format("{}: header.version is {}, this build reads {}; {} with this version", path,
+                        header.version, kEytVersion, kRemedy));
+    if (header.headerChecksum != XXH64(&header, offsetof(FileHeader, headerChecksum), 0))
+        return corrupt(path, "the checksum of the header is wrong");
+    if (header.columns < 2 || header.rows < 2 || header.columns > kMaxPosts ||
+        header.rows > kMaxPosts)
+        return corrupt(path, fmt::format("header.columns x rows is {} x {}, expected 2 to {} each",
+                                         header.columns, header.rows, kMaxPosts));
+    if (!isRightHandedAffine(matrixOf(header)))
+        return corrupt(path, "header.objectFromLattice is not a right-handed affine transform");
+    if (!fits(header.indexOffset, header.indexBytes, fileBytes))
+        return corrupt(path,
+                       fmt::format("header.indexOffset {} and indexBytes {} pass the end at {}",
+                                   header.indexOffset, header.indexBytes, fileBytes));
+    return absl::OkStatus();
+}
+
+absl::Status checkTile(const TileRecord& tile, const std::string& path, std::size_t number) {
+    if (std::isfinite(tile.errorMetres) && tile.errorMetres >= 0 &&
+        std::isfinite(tile.minHeightMetres) && std::isfinite(tile.maxHeightMetres) &&
+        tile.minHeightMetres <= tile.maxHeightMetres)
+        return absl::OkStatus();
+    return corrupt(path, fmt::format("tile {}: error {} m or heights {} to {} m are impossible",
+                                     number, tile.errorMetres, tile.minHeightMetres,
+                                     tile.maxHeightMetres));
+}
+
+/// CRS, tiles and pages out of the index's bytes.
+absl::Status parseIndex(const FileHeader& header, const std::vector<char>& bytes,
+                        const std::string& path, EytIndex& index) {
+    const std::uint64_t tilesOffset = roundUp(header.crsBytes, 8);
+    const std::uint64_t tilesBytes = std::uint64_t{index.quadtree.tileCount()} * sizeof(TileRecord);
+    const std::uint64_t pagesOffset = roundUp(tilesOffset + tilesBytes, 8);
+    const std::uint64_t pagesBytes = std::uint64_t{index.quadtree.pageCount()} * sizeof(PageRecord);
+    if (header.crsBytes > kMaxCrsBytes || pagesOffset + pagesBytes != bytes.size())
+        return corrupt(path, fmt::format("header.indexBytes is {}, expected {}", bytes.size(),
+                                         pagesOffset + pagesBytes));
+    index.crsWkt.assign(bytes.data(), header.crsBytes);
+    index.tiles.resize(index.quadtree.tileCount());
+    std::memcpy(index.tiles.data(), bytes.data() + tilesOffset, tilesBytes);
+    index.pages.resize(index.quadtree.pageCount());
+    std::memcpy(index.pages.data(), bytes.data() + pagesOffset, pagesBytes);
+
+    for (std::size_t k = 0; k < index.tiles.size(); ++k)
+        RETURN_IF_ERROR(checkTile(index.tiles[k], path, k));
+    for (std::size_t k = 0; k < index.pages.size(); ++k) {
+        const PageRecord& page = index.pages[k];
+        const bool isPage = page.bytes >= sizeof(PageHeader) && page.bytes % 4 == 0 &&
+                            page.offset >= sizeof(FileHeader) &&
+                            fits(page.offset, page.bytes, header.indexOffset);
+        if (page.bytes != 0 && !isPage)
+            return corrupt(path, fmt::format("page {}: {} bytes at {} do not lie among the pages",
+                                             k, page.bytes, page.offset));
+    }
+    return absl::OkStatus();
+}
+
+/// Checks one tile's header against the page and makes its spans.
+class TileReader {
+public:
+    TileReader(const std::vector<std::uint32_t>& storage, const TileHeader& header)
+        : storage_(storage), header_(header), pageBytes_(storage.size() * sizeof(std::uint32_t)) {}
+
+    /// The field that is wrong; null when all is well.
+    const char* read(TileGeometry& tile) {
+        if (header_.vertices == 0)
+            return emptyTile();
+        if (header_.wordsPerVertex != 1 && header_.wordsPerVertex != 2)
+            return "wordsPerVertex";
+        if (header_.vertices > kNoVertex)
+            return "vertices";
+        if (!readParts(tile))
+            return "indexCounts";
+        if (!isArray(header_.wordsOffset, vertexWords() * sizeof(std::uint32_t)))
+            return "wordsOffset";
+        if (!isArray(header_.indicesOffset, indexCount_ * sizeof(std::uint16_t)))
+            return "indicesOffset";
+        if (!isArray(header_.normalsOffset, kNormalMapBytes))
+            return "normalsOffset";
+        makeSpans(tile);
+        if (*std::max_element(tile.indices.begin(), tile.indices.end()) >= header_.vertices)
+            return "indices";
+        return readHeights(tile);
+    }
+
+private:
+    static constexpr std::uint32_t kNoVertex = 0xffff;
+
+    const char* emptyTile() const {
+        constexpr TileHeader kEmpty;
+        return std::memcmp(&header_, &kEmpty, sizeof header_) == 0 ? nullptr : "vertices";
+    }
+
+    std::uint64_t vertexWords() const {
+        return std::uint64_t{header_.vertices} * header_.wordsPerVertex;
+    }
+
+    bool isArray(std::uint64_t offset, std::uint64_t bytes) const {
+        return offset % 4 == 0 && offset >= sizeof(PageHeader) && fits(offset, bytes, pageBytes_);
+    }
+
+    bool readParts(TileGeometry& tile) {
+        for (std::size_t part = 0; part < kTileParts; ++part) {
+            if (header_.indexCounts[part] % 3 != 0 || header_.indexCounts[part] > pageBytes_)
+                return false;
+            tile.parts[part] = {static_cast<std::uint32_t>(indexCount_), header_.indexCounts[part]};
+            indexCount_ += header_.indexCounts[part];
+        }
+        return indexCount_ > 0 && indexCount_ <= pageBytes_;
+    }
+
+    void makeSpans(TileGeometry& tile) const {
+        const char* bytes = reinterpret_cast<const char*>(storage_.data());
+        tile.words = {storage_.data() + header_.wordsOffset / 4, vertexWords()};
+        tile.wordsPerVertex = static_cast<int>(header_.wordsPerVertex);
+        tile.indices = {reinterpret_cast<const std::uint16_t*>(bytes + header_.indicesOffset),
+                        indexCount_};
+        tile.normals = {reinterpret_cast<const std::int8_t*>(bytes + header_.normalsOffset),
+                        kNormalMapBytes};
+        tile.baseHeight = header_.baseHeight;
+        tile.heightMultiplier = header_.heightMultiplier;
+    }
+
+    const char* readHeights(const TileGeometry& tile) const {
+        if (header_.heightMultiplier < 1 || header_.heightMultiplier > 2 * kMaxHeightSteps ||
+            !std::has_single_bit(static_cast<std::uint32_t>(header_.heightMultiplier)))
+            return "heightMultiplier";
+        if (std::abs(std::int64_t{header_.baseHeight}) > kMaxHeightSteps)
+            return "baseHeight";
+        const std::size_t stride = header_.wordsPerVertex;
+        std::uint64_t highest = 0;
+        for (std::size_t k = 0; k < tile.words.size(); k += stride) {
+            const std::uint32_t word = tile.words[k];
+            if ((word & 1023) > 2 * kTileCells || (word >> 10 & 1023) > 2 * kTileCells)
+                return "vertex position";
+            highest = std::max(highest, std::uint64_t{word >> 20} +
+                                            (stride == 2 ? tile.words[k + 1] : 0));
+        }
+        const std::int64_t top =
+            header_.baseHeight + static_cast<std::int64_t>(highest) * header_.heightMultiplier;
+        return top > kMaxHeightSteps ? "vertex height" : nullptr;
+    }
+
+    const std::vector<std::uint32_t>& storage_;
+    const TileHeader& header_;
+    std::uint64_t pageBytes_;
+    std::uint64_t indexCount_ = 0;
+};
+
+/// Whether each tile of the page draws as many triangles as the index says.
+absl::Status checkAgainstIndex(const Page& page, std::uint32_t number, const EytIndex& index,
+                               const std::string& name) {
+    const TileId first = index.quadtree.firstTileOfPage(number);
+    for (int place = 0; place < kPageTiles * kPageTiles; ++place) {
+        const TileId id{first.level, first.x + place % kPageTiles, first.y + place / kPageTiles};
+        const std::uint32_t expected = index.quadtree.contains(id) ? index.tile(id).triangles : 0;
+        const std::uint32_t found = page.tile(place).parts[kFinerPart].first / 3;
+        if (found != expected)
+            return corrupt(name, fmt::format("tile {} has {} triangles, the index says {}", place,
+                                             found, expected));
+    }
+    return absl::OkStatus();
+}
+
+}  // namespace
+
+fabric::Box EytIndex::bounds(const TileId& id) const {
+    const std::int32_t side = Quadtree::side(id.level);
+    const double i0 = id.x * side;
+    const double j0 = id.y * side;
+    const double i1 = std::min(id.x * side + side, quadtree.columns() - 1);
+    const double j1 = std::min(id.y * side + side, quadtree.rows() - 1);
+    const TileRecord& record = tile(id);
+    fabric::Box box;
+    for (const double i : {i0, i1})
+        for (const double j : {j0, j1}) {
+            const fabric::Vec3 corner(objectFromLattice * fabric::Vec4(i, j, 0, 1));
+            box.grow({corner.x, corner.y, record.minHeightMetres});
+            box.grow({corner.x, corner.y, record.maxHeightMetres});
+        }
+    return box;
+}
+
+double EytIndex::finestErrorMetres() const {
+    float worst = 0;
+    const auto count = static_cast<std::size_t>(quadtree.tilesX(0)) *
+                       static_cast<std::size_t>(quadtree.tilesY(0));
+    for (std::size_t k = 0; k < count; ++k)
+        worst = std::max(worst, tiles[k].errorMetres);
+    return worst;
+}
+
+std::uint64_t EytIndex::triangles() const {
+    std::uint64_t sum = 0;
+    const auto count = static_cast<std::size_t>(quadtree.tilesX(0)) *
+                       static_cast<std::size_t>(quadtree.tilesY(0));
+    for (std::size_t k = 0; k < count; ++k)
+        sum += tiles[k].triangles;
+    return sum;
+}
+
+absl::StatusOr<Page> Page::decode(std::vector<std::uint32_t> bytes, const std::string& name) {
+    Page page;
+    page.storage_ = std::move(bytes);
+    if (page.storage_.size() * sizeof(std::uint32_t) < sizeof(PageHeader))
+        return corrupt(name, "shorter than its header");
+    PageHeader header;
+    std::memcpy(static_cast<void*>(&header), page.storage_.data(), sizeof header);
+    for (std::size_t place = 0; place < header.size(); ++place)
+        if (const char* field = TileReader(page.storage_, header[place]).read(page.tiles_[place]))
+            return corrupt(name, fmt::format("tile {}: impossible {}", place, field));
+    return page;
+}
+
+absl::StatusOr<std::shared_ptr<const EytFile>> EytFile::open(const std::string& path) {
+    const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (fd < 0)
+        return errno == ENOENT
+                   ? absl::NotFoundError(fmt::format("{}: no such file", path))
+                   : absl::InvalidArgumentError(
+                         fmt::format("{}: cannot be opened: {}", path, std::strerror(errno)));
+    std::shared_ptr<EytFile> file(new EytFile(path, fd, 0));
+    struct stat info {};
+    if (fstat(fd, &info) != 0 || !S_ISREG(info.st_mode))
+        return absl::InvalidArgumentError(fmt::format("{}: is not a regular file", path));
+    file->sizeBytes_ = static_cast<std::uint64_t>(info.st_size);
+    FileHeader header;
+    if (file->sizeBytes_ < sizeof header)
+        return absl::InvalidArgumentError(
+            fmt::format("{}: is no .eyt terrain: {} bytes are too few for its header of {}", path,
+                        file->sizeBytes_, sizeof header));
+    RETURN_IF_ERROR(readAt(fd, &header, sizeof header, 0, path));
+    RETURN_IF_ERROR(checkHeader(header, file->sizeBytes_, path));
+
+    EytIndex& index = file->index_;
+    index.quadtree = Quadtree(header.columns, header.rows);
+    if (static_cast<int>(header.levels) != index.quadtree.levels())
+        return corrupt(path, fmt::format("header.levels is {}, expected {}", header.levels,
+                                         index.quadtree.levels()));
+    index.objectFromLattice = matrixOf(header);
+    index.sourceHash = header.sourceHash;
+    index.nodataPosts = header.nodataPosts;
+    std::vector<char> bytes(header.indexBytes);
+    RETURN_IF_ERROR(readAt(fd, bytes.data(), bytes.size(), header.indexOffset, path));
+    if (XXH64(bytes.data(), bytes.size(), 0) != header.indexChecksum)
+        return corrupt(path, "the checksum of the index is wrong");
+    RETURN_IF_ERROR(parseIndex(header, bytes, path, index));
+    return file;
+}
+
+EytFile::~EytFile() { close(fd_); }
+
+absl::StatusOr<std::shared_ptr<const Page>> EytFile::readPage(std::uint32_t page) const {
+    const PageRecord& record = index_.pages[page];
+    const std::string name = fmt::format("{}: page {}", path_, page);
+    std::vector<std::uint32_t> bytes(record.bytes == 0 ? sizeof(PageHeader) / 4 : record.bytes / 4);
+    RETURN_IF_ERROR(readAt(fd_, bytes.data(), record.bytes, record.offset, name));
+    if (record.bytes != 0 && XXH64(bytes.data(), record.bytes, 0) != record.checksum)
+        return corrupt(name, "its checksum is wrong");
+    ASSIGN_OR_RETURN(Page decoded, Page::decode(std::move(bytes), name));
+    RETURN_IF_ERROR(checkAgainstIndex(decoded, page, index_, name));
+    return std::make_shared<const Page>(std::move(decoded));
+}
+
+}  // namespace eyrie::terrain

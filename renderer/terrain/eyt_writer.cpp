@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/terrain/eyt_writer.h"
+
+#include "fabric/status.h"
+#include "renderer/terrain/eyt_layout.h"
+#include "renderer/terrain/normal_map.h"
+#include "renderer/terrain/vertex_packing.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+#include <xxhash.h>
+
+#include <cassert>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <utility>
+
+namespace eyrie::terrain {
+namespace {
+
+absl::Status errnoStatus(const std::string& path, const char* what) {
+    const int error = errno;
+    const std::string message = fmt::format("{}: {}: {}", path, what, std::strerror(error));
+    switch (error) {
+        case ENOENT:
+        case ENOTDIR:
+            return absl::NotFoundError(message + "; create the folder first");
+        case EACCES:
+        case EPERM:
+        case EROFS:
+            return absl::PermissionDeniedError(message);
+        case ENOSPC:
+        case EDQUOT:
+            return absl::ResourceExhaustedError(message + "; free some space on that disk");
+        default:
+            return absl::UnavailableError(message);
+    }
+}
+
+/// The index's bytes: CRS, tiles, pages.
+std::vector<char> indexBytes(const EytIndex& index) {
+    const std::uint64_t tilesOffset = roundUp(index.crsWkt.size(), 8);
+    const std::uint64_t tilesBytes = index.tiles.size() * sizeof(TileRecord);
+    const std::uint64_t pagesOffset = roundUp(tilesOffset + tilesBytes, 8);
+    const std::uint64_t pagesBytes = index.pages.size() * sizeof(PageRecord);
+    std::vector<char> bytes(pagesOffset + pagesBytes);
+    std::memcpy(bytes.data(), index.crsWkt.data(), index.crsWkt.size());
+    std::memcpy(bytes.data() + tilesOffset, index.tiles.data(), tilesBytes);
+    std::memcpy(bytes.data() + pagesOffset, index.pages.data(), pagesBytes);
+    return bytes;
+}
+
+FileHeader headerOf(const EytIndex& index, std::uint64_t indexOffset,
+                    const std::vector<char>& bytes) {
+    FileHeader header;
+    header.levels = static_cast<std::uint32_t>(index.quadtree.levels());
+    header.columns = static_cast<std::uint32_t>(index.quadtree.columns());
+    header.rows = static_cast<std::uint32_t>(index.quadtree.rows());
+    for (int k = 0; k < 16; ++k)
+        header.objectFromLattice[static_cast<std::size_t>(k)] =
+            index.objectFromLattice[k / 4][k % 4];
+    header.sourceHash = index.sourceHash;
+    header.nodataPosts = index.nodataPosts;
+    header.indexOffset = indexOffset;
+    header.indexBytes = bytes.size();
+    header.crsBytes = index.crsWkt.size();
+    header.indexChecksum = XXH64(bytes.data(), bytes.size(), 0);
+    header.headerChecksum = XXH64(&header, offsetof(FileHeader, headerChecksum), 0);
+    return header;
+}
+
+}  // namespace
+
+PageBuilder::PageBuilder() : words_(sizeof(PageHeader) / sizeof(std::uint32_t)) {}
+
+std::uint32_t PageBuilder::append(const void* data, std::size_t bytes) {
+    const std::size_t first = words_.size();
+    words_.resize(first + roundUp(bytes, sizeof(std::uint32_t)) / sizeof(std::uint32_t));
+    std::memcpy(words_.data() + first, data, bytes);
+    return static_cast<std::uint32_t>(first * sizeof(std::uint32_t));
+}
+
+void PageBuilder::add(int place, const TileMesh& mesh, std::span<const std::int8_t> normals) {
+    assert(normals.size() == kNormalMapBytes);
+    if (mesh.indices.empty())
+        return;
+    hasTiles_ = true;
+    const PackedVertices packed = packVertices(mesh.vertices);
+    TileHeader header;
+    header.vertices = static_cast<std::uint32_t>(mesh.vertices.size());
+    header.wordsPerVertex = static_cast<std::uint32_t>(packed.wordsPerVertex);
+    header.baseHeight = packed.baseHeight;
+    header.heightMultiplier = packed.heightMultiplier;
+    for (std::size_t part = 0; part < kTileParts; ++part)
+        header.indexCounts[part] = mesh.parts[part].count;
+    header.wordsOffset = append(packed.words.data(), packed.words.size() * sizeof(std::uint32_t));
+    header.indicesOffset =
+        append(mesh.indices.data(), mesh.indices.size() * sizeof(std::uint16_t));
+    header.normalsOffset = append(normals.data(), normals.size());
+    std::memcpy(words_.data() + static_cast<std::size_t>(place) * sizeof(TileHeader) / 4, &header,
+                sizeof header);
+}
+
+std::vector<std::uint32_t> PageBuilder::finish() && {
+    if (!hasTiles_)
+        return {};
+    return std::move(words_);
+}
+
+EytWriter::EytWriter(std::string path, std::string partialPath, int fd)
+    : path_(std::move(path)),
+      partialPath_(std::move(partialPath)),
+      fd_(fd),
+      size_(sizeof(FileHeader)) {}
+
+EytWriter::EytWriter(EytWriter&& other) noexcept
+    : path_(std::move(other.path_)),
+      partialPath_(std::move(other.partialPath_)),
+      fd_(std::exchange(other.fd_, -1)),
+      size_(other.size_) {}
+
+EytWriter::~EytWriter() {
+    if (fd_ < 0)
+        return;
+    close(fd_);
+    unlink(partialPath_.c_str());
+}
+
+absl::StatusOr<EytWriter> EytWriter::create(const std::string& path) {
+    std::string partialPath = fmt::format("{}.partial-{}", path, getpid());
+    const int fd = open(partialPath.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+    if (fd < 0)
+        return errnoStatus(path, "cannot be written");
+    return EytWriter(path, std::move(partialPath), fd);
+}
+
+absl::Status EytWriter::writeAt(const void* data, std::size_t bytes, std::uint64_t offset) {
+    const char* next = static_cast<const char*>(data);
+    while (bytes > 0) {
+        const ssize_t written = pwrite(fd_, next, bytes, static_cast<off_t>(offset));
+        if (written < 0 && errno == EINTR)
+            continue;
+        if (written < 0)
+            return errnoStatus(path_, "write failed");
+        next += written;
+        bytes -= static_cast<std::size_t>(written);
+        offset += static_cast<std::uint64_t>(written);
+    }
+    return absl::OkStatus();
+}
+
+absl::StatusOr<PageRecord> EytWriter::addPage(std::span<const std::uint32_t> page) {
+    if (page.empty())
+        return PageRecord{};
+    const std::size_t bytes = page.size_bytes();
+    const PageRecord record{size_, bytes, XXH64(page.data(), bytes, 0)};
+    RETURN_IF_ERROR(writeAt(page.data(), bytes, size_));
+    // Starts the disk early, so that the flush at the end has little left to wait for.
+    sync_file_range(fd_, static_cast<off_t>(size_), static_cast<off_t>(bytes),
+                    SYNC_FILE_RANGE_WRITE);
+    size_ += bytes;
+    return record;
+}
+
+absl::StatusOr<std::uint64_t> EytWriter::commit(const EytIndex& index) {
+    const std::vector<char> bytes = indexBytes(index);
+    const std::uint64_t indexOffset = roundUp(size_, 8);
+    const FileHeader header = headerOf(index, indexOffset, bytes);
+    RETURN_IF_ERROR(writeAt(bytes.data(), bytes.size(), indexOffset));
+    RETURN_IF_ERROR(writeAt(&header, sizeof header, 0));
+    if (fsync(fd_) != 0)
+        return errnoStatus(path_, "cannot be flushed to disk");
+    if (std::rename(partialPath_.c_str(), path_.c_str()) != 0)
+        return errnoStatus(path_, "cannot be renamed from its partial file");
+    close(std::exchange(fd_, -1));
+    return indexOffset + bytes.size();
+}
+
+}  // namespace eyrie::terrain

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "renderer/terrain/eyt_format.h"
+#include "renderer/terrain/tile_mesh.h"
+
+#include <absl/status/status.h>
+#include <absl/status/statusor.h>
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace eyrie::terrain {
+
+/// Puts the tiles of one page together. Give each tile its place once, in any order.
+class PageBuilder {
+public:
+    PageBuilder();
+
+    /// Precondition: normals.size() == kNormalMapBytes. Tiles without indices are left out.
+    void add(int place, const TileMesh& mesh, std::span<const std::int8_t> normals);
+
+    /// The page's bytes; empty when no tile has triangles.
+    std::vector<std::uint32_t> finish() &&;
+
+private:
+    std::uint32_t append(const void* data, std::size_t bytes);
+
+    std::vector<std::uint32_t> words_;
+    bool hasTiles_ = false;
+};
+
+/// Writes an .eyt file that appears under its name only when it is complete: bytes go to
+/// `PATH.partial-<process id>` beside it, and without commit() that is removed.
+class EytWriter {
+public:
+    /// Errors: NotFound (no such folder), PermissionDenied, Unavailable.
+    static absl::StatusOr<EytWriter> create(const std::string& path);
+
+    EytWriter(EytWriter&& other) noexcept;
+    EytWriter& operator=(EytWriter&&) = delete;
+    ~EytWriter();
+
+    /// Appends a page; an empty one becomes a record of 0 bytes.
+    /// Errors: ResourceExhausted (disk full), Unavailable.
+    absl::StatusOr<PageRecord> addPage(std::span<const std::uint32_t> page);
+
+    /// Writes index and header, flushes all to disk and renames. Returns the file's size.
+    /// Precondition: index.pages holds what addPage returned.
+    absl::StatusOr<std::uint64_t> commit(const EytIndex& index);
+
+private:
+    EytWriter(std::string path, std::string partialPath, int fd);
+
+    absl::Status writeAt(const void* data, std::size_t bytes, std::uint64_t offset);
+
+    std::string path_;
+    std::string partialPath_;
+    int fd_;
+    std::uint64_t size_;
+};
+
+}  // namespace eyrie::terrain

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/terrain/normal_map.h"
+
+#include "renderer/terrain/simd_clones.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+
+namespace eyrie::terrain {
+namespace {
+
+/// A row of a tile's heights with one sample more on either side.
+using PaddedRow = std::array<float, kTileSamples + 2>;
+
+/// Metres of object space as the normal needs them: n = (dP/di) x (dP/dj).
+struct Basis {
+    float ax, ay, bx, by, up;
+};
+
+/// Rise per post between two neighbours `inverse`^-1 posts apart, of which one may be nodata.
+inline float slope(float before, float here, float after, float inverse) {
+    const bool hasBefore = before == before;
+    const bool hasAfter = after == after;
+    const float low = hasBefore ? before : here;
+    const float high = hasAfter ? after : here;
+    const float rise = (high - low) * (hasBefore && hasAfter ? inverse : 2 * inverse);
+    return rise == rise ? rise : 0.0F;
+}
+
+inline std::int8_t signedNormalised(float value) {
+    return static_cast<std::int8_t>(value * 127.0F + (value < 0 ? -0.5F : 0.5F));
+}
+
+EYRIE_SIMD_CLONES void normalRow(const float* below, const float* here, const float* above,
+                                 const float* inverseX, float inverseY, const Basis& basis,
+                                 std::int8_t* out) {
+    for (std::int32_t k = 0; k < kTileSamples; ++k) {
+        const float di = slope(here[k], here[k + 1], here[k + 2], inverseX[k]);
+        const float dj = slope(below[k + 1], here[k + 1], above[k + 1], inverseY);
+        const float x = basis.ay * dj - di * basis.by;
+        const float y = di * basis.bx - basis.ax * dj;
+        const float scale = 1.0F / std::sqrt(x * x + y * y + basis.up * basis.up);
+        out[2 * k] = signedNormalised(x * scale);
+        out[2 * k + 1] = signedNormalised(y * scale);
+    }
+}
+
+float inverseDistance(std::int32_t before, std::int32_t after) {
+    return after > before ? 1.0F / static_cast<float>(after - before) : 0.0F;
+}
+
+EYRIE_SIMD_CLONES void weigh(const float* source, float weight, std::int32_t columns, float* sum,
+                             float* weights) {
+    for (std::int32_t i = 0; i < columns; ++i) {
+        const bool isData = source[i] == source[i];
+        sum[i] += isData ? weight * source[i] : 0.0F;
+        weights[i] += isData ? weight : 0.0F;
+    }
+}
+
+}  // namespace
+
+NormalMaps::NormalMaps(const HeightGrid& grid, int levels)
+    : grid_(grid), levels_(static_cast<std::size_t>(levels)) {
+    levels_[0] = {grid.columns, grid.rows, {}};
+    for (int level = 1; level < levels; ++level) {
+        const Level& finer = levels_[static_cast<std::size_t>(level - 1)];
+        Level& coarser = levels_[static_cast<std::size_t>(level)];
+        coarser.columns = finer.columns / 2 + 1;
+        coarser.rows = finer.rows / 2 + 1;
+        coarser.smoothed.resize(static_cast<std::size_t>(coarser.columns) *
+                                static_cast<std::size_t>(coarser.rows));
+        tbb::parallel_for(std::int32_t{0}, coarser.rows,
+                          [&](std::int32_t j) { smoothRow(level, j); });
+    }
+}
+
+const float* NormalMaps::row(int level, std::int32_t j) const {
+    if (level == 0)
+        return grid_.row(j);
+    const Level& l = levels_[static_cast<std::size_t>(level)];
+    return l.smoothed.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(l.columns);
+}
+
+void NormalMaps::smoothRow(int level, std::int32_t j) {
+    Level& coarser = levels_[static_cast<std::size_t>(level)];
+    const Level& finer = levels_[static_cast<std::size_t>(level - 1)];
+    thread_local std::vector<float> sum;
+    thread_local std::vector<float> weights;
+    sum.assign(static_cast<std::size_t>(finer.columns), 0.0F);
+    weights.assign(static_cast<std::size_t>(finer.columns), 0.0F);
+    for (std::int32_t d = -1; d <= 1; ++d)
+        weigh(row(level - 1, std::clamp(2 * j + d, 0, finer.rows - 1)), d == 0 ? 2.0F : 1.0F,
+              finer.columns, sum.data(), weights.data());
+    float* out = coarser.smoothed.data() +
+                 static_cast<std::size_t>(j) * static_cast<std::size_t>(coarser.columns);
+    for (std::int32_t i = 0; i < coarser.columns; ++i) {
+        const auto at = [&](std::int32_t k) {
+            return static_cast<std::size_t>(std::clamp(k, 0, finer.columns - 1));
+        };
+        const std::size_t a = at(2 * i - 1), b = at(2 * i), c = at(2 * i + 1);
+        out[i] = (sum[a] + 2 * sum[b] + sum[c]) / (weights[a] + 2 * weights[b] + weights[c]);
+    }
+}
+
+void NormalMaps::fill(const TileId& tile, std::span<std::int8_t> out) const {
+    assert(out.size() == kNormalMapBytes);
+    const Level& level = levels_[static_cast<std::size_t>(tile.level)];
+    const auto column = [&](std::int32_t k) {
+        return std::clamp(tile.x * kTileCells + k, 0, level.columns - 1);
+    };
+    const auto rowIndex = [&](std::int32_t k) {
+        return std::clamp(tile.y * kTileCells + k, 0, level.rows - 1);
+    };
+    const auto post = [&](std::int32_t sample, std::int32_t posts) {
+        return std::min(sample << tile.level, posts - 1);
+    };
+    const auto load = [&](std::int32_t k, PaddedRow& padded) {
+        const float* source = row(tile.level, rowIndex(k));
+        for (std::int32_t i = 0; i < kTileSamples + 2; ++i)
+            padded[static_cast<std::size_t>(i)] = source[column(i - 1)];
+    };
+
+    std::array<float, kTileSamples> inverseX{};
+    for (std::int32_t k = 0; k < kTileSamples; ++k)
+        inverseX[static_cast<std::size_t>(k)] = inverseDistance(
+            post(column(k - 1), grid_.columns), post(column(k + 1), grid_.columns));
+    const fabric::Vec2 a = grid_.perColumn;
+    const fabric::Vec2 b = grid_.perRow;
+    const Basis basis{static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(b.x),
+                      static_cast<float>(b.y), static_cast<float>(a.x * b.y - a.y * b.x)};
+
+    std::array<PaddedRow, 3> rows{};
+    load(-1, rows[0]);
+    load(0, rows[1]);
+    for (std::int32_t k = 0; k < kTileSamples; ++k) {
+        const auto r = static_cast<std::size_t>(k);
+        load(k + 1, rows[(r + 2) % 3]);
+        const float inverseY =
+            inverseDistance(post(rowIndex(k - 1), grid_.rows), post(rowIndex(k + 1), grid_.rows));
+        normalRow(rows[r % 3].data(), rows[(r + 1) % 3].data(), rows[(r + 2) % 3].data(),
+                  inverseX.data(), inverseY, basis, out.data() + r * 2 * kTileSamples);
+    }
+}
+
+}  // namespace eyrie::terrain

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <limits>
+#include <optional>
+
+#include "renderer/truth/pinhole.h"
+
+namespace eyrie::truth {
+
+inline constexpr double kNoHit = std::numeric_limits<double>::infinity();
+
+/// A full-resolution source that a picture is compared with. Immutable: any thread may ask.
+class ReferenceSurface {
+public:
+    virtual ~ReferenceSurface() = default;
+
+    /// The ray's parameter at its first hit, or kNoHit. Where the source allows several surfaces
+    /// (see TerrainRayCaster) the hit nearest to `near` is answered; kNoHit asks for the first.
+    virtual double firstHit(const Ray& ray, double near) const = 0;
+
+    /// The point of the source to hold `point` against: for terrain the one in the same column, for
+    /// meshes the closest. Nothing where there is none.
+    virtual std::optional<fabric::Vec3> counterpart(const fabric::Vec3& point) const = 0;
+};
+
+}  // namespace eyrie::truth

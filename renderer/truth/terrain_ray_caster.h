@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "renderer/truth/reference_surface.h"
+
+namespace eyrie::truth {
+
+/// Posts of an elevation model: `columns` x `rows`, row-major. Post (i, j) stands at world
+/// (x, y) = origin + i * perColumn + j * perRow and is heights[j * columns + i] metres high; NaN
+/// means no data, which makes a hole.
+struct HeightGrid {
+    int columns = 0;
+    int rows = 0;
+    std::vector<float> heights;
+    fabric::Vec2 origin{0, 0};
+    fabric::Vec2 perColumn{1, 0};
+    fabric::Vec2 perRow{0, -1};
+};
+
+/// Posts say nothing about the ground between them. These are the three usual readings of a cell;
+/// they agree on its edges.
+enum class CellSurface { MainDiagonal, OtherDiagonal, Bilinear };
+inline constexpr int kCellSurfaces = 3;
+
+/// Casts rays at the full-resolution posts.
+class TerrainRayCaster final : public ReferenceSurface {
+public:
+    /// Precondition: columns, rows >= 2, heights has columns * rows entries, the steps are
+    /// independent.
+    explicit TerrainRayCaster(HeightGrid grid);
+
+    /// First hit with each reading, indexed by CellSurface; kNoHit where there is none.
+    /// MainDiagonal splits each cell from post (i, j) to (i + 1, j + 1), OtherDiagonal from
+    /// (i + 1, j) to (i, j + 1).
+    std::array<double, kCellSurfaces> firstHits(const Ray& ray) const;
+
+    /// Heights of each reading over a world (x, y); NaN outside the posts and in holes.
+    std::array<double, kCellSurfaces> heightsAt(double x, double y) const;
+
+    double firstHit(const Ray& ray, double near) const override;
+    std::optional<fabric::Vec3> counterpart(const fabric::Vec3& point) const override;
+
+private:
+    struct Extent {  ///< of the heights in a block; empty (min > max) without data
+        float min;
+        float max;
+    };
+    struct Level {
+        int columns;
+        int rows;
+        std::vector<Extent> blocks;
+    };
+    struct Traversal;
+
+    double post(int i, int j) const;
+    Extent blockExtent(int column, int row) const;
+    void buildLevels();
+    void visit(Traversal& traversal, int level, int column, int row) const;
+    void visitCells(Traversal& traversal, int column, int row) const;
+    void visitCell(Traversal& traversal, int i, int j) const;
+    Ray toGrid(const Ray& ray) const;
+    fabric::Vec2 toGrid(double x, double y) const;
+
+    HeightGrid grid_;
+    std::vector<Level> levels_;  ///< [0] has blocks of kBlockCells^2 cells, each next twice that
+};
+
+}  // namespace eyrie::truth

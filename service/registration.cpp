@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "service/registration.h"
+
+#include "eyrie/v1/coordinator_service.grpc.pb.h"
+#include "fabric/version.h"
+#include "wire/statistics.h"
+#include "wire/status.h"
+#include "wire/transport.h"
+
+#include <fmt/format.h>
+#include <grpcpp/client_context.h>
+#include <grpcpp/create_channel.h>
+#include <grpcpp/security/credentials.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <condition_variable>
+#include <mutex>
+#include <utility>
+
+namespace eyrie::service {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::seconds kCallTimeout{3};
+
+/// What waiting does not mend.
+bool isRefusal(const absl::Status& status) {
+    switch (status.code()) {
+        case absl::StatusCode::kInvalidArgument:
+        case absl::StatusCode::kFailedPrecondition:
+        case absl::StatusCode::kPermissionDenied:
+        case absl::StatusCode::kUnauthenticated:
+        case absl::StatusCode::kUnimplemented:
+            return true;
+        default:
+            return false;
+    }
+}
+
+void sleepFor(std::chrono::milliseconds time, const std::stop_token& stop) {
+    std::mutex mutex;
+    std::condition_variable_any wake;
+    std::unique_lock lock(mutex);
+    wake.wait_for(lock, stop, time, [] { return false; });
+}
+
+class Registration {
+public:
+    explicit Registration(const RegistrationOptions& options)
+        : options_(options),
+          peer_(fmt::format("coordinator {}", options.coordinator)),
+          stub_(v1::CoordinatorService::NewStub(grpc::CreateCustomChannel(
+              options.coordinator, grpc::InsecureChannelCredentials(), wire::clientArguments()))) {}
+
+    absl::Status run(const std::stop_token& stop) {
+        while (!stop.stop_requested()) {
+            absl::Status status = isRegistered() ? sendHeartbeat(stop) : sendRegistration(stop);
+            if (isRegistered() && absl::IsNotFound(status)) {
+                spdlog::info("the {} does not know this renderer any more: registering again", peer_);
+                id_.clear();
+                continue;
+            }
+            if (!status.ok() && !stop.stop_requested()) {
+                if (isRefusal(status))
+                    return status;
+                status = noteAbsence(status);
+                if (!status.ok())
+                    return status;
+            } else {
+                notePresence();
+            }
+            sleepFor(away_ ? options_.retryInterval : heartbeat_, stop);
+        }
+        return absl::OkStatus();
+    }
+
+private:
+    bool isRegistered() const { return !id_.empty(); }
+
+    template <typename Request, typename Response>
+    absl::Status call(grpc::Status (v1::CoordinatorService::Stub::*method)(grpc::ClientContext*,
+                                                                           const Request&,
+                                                                           Response*),
+                      const Request& request, Response& response, const std::stop_token& stop) {
+        grpc::ClientContext context;
+        context.set_deadline(std::chrono::system_clock::now() + kCallTimeout);
+        const std::stop_callback cancel(stop, [&context] { context.TryCancel(); });
+        return wire::fromGrpc(((*stub_).*method)(&context, request, &response), peer_);
+    }
+
+    absl::Status sendRegistration(const std::stop_token& stop) {
+        v1::RegisterRendererRequest request;
+        request.set_address(options_.address);
+        *request.mutable_device() = wire::toMessage(options_.device);
+        request.set_software_version(std::string(fabric::kVersion));
+        v1::RegisterRendererResponse response;
+        const absl::Status status =
+            call(&v1::CoordinatorService::Stub::RegisterRenderer, request, response, stop);
+        if (status.ok()) {
+            id_ = response.renderer_id();
+            heartbeat_ = std::chrono::milliseconds(
+                std::clamp(response.heartbeat_milliseconds(), 10, 60'000));
+            spdlog::info("registered with the {} as {}", peer_, id_);
+        }
+        return status;
+    }
+
+    absl::Status sendHeartbeat(const std::stop_token& stop) {
+        v1::HeartbeatRequest request;
+        request.set_renderer_id(id_);
+        v1::HeartbeatResponse response;
+        return call(&v1::CoordinatorService::Stub::Heartbeat, request, response, stop);
+    }
+
+    void notePresence() {
+        lastSeen_ = Clock::now();
+        if (std::exchange(away_, false))
+            spdlog::info("the {} answers again", peer_);
+    }
+
+    absl::Status noteAbsence(const absl::Status& status) {
+        if (!std::exchange(away_, true))
+            spdlog::warn("{}; trying again every {} ms", status.ToString(),
+                         options_.retryInterval.count());
+        if (options_.giveUpAfter && Clock::now() - lastSeen_ > *options_.giveUpAfter)
+            return absl::UnavailableError(
+                fmt::format("the {} has not answered for {} ms; is it running, and is that its "
+                            "gRPC address?",
+                            peer_, options_.giveUpAfter->count()));
+        return absl::OkStatus();
+    }
+
+    const RegistrationOptions& options_;
+    const std::string peer_;
+    const std::unique_ptr<v1::CoordinatorService::Stub> stub_;
+    std::string id_;
+    std::chrono::milliseconds heartbeat_{1000};
+    Clock::time_point lastSeen_ = Clock::now();
+    bool away_ = false;
+};
+
+}  // namespace
+
+absl::Status keepRegistered(const RegistrationOptions& options, const std::stop_token& stop) {
+    return Registration(options).run(stop);
+}
+
+}  // namespace eyrie::service

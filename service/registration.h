@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "fabric/statistics.h"
+
+#include <absl/status/status.h>
+
+#include <chrono>
+#include <optional>
+#include <stop_token>
+#include <string>
+
+namespace eyrie::service {
+
+struct RegistrationOptions {
+    std::string coordinator;    ///< "host:port" or "unix:/path"
+    std::string address;        ///< where the renderer's RenderService listens
+    fabric::DeviceInfo device;
+    std::chrono::milliseconds retryInterval{1000};
+    /// How long to live without the coordinator; none: for ever.
+    std::optional<std::chrono::milliseconds> giveUpAfter;
+};
+
+/// Offers a renderer to its coordinator and says that it is alive, as often as the coordinator
+/// wants, until `stop`. Registers again where the coordinator has forgotten it, and waits for one
+/// that is away, telling the log when it goes and when it is back.
+///
+/// Returns OK after `stop`. Errors: Unavailable (away for longer than giveUpAfter), or why the
+/// coordinator turned it down, such as FailedPrecondition for another version of Eyrie.
+absl::Status keepRegistered(const RegistrationOptions& options, const std::stop_token& stop);
+
+}  // namespace eyrie::service

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "service/render_server.h"
+
+#include "fabric/status.h"
+#include "service/render_service.h"
+#include "wire/listen.h"
+
+#include <grpcpp/ext/health_check_service_server_builder_option.h>
+#include <grpcpp/health_check_service_interface.h>
+#include <grpcpp/server.h>
+
+#include <utility>
+
+namespace eyrie::service {
+
+class RenderServer::Impl {
+public:
+    explicit Impl(GlThread& thread) : service_(thread) {}
+
+    absl::Status listen(const std::string& address) {
+        grpc::EnableDefaultHealthCheckService(true);
+        ASSIGN_OR_RETURN(wire::Listening listening, wire::listen({address}, service_));
+        server_ = std::move(listening.server);
+        address_ = listening.addresses.front();
+        return absl::OkStatus();
+    }
+
+    void stop(std::chrono::milliseconds grace) {
+        if (server_->GetHealthCheckService() != nullptr)
+            server_->GetHealthCheckService()->Shutdown();
+        server_->Shutdown(std::chrono::system_clock::now() + grace);
+    }
+
+    const std::string& address() const { return address_; }
+
+private:
+    RenderService service_;
+    std::unique_ptr<grpc::Server> server_;
+    std::string address_;
+};
+
+absl::StatusOr<std::unique_ptr<RenderServer>> RenderServer::start(const std::string& address,
+                                                                  GlThread& thread) {
+    auto impl = std::make_unique<Impl>(thread);
+    RETURN_IF_ERROR(impl->listen(address));
+    return std::unique_ptr<RenderServer>(new RenderServer(std::move(impl)));
+}
+
+RenderServer::RenderServer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+RenderServer::~RenderServer() { stop(std::chrono::milliseconds(0)); }
+
+const std::string& RenderServer::address() const { return impl_->address(); }
+void RenderServer::stop(std::chrono::milliseconds grace) { impl_->stop(grace); }
+
+}  // namespace eyrie::service

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "service/render_service.h"
+
+#include "fabric/status.h"
+#include "service/reply_stream.h"
+#include "wire/frame.h"
+#include "wire/scene.h"
+#include "wire/scene_info.h"
+#include "wire/status.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace eyrie::service {
+namespace {
+
+absl::Status openScene(ChannelDrawer& drawer, const fabric::Scene& scene,
+                       v1::OpenSceneResponse& response) {
+    ASSIGN_OR_RETURN(const fabric::SceneInfo info, drawer.openScene(scene));
+    response = wire::toMessage(info);
+    return absl::OkStatus();
+}
+
+void draw(ChannelDrawer& drawer, const fabric::FrameData& frameData,
+          const fabric::ChannelTask& task, ReplyStream& reply) {
+    if (reply.isCancelled())
+        return reply.fail(absl::CancelledError("the coordinator no longer waits for this channel"));
+    absl::StatusOr<fabric::ChannelResult> result = drawer.render(frameData, task);
+    if (result.ok())
+        reply.send(*std::move(result));
+    else
+        reply.fail(result.status());
+}
+
+}  // namespace
+
+grpc::ServerUnaryReactor* RenderService::OpenScene(grpc::CallbackServerContext* context,
+                                                   const v1::OpenSceneRequest* request,
+                                                   v1::OpenSceneResponse* response) {
+    grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
+    absl::StatusOr<fabric::Scene> scene = wire::fromMessage(request->scene());
+    absl::Status status = scene.status();
+    if (scene.ok())
+        status = thread_.post([scene = *std::move(scene), response, reactor](ChannelDrawer& drawer) {
+            reactor->Finish(wire::toGrpc(openScene(drawer, scene, *response)));
+        });
+    if (!status.ok())
+        reactor->Finish(wire::toGrpc(status));
+    return reactor;
+}
+
+grpc::ServerUnaryReactor* RenderService::SetFrameData(grpc::CallbackServerContext* context,
+                                                      const v1::SetFrameDataRequest* request,
+                                                      v1::SetFrameDataResponse* /*response*/) {
+    grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
+    const absl::StatusOr<fabric::FrameData> frameData = wire::fromMessage(request->frame_data());
+    if (frameData.ok())
+        frameData_.store(*frameData);
+    reactor->Finish(wire::toGrpc(frameData.status()));
+    return reactor;
+}
+
+grpc::ServerWriteReactor<v1::RenderChannelResponse>* RenderService::RenderChannel(
+    grpc::CallbackServerContext* /*context*/, const v1::RenderChannelRequest* request) {
+    ++replies_;
+    auto* reply = new ReplyStream([this] { --replies_; });
+    if (const absl::Status status = startDrawing(*request, *reply); !status.ok())
+        reply->fail(status);
+    return reply;
+}
+
+absl::Status RenderService::startDrawing(const v1::RenderChannelRequest& request,
+                                         ReplyStream& reply) {
+    if (replies_ > kMaxReplies)
+        return absl::ResourceExhaustedError(fmt::format(
+            "{} channels are being drawn or sent already; read those first", kMaxReplies));
+    ASSIGN_OR_RETURN(const fabric::ChannelTask task, wire::fromMessage(request.task()));
+    ASSIGN_OR_RETURN(const fabric::FrameData frameData, frameData_.find(task.frameDataVersion));
+    return thread_.post([frameData, task, &reply](ChannelDrawer& drawer) {
+        draw(drawer, frameData, task, reply);
+    });
+}
+
+}  // namespace eyrie::service

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "eyrie/v1/render_service.grpc.pb.h"
+#include "service/frame_data_history.h"
+#include "service/gl_thread.h"
+
+#include <atomic>
+
+namespace eyrie::service {
+
+/// The RPCs of render_service.proto: each becomes a value and a job for the GL thread.
+class RenderService final : public v1::RenderService::CallbackService {
+public:
+    /// Pictures drawn or being sent at once: bounds the memory that slow readers can hold.
+    static constexpr int kMaxReplies = 16;
+
+    /// `thread` outlives the service.
+    explicit RenderService(GlThread& thread) : thread_(thread) {}
+
+    grpc::ServerUnaryReactor* OpenScene(grpc::CallbackServerContext* context,
+                                        const v1::OpenSceneRequest* request,
+                                        v1::OpenSceneResponse* response) override;
+    grpc::ServerUnaryReactor* SetFrameData(grpc::CallbackServerContext* context,
+                                           const v1::SetFrameDataRequest* request,
+                                           v1::SetFrameDataResponse* response) override;
+    grpc::ServerWriteReactor<v1::RenderChannelResponse>* RenderChannel(
+        grpc::CallbackServerContext* context, const v1::RenderChannelRequest* request) override;
+
+private:
+    absl::Status startDrawing(const v1::RenderChannelRequest& request, class ReplyStream& reply);
+
+    GlThread& thread_;
+    FrameDataHistory frameData_;
+    std::atomic<int> replies_{0};
+};
+
+}  // namespace eyrie::service

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "service/renderer_drawer.h"
+
+#include "fabric/status.h"
+
+#include <utility>
+
+namespace eyrie::service {
+namespace {
+
+class RendererDrawer final : public ChannelDrawer {
+public:
+    explicit RendererDrawer(std::unique_ptr<Renderer> renderer) : renderer_(std::move(renderer)) {}
+
+    const fabric::DeviceInfo& device() const override { return renderer_->device(); }
+    absl::StatusOr<fabric::SceneInfo> openScene(const fabric::Scene& scene) override {
+        return renderer_->openScene(scene);
+    }
+    absl::StatusOr<fabric::ChannelResult> render(const fabric::FrameData& frameData,
+                                                 const fabric::ChannelTask& task) override {
+        return renderer_->render(frameData, task);
+    }
+
+private:
+    std::unique_ptr<Renderer> renderer_;
+};
+
+}  // namespace
+
+DrawerFactory rendererDrawer(const RendererOptions& options) {
+    return [options]() -> absl::StatusOr<std::unique_ptr<ChannelDrawer>> {
+        ASSIGN_OR_RETURN(std::unique_ptr<Renderer> renderer, Renderer::create(options));
+        return std::make_unique<RendererDrawer>(std::move(renderer));
+    };
+}
+
+}  // namespace eyrie::service

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// The door for browsers with pictures made up here: for tests of the page, and work on it, without
+// renderers. Prints the line with the URL that `eyrie serve` prints, and serves until its standard
+// input ends; a line "no renderer" or "renderer" on it takes the renderer away or brings it back.
+#include "coordinator/http/server.h"
+#include "tests/coordinator/fake_frame_source.h"
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <string>
+
+namespace {
+
+using namespace eyrie;
+
+/// Where the ray meets the ground z = 0, as a chequered plain under a sky.
+fabric::Rgba colourAlong(const fabric::Vec3& eye, const fabric::Vec3& direction) {
+    if (direction.z >= 0 || eye.z <= 0) {
+        const auto height = static_cast<int>(80 * std::clamp(direction.z, 0.0, 1.0));
+        return {static_cast<std::uint8_t>(60 + height), static_cast<std::uint8_t>(90 + height),
+                static_cast<std::uint8_t>(130 + height), 255};
+    }
+    const fabric::Vec3 hit = eye - direction * (eye.z / direction.z);
+    const bool isInside = hit.x >= 0 && hit.x <= 100 && hit.y >= 0 && hit.y <= 100;
+    if (!isInside)
+        return {38, 44, 54, 255};
+    const bool isDark = (static_cast<int>(hit.x / 10) + static_cast<int>(hit.y / 10)) % 2 == 0;
+    const auto red = static_cast<std::uint8_t>(60 + 1.5 * hit.x);
+    const auto green = static_cast<std::uint8_t>(60 + 1.5 * hit.y);
+    return isDark ? fabric::Rgba{red, green, 60, 255} : fabric::Rgba{green, 150, red, 255};
+}
+
+coordinator::RenderedFrame draw(const coordinator::FrameRequest& request) {
+    coordinator::RenderedFrame frame = coordinator::plainFrame(request, {});
+    const fabric::Camera& camera = request.camera;
+    const fabric::Mat3 worldFromView = glm::transpose(fabric::viewFromWorldRotation(camera));
+    const double pixel = 2 * std::tan(glm::radians(camera.fovYDegrees / 2)) / request.height;
+    std::size_t i = 0;
+    for (int y = 0; y < request.height; ++y)
+        for (int x = 0; x < request.width; ++x) {
+            const fabric::Vec3 ray{(x - request.width / 2 + 0.5) * pixel,
+                                   (y - request.height / 2 + 0.5) * pixel, -1};
+            frame.image.colour[i++] = colourAlong(camera.eye, worldFromView * ray);
+        }
+    // As renderers do: half the error costs four times the triangles, and the data end somewhere.
+    frame.statistics.tauAchievedPixels = std::max(0.5, request.tauPixels * 0.9);
+    frame.statistics.triangles = std::min<std::uint64_t>(
+        1'000'000, static_cast<std::uint64_t>(200'000 / (request.tauPixels * request.tauPixels)));
+    frame.statistics.milliseconds.total = 12;
+    return frame;
+}
+
+coordinator::Status statusWith(bool hasRenderer) {
+    coordinator::Status status = coordinator::readyStatus();
+    status.renderers[0].device.renderer = "made-up pictures (no renderer)";
+    if (!hasRenderer) {
+        status.renderers.clear();
+        status.problem = "No renderer has registered.";
+    }
+    return status;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    if (argc != 2 && argc != 3) {
+        std::cerr << "usage: fake_server WEB_FOLDER [PORT]\n";
+        return 2;
+    }
+    coordinator::FakeFrameSource frames;
+    frames.setDraw(draw);
+    frames.setStatus(statusWith(true));
+    http::ServerOptions options;
+    options.port = argc == 3 ? static_cast<std::uint16_t>(std::stoi(argv[2])) : std::uint16_t{0};
+    options.webFolder = argv[1];
+    auto server = http::Server::start(options, frames);
+    if (!server.ok()) {
+        std::cerr << server.status() << '\n';
+        return 1;
+    }
+    fmt::print("Eyrie is at {}\n", (*server)->url());
+    std::fflush(stdout);
+    for (std::string line; std::getline(std::cin, line);) {
+        frames.setStatus(statusWith(line != "no renderer"));
+        frames.setDraw(line == "no renderer"
+                           ? [](const coordinator::FrameRequest&)
+                                 -> absl::StatusOr<coordinator::RenderedFrame> {
+                                 return absl::UnavailableError("No renderer has registered.");
+                             }
+                           : coordinator::FakeFrameSource::Draw(draw));
+    }
+    (*server)->stop();
+    return 0;
+}

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "coordinator/frame/frame_source.h"
+
+#include <condition_variable>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+namespace eyrie::coordinator {
+
+/// A picture of one colour, as large as asked for.
+inline RenderedFrame plainFrame(const FrameRequest& request, fabric::Rgba colour) {
+    RenderedFrame frame;
+    frame.image = fabric::makeImage({0, 0, request.width, request.height}, colour, false);
+    frame.statistics.tauAskedPixels = request.tauPixels;
+    frame.statistics.tauAchievedPixels = request.tauPixels;
+    frame.statistics.triangles = 1000;
+    frame.device.renderer = "fake";
+    frame.device.software = true;
+    return frame;
+}
+
+/// One renderer and a scene of a hundred metres.
+inline Status readyStatus() {
+    Status status;
+    RendererStatus renderer;
+    renderer.id = "renderer-1";
+    renderer.device.renderer = "fake";
+    renderer.device.software = true;
+    status.renderers.push_back(renderer);
+    fabric::SceneObject object;
+    object.name = "hill";
+    object.path = "hill.eyt";
+    status.scene.objects.push_back(object);
+    status.sceneInfo.bounds = {{0, 0, 0}, {100, 100, 10}};
+    status.sceneInfo.triangles = 1'000'000;
+    return status;
+}
+
+/// Frames drawn by a function. Records what was asked of it; can be held back.
+class FakeFrameSource : public FrameSource {
+public:
+    using Draw = std::function<absl::StatusOr<RenderedFrame>(const FrameRequest&)>;
+
+    FakeFrameSource() : status_(readyStatus()) {
+        draw_ = [](const FrameRequest& request) { return plainFrame(request, {90, 120, 60, 255}); };
+    }
+
+    absl::StatusOr<RenderedFrame> renderFrame(const FrameRequest& request) override {
+        std::unique_lock lock(mutex_);
+        requests_.push_back(request);
+        changed_.notify_all();
+        changed_.wait(lock, [this] { return !isHeld_; });
+        const Draw draw = draw_;
+        lock.unlock();
+        return draw(request);
+    }
+
+    Status status() const override {
+        const std::lock_guard lock(mutex_);
+        return status_;
+    }
+
+    int subscribe(std::function<void()> listener) override {
+        const std::lock_guard lock(listenersMutex_);
+        listeners_[++lastHandle_] = std::move(listener);
+        return lastHandle_;
+    }
+
+    void unsubscribe(int handle) override {
+        const std::lock_guard lock(listenersMutex_);
+        listeners_.erase(handle);
+    }
+
+    void setDraw(Draw draw) {
+        const std::lock_guard lock(mutex_);
+        draw_ = std::move(draw);
+    }
+
+    void setStatus(Status status) {
+        {
+            const std::lock_guard lock(mutex_);
+            status_ = std::move(status);
+        }
+        const std::lock_guard lock(listenersMutex_);
+        for (const auto& [handle, listener] : listeners_)
+            listener();
+    }
+
+    /// While held, renderFrame waits.
+    void hold(bool isHeld) {
+        {
+            const std::lock_guard lock(mutex_);
+            isHeld_ = isHeld;
+        }
+        changed_.notify_all();
+    }
+
+    std::vector<FrameRequest> requests() const {
+        const std::lock_guard lock(mutex_);
+        return requests_;
+    }
+
+    /// Waits until renderFrame has been called `count` times; false after ten seconds.
+    bool waitForRequests(std::size_t count) const {
+        std::unique_lock lock(mutex_);
+        return changed_.wait_for(lock, std::chrono::seconds(10),
+                                 [&] { return requests_.size() >= count; });
+    }
+
+    std::size_t listenerCount() const {
+        const std::lock_guard lock(listenersMutex_);
+        return listeners_.size();
+    }
+
+private:
+    mutable std::mutex mutex_;
+    mutable std::condition_variable changed_;
+    Status status_;
+    Draw draw_;
+    bool isHeld_ = false;
+    std::vector<FrameRequest> requests_;
+
+    mutable std::mutex listenersMutex_;  // held while listeners run, so that unsubscribe waits
+    std::map<int, std::function<void()>> listeners_;
+    int lastHandle_ = 0;
+};
+
+}  // namespace eyrie::coordinator

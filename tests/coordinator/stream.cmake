@@ -1,0 +1,5 @@
+# SPDX-License-Identifier: Apache-2.0
+eyrie_test(jpeg_test LABEL unit LINK eyrie::jpeg)
+eyrie_test(viewer_test LABEL unit LINK eyrie::stream eyrie::jpeg eyrie::proto)
+eyrie_test(http_server_test LABEL unit LINK eyrie::http eyrie::jpeg eyrie::proto Boost::headers
+                                            Threads::Threads)

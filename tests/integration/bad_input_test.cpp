@@ -1,0 +1,354 @@
+// SPDX-License-Identifier: Apache-2.0
+// Wrong input of every kind ends with the agreed exit status and a message that names what is
+// wrong, never with a crash, and leaves no file behind.
+#include "tests/support/image_files.h"
+#include "tests/support/program.h"
+#include "tests/support/temporary_folder.h"
+
+#include <fmt/format.h>
+#include <gdal_priv.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <random>
+
+namespace eyrie {
+namespace {
+
+using std::chrono::seconds;
+using Words = std::vector<std::string>;
+
+constexpr int kWorkFailed = 1;
+constexpr int kWrongInput = 2;
+
+constexpr const char* kGoodCamera =
+    R"({"eye":[0,-4,1],"target":[0,0,0],"up":[0,0,1],"fovyDegrees":45})";
+
+std::string lowerCase(std::string text) {
+    std::ranges::transform(text, text.begin(), [](unsigned char c) {
+        return static_cast<char>(std::tolower(c));
+    });
+    return text;
+}
+
+/// A tetrahedron as an ASCII PLY, with room for mistakes.
+std::string ply(const std::string& firstVertex, const std::string& firstFace,
+                const std::string& vertices = "4", const std::string& faces = "4") {
+    return fmt::format("ply\nformat ascii 1.0\nelement vertex {}\nproperty float x\n"
+                       "property float y\nproperty float z\nelement face {}\n"
+                       "property list uchar int vertex_indices\nend_header\n"
+                       "{}\n1 0 0\n0 1 0\n0 0 1\n{}\n3 0 3 1\n3 0 2 3\n3 1 3 2\n",
+                       vertices, faces, firstVertex, firstFace);
+}
+
+std::string plyWithoutFaces() {
+    return "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+           "property float z\nelement face 0\nproperty list uchar int vertex_indices\n"
+           "end_header\n0 0 0\n";
+}
+
+/// The header promises more than the file holds.
+std::string truncatedBinaryPly() {
+    return "ply\nformat binary_little_endian 1.0\nelement vertex 1000\nproperty float x\n"
+           "property float y\nproperty float z\nelement face 2000\n"
+           "property list uchar int vertex_indices\nend_header\n" +
+           std::string(5000, '\1');
+}
+
+/// A GeoTIFF in UTM, each post `height`.
+void writeDem(const std::string& path, int columns, int rows, float height, float nodata) {
+    GDALAllRegister();
+    GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GTiff");
+    const GDALDatasetUniquePtr file(
+        driver->Create(path.c_str(), columns, rows, 1, GDT_Float32, nullptr));
+    ASSERT_NE(file, nullptr);
+    std::array<double, 6> transform{500000, 30, 0, 4000000, 0, -30};
+    file->SetGeoTransform(transform.data());
+    OGRSpatialReference utm;
+    utm.importFromEPSG(32611);
+    file->SetSpatialRef(&utm);
+    file->GetRasterBand(1)->SetNoDataValue(nodata);
+    ASSERT_EQ(file->GetRasterBand(1)->Fill(height), CE_None);
+}
+
+class BadInput : public testing::Test {
+protected:
+    static void SetUpTestSuite() {
+        good_ = std::make_unique<test::TemporaryFolder>();
+        good_->write("camera.json", kGoodCamera);
+        ASSERT_TRUE(test::succeeded(
+            {"synth", "mesh", "--size", "2000", "--seed", "1", "-o", good_->path("ball.ply")}));
+        ASSERT_TRUE(test::succeeded(
+            {"import", "mesh", good_->path("ball.ply"), "-o", good_->path("ball.eym")}));
+        ASSERT_TRUE(test::succeeded(
+            {"synth", "terrain", "--size", "300", "--seed", "1", "-o", good_->path("dem.tif")}));
+        ASSERT_TRUE(test::succeeded(
+            {"import", "terrain", good_->path("dem.tif"), "-o", good_->path("dem.eyt")}));
+    }
+    static void TearDownTestSuite() { good_.reset(); }
+
+    static std::string good(const std::string& name) { return good_->path(name); }
+    std::string bad(const std::string& name) const { return folder_.path(name); }
+
+    /// Runs `eyrie ARGUMENTS` and expects it to be refused, with each of `named` in its message (in
+    /// upper or lower case), and nothing new in the folder.
+    void expectRefused(const Words& arguments, const Words& named, int status = kWrongInput,
+                       const Words& environment = {}) {
+        const std::set<std::string> before = test::namesIn(folder_.path());
+        std::string line = "eyrie";
+        for (const std::string& argument : arguments) line += " " + argument;
+        Words variables = environment;
+        variables.push_back("XDG_CACHE_HOME=" + cache_.path("cache"));
+        const test::Outcome outcome = test::eyrie(arguments, variables, seconds(20));
+        EXPECT_EQ(outcome.exit, (test::Exit{status, 0})) << line << "\n" << outcome.errors;
+        const std::string message = lowerCase(outcome.errors);
+        for (const std::string& word : named)
+            EXPECT_NE(message.find(lowerCase(word)), std::string::npos)
+                << line << "\nshould say '" << word << "', but says:\n"
+                << outcome.errors;
+        EXPECT_EQ(test::namesIn(folder_.path()), before) << line << "\nleft something behind";
+    }
+
+    void expectRenderRefused(const Words& options, const Words& named) {
+        Words arguments = {"render", good("ball.eym"), "-o", bad("out.png")};
+        if (std::ranges::count(options, "--camera") == 0)
+            arguments.insert(arguments.end(), {"--camera", good("camera.json")});
+        if (std::ranges::count(options, "--size") == 0)
+            arguments.insert(arguments.end(), {"--size", "32x32"});
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        expectRefused(arguments, named);
+    }
+
+    test::TemporaryFolder folder_;
+    test::TemporaryFolder cache_;
+    static std::unique_ptr<test::TemporaryFolder> good_;
+};
+std::unique_ptr<test::TemporaryFolder> BadInput::good_;
+
+TEST_F(BadInput, MeshesThatAreNoneAreRefusedByName) {
+    struct Case {
+        const char* name;
+        std::string content;
+        Words named;
+    };
+    const std::string good = ply("0 0 0", "3 0 1 2");
+    const std::vector<Case> cases = {
+        {"empty.ply", "", {"empty.ply"}},
+        {"text.ply", "this is no mesh\n", {"text.ply", "ply"}},
+        {"header_only.ply", good.substr(0, good.find("end_header") + 11), {"vert"}},
+        {"cut_header.ply", good.substr(0, 60), {"header"}},
+        {"cut_vertices.ply", good.substr(0, good.find("0 1 0")), {"vert"}},
+        {"cut_faces.ply", good.substr(0, good.find("3 0 2 3")), {"face"}},
+        {"cut_binary.ply", truncatedBinaryPly(), {"vert", "1000"}},
+        {"nan.ply", ply("nan 0 0", "3 0 1 2"), {"x", "finite"}},
+        {"inf.ply", ply("0 inf 0", "3 0 1 2"), {"y", "finite"}},
+        {"index.ply", ply("0 0 0", "3 0 1 4"), {"face", "4"}},
+        {"negative_index.ply", ply("0 0 0", "3 0 -1 2"), {"face", "-1"}},
+        {"lying.ply", ply("0 0 0", "3 0 1 2", "4000000000"), {"4000000000"}},
+        {"lying_faces.ply", ply("0 0 0", "3 0 1 2", "4", "99999999999999999999"), {"face"}},
+        {"no_faces.ply", plyWithoutFaces(), {"face"}},
+    };
+    for (const Case& one : cases) {
+        folder_.write(one.name, one.content);
+        Words named = one.named;
+        named.push_back(one.name);
+        expectRefused({"import", "mesh", bad(one.name), "-o", bad("out.eym")}, named);
+    }
+    expectRefused({"import", "mesh", bad("missing.ply"), "-o", bad("out.eym")}, {"missing.ply"});
+    expectRefused({"import", "mesh", folder_.path().string(), "-o", bad("out.eym")},
+                  {folder_.path().string()});
+}
+
+TEST_F(BadInput, ElevationModelsThatAreNoneAreRefusedByName) {
+    folder_.write("text.tif", "this is no raster\n");
+    expectRefused({"import", "terrain", bad("text.tif"), "-o", bad("out.eyt")}, {"text.tif"});
+    writeDem(bad("empty.tif"), 64, 64, -9999, -9999);
+    expectRefused({"import", "terrain", bad("empty.tif"), "-o", bad("out.eyt")},
+                  {"empty.tif", "nodata"});
+    writeDem(bad("nan.tif"), 64, 64, std::numeric_limits<float>::quiet_NaN(), -9999);
+    expectRefused({"import", "terrain", bad("nan.tif"), "-o", bad("out.eyt")}, {"nan.tif"});
+    writeDem(bad("pixel.tif"), 1, 1, 7, -9999);
+    expectRefused({"import", "terrain", bad("pixel.tif"), "-o", bad("out.eyt")},
+                  {"pixel.tif", "1"});
+    expectRefused({"import", "terrain", bad("missing.tif"), "-o", bad("out.eyt")},
+                  {"missing.tif"});
+    const auto whole = test::readFile(good("dem.tif"));
+    ASSERT_TRUE(whole.ok()) << whole.status();
+    folder_.write("cut.tif", whole->substr(0, whole->size() / 2));
+    expectRefused({"import", "terrain", bad("cut.tif"), "-o", bad("out.eyt")}, {"cut.tif"});
+}
+
+TEST_F(BadInput, ScenesThatCannotBeAreRefusedByFileAndField) {
+    struct Case {
+        const char* name;
+        std::string content;
+        Words named;
+    };
+    const std::string mesh = good("ball.eym");
+    const std::vector<Case> cases = {
+        {"broken.json", "{\"objects\":[", {}},
+        {"list.json", "[]", {}},
+        {"unknown.json", R"({"objcts":[]})", {"objcts"}},
+        {"type.json", R"({"objects":"ball"})", {"objects"}},
+        {"ambient.json", fmt::format(R"({{"objects":[{{"mesh":"{}"}}],"ambient":7}})", mesh),
+         {"ambient", "7"}},
+        {"empty.json", R"({"objects":[]})", {"object"}},
+        {"no_data.json", R"({"objects":[{"name":"ghost"}]})", {"ghost"}},
+        {"missing.json", R"({"objects":[{"mesh":"nowhere.eym"}]})", {"nowhere.eym"}},
+        {"singular.json",
+         fmt::format(R"({{"objects":[{{"name":"flat","mesh":"{}","transform":{{"matrix":)"
+                     R"([1,0,0,0, 0,1,0,0, 0,0,0,0, 0,0,0,1]}}}}]}})",
+                     mesh),
+         {"flat", "transform"}},
+        {"short.json",
+         fmt::format(R"({{"objects":[{{"mesh":"{}","transform":{{"translation":[1,2]}}}}]}})",
+                     mesh),
+         {"translation"}},
+        {"nan.json",
+         fmt::format(
+             R"({{"objects":[{{"mesh":"{}","transform":{{"translation":[1,2,"NaN"]}}}}]}})", mesh),
+         {"translation"}},
+    };
+    for (const Case& one : cases) {
+        folder_.write(one.name, one.content);
+        Words named = one.named;
+        if (one.name != std::string("missing.json"))
+            named.push_back(one.name);
+        expectRefused({"render", bad(one.name), "--camera", good("camera.json"), "--size", "32x32",
+                       "-o", bad("out.png")},
+                      named);
+    }
+    expectRefused({"render", bad("nowhere.json"), "--camera", good("camera.json"), "--size",
+                   "32x32", "-o", bad("out.png")},
+                  {"nowhere.json"});
+}
+
+TEST_F(BadInput, CamerasThatSpanNoPictureAreRefusedByField) {
+    const std::vector<std::pair<std::string, std::string>> cases = {
+        {R"({"eye":["NaN",0,0],"target":[0,0,0]})", "eye"},
+        {R"({"eye":["Infinity",0,0],"target":[0,0,0]})", "eye"},
+        {R"({"target":[0,0,0]})", "eye"},
+        {R"({"eye":[0,0],"target":[0,0,0]})", "eye"},
+        {R"({"eye":[0,0,0],"target":[0,0,0]})", "target"},
+        {R"({"eye":[0,0,5],"target":[0,0,0],"up":[0,0,1]})", "up"},
+        {R"({"eye":[0,-4,0],"target":[0,0,0],"fovyDegrees":500})", "fovy"},
+        {R"({"eye":[0,-4,0],"target":[0,0,0],"fovyDegrees":-1})", "fovy"},
+        {R"({"eye":[0,-4,0],"target":[0,0,0],"fov":45})", "fov"},
+        {R"(eye)", "camera"},
+    };
+    for (const auto& [content, field] : cases) {
+        const std::string file = folder_.write("camera.json", content);
+        expectRenderRefused({"--camera", file}, {"camera.json", field});
+    }
+    expectRenderRefused({"--camera", bad("nowhere.json")}, {"nowhere.json"});
+}
+
+TEST_F(BadInput, OptionsOutOfRangeAreRefusedByName) {
+    for (const char* size : {"0x0", "99999x1", "abc", "32", "32x", "-1x32", "32x32x32", "1e3x9"})
+        expectRenderRefused({"--size", size}, {"--size", size});
+    for (const char* tau : {"0", "-1", "nan", "inf", "abc", "1e9"})
+        expectRenderRefused({"--tau", tau}, {"--tau"});
+    for (const char* count : {"0", "-1", "abc", "100000"})
+        expectRenderRefused({"--renderers", count}, {"--renderers"});
+    expectRenderRefused({"--renderers", "2", "--compound", "3D"}, {"--compound"});
+    expectRefused({"render", good("ball.eym"), "--size", "32x32", "-o", bad("out.png")},
+                  {"--camera"});
+    expectRefused({"render", good("ball.eym"), "--camera", good("camera.json"), "-o",
+                   bad("out.xyz"), "--size", "32x32"},
+                  {"out.xyz", ".png"});
+}
+
+TEST_F(BadInput, UnknownCommandsAndOptionsAreRefused) {
+    expectRefused({}, {"eyrie"});
+    expectRefused({"fly"}, {"fly"});
+    expectRefused({"import"}, {"mesh", "terrain"});
+    expectRefused({"import", "cloud", "x"}, {"cloud"});
+    expectRefused({"info"}, {"file"});
+    expectRefused({"info", good("ball.eym"), "--colour"}, {"--colour"});
+    expectRefused({"serve", good("ball.eym"), "--listen", "nowhere"}, {"--listen", "nowhere"});
+    expectRefused({"serve", good("ball.eym"), "--listen", "127.0.0.1:99999"},
+                  {"--listen", "99999"});
+    expectRefused({"serve", bad("nowhere.ply")}, {"nowhere.ply"});
+    expectRefused({"coordinator", bad("nowhere.eym"), "--listen", "127.0.0.1:0"},
+                  {"nowhere.eym"});
+    expectRefused({"synth", "mesh", "--size", "-5", "-o", bad("out.ply")}, {"--size"});
+    expectRefused({"synth", "terrain", "--size", "0", "-o", bad("out.tif")}, {"--size"});
+}
+
+TEST_F(BadInput, OutputIntoAFolderThatIsMissingIsRefused) {
+    const std::string out = bad("no/such/folder/out");
+    expectRefused({"render", good("ball.eym"), "--camera", good("camera.json"), "--size", "32x32",
+                   "-o", out + ".png"},
+                  {out});
+    expectRefused({"import", "mesh", good("ball.ply"), "-o", out + ".eym"}, {out});
+    expectRefused({"import", "terrain", good("dem.tif"), "-o", out + ".eyt"}, {out});
+    expectRefused({"synth", "mesh", "--size", "100", "-o", out + ".ply"}, {out});
+    expectRefused({"synth", "terrain", "--size", "100", "-o", out + ".tif"}, {out});
+}
+
+TEST_F(BadInput, DamagedDataFilesAreRefusedAndNeverCrash) {
+    const unsigned seed = 20261121;
+    std::mt19937 random(seed);
+    for (const char* name : {"ball.eym", "dem.eyt"}) {
+        const auto whole = test::readFile(good(name));
+        ASSERT_TRUE(whole.ok()) << whole.status();
+        const std::string file = folder_.write(name, "");
+        const auto tryBoth = [&](const std::string& content, const std::string& what) {
+            folder_.write(name, content);
+            for (const Words& arguments :
+                 {Words{"info", file}, Words{"render", file, "--camera", good("camera.json"),
+                                             "--size", "32x32", "-o", bad("out.png")}}) {
+                const test::Outcome outcome = test::eyrie(arguments, {}, seconds(20));
+                EXPECT_EQ(outcome.exit.signal, 0) << arguments[0] << " " << what;
+                EXPECT_GE(outcome.exit.status, 0) << arguments[0] << " " << what << " hangs";
+                if (outcome.exit.status == 0)
+                    continue;
+                EXPECT_EQ(outcome.exit.status, kWrongInput) << what << outcome.errors;
+                EXPECT_NE(outcome.errors.find(name), std::string::npos)
+                    << what << outcome.errors;
+                EXPECT_FALSE(std::filesystem::exists(bad("out.png"))) << what;
+            }
+            std::filesystem::remove(bad("out.png"));
+        };
+        for (int i = 0; i < 12; ++i) {
+            std::string content = *whole;
+            // Half of the flips in the first kilobyte, where the sizes are.
+            const std::size_t range = i % 2 == 0 ? std::size_t{1024} : content.size();
+            const std::size_t place = random() % std::min(range, content.size());
+            content[place] = static_cast<char>(content[place] ^ (1 << random() % 8));
+            tryBoth(content, fmt::format("{} with a bit of byte {} flipped, seed {}\n", name, place,
+                                         seed));
+        }
+        for (const std::size_t length : {std::size_t{0}, std::size_t{7}, whole->size() / 2,
+                                         whole->size() - 1}) {
+            folder_.write(name, whole->substr(0, length));
+            expectRefused({"info", file}, {name});
+        }
+    }
+}
+
+TEST_F(BadInput, WithoutEglRenderSaysWhatToInstall) {
+    expectRefused({"render", good("ball.eym"), "--camera", good("camera.json"), "--size", "32x32",
+                   "-o", bad("out.png")},
+                  {"EGL", "install", "libegl-mesa0"}, kWorkFailed,
+                  {"__EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent.json"});
+}
+
+TEST_F(BadInput, ARendererWithoutACoordinatorSaysSoAndCanBeEnded) {
+    // Nobody listens on port 1. A renderer waits for its coordinator, which may come later.
+    test::Process renderer(
+        test::eyrieCommand({"renderer", "--coordinator", "127.0.0.1:1"}));
+    EXPECT_TRUE(test::eventually(seconds(20), [&] {
+        return renderer.errors().find("127.0.0.1:1") != std::string::npos;
+    })) << renderer.errors();
+    renderer.send(SIGTERM);
+    EXPECT_EQ(renderer.waitFor(seconds(5)), (test::Exit{0, 0})) << renderer.errors();
+    expectRefused({"renderer", "--coordinator", "nowhere"}, {"nowhere"});
+    expectRefused({"renderer"}, {"--coordinator"});
+}
+
+}  // namespace
+}  // namespace eyrie

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: Apache-2.0
+// From synthetic source to picture by the program alone: synth, import, info, render.
+#include "tests/support/image_files.h"
+#include "tests/support/program.h"
+#include "tests/support/temporary_folder.h"
+
+#include <fmt/format.h>
+#include <google/protobuf/struct.pb.h>
+#include <google/protobuf/util/json_util.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace eyrie {
+namespace {
+
+using test::eyrie;
+using test::succeeded;
+using JsonValue = google::protobuf::Value;
+
+constexpr int kWidth = 1280;
+constexpr int kHeight = 720;
+constexpr std::size_t kPixels = std::size_t{kWidth} * kHeight;
+/// Of kPixels, between one channel and any decomposition; the aim is none.
+constexpr std::size_t kMaxDifferentPixels = 50;
+
+JsonValue parseJson(const std::string& text) {
+    JsonValue value;
+    const auto status = google::protobuf::util::JsonStringToMessage(text, &value);
+    EXPECT_TRUE(status.ok()) << status.ToString() << "\n" << text;
+    return value;
+}
+
+/// The value at "a.b.c"; a null value where there is none.
+JsonValue at(JsonValue value, const std::string& path) {
+    std::istringstream names(path);
+    for (std::string name; std::getline(names, name, '.');) {
+        const auto& fields = value.struct_value().fields();
+        const auto field = fields.find(name);
+        value = field == fields.end() ? JsonValue() : JsonValue(field->second);
+    }
+    return value;
+}
+
+double number(const JsonValue& object, const std::string& path) {
+    const JsonValue value = at(object, path);
+    EXPECT_EQ(value.kind_case(), JsonValue::kNumberValue) << path << " should be a number";
+    return value.number_value();
+}
+
+std::string content(const std::string& path) {
+    const auto text = test::readFile(path);
+    EXPECT_TRUE(text.ok()) << text.status();
+    return text.ok() ? *text : std::string();
+}
+
+/// A picture, its depth and its statistics, as the program wrote them.
+struct Rendered {
+    fabric::Image image;
+    test::DepthPicture depth;
+    JsonValue statistics;
+};
+
+/// A synthetic terrain and mesh, made and imported once.
+class Render : public testing::Test {
+protected:
+    static void SetUpTestSuite() {
+        folder_ = std::make_unique<test::TemporaryFolder>();
+        ASSERT_TRUE(succeeded({"synth", "terrain", "--size", "513", "--seed", "3", "-o",
+                               folder_->path("dem.tif")}));
+        ASSERT_TRUE(succeeded({"import", "terrain", folder_->path("dem.tif"), "-o",
+                               folder_->path("dem.eyt")}));
+        ASSERT_TRUE(succeeded({"synth", "mesh", "--size", "80000", "--seed", "3", "-o",
+                               folder_->path("ball.ply")}));
+        ASSERT_TRUE(succeeded({"import", "mesh", folder_->path("ball.ply"), "-o",
+                               folder_->path("ball.eym")}));
+    }
+    static void TearDownTestSuite() { folder_.reset(); }
+
+    static std::string path(const std::string& name) { return folder_->path(name); }
+
+    static JsonValue info(const std::string& name) {
+        const test::Outcome outcome = eyrie({"info", path(name), "--json"});
+        EXPECT_EQ(outcome.exit, (test::Exit{0, 0})) << outcome.errors;
+        return parseJson(outcome.output);
+    }
+
+    static std::string cameraFile(const std::string& json) {
+        return folder_->write("camera.json", json);
+    }
+
+    /// A view of the terrain with sky above it.
+    static std::string terrainCamera() {
+        const JsonValue bounds = at(info("dem.eyt"), "bounds");
+        const auto coordinate = [&](const char* corner, int axis) {
+            return at(bounds, corner).list_value().values(axis).number_value();
+        };
+        const double x = (coordinate("min", 0) + coordinate("max", 0)) / 2;
+        const double north = coordinate("max", 1), south = coordinate("min", 1);
+        const double side = north - south;
+        const double z = coordinate("max", 2);
+        return cameraFile(fmt::format(
+            R"({{"eye":[{},{},{}],"target":[{},{},{}],"up":[0,0,1],"fovyDegrees":50}})", x,
+            south - 0.3 * side, z + 0.2 * side, x, north, z));
+    }
+
+    static std::string meshCamera() {
+        return cameraFile(R"({"eye":[0,-4,0.5],"target":[0,0,0],"up":[0,0,1],"fovyDegrees":40})");
+    }
+
+    static Rendered render(const std::string& data, const std::string& camera,
+                           const std::vector<std::string>& more = {}) {
+        std::vector<std::string> arguments = {
+            "render",  path(data),  "--camera",    camera,  "--size",       "1280x720",
+            "--tau",   "1",         "-o",          path("out.png"), "--depth", path("out.pfm"),
+            "--stats", path("out.json")};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        EXPECT_TRUE(succeeded(arguments));
+        Rendered rendered;
+        if (auto image = test::readPng(path("out.png")); image.ok())
+            rendered.image = *std::move(image);
+        if (auto depth = test::readPfm(path("out.pfm")); depth.ok())
+            rendered.depth = *std::move(depth);
+        rendered.statistics = parseJson(content(path("out.json")));
+        EXPECT_EQ(rendered.image.colour.size(), kPixels);
+        EXPECT_EQ(rendered.depth.metres.size(), kPixels);
+        for (const char* name : {"out.png", "out.pfm", "out.json"})
+            std::filesystem::remove(path(name));
+        return rendered;
+    }
+
+    static void expectDecompositionsEqual(const std::string& data, const std::string& camera) {
+        const Rendered single = render(data, camera);
+        ASSERT_EQ(single.image.colour.size(), kPixels);
+        for (const auto& [count, compound] :
+             {std::pair("2", "2D"), {"4", "2D"}, {"2", "DB"}, {"3", "DB"}}) {
+            const Rendered parts =
+                render(data, camera, {"--renderers", count, "--compound", compound});
+            ASSERT_EQ(parts.image.colour.size(), kPixels);
+            std::size_t different = 0;
+            for (std::size_t i = 0; i < kPixels; ++i)
+                different += parts.image.colour[i] == single.image.colour[i] &&
+                                     parts.depth.metres[i] == single.depth.metres[i]
+                                 ? 0
+                                 : 1;
+            fmt::print("{} over {} renderers, {}: {} pixels of {} differ\n", compound, count, data,
+                       different, kPixels);
+            EXPECT_LE(different, kMaxDifferentPixels);
+        }
+    }
+
+    static std::unique_ptr<test::TemporaryFolder> folder_;
+};
+std::unique_ptr<test::TemporaryFolder> Render::folder_;
+
+TEST_F(Render, InfoSaysWhatATerrainIs) {
+    const JsonValue facts = info("dem.eyt");
+    EXPECT_EQ(at(facts, "kind").string_value(), "terrain");
+    EXPECT_GT(number(facts, "samples"), 500 * 500);
+    EXPECT_GE(number(facts, "levels"), 3);
+    EXPECT_NE(at(facts, "crs").string_value(), "");
+    EXPECT_EQ(number(facts, "bytes"),
+              static_cast<double>(std::filesystem::file_size(path("dem.eyt"))));
+    EXPECT_GE(number(facts, "errorMetres.coarsest"), number(facts, "errorMetres.finest"));
+}
+
+TEST_F(Render, InfoSaysWhatAMeshIs) {
+    const JsonValue facts = info("ball.eym");
+    EXPECT_EQ(at(facts, "kind").string_value(), "mesh");
+    EXPECT_NEAR(number(facts, "triangles"), 80000, 2000);
+    EXPECT_GE(number(facts, "levels"), 1);
+    EXPECT_EQ(number(facts, "bytes"),
+              static_cast<double>(std::filesystem::file_size(path("ball.eym"))));
+    EXPECT_GT(number(facts, "errorMetres.finest"), 0);
+    EXPECT_LT(number(facts, "errorMetres.finest"), 1e-5);
+    for (int axis = 0; axis < 3; ++axis) {
+        EXPECT_NEAR(at(facts, "bounds.min").list_value().values(axis).number_value(), -1, 0.5);
+        EXPECT_NEAR(at(facts, "bounds.max").list_value().values(axis).number_value(), 1, 0.5);
+    }
+}
+
+TEST_F(Render, DepthIsAPfmFromTheBottomRowUpWithInfinityForTheSky) {
+    render("dem.eyt", terrainCamera());
+    ASSERT_TRUE(succeeded({"render", path("dem.eyt"), "--camera", path("camera.json"), "--size",
+                           "320x200", "-o", path("small.png"), "--depth", path("small.pfm")}));
+    EXPECT_TRUE(content(path("small.pfm")).starts_with("Pf\n320 200\n-1.0\n"));
+    const auto depth = test::readPfm(path("small.pfm"));
+    ASSERT_TRUE(depth.ok()) << depth.status();
+    const auto metres = [&](int x, int y) {
+        return depth->metres[static_cast<std::size_t>(y * depth->width + x)];
+    };
+    EXPECT_TRUE(std::isfinite(metres(160, 40))) << "the ground is below";
+    EXPECT_LT(metres(160, 40), metres(160, 90)) << "and farther away higher up";
+    EXPECT_EQ(metres(160, 199), INFINITY) << "the sky is above";
+    for (const float value : depth->metres)
+        ASSERT_TRUE(value > 0) << "no depth is 0, negative or not a number";
+}
+
+TEST_F(Render, PicturesAndDepthAgreeOnWhatIsCovered) {
+    const Rendered ball = render("ball.eym", meshCamera());
+    const fabric::Rgba background = ball.image.colour.front();
+    std::size_t covered = 0;
+    std::size_t disagree = 0;
+    for (std::size_t i = 0; i < kPixels; ++i) {
+        const bool hit = std::isfinite(ball.depth.metres[i]);
+        covered += hit ? 1 : 0;
+        disagree += hit == (ball.image.colour[i] == background) ? 1 : 0;
+    }
+    // A ball of radius 1 at 4 m fills about 500 pixels' diameter; the light may give some of it
+    // the background's very colour.
+    EXPECT_NEAR(static_cast<double>(covered), M_PI * 255 * 255, 60000);
+    EXPECT_LT(disagree, covered / 100);
+    const float centre = ball.depth.metres[kPixels / 2 + kWidth / 2];
+    EXPECT_NEAR(centre, std::hypot(4, 0.5) - 1, 0.4);
+}
+
+TEST_F(Render, StatisticsAreNumbersByTheirAgreedNames) {
+    const JsonValue facts = render("dem.eyt", terrainCamera()).statistics;
+    EXPECT_EQ(number(facts, "width"), kWidth);
+    EXPECT_EQ(number(facts, "height"), kHeight);
+    EXPECT_EQ(number(facts, "tauAsked"), 1);
+    EXPECT_GE(number(facts, "tauAchieved"), 0);
+    EXPECT_TRUE(at(facts, "complete").bool_value());
+    EXPECT_GT(number(facts, "triangles"), 100);
+    EXPECT_EQ(number(facts, "points"), 0);
+    EXPECT_GE(number(facts, "nodes"), 1);
+    EXPECT_GE(number(facts, "pagesLoaded"), 1);
+    for (const char* stage : {"cull", "draw", "readback", "encode", "total"})
+        EXPECT_GE(number(facts, fmt::format("milliseconds.{}", stage)), 0);
+    EXPECT_NE(at(facts, "renderer.vendor").string_value(), "");
+    EXPECT_NE(at(facts, "renderer.device").string_value(), "");
+    EXPECT_EQ(at(facts, "renderer.software").kind_case(), JsonValue::kBoolValue);
+}
+
+TEST_F(Render, ATerrainOverSeveralRenderersIsThePictureOfOne) {
+    expectDecompositionsEqual("dem.eyt", terrainCamera());
+}
+
+TEST_F(Render, AMeshOverSeveralRenderersIsThePictureOfOne) {
+    expectDecompositionsEqual("ball.eym", meshCamera());
+}
+
+TEST_F(Render, ASceneFilePlacesItsObjectsRelativeToItself) {
+    folder_->write("scene.json", R"({"objects":[
+        {"mesh":"ball.eym","transform":{"translation":[-1.5,0,0]}},
+        {"name":"source","mesh":"ball.ply","transform":{"translation":[1.5,0,0]}}]})");
+    const test::TemporaryFolder cache;
+    const Rendered both =
+        render("scene.json", meshCamera(), {"--cache", cache.path("imports")});
+    const auto isHit = [&](int x) {
+        return std::isfinite(
+            both.depth.metres[kPixels / 2 + kWidth / 2 + static_cast<std::size_t>(x)]);
+    };
+    EXPECT_TRUE(isHit(-370) && isHit(370)) << "a ball to the left and one to the right";
+    EXPECT_FALSE(isHit(0)) << "and a gap between them";
+    EXPECT_EQ(test::namesIn(cache.path("imports")).size(), 1U) << "the source's import is kept";
+}
+
+TEST_F(Render, WritesJpegByItsName) {
+    ASSERT_TRUE(succeeded({"render", path("ball.eym"), "--camera", meshCamera(), "--size",
+                           "64x64", "-o", path("out.jpg")}));
+    EXPECT_TRUE(content(path("out.jpg")).starts_with("\xff\xd8\xff"));
+}
+
+TEST_F(Render, IsSilentOnStandardOutput) {
+    const test::Outcome outcome =
+        eyrie({"render", path("ball.eym"), "--camera", meshCamera(), "--size", "64x64", "--quiet",
+               "-o", path("quiet.png")});
+    EXPECT_EQ(outcome.exit, (test::Exit{0, 0}));
+    EXPECT_EQ(outcome.output, "");
+    EXPECT_EQ(outcome.errors, "");
+}
+
+}  // namespace
+}  // namespace eyrie

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "wire/frame.h"
+
+#include "eyrie/v1/frame.pb.h"
+
+#include <gmock/gmock.h>
+#include <rapidcheck/gtest.h>
+
+#include <limits>
+
+namespace eyrie::wire {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+fabric::ChannelTask anyTask() {
+    fabric::ChannelTask task;
+    task.frameNumber = *rc::gen::arbitrary<std::uint64_t>();
+    task.frameDataVersion = *rc::gen::arbitrary<std::uint64_t>();
+    task.viewWidth = *rc::gen::inRange(1, fabric::kMaxViewPixels + 1);
+    task.viewHeight = *rc::gen::inRange(1, fabric::kMaxViewPixels + 1);
+    const int x = *rc::gen::inRange(0, task.viewWidth);
+    const int y = *rc::gen::inRange(0, task.viewHeight);
+    task.pixelViewport = {x, y, *rc::gen::inRange(1, task.viewWidth - x + 1),
+                          *rc::gen::inRange(1, task.viewHeight - y + 1)};
+    const int begin = *rc::gen::inRange(0, 1001);
+    task.range = {begin / 1000.0, *rc::gen::inRange(begin, 1001) / 1000.0};
+    task.wantsDepth = *rc::gen::arbitrary<bool>();
+    return task;
+}
+
+RC_GTEST_PROP(WireChannelTask, ComesBackAsItWas, ()) {
+    const fabric::ChannelTask task = anyTask();
+    RC_ASSERT(*fromMessage(toMessage(task)) == task);
+}
+
+RC_GTEST_PROP(WireFrameData, ComesBackAsItWas, ()) {
+    fabric::FrameData frameData;
+    frameData.version = *rc::gen::inRange<std::uint64_t>(1, 1U << 30);
+    frameData.tauPixels = *rc::gen::inRange(1, 100'001) / 100.0;
+    frameData.shading = *rc::gen::element(fabric::Shading::Smooth, fabric::Shading::Flat,
+                                          fabric::Shading::Wireframe);
+    RC_ASSERT(*fromMessage(toMessage(frameData)) == frameData);
+}
+
+template <typename Message>
+std::string refusal(const Message& message) {
+    return std::string(fromMessage(message).status().message());
+}
+
+v1::ChannelTask taskMessage() {
+    fabric::ChannelTask task;
+    task.viewWidth = 100;
+    task.viewHeight = 50;
+    task.pixelViewport = {0, 0, 100, 50};
+    return toMessage(task);
+}
+
+TEST(WireChannelTask, ARefusalNamesTheField) {
+    v1::ChannelTask large = taskMessage();
+    large.set_view_width(fabric::kMaxViewPixels + 1);
+    EXPECT_THAT(refusal(large), testing::HasSubstr("task.view_width"));
+    v1::ChannelTask flat = taskMessage();
+    flat.set_view_height(0);
+    EXPECT_THAT(refusal(flat), testing::HasSubstr("task.view_height"));
+    v1::ChannelTask outside = taskMessage();
+    outside.mutable_pixel_viewport()->set_x(1);
+    EXPECT_THAT(refusal(outside), testing::HasSubstr("task.pixel_viewport"));
+    v1::ChannelTask empty = taskMessage();
+    empty.mutable_pixel_viewport()->set_width(0);
+    EXPECT_THAT(refusal(empty), testing::HasSubstr("task.pixel_viewport"));
+}
+
+TEST(WireChannelTask, AnAbsentRangeIsTheWhole) {
+    v1::ChannelTask message = taskMessage();
+    message.clear_range();
+    EXPECT_EQ(fromMessage(message).value().range, fabric::Range{});
+}
+
+TEST(WirePixelViewport, NumbersThatWouldOverflowAreRefused) {
+    v1::PixelViewport far;
+    far.set_x(std::numeric_limits<std::int32_t>::max());
+    far.set_width(1);
+    EXPECT_THAT(refusal(far), testing::HasSubstr("pixel_viewport.x"));
+    v1::PixelViewport wide;
+    wide.set_width(std::numeric_limits<std::int32_t>::max());
+    EXPECT_THAT(refusal(wide), testing::HasSubstr("pixel_viewport.width"));
+    v1::PixelViewport negative;
+    negative.set_height(-1);
+    EXPECT_THAT(refusal(negative), testing::HasSubstr("pixel_viewport.height"));
+}
+
+TEST(WireRange, OnlySharesOfTheDataAreAccepted) {
+    const std::vector<std::pair<double, double>> refused = {
+        {0.5, 0.4}, {-0.1, 1}, {0, 1.1}, {kNan, 1}, {0, kNan}};
+    for (const auto& [begin, end] : refused) {
+        v1::Range message;
+        message.set_begin(begin);
+        message.set_end(end);
+        EXPECT_THAT(refusal(message), testing::HasSubstr("range")) << begin << " to " << end;
+    }
+}
+
+TEST(WireFrameData, ARefusalNamesTheField) {
+    const fabric::FrameData good{1, {}, 1, fabric::Shading::Smooth};
+    for (const double tau : {0.0, -1.0, 1001.0, kNan}) {
+        v1::FrameData message = toMessage(good);
+        message.set_tau_pixels(tau);
+        EXPECT_THAT(refusal(message), testing::HasSubstr("frame_data.tau_pixels"));
+    }
+    v1::FrameData unversioned = toMessage(good);
+    unversioned.clear_version();
+    EXPECT_THAT(refusal(unversioned), testing::HasSubstr("frame_data.version"));
+    v1::FrameData shaded = toMessage(good);
+    shaded.set_shading(static_cast<v1::Shading>(99));
+    EXPECT_THAT(refusal(shaded), testing::HasSubstr("frame_data.shading"));
+    v1::FrameData blind = toMessage(good);
+    blind.clear_camera();
+    EXPECT_THAT(refusal(blind), testing::HasSubstr("camera.eye"));
+}
+
+}  // namespace
+}  // namespace eyrie::wire

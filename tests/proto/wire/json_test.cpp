@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "wire/json.h"
+
+#include "eyrie/v1/scene.pb.h"
+#include "wire/scene.h"
+
+#include <gmock/gmock.h>
+#include <google/protobuf/struct.pb.h>
+#include <google/protobuf/util/json_util.h>
+
+#include <limits>
+
+namespace eyrie::wire {
+namespace {
+
+TEST(CameraJson, TheShortFormOfTheDesignIsRead) {
+    const fabric::Camera camera =
+        cameraFromJson(R"({"eye":[1,2,3],"target":[4,5,6],"up":[0,1,0],"fovyDegrees":30})", "c.json")
+            .value();
+    EXPECT_EQ(camera, (fabric::Camera{{1, 2, 3}, {4, 5, 6}, {0, 1, 0}, 30}));
+}
+
+TEST(CameraJson, ARefusalNamesFileAndField) {
+    const auto refusal = [](const char* text) {
+        return std::string(cameraFromJson(text, "c.json").status().message());
+    };
+    EXPECT_THAT(refusal(R"({"eye":[1,2,3]})"), testing::HasSubstr("c.json: camera.target"));
+    EXPECT_THAT(refusal(R"({"eyes":[1,2,3]})"), testing::AllOf(testing::HasSubstr("c.json"),
+                                                               testing::HasSubstr("eyes")));
+    EXPECT_THAT(refusal("{"), testing::HasSubstr("c.json: this is no camera file"));
+    EXPECT_THAT(refusal(""), testing::HasSubstr("c.json: this is no camera file"));
+}
+
+TEST(SceneJson, AnUnknownFieldIsAnErrorThatNamesTheFile) {
+    const auto scene = sceneMessageFromJson(R"({"objekts":[]})", "s.json");
+    EXPECT_THAT(std::string(scene.status().message()),
+                testing::AllOf(testing::HasSubstr("s.json"), testing::HasSubstr("objekts")));
+}
+
+TEST(SceneJson, DeepNestingIsAnErrorAndNoCrash) {
+    const std::string deep = "{\"objects\":" + std::string(100'000, '[');
+    EXPECT_EQ(sceneMessageFromJson(deep, "s.json").status().code(),
+              absl::StatusCode::kInvalidArgument);
+}
+
+TEST(SceneJson, WhatIsWrittenIsRead) {
+    fabric::Scene scene;
+    scene.objects.push_back({"peak", fabric::ObjectKind::Terrain, "peak.eyt", fabric::Mat4(2.0), {}});
+    scene.objects[0].worldFromObject[3][3] = 1;
+    const v1::Scene message = sceneMessageFromJson(toJson(toMessage(scene)), "s.json").value();
+    EXPECT_EQ(fromMessage(message).value(), scene);
+}
+
+/// What any JSON reader makes of the text, through protobuf's own.
+google::protobuf::Struct parsed(const std::string& json) {
+    google::protobuf::Struct value;
+    const auto status = google::protobuf::util::JsonStringToMessage(json, &value);
+    EXPECT_TRUE(status.ok()) << status.ToString() << "\n" << json;
+    return value;
+}
+
+TEST(StatisticsJson, HasTheDesignsFieldsAsPlainNumbers) {
+    fabric::FrameStatistics statistics;
+    statistics.tauAskedPixels = 1;
+    statistics.tauAchievedPixels = 0.75;
+    statistics.triangles = 1'234'567'890'123;
+    statistics.milliseconds = {0.5, 20, 1, 0, 21.5};
+    const auto json = parsed(statisticsJson(statistics, 1280, 720,
+                                            {"Mesa \"x\"", "llvmpipe", "4.5", "surfaceless", true}));
+    const auto number = [&](const char* name) { return json.fields().at(name).number_value(); };
+    EXPECT_EQ(number("width"), 1280);
+    EXPECT_EQ(number("height"), 720);
+    EXPECT_EQ(number("tauAsked"), 1);
+    EXPECT_EQ(number("tauAchieved"), 0.75);
+    EXPECT_EQ(number("triangles"), 1'234'567'890'123);
+    EXPECT_EQ(number("points"), 0);
+    EXPECT_EQ(number("nodes"), 0);
+    EXPECT_EQ(number("pagesLoaded"), 0);
+    EXPECT_TRUE(json.fields().at("complete").bool_value());
+    const auto& milliseconds = json.fields().at("milliseconds").struct_value().fields();
+    EXPECT_EQ(milliseconds.at("draw").number_value(), 20);
+    EXPECT_EQ(milliseconds.at("total").number_value(), 21.5);
+    const auto& renderer = json.fields().at("renderer").struct_value().fields();
+    EXPECT_EQ(renderer.at("vendor").string_value(), "Mesa \"x\"");
+    EXPECT_EQ(renderer.at("device").string_value(), "llvmpipe");
+    EXPECT_TRUE(renderer.at("software").bool_value());
+}
+
+TEST(StatisticsJson, AnErrorWithoutBoundIsTheLargestNumber) {
+    fabric::FrameStatistics statistics;
+    statistics.tauAchievedPixels = std::numeric_limits<double>::infinity();
+    const auto json = parsed(statisticsJson(statistics, 1, 1, {}));
+    EXPECT_EQ(json.fields().at("tauAchieved").number_value(), std::numeric_limits<double>::max());
+}
+
+}  // namespace
+}  // namespace eyrie::wire

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "wire/statistics.h"
+
+#include "eyrie/v1/statistics.pb.h"
+
+#include <gmock/gmock.h>
+
+#include <limits>
+#include <string>
+
+namespace eyrie::wire {
+namespace {
+
+fabric::FrameStatistics sample() {
+    return {1, 2.5, false, 10, 20, 30, 40, {0.1, 0.2, 0.3, 0.4, 1.5}};
+}
+
+TEST(WireStatistics, ComeBackAsTheyWere) {
+    EXPECT_EQ(fromMessage(toMessage(sample())).value(), sample());
+}
+
+TEST(WireStatistics, TheErrorAchievedMayBeInfinite) {
+    fabric::FrameStatistics boundless = sample();
+    boundless.tauAchievedPixels = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(fromMessage(toMessage(boundless)).value(), boundless);
+}
+
+TEST(WireStatistics, ARefusalNamesTheField) {
+    v1::FrameStatistics message = toMessage(sample());
+    message.set_tau_achieved(std::numeric_limits<double>::quiet_NaN());
+    EXPECT_THAT(std::string(fromMessage(message).status().message()),
+                testing::HasSubstr("statistics.tau_achieved"));
+    message = toMessage(sample());
+    message.mutable_milliseconds()->set_draw(-1);
+    EXPECT_THAT(std::string(fromMessage(message).status().message()),
+                testing::HasSubstr("statistics.milliseconds.draw"));
+}
+
+TEST(WireDeviceInfo, ComesBackAsItWas) {
+    const fabric::DeviceInfo device{"Mesa", "llvmpipe", "4.5 (Core Profile)", "EGL device 0", true};
+    EXPECT_EQ(fromMessage(toMessage(device)).value(), device);
+}
+
+TEST(WireDeviceInfo, TextWithoutEndIsRefused) {
+    v1::DeviceInfo message;
+    message.set_driver(std::string(2000, 'x'));
+    EXPECT_THAT(std::string(fromMessage(message).status().message()),
+                testing::HasSubstr("device.driver"));
+}
+
+}  // namespace
+}  // namespace eyrie::wire

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/import/mesh_synth.h"
+
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
+
+namespace eyrie::import {
+namespace {
+
+class MeshSynth : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(MeshSynth, IsClosedAndFacesOutwards) {
+    const TriangleMesh mesh = synthesizeMesh(GetParam(), 3);
+    std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
+    double volume = 0;
+    for (const auto& t : mesh.triangles) {
+        for (std::size_t i = 0; i < 3; ++i) ++edges[{t[i], t[(i + 1) % 3]}];
+        volume +=
+            glm::dot(mesh.positions[t[0]], glm::cross(mesh.positions[t[1]], mesh.positions[t[2]])) /
+            6;
+    }
+    for (const auto& [edge, count] : edges) {
+        EXPECT_EQ(count, 1);
+        EXPECT_TRUE(edges.contains({edge.second, edge.first}));
+    }
+    EXPECT_EQ(mesh.positions.size() + mesh.triangles.size(), edges.size() / 2 + 2);  // Euler
+    EXPECT_GT(volume, 0);
+}
+
+TEST_P(MeshSynth, HasAboutTheTrianglesAskedFor) {
+    const auto asked = static_cast<double>(GetParam());
+    const auto made = static_cast<double>(synthesizeMesh(GetParam(), 3).triangles.size());
+    EXPECT_NEAR(made, std::max(asked, 8.0), 3 * std::sqrt(asked) + 8);
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, MeshSynth, testing::Values(0, 8, 32, 1000, 20000));
+
+TEST(MeshSynth, IsTheSameForASeedAndAnotherForAnother) {
+    const TriangleMesh mesh = synthesizeMesh(5000, 7);
+    const oneapi::tbb::global_control one(oneapi::tbb::global_control::max_allowed_parallelism, 1);
+    EXPECT_TRUE(synthesizeMesh(5000, 7) == mesh);
+    EXPECT_FALSE(synthesizeMesh(5000, 8) == mesh);
+}
+
+TEST(MeshSynth, KeepsItsLargeShapeAtEverySize) {
+    const TriangleMesh coarse = synthesizeMesh(8 * 64 * 64, 7);
+    const TriangleMesh fine = synthesizeMesh(8 * 128 * 128, 7);
+    EXPECT_LT(glm::distance(coarse.positions.front(), fine.positions.front()), 0.02);
+    EXPECT_LT(glm::distance(coarse.positions.back(), fine.positions.back()), 0.02);
+}
+
+TEST(MeshSynth, HasBumpsButKeepsItsMiddle) {
+    double least = 10;
+    double most = 0;
+    for (const fabric::Vec3& position : synthesizeMesh(5000, 7).positions) {
+        least = std::min(least, glm::length(position));
+        most = std::max(most, glm::length(position));
+    }
+    EXPECT_GE(least, 0.19);
+    EXPECT_GT(most - least, 0.1);
+    EXPECT_LT(most, 2);
+}
+
+}  // namespace
+}  // namespace eyrie::import

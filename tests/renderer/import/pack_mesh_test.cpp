@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/import/pack_mesh.h"
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
+#include <rapidcheck/gtest.h>
+
+#include "renderer/import/mesh_synth.h"
+#include "renderer/mesh/vertex_packing.h"
+#include "tests/renderer/import/ply_text.h"
+
+namespace eyrie::import {
+namespace {
+
+struct Packed {
+    mesh::PackedMesh mesh;
+    PackCounts counts;
+};
+
+Packed pack(const TriangleMesh& source) {
+    Packed result;
+    auto packed = packMesh(source, result.counts);
+    EXPECT_TRUE(packed.ok()) << packed.status();
+    if (packed.ok())
+        result.mesh = *std::move(packed);
+    return result;
+}
+
+glm::vec3 normalAt(const mesh::PackedMesh& packed, const fabric::Vec3& position) {
+    for (std::size_t i = 0; i < packed.positions.size(); ++i)
+        if (packed.lattice.metres(mesh::unpackPosition(packed.positions[i])) == position)
+            return mesh::unpackNormal(packed.normals[i]);
+    ADD_FAILURE() << "no vertex there";
+    return {};
+}
+
+RC_GTEST_PROP(PackMesh, MovesNoVertexFurtherThanTheLatticesError, ()) {
+    const auto axis =
+        rc::gen::map(rc::gen::inRange(-1000000, 1000000), [](int value) { return value / 7.0; });
+    TriangleMesh source;
+    source.positions = *rc::gen::container<std::vector<fabric::Vec3>>(
+        12, rc::gen::construct<fabric::Vec3>(axis, axis, axis));
+    source.triangles = {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}, {9, 10, 11}};
+    PackCounts counts;
+    const auto packed = packMesh(source, counts);
+    const bool isWhole = packed.ok() && packed->triangles.size() == 4;
+    RC_PRE(isWhole);  // random triangles may be degenerate
+    for (std::size_t t = 0; t < 4; ++t)
+        for (std::size_t c = 0; c < 3; ++c) {
+            const auto stored = packed->lattice.metres(
+                mesh::unpackPosition(packed->positions[packed->triangles[t][c]]));
+            RC_ASSERT(glm::distance(stored, source.positions[source.triangles[t][c]]) <=
+                      packed->lattice.errorMetres());
+        }
+}
+
+TEST(PackMesh, WeldsTriangleSoupIntoItsSurface) {
+    const TriangleMesh whole = test::tetrahedron();
+    TriangleMesh soup;
+    for (const auto& triangle : whole.triangles) {
+        const auto first = static_cast<std::uint32_t>(soup.positions.size());
+        for (const std::uint32_t corner : triangle)
+            soup.positions.push_back(whole.positions[corner]);
+        soup.triangles.push_back({first, first + 1, first + 2});
+    }
+    const Packed packed = pack(soup);
+    EXPECT_EQ(packed.mesh.positions.size(), 4U);
+    EXPECT_EQ(packed.counts.weldedVertices, 8U);
+    EXPECT_EQ(packed.mesh.triangles.size(), 4U);
+}
+
+TEST(PackMesh, KeepsVerticesApartThatDifferInNormalOrColour) {
+    TriangleMesh source;
+    source.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0}, {1, 0, 0}, {0, -1, 0}};
+    source.triangles = {{0, 1, 2}, {3, 5, 4}};
+    EXPECT_EQ(pack(source).mesh.positions.size(), 4U);
+    source.colours.assign(6, {1, 2, 3, 255});
+    source.colours[3].r = 9;
+    EXPECT_EQ(pack(source).mesh.positions.size(), 5U);
+    source.normals.assign(6, {0, 0, 1});
+    source.normals[4] = {0, 1, 1};
+    const Packed packed = pack(source);
+    EXPECT_EQ(packed.mesh.positions.size(), 6U);
+    EXPECT_FALSE(packed.counts.normalsComputed);
+}
+
+TEST(PackMesh, DropsAndCountsDegenerateTrianglesAndIsolatedVertices) {
+    TriangleMesh source = test::tetrahedron();
+    source.positions.insert(source.positions.end(), {{0.5, 0, 0}, {0, 0, 0}, {7, 7, 7}});
+    source.triangles.insert(source.triangles.end(), {{0, 0, 1}, {0, 1, 4}, {0, 5, 2}});
+    const Packed packed = pack(source);
+    EXPECT_EQ(packed.counts.degenerateTriangles, 3U);
+    EXPECT_EQ(packed.counts.isolatedVertices, 3U);
+    EXPECT_EQ(packed.mesh.triangles.size(), 4U);
+    EXPECT_EQ(packed.mesh.positions.size(), 4U);
+}
+
+TEST(PackMesh, FitsTheLatticeToUsedVerticesOnly) {
+    TriangleMesh source = test::tetrahedron();
+    const mesh::Lattice lattice = pack(source).mesh.lattice;
+    source.positions.emplace_back(1e300, -1e300, 0);
+    EXPECT_EQ(pack(source).mesh.lattice, lattice);
+}
+
+TEST(PackMesh, RefusesMeshesWithoutAreaSayingSo) {
+    for (const fabric::Vec3 direction : {fabric::Vec3(0), fabric::Vec3(1, 2, 3)}) {
+        TriangleMesh source;
+        for (int i = 0; i < 9; ++i)
+            source.positions.push_back(fabric::Vec3(5, 5, 5) + direction * static_cast<double>(i));
+        source.triangles = {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}};
+        PackCounts counts;
+        const auto packed = packMesh(source, counts);
+        ASSERT_EQ(packed.status().code(), absl::StatusCode::kInvalidArgument);
+        EXPECT_THAT(std::string(packed.status().message()),
+                    testing::AllOf(testing::HasSubstr("3 triangles"), testing::HasSubstr("area")));
+    }
+}
+
+TEST(PackMesh, WeighsNormalsByAngleNotByTheCut) {
+    // A cube's corner: one face is cut through the corner, the others are not.
+    TriangleMesh cube;
+    cube.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
+    cube.triangles = {{0, 3, 1}, {0, 2, 3}, {0, 1, 4}, {1, 5, 4}, {0, 4, 2}, {2, 4, 6}};
+    const glm::vec3 normal = normalAt(pack(cube).mesh, {0, 0, 0});
+    EXPECT_LT(glm::distance(normal, glm::normalize(glm::vec3(-1, -1, -1))), 1e-4F);
+}
+
+TEST(PackMesh, GivesThinSheetsAUnitNormal) {
+    TriangleMesh sheet;
+    sheet.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    sheet.triangles = {{0, 1, 2}, {0, 2, 1}};
+    EXPECT_EQ(normalAt(pack(sheet).mesh, {0, 0, 0}), glm::vec3(0, 0, 1));
+}
+
+TEST(PackMesh, SmoothsAcrossChangesOfColour) {
+    TriangleMesh source = test::tetrahedron();
+    const glm::vec3 plain = normalAt(pack(source).mesh, {0, 0, 0});
+    source.positions.emplace_back(0, 0, 0);
+    source.triangles[0][0] = 4;
+    source.colours.assign(5, {1, 2, 3, 255});
+    source.colours[4] = {9, 9, 9, 255};
+    const Packed packed = pack(source);
+    EXPECT_EQ(packed.mesh.positions.size(), 5U);
+    EXPECT_EQ(normalAt(packed.mesh, {0, 0, 0}), plain);
+}
+
+TEST(PackMesh, ComputesOnlyTheNormalsThatTheSourceLacks) {
+    TriangleMesh source = test::tetrahedron();
+    const glm::vec3 smooth = normalAt(pack(source).mesh, {1, 0, 0});
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    source.normals = {{0, 0, 5}, {0, 0, 0}, {nan, 0, 1}, {1, 0, 0}};
+    const Packed packed = pack(source);
+    EXPECT_TRUE(packed.counts.normalsComputed);
+    EXPECT_EQ(normalAt(packed.mesh, {0, 0, 0}), glm::vec3(0, 0, 1));
+    EXPECT_EQ(normalAt(packed.mesh, {0, 0, 1}), glm::vec3(1, 0, 0));
+    EXPECT_EQ(normalAt(packed.mesh, {1, 0, 0}), smooth);
+}
+
+TEST(PackMesh, IsTheSameForAnyNumberOfThreads) {
+    const TriangleMesh source = synthesizeMesh(300000, 5);
+    std::vector<mesh::PackedMesh> packed;
+    for (const std::size_t threads : {1U, 2U, 5U}) {
+        const oneapi::tbb::global_control limit(
+            oneapi::tbb::global_control::max_allowed_parallelism, threads);
+        packed.push_back(pack(source).mesh);
+    }
+    EXPECT_TRUE(packed[0] == packed[1]);
+    EXPECT_TRUE(packed[0] == packed[2]);
+}
+
+}  // namespace
+}  // namespace eyrie::import

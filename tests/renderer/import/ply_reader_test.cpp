@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/import/ply_reader.h"
+
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "renderer/import/ply_writer.h"
+#include "tests/renderer/import/ply_text.h"
+#include "tests/renderer/mesh/temporary_folder.h"
+
+namespace eyrie::import {
+namespace {
+
+using test::Encoding;
+using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+
+constexpr std::array kEncodings = {Encoding::Ascii, Encoding::LittleEndian, Encoding::BigEndian};
+
+TriangleMesh parsed(const std::string& text) {
+    auto mesh = parsePly(text, "sample.ply");
+    EXPECT_TRUE(mesh.ok()) << mesh.status();
+    return mesh.ok() ? *std::move(mesh) : TriangleMesh{};
+}
+
+/// A text PLY with three vertices and what follows them.
+std::string withTriangle(const std::string& faceLines,
+                         const std::string& face = "property list uchar int vertex_indices\n",
+                         int faces = 1) {
+    return "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+           "property float z\nelement face " +
+           std::to_string(faces) + "\n" + face + "end_header\n0 0 0\n1 0 0\n0 1 0\n" + faceLines;
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+    return text.replace(text.find(from), from.size(), to);
+}
+
+rc::Gen<TriangleMesh> meshes() {
+    const auto scalar = rc::gen::map(rc::gen::inRange(-1000000, 1000000),
+                                     [](int value) { return value / 1024.0 / 3.0; });
+    const auto corner = rc::gen::inRange<std::uint32_t>(0, 5);
+    const auto make = [](std::vector<fabric::Vec3> positions, Triangles triangles, bool extras) {
+        TriangleMesh mesh;
+        mesh.positions = std::move(positions);
+        mesh.triangles = std::move(triangles);
+        for (std::uint32_t i = 0; extras && i < mesh.positions.size(); ++i) {
+            mesh.normals.emplace_back(mesh.positions[i]);
+            mesh.colours.push_back({static_cast<std::uint8_t>(40 * i), 2, 255, 128});
+        }
+        return mesh;
+    };
+    return rc::gen::apply(make,
+                          rc::gen::container<std::vector<fabric::Vec3>>(
+                              5, rc::gen::construct<fabric::Vec3>(scalar, scalar, scalar)),
+                          rc::gen::nonEmpty(rc::gen::container<Triangles>(
+                              rc::gen::container<std::array<std::uint32_t, 3>>(corner))),
+                          rc::gen::arbitrary<bool>());
+}
+
+RC_GTEST_PROP(PlyReader, ReadsTheSameMeshFromEveryEncoding, ()) {
+    const TriangleMesh mesh = *meshes();
+    for (const Encoding encoding : kEncodings) {
+        const auto read = parsePly(test::plyOf(mesh, encoding), "sample.ply");
+        RC_ASSERT(read.ok());
+        RC_ASSERT(*read == mesh);
+    }
+}
+
+TEST(PlyReader, GivesBackWhatTheWriterWrote) {
+    const test::TemporaryFolder folder;
+    TriangleMesh mesh = test::tetrahedron();
+    for (const double scale : {1.0, 0.1}) {  // float holds the first exactly
+        for (fabric::Vec3& position : mesh.positions) position *= scale;
+        ASSERT_TRUE(writePly(mesh, folder.file("m.ply")).ok());
+        const auto read = readPly(folder.file("m.ply"));
+        ASSERT_TRUE(read.ok()) << read.status();
+        EXPECT_EQ(*read, mesh);
+        mesh.normals.assign(4, {1, 2, 3});
+        mesh.colours.assign(4, {1, 2, 3, 4});
+    }
+}
+
+TEST(PlyReader, TakesPropertiesAndElementsInAnyOrderAndSkipsOthers) {
+    const std::string head =
+        "comment by hand\nobj_info none\nelement face 1\nproperty uchar flags\n"
+        "property list uchar float uv\nproperty list int uint vertex_index\n"
+        "element material 2\nproperty list ushort double values\nproperty short id\n"
+        "element vertex 3\nproperty uchar blue\nproperty double z\nproperty list uchar char tags\n"
+        "property float quality\nproperty double x\nproperty uchar red\nproperty double y\n"
+        "property uchar green\nend_header\n";
+    for (const Encoding encoding : kEncodings) {
+        test::PlyBody body(encoding);
+        body.add(std::uint8_t{9}).add(std::uint8_t{2}).add(0.5F).add(0.25F);
+        body.add(std::int32_t{3}).add(2U).add(0U).add(1U).endLine();
+        body.add(std::uint16_t{1}).add(3.0).add(std::int16_t{-7}).endLine();
+        body.add(std::uint16_t{0}).add(std::int16_t{8}).endLine();
+        for (std::uint8_t i = 0; i < 3; ++i)
+            body.add(std::uint8_t{30})
+                .add(3.0)
+                .add(std::uint8_t{1})
+                .add(std::int8_t{-1})
+                .add(0.75F)
+                .add(1.0 + i)
+                .add(std::uint8_t{10})
+                .add(2.0)
+                .add(std::uint8_t{20})
+                .endLine();
+        const TriangleMesh mesh = parsed(test::formatLine(encoding) + head + body.bytes());
+        EXPECT_EQ(mesh.positions, (std::vector<fabric::Vec3>{{1, 2, 3}, {2, 2, 3}, {3, 2, 3}}));
+        EXPECT_EQ(mesh.triangles, (Triangles{{2, 0, 1}}));
+        EXPECT_EQ(mesh.colours, std::vector<fabric::Rgba>(3, {10, 20, 30, 255}));
+        EXPECT_TRUE(mesh.normals.empty());
+    }
+}
+
+TEST(PlyReader, TakesColoursOfEveryTypeAsBytes) {
+    const auto colourOf = [](const std::string& type, const std::string& values) {
+        const TriangleMesh mesh = parsed(
+            "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+            "property float z\nproperty " +
+            type + " diffuse_red\nproperty " + type + " diffuse_green\nproperty " + type +
+            " diffuse_blue\nelement face 1\n"
+            "property list uchar int vertex_indices\nend_header\n0 0 0 " +
+            values + "\n3 0 0 0\n");
+        return mesh.colours.at(0);
+    };
+    EXPECT_EQ(colourOf("uchar", "0 127 255"), (fabric::Rgba{0, 127, 255, 255}));
+    EXPECT_EQ(colourOf("float", "0 0.5 1"), (fabric::Rgba{0, 128, 255, 255}));
+    EXPECT_EQ(colourOf("ushort", "0 32896 65535"), (fabric::Rgba{0, 128, 255, 255}));
+    EXPECT_EQ(colourOf("float", "-1 nan 1e30"), (fabric::Rgba{0, 0, 255, 255}));
+    EXPECT_EQ(colourOf("int", "-5 7 300"), (fabric::Rgba{0, 7, 255, 255}));
+}
+
+TEST(PlyReader, ReadsWindowsAndMacLineEnds) {
+    const std::string text = withTriangle("3 0 1 2\n");
+    for (const std::string end : {"\r\n", "\r"}) {
+        std::string other;
+        for (const char c : text) other += c == '\n' ? end : std::string(1, c);
+        EXPECT_EQ(parsed(other), parsed(text));
+    }
+}
+
+TEST(PlyReader, NeedsNoLineEndAfterTheLastValue) {
+    EXPECT_EQ(parsed(withTriangle("3 0 1 2")).triangles, (Triangles{{0, 1, 2}}));
+}
+
+TEST(PlyReader, DropsAndCountsFacesOfFewerThanThreeCorners) {
+    const TriangleMesh mesh = parsed(
+        withTriangle("0\n3 0 1 2\n2 0 1\n1 0\n", "property list uchar int vertex_indices\n", 4));
+    EXPECT_EQ(mesh.droppedFaces, 3U);
+    EXPECT_EQ(mesh.triangles.size(), 1U);
+}
+
+TEST(PlyReader, TurnsEveryOtherTriangleOfAStripAndRestartsAtMinusOne) {
+    std::string text = replaced(withTriangle("10 0 1 2 0 -1 2 1 -1 1 2\n"), "face", "tristrips");
+    text = replaced(text, "list uchar", "list int");
+    EXPECT_EQ(parsed(text).triangles, (Triangles{{0, 1, 2}, {2, 1, 0}}));
+}
+
+TEST(PlyReader, StopsWhenAsked) {
+    std::stop_source stop;
+    stop.request_stop();
+    const auto mesh = parsePly(withTriangle("3 0 1 2\n"), "m.ply", {{}, stop.get_token()});
+    EXPECT_EQ(mesh.status().code(), absl::StatusCode::kCancelled);
+}
+
+struct Refused {
+    std::string text;
+    std::vector<std::string> says;  // besides the file's name
+};
+
+class PlyReaderRefuses : public testing::TestWithParam<Refused> {};
+
+TEST_P(PlyReaderRefuses, SayingWhereAndWhat) {
+    const auto mesh = parsePly(GetParam().text, "sample.ply");
+    ASSERT_EQ(mesh.status().code(), absl::StatusCode::kInvalidArgument) << GetParam().text;
+    const std::string message(mesh.status().message());
+    EXPECT_THAT(message, testing::StartsWith("sample.ply: "));
+    EXPECT_THAT(message, testing::HasSubstr("; "));  // the remedy
+    for (const std::string& part : GetParam().says) EXPECT_THAT(message, testing::HasSubstr(part));
+}
+
+const std::string kXyz = "property float x\nproperty float y\nproperty float z\n";
+
+INSTANTIATE_TEST_SUITE_P(
+    Headers, PlyReaderRefuses,
+    testing::Values(
+        Refused{"", {"empty", "expected a PLY header"}},
+        Refused{"solid cube\n", {"first line", "'solid cube'", "'ply'"}},
+        Refused{"\x1f\x8b\x08", {"compressed", "gunzip"}},
+        Refused{"ply\nformat ascii 1.0\nelement vertex 8\n", {"line 3", "end_header", "truncated"}},
+        Refused{replaced(withTriangle("3 0 1 2"), "ascii", "utf8"),
+                {"line 2", "format", "'utf8'", "binary_little_endian"}},
+        Refused{replaced(withTriangle("3 0 1 2"), "format ascii 1.0\n", ""), {"no format line"}},
+        Refused{replaced(withTriangle("3 0 1 2"), "vertex 3", "vertex -3"),
+                {"line 3", "count of element 'vertex'", "'-3'"}},
+        Refused{replaced(withTriangle("3 0 1 2"), "vertex 3", "vertex 250000000"),
+                {"count of element 'vertex'", "250000000", "bytes"}},
+        Refused{replaced(withTriangle("3 0 1 2"), "face 1", "face 18446744073709551615"),
+                {"count of element 'face'", "18446744073709551615"}},
+        Refused{replaced(withTriangle("3 0 1 2"), "float y", "real y"), {"line 5", "'real'"}},
+        Refused{replaced(withTriangle("3 0 1 2"), "uchar int", "float int"),
+                {"list count type", "'float'", "integer"}},
+        Refused{replaced(withTriangle("3 0 1 2"), "uchar int", "uchar float"),
+                {"element face", "whole numbers"}},
+        Refused{replaced(withTriangle("3 0 1 2"), "vertex 3", "vertex 0"),
+                {"count of element vertex", "found 0", "expected 1 to"}},
+        Refused{replaced(withTriangle("3 0 1 2"), "float y", "float v"),
+                {"element vertex", "x, y and z"}},
+        Refused{replaced(withTriangle("3 0 1 2"), "element vertex", "element point"),
+                {"point (3)", "vertex"}},
+        Refused{replaced(withTriangle("3 0 1 2"), "vertex_indices", "corners"),
+                {"element face", "vertex_indices"}},
+        Refused{replaced(withTriangle(""), "face 1", "face 0"),
+                {"3 vertices", "zero faces", "point cloud"}},
+        Refused{"ply\nformat ascii 1.0\nelement vertex 1\n" + kXyz + "end_header\n0 0 0\n",
+                {"1 vertices", "zero faces", "elements: vertex (1)"}},
+        Refused{"ply\nformat ascii 1.0\nproperty float x\nend_header\n", {"line 3", "element"}},
+        Refused{"ply\nformat ascii 1.0\nelement vertex 99999999999999999999999\nend_header\n",
+                {"line 3", "count"}}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Bodies, PlyReaderRefuses,
+    testing::Values(
+        Refused{replaced(withTriangle("3 0 1 2"), "1 0 0", "1 nan 0"),
+                {"vertex 1, y", "line 11", "found nan", "finite"}},
+        Refused{replaced(withTriangle("3 0 1 2"), "0 1 0", "0 1 -inf"),
+                {"vertex 2, z", "found -inf"}},
+        Refused{replaced(withTriangle("3 0 1 2"), "1 0 0", "1e300 0 0"),
+                {"vertex 1, x", "found inf"}},  // a float property cannot hold it
+        Refused{replaced(withTriangle("3 0 1 2"), "1 0 0", "1 zero 0"),
+                {"vertex 1, y", "'zero'", "number"}},
+        Refused{withTriangle("3 0 1 3"), {"face 0, vertex_indices[2]", "found 3", "0 to 2"}},
+        Refused{withTriangle("3 0 -1 2"), {"face 0, vertex_indices[1]", "found -1", "0 to 2"}},
+        Refused{withTriangle("4 0 1 2 4294967296"), {"vertex_indices[3]", "found 4294967296"}},
+        Refused{withTriangle("-1 0 1 2"), {"face 0, count of vertex_indices", "found -1"}},
+        Refused{withTriangle("2000000000 0 1 2"),
+                {"face 0, count of vertex_indices", "2000000000"}},
+        Refused{withTriangle("3 0 1"),
+                {"face 0, count of vertex_indices", "line 13", "found 3", "truncated"}},
+        Refused{withTriangle("2 0 1"), {"three corners", "1 with fewer"}},
+        Refused{withTriangle("3 0 1.5 2"), {"face 0, vertex_indices", "'1.5'"}}));
+
+TEST(PlyReader, TellsABinaryFileThatEndsEarlyFromOneThatLies) {
+    const std::string whole = test::plyOf(test::tetrahedron(), Encoding::LittleEndian);
+    const auto early = parsePly(whole.substr(0, whole.size() - 1), "m.ply");
+    EXPECT_THAT(std::string(early.status().message()),
+                testing::AllOf(testing::HasSubstr("face 3"), testing::HasSubstr("truncated")));
+    const auto lying = parsePly(whole.substr(0, whole.size() - 90), "m.ply");
+    EXPECT_THAT(std::string(lying.status().message()),
+                testing::AllOf(testing::HasSubstr("count of element 'vertex'"),
+                               testing::HasSubstr("truncated")));
+}
+
+TEST(PlyReader, NamesTheFileItCannotOpen) {
+    const auto mesh = readPly("/nowhere/bunny.ply");
+    EXPECT_EQ(mesh.status().code(), absl::StatusCode::kNotFound);
+    EXPECT_THAT(std::string(mesh.status().message()), testing::HasSubstr("/nowhere/bunny.ply"));
+}
+
+}  // namespace
+}  // namespace eyrie::import

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/mesh/eym_format.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "renderer/mesh/eym_writer.h"
+#include "renderer/mesh/kd_tree.h"
+#include "tests/renderer/mesh/sample_meshes.h"
+#include "tests/renderer/mesh/temporary_folder.h"
+
+namespace eyrie::mesh {
+namespace {
+
+using Vertex = std::tuple<std::uint64_t, std::uint32_t, std::uint32_t>;
+using Face = std::array<Vertex, 3>;
+
+absl::Status write(const PackedMesh& mesh, std::uint32_t leafTriangles, const std::string& path) {
+    auto tree = buildKdTree(mesh.positions, mesh.triangles, {leafTriangles});
+    auto out = OutputFile::create(path);
+    EXPECT_TRUE(tree.ok() && out.ok());
+    const absl::Status written = writeEym(mesh, *tree, 0x1234, *out);
+    return written.ok() ? out->commit() : written;
+}
+
+std::vector<Face> facesOf(const PackedMesh& mesh) {
+    std::vector<Face> faces;
+    for (const Triangle& triangle : mesh.triangles) {
+        Face face;
+        for (std::size_t i = 0; i < 3; ++i)
+            face[i] = {mesh.positions[triangle[i]], mesh.normals[triangle[i]],
+                       mesh.colours.empty() ? 0 : mesh.colours[triangle[i]]};
+        faces.push_back(face);
+    }
+    std::sort(faces.begin(), faces.end());
+    return faces;
+}
+
+std::vector<Face> facesOf(const EymFile& file) {
+    std::vector<Face> faces;
+    for (std::uint32_t node = 0; node < file.nodes().size(); ++node) {
+        const auto geometry = file.geometry(node);
+        EXPECT_TRUE(geometry.ok()) << geometry.status();
+        for (std::size_t i = 0; i < geometry->indices.size(); ++i) {
+            const std::size_t v = geometry->indices[i];
+            if (i % 3 == 0)
+                faces.emplace_back();
+            faces.back()[i % 3] = {geometry->positions[v], geometry->normals[v],
+                                   geometry->colours.empty() ? 0 : geometry->colours[v]};
+        }
+    }
+    std::sort(faces.begin(), faces.end());
+    return faces;
+}
+
+class EymFormat : public testing::TestWithParam<bool> {};
+
+TEST_P(EymFormat, GivesEveryTriangleBackOnce) {
+    const test::TemporaryFolder folder;
+    const PackedMesh mesh = test::randomSoup(5000, 1500, 3000, 1, GetParam());
+    ASSERT_TRUE(write(mesh, 100, folder.file("m.eym")).ok());
+    const auto file = EymFile::open(folder.file("m.eym"));
+    ASSERT_TRUE(file.ok()) << file.status();
+    EXPECT_EQ(file->hasColours(), GetParam());
+    EXPECT_EQ(file->triangleCount(), 5000U);
+    EXPECT_EQ(file->lattice(), mesh.lattice);
+    EXPECT_EQ(file->sourceHash(), 0x1234U);
+    EXPECT_EQ(facesOf(*file), facesOf(mesh));
+}
+
+INSTANTIATE_TEST_SUITE_P(WithAndWithoutColours, EymFormat, testing::Bool());
+
+TEST(EymFile, TellsBoundsInMetresAndErrorsNotBelowTheLattices) {
+    const test::TemporaryFolder folder;
+    PackedMesh mesh = test::separateTriangles(40);
+    mesh.lattice = {{-8, 16, 0}, 0.25};
+    ASSERT_TRUE(write(mesh, 10, folder.file("m.eym")).ok());
+    const auto file = EymFile::open(folder.file("m.eym"));
+    ASSERT_TRUE(file.ok()) << file.status();
+    EXPECT_EQ(file->bounds(), (fabric::Box{{-8, 16, 0}, {2, 16.25, 0}}));
+    EXPECT_EQ(file->vertexCount(), 120U);
+    EXPECT_EQ(file->levels(), 3);
+    for (const Node& node : file->nodes()) {
+        EXPECT_GE(static_cast<double>(node.errorMetres), mesh.lattice.errorMetres());
+        EXPECT_LE(static_cast<double>(node.errorMetres), mesh.lattice.errorMetres() * 1.000001);
+    }
+}
+
+TEST(EymFile, CountsOnlyVerticesThatTrianglesUse) {
+    const test::TemporaryFolder folder;
+    PackedMesh mesh = test::separateTriangles(4);
+    mesh.triangles.pop_back();
+    ASSERT_TRUE(write(mesh, 10, folder.file("m.eym")).ok());
+    EXPECT_EQ(EymFile::open(folder.file("m.eym"))->vertexCount(), 9U);
+}
+
+TEST(EymFile, StaysTheSameForTheSameMesh) {
+    const test::TemporaryFolder folder;
+    const PackedMesh mesh = test::randomSoup(30000, 9000, 3000, 2, true);
+    ASSERT_TRUE(write(mesh, 700, folder.file("a.eym")).ok());
+    ASSERT_TRUE(write(mesh, 700, folder.file("b.eym")).ok());
+    EXPECT_EQ(test::readFile(folder.file("a.eym")), test::readFile(folder.file("b.eym")));
+}
+
+TEST(EymFile, HoldsALeafOf65535Vertices) {
+    const test::TemporaryFolder folder;
+    const PackedMesh mesh = test::separateTriangles(kMaxLeafVertices / 3);
+    ASSERT_TRUE(write(mesh, kMaxLeafVertices, folder.file("m.eym")).ok());
+    const auto file = EymFile::open(folder.file("m.eym"));
+    ASSERT_TRUE(file.ok()) << file.status();
+    const auto geometry = file->geometry(0);
+    ASSERT_TRUE(geometry.ok()) << geometry.status();
+    EXPECT_EQ(geometry->positions.size(), 65535U);
+    EXPECT_EQ(*std::max_element(geometry->indices.begin(), geometry->indices.end()), 65534);
+}
+
+TEST(EymFile, SaysThatAnotherKindOfFileIsNone) {
+    const test::TemporaryFolder folder;
+    for (const std::string& text : {std::string(), std::string("ply\n"), std::string(500, 'x')}) {
+        test::writeFile(folder.file("m.eym"), text);
+        const absl::Status status = EymFile::open(folder.file("m.eym")).status();
+        EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
+        EXPECT_THAT(std::string(status.message()),
+                    testing::AllOf(testing::HasSubstr(folder.file("m.eym")),
+                                   testing::HasSubstr("eyrie import mesh")));
+    }
+    EXPECT_EQ(EymFile::open(folder.file("none")).status().code(), absl::StatusCode::kNotFound);
+}
+
+TEST(EymFile, NamesTheVersionItCannotRead) {
+    const test::TemporaryFolder folder;
+    ASSERT_TRUE(write(test::separateTriangles(4), 10, folder.file("m.eym")).ok());
+    std::string bytes = test::readFile(folder.file("m.eym"));
+    bytes[8] = 2;
+    test::writeFile(folder.file("m.eym"), bytes);
+    const absl::Status status = EymFile::open(folder.file("m.eym")).status();
+    EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
+    EXPECT_THAT(std::string(status.message()), testing::HasSubstr("header.version is 2"));
+}
+
+}  // namespace
+}  // namespace eyrie::mesh

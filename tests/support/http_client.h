@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <absl/status/statusor.h>
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+namespace eyrie::test {
+
+struct HttpAnswer {
+    int status = 0;
+    std::string headers;  ///< as they came
+    std::string body;
+};
+
+/// GET http://127.0.0.1:port/target, on a connection of its own. Blocks for `limit` at most.
+/// Errors: Unavailable (nobody answers), DeadlineExceeded.
+absl::StatusOr<HttpAnswer> httpGet(std::uint16_t port, const std::string& target,
+                                   std::chrono::milliseconds limit = std::chrono::seconds(10));
+
+}  // namespace eyrie::test

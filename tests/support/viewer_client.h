@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "eyrie/v1/viewer.pb.h"
+
+#include <absl/status/statusor.h>
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+namespace eyrie::test {
+
+/// A browser's side of viewer.proto, without a browser.
+class ViewerClient {
+public:
+    using Milliseconds = std::chrono::milliseconds;
+
+    /// Opens ws://127.0.0.1:port/ws. Errors: Unavailable.
+    static absl::StatusOr<std::unique_ptr<ViewerClient>> connect(std::uint16_t port);
+    ~ViewerClient();
+    ViewerClient(const ViewerClient&) = delete;
+    ViewerClient& operator=(const ViewerClient&) = delete;
+
+    absl::Status send(const v1::ViewerRequest& request);
+
+    /// The next message. Errors: DeadlineExceeded (the next call may have it), Unavailable (closed).
+    absl::StatusOr<v1::ViewerResponse> receive(Milliseconds limit);
+
+    /// Asks for a view and answers with the next frame that shows it, acknowledging every frame and
+    /// keeping the newest state. DeadlineExceeded names the state's problem, if there is one.
+    absl::StatusOr<v1::Frame> frameOf(const v1::ViewRequest& view, Milliseconds limit);
+
+    const v1::SessionState& state() const { return state_; }
+
+private:
+    class Impl;
+    explicit ViewerClient(std::unique_ptr<Impl> impl);
+    std::unique_ptr<Impl> impl_;
+    v1::SessionState state_;
+};
+
+}  // namespace eyrie::test

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+import { describe, expect, it } from "vitest";
+import type { Camera, Vec3 } from "./camera";
+import { axesOf, distance, dot, fitToAspect, isUsable, length, subtract } from "./camera";
+import { fly, flyDirection, look } from "./fly";
+import { distanceLimits, orbit, pan, zoom } from "./orbit";
+import { pinch } from "./touch";
+
+const camera: Camera = { eye: [0, -10, 5], target: [0, 0, 0], up: [0, 0, 1], fovyDegrees: 45 };
+const limits = distanceLimits(20);
+const height = 720;
+
+/** Where a world point appears, in pixels from the centre, y downwards. */
+function project(by: Camera, point: Vec3): { x: number; y: number } {
+  const { right, up, forward } = axesOf(by);
+  const offset = subtract(point, by.eye);
+  const focal = height / (2 * Math.tan((by.fovyDegrees * Math.PI) / 360));
+  const depth = dot(offset, forward);
+  return { x: (dot(offset, right) / depth) * focal, y: (-dot(offset, up) / depth) * focal };
+}
+
+describe("orbit", () => {
+  it("keeps the distance and the target", () => {
+    const turned = orbit(camera, 0.7, -0.3);
+    expect(distance(turned)).toBeCloseTo(distance(camera), 9);
+    expect(turned.target).toEqual(camera.target);
+  });
+
+  it("comes back after a full turn", () => {
+    const turned = orbit(camera, 2 * Math.PI, 0);
+    expect(length(subtract(turned.eye, camera.eye))).toBeLessThan(1e-9);
+  });
+
+  it("never flips over a pole", () => {
+    let turned = camera;
+    for (let i = 0; i < 100; ++i) turned = orbit(turned, 0, 0.5);
+    expect(axesOf(turned).up[2]).toBeGreaterThan(0);
+    expect(axesOf(turned).right[0]).toBeCloseTo(1, 6);
+    for (let i = 0; i < 100; ++i) turned = orbit(turned, 0, -0.5);
+    expect(axesOf(turned).up[2]).toBeGreaterThan(0);
+    expect(axesOf(turned).right[0]).toBeCloseTo(1, 6);
+  });
+});
+
+describe("pan", () => {
+  it("keeps the target under the pointer", () => {
+    const moved = pan(camera, 30, -20, height);
+    const seen = project(moved, camera.target);
+    expect(seen.x).toBeCloseTo(30, 6);
+    expect(seen.y).toBeCloseTo(-20, 6);
+  });
+});
+
+describe("zoom", () => {
+  it("keeps what is under the pointer there", () => {
+    const point = pan(camera, -200, -100, height).target; // shows at (200, 100)
+    expect(project(camera, point).x).toBeCloseTo(200, 6);
+    for (const factor of [0.5, 0.9, 1.1, 1.8]) {
+      const zoomed = zoom(camera, factor, 200, 100, height, limits);
+      const seen = project(zoomed, point);
+      expect(seen.x).toBeCloseTo(200, 6);
+      expect(seen.y).toBeCloseTo(100, 6);
+      expect(distance(zoomed)).toBeCloseTo(distance(camera) * factor, 6);
+    }
+  });
+
+  it("goes on ahead at the smallest distance, and stops at the largest", () => {
+    let near = camera;
+    for (let i = 0; i < 200; ++i) near = zoom(near, 0.8, 0, 0, height, limits);
+    expect(distance(near)).toBeCloseTo(limits.min, 9);
+    const further = zoom(near, 0.8, 0, 0, height, limits);
+    expect(length(subtract(further.eye, near.eye))).toBeGreaterThan(0);
+    let far = camera;
+    for (let i = 0; i < 200; ++i) far = zoom(far, 1.3, 0, 0, height, limits);
+    expect(distance(far)).toBeCloseTo(limits.max, 6);
+  });
+});
+
+describe("fly", () => {
+  it("moves eye and target together, along the keys", () => {
+    const moved = fly(camera, new Set(["KeyW"]), false, 0.1);
+    const step = subtract(moved.eye, camera.eye);
+    expect(length(step)).toBeCloseTo(distance(camera) * 0.05, 9);
+    expect(length(subtract(step, subtract(moved.target, camera.target)))).toBeLessThan(1e-12);
+    expect(dot(step, axesOf(camera).forward)).toBeGreaterThan(0);
+  });
+
+  it("is as fast diagonally, and still for opposite keys", () => {
+    expect(length(flyDirection(camera, new Set(["KeyW", "KeyD", "KeyE"])))).toBeCloseTo(1, 9);
+    expect(flyDirection(camera, new Set(["KeyW", "KeyS"]))).toEqual([0, 0, 0]);
+    expect(flyDirection(camera, new Set(["KeyP"]))).toEqual([0, 0, 0]);
+  });
+
+  it("does not jump after a pause", () => {
+    const moved = fly(camera, new Set(["KeyW"]), true, 60);
+    expect(length(subtract(moved.eye, camera.eye))).toBeLessThan(distance(camera) * 0.21);
+  });
+
+  it("looks around without moving the eye, and never over a pole", () => {
+    const turned = look(camera, 0.4, 9);
+    expect(turned.eye).toEqual(camera.eye);
+    expect(distance(turned)).toBeCloseTo(distance(camera), 9);
+    expect(axesOf(turned).up[2]).toBeGreaterThan(0);
+  });
+});
+
+describe("any sequence of moves", () => {
+  it("leaves a usable camera", () => {
+    let seed = 12345;
+    const random = (): number => {
+      seed = (seed * 1103515245 + 12345) % 2147483648;
+      return seed / 2147483648 - 0.5;
+    };
+    let moved = camera;
+    for (let i = 0; i < 5000; ++i) {
+      const pick = Math.floor((random() + 0.5) * 5);
+      if (pick === 0) moved = orbit(moved, random() * 4, random() * 4);
+      else if (pick === 1) moved = pan(moved, random() * 500, random() * 500, height);
+      else if (pick === 2)
+        moved = zoom(moved, Math.exp(random() * 3), random() * 900, random() * 700, height, limits);
+      else if (pick === 3) moved = look(moved, random() * 4, random() * 4);
+      else moved = fly(moved, new Set(["KeyW", "KeyE"]), true, 0.1);
+      expect(isUsable(moved)).toBe(true);
+      expect(Math.abs(axesOf(moved).forward[2])).toBeLessThan(1);
+    }
+  });
+
+  it("bears a picture without height and fingers in one place", () => {
+    expect(isUsable(pan(camera, 1, 1, 0))).toBe(true);
+    const p = { x: 5, y: 5 };
+    expect(pinch([p, p], [p, p]).factor).toBe(1);
+  });
+});
+
+describe("pinch", () => {
+  it("tells movement from spreading", () => {
+    const before = [
+      { x: 0, y: 0 },
+      { x: 100, y: 0 },
+    ] as const;
+    const after = [
+      { x: -40, y: 10 },
+      { x: 160, y: 10 },
+    ] as const;
+    expect(pinch(before, after)).toEqual({ dx: 10, dy: 10, factor: 0.5, centre: { x: 60, y: 10 } });
+  });
+});
+
+describe("fitToAspect", () => {
+  it("stands back in narrow windows only", () => {
+    expect(distance(fitToAspect(camera, 16 / 9))).toBeCloseTo(distance(camera), 9);
+    expect(distance(fitToAspect(camera, 2 / 3))).toBeCloseTo(2 * distance(camera), 9);
+  });
+});

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// A pinhole camera in world space (metres, right-handed, z up) and the vectors it needs.
+
+export type Vec3 = readonly [number, number, number];
+
+export interface Camera {
+  readonly eye: Vec3;
+  /** What is looked at, and orbited about; never the eye. */
+  readonly target: Vec3;
+  readonly up: Vec3;
+  /** The whole vertical field of view. */
+  readonly fovyDegrees: number;
+}
+
+/** View axes in world space; unit length. */
+export interface Axes {
+  right: Vec3;
+  up: Vec3;
+  forward: Vec3;
+}
+
+/** How near the view direction may come to straight up or down, in radians. */
+export const poleMargin = 0.01;
+
+export const add = (a: Vec3, b: Vec3): Vec3 => [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
+export const subtract = (a: Vec3, b: Vec3): Vec3 => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+export const scale = (a: Vec3, s: number): Vec3 => [a[0] * s, a[1] * s, a[2] * s];
+export const dot = (a: Vec3, b: Vec3): number => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+export const length = (a: Vec3): number => Math.hypot(a[0], a[1], a[2]);
+export const cross = (a: Vec3, b: Vec3): Vec3 => [
+  a[1] * b[2] - a[2] * b[1],
+  a[2] * b[0] - a[0] * b[2],
+  a[0] * b[1] - a[1] * b[0],
+];
+export const isFinite3 = (a: Vec3): boolean => a.every(Number.isFinite);
+
+export const clamp = (value: number, low: number, high: number): number =>
+  Math.min(high, Math.max(low, value));
+
+/** From eye to target, in metres. */
+export const distance = (camera: Camera): number => length(subtract(camera.target, camera.eye));
+
+/** Where a direction points: azimuth anticlockwise from +x, elevation above the horizon. */
+export interface Heading {
+  azimuth: number;
+  elevation: number;
+}
+
+export function headingOf(direction: Vec3): Heading {
+  return {
+    azimuth: Math.atan2(direction[1], direction[0]),
+    elevation: Math.atan2(direction[2], Math.hypot(direction[0], direction[1])),
+  };
+}
+
+/** Unit vector; the elevation is kept off the poles, so that "up" stays meaningful. */
+export function directionOf({ azimuth, elevation }: Heading): Vec3 {
+  const limit = Math.PI / 2 - poleMargin;
+  const e = clamp(elevation, -limit, limit);
+  return [Math.cos(e) * Math.cos(azimuth), Math.cos(e) * Math.sin(azimuth), Math.sin(e)];
+}
+
+export function axesOf(camera: Camera): Axes {
+  const forward = directionOf(headingOf(subtract(camera.target, camera.eye)));
+  const sideways = cross(forward, [0, 0, 1]);
+  const right = scale(sideways, 1 / length(sideways));
+  return { right, up: cross(right, forward), forward };
+}
+
+/** World metres that one pixel spans at the target, for a picture of `heightPixels`. */
+export function metresPerPixel(camera: Camera, heightPixels: number): number {
+  const halfFov = (camera.fovyDegrees * Math.PI) / 360;
+  return (2 * distance(camera) * Math.tan(halfFov)) / Math.max(1, heightPixels);
+}
+
+/** Moves eye and target together. */
+export function translate(camera: Camera, by: Vec3): Camera {
+  return { ...camera, eye: add(camera.eye, by), target: add(camera.target, by) };
+}
+
+/** True for a camera that the server would accept. */
+export function isUsable(camera: Camera): boolean {
+  return isFinite3(camera.eye) && isFinite3(camera.target) && distance(camera) > 0;
+}
+
+/**
+ * The server's home camera frames the scene in a 4:3 picture and wider ones; a narrower window
+ * needs to stand back.
+ */
+export function fitToAspect(home: Camera, aspect: number): Camera {
+  const factor = Math.max(1, 4 / 3 / Math.max(aspect, 0.1));
+  return { ...home, eye: add(home.target, scale(subtract(home.eye, home.target), factor)) };
+}

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+// From pointer, wheel and keys to a camera. The geometry is in orbit.ts, fly.ts and touch.ts.
+import type { Camera } from "./camera";
+import { fly, isFlyKey, look } from "./fly";
+import type { DistanceLimits } from "./orbit";
+import { orbit, pan, zoom } from "./orbit";
+import type { Point } from "./touch";
+import { pinch } from "./touch";
+
+/** What the controls move. */
+export interface CameraHolder {
+  readonly camera: Camera | null;
+  readonly limits: DistanceLimits;
+  /** `inputTime`: of the event that caused it, in ms of performance.now(). */
+  move(camera: Camera, inputTime: number): void;
+  goHome(inputTime: number): void;
+  readonly isFlying: boolean;
+  setFlying(isFlying: boolean): void;
+}
+
+const radiansPerPixel = 0.006;
+const radiansPerKey = (4 * Math.PI) / 180;
+const pixelsPerKey = 40;
+const zoomPerKey = 0.9;
+/** Of the wheel: one notch of a mouse is about 100 pixels, and zooms by a seventh. */
+const zoomPerWheelPixel = 0.0015;
+const largestWheelStep = 240;
+const pixelsPerLine = 33;
+
+interface Pointer extends Point {
+  isPan: boolean;
+}
+
+const isTyping = (target: EventTarget | null): boolean =>
+  target instanceof HTMLElement &&
+  (target.matches("input, select, textarea, [contenteditable]") ||
+    target.closest("dialog") !== null);
+
+export class Controls {
+  private readonly pointers = new Map<number, Pointer>();
+  private readonly keys = new Set<string>();
+  private isFast = false;
+  private flyFrame: number | undefined;
+  private lastFlyTime = 0;
+  private readonly ending = new AbortController();
+
+  constructor(
+    private readonly canvas: HTMLCanvasElement,
+    private readonly holder: CameraHolder,
+  ) {
+    const { signal } = this.ending;
+    canvas.addEventListener("pointerdown", (event) => this.pointerDown(event), { signal });
+    canvas.addEventListener("pointermove", (event) => this.pointerMove(event), { signal });
+    for (const end of ["pointerup", "pointercancel", "lostpointercapture"] as const)
+      canvas.addEventListener(end, (event) => this.pointers.delete(event.pointerId), { signal });
+    canvas.addEventListener("wheel", (event) => this.wheel(event), { signal, passive: false });
+    canvas.addEventListener("contextmenu", (event) => event.preventDefault(), { signal });
+    window.addEventListener("keydown", (event) => this.keyDown(event), { signal });
+    window.addEventListener("keyup", (event) => this.keyUp(event), { signal });
+    window.addEventListener("blur", () => this.releaseKeys(), { signal });
+  }
+
+  close(): void {
+    this.ending.abort();
+    this.releaseKeys();
+  }
+
+  /** Offset from the canvas's centre, in CSS pixels. */
+  private fromCentre(point: Point): Point {
+    const box = this.canvas.getBoundingClientRect();
+    return { x: point.x - box.left - box.width / 2, y: point.y - box.top - box.height / 2 };
+  }
+
+  private get height(): number {
+    return this.canvas.clientHeight;
+  }
+
+  // ---- Pointers
+
+  private pointerDown(event: PointerEvent): void {
+    if (event.pointerType === "mouse" && event.button > 2) return;
+    this.canvas.focus({ preventScroll: true });
+    this.canvas.setPointerCapture(event.pointerId);
+    const isPan = event.button !== 0 || event.shiftKey;
+    this.pointers.set(event.pointerId, { x: event.clientX, y: event.clientY, isPan });
+    event.preventDefault();
+  }
+
+  private pointerMove(event: PointerEvent): void {
+    const before = this.pointers.get(event.pointerId);
+    if (before === undefined) return;
+    const after = { ...before, x: event.clientX, y: event.clientY };
+    const others = [...this.pointers].filter(([id]) => id !== event.pointerId);
+    this.pointers.set(event.pointerId, after);
+    const other = others[0]?.[1];
+    if (other === undefined) this.drag(before, after, event.timeStamp);
+    else if (others.length === 1) this.pinch([before, other], [after, other], event.timeStamp);
+  }
+
+  private drag(before: Pointer, after: Pointer, time: number): void {
+    const dx = after.x - before.x;
+    const dy = after.y - before.y;
+    if (dx === 0 && dy === 0) return;
+    this.change(time, (camera) => {
+      if (before.isPan) return pan(camera, dx, dy, this.height);
+      const [azimuth, elevation] = [-dx * radiansPerPixel, dy * radiansPerPixel];
+      // The scene follows the pointer when orbiting; the view does when looking around.
+      if (this.holder.isFlying) return look(camera, azimuth, -elevation);
+      return orbit(camera, azimuth, elevation);
+    });
+  }
+
+  private pinch(before: [Point, Point], after: [Point, Point], time: number): void {
+    const { dx, dy, factor, centre } = pinch(before, after);
+    const { x, y } = this.fromCentre(centre);
+    this.change(time, (camera) =>
+      zoom(pan(camera, dx, dy, this.height), factor, x, y, this.height, this.holder.limits),
+    );
+  }
+
+  private wheel(event: WheelEvent): void {
+    event.preventDefault();
+    const unit = event.deltaMode === 0 ? 1 : event.deltaMode === 1 ? pixelsPerLine : this.height;
+    const step = Math.max(-largestWheelStep, Math.min(largestWheelStep, event.deltaY * unit));
+    const { x, y } = this.fromCentre({ x: event.clientX, y: event.clientY });
+    this.zoomBy(Math.exp(step * zoomPerWheelPixel), x, y, event.timeStamp);
+  }
+
+  private zoomBy(factor: number, x: number, y: number, time: number): void {
+    this.change(time, (camera) => zoom(camera, factor, x, y, this.height, this.holder.limits));
+  }
+
+  private change(time: number, by: (camera: Camera) => Camera): void {
+    if (this.holder.camera !== null) this.holder.move(by(this.holder.camera), time);
+  }
+
+  // ---- Keys
+
+  private keyDown(event: KeyboardEvent): void {
+    this.isFast = event.shiftKey;
+    if (event.ctrlKey || event.metaKey || event.altKey || isTyping(event.target)) return;
+    if (isFlyKey(event.code)) this.flyKeyDown(event);
+    else if (this.otherKeyDown(event)) event.preventDefault();
+  }
+
+  /** True for a key that means something here. */
+  private otherKeyDown(event: KeyboardEvent): boolean {
+    const time = event.timeStamp;
+    switch (event.key) {
+      case "Home":
+      case "r":
+      case "R":
+        this.holder.goHome(time);
+        return true;
+      case "f":
+      case "F":
+        if (!event.repeat) this.holder.setFlying(!this.holder.isFlying);
+        return true;
+      case "Escape":
+        this.holder.setFlying(false);
+        return false;
+      case "+":
+      case "=":
+        this.zoomBy(zoomPerKey, 0, 0, time);
+        return true;
+      case "-":
+      case "_":
+        this.zoomBy(1 / zoomPerKey, 0, 0, time);
+        return true;
+      default:
+        return this.arrowDown(event);
+    }
+  }
+
+  private arrowDown(event: KeyboardEvent): boolean {
+    const x = Number(event.key === "ArrowRight") - Number(event.key === "ArrowLeft");
+    const y = Number(event.key === "ArrowDown") - Number(event.key === "ArrowUp");
+    if (x === 0 && y === 0) return false;
+    this.change(event.timeStamp, (camera) => {
+      if (event.shiftKey) return pan(camera, -x * pixelsPerKey, -y * pixelsPerKey, this.height);
+      // To the right: the eye goes there, or looks there.
+      if (this.holder.isFlying) return look(camera, -x * radiansPerKey, -y * radiansPerKey);
+      return orbit(camera, x * radiansPerKey, -y * radiansPerKey);
+    });
+    return true;
+  }
+
+  private keyUp(event: KeyboardEvent): void {
+    this.isFast = event.shiftKey;
+    this.keys.delete(event.code);
+  }
+
+  private releaseKeys(): void {
+    this.keys.clear();
+    this.pointers.clear();
+  }
+
+  private flyKeyDown(event: KeyboardEvent): void {
+    event.preventDefault();
+    this.holder.setFlying(true);
+    this.keys.add(event.code);
+    if (this.flyFrame !== undefined) return;
+    this.lastFlyTime = event.timeStamp;
+    this.flyFrame = requestAnimationFrame((now) => this.flyStep(now));
+  }
+
+  /** Runs while a key is held. */
+  private flyStep(now: number): void {
+    const seconds = (now - this.lastFlyTime) / 1000;
+    this.lastFlyTime = now;
+    this.change(now, (camera) => fly(camera, this.keys, this.isFast, seconds));
+    this.flyFrame =
+      this.keys.size > 0 ? requestAnimationFrame((next) => this.flyStep(next)) : undefined;
+  }
+}

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+import type { Camera } from "./camera";
+import {
+  add,
+  axesOf,
+  clamp,
+  directionOf,
+  distance,
+  headingOf,
+  metresPerPixel,
+  scale,
+  subtract,
+  translate,
+} from "./camera";
+
+/** How near and far the eye may be from the target, in metres. */
+export interface DistanceLimits {
+  min: number;
+  max: number;
+}
+
+/** Turns the eye about the target, in radians; positive moves it anticlockwise and upwards. */
+export function orbit(camera: Camera, azimuth: number, elevation: number): Camera {
+  const back = headingOf(subtract(camera.eye, camera.target));
+  const direction = directionOf({
+    azimuth: back.azimuth + azimuth,
+    elevation: back.elevation + elevation,
+  });
+  return { ...camera, eye: add(camera.target, scale(direction, distance(camera))) };
+}
+
+/**
+ * Shifts the picture by pixels (x to the right, y downwards), so that the point at the target's
+ * distance stays under the pointer.
+ */
+export function pan(camera: Camera, dx: number, dy: number, heightPixels: number): Camera {
+  const { right, up } = axesOf(camera);
+  const metres = metresPerPixel(camera, heightPixels);
+  return translate(camera, add(scale(right, -dx * metres), scale(up, dy * metres)));
+}
+
+/**
+ * Scales the distance to the target by `factor` and keeps what is under the pointer there.
+ *
+ * `x` and `y` are the pointer's offset from the picture's centre in pixels, y downwards. At the
+ * smallest distance the target is pushed ahead instead, so that zooming in never gets stuck.
+ */
+export function zoom(
+  camera: Camera,
+  factor: number,
+  x: number,
+  y: number,
+  heightPixels: number,
+  limits: DistanceLimits,
+): Camera {
+  const before = distance(camera);
+  const wanted = Math.min(before * factor, limits.max);
+  const after = Math.max(wanted, limits.min);
+  const { right, up, forward } = axesOf(camera);
+  const metres = metresPerPixel(camera, heightPixels);
+  const cursor = add(scale(right, x * metres), scale(up, -y * metres));
+  // The point under the pointer stays where it is when the rest shrinks towards it.
+  const target = add(camera.target, scale(cursor, clamp(1 - after / before, -1, 1)));
+  const eye = subtract(target, scale(forward, after));
+  const ahead = factor < 1 && wanted < limits.min ? Math.min(before, limits.min) * (1 - factor) : 0;
+  return translate({ ...camera, eye, target }, scale(forward, ahead));
+}
+
+/** Limits for a scene whose bounds have this diagonal, in metres. */
+export function distanceLimits(sceneDiagonal: number): DistanceLimits {
+  const size = sceneDiagonal > 0 ? sceneDiagonal : 1;
+  return { min: size * 2e-3, max: size * 20 };
+}

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+import type { Camera } from "./camera/camera";
+import type { State } from "./state";
+import type { Viewer } from "./viewer";
+
+/** What `window.eyrie` tells, for tests and for pages that embed this one. Read only. */
+export interface Hooks {
+  /** Of the picture on the canvas; 0 before the first. Counts from 1 on each connection. */
+  readonly frameNumber: number;
+  /** Of the view that it shows. */
+  readonly viewSequence: number;
+  readonly triangles: number;
+  readonly tauAchieved: number;
+  /** It is at its best: nothing more comes until something changes. */
+  readonly still: boolean;
+  readonly fps: number;
+  /** Median of the last ones; NaN before any. */
+  readonly inputToDrawnMilliseconds: number;
+  readonly connection: "connecting" | "connected" | "lost";
+  readonly camera: Camera | null;
+}
+
+declare global {
+  interface Window {
+    readonly eyrie: Hooks;
+  }
+}
+
+export function exposeHooks(state: State, viewer: Viewer): void {
+  const numbers = () => state.numbers.value;
+  const hooks: Hooks = {
+    get frameNumber() {
+      return numbers()?.frameNumber ?? 0;
+    },
+    get viewSequence() {
+      return numbers()?.viewSequence ?? 0;
+    },
+    get triangles() {
+      return numbers()?.triangles ?? 0;
+    },
+    get tauAchieved() {
+      return numbers()?.tauAchieved ?? 0;
+    },
+    get still() {
+      return numbers()?.still ?? false;
+    },
+    get fps() {
+      return numbers()?.fps ?? 0;
+    },
+    get inputToDrawnMilliseconds() {
+      return numbers()?.inputToDrawnMilliseconds ?? Number.NaN;
+    },
+    get connection() {
+      return state.connection.value.kind;
+    },
+    get camera() {
+      return viewer.camera;
+    },
+  };
+  Object.defineProperty(window, "eyrie", { value: Object.freeze(hooks) });
+}

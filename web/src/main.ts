@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+import "./style.css";
+import { exposeHooks } from "./hooks";
+import { keepDescription } from "./panel/description";
+import { byId } from "./panel/element";
+import { showMessages } from "./panel/message";
+import { showNumbers } from "./panel/numbers";
+import { showQuality } from "./panel/quality";
+import { showStatus } from "./panel/status";
+import { setUpToolbar } from "./panel/toolbar";
+import { State } from "./state";
+import { PictureCanvas } from "./view/canvas";
+import { Viewer } from "./viewer";
+
+/** /ws beside the page. */
+function socketUrl(): string {
+  const url = new URL("ws", window.location.href);
+  url.protocol = url.protocol === "https:" ? "wss:" : "ws:";
+  return url.href;
+}
+
+function start(): void {
+  const canvas = byId("view", HTMLCanvasElement);
+  if (!PictureCanvas.isSupported()) {
+    const message = byId("message", HTMLElement);
+    message.textContent =
+      "This browser is too old: Eyrie needs OffscreenCanvas (Chrome 69, Firefox 105, Safari 16.4 or newer).";
+    message.hidden = false;
+    return;
+  }
+  const state = new State();
+  const viewer = new Viewer(canvas, socketUrl(), state);
+  showStatus(state);
+  showMessages(state);
+  showQuality(state);
+  showNumbers(state);
+  setUpToolbar(state, viewer);
+  keepDescription(state, canvas);
+  exposeHooks(state, viewer);
+}
+
+start();

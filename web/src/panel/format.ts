@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+
+/** 1740000 as "1.74 M": three digits, whatever the size. */
+export function count(value: number): string {
+  const units = ["", " k", " M", " G", " T"];
+  let unit = 0;
+  while (value >= 999.5 && unit < units.length - 1) {
+    value /= 1000;
+    unit += 1;
+  }
+  return `${unit === 0 ? String(Math.round(value)) : value.toPrecision(3)}${units[unit] ?? ""}`;
+}
+
+/** Pixels of error with two digits after the point where they matter. */
+export function pixels(value: number): string {
+  if (!Number.isFinite(value)) return "∞ px";
+  return `${value >= 9.995 ? value.toFixed(1) : value.toFixed(2)} px`;
+}
+
+export function milliseconds(value: number): string {
+  if (Number.isNaN(value)) return "–";
+  return `${value >= 9.95 ? value.toFixed(0) : value.toFixed(1)} ms`;
+}
+
+/** "llvmpipe" of "llvmpipe (LLVM 15.0.6, 256 bits)": what people call the device. */
+export function deviceName(renderer: string): string {
+  return (
+    renderer
+      .replace(/\(.*$/, "")
+      .replace(/\/PCIe.*$/, "")
+      .trim() || "unknown device"
+  );
+}
+
+/** "1 renderer", "2 renderers". */
+export function plural(number: number, word: string): string {
+  return `${number} ${word}${number === 1 ? "" : "s"}`;
+}

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// What to say in place of a picture, or above one that is no longer live.
+import type { SessionState } from "../protocol/messages";
+import type { Connection, State } from "../state";
+import { byId, make, setText } from "./element";
+
+export interface Message {
+  title: string;
+  text: string;
+  /** A command that helps. */
+  command?: string;
+}
+
+export interface Situation {
+  connection: Connection;
+  session: SessionState | null;
+  hasPicture: boolean;
+}
+
+const startServer = "eyrie serve scene.json";
+const startRenderer = "eyrie renderer --coordinator HOST:PORT";
+
+const hasRenderer = (session: SessionState): boolean =>
+  session.renderers.some((renderer) => renderer.alive);
+
+/** How long the connection has been lost: "3 s". */
+export function lossText(connection: Connection, now: number): string {
+  if (connection.kind !== "lost") return "";
+  return `${Math.max(0, Math.floor((now - connection.since) / 1000))} s`;
+}
+
+/** Fills the view while there has never been a picture. */
+export function messageFor({ connection, session, hasPicture }: Situation): Message | null {
+  if (hasPicture) return null;
+  if (connection.kind === "lost")
+    return {
+      title: "Eyrie does not answer",
+      text: "No server answers at this address. The page connects by itself as soon as one is running:",
+      command: startServer,
+    };
+  if (connection.kind === "connecting" || session === null)
+    return { title: "Connecting", text: "Asking the server for the scene." };
+  if (!hasRenderer(session))
+    return {
+      title: "No renderer is running",
+      text:
+        session.problem ||
+        "The coordinator is up, but nothing draws for it. Start a renderer that registers there:",
+      command: startRenderer,
+    };
+  if (session.problem !== "") return { title: "There is no picture", text: session.problem };
+  if (session.sceneBounds === undefined)
+    return { title: "Opening the scene", text: "The renderers are reading it." };
+  return { title: "Drawing the first picture", text: "It appears in a moment." };
+}
+
+/** One line above the last picture while it is not live. */
+export function bannerFor({ connection, session, hasPicture }: Situation): string | null {
+  if (!hasPicture) return null;
+  if (connection.kind === "lost") return "Connection lost. This is the last picture; reconnecting.";
+  if (session === null) return null;
+  if (!hasRenderer(session))
+    return `No renderer is left; this is the last picture. ${session.problem || `Start one with: ${startRenderer}`}`;
+  return session.problem === "" ? null : `This is the last picture. ${session.problem}`;
+}
+
+export function showMessages(state: State): void {
+  const message = byId("message", HTMLElement);
+  const banner = byId("banner", HTMLElement);
+  const stage = byId("stage", HTMLElement);
+  const title = make("h2", "message-title");
+  const text = make("p", "message-text");
+  const command = make("code", "message-command");
+  const bannerText = make("span", "");
+  const timer = make("span", "timer");
+  timer.ariaHidden = "true"; // or it would be read out every second
+  banner.append(bannerText, timer);
+  message.append(make("div", "message-box", title, text, command));
+  const update = (): void => {
+    const situation: Situation = {
+      connection: state.connection.value,
+      session: state.session.value,
+      hasPicture: state.numbers.value !== null,
+    };
+    const shown = messageFor(situation);
+    message.hidden = shown === null;
+    setText(title, shown?.title ?? "");
+    setText(text, shown?.text ?? "");
+    setText(command, shown?.command ?? "");
+    command.hidden = shown?.command === undefined;
+    const line = bannerFor(situation);
+    banner.hidden = line === null;
+    setText(bannerText, line ?? "");
+    setText(timer, lossText(situation.connection, performance.now()));
+    stage.classList.toggle("is-dimmed", line !== null);
+  };
+  state.connection.watch(update);
+  state.session.watch(update);
+  state.numbers.watch(update);
+  // The seconds since the loss.
+  window.setInterval(() => {
+    if (state.connection.value.kind === "lost") update();
+  }, 1000);
+}

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the pictures are and how they come.
+import type { Numbers, State } from "../state";
+import { byId, make, setText } from "./element";
+import { count, milliseconds } from "./format";
+
+export function triangleText(drawn: number, total: number): string {
+  return total > 0 ? `${count(drawn)} of ${count(total)}` : count(drawn);
+}
+
+interface Row {
+  name: string;
+  title: string;
+  text(numbers: Numbers, totalTriangles: number): string;
+}
+
+const rows: readonly Row[] = [
+  {
+    name: "Frames",
+    title: "Drawn in the last second; none are made while nothing changes",
+    text: ({ fps }) => (fps === 0 ? "at rest" : `${fps} / s`),
+  },
+  {
+    name: "Input to drawn",
+    title: "From a hand's movement to the picture that shows it, median of the last ones",
+    text: ({ inputToDrawnMilliseconds }) => milliseconds(inputToDrawnMilliseconds),
+  },
+  {
+    name: "Rendering",
+    title: "The renderers' part of that",
+    text: ({ renderMilliseconds }) => milliseconds(renderMilliseconds),
+  },
+  {
+    name: "Triangles",
+    title: "Drawn, and in the scene at full resolution",
+    text: ({ triangles }, total) => triangleText(triangles, total),
+  },
+  {
+    name: "Picture",
+    title: "Size in pixels; the best one follows when the view rests",
+    text: ({ width, height, still }) => `${width} × ${height}${still ? " · best" : ""}`,
+  },
+];
+
+export function showNumbers(state: State): void {
+  const list = make("dl", "numbers");
+  const updates = rows.map((row) => {
+    const value = make("dd", "value", "–");
+    const name = make("dt", "label", row.name);
+    name.title = row.title;
+    list.append(name, value);
+    return (numbers: Numbers, totalTriangles: number): void =>
+      setText(value, row.text(numbers, totalTriangles));
+  });
+  byId("numbers", HTMLElement).append(make("h2", "heading", "Numbers"), list);
+  state.numbers.watch((numbers) => {
+    if (numbers === null) return;
+    const total = Number(state.session.value?.sceneTriangles ?? 0n);
+    for (const update of updates) update(numbers, total);
+  });
+}

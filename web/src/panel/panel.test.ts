@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+import { create } from "@bufbuild/protobuf";
+import { describe, expect, it } from "vitest";
+import { SessionStateSchema } from "../protocol/gen/eyrie/v1/viewer_pb";
+import type { SessionState } from "../protocol/messages";
+import type { Connection, Numbers } from "../state";
+import { count, deviceName, milliseconds, pixels } from "./format";
+import { bannerFor, lossText, messageFor } from "./message";
+import { triangleText } from "./numbers";
+import { tauHint } from "./quality";
+import { statusOf } from "./status";
+
+const connected: Connection = { kind: "connected" };
+const lost: Connection = { kind: "lost", since: 1000 };
+
+function session(alive: number, dead = 0, problem = "", isOpen = true): SessionState {
+  const device = { device: "llvmpipe (LLVM 15.0.6, 256 bits)", software: true };
+  const renderer = (isAlive: boolean) => ({ id: "r", device, alive: isAlive });
+  return create(SessionStateSchema, {
+    renderers: [...Array(alive).fill(true), ...Array(dead).fill(false)].map(renderer),
+    problem,
+    ...(isOpen ? { sceneBounds: { min: { x: 0 }, max: { x: 1 } } } : {}),
+  });
+}
+
+describe("the status chip", () => {
+  it("names the renderers and their device", () => {
+    const status = statusOf(connected, session(2), false);
+    expect(status).toEqual({
+      level: "good",
+      text: "Connected",
+      detail: "2 renderers · llvmpipe (software)",
+    });
+  });
+
+  it("counts those that are left", () => {
+    const status = statusOf(connected, session(1, 1), false);
+    expect(status.detail).toContain("1 of 2 renderers");
+    expect(status.level).toBe("wait");
+  });
+
+  it("is never good without a live picture", () => {
+    for (const [connection, state, stale] of [
+      [lost, session(1), false],
+      [{ kind: "connecting" }, null, false],
+      [connected, null, false],
+      [connected, session(0), false],
+      [connected, session(1, 0, "the scene is gone"), false],
+      [connected, session(1), true],
+    ] as [Connection, SessionState | null, boolean][])
+      expect(statusOf(connection, state, stale).level).not.toBe("good");
+  });
+});
+
+describe("the message in place of a picture", () => {
+  const titleOf = (connection: Connection, state: SessionState | null) =>
+    messageFor({ connection, session: state, hasPicture: false })?.title;
+
+  it("says what is missing, whatever it is", () => {
+    expect(titleOf({ kind: "connecting" }, null)).toBe("Connecting");
+    expect(titleOf(lost, null)).toBe("Eyrie does not answer");
+    expect(titleOf(connected, session(0))).toBe("No renderer is running");
+    expect(titleOf(connected, session(1, 0, "bad file"))).toBe("There is no picture");
+    expect(titleOf(connected, session(1, 0, "", false))).toBe("Opening the scene");
+    expect(titleOf(connected, session(1))).toBe("Drawing the first picture");
+  });
+
+  it("gives the command that starts a renderer", () => {
+    const situation = { connection: connected, session: session(0), hasPicture: false };
+    expect(messageFor(situation)?.command).toContain("eyrie renderer");
+  });
+
+  it("leaves a picture alone, and says when that is not live", () => {
+    const situation = { connection: lost, session: session(1), hasPicture: true };
+    expect(messageFor(situation)).toBeNull();
+    expect(bannerFor(situation)).toContain("Connection lost");
+    expect(lossText(lost, 4200)).toBe("3 s");
+    expect(bannerFor({ ...situation, connection: connected })).toBeNull();
+    expect(bannerFor({ ...situation, connection: connected, session: session(0, 2) })).toContain(
+      "No renderer is left",
+    );
+  });
+});
+
+describe("numbers", () => {
+  const numbers: Numbers = {
+    frameNumber: 1,
+    viewSequence: 1,
+    width: 1,
+    height: 1,
+    still: false,
+    tauAsked: 1,
+    tauAchieved: 1,
+    complete: true,
+    triangles: 1,
+    renderMilliseconds: 1,
+    fps: 1,
+    inputToDrawnMilliseconds: 1,
+  };
+
+  it("explain an error above the one asked for", () => {
+    expect(tauHint(numbers)).toBe("");
+    expect(tauHint({ ...numbers, tauAchieved: 1.5 })).toBe("finest data drawn");
+    expect(tauHint({ ...numbers, tauAchieved: Infinity, complete: false })).toContain("incomplete");
+  });
+
+  it("are short", () => {
+    expect([0, 999, 1000, 12345, 999_999, 1_740_000, 2e12].map(count)).toEqual([
+      "0",
+      "999",
+      "1.00 k",
+      "12.3 k",
+      "1.00 M",
+      "1.74 M",
+      "2.00 T",
+    ]);
+    expect([0.25, 1, 12.34, Infinity].map(pixels)).toEqual([
+      "0.25 px",
+      "1.00 px",
+      "12.3 px",
+      "∞ px",
+    ]);
+    expect([NaN, 4.24, 33.3].map(milliseconds)).toEqual(["–", "4.2 ms", "33 ms"]);
+    expect(triangleText(412_000, 1_740_000)).toBe("412 k of 1.74 M");
+    expect(deviceName("NVIDIA H200/PCIe/SSE2")).toBe("NVIDIA H200");
+  });
+});

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// What to ask for: the error tau, and how surfaces are drawn.
+import { Shading } from "../protocol/messages";
+import type { Numbers, State } from "../state";
+import { byId, make, setText } from "./element";
+import { pixels } from "./format";
+
+/** The slider holds log2(tau): from a quarter of a pixel to sixteen. */
+const minLog = -2;
+const maxLog = 4;
+const stepLog = 0.25;
+
+const shadings: readonly (readonly [Shading, string])[] = [
+  [Shading.SMOOTH, "Smooth"],
+  [Shading.FLAT, "Flat"],
+  [Shading.WIREFRAME, "Wireframe"],
+];
+
+function tauSlider(state: State): HTMLElement {
+  const label = make("label", "label", "Error allowed");
+  const output = make("output", "value");
+  const slider = make("input", "slider");
+  slider.type = "range";
+  slider.id = "tau";
+  slider.min = String(minLog);
+  slider.max = String(maxLog);
+  slider.step = String(stepLog);
+  slider.value = String(Math.log2(state.tau.value));
+  label.htmlFor = output.htmlFor.value = slider.id;
+  label.title = "Tau: how far, in pixels, anything may be from where it belongs on the screen";
+  slider.addEventListener("input", () => state.tau.set(2 ** Number(slider.value)));
+  state.tau.watch((tau) => {
+    setText(output, pixels(tau));
+    slider.setAttribute("aria-valuetext", `${tau.toFixed(2)} pixels`);
+  });
+  const ends = make("div", "ends", make("span", "", "finer"), make("span", "", "faster"));
+  return make("div", "field", make("div", "row", label, output), slider, ends);
+}
+
+/** Rounding on the way must not look like a broken promise. */
+const tolerance = 1 + 1e-6;
+
+/** Why the error drawn is larger than the one asked for, or "". */
+export function tauHint(numbers: Numbers): string {
+  if (numbers.tauAchieved <= numbers.tauAsked * tolerance) return "";
+  return numbers.complete ? "finest data drawn" : "incomplete: data are missing";
+}
+
+function tauAchieved(state: State): HTMLElement {
+  const label = make("span", "label", "Error drawn");
+  label.title = "A bound on how far anything in this picture is from where it belongs";
+  const value = make("span", "value", "–");
+  const hint = make("p", "hint");
+  state.numbers.watch((numbers) => {
+    const reason = numbers === null ? "" : tauHint(numbers);
+    setText(value, numbers === null ? "–" : pixels(numbers.tauAchieved));
+    setText(hint, reason);
+    hint.hidden = reason === "";
+    value.classList.toggle("is-warning", reason !== "");
+  });
+  return make("div", "field", make("div", "row", label, value), hint);
+}
+
+function shadingChoice(state: State): HTMLElement {
+  const choice = make("fieldset", "segments", make("legend", "label", "Shading"));
+  for (const [shading, name] of shadings) {
+    const input = make("input", "");
+    input.type = "radio";
+    input.name = "shading";
+    input.value = name.toLowerCase();
+    input.checked = state.shading.value === shading;
+    input.addEventListener("change", () => state.shading.set(shading));
+    choice.append(make("label", "segment", input, make("span", "", name)));
+  }
+  return choice;
+}
+
+export function showQuality(state: State): void {
+  byId("quality", HTMLElement).append(
+    make("h2", "heading", "Quality"),
+    tauSlider(state),
+    tauAchieved(state),
+    shadingChoice(state),
+  );
+}

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// The chip that says whether all is well, and who renders.
+import type { SessionState } from "../protocol/messages";
+import type { Connection, State } from "../state";
+import { byId, make, setText } from "./element";
+import { deviceName, plural } from "./format";
+
+export interface Status {
+  level: "good" | "wait" | "bad";
+  text: string;
+  detail: string;
+}
+
+/** "2 renderers · llvmpipe (software)". */
+export function rendererText(session: SessionState): string {
+  const alive = session.renderers.filter((renderer) => renderer.alive);
+  const total = session.renderers.length;
+  const number =
+    alive.length === total ? plural(total, "renderer") : `${alive.length} of ${total} renderers`;
+  const names = new Set(
+    alive.map(
+      ({ device }) => deviceName(device?.device ?? "") + (device?.software ? " (software)" : ""),
+    ),
+  );
+  return [number, ...names].join(" · ");
+}
+
+export function statusOf(
+  connection: Connection,
+  session: SessionState | null,
+  stale: boolean,
+): Status {
+  if (connection.kind === "connecting") return { level: "wait", text: "Connecting", detail: "" };
+  if (connection.kind === "lost") return { level: "bad", text: "Reconnecting", detail: "" };
+  if (session === null) return { level: "wait", text: "Connected", detail: "" };
+  const detail = rendererText(session);
+  const alive = session.renderers.filter((renderer) => renderer.alive).length;
+  if (alive === 0) return { level: "bad", text: "No renderer", detail: "" };
+  if (session.problem !== "") return { level: "bad", text: "Problem", detail };
+  if (stale) return { level: "wait", text: "Waiting for a frame", detail };
+  if (alive < session.renderers.length) return { level: "wait", text: "Connected", detail };
+  return { level: "good", text: "Connected", detail };
+}
+
+export function showStatus(state: State): void {
+  const chip = byId("status", HTMLElement);
+  const text = make("span", "chip-text");
+  const detail = make("span", "chip-detail");
+  chip.append(make("span", "chip-dot"), text, detail);
+  const scene = byId("scene-name", HTMLElement);
+  const update = (): void => {
+    const session = state.session.value;
+    const status = statusOf(state.connection.value, session, state.stale.value);
+    chip.dataset["level"] = status.level;
+    setText(text, status.text);
+    setText(detail, status.detail);
+    const devices = session?.renderers.map(({ id, device }) => `${id}: ${device?.device ?? ""}`);
+    chip.title = devices?.join("\n") ?? "";
+    setText(scene, session?.objectNames.join(", ") ?? "");
+    scene.title = scene.textContent ?? "";
+  };
+  state.connection.watch(update);
+  state.session.watch(update);
+  state.stale.watch(update);
+}

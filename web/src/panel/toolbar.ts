@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// The buttons of the top bar, and the keys that do the same.
+import type { State } from "../state";
+import type { Viewer } from "../viewer";
+import { byId } from "./element";
+import { setUpHelp } from "./help";
+
+/** In a window this narrow the panel would cover the picture. */
+const narrow = "(max-width: 700px)";
+
+export function setUpToolbar(state: State, viewer: Viewer): void {
+  const fly = byId("fly", HTMLButtonElement);
+  const toggle = byId("panel-toggle", HTMLButtonElement);
+  const panel = byId("panel", HTMLElement);
+  const mode = byId("mode", HTMLElement);
+  const toggleHelp = setUpHelp();
+  const showPanel = (isShown: boolean): void => {
+    panel.hidden = !isShown;
+    toggle.setAttribute("aria-expanded", String(isShown));
+  };
+
+  showPanel(!window.matchMedia(narrow).matches);
+  toggle.addEventListener("click", () => showPanel(panel.hidden));
+  byId("home", HTMLButtonElement).addEventListener("click", (event) =>
+    viewer.goHome(event.timeStamp),
+  );
+  byId("help-open", HTMLButtonElement).addEventListener("click", toggleHelp);
+  fly.addEventListener("click", () => state.flying.set(!state.flying.value));
+  state.flying.watch((isFlying) => {
+    fly.setAttribute("aria-pressed", String(isFlying));
+    mode.hidden = !isFlying;
+  });
+
+  window.addEventListener("keydown", (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey || event.repeat) return;
+    const key = event.key.toLowerCase();
+    if (key === "h" || key === "?") toggleHelp();
+    else if (key === "p") showPanel(panel.hidden);
+  });
+}

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// The messages of viewer.proto, to and from bytes.
+import { create, fromBinary, toBinary } from "@bufbuild/protobuf";
+import type { Camera } from "../camera/camera";
+import { CameraSchema } from "./gen/eyrie/v1/camera_pb";
+import { Shading } from "./gen/eyrie/v1/frame_pb";
+import {
+  FrameAckSchema,
+  ViewerRequestSchema,
+  ViewerResponseSchema,
+  ViewRequestSchema,
+} from "./gen/eyrie/v1/viewer_pb";
+import type { Frame, SessionState, ViewerRequest, ViewerResponse } from "./gen/eyrie/v1/viewer_pb";
+
+export { Shading };
+export type { Frame, SessionState, ViewerResponse };
+
+/** What the viewer wants to see. */
+export interface View {
+  sequence: number;
+  camera: Camera;
+  /** Picture size in pixels. */
+  width: number;
+  height: number;
+  tauPixels: number;
+  shading: Shading;
+}
+
+/** A buffer of its own, as toBinary makes it. */
+function bytesOf(request: ViewerRequest["request"]): Uint8Array<ArrayBuffer> {
+  const message = create(ViewerRequestSchema, { request });
+  return toBinary(ViewerRequestSchema, message) as Uint8Array<ArrayBuffer>;
+}
+
+export function encodeView(view: View): Uint8Array<ArrayBuffer> {
+  const { eye, target, up, fovyDegrees } = view.camera;
+  const value = create(ViewRequestSchema, {
+    sequence: BigInt(view.sequence),
+    camera: create(CameraSchema, { eye: [...eye], target: [...target], up: [...up], fovyDegrees }),
+    width: view.width,
+    height: view.height,
+    tauPixels: view.tauPixels,
+    shading: view.shading,
+  });
+  return bytesOf({ case: "view", value });
+}
+
+export function encodeAck(frameNumber: number): Uint8Array<ArrayBuffer> {
+  const value = create(FrameAckSchema, { frameNumber: BigInt(frameNumber) });
+  return bytesOf({ case: "frameAck", value });
+}
+
+/** Throws when `bytes` is no ViewerResponse. */
+export function decodeResponse(bytes: ArrayBuffer): ViewerResponse {
+  return fromBinary(ViewerResponseSchema, new Uint8Array(bytes));
+}
+
+/** The camera of a message, or undefined when it lacks something. */
+export function cameraOf(message: SessionState["home"]): Camera | undefined {
+  const [ex, ey, ez] = message?.eye ?? [];
+  const [tx, ty, tz] = message?.target ?? [];
+  const [ux = 0, uy = 0, uz = 1] = message?.up ?? [];
+  if (ex === undefined || ey === undefined || ez === undefined) return undefined;
+  if (tx === undefined || ty === undefined || tz === undefined) return undefined;
+  return {
+    eye: [ex, ey, ez],
+    target: [tx, ty, tz],
+    up: [ux, uy, uz],
+    fovyDegrees: message?.fovyDegrees || 45,
+  };
+}

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+import { create, fromBinary, toBinary } from "@bufbuild/protobuf";
+import { describe, expect, it } from "vitest";
+import { ViewerRequestSchema, ViewerResponseSchema } from "./gen/eyrie/v1/viewer_pb";
+import { cameraOf, decodeResponse, encodeAck, encodeView, Shading } from "./messages";
+import { reconnectDelay } from "./socket";
+
+describe("reconnectDelay", () => {
+  it("is none at first and never more than a second and a half", () => {
+    expect([0, 1, 2, 3, 4, 100].map(reconnectDelay)).toEqual([0, 250, 500, 1000, 1500, 1500]);
+  });
+});
+
+describe("messages", () => {
+  it("carry a view", () => {
+    const bytes = encodeView({
+      sequence: 7,
+      camera: { eye: [1, 2, 3], target: [4, 5, 6], up: [0, 0, 1], fovyDegrees: 45 },
+      width: 640,
+      height: 480,
+      tauPixels: 2,
+      shading: Shading.FLAT,
+    });
+    const { request } = fromBinary(ViewerRequestSchema, bytes);
+    expect(request.case).toBe("view");
+    if (request.case !== "view") return;
+    expect(request.value.sequence).toBe(7n);
+    expect(request.value.camera?.eye).toEqual([1, 2, 3]);
+    expect(request.value.shading).toBe(Shading.FLAT);
+  });
+
+  it("carry an acknowledgement", () => {
+    const { request } = fromBinary(ViewerRequestSchema, encodeAck(9));
+    expect(request.case === "frameAck" && request.value.frameNumber).toBe(9n);
+  });
+
+  it("keep a picture's bytes as a part of the message, without a copy", () => {
+    const response = create(ViewerResponseSchema, {
+      response: { case: "frame", value: { frameNumber: 3n, jpeg: new Uint8Array([1, 2, 3]) } },
+    });
+    const bytes = toBinary(ViewerResponseSchema, response);
+    const decoded = decodeResponse(bytes.buffer as ArrayBuffer).response;
+    expect(decoded.case).toBe("frame");
+    if (decoded.case !== "frame") return;
+    expect([...decoded.value.jpeg]).toEqual([1, 2, 3]);
+    expect(decoded.value.jpeg.buffer).toBe(bytes.buffer);
+  });
+
+  it("have no camera when numbers are missing", () => {
+    expect(cameraOf(undefined)).toBeUndefined();
+  });
+});

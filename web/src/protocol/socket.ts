@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+import type { Frame, SessionState, View } from "./messages";
+import { decodeResponse, encodeAck, encodeView } from "./messages";
+
+export interface SocketEvents {
+  opened(): void;
+  /** Called once per loss, not per failed attempt to connect again. */
+  lost(): void;
+  state(state: SessionState): void;
+  frame(frame: Frame): void;
+}
+
+/** How long to wait before attempt number `attempt` (0 is the first after a loss), in ms. */
+export function reconnectDelay(attempt: number): number {
+  return attempt === 0 ? 0 : Math.min(1500, 250 * 2 ** (attempt - 1));
+}
+
+/** So much unsent means that the network stalls; views are coalesced meanwhile. */
+const maxBufferedBytes = 16 * 1024;
+
+/** The connection to the server, made again whenever it is lost. */
+export class Socket {
+  private socket: WebSocket | null = null;
+  private attempt = 0;
+  private isOpen = false;
+  private isLossTold = false;
+  private timer: number | undefined;
+
+  constructor(
+    private readonly url: string,
+    private readonly events: SocketEvents,
+  ) {
+    this.connect();
+  }
+
+  /** False when the view could not be sent now; try again with the newest one. */
+  sendView(view: View): boolean {
+    if (!this.canSend()) return false;
+    this.socket?.send(encodeView(view));
+    return true;
+  }
+
+  acknowledge(frameNumber: number): void {
+    if (this.isOpen) this.socket?.send(encodeAck(frameNumber));
+  }
+
+  close(): void {
+    clearTimeout(this.timer);
+    this.detach();
+  }
+
+  private canSend(): boolean {
+    return this.isOpen && this.socket !== null && this.socket.bufferedAmount < maxBufferedBytes;
+  }
+
+  private connect(): void {
+    const socket = new WebSocket(this.url);
+    this.socket = socket;
+    socket.binaryType = "arraybuffer";
+    socket.onopen = () => {
+      this.attempt = 0;
+      this.isOpen = true;
+      this.isLossTold = false;
+      this.events.opened();
+    };
+    socket.onclose = () => this.reconnect();
+    socket.onmessage = (event: MessageEvent<unknown>) => this.received(event.data);
+  }
+
+  private received(data: unknown): void {
+    try {
+      if (!(data instanceof ArrayBuffer)) throw new Error("a text message");
+      const { response } = decodeResponse(data);
+      if (response.case === "frame") this.events.frame(response.value);
+      else if (response.case === "state") this.events.state(response.value);
+    } catch (error) {
+      // Another protocol, most likely of a newer server: only loading the page again can help.
+      console.error("Eyrie: not understood:", error);
+      this.reconnect();
+    }
+  }
+
+  private reconnect(): void {
+    this.detach();
+    if (!this.isLossTold) {
+      this.isLossTold = true;
+      this.events.lost();
+    }
+    this.timer = window.setTimeout(() => this.connect(), reconnectDelay(this.attempt));
+    this.attempt += 1;
+  }
+
+  private detach(): void {
+    this.isOpen = false;
+    if (this.socket === null) return;
+    this.socket.onopen = this.socket.onclose = this.socket.onmessage = null;
+    this.socket.close();
+    this.socket = null;
+  }
+}

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+import type { SessionState } from "./protocol/messages";
+import { Shading } from "./protocol/messages";
+
+/** A value that tells its listeners when it becomes another. */
+export class Value<T> {
+  private readonly listeners = new Set<(value: T) => void>();
+
+  constructor(private current: T) {}
+
+  get value(): T {
+    return this.current;
+  }
+
+  set(value: T): void {
+    if (Object.is(value, this.current)) return;
+    this.current = value;
+    for (const listener of this.listeners) listener(value);
+  }
+
+  /** Calls `listener` now and after each change; returns how to end that. */
+  watch(listener: (value: T) => void): () => void {
+    this.listeners.add(listener);
+    listener(this.current);
+    return () => this.listeners.delete(listener);
+  }
+}
+
+export type Connection =
+  | { kind: "connecting" }
+  | { kind: "connected" }
+  /** `since`: when it was lost, or was first tried in vain, in ms of performance.now(). */
+  | { kind: "lost"; since: number };
+
+/** What the last drawn frame was, and how frames come. */
+export interface Numbers {
+  frameNumber: number;
+  viewSequence: number;
+  width: number;
+  height: number;
+  still: boolean;
+  tauAsked: number;
+  tauAchieved: number;
+  complete: boolean;
+  triangles: number;
+  /** Wall-clock time of rendering on the server. */
+  renderMilliseconds: number;
+  /** Frames drawn in the last second. */
+  fps: number;
+  /** From an input to the picture that shows it: median of the last ones; NaN before any. */
+  inputToDrawnMilliseconds: number;
+}
+
+/** Everything the page shows. The viewer writes it; panels read it. */
+export class State {
+  readonly connection = new Value<Connection>({ kind: "connecting" });
+  readonly session = new Value<SessionState | null>(null);
+  readonly numbers = new Value<Numbers | null>(null);
+  /** A view has been waiting for its picture for long. */
+  readonly stale = new Value(false);
+  readonly flying = new Value(false);
+  readonly tau = new Value(1);
+  readonly shading = new Value<Shading>(Shading.SMOOTH);
+}

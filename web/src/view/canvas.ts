@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+import type { FromWorker, ToWorker } from "./decode.worker";
+import type { Size } from "./size";
+
+export interface CanvasEvents {
+  /** The picture of this frame is on the canvas; `time` in ms of performance.now(). */
+  drawn(frameNumber: number, time: number): void;
+  /** This frame's picture could not be decoded. */
+  failed(frameNumber: number): void;
+  /** The canvas has another size, in CSS pixels, and has kept it for a moment. */
+  resized(size: Size): void;
+}
+
+const resizeSettlesAfter = 150;
+
+/** The canvas and the worker that draws on it. */
+export class PictureCanvas {
+  private readonly worker: Worker;
+  private readonly observer: ResizeObserver;
+  private resizeTimer: number | undefined;
+
+  constructor(
+    readonly element: HTMLCanvasElement,
+    private readonly events: CanvasEvents,
+  ) {
+    this.worker = new Worker(new URL("./decode.worker.ts", import.meta.url), { type: "module" });
+    this.worker.onmessage = (event: MessageEvent<FromWorker>) => this.reported(event.data);
+    const canvas = element.transferControlToOffscreen();
+    this.post({ kind: "canvas", canvas }, [canvas]);
+    this.observer = new ResizeObserver(() => this.resizeSoon());
+    this.observer.observe(element);
+  }
+
+  static isSupported(): boolean {
+    return typeof OffscreenCanvas !== "undefined" && typeof createImageBitmap !== "undefined";
+  }
+
+  size(): Size {
+    return { width: this.element.clientWidth, height: this.element.clientHeight };
+  }
+
+  /** Shows a picture soon, unless a newer one comes first. Takes the bytes' buffer away. */
+  show(frameNumber: number, jpeg: Uint8Array<ArrayBuffer>): void {
+    this.post({ kind: "picture", frameNumber, jpeg }, [jpeg.buffer]);
+  }
+
+  close(): void {
+    clearTimeout(this.resizeTimer);
+    this.observer.disconnect();
+    this.worker.terminate();
+  }
+
+  private post(message: ToWorker, transfer: Transferable[]): void {
+    this.worker.postMessage(message, transfer);
+  }
+
+  private reported(report: FromWorker): void {
+    if (report.kind === "failed") this.events.failed(report.frameNumber);
+    else this.events.drawn(report.frameNumber, report.time - performance.timeOrigin);
+  }
+
+  private resizeSoon(): void {
+    clearTimeout(this.resizeTimer);
+    this.resizeTimer = window.setTimeout(
+      () => this.events.resized(this.size()),
+      resizeSettlesAfter,
+    );
+  }
+}

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+import { describe, expect, it } from "vitest";
+import { FrameRate, Latency } from "./measure";
+import { pictureSize, softwarePixels } from "./size";
+
+describe("pictureSize", () => {
+  it("is the canvas in device pixels", () => {
+    expect(pictureSize({ width: 800, height: 600 }, 1.5, 1e7)).toEqual({
+      width: 1200,
+      height: 900,
+    });
+  });
+
+  it("keeps the shape when it must be smaller", () => {
+    const size = pictureSize({ width: 2560, height: 1440 }, 2, softwarePixels);
+    expect(size.width * size.height).toBeLessThanOrEqual(softwarePixels);
+    expect(size.width / size.height).toBeCloseTo(16 / 9, 2);
+  });
+
+  it("stays within what the server makes", () => {
+    expect(pictureSize({ width: 10000, height: 10 }, 1, 1e9).width).toBeLessThanOrEqual(4096);
+    expect(pictureSize({ width: 0, height: 0 }, 1, 1e9)).toEqual({ width: 16, height: 16 });
+  });
+});
+
+describe("FrameRate", () => {
+  it("counts the frames of the last second", () => {
+    const rate = new FrameRate();
+    for (let time = 0; time <= 2000; time += 50) rate.drawn(time);
+    expect(rate.perSecond(2000)).toBe(20);
+    expect(rate.perSecond(2500)).toBe(10);
+    expect(rate.perSecond(9000)).toBe(0);
+  });
+});
+
+describe("Latency", () => {
+  it("is counted for the first frame of a view, and for coalesced ones not at all", () => {
+    const latency = new Latency();
+    latency.sent(1, 105, 100);
+    latency.sent(2, 115, 110);
+    latency.drawn(2, 150);
+    latency.drawn(2, 900); // the still picture
+    latency.drawn(1, 901);
+    expect(latency.median()).toBe(40);
+    expect(latency.waitingSince()).toBeUndefined();
+  });
+
+  it("is the median of the last ones", () => {
+    const latency = new Latency();
+    expect(latency.median()).toBeNaN();
+    [10, 500, 20].forEach((time, i) => {
+      latency.sent(i, 5, 0);
+      latency.drawn(i, time);
+    });
+    expect(latency.median()).toBe(20);
+  });
+
+  it("knows since when a view waits", () => {
+    const latency = new Latency();
+    latency.sent(1, 100);
+    latency.sent(2, 110);
+    latency.drawn(1, 120);
+    expect(latency.waitingSince()).toBe(110);
+    latency.drawn(2, 130);
+    expect(latency.median()).toBeNaN(); // no input caused these views
+    latency.sent(3, 140);
+    latency.reset();
+    expect(latency.waitingSince()).toBeUndefined();
+  });
+});

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+import type { Camera } from "./camera/camera";
+import { fitToAspect, isUsable } from "./camera/camera";
+import { Controls } from "./camera/controls";
+import type { CameraHolder } from "./camera/controls";
+import type { DistanceLimits } from "./camera/orbit";
+import { distanceLimits } from "./camera/orbit";
+import type { Frame, SessionState } from "./protocol/messages";
+import { cameraOf } from "./protocol/messages";
+import { Socket } from "./protocol/socket";
+import type { State } from "./state";
+import { PictureCanvas } from "./view/canvas";
+import { FrameRate, Latency } from "./view/measure";
+import type { Size } from "./view/size";
+import { pictureSize, softwarePixels } from "./view/size";
+
+/** A view without its picture for so long is stale. */
+const staleAfter = 2000;
+const hardwarePixels = 4096 * 4096;
+
+/**
+ * A scene on a canvas: sends views, draws frames, moves the camera. Works without any panel:
+ *
+ *     const state = new State();
+ *     new Viewer(canvas, "ws://127.0.0.1:8080/ws", state);
+ */
+export class Viewer implements CameraHolder {
+  camera: Camera | null = null;
+  limits: DistanceLimits = distanceLimits(1);
+
+  private readonly canvas: PictureCanvas;
+  private readonly socket: Socket;
+  private readonly controls: Controls;
+  private readonly rate = new FrameRate();
+  private readonly latency = new Latency();
+  private readonly frames = new Map<number, Frame>();
+  private readonly ticker: number;
+
+  private size: Size;
+  private sequence = 0;
+  private sendAt: number | undefined;
+  private inputTime: number | undefined;
+  private sceneKey = "";
+
+  constructor(
+    canvas: HTMLCanvasElement,
+    url: string,
+    private readonly state: State,
+  ) {
+    this.canvas = new PictureCanvas(canvas, {
+      drawn: (frameNumber, time) => this.drawn(frameNumber, time),
+      failed: (frameNumber) => this.acknowledge(frameNumber),
+      resized: () => this.resize(),
+    });
+    this.size = this.wantedSize();
+    this.controls = new Controls(canvas, this);
+    this.socket = new Socket(url, {
+      opened: () => this.opened(),
+      lost: () => this.lost(),
+      state: (session) => this.sessionChanged(session),
+      frame: (frame) => this.frameArrived(frame),
+    });
+    state.tau.watch(() => this.requestView(performance.now()));
+    state.shading.watch(() => this.requestView(performance.now()));
+    this.ticker = window.setInterval(() => this.tick(), 250);
+  }
+
+  close(): void {
+    window.clearInterval(this.ticker);
+    this.controls.close();
+    this.socket.close();
+    this.canvas.close();
+  }
+
+  // ---- CameraHolder
+
+  get isFlying(): boolean {
+    return this.state.flying.value;
+  }
+
+  setFlying(isFlying: boolean): void {
+    this.state.flying.set(isFlying);
+  }
+
+  move(camera: Camera, inputTime?: number): void {
+    if (!isUsable(camera)) return;
+    this.camera = camera;
+    this.requestView(inputTime);
+  }
+
+  goHome(inputTime?: number): void {
+    const home = cameraOf(this.state.session.value?.home);
+    if (home === undefined) return;
+    const { width, height } = this.canvas.size();
+    this.move(fitToAspect(home, width / Math.max(1, height)), inputTime);
+  }
+
+  // ---- Views
+
+  /**
+   * Sends the view with the next animation frame: at most one a frame, always the newest.
+   * `inputTime` is of the input that caused it, if one did.
+   */
+  private requestView(inputTime?: number): void {
+    this.inputTime ??= inputTime;
+    this.sendAt ??= requestAnimationFrame(() => this.sendView());
+  }
+
+  private sendView(): void {
+    this.sendAt = undefined;
+    if (this.camera === null) return;
+    const isSent = this.socket.sendView({
+      sequence: this.sequence + 1,
+      camera: this.camera,
+      ...this.size,
+      tauPixels: this.state.tau.value,
+      shading: this.state.shading.value,
+    });
+    // A view that cannot go now goes when the connection opens, or with the next frame.
+    if (!isSent) {
+      if (this.state.connection.value.kind === "connected") this.requestView();
+      return;
+    }
+    this.sequence += 1;
+    this.latency.sent(this.sequence, performance.now(), this.inputTime);
+    this.inputTime = undefined;
+  }
+
+  private wantedSize(): Size {
+    const renderers = this.state.session.value?.renderers ?? [];
+    const isSoftware = renderers.some((renderer) => renderer.alive && renderer.device?.software);
+    const limit = isSoftware || renderers.length === 0 ? softwarePixels : hardwarePixels;
+    return pictureSize(this.canvas.size(), window.devicePixelRatio, limit);
+  }
+
+  private resize(): void {
+    const size = this.wantedSize();
+    if (size.width === this.size.width && size.height === this.size.height) return;
+    this.size = size;
+    this.requestView();
+  }
+
+  // ---- The server
+
+  private opened(): void {
+    this.state.connection.set({ kind: "connected" });
+    this.requestView();
+  }
+
+  private lost(): void {
+    this.latency.reset();
+    this.frames.clear();
+    this.inputTime = undefined;
+    this.state.connection.set({ kind: "lost", since: performance.now() });
+  }
+
+  private sessionChanged(session: SessionState): void {
+    this.state.session.set(session);
+    const { min, max } = session.sceneBounds ?? {};
+    if (min !== undefined && max !== undefined) {
+      const diagonal = Math.hypot(max.x - min.x, max.y - min.y, max.z - min.z);
+      this.limits = distanceLimits(diagonal);
+      const key = [min.x, min.y, min.z, max.x, max.y, max.z].join();
+      // Another scene starts at its own home; after a reconnection the camera stays.
+      if (this.camera === null || key !== this.sceneKey) this.goHome();
+      this.sceneKey = key;
+    }
+    this.resize();
+  }
+
+  private frameArrived(frame: Frame): void {
+    const frameNumber = Number(frame.frameNumber);
+    const jpeg = frame.jpeg as Uint8Array<ArrayBuffer>;
+    this.frames.set(frameNumber, { ...frame, jpeg: new Uint8Array() });
+    this.canvas.show(frameNumber, jpeg);
+  }
+
+  private acknowledge(frameNumber: number): void {
+    this.socket.acknowledge(frameNumber);
+    for (const known of this.frames.keys()) if (known <= frameNumber) this.frames.delete(known);
+  }
+
+  private drawn(frameNumber: number, time: number): void {
+    const frame = this.frames.get(frameNumber);
+    this.acknowledge(frameNumber);
+    if (frame === undefined) return; // of a connection that is gone
+    this.rate.drawn(time);
+    this.latency.drawn(Number(frame.viewSequence), time);
+    const { statistics } = frame;
+    this.state.numbers.set({
+      frameNumber,
+      viewSequence: Number(frame.viewSequence),
+      width: frame.width,
+      height: frame.height,
+      still: frame.still,
+      tauAsked: statistics?.tauAsked ?? 0,
+      tauAchieved: statistics?.tauAchieved ?? 0,
+      complete: statistics?.complete ?? true,
+      triangles: Number(statistics?.triangles ?? 0n),
+      renderMilliseconds: statistics?.milliseconds?.total ?? 0,
+      fps: this.rate.perSecond(time),
+      inputToDrawnMilliseconds: this.latency.median(),
+    });
+  }
+
+  /** What changes although no frame comes. */
+  private tick(): void {
+    const now = performance.now();
+    const numbers = this.state.numbers.value;
+    const fps = this.rate.perSecond(now);
+    if (numbers !== null && numbers.fps !== fps) this.state.numbers.set({ ...numbers, fps });
+    const waitingSince = this.latency.waitingSince();
+    this.state.stale.set(waitingSince !== undefined && now - waitingSince > staleAfter);
+  }
+}
