@@ -5,17 +5,17 @@
 //
 // Prints one line per tau: median and p95 frame time, triangles, tau achieved. Single process, no
 // network: the ceiling that distribution is measured against.
-#include "renderer/renderer.h"
-
-#include <fmt/format.h>
-#include <glm/geometric.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "renderer/renderer.h"
 
 namespace {
 
@@ -67,9 +67,11 @@ absl::Status runOrbit(Renderer& renderer, const fabric::SceneInfo& info, const O
         achieved = std::max(achieved, result->statistics.tauAchievedPixels);
     }
     const double p95 = quantile(milliseconds, 0.95);
-    fmt::print("tau {:>5} px  achieved {:>8.3f} px  median {:>7.2f} ms  p95 {:>7.2f} ms  {:>9} triangles\n",
-               tau, achieved, quantile(milliseconds, 0.5), p95,
-               triangles / static_cast<std::uint64_t>(options.frames));
+    fmt::print(
+        "tau {:>5} px  achieved {:>8.3f} px  median {:>7.2f} ms  p95 {:>7.2f} ms  {:>9} "
+        "triangles\n",
+        tau, achieved, quantile(milliseconds, 0.5), p95,
+        triangles / static_cast<std::uint64_t>(options.frames));
     return absl::OkStatus();
 }
 
@@ -102,7 +104,7 @@ int main(int argc, char** argv) {
     Options options;
     options.object.name = options.object.path = argv[1];
     options.object.kind = options.object.path.ends_with(".eyt") ? fabric::ObjectKind::Terrain
-                                                                 : fabric::ObjectKind::Mesh;
+                                                                : fabric::ObjectKind::Mesh;
     if (argc > 2)
         options.frames = std::max(1, std::atoi(argv[2]));
     if (argc > 3 && std::sscanf(argv[3], "%dx%d", &options.width, &options.height) != 2) {

@@ -32,7 +32,7 @@ absl::StatusOr<double> groundHeightMetres(const terrain::EytFile& terrain, doubl
     const terrain::EytIndex& index = terrain.index();
     const Vec4 post = glm::inverse(index.objectFromLattice) * Vec4(x, y, 0, 1);
     const auto tileOf = [](double coordinate, std::int32_t tiles) {
-        return std::clamp(static_cast<std::int32_t>(coordinate / terrain::kTileCells), 0,
+        return std::clamp(static_cast<std::int32_t>(coordinate / terrain::Quadtree::side(0)), 0,
                           tiles - 1);
     };
     const terrain::TileId id{0, tileOf(post.x, index.quadtree.tilesX(0)),
@@ -46,8 +46,8 @@ absl::StatusOr<double> groundHeightMetres(const terrain::EytFile& terrain, doubl
     double nearest = std::numeric_limits<double>::infinity();
     for (std::size_t n = 0; n < tile.vertexCount(); ++n) {
         const std::uint32_t* word = &tile.words[n * static_cast<std::size_t>(tile.wordsPerVertex)];
-        const double i = id.x * terrain::kTileCells + (word[0] & 1023U) / 2.0;
-        const double j = id.y * terrain::kTileCells + (word[0] >> 10 & 1023U) / 2.0;
+        const double i = id.x * terrain::Quadtree::side(0) + (word[0] & 1023U) / 2.0;
+        const double j = id.y * terrain::Quadtree::side(0) + (word[0] >> 10 & 1023U) / 2.0;
         const double distance = std::max(std::abs(i - post.x), std::abs(j - post.y));
         if (distance >= nearest)
             continue;

@@ -1,6 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/renderer.h"
 
+#include <algorithm>
+#include <chrono>
+#include <optional>
+#include <vector>
+
+#include <fmt/format.h>
+
 #include "fabric/status.h"
 #include "renderer/draw/drawable.h"
 #include "renderer/draw/mesh_draw.h"
@@ -8,13 +15,6 @@
 #include "renderer/gl/egl_context.h"
 #include "renderer/gl/framebuffer.h"
 #include "renderer/lod/view.h"
-
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <chrono>
-#include <optional>
-#include <vector>
 
 namespace eyrie {
 namespace {
@@ -29,9 +29,9 @@ absl::Status validateTask(const fabric::FrameData& frameData, const fabric::Chan
     RETURN_IF_ERROR(fabric::validate(frameData.camera));
     if (!(frameData.tauPixels >= fabric::kMinTauPixels &&
           frameData.tauPixels <= fabric::kMaxTauPixels))
-        return absl::InvalidArgumentError(
-            fmt::format("tau is {} pixels; it must be from {} to {}", frameData.tauPixels,
-                        fabric::kMinTauPixels, fabric::kMaxTauPixels));
+        return absl::InvalidArgumentError(fmt::format("tau is {} pixels; it must be from {} to {}",
+                                                      frameData.tauPixels, fabric::kMinTauPixels,
+                                                      fabric::kMaxTauPixels));
     const auto inLimits = [](int side) { return side >= 1 && side <= fabric::kMaxViewPixels; };
     if (!inLimits(task.viewWidth) || !inLimits(task.viewHeight))
         return absl::InvalidArgumentError(
@@ -206,8 +206,7 @@ absl::StatusOr<fabric::ChannelResult> Renderer::Impl::render(const fabric::Frame
     if (!task.wantsDepth)
         result.image.depth.clear();
     statistics.milliseconds.readback = millisecondsSince(readStart);
-    for (const OpenObject& object : objects_)
-        object.drawable->trim();
+    for (const OpenObject& object : objects_) object.drawable->trim();
     statistics.milliseconds.total = millisecondsSince(start);
     return result;
 }

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
+
+#include <absl/status/statusor.h>
+
 #include "fabric/channel_task.h"
 #include "fabric/frame_data.h"
 #include "fabric/scene.h"
 #include "fabric/statistics.h"
-
-#include <absl/status/statusor.h>
-
-#include <memory>
 
 namespace eyrie {
 

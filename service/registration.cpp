@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <condition_variable>
 #include <mutex>
+#include <string_view>
 #include <utility>
 
 namespace eyrie::service {
@@ -122,7 +123,8 @@ private:
 
     absl::Status noteAbsence(const absl::Status& status) {
         if (!std::exchange(away_, true))
-            spdlog::warn("{}; trying again every {} ms", status.ToString(),
+            spdlog::warn("{}; trying again every {} ms",
+                         std::string_view(status.message().data(), status.message().size()),
                          options_.retryInterval.count());
         if (options_.giveUpAfter && Clock::now() - lastSeen_ > *options_.giveUpAfter)
             return absl::UnavailableError(

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <absl/status/statusor.h>
+
 #include "fabric/camera.h"
 #include "fabric/frame_data.h"
 #include "fabric/image.h"
 #include "fabric/scene.h"
 #include "fabric/statistics.h"
-
-#include <absl/status/statusor.h>
-
-#include <functional>
-#include <string>
-#include <vector>
 
 namespace eyrie::coordinator {
 
@@ -20,7 +20,7 @@ struct FrameRequest {
     fabric::Camera camera;
     double tauPixels = 1;
     fabric::Shading shading = fabric::Shading::Smooth;
-    int width = 1280;   ///< pixels, 1 to fabric::kMaxViewPixels
+    int width = 1280;  ///< pixels, 1 to fabric::kMaxViewPixels
     int height = 720;
     bool wantsDepth = false;
 

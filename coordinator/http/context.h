@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "coordinator/http/server.h"
-#include "coordinator/http/static_files.h"
-
-#include <boost/asio/thread_pool.hpp>
-
 #include <functional>
 #include <memory>
 #include <set>
+
+#include <boost/asio/thread_pool.hpp>
+
+#include "coordinator/http/server.h"
+#include "coordinator/http/static_files.h"
 
 namespace eyrie::http {
 

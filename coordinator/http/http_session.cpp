@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/http/http_session.h"
 
-#include "coordinator/http/origin.h"
-#include "coordinator/http/router.h"
-#include "coordinator/http/web_socket.h"
+#include <optional>
+#include <sstream>
+#include <string_view>
+#include <utility>
 
 #include <boost/beast/core/buffers_to_string.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
@@ -11,17 +12,16 @@
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
 
-#include <optional>
-#include <sstream>
-#include <string_view>
-#include <utility>
+#include "coordinator/http/origin.h"
+#include "coordinator/http/router.h"
+#include "coordinator/http/web_socket.h"
 
 namespace eyrie::http {
 namespace {
 
 namespace beast = boost::beast;
-using boost::asio::ip::tcp;
 using beast::error_code;
+using boost::asio::ip::tcp;
 using Request = beast::http::request<beast::http::string_body>;
 using Reply = beast::http::response<beast::http::string_body>;
 
@@ -47,7 +47,9 @@ bool isMalformed(error_code error) {
 class HttpSession : public Session, public std::enable_shared_from_this<HttpSession> {
 public:
     HttpSession(tcp::socket socket, Context& context, Slot slot)
-        : stream_(std::move(socket)), buffer_(2 * kMaxHeaderBytes), context_(context),
+        : stream_(std::move(socket)),
+          buffer_(2 * kMaxHeaderBytes),
+          context_(context),
           slot_(std::move(slot)) {
         context_.sessions.insert(this);
     }

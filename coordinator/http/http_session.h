@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "coordinator/http/context.h"
-
 #include <boost/asio/ip/tcp.hpp>
+
+#include "coordinator/http/context.h"
 
 namespace eyrie::http {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/http/origin.h"
 
-#include <boost/asio/ip/address.hpp>
-
 #include <algorithm>
 #include <string>
+
+#include <boost/asio/ip/address.hpp>
 
 namespace eyrie::http {
 namespace {

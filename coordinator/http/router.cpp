@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/http/router.h"
 
-#include "coordinator/http/status_json.h"
-
 #include <utility>
+
+#include "coordinator/http/status_json.h"
 
 namespace eyrie::http {
 namespace {
@@ -30,8 +30,7 @@ Response statusResponse(int httpStatus, const coordinator::Status& status) {
 Response fileResponse(const StaticFile& file) {
     Response response;
     response.contentType = file.contentType;
-    response.cacheControl =
-        file.isImmutable ? "public, max-age=31536000, immutable" : "no-cache";
+    response.cacheControl = file.isImmutable ? "public, max-age=31536000, immutable" : "no-cache";
     response.body = file.content;
     return response;
 }

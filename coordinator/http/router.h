@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "coordinator/frame/frame_source.h"
-#include "coordinator/http/static_files.h"
-
 #include <memory>
 #include <string>
 #include <string_view>
+
+#include "coordinator/frame/frame_source.h"
+#include "coordinator/http/static_files.h"
 
 namespace eyrie::http {
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/http/server.h"
 
-#include "coordinator/http/context.h"
-#include "coordinator/http/http_session.h"
-#include "fabric/status.h"
+#include <atomic>
+#include <mutex>
+#include <string_view>
+#include <thread>
+#include <utility>
 
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
@@ -12,11 +14,9 @@
 #include <boost/asio/write.hpp>
 #include <fmt/format.h>
 
-#include <atomic>
-#include <mutex>
-#include <string_view>
-#include <thread>
-#include <utility>
+#include "coordinator/http/context.h"
+#include "coordinator/http/http_session.h"
+#include "fabric/status.h"
 
 namespace eyrie::http {
 namespace {
@@ -102,8 +102,7 @@ public:
             return;
         boost::asio::post(io_, [this] { shutDown(); });
         thread_.join();
-        for (Session* session : context_.sessions)
-            session->abandon();
+        for (Session* session : context_.sessions) session->abandon();
         context_.reaper.join();
         context_.sessionEnded = [] {};  // what is left goes with io_, after the timers
     }
@@ -158,8 +157,7 @@ private:
                 io_.stop();
         });
         const std::set<Session*> sessions = context_.sessions;
-        for (Session* session : sessions)
-            session->shutDown();
+        for (Session* session : sessions) session->shutDown();
         sessionEnded();
     }
 

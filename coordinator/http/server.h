@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "coordinator/frame/frame_source.h"
-
-#include <absl/status/statusor.h>
-
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -12,15 +8,20 @@
 #include <memory>
 #include <string>
 
+#include <absl/status/statusor.h>
+
+#include "coordinator/frame/frame_source.h"
+
 namespace eyrie::http {
 
 struct ServerOptions {
-    std::string host = "127.0.0.1";    ///< an address to listen on, or "localhost"
-    std::uint16_t port = 8080;         ///< 0 lets the system choose; see Server::url
-    std::filesystem::path webFolder;   ///< the built UI; a page says how to build it where missing
-    std::size_t maxConnections = 64;   ///< one above is answered 503 and closed
-    std::chrono::milliseconds headerTimeout{10'000};  ///< for a whole request; also between requests
-    std::chrono::milliseconds writeTimeout{10'000};   ///< for one message to a viewer
+    std::string host = "127.0.0.1";   ///< an address to listen on, or "localhost"
+    std::uint16_t port = 8080;        ///< 0 lets the system choose; see Server::url
+    std::filesystem::path webFolder;  ///< the built UI; a page says how to build it where missing
+    std::size_t maxConnections = 64;  ///< one above is answered 503 and closed
+    std::chrono::milliseconds headerTimeout{
+        10'000};                                     ///< for a whole request; also between requests
+    std::chrono::milliseconds writeTimeout{10'000};  ///< for one message to a viewer
 };
 
 /// The door for browsers: HTTP/1.1 and the viewer's WebSocket on one port.

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/http/static_files.h"
 
-#include "fabric/status.h"
-
-#include <fmt/format.h>
-
 #include <array>
 #include <cstdint>
 #include <fstream>
 #include <system_error>
 #include <utility>
+
+#include <fmt/format.h>
+
+#include "fabric/status.h"
 
 namespace eyrie::http {
 namespace {
@@ -70,7 +70,8 @@ absl::StatusOr<StaticFiles> StaticFiles::read(const fs::path& folder) {
                             "built UI?",
                             folder.string(), kMaxBytes, kMaxFiles));
         ASSIGN_OR_RETURN(std::string content, readFile(path, size));
-        const std::string name = fmt::format("/{}", path.lexically_relative(folder).generic_string());
+        const std::string name =
+            fmt::format("/{}", path.lexically_relative(folder).generic_string());
         result.files_[name] = {contentType(path), name.starts_with("/assets/"),
                                std::make_shared<const std::string>(std::move(content))};
     }

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <absl/status/statusor.h>
-
 #include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
 #include <string_view>
+
+#include <absl/status/statusor.h>
 
 namespace eyrie::http {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "coordinator/frame/frame_source.h"
-
 #include <string>
+
+#include "coordinator/frame/frame_source.h"
 
 namespace eyrie::http {
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/http/web_socket.h"
 
-#include "coordinator/stream/viewer.h"
+#include <optional>
+#include <span>
+#include <utility>
 
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
@@ -9,17 +11,15 @@
 #include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/websocket.hpp>
 
-#include <optional>
-#include <span>
-#include <utility>
+#include "coordinator/stream/viewer.h"
 
 namespace eyrie::http {
 namespace {
 
 namespace beast = boost::beast;
 namespace websocket = beast::websocket;
-using boost::asio::ip::tcp;
 using beast::error_code;
+using boost::asio::ip::tcp;
 
 constexpr std::size_t kMaxMessageBytes = 64 * 1024;
 constexpr std::chrono::seconds kHandshakeTimeout{10};
@@ -29,8 +29,11 @@ constexpr std::chrono::seconds kIdleTimeout{30};
 class WebSocket : public Session, public std::enable_shared_from_this<WebSocket> {
 public:
     WebSocket(tcp::socket socket, std::string received, Context& context, Slot slot)
-        : stream_(std::move(socket)), writeDeadline_(stream_.get_executor()),
-          received_(std::move(received)), context_(context), slot_(std::move(slot)) {
+        : stream_(std::move(socket)),
+          writeDeadline_(stream_.get_executor()),
+          received_(std::move(received)),
+          context_(context),
+          slot_(std::move(slot)) {
         context_.sessions.insert(this);
     }
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "coordinator/http/context.h"
+#include <string>
 
 #include <boost/asio/ip/tcp.hpp>
 
-#include <string>
+#include "coordinator/http/context.h"
 
 namespace eyrie::http {
 

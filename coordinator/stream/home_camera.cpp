@@ -6,12 +6,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace eyrie::stream {
 namespace {
 
 constexpr double kAspect = 4.0 / 3.0;
-constexpr double kMargin = 1.04;
+constexpr double kMargin = 1.06;
 
 /// From the target to the eye.
 fabric::Vec3 viewingDirection(const fabric::Vec3& size) {
@@ -21,26 +22,50 @@ fabric::Vec3 viewingDirection(const fabric::Vec3& size) {
     return {southWest, southWest, std::sin(elevation)};
 }
 
+/// Along one axis of the picture: where the eye stands and how far back, so that everything just
+/// fits. A point at `across` and `towards` the eye is seen by an eye at `shift` and `distance` if
+/// |across - shift| <= tangent * (distance - towards): two half-planes a point, and `low`, `high`
+/// are the tightest of them.
+struct Fit {
+    double low = -std::numeric_limits<double>::infinity();
+    double high = std::numeric_limits<double>::infinity();
+    double tangent = 1;
+
+    void include(double across, double towards) {
+        low = std::max(low, across + tangent * towards);
+        high = std::min(high, across - tangent * towards);
+    }
+    double shift() const { return (low + high) / 2; }
+    double distance() const { return (low - high) / (2 * tangent); }
+};
+
 }  // namespace
 
 fabric::Camera homeCamera(const fabric::Box& bounds) {
     fabric::Camera camera;
-    camera.target = bounds.centre();
+    const fabric::Vec3 centre = bounds.centre();
     const fabric::Vec3 back = viewingDirection(bounds.size());
-    camera.eye = camera.target + back;
+    camera.target = centre;
+    camera.eye = centre + back;
     const fabric::Mat3 viewFromWorld = fabric::viewFromWorldRotation(camera);
-    const double tanVertical = std::tan(glm::radians(camera.fovYDegrees / 2));
-    double distance = 0;
+    Fit vertical;
+    vertical.tangent = std::tan(glm::radians(camera.fovYDegrees / 2));
+    Fit horizontal;
+    horizontal.tangent = vertical.tangent * kAspect;
     for (int i = 0; i < 8; ++i) {
-        const fabric::Vec3 corner = viewFromWorld * (bounds.corner(i) - camera.target);
-        const double across = std::abs(corner.x) / (tanVertical * kAspect);
-        const double upwards = std::abs(corner.y) / tanVertical;
-        distance = std::max(distance, std::max(across, upwards) + corner.z);
+        const fabric::Vec3 corner = viewFromWorld * (bounds.corner(i) - centre);
+        vertical.include(corner.y, corner.z);
+        horizontal.include(corner.x, corner.z);
     }
     // A scene of a single point still needs an eye beside it; far from the origin a metre is lost
     // in the rounding of the coordinates.
-    const double smallest = 1e-6 * std::max(1.0, glm::length(camera.target));
-    camera.eye = camera.target + back * std::max(distance * kMargin, smallest);
+    const double smallest = 1e-6 * std::max(1.0, glm::length(centre));
+    const double distance =
+        std::max(kMargin * std::max(vertical.distance(), horizontal.distance()), smallest);
+    const fabric::Vec3 eyeFromCentre{horizontal.shift(), vertical.shift(), distance};
+    camera.eye = centre + glm::transpose(viewFromWorld) * eyeFromCentre;
+    // What is orbited about lies at the height of the scene's middle.
+    camera.target = camera.eye - back * ((camera.eye.z - centre.z) / back.z);
     return camera;
 }
 

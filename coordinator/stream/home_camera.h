@@ -8,7 +8,7 @@ namespace eyrie::stream {
 
 /// Where a session starts: a three-quarter view of the whole scene.
 ///
-/// Looks at the centre of `bounds` (world metres, not empty) from the south-west, 30 degrees above
+/// Looks at `bounds` (world metres, not empty), centred, from the south-west, 30 degrees above
 /// the horizon; a scene that is no flatter than a third of its width is seen from 20 degrees, so
 /// that it stands before the viewer. All eight corners of the box lie inside a 4:3 picture (and so
 /// inside every wider one) with a field of view of 45 degrees.

@@ -27,8 +27,7 @@ void Pacer::acknowledged(std::uint64_t frameNumber, Clock::time_point now) {
     if (inFlight_.empty() || frameNumber < inFlight_.front().frameNumber ||
         frameNumber > inFlight_.back().frameNumber)
         return;
-    while (inFlight_.front().frameNumber < frameNumber)
-        inFlight_.pop_front();
+    while (inFlight_.front().frameNumber < frameNumber) inFlight_.pop_front();
     const InFlight frame = inFlight_.front();
     inFlight_.pop_front();
     // Only a frame that was under way beside the one before it tells the pace of the stages.
@@ -50,7 +49,8 @@ int Pacer::window() const {
     const Clock::duration stage =
         std::max({renderTime_, *std::min_element(spacings_.begin(), spacings_.end()),
                   Clock::duration(std::chrono::milliseconds(1))});
-    const double frames = std::chrono::duration<double>(loop) / std::chrono::duration<double>(stage);
+    const double frames =
+        std::chrono::duration<double>(loop) / std::chrono::duration<double>(stage);
     return static_cast<int>(
         std::clamp(std::ceil(frames - 0.25), double{kMinWindow}, double{kMaxWindow}));
 }

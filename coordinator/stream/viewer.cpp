@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/stream/viewer.h"
 
-#include "coordinator/stream/pacer.h"
-#include "coordinator/stream/viewer_messages.h"
-#include "wire/jpeg.h"
-
 #include <condition_variable>
 #include <mutex>
 #include <string_view>
@@ -12,6 +8,10 @@
 #include <utility>
 #include <variant>
 #include <vector>
+
+#include "coordinator/stream/pacer.h"
+#include "coordinator/stream/viewer_messages.h"
+#include "wire/jpeg.h"
 
 namespace eyrie::stream {
 namespace {
@@ -50,7 +50,9 @@ class Viewer::Impl {
 public:
     Impl(coordinator::FrameSource& frames, std::function<void()> messageReady,
          const ViewerOptions& options)
-        : frames_(frames), messageReady_(std::move(messageReady)), options_(options),
+        : frames_(frames),
+          messageReady_(std::move(messageReady)),
+          options_(options),
           pacer_(options.framesInFlight) {
         subscription_ = frames_.subscribe([this] { statusChanged(); });
         encoder_ = std::thread([this] { encodeLoop(); });
@@ -190,8 +192,9 @@ private:
             pacer_.rendered(Clock::now() - started);
             setProblem(renderProblem_, "");
             retryAt_.reset();
-            rendered_ = Picture{
-                view, std::make_shared<const coordinator::RenderedFrame>(*std::move(frame)), started};
+            rendered_ =
+                Picture{view, std::make_shared<const coordinator::RenderedFrame>(*std::move(frame)),
+                        started};
         } else {
             renderFailed(frame.status());
         }
@@ -225,7 +228,8 @@ private:
     }
 
     void encode(std::unique_lock<std::mutex>& lock, Picture picture) {
-        const bool isStill = hasRested() && picture.view.frame == wanted_->frame && !isRenderNeeded_;
+        const bool isStill =
+            hasRested() && picture.view.frame == wanted_->frame && !isRenderNeeded_;
         const std::uint64_t frameNumber = ++lastFrameNumber_;
         isEncoding_ = true;
         lock.unlock();
@@ -234,7 +238,8 @@ private:
             isStill ? wire::ChromaSubsampling::None : wire::ChromaSubsampling::Half);
         std::string message;
         if (jpeg.ok())
-            message = frameMessage({frameNumber, picture.view.sequence, isStill, *jpeg}, *picture.frame);
+            message =
+                frameMessage({frameNumber, picture.view.sequence, isStill, *jpeg}, *picture.frame);
         lock.lock();
         isEncoding_ = false;
         isLastStill_ = isStill || !jpeg.ok();
@@ -255,8 +260,9 @@ private:
         lock.unlock();
         const coordinator::Status status = frames_.status();
         const bool isExplained = ownProblem.empty() && !status.problem.empty();
-        std::string message = stateMessage(
-            status, isExplained ? status.problem : ownProblem.empty() ? frameProblem : ownProblem);
+        std::string message = stateMessage(status, isExplained          ? status.problem
+                                                   : ownProblem.empty() ? frameProblem
+                                                                        : ownProblem);
         PictureSource source = pictureSource(status);
         lock.lock();
         if (source_.has_value() && !(*source_ == source) && wanted_.has_value()) {
@@ -330,9 +336,7 @@ Viewer::Viewer(coordinator::FrameSource& frames, std::function<void()> messageRe
 
 Viewer::~Viewer() = default;
 
-absl::Status Viewer::receive(std::span<const std::byte> message) {
-    return impl_->receive(message);
-}
+absl::Status Viewer::receive(std::span<const std::byte> message) { return impl_->receive(message); }
 
 std::optional<std::string> Viewer::takeMessage() { return impl_->takeMessage(); }
 

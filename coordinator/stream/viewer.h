@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "coordinator/frame/frame_source.h"
-
-#include <absl/status/status.h>
-
 #include <chrono>
 #include <cstddef>
 #include <functional>
@@ -12,6 +8,10 @@
 #include <optional>
 #include <span>
 #include <string>
+
+#include <absl/status/status.h>
+
+#include "coordinator/frame/frame_source.h"
 
 namespace eyrie::stream {
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/stream/viewer_messages.h"
 
+#include <algorithm>
+
 #include "coordinator/stream/home_camera.h"
 #include "eyrie/v1/frame.pb.h"
 #include "eyrie/v1/viewer.pb.h"
@@ -9,8 +11,6 @@
 #include "wire/frame.h"
 #include "wire/scene_info.h"
 #include "wire/statistics.h"
-
-#include <algorithm>
 
 namespace eyrie::stream {
 namespace {
@@ -113,7 +113,8 @@ std::string sanitised(std::string_view text) {
     std::string result;
     while (!text.empty()) {
         const std::size_t length = utf8Length(text);
-        const bool isControl = length == 1 && (static_cast<unsigned char>(text[0]) < 0x20 || text[0] == 0x7F);
+        const bool isControl =
+            length == 1 && (static_cast<unsigned char>(text[0]) < 0x20 || text[0] == 0x7F);
         const std::string_view shown = length == 0 ? "?" : isControl ? " " : text.substr(0, length);
         if (result.size() + shown.size() + 3 > kMaxProblemBytes)
             return result + "…";

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "coordinator/frame/frame_source.h"
-
-#include <absl/status/status.h>
-#include <absl/status/statusor.h>
-
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
 #include <variant>
+
+#include <absl/status/status.h>
+#include <absl/status/statusor.h>
+
+#include "coordinator/frame/frame_source.h"
 
 /// Between viewer.proto's bytes and values.
 namespace eyrie::stream {

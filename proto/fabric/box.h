@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "fabric/vec.h"
+#include <array>
+#include <limits>
 
 #include <glm/common.hpp>
 
-#include <array>
-#include <limits>
+#include "fabric/vec.h"
 
 namespace eyrie::fabric {
 
@@ -45,8 +45,7 @@ inline Box transformed(const Box& box, const Mat4& transform) {
     Box result;
     if (box.isEmpty())
         return result;
-    for (int i = 0; i < 8; ++i)
-        result.grow(Vec3(transform * Vec4(box.corner(i), 1.0)));
+    for (int i = 0; i < 8; ++i) result.grow(Vec3(transform * Vec4(box.corner(i), 1.0)));
     return result;
 }
 

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fabric/camera.h"
 
+#include <cmath>
+#include <string_view>
+
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 
-#include <cmath>
-#include <string_view>
-
 namespace eyrie::fabric {
 namespace {
 
-bool isFinite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool isFinite(const Vec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 
 absl::Status invalid(std::string_view field, std::string_view found, std::string_view expected) {
     return absl::InvalidArgumentError(

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "fabric/vec.h"
-
 #include <absl/status/status.h>
+
+#include "fabric/vec.h"
 
 namespace eyrie::fabric {
 

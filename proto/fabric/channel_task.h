@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+
 #include "fabric/image.h"
 #include "fabric/range.h"
 #include "fabric/statistics.h"
 #include "fabric/viewport.h"
-
-#include <cstdint>
 
 namespace eyrie::fabric {
 

@@ -35,9 +35,9 @@ void mergeDepth(const Image& source, Image& target) {
     assert(target.area.contains(source.area));
     for (int y = 0; y < source.area.height; ++y) {
         const auto from = static_cast<std::size_t>(y) * source.area.width;
-        const auto to = static_cast<std::size_t>(source.area.y + y - target.area.y) *
-                            target.area.width +
-                        static_cast<std::size_t>(source.area.x - target.area.x);
+        const auto to =
+            static_cast<std::size_t>(source.area.y + y - target.area.y) * target.area.width +
+            static_cast<std::size_t>(source.area.x - target.area.x);
         mergeRow(bits(source.depth.data() + from), bits(source.colour.data() + from),
                  bits(target.depth.data() + to), bits(target.colour.data() + to),
                  source.area.width);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "fabric/camera.h"
-
 #include <cstdint>
+
+#include "fabric/camera.h"
 
 namespace eyrie::fabric {
 

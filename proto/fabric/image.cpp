@@ -41,8 +41,7 @@ PixelViewport coveredArea(const Image& image) {
         if (first == width)
             continue;
         int last = width - 1;
-        while (last > right && !drawn(row[last]))
-            --last;
+        while (last > right && !drawn(row[last])) --last;
         left = std::min(left, first);
         right = std::max(right, last);
         bottom = std::min(bottom, y);

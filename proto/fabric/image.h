@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "fabric/viewport.h"
-
 #include <cstddef>
 #include <cstdint>
 #include <vector>
+
+#include "fabric/viewport.h"
 
 namespace eyrie::fabric {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fabric/scene.h"
 
+#include <cmath>
+
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-
-#include <cmath>
 
 namespace eyrie::fabric {
 namespace {
@@ -15,9 +15,9 @@ absl::Status validateTransform(const SceneObject& object) {
     for (int column = 0; column < 4; ++column)
         for (int row = 0; row < 4; ++row)
             if (!std::isfinite(m[column][row]))
-                return absl::InvalidArgumentError(fmt::format(
-                    "object '{}': transform element [{}][{}] is not finite", object.name, row,
-                    column));
+                return absl::InvalidArgumentError(
+                    fmt::format("object '{}': transform element [{}][{}] is not finite",
+                                object.name, row, column));
     if (m[0][3] != 0 || m[1][3] != 0 || m[2][3] != 0 || m[3][3] != 1)
         return absl::InvalidArgumentError(fmt::format(
             "object '{}': the transform's last row must be 0 0 0 1 (an affine transform)",
@@ -45,8 +45,8 @@ absl::Status validate(const Scene& scene) {
     }
     for (const SceneObject& object : scene.objects) {
         if (object.name.empty() || object.path.empty())
-            return absl::InvalidArgumentError(fmt::format(
-                "an object of the scene lacks its {}", object.name.empty() ? "name" : "path"));
+            return absl::InvalidArgumentError(fmt::format("an object of the scene lacks its {}",
+                                                          object.name.empty() ? "name" : "path"));
         if (absl::Status status = validateTransform(object); !status.ok())
             return status;
     }

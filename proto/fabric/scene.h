@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "fabric/box.h"
-#include "fabric/image.h"
-#include "fabric/vec.h"
-
-#include <absl/status/status.h>
-
 #include <cstdint>
 #include <string>
 #include <vector>
+
+#include <absl/status/status.h>
+
+#include "fabric/box.h"
+#include "fabric/image.h"
+#include "fabric/vec.h"
 
 namespace eyrie::fabric {
 
@@ -17,11 +17,11 @@ enum class ObjectKind { Terrain, Mesh };
 
 /// One data set in a scene.
 struct SceneObject {
-    std::string name;                   ///< for people; not empty
+    std::string name;  ///< for people; not empty
     ObjectKind kind = ObjectKind::Mesh;
-    std::string path;                   ///< of the .eyt or .eym file
-    Mat4 worldFromObject{1.0};          ///< affine; object space is the file's own, in metres
-    Vec3 colour{0.8, 0.8, 0.8};         ///< linear; meshes without vertex colours only
+    std::string path;            ///< of the .eyt or .eym file
+    Mat4 worldFromObject{1.0};   ///< affine; object space is the file's own, in metres
+    Vec3 colour{0.8, 0.8, 0.8};  ///< linear; meshes without vertex colours only
 
     bool operator==(const SceneObject&) const = default;
 };
@@ -52,7 +52,7 @@ absl::Status validate(const Scene& scene);
 
 /// What a renderer found in a scene.
 struct SceneInfo {
-    Box bounds;  ///< world space, metres
+    Box bounds;                   ///< world space, metres
     std::uint64_t triangles = 0;  ///< at full resolution
     std::uint64_t bytes = 0;      ///< of all files
 

@@ -54,11 +54,11 @@ inline void accumulate(FrameStatistics& sum, const FrameStatistics& part) {
 
 /// The graphics device a renderer chose.
 struct DeviceInfo {
-    std::string vendor;    ///< GL_VENDOR
-    std::string renderer;  ///< GL_RENDERER
-    std::string driver;    ///< GL_VERSION
-    std::string platform;  ///< "EGL device 0", "EGL surfaceless Mesa"
-    bool software = false; ///< a CPU rasteriser such as llvmpipe
+    std::string vendor;     ///< GL_VENDOR
+    std::string renderer;   ///< GL_RENDERER
+    std::string driver;     ///< GL_VERSION
+    std::string platform;   ///< "EGL device 0", "EGL surfaceless Mesa"
+    bool software = false;  ///< a CPU rasteriser such as llvmpipe
 
     bool operator==(const DeviceInfo&) const = default;
 };

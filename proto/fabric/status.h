@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <absl/status/status.h>
-#include <absl/status/statusor.h>
-
 #include <string_view>
 #include <utility>
+
+#include <absl/status/status.h>
+#include <absl/status/statusor.h>
 
 namespace eyrie::fabric {
 
@@ -18,10 +18,10 @@ absl::Status withContext(const absl::Status& status, std::string_view context);
 #define EYRIE_CONCAT(a, b) EYRIE_CONCAT_INNER(a, b)
 
 /// Returns from the enclosing function when `expression` (an absl::Status) is not OK.
-#define RETURN_IF_ERROR(expression)                                   \
-    do {                                                              \
+#define RETURN_IF_ERROR(expression)                                     \
+    do {                                                                \
         if (absl::Status eyrieStatus = (expression); !eyrieStatus.ok()) \
-            return eyrieStatus;                                       \
+            return eyrieStatus;                                         \
     } while (false)
 
 /// Declares or assigns `target` from an absl::StatusOr, or returns its status.

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "wire/jpeg.h"
 
-#include <fmt/format.h>
-#include <turbojpeg.h>
-
 #include <cstdint>
 #include <memory>
 #include <string_view>
 #include <type_traits>
+
+#include <fmt/format.h>
+#include <turbojpeg.h>
 
 namespace eyrie::wire {
 namespace {
@@ -74,13 +74,13 @@ absl::StatusOr<fabric::Image> decodeJpeg(std::span<const std::byte> bytes) {
     int height = 0;
     int subsampling = 0;
     int colourSpace = 0;
-    if (tjDecompressHeader3(decompressor.get(), source, bytes.size(), &width, &height,
-                            &subsampling, &colourSpace) != 0)
+    if (tjDecompressHeader3(decompressor.get(), source, bytes.size(), &width, &height, &subsampling,
+                            &colourSpace) != 0)
         return absl::InvalidArgumentError(fmt::format("jpeg: {}", lastError(decompressor)));
     if (std::int64_t{width} * height > kMaxDecodedPixels)
-        return absl::InvalidArgumentError(fmt::format(
-            "jpeg: the picture is {}x{}; at most {} pixels are read", width, height,
-            kMaxDecodedPixels));
+        return absl::InvalidArgumentError(
+            fmt::format("jpeg: the picture is {}x{}; at most {} pixels are read", width, height,
+                        kMaxDecodedPixels));
     fabric::Image image = fabric::makeImage({0, 0, width, height}, fabric::Rgba{}, false);
     if (tjDecompress2(decompressor.get(), source, bytes.size(),
                       reinterpret_cast<unsigned char*>(image.colour.data()), width, 0, height,

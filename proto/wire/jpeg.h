@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "fabric/image.h"
-
-#include <absl/status/statusor.h>
-
 #include <cstddef>
 #include <span>
 #include <vector>
+
+#include <absl/status/statusor.h>
+
+#include "fabric/image.h"
 
 namespace eyrie::wire {
 

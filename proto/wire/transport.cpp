@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "wire/transport.h"
 
+#include "wire/grpc_log.h"
+
 #include <grpc/grpc.h>
 #include <grpcpp/server_builder.h>
 #include <grpcpp/support/channel_arguments.h>
@@ -14,6 +16,7 @@ constexpr int kFrameBytes = 4 << 20;
 }  // namespace
 
 grpc::ChannelArguments clientArguments() {
+    adoptGrpcLog();
     grpc::ChannelArguments arguments;
     arguments.SetMaxReceiveMessageSize(kMaxMessageBytes);
     arguments.SetMaxSendMessageSize(kMaxMessageBytes);
@@ -32,6 +35,7 @@ grpc::ChannelArguments clientArguments() {
 }
 
 void configureServer(grpc::ServerBuilder& builder) {
+    adoptGrpcLog();
     builder.SetMaxReceiveMessageSize(kMaxMessageBytes);
     builder.SetMaxSendMessageSize(kMaxMessageBytes);
     builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);

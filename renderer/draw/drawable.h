@@ -1,31 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <absl/status/status.h>
+
 #include "fabric/box.h"
 #include "fabric/frame_data.h"
 #include "fabric/scene.h"
 #include "fabric/statistics.h"
 #include "renderer/lod/view.h"
 
-#include <absl/status/status.h>
-
-#include <cstdint>
-#include <span>
-#include <vector>
-
 namespace eyrie::draw {
 
 /// One LOD node of a frame's cut.
 struct Piece {
-    std::uint32_t index = 0;      ///< the drawable's own name for it, valid until the next cut
-    double rangePosition = 0;     ///< where it starts in the drawable's share [0, 1) of the data
-    fabric::Box bounds;           ///< object space, metres
+    std::uint32_t index = 0;   ///< the drawable's own name for it, valid until the next cut
+    double rangePosition = 0;  ///< where it starts in the drawable's share [0, 1) of the data
+    fabric::Box bounds;        ///< object space, metres
 };
 
 /// What a drawable shows of itself in one view.
 struct Cut {
-    std::vector<Piece> pieces;      ///< ascending by rangePosition
-    double tauAchievedPixels = 0;   ///< bound over all pieces
+    std::vector<Piece> pieces;     ///< ascending by rangePosition
+    double tauAchievedPixels = 0;  ///< bound over all pieces
 };
 
 /// What is the same for every piece of a frame.

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/draw/lighting.h"
 
-#include "eyrie_shaders.h"
+#include <vector>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <glm/matrix.hpp>
 
-#include <vector>
+#include "eyrie_shaders.h"
 
 namespace eyrie::draw {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "renderer/draw/drawable.h"
-#include "renderer/gl/program.h"
-
 #include <string>
 #include <string_view>
+
+#include "renderer/draw/drawable.h"
+#include "renderer/gl/program.h"
 
 namespace eyrie::draw {
 

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/draw/mesh_draw.h"
 
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <glm/gtc/matrix_inverse.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/type_ptr.hpp>
+
 #include "eyrie_shaders.h"
 #include "fabric/status.h"
 #include "renderer/gl/object.h"
 #include "renderer/lod/lattice_view.h"
 #include "renderer/mesh/eym_format.h"
 #include "renderer/page/lru_cache.h"
-
-#include <glm/gtc/matrix_inverse.hpp>
-#include <glm/gtc/matrix_transform.hpp>
-#include <glm/gtc/type_ptr.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <string>
 
 namespace eyrie::draw {
 namespace {

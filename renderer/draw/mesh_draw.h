@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
+
+#include <absl/status/statusor.h>
+
 #include "fabric/scene.h"
 #include "renderer/draw/drawable.h"
 #include "renderer/draw/lighting.h"
 #include "renderer/gl/program.h"
-
-#include <absl/status/statusor.h>
-
-#include <memory>
 
 namespace eyrie::draw {
 

@@ -1,6 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/draw/terrain_draw.h"
 
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include <glm/gtc/matrix_inverse.hpp>
+#include <glm/gtc/type_ptr.hpp>
+
 #include "eyrie_shaders.h"
 #include "fabric/status.h"
 #include "renderer/gl/object.h"
@@ -8,13 +15,6 @@
 #include "renderer/page/lru_cache.h"
 #include "renderer/terrain/eyt_format.h"
 #include "renderer/terrain/terrain_cut.h"
-
-#include <glm/gtc/matrix_inverse.hpp>
-#include <glm/gtc/type_ptr.hpp>
-
-#include <algorithm>
-#include <string>
-#include <utility>
 
 namespace eyrie::draw {
 namespace {
@@ -35,12 +35,11 @@ struct DeviceTile {
     std::int32_t heightMultiplier = 1;
 };
 
-gl::Texture2D uploadNormals(std::span<const std::int8_t> normals) {
+gl::Texture2D uploadNormals(std::span<const std::int8_t> normals, GLsizei side) {
     gl::Texture2D texture;
-    constexpr GLsizei kSide = terrain::kTileSamples;
-    glTextureStorage2D(texture.id(), 1, GL_RG8_SNORM, kSide, kSide);
+    glTextureStorage2D(texture.id(), 1, GL_RG8_SNORM, side, side);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    glTextureSubImage2D(texture.id(), 0, 0, 0, kSide, kSide, GL_RG, GL_BYTE, normals.data());
+    glTextureSubImage2D(texture.id(), 0, 0, 0, side, side, GL_RG, GL_BYTE, normals.data());
     glTextureParameteri(texture.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glTextureParameteri(texture.id(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTextureParameteri(texture.id(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
@@ -55,7 +54,7 @@ DeviceTile upload(const terrain::TileGeometry& geometry, std::uint64_t& bytesUse
     glNamedBufferStorage(tile.buffer.id(), words + indices, nullptr, GL_DYNAMIC_STORAGE_BIT);
     glNamedBufferSubData(tile.buffer.id(), 0, words, geometry.words.data());
     glNamedBufferSubData(tile.buffer.id(), words, indices, geometry.indices.data());
-    tile.normalMap = uploadNormals(geometry.normals);
+    tile.normalMap = uploadNormals(geometry.normals, geometry.cells + 1);
     tile.indexOffset = words;
     tile.vertexStride = 4 * geometry.wordsPerVertex;
     tile.parts = geometry.parts;
@@ -132,8 +131,7 @@ Cut TerrainDrawable::selectCut(const lod::ObjectView& view, double tauPixels) {
         cut.pieces.push_back({i, static_cast<double>(total), box});
         total += index().tile(choices_[i].id).triangles;
     }
-    for (Piece& piece : cut.pieces)
-        piece.rangePosition /= static_cast<double>(total);
+    for (Piece& piece : cut.pieces) piece.rangePosition /= static_cast<double>(total);
     return cut;
 }
 
@@ -165,8 +163,8 @@ absl::StatusOr<const terrain::Page*> TerrainDrawable::hostPage(
     return hostPages_.insert(page, std::move(read), bytes).get();
 }
 
-absl::StatusOr<const DeviceTile*> TerrainDrawable::deviceTile(
-    const terrain::TileId& id, fabric::FrameStatistics& statistics) {
+absl::StatusOr<const DeviceTile*> TerrainDrawable::deviceTile(const terrain::TileId& id,
+                                                              fabric::FrameStatistics& statistics) {
     const std::uint32_t key = index().quadtree.tileIndex(id);
     if (const DeviceTile* tile = deviceTiles_.find(key); tile != nullptr)
         return tile;
@@ -183,12 +181,11 @@ std::uint64_t TerrainDrawable::drawTile(const terrain::TileChoice& choice,
     const terrain::TileId& id = choice.id;
     glUniform3i(program_.tileOrigin, id.x * terrain::Quadtree::side(id.level),
                 id.y * terrain::Quadtree::side(id.level), tile.baseHeight);
-    glUniform1i(program_.level, id.level);
+    glUniform1i(program_.spacingShift, terrain::Quadtree::spacingShift(id.level));
     glUniform1i(program_.heightMultiplier, tile.heightMultiplier);
     glBindTextureUnit(kNormalMapUnit, tile.normalMap.id());
 
-    const GLuint array =
-        tile.vertexStride == 4 ? shortVertices_.id() : longVertices_.id();
+    const GLuint array = tile.vertexStride == 4 ? shortVertices_.id() : longVertices_.id();
     glBindVertexArray(array);
     glVertexArrayVertexBuffer(array, 0, tile.buffer.id(), 0, tile.vertexStride);
     glVertexArrayElementBuffer(array, tile.buffer.id());
@@ -237,7 +234,7 @@ TerrainProgram::TerrainProgram(gl::Program linked)
       worldFromNormal(program.uniform("worldFromNormal")),
       cameraLattice(program.uniform("cameraLattice")),
       tileOrigin(program.uniform("tileOrigin")),
-      level(program.uniform("level")),
+      spacingShift(program.uniform("spacingShift")),
       heightMultiplier(program.uniform("heightMultiplier")),
       lastPost(program.uniform("lastPost")),
       heightStepMetres(program.uniform("heightStepMetres")),

@@ -1,4 +1,4 @@
-in vec2 normalMapCoordinate;
+in vec2 normalMapCoordinate;  // in texels
 in vec3 relativeMetres;
 in float heightMetres;
 
@@ -24,7 +24,8 @@ vec3 tint(float elevation, float slope) {
 void main() {
     vec3 normal;
     vec3 objectNormal;
-    objectNormal.xy = textureLod(normalMap, normalMapCoordinate, 0.0).xy;
+    vec2 coordinate = normalMapCoordinate / vec2(textureSize(normalMap, 0));
+    objectNormal.xy = textureLod(normalMap, coordinate, 0.0).xy;
     objectNormal.z = sqrt(max(1.0 - dot(objectNormal.xy, objectNormal.xy), 0.0));
     if (flatShading != 0) {
         normal = normalize(cross(dFdx(relativeMetres), dFdy(relativeMetres)));

@@ -10,23 +10,21 @@ uniform mat4 clipFromLattice;    // camera-relative lattice -> clip; one for all
 uniform mat3 metresFromLattice;  // lattice steps -> metres along world axes
 uniform ivec3 cameraLattice;     // the lattice point the camera snapped to
 uniform ivec3 tileOrigin;        // lattice point of the tile's first post; z its base height
-uniform int level;
+uniform int spacingShift;        // samples of the tile's level are 2^spacingShift posts apart
 uniform int heightMultiplier;    // lattice height steps of one packed step
 uniform ivec2 lastPost;          // posts past the data's edge sit on it
 uniform float heightStepMetres;
 uniform float heightOriginMetres;
 
-out vec2 normalMapCoordinate;
+out vec2 normalMapCoordinate;  // in texels
 out vec3 relativeMetres;
 out float heightMetres;
-
-const float kNormalMapSide = 129.0;
 
 void main() {
     uint word = packedVertex.x;
     ivec2 halfSteps = ivec2(word & 1023u, (word >> 10) & 1023u);
     int heightSteps = int((word >> 20) + packedVertex.y);
-    ivec2 post = min(tileOrigin.xy + ((halfSteps << level) >> 1), lastPost);
+    ivec2 post = min(tileOrigin.xy + ((halfSteps << spacingShift) >> 1), lastPost);
     ivec3 lattice = ivec3(post, tileOrigin.z + heightSteps * heightMultiplier);
 
     // Integers, exact below 2^24: the same border vertex has the same bits in every tile.
@@ -35,6 +33,5 @@ void main() {
 
     relativeMetres = metresFromLattice * relative;
     heightMetres = heightOriginMetres + float(lattice.z) * heightStepMetres;
-    vec2 posts = vec2(post - tileOrigin.xy) / float(1 << level);
-    normalMapCoordinate = (posts + 0.5) / kNormalMapSide;
+    normalMapCoordinate = vec2(post - tileOrigin.xy) / float(1 << spacingShift) + 0.5;
 }

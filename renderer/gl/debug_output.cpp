@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/gl/debug_output.h"
 
-#include <GL/glew.h>
-#include <spdlog/spdlog.h>
-
 #include <atomic>
 #include <cstdlib>
+
+#include <GL/glew.h>
+#include <spdlog/spdlog.h>
 
 namespace eyrie::gl {
 namespace {

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/gl/egl_context.h"
 
-#include "renderer/gl/debug_output.h"
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 #include <GL/glew.h>
 #include <fmt/format.h>
 
-#include <array>
-#include <string>
-#include <string_view>
-#include <vector>
+#include "renderer/gl/debug_output.h"
 
 namespace eyrie::gl {
 namespace {
@@ -22,7 +22,8 @@ struct Candidate {
 };
 
 bool hasExtension(const char* extensions, std::string_view name) {
-    return extensions != nullptr && std::string_view(extensions).find(name) != std::string_view::npos;
+    return extensions != nullptr &&
+           std::string_view(extensions).find(name) != std::string_view::npos;
 }
 
 std::vector<EGLDeviceEXT> queryDevices() {
@@ -68,20 +69,22 @@ EGLContext makeContext(EGLDisplay display, std::string& why) {
         why = "no desktop OpenGL";
         return EGL_NO_CONTEXT;
     }
-    constexpr std::array<EGLint, 7> kConfig = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT,
-                                               EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT,
-                                               EGL_NONE, EGL_NONE, EGL_NONE};
+    constexpr std::array kConfig = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE,
+                                    EGL_OPENGL_BIT, EGL_NONE};
     EGLConfig config = nullptr;
     EGLint count = 0;
     eglChooseConfig(display, kConfig.data(), &config, 1, &count);
-    constexpr std::array<EGLint, 9> kContext = {EGL_CONTEXT_MAJOR_VERSION, 4,
-                                                EGL_CONTEXT_MINOR_VERSION, 5,
-                                                EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                                EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                                EGL_CONTEXT_OPENGL_DEBUG, EGL_TRUE,
-                                                EGL_NONE};
-    const EGLContext context = eglCreateContext(
-        display, count > 0 ? config : EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, kContext.data());
+    constexpr std::array kContext = {EGL_CONTEXT_MAJOR_VERSION,
+                                     4,
+                                     EGL_CONTEXT_MINOR_VERSION,
+                                     5,
+                                     EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                     EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                     EGL_CONTEXT_OPENGL_DEBUG,
+                                     EGL_TRUE,
+                                     EGL_NONE};
+    const EGLContext context = eglCreateContext(display, count > 0 ? config : EGL_NO_CONFIG_KHR,
+                                                EGL_NO_CONTEXT, kContext.data());
     if (context == EGL_NO_CONTEXT)
         why = fmt::format("no OpenGL 4.5 core context (0x{:x})", eglGetError());
     else if (eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context) != EGL_TRUE) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "fabric/statistics.h"
+#include <memory>
 
 #include <absl/status/statusor.h>
 
-#include <memory>
+#include "fabric/statistics.h"
 
 namespace eyrie::gl {
 

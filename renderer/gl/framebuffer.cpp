@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/gl/framebuffer.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
+
+#include <fmt/format.h>
 
 namespace eyrie::gl {
 

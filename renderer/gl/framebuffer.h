@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <absl/status/status.h>
+
 #include "fabric/image.h"
 #include "renderer/gl/object.h"
-
-#include <absl/status/status.h>
 
 namespace eyrie::gl {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <GL/glew.h>
-
 #include <utility>
+
+#include <GL/glew.h>
 
 namespace eyrie::gl {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/gl/program.h"
 
-#include "fabric/status.h"
+#include <string>
 
 #include <fmt/format.h>
 
-#include <string>
+#include "fabric/status.h"
 
 namespace eyrie::gl {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "renderer/gl/object.h"
+#include <string_view>
 
 #include <absl/status/statusor.h>
 
-#include <string_view>
+#include "renderer/gl/object.h"
 
 namespace eyrie::gl {
 

@@ -85,7 +85,7 @@ private:
         std::memcpy(bytes.data(), at_, sizeof(Stored));
         if constexpr (kSwapped)
             std::reverse(bytes.begin(), bytes.end());
-        value = static_cast<Value>(std::bit_cast<Stored>(bytes));
+        value = static_cast<Value>(+std::bit_cast<Stored>(bytes));  // + : a char is a number here
         at_ += sizeof(Stored);
         return true;
     }

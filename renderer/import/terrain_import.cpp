@@ -33,7 +33,8 @@ std::vector<double> levelThresholds(int levels, double postMetres,
                                     const terrain::HeightLattice& lattice) {
     std::vector<double> thresholds;
     for (int level = 0; level < levels; ++level)
-        thresholds.push_back(kErrorPerSpacing * postMetres * std::exp2(level));
+        thresholds.push_back(kErrorPerSpacing * postMetres *
+                             std::exp2(level - terrain::kFullResolutionLevels + 1));
     thresholds[0] = lattice.isLossless ? 0 : lattice.stepMetres / 4;
     return thresholds;
 }
@@ -154,8 +155,8 @@ private:
     BuiltPage build(std::uint32_t number) {
         terrain::TileMesher& mesher = meshers_.local();
         terrain::PageBuilder builder;
-        std::vector<std::int8_t> normals(terrain::kNormalMapBytes);
         const TileId first = index_.quadtree.firstTileOfPage(number);
+        std::vector<std::int8_t> normals(terrain::normalMapBytes(first.level));
         for (std::int32_t place = 0; place < terrain::kPageTiles * terrain::kPageTiles; ++place) {
             const TileId tile{first.level, first.x + place % terrain::kPageTiles,
                               first.y + place / terrain::kPageTiles};
@@ -169,7 +170,7 @@ private:
             if (mesh.indices.empty())
                 continue;
             normals_.fill(tile, normals);
-            builder.add(place, mesh, normals);
+            builder.add(place, tile.level, mesh, normals);
         }
         return {number, std::make_shared<const std::vector<std::uint32_t>>(
                             std::move(builder).finish())};

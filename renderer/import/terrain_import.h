@@ -7,16 +7,16 @@
 #include <absl/status/statusor.h>
 
 #include <cstdint>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
 namespace eyrie::import {
 
-/// Error allowed at level L >= 1, as a share of that level's spacing of samples: e = share *
-/// postMetres * 2^L. Level 0 is exact where heights are whole metres, and within three quarters
-/// of a height step otherwise.
-inline const double kErrorPerSpacing = getenv("EPS") ? atof(getenv("EPS")) : 0.5;
+/// Error allowed at level L >= 1: this share of postMetres * 2^(L - 2), which from level 2 on is
+/// the spacing of the level's samples. Level 0 is exact where heights are whole metres, and within
+/// three quarters of a height step otherwise. Over real and synthetic mountains 3/8 draws the
+/// fewest triangles at 1 and 2 pixels (1/4 and 1/2 draw up to a fifth more), 800 to 4000 a tile.
+inline constexpr double kErrorPerSpacing = 0.375;
 
 /// What an import made.
 struct TerrainImportReport {

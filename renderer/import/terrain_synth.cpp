@@ -20,7 +20,7 @@ namespace {
 constexpr std::int32_t kOctaves = 10;
 constexpr std::int32_t kLongestWave = 1024;  // posts; a power of two
 constexpr std::int32_t kRidgedOctaves = 4;
-constexpr float kFirstAmplitude = 1900;      // metres
+constexpr float kFirstAmplitude = 2400;      // metres
 constexpr float kGain = 0.53F;
 
 struct Gradient {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/lod/view.h"
 
-#include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
-#include <glm/trigonometric.hpp>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
 
 namespace eyrie::lod {
 namespace {
@@ -76,10 +76,8 @@ VisiblePart visiblePart(const Corners& corners, const Frustum& frustum) {
     const auto planes = sidePlanes(frustum);
     for (const auto& face : kFaces) {
         Polygon polygon;
-        for (const std::size_t i : face)
-            polygon.add(corners[i]);
-        for (const Vec3& plane : planes)
-            polygon = clip(polygon, plane);
+        for (const std::size_t i : face) polygon.add(corners[i]);
+        for (const Vec3& plane : planes) polygon = clip(polygon, plane);
         for (int i = 0; i < polygon.count; ++i) {
             const Vec3& p = polygon.corners[static_cast<std::size_t>(i)];
             part.minDepth = std::min(part.minDepth, p.z);

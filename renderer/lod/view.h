@@ -13,7 +13,7 @@ namespace eyrie::lod {
 struct View {
     View(const fabric::Camera& camera, int widthPixels, int heightPixels);
 
-    fabric::Vec3 eye;                   ///< world metres
+    fabric::Vec3 eye;  ///< world metres
     fabric::Mat3 viewFromWorldRotation;
     fabric::Frustum frustum;
     int width;

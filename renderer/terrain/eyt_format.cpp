@@ -3,7 +3,6 @@
 
 #include "fabric/status.h"
 #include "renderer/terrain/eyt_layout.h"
-#include "renderer/terrain/normal_map.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -81,7 +80,7 @@ absl::Status checkHeader(const FileHeader& header, std::uint64_t fileBytes,
     if (header.headerChecksum != XXH64(&header, offsetof(FileHeader, headerChecksum), 0))
         return corrupt(path, "the checksum of the header is wrong");
     if (header.columns < 2 || header.rows < 2 || header.columns > kMaxPosts ||
-        header.rows > kMaxPosts)
+        header.rows > kMaxPosts || std::uint64_t{header.columns} * header.rows > kMaxGridPosts)
         return corrupt(path, fmt::format("header.columns x rows is {} x {}, expected 2 to {} each",
                                          header.columns, header.rows, kMaxPosts));
     if (!isRightHandedAffine(matrixOf(header)))
@@ -145,6 +144,8 @@ public:
             return emptyTile();
         if (header_.wordsPerVertex != 1 && header_.wordsPerVertex != 2)
             return "wordsPerVertex";
+        if (header_.cells < kFinestTileCells || header_.cells > kMaxTileCells)
+            return "cells";
         if (header_.vertices > kNoVertex)
             return "vertices";
         if (!readParts(tile))
@@ -153,7 +154,7 @@ public:
             return "wordsOffset";
         if (!isArray(header_.indicesOffset, indexCount_ * sizeof(std::uint16_t)))
             return "indicesOffset";
-        if (!isArray(header_.normalsOffset, kNormalMapBytes))
+        if (!isArray(header_.normalsOffset, normalBytes()))
             return "normalsOffset";
         makeSpans(tile);
         if (*std::max_element(tile.indices.begin(), tile.indices.end()) >= header_.vertices)
@@ -171,6 +172,10 @@ private:
 
     std::uint64_t vertexWords() const {
         return std::uint64_t{header_.vertices} * header_.wordsPerVertex;
+    }
+
+    std::uint64_t normalBytes() const {
+        return 2 * (std::uint64_t{header_.cells} + 1) * (std::uint64_t{header_.cells} + 1);
     }
 
     bool isArray(std::uint64_t offset, std::uint64_t bytes) const {
@@ -194,7 +199,8 @@ private:
         tile.indices = {reinterpret_cast<const std::uint16_t*>(bytes + header_.indicesOffset),
                         indexCount_};
         tile.normals = {reinterpret_cast<const std::int8_t*>(bytes + header_.normalsOffset),
-                        kNormalMapBytes};
+                        normalBytes()};
+        tile.cells = header_.cells;
         tile.baseHeight = header_.baseHeight;
         tile.heightMultiplier = header_.heightMultiplier;
     }
@@ -209,7 +215,7 @@ private:
         std::uint64_t highest = 0;
         for (std::size_t k = 0; k < tile.words.size(); k += stride) {
             const std::uint32_t word = tile.words[k];
-            if ((word & 1023) > 2 * kTileCells || (word >> 10 & 1023) > 2 * kTileCells)
+            if ((word & 1023) > 2U * header_.cells || (word >> 10 & 1023) > 2U * header_.cells)
                 return "vertex position";
             highest = std::max(highest, std::uint64_t{word >> 20} +
                                             (stride == 2 ? tile.words[k + 1] : 0));
@@ -232,7 +238,11 @@ absl::Status checkAgainstIndex(const Page& page, std::uint32_t number, const Eyt
     for (int place = 0; place < kPageTiles * kPageTiles; ++place) {
         const TileId id{first.level, first.x + place % kPageTiles, first.y + place / kPageTiles};
         const std::uint32_t expected = index.quadtree.contains(id) ? index.tile(id).triangles : 0;
-        const std::uint32_t found = page.tile(place).parts[kFinerPart].first / 3;
+        const TileGeometry& tile = page.tile(place);
+        if (!tile.isEmpty() && tile.cells != Quadtree::cells(first.level))
+            return corrupt(name, fmt::format("tile {} has {} cells a side, its level has {}", place,
+                                             tile.cells, Quadtree::cells(first.level)));
+        const std::uint32_t found = tile.parts[kFinerPart].first / 3;
         if (found != expected)
             return corrupt(name, fmt::format("tile {} has {} triangles, the index says {}", place,
                                              found, expected));

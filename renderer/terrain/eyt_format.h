@@ -93,9 +93,10 @@ struct EytIndex {
 /// One tile's geometry as spans into its page.
 ///
 /// Vertex n is `words[n * wordsPerVertex]`: bits 0-9 x and 10-19 y in half sample spacings (0 to
-/// 256), bits 20-31 height; with two words a vertex the second is the height instead. So always
-/// height = (word0 >> 20) + word1, word1 = 0 in the short form. The vertex's lattice point is
-///   i = min(tile.x * side + (x << level >> 1), columns - 1), j alike with y,
+/// 2 * cells), bits 20-31 height; with two words a vertex the second is the height instead. So
+/// always height = (word0 >> 20) + word1, word1 = 0 in the short form. The lattice point is
+///   i = min(tile.x * Quadtree::side(level) + (x << Quadtree::spacingShift(level) >> 1), columns - 1),
+///   j alike with y and rows,
 ///   q = baseHeight + height * heightMultiplier.
 /// Triangles are counter-clockwise seen from above.
 struct TileGeometry {
@@ -105,8 +106,9 @@ struct TileGeometry {
     std::array<IndexRange, kTileParts> parts;  ///< one after the other, together all indices
     std::int32_t baseHeight = 0;               ///< q of height 0
     std::int32_t heightMultiplier = 1;         ///< a power of two
+    std::int32_t cells = 0;                    ///< Quadtree::cells of its level
     /// x and y of the unit surface normal in object space (z > 0), signed normalised, interleaved:
-    /// kTileSamples squared, row by row from the tile's first post, one per sample of the level.
+    /// (cells + 1) squared, row by row from the tile's first post, one per sample of the level.
     std::span<const std::int8_t> normals;
 
     bool isEmpty() const { return indices.empty(); }

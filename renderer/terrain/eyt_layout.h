@@ -49,7 +49,8 @@ struct TileHeader {
     std::uint32_t indicesOffset = 0;
     std::uint32_t normalsOffset = 0;
     std::uint32_t vertices = 0;
-    std::uint32_t wordsPerVertex = 0;
+    std::uint16_t wordsPerVertex = 0;
+    std::uint16_t cells = 0;  ///< Quadtree::cells of the level
     std::int32_t baseHeight = 0;
     std::int32_t heightMultiplier = 0;
     std::array<std::uint32_t, 9> indexCounts{};  ///< of each part

@@ -82,15 +82,17 @@ std::uint32_t PageBuilder::append(const void* data, std::size_t bytes) {
     return static_cast<std::uint32_t>(first * sizeof(std::uint32_t));
 }
 
-void PageBuilder::add(int place, const TileMesh& mesh, std::span<const std::int8_t> normals) {
-    assert(normals.size() == kNormalMapBytes);
+void PageBuilder::add(int place, int level, const TileMesh& mesh,
+                      std::span<const std::int8_t> normals) {
+    assert(normals.size() == normalMapBytes(level));
     if (mesh.indices.empty())
         return;
     hasTiles_ = true;
     const PackedVertices packed = packVertices(mesh.vertices);
     TileHeader header;
     header.vertices = static_cast<std::uint32_t>(mesh.vertices.size());
-    header.wordsPerVertex = static_cast<std::uint32_t>(packed.wordsPerVertex);
+    header.wordsPerVertex = static_cast<std::uint16_t>(packed.wordsPerVertex);
+    header.cells = static_cast<std::uint16_t>(Quadtree::cells(level));
     header.baseHeight = packed.baseHeight;
     header.heightMultiplier = packed.heightMultiplier;
     for (std::size_t part = 0; part < kTileParts; ++part)

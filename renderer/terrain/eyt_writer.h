@@ -19,8 +19,8 @@ class PageBuilder {
 public:
     PageBuilder();
 
-    /// Precondition: normals.size() == kNormalMapBytes. Tiles without indices are left out.
-    void add(int place, const TileMesh& mesh, std::span<const std::int8_t> normals);
+    /// Precondition: normals.size() == normalMapBytes(level). Tiles without indices are left out.
+    void add(int place, int level, const TileMesh& mesh, std::span<const std::int8_t> normals);
 
     /// The page's bytes; empty when no tile has triangles.
     std::vector<std::uint32_t> finish() &&;

@@ -12,8 +12,10 @@
 namespace eyrie::terrain {
 namespace {
 
+constexpr std::int32_t kMaxSamples = kMaxTileCells + 1;
+
 /// A row of a tile's heights with one sample more on either side.
-using PaddedRow = std::array<float, kTileSamples + 2>;
+using PaddedRow = std::array<float, kMaxSamples + 2>;
 
 /// Metres of object space as the normal needs them: n = (dP/di) x (dP/dj).
 struct Basis {
@@ -36,8 +38,8 @@ inline std::int8_t signedNormalised(float value) {
 
 EYRIE_SIMD_CLONES void normalRow(const float* below, const float* here, const float* above,
                                  const float* inverseX, float inverseY, const Basis& basis,
-                                 std::int8_t* out) {
-    for (std::int32_t k = 0; k < kTileSamples; ++k) {
+                                 std::int32_t samples, std::int8_t* out) {
+    for (std::int32_t k = 0; k < samples; ++k) {
         const float di = slope(here[k], here[k + 1], here[k + 2], inverseX[k]);
         const float dj = slope(below[k + 1], here[k + 1], above[k + 1], inverseY);
         const float x = basis.ay * dj - di * basis.by;
@@ -64,38 +66,39 @@ EYRIE_SIMD_CLONES void weigh(const float* source, float weight, std::int32_t col
 }  // namespace
 
 NormalMaps::NormalMaps(const HeightGrid& grid, int levels)
-    : grid_(grid), levels_(static_cast<std::size_t>(levels)) {
-    levels_[0] = {grid.columns, grid.rows, {}};
-    for (int level = 1; level < levels; ++level) {
-        const Level& finer = levels_[static_cast<std::size_t>(level - 1)];
-        Level& coarser = levels_[static_cast<std::size_t>(level)];
+    : grid_(grid), thinned_(static_cast<std::size_t>(Quadtree::spacingShift(levels - 1) + 1)) {
+    thinned_[0] = {grid.columns, grid.rows, {}};
+    for (std::size_t shift = 1; shift < thinned_.size(); ++shift) {
+        const Thinned& finer = thinned_[shift - 1];
+        Thinned& coarser = thinned_[shift];
         coarser.columns = finer.columns / 2 + 1;
         coarser.rows = finer.rows / 2 + 1;
-        coarser.smoothed.resize(static_cast<std::size_t>(coarser.columns) *
-                                static_cast<std::size_t>(coarser.rows));
+        coarser.heights.resize(static_cast<std::size_t>(coarser.columns) *
+                               static_cast<std::size_t>(coarser.rows));
         tbb::parallel_for(std::int32_t{0}, coarser.rows,
-                          [&](std::int32_t j) { smoothRow(level, j); });
+                          [&](std::int32_t j) { smoothRow(static_cast<int>(shift), j); });
     }
 }
 
-const float* NormalMaps::row(int level, std::int32_t j) const {
-    if (level == 0)
+const float* NormalMaps::row(int shift, std::int32_t j) const {
+    if (shift == 0)
         return grid_.row(j);
-    const Level& l = levels_[static_cast<std::size_t>(level)];
-    return l.smoothed.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(l.columns);
+    const Thinned& thinned = thinned_[static_cast<std::size_t>(shift)];
+    return thinned.heights.data() +
+           static_cast<std::size_t>(j) * static_cast<std::size_t>(thinned.columns);
 }
 
-void NormalMaps::smoothRow(int level, std::int32_t j) {
-    Level& coarser = levels_[static_cast<std::size_t>(level)];
-    const Level& finer = levels_[static_cast<std::size_t>(level - 1)];
+void NormalMaps::smoothRow(int shift, std::int32_t j) {
+    Thinned& coarser = thinned_[static_cast<std::size_t>(shift)];
+    const Thinned& finer = thinned_[static_cast<std::size_t>(shift - 1)];
     thread_local std::vector<float> sum;
     thread_local std::vector<float> weights;
     sum.assign(static_cast<std::size_t>(finer.columns), 0.0F);
     weights.assign(static_cast<std::size_t>(finer.columns), 0.0F);
     for (std::int32_t d = -1; d <= 1; ++d)
-        weigh(row(level - 1, std::clamp(2 * j + d, 0, finer.rows - 1)), d == 0 ? 2.0F : 1.0F,
+        weigh(row(shift - 1, std::clamp(2 * j + d, 0, finer.rows - 1)), d == 0 ? 2.0F : 1.0F,
               finer.columns, sum.data(), weights.data());
-    float* out = coarser.smoothed.data() +
+    float* out = coarser.heights.data() +
                  static_cast<std::size_t>(j) * static_cast<std::size_t>(coarser.columns);
     for (std::int32_t i = 0; i < coarser.columns; ++i) {
         const auto at = [&](std::int32_t k) {
@@ -107,25 +110,28 @@ void NormalMaps::smoothRow(int level, std::int32_t j) {
 }
 
 void NormalMaps::fill(const TileId& tile, std::span<std::int8_t> out) const {
-    assert(out.size() == kNormalMapBytes);
-    const Level& level = levels_[static_cast<std::size_t>(tile.level)];
+    assert(out.size() == normalMapBytes(tile.level));
+    const int shift = Quadtree::spacingShift(tile.level);
+    const std::int32_t cells = Quadtree::cells(tile.level);
+    const std::int32_t samples = cells + 1;
+    const Thinned& thinned = thinned_[static_cast<std::size_t>(shift)];
     const auto column = [&](std::int32_t k) {
-        return std::clamp(tile.x * kTileCells + k, 0, level.columns - 1);
+        return std::clamp(tile.x * cells + k, 0, thinned.columns - 1);
     };
     const auto rowIndex = [&](std::int32_t k) {
-        return std::clamp(tile.y * kTileCells + k, 0, level.rows - 1);
+        return std::clamp(tile.y * cells + k, 0, thinned.rows - 1);
     };
     const auto post = [&](std::int32_t sample, std::int32_t posts) {
-        return std::min(sample << tile.level, posts - 1);
+        return std::min(sample << shift, posts - 1);
     };
     const auto load = [&](std::int32_t k, PaddedRow& padded) {
-        const float* source = row(tile.level, rowIndex(k));
-        for (std::int32_t i = 0; i < kTileSamples + 2; ++i)
+        const float* source = row(shift, rowIndex(k));
+        for (std::int32_t i = 0; i < samples + 2; ++i)
             padded[static_cast<std::size_t>(i)] = source[column(i - 1)];
     };
 
-    std::array<float, kTileSamples> inverseX{};
-    for (std::int32_t k = 0; k < kTileSamples; ++k)
+    std::array<float, kMaxSamples> inverseX{};
+    for (std::int32_t k = 0; k < samples; ++k)
         inverseX[static_cast<std::size_t>(k)] = inverseDistance(
             post(column(k - 1), grid_.columns), post(column(k + 1), grid_.columns));
     const fabric::Vec2 a = grid_.perColumn;
@@ -136,13 +142,14 @@ void NormalMaps::fill(const TileId& tile, std::span<std::int8_t> out) const {
     std::array<PaddedRow, 3> rows{};
     load(-1, rows[0]);
     load(0, rows[1]);
-    for (std::int32_t k = 0; k < kTileSamples; ++k) {
+    for (std::int32_t k = 0; k < samples; ++k) {
         const auto r = static_cast<std::size_t>(k);
         load(k + 1, rows[(r + 2) % 3]);
         const float inverseY =
             inverseDistance(post(rowIndex(k - 1), grid_.rows), post(rowIndex(k + 1), grid_.rows));
         normalRow(rows[r % 3].data(), rows[(r + 1) % 3].data(), rows[(r + 2) % 3].data(),
-                  inverseX.data(), inverseY, basis, out.data() + r * 2 * kTileSamples);
+                  inverseX.data(), inverseY, basis, samples,
+                  out.data() + r * 2 * static_cast<std::size_t>(samples));
     }
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/terrain/quadtree.h"
 
-#include <algorithm>
 #include <cassert>
 
 namespace eyrie::terrain {
@@ -16,7 +15,8 @@ std::int32_t tilesAcross(std::int32_t posts, int level) {
 
 Quadtree::Quadtree(std::uint32_t columns, std::uint32_t rows)
     : columns_(static_cast<std::int32_t>(columns)), rows_(static_cast<std::int32_t>(rows)) {
-    assert(columns >= 2 && rows >= 2 && columns <= kMaxPosts && rows <= kMaxPosts);
+    assert(columns >= 2 && rows >= 2 && columns <= kMaxPosts && rows <= kMaxPosts &&
+           std::uint64_t{columns} * rows <= kMaxGridPosts);
     do {
         const int level = levels();
         levels_.push_back(

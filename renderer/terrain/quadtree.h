@@ -1,19 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
 
 namespace eyrie::terrain {
 
-/// A tile has 128 x 128 cells and 129 x 129 samples; the border samples are its neighbours' too.
-inline constexpr std::int32_t kTileCells = 128;
-inline constexpr std::int32_t kTileSamples = kTileCells + 1;
+/// Cells a side of a tile of level 0, and of the levels that leave out posts. Tiles near the eye
+/// must be small: a tile's nearest point decides for all of it.
+inline constexpr std::int32_t kFinestTileCells = 32;
+inline constexpr std::int32_t kMaxTileCells = 128;
+inline constexpr int kFullResolutionLevels = 3;  ///< levels 0 to 2 may use every post
+static_assert(kFinestTileCells << (kFullResolutionLevels - 1) == kMaxTileCells);
 /// A page holds 4 x 4 tiles of one level.
 inline constexpr std::int32_t kPageTiles = 4;
-/// Posts a side: what keeps a lattice point minus the camera's exact in float32.
+/// Posts a side: what keeps a lattice point minus the camera's exact in float32. And of the grid.
 inline constexpr std::uint32_t kMaxPosts = 1U << 22;
+inline constexpr std::uint64_t kMaxGridPosts = std::uint64_t{1} << 34;
 
 /// A tile's edges, as index and as bit of a mask.
 enum Edge : int { kEdgeMinX = 0, kEdgeMaxX = 1, kEdgeMinY = 2, kEdgeMaxY = 3 };
@@ -28,13 +33,16 @@ struct TileId {
     bool operator==(const TileId&) const = default;
 };
 
-/// The shape of the quadtree over a grid of posts: a tile of level L covers 128 * 2^L cells a
-/// side, and the only tile of the last level covers the grid. Tiles without a cell of the grid do
-/// not exist. Immutable.
+/// The shape of the quadtree over a grid of posts: a tile of level L spans 32 * 2^L posts a side,
+/// and the only tile of the last level covers the grid. Neighbours share their border posts. Tiles
+/// without a cell of the grid do not exist.
+///
+/// Levels differ in the error they allow. Up to a side of 128 they may all use every post; from
+/// there on each level leaves out every second post of the one before. Immutable.
 class Quadtree {
 public:
     Quadtree() : Quadtree(2, 2) {}
-    /// Precondition: both from 2 to kMaxPosts.
+    /// Precondition: both from 2 to kMaxPosts, columns * rows at most kMaxGridPosts.
     Quadtree(std::uint32_t columns, std::uint32_t rows);
 
     std::int32_t columns() const { return columns_; }
@@ -45,8 +53,11 @@ public:
     std::int32_t pagesX(int level) const { return (tilesX(level) + kPageTiles - 1) / kPageTiles; }
     std::int32_t pagesY(int level) const { return (tilesY(level) + kPageTiles - 1) / kPageTiles; }
 
-    /// Cells between a tile's first and last post, before clamping to the grid.
-    static std::int32_t side(int level) { return kTileCells << level; }
+    /// Posts from a tile's first to its last, before clamping to the grid.
+    static std::int32_t side(int level) { return kFinestTileCells << level; }
+    /// Samples of a level are 2^spacingShift posts apart; a tile has cells + 1 of them a side.
+    static int spacingShift(int level) { return std::max(0, level - kFullResolutionLevels + 1); }
+    static std::int32_t cells(int level) { return side(level) >> spacingShift(level); }
     TileId top() const { return {levels() - 1, 0, 0}; }
     bool contains(const TileId& tile) const {
         return tile.level >= 0 && tile.level < levels() && tile.x >= 0 && tile.y >= 0 &&

@@ -10,13 +10,7 @@
 namespace eyrie::terrain {
 namespace {
 
-constexpr std::int32_t kFull = 2 * kTileCells;  // a tile's side in half spacings
-constexpr std::int32_t kSlotsPerRow = kFull + 1;
 constexpr std::uint16_t kNoSlot = 0xffff;
-
-std::size_t slot(std::int32_t x, std::int32_t y) {
-    return static_cast<std::size_t>(y * kSlotsPerRow + x);
-}
 
 }  // namespace
 
@@ -25,12 +19,14 @@ TileMesher::TileMesher(const SourceSurface& surface, const VertexLevels& levels,
     : surface_(surface),
       levels_(levels),
       lattice_(lattice),
-      quadtree_(quadtree),
-      slots_(static_cast<std::size_t>(kSlotsPerRow) * kSlotsPerRow) {}
+      quadtree_(quadtree) {}
 
 TileMesh TileMesher::mesh(const TileId& tile) {
     tile_ = tile;
     const std::int32_t side = Quadtree::side(tile.level);
+    shift_ = Quadtree::spacingShift(tile.level);
+    side_ = 2 * Quadtree::cells(tile.level);
+    finerStep_ = shift_ == Quadtree::spacingShift(tile.level - 1) ? 2 : 1;
     firstColumn_ = tile.x * side;
     firstRow_ = tile.y * side;
     isCut_ = firstColumn_ + side >= quadtree_.columns() || firstRow_ + side >= quadtree_.rows();
@@ -38,13 +34,13 @@ TileMesh TileMesher::mesh(const TileId& tile) {
         hasNeighbour_[static_cast<std::size_t>(edge)] =
             quadtree_.contains(Quadtree::neighbour(tile, edge));
     mesh_ = {};
-    std::fill(slots_.begin(), slots_.end(), kNoSlot);
+    slots_.assign(static_cast<std::size_t>((side_ + 1) * (side_ + 1)), kNoSlot);
     for (std::vector<std::uint16_t>& part : partIndices_)
         part.clear();
 
-    const Point centre{kFull / 2, kFull / 2};
+    const Point centre{side_ / 2, side_ / 2};
     const std::array<Point, 5> around = {
-        {{0, 0}, {kFull, 0}, {kFull, kFull}, {0, kFull}, {0, 0}}};
+        {{0, 0}, {side_, 0}, {side_, side_}, {0, side_}, {0, 0}}};
     for (std::size_t k = 0; k < 4; ++k)
         refine(centre, around[k], around[k + 1]);
 
@@ -63,7 +59,7 @@ bool TileMesher::isVertex(const Point& p) const {
 
 /// A vertex of the next finer level's tiles along this tile's border: theirs by need, or a corner.
 bool TileMesher::isFinerVertex(const Point& p) const {
-    return p.x + p.y == kFull / 2 || p.x + p.y == kFull + kFull / 2 ||
+    return p.x + p.y == side_ / 2 || p.x + p.y == side_ + side_ / 2 ||
            levels_.isNeeded(column(p), row(p), tile_.level - 1);
 }
 
@@ -86,11 +82,11 @@ void TileMesher::refine(const Point& apex, const Point& left, const Point& right
 }
 
 /// Edge number of a side on the tile's border, -1 otherwise.
-static int borderEdge(std::int32_t ax, std::int32_t ay, std::int32_t bx, std::int32_t by) {
-    if (ax == bx && (ax == 0 || ax == kFull))
-        return ax == 0 ? kEdgeMinX : kEdgeMaxX;
-    if (ay == by && (ay == 0 || ay == kFull))
-        return ay == 0 ? kEdgeMinY : kEdgeMaxY;
+int TileMesher::borderEdge(const Point& a, const Point& b) const {
+    if (a.x == b.x && (a.x == 0 || a.x == side_))
+        return a.x == 0 ? kEdgeMinX : kEdgeMaxX;
+    if (a.y == b.y && (a.y == 0 || a.y == side_))
+        return a.y == 0 ? kEdgeMinY : kEdgeMaxY;
     return -1;
 }
 
@@ -100,8 +96,7 @@ void TileMesher::addLeaf(const Point& a, const Point& b, const Point& c) {
     int edge = -1;
     std::size_t side = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-        const int found =
-            borderEdge(corners[k].x, corners[k].y, corners[k + 1].x, corners[k + 1].y);
+        const int found = borderEdge(corners[k], corners[k + 1]);
         if (found < 0)
             continue;
         assert(edge < 0 && "a triangle has sides on two borders");
@@ -115,8 +110,8 @@ void TileMesher::addLeaf(const Point& a, const Point& b, const Point& c) {
 
 /// The border triangle apex, from, to, split at the finer level's vertices between from and to.
 void TileMesher::addFan(int edge, const Point& apex, const Point& from, const Point& to) {
-    const int dx = (to.x > from.x) - (to.x < from.x);
-    const int dy = (to.y > from.y) - (to.y < from.y);
+    const std::int32_t dx = finerStep_ * ((to.x > from.x) - (to.x < from.x));
+    const std::int32_t dy = finerStep_ * ((to.y > from.y) - (to.y < from.y));
     Point last = from;
     const auto add = [&](const Point& next) {
         if (last.x != from.x || last.y != from.y || next.x != to.x || next.y != to.y)
@@ -141,7 +136,7 @@ Corner TileMesher::corner(const Point& p) const {
 void TileMesher::measure(const Point& a, const Point& b, const Point& c, bool mayBeAligned) {
     const std::int32_t width = std::max({a.x, b.x, c.x}) - std::min({a.x, b.x, c.x});
     const std::int32_t height = std::max({a.y, b.y, c.y}) - std::min({a.y, b.y, c.y});
-    if (tile_.level == 0 && width == 2 && height == 2)
+    if (shift_ == 0 && width == 2 && height == 2)
         return;  // half a cell: all its posts are vertices, and those are measured as such
     const Triangle triangle = {corner(a), corner(b), corner(c)};
     const auto isUnmoved = [&](const Point& p) {
@@ -171,7 +166,7 @@ void TileMesher::addTriangle(int part, const Point& a, const Point& b, const Poi
 }
 
 std::uint16_t TileMesher::vertex(const Point& p) {
-    std::uint16_t& number = slots_[slot(p.x, p.y)];
+    std::uint16_t& number = slots_[static_cast<std::size_t>(p.y * (side_ + 1) + p.x)];
     if (number != kNoSlot)
         return number;
     number = static_cast<std::uint16_t>(mesh_.vertices.size());

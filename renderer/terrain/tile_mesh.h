@@ -53,9 +53,10 @@ private:
         std::int32_t y;
     };
 
-    std::int32_t column(const Point& p) const { return firstColumn_ + (p.x << tile_.level >> 1); }
-    std::int32_t row(const Point& p) const { return firstRow_ + (p.y << tile_.level >> 1); }
+    std::int32_t column(const Point& p) const { return firstColumn_ + (p.x << shift_ >> 1); }
+    std::int32_t row(const Point& p) const { return firstRow_ + (p.y << shift_ >> 1); }
     bool isVertex(const Point& p) const;
+    int borderEdge(const Point& a, const Point& b) const;
     void refine(const Point& apex, const Point& left, const Point& right);
     void addLeaf(const Point& a, const Point& b, const Point& c);
     void addFan(int edge, const Point& apex, const Point& from, const Point& to);
@@ -71,6 +72,9 @@ private:
     const Quadtree& quadtree_;
 
     TileId tile_;
+    int shift_ = 0;          ///< of the level's sample spacing
+    std::int32_t side_ = 0;  ///< of the tile, in half spacings
+    std::int32_t finerStep_ = 1;  ///< half spacings between samples of the finer level
     std::int32_t firstColumn_ = 0;
     std::int32_t firstRow_ = 0;
     bool isCut_ = false;  ///< reaches past the last column or row

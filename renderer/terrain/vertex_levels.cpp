@@ -5,6 +5,7 @@
 // leaves out by up to 1.8 times on real terrain; here each triangle is measured in full.
 #include "renderer/terrain/vertex_levels.h"
 
+#include "renderer/terrain/finest_row.h"
 #include "renderer/terrain/quadtree.h"
 
 #include <tbb/blocked_range.h>
@@ -20,6 +21,7 @@ namespace eyrie::terrain {
 VertexLevels::VertexLevels(const SourceSurface& surface, std::vector<double> thresholdsMetres)
     : surface_(surface),
       thresholds_(std::move(thresholdsMetres)),
+      floatThresholds_(thresholds_.begin(), thresholds_.end()),
       columns_(surface.grid().columns),
       rows_(surface.grid().rows),
       levels_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)) {
@@ -32,6 +34,7 @@ absl::StatusOr<VertexLevels> VertexLevels::compute(const SourceSurface& surface,
                                                    std::vector<double> thresholdsMetres,
                                                    const import::ImportControl& control) {
     VertexLevels levels(surface, std::move(thresholdsMetres));
+    control.report("measuring", 0);
     double done = 0;
     for (std::int32_t s = 1; s < levels.side_; s *= 2) {
         for (const bool isCentre : {false, true}) {
@@ -118,19 +121,43 @@ int VertexLevels::exceededByChildren(std::int32_t i, std::int32_t j, std::int32_
     return std::max({at(i - h, j - h), at(i + h, j - h), at(i - h, j + h), at(i + h, j + h)});
 }
 
+int VertexLevels::exceededBy(std::int32_t i, std::int32_t j, std::int32_t s, bool isCentre) const {
+    const int exceeded = exceededByChildren(i, j, s, isCentre);
+    if (exceeded == static_cast<int>(thresholds_.size()))
+        return exceeded;
+    return std::max(exceeded, exceededBySplit(i, j, s, isCentre));
+}
+
+/// Row j of the first class but for its ends. Precondition: 0 < j < rows - 1.
+void VertexLevels::measureFinestRow(std::int32_t j) {
+    const HeightGrid& grid = surface_.grid();
+    thread_local std::vector<std::uint8_t> counts;
+    counts.resize(static_cast<std::size_t>(columns_));
+    const bool isEven = (j & 1) == 0;
+    finestRow(grid.row(j - 1), grid.row(j), grid.row(j + 1), columns_, isEven, floatThresholds_,
+              counts.data());
+    for (std::int32_t i = isEven ? 1 : 2; i < columns_ - 1; i += 2) {
+        const std::uint8_t count = counts[static_cast<std::size_t>(i)];
+        levels_[index(i, j)] =
+            count == kFinestRowNodata ? static_cast<std::uint8_t>(exceededBy(i, j, 1, false)) : count;
+    }
+}
+
 void VertexLevels::measureRow(std::int32_t j, std::int32_t s, bool isCentre,
                               std::vector<Found>& outside) {
-    const int all = static_cast<int>(thresholds_.size());
+    const bool isFinest = s == 1 && !isCentre && j > 0 && j < rows_ - 1;
+    if (isFinest)
+        measureFinestRow(j);
     const std::int32_t first = isCentre || (j & s) == 0 ? s : 0;
     const std::int32_t end = std::min(columns_ - 1 + s, side_ + 1);
     for (std::int32_t i = first; i < end; i += 2 * s) {
-        int exceeded = exceededByChildren(i, j, s, isCentre);
-        if (exceeded < all)
-            exceeded = std::max(exceeded, exceededBySplit(i, j, s, isCentre));
+        if (isFinest && i > 0 && i < columns_ - 1)
+            continue;
+        const auto exceeded = static_cast<std::uint8_t>(exceededBy(i, j, s, isCentre));
         if (i < columns_ && j < rows_)
-            levels_[index(i, j)] = static_cast<std::uint8_t>(exceeded);
+            levels_[index(i, j)] = exceeded;
         else if (exceeded > 0)
-            outside.push_back({key(i, j), static_cast<std::uint8_t>(exceeded)});
+            outside.push_back({key(i, j), exceeded});
     }
 }
 

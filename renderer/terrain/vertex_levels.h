@@ -74,11 +74,14 @@ private:
     int exceededByTriangle(const Point& p, const Point& apex, const Point& q) const;
     int exceededBySplit(std::int32_t i, std::int32_t j, std::int32_t s, bool isCentre) const;
     int exceededByChildren(std::int32_t i, std::int32_t j, std::int32_t s, bool isCentre) const;
+    int exceededBy(std::int32_t i, std::int32_t j, std::int32_t s, bool isCentre) const;
+    void measureFinestRow(std::int32_t j);
     void measureClass(std::int32_t s, bool isCentre);
     void measureRow(std::int32_t j, std::int32_t s, bool isCentre, std::vector<Found>& outside);
 
     const SourceSurface& surface_;
     std::vector<double> thresholds_;
+    std::vector<float> floatThresholds_;
     std::int32_t columns_;
     std::int32_t rows_;
     std::int32_t side_;  ///< cells a side of the padded square

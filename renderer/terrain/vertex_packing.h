@@ -8,7 +8,7 @@
 namespace eyrie::terrain {
 
 /// A tile's vertex before packing: x and y in half sample spacings from the tile's first post
-/// (0 to 256), q in height steps of the lattice.
+/// (0 to twice the tile's cells, 256 at most), q in height steps of the lattice.
 struct TileVertex {
     std::int32_t x = 0;
     std::int32_t y = 0;
@@ -29,7 +29,7 @@ inline constexpr std::uint32_t kMaxShortHeight = 4095;
 
 /// One word a vertex where 12 bits hold every height above the lowest, two otherwise. The
 /// multiplier is the greatest power of two that divides all differences of height.
-/// Precondition: not empty; x and y from 0 to 256; |q| < 2^24.
+/// Precondition: not empty; x and y from 0 to twice the tile's cells, 256 at most; |q| < 2^24.
 PackedVertices packVertices(std::span<const TileVertex> vertices);
 
 inline TileVertex unpackVertex(std::span<const std::uint32_t> words, int wordsPerVertex,

@@ -2,18 +2,18 @@
 // The door for browsers with pictures made up here: for tests of the page, and work on it, without
 // renderers. Prints the line with the URL that `eyrie serve` prints, and serves until its standard
 // input ends; a line "no renderer" or "renderer" on it takes the renderer away or brings it back.
-#include "coordinator/http/server.h"
-#include "tests/coordinator/fake_frame_source.h"
-
-#include <fmt/format.h>
-#include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <string>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "coordinator/http/server.h"
+#include "tests/coordinator/fake_frame_source.h"
 
 namespace {
 

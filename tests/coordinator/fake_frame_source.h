@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "coordinator/frame/frame_source.h"
-
 #include <condition_variable>
 #include <functional>
 #include <map>
 #include <mutex>
 #include <utility>
 #include <vector>
+
+#include "coordinator/frame/frame_source.h"
 
 namespace eyrie::coordinator {
 
@@ -87,8 +87,7 @@ public:
             status_ = std::move(status);
         }
         const std::lock_guard lock(listenersMutex_);
-        for (const auto& [handle, listener] : listeners_)
-            listener();
+        for (const auto& [handle, listener] : listeners_) listener();
     }
 
     /// While held, renderFrame waits.

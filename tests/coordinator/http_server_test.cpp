@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "coordinator/http/server.h"
-
-#include "coordinator/http/origin.h"
-#include "eyrie/v1/viewer.pb.h"
-#include "tests/coordinator/fake_frame_source.h"
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
 
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/io_context.hpp>
@@ -19,14 +22,10 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <chrono>
-#include <filesystem>
-#include <fstream>
-#include <memory>
-#include <string>
-#include <thread>
-#include <vector>
+#include "coordinator/http/origin.h"
+#include "coordinator/http/server.h"
+#include "eyrie/v1/viewer.pb.h"
+#include "tests/coordinator/fake_frame_source.h"
 
 namespace eyrie::http {
 namespace {
@@ -116,8 +115,7 @@ protected:
     }
 
     Response get(const std::string& target) {
-        return exchange(
-            fmt::format("GET {} HTTP/1.1\r\nHost: {}\r\n\r\n", target, hostAndPort()));
+        return exchange(fmt::format("GET {} HTTP/1.1\r\nHost: {}\r\n\r\n", target, hostAndPort()));
     }
 
     using Socket = websocket::stream<beast::tcp_stream>;
@@ -164,8 +162,7 @@ protected:
         view.set_tau_pixels(1);
         for (const double value : {static_cast<double>(sequence), -10.0, 3.0})
             view.mutable_camera()->add_eye(value);
-        for (int i = 0; i < 3; ++i)
-            view.mutable_camera()->add_target(0);
+        for (int i = 0; i < 3; ++i) view.mutable_camera()->add_target(0);
         return request.SerializeAsString();
     }
 
@@ -282,8 +279,9 @@ TEST_F(HttpServer, IsReadyOnlyWithARendererAndAScene) {
 TEST_F(HttpServer, AnswersHeadWithoutABodyAndRefusesOtherMethods) {
     start();
     tcp::socket socket = connect();
-    asio::write(socket, asio::buffer(std::string(
-                            "HEAD / HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n")));
+    asio::write(
+        socket,
+        asio::buffer(std::string("HEAD / HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n")));
     std::string received;
     beast::error_code error;
     asio::read(socket, asio::dynamic_buffer(received), error);
@@ -306,8 +304,9 @@ TEST_F(HttpServer, KeepsAConnectionForManyRequests) {
 
 TEST_F(HttpServer, RefusesWhatIsTooLargeOrNoHttp) {
     start();
-    EXPECT_EQ(exchange("GET / HTTP/1.1\r\nX: " + std::string(20'000, 'x') + "\r\n\r\n").result_int(),
-              431u);
+    EXPECT_EQ(
+        exchange("GET / HTTP/1.1\r\nX: " + std::string(20'000, 'x') + "\r\n\r\n").result_int(),
+        431u);
     EXPECT_EQ(exchange("POST / HTTP/1.1\r\nContent-Length: 1000000\r\n\r\n").result_int(), 413u);
     EXPECT_EQ(exchange("\x16\x03\x01 hello\r\n\r\n").result_int(), 400u);
     EXPECT_EQ(get("/ws").result_int(), 426u);
@@ -382,8 +381,7 @@ TEST_F(HttpServer, StreamsFramesToAViewer) {
     for (std::uint64_t sequence = 1; sequence <= 20; ++sequence) {
         socket->write(asio::buffer(viewBytes(sequence)));
         v1::Frame frame = readFrame(*socket);
-        while (frame.view_sequence() < sequence)
-            frame = readFrame(*socket);
+        while (frame.view_sequence() < sequence) frame = readFrame(*socket);
         EXPECT_GT(frame.jpeg().size(), 100u);
         socket->write(asio::buffer(ackBytes(frame.frame_number())));
     }
@@ -391,9 +389,9 @@ TEST_F(HttpServer, StreamsFramesToAViewer) {
 
 TEST_F(HttpServer, RefusesPagesOfOtherSites) {
     start();
-    for (const std::string& origin :
-         {std::string("http://evil.example"), std::string("null"),
-          fmt::format("http://{}.evil.example", hostAndPort()), std::string("http://127.0.0.1:1")}) {
+    for (const std::string& origin : {std::string("http://evil.example"), std::string("null"),
+                                      fmt::format("http://{}.evil.example", hostAndPort()),
+                                      std::string("http://127.0.0.1:1")}) {
         const Response response = exchange(
             fmt::format("GET /ws HTTP/1.1\r\nHost: {}\r\nOrigin: {}\r\nConnection: Upgrade\r\n"
                         "Upgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"
@@ -441,15 +439,13 @@ TEST_F(HttpServer, AViewerThatNeverReadsNeitherBlocksOthersNorPilesUpFrames) {
         beast::error_code ignored;
         deaf->write(asio::buffer(viewBytes(sequence, 1024, 1024)), ignored);
         const std::vector<coordinator::FrameRequest> drawn = frames_.requests();
-        const auto forDeaf = std::count_if(drawn.begin(), drawn.end(), [](const auto& request) {
-            return request.width == 1024;
-        });
+        const auto forDeaf = std::count_if(
+            drawn.begin(), drawn.end(), [](const auto& request) { return request.width == 1024; });
         if (forDeaf > 1)  // a liar, too: acknowledges what it has not read
             deaf->write(asio::buffer(ackBytes(static_cast<std::uint64_t>(forDeaf - 1))), ignored);
         other->write(asio::buffer(viewBytes(sequence)));
         v1::Frame frame = readFrame(*other);
-        while (frame.view_sequence() < sequence)
-            frame = readFrame(*other);
+        while (frame.view_sequence() < sequence) frame = readFrame(*other);
         other->write(asio::buffer(ackBytes(frame.frame_number())));
         return frames_.listenerCount() == 1;
     })) << "the viewer that does not read was not cut off";
@@ -463,8 +459,7 @@ TEST_F(HttpServer, AViewerThatNeverAcknowledgesGetsNoMoreThanAFewFrames) {
         socket->write(asio::buffer(viewBytes(++sequence)));
         return frames_.requests().size() >= 2;
     }));
-    for (int i = 0; i < 50; ++i)
-        socket->write(asio::buffer(viewBytes(++sequence)));
+    for (int i = 0; i < 50; ++i) socket->write(asio::buffer(viewBytes(++sequence)));
     const auto other = openSocket();
     other->write(asio::buffer(viewBytes(1)));
     EXPECT_EQ(readFrame(*other).view_sequence(), 1u);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "wire/jpeg.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cstdlib>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 namespace eyrie::wire {
 namespace {
@@ -54,8 +54,7 @@ TEST(Jpeg, SpendsMoreBytesOnHigherQuality) {
 
 TEST(Jpeg, KeepsColourEdgesOnlyWithoutSubsampling) {
     fabric::Image stripes = fabric::makeImage({0, 0, 64, 64}, {255, 0, 0, 255}, false);
-    for (std::size_t i = 0; i < stripes.colour.size(); i += 2)
-        stripes.colour[i] = {0, 0, 255, 255};
+    for (std::size_t i = 0; i < stripes.colour.size(); i += 2) stripes.colour[i] = {0, 0, 255, 255};
     const auto difference = [&](ChromaSubsampling subsampling) {
         return worstDifference(stripes, *decodeJpeg(*encodeJpeg(stripes, 95, subsampling)));
     };

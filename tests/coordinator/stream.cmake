@@ -3,3 +3,6 @@ eyrie_test(jpeg_test LABEL unit LINK eyrie::jpeg)
 eyrie_test(viewer_test LABEL unit LINK eyrie::stream eyrie::jpeg eyrie::proto)
 eyrie_test(http_server_test LABEL unit LINK eyrie::http eyrie::jpeg eyrie::proto Boost::headers
                                             Threads::Threads)
+if(EYRIE_SANITIZE MATCHES thread)
+    target_compile_options(http_server_test PRIVATE -Wno-tsan)  # as in coordinator/http.cmake
+endif()

@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/stream/viewer.h"
 
-#include "coordinator/stream/home_camera.h"
-#include "coordinator/stream/pacer.h"
-#include "coordinator/stream/viewer_messages.h"
-#include "eyrie/v1/viewer.pb.h"
-#include "tests/coordinator/fake_frame_source.h"
-#include "wire/jpeg.h"
-
-#include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <chrono>
 #include <cmath>
 #include <condition_variable>
 #include <limits>
 #include <mutex>
 #include <thread>
+
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "coordinator/stream/home_camera.h"
+#include "coordinator/stream/pacer.h"
+#include "coordinator/stream/viewer_messages.h"
+#include "eyrie/v1/viewer.pb.h"
+#include "tests/coordinator/fake_frame_source.h"
+#include "wire/jpeg.h"
 
 namespace eyrie::stream {
 namespace {
@@ -39,10 +39,8 @@ v1::ViewerRequest viewMessage(std::uint64_t sequence, double eyeX) {
     view.set_width(64);
     view.set_height(48);
     view.set_tau_pixels(1);
-    for (const double value : {eyeX, -10.0, 3.0})
-        view.mutable_camera()->add_eye(value);
-    for (int i = 0; i < 3; ++i)
-        view.mutable_camera()->add_target(0);
+    for (const double value : {eyeX, -10.0, 3.0}) view.mutable_camera()->add_eye(value);
+    for (int i = 0; i < 3; ++i) view.mutable_camera()->add_target(0);
     return request;
 }
 
@@ -50,13 +48,16 @@ v1::ViewerRequest viewMessage(std::uint64_t sequence, double eyeX) {
 class Browser {
 public:
     explicit Browser(FakeFrameSource& frames, const ViewerOptions& options = {})
-        : viewer_(frames, [this] { ready(); }, options) {}
+        : viewer_(
+              frames, [this] { ready(); }, options) {}
 
     void send(const v1::ViewerRequest& request) {
         ASSERT_TRUE(viewer_.receive(bytesOf(request.SerializeAsString())).ok());
     }
 
-    void look(std::uint64_t sequence) { send(viewMessage(sequence, static_cast<double>(sequence))); }
+    void look(std::uint64_t sequence) {
+        send(viewMessage(sequence, static_cast<double>(sequence)));
+    }
 
     void acknowledge(std::uint64_t frameNumber) {
         v1::ViewerRequest request;
@@ -155,8 +156,7 @@ TEST(Viewer, DrawsTheNewestViewAndLeavesOutThoseBetween) {
     Browser browser(frames, moving(1));
     browser.look(1);
     ASSERT_TRUE(frames.waitForRequests(1));
-    for (std::uint64_t sequence = 2; sequence <= 50; ++sequence)
-        browser.look(sequence);
+    for (std::uint64_t sequence = 2; sequence <= 50; ++sequence) browser.look(sequence);
     frames.hold(false);
     EXPECT_EQ(browser.nextFrame()->view_sequence(), 1u);
     browser.acknowledge(1);
@@ -174,10 +174,10 @@ TEST(Viewer, NeverHasMoreFramesUnderWayThanAllowed) {
             ASSERT_TRUE(browser.nextFrame().has_value());
         }
         const std::size_t rendered = frames.requests().size();
-        for (int i = 0; i < 20; ++i)
-            browser.look(++sequence);
+        for (int i = 0; i < 20; ++i) browser.look(++sequence);
         EXPECT_FALSE(browser.nextFrame(milliseconds(100)).has_value());
-        EXPECT_EQ(frames.requests().size(), rendered) << "rendered for a browser that cannot take it";
+        EXPECT_EQ(frames.requests().size(), rendered)
+            << "rendered for a browser that cannot take it";
         browser.acknowledge(1);
         EXPECT_EQ(browser.nextFrame()->view_sequence(), sequence);
     }
@@ -259,7 +259,8 @@ TEST(Viewer, TellsWhyThereIsNoFrameAndRecoversByItself) {
     const auto failed = browser.stateWhere([](const auto& s) { return !s.problem().empty(); });
     ASSERT_TRUE(failed.has_value());
     EXPECT_EQ(failed->problem(), "no renderer [31m left");
-    frames.setDraw([](const FrameRequest& request) { return coordinator::plainFrame(request, {}); });
+    frames.setDraw(
+        [](const FrameRequest& request) { return coordinator::plainFrame(request, {}); });
     EXPECT_TRUE(browser.stateWhere([](const auto& s) { return s.problem().empty(); }));
     EXPECT_EQ(browser.nextFrame()->view_sequence(), 1u);
 }
@@ -362,7 +363,7 @@ int windowAfter(milliseconds render, milliseconds transmit, milliseconds roundTr
 }
 
 TEST(Pacer, LetsInAsManyFramesAsKeepTheSlowestStageBusy) {
-    EXPECT_EQ(windowAfter(milliseconds(25), milliseconds(1), milliseconds(8)), 2);   // loopback
+    EXPECT_EQ(windowAfter(milliseconds(25), milliseconds(1), milliseconds(8)), 2);    // loopback
     EXPECT_EQ(windowAfter(milliseconds(30), milliseconds(20), milliseconds(50)), 4);  // 20 Mbit/s
     EXPECT_EQ(windowAfter(milliseconds(30), milliseconds(80), milliseconds(50)), 2);  // 5 Mbit/s
     EXPECT_EQ(windowAfter(milliseconds(5), milliseconds(1), milliseconds(300)), 4);   // the limit

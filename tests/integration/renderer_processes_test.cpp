@@ -91,8 +91,10 @@ protected:
         for (const FrameRequest& view : views) {
             fabric::FrameData frame{.version = 1, .camera = view.camera,
                                     .tauPixels = view.tauPixels};
-            fabric::ChannelTask task{
-                .frameDataVersion = 1, .viewWidth = view.width, .viewHeight = view.height};
+            fabric::ChannelTask task;
+            task.frameDataVersion = 1;
+            task.viewWidth = view.width;
+            task.viewHeight = view.height;
             task.pixelViewport = {0, 0, view.width, view.height};
             task.wantsDepth = true;
             auto result = renderer.render(frame, task);

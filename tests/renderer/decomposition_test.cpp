@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // One renderer, one process: every decomposition must give the picture of the single channel.
-#include "fabric/depth_merge.h"
-#include "renderer/gl/debug_output.h"
-#include "renderer/renderer.h"
-#include "tests/renderer/sample_scene.h"
+#include <cstdlib>
+#include <random>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <random>
+#include "fabric/depth_merge.h"
+#include "renderer/gl/debug_output.h"
+#include "renderer/renderer.h"
+#include "tests/renderer/sample_scene.h"
 
 namespace eyrie {
 namespace {
@@ -107,10 +107,9 @@ protected:
     static void expectEqual(const Image& expected, const Image& actual, const std::string& what) {
         std::size_t different = 0;
         for (std::size_t i = 0; i < expected.colour.size(); ++i)
-            different += expected.colour[i] == actual.colour[i] &&
-                                 expected.depth[i] == actual.depth[i]
-                             ? 0
-                             : 1;
+            different +=
+                expected.colour[i] == actual.colour[i] && expected.depth[i] == actual.depth[i] ? 0
+                                                                                               : 1;
         EXPECT_EQ(different, 0U) << what << " differs in so many pixels of "
                                  << expected.colour.size();
     }
@@ -126,8 +125,7 @@ TEST_P(DecompositionTest, EveryDecompositionEqualsTheSingleChannelAtTwentyCamera
     for (int camera = 0; camera < 20; ++camera) {
         const FrameData frame = randomFrame(random, info_.bounds);
         const Image expected = single(frame);
-        for (const float depth : expected.depth)
-            covered += depth > 0 ? 1 : 0;
+        for (const float depth : expected.depth) covered += depth > 0 ? 1 : 0;
         const std::string name = "camera " + std::to_string(camera) + ", ";
         expectEqual(expected, sortFirst(frame, 2), name + "2D over 2");
         expectEqual(expected, sortFirst(frame, 4), name + "2D over 4");

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/renderer/sample_scene.h"
 
+#include <cstdlib>
+#include <filesystem>
+
+#include <glm/gtc/matrix_transform.hpp>
+
 #include "fabric/status.h"
 #include "renderer/import/mesh_import.h"
 #include "renderer/import/mesh_synth.h"
@@ -8,11 +13,6 @@
 #include "renderer/import/terrain_synth.h"
 #include "renderer/mesh/eym_format.h"
 #include "renderer/terrain/eyt_format.h"
-
-#include <glm/gtc/matrix_transform.hpp>
-
-#include <cstdlib>
-#include <filesystem>
 
 namespace eyrie::test {
 namespace {
@@ -67,9 +67,9 @@ absl::StatusOr<fabric::Mat4> onTop(const fabric::SceneObject& mesh,
     const fabric::Box box = meshFile.bounds();
     const fabric::Box ground = terrainFile->index().bounds();
     const double scale = ground.size().x / 4 / box.size().x;
-    return glm::translate(glm::scale(glm::translate(fabric::Mat4(1.0), ground.centre()),
-                                     fabric::Vec3(scale)),
-                          -box.centre());
+    return glm::translate(
+        glm::scale(glm::translate(fabric::Mat4(1.0), ground.centre()), fabric::Vec3(scale)),
+        -box.centre());
 }
 
 }  // namespace

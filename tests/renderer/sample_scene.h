@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "fabric/scene.h"
+#include <string>
 
 #include <absl/status/statusor.h>
 
-#include <string>
+#include "fabric/scene.h"
 
 namespace eyrie::test {
 

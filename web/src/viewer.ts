@@ -108,6 +108,8 @@ export class Viewer implements CameraHolder {
 
   private sendView(): void {
     this.sendAt = undefined;
+    const inputTime = this.inputTime;
+    this.inputTime = undefined;
     if (this.camera === null) return;
     const isSent = this.socket.sendView({
       sequence: this.sequence + 1,
@@ -118,12 +120,11 @@ export class Viewer implements CameraHolder {
     });
     // A view that cannot go now goes when the connection opens, or with the next frame.
     if (!isSent) {
-      if (this.state.connection.value.kind === "connected") this.requestView();
+      if (this.state.connection.value.kind === "connected") this.requestView(inputTime);
       return;
     }
     this.sequence += 1;
-    this.latency.sent(this.sequence, performance.now(), this.inputTime);
-    this.inputTime = undefined;
+    this.latency.sent(this.sequence, performance.now(), inputTime);
   }
 
   private wantedSize(): Size {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/gl/egl_context.h"
 
+#include <gtest/gtest.h>
+
 #include "renderer/gl/debug_output.h"
 #include "renderer/gl/framebuffer.h"
 #include "renderer/gl/program.h"
-
-#include <gtest/gtest.h>
 
 namespace eyrie::gl {
 namespace {

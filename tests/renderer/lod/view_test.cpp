@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/lod/view.h"
 
-#include "renderer/lod/lattice_view.h"
+#include <cmath>
+#include <optional>
+#include <random>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include <cmath>
-#include <optional>
-#include <random>
+#include "renderer/lod/lattice_view.h"
 
 namespace eyrie::lod {
 namespace {
@@ -50,8 +50,7 @@ public:
     Vec3 vector(double size) { return {in(-size, size), in(-size, size), in(-size, size)}; }
     Vec3 direction() {
         Vec3 v = vector(1);
-        while (glm::length(v) < 0.1)
-            v = vector(1);
+        while (glm::length(v) < 0.1) v = vector(1);
         return glm::normalize(v);
     }
 
@@ -99,8 +98,7 @@ TEST(ScreenSpaceError, HoldsInTheCornerOfAWideView) {
     const double tangent = view.frustum.right * 0.99;
     const Box box = Box{Vec3(tangent * 10, 10, 16), Vec3(tangent * 10, 10, 16)}.grownBy(0.01);
     const double error = 0.05;
-    const double bound =
-        ObjectView(view, Mat4(1.0)).screenSpaceErrorPixels(error, box);
+    const double bound = ObjectView(view, Mat4(1.0)).screenSpaceErrorPixels(error, box);
     const double withoutSecant = error * view.focalPixels / 10;
     const Vec3 point = box.centre();
     double worst = 0;
@@ -165,8 +163,7 @@ TEST(LatticeView, PlacesTheSameWorldPointAlikeAtAnyDistanceFromTheOrigin) {
             const glm::vec4 clip =
                 lattice.clipFromLattice * glm::vec4(glm::vec3(point - lattice.cameraLattice), 1.0F);
             const Vec2 pixel((clip.x / clip.w + 1) * 640, (clip.y / clip.w + 1) * 360);
-            const auto expected =
-                project(camera, 1280, 720, Vec3(origin) + Vec3(point) * 0.25);
+            const auto expected = project(camera, 1280, 720, Vec3(origin) + Vec3(point) * 0.25);
             ASSERT_TRUE(expected);
             EXPECT_LT(glm::distance(pixel, *expected), 1e-3) << "origin " << origin;
         }

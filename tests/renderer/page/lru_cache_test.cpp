@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/page/lru_cache.h"
 
-#include <gtest/gtest.h>
-
 #include <string>
+
+#include <gtest/gtest.h>
 
 namespace eyrie::page {
 namespace {
@@ -26,8 +26,7 @@ TEST(LruCache, DropsWhatWasNotUsedLongestOnceTheLimitIsExceeded) {
 
 TEST(LruCache, NeverDropsWhatTheCurrentFrameUses) {
     LruCache<int, int> cache(10);
-    for (int key = 0; key < 5; ++key)
-        cache.insert(key, key, 10);
+    for (int key = 0; key < 5; ++key) cache.insert(key, key, 10);
     cache.trim();
     EXPECT_EQ(cache.size(), 5U) << "all five were used in this frame";
     ASSERT_NE(cache.find(3), nullptr);

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/child_process.h"
+
+#include "cli/stop_signal.h"
+
+#include <fmt/format.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <thread>
+
+namespace eyrie::cli {
+namespace {
+
+constexpr std::chrono::milliseconds kDestructorGrace{2000};
+
+std::vector<char*> pointers(std::vector<std::string>& texts) {
+    std::vector<char*> result;
+    for (std::string& text : texts)
+        result.push_back(text.data());
+    result.push_back(nullptr);
+    return result;
+}
+
+std::vector<std::string> mergedEnvironment(const std::vector<std::string>& additions) {
+    std::vector<std::string> result;
+    for (char** entry = environ; *entry != nullptr; ++entry)
+        result.emplace_back(*entry);
+    for (const std::string& addition : additions)
+        if (std::getenv(addition.substr(0, addition.find('=')).c_str()) == nullptr)
+            result.push_back(addition);
+    return result;
+}
+
+/// In the child; only calls that are safe after fork in a process with threads.
+[[noreturn]] void become(char* const* arguments, char* const* environment, pid_t parent) {
+    setpgid(0, 0);  // Ctrl-C is for the parent, which then ends its children
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
+    if (getppid() != parent)
+        _exit(1);  // it was gone before we asked to be told
+    unblockStopSignals();
+    execve("/proc/self/exe", arguments, environment);
+    _exit(127);
+}
+
+}  // namespace
+
+absl::StatusOr<ChildProcess> ChildProcess::start(const std::vector<std::string>& arguments,
+                                                 const std::vector<std::string>& environment) {
+    std::vector<std::string> command = {"eyrie"};
+    command.insert(command.end(), arguments.begin(), arguments.end());
+    std::vector<std::string> variables = mergedEnvironment(environment);
+    const std::vector<char*> commandPointers = pointers(command);
+    const std::vector<char*> variablePointers = pointers(variables);
+    const pid_t parent = getpid();
+    const pid_t pid = fork();
+    if (pid == 0)
+        become(commandPointers.data(), variablePointers.data(), parent);
+    if (pid < 0)
+        return absl::UnavailableError(
+            fmt::format("cannot start `eyrie {}`: {}", arguments.front(), std::strerror(errno)));
+    return ChildProcess(pid);
+}
+
+ChildProcess::~ChildProcess() { stop(kDestructorGrace); }
+
+std::string ChildProcess::End::text() const {
+    return fmt::format("{} {}", crashed ? "signal" : "exit status", code);
+}
+
+std::optional<ChildProcess::End> ChildProcess::poll() {
+    int status = 0;
+    if (pid_ < 0 || waitpid(pid_, &status, WNOHANG) != pid_)
+        return std::nullopt;
+    pid_ = -1;
+    if (WIFSIGNALED(status))
+        return End{true, WTERMSIG(status)};
+    return End{false, WEXITSTATUS(status)};
+}
+
+void ChildProcess::terminate() {
+    if (pid_ > 0)
+        kill(pid_, SIGTERM);
+}
+
+void ChildProcess::stop(std::chrono::milliseconds grace) {
+    if (pid_ < 0)
+        return;
+    terminate();
+    const auto deadline = std::chrono::steady_clock::now() + grace;
+    while (!poll() && std::chrono::steady_clock::now() < deadline)
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    if (pid_ < 0)
+        return;
+    kill(pid_, SIGKILL);
+    waitpid(pid_, nullptr, 0);
+    pid_ = -1;
+}
+
+}  // namespace eyrie::cli

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <deque>
+#include <optional>
+
+namespace eyrie::cli {
+
+/// When to start a process again that has ended: after a pause that doubles from failure to
+/// failure, and not more than kMaxPerMinute times a minute, so that one which cannot work does not
+/// keep the machine busy. Time comes in as a parameter.
+class RestartPolicy {
+public:
+    using Clock = std::chrono::steady_clock;
+    static constexpr int kMaxPerMinute = 6;
+    static constexpr std::chrono::milliseconds kFirstPause{250};
+    static constexpr std::chrono::milliseconds kLongestPause{10'000};
+
+    /// The process ended now. Returns when it may start again.
+    Clock::time_point ended(Clock::time_point now);
+
+private:
+    std::deque<Clock::time_point> recent_;  ///< ends within the last minute
+};
+
+}  // namespace eyrie::cli

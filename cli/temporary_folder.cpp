@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/temporary_folder.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <system_error>
+
+namespace eyrie::cli {
+
+absl::StatusOr<TemporaryFolder> TemporaryFolder::create() {
+    std::error_code error;
+    std::filesystem::path parent = std::filesystem::temp_directory_path(error);
+    if (error)
+        parent = "/tmp";
+    std::string name = (parent / "eyrie-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr)  // mode 0700
+        return absl::UnavailableError(fmt::format("{}: cannot make a temporary folder here ({})",
+                                                  parent.string(), std::strerror(errno)));
+    return TemporaryFolder(name);
+}
+
+TemporaryFolder::~TemporaryFolder() {
+    std::error_code ignored;
+    if (!path_.empty())
+        std::filesystem::remove_all(path_, ignored);
+}
+
+}  // namespace eyrie::cli

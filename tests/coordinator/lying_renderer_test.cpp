@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+// A renderer process that does not keep to the protocol costs an error, never the coordinator.
+#include "coordinator/farm/grpc_renderer.h"
+
+#include "eyrie/v1/render_service.grpc.pb.h"
+#include "tests/support/temporary_folder.h"
+#include "wire/listen.h"
+
+#include <gmock/gmock.h>
+#include <grpcpp/grpcpp.h>
+
+#include <functional>
+#include <limits>
+#include <string>
+
+namespace eyrie::coordinator {
+namespace {
+
+using Writer = grpc::ServerWriter<v1::RenderChannelResponse>;
+
+class LyingService final : public v1::RenderService::Service {
+public:
+    grpc::Status OpenScene(grpc::ServerContext*, const v1::OpenSceneRequest*,
+                           v1::OpenSceneResponse* response) override {
+        response->mutable_bounds()->mutable_min()->set_x(std::numeric_limits<double>::quiet_NaN());
+        return grpc::Status::OK;
+    }
+    grpc::Status RenderChannel(grpc::ServerContext*, const v1::RenderChannelRequest*,
+                               Writer* writer) override {
+        answer(*writer);
+        return grpc::Status::OK;
+    }
+
+    std::function<void(Writer&)> answer;
+};
+
+class LyingRenderer : public testing::Test {
+protected:
+    static v1::RenderChannelResponse header(int side) {
+        v1::RenderChannelResponse message;
+        message.mutable_header()->mutable_area()->set_width(side);
+        message.mutable_header()->mutable_area()->set_height(side);
+        message.mutable_header()->set_pixel_bytes(static_cast<std::uint64_t>(side * side * 4));
+        return message;
+    }
+    static v1::RenderChannelResponse chunk(std::size_t bytes) {
+        v1::RenderChannelResponse message;
+        message.set_chunk(std::string(bytes, 'x'));
+        return message;
+    }
+    absl::Status render(std::chrono::milliseconds limit = std::chrono::seconds(20)) {
+        const fabric::ChannelTask task{1, 1, 64, 64, {0, 0, 64, 64}, {}, false};
+        return renderer_->render(task, ChannelRenderer::Clock::now() + limit).status();
+    }
+
+    test::TemporaryFolder folder_;
+    LyingService service_;
+    wire::Listening listening_ = wire::listen({"unix:" + folder_.path("s")}, service_).value();
+    std::shared_ptr<ChannelRenderer> renderer_ = connectRenderer(listening_.addresses[0]);
+};
+
+TEST_F(LyingRenderer, AnAreaOutsideTheTaskIsAnErrorThatNamesIt) {
+    service_.answer = [](Writer& writer) { writer.Write(header(65)); };
+    const absl::Status status = render();
+    EXPECT_EQ(status.code(), absl::StatusCode::kInternal);
+    EXPECT_THAT(std::string(status.message()),
+                testing::AllOf(testing::HasSubstr(listening_.addresses[0]),
+                               testing::HasSubstr("area is 65x65")));
+}
+
+TEST_F(LyingRenderer, TooFewPixelsAreAnError) {
+    service_.answer = [](Writer& writer) {
+        writer.Write(header(64));
+        writer.Write(chunk(100));
+    };
+    EXPECT_EQ(render().code(), absl::StatusCode::kInternal);
+}
+
+TEST_F(LyingRenderer, AStreamWithoutEndIsCutOff) {
+    service_.answer = [](Writer& writer) {
+        writer.Write(header(64));
+        while (writer.Write(chunk(1000))) {
+        }
+    };
+    EXPECT_EQ(render().code(), absl::StatusCode::kInternal);
+}
+
+TEST_F(LyingRenderer, EmptyChunksWithoutEndRunIntoTheDeadline) {
+    service_.answer = [](Writer& writer) {
+        writer.Write(header(64));
+        while (writer.Write(chunk(0))) {
+        }
+    };
+    EXPECT_EQ(render(std::chrono::milliseconds(200)).code(), absl::StatusCode::kDeadlineExceeded);
+}
+
+TEST_F(LyingRenderer, AMessageBeyondTheLimitIsRefused) {
+    service_.answer = [](Writer& writer) {
+        writer.Write(header(64));
+        writer.Write(chunk(std::size_t{16} << 20));
+    };
+    EXPECT_EQ(render().code(), absl::StatusCode::kResourceExhausted);
+}
+
+TEST_F(LyingRenderer, ABoxThatIsNoNumbersIsAnError) {
+    const auto info =
+        renderer_->openScene({}, ChannelRenderer::Clock::now() + std::chrono::seconds(20));
+    EXPECT_EQ(info.status().code(), absl::StatusCode::kInternal);
+}
+
+TEST_F(LyingRenderer, OneThatIsGoneIsUnavailable) {
+    listening_.server->Shutdown();
+    EXPECT_EQ(render().code(), absl::StatusCode::kUnavailable);
+}
+
+}  // namespace
+}  // namespace eyrie::coordinator

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/farm/picture_assembly.h"
+
+#include "eyrie/v1/render_service.pb.h"
+
+#include <gmock/gmock.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <string>
+
+namespace eyrie::coordinator {
+namespace {
+
+const fabric::ChannelTask kTask{1, 1, 100, 50, {10, 5, 40, 20}, {}, true};
+
+v1::ChannelHeader header(int x, int y, int width, int height, bool hasDepth = true) {
+    v1::ChannelHeader message;
+    message.mutable_area()->set_x(x);
+    message.mutable_area()->set_y(y);
+    message.mutable_area()->set_width(width);
+    message.mutable_area()->set_height(height);
+    message.set_has_depth(hasDepth);
+    message.set_pixel_bytes(static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) *
+                            (hasDepth ? 8 : 4));
+    return message;
+}
+
+std::string refusal(const v1::ChannelHeader& message) {
+    PictureAssembly assembly(kTask);
+    const absl::Status status = assembly.takeHeader(message);
+    EXPECT_EQ(status.code(), absl::StatusCode::kInternal);
+    return std::string(status.message());
+}
+
+RC_GTEST_PROP(PictureAssembly, AnyCutIntoChunksGivesThePixels, ()) {
+    std::string pixels(7 * 3 * 8, ' ');
+    for (std::size_t i = 0; i < pixels.size(); ++i)
+        pixels[i] = static_cast<char>(i * 7);
+    PictureAssembly assembly(kTask);
+    RC_ASSERT(assembly.takeHeader(header(12, 6, 7, 3)).ok());
+    for (std::size_t sent = 0; sent < pixels.size();) {
+        const auto size = static_cast<std::size_t>(*rc::gen::inRange(0, 60));
+        const std::string chunk = pixels.substr(sent, size);
+        RC_ASSERT(assembly.takeChunk(chunk).ok());
+        sent += chunk.size();
+    }
+    const fabric::ChannelResult result = assembly.finish().value();
+    RC_ASSERT(std::memcmp(result.image.colour.data(), pixels.data(), 7 * 3 * 4) == 0);
+    RC_ASSERT(std::memcmp(result.image.depth.data(), pixels.data() + 7 * 3 * 4, 7 * 3 * 4) == 0);
+}
+
+TEST(PictureAssembly, AnAreaOutsideTheTaskIsRefused) {
+    EXPECT_THAT(refusal(header(9, 5, 10, 10)), testing::HasSubstr("outside the task's 40x20 at 10,5"));
+    EXPECT_THAT(refusal(header(10, 5, 41, 20)), testing::HasSubstr("outside the task's"));
+    EXPECT_THAT(refusal(header(10, 5, -4, 20)), testing::HasSubstr("pixel_viewport.width"));
+    EXPECT_THAT(refusal(header(10, 5, std::numeric_limits<int>::max(), 20)),
+                testing::HasSubstr("pixel_viewport.width"));
+}
+
+TEST(PictureAssembly, SizesThatDoNotMatchAreRefused) {
+    v1::ChannelHeader wrong = header(10, 5, 4, 4);
+    wrong.set_pixel_bytes(std::numeric_limits<std::uint64_t>::max());
+    EXPECT_THAT(refusal(wrong), testing::HasSubstr("pixel_bytes"));
+    EXPECT_THAT(refusal(header(10, 5, 4, 4, false)), testing::HasSubstr("has_depth"));
+}
+
+TEST(PictureAssembly, StatisticsThatAreNoNumbersAreRefused) {
+    v1::ChannelHeader odd = header(10, 5, 4, 4);
+    odd.mutable_statistics()->set_tau_achieved(std::numeric_limits<double>::quiet_NaN());
+    EXPECT_THAT(refusal(odd), testing::HasSubstr("tau_achieved"));
+}
+
+TEST(PictureAssembly, TooFewAndTooManyPixelsAreRefused) {
+    PictureAssembly few(kTask);
+    ASSERT_TRUE(few.takeHeader(header(10, 5, 4, 4)).ok());
+    ASSERT_TRUE(few.takeChunk(std::string(127, 'x')).ok());
+    EXPECT_EQ(few.finish().status().code(), absl::StatusCode::kInternal);
+    PictureAssembly many(kTask);
+    ASSERT_TRUE(many.takeHeader(header(10, 5, 4, 4)).ok());
+    EXPECT_EQ(many.takeChunk(std::string(129, 'x')).code(), absl::StatusCode::kInternal);
+}
+
+TEST(PictureAssembly, TheHeaderComesFirstAndOnce) {
+    PictureAssembly headless(kTask);
+    EXPECT_EQ(headless.takeChunk("x").code(), absl::StatusCode::kInternal);
+    EXPECT_EQ(headless.finish().status().code(), absl::StatusCode::kInternal);
+    PictureAssembly twice(kTask);
+    ASSERT_TRUE(twice.takeHeader(header(10, 5, 4, 4)).ok());
+    EXPECT_EQ(twice.takeHeader(header(10, 5, 4, 4)).code(), absl::StatusCode::kInternal);
+}
+
+TEST(PictureAssembly, NothingDrawnNeedsNoPixels) {
+    PictureAssembly assembly(kTask);
+    ASSERT_TRUE(assembly.takeHeader(header(0, 0, 0, 0, false)).ok());
+    EXPECT_TRUE(assembly.finish().value().image.area.isEmpty());
+}
+
+}  // namespace
+}  // namespace eyrie::coordinator

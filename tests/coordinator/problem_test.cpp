@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/frame/problem.h"
+
+#include <gmock/gmock.h>
+
+namespace eyrie::coordinator {
+namespace {
+
+TEST(Problem, WithoutARendererItSaysHowToStartOne) {
+    EXPECT_THAT(problemOf({0, 0, false, "", "eyrie renderer --coordinator h:9"}),
+                testing::HasSubstr("`eyrie renderer --coordinator h:9`"));
+}
+
+TEST(Problem, AnEmptySceneIsNamed) {
+    EXPECT_THAT(problemOf({2, 0, true, "", ""}), testing::HasSubstr("scene is empty"));
+}
+
+TEST(Problem, OpeningIsSaidUntilOneRendererIsReady) {
+    EXPECT_THAT(problemOf({0, 1, false, "", ""}), testing::HasSubstr("opening the scene"));
+    EXPECT_EQ(problemOf({1, 1, false, "", ""}), "");
+}
+
+TEST(Problem, WhatTheRendererSaidIsPassedOn) {
+    EXPECT_THAT(problemOf({0, 0, false, "/d/a.eyt: no such file", ""}),
+                testing::HasSubstr("/d/a.eyt: no such file"));
+    EXPECT_EQ(problemOf({1, 0, false, "/d/a.eyt: no such file", ""}), "");
+}
+
+}  // namespace
+}  // namespace eyrie::coordinator

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "service/channel_drawer.h"
+
+#include <atomic>
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+namespace eyrie::service {
+
+/// What a test sees of a FakeDrawer, and how it holds it up.
+struct FakeDrawerControl {
+    std::atomic<int> begun{0};
+    std::atomic<int> drawn{0};
+    std::atomic<bool> destroyed{false};
+    std::atomic<bool> oneThread{true};
+
+    /// The drawer waits in its next call until release.
+    void hold() {
+        const std::lock_guard lock(mutex);
+        held = true;
+    }
+    void release() {
+        {
+            const std::lock_guard lock(mutex);
+            held = false;
+        }
+        changed.notify_all();
+    }
+    void waitWhileHeld() {
+        std::unique_lock lock(mutex);
+        changed.wait(lock, [this] { return !held; });
+    }
+
+    std::mutex mutex;
+    std::condition_variable changed;
+    bool held = false;
+};
+
+/// Draws a gradient of colour and depth, with tau in the statistics; opens every scene but "absent".
+class FakeDrawer final : public ChannelDrawer {
+public:
+    explicit FakeDrawer(std::shared_ptr<FakeDrawerControl> control) : control_(std::move(control)) {}
+    ~FakeDrawer() override {
+        checkThread();
+        control_->destroyed = true;
+    }
+
+    const fabric::DeviceInfo& device() const override { return device_; }
+
+    absl::StatusOr<fabric::SceneInfo> openScene(const fabric::Scene& scene) override {
+        checkThread();
+        if (!scene.objects.empty() && scene.objects[0].path == "absent")
+            return absl::NotFoundError("absent: no such file");
+        return fabric::SceneInfo{{{0, 0, 0}, {1, 1, 1}}, 12, 34};
+    }
+
+    absl::StatusOr<fabric::ChannelResult> render(const fabric::FrameData& frameData,
+                                                 const fabric::ChannelTask& task) override {
+        checkThread();
+        ++control_->begun;
+        control_->waitWhileHeld();
+        ++control_->drawn;
+        return picture(frameData, task);
+    }
+
+    static fabric::ChannelResult picture(const fabric::FrameData& frameData,
+                                         const fabric::ChannelTask& task) {
+        fabric::ChannelResult result;
+        result.image = fabric::makeImage(task.pixelViewport, {}, task.wantsDepth);
+        for (std::size_t i = 0; i < result.image.colour.size(); ++i) {
+            result.image.colour[i].r = static_cast<std::uint8_t>(i);
+            result.image.colour[i].g = static_cast<std::uint8_t>(i >> 8);
+            if (task.wantsDepth)
+                result.image.depth[i] = 1.0F / static_cast<float>(i + 1);
+        }
+        result.statistics.tauAskedPixels = frameData.tauPixels;
+        return result;
+    }
+
+private:
+    void checkThread() const {
+        if (std::this_thread::get_id() != thread_)
+            control_->oneThread = false;
+    }
+
+    const std::shared_ptr<FakeDrawerControl> control_;
+    const std::thread::id thread_ = std::this_thread::get_id();
+    const fabric::DeviceInfo device_{"Eyrie", "fake", "1.0", "none", true};
+};
+
+inline DrawerFactory fakeDrawers(std::shared_ptr<FakeDrawerControl> control) {
+    return [control]() -> absl::StatusOr<std::unique_ptr<ChannelDrawer>> {
+        return std::make_unique<FakeDrawer>(control);
+    };
+}
+
+}  // namespace eyrie::service

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "service/render_server.h"
+
+#include "coordinator/farm/grpc_renderer.h"
+#include "eyrie/v1/render_service.grpc.pb.h"
+#include "fake_drawer.h"
+#include "service/render_service.h"
+#include "tests/service/eventually.h"
+#include "tests/support/temporary_folder.h"
+#include "wire/frame.h"
+#include "wire/transport.h"
+
+#include <gmock/gmock.h>
+#include <grpcpp/grpcpp.h>
+
+#include <thread>
+#include <vector>
+
+namespace eyrie::service {
+namespace {
+
+using coordinator::ChannelRenderer;
+
+ChannelRenderer::Clock::time_point soon() {
+    return ChannelRenderer::Clock::now() + std::chrono::seconds(20);
+}
+
+class RenderServerTest : public testing::Test {
+protected:
+    RenderServerTest()
+        : thread_(GlThread::start(fakeDrawers(control_)).value()),
+          server_(RenderServer::start("unix:" + folder_.path("s"), *thread_).value()),
+          renderer_(coordinator::connectRenderer(server_->address())),
+          stub_(v1::RenderService::NewStub(grpc::CreateCustomChannel(
+              server_->address(), grpc::InsecureChannelCredentials(), wire::clientArguments()))) {}
+
+    static fabric::FrameData frameData() { return {1, {}, 2, fabric::Shading::Flat}; }
+    static fabric::ChannelTask task(int width, int height, bool wantsDepth) {
+        return {1, 1, width, height, {0, 0, width, height}, {}, wantsDepth};
+    }
+
+    test::TemporaryFolder folder_;
+    std::shared_ptr<FakeDrawerControl> control_ = std::make_shared<FakeDrawerControl>();
+    std::unique_ptr<GlThread> thread_;
+    std::unique_ptr<RenderServer> server_;
+    std::shared_ptr<ChannelRenderer> renderer_;
+    std::unique_ptr<v1::RenderService::Stub> stub_;
+};
+
+TEST_F(RenderServerTest, APictureOfTwentyMegabytesArrivesAsItWasDrawn) {
+    ASSERT_TRUE(renderer_->setFrameData(frameData(), soon()).ok());
+    const fabric::ChannelTask large = task(2000, 1300, true);
+    const auto result = renderer_->render(large, soon());
+    ASSERT_TRUE(result.ok()) << result.status();
+    const fabric::ChannelResult expected = FakeDrawer::picture(frameData(), large);
+    EXPECT_TRUE(result->image == expected.image);
+    EXPECT_EQ(result->statistics, expected.statistics);
+}
+
+TEST_F(RenderServerTest, ChunksAreOfOneMebibyteAtMost) {
+    ASSERT_TRUE(renderer_->setFrameData(frameData(), soon()).ok());
+    v1::RenderChannelRequest request;
+    *request.mutable_task() = wire::toMessage(task(1000, 700, true));
+    grpc::ClientContext context;
+    const auto reader = stub_->RenderChannel(&context, request);
+    v1::RenderChannelResponse part;
+    ASSERT_TRUE(reader->Read(&part));
+    EXPECT_EQ(part.header().pixel_bytes(), 1000U * 700 * 8);
+    std::size_t bytes = 0;
+    while (reader->Read(&part)) {
+        EXPECT_LE(part.chunk().size(), wire::kChunkBytes);
+        bytes += part.chunk().size();
+    }
+    EXPECT_EQ(bytes, 1000U * 700 * 8);
+    EXPECT_TRUE(reader->Finish().ok());
+}
+
+TEST_F(RenderServerTest, AnUnknownFrameDataVersionIsAFailedPrecondition) {
+    EXPECT_EQ(renderer_->render(task(8, 8, false), soon()).status().code(),
+              absl::StatusCode::kFailedPrecondition);
+}
+
+TEST_F(RenderServerTest, ATaskBeyondTheLimitsIsRefusedUndrawn) {
+    ASSERT_TRUE(renderer_->setFrameData(frameData(), soon()).ok());
+    const auto status = renderer_->render(task(100'000, 8, false), soon()).status();
+    EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
+    EXPECT_THAT(std::string(status.message()), testing::HasSubstr("task.view_width"));
+    EXPECT_EQ(control_->drawn, 0);
+}
+
+TEST_F(RenderServerTest, SceneErrorsKeepTheirCodeAndMessage) {
+    fabric::Scene scene;
+    scene.objects.push_back({"ghost", fabric::ObjectKind::Mesh, "absent", fabric::Mat4(1.0), {}});
+    const auto info = renderer_->openScene(scene, soon());
+    EXPECT_EQ(info.status().code(), absl::StatusCode::kNotFound);
+    EXPECT_THAT(std::string(info.status().message()), testing::HasSubstr("absent: no such file"));
+}
+
+TEST_F(RenderServerTest, AnOpenSceneReportsItsExtent) {
+    const auto info = renderer_->openScene({}, soon());
+    ASSERT_TRUE(info.ok()) << info.status();
+    EXPECT_EQ(info->bounds, (fabric::Box{{0, 0, 0}, {1, 1, 1}}));
+    EXPECT_EQ(info->triangles, 12U);
+}
+
+TEST_F(RenderServerTest, ACallGivenUpBeforeItsTurnIsNotDrawn) {
+    ASSERT_TRUE(renderer_->setFrameData(frameData(), soon()).ok());
+    control_->hold();
+    std::jthread first([&] { EXPECT_TRUE(renderer_->render(task(8, 8, false), soon()).ok()); });
+    ASSERT_TRUE(eventually([&] { return control_->begun == 1; }));
+    const auto second = coordinator::connectRenderer(server_->address());
+    const auto shortly = ChannelRenderer::Clock::now() + std::chrono::milliseconds(50);
+    EXPECT_EQ(second->render(task(8, 8, false), shortly).status().code(),
+              absl::StatusCode::kDeadlineExceeded);
+    control_->release();
+    first.join();
+    ASSERT_TRUE(renderer_->render(task(8, 8, false), soon()).ok());
+    EXPECT_EQ(control_->drawn, 2);
+}
+
+TEST_F(RenderServerTest, AReaderThatGoesAwayMidPictureHoldsNothingUp) {
+    ASSERT_TRUE(renderer_->setFrameData(frameData(), soon()).ok());
+    for (int i = 0; i < 3 * RenderService::kMaxReplies; ++i) {
+        v1::RenderChannelRequest request;
+        *request.mutable_task() = wire::toMessage(task(2000, 1300, true));
+        grpc::ClientContext context;
+        const auto reader = stub_->RenderChannel(&context, request);
+        v1::RenderChannelResponse header;
+        ASSERT_TRUE(reader->Read(&header)) << i;
+        context.TryCancel();
+        EXPECT_EQ(reader->Finish().error_code(), grpc::StatusCode::CANCELLED);
+    }
+    EXPECT_TRUE(renderer_->render(task(8, 8, false), soon()).ok());
+}
+
+TEST_F(RenderServerTest, ReadersThatNeverReadAreBounded) {
+    ASSERT_TRUE(renderer_->setFrameData(frameData(), soon()).ok());
+    v1::RenderChannelRequest request;
+    *request.mutable_task() = wire::toMessage(task(2000, 1300, true));
+    std::vector<std::unique_ptr<grpc::ClientContext>> contexts;
+    std::vector<std::unique_ptr<grpc::ClientReader<v1::RenderChannelResponse>>> idle;
+    for (int i = 0; i < RenderService::kMaxReplies; ++i) {
+        contexts.push_back(std::make_unique<grpc::ClientContext>());
+        idle.push_back(stub_->RenderChannel(contexts.back().get(), request));
+        idle.back()->WaitForInitialMetadata();
+    }
+    EXPECT_EQ(renderer_->render(task(8, 8, false), soon()).status().code(),
+              absl::StatusCode::kResourceExhausted);
+    for (const auto& context : contexts)
+        context->TryCancel();
+    EXPECT_TRUE(eventually([&] { return renderer_->render(task(8, 8, false), soon()).ok(); }));
+}
+
+TEST_F(RenderServerTest, CancelEndsTheCallInProgressAndEveryLaterOne) {
+    ASSERT_TRUE(renderer_->setFrameData(frameData(), soon()).ok());
+    control_->hold();
+    std::jthread canceller([&] {
+        EXPECT_TRUE(eventually([&] { return control_->begun == 1; }));
+        renderer_->cancel();
+    });
+    EXPECT_EQ(renderer_->render(task(8, 8, false), soon()).status().code(),
+              absl::StatusCode::kCancelled);
+    EXPECT_EQ(renderer_->render(task(8, 8, false), soon()).status().code(),
+              absl::StatusCode::kCancelled);
+    control_->release();
+}
+
+TEST_F(RenderServerTest, StopEndsTheCallInProgress) {
+    ASSERT_TRUE(renderer_->setFrameData(frameData(), soon()).ok());
+    control_->hold();
+    std::jthread stopper([&] {
+        EXPECT_TRUE(eventually([&] { return control_->begun == 1; }));
+        server_->stop(std::chrono::milliseconds(0));
+    });
+    // It ends for the caller although the drawer is still held up, and stop waits for the drawer.
+    EXPECT_FALSE(renderer_->render(task(8, 8, false), soon()).ok());
+    EXPECT_EQ(control_->drawn, 0);
+    control_->release();
+    stopper.join();
+    EXPECT_EQ(control_->drawn, 1);
+    EXPECT_EQ(renderer_->render(task(8, 8, false), soon()).status().code(),
+              absl::StatusCode::kUnavailable);
+}
+
+TEST(RenderServer, AnAddressThatCannotBeListenedOnIsAnError) {
+    auto thread = GlThread::start(fakeDrawers(std::make_shared<FakeDrawerControl>())).value();
+    EXPECT_EQ(RenderServer::start("unix:/no/such/folder/s", *thread).status().code(),
+              absl::StatusCode::kUnavailable);
+}
+
+}  // namespace
+}  // namespace eyrie::service

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "service/renderer_node.h"
+
+#include "coordinator/api/grpc_service.h"
+#include "coordinator/farm/registry.h"
+#include "eyrie/v1/coordinator_service.grpc.pb.h"
+#include "fake_drawer.h"
+#include "fabric/version.h"
+#include "tests/service/eventually.h"
+#include "tests/support/temporary_folder.h"
+#include "wire/listen.h"
+#include "wire/transport.h"
+
+#include <gmock/gmock.h>
+#include <grpcpp/grpcpp.h>
+
+#include <atomic>
+#include <thread>
+
+namespace eyrie::service {
+namespace {
+
+using coordinator::GrpcService;
+using coordinator::Registry;
+
+coordinator::RegistryOptions quickHeartbeats() {
+    coordinator::RegistryOptions options;
+    options.heartbeatInterval = std::chrono::milliseconds(10);
+    return options;
+}
+
+int aliveIn(const Registry& registry) {
+    int alive = 0;
+    for (const Registry::Entry& entry : registry.entries())
+        alive += entry.alive ? 1 : 0;
+    return alive;
+}
+
+/// A coordinator that counts what it hears.
+class CountingCoordinator final : public v1::CoordinatorService::Service {
+public:
+    grpc::Status RegisterRenderer(grpc::ServerContext*, const v1::RegisterRendererRequest*,
+                                  v1::RegisterRendererResponse* response) override {
+        ++registrations;
+        response->set_renderer_id("r7");
+        response->set_heartbeat_milliseconds(10);
+        return grpc::Status::OK;
+    }
+    grpc::Status Heartbeat(grpc::ServerContext*, const v1::HeartbeatRequest* request,
+                           v1::HeartbeatResponse*) override {
+        heartbeats += request->renderer_id() == "r7" ? 1 : 0;
+        return grpc::Status::OK;
+    }
+
+    std::atomic<int> registrations{0};
+    std::atomic<int> heartbeats{0};
+};
+
+class RendererNodeTest : public testing::Test {
+protected:
+    void startCoordinator() {
+        registry_ = std::make_unique<Registry>(quickHeartbeats());
+        door_ = GrpcService::start({"unix:" + folder_.path("s")}, *registry_).value();
+    }
+    void stopCoordinator() {
+        door_.reset();
+        registry_.reset();
+    }
+    void startNode(bool exitWithCoordinator = false) {
+        RendererNodeOptions options;
+        options.coordinator = "unix:" + folder_.path("s");
+        options.exitWithCoordinator = exitWithCoordinator;
+        options.giveUpAfter = std::chrono::milliseconds(200);
+        options.retryInterval = std::chrono::milliseconds(10);
+        node_ = RendererNode::start(options, fakeDrawers(control_)).value();
+        runner_ = std::jthread([this](const std::stop_token& stop) {
+            result_ = node_->run(stop);
+            ended_ = true;
+        });
+    }
+    bool registers() {
+        return eventually([this] { return aliveIn(*registry_) == 1; });
+    }
+
+    test::TemporaryFolder folder_;
+    std::shared_ptr<FakeDrawerControl> control_ = std::make_shared<FakeDrawerControl>();
+    std::unique_ptr<Registry> registry_;
+    std::unique_ptr<GrpcService> door_;
+    std::unique_ptr<RendererNode> node_;
+    absl::Status result_;
+    std::atomic<bool> ended_{false};
+    std::jthread runner_;
+};
+
+TEST_F(RendererNodeTest, RegistersWithItsDeviceAndAddress) {
+    startCoordinator();
+    startNode();
+    ASSERT_TRUE(registers());
+    const Registry::Entry entry = registry_->entries()[0];
+    EXPECT_EQ(entry.device, node_->device());
+    EXPECT_EQ(entry.address, node_->address());
+    EXPECT_TRUE(entry.renderer->openScene({}, Registry::Clock::now() + std::chrono::seconds(20)).ok());
+}
+
+TEST_F(RendererNodeTest, WaitsForACoordinatorThatComesLater) {
+    startNode();
+    startCoordinator();
+    EXPECT_TRUE(registers());
+}
+
+TEST_F(RendererNodeTest, RegistersOnceAndThenSendsHeartbeats) {
+    CountingCoordinator service;
+    const auto listening = wire::listen({"unix:" + folder_.path("s")}, service).value();
+    startNode();
+    EXPECT_TRUE(eventually([&] { return service.heartbeats >= 5; }));
+    EXPECT_EQ(service.registrations, 1);
+    runner_.request_stop();
+    runner_.join();
+}
+
+TEST_F(RendererNodeTest, RegistersAgainWhenItWasGivenUp) {
+    startCoordinator();
+    startNode();
+    ASSERT_TRUE(registers());
+    const std::string before = registry_->entries()[0].id;
+    registry_->markDead(before, "test", Registry::Clock::now());
+    ASSERT_TRUE(registers());
+    ASSERT_EQ(registry_->entries().size(), 1U);
+    EXPECT_NE(registry_->entries()[0].id, before);
+}
+
+TEST_F(RendererNodeTest, RegistersAgainWithACoordinatorThatRestarted) {
+    startCoordinator();
+    startNode();
+    ASSERT_TRUE(registers());
+    stopCoordinator();
+    startCoordinator();
+    EXPECT_TRUE(registers());
+    EXPECT_FALSE(ended_);
+}
+
+TEST_F(RendererNodeTest, EndsWithItsCoordinatorWhenToldTo) {
+    startCoordinator();
+    startNode(true);
+    ASSERT_TRUE(registers());
+    stopCoordinator();
+    ASSERT_TRUE(eventually([this] { return ended_.load(); }));
+    EXPECT_EQ(result_.code(), absl::StatusCode::kUnavailable);
+    EXPECT_THAT(std::string(result_.message()), testing::HasSubstr("unix:" + folder_.path("s")));
+}
+
+TEST_F(RendererNodeTest, EndsWhenItIsStopped) {
+    startCoordinator();
+    startNode();
+    ASSERT_TRUE(registers());
+    runner_.request_stop();
+    ASSERT_TRUE(eventually([this] { return ended_.load(); }));
+    EXPECT_TRUE(result_.ok()) << result_;
+    runner_.join();
+    node_.reset();
+    EXPECT_TRUE(control_->destroyed);
+}
+
+TEST(RendererNode, AnAddressOfAnotherFormIsRefused) {
+    RendererNodeOptions options;
+    options.coordinator = "nowhere";
+    const auto node = RendererNode::start(options, fakeDrawers(std::make_shared<FakeDrawerControl>()));
+    EXPECT_EQ(node.status().code(), absl::StatusCode::kInvalidArgument);
+}
+
+TEST(CoordinatorGrpc, ARendererOfAnotherVersionIsTurnedDown) {
+    const test::TemporaryFolder folder;
+    Registry registry;
+    const auto door = GrpcService::start({"unix:" + folder.path("s")}, registry).value();
+    const auto stub = v1::CoordinatorService::NewStub(grpc::CreateCustomChannel(
+        "unix:" + folder.path("s"), grpc::InsecureChannelCredentials(), wire::clientArguments()));
+    v1::RegisterRendererRequest request;
+    request.set_address("127.0.0.1:1");
+    request.set_software_version("0.0.1");
+    v1::RegisterRendererResponse response;
+    grpc::ClientContext context;
+    const grpc::Status status = stub->RegisterRenderer(&context, request, &response);
+    EXPECT_EQ(status.error_code(), grpc::StatusCode::FAILED_PRECONDITION);
+    EXPECT_THAT(status.error_message(),
+                testing::AllOf(testing::HasSubstr("0.0.1"),
+                               testing::HasSubstr(std::string(fabric::kVersion))));
+    EXPECT_TRUE(registry.entries().empty());
+}
+
+}  // namespace
+}  // namespace eyrie::service
