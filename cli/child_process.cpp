@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/child_process.h"
 
-#include "cli/stop_signal.h"
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <thread>
 
 #include <fmt/format.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <cerrno>
-#include <csignal>
-#include <cstdlib>
-#include <cstring>
-#include <thread>
+#include "cli/stop_signal.h"
 
 namespace eyrie::cli {
 namespace {
@@ -21,16 +21,14 @@ constexpr std::chrono::milliseconds kDestructorGrace{2000};
 
 std::vector<char*> pointers(std::vector<std::string>& texts) {
     std::vector<char*> result;
-    for (std::string& text : texts)
-        result.push_back(text.data());
+    for (std::string& text : texts) result.push_back(text.data());
     result.push_back(nullptr);
     return result;
 }
 
 std::vector<std::string> mergedEnvironment(const std::vector<std::string>& additions) {
     std::vector<std::string> result;
-    for (char** entry = environ; *entry != nullptr; ++entry)
-        result.emplace_back(*entry);
+    for (char** entry = environ; *entry != nullptr; ++entry) result.emplace_back(*entry);
     for (const std::string& addition : additions)
         if (std::getenv(addition.substr(0, addition.find('=')).c_str()) == nullptr)
             result.push_back(addition);

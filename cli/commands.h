@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <absl/status/status.h>
-
 #include <functional>
+
+#include <absl/status/status.h>
 
 namespace CLI {
 class App;

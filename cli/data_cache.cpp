@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/data_cache.h"
 
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdlib>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
 #include "fabric/status.h"
 #include "renderer/import/mesh_import.h"
 #include "renderer/import/terrain_import.h"
 #include "renderer/mesh/eym_format.h"
 #include "renderer/terrain/eyt_format.h"
-
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cctype>
-#include <cstdlib>
-#include <system_error>
-#include <utility>
 
 namespace eyrie::cli {
 namespace {
@@ -40,9 +42,8 @@ absl::StatusOr<std::string> importName(const std::string& source, fabric::Object
     if (kind == fabric::ObjectKind::Mesh)
         return fmt::format("{:016x}-{}.eym", hash, kMeshImporterVersion);
     for (const std::string_view ending : kSidecars) {
-        const fs::path sidecar = ending == ".aux.xml"
-                                     ? fs::path(source + std::string(ending))
-                                     : fs::path(source).replace_extension(ending);
+        const fs::path sidecar = ending == ".aux.xml" ? fs::path(source + std::string(ending))
+                                                      : fs::path(source).replace_extension(ending);
         std::error_code ignored;
         if (sidecar == source || !fs::is_regular_file(sidecar, ignored))
             continue;
@@ -70,7 +71,9 @@ DataFile dataFileOf(const std::string& path) {
     return ending == ".ply" ? DataFile::MeshSource : DataFile::TerrainSource;
 }
 
-absl::StatusOr<fs::path> defaultCacheFolder() {
+absl::StatusOr<fs::path> cacheFolder(const std::string& named) {
+    if (!named.empty())
+        return fs::path(named);
     const auto variable = [](const char* name) {
         const char* value = std::getenv(name);
         return value == nullptr ? std::string() : std::string(value);
@@ -90,12 +93,14 @@ DataCache::DataCache(fs::path folder, ProgressBar::Style progress, std::stop_tok
 absl::StatusOr<std::string> DataCache::dataFor(const std::string& path, fabric::ObjectKind kind) {
     switch (dataFileOf(path)) {
         case DataFile::Terrain:
-        case DataFile::Mesh: return path;
+        case DataFile::Mesh:
+            return path;
         case DataFile::Scene:
             return absl::InvalidArgumentError(
                 fmt::format("{}: a scene cannot be an object of a scene", path));
         case DataFile::MeshSource:
-        case DataFile::TerrainSource: break;
+        case DataFile::TerrainSource:
+            break;
     }
     return imported(path, kind);
 }
@@ -125,7 +130,7 @@ absl::Status DataCache::import(const std::string& source, const std::string& tar
     const import::ImportControl control{bar.callback(), stop_};
     if (kind == fabric::ObjectKind::Mesh)
         return import::importMesh(source, target, {}, control).status();
-    return import::importTerrain(source, target, {}, control).status();
+    return import::importTerrain(source, target, control).status();
 }
 
 }  // namespace eyrie::cli

@@ -1,29 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "cli/progress_bar.h"
-#include "fabric/scene.h"
-
-#include <absl/status/statusor.h>
-
 #include <filesystem>
 #include <stop_token>
 #include <string>
+
+#include <absl/status/statusor.h>
+
+#include "cli/progress_bar.h"
+#include "fabric/scene.h"
 
 namespace eyrie::cli {
 
 /// What a file named on the command line is, told by its ending.
 enum class DataFile {
-    Scene,     ///< .json
-    Terrain,   ///< .eyt
-    Mesh,      ///< .eym
+    Scene,          ///< .json
+    Terrain,        ///< .eyt
+    Mesh,           ///< .eym
     MeshSource,     ///< .ply
     TerrainSource,  ///< anything else: GDAL decides
 };
 DataFile dataFileOf(const std::string& path);
 
-/// $XDG_CACHE_HOME/eyrie or ~/.cache/eyrie. FailedPrecondition when the environment names neither.
-absl::StatusOr<std::filesystem::path> defaultCacheFolder();
+/// What --cache names, or $XDG_CACHE_HOME/eyrie, or ~/.cache/eyrie. FailedPrecondition when there
+/// is none of them.
+absl::StatusOr<std::filesystem::path> cacheFolder(const std::string& named);
 
 /// Imports of source files, kept from run to run and named by the content of what they came from:
 /// a file is imported again only when its bytes, or the importer, have changed.

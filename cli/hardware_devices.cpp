@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/hardware_devices.h"
 
-#include <EGL/egl.h>
-#include <EGL/eglext.h>
-
 #include <cstddef>
 #include <string_view>
+
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
 
 namespace eyrie::cli {
 
@@ -23,10 +23,9 @@ std::vector<int> hardwareDevices() {
         return {};
     std::vector<int> hardware;
     for (int i = 0; i < count; ++i) {
-        const char* extensions =
-            queryString(devices[static_cast<std::size_t>(i)], EGL_EXTENSIONS);
-        if (extensions != nullptr && std::string_view(extensions).find(
-                                         "EGL_MESA_device_software") == std::string_view::npos)
+        const char* extensions = queryString(devices[static_cast<std::size_t>(i)], EGL_EXTENSIONS);
+        if (extensions != nullptr &&
+            std::string_view(extensions).find("EGL_MESA_device_software") == std::string_view::npos)
             hardware.push_back(i);
     }
     return hardware;

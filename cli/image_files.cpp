@@ -2,18 +2,18 @@
 // PFM: P. Debevec's portable float map; a negative scale says that the bytes are little-endian.
 #include "cli/image_files.h"
 
-#include "fabric/frustum.h"
-#include "fabric/status.h"
-#include "renderer/mesh/output_file.h"
-#include "wire/jpeg.h"
-
-#include <fmt/format.h>
-#include <png.h>
-
 #include <algorithm>
 #include <bit>
 #include <filesystem>
 #include <vector>
+
+#include <fmt/format.h>
+#include <png.h>
+
+#include "fabric/frustum.h"
+#include "fabric/status.h"
+#include "renderer/mesh/output_file.h"
+#include "wire/jpeg.h"
 
 namespace eyrie::cli {
 namespace {
@@ -69,10 +69,10 @@ absl::Status checkPictureName(const std::string& path, std::string_view option) 
 
 absl::Status writePicture(const fabric::Image& image, const std::string& path) {
     RETURN_IF_ERROR(checkPictureName(path, "picture"));
-    ASSIGN_OR_RETURN(
-        const std::vector<std::byte> bytes,
-        isJpeg(path) ? wire::encodeJpeg(image, kJpegQuality, wire::ChromaSubsampling::None)
-                     : encodePng(image));
+    ASSIGN_OR_RETURN(const std::vector<std::byte> bytes,
+                     isJpeg(path)
+                         ? wire::encodeJpeg(image, kJpegQuality, wire::ChromaSubsampling::None)
+                         : encodePng(image));
     return writeFile(bytes, path);
 }
 

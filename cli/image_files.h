@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "fabric/image.h"
-
-#include <absl/status/status.h>
-
 #include <span>
 #include <string>
 #include <string_view>
+
+#include <absl/status/status.h>
+
+#include "fabric/image.h"
 
 /// Pictures on disk. Every file appears under its name only when it is complete.
 /// Errors: those of mesh::OutputFile; InvalidArgument where said.

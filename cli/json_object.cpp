@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/json_object.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
+
+#include <fmt/format.h>
 
 namespace eyrie::cli {
 namespace {
@@ -55,8 +55,7 @@ JsonObject& JsonObject::object(std::string_view name, const JsonObject& value) {
 
 JsonObject& JsonObject::objects(std::string_view name, const std::vector<JsonObject>& values) {
     std::string list;
-    for (const JsonObject& value : values)
-        list += (list.empty() ? "" : ", ") + value.str();
+    for (const JsonObject& value : values) list += (list.empty() ? "" : ", ") + value.str();
     return raw(name, "[" + list + "]");
 }
 

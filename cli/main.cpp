@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/commands.h"
-#include "cli/exit_status.h"
-#include "fabric/version.h"
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
-#include <string>
-#include <string_view>
+#include "cli/commands.h"
+#include "cli/exit_status.h"
+#include "fabric/version.h"
 
 namespace {
 
@@ -25,8 +26,9 @@ void startLog() {
 void declare(CLI::App& app, eyrie::cli::Run& run) {
     app.set_version_flag("--version", std::string(eyrie::fabric::kVersion));
     app.require_subcommand(1);
-    app.footer("`eyrie COMMAND --help` explains a command.\n"
-               "Exit status: 0 done, 1 the work failed, 2 the command line or input is wrong.");
+    app.footer(
+        "`eyrie COMMAND --help` explains a command.\n"
+        "Exit status: 0 done, 1 the work failed, 2 the command line or input is wrong.");
     eyrie::cli::addServe(app, run);
     eyrie::cli::addImport(app, run);
     eyrie::cli::addInfo(app, run);
@@ -34,6 +36,26 @@ void declare(CLI::App& app, eyrie::cli::Run& run) {
     eyrie::cli::addSynth(app, run);
     eyrie::cli::addCoordinator(app, run);
     eyrie::cli::addRenderer(app, run);
+}
+
+/// Says what is wrong with the command line and where to read on. CLI11 complains of a missing
+/// subcommand even where it is one too many that it does not know.
+void explain(const CLI::App& app, const CLI::ParseError& error) {
+    const CLI::App* command = &app;
+    std::string name = app.get_name();
+    while (!command->get_subcommands().empty()) {
+        command = command->get_subcommands().front();
+        name += " " + command->get_name();
+    }
+    const std::vector<std::string> unknown = app.remaining(true);
+    if (!unknown.empty())
+        fmt::print(stderr, "eyrie: '{}' is nothing that {} knows\n", unknown.front(), name);
+    else
+        fmt::print(stderr, "eyrie: {}\n", error.what());
+    if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr)
+        fmt::print(stderr, "{}", command->help(name));
+    else
+        fmt::print(stderr, "`{} --help` explains it\n", name);
 }
 
 }  // namespace
@@ -46,9 +68,12 @@ int main(int argc, char** argv) {
     declare(app, run);
     try {
         app.parse(argc, argv);
+    } catch (const CLI::Success& asked) {  // --help and --version
+        app.exit(asked);
+        return static_cast<int>(ExitStatus::Done);
     } catch (const CLI::ParseError& error) {
-        const bool asked = app.exit(error) == 0;  // --help and --version
-        return static_cast<int>(asked ? ExitStatus::Done : ExitStatus::WrongInput);
+        explain(app, error);
+        return static_cast<int>(ExitStatus::WrongInput);
     }
     const absl::Status status = run();
     if (!status.ok())

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/placement.h"
 
-#include "fabric/status.h"
+#include <algorithm>
+#include <limits>
 
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include <algorithm>
-#include <limits>
+#include "fabric/status.h"
 
 namespace eyrie::cli {
 namespace {

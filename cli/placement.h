@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <absl/status/statusor.h>
+
 #include "fabric/scene.h"
 #include "renderer/terrain/eyt_format.h"
-
-#include <absl/status/statusor.h>
 
 namespace eyrie::cli {
 

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/progress_bar.h"
 
-#include <fmt/format.h>
-
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include <fmt/format.h>
+#include <unistd.h>
 
 namespace eyrie::cli {
 namespace {
@@ -22,9 +21,8 @@ constexpr double kSettledSeconds = 0.3;
 std::string progressLine(std::string_view title, std::string_view stage, double fraction,
                          double seconds, double amount, std::string_view unit) {
     const int filled = static_cast<int>(std::lround(fraction * kBarWidth));
-    std::string line =
-        fmt::format("{}: {} [{:#<{}}{: <{}}] {:3.0f} %", title, stage, "", filled, "",
-                    kBarWidth - filled, fraction * 100);
+    std::string line = fmt::format("{}: {} [{:#<{}}{: <{}}] {:3.0f} %", title, stage, "", filled,
+                                   "", kBarWidth - filled, fraction * 100);
     if (seconds < kSettledSeconds || fraction <= 0)
         return line;
     if (amount > 0)
@@ -63,15 +61,15 @@ void ProgressBar::show(std::string_view stage, double fraction, Clock::time_poin
 
 void ProgressBar::draw(double fraction, Clock::time_point now) {
     const double seconds = std::chrono::duration<double>(now - stageBegin_).count();
-    fmt::print(out_, "\r{}\x1b[K",
-               progressLine(title_, stage_, fraction, seconds, amount_, unit_));
+    fmt::print(out_, "\r{}\x1b[K", progressLine(title_, stage_, fraction, seconds, amount_, unit_));
     std::fflush(out_);
     lastDrawn_ = now;
     lineOpen_ = true;
 }
 
-import::Progress ProgressBar::callback() {
-    return [this](std::string_view stage, double fraction) { show(stage, fraction, Clock::now()); };
+import::Progress ProgressBar::callback(){
+    return [this](std::string_view stage, double fraction){show(stage, fraction, Clock::now());
+};  // namespace eyrie::cli
 }
 
 }  // namespace eyrie::cli

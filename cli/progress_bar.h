@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "renderer/import/progress.h"
-
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <string>
 #include <string_view>
+
+#include "renderer/import/progress.h"
 
 namespace eyrie::cli {
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/renderer_processes.h"
 
-#include "cli/child_process.h"
-#include "cli/restart_policy.h"
+#include <algorithm>
+#include <optional>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
-#include <optional>
-#include <string_view>
+#include "cli/child_process.h"
+#include "cli/restart_policy.h"
 
 namespace eyrie::cli {
 namespace {
@@ -49,9 +49,12 @@ private:
         ++generation_;
         std::vector<std::string> arguments = {
             "renderer",
-            "--coordinator", options_.coordinator,
-            "--listen", sockets_.socket(fmt::format("renderer-{}-{}", number_, generation_)),
-            "--exit-with-coordinator", "--quiet"};
+            "--coordinator",
+            options_.coordinator,
+            "--listen",
+            sockets_.socket(fmt::format("renderer-{}-{}", number_, generation_)),
+            "--exit-with-coordinator",
+            "--quiet"};
         if (!options_.devices.empty()) {
             const auto index = static_cast<std::size_t>(number_) % options_.devices.size();
             arguments.insert(arguments.end(),
@@ -113,8 +116,7 @@ RendererProcesses::~RendererProcesses() = default;
 
 void RendererProcesses::supervise(const std::stop_token& stop) {
     std::vector<Slot> slots;
-    for (int i = 0; i < options_.count; ++i)
-        slots.emplace_back(i, options_, sockets_);
+    for (int i = 0; i < options_.count; ++i) slots.emplace_back(i, options_, sockets_);
     while (!stop.stop_requested()) {
         for (Slot& slot : slots)
             if (slot.tend(Slot::Clock::now()))

@@ -1,29 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "cli/temporary_folder.h"
-
-#include <absl/status/status.h>
-
 #include <atomic>
 #include <memory>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include <absl/status/status.h>
+
+#include "cli/temporary_folder.h"
+
 namespace eyrie::cli {
 
 struct RendererProcessesOptions {
-    int count = 1;
+    int count = 1;             ///< 1 to RendererProcesses::kMaxCount
     std::string coordinator;   ///< where they register
     std::vector<int> devices;  ///< EGL devices, taken in turn; empty: each takes the first it finds
-    bool quiet = false;
 };
 
 /// Renderer processes of this machine's own: `eyrie renderer` as children that share its cores,
 /// started again when they die. One that never worked is not started again.
 class RendererProcesses {
 public:
+    static constexpr int kMaxCount = 64;
+
     /// How many renderers suit this machine: one a GPU; without, two, or one on a single core.
     static int suitableCount(const std::vector<int>& devices);
 

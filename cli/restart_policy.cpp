@@ -7,8 +7,7 @@ namespace eyrie::cli {
 
 RestartPolicy::Clock::time_point RestartPolicy::ended(Clock::time_point now) {
     constexpr std::chrono::minutes kMinute{1};
-    while (!recent_.empty() && recent_.front() <= now - kMinute)
-        recent_.pop_front();
+    while (!recent_.empty() && recent_.front() <= now - kMinute) recent_.pop_front();
     const auto doublings = std::min<std::size_t>(recent_.size(), 16);
     recent_.push_back(now);
     if (recent_.size() > static_cast<std::size_t>(kMaxPerMinute))

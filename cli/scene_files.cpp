@@ -1,6 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/scene_files.h"
 
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <system_error>
+
+#include <fmt/format.h>
+
 #include "cli/placement.h"
 #include "eyrie/v1/scene.pb.h"
 #include "fabric/status.h"
@@ -8,14 +16,6 @@
 #include "renderer/terrain/eyt_format.h"
 #include "wire/json.h"
 #include "wire/scene.h"
-
-#include <fmt/format.h>
-
-#include <filesystem>
-#include <fstream>
-#include <memory>
-#include <optional>
-#include <system_error>
 
 namespace eyrie::cli {
 namespace {
@@ -44,8 +44,9 @@ absl::StatusOr<LooseObjects> looseObjects(fabric::Scene& scene, std::size_t firs
         fabric::SceneObject& object = scene.objects[i];
         if (object.kind == fabric::ObjectKind::Mesh)
             loose.meshes.push_back(&object);
-        else if (!loose.terrain)
+        else if (!loose.terrain) {
             ASSIGN_OR_RETURN(loose.terrain, terrain::EytFile::open(object.path));
+        }
     }
     return loose;
 }

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "cli/data_cache.h"
-#include "fabric/scene.h"
-
-#include <absl/status/statusor.h>
-
 #include <span>
 #include <string>
 #include <vector>
+
+#include <absl/status/statusor.h>
+
+#include "cli/data_cache.h"
+#include "fabric/scene.h"
 
 namespace eyrie::cli {
 

@@ -3,9 +3,8 @@
 
 #include <condition_variable>
 #include <csignal>
-#include <mutex>
-
 #include <ctime>
+#include <mutex>
 
 namespace eyrie::cli {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <absl/status/statusor.h>
-
 #include <filesystem>
 #include <string>
 #include <utility>
+
+#include <absl/status/statusor.h>
 
 namespace eyrie::cli {
 

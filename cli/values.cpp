@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/values.h"
 
-#include "fabric/channel_task.h"
-#include "fabric/status.h"
-
-#include <fmt/format.h>
-
 #include <charconv>
 #include <limits>
 #include <optional>
+
+#include <fmt/format.h>
+
+#include "fabric/channel_task.h"
+#include "fabric/status.h"
 
 namespace eyrie::cli {
 namespace {
@@ -54,9 +54,9 @@ absl::StatusOr<PictureSize> parsePictureSize(std::string_view text, std::string_
         if (width && height)
             return PictureSize{*width, *height};
     }
-    return wrong(option, text,
-                 fmt::format("WIDTHxHEIGHT, each from 1 to {}, such as 1280x720",
-                             fabric::kMaxViewPixels));
+    return wrong(
+        option, text,
+        fmt::format("WIDTHxHEIGHT, each from 1 to {}, such as 1280x720", fabric::kMaxViewPixels));
 }
 
 absl::StatusOr<std::uint64_t> parseBytes(std::string_view text, std::string_view option) {
@@ -68,8 +68,8 @@ absl::StatusOr<std::uint64_t> parseBytes(std::string_view text, std::string_view
             digits.remove_suffix(1);
             shift = 10 * (static_cast<unsigned>(unit) + 1);
         }
-    const auto count = number<std::uint64_t>(
-        digits, 1, std::numeric_limits<std::uint64_t>::max() >> shift);
+    const auto count =
+        number<std::uint64_t>(digits, 1, std::numeric_limits<std::uint64_t>::max() >> shift);
     if (!count)
         return wrong(option, text, "a count of bytes, such as 1500000000 or 2G");
     return *count << shift;

@@ -247,7 +247,9 @@ private:
 }  // namespace
 
 SourceSurface::SourceSurface(const HeightGrid& grid, bool hasNodata)
-    : grid_(grid), hasNodata_(hasNodata) {}
+    : grid_(grid),
+      hasNodata_(hasNodata),
+      postTolerance_(std::min(grid.postMetres() / 2048, 0.05)) {}
 
 double SourceSurface::longestEdgeMetres(const Triangle& triangle) const {
     double longest = 0;
@@ -310,7 +312,7 @@ bool SourceSurface::liesOnItsPosts(const Triangle& triangle) const {
     Triangle unmoved = triangle;
     for (Corner& corner : unmoved)
         corner.z = grid_.at(corner.i, corner.j);
-    return rowsDeviation(unmoved) == 0;
+    return rowsDeviation(unmoved) <= postTolerance_;
 }
 
 double SourceSurface::ofAligned(const Triangle& triangle) const {

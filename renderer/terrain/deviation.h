@@ -22,8 +22,8 @@ using Triangle = std::array<Corner, 3>;
 /// either diagonal, or bilinear (which lies between those two). Each of the three is piecewise
 /// linear or bounded by such, so the greatest distance lies at a post, or where an edge of the
 /// triangle crosses a grid line or a cell's diagonal: those points are all looked at, none
-/// sampled. One exception: where all posts of a triangle lie on it the drawing itself is such
-/// a reading, and only how far its corners are off their posts counts.
+/// sampled. One exception: where all posts of an aligned triangle lie on it, to within
+/// postToleranceMetres, the drawing follows such a reading, and only its distance at posts counts.
 ///
 /// Triangles that hold both data and nodata count as their longest edge: that is how far what
 /// is drawn may reach into a hole, or a hole into what should be drawn. All nodata counts as 0.
@@ -43,6 +43,8 @@ public:
     const HeightGrid& grid() const { return grid_; }
     bool hasNodata() const { return hasNodata_; }
     double longestEdgeMetres(const Triangle& triangle) const;
+    /// 1/2048 of a post, 5 cm at most: far below what any level's threshold resolves.
+    double postToleranceMetres() const { return postTolerance_; }
 
 private:
     enum class Contents { Data, Nodata, Mixed };
@@ -55,6 +57,7 @@ private:
 
     const HeightGrid& grid_;
     bool hasNodata_;
+    double postTolerance_;
 };
 
 /// Share of the greatest height that rounding may take off a computed deviation.

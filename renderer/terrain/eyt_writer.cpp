@@ -168,7 +168,7 @@ absl::StatusOr<PageRecord> EytWriter::addPage(std::span<const std::uint32_t> pag
 
 absl::StatusOr<std::uint64_t> EytWriter::commit(const EytIndex& index) {
     const std::vector<char> bytes = indexBytes(index);
-    const std::uint64_t indexOffset = roundUp(size_, 8);
+    const std::uint64_t indexOffset = size_;
     const FileHeader header = headerOf(index, indexOffset, bytes);
     RETURN_IF_ERROR(writeAt(bytes.data(), bytes.size(), indexOffset));
     RETURN_IF_ERROR(writeAt(&header, sizeof header, 0));

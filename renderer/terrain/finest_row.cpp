@@ -18,7 +18,7 @@ inline float atCentre(float neighbour, float otherNeighbour, float post, float c
 }  // namespace
 
 EYRIE_SIMD_CLONES void finestRow(const float* below, const float* here, const float* above,
-                                 std::int32_t columns, bool alongRow,
+                                 std::int32_t columns, bool alongRow, float tolerance,
                                  std::span<const float> thresholds, std::uint8_t* out) {
     const float* first = alongRow ? here - 1 : below;
     const float* second = alongRow ? here + 1 : above;
@@ -32,7 +32,7 @@ EYRIE_SIMD_CLONES void finestRow(const float* below, const float* here, const fl
         const float high = larger(atCentre(here[i - 1], above[i], h, above[i - 1]),
                                   atCentre(here[i + 1], above[i], h, above[i + 1]));
         const float worst = larger(atPost, larger(low, high));
-        const float deviation = atPost > 0 ? worst : 0.0F;
+        const float deviation = atPost > tolerance ? worst : atPost;
         std::int32_t exceeded = 0;
         for (std::int32_t k = 0; k < count; ++k)
             exceeded += deviation > limits[k] ? 1 : 0;

@@ -51,9 +51,11 @@ HeightStatistics heightStatistics(const HeightGrid& grid) {
 HeightLattice chooseHeightLattice(const HeightStatistics& statistics, double postMetres) {
     constexpr double kMaxSteps = (1 << 23) - 1;
     constexpr double kStepsPerPost = 256;
+    constexpr double kCoarsestStep = 0.25;
     HeightLattice lattice;
     if (!statistics.allIntegers)
-        lattice = {std::exp2(std::floor(std::log2(postMetres / kStepsPerPost))), false};
+        lattice = {std::min(std::exp2(std::floor(std::log2(postMetres / kStepsPerPost))), kCoarsestStep),
+                   false};
     const double highest =
         std::max(std::abs(static_cast<double>(statistics.min)), std::abs(static_cast<double>(statistics.max)));
     while (highest / lattice.stepMetres > kMaxSteps)

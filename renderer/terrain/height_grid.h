@@ -63,7 +63,7 @@ struct HeightLattice {
     }
 };
 
-/// 1 m for whole metres, otherwise at most 1/256 of a post; coarser only where heights would not
+/// 1 m for whole metres, otherwise at most 1/256 of a post and 1/4 m; coarser only where heights would not
 /// stay below 2^23 steps.
 HeightLattice chooseHeightLattice(const HeightStatistics& statistics, double postMetres);
 

@@ -134,8 +134,8 @@ void VertexLevels::measureFinestRow(std::int32_t j) {
     thread_local std::vector<std::uint8_t> counts;
     counts.resize(static_cast<std::size_t>(columns_));
     const bool isEven = (j & 1) == 0;
-    finestRow(grid.row(j - 1), grid.row(j), grid.row(j + 1), columns_, isEven, floatThresholds_,
-              counts.data());
+    finestRow(grid.row(j - 1), grid.row(j), grid.row(j + 1), columns_, isEven,
+              static_cast<float>(surface_.postToleranceMetres()), floatThresholds_, counts.data());
     for (std::int32_t i = isEven ? 1 : 2; i < columns_ - 1; i += 2) {
         const std::uint8_t count = counts[static_cast<std::size_t>(i)];
         levels_[index(i, j)] =

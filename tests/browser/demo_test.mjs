@@ -1,49 +1,49 @@
 // SPDX-License-Identifier: Apache-2.0
 // The demo in the real program: renderers, coordinator and page.
 import {
-    brightness,
-    check,
-    colourCount,
-    difference,
-    environment,
-    run,
-    ServerProcess,
+  brightness,
+  check,
+  colourCount,
+  difference,
+  environment,
+  run,
+  ServerProcess,
 } from "./support.mjs";
 
 await run("demo_test", async (browser, started) => {
-    const { page } = browser;
-    const serve = ["serve", environment("EYRIE_SCENE"), "--listen", "127.0.0.1:0"];
-    const server = started(await ServerProcess.start(environment("EYRIE_BINARY"), serve, 90));
+  const { page } = browser;
+  const serve = ["serve", environment("EYRIE_SCENE"), "--listen", "127.0.0.1:0"];
+  const server = started(await ServerProcess.start(environment("EYRIE_BINARY"), serve, 90));
 
-    const opened = Date.now();
-    await page.goto(server.url);
-    await browser.until(() => window.eyrie?.frameNumber > 0, 60_000);
-    console.log(`first picture after ${Date.now() - opened} ms`);
-    await browser.settled();
-    const home = await browser.picture();
-    check(colourCount(home) > 20, "the page shows the demo");
-    console.log(`status: ${(await page.locator("#status").innerText()).replaceAll("\n", " ")}`);
+  const opened = Date.now();
+  await page.goto(server.url);
+  await browser.until(() => window.eyrie?.frameNumber > 0, 60_000);
+  console.log(`first picture after ${Date.now() - opened} ms`);
+  await browser.settled();
+  const home = await browser.picture();
+  check(colourCount(home) > 20, "the page shows the demo");
+  console.log(`status: ${(await page.locator("#status").innerText()).replaceAll("\n", " ")}`);
 
-    await browser.drag(200, 60, 60);
-    const fps = await browser.hook("fps");
-    await browser.settled();
-    check(difference(home, await browser.picture()) > 0.05, "dragging turns the scene");
-    const latency = await browser.hook("inputToDrawnMilliseconds");
-    console.log(`while dragging: ${fps} frames/s, input to drawn ${latency.toFixed(1)} ms`);
+  await browser.drag(200, 60, 60);
+  const fps = await browser.hook("fps");
+  await browser.settled();
+  check(difference(home, await browser.picture()) > 0.05, "dragging turns the scene");
+  const latency = await browser.hook("inputToDrawnMilliseconds");
+  console.log(`while dragging: ${fps} frames/s, input to drawn ${latency.toFixed(1)} ms`);
 
-    const fine = await browser.hook("triangles");
-    check(fine > 0, `triangles are counted (${fine})`);
-    await browser.setTau(4);
-    await browser.until(() => window.eyrie.still && window.eyrie.tauAchieved > 2);
-    const coarse = await browser.hook("triangles");
-    check(coarse < fine, `a larger error draws fewer triangles (${coarse})`);
+  const fine = await browser.hook("triangles");
+  check(fine > 0, `triangles are counted (${fine})`);
+  await browser.setTau(4);
+  await browser.until(() => window.eyrie.still && window.eyrie.tauAchieved > 2);
+  const coarse = await browser.hook("triangles");
+  check(coarse < fine, `a larger error draws fewer triangles (${coarse})`);
 
-    const live = await browser.picture();
-    await server.kill();
-    await page.locator("#banner", { hasText: "Connection lost" }).waitFor();
-    await page.waitForTimeout(500); // the dimming is eased
-    check(
-        brightness(await browser.picture()) < brightness(live) * 0.8,
-        "a lost server dims the last picture",
-    );
+  const live = await browser.picture();
+  await server.kill();
+  await page.locator("#banner", { hasText: "Connection lost" }).waitFor();
+  await page.waitForTimeout(500); // the dimming is eased
+  check(
+    brightness(await browser.picture()) < brightness(live) * 0.8,
+    "a lost server dims the last picture",
+  );
 });

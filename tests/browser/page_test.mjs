@@ -1,107 +1,107 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page against a server of made-up pictures: what a person does, and what they are told.
 import {
-    brightness,
-    check,
-    colourCount,
-    difference,
-    environment,
-    run,
-    ServerProcess,
+  brightness,
+  check,
+  colourCount,
+  difference,
+  environment,
+  run,
+  ServerProcess,
 } from "./support.mjs";
 
 const web = environment("EYRIE_WEB_FOLDER");
 const startServer = (...args) =>
-    ServerProcess.start(environment("EYRIE_FAKE_SERVER"), [web, ...args], 20);
+  ServerProcess.start(environment("EYRIE_FAKE_SERVER"), [web, ...args], 20);
 
 await run("page_test", async (browser, started) => {
-    const { page } = browser;
-    const server = started(await startServer());
-    const port = new URL(server.url).port;
+  const { page } = browser;
+  const server = started(await startServer());
+  const port = new URL(server.url).port;
 
-    const opened = Date.now();
-    await page.goto(server.url);
-    await browser.until(() => window.eyrie?.frameNumber > 0);
-    console.log(`first picture after ${Date.now() - opened} ms`);
-    await browser.settled();
-    const home = await browser.picture();
-    check(colourCount(home) > 20, "the page shows a picture");
-    check(
-        (await page.locator("#status").innerText()).includes("1 renderer"),
-        "the chip counts renderers",
-    );
-    check(await page.locator("#message").isHidden(), "no message covers the picture");
+  const opened = Date.now();
+  await page.goto(server.url);
+  await browser.until(() => window.eyrie?.frameNumber > 0);
+  console.log(`first picture after ${Date.now() - opened} ms`);
+  await browser.settled();
+  const home = await browser.picture();
+  check(colourCount(home) > 20, "the page shows a picture");
+  check(
+    (await page.locator("#status").innerText()).includes("1 renderer"),
+    "the chip counts renderers",
+  );
+  check(await page.locator("#message").isHidden(), "no message covers the picture");
 
-    await browser.drag(150, 40);
-    await browser.settled();
-    const dragged = await browser.picture();
-    check(difference(home, dragged) > 0.1, "dragging turns the scene");
-    const latency = await browser.hook("inputToDrawnMilliseconds");
-    check(latency > 0 && latency < 5000, `input to drawn is measured (${latency.toFixed(1)} ms)`);
+  await browser.drag(150, 40);
+  await browser.settled();
+  const dragged = await browser.picture();
+  check(difference(home, dragged) > 0.1, "dragging turns the scene");
+  const latency = await browser.hook("inputToDrawnMilliseconds");
+  check(latency > 0 && latency < 5000, `input to drawn is measured (${latency.toFixed(1)} ms)`);
 
-    const frames = await browser.hook("frameNumber");
-    await page.waitForTimeout(700);
-    check((await browser.hook("frameNumber")) === frames, "nothing is drawn while nothing changes");
+  const frames = await browser.hook("frameNumber");
+  await page.waitForTimeout(700);
+  check((await browser.hook("frameNumber")) === frames, "nothing is drawn while nothing changes");
 
-    await page.keyboard.press("r");
-    await browser.until(() => !window.eyrie.still);
-    await browser.settled();
-    check(difference(home, await browser.picture()) < 0.01, "R shows the home view again");
+  await page.keyboard.press("r");
+  await browser.until(() => !window.eyrie.still);
+  await browser.settled();
+  check(difference(home, await browser.picture()) < 0.01, "R shows the home view again");
 
-    for (const [key, name] of [
-        ["ArrowLeft", "an arrow key orbits"],
-        ["+", "plus zooms"],
-        ["w", "W flies"],
-    ]) {
-        const before = JSON.stringify(await browser.hook("camera"));
-        await page.keyboard.press(key, { delay: 60 });
-        check(JSON.stringify(await browser.hook("camera")) !== before, name);
-    }
-    check(await page.locator("#mode").isVisible(), "flying says how to end it");
-    await page.keyboard.press("Escape");
-    check(await page.locator("#mode").isHidden(), "Escape ends flying");
+  for (const [key, name] of [
+    ["ArrowLeft", "an arrow key orbits"],
+    ["+", "plus zooms"],
+    ["w", "W flies"],
+  ]) {
+    const before = JSON.stringify(await browser.hook("camera"));
+    await page.keyboard.press(key, { delay: 60 });
+    check(JSON.stringify(await browser.hook("camera")) !== before, name);
+  }
+  check(await page.locator("#mode").isVisible(), "flying says how to end it");
+  await page.keyboard.press("Escape");
+  check(await page.locator("#mode").isHidden(), "Escape ends flying");
 
-    await page.mouse.move(400, 300);
-    const far = await browser.hook("camera");
-    await page.mouse.wheel(0, -300);
-    await page.waitForFunction((z) => window.eyrie.camera.eye[2] !== z, far.eye[2]);
-    check(true, "the wheel zooms");
+  await page.mouse.move(400, 300);
+  const far = await browser.hook("camera");
+  await page.mouse.wheel(0, -300);
+  await page.waitForFunction((z) => window.eyrie.camera.eye[2] !== z, far.eye[2]);
+  check(true, "the wheel zooms");
 
-    const fine = await browser.hook("triangles");
-    await browser.setTau(3);
-    await browser.until(() => window.eyrie.tauAchieved > 5);
-    check((await browser.hook("triangles")) < fine / 4, "a larger error draws fewer triangles");
-    await browser.setTau(-2);
-    await page.locator(".hint", { hasText: "finest data drawn" }).waitFor();
-    check(true, "an error that cannot be met is said so");
+  const fine = await browser.hook("triangles");
+  await browser.setTau(3);
+  await browser.until(() => window.eyrie.tauAchieved > 5);
+  check((await browser.hook("triangles")) < fine / 4, "a larger error draws fewer triangles");
+  await browser.setTau(-2);
+  await page.locator(".hint", { hasText: "finest data drawn" }).waitFor();
+  check(true, "an error that cannot be met is said so");
 
-    await page.keyboard.press("h");
-    check(await page.locator("#help").isVisible(), "H opens the sheet of controls");
-    await page.keyboard.press("Escape");
+  await page.keyboard.press("h");
+  check(await page.locator("#help").isVisible(), "H opens the sheet of controls");
+  await page.keyboard.press("Escape");
 
-    server.say("no renderer");
-    await page.locator("#banner", { hasText: "No renderer" }).waitFor();
-    check(true, "a lost renderer is said so above the last picture");
-    server.say("renderer");
-    await page.locator("#banner").waitFor({ state: "hidden" });
-    check(true, "and the page recovers when it is back");
+  server.say("no renderer");
+  await page.locator("#banner", { hasText: "No renderer" }).waitFor();
+  check(true, "a lost renderer is said so above the last picture");
+  server.say("renderer");
+  await page.locator("#banner").waitFor({ state: "hidden" });
+  check(true, "and the page recovers when it is back");
 
-    await browser.settled();
-    const live = await browser.picture();
-    const camera = JSON.stringify(await browser.hook("camera"));
-    await server.kill();
-    await page.locator("#banner", { hasText: "Connection lost" }).waitFor();
-    await page.waitForTimeout(500); // the dimming is eased
-    check(
-        brightness(await browser.picture()) < brightness(live) * 0.7,
-        "a lost server dims the last picture",
-    );
+  await browser.settled();
+  const live = await browser.picture();
+  const camera = JSON.stringify(await browser.hook("camera"));
+  await server.kill();
+  await page.locator("#banner", { hasText: "Connection lost" }).waitFor();
+  await page.waitForTimeout(500); // the dimming is eased
+  check(
+    brightness(await browser.picture()) < brightness(live) * 0.7,
+    "a lost server dims the last picture",
+  );
 
-    const restarted = Date.now();
-    started(await startServer(port));
-    await page.waitForFunction(() => window.eyrie.connection === "connected");
-    console.log(`connected again ${Date.now() - restarted} ms after the start`);
-    await browser.settled();
-    check(JSON.stringify(await browser.hook("camera")) === camera, "the camera survives a restart");
-    check(await page.locator("#banner").isHidden(), "and the picture is live again");
+  const restarted = Date.now();
+  started(await startServer(port));
+  await page.waitForFunction(() => window.eyrie.connection === "connected");
+  console.log(`connected again ${Date.now() - restarted} ms after the start`);
+  await browser.settled();
+  check(JSON.stringify(await browser.hook("camera")) === camera, "the camera survives a restart");
+  check(await page.locator("#banner").isHidden(), "and the picture is live again");
 });

@@ -5,181 +5,180 @@ import { createRequire } from "node:module";
 import { fileURLToPath } from "node:url";
 
 const requireFromWeb = createRequire(
-    fileURLToPath(new URL("../../web/package.json", import.meta.url)),
+  fileURLToPath(new URL("../../web/package.json", import.meta.url)),
 );
 
 const chromiumArguments = [
-    "--headless=new",
-    "--no-sandbox",
-    "--disable-gpu",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
+  "--headless=new",
+  "--no-sandbox",
+  "--disable-gpu",
+  "--disable-quic",
+  "--no-first-run",
+  "--disable-background-networking",
+  "--disable-component-update",
+  "--disable-sync",
 ];
 
 export function check(condition, sentence) {
-    if (!condition) throw new Error(sentence);
-    console.log(`ok: ${sentence}`);
+  if (!condition) throw new Error(sentence);
+  console.log(`ok: ${sentence}`);
 }
 
 export function environment(name) {
-    const value = process.env[name];
-    if (!value) throw new Error(`set ${name} (CTest does)`);
-    return value;
+  const value = process.env[name];
+  if (!value) throw new Error(`set ${name} (CTest does)`);
+  return value;
 }
 
 /** Starts a program that prints "Eyrie is at URL"; its group of processes ends with the test. */
 export class ServerProcess {
-    static async start(command, args, patienceSeconds) {
-        const server = new ServerProcess(command, args);
-        try {
-            server.url = await server.#address(patienceSeconds);
-        } catch (error) {
-            server.kill();
-            throw error;
-        }
-        return server;
+  static async start(command, args, patienceSeconds) {
+    const server = new ServerProcess(command, args);
+    try {
+      server.url = await server.#address(patienceSeconds);
+    } catch (error) {
+      server.kill();
+      throw error;
     }
+    return server;
+  }
 
-    constructor(command, args) {
-        this.output = "";
-        // A group of its own, so that the renderers it starts end with it.
-        this.process = spawn(command, args, { detached: true, stdio: ["pipe", "pipe", "pipe"] });
-        this.ended = new Promise((resolve) => {
-            this.process.once("exit", resolve);
-            this.process.once("error", resolve);
-        });
-        for (const stream of [this.process.stdout, this.process.stderr])
-            stream.on("data", (data) => (this.output += data));
-        this.process.stdin.on("error", () => {}); // it may have ended
-    }
+  constructor(command, args) {
+    this.output = "";
+    // A group of its own, so that the renderers it starts end with it.
+    this.process = spawn(command, args, { detached: true, stdio: ["pipe", "pipe", "pipe"] });
+    this.ended = new Promise((resolve) => {
+      this.process.once("exit", resolve);
+      this.process.once("error", resolve);
+    });
+    for (const stream of [this.process.stdout, this.process.stderr])
+      stream.on("data", (data) => (this.output += data));
+    this.process.stdin.on("error", () => {}); // it may have ended
+  }
 
-    say(line) {
-        this.process.stdin.write(`${line}\n`);
-    }
+  say(line) {
+    this.process.stdin.write(`${line}\n`);
+  }
 
-    kill() {
-        try {
-            process.kill(-this.process.pid, "SIGKILL");
-        } catch {
-            // It has ended already.
-        }
-        return this.ended;
+  kill() {
+    try {
+      process.kill(-this.process.pid, "SIGKILL");
+    } catch {
+      // It has ended already.
     }
+    return this.ended;
+  }
 
-    async #address(patienceSeconds) {
-        const deadline = Date.now() + patienceSeconds * 1000;
-        let hasEnded = false;
-        void this.ended.then(() => (hasEnded = true));
-        while (Date.now() < deadline && !hasEnded) {
-            const match = /Eyrie is at (http:\S+)/.exec(this.output);
-            if (match) return match[1];
-            await new Promise((resolve) => setTimeout(resolve, 20));
-        }
-        throw new Error(`the server printed no address; it said:\n${this.output}`);
+  async #address(patienceSeconds) {
+    const deadline = Date.now() + patienceSeconds * 1000;
+    let hasEnded = false;
+    void this.ended.then(() => (hasEnded = true));
+    while (Date.now() < deadline && !hasEnded) {
+      const match = /Eyrie is at (http:\S+)/.exec(this.output);
+      if (match) return match[1];
+      await new Promise((resolve) => setTimeout(resolve, 20));
     }
+    throw new Error(`the server printed no address; it said:\n${this.output}`);
+  }
 }
 
 /** A page in a fresh Chromium, with a second one to look at screenshots. */
 export class Browser {
-    static async open() {
-        const { chromium } = requireFromWeb("playwright-core");
-        const browser = new Browser();
-        // Playwright gives each launch a fresh folder for the user's data.
-        browser.chromium = await chromium.launch({
-            executablePath: "/usr/bin/chromium",
-            args: chromiumArguments,
-        });
-        const viewport = { width: 1280, height: 766 }; // 1280 x 720 under the bar
-        browser.page = await browser.chromium.newPage({ viewport });
-        browser.eyes = await browser.chromium.newPage();
-        browser.page.on("pageerror", (error) => browser.errors.push(String(error)));
-        browser.page.on("console", (message) => {
-            // Chromium itself logs each refused connection while the server is gone.
-            const isRefusal = message.text().includes("WebSocket connection to");
-            if (message.type() === "error" && !isRefusal) browser.errors.push(message.text());
-        });
-        return browser;
-    }
+  static async open() {
+    const { chromium } = requireFromWeb("playwright-core");
+    const browser = new Browser();
+    // Playwright gives each launch a fresh folder for the user's data.
+    browser.chromium = await chromium.launch({
+      executablePath: "/usr/bin/chromium",
+      args: chromiumArguments,
+    });
+    const viewport = { width: 1280, height: 766 }; // 1280 x 720 under the bar
+    browser.page = await browser.chromium.newPage({ viewport });
+    browser.eyes = await browser.chromium.newPage();
+    browser.page.on("pageerror", (error) => browser.errors.push(String(error)));
+    browser.page.on("console", (message) => {
+      // Chromium itself logs each refused connection while the server is gone.
+      const isRefusal = message.text().includes("WebSocket connection to");
+      if (message.type() === "error" && !isRefusal) browser.errors.push(message.text());
+    });
+    return browser;
+  }
 
-    errors = [];
+  errors = [];
 
-    close() {
-        return this.chromium.close();
-    }
+  close() {
+    return this.chromium.close();
+  }
 
-    /** A property of window.eyrie. */
-    hook(name) {
-        return this.page.evaluate((key) => window.eyrie?.[key], name);
-    }
+  /** A property of window.eyrie. */
+  hook(name) {
+    return this.page.evaluate((key) => window.eyrie?.[key], name);
+  }
 
-    /** Waits until `predicate`, which sees window.eyrie, holds in the page. */
+  /** Waits until `predicate`, which sees window.eyrie, holds in the page. */
   until(predicate, timeout = 15_000) {
     return this.page.waitForFunction(predicate, undefined, { timeout, polling: 10 });
   }
 
   /** Waits until nothing more will be drawn. */
-    settled() {
-        return this.until(() => window.eyrie?.still === true);
-    }
+  settled() {
+    return this.until(() => window.eyrie?.still === true);
+  }
 
-    /** The middle of the picture, clear of the panel, as rows of [r, g, b]. */
-    async picture() {
-        const clip = { x: 200, y: 120, width: 700, height: 560 };
-        const png = await this.page.screenshot({ clip });
-        return this.eyes.evaluate(async (base64) => {
-            const image = new Image();
-            image.src = `data:image/png;base64,${base64}`;
-            await image.decode();
-            const canvas = new OffscreenCanvas(image.width, image.height);
-            const context = canvas.getContext("2d");
-            context.drawImage(image, 0, 0);
-            return [...context.getImageData(0, 0, image.width, image.height).data];
-        }, png.toString("base64"));
-    }
+  /** Every eighth pixel of the picture's middle, clear of the panel, as r, g, b, a one by one. */
+  async picture() {
+    const clip = { x: 200, y: 120, width: 700, height: 560 };
+    const png = await this.page.screenshot({ clip });
+    return this.eyes.evaluate(async (base64) => {
+      const image = new Image();
+      image.src = `data:image/png;base64,${base64}`;
+      await image.decode();
+      const [width, height] = [Math.floor(image.width / 8), Math.floor(image.height / 8)];
+      const context = new OffscreenCanvas(width, height).getContext("2d");
+      context.imageSmoothingEnabled = false;
+      context.drawImage(image, 0, 0, width, height);
+      return [...context.getImageData(0, 0, width, height).data];
+    }, png.toString("base64"));
+  }
 
-    async drag(dx, dy, steps = 20) {
-        const { mouse } = this.page;
-        await mouse.move(500, 400);
-        await mouse.down();
-        for (let i = 1; i <= steps; ++i)
-            await mouse.move(500 + (dx * i) / steps, 400 + (dy * i) / steps);
-        await mouse.up();
-    }
+  async drag(dx, dy, steps = 20) {
+    const { mouse } = this.page;
+    await mouse.move(500, 400);
+    await mouse.down();
+    for (let i = 1; i <= steps; ++i)
+      await mouse.move(500 + (dx * i) / steps, 400 + (dy * i) / steps);
+    await mouse.up();
+  }
 
-    /** Moves the tau slider to a power of two, as a hand would. */
-    async setTau(log2) {
-        await this.page.locator("#tau").fill(String(log2));
-    }
+  /** Moves the tau slider to a power of two, as a hand would. */
+  async setTau(log2) {
+    await this.page.locator("#tau").fill(String(log2));
+  }
 }
 
 /** How many colours a picture has, coarsely. */
 export function colourCount(picture) {
-    const colours = new Set();
-    for (let i = 0; i < picture.length; i += 4)
-        colours.add(
-            ((picture[i] >> 4) << 8) | ((picture[i + 1] >> 4) << 4) | (picture[i + 2] >> 4),
-        );
-    return colours.size;
+  const colours = new Set();
+  for (let i = 0; i < picture.length; i += 4)
+    colours.add(((picture[i] >> 4) << 8) | ((picture[i + 1] >> 4) << 4) | (picture[i + 2] >> 4));
+  return colours.size;
 }
 
 /** The share of pixels that differ clearly. */
 export function difference(a, b) {
-    let different = 0;
-    for (let i = 0; i < a.length; i += 4) {
-        const worst = Math.max(...[0, 1, 2].map((c) => Math.abs(a[i + c] - b[i + c])));
-        if (worst > 24) different += 1;
-    }
-    return different / (a.length / 4);
+  let different = 0;
+  for (let i = 0; i < a.length; i += 4) {
+    const worst = Math.max(...[0, 1, 2].map((c) => Math.abs(a[i + c] - b[i + c])));
+    if (worst > 24) different += 1;
+  }
+  return different / (a.length / 4);
 }
 
 /** Mean brightness, 0 to 255. */
 export function brightness(picture) {
-    let sum = 0;
-    for (let i = 0; i < picture.length; i += 4) sum += picture[i] + picture[i + 1] + picture[i + 2];
-    return sum / ((picture.length / 4) * 3);
+  let sum = 0;
+  for (let i = 0; i < picture.length; i += 4) sum += picture[i] + picture[i + 1] + picture[i + 2];
+  return sum / ((picture.length / 4) * 3);
 }
 
 /**
@@ -187,31 +186,31 @@ export function brightness(picture) {
  * leaves a screenshot in EYRIE_TEST_OUTPUT.
  */
 export async function run(name, test) {
-    const servers = [];
-    const browser = await Browser.open();
-    const endAll = () => Promise.all(servers.map((server) => server.kill()));
-    for (const signal of ["SIGINT", "SIGTERM"])
-        process.once(signal, () => void endAll().then(() => process.exit(1)));
-    try {
-        await test(browser, (server) => {
-            servers.push(server);
-            return server;
-        });
-        check(
-            browser.errors.length === 0,
-            `no error on the page's console ${browser.errors.join("; ")}`,
-        );
-    } catch (error) {
-        process.exitCode = 1;
-        const path = `${process.env.EYRIE_TEST_OUTPUT ?? "."}/${name}-failure.png`;
-        console.error(`FAILED: ${error instanceof Error ? error.message : error}`);
-        await browser.page
-            .screenshot({ path })
-            .then(() => console.error(`screenshot: ${path}`))
-            .catch(() => {});
-        for (const server of servers) console.error(`server said:\n${server.output}`);
-    } finally {
-        await browser.close();
-        await endAll();
-    }
+  const servers = [];
+  const browser = await Browser.open();
+  const endAll = () => Promise.all(servers.map((server) => server.kill()));
+  for (const signal of ["SIGINT", "SIGTERM"])
+    process.once(signal, () => void endAll().then(() => process.exit(1)));
+  try {
+    await test(browser, (server) => {
+      servers.push(server);
+      return server;
+    });
+    check(
+      browser.errors.length === 0,
+      `no error on the page's console ${browser.errors.join("; ")}`,
+    );
+  } catch (error) {
+    process.exitCode = 1;
+    const path = `${process.env.EYRIE_TEST_OUTPUT ?? "."}/${name}-failure.png`;
+    console.error(`FAILED: ${error instanceof Error ? error.message : error}`);
+    await browser.page
+      .screenshot({ path })
+      .then(() => console.error(`screenshot: ${path}`))
+      .catch(() => {});
+    for (const server of servers) console.error(`server said:\n${server.output}`);
+  } finally {
+    await browser.close();
+    await endAll();
+  }
 }

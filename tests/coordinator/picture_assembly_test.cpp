@@ -42,7 +42,7 @@ RC_GTEST_PROP(PictureAssembly, AnyCutIntoChunksGivesThePixels, ()) {
     PictureAssembly assembly(kTask);
     RC_ASSERT(assembly.takeHeader(header(12, 6, 7, 3)).ok());
     for (std::size_t sent = 0; sent < pixels.size();) {
-        const auto size = static_cast<std::size_t>(*rc::gen::inRange(0, 60));
+        const auto size = static_cast<std::size_t>(*rc::gen::inRange(1, 60));
         const std::string chunk = pixels.substr(sent, size);
         RC_ASSERT(assembly.takeChunk(chunk).ok());
         sent += chunk.size();

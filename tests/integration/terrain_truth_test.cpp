@@ -36,11 +36,14 @@ constexpr double kTauPixels = 1;
 /// What rasterisation adds and the bound does not hold: window coordinates are snapped to 1/256
 /// pixel, so the depth at a pixel's centre is that of a surface point up to 1/512 pixel away on
 /// each axis. Taken back to the world along the centre's ray, that point meets the source's column
-/// a little aside, where steep ground has another height: kRasterPixels covers it for 99 of 100
-/// pixels. A triangle seen edge-on may be narrower than the snap; its depth is then extrapolated
-/// beyond it, which is kEdgeOnPixels at most (measured: 0.09 in one pixel of a picture, if any).
-constexpr double kRasterPixels = 1.0 / 128;
-constexpr double kEdgeOnPixels = 1.0 / 8;
+/// a little aside, where ground of slope s has a height that differs s times as much. 1/64 pixel
+/// covers slopes up to 5 (79 degrees).
+constexpr double kRasterPixels = 1.0 / 64;
+
+/// A triangle seen edge-on, on an outline, may be narrower than that snap. Its depth at the pixel's
+/// centre is then extrapolated far beyond it (measured: by 350 m at 15 km). Not more than so many
+/// pixels of a picture are let off for it; measured: one pixel in 40 pictures.
+constexpr int kMaxEdgeOnPixels = 4;
 
 /// The judge reads all cells alike, by either diagonal or bilinearly, but a picture may read each
 /// in its own way. Close to the ground, where a few cells fill the picture, a ray may then pass one
@@ -169,23 +172,55 @@ protected:
         return nearest > 0 ? std::max(kTauPixels, finest) : kNothingPromised;
     }
 
+    /// Whether something nearer ends beside the pixel: the depths around it, itself left out, span
+    /// more than 1/200 of themselves.
+    static bool isOnOutline(std::span<const float> depth, int width, int x, int y) {
+        float nearest = std::numeric_limits<float>::infinity();
+        float farthest = 0;
+        const int height = static_cast<int>(depth.size()) / width;
+        for (int py = std::max(y - 1, 0); py <= std::min(y + 1, height - 1); ++py)
+            for (int px = std::max(x - 1, 0); px <= std::min(x + 1, width - 1); ++px) {
+                if (px == x && py == y)
+                    continue;
+                const float metres = depth[static_cast<std::size_t>(py * width + px)];
+                nearest = std::min(nearest, metres);
+                farthest = std::max(farthest, metres);
+            }
+        return farthest > nearest * 1.005F;
+    }
+
+    void correct(const truth::Pinhole& pinhole, int x, int y, std::vector<float>& depth) const {
+        float& metres = depth[static_cast<std::size_t>(y * pinhole.width() + x)];
+        metres = static_cast<float>(ground_->firstHit(pinhole.rayThrough(x + 0.5, y + 0.5), metres));
+    }
+
     void checkCamera(const std::string& name, const Camera& camera, int width, int height) {
         const fabric::ChannelResult drawn = draw(camera, kTauPixels, width, height);
         const double promised = drawn.statistics.tauAchievedPixels;
         ASSERT_TRUE(drawn.statistics.complete) << name;
         const truth::Pinhole pinhole(camera, width, height);
-        const std::vector<float> depth = depthMetres(drawn.image, width, height);
-        const truth::DepthComparison found =
-            truth::compareDepth(pinhole, depth, *ground_, kEdgePixels);
+        std::vector<float> depth = depthMetres(drawn.image, width, height);
         const double bound =
             std::isfinite(promised) ? promised : boundFromWithinATile(pinhole, depth);
+        // An outline may have moved by as much as everything else.
+        const int edgePixels = static_cast<int>(std::clamp(std::ceil(bound), 1.0, 8.0));
+        truth::DepthComparison found =
+            truth::compareDepth(pinhole, depth, *ground_, edgePixels);
+        int edgeOn = 0;
+        while (found.maxPixels > bound + kRasterPixels && edgeOn < kMaxEdgeOnPixels &&
+               isOnOutline(depth, width, found.worstX, found.worstY)) {
+            ++edgeOn;
+            fmt::print("  let off at an outline: {:.4f} px at {},{}\n", found.maxPixels,
+                       found.worstX, found.worstY);
+            correct(pinhole, found.worstX, found.worstY, depth);
+            found = truth::compareDepth(pinhole, depth, *ground_, edgePixels);
+        }
         fmt::print("{:>11} {:4}x{:<4} promised {:8.4f} px (held against {:.4f}), measured {:.4f} px (p99 {:.4f}) at "
                    "{},{}; {} pixels, {} holes, {} false, {} misplaced, {} triangles\n",
                    name, width, height, promised, bound, found.maxPixels, found.p99Pixels, found.worstX,
                    found.worstY, found.compared, found.holes, found.falseHits, found.misplaced,
                    drawn.statistics.triangles);
-        EXPECT_LE(found.maxPixels, bound + kEdgeOnPixels) << name;
-        EXPECT_LE(found.p99Pixels, bound + kRasterPixels) << name;
+        EXPECT_LE(found.maxPixels, bound + kRasterPixels) << name;
         EXPECT_EQ(found.holes, 0U) << name;
         EXPECT_EQ(found.falseHits, 0U) << name;
         EXPECT_LE(found.misplaced, found.compared / kPixelsPerMixedReading) << name;
@@ -214,7 +249,6 @@ protected:
         }
     }
 
-    static constexpr int kEdgePixels = 1;
     static constexpr double kNothingPromised = std::numeric_limits<double>::infinity();
 
     test::TemporaryFolder folder_;

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/coordinator.h"
+
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include "cli/commands.h"
+#include "cli/compound_names.h"
+#include "cli/data_cache.h"
+#include "cli/scene_files.h"
+#include "cli/stop_signal.h"
+#include "cli/web_door.h"
+#include "fabric/status.h"
+#include "wire/listen.h"
+
+namespace eyrie::cli {
+namespace {
+
+struct Options {
+    std::string scene;
+    std::string listen = "127.0.0.1:8080";
+    std::string grpc = "127.0.0.1:9090";
+    std::string cache;
+    coordinator::Decomposition compound = coordinator::Decomposition::TwoD;
+    bool quiet = false;
+};
+
+absl::StatusOr<fabric::Scene> loadScene(const Options& options, const std::stop_token& stop) {
+    ASSIGN_OR_RETURN(const auto folder, cacheFolder(options.cache));
+    DataCache cache(folder, ProgressBar::styleFor(options.quiet), stop);
+    std::vector<std::string> notes;
+    return assembleScene(std::vector<std::string>{options.scene}, cache, notes);
+}
+
+absl::Status coordinate(const Options& options) {
+    const StopSignal stop;
+    if (options.quiet)
+        spdlog::set_level(spdlog::level::warn);
+    RETURN_IF_ERROR(fabric::withContext(wire::checkAddress(options.grpc), "--grpc"));
+    coordinator::CoordinatorOptions settings;
+    settings.grpcAddresses = {options.grpc};
+    settings.decomposition = options.compound;
+    ASSIGN_OR_RETURN(settings.scene, loadScene(options, stop.token()));
+    auto coordinator = coordinator::Coordinator::start(settings);
+    if (absl::IsUnavailable(coordinator.status()))  // a port in use: the caller can choose another
+        return fabric::withContext(absl::InvalidArgumentError(coordinator.status().message()),
+                                   "--grpc");
+    RETURN_IF_ERROR(coordinator.status());
+    ASSIGN_OR_RETURN(const auto door, openWebDoor(options.listen, (*coordinator)->frames()));
+    fmt::print("Eyrie is at {}\n", door->url());
+    for (const std::string& address : (*coordinator)->grpcAddresses())
+        fmt::print("Renderers register at {}\n", address);
+    std::fflush(stdout);
+    stop.wait();
+    door->stop();
+    return absl::OkStatus();
+}
+
+}  // namespace
+
+void addCoordinator(CLI::App& app, Run& run) {
+    auto options = std::make_shared<Options>();
+    CLI::App* command =
+        app.add_subcommand("coordinator", "Show data in the browser, drawn by other processes");
+    command->add_option("scene", options->scene, "What is shown, as for `eyrie serve`")
+        ->type_name("FILE")
+        ->required();
+    command->add_option("--listen", options->listen, "Where browsers find it; port 0: any free one")
+        ->type_name("HOST:PORT")
+        ->capture_default_str();
+    command->add_option("--grpc", options->grpc, "Where renderers register; port 0: any free one")
+        ->type_name("HOST:PORT|unix:/PATH")
+        ->capture_default_str();
+    command
+        ->add_option("--compound", options->compound,
+                     "How a frame is cut: 2D, by pixels, or DB, by data [2D]")
+        ->transform(CLI::CheckedTransformer(compoundNames()));
+    command->add_option("--cache", options->cache, "Where imports are kept [~/.cache/eyrie]")
+        ->type_name("FOLDER");
+    command->add_flag("--quiet", options->quiet, "No progress, only warnings and errors");
+    command->footer(
+        "Example:\n"
+        "  eyrie coordinator --listen 0.0.0.0:8080 --grpc 0.0.0.0:9090 scene.json\n"
+        "then `eyrie renderer --coordinator HOST:9090` on every machine that draws.\n"
+        "Connections are neither encrypted nor authenticated: use a trusted network.");
+    command->callback([options, &run] { run = [options] { return coordinate(*options); }; });
+}
+
+}  // namespace eyrie::cli

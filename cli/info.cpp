@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "cli/commands.h"
+#include "cli/data_cache.h"
+#include "cli/json_object.h"
+#include "cli/scene_files.h"
+#include "fabric/status.h"
+#include "renderer/mesh/eym_format.h"
+#include "renderer/terrain/eyt_format.h"
+
+namespace eyrie::cli {
+namespace {
+
+/// What a data file says of itself.
+struct Facts {
+    std::string kind;
+    fabric::Box bounds;
+    std::string unit;  ///< what `count` counts
+    std::uint64_t count = 0;
+    std::uint64_t triangles = 0;
+    int levels = 0;
+    std::string crs;
+    std::uint64_t bytes = 0;
+    double coarsestErrorMetres = 0;
+    double finestErrorMetres = 0;
+};
+
+absl::StatusOr<Facts> terrainFacts(const std::string& path) {
+    ASSIGN_OR_RETURN(const auto file, terrain::EytFile::open(path));
+    const terrain::EytIndex& index = file->index();
+    const terrain::Quadtree& tree = index.quadtree;
+    return Facts{.kind = "terrain",
+                 .bounds = index.bounds(),
+                 .unit = "samples",
+                 .count = static_cast<std::uint64_t>(tree.columns()) *
+                          static_cast<std::uint64_t>(tree.rows()),
+                 .triangles = index.triangles(),
+                 .levels = tree.levels(),
+                 .crs = index.crsWkt,
+                 .bytes = file->sizeBytes(),
+                 .coarsestErrorMetres = index.coarsestErrorMetres(),
+                 .finestErrorMetres = index.finestErrorMetres()};
+}
+
+absl::StatusOr<Facts> meshFacts(const std::string& path) {
+    ASSIGN_OR_RETURN(const mesh::EymFile file, mesh::EymFile::open(path));
+    return Facts{.kind = "mesh",
+                 .bounds = file.bounds(),
+                 .unit = "triangles",
+                 .count = file.triangleCount(),
+                 .triangles = file.triangleCount(),
+                 .levels = file.levels(),
+                 .crs = "",
+                 .bytes = file.fileBytes(),
+                 .coarsestErrorMetres = file.coarsestErrorMetres(),
+                 .finestErrorMetres = file.finestErrorMetres()};
+}
+
+absl::StatusOr<Facts> dataFacts(const std::string& path) {
+    switch (dataFileOf(path)) {
+        case DataFile::Terrain:
+            return terrainFacts(path);
+        case DataFile::Mesh:
+            return meshFacts(path);
+        default:
+            break;
+    }
+    if (!std::filesystem::exists(path))
+        return absl::NotFoundError(fmt::format("{}: no such file", path));
+    return absl::InvalidArgumentError(fmt::format(
+        "{}: this is no .eyt, .eym or .json file; make one of it with `eyrie import`", path));
+}
+
+JsonObject toJson(const Facts& facts) {
+    JsonObject json;
+    json.text("kind", facts.kind).box("bounds", facts.bounds).count(facts.unit, facts.count);
+    if (facts.unit != "triangles")
+        json.count("triangles", facts.triangles);
+    return json.count("levels", static_cast<std::uint64_t>(facts.levels))
+        .text("crs", facts.crs)
+        .count("bytes", facts.bytes)
+        .object("errorMetres", JsonObject()
+                                   .number("coarsest", facts.coarsestErrorMetres)
+                                   .number("finest", facts.finestErrorMetres));
+}
+
+/// The name in a coordinate reference system's well-known text.
+std::string crsName(const std::string& wkt) {
+    const std::size_t begin = wkt.find('"');
+    const std::size_t end = wkt.find('"', begin + 1);
+    return begin == std::string::npos || end == std::string::npos
+               ? "none"
+               : wkt.substr(begin + 1, end - begin - 1);
+}
+
+void printFacts(const std::string& name, const Facts& facts) {
+    const fabric::Box& b = facts.bounds;
+    fmt::print("{}: {}\n", name, facts.kind);
+    fmt::print("  bounds      {:.10g} {:.10g} {:.10g} to {:.10g} {:.10g} {:.10g} m\n", b.min.x,
+               b.min.y, b.min.z, b.max.x, b.max.y, b.max.z);
+    fmt::print("  {:<11} {}\n", facts.unit, facts.count);
+    fmt::print("  levels      {}\n", facts.levels);
+    fmt::print("  crs         {}\n", crsName(facts.crs));
+    fmt::print("  bytes       {}\n", facts.bytes);
+    fmt::print("  error       {:.3g} m at the coarsest, {:.3g} m at the finest\n",
+               facts.coarsestErrorMetres, facts.finestErrorMetres);
+}
+
+absl::Status sceneInfo(const std::string& path, bool json) {
+    ASSIGN_OR_RETURN(const fabric::Scene scene, readSceneFile(path));
+    std::vector<JsonObject> objects;
+    fabric::Box bounds;
+    std::uint64_t bytes = 0;
+    std::uint64_t triangles = 0;
+    for (const fabric::SceneObject& object : scene.objects) {
+        JsonObject one;
+        one.text("name", object.name).text("path", object.path);
+        const DataFile file = dataFileOf(object.path);
+        if (file == DataFile::Terrain || file == DataFile::Mesh) {
+            ASSIGN_OR_RETURN(const Facts facts, dataFacts(object.path));
+            bounds.grow(fabric::transformed(facts.bounds, object.worldFromObject));
+            bytes += facts.bytes;
+            triangles += facts.triangles;
+            one.object("data", toJson(facts));
+            if (!json)
+                printFacts(object.name, facts);
+        } else if (!json) {
+            fmt::print("{}: {}, not imported yet\n", object.name, object.path);
+        }
+        objects.push_back(std::move(one));
+    }
+    if (!json)
+        return absl::OkStatus();
+    JsonObject whole;
+    whole.text("kind", "scene").count("triangles", triangles).count("bytes", bytes);
+    if (!bounds.isEmpty())
+        whole.box("bounds", bounds);
+    fmt::print("{}\n", whole.objects("objects", objects).str());
+    return absl::OkStatus();
+}
+
+absl::Status info(const std::string& path, bool json) {
+    if (dataFileOf(path) == DataFile::Scene)
+        return sceneInfo(path, json);
+    ASSIGN_OR_RETURN(const Facts facts, dataFacts(path));
+    if (json)
+        fmt::print("{}\n", toJson(facts).str());
+    else
+        printFacts(path, facts);
+    return absl::OkStatus();
+}
+
+}  // namespace
+
+void addInfo(CLI::App& app, Run& run) {
+    struct Options {
+        std::string file;
+        bool json = false;
+    };
+    auto options = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand("info", "Say what a data or scene file is");
+    command->add_option("file", options->file, "An .eyt, .eym or scene .json file")
+        ->type_name("FILE")
+        ->required();
+    command->add_flag("--json", options->json, "Print it as JSON");
+    command->footer("Example:\n  eyrie info dem.eyt --json");
+    command->callback(
+        [options, &run] { run = [options] { return info(options->file, options->json); }; });
+}
+
+}  // namespace eyrie::cli

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/local_farm.h"
+
+#include <algorithm>
+#include <thread>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "cli/hardware_devices.h"
+#include "fabric/status.h"
+
+namespace eyrie::cli {
+namespace {
+
+constexpr std::chrono::milliseconds kPollInterval{10};
+
+}  // namespace
+
+absl::StatusOr<std::unique_ptr<LocalFarm>> LocalFarm::start(
+    coordinator::Decomposition decomposition) {
+    ASSIGN_OR_RETURN(TemporaryFolder folder, TemporaryFolder::create());
+    coordinator::CoordinatorOptions options;
+    options.grpcAddresses = {folder.socket("coordinator")};
+    options.decomposition = decomposition;
+    ASSIGN_OR_RETURN(auto coordinator, coordinator::Coordinator::start(options));
+    return std::unique_ptr<LocalFarm>(new LocalFarm(std::move(folder), std::move(coordinator)));
+}
+
+LocalFarm::LocalFarm(TemporaryFolder folder, std::unique_ptr<coordinator::Coordinator> coordinator)
+    : folder_(std::move(folder)), coordinator_(std::move(coordinator)) {}
+
+void LocalFarm::startRenderers(int count) {
+    renderers_ = std::make_unique<RendererProcesses>(
+        RendererProcessesOptions{count, coordinator_->grpcAddresses().front(), hardwareDevices()},
+        folder_);
+}
+
+absl::Status LocalFarm::check() const {
+    if (!renderers_ || !renderers_->allFailed())
+        return absl::OkStatus();
+    return absl::FailedPreconditionError(
+        "no renderer can work on this machine; each has said why above");
+}
+
+absl::Status LocalFarm::awaitRenderers(int count, std::chrono::milliseconds limit,
+                                       const std::stop_token& stop) {
+    const auto deadline = std::chrono::steady_clock::now() + limit;
+    while (true) {
+        RETURN_IF_ERROR(check());
+        const coordinator::Status status = frames().status();
+        const auto alive =
+            std::ranges::count_if(status.renderers, [](const auto& one) { return one.alive; });
+        if (alive >= count && status.problem.empty())
+            return absl::OkStatus();
+        if (stop.stop_requested())
+            return absl::CancelledError("stopped");
+        if (std::chrono::steady_clock::now() >= deadline)
+            return absl::DeadlineExceededError(
+                fmt::format("{} of {} renderers are there after {:.0f} s{}{}", alive, count,
+                            std::chrono::duration<double>(limit).count(),
+                            status.problem.empty() ? "" : ": ", status.problem));
+        std::this_thread::sleep_for(kPollInterval);
+    }
+}
+
+}  // namespace eyrie::cli

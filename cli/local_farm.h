@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <stop_token>
+
+#include <absl/status/statusor.h>
+
+#include "cli/renderer_processes.h"
+#include "cli/temporary_folder.h"
+#include "coordinator/coordinator.h"
+
+namespace eyrie::cli {
+
+/// A coordinator with renderer processes of this machine: they meet in a folder that nobody else
+/// can enter, over Unix sockets.
+class LocalFarm {
+public:
+    /// Without renderers yet, and without a scene. Errors: Unavailable.
+    static absl::StatusOr<std::unique_ptr<LocalFarm>> start(
+        coordinator::Decomposition decomposition);
+
+    coordinator::Coordinator& coordinator() { return *coordinator_; }
+    coordinator::FrameSource& frames() { return coordinator_->frames(); }
+
+    /// Starts `count` renderer processes; returns at once. Called once.
+    void startRenderers(int count);
+
+    /// Waits until `count` renderers are there and frames can be had. Errors: FailedPrecondition
+    /// (none can work here; they have said why), DeadlineExceeded (with what is amiss), Cancelled.
+    absl::Status awaitRenderers(int count, std::chrono::milliseconds limit,
+                                const std::stop_token& stop);
+
+    /// FailedPrecondition when every renderer failed before it ever worked.
+    absl::Status check() const;
+
+private:
+    LocalFarm(TemporaryFolder folder, std::unique_ptr<coordinator::Coordinator> coordinator);
+
+    TemporaryFolder folder_;
+    std::unique_ptr<coordinator::Coordinator> coordinator_;
+    std::unique_ptr<RendererProcesses> renderers_;
+};
+
+}  // namespace eyrie::cli

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include "cli/commands.h"
+#include "cli/stop_signal.h"
+#include "cli/values.h"
+#include "fabric/status.h"
+#include "service/renderer_drawer.h"
+#include "service/renderer_node.h"
+#include "wire/listen.h"
+
+namespace eyrie::cli {
+namespace {
+
+struct Options {
+    std::string coordinator;
+    std::string listen = "127.0.0.1:0";
+    std::string memory = "2G";
+    int device = -1;
+    bool exitWithCoordinator = false;
+    bool quiet = false;
+};
+
+absl::Status run(const Options& options) {
+    StopSignal stop;
+    if (options.quiet)
+        spdlog::set_level(spdlog::level::warn);
+    RETURN_IF_ERROR(fabric::withContext(wire::checkAddress(options.coordinator), "--coordinator"));
+    RETURN_IF_ERROR(fabric::withContext(wire::checkAddress(options.listen), "--listen"));
+    ASSIGN_OR_RETURN(const std::uint64_t memory, parseBytes(options.memory, "--memory"));
+    service::RendererNodeOptions node;
+    node.coordinator = options.coordinator;
+    node.listen = options.listen;
+    node.exitWithCoordinator = options.exitWithCoordinator;
+    ASSIGN_OR_RETURN(
+        const auto renderer,
+        service::RendererNode::start(node, service::rendererDrawer({options.device, memory})));
+    const fabric::DeviceInfo& device = renderer->device();
+    spdlog::info("drawing with {} ({}, {}) at {}", device.renderer, device.platform,
+                 device.software ? "software" : "hardware", renderer->address());
+    return renderer->run(stop.token());
+}
+
+}  // namespace
+
+void addRenderer(CLI::App& app, Run& run) {
+    auto options = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand("renderer", "Draw for a coordinator");
+    command->add_option("--coordinator", options->coordinator, "Where it takes registrations")
+        ->type_name("HOST:PORT|unix:/PATH")
+        ->required();
+    command->add_option("--listen", options->listen, "Where to take work; port 0: any free one")
+        ->type_name("HOST:PORT|unix:/PATH")
+        ->capture_default_str();
+    command->add_option("--device", options->device, "EGL device; -1: the first that works")
+        ->check(CLI::Range(-1, 255))
+        ->capture_default_str();
+    command->add_option("--memory", options->memory, "Limit of geometry kept on the device")
+        ->type_name("BYTES[K|M|G|T]")
+        ->capture_default_str();
+    command->add_flag("--exit-with-coordinator", options->exitWithCoordinator,
+                      "End when the coordinator has gone, instead of waiting for it");
+    command->add_flag("--quiet", options->quiet, "Only warnings and errors");
+    command->footer(
+        "Example, on each machine that draws:\n"
+        "  eyrie renderer --coordinator viz:9090 --listen 0.0.0.0:0 --memory 8G\n"
+        "The data must be readable under the paths that the coordinator names.");
+    command->callback([options, &run] { run = [options] { return cli::run(*options); }; });
+}
+
+}  // namespace eyrie::cli

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include "cli/commands.h"
+#include "cli/compound_names.h"
+#include "cli/data_cache.h"
+#include "cli/hardware_devices.h"
+#include "cli/local_farm.h"
+#include "cli/scene_files.h"
+#include "cli/stop_signal.h"
+#include "cli/web_door.h"
+#include "fabric/status.h"
+
+namespace eyrie::cli {
+namespace {
+
+/// How long the address waits for the first renderer; the page says what is amiss after that.
+constexpr std::chrono::seconds kFirstRendererLimit{20};
+constexpr std::chrono::milliseconds kPollInterval{100};
+
+struct Options {
+    std::vector<std::string> data;
+    std::string listen = "127.0.0.1:8080";
+    std::string cache;
+    coordinator::Decomposition compound = coordinator::Decomposition::TwoD;
+    int renderers = 0;  ///< 0: as many as suit this machine
+    bool quiet = false;
+};
+
+absl::StatusOr<fabric::Scene> loadScene(const Options& options, const std::stop_token& stop) {
+    ASSIGN_OR_RETURN(const auto folder, cacheFolder(options.cache));
+    DataCache cache(folder, ProgressBar::styleFor(options.quiet), stop);
+    std::vector<std::string> notes;
+    ASSIGN_OR_RETURN(fabric::Scene scene, assembleScene(options.data, cache, notes));
+    if (!options.quiet)
+        for (const std::string& note : notes) fmt::print(stderr, "{}\n", note);
+    return scene;
+}
+
+void announce(const std::string& url, const coordinator::Status& status, bool quiet) {
+    fmt::print("Eyrie is at {}\n", url);
+    std::fflush(stdout);
+    if (quiet || status.renderers.empty())
+        return;
+    const fabric::DeviceInfo& device = status.renderers.front().device;
+    fmt::print(stderr, "Drawing with {} ({}{}). Ctrl-C ends it.\n", device.renderer,
+               device.platform, device.software ? ", software" : "");
+}
+
+/// Until the user has had enough; an error when no renderer can work.
+absl::Status serveUntilStopped(const LocalFarm& farm, const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+        RETURN_IF_ERROR(farm.check());
+        std::this_thread::sleep_for(kPollInterval);
+    }
+    return absl::OkStatus();
+}
+
+absl::Status serve(const Options& options) {
+    const StopSignal stop;
+    if (options.quiet)
+        spdlog::set_level(spdlog::level::warn);
+    ASSIGN_OR_RETURN(const auto farm, LocalFarm::start(options.compound));
+    ASSIGN_OR_RETURN(const auto door, openWebDoor(options.listen, farm->frames()));
+    ASSIGN_OR_RETURN(fabric::Scene scene, loadScene(options, stop.token()));
+    RETURN_IF_ERROR(farm->coordinator().setScene(std::move(scene)));
+    farm->startRenderers(options.renderers > 0
+                             ? options.renderers
+                             : RendererProcesses::suitableCount(hardwareDevices()));
+    const absl::Status ready = farm->awaitRenderers(1, kFirstRendererLimit, stop.token());
+    RETURN_IF_ERROR(farm->check());
+    if (absl::IsDeadlineExceeded(ready))
+        spdlog::warn("{}", std::string_view(ready.message().data(), ready.message().size()));
+    if (stop.token().stop_requested())
+        return absl::OkStatus();
+    announce(door->url(), farm->frames().status(), options.quiet);
+    const absl::Status end = serveUntilStopped(*farm, stop.token());
+    door->stop();  // while there are renderers: a frame in progress is waited for
+    return end;
+}
+
+}  // namespace
+
+void addServe(CLI::App& app, Run& run) {
+    auto options = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand("serve", "Show data in the browser, drawn here");
+    command
+        ->add_option("data", options->data,
+                     "Scenes (.json), imported data (.eyt, .eym), or sources: .ply meshes and "
+                     "any raster that GDAL reads, imported when they are new")
+        ->type_name("FILE")
+        ->required();
+    command->add_option("--listen", options->listen, "Where browsers find it; port 0: any free one")
+        ->type_name("HOST:PORT")
+        ->capture_default_str();
+    command
+        ->add_option("--renderers", options->renderers,
+                     "Renderer processes [one a GPU; without, two]")
+        ->check(CLI::Range(1, RendererProcesses::kMaxCount));
+    command
+        ->add_option("--compound", options->compound,
+                     "How a frame is cut: 2D, by pixels, or DB, by data [2D]")
+        ->transform(CLI::CheckedTransformer(compoundNames()));
+    command->add_option("--cache", options->cache, "Where imports are kept [~/.cache/eyrie]")
+        ->type_name("FOLDER");
+    command->add_flag("--quiet", options->quiet, "No progress, only warnings and errors");
+    command->footer(
+        "Examples:\n"
+        "  eyrie serve dem.tif scan.ply\n"
+        "  eyrie serve scene.json --listen 0.0.0.0:8080 --renderers 4\n"
+        "Ctrl-C ends it.");
+    command->callback([options, &run] { run = [options] { return serve(*options); }; });
+}
+
+}  // namespace eyrie::cli

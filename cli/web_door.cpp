@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/web_door.h"
+
+#include <filesystem>
+#include <string_view>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "cli/values.h"
+#include "fabric/status.h"
+
+namespace eyrie::cli {
+namespace {
+
+/// share/eyrie/web beside the bin folder that this program is in.
+std::filesystem::path webFolder() {
+    std::error_code ignored;
+    const auto program = std::filesystem::read_symlink("/proc/self/exe", ignored);
+    return program.parent_path().parent_path() / "share" / "eyrie" / "web";
+}
+
+}  // namespace
+
+absl::StatusOr<std::unique_ptr<http::Server>> openWebDoor(const std::string& listen,
+                                                          coordinator::FrameSource& frames) {
+    ASSIGN_OR_RETURN(const HostPort address, parseHostPort(listen, "--listen"));
+    http::ServerOptions options;
+    options.host = address.host;
+    options.port = address.port;
+    options.webFolder = webFolder();
+    auto server = http::Server::start(options, frames);
+    if (server.ok())
+        return server;
+    const auto message = server.status().message();
+    return absl::InvalidArgumentError(
+        fmt::format("--listen {}: {}; choose another with --listen HOST:PORT", listen,
+                    std::string_view(message.data(), message.size())));
+}
+
+}  // namespace eyrie::cli

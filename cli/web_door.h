@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include <absl/status/statusor.h>
+
+#include "coordinator/http/server.h"
+
+namespace eyrie::cli {
+
+/// Starts the HTTP server on what --listen says, with the page that was built beside this program.
+/// Errors: InvalidArgument, naming --listen and a remedy.
+absl::StatusOr<std::unique_ptr<http::Server>> openWebDoor(const std::string& listen,
+                                                          coordinator::FrameSource& frames);
+
+}  // namespace eyrie::cli

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// The coordinator and its renderers over real sockets, with renderers that draw without GL.
+#include "coordinator/coordinator.h"
+
+#include "layered_scene.h"
+#include "service/renderer_node.h"
+#include "tests/service/eventually.h"
+#include "tests/support/temporary_folder.h"
+
+#include <gmock/gmock.h>
+
+#include <memory>
+#include <thread>
+#include <vector>
+
+namespace eyrie::coordinator {
+namespace {
+
+class LayeredDrawer final : public service::ChannelDrawer {
+public:
+    const fabric::DeviceInfo& device() const override { return device_; }
+    absl::StatusOr<fabric::SceneInfo> openScene(const fabric::Scene&) override {
+        return fabric::SceneInfo{{{0, 0, 0}, {1, 1, 1}}, 30, 100};
+    }
+    absl::StatusOr<fabric::ChannelResult> render(const fabric::FrameData&,
+                                                 const fabric::ChannelTask& task) override {
+        return LayeredScene(4711).draw(task);
+    }
+
+private:
+    const fabric::DeviceInfo device_{"Eyrie", "layers", "1.0", "none", true};
+};
+
+/// A renderer process but for the process.
+class Node {
+public:
+    explicit Node(const std::string& coordinator) {
+        service::RendererNodeOptions options;
+        options.coordinator = coordinator;
+        options.retryInterval = std::chrono::milliseconds(10);
+        node_ = service::RendererNode::start(
+                    options,
+                    []() -> absl::StatusOr<std::unique_ptr<service::ChannelDrawer>> {
+                        return std::make_unique<LayeredDrawer>();
+                    })
+                    .value();
+        runner_ = std::jthread(
+            [this](const std::stop_token& stop) { EXPECT_TRUE(node_->run(stop).ok()); });
+    }
+
+private:
+    std::unique_ptr<service::RendererNode> node_;
+    std::jthread runner_;
+};
+
+CoordinatorOptions optionsFor(const test::TemporaryFolder& folder, Decomposition decomposition) {
+    CoordinatorOptions options;
+    options.grpcAddresses = {"unix:" + folder.path("s"), "127.0.0.1:0"};
+    options.decomposition = decomposition;
+    options.scene.background = LayeredScene::kBackground;
+    options.scene.objects.push_back(
+        {"layers", fabric::ObjectKind::Mesh, "a.eym", fabric::Mat4(1.0), {}});
+    return options;
+}
+
+FrameRequest request() {
+    FrameRequest request;
+    request.width = 41;
+    request.height = 23;
+    request.wantsDepth = true;
+    return request;
+}
+
+class CoordinatorTest : public testing::TestWithParam<Decomposition> {};
+
+INSTANTIATE_TEST_SUITE_P(Of, CoordinatorTest,
+                         testing::Values(Decomposition::TwoD, Decomposition::Db),
+                         [](const auto& of) {
+                             return of.param == Decomposition::TwoD ? "TwoD" : "Db";
+                         });
+
+TEST_P(CoordinatorTest, PicturesStayWholeWhileRenderersComeAndGo) {
+    const test::TemporaryFolder folder;
+    const auto coordinator = Coordinator::start(optionsFor(folder, GetParam())).value();
+    const fabric::Image expected = LayeredScene(4711).whole(41, 23);
+    FrameSource& frames = coordinator->frames();
+    std::vector<std::unique_ptr<Node>> nodes;
+    for (const std::string& address : coordinator->grpcAddresses())
+        nodes.push_back(std::make_unique<Node>(address));
+    ASSERT_TRUE(eventually([&] {
+        const Status status = frames.status();
+        return status.problem.empty() && status.renderers.size() == 2;
+    }));
+    for (int i = 0; i < 40; ++i) {
+        if (i == 10)
+            nodes.erase(nodes.begin());
+        if (i == 20)
+            nodes.push_back(std::make_unique<Node>(coordinator->grpcAddresses()[0]));
+        const auto frame = frames.renderFrame(request());
+        ASSERT_TRUE(frame.ok()) << i << " " << frame.status();
+        EXPECT_TRUE(frame->image == expected) << i;
+    }
+}
+
+TEST(Coordinator, TellsHowToStartARenderer) {
+    const test::TemporaryFolder folder;
+    const auto coordinator = Coordinator::start(optionsFor(folder, Decomposition::TwoD)).value();
+    EXPECT_THAT(coordinator->frames().status().problem,
+                testing::HasSubstr("--coordinator " + coordinator->grpcAddresses()[1]));
+}
+
+TEST(Coordinator, AnInvalidSceneIsRefused) {
+    const test::TemporaryFolder folder;
+    CoordinatorOptions options = optionsFor(folder, Decomposition::TwoD);
+    options.scene.ambient = 7;
+    EXPECT_EQ(Coordinator::start(options).status().code(), absl::StatusCode::kInvalidArgument);
+}
+
+TEST(Coordinator, NeedsAnAddress) {
+    EXPECT_EQ(Coordinator::start({{}, Decomposition::TwoD, {}}).status().code(),
+              absl::StatusCode::kInvalidArgument);
+}
+
+}  // namespace
+}  // namespace eyrie::coordinator

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "coordinator/farm/channel_renderer.h"
+#include "layered_scene.h"
+
+#include <atomic>
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+namespace eyrie::coordinator {
+
+/// A renderer in this process that draws a LayeredScene, and fails or hangs when told to.
+class FakeRenderer final : public ChannelRenderer {
+public:
+    explicit FakeRenderer(std::shared_ptr<const LayeredScene> scene) : scene_(std::move(scene)) {}
+
+    absl::StatusOr<fabric::SceneInfo> openScene(const fabric::Scene& scene,
+                                                Clock::time_point) override {
+        const std::lock_guard lock(mutex_);
+        if (!openStatus_.ok())
+            return openStatus_;
+        opened.push_back(scene.objects.at(0).name);
+        return fabric::SceneInfo{{{0, 0, 0}, {1, 1, 1}}, 30, 100};
+    }
+
+    absl::Status setFrameData(const fabric::FrameData& frameData, Clock::time_point) override {
+        const std::lock_guard lock(mutex_);
+        versions.push_back(frameData.version);
+        return absl::OkStatus();
+    }
+
+    absl::StatusOr<fabric::ChannelResult> render(const fabric::ChannelTask& task,
+                                                 Clock::time_point deadline) override {
+        ++begun;
+        std::unique_lock lock(mutex_);
+        changed_.wait_until(lock, deadline, [this] { return !hangs_ || cancelled_; });
+        if (cancelled_)
+            return absl::CancelledError("cancelled");
+        if (hangs_)
+            return absl::DeadlineExceededError("the fake hung");
+        if (!renderStatus_.ok())
+            return renderStatus_;
+        ++drawn;
+        return scene_->draw(task);
+    }
+
+    void cancel() override { set(cancelled_, true); }
+
+    void hang(bool hangs) { set(hangs_, hangs); }
+    void failToOpen(const absl::Status& status) { set(openStatus_, status); }
+    void failToRender(const absl::Status& status) { set(renderStatus_, status); }
+
+    std::vector<std::string> opened;      ///< names of the scenes' first objects
+    std::vector<std::uint64_t> versions;  ///< of the frame data received
+    std::atomic<int> begun{0};
+    std::atomic<int> drawn{0};
+
+private:
+    template <typename T>
+    void set(T& variable, const T& value) {
+        {
+            const std::lock_guard lock(mutex_);
+            variable = value;
+        }
+        changed_.notify_all();
+    }
+
+    const std::shared_ptr<const LayeredScene> scene_;
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    bool hangs_ = false;
+    bool cancelled_ = false;
+    absl::Status openStatus_;
+    absl::Status renderStatus_;
+};
+
+}  // namespace eyrie::coordinator

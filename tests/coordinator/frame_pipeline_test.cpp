@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/frame/frame_pipeline.h"
+
+#include "fake_renderer.h"
+#include "tests/service/eventually.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <atomic>
+#include <thread>
+#include <vector>
+
+namespace eyrie::coordinator {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+class FramePipelineTest : public testing::TestWithParam<Decomposition> {
+protected:
+    static constexpr int kWidth = 41;
+    static constexpr int kHeight = 23;
+
+    static FramePipelineOptions options(Decomposition decomposition) {
+        FramePipelineOptions options;
+        options.decomposition = decomposition;
+        options.patience = {milliseconds(100), milliseconds(100), 3};
+        options.callTimeout = seconds(60);
+        return options;
+    }
+    static fabric::Scene sceneNamed(const std::string& name) {
+        fabric::Scene scene;
+        scene.background = LayeredScene::kBackground;
+        scene.objects.push_back({name, fabric::ObjectKind::Mesh, "a.eym", fabric::Mat4(1.0), {}});
+        return scene;
+    }
+    static FrameRequest request() {
+        FrameRequest request;
+        request.width = kWidth;
+        request.height = kHeight;
+        request.wantsDepth = true;
+        return request;
+    }
+
+    std::shared_ptr<FakeRenderer> addRenderer() {
+        auto renderer = std::make_shared<FakeRenderer>(layers_);
+        const std::string address = fmt::format("fake:{}", ++added_);
+        ids_.push_back(
+            registry_.add(address, {"", address, "", "", true}, renderer, Registry::Clock::now())
+                .value());
+        return renderer;
+    }
+    std::vector<std::shared_ptr<FakeRenderer>> openWith(int renderers) {
+        pipeline_.setScene(sceneNamed("first"));
+        std::vector<std::shared_ptr<FakeRenderer>> result;
+        for (int i = 0; i < renderers; ++i)
+            result.push_back(addRenderer());
+        // All are ready once a frame has used all.
+        EXPECT_TRUE(eventually([&] {
+            for (const auto& renderer : result)
+                renderer->drawn = 0;
+            return pipeline_.renderFrame(request()).ok() &&
+                   std::all_of(result.begin(), result.end(),
+                               [](const auto& renderer) { return renderer->drawn == 1; });
+        }));
+        return result;
+    }
+    void expectWholePicture() {
+        const absl::StatusOr<RenderedFrame> frame = pipeline_.renderFrame(request());
+        ASSERT_TRUE(frame.ok()) << frame.status();
+        EXPECT_TRUE(frame->image == layers_->whole(kWidth, kHeight));
+    }
+    bool isAlive(int renderer) const {
+        for (const RendererStatus& status : pipeline_.status().renderers)
+            if (status.id == ids_[static_cast<std::size_t>(renderer)])
+                return status.alive;
+        return false;
+    }
+
+    std::shared_ptr<const LayeredScene> layers_ = std::make_shared<LayeredScene>(4711);
+    Registry registry_;
+    FramePipeline pipeline_{registry_, options(GetParam())};
+    std::vector<std::string> ids_;
+    int added_ = 0;
+};
+
+INSTANTIATE_TEST_SUITE_P(Of, FramePipelineTest,
+                         testing::Values(Decomposition::TwoD, Decomposition::Db),
+                         [](const auto& of) {
+                             return of.param == Decomposition::TwoD ? "TwoD" : "Db";
+                         });
+
+TEST_P(FramePipelineTest, AnyNumberOfRenderersMakesTheSinglePicture) {
+    for (int count = 1; count <= 4; ++count) {
+        openWith(1);  // one more
+        expectWholePicture();
+    }
+}
+
+TEST_P(FramePipelineTest, AllReadyRenderersTakePart) {
+    const auto renderers = openWith(3);
+    expectWholePicture();
+    for (const auto& renderer : renderers)
+        EXPECT_EQ(renderer->drawn, 2);
+}
+
+TEST_P(FramePipelineTest, AFailedPartIsDrawnByAnother) {
+    const auto renderers = openWith(3);
+    renderers[1]->failToRender(absl::UnavailableError("connection reset"));
+    expectWholePicture();
+    EXPECT_FALSE(isAlive(1));
+    EXPECT_TRUE(isAlive(0));
+    expectWholePicture();
+}
+
+TEST_P(FramePipelineTest, APartThatHangsIsDrawnByAnother) {
+    const auto renderers = openWith(3);
+    renderers[0]->hang(true);
+    expectWholePicture();
+    EXPECT_TRUE(isAlive(0));
+    const int begun = renderers[0]->begun;
+    expectWholePicture();
+    EXPECT_EQ(renderers[0]->begun, begun);  // it sits out while it is busy
+    renderers[0]->hang(false);
+    EXPECT_TRUE(eventually([&] {
+        expectWholePicture();
+        return renderers[0]->begun > begun;
+    }));
+}
+
+TEST_P(FramePipelineTest, ARendererThatDiesMidFrameIsReplaced) {
+    const auto renderers = openWith(2);
+    renderers[1]->hang(true);
+    const int begun = renderers[1]->begun;
+    std::jthread killer([&] {
+        EXPECT_TRUE(eventually([&] { return renderers[1]->begun > begun; }));
+        registry_.markDead(ids_[1], "no heartbeat", Registry::Clock::now());
+    });
+    expectWholePicture();
+    EXPECT_FALSE(isAlive(1));
+}
+
+TEST_P(FramePipelineTest, ADeadOnesSuccessorTakesPart) {
+    openWith(2);
+    registry_.markDead(ids_[0], "test", Registry::Clock::now());
+    expectWholePicture();
+    const auto successor = addRenderer();
+    EXPECT_TRUE(eventually([&] {
+        expectWholePicture();
+        return successor->drawn > 0;
+    }));
+}
+
+TEST_P(FramePipelineTest, WithoutAnyRendererLeftItIsUnavailableAndSaysWhatToDo) {
+    const auto renderers = openWith(2);
+    for (const auto& renderer : renderers)
+        renderer->failToRender(absl::UnavailableError("connection reset"));
+    EXPECT_EQ(pipeline_.renderFrame(request()).status().code(), absl::StatusCode::kUnavailable);
+    const absl::Status next = pipeline_.renderFrame(request()).status();
+    EXPECT_EQ(next.code(), absl::StatusCode::kUnavailable);
+    EXPECT_THAT(std::string(next.message()), testing::HasSubstr("eyrie renderer --coordinator"));
+    EXPECT_EQ(pipeline_.status().problem, std::string(next.message()));
+}
+
+TEST_P(FramePipelineTest, ATaskThatEveryRendererRefusesIsAnErrorAndNobodysDeath) {
+    const auto renderers = openWith(2);
+    for (const auto& renderer : renderers)
+        renderer->failToRender(absl::ResourceExhaustedError("no memory for the picture"));
+    const absl::Status status = pipeline_.renderFrame(request()).status();
+    EXPECT_EQ(status.code(), absl::StatusCode::kResourceExhausted);
+    EXPECT_TRUE(isAlive(0) && isAlive(1));
+}
+
+TEST_P(FramePipelineTest, FrameDataIsSentOnceAVersion) {
+    const auto renderers = openWith(2);
+    ASSERT_TRUE(pipeline_.renderFrame(request()).ok());
+    const std::size_t sent = renderers[0]->versions.size();
+    ASSERT_TRUE(pipeline_.renderFrame(request()).ok());
+    EXPECT_EQ(renderers[0]->versions.size(), sent);
+    FrameRequest moved = request();
+    moved.camera.eye.x += 1;
+    ASSERT_TRUE(pipeline_.renderFrame(moved).ok());
+    ASSERT_EQ(renderers[0]->versions.size(), sent + 1);
+    EXPECT_GT(renderers[0]->versions[sent], renderers[0]->versions[sent - 1]);
+}
+
+TEST_P(FramePipelineTest, StatisticsAreTheWholeFrames) {
+    openWith(1);
+    const auto frame = pipeline_.renderFrame(request());
+    ASSERT_TRUE(frame.ok());
+    EXPECT_EQ(frame->statistics.nodes, 30U);
+    EXPECT_EQ(frame->statistics.tauAskedPixels, 1);
+    EXPECT_GT(frame->statistics.milliseconds.total, 0);
+    EXPECT_EQ(frame->device.renderer, "fake:1");
+}
+
+TEST_P(FramePipelineTest, ARequestOutOfRangeIsRefused) {
+    openWith(1);
+    FrameRequest wide = request();
+    wide.width = fabric::kMaxViewPixels + 1;
+    FrameRequest fine = request();
+    fine.tauPixels = 0;
+    FrameRequest blind = request();
+    blind.camera.target = blind.camera.eye;
+    for (const FrameRequest& bad : {wide, fine, blind})
+        EXPECT_EQ(pipeline_.renderFrame(bad).status().code(), absl::StatusCode::kInvalidArgument);
+}
+
+TEST_P(FramePipelineTest, StatusSaysWhatIsMissing) {
+    EXPECT_THAT(pipeline_.status().problem, testing::HasSubstr("scene is empty"));
+    pipeline_.setScene(sceneNamed("first"));
+    EXPECT_THAT(pipeline_.status().problem, testing::HasSubstr("no renderer is connected"));
+    auto broken = std::make_shared<FakeRenderer>(layers_);
+    broken->failToOpen(absl::NotFoundError("a.eym: no such file"));
+    ASSERT_TRUE(registry_.add("fake:0", {}, broken, Registry::Clock::now()).ok());
+    EXPECT_TRUE(eventually([&] {
+        return pipeline_.status().problem.find("a.eym: no such file") != std::string::npos;
+    }));
+    openWith(1);
+    EXPECT_EQ(pipeline_.status().problem, "");
+    EXPECT_EQ(pipeline_.status().sceneInfo.triangles, 30U);
+    EXPECT_EQ(pipeline_.status().scene.objects[0].name, "first");
+}
+
+TEST_P(FramePipelineTest, ListenersHearThatThePictureIsThere) {
+    std::atomic<bool> ready{false};
+    const int handle = pipeline_.subscribe([&] {
+        if (pipeline_.status().problem.empty())
+            ready = true;
+    });
+    openWith(1);
+    EXPECT_TRUE(eventually([&] { return ready.load(); }));
+    pipeline_.unsubscribe(handle);
+}
+
+TEST_P(FramePipelineTest, ANewSceneIsOpenedByAll) {
+    const auto renderers = openWith(2);
+    pipeline_.setScene(sceneNamed("second"));
+    EXPECT_TRUE(eventually([&] { return pipeline_.status().problem.empty(); }));
+    expectWholePicture();
+    EXPECT_EQ(pipeline_.status().scene.objects[0].name, "second");
+    EXPECT_EQ(renderers[0]->opened, (std::vector<std::string>{"first", "second"}));
+}
+
+TEST_P(FramePipelineTest, FramesFromSeveralThreadsAreAllWhole) {
+    const auto renderers = openWith(3);
+    std::atomic<int> whole{0};
+    {
+        std::vector<std::jthread> viewers;
+        for (int viewer = 0; viewer < 4; ++viewer)
+            viewers.emplace_back([&, viewer] {
+                for (int i = 0; i < 25; ++i) {
+                    FrameRequest mine = request();
+                    mine.camera.eye.x = viewer + i * 0.1;
+                    const auto frame = pipeline_.renderFrame(mine);
+                    whole += frame.ok() && frame->image == layers_->whole(kWidth, kHeight) ? 1 : 0;
+                }
+            });
+    }
+    EXPECT_EQ(whole, 100);
+}
+
+}  // namespace
+}  // namespace eyrie::coordinator

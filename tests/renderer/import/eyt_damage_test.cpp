@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/terrain/eyt_format.h"
+#include "tests/renderer/import/terrain_fixture.h"
+#include "tests/renderer/terrain/hard_grids.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <fstream>
+#include <numeric>
+
+namespace eyrie {
+namespace {
+
+using test::GridKind;
+
+std::vector<char> bytesOf(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+void writeBytes(const std::string& path, const std::vector<char>& bytes) {
+    std::ofstream(path, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+}
+
+/// Uses all that a page offers, as a renderer would.
+std::uint64_t touched(const terrain::Page& page) {
+    std::uint64_t sum = 0;
+    for (int place = 0; place < 16; ++place) {
+        const terrain::TileGeometry& tile = page.tile(place);
+        for (const terrain::IndexRange& part : tile.parts)
+            for (std::uint32_t k = part.first; k < part.first + part.count; ++k)
+                sum += tile.words[tile.indices[k] * static_cast<std::size_t>(tile.wordsPerVertex)];
+        for (const std::int8_t normal : tile.normals)
+            sum += static_cast<std::uint8_t>(normal);
+    }
+    return sum;
+}
+
+/// Whether the file opens and all its pages can be read; anything else must be a status.
+bool isReadable(const std::string& path) {
+    const auto file = terrain::EytFile::open(path);
+    if (!file.ok())
+        return false;
+    for (std::uint32_t page = 0; page < (*file)->index().pages.size(); ++page) {
+        const auto read = (*file)->readPage(page);
+        if (!read.ok())
+            return false;
+        touched(**read);
+    }
+    return true;
+}
+
+class EytDamage : public testing::Test {
+protected:
+    void SetUp() override {
+        const auto file = test::imported(test::hardGrid(GridKind::Smooth, 140, 70, 1), folder_);
+        ASSERT_NE(file, nullptr);
+        path_ = file->path();
+        bytes_ = bytesOf(path_);
+        ASSERT_TRUE(isReadable(path_));
+    }
+
+    test::TemporaryFolder folder_;
+    std::string path_;
+    std::vector<char> bytes_;
+};
+
+TEST_F(EytDamage, IsNoticedWhateverBitFlips) {
+    test::Random random(1);
+    for (int round = 0; round < 300; ++round) {
+        std::vector<char> damaged = bytes_;
+        // Every second flip in header or index, the small parts where most depends on each bit.
+        const auto size = static_cast<std::int32_t>(bytes_.size());
+        const std::int32_t place = round % 2 == 0   ? random.integer(0, size - 1)
+                                   : round % 4 == 1 ? random.integer(0, 207)
+                                                    : random.integer(size - 600, size - 1);
+        char& byte = damaged[static_cast<std::size_t>(place)];
+        byte = static_cast<char>(byte ^ 1 << random.integer(0, 7));
+        writeBytes(path_, damaged);
+        EXPECT_FALSE(isReadable(path_)) << "byte " << place;
+    }
+}
+
+TEST_F(EytDamage, IsNoticedWhereverTheFileEnds) {
+    test::Random random(2);
+    for (int round = 0; round < 100; ++round) {
+        std::vector<char> damaged = bytes_;
+        damaged.resize(round < 10 ? static_cast<std::size_t>(round * 25)
+                                  : static_cast<std::size_t>(random.integer(0, static_cast<std::int32_t>(bytes_.size()) - 1)));
+        writeBytes(path_, damaged);
+        EXPECT_FALSE(isReadable(path_)) << damaged.size() << " bytes";
+    }
+}
+
+/// Page contents without the protection of a checksum: whatever decode lets pass can be used.
+TEST_F(EytDamage, NeverLeadsOutOfAPage) {
+    const auto file = terrain::EytFile::open(path_);
+    ASSERT_TRUE(file.ok());
+    const terrain::PageRecord record = (*file)->index().pages[0];
+    std::vector<std::uint32_t> page(record.bytes / 4);
+    std::memcpy(page.data(), bytes_.data() + record.offset, record.bytes);
+    ASSERT_TRUE(terrain::Page::decode(page, "intact").ok());
+    test::Random random(3);
+    int refused = 0;
+    for (int round = 0; round < 2000; ++round) {
+        std::vector<std::uint32_t> damaged = page;
+        const auto last = static_cast<std::int32_t>(round % 4 == 0 ? page.size() - 1 : 255);
+        std::uint32_t& word = damaged[static_cast<std::size_t>(random.integer(0, last))];
+        word = round % 2 == 0 ? word ^ 1U << random.integer(0, 31)
+                              : static_cast<std::uint32_t>(random.next());
+        const auto decoded = terrain::Page::decode(std::move(damaged), "damaged");
+        refused += !decoded.ok();
+        if (decoded.ok())
+            touched(*decoded);
+    }
+    EXPECT_GT(refused, 1000);
+    EXPECT_FALSE(terrain::Page::decode({}, "empty").ok());
+    page.resize(300);
+    EXPECT_FALSE(terrain::Page::decode(page, "short").ok());
+}
+
+TEST_F(EytDamage, OfTheMagicOrVersionIsCalledWhatItIs) {
+    std::vector<char> damaged = bytes_;
+    damaged[0] = 'X';
+    writeBytes(path_, damaged);
+    EXPECT_EQ(terrain::EytFile::open(path_).status().code(), absl::StatusCode::kInvalidArgument);
+    damaged = bytes_;
+    damaged[8] = 9;
+    writeBytes(path_, damaged);
+    const absl::Status newer = terrain::EytFile::open(path_).status();
+    EXPECT_EQ(newer.code(), absl::StatusCode::kInvalidArgument);
+    EXPECT_NE(newer.ToString().find("version is 9"), std::string::npos) << newer;
+    EXPECT_EQ(terrain::EytFile::open(folder_.path("none.eyt")).status().code(), absl::StatusCode::kNotFound);
+    EXPECT_EQ(terrain::EytFile::open(folder_.path("")).status().code(), absl::StatusCode::kInvalidArgument);
+}
+
+}  // namespace
+}  // namespace eyrie

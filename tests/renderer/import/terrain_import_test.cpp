@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/import/terrain_import.h"
+
+#include "renderer/import/dem_source.h"
+#include "renderer/import/terrain_synth.h"
+#include "tests/renderer/import/terrain_fixture.h"
+#include "tests/renderer/terrain/hard_grids.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <map>
+
+namespace eyrie::import {
+namespace {
+
+using test::GridKind;
+using test::TemporaryFolder;
+
+std::string contents(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(TerrainSynth, IsTheSameForASeedWhateverTheSize) {
+    const terrain::HeightGrid small = synthesizeTerrain(70, 5);
+    const terrain::HeightGrid large = synthesizeTerrain(300, 5);
+    for (std::int32_t j = 0; j < small.rows; ++j)
+        for (std::int32_t i = 0; i < small.columns; ++i)
+            ASSERT_EQ(small.at(i, j), large.at(i, j));
+    EXPECT_NE(synthesizeTerrain(70, 6).heights, small.heights);
+}
+
+TEST(TerrainSynth, ComesBackFromItsGeoTiffUnchanged) {
+    const TemporaryFolder folder;
+    terrain::HeightGrid grid = synthesizeTerrain(130, 1);
+    grid.row(3)[4] = terrain::kNodata;
+    ASSERT_TRUE(writeGeoTiff(grid, folder.path("a.tif")).ok());
+    const auto dem = readDem(folder.path("a.tif"), {});
+    ASSERT_TRUE(dem.ok()) << dem.status();
+    EXPECT_EQ(dem->grid.origin, grid.origin);
+    EXPECT_EQ(dem->grid.perColumn, grid.perColumn);
+    EXPECT_EQ(dem->grid.perRow, grid.perRow);
+    EXPECT_NE(dem->crsWkt.find("UTM zone 33N"), std::string::npos);
+    EXPECT_TRUE(std::isnan(dem->grid.at(4, 3)));
+    grid.row(3)[4] = 0;
+    terrain::HeightGrid read = dem->grid;
+    read.row(3)[4] = 0;
+    EXPECT_EQ(read.heights, grid.heights);
+    EXPECT_EQ(folder.files().size(), 1U);
+}
+
+TEST(TerrainImport, MakesTheSameBytesEachTime) {
+    const TemporaryFolder folder;
+    const terrain::HeightGrid grid = test::hardGrid(GridKind::Smooth, 700, 300, 1);
+    ASSERT_TRUE(importTerrain(grid, {"grid", "", 1}, folder.path("a.eyt"), {}).ok());
+    ASSERT_TRUE(importTerrain(grid, {"grid", "", 1}, folder.path("b.eyt"), {}).ok());
+    EXPECT_EQ(contents(folder.path("a.eyt")), contents(folder.path("b.eyt")));
+}
+
+TEST(TerrainImport, ReportsWhatTheFileSays) {
+    const TemporaryFolder folder;
+    const std::string tif = folder.path("a.tif");
+    ASSERT_TRUE(writeGeoTiff(synthesizeTerrain(200, 3), tif).ok());
+    std::map<std::string, double> progress;
+    ImportControl control;
+    control.progress = [&](std::string_view stage, double fraction) {
+        double& last = progress[std::string(stage)];
+        EXPECT_GE(fraction, last);
+        last = fraction;
+    };
+    const auto report = importTerrain(tif, folder.path("a.eyt"), control);
+    ASSERT_TRUE(report.ok()) << report.status();
+    for (const char* stage : {"reading", "measuring", "building"})
+        EXPECT_EQ(progress[stage], 1) << stage;
+    const auto file = terrain::EytFile::open(folder.path("a.eyt"));
+    ASSERT_TRUE(file.ok()) << file.status();
+    const terrain::EytIndex& index = (*file)->index();
+    EXPECT_EQ(report->columns, 200);
+    EXPECT_EQ(report->levels, index.quadtree.levels());
+    EXPECT_EQ(report->triangles, index.triangles());
+    EXPECT_EQ(report->sizeBytes, (*file)->sizeBytes());
+    EXPECT_EQ(report->coarsestErrorMetres, index.coarsestErrorMetres());
+    EXPECT_NE(index.sourceHash, 0U);
+    EXPECT_NE(index.crsWkt.find("UTM zone 33N"), std::string::npos);
+    EXPECT_EQ(index.bounds().min.x, 500000);
+    EXPECT_EQ(index.bounds().max.y, 5200000 + 199 * 30);
+}
+
+TEST(TerrainImport, LeavesNothingBehindWhenCalledOff) {
+    const TemporaryFolder folder;
+    const terrain::HeightGrid grid = synthesizeTerrain(600, 3);
+    for (const char* stage : {"measuring", "building"}) {
+        std::stop_source stop;
+        ImportControl control;
+        control.stop = stop.get_token();
+        control.progress = [&](std::string_view reached, double) {
+            if (reached == stage)
+                stop.request_stop();
+        };
+        const auto report = importTerrain(grid, {"grid", "", 0}, folder.path("a.eyt"), control);
+        EXPECT_EQ(report.status().code(), absl::StatusCode::kCancelled) << stage;
+        EXPECT_TRUE(folder.files().empty()) << stage;
+    }
+}
+
+TEST(TerrainImport, NamesTheFolderThatIsMissing) {
+    const TemporaryFolder folder;
+    const auto grid = test::hardGrid(GridKind::Flat, 5, 5, 0);
+    const auto report = importTerrain(grid, {"grid", "", 0}, folder.path("no/where.eyt"), {});
+    EXPECT_EQ(report.status().code(), absl::StatusCode::kNotFound);
+    EXPECT_NE(report.status().ToString().find("no/where.eyt"), std::string::npos);
+    EXPECT_FALSE(writeGeoTiff(grid, folder.path("no/where.tif")).ok());
+    EXPECT_TRUE(folder.files().empty());
+}
+
+TEST(HeightLattice, IsOfWholeMetresForWholeMetresAndFineEnoughOtherwise) {
+    const auto latticeOf = [](float min, float max, bool integers, double post) {
+        return terrain::chooseHeightLattice({min, max, 0, integers}, post);
+    };
+    EXPECT_EQ(latticeOf(-11034, 8849, true, 90).stepMetres, 1);
+    EXPECT_TRUE(latticeOf(-11034, 8849, true, 90).isLossless);
+    EXPECT_EQ(latticeOf(0, 100, false, 30).stepMetres, 0.0625);
+    EXPECT_EQ(latticeOf(0, 100, false, 1).stepMetres, 1.0 / 256);
+    EXPECT_LT(9.0e6 / latticeOf(0, 9.0e6F, true, 90).stepMetres, 1 << 23);
+    EXPECT_LT(9000 / latticeOf(0, 9000, false, 0.01).stepMetres, 1 << 23);
+}
+
+}  // namespace
+}  // namespace eyrie::import

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/import/terrain_import.h"
+#include "tests/renderer/import/terrain_fixture.h"
+#include "tests/renderer/terrain/hard_grids.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+namespace eyrie {
+namespace {
+
+using terrain::HeightGrid;
+using terrain::TileId;
+using test::DrawnTriangle;
+using test::GridKind;
+
+using Hole = std::vector<std::pair<std::int32_t, std::int32_t>>;
+
+HeightGrid gridWithHole(const Hole& hole) {
+    HeightGrid grid = test::hardGrid(GridKind::Noise, 300, 140, 4);
+    for (const auto& [i, j] : hole)
+        grid.row(j)[i] = terrain::kNodata;
+    return grid;
+}
+
+Hole rectangle(std::int32_t i0, std::int32_t j0, std::int32_t i1, std::int32_t j1) {
+    Hole hole;
+    for (std::int32_t j = j0; j <= j1; ++j)
+        for (std::int32_t i = i0; i <= i1; ++i)
+            hole.emplace_back(i, j);
+    return hole;
+}
+
+std::vector<DrawnTriangle> drawnLevel(const terrain::EytFile& file, int level) {
+    std::vector<DrawnTriangle> all;
+    for (std::int32_t y = 0; y < file.index().quadtree.tilesY(level); ++y)
+        for (std::int32_t x = 0; x < file.index().quadtree.tilesX(level); ++x) {
+            const auto tile = test::drawnTile(file, {level, x, y}, 0);
+            all.insert(all.end(), tile.begin(), tile.end());
+        }
+    return all;
+}
+
+/// Twice the area, in posts, of the half cells with data at all corners.
+std::int64_t dataArea(const HeightGrid& grid) {
+    std::int64_t halves = 0;
+    const auto has = [&](std::int32_t i, std::int32_t j) { return !std::isnan(grid.at(i, j)); };
+    for (std::int32_t j = 0; j + 1 < grid.rows; ++j)
+        for (std::int32_t i = 0; i + 1 < grid.columns; ++i) {
+            const bool a = has(i, j), b = has(i + 1, j), c = has(i, j + 1), d = has(i + 1, j + 1);
+            const bool isMain = (i + j) % 2 == 0;
+            halves += isMain ? (a && b && d) + (a && c && d) : (a && b && c) + (b && c && d);
+        }
+    return halves;
+}
+
+class TerrainNodata : public testing::TestWithParam<std::pair<const char*, Hole>> {};
+
+TEST_P(TerrainNodata, IsAHoleAndNothingMoreAtFullResolution) {
+    const test::TemporaryFolder folder;
+    const HeightGrid grid = gridWithHole(GetParam().second);
+    const auto file = test::imported(grid, folder);
+    ASSERT_NE(file, nullptr);
+    EXPECT_EQ(file->index().nodataPosts, GetParam().second.size());
+    for (const int level : {0, 1, 2}) {
+        std::int64_t area = 0;
+        for (const DrawnTriangle& triangle : drawnLevel(*file, level))
+            area += test::doubleArea(triangle);
+        EXPECT_EQ(area, dataArea(grid)) << "level " << level;
+    }
+    EXPECT_LE(file->index().finestErrorMetres(), file->index().heightStepMetres());
+}
+
+TEST_P(TerrainNodata, IsNeverDrawnAsAHeight) {
+    const test::TemporaryFolder folder;
+    const HeightGrid grid = gridWithHole(GetParam().second);
+    const auto file = test::imported(grid, folder);
+    ASSERT_NE(file, nullptr);
+    for (int level = 0; level < file->index().quadtree.levels(); ++level)
+        for (const DrawnTriangle& triangle : drawnLevel(*file, level))
+            for (const test::DrawnCorner& corner : triangle)
+                EXPECT_FALSE(std::isnan(grid.at(corner.i, corner.j)));
+    EXPECT_GE(file->index().bounds().min.z, -0.1);
+    EXPECT_LE(file->index().bounds().max.z, 100.1);
+}
+
+TEST_P(TerrainNodata, CountsAsErrorOfTheLevelsThatBlurIt) {
+    const test::TemporaryFolder folder;
+    const auto file = test::imported(gridWithHole(GetParam().second), folder);
+    ASSERT_NE(file, nullptr);
+    ASSERT_GE(file->index().quadtree.levels(), 4);
+    const auto [i, j] = GetParam().second.front();
+    const TileId coarse{3, std::min(i, 298) / terrain::Quadtree::side(3), 0};
+    EXPECT_GE(file->index().tile(coarse).errorMetres, 20 * std::sqrt(2) - 1e-3);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Holes, TerrainNodata,
+    testing::Values(std::pair{"single", Hole{{77, 45}}}, std::pair{"tileCorner", Hole{{128, 128}}},
+                    std::pair{"tileCentre", Hole{{64, 64}}},
+                    std::pair{"gridCorner", Hole{{299, 139}}},
+                    std::pair{"rowOnABorder", rectangle(0, 128, 299, 128)},
+                    std::pair{"columnOnABorder", rectangle(128, 0, 128, 139)},
+                    std::pair{"tiles", rectangle(30, 20, 180, 100)},
+                    std::pair{"lastColumn", rectangle(299, 0, 299, 139)}),
+    [](const auto& tested) { return std::string(tested.param.first); });
+
+TEST(TerrainNodata, LeavesTilesOutThatHoldNothingElse) {
+    const test::TemporaryFolder folder;
+    const auto file = test::imported(gridWithHole(rectangle(0, 0, 170, 139)), folder);
+    ASSERT_NE(file, nullptr);
+    EXPECT_EQ(file->index().tile({0, 0, 0}), terrain::TileRecord{});
+    EXPECT_EQ(file->index().pages[0].bytes, 0U);
+    EXPECT_TRUE(file->readPage(0).ok());
+}
+
+TEST(TerrainNodata, IsRefusedWhenThereIsNothingElse) {
+    const test::TemporaryFolder folder;
+    const Hole all = rectangle(0, 0, 299, 139);
+    const auto nothing = import::importTerrain(gridWithHole(all), {"empty.tif", "", 0}, folder.path("a.eyt"), {});
+    EXPECT_EQ(nothing.status().code(), absl::StatusCode::kInvalidArgument);
+
+    HeightGrid lonely = gridWithHole(all);
+    lonely.row(60)[60] = 5;
+    const auto lone = import::importTerrain(lonely, {"lonely.tif", "", 0}, folder.path("a.eyt"), {});
+    EXPECT_EQ(lone.status().code(), absl::StatusCode::kInvalidArgument);
+    EXPECT_TRUE(folder.files().empty());
+}
+
+}  // namespace
+}  // namespace eyrie

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/terrain/deviation.h"
+
+#include "tests/renderer/terrain/hard_grids.h"
+#include "tests/renderer/terrain/reference_surface.h"
+
+#include <gtest/gtest.h>
+
+namespace eyrie::terrain {
+namespace {
+
+using test::GridKind;
+using test::Random;
+
+/// The greatest distance to either diagonal's reading, on a lattice of 1 / density posts.
+double sampledDeviation(const HeightGrid& grid, const Triangle& triangle, int density) {
+    double worst = 0;
+    test::forEachSample(triangle, density, [&](double x, double y, double drawn) {
+        for (const double source : test::readings(grid, x, y))
+            worst = std::max(worst, std::abs(drawn - source));
+    });
+    return worst;
+}
+
+/// The greatest distance at the posts themselves.
+double deviationAtPosts(const HeightGrid& grid, const Triangle& triangle) {
+    double worst = 0;
+    test::forEachSample(triangle, 1, [&](double x, double y, double drawn) {
+        worst = std::max(worst, std::abs(drawn - static_cast<double>(grid.at(static_cast<int>(x), static_cast<int>(y)))));
+    });
+    return worst;
+}
+
+Triangle withHeights(const HeightGrid& grid, Triangle triangle, double offset, Random& random) {
+    for (Corner& corner : triangle)
+        corner.z = static_cast<double>(grid.at(corner.i, corner.j)) + offset * (random.unit() - 0.5);
+    return triangle;
+}
+
+/// A right isosceles triangle inside the grid: legs along the axes, or the hypotenuse.
+Triangle randomAligned(const HeightGrid& grid, Random& random) {
+    for (;;) {
+        const std::int32_t leg = 1 << random.integer(0, 4);
+        const std::int32_t i = random.integer(0, grid.columns - 1);
+        const std::int32_t j = random.integer(0, grid.rows - 1);
+        const std::int32_t dx = random.integer(0, 1) == 0 ? leg : -leg;
+        const std::int32_t dy = random.integer(0, 1) == 0 ? leg : -leg;
+        Triangle triangle;
+        switch (random.integer(0, 2)) {
+            case 0:
+                triangle = {Corner{i, j, 0}, Corner{i + dx, j, 0}, Corner{i, j + dy, 0}};
+                break;
+            case 1:
+                triangle = {Corner{i - leg, j, 0}, Corner{i + leg, j, 0}, Corner{i, j + dy, 0}};
+                break;
+            default:
+                triangle = {Corner{i, j - leg, 0}, Corner{i, j + leg, 0}, Corner{i + dx, j, 0}};
+        }
+        const auto isIn = [&](const Corner& c) {
+            return c.i >= 0 && c.j >= 0 && c.i < grid.columns && c.j < grid.rows;
+        };
+        if (isIn(triangle[0]) && isIn(triangle[1]) && isIn(triangle[2]))
+            return triangle;
+    }
+}
+
+Triangle randomGeneral(const HeightGrid& grid, Random& random) {
+    for (;;) {
+        Triangle t;
+        for (Corner& corner : t)
+            corner = {random.integer(0, grid.columns - 1), random.integer(0, grid.rows - 1), 0};
+        if ((t[1].i - t[0].i) * (t[2].j - t[0].j) != (t[2].i - t[0].i) * (t[1].j - t[0].j))
+            return t;
+    }
+}
+
+/// All that an aligned triangle's deviation can peak at lies on the lattice of half posts.
+TEST(Deviation, OfAlignedTrianglesIsWhatSamplingFindsToTheLastBit) {
+    Random random(1);
+    for (int round = 0; round < 2000; ++round) {
+        const auto kind = static_cast<GridKind>(round % test::kGridKinds);
+        const HeightGrid grid = test::hardGrid(kind, 37, 34, random.next());
+        const SourceSurface surface(grid, false);
+        const double offset = round % 3 == 0 ? 0 : 0.5;
+        const Triangle place = randomAligned(grid, random);
+        const Triangle triangle = withHeights(grid, place, offset, random);
+        const bool liesOnPosts = deviationAtPosts(grid, withHeights(grid, place, 0, random)) <=
+                                 surface.postToleranceMetres();
+        const double expected =
+            liesOnPosts ? deviationAtPosts(grid, triangle) : sampledDeviation(grid, triangle, 2);
+        EXPECT_NEAR(surface.ofAligned(triangle), expected, 1e-9)
+            << name(kind) << " round " << round;
+    }
+}
+
+TEST(Deviation, OfGeneralTrianglesIsNeverBelowAndCloseToDenseSamples) {
+    Random random(2);
+    double largestShortfall = 0;
+    for (int round = 0; round < 400; ++round) {
+        const auto kind = static_cast<GridKind>(round % test::kGridKinds);
+        const HeightGrid grid = test::hardGrid(kind, 19, 23, random.next());
+        const SourceSurface surface(grid, false);
+        const Triangle triangle = withHeights(grid, randomGeneral(grid, random), 0.5, random);
+        const double sampled = sampledDeviation(grid, triangle, 8);
+        const double computed = surface.ofGeneral(triangle);
+        EXPECT_GE(computed, sampled - 1e-9) << name(kind) << " round " << round;
+        if (kind == GridKind::Smooth)
+            largestShortfall = std::max(largestShortfall, computed - sampled);
+    }
+    // The lattice of 1/8 posts misses the peak by at most 1/8 post of the steepest slope, 34 m.
+    EXPECT_LT(largestShortfall, 34.0 / 8);
+}
+
+TEST(Deviation, OfAPlaneInWholeMetresIsExactlyZero) {
+    HeightGrid grid = test::hardGrid(GridKind::Flat, 65, 65, 0);
+    for (std::int32_t j = 0; j < grid.rows; ++j)
+        for (std::int32_t i = 0; i < grid.columns; ++i)
+            grid.row(j)[i] = static_cast<float>(-11034 + 7 * i - 3 * j);
+    const SourceSurface surface(grid, false);
+    Random random(3);
+    for (int round = 0; round < 200; ++round)
+        EXPECT_EQ(surface.ofAligned(withHeights(grid, randomAligned(grid, random), 0, random)), 0);
+}
+
+TEST(Deviation, SeesARidgeThatTheHypotenuseMidpointMisses) {
+    HeightGrid grid = test::hardGrid(GridKind::Flat, 17, 17, 0);
+    grid.row(3)[5] = 100;
+    const SourceSurface surface(grid, false);
+    EXPECT_EQ(surface.ofAligned({Corner{0, 0, 0}, Corner{16, 0, 0}, Corner{16, 16, 0}}), 100);
+    EXPECT_EQ(surface.ofGeneral({Corner{0, 0, 0}, Corner{15, 1, 0}, Corner{7, 16, 0}}), 100);
+}
+
+TEST(Deviation, OfDataMixedWithNodataIsTheLongestEdge) {
+    HeightGrid grid = test::hardGrid(GridKind::Flat, 17, 17, 0);
+    grid.row(4)[2] = kNodata;
+    const SourceSurface surface(grid, true);
+    const Triangle mixed = {Corner{0, 0, 0}, Corner{8, 0, 0}, Corner{0, 8, 0}};
+    EXPECT_NEAR(surface.ofAligned(mixed), 80 * std::sqrt(2), 1e-9);
+    EXPECT_NEAR(surface.ofGeneral(mixed), 80 * std::sqrt(2), 1e-9);
+    const Triangle cornerMissing = {Corner{2, 4, kNodata}, Corner{6, 4, 0}, Corner{2, 8, 0}};
+    EXPECT_NEAR(surface.ofAligned(cornerMissing), 40 * std::sqrt(2), 1e-9);
+    EXPECT_EQ(surface.ofAligned({Corner{8, 8, 0}, Corner{16, 8, 0}, Corner{8, 16, 0}}), 0);
+}
+
+TEST(Deviation, OfNothingButNodataIsZero) {
+    HeightGrid grid = test::hardGrid(GridKind::Noise, 9, 9, 0);
+    std::fill(grid.heights.begin(), grid.heights.end(), kNodata);
+    const SourceSurface surface(grid, true);
+    EXPECT_EQ(surface.ofAligned({Corner{0, 0, kNodata}, Corner{8, 0, kNodata}, Corner{0, 8, kNodata}}), 0);
+}
+
+}  // namespace
+}  // namespace eyrie::terrain

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/terrain/terrain_cut.h"
+
+#include "tests/renderer/terrain/hard_grids.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <utility>
+
+namespace eyrie::terrain {
+namespace {
+
+using test::Random;
+
+/// An index without a file: random errors, saturated.
+EytIndex randomIndex(std::uint32_t columns, std::uint32_t rows, Random& random) {
+    EytIndex index;
+    index.quadtree = Quadtree(columns, rows);
+    index.objectFromLattice[0][0] = index.objectFromLattice[1][1] = 30;
+    index.tiles.resize(index.quadtree.tileCount());
+    for (int level = 0; level < index.quadtree.levels(); ++level)
+        for (std::int32_t y = 0; y < index.quadtree.tilesY(level); ++y)
+            for (std::int32_t x = 0; x < index.quadtree.tilesX(level); ++x) {
+                const TileId id{level, x, y};
+                TileRecord& tile = index.tiles[index.quadtree.tileIndex(id)];
+                tile.errorMetres = level == 0 ? 0 : static_cast<float>(random.unit() * (4 << level));
+                tile.maxHeightMetres = 1000;
+                tile.triangles = 100;
+                for (int i = 0; i < 4 && level > 0; ++i)
+                    if (const TileId child = Quadtree::child(id, i); index.quadtree.contains(child))
+                        tile.errorMetres = std::max(tile.errorMetres, index.tile(child).errorMetres);
+            }
+    return index;
+}
+
+lod::ObjectView randomView(const EytIndex& index, Random& random) {
+    const fabric::Box box = index.bounds();
+    const auto inside = [&] {
+        return box.min + box.size() * fabric::Vec3(random.unit(), random.unit(), random.unit());
+    };
+    fabric::Camera camera;
+    camera.eye = inside() + fabric::Vec3(0, 0, 3000 * random.unit());
+    camera.target = inside() - fabric::Vec3(0, 0, 500);
+    camera.fovYDegrees = 20 + 60 * random.unit();
+    return {lod::View(camera, 1280, 720), fabric::Mat4(1.0)};
+}
+
+/// Which tile of the cut draws each tile of level 0.
+std::map<std::pair<std::int32_t, std::int32_t>, TileId> coverage(const EytIndex& index,
+                                                                 const TerrainCut& cut) {
+    std::map<std::pair<std::int32_t, std::int32_t>, TileId> result;
+    for (const TileChoice& choice : cut.tiles) {
+        const std::int32_t scale = 1 << choice.id.level;
+        for (std::int32_t y = choice.id.y * scale; y < (choice.id.y + 1) * scale; ++y)
+            for (std::int32_t x = choice.id.x * scale; x < (choice.id.x + 1) * scale; ++x)
+                if (index.quadtree.contains({0, x, y})) {
+                    EXPECT_TRUE(result.emplace(std::pair{x, y}, choice.id).second)
+                        << "drawn twice: " << x << ", " << y;
+                }
+    }
+    return result;
+}
+
+class TerrainCutLaws : public testing::TestWithParam<std::uint64_t> {
+protected:
+    void SetUp() override {
+        Random random(GetParam());
+        index_ = randomIndex(static_cast<std::uint32_t>(random.integer(2, 2500)),
+                             static_cast<std::uint32_t>(random.integer(2, 2500)), random);
+        view_.emplace(randomView(index_, random));
+        tau_ = std::exp2(random.integer(-2, 5));
+        cut_ = selectCut(index_, *view_, tau_);
+    }
+
+    EytIndex index_;
+    std::optional<lod::ObjectView> view_;
+    double tau_ = 1;
+    TerrainCut cut_;
+};
+
+TEST_P(TerrainCutLaws, CoversTheTerrainOnce) {
+    EXPECT_EQ(static_cast<std::int32_t>(coverage(index_, cut_).size()),
+              index_.quadtree.tilesX(0) * index_.quadtree.tilesY(0));
+}
+
+TEST_P(TerrainCutLaws, NeighboursDifferByOneLevelAtMostAndSaySo) {
+    const auto tiles = coverage(index_, cut_);
+    for (const TileChoice& choice : cut_.tiles) {
+        std::uint8_t finer = 0;
+        const std::int32_t scale = 1 << choice.id.level;
+        const std::int32_t x0 = choice.id.x * scale, x1 = x0 + scale;
+        const std::int32_t y0 = choice.id.y * scale, y1 = y0 + scale;
+        const auto look = [&](std::int32_t x, std::int32_t y, int edge) {
+            const auto found = tiles.find({x, y});
+            if (found == tiles.end())
+                return;
+            EXPECT_LE(std::abs(found->second.level - choice.id.level), 1);
+            if (found->second.level < choice.id.level)
+                finer = static_cast<std::uint8_t>(finer | 1 << edge);
+        };
+        for (std::int32_t k = 0; k < scale; ++k) {
+            look(x0 - 1, y0 + k, kEdgeMinX);
+            look(x1, y0 + k, kEdgeMaxX);
+            look(x0 + k, y0 - 1, kEdgeMinY);
+            look(x0 + k, y1, kEdgeMaxY);
+        }
+        EXPECT_EQ(choice.finerEdges, finer);
+    }
+}
+
+TEST_P(TerrainCutLaws, KeepsTauOnEveryVisibleTileAboveTheFinestLevel) {
+    double worst = 0;
+    for (const TileChoice& choice : cut_.tiles) {
+        const fabric::Box bounds = index_.bounds(choice.id);
+        const double error =
+            view_->isVisible(bounds)
+                ? view_->screenSpaceErrorPixels(index_.tile(choice.id).errorMetres, bounds)
+                : 0;
+        EXPECT_EQ(choice.screenSpaceErrorPixels, error);
+        EXPECT_TRUE(error <= tau_ || choice.id.level == 0);
+        worst = std::max(worst, error);
+    }
+    EXPECT_EQ(cut_.tauAchievedPixels, worst);
+}
+
+TEST_P(TerrainCutLaws, IsTheSameEachTimeAndInDepthFirstOrder) {
+    const TerrainCut again = selectCut(index_, *view_, tau_);
+    EXPECT_EQ(again.tiles, cut_.tiles);
+    const auto morton = [](const TileId& tile) {
+        std::uint64_t code = 0;
+        const auto x = static_cast<std::uint64_t>(tile.x) << tile.level;
+        const auto y = static_cast<std::uint64_t>(tile.y) << tile.level;
+        for (int bit = 0; bit < 24; ++bit)
+            code |= (x >> bit & 1) << (2 * bit) | (y >> bit & 1) << (2 * bit + 1);
+        return code;
+    };
+    EXPECT_TRUE(std::is_sorted(cut_.tiles.begin(), cut_.tiles.end(), [&](const auto& a, const auto& b) {
+        return morton(a.id) < morton(b.id);
+    }));
+}
+
+INSTANTIATE_TEST_SUITE_P(RandomTerrains, TerrainCutLaws, testing::Range<std::uint64_t>(0, 60));
+
+TEST(TerrainCut, IsTheTopTileWhenNothingIsSeen) {
+    Random random(4);
+    const EytIndex index = randomIndex(1000, 1000, random);
+    fabric::Camera camera;
+    camera.eye = index.bounds().max + fabric::Vec3(1000);
+    camera.target = camera.eye + fabric::Vec3(1, 1, 1);
+    const lod::ObjectView view(lod::View(camera, 640, 480), fabric::Mat4(1.0));
+    const TerrainCut cut = selectCut(index, view, 1);
+    ASSERT_EQ(cut.tiles.size(), 1U);
+    EXPECT_EQ(cut.tiles[0].id, index.quadtree.top());
+    EXPECT_EQ(cut.tauAchievedPixels, 0);
+}
+
+TEST(TerrainCut, LeavesOutTilesWithoutTriangles) {
+    Random random(5);
+    EytIndex index = randomIndex(1000, 1000, random);
+    const TileId hole{0, 3, 2};
+    index.tiles[index.quadtree.tileIndex(hole)].triangles = 0;
+    fabric::Camera camera;
+    camera.eye = index.bounds(hole).centre() + fabric::Vec3(0, 0, 600);
+    camera.target = index.bounds(hole).centre();
+    camera.up = {0, 1, 0};
+    const lod::ObjectView view(lod::View(camera, 640, 480), fabric::Mat4(1.0));
+    const TerrainCut cut = selectCut(index, view, 0.01);
+    const auto isAt = [&](const TileId& id) {
+        return std::any_of(cut.tiles.begin(), cut.tiles.end(),
+                           [&](const TileChoice& choice) { return choice.id == id; });
+    };
+    EXPECT_FALSE(isAt(hole));
+    EXPECT_TRUE(isAt({0, 4, 2}));
+}
+
+}  // namespace
+}  // namespace eyrie::terrain
