@@ -94,6 +94,9 @@ absl::StatusOr<std::string> DataCache::dataFor(const std::string& path, fabric::
     switch (dataFileOf(path)) {
         case DataFile::Terrain:
         case DataFile::Mesh:
+            // Said here, at once: a renderer would only find out when it opens the scene.
+            if (std::error_code ignored; !fs::exists(path, ignored))
+                return absl::NotFoundError(fmt::format("{}: no such file", path));
             return path;
         case DataFile::Scene:
             return absl::InvalidArgumentError(

@@ -42,18 +42,20 @@ void declare(CLI::App& app, eyrie::cli::Run& run) {
 /// subcommand even where it is one too many that it does not know.
 void explain(const CLI::App& app, const CLI::ParseError& error) {
     const CLI::App* command = &app;
-    std::string name = app.get_name();
+    std::string parents;
     while (!command->get_subcommands().empty()) {
+        parents += command->get_name() + " ";
         command = command->get_subcommands().front();
-        name += " " + command->get_name();
     }
+    const std::string name = parents + command->get_name();
     const std::vector<std::string> unknown = app.remaining(true);
     if (!unknown.empty())
         fmt::print(stderr, "eyrie: '{}' is nothing that {} knows\n", unknown.front(), name);
     else
         fmt::print(stderr, "eyrie: {}\n", error.what());
     if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr)
-        fmt::print(stderr, "{}", command->help(name));
+        fmt::print(stderr, "{}",
+                   command->help(parents.substr(0, parents.find_last_not_of(' ') + 1)));
     else
         fmt::print(stderr, "`{} --help` explains it\n", name);
 }

@@ -120,6 +120,9 @@ absl::StatusOr<fabric::Scene> assembleScene(std::span<const std::string> paths, 
     scene->objects = std::move(fromScenes);
     const std::size_t firstLoose = scene->objects.size();
     scene->objects.insert(scene->objects.end(), loose.begin(), loose.end());
+    if (scene->objects.empty())
+        return absl::InvalidArgumentError(
+            fmt::format("{}: objects is empty; name a terrain or a mesh", paths.front()));
     for (fabric::SceneObject& object : scene->objects) {
         ASSIGN_OR_RETURN(const std::string data, cache.dataFor(object.path, object.kind));
         object.path = fs::absolute(data).string();

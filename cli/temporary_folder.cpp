@@ -9,11 +9,17 @@
 #include <fmt/format.h>
 
 namespace eyrie::cli {
+namespace {
+
+/// The path of a Unix socket has 107 characters at most.
+constexpr std::size_t kMaxParentLength = 60;
+
+}  // namespace
 
 absl::StatusOr<TemporaryFolder> TemporaryFolder::create() {
     std::error_code error;
     std::filesystem::path parent = std::filesystem::temp_directory_path(error);
-    if (error)
+    if (error || parent.native().size() > kMaxParentLength)
         parent = "/tmp";
     std::string name = (parent / "eyrie-XXXXXX").string();
     if (mkdtemp(name.data()) == nullptr)  // mode 0700

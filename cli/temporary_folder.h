@@ -12,7 +12,8 @@ namespace eyrie::cli {
 /// A new folder that only this user can enter and that goes, with what is in it, with its owner.
 class TemporaryFolder {
 public:
-    /// In $TMPDIR or /tmp. Unavailable when it cannot be made.
+    /// In $TMPDIR, or in /tmp where that name leaves a socket's no room. Unavailable when it cannot
+    /// be made.
     static absl::StatusOr<TemporaryFolder> create();
 
     TemporaryFolder(TemporaryFolder&& other) noexcept : path_(std::exchange(other.path_, {})) {}

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/coordinator.h"
 
-#include "coordinator/api/grpc_service.h"
-#include "coordinator/farm/registry.h"
-#include "coordinator/frame/frame_pipeline.h"
-#include "fabric/status.h"
-
-#include <fmt/format.h>
-
 #include <condition_variable>
 #include <mutex>
 #include <stop_token>
 #include <thread>
 #include <utility>
+
+#include <fmt/format.h>
+
+#include "coordinator/api/grpc_service.h"
+#include "coordinator/farm/registry.h"
+#include "coordinator/frame/frame_pipeline.h"
+#include "fabric/status.h"
 
 namespace eyrie::coordinator {
 namespace {
@@ -50,7 +50,8 @@ private:
                                                 const GrpcService& door) {
         FramePipelineOptions pipeline;
         pipeline.decomposition = options.decomposition;
-        pipeline.howToJoin = fmt::format("eyrie renderer --coordinator {}", door.addresses().back());
+        pipeline.howToJoin =
+            fmt::format("eyrie renderer --coordinator {}", door.addresses().back());
         return pipeline;
     }
 
@@ -63,12 +64,13 @@ private:
 absl::StatusOr<std::unique_ptr<Coordinator>> Coordinator::start(const CoordinatorOptions& options) {
     RETURN_IF_ERROR(fabric::validate(options.scene));
     if (options.grpcAddresses.empty())
-        return absl::InvalidArgumentError("the coordinator has no address for renderers to register at");
+        return absl::InvalidArgumentError(
+            "the coordinator has no address for renderers to register at");
     auto registry = std::make_unique<Registry>();
     ASSIGN_OR_RETURN(std::unique_ptr<GrpcService> door,
                      GrpcService::start(options.grpcAddresses, *registry));
-    return std::unique_ptr<Coordinator>(new Coordinator(
-        std::make_unique<Impl>(std::move(registry), std::move(door), options)));
+    return std::unique_ptr<Coordinator>(
+        new Coordinator(std::make_unique<Impl>(std::move(registry), std::move(door), options)));
 }
 
 Coordinator::Coordinator(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "coordinator/compound/decompose.h"
-#include "coordinator/frame/frame_source.h"
-#include "fabric/scene.h"
-
-#include <absl/status/statusor.h>
-
 #include <memory>
 #include <string>
 #include <vector>
+
+#include <absl/status/statusor.h>
+
+#include "coordinator/compound/decompose.h"
+#include "coordinator/frame/frame_source.h"
+#include "fabric/scene.h"
 
 namespace eyrie::coordinator {
 

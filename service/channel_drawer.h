@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
+#include <memory>
+
+#include <absl/status/statusor.h>
+
 #include "fabric/channel_task.h"
 #include "fabric/frame_data.h"
 #include "fabric/scene.h"
 #include "fabric/statistics.h"
-
-#include <absl/status/statusor.h>
-
-#include <functional>
-#include <memory>
 
 namespace eyrie::service {
 

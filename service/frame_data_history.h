@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "fabric/frame_data.h"
-
-#include <absl/status/statusor.h>
-
 #include <cstddef>
 #include <deque>
 #include <mutex>
+
+#include <absl/status/statusor.h>
+
+#include "fabric/frame_data.h"
 
 namespace eyrie::service {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "service/gl_thread.h"
 
-#include <fmt/format.h>
-
 #include <future>
 #include <utility>
+
+#include <fmt/format.h>
 
 namespace eyrie::service {
 
@@ -13,8 +13,8 @@ absl::StatusOr<std::unique_ptr<GlThread>> GlThread::start(const DrawerFactory& c
     std::unique_ptr<GlThread> result(new GlThread(maxQueuedJobs));
     std::promise<absl::Status> created;
     std::future<absl::Status> status = created.get_future();
-    result->thread_ = std::thread(
-        [self = result.get(), create, created = std::move(created)]() mutable {
+    result->thread_ =
+        std::thread([self = result.get(), create, created = std::move(created)]() mutable {
             absl::StatusOr<std::unique_ptr<ChannelDrawer>> drawer = create();
             if (drawer.ok())
                 self->device_ = (*drawer)->device();

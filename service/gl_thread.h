@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "service/channel_drawer.h"
-
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
@@ -10,6 +8,8 @@
 #include <memory>
 #include <mutex>
 #include <thread>
+
+#include "service/channel_drawer.h"
 
 namespace eyrie::service {
 

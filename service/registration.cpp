@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "service/registration.h"
 
-#include "eyrie/v1/coordinator_service.grpc.pb.h"
-#include "fabric/version.h"
-#include "wire/statistics.h"
-#include "wire/status.h"
-#include "wire/transport.h"
+#include <algorithm>
+#include <condition_variable>
+#include <mutex>
+#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 #include <grpcpp/client_context.h>
@@ -13,11 +13,11 @@
 #include <grpcpp/security/credentials.h>
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
-#include <condition_variable>
-#include <mutex>
-#include <string_view>
-#include <utility>
+#include "eyrie/v1/coordinator_service.grpc.pb.h"
+#include "fabric/version.h"
+#include "wire/statistics.h"
+#include "wire/status.h"
+#include "wire/transport.h"
 
 namespace eyrie::service {
 namespace {
@@ -59,7 +59,8 @@ public:
         while (!stop.stop_requested()) {
             absl::Status status = isRegistered() ? sendHeartbeat(stop) : sendRegistration(stop);
             if (isRegistered() && absl::IsNotFound(status)) {
-                spdlog::info("the {} does not know this renderer any more: registering again", peer_);
+                spdlog::info("the {} does not know this renderer any more: registering again",
+                             peer_);
                 id_.clear();
                 continue;
             }

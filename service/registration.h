@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "fabric/statistics.h"
-
-#include <absl/status/status.h>
-
 #include <chrono>
 #include <optional>
 #include <stop_token>
 #include <string>
 
+#include <absl/status/status.h>
+
+#include "fabric/statistics.h"
+
 namespace eyrie::service {
 
 struct RegistrationOptions {
-    std::string coordinator;    ///< "host:port" or "unix:/path"
-    std::string address;        ///< where the renderer's RenderService listens
+    std::string coordinator;  ///< "host:port" or "unix:/path"
+    std::string address;      ///< where the renderer's RenderService listens
     fabric::DeviceInfo device;
     std::chrono::milliseconds retryInterval{1000};
     /// How long to live without the coordinator; none: for ever.

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "service/render_server.h"
 
-#include "fabric/status.h"
-#include "service/render_service.h"
-#include "wire/listen.h"
+#include <utility>
 
 #include <grpcpp/ext/health_check_service_server_builder_option.h>
 #include <grpcpp/health_check_service_interface.h>
 #include <grpcpp/server.h>
 
-#include <utility>
+#include "fabric/status.h"
+#include "service/render_service.h"
+#include "wire/listen.h"
 
 namespace eyrie::service {
 

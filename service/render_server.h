@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "service/gl_thread.h"
-
-#include <absl/status/statusor.h>
-
 #include <chrono>
 #include <memory>
 #include <string>
+
+#include <absl/status/statusor.h>
+
+#include "service/gl_thread.h"
 
 namespace eyrie::service {
 

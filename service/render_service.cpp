@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "service/render_service.h"
 
+#include <utility>
+
+#include <fmt/format.h>
+
 #include "fabric/status.h"
 #include "service/reply_stream.h"
 #include "wire/frame.h"
 #include "wire/scene.h"
 #include "wire/scene_info.h"
 #include "wire/status.h"
-
-#include <fmt/format.h>
-
-#include <utility>
 
 namespace eyrie::service {
 namespace {
@@ -42,9 +42,10 @@ grpc::ServerUnaryReactor* RenderService::OpenScene(grpc::CallbackServerContext* 
     absl::StatusOr<fabric::Scene> scene = wire::fromMessage(request->scene());
     absl::Status status = scene.status();
     if (scene.ok())
-        status = thread_.post([scene = *std::move(scene), response, reactor](ChannelDrawer& drawer) {
-            reactor->Finish(wire::toGrpc(openScene(drawer, scene, *response)));
-        });
+        status =
+            thread_.post([scene = *std::move(scene), response, reactor](ChannelDrawer& drawer) {
+                reactor->Finish(wire::toGrpc(openScene(drawer, scene, *response)));
+            });
     if (!status.ok())
         reactor->Finish(wire::toGrpc(status));
     return reactor;
@@ -77,9 +78,8 @@ absl::Status RenderService::startDrawing(const v1::RenderChannelRequest& request
             "{} channels are being drawn or sent already; read those first", kMaxReplies));
     ASSIGN_OR_RETURN(const fabric::ChannelTask task, wire::fromMessage(request.task()));
     ASSIGN_OR_RETURN(const fabric::FrameData frameData, frameData_.find(task.frameDataVersion));
-    return thread_.post([frameData, task, &reply](ChannelDrawer& drawer) {
-        draw(drawer, frameData, task, reply);
-    });
+    return thread_.post(
+        [frameData, task, &reply](ChannelDrawer& drawer) { draw(drawer, frameData, task, reply); });
 }
 
 }  // namespace eyrie::service

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
+
 #include "eyrie/v1/render_service.grpc.pb.h"
 #include "service/frame_data_history.h"
 #include "service/gl_thread.h"
-
-#include <atomic>
 
 namespace eyrie::service {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "service/renderer_drawer.h"
 
-#include "fabric/status.h"
-
 #include <utility>
+
+#include "fabric/status.h"
 
 namespace eyrie::service {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "service/renderer_node.h"
 
+#include <utility>
+
 #include "fabric/status.h"
 #include "service/gl_thread.h"
 #include "service/registration.h"
 #include "service/render_server.h"
 #include "wire/listen.h"
-
-#include <utility>
 
 namespace eyrie::service {
 namespace {

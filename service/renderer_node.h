@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "service/channel_drawer.h"
-
-#include <absl/status/statusor.h>
-
 #include <chrono>
 #include <memory>
 #include <stop_token>
 #include <string>
+
+#include <absl/status/statusor.h>
+
+#include "service/channel_drawer.h"
 
 namespace eyrie::service {
 
@@ -16,7 +16,7 @@ class GlThread;
 class RenderServer;
 
 struct RendererNodeOptions {
-    std::string coordinator;             ///< its gRPC address: "host:port" or "unix:/path"
+    std::string coordinator;  ///< its gRPC address: "host:port" or "unix:/path"
     /// Where to serve: "host:port" or "unix:/path". Of a wildcard host such as 0.0.0.0 the
     /// coordinator takes the address that it sees this process come from.
     std::string listen = "127.0.0.1:0";

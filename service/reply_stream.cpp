@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "service/reply_stream.h"
 
+#include <algorithm>
+#include <bit>
+#include <utility>
+
 #include "wire/frame.h"
 #include "wire/statistics.h"
 #include "wire/status.h"
 #include "wire/transport.h"
-
-#include <algorithm>
-#include <bit>
-#include <utility>
 
 namespace eyrie::service {
 namespace {
@@ -53,7 +53,8 @@ std::span<const char> ReplyStream::nextChunk() const {
     const std::span<const char> colour = bytesOf(result_.image.colour);
     const bool inColour = sent_ < colour.size();
     const std::span<const char> rest =
-        inColour ? colour.subspan(sent_) : bytesOf(result_.image.depth).subspan(sent_ - colour.size());
+        inColour ? colour.subspan(sent_)
+                 : bytesOf(result_.image.depth).subspan(sent_ - colour.size());
     return rest.first(std::min(rest.size(), wire::kChunkBytes));
 }
 

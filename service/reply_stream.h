@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "eyrie/v1/render_service.grpc.pb.h"
-#include "fabric/channel_task.h"
-
-#include <absl/status/status.h>
-#include <grpcpp/support/server_callback.h>
-
 #include <atomic>
 #include <cstddef>
 #include <functional>
 #include <span>
+
+#include <absl/status/status.h>
+#include <grpcpp/support/server_callback.h>
+
+#include "eyrie/v1/render_service.grpc.pb.h"
+#include "fabric/channel_task.h"
 
 namespace eyrie::service {
 

@@ -1,6 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/api/grpc_service.h"
 
+#include <utility>
+
+#include <fmt/format.h>
+#include <grpcpp/ext/health_check_service_server_builder_option.h>
+#include <grpcpp/health_check_service_interface.h>
+#include <grpcpp/server.h>
+
 #include "coordinator/api/reachable_address.h"
 #include "coordinator/farm/grpc_renderer.h"
 #include "eyrie/v1/coordinator_service.grpc.pb.h"
@@ -10,23 +17,16 @@
 #include "wire/statistics.h"
 #include "wire/status.h"
 
-#include <fmt/format.h>
-#include <grpcpp/ext/health_check_service_server_builder_option.h>
-#include <grpcpp/health_check_service_interface.h>
-#include <grpcpp/server.h>
-
-#include <utility>
-
 namespace eyrie::coordinator {
 namespace {
 
 absl::Status checkVersion(const std::string& version) {
     if (version == fabric::kVersion)
         return absl::OkStatus();
-    return absl::FailedPreconditionError(
-        fmt::format("software_version is '{}', the coordinator's is '{}'; install the same Eyrie on "
-                    "both",
-                    version.substr(0, 64), fabric::kVersion));
+    return absl::FailedPreconditionError(fmt::format(
+        "software_version is '{}', the coordinator's is '{}'; install the same Eyrie on "
+        "both",
+        version.substr(0, 64), fabric::kVersion));
 }
 
 class CoordinatorService final : public v1::CoordinatorService::CallbackService {

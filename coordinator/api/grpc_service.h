@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "coordinator/farm/registry.h"
-
-#include <absl/status/statusor.h>
-
 #include <memory>
 #include <string>
 #include <vector>
+
+#include <absl/status/statusor.h>
+
+#include "coordinator/farm/registry.h"
 
 namespace eyrie::coordinator {
 

@@ -14,8 +14,7 @@ fabric::Image assemble2D(const fabric::PixelViewport& area, fabric::Rgba backgro
         return whole;
     }
     fabric::Image picture = fabric::makeImage(area, background, withDepth);
-    for (const fabric::Image& part : parts)
-        fabric::paste(part, picture);
+    for (const fabric::Image& part : parts) fabric::paste(part, picture);
     return picture;
 }
 

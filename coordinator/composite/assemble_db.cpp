@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/composite/assemble_db.h"
 
-#include "fabric/depth_merge.h"
-
 #include <utility>
+
+#include "fabric/depth_merge.h"
 
 namespace eyrie::coordinator {
 
@@ -20,8 +20,7 @@ fabric::Image assembleDb(const fabric::PixelViewport& area, fabric::Rgba backgro
         if (next != layers.end())
             fabric::paste(*next++, picture);
     }
-    for (; next != layers.end(); ++next)
-        fabric::mergeDepth(*next, picture);
+    for (; next != layers.end(); ++next) fabric::mergeDepth(*next, picture);
     return picture;
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "fabric/image.h"
-
 #include <vector>
+
+#include "fabric/image.h"
 
 namespace eyrie::coordinator {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "fabric/channel_task.h"
-
 #include <vector>
+
+#include "fabric/channel_task.h"
 
 namespace eyrie::coordinator {
 

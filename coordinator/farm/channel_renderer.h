@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "fabric/channel_task.h"
-#include "fabric/frame_data.h"
-#include "fabric/scene.h"
+#include <chrono>
 
 #include <absl/status/statusor.h>
 
-#include <chrono>
+#include "fabric/channel_task.h"
+#include "fabric/frame_data.h"
+#include "fabric/scene.h"
 
 namespace eyrie::coordinator {
 

@@ -1,6 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/farm/grpc_renderer.h"
 
+#include <mutex>
+#include <utility>
+
+#include <fmt/format.h>
+#include <grpcpp/client_context.h>
+#include <grpcpp/create_channel.h>
+#include <grpcpp/security/credentials.h>
+
 #include "coordinator/farm/picture_assembly.h"
 #include "eyrie/v1/render_service.grpc.pb.h"
 #include "fabric/status.h"
@@ -9,14 +17,6 @@
 #include "wire/scene_info.h"
 #include "wire/status.h"
 #include "wire/transport.h"
-
-#include <fmt/format.h>
-#include <grpcpp/client_context.h>
-#include <grpcpp/create_channel.h>
-#include <grpcpp/security/credentials.h>
-
-#include <mutex>
-#include <utility>
 
 namespace eyrie::coordinator {
 namespace {
@@ -75,7 +75,8 @@ public:
         *request.mutable_scene() = wire::toMessage(scene);
         v1::OpenSceneResponse response;
         Calls::Call call(calls_, deadline);
-        RETURN_IF_ERROR(wire::fromGrpc(stub_->OpenScene(call.context(), request, &response), peer_));
+        RETURN_IF_ERROR(
+            wire::fromGrpc(stub_->OpenScene(call.context(), request, &response), peer_));
         absl::StatusOr<fabric::SceneInfo> info = wire::fromMessage(response);
         if (!info.ok())
             return absl::InternalError(

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "coordinator/farm/channel_renderer.h"
-
 #include <memory>
 #include <string>
+
+#include "coordinator/farm/channel_renderer.h"
 
 namespace eyrie::coordinator {
 

@@ -32,11 +32,9 @@ void Listeners::notify() {
     std::vector<std::shared_ptr<Entry>> entries;
     {
         const std::lock_guard lock(mutex_);
-        for (const auto& [handle, entry] : entries_)
-            entries.push_back(entry);
+        for (const auto& [handle, entry] : entries_) entries.push_back(entry);
     }
-    for (const std::shared_ptr<Entry>& entry : entries)
-        call(*entry);
+    for (const std::shared_ptr<Entry>& entry : entries) call(*entry);
 }
 
 void Listeners::call(Entry& entry) {

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/farm/picture_assembly.h"
 
-#include "eyrie/v1/render_service.pb.h"
-#include "fabric/status.h"
-#include "wire/frame.h"
-#include "wire/statistics.h"
-
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <bit>
 #include <cstring>
 #include <utility>
+
+#include <fmt/format.h>
+
+#include "eyrie/v1/render_service.pb.h"
+#include "fabric/status.h"
+#include "wire/frame.h"
+#include "wire/statistics.h"
 
 namespace eyrie::coordinator {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "fabric/channel_task.h"
+#include <cstddef>
+#include <string_view>
 
 #include <absl/status/statusor.h>
 
-#include <cstddef>
-#include <string_view>
+#include "fabric/channel_task.h"
 
 namespace eyrie::v1 {
 class ChannelHeader;

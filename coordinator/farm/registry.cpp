@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/farm/registry.h"
 
-#include <fmt/format.h>
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <utility>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 namespace eyrie::coordinator {
 
@@ -80,8 +80,7 @@ void Registry::expire(Clock::time_point now) {
 std::vector<Registry::Entry> Registry::entries() const {
     const std::lock_guard lock(mutex_);
     std::vector<Entry> entries;
-    for (const Record& record : records_)
-        entries.push_back(record.entry);
+    for (const Record& record : records_) entries.push_back(record.entry);
     return entries;
 }
 

@@ -1,12 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "coordinator/farm/channel_renderer.h"
-#include "coordinator/farm/listeners.h"
-#include "fabric/statistics.h"
-
-#include <absl/status/statusor.h>
-
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -14,13 +8,19 @@
 #include <string_view>
 #include <vector>
 
+#include <absl/status/statusor.h>
+
+#include "coordinator/farm/channel_renderer.h"
+#include "coordinator/farm/listeners.h"
+#include "fabric/statistics.h"
+
 namespace eyrie::coordinator {
 
 struct RegistryOptions {
     std::chrono::milliseconds heartbeatInterval{1000};
-    int missedHeartbeats = 3;                           ///< so many late ones in a row: dead
-    std::chrono::milliseconds deadShownFor{60'000};     ///< how long a dead renderer stays listed
-    std::size_t maxRenderers = 256;                     ///< alive ones
+    int missedHeartbeats = 3;                        ///< so many late ones in a row: dead
+    std::chrono::milliseconds deadShownFor{60'000};  ///< how long a dead renderer stays listed
+    std::size_t maxRenderers = 256;                  ///< alive ones
 };
 
 /// The renderers that have registered: who is alive, and how to reach them.

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/frame/crew.h"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <utility>
+
+#include <spdlog/spdlog.h>
 
 namespace eyrie::coordinator {
 namespace {
@@ -45,12 +45,10 @@ Crew::~Crew() {
         const std::lock_guard lock(mutex_);
         closing_ = true;
         members = std::move(retired_);
-        for (Seat& seat : seats_)
-            members.push_back(std::move(seat.member));
+        for (Seat& seat : seats_) members.push_back(std::move(seat.member));
         seats_.clear();
     }
-    for (const std::shared_ptr<Member>& member : members)
-        member->retire();
+    for (const std::shared_ptr<Member>& member : members) member->retire();
 }
 
 void Crew::setScene(fabric::Scene scene) {
@@ -60,8 +58,7 @@ void Crew::setScene(fabric::Scene scene) {
         ++revision_;
         hasInfo_ = false;
         info_ = {};
-        for (Seat& seat : seats_)
-            openIn(seat);
+        for (Seat& seat : seats_) openIn(seat);
     }
     changed_();
 }
@@ -142,11 +139,10 @@ void Crew::openIn(Seat& seat) {
     seat.openError.clear();
     if (scene_->objects.empty())
         return;
-    seat.member->open(scene_, revision_, openTimeout_,
-                      [this, id = seat.member->id(), revision = revision_](
-                          const absl::StatusOr<fabric::SceneInfo>& info) {
-                          noteOpened(id, revision, info);
-                      });
+    seat.member->open(
+        scene_, revision_, openTimeout_,
+        [this, id = seat.member->id(), revision = revision_](
+            const absl::StatusOr<fabric::SceneInfo>& info) { noteOpened(id, revision, info); });
 }
 
 void Crew::noteOpened(const std::string& id, std::uint64_t revision,

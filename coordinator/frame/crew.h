@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "coordinator/farm/registry.h"
-#include "coordinator/frame/member.h"
-#include "fabric/scene.h"
-
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
 #include <vector>
+
+#include "coordinator/farm/registry.h"
+#include "coordinator/frame/member.h"
+#include "fabric/scene.h"
 
 namespace eyrie::coordinator {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/frame/flight.h"
 
-#include "fabric/status.h"
+#include <algorithm>
+#include <utility>
 
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
-#include <utility>
+#include "fabric/status.h"
 
 namespace eyrie::coordinator {
 namespace {
@@ -25,8 +25,7 @@ absl::StatusOr<std::vector<Flight::Leg>> Flight::fly(Crew& crew) {
         changed_.wait_for(lock, kLookAgain);
     }
     std::vector<Leg> legs;
-    for (Part& part : parts_)
-        legs.push_back(std::move(part.leg));
+    for (Part& part : parts_) legs.push_back(std::move(part.leg));
     return legs;
 }
 
@@ -42,24 +41,35 @@ absl::Status Flight::assign(Crew& crew) {
     return absl::OkStatus();
 }
 
-absl::Status Flight::assign(std::size_t index,
-                            const std::vector<std::shared_ptr<Member>>& members, Crew& crew) {
+absl::Status Flight::assign(std::size_t index, const std::vector<std::shared_ptr<Member>>& members,
+                            Crew& crew) {
     Part& part = parts_[index];
+    Member* chosen = nullptr;
     bool anyLeft = part.running != 0;
     for (const std::shared_ptr<Member>& member : members) {
         if (std::find(part.asked.begin(), part.asked.end(), member->id()) != part.asked.end())
             continue;
         anyLeft = true;
-        if (!member->isIdle())
-            continue;
-        if (!part.asked.empty())
-            spdlog::warn("frame {}: {} draws the part that {} {}", plan_.tasks[index].frameNumber,
-                         member->id(), part.asked.back(),
-                         part.running != 0 ? "has not finished" : "could not");
-        start(index, *member, crew);
-        return absl::OkStatus();
+        // One that has finished its part already must not take the next one's part, too: each
+        // renderer is to keep to its own share of the data, which it has in memory.
+        if (member->isIdle() && (chosen == nullptr || timesAsked(*member) < timesAsked(*chosen)))
+            chosen = member.get();
     }
-    return anyLeft ? absl::OkStatus() : part.error;
+    if (chosen == nullptr)
+        return anyLeft ? absl::OkStatus() : part.error;
+    if (!part.asked.empty())
+        spdlog::warn("frame {}: {} draws the part that {} {}", plan_.tasks[index].frameNumber,
+                     chosen->id(), part.asked.back(),
+                     part.running != 0 ? "has not finished" : "could not draw");
+    start(index, *chosen, crew);
+    return absl::OkStatus();
+}
+
+std::ptrdiff_t Flight::timesAsked(const Member& member) const {
+    std::ptrdiff_t times = 0;
+    for (const Part& part : parts_)
+        times += std::count(part.asked.begin(), part.asked.end(), member.id());
+    return times;
 }
 
 void Flight::start(std::size_t index, Member& member, Crew& crew) {

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "coordinator/frame/crew.h"
-#include "coordinator/frame/patience.h"
-#include "fabric/channel_task.h"
-#include "fabric/frame_data.h"
-
 #include <condition_variable>
+#include <cstddef>
 #include <memory>
 #include <mutex>
 #include <string>
 #include <vector>
+
+#include "coordinator/frame/crew.h"
+#include "coordinator/frame/patience.h"
+#include "fabric/channel_task.h"
+#include "fabric/frame_data.h"
 
 namespace eyrie::coordinator {
 
@@ -58,6 +59,7 @@ private:
     /// OK, too, when the part has to wait for a renderer; the part's error when none is left.
     absl::Status assign(std::size_t index, const std::vector<std::shared_ptr<Member>>& members,
                         Crew& crew);
+    std::ptrdiff_t timesAsked(const Member& member) const;
     void start(std::size_t index, Member& member, Crew& crew);
     void finish(std::size_t index, const Member& member, Clock::time_point started,
                 absl::StatusOr<fabric::ChannelResult> result);

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/frame/frame_pipeline.h"
 
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
 #include "coordinator/composite/assemble_2d.h"
 #include "coordinator/composite/assemble_db.h"
 #include "coordinator/frame/problem.h"
 #include "fabric/status.h"
-
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <utility>
 
 namespace eyrie::coordinator {
 namespace {
@@ -19,8 +19,8 @@ absl::Status check(const FrameRequest& request) {
     const auto [shorter, longer] = std::minmax(request.width, request.height);
     if (shorter < 1 || longer > fabric::kMaxViewPixels)
         return absl::InvalidArgumentError(
-            fmt::format("the picture is {}x{} pixels; each side must be from 1 to {}", request.width,
-                        request.height, fabric::kMaxViewPixels));
+            fmt::format("the picture is {}x{} pixels; each side must be from 1 to {}",
+                        request.width, request.height, fabric::kMaxViewPixels));
     if (!(request.tauPixels >= fabric::kMinTauPixels && request.tauPixels <= fabric::kMaxTauPixels))
         return absl::InvalidArgumentError(fmt::format("tau is {} pixels; it must be from {} to {}",
                                                       request.tauPixels, fabric::kMinTauPixels,
@@ -69,8 +69,7 @@ absl::StatusOr<std::vector<Flight::Leg>> FramePipeline::draw(const FrameRequest&
         Flight::Plan{frameData, decompose(whole, options_.decomposition, freeRenderers(revision)),
                      revision, lateAfter(request, revision), options_.callTimeout});
     ASSIGN_OR_RETURN(std::vector<Flight::Leg> legs, flight->fly(crew_));
-    for (const Flight::Leg& leg : legs)
-        patience_.record(leg.taken);
+    for (const Flight::Leg& leg : legs) patience_.record(leg.taken);
     return legs;
 }
 

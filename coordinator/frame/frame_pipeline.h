@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+
 #include "coordinator/compound/decompose.h"
 #include "coordinator/farm/listeners.h"
 #include "coordinator/farm/registry.h"
@@ -9,8 +11,6 @@
 #include "coordinator/frame/frame_source.h"
 #include "coordinator/frame/patience.h"
 #include "coordinator/frame/turn.h"
-
-#include <string>
 
 namespace eyrie::coordinator {
 

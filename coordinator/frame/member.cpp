@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/frame/member.h"
 
-#include "fabric/status.h"
+#include <utility>
 
 #include <fmt/format.h>
 
-#include <utility>
+#include "fabric/status.h"
 
 namespace eyrie::coordinator {
 
@@ -58,7 +58,8 @@ void Member::open(std::shared_ptr<const fabric::Scene> scene, std::uint64_t revi
     post([this, scene = std::move(scene), revision, timeout, done = std::move(done)] {
         // On an error a renderer keeps the scene before, which is no use to the next frame.
         openRevision_ = 0;
-        absl::StatusOr<fabric::SceneInfo> info = renderer_->openScene(*scene, Clock::now() + timeout);
+        absl::StatusOr<fabric::SceneInfo> info =
+            renderer_->openScene(*scene, Clock::now() + timeout);
         if (info.ok())
             openRevision_ = revision;
         --pending_;
@@ -70,8 +71,15 @@ void Member::draw(const fabric::FrameData& frameData, const fabric::ChannelTask&
                   std::uint64_t revision, std::chrono::milliseconds timeout, DrawDone done) {
     post([this, frameData, task, revision, timeout, done = std::move(done)] {
         absl::StatusOr<fabric::ChannelResult> result = drawNow(frameData, task, revision, timeout);
-        --pending_;
+        if (absl::IsCancelled(result.status()))  // only retire cancels
+            result = absl::UnavailableError(fmt::format("{} was given up", id_));
+        const bool ok = result.ok();
+        if (ok)
+            --pending_;
         done(std::move(result));
+        // One that failed takes no more work before `done` has decided what becomes of it.
+        if (!ok)
+            --pending_;
     });
 }
 

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "coordinator/farm/channel_renderer.h"
-#include "fabric/statistics.h"
-
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
@@ -13,6 +10,9 @@
 #include <mutex>
 #include <string>
 #include <thread>
+
+#include "coordinator/farm/channel_renderer.h"
+#include "fabric/statistics.h"
 
 namespace eyrie::coordinator {
 
@@ -34,7 +34,8 @@ public:
     const std::string& id() const { return id_; }
     const fabric::DeviceInfo& device() const { return device_; }
 
-    /// Nothing to do: a job given now starts now. True already when `done` is called.
+    /// Nothing to do: a job given now starts now. True already when `done` is called, but for a
+    /// failure.
     bool isIdle() const { return pending_ == 0; }
 
     /// Of the scene it has open; 0: none.

@@ -10,8 +10,8 @@ struct Situation {
     int ready = 0;    ///< renderers that have the scene open
     int opening = 0;  ///< renderers that are opening it
     bool sceneIsEmpty = false;
-    std::string openError;    ///< of a renderer that could not open it
-    std::string howToJoin;    ///< the command that starts a renderer
+    std::string openError;  ///< of a renderer that could not open it
+    std::string howToJoin;  ///< the command that starts a renderer
 };
 
 /// Why there is no picture, for a person to read, with what to do; empty while there is one.

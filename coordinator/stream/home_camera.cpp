@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/stream/home_camera.h"
 
-#include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
 namespace eyrie::stream {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "wire/frame.h"
 
+#include <fmt/format.h>
+
 #include "eyrie/v1/frame.pb.h"
 #include "fabric/status.h"
 #include "wire/camera.h"
-
-#include <fmt/format.h>
 
 namespace eyrie::wire {
 namespace {
@@ -32,16 +32,17 @@ absl::StatusOr<fabric::Shading> fromMessage(v1::Shading shading) {
         case v1::SHADING_WIREFRAME:
             return fabric::Shading::Wireframe;
         default:
-            return absl::InvalidArgumentError(fmt::format(
-                "frame_data.shading is {}, which this version does not know", static_cast<int>(shading)));
+            return absl::InvalidArgumentError(
+                fmt::format("frame_data.shading is {}, which this version does not know",
+                            static_cast<int>(shading)));
     }
 }
 
 absl::Status checkPixels(std::int32_t value, std::int32_t least, std::string_view field) {
     if (value >= least && value <= fabric::kMaxViewPixels)
         return absl::OkStatus();
-    return absl::InvalidArgumentError(fmt::format("{} is {}; it must be from {} to {} pixels", field,
-                                                  value, least, fabric::kMaxViewPixels));
+    return absl::InvalidArgumentError(fmt::format("{} is {}; it must be from {} to {} pixels",
+                                                  field, value, least, fabric::kMaxViewPixels));
 }
 
 }  // namespace
@@ -98,8 +99,8 @@ v1::Range toMessage(const fabric::Range& range) {
 absl::StatusOr<fabric::Range> fromMessage(const v1::Range& message) {
     const fabric::Range range{message.begin(), message.end()};
     if (!(range.begin >= 0 && range.begin <= range.end && range.end <= 1))
-        return absl::InvalidArgumentError(
-            fmt::format("range is {} to {}; it must be 0 <= begin <= end <= 1", range.begin, range.end));
+        return absl::InvalidArgumentError(fmt::format(
+            "range is {} to {}; it must be 0 <= begin <= end <= 1", range.begin, range.end));
     return range;
 }
 
@@ -125,7 +126,8 @@ absl::StatusOr<fabric::ChannelTask> fromMessage(const v1::ChannelTask& message) 
     RETURN_IF_ERROR(checkPixels(task.viewHeight, 1, "task.view_height"));
     ASSIGN_OR_RETURN(task.pixelViewport, fromMessage(message.pixel_viewport()));
     const fabric::PixelViewport& part = task.pixelViewport;
-    if (part.isEmpty() || !fabric::PixelViewport{0, 0, task.viewWidth, task.viewHeight}.contains(part))
+    if (part.isEmpty() ||
+        !fabric::PixelViewport{0, 0, task.viewWidth, task.viewHeight}.contains(part))
         return absl::InvalidArgumentError(fmt::format(
             "task.pixel_viewport is {}x{} pixels at {},{}; it must not be empty and lie inside the "
             "view of {}x{}",

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <absl/status/statusor.h>
+
 #include "fabric/channel_task.h"
 #include "fabric/frame_data.h"
-
-#include <absl/status/statusor.h>
 
 namespace eyrie::v1 {
 class ChannelTask;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "wire/grpc_log.h"
 
+#include <mutex>
+
 #include <grpc/support/log.h>
 #include <spdlog/spdlog.h>
-
-#include <mutex>
 
 namespace eyrie::wire {
 

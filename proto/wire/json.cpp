@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "wire/json.h"
 
-#include "eyrie/v1/camera.pb.h"
-#include "eyrie/v1/scene.pb.h"
-#include "fabric/status.h"
-#include "wire/camera.h"
+#include <algorithm>
+#include <limits>
 
 #include <fmt/format.h>
 #include <google/protobuf/util/json_util.h>
 #include <google/protobuf/wrappers.pb.h>
 
-#include <algorithm>
-#include <limits>
+#include "eyrie/v1/camera.pb.h"
+#include "eyrie/v1/scene.pb.h"
+#include "fabric/status.h"
+#include "wire/camera.h"
 
 namespace eyrie::wire {
 namespace {
@@ -22,8 +22,8 @@ absl::Status parse(std::string_view text, std::string_view name, std::string_vie
         google::protobuf::util::JsonStringToMessage({text.data(), text.size()}, &message);
     if (status.ok())
         return absl::OkStatus();
-    return absl::InvalidArgumentError(fmt::format("{}: this is no {} file: {}", name, kind,
-                                                  std::string(status.message())));
+    return absl::InvalidArgumentError(
+        fmt::format("{}: this is no {} file: {}", name, kind, std::string(status.message())));
 }
 
 std::string print(const google::protobuf::Message& message,
@@ -53,10 +53,10 @@ std::string deviceJson(const fabric::DeviceInfo& device) {
 }
 
 std::string millisecondsJson(const fabric::StageMilliseconds& milliseconds) {
-    return fmt::format(
-        R"({{"cull": {}, "draw": {}, "readback": {}, "encode": {}, "total": {}}})",
-        number(milliseconds.cull), number(milliseconds.draw), number(milliseconds.readback),
-        number(milliseconds.encode), number(milliseconds.total));
+    return fmt::format(R"({{"cull": {}, "draw": {}, "readback": {}, "encode": {}, "total": {}}})",
+                       number(milliseconds.cull), number(milliseconds.draw),
+                       number(milliseconds.readback), number(milliseconds.encode),
+                       number(milliseconds.total));
 }
 
 }  // namespace
@@ -84,7 +84,8 @@ std::string toJson(const google::protobuf::Message& message) {
 
 std::string statisticsJson(const fabric::FrameStatistics& statistics, int width, int height,
                            const fabric::DeviceInfo& device) {
-    return fmt::format(R"({{
+    return fmt::format(
+        R"({{
   "width": {},
   "height": {},
   "tauAsked": {},
@@ -98,11 +99,9 @@ std::string statisticsJson(const fabric::FrameStatistics& statistics, int width,
   "renderer": {}
 }}
 )",
-                       width, height, number(statistics.tauAskedPixels),
-                       number(statistics.tauAchievedPixels), statistics.complete,
-                       statistics.triangles, statistics.points, statistics.nodes,
-                       statistics.pagesLoaded, millisecondsJson(statistics.milliseconds),
-                       deviceJson(device));
+        width, height, number(statistics.tauAskedPixels), number(statistics.tauAchievedPixels),
+        statistics.complete, statistics.triangles, statistics.points, statistics.nodes,
+        statistics.pagesLoaded, millisecondsJson(statistics.milliseconds), deviceJson(device));
 }
 
 }  // namespace eyrie::wire

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "fabric/camera.h"
-#include "fabric/statistics.h"
+#include <string>
+#include <string_view>
 
 #include <absl/status/statusor.h>
 
-#include <string>
-#include <string_view>
+#include "fabric/camera.h"
+#include "fabric/statistics.h"
 
 namespace google::protobuf {
 class Message;

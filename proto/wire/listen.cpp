@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "wire/listen.h"
 
-#include "fabric/status.h"
-#include "wire/transport.h"
+#include <algorithm>
+#include <charconv>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <grpcpp/security/server_credentials.h>
 #include <grpcpp/server.h>
 #include <grpcpp/server_builder.h>
 
-#include <algorithm>
-#include <charconv>
-#include <string_view>
+#include "fabric/status.h"
+#include "wire/transport.h"
 
 namespace eyrie::wire {
 namespace {
@@ -21,9 +21,9 @@ constexpr std::size_t kMaxUnixPathBytes = 107;  // sockaddr_un
 constexpr std::size_t kMaxAddressBytes = 300;
 
 absl::Status invalid(const std::string& address, std::string_view why) {
-    return absl::InvalidArgumentError(fmt::format(
-        "address '{}' {}; it must be HOST:PORT or unix:/PATH", address.substr(0, kMaxAddressBytes),
-        why));
+    return absl::InvalidArgumentError(
+        fmt::format("address '{}' {}; it must be HOST:PORT or unix:/PATH",
+                    address.substr(0, kMaxAddressBytes), why));
 }
 
 absl::Status checkUnixPath(const std::string& address) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "wire/numbers.h"
 
-#include "fabric/status.h"
+#include <cmath>
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include "fabric/status.h"
 
 namespace eyrie::wire {
 
@@ -34,8 +34,7 @@ absl::StatusOr<fabric::Vec3> threeNumbersOr(const Numbers& numbers, const fabric
 
 void setNumbers(const fabric::Vec3& value, Numbers& numbers) {
     numbers.Clear();
-    for (int i = 0; i < 3; ++i)
-        numbers.Add(value[i]);
+    for (int i = 0; i < 3; ++i) numbers.Add(value[i]);
 }
 
 }  // namespace eyrie::wire

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "fabric/vec.h"
+#include <string_view>
 
 #include <absl/status/statusor.h>
 #include <google/protobuf/repeated_field.h>
 
-#include <string_view>
+#include "fabric/vec.h"
 
 /// Arrays of numbers in messages. For the sources of this folder only: it shows protobuf.
 namespace eyrie::wire {

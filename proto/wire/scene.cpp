@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "wire/scene.h"
 
-#include "eyrie/v1/scene.pb.h"
-#include "fabric/status.h"
-#include "wire/numbers.h"
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <string>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
-#include <string>
+#include "eyrie/v1/scene.pb.h"
+#include "fabric/status.h"
+#include "wire/numbers.h"
 
 namespace eyrie::wire {
 namespace {
@@ -83,9 +83,8 @@ absl::StatusOr<fabric::SceneObject> objectFrom(const v1::SceneObject& message, i
     if (object.path.empty())
         return absl::InvalidArgumentError(
             fmt::format("{} has no data; give it a \"terrain\" or a \"mesh\" file", field));
-    object.name = message.name().empty()
-                      ? std::filesystem::path(object.path).filename().string()
-                      : message.name();
+    object.name = message.name().empty() ? std::filesystem::path(object.path).filename().string()
+                                         : message.name();
     if (object.name.empty())
         return absl::InvalidArgumentError(
             fmt::format("{}: the path {} ends in a folder, not a file", field, object.path));

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "wire/scene_info.h"
 
-#include "eyrie/v1/geometry.pb.h"
-#include "eyrie/v1/render_service.pb.h"
-#include "fabric/status.h"
+#include <cmath>
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include "eyrie/v1/geometry.pb.h"
+#include "eyrie/v1/render_service.pb.h"
+#include "fabric/status.h"
 
 namespace eyrie::wire {
 namespace {
@@ -32,9 +32,9 @@ absl::StatusOr<fabric::Box> fromMessage(const v1::Box& message) {
                           {message.max().x(), message.max().y(), message.max().z()}};
     for (int i = 0; i < 3; ++i)
         if (!(std::isfinite(box.min[i]) && std::isfinite(box.max[i]) && box.min[i] <= box.max[i]))
-            return absl::InvalidArgumentError(
-                fmt::format("box reaches from {} to {} along axis {}; it must be finite and in order",
-                            box.min[i], box.max[i], "xyz"[i]));
+            return absl::InvalidArgumentError(fmt::format(
+                "box reaches from {} to {} along axis {}; it must be finite and in order",
+                box.min[i], box.max[i], "xyz"[i]));
     return box;
 }
 

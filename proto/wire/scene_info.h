@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "fabric/scene.h"
-
 #include <absl/status/statusor.h>
+
+#include "fabric/scene.h"
 
 namespace eyrie::v1 {
 class Box;

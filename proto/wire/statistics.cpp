@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "wire/statistics.h"
 
-#include "eyrie/v1/statistics.pb.h"
-#include "fabric/status.h"
-
-#include <fmt/format.h>
-
 #include <cmath>
 #include <string>
 #include <string_view>
+
+#include <fmt/format.h>
+
+#include "eyrie/v1/statistics.pb.h"
+#include "fabric/status.h"
 
 namespace eyrie::wire {
 namespace {

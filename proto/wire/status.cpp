@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "wire/status.h"
 
+#include <string_view>
+
 #include <fmt/format.h>
 #include <grpcpp/support/status.h>
-
-#include <string_view>
 
 namespace eyrie::wire {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <absl/status/status.h>
-
 #include <string>
+
+#include <absl/status/status.h>
 
 namespace grpc {
 class Status;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "wire/transport.h"
 
-#include "wire/grpc_log.h"
-
 #include <grpc/grpc.h>
 #include <grpcpp/server_builder.h>
 #include <grpcpp/support/channel_arguments.h>
+
+#include "wire/grpc_log.h"
 
 namespace eyrie::wire {
 namespace {

@@ -9,16 +9,17 @@ uniform int flatShading;
 
 out vec4 colour;
 
-// Hypsometric tints, linear light: meadow, forest, scrub, rock, scree, snow.
-const vec3 kTints[6] = vec3[](vec3(0.12, 0.19, 0.06), vec3(0.07, 0.14, 0.05), vec3(0.22, 0.21, 0.09),
-                              vec3(0.25, 0.19, 0.13), vec3(0.34, 0.31, 0.28), vec3(0.86, 0.89, 0.93));
-
+// Hypsometric tints, linear light: meadow, forest, scrub, rock, scree, snow. Blended in turn rather
+// than looked up: software renderers gather a computed index lane by lane.
 vec3 tint(float elevation, float slope) {
     float t = clamp(elevation, 0.0, 1.0) * 5.0;
-    int i = min(int(t), 4);
-    vec3 tinted = mix(kTints[i], kTints[i + 1], smoothstep(0.0, 1.0, t - float(i)));
+    vec3 tinted = mix(vec3(0.12, 0.19, 0.06), vec3(0.07, 0.14, 0.05), min(t, 1.0));
+    tinted = mix(tinted, vec3(0.22, 0.21, 0.09), clamp(t - 1.0, 0.0, 1.0));
+    tinted = mix(tinted, vec3(0.25, 0.19, 0.13), clamp(t - 2.0, 0.0, 1.0));
+    tinted = mix(tinted, vec3(0.34, 0.31, 0.28), clamp(t - 3.0, 0.0, 1.0));
+    tinted = mix(tinted, vec3(0.86, 0.89, 0.93), clamp(t - 4.0, 0.0, 1.0));
     // Steep ground sheds soil and snow: show rock.
-    return mix(tinted, vec3(0.17, 0.15, 0.13), smoothstep(0.45, 0.9, slope) * 0.75);
+    return mix(tinted, vec3(0.17, 0.15, 0.13), clamp(slope * 2.2 - 1.0, 0.0, 0.75));
 }
 
 void main() {

@@ -1,8 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/import/dem_source.h"
 
-#include "fabric/status.h"
-#include "renderer/terrain/quadtree.h"
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <system_error>
+#include <utility>
 
 #include <cpl_conv.h>
 #include <cpl_error.h>
@@ -15,15 +24,8 @@
 #include <unistd.h>
 #include <xxhash.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdio>
-#include <limits>
-#include <memory>
-#include <mutex>
-#include <optional>
-#include <utility>
+#include "fabric/status.h"
+#include "renderer/terrain/quadtree.h"
 
 namespace eyrie::import {
 namespace {
@@ -39,8 +41,8 @@ struct Releaser {
     }
 };
 using Dataset = std::unique_ptr<void, Releaser<GDALClose>>;
-using SpatialReference =
-    std::unique_ptr<std::remove_pointer_t<OGRSpatialReferenceH>, Releaser<OSRDestroySpatialReference>>;
+using SpatialReference = std::unique_ptr<std::remove_pointer_t<OGRSpatialReferenceH>,
+                                         Releaser<OSRDestroySpatialReference>>;
 using StringList = std::unique_ptr<char*, Releaser<CSLDestroy>>;
 
 /// Keeps what GDAL would print, while it lives, on this thread; no sidecar files are written.
@@ -124,15 +126,16 @@ absl::StatusOr<Dataset> openRaster(const std::string& path, QuietGdal& gdal) {
                                          "a GeoTIFF",
                                          GDALVersionInfo("RELEASE_NAME"), gdal.takeError()));
     if (GDALGetRasterCount(dataset.get()) < 1)
-        return invalid(path, "has no raster band of its own; name one of its subdatasets instead "
-                             "(gdalinfo lists them)");
+        return invalid(path,
+                       "has no raster band of its own; name one of its subdatasets instead "
+                       "(gdalinfo lists them)");
     return dataset;
 }
 
 absl::Status checkSize(const std::string& path, int columns, int rows) {
     if (columns < 2 || rows < 2)
-        return invalid(path, fmt::format("has {} x {} posts; a terrain needs at least 2 x 2",
-                                         columns, rows));
+        return invalid(
+            path, fmt::format("has {} x {} posts; a terrain needs at least 2 x 2", columns, rows));
     constexpr auto kMaxPosts = static_cast<int>(terrain::kMaxPosts);
     const std::uint64_t bytes =
         static_cast<std::uint64_t>(columns) * static_cast<std::uint64_t>(rows) * sizeof(float);
@@ -228,8 +231,7 @@ float heightOf(float value, const ValueRule& rule) {
 }
 
 void clean(float* heights, std::size_t count, const ValueRule& rule) {
-    for (std::size_t k = 0; k < count; ++k)
-        heights[k] = heightOf(heights[k], rule);
+    for (std::size_t k = 0; k < count; ++k) heights[k] = heightOf(heights[k], rule);
 }
 
 /// Reads a band into `heights` in blocks of rows; calls each block done with its first height and
@@ -244,7 +246,8 @@ absl::Status readRows(const std::string& path, GDALRasterBandH band, std::vector
     for (int row = 0; row < rows; row += kBlockRows) {
         RETURN_IF_ERROR(control.check());
         const int count = std::min(kBlockRows, rows - row);
-        float* first = heights.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(columns);
+        float* first =
+            heights.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(columns);
         if (GDALRasterIO(band, GF_Read, 0, row, columns, count, first, columns, count, GDT_Float32,
                          0, 0) != CE_None)
             return absl::DataLossError(
@@ -287,7 +290,8 @@ absl::StatusOr<Georeference> georeferenceOf(const std::string& path, GDALDataset
         return Georeference{{0, rows}, {1, 0}, {0, -1}};
     }
     const double determinant = t[1] * t[5] - t[2] * t[4];
-    const bool isFinite = std::all_of(t.begin(), t.end(), [](double v) { return std::isfinite(v); });
+    const bool isFinite =
+        std::all_of(t.begin(), t.end(), [](double v) { return std::isfinite(v); });
     if (!isFinite || determinant == 0 || !std::isfinite(determinant))
         return invalid(path, fmt::format("geotransform ({}) is not finite or has no area; set "
                                          "another (gdal_edit.py -a_ullr)",
@@ -320,13 +324,15 @@ absl::StatusOr<SpatialReference> localProjection(const std::string& path,
     } else {
         const double wrapped = longitude - 360 * std::floor((longitude + 180) / 360);
         const int zone = std::clamp(static_cast<int>((wrapped + 180) / 6) + 1, 1, 60);
-        OSRSetProjCS(local.get(), fmt::format("UTM zone {}{}", zone, latitude < 0 ? 'S' : 'N').c_str());
+        OSRSetProjCS(local.get(),
+                     fmt::format("UTM zone {}{}", zone, latitude < 0 ? 'S' : 'N').c_str());
         error = OSRCopyGeogCSFrom(local.get(), geographic);
         if (error == OGRERR_NONE)
             error = OSRSetUTM(local.get(), zone, latitude >= 0 ? 1 : 0);
     }
     if (error != OGRERR_NONE)
-        return invalid(path, "its geographic CRS has no UTM zone; reproject it with gdalwarp first");
+        return invalid(path,
+                       "its geographic CRS has no UTM zone; reproject it with gdalwarp first");
     OSRSetAxisMappingStrategy(local.get(), OAMS_TRADITIONAL_GIS_ORDER);
     return local;
 }
@@ -335,7 +341,8 @@ absl::StatusOr<SpatialReference> localProjection(const std::string& path,
 absl::StatusOr<Dataset> asDataset(const std::string& path, std::vector<float>& heights, int columns,
                                   int rows, const Georeference& reference,
                                   OGRSpatialReferenceH crs) {
-    Dataset memory(GDALCreate(GDALGetDriverByName("MEM"), "", columns, rows, 0, GDT_Float32, nullptr));
+    Dataset memory(
+        GDALCreate(GDALGetDriverByName("MEM"), "", columns, rows, 0, GDT_Float32, nullptr));
     if (!memory)
         return absl::InternalError(fmt::format("{}: GDAL's MEM driver is missing", path));
     const std::string pointer =
@@ -354,9 +361,8 @@ absl::StatusOr<Dataset> asDataset(const std::string& path, std::vector<float>& h
 absl::StatusOr<Dataset> reprojected(const std::string& path, GDALDatasetH source,
                                     const std::string& targetWkt, QuietGdal& gdal) {
     StringList arguments;
-    for (const char* argument :
-         {"-of", "VRT", "-r", "bilinear", "-dstnodata", "nan", "-et", "0.01", "-wo",
-          "NUM_THREADS=ALL_CPUS", "-t_srs", targetWkt.c_str()})
+    for (const char* argument : {"-of", "VRT", "-r", "bilinear", "-dstnodata", "nan", "-et", "0.01",
+                                 "-wo", "NUM_THREADS=ALL_CPUS", "-t_srs", targetWkt.c_str()})
         arguments.reset(CSLAddString(arguments.release(), argument));
     const std::unique_ptr<GDALWarpAppOptions, Releaser<GDALWarpAppOptionsFree>> options(
         GDALWarpAppOptionsNew(arguments.get(), nullptr));
@@ -382,7 +388,7 @@ void orient(const Georeference& g, int columns, int rows, std::vector<float> hei
     if (g.perColumn.x * g.perRow.y - g.perColumn.y * g.perRow.x > 0)
         return;
     grid.origin += g.perRow * static_cast<double>(rows - 1);
-    grid.perRow = -g.perRow;
+    grid.perRow = Vec2(0.0) - g.perRow;  // no negative zeros
     for (int j = 0; j < rows / 2; ++j)
         std::swap_ranges(grid.row(j), grid.row(j) + columns, grid.row(rows - 1 - j));
 }
@@ -397,10 +403,11 @@ absl::Status reprojectInto(const std::string& path, std::vector<float> heights, 
     const Vec2 span = glm::abs(across) + glm::abs(down);
     const Vec2 centre = degrees.origin + (across + down) * 0.5;
     if (std::max(span.x, span.y) > kMaxDegrees || std::abs(centre.y) > 90)
-        return invalid(path, fmt::format("spans {:.1f} x {:.1f} degrees around latitude {:.1f}, too "
-                                         "much for one UTM zone (at most {}); reproject it with "
-                                         "gdalwarp -t_srs first",
-                                         span.x, span.y, centre.y, kMaxDegrees));
+        return invalid(path,
+                       fmt::format("spans {:.1f} x {:.1f} degrees around latitude {:.1f}, too "
+                                   "much for one UTM zone (at most {}); reproject it with "
+                                   "gdalwarp -t_srs first",
+                                   span.x, span.y, centre.y, kMaxDegrees));
     ASSIGN_OR_RETURN(const SpatialReference local, localProjection(path, crs, centre.x, centre.y));
     ASSIGN_OR_RETURN(const Dataset source, asDataset(path, heights, columns, rows, degrees, crs));
     ASSIGN_OR_RETURN(const Dataset warped,
@@ -409,8 +416,9 @@ absl::Status reprojectInto(const std::string& path, std::vector<float> heights, 
     const int newRows = GDALGetRasterYSize(warped.get());
     RETURN_IF_ERROR(checkSize(path, newColumns, newRows));
     std::vector<float> result;
-    RETURN_IF_ERROR(readRows(path, GDALGetRasterBand(warped.get(), 1), result, gdal, control,
-                             [](int, float* first, std::size_t count) { clean(first, count, {}); }));
+    RETURN_IF_ERROR(
+        readRows(path, GDALGetRasterBand(warped.get(), 1), result, gdal, control,
+                 [](int, float* first, std::size_t count) { clean(first, count, {}); }));
     std::vector<std::string> none;
     ASSIGN_OR_RETURN(const Georeference metres, georeferenceOf(path, warped.get(), none));
     dem.crsWkt = wktOf(local.get());
@@ -445,8 +453,9 @@ absl::StatusOr<Dem> readDem(const std::string& path, const ImportControl& contro
     ASSIGN_OR_RETURN(Georeference reference, georeferenceOf(path, dataset.get(), dem.notes));
 
     std::vector<float> heights;
-    RETURN_IF_ERROR(readRows(path, band, heights, gdal, control,
-                             [&](int, float* first, std::size_t count) { clean(first, count, rule); }));
+    RETURN_IF_ERROR(
+        readRows(path, band, heights, gdal, control,
+                 [&](int, float* first, std::size_t count) { clean(first, count, rule); }));
     RETURN_IF_ERROR(applyMask(path, band, heights, gdal));
     if (!hasData(heights))
         return invalid(path, "all posts are nodata; check the band's nodata value");
@@ -456,8 +465,9 @@ absl::StatusOr<Dem> readDem(const std::string& path, const ImportControl& contro
         RETURN_IF_ERROR(reprojectInto(path, std::move(heights), columns, rows, reference, crs, gdal,
                                       control, dem));
         if (!hasData(dem.grid.heights))
-            return invalid(path, "reprojection to UTM left no post with data; reproject it with "
-                                 "gdalwarp first");
+            return invalid(path,
+                           "reprojection to UTM left no post with data; reproject it with "
+                           "gdalwarp first");
         return dem;
     }
     if (crs != nullptr) {
@@ -474,6 +484,10 @@ absl::StatusOr<Dem> readDem(const std::string& path, const ImportControl& contro
 }
 
 absl::Status writeGeoTiff(const HeightGrid& grid, const std::string& path) {
+    const auto folder = std::filesystem::absolute(path).parent_path();
+    if (std::error_code ignored; !std::filesystem::is_directory(folder, ignored))
+        return absl::NotFoundError(fmt::format(
+            "{}: cannot create it: {} is no folder; create it first", path, folder.string()));
     QuietGdal gdal;
     const std::string partial = fmt::format("{}.partial-{}", path, getpid());
     const auto failed = [&](const char* what) {

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "renderer/import/progress.h"
-#include "renderer/terrain/height_grid.h"
+#include <cstdint>
+#include <string>
+#include <vector>
 
 #include <absl/status/status.h>
 #include <absl/status/statusor.h>
 
-#include <cstdint>
-#include <string>
-#include <vector>
+#include "renderer/import/progress.h"
+#include "renderer/terrain/height_grid.h"
 
 /// All that Eyrie does with GDAL: elevation models in, synthetic ones out.
 namespace eyrie::import {

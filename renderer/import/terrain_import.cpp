@@ -1,6 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/import/terrain_import.h"
 
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include <fmt/format.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
+
 #include "fabric/status.h"
 #include "renderer/import/dem_source.h"
 #include "renderer/terrain/deviation.h"
@@ -9,19 +22,6 @@
 #include "renderer/terrain/normal_map.h"
 #include "renderer/terrain/tile_mesh.h"
 #include "renderer/terrain/vertex_levels.h"
-
-#include <fmt/format.h>
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_pipeline.h>
-#include <tbb/task_arena.h>
-
-#include <algorithm>
-#include <atomic>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <memory>
-#include <utility>
 
 namespace eyrie::import {
 namespace {
@@ -95,8 +95,10 @@ void saturate(terrain::EytIndex& index) {
                         continue;
                     const terrain::TileRecord& finer = index.tile(child);
                     record.errorMetres = std::max(record.errorMetres, finer.errorMetres);
-                    record.minHeightMetres = std::min(record.minHeightMetres, finer.minHeightMetres);
-                    record.maxHeightMetres = std::max(record.maxHeightMetres, finer.maxHeightMetres);
+                    record.minHeightMetres =
+                        std::min(record.minHeightMetres, finer.minHeightMetres);
+                    record.maxHeightMetres =
+                        std::max(record.maxHeightMetres, finer.maxHeightMetres);
                 }
             }
     for (terrain::TileRecord& record : index.tiles)
@@ -117,9 +119,7 @@ public:
           index_(index),
           writer_(writer),
           control_(control),
-          meshers_([&] {
-              return terrain::TileMesher(surface, levels, lattice, index.quadtree);
-          }) {}
+          meshers_([&] { return terrain::TileMesher(surface, levels, lattice, index.quadtree); }) {}
 
     absl::Status run() {
         std::uint32_t next = 0;
@@ -172,8 +172,8 @@ private:
             normals_.fill(tile, normals);
             builder.add(place, tile.level, mesh, normals);
         }
-        return {number, std::make_shared<const std::vector<std::uint32_t>>(
-                            std::move(builder).finish())};
+        return {number,
+                std::make_shared<const std::vector<std::uint32_t>>(std::move(builder).finish())};
     }
 
     void write(const BuiltPage& page) {
@@ -197,7 +197,7 @@ private:
     terrain::EytWriter& writer_;
     const ImportControl& control_;
     tbb::enumerable_thread_specific<terrain::TileMesher> meshers_;
-    absl::Status status_;     // by the last stage
+    absl::Status status_;  // by the last stage
     std::atomic<bool> hasFailed_ = false;
     absl::Status cancelled_;  // by the first stage
 };
@@ -243,7 +243,8 @@ absl::StatusOr<TerrainImportReport> importTerrain(const HeightGrid& grid,
     ASSIGN_OR_RETURN(
         const terrain::VertexLevels levels,
         terrain::VertexLevels::compute(
-            surface, levelThresholds(index.quadtree.levels(), grid.postMetres(), lattice), control));
+            surface, levelThresholds(index.quadtree.levels(), grid.postMetres(), lattice),
+            control));
     control.report("smoothing", 0);
     const terrain::NormalMaps normals(grid, index.quadtree.levels());
     const double highest = std::max(std::abs(static_cast<double>(statistics.min)),

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "renderer/import/progress.h"
-#include "renderer/terrain/height_grid.h"
-
-#include <absl/status/statusor.h>
-
 #include <cstdint>
 #include <string>
 #include <vector>
+
+#include <absl/status/statusor.h>
+
+#include "renderer/import/progress.h"
+#include "renderer/terrain/height_grid.h"
 
 namespace eyrie::import {
 

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // K. Perlin, "Improving Noise", 2002; F. K. Musgrave, C. E. Kolb, R. S. Mace, "The Synthesis and
-// Rendering of Eroded Fractal Terrains", 1989 (octaves weighed by the height so far: smooth valleys,
-// rough ridges). Whole rows at a time, since within a row and a noise cell the two gradients on
-// either side are linear in x.
+// Rendering of Eroded Fractal Terrains", 1989 (octaves weighed by the height so far: smooth
+// valleys, rough ridges). Whole rows at a time, since within a row and a noise cell the two
+// gradients on either side are linear in x.
 #include "renderer/import/terrain_synth.h"
-
-#include "renderer/terrain/simd_clones.h"
-
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include "renderer/terrain/simd_clones.h"
 
 namespace eyrie::import {
 namespace {
@@ -20,7 +20,7 @@ namespace {
 constexpr std::int32_t kOctaves = 10;
 constexpr std::int32_t kLongestWave = 1024;  // posts; a power of two
 constexpr std::int32_t kRidgedOctaves = 4;
-constexpr float kFirstAmplitude = 2400;      // metres
+constexpr float kFirstAmplitude = 2400;  // metres
 constexpr float kGain = 0.53F;
 
 struct Gradient {
@@ -123,25 +123,25 @@ terrain::HeightGrid synthesizeTerrain(std::uint32_t posts, std::uint64_t seed) {
     std::vector<Octave> octaves;
     for (std::int32_t k = 0; k < kOctaves; ++k)
         octaves.emplace_back(kLongestWave >> k, seed * kOctaves + static_cast<std::uint64_t>(k));
-    tbb::parallel_for(
-        tbb::blocked_range<std::int32_t>(0, grid.rows, 16),
-        [&](const tbb::blocked_range<std::int32_t>& range) {
-            std::vector<float> noise(posts);
-            std::vector<float> weight(posts);
-            for (std::int32_t j = range.begin(); j < range.end(); ++j) {
-                float* row = grid.row(j);
-                std::fill(weight.begin(), weight.end(), 1.0F);
-                std::fill(row, row + grid.columns, 500.0F);
-                float amplitude = kFirstAmplitude;
-                for (std::int32_t k = 0; k < kOctaves; ++k, amplitude *= kGain) {
-                    octaves[static_cast<std::size_t>(k)].fillRow(j, grid.columns, noise.data());
-                    addOctave(noise.data(), amplitude, k < kRidgedOctaves, grid.columns, row,
-                              weight.data());
-                }
-                std::transform(row, row + grid.columns, row,
-                               [](float h) { return std::max(h, 0.0F); });  // lakes
-            }
-        });
+    tbb::parallel_for(tbb::blocked_range<std::int32_t>(0, grid.rows, 16),
+                      [&](const tbb::blocked_range<std::int32_t>& range) {
+                          std::vector<float> noise(posts);
+                          std::vector<float> weight(posts);
+                          for (std::int32_t j = range.begin(); j < range.end(); ++j) {
+                              float* row = grid.row(j);
+                              std::fill(weight.begin(), weight.end(), 1.0F);
+                              std::fill(row, row + grid.columns, 500.0F);
+                              float amplitude = kFirstAmplitude;
+                              for (std::int32_t k = 0; k < kOctaves; ++k, amplitude *= kGain) {
+                                  octaves[static_cast<std::size_t>(k)].fillRow(j, grid.columns,
+                                                                               noise.data());
+                                  addOctave(noise.data(), amplitude, k < kRidgedOctaves,
+                                            grid.columns, row, weight.data());
+                              }
+                              std::transform(row, row + grid.columns, row,
+                                             [](float h) { return std::max(h, 0.0F); });  // lakes
+                          }
+                      });
     return grid;
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "renderer/terrain/height_grid.h"
-
 #include <cstdint>
+
+#include "renderer/terrain/height_grid.h"
 
 namespace eyrie::import {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/terrain/deviation.h"
 
-#include "renderer/terrain/simd_clones.h"
-
-#include <glm/geometric.hpp>
-
 #include <algorithm>
 #include <cstdlib>
 #include <utility>
+
+#include <glm/geometric.hpp>
+
+#include "renderer/terrain/simd_clones.h"
 
 namespace eyrie::terrain {
 namespace {
@@ -114,8 +114,7 @@ EYRIE_SIMD_CLONES double slabDeviation(const float* heights, std::ptrdiff_t stri
 EYRIE_SIMD_CLONES std::int32_t countNodata(const float* row, std::int32_t count) {
     std::int32_t nodata = 0;
 #pragma omp simd reduction(+ : nodata)
-    for (std::int32_t k = 0; k < count; ++k)
-        nodata += row[k] != row[k] ? 1 : 0;
+    for (std::int32_t k = 0; k < count; ++k) nodata += row[k] != row[k] ? 1 : 0;
     return nodata;
 }
 
@@ -135,7 +134,8 @@ void forEachRow(const Triangle& triangle, Visit visit) {
     const auto high = [](const Corner& p, const Corner& q, std::int32_t j) {
         return p.i + floorDivide(std::int64_t{q.i - p.i} * (j - p.j), q.j - p.j);
     };
-    const bool longIsLow = std::int64_t{c.i - a.i} * (b.j - a.j) <= std::int64_t{c.j - a.j} * (b.i - a.i);
+    const bool longIsLow =
+        std::int64_t{c.i - a.i} * (b.j - a.j) <= std::int64_t{c.j - a.j} * (b.i - a.i);
     for (std::int32_t j = a.j; j <= c.j; ++j) {
         std::int64_t first;
         std::int64_t last;
@@ -300,7 +300,8 @@ double SourceSurface::diagonalEdgesDeviation(const Triangle& triangle) const {
         for (std::int32_t k = 0; k < length; ++k) {
             const std::int32_t i = a.i + di * k;
             const std::int32_t j = a.j + dj * k;
-            const double other = (static_cast<double>(grid_.at(i + di, j)) + grid_.at(i, j + dj)) / 2;
+            const double other =
+                (static_cast<double>(grid_.at(i + di, j)) + grid_.at(i, j + dj)) / 2;
             const double d = std::abs(a.z + slope * (k + 0.5) - other);
             worst = d > worst ? d : worst;  // NaN never wins
         }
@@ -310,8 +311,7 @@ double SourceSurface::diagonalEdgesDeviation(const Triangle& triangle) const {
 
 bool SourceSurface::liesOnItsPosts(const Triangle& triangle) const {
     Triangle unmoved = triangle;
-    for (Corner& corner : unmoved)
-        corner.z = grid_.at(corner.i, corner.j);
+    for (Corner& corner : unmoved) corner.z = grid_.at(corner.i, corner.j);
     return rowsDeviation(unmoved) <= postTolerance_;
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "renderer/terrain/height_grid.h"
-
 #include <array>
 #include <cstdint>
+
+#include "renderer/terrain/height_grid.h"
 
 namespace eyrie::terrain {
 

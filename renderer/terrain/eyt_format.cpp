@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/terrain/eyt_format.h"
 
-#include "fabric/status.h"
-#include "renderer/terrain/eyt_layout.h"
+#include <algorithm>
+#include <bit>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <utility>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -11,12 +15,8 @@
 #include <unistd.h>
 #include <xxhash.h>
 
-#include <algorithm>
-#include <bit>
-#include <cerrno>
-#include <cmath>
-#include <cstring>
-#include <utility>
+#include "fabric/status.h"
+#include "renderer/terrain/eyt_layout.h"
 
 namespace eyrie::terrain {
 namespace {
@@ -72,7 +72,8 @@ absl::Status checkHeader(const FileHeader& header, std::uint64_t fileBytes,
                          const std::string& path) {
     if (header.magic != kEytMagic)
         return absl::InvalidArgumentError(fmt::format(
-            "{}: is no .eyt terrain (its first bytes are not 'EYRIEEYT'); import a DEM first", path));
+            "{}: is no .eyt terrain (its first bytes are not 'EYRIEEYT'); import a DEM first",
+            path));
     if (header.version != kEytVersion)
         return absl::InvalidArgumentError(
             fmt::format("{}: header.version is {}, this build reads {}; {} with this version", path,
@@ -97,9 +98,9 @@ absl::Status checkTile(const TileRecord& tile, const std::string& path, std::siz
         std::isfinite(tile.minHeightMetres) && std::isfinite(tile.maxHeightMetres) &&
         tile.minHeightMetres <= tile.maxHeightMetres)
         return absl::OkStatus();
-    return corrupt(path, fmt::format("tile {}: error {} m or heights {} to {} m are impossible",
-                                     number, tile.errorMetres, tile.minHeightMetres,
-                                     tile.maxHeightMetres));
+    return corrupt(path,
+                   fmt::format("tile {}: error {} m or heights {} to {} m are impossible", number,
+                               tile.errorMetres, tile.minHeightMetres, tile.maxHeightMetres));
 }
 
 /// CRS, tiles and pages out of the index's bytes.
@@ -217,8 +218,8 @@ private:
             const std::uint32_t word = tile.words[k];
             if ((word & 1023) > 2U * header_.cells || (word >> 10 & 1023) > 2U * header_.cells)
                 return "vertex position";
-            highest = std::max(highest, std::uint64_t{word >> 20} +
-                                            (stride == 2 ? tile.words[k + 1] : 0));
+            highest = std::max(highest,
+                               std::uint64_t{word >> 20} + (stride == 2 ? tile.words[k + 1] : 0));
         }
         const std::int64_t top =
             header_.baseHeight + static_cast<std::int64_t>(highest) * header_.heightMultiplier;
@@ -271,19 +272,17 @@ fabric::Box EytIndex::bounds(const TileId& id) const {
 
 double EytIndex::finestErrorMetres() const {
     float worst = 0;
-    const auto count = static_cast<std::size_t>(quadtree.tilesX(0)) *
-                       static_cast<std::size_t>(quadtree.tilesY(0));
-    for (std::size_t k = 0; k < count; ++k)
-        worst = std::max(worst, tiles[k].errorMetres);
+    const auto count =
+        static_cast<std::size_t>(quadtree.tilesX(0)) * static_cast<std::size_t>(quadtree.tilesY(0));
+    for (std::size_t k = 0; k < count; ++k) worst = std::max(worst, tiles[k].errorMetres);
     return worst;
 }
 
 std::uint64_t EytIndex::triangles() const {
     std::uint64_t sum = 0;
-    const auto count = static_cast<std::size_t>(quadtree.tilesX(0)) *
-                       static_cast<std::size_t>(quadtree.tilesY(0));
-    for (std::size_t k = 0; k < count; ++k)
-        sum += tiles[k].triangles;
+    const auto count =
+        static_cast<std::size_t>(quadtree.tilesX(0)) * static_cast<std::size_t>(quadtree.tilesY(0));
+    for (std::size_t k = 0; k < count; ++k) sum += tiles[k].triangles;
     return sum;
 }
 
@@ -303,10 +302,9 @@ absl::StatusOr<Page> Page::decode(std::vector<std::uint32_t> bytes, const std::s
 absl::StatusOr<std::shared_ptr<const EytFile>> EytFile::open(const std::string& path) {
     const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
     if (fd < 0)
-        return errno == ENOENT
-                   ? absl::NotFoundError(fmt::format("{}: no such file", path))
-                   : absl::InvalidArgumentError(
-                         fmt::format("{}: cannot be opened: {}", path, std::strerror(errno)));
+        return errno == ENOENT ? absl::NotFoundError(fmt::format("{}: no such file", path))
+                               : absl::InvalidArgumentError(fmt::format(
+                                     "{}: cannot be opened: {}", path, std::strerror(errno)));
     std::shared_ptr<EytFile> file(new EytFile(path, fd, 0));
     struct stat info {};
     if (fstat(fd, &info) != 0 || !S_ISREG(info.st_mode))

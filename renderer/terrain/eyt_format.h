@@ -1,12 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "fabric/box.h"
-#include "fabric/vec.h"
-#include "renderer/terrain/quadtree.h"
-
-#include <absl/status/statusor.h>
-
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -14,6 +8,12 @@
 #include <span>
 #include <string>
 #include <vector>
+
+#include <absl/status/statusor.h>
+
+#include "fabric/box.h"
+#include "fabric/vec.h"
+#include "renderer/terrain/quadtree.h"
 
 /// The .eyt file: a terrain as a quadtree of triangulated tiles.
 ///
@@ -50,9 +50,9 @@ struct TileRecord {
     /// diagonals of every cell and so the bilinear surface too, quantisation included. Not below
     /// that of any tile under it. Where data and nodata mix it is the longest edge they mix on.
     float errorMetres = 0;
-    float minHeightMetres = 0;      ///< of what is drawn and of the source
+    float minHeightMetres = 0;  ///< of what is drawn and of the source
     float maxHeightMetres = 0;
-    std::uint32_t triangles = 0;    ///< of interior and own borders; 0: nothing to draw
+    std::uint32_t triangles = 0;  ///< of interior and own borders; 0: nothing to draw
 
     bool operator==(const TileRecord&) const = default;
 };
@@ -73,8 +73,8 @@ struct EytIndex {
     std::string crsWkt;                   ///< empty: not georeferenced
     std::uint64_t sourceHash = 0;         ///< XXH64 of the bytes of the source file
     std::uint64_t nodataPosts = 0;
-    std::vector<TileRecord> tiles;        ///< by quadtree.tileIndex
-    std::vector<PageRecord> pages;        ///< by quadtree.pageIndex
+    std::vector<TileRecord> tiles;  ///< by quadtree.tileIndex
+    std::vector<PageRecord> pages;  ///< by quadtree.pageIndex
 
     const TileRecord& tile(const TileId& id) const { return tiles[quadtree.tileIndex(id)]; }
     /// Metres of one step of q, and of q = 0.
@@ -95,9 +95,8 @@ struct EytIndex {
 /// Vertex n is `words[n * wordsPerVertex]`: bits 0-9 x and 10-19 y in half sample spacings (0 to
 /// 2 * cells), bits 20-31 height; with two words a vertex the second is the height instead. So
 /// always height = (word0 >> 20) + word1, word1 = 0 in the short form. The lattice point is
-///   i = min(tile.x * Quadtree::side(level) + (x << Quadtree::spacingShift(level) >> 1), columns - 1),
-///   j alike with y and rows,
-///   q = baseHeight + height * heightMultiplier.
+///   i = min(tile.x * Quadtree::side(level) + (x << Quadtree::spacingShift(level) >> 1), columns -
+///   1), j alike with y and rows, q = baseHeight + height * heightMultiplier.
 /// Triangles are counter-clockwise seen from above.
 struct TileGeometry {
     std::span<const std::uint32_t> words;
@@ -128,9 +127,7 @@ public:
     static absl::StatusOr<Page> decode(std::vector<std::uint32_t> bytes, const std::string& name);
 
     /// By Quadtree::placeInPage; empty for tiles without triangles.
-    const TileGeometry& tile(int place) const {
-        return tiles_[static_cast<std::size_t>(place)];
-    }
+    const TileGeometry& tile(int place) const { return tiles_[static_cast<std::size_t>(place)]; }
     std::size_t sizeBytes() const { return storage_.size() * sizeof(std::uint32_t); }
 
 private:

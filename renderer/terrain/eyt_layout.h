@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "renderer/terrain/quadtree.h"
-
 #include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
+
+#include "renderer/terrain/quadtree.h"
 
 /// The bytes of an .eyt file, version 1; little-endian throughout.
 ///

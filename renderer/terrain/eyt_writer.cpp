@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/terrain/eyt_writer.h"
 
-#include "fabric/status.h"
-#include "renderer/terrain/eyt_layout.h"
-#include "renderer/terrain/normal_map.h"
-#include "renderer/terrain/vertex_packing.h"
+#include <cassert>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <utility>
 
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 #include <xxhash.h>
 
-#include <cassert>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <utility>
+#include "fabric/status.h"
+#include "renderer/terrain/eyt_layout.h"
+#include "renderer/terrain/normal_map.h"
+#include "renderer/terrain/vertex_packing.h"
 
 namespace eyrie::terrain {
 namespace {
@@ -98,8 +98,7 @@ void PageBuilder::add(int place, int level, const TileMesh& mesh,
     for (std::size_t part = 0; part < kTileParts; ++part)
         header.indexCounts[part] = mesh.parts[part].count;
     header.wordsOffset = append(packed.words.data(), packed.words.size() * sizeof(std::uint32_t));
-    header.indicesOffset =
-        append(mesh.indices.data(), mesh.indices.size() * sizeof(std::uint16_t));
+    header.indicesOffset = append(mesh.indices.data(), mesh.indices.size() * sizeof(std::uint16_t));
     header.normalsOffset = append(normals.data(), normals.size());
     std::memcpy(words_.data() + static_cast<std::size_t>(place) * sizeof(TileHeader) / 4, &header,
                 sizeof header);

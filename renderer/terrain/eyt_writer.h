@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "renderer/terrain/eyt_format.h"
-#include "renderer/terrain/tile_mesh.h"
-
-#include <absl/status/status.h>
-#include <absl/status/statusor.h>
-
 #include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
+
+#include <absl/status/status.h>
+#include <absl/status/statusor.h>
+
+#include "renderer/terrain/eyt_format.h"
+#include "renderer/terrain/tile_mesh.h"
 
 namespace eyrie::terrain {
 

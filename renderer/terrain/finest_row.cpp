@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/terrain/finest_row.h"
 
-#include "renderer/terrain/simd_clones.h"
-
 #include <cmath>
+
+#include "renderer/terrain/simd_clones.h"
 
 namespace eyrie::terrain {
 namespace {
@@ -34,9 +34,9 @@ EYRIE_SIMD_CLONES void finestRow(const float* below, const float* here, const fl
         const float worst = larger(atPost, larger(low, high));
         const float deviation = atPost > tolerance ? worst : atPost;
         std::int32_t exceeded = 0;
-        for (std::int32_t k = 0; k < count; ++k)
-            exceeded += deviation > limits[k] ? 1 : 0;
-        const float all = (h + here[i - 1] + here[i + 1]) + (below[i - 1] + below[i] + below[i + 1]) +
+        for (std::int32_t k = 0; k < count; ++k) exceeded += deviation > limits[k] ? 1 : 0;
+        const float all = (h + here[i - 1] + here[i + 1]) +
+                          (below[i - 1] + below[i] + below[i + 1]) +
                           (above[i - 1] + above[i] + above[i + 1]);
         out[i] = static_cast<std::uint8_t>(all == all ? exceeded : kFinestRowNodata);
     }

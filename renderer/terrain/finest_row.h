@@ -9,12 +9,13 @@ namespace eyrie::terrain {
 /// Result where a post among the nine is nodata.
 inline constexpr std::uint8_t kFinestRowNodata = 0xff;
 
-/// What SourceSurface says of half of all vertices, a row at a time: those that split triangles with
-/// a hypotenuse of two posts. For each i from 1 to columns - 2, out[i] counts the ascending
-/// `thresholds` that the deviation of post here[i]'s two triangles exceeds. The hypotenuse runs along
-/// the row, or across it. `below` and `above` are the rows beside. `tolerance` is
+/// What SourceSurface says of half of all vertices, a row at a time: those that split triangles
+/// with a hypotenuse of two posts. For each i from 1 to columns - 2, out[i] counts the ascending
+/// `thresholds` that the deviation of post here[i]'s two triangles exceeds. The hypotenuse runs
+/// along the row, or across it. `below` and `above` are the rows beside. `tolerance` is
 /// SourceSurface::postToleranceMetres.
 void finestRow(const float* below, const float* here, const float* above, std::int32_t columns,
-               bool alongRow, float tolerance, std::span<const float> thresholds, std::uint8_t* out);
+               bool alongRow, float tolerance, std::span<const float> thresholds,
+               std::uint8_t* out);
 
 }  // namespace eyrie::terrain

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/terrain/height_grid.h"
 
+#include <algorithm>
+
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
-
-#include <algorithm>
 
 namespace eyrie::terrain {
 namespace {
@@ -54,12 +54,12 @@ HeightLattice chooseHeightLattice(const HeightStatistics& statistics, double pos
     constexpr double kCoarsestStep = 0.25;
     HeightLattice lattice;
     if (!statistics.allIntegers)
-        lattice = {std::min(std::exp2(std::floor(std::log2(postMetres / kStepsPerPost))), kCoarsestStep),
-                   false};
-    const double highest =
-        std::max(std::abs(static_cast<double>(statistics.min)), std::abs(static_cast<double>(statistics.max)));
-    while (highest / lattice.stepMetres > kMaxSteps)
-        lattice = {lattice.stepMetres * 2, false};
+        lattice = {
+            std::min(std::exp2(std::floor(std::log2(postMetres / kStepsPerPost))), kCoarsestStep),
+            false};
+    const double highest = std::max(std::abs(static_cast<double>(statistics.min)),
+                                    std::abs(static_cast<double>(statistics.max)));
+    while (highest / lattice.stepMetres > kMaxSteps) lattice = {lattice.stepMetres * 2, false};
     return lattice;
 }
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "fabric/vec.h"
-
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <vector>
+
+#include "fabric/vec.h"
 
 namespace eyrie::terrain {
 
@@ -36,9 +36,7 @@ struct HeightGrid {
     float at(std::int32_t i, std::int32_t j) const { return row(j)[i]; }
 
     /// Side of a square as large as a cell.
-    double postMetres() const {
-        return std::sqrt(perColumn.x * perRow.y - perColumn.y * perRow.x);
-    }
+    double postMetres() const { return std::sqrt(perColumn.x * perRow.y - perColumn.y * perRow.x); }
 };
 
 /// What one pass over all posts tells.
@@ -63,8 +61,8 @@ struct HeightLattice {
     }
 };
 
-/// 1 m for whole metres, otherwise at most 1/256 of a post and 1/4 m; coarser only where heights would not
-/// stay below 2^23 steps.
+/// 1 m for whole metres, otherwise at most 1/256 of a post and 1/4 m; coarser only where heights
+/// would not stay below 2^23 steps.
 HeightLattice chooseHeightLattice(const HeightStatistics& statistics, double postMetres);
 
 }  // namespace eyrie::terrain

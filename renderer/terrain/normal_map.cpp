@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/terrain/normal_map.h"
 
-#include "renderer/terrain/simd_clones.h"
-
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <cassert>
+
+#include <tbb/parallel_for.h>
+
+#include "renderer/terrain/simd_clones.h"
 
 namespace eyrie::terrain {
 namespace {
@@ -132,8 +132,8 @@ void NormalMaps::fill(const TileId& tile, std::span<std::int8_t> out) const {
 
     std::array<float, kMaxSamples> inverseX{};
     for (std::int32_t k = 0; k < samples; ++k)
-        inverseX[static_cast<std::size_t>(k)] = inverseDistance(
-            post(column(k - 1), grid_.columns), post(column(k + 1), grid_.columns));
+        inverseX[static_cast<std::size_t>(k)] =
+            inverseDistance(post(column(k - 1), grid_.columns), post(column(k + 1), grid_.columns));
     const fabric::Vec2 a = grid_.perColumn;
     const fabric::Vec2 b = grid_.perRow;
     const Basis basis{static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(b.x),

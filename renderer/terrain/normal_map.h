@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "renderer/terrain/height_grid.h"
-#include "renderer/terrain/quadtree.h"
-
 #include <cstdint>
 #include <span>
 #include <vector>
+
+#include "renderer/terrain/height_grid.h"
+#include "renderer/terrain/quadtree.h"
 
 namespace eyrie::terrain {
 
@@ -16,8 +16,9 @@ inline std::size_t normalMapBytes(int level) {
 }
 
 /// Shading normals of all levels: central differences of the heights, which are smoothed (1-2-1)
-/// and thinned by two from one spacing to the next. Made from the whole grid, so neighbours agree on their border
-/// samples. Nodata neighbours are left out of a difference; with none left a normal points up.
+/// and thinned by two from one spacing to the next. Made from the whole grid, so neighbours agree
+/// on their border samples. Nodata neighbours are left out of a difference; with none left a normal
+/// points up.
 class NormalMaps {
 public:
     /// Keeps a reference to `grid`. Parallel.

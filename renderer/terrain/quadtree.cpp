@@ -36,8 +36,7 @@ std::uint32_t Quadtree::pageIndex(const TileId& tile) const {
 TileId Quadtree::firstTileOfPage(std::uint32_t page) const {
     assert(page < pageCount_);
     int level = levels() - 1;
-    while (levels_[static_cast<std::size_t>(level)].firstPage > page)
-        --level;
+    while (levels_[static_cast<std::size_t>(level)].firstPage > page) --level;
     const auto place =
         static_cast<std::int32_t>(page - levels_[static_cast<std::size_t>(level)].firstPage);
     const std::int32_t across = pagesX(level);

@@ -63,9 +63,7 @@ public:
         return tile.level >= 0 && tile.level < levels() && tile.x >= 0 && tile.y >= 0 &&
                tile.x < tilesX(tile.level) && tile.y < tilesY(tile.level);
     }
-    static TileId parent(const TileId& tile) {
-        return {tile.level + 1, tile.x >> 1, tile.y >> 1};
-    }
+    static TileId parent(const TileId& tile) { return {tile.level + 1, tile.x >> 1, tile.y >> 1}; }
     /// Child 0 to 3: bit 0 is the half in x, bit 1 in y. May not exist.
     static TileId child(const TileId& tile, int i) {
         return {tile.level - 1, 2 * tile.x + (i & 1), 2 * tile.y + (i >> 1)};

@@ -19,8 +19,7 @@ public:
 
     TerrainCut select() {
         refineForError(quadtree_.top());
-        for (int level = 0; level < quadtree_.levels(); ++level)
-            refineForNeighbours(level);
+        for (int level = 0; level < quadtree_.levels(); ++level) refineForNeighbours(level);
         gather(quadtree_.top());
         return std::move(cut_);
     }

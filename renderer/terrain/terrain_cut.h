@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "renderer/lod/view.h"
-#include "renderer/terrain/eyt_format.h"
-
 #include <cstdint>
 #include <vector>
+
+#include "renderer/lod/view.h"
+#include "renderer/terrain/eyt_format.h"
 
 namespace eyrie::terrain {
 

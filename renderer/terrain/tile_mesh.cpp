@@ -16,10 +16,7 @@ constexpr std::uint16_t kNoSlot = 0xffff;
 
 TileMesher::TileMesher(const SourceSurface& surface, const VertexLevels& levels,
                        const HeightLattice& lattice, const Quadtree& quadtree)
-    : surface_(surface),
-      levels_(levels),
-      lattice_(lattice),
-      quadtree_(quadtree) {}
+    : surface_(surface), levels_(levels), lattice_(lattice), quadtree_(quadtree) {}
 
 TileMesh TileMesher::mesh(const TileId& tile) {
     tile_ = tile;
@@ -35,14 +32,11 @@ TileMesh TileMesher::mesh(const TileId& tile) {
             quadtree_.contains(Quadtree::neighbour(tile, edge));
     mesh_ = {};
     slots_.assign(static_cast<std::size_t>((side_ + 1) * (side_ + 1)), kNoSlot);
-    for (std::vector<std::uint16_t>& part : partIndices_)
-        part.clear();
+    for (std::vector<std::uint16_t>& part : partIndices_) part.clear();
 
     const Point centre{side_ / 2, side_ / 2};
-    const std::array<Point, 5> around = {
-        {{0, 0}, {side_, 0}, {side_, side_}, {0, side_}, {0, 0}}};
-    for (std::size_t k = 0; k < 4; ++k)
-        refine(centre, around[k], around[k + 1]);
+    const std::array<Point, 5> around = {{{0, 0}, {side_, 0}, {side_, side_}, {0, side_}, {0, 0}}};
+    for (std::size_t k = 0; k < 4; ++k) refine(centre, around[k], around[k + 1]);
 
     for (std::size_t part = 0; part < kTileParts; ++part) {
         mesh_.parts[part] = {static_cast<std::uint32_t>(mesh_.indices.size()),
@@ -67,7 +61,8 @@ bool TileMesher::isFinerVertex(const Point& p) const {
 /// as the level has vertices.
 void TileMesher::refine(const Point& apex, const Point& left, const Point& right) {
     if (isCut_) {  // all of it past the last column or row: squeezed to nothing
-        const Point nearest{std::min({apex.x, left.x, right.x}), std::min({apex.y, left.y, right.y})};
+        const Point nearest{std::min({apex.x, left.x, right.x}),
+                            std::min({apex.y, left.y, right.y})};
         if (column(nearest) >= quadtree_.columns() - 1 || row(nearest) >= quadtree_.rows() - 1)
             return;
     }
@@ -129,8 +124,9 @@ Corner TileMesher::corner(const Point& p) const {
     const std::int32_t i = std::min(column(p), quadtree_.columns() - 1);
     const std::int32_t j = std::min(row(p), quadtree_.rows() - 1);
     const float height = surface_.grid().at(i, j);
-    return {i, j, std::isnan(height) ? static_cast<double>(height)
-                                     : lattice_.quantise(height) * lattice_.stepMetres};
+    return {i, j,
+            std::isnan(height) ? static_cast<double>(height)
+                               : lattice_.quantise(height) * lattice_.stepMetres};
 }
 
 void TileMesher::measure(const Point& a, const Point& b, const Point& c, bool mayBeAligned) {
@@ -156,13 +152,13 @@ void TileMesher::addTriangle(int part, const Point& a, const Point& b, const Poi
         const Corner ca = corner(a);
         const Corner cb = corner(b);
         const Corner cc = corner(c);
-        if (std::int64_t{cb.i - ca.i} * (cc.j - ca.j) == std::int64_t{cc.i - ca.i} * (cb.j - ca.j) ||
+        if (std::int64_t{cb.i - ca.i} * (cc.j - ca.j) ==
+                std::int64_t{cc.i - ca.i} * (cb.j - ca.j) ||
             std::isnan(ca.z) || std::isnan(cb.z) || std::isnan(cc.z))
             return;
     }
     std::vector<std::uint16_t>& indices = partIndices_[static_cast<std::size_t>(part)];
-    for (const Point& p : {a, b, c})
-        indices.push_back(vertex(p));
+    for (const Point& p : {a, b, c}) indices.push_back(vertex(p));
 }
 
 std::uint16_t TileMesher::vertex(const Point& p) {

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
 #include "renderer/terrain/deviation.h"
 #include "renderer/terrain/eyt_format.h"
 #include "renderer/terrain/quadtree.h"
 #include "renderer/terrain/vertex_levels.h"
 #include "renderer/terrain/vertex_packing.h"
-
-#include <array>
-#include <cstdint>
-#include <limits>
-#include <vector>
 
 namespace eyrie::terrain {
 
@@ -24,9 +24,7 @@ struct TileMesh {
     double minHeightMetres = std::numeric_limits<double>::infinity();  ///< of the vertices
     double maxHeightMetres = -std::numeric_limits<double>::infinity();
 
-    std::uint32_t ownTriangles() const {
-        return (parts[kFinerPart].first) / 3;
-    }
+    std::uint32_t ownTriangles() const { return (parts[kFinerPart].first) / 3; }
 };
 
 /// Cuts one tile after the other out of the global triangulation that VertexLevels chose.
@@ -72,8 +70,8 @@ private:
     const Quadtree& quadtree_;
 
     TileId tile_;
-    int shift_ = 0;          ///< of the level's sample spacing
-    std::int32_t side_ = 0;  ///< of the tile, in half spacings
+    int shift_ = 0;               ///< of the level's sample spacing
+    std::int32_t side_ = 0;       ///< of the tile, in half spacings
     std::int32_t finerStep_ = 1;  ///< half spacings between samples of the finer level
     std::int32_t firstColumn_ = 0;
     std::int32_t firstRow_ = 0;

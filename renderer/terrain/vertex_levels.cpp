@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// W. Evans, D. Kirkpatrick, G. Townsend, "Right-Triangulated Irregular Networks", 2001; R. Pajarola,
-// "Large Scale Terrain Visualization Using the Restricted Quadtree Triangulation", 1998.
+// W. Evans, D. Kirkpatrick, G. Townsend, "Right-Triangulated Irregular Networks", 2001; R.
+// Pajarola, "Large Scale Terrain Visualization Using the Restricted Quadtree Triangulation", 1998.
 // Departs from both in the error: theirs is the midpoint's alone, which understates what a triangle
 // leaves out by up to 1.8 times on real terrain; here each triangle is measured in full.
 #include "renderer/terrain/vertex_levels.h"
 
-#include "renderer/terrain/finest_row.h"
-#include "renderer/terrain/quadtree.h"
+#include <algorithm>
+#include <cassert>
+#include <utility>
 
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
-#include <algorithm>
-#include <cassert>
-#include <utility>
+#include "renderer/terrain/finest_row.h"
+#include "renderer/terrain/quadtree.h"
 
 namespace eyrie::terrain {
 
@@ -25,7 +25,8 @@ VertexLevels::VertexLevels(const SourceSurface& surface, std::vector<double> thr
       columns_(surface.grid().columns),
       rows_(surface.grid().rows),
       levels_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)) {
-    const Quadtree quadtree(static_cast<std::uint32_t>(columns_), static_cast<std::uint32_t>(rows_));
+    const Quadtree quadtree(static_cast<std::uint32_t>(columns_),
+                            static_cast<std::uint32_t>(rows_));
     assert(static_cast<int>(thresholds_.size()) == quadtree.levels());
     side_ = Quadtree::side(quadtree.top().level);
 }
@@ -109,7 +110,8 @@ int VertexLevels::exceededBySplit(std::int32_t i, std::int32_t j, std::int32_t s
 }
 
 /// Thresholds exceeded by the vertices that split the halves of (i, j)'s triangles.
-int VertexLevels::exceededByChildren(std::int32_t i, std::int32_t j, std::int32_t s, bool isCentre) const {
+int VertexLevels::exceededByChildren(std::int32_t i, std::int32_t j, std::int32_t s,
+                                     bool isCentre) const {
     const auto at = [&](std::int32_t x, std::int32_t y) {
         return x < 0 || y < 0 || x > side_ || y > side_ ? 0 : exceeded(x, y);
     };
@@ -138,8 +140,9 @@ void VertexLevels::measureFinestRow(std::int32_t j) {
               static_cast<float>(surface_.postToleranceMetres()), floatThresholds_, counts.data());
     for (std::int32_t i = isEven ? 1 : 2; i < columns_ - 1; i += 2) {
         const std::uint8_t count = counts[static_cast<std::size_t>(i)];
-        levels_[index(i, j)] =
-            count == kFinestRowNodata ? static_cast<std::uint8_t>(exceededBy(i, j, 1, false)) : count;
+        levels_[index(i, j)] = count == kFinestRowNodata
+                                   ? static_cast<std::uint8_t>(exceededBy(i, j, 1, false))
+                                   : count;
     }
 }
 
@@ -175,8 +178,7 @@ void VertexLevels::measureClass(std::int32_t s, bool isCentre) {
                               measureRow(first + k * step, s, isCentre, mine);
                       });
     for (const std::vector<Found>& found : outside)
-        for (const Found& vertex : found)
-            outside_[vertex.key] = vertex.exceeded;
+        for (const Found& vertex : found) outside_[vertex.key] = vertex.exceeded;
 }
 
 }  // namespace eyrie::terrain

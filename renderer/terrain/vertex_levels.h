@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "renderer/import/progress.h"
-#include "renderer/terrain/deviation.h"
-
-#include <absl/status/statusor.h>
-
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <unordered_map>
 #include <vector>
+
+#include <absl/status/statusor.h>
+
+#include "renderer/import/progress.h"
+#include "renderer/terrain/deviation.h"
 
 namespace eyrie::terrain {
 
@@ -19,8 +19,8 @@ namespace eyrie::terrain {
 /// The grid, padded to a square whose side is a power of two, carries one right-triangulated
 /// irregular network (Evans, Kirkpatrick, Townsend 2001; the restricted quadtree): each vertex v
 /// but the first splits the two triangles whose common hypotenuse it is the midpoint of. Its error
-/// is the greatest exact deviation of those two triangles from the source, and not below that of the
-/// vertices that split their halves. The vertices whose error exceeds a threshold then form a
+/// is the greatest exact deviation of those two triangles from the source, and not below that of
+/// the vertices that split their halves. The vertices whose error exceeds a threshold then form a
 /// triangulation without T-junctions whose triangles deviate by no more than that threshold; a
 /// lower threshold's vertices contain a higher one's; and since errors belong to vertices and not
 /// to tiles, neighbours agree along their borders.

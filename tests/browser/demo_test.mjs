@@ -33,8 +33,12 @@ await run("demo_test", async (browser, started) => {
 
   const fine = await browser.hook("triangles");
   check(fine > 0, `triangles are counted (${fine})`);
+  const sequence = await browser.hook("viewSequence");
   await browser.setTau(4);
-  await browser.until(() => window.eyrie.still && window.eyrie.tauAchieved > 2);
+  await page.waitForFunction(
+    (before) => window.eyrie.viewSequence > before && window.eyrie.still,
+    sequence,
+  );
   const coarse = await browser.hook("triangles");
   check(coarse < fine, `a larger error draws fewer triangles (${coarse})`);
 

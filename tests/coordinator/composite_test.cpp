@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "coordinator/composite/assemble_2d.h"
-#include "coordinator/composite/assemble_db.h"
-
-#include "coordinator/compound/decompose.h"
-#include "layered_scene.h"
+#include <utility>
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include <utility>
+#include "coordinator/composite/assemble_2d.h"
+#include "coordinator/composite/assemble_db.h"
+#include "coordinator/compound/decompose.h"
+#include "layered_scene.h"
 
 namespace eyrie::coordinator {
 namespace {
@@ -37,9 +36,9 @@ RC_GTEST_PROP(Assemble2D, AnySplitGivesTheSingleImage, (std::uint32_t seed)) {
 RC_GTEST_PROP(AssembleDb, AnySplitGivesTheSingleImageTiesIncluded, (std::uint32_t seed)) {
     const LayeredScene scene(seed);
     const int renderers = *rc::gen::inRange(1, 9);
-    RC_ASSERT(assembleDb(kArea, LayeredScene::kBackground,
-                         drawn(scene, Decomposition::Db, renderers)) ==
-              scene.whole(kWidth, kHeight));
+    RC_ASSERT(
+        assembleDb(kArea, LayeredScene::kBackground, drawn(scene, Decomposition::Db, renderers)) ==
+        scene.whole(kWidth, kHeight));
 }
 
 TEST(AssembleDb, OfEqualDepthsTheFirstRangeWins) {

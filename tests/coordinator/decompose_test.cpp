@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/compound/decompose.h"
 
+#include <cstdint>
+
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
-
-#include <cstdint>
 
 namespace eyrie::coordinator {
 namespace {
@@ -22,7 +22,8 @@ RC_GTEST_PROP(Decompose, TwoDCoversEveryPixelOnceWithTheWholeRange, ()) {
         RC_ASSERT(whole.pixelViewport.contains(tasks[i].pixelViewport));
         RC_ASSERT(tasks[i].range.isWhole());
         for (std::size_t j = 0; j < i; ++j)
-            RC_ASSERT(fabric::intersection(tasks[i].pixelViewport, tasks[j].pixelViewport).isEmpty());
+            RC_ASSERT(
+                fabric::intersection(tasks[i].pixelViewport, tasks[j].pixelViewport).isEmpty());
     }
     RC_ASSERT(pixels == whole.pixelViewport.area());
 }

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "coordinator/farm/channel_renderer.h"
-#include "layered_scene.h"
-
 #include <atomic>
 #include <condition_variable>
 #include <memory>
 #include <mutex>
 #include <vector>
+
+#include "coordinator/farm/channel_renderer.h"
+#include "layered_scene.h"
 
 namespace eyrie::coordinator {
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/frame/frame_pipeline.h"
 
-#include "fake_renderer.h"
-#include "tests/service/eventually.h"
-
-#include <fmt/format.h>
-#include <gmock/gmock.h>
-
 #include <algorithm>
 #include <atomic>
 #include <thread>
 #include <vector>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "fake_renderer.h"
+#include "tests/service/eventually.h"
 
 namespace eyrie::coordinator {
 namespace {
@@ -55,12 +55,10 @@ protected:
     std::vector<std::shared_ptr<FakeRenderer>> openWith(int renderers) {
         pipeline_.setScene(sceneNamed("first"));
         std::vector<std::shared_ptr<FakeRenderer>> result;
-        for (int i = 0; i < renderers; ++i)
-            result.push_back(addRenderer());
+        for (int i = 0; i < renderers; ++i) result.push_back(addRenderer());
         // All are ready once a frame has used all.
         EXPECT_TRUE(eventually([&] {
-            for (const auto& renderer : result)
-                renderer->drawn = 0;
+            for (const auto& renderer : result) renderer->drawn = 0;
             return pipeline_.renderFrame(request()).ok() &&
                    std::all_of(result.begin(), result.end(),
                                [](const auto& renderer) { return renderer->drawn == 1; });
@@ -102,8 +100,7 @@ TEST_P(FramePipelineTest, AnyNumberOfRenderersMakesTheSinglePicture) {
 TEST_P(FramePipelineTest, AllReadyRenderersTakePart) {
     const auto renderers = openWith(3);
     expectWholePicture();
-    for (const auto& renderer : renderers)
-        EXPECT_EQ(renderer->drawn, 2);
+    for (const auto& renderer : renderers) EXPECT_EQ(renderer->drawn, 2);
 }
 
 TEST_P(FramePipelineTest, AFailedPartIsDrawnByAnother) {

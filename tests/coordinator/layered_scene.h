@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "fabric/channel_task.h"
-
 #include <cstdint>
 #include <random>
 #include <vector>
+
+#include "fabric/channel_task.h"
 
 namespace eyrie::coordinator {
 
@@ -21,9 +21,10 @@ public:
             return static_cast<int>(random() % static_cast<unsigned>(bound));
         };
         for (int i = 0; i < 30; ++i)
-            rectangles_.push_back({{below(width), below(height), 1 + below(width), 1 + below(height)},
-                                   static_cast<float>(1 + below(4)) / 4,
-                                   static_cast<std::uint8_t>(1 + i)});
+            rectangles_.push_back(
+                {{below(width), below(height), 1 + below(width), 1 + below(height)},
+                 static_cast<float>(1 + below(4)) / 4,
+                 static_cast<std::uint8_t>(1 + i)});
     }
 
     /// As a renderer answers: cropped to what is covered.
@@ -31,7 +32,8 @@ public:
         fabric::Image image = fabric::makeImage(task.pixelViewport, kBackground, true);
         std::uint64_t drawn = 0;
         for (std::size_t i = 0; i < rectangles_.size(); ++i)
-            if (task.range.contains(static_cast<double>(i) / static_cast<double>(rectangles_.size()))) {
+            if (task.range.contains(static_cast<double>(i) /
+                                    static_cast<double>(rectangles_.size()))) {
                 drawRectangle(rectangles_[i], image);
                 ++drawn;
             }
@@ -46,8 +48,7 @@ public:
     /// The picture that every decomposition has to make.
     fabric::Image whole(int width, int height) const {
         fabric::Image picture = fabric::makeImage({0, 0, width, height}, kBackground, true);
-        for (const Rectangle& rectangle : rectangles_)
-            drawRectangle(rectangle, picture);
+        for (const Rectangle& rectangle : rectangles_) drawRectangle(rectangle, picture);
         return picture;
     }
 

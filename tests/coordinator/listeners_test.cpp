@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/farm/listeners.h"
 
-#include "tests/service/eventually.h"
+#include <atomic>
 
 #include <gtest/gtest.h>
 
-#include <atomic>
+#include "tests/service/eventually.h"
 
 namespace eyrie::coordinator {
 namespace {

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // A renderer process that does not keep to the protocol costs an error, never the coordinator.
-#include "coordinator/farm/grpc_renderer.h"
-
-#include "eyrie/v1/render_service.grpc.pb.h"
-#include "tests/support/temporary_folder.h"
-#include "wire/listen.h"
+#include <functional>
+#include <limits>
+#include <string>
 
 #include <gmock/gmock.h>
 #include <grpcpp/grpcpp.h>
 
-#include <functional>
-#include <limits>
-#include <string>
+#include "coordinator/farm/grpc_renderer.h"
+#include "eyrie/v1/render_service.grpc.pb.h"
+#include "tests/support/temporary_folder.h"
+#include "wire/listen.h"
 
 namespace eyrie::coordinator {
 namespace {

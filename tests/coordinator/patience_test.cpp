@@ -20,8 +20,7 @@ TEST(Patience, IsLongWhileNothingIsKnown) {
 
 TEST(Patience, IsThreeTimesTheRecentMedian) {
     Patience patience(kOptions);
-    for (const int taken : {400, 9000, 300, 350, 20})
-        patience.record(milliseconds(taken));
+    for (const int taken : {400, 9000, 300, 350, 20}) patience.record(milliseconds(taken));
     EXPECT_EQ(patience.limit(), milliseconds(3 * 350));
 }
 
@@ -33,10 +32,8 @@ TEST(Patience, HasALeastLimit) {
 
 TEST(Patience, FollowsARendererThatHasBecomeSlower) {
     Patience patience(kOptions);
-    for (int i = 0; i < 100; ++i)
-        patience.record(milliseconds(200));
-    for (int i = 0; i < 8; ++i)
-        patience.record(milliseconds(1000));
+    for (int i = 0; i < 100; ++i) patience.record(milliseconds(200));
+    for (int i = 0; i < 8; ++i) patience.record(milliseconds(1000));
     EXPECT_EQ(patience.limit(), milliseconds(3000));
 }
 

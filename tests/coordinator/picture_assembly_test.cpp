@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/farm/picture_assembly.h"
 
-#include "eyrie/v1/render_service.pb.h"
-
-#include <gmock/gmock.h>
-#include <rapidcheck/gtest.h>
-
 #include <algorithm>
 #include <cstring>
 #include <limits>
 #include <string>
+
+#include <gmock/gmock.h>
+#include <rapidcheck/gtest.h>
+
+#include "eyrie/v1/render_service.pb.h"
 
 namespace eyrie::coordinator {
 namespace {
@@ -37,8 +37,7 @@ std::string refusal(const v1::ChannelHeader& message) {
 
 RC_GTEST_PROP(PictureAssembly, AnyCutIntoChunksGivesThePixels, ()) {
     std::string pixels(7 * 3 * 8, ' ');
-    for (std::size_t i = 0; i < pixels.size(); ++i)
-        pixels[i] = static_cast<char>(i * 7);
+    for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i] = static_cast<char>(i * 7);
     PictureAssembly assembly(kTask);
     RC_ASSERT(assembly.takeHeader(header(12, 6, 7, 3)).ok());
     for (std::size_t sent = 0; sent < pixels.size();) {
@@ -53,7 +52,8 @@ RC_GTEST_PROP(PictureAssembly, AnyCutIntoChunksGivesThePixels, ()) {
 }
 
 TEST(PictureAssembly, AnAreaOutsideTheTaskIsRefused) {
-    EXPECT_THAT(refusal(header(9, 5, 10, 10)), testing::HasSubstr("outside the task's 40x20 at 10,5"));
+    EXPECT_THAT(refusal(header(9, 5, 10, 10)),
+                testing::HasSubstr("outside the task's 40x20 at 10,5"));
     EXPECT_THAT(refusal(header(10, 5, 41, 20)), testing::HasSubstr("outside the task's"));
     EXPECT_THAT(refusal(header(10, 5, -4, 20)), testing::HasSubstr("pixel_viewport.width"));
     EXPECT_THAT(refusal(header(10, 5, std::numeric_limits<int>::max(), 20)),

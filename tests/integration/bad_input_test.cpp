@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // Wrong input of every kind ends with the agreed exit status and a message that names what is
 // wrong, never with a crash, and leaves no file behind.
-#include "tests/support/image_files.h"
-#include "tests/support/program.h"
-#include "tests/support/temporary_folder.h"
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <random>
 
 #include <fmt/format.h>
 #include <gdal_priv.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 
-#include <algorithm>
-#include <array>
-#include <limits>
-#include <random>
+#include "tests/support/image_files.h"
+#include "tests/support/program.h"
+#include "tests/support/temporary_folder.h"
 
 namespace eyrie {
 namespace {
@@ -28,20 +28,20 @@ constexpr const char* kGoodCamera =
     R"({"eye":[0,-4,1],"target":[0,0,0],"up":[0,0,1],"fovyDegrees":45})";
 
 std::string lowerCase(std::string text) {
-    std::ranges::transform(text, text.begin(), [](unsigned char c) {
-        return static_cast<char>(std::tolower(c));
-    });
+    std::ranges::transform(text, text.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return text;
 }
 
 /// A tetrahedron as an ASCII PLY, with room for mistakes.
 std::string ply(const std::string& firstVertex, const std::string& firstFace,
                 const std::string& vertices = "4", const std::string& faces = "4") {
-    return fmt::format("ply\nformat ascii 1.0\nelement vertex {}\nproperty float x\n"
-                       "property float y\nproperty float z\nelement face {}\n"
-                       "property list uchar int vertex_indices\nend_header\n"
-                       "{}\n1 0 0\n0 1 0\n0 0 1\n{}\n3 0 3 1\n3 0 2 3\n3 1 3 2\n",
-                       vertices, faces, firstVertex, firstFace);
+    return fmt::format(
+        "ply\nformat ascii 1.0\nelement vertex {}\nproperty float x\n"
+        "property float y\nproperty float z\nelement face {}\n"
+        "property list uchar int vertex_indices\nend_header\n"
+        "{}\n1 0 0\n0 1 0\n0 0 1\n{}\n3 0 3 1\n3 0 2 3\n3 1 3 2\n",
+        vertices, faces, firstVertex, firstFace);
 }
 
 std::string plyWithoutFaces() {
@@ -173,8 +173,7 @@ TEST_F(BadInput, ElevationModelsThatAreNoneAreRefusedByName) {
     writeDem(bad("pixel.tif"), 1, 1, 7, -9999);
     expectRefused({"import", "terrain", bad("pixel.tif"), "-o", bad("out.eyt")},
                   {"pixel.tif", "1"});
-    expectRefused({"import", "terrain", bad("missing.tif"), "-o", bad("out.eyt")},
-                  {"missing.tif"});
+    expectRefused({"import", "terrain", bad("missing.tif"), "-o", bad("out.eyt")}, {"missing.tif"});
     const auto whole = test::readFile(good("dem.tif"));
     ASSERT_TRUE(whole.ok()) << whole.status();
     folder_.write("cut.tif", whole->substr(0, whole->size() / 2));
@@ -193,10 +192,11 @@ TEST_F(BadInput, ScenesThatCannotBeAreRefusedByFileAndField) {
         {"list.json", "[]", {}},
         {"unknown.json", R"({"objcts":[]})", {"objcts"}},
         {"type.json", R"({"objects":"ball"})", {"objects"}},
-        {"ambient.json", fmt::format(R"({{"objects":[{{"mesh":"{}"}}],"ambient":7}})", mesh),
+        {"ambient.json",
+         fmt::format(R"({{"objects":[{{"mesh":"{}"}}],"ambient":7}})", mesh),
          {"ambient", "7"}},
         {"empty.json", R"({"objects":[]})", {"object"}},
-        {"no_data.json", R"({"objects":[{"name":"ghost"}]})", {"ghost"}},
+        {"no_data.json", R"({"objects":[{"name":"ghost"}]})", {"objects[0]", "data"}},
         {"missing.json", R"({"objects":[{"mesh":"nowhere.eym"}]})", {"nowhere.eym"}},
         {"singular.json",
          fmt::format(R"({{"objects":[{{"name":"flat","mesh":"{}","transform":{{"matrix":)"
@@ -208,8 +208,8 @@ TEST_F(BadInput, ScenesThatCannotBeAreRefusedByFileAndField) {
                      mesh),
          {"translation"}},
         {"nan.json",
-         fmt::format(
-             R"({{"objects":[{{"mesh":"{}","transform":{{"translation":[1,2,"NaN"]}}}}]}})", mesh),
+         fmt::format(R"({{"objects":[{{"mesh":"{}","transform":{{"translation":[1,2,"NaN"]}}}}]}})",
+                     mesh),
          {"translation"}},
     };
     for (const Case& one : cases) {
@@ -271,9 +271,9 @@ TEST_F(BadInput, UnknownCommandsAndOptionsAreRefused) {
     expectRefused({"serve", good("ball.eym"), "--listen", "nowhere"}, {"--listen", "nowhere"});
     expectRefused({"serve", good("ball.eym"), "--listen", "127.0.0.1:99999"},
                   {"--listen", "99999"});
-    expectRefused({"serve", bad("nowhere.ply")}, {"nowhere.ply"});
-    expectRefused({"coordinator", bad("nowhere.eym"), "--listen", "127.0.0.1:0"},
-                  {"nowhere.eym"});
+    for (const char* missing : {"nowhere.ply", "nowhere.eym", "nowhere.eyt", "nowhere.json"})
+        expectRefused({"serve", bad(missing), "--listen", "127.0.0.1:0"}, {missing});
+    expectRefused({"coordinator", bad("nowhere.eym"), "--listen", "127.0.0.1:0"}, {"nowhere.eym"});
     expectRefused({"synth", "mesh", "--size", "-5", "-o", bad("out.ply")}, {"--size"});
     expectRefused({"synth", "terrain", "--size", "0", "-o", bad("out.tif")}, {"--size"});
 }
@@ -307,8 +307,7 @@ TEST_F(BadInput, DamagedDataFilesAreRefusedAndNeverCrash) {
                 if (outcome.exit.status == 0)
                     continue;
                 EXPECT_EQ(outcome.exit.status, kWrongInput) << what << outcome.errors;
-                EXPECT_NE(outcome.errors.find(name), std::string::npos)
-                    << what << outcome.errors;
+                EXPECT_NE(outcome.errors.find(name), std::string::npos) << what << outcome.errors;
                 EXPECT_FALSE(std::filesystem::exists(bad("out.png"))) << what;
             }
             std::filesystem::remove(bad("out.png"));
@@ -319,11 +318,11 @@ TEST_F(BadInput, DamagedDataFilesAreRefusedAndNeverCrash) {
             const std::size_t range = i % 2 == 0 ? std::size_t{1024} : content.size();
             const std::size_t place = random() % std::min(range, content.size());
             content[place] = static_cast<char>(content[place] ^ (1 << random() % 8));
-            tryBoth(content, fmt::format("{} with a bit of byte {} flipped, seed {}\n", name, place,
-                                         seed));
+            tryBoth(content,
+                    fmt::format("{} with a bit of byte {} flipped, seed {}\n", name, place, seed));
         }
-        for (const std::size_t length : {std::size_t{0}, std::size_t{7}, whole->size() / 2,
-                                         whole->size() - 1}) {
+        for (const std::size_t length :
+             {std::size_t{0}, std::size_t{7}, whole->size() / 2, whole->size() - 1}) {
             folder_.write(name, whole->substr(0, length));
             expectRefused({"info", file}, {name});
         }
@@ -339,8 +338,7 @@ TEST_F(BadInput, WithoutEglRenderSaysWhatToInstall) {
 
 TEST_F(BadInput, ARendererWithoutACoordinatorSaysSoAndCanBeEnded) {
     // Nobody listens on port 1. A renderer waits for its coordinator, which may come later.
-    test::Process renderer(
-        test::eyrieCommand({"renderer", "--coordinator", "127.0.0.1:1"}));
+    test::Process renderer(test::eyrieCommand({"renderer", "--coordinator", "127.0.0.1:1"}));
     EXPECT_TRUE(test::eventually(seconds(20), [&] {
         return renderer.errors().find("127.0.0.1:1") != std::string::npos;
     })) << renderer.errors();

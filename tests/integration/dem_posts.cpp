@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/integration/dem_posts.h"
 
-#include <fmt/format.h>
-#include <gdal_priv.h>
-
 #include <array>
 #include <limits>
+
+#include <fmt/format.h>
+#include <gdal_priv.h>
 
 namespace eyrie::test {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "renderer/truth/terrain_ray_caster.h"
+#include <string>
 
 #include <absl/status/statusor.h>
 
-#include <string>
+#include "renderer/truth/terrain_ray_caster.h"
 
 namespace eyrie::test {
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // From synthetic source to picture by the program alone: synth, import, info, render.
-#include "tests/support/image_files.h"
-#include "tests/support/program.h"
-#include "tests/support/temporary_folder.h"
+#include <cmath>
 
 #include <fmt/format.h>
 #include <google/protobuf/struct.pb.h>
 #include <google/protobuf/util/json_util.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include "tests/support/image_files.h"
+#include "tests/support/program.h"
+#include "tests/support/temporary_folder.h"
 
 namespace eyrie {
 namespace {
@@ -66,14 +66,14 @@ class Render : public testing::Test {
 protected:
     static void SetUpTestSuite() {
         folder_ = std::make_unique<test::TemporaryFolder>();
-        ASSERT_TRUE(succeeded({"synth", "terrain", "--size", "513", "--seed", "3", "-o",
-                               folder_->path("dem.tif")}));
-        ASSERT_TRUE(succeeded({"import", "terrain", folder_->path("dem.tif"), "-o",
-                               folder_->path("dem.eyt")}));
-        ASSERT_TRUE(succeeded({"synth", "mesh", "--size", "80000", "--seed", "3", "-o",
-                               folder_->path("ball.ply")}));
-        ASSERT_TRUE(succeeded({"import", "mesh", folder_->path("ball.ply"), "-o",
-                               folder_->path("ball.eym")}));
+        ASSERT_TRUE(succeeded(
+            {"synth", "terrain", "--size", "513", "--seed", "3", "-o", folder_->path("dem.tif")}));
+        ASSERT_TRUE(succeeded(
+            {"import", "terrain", folder_->path("dem.tif"), "-o", folder_->path("dem.eyt")}));
+        ASSERT_TRUE(succeeded(
+            {"synth", "mesh", "--size", "80000", "--seed", "3", "-o", folder_->path("ball.ply")}));
+        ASSERT_TRUE(succeeded(
+            {"import", "mesh", folder_->path("ball.ply"), "-o", folder_->path("ball.eym")}));
     }
     static void TearDownTestSuite() { folder_.reset(); }
 
@@ -99,9 +99,9 @@ protected:
         const double north = coordinate("max", 1), south = coordinate("min", 1);
         const double side = north - south;
         const double z = coordinate("max", 2);
-        return cameraFile(fmt::format(
-            R"({{"eye":[{},{},{}],"target":[{},{},{}],"up":[0,0,1],"fovyDegrees":50}})", x,
-            south - 0.3 * side, z + 0.2 * side, x, north, z));
+        return cameraFile(
+            fmt::format(R"({{"eye":[{},{},{}],"target":[{},{},{}],"up":[0,0,1],"fovyDegrees":50}})",
+                        x, south - 0.3 * side, z + 0.2 * side, x, north, z));
     }
 
     static std::string meshCamera() {
@@ -111,8 +111,9 @@ protected:
     static Rendered render(const std::string& data, const std::string& camera,
                            const std::vector<std::string>& more = {}) {
         std::vector<std::string> arguments = {
-            "render",  path(data),  "--camera",    camera,  "--size",       "1280x720",
-            "--tau",   "1",         "-o",          path("out.png"), "--depth", path("out.pfm"),
+            "render",  path(data),      "--camera", camera,
+            "--size",  "1280x720",      "--tau",    "1",
+            "-o",      path("out.png"), "--depth",  path("out.pfm"),
             "--stats", path("out.json")};
         arguments.insert(arguments.end(), more.begin(), more.end());
         EXPECT_TRUE(succeeded(arguments));
@@ -245,8 +246,7 @@ TEST_F(Render, ASceneFilePlacesItsObjectsRelativeToItself) {
         {"mesh":"ball.eym","transform":{"translation":[-1.5,0,0]}},
         {"name":"source","mesh":"ball.ply","transform":{"translation":[1.5,0,0]}}]})");
     const test::TemporaryFolder cache;
-    const Rendered both =
-        render("scene.json", meshCamera(), {"--cache", cache.path("imports")});
+    const Rendered both = render("scene.json", meshCamera(), {"--cache", cache.path("imports")});
     const auto isHit = [&](int x) {
         return std::isfinite(
             both.depth.metres[kPixels / 2 + kWidth / 2 + static_cast<std::size_t>(x)]);
@@ -257,15 +257,14 @@ TEST_F(Render, ASceneFilePlacesItsObjectsRelativeToItself) {
 }
 
 TEST_F(Render, WritesJpegByItsName) {
-    ASSERT_TRUE(succeeded({"render", path("ball.eym"), "--camera", meshCamera(), "--size",
-                           "64x64", "-o", path("out.jpg")}));
+    ASSERT_TRUE(succeeded({"render", path("ball.eym"), "--camera", meshCamera(), "--size", "64x64",
+                           "-o", path("out.jpg")}));
     EXPECT_TRUE(content(path("out.jpg")).starts_with("\xff\xd8\xff"));
 }
 
 TEST_F(Render, IsSilentOnStandardOutput) {
-    const test::Outcome outcome =
-        eyrie({"render", path("ball.eym"), "--camera", meshCamera(), "--size", "64x64", "--quiet",
-               "-o", path("quiet.png")});
+    const test::Outcome outcome = eyrie({"render", path("ball.eym"), "--camera", meshCamera(),
+                                         "--size", "64x64", "--quiet", "-o", path("quiet.png")});
     EXPECT_EQ(outcome.exit, (test::Exit{0, 0}));
     EXPECT_EQ(outcome.output, "");
     EXPECT_EQ(outcome.errors, "");

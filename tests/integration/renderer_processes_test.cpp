@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Real renderer processes behind a real coordinator: each decomposition, at twenty cameras, must
 // give the picture that one renderer in this process gives.
-#include "coordinator/coordinator.h"
-#include "renderer/renderer.h"
-#include "tests/support/program.h"
-#include "tests/support/temporary_folder.h"
+#include <algorithm>
+#include <cmath>
+#include <random>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <random>
+#include "coordinator/coordinator.h"
+#include "renderer/renderer.h"
+#include "tests/support/program.h"
+#include "tests/support/temporary_folder.h"
 
 namespace eyrie {
 namespace {
@@ -39,10 +39,10 @@ std::vector<FrameRequest> randomViews(const fabric::Box& bounds) {
         view.camera.target = bounds.min + size * Vec3(in(0.2, 0.8), in(0.2, 0.8), in(0.2, 0.8));
         const double azimuth = in(0, 2 * M_PI);
         const double height = in(0.1, 1.2);
-        view.camera.eye = view.camera.target +
-                          glm::length(size) * in(0.15, 1.2) *
-                              Vec3(std::cos(azimuth) * std::cos(height),
-                                   std::sin(azimuth) * std::cos(height), std::sin(height));
+        view.camera.eye =
+            view.camera.target + glm::length(size) * in(0.15, 1.2) *
+                                     Vec3(std::cos(azimuth) * std::cos(height),
+                                          std::sin(azimuth) * std::cos(height), std::sin(height));
         view.camera.fovYDegrees = in(20, 80);
         view.wantsDepth = true;
     }
@@ -64,8 +64,8 @@ protected:
         folder_ = std::make_unique<test::TemporaryFolder>();
         const auto make = [](const std::string& kind, const std::string& size,
                              const std::string& source, const std::string& data) {
-            ASSERT_TRUE(test::succeeded({"synth", kind, "--size", size, "--seed", "5", "-o",
-                                         folder_->path(source)}));
+            ASSERT_TRUE(test::succeeded(
+                {"synth", kind, "--size", size, "--seed", "5", "-o", folder_->path(source)}));
             ASSERT_TRUE(test::succeeded(
                 {"import", kind, folder_->path(source), "-o", folder_->path(data)}));
         };
@@ -77,9 +77,8 @@ protected:
     static fabric::Scene scene(fabric::ObjectKind kind) {
         fabric::Scene scene;
         const bool mesh = kind == fabric::ObjectKind::Mesh;
-        scene.objects.push_back({.name = "data",
-                                 .kind = kind,
-                                 .path = folder_->path(mesh ? "ball.eym" : "dem.eyt")});
+        scene.objects.push_back(
+            {.name = "data", .kind = kind, .path = folder_->path(mesh ? "ball.eym" : "dem.eyt")});
         return scene;
     }
 
@@ -89,8 +88,8 @@ protected:
                                                        Renderer& renderer) {
         std::vector<fabric::Image> pictures;
         for (const FrameRequest& view : views) {
-            fabric::FrameData frame{.version = 1, .camera = view.camera,
-                                    .tauPixels = view.tauPixels};
+            fabric::FrameData frame{
+                .version = 1, .camera = view.camera, .tauPixels = view.tauPixels};
             fabric::ChannelTask task;
             task.frameDataVersion = 1;
             task.viewWidth = view.width;

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // `eyrie serve` as a process with renderer processes of its own: it answers, survives the loss of a
 // renderer, and leaves nothing behind.
-#include "tests/support/http_client.h"
-#include "tests/support/program.h"
-#include "tests/support/temporary_folder.h"
-#include "tests/support/viewer_client.h"
-#include "wire/jpeg.h"
+#include <algorithm>
+#include <cstdlib>
+#include <span>
 
 #include <fmt/format.h>
 #include <google/protobuf/struct.pb.h>
@@ -13,9 +11,11 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
-#include <algorithm>
-#include <cstdlib>
-#include <span>
+#include "tests/support/http_client.h"
+#include "tests/support/program.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/viewer_client.h"
+#include "wire/jpeg.h"
 
 namespace eyrie {
 namespace {
@@ -60,8 +60,7 @@ protected:
     int aliveRenderers() const {
         const auto answer = test::httpGet(port_, "/readyz");
         google::protobuf::Value state;
-        if (!answer.ok() ||
-            !google::protobuf::util::JsonStringToMessage(answer->body, &state).ok())
+        if (!answer.ok() || !google::protobuf::util::JsonStringToMessage(answer->body, &state).ok())
             return -1;
         const auto& fields = state.struct_value().fields();
         const auto renderers = fields.find("renderers");
@@ -115,8 +114,8 @@ protected:
         EXPECT_EQ(frame.height(), kHeight);
         EXPECT_TRUE(frame.statistics().complete());
         EXPECT_GT(frame.statistics().triangles(), 0U);
-        const auto image = wire::decodeJpeg(
-            std::as_bytes(std::span(frame.jpeg().data(), frame.jpeg().size())));
+        const auto image =
+            wire::decodeJpeg(std::as_bytes(std::span(frame.jpeg().data(), frame.jpeg().size())));
         ASSERT_TRUE(image.ok()) << image.status();
         ASSERT_EQ(image->colour.size(), std::size_t{kWidth} * kHeight);
         // Each renderer draws one half: both must have things of different brightness in them.
@@ -178,9 +177,9 @@ TEST_F(Serve, GoesOnWhenARendererIsKilledAndReplacesIt) {
         ASSERT_TRUE(frame.ok()) << frame.status();
         expectPicture(*frame);
     }
-    EXPECT_TRUE(test::eventually(seconds(15), [&] {
-        return aliveRenderers() == 2 && rendererProcesses().size() == 2;
-    })) << "a killed renderer should be replaced; " << server_->errors();
+    EXPECT_TRUE(test::eventually(
+        seconds(15), [&] { return aliveRenderers() == 2 && rendererProcesses().size() == 2; }))
+        << "a killed renderer should be replaced; " << server_->errors();
     EXPECT_EQ(std::ranges::count(rendererProcesses(), renderers.front()), 0);
     const auto after = viewer->frameOf(nextView(*viewer), seconds(10));
     ASSERT_TRUE(after.ok()) << after.status();

@@ -1,6 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // The terrain promise: at every pixel the picture's surface is, on the screen, no farther from the
 // source than the frame says. The judge casts double-precision rays at the posts that GDAL reads.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <random>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
 #include "fabric/frustum.h"
 #include "renderer/import/dem_source.h"
 #include "renderer/import/terrain_import.h"
@@ -10,19 +23,6 @@
 #include "renderer/truth/terrain_ray_caster.h"
 #include "tests/integration/dem_posts.h"
 #include "tests/support/temporary_folder.h"
-
-#include <fmt/format.h>
-#include <glm/geometric.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <memory>
-#include <random>
-#include <span>
-#include <string>
-#include <vector>
 
 namespace eyrie {
 namespace {
@@ -101,8 +101,8 @@ private:
         Camera camera;
         camera.eye = groundPoint() + Vec3(0, 0, height);
         const double azimuth = in(0, 2 * M_PI);
-        camera.target = camera.eye + 100.0 * Vec3(std::cos(azimuth), std::sin(azimuth),
-                                                  std::tan(pitch));
+        camera.target =
+            camera.eye + 100.0 * Vec3(std::cos(azimuth), std::sin(azimuth), std::tan(pitch));
         camera.fovYDegrees = in(30, 70);
         return camera;
     }
@@ -191,7 +191,8 @@ protected:
 
     void correct(const truth::Pinhole& pinhole, int x, int y, std::vector<float>& depth) const {
         float& metres = depth[static_cast<std::size_t>(y * pinhole.width() + x)];
-        metres = static_cast<float>(ground_->firstHit(pinhole.rayThrough(x + 0.5, y + 0.5), metres));
+        metres =
+            static_cast<float>(ground_->firstHit(pinhole.rayThrough(x + 0.5, y + 0.5), metres));
     }
 
     void checkCamera(const std::string& name, const Camera& camera, int width, int height) {
@@ -204,8 +205,7 @@ protected:
             std::isfinite(promised) ? promised : boundFromWithinATile(pinhole, depth);
         // An outline may have moved by as much as everything else.
         const int edgePixels = static_cast<int>(std::clamp(std::ceil(bound), 1.0, 8.0));
-        truth::DepthComparison found =
-            truth::compareDepth(pinhole, depth, *ground_, edgePixels);
+        truth::DepthComparison found = truth::compareDepth(pinhole, depth, *ground_, edgePixels);
         int edgeOn = 0;
         while (found.maxPixels > bound + kRasterPixels && edgeOn < kMaxEdgeOnPixels &&
                isOnOutline(depth, width, found.worstX, found.worstY)) {
@@ -215,11 +215,13 @@ protected:
             correct(pinhole, found.worstX, found.worstY, depth);
             found = truth::compareDepth(pinhole, depth, *ground_, edgePixels);
         }
-        fmt::print("{:>11} {:4}x{:<4} promised {:8.4f} px (held against {:.4f}), measured {:.4f} px (p99 {:.4f}) at "
-                   "{},{}; {} pixels, {} holes, {} false, {} misplaced, {} triangles\n",
-                   name, width, height, promised, bound, found.maxPixels, found.p99Pixels, found.worstX,
-                   found.worstY, found.compared, found.holes, found.falseHits, found.misplaced,
-                   drawn.statistics.triangles);
+        fmt::print(
+            "{:>11} {:4}x{:<4} promised {:8.4f} px (held against {:.4f}), measured {:.4f} px (p99 "
+            "{:.4f}) at "
+            "{},{}; {} pixels, {} holes, {} false, {} misplaced, {} triangles\n",
+            name, width, height, promised, bound, found.maxPixels, found.p99Pixels, found.worstX,
+            found.worstY, found.compared, found.holes, found.falseHits, found.misplaced,
+            drawn.statistics.triangles);
         EXPECT_LE(found.maxPixels, bound + kRasterPixels) << name;
         EXPECT_EQ(found.holes, 0U) << name;
         EXPECT_EQ(found.falseHits, 0U) << name;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "service/channel_drawer.h"
-
 #include <atomic>
 #include <condition_variable>
 #include <memory>
 #include <mutex>
 #include <thread>
+
+#include "service/channel_drawer.h"
 
 namespace eyrie::service {
 
@@ -40,10 +40,12 @@ struct FakeDrawerControl {
     bool held = false;
 };
 
-/// Draws a gradient of colour and depth, with tau in the statistics; opens every scene but "absent".
+/// Draws a gradient of colour and depth, with tau in the statistics; opens every scene but
+/// "absent".
 class FakeDrawer final : public ChannelDrawer {
 public:
-    explicit FakeDrawer(std::shared_ptr<FakeDrawerControl> control) : control_(std::move(control)) {}
+    explicit FakeDrawer(std::shared_ptr<FakeDrawerControl> control)
+        : control_(std::move(control)) {}
     ~FakeDrawer() override {
         checkThread();
         control_->destroyed = true;

@@ -12,8 +12,7 @@ fabric::FrameData frameData(std::uint64_t version, double tau = 1) {
 
 TEST(FrameDataHistory, KeepsTheLastEightVersions) {
     FrameDataHistory history;
-    for (std::uint64_t version = 1; version <= 9; ++version)
-        history.store(frameData(version));
+    for (std::uint64_t version = 1; version <= 9; ++version) history.store(frameData(version));
     EXPECT_EQ(history.find(1).status().code(), absl::StatusCode::kFailedPrecondition);
     for (std::uint64_t version = 2; version <= 9; ++version)
         EXPECT_EQ(history.find(version).value().version, version);
@@ -29,8 +28,7 @@ TEST(FrameDataHistory, ARefusalNamesTheVersionsThereAre) {
 
 TEST(FrameDataHistory, AVersionSentAgainReplacesTheOneBefore) {
     FrameDataHistory history;
-    for (int i = 0; i < 20; ++i)
-        history.store(frameData(1, i));
+    for (int i = 0; i < 20; ++i) history.store(frameData(1, i));
     history.store(frameData(2));
     EXPECT_EQ(history.find(1).value().tauPixels, 19);
 }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "service/gl_thread.h"
 
-#include "fake_drawer.h"
+#include <algorithm>
+#include <vector>
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <vector>
+#include "fake_drawer.h"
 
 namespace eyrie::service {
 namespace {
@@ -45,8 +45,7 @@ TEST(GlThread, RefusesJobsBeyondItsBound) {
     control->hold();
     const auto wait = [&](ChannelDrawer&) { control->waitWhileHeld(); };
     absl::Status status = absl::OkStatus();
-    for (int i = 0; i < 4 && status.ok(); ++i)
-        status = thread->post(wait);
+    for (int i = 0; i < 4 && status.ok(); ++i) status = thread->post(wait);
     EXPECT_EQ(status.code(), absl::StatusCode::kResourceExhausted);
     control->release();
 }

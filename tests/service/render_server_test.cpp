@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "service/render_server.h"
 
+#include <thread>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <grpcpp/grpcpp.h>
+
 #include "coordinator/farm/grpc_renderer.h"
 #include "eyrie/v1/render_service.grpc.pb.h"
 #include "fake_drawer.h"
@@ -9,12 +15,6 @@
 #include "tests/support/temporary_folder.h"
 #include "wire/frame.h"
 #include "wire/transport.h"
-
-#include <gmock/gmock.h>
-#include <grpcpp/grpcpp.h>
-
-#include <thread>
-#include <vector>
 
 namespace eyrie::service {
 namespace {
@@ -113,8 +113,7 @@ TEST_F(RenderServerTest, ACallGivenUpBeforeItsTurnIsNotDrawn) {
     EXPECT_EQ(second->render(task(8, 8, false), shortly).status().code(),
               absl::StatusCode::kDeadlineExceeded);
     // Its cancellation is ahead of these on the same connection.
-    for (int i = 0; i < 200; ++i)
-        ASSERT_TRUE(second->setFrameData(frameData(), soon()).ok());
+    for (int i = 0; i < 200; ++i) ASSERT_TRUE(second->setFrameData(frameData(), soon()).ok());
     control_->release();
     first.join();
     ASSERT_TRUE(renderer_->render(task(8, 8, false), soon()).ok());
@@ -149,8 +148,7 @@ TEST_F(RenderServerTest, ReadersThatNeverReadAreBounded) {
     }
     EXPECT_EQ(renderer_->render(task(8, 8, false), soon()).status().code(),
               absl::StatusCode::kResourceExhausted);
-    for (const auto& context : contexts)
-        context->TryCancel();
+    for (const auto& context : contexts) context->TryCancel();
     EXPECT_TRUE(eventually([&] { return renderer_->render(task(8, 8, false), soon()).ok(); }));
 }
 

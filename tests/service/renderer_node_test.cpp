@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "service/renderer_node.h"
 
-#include "coordinator/api/grpc_service.h"
-#include "coordinator/farm/registry.h"
-#include "eyrie/v1/coordinator_service.grpc.pb.h"
-#include "fake_drawer.h"
-#include "fabric/version.h"
-#include "tests/service/eventually.h"
-#include "tests/support/temporary_folder.h"
-#include "wire/listen.h"
-#include "wire/transport.h"
+#include <atomic>
+#include <thread>
 
 #include <gmock/gmock.h>
 #include <grpcpp/grpcpp.h>
 
-#include <atomic>
-#include <thread>
+#include "coordinator/api/grpc_service.h"
+#include "coordinator/farm/registry.h"
+#include "eyrie/v1/coordinator_service.grpc.pb.h"
+#include "fabric/version.h"
+#include "fake_drawer.h"
+#include "tests/service/eventually.h"
+#include "tests/support/temporary_folder.h"
+#include "wire/listen.h"
+#include "wire/transport.h"
 
 namespace eyrie::service {
 namespace {
@@ -31,8 +31,7 @@ coordinator::RegistryOptions quickHeartbeats() {
 
 int aliveIn(const Registry& registry) {
     int alive = 0;
-    for (const Registry::Entry& entry : registry.entries())
-        alive += entry.alive ? 1 : 0;
+    for (const Registry::Entry& entry : registry.entries()) alive += entry.alive ? 1 : 0;
     return alive;
 }
 
@@ -99,7 +98,8 @@ TEST_F(RendererNodeTest, RegistersWithItsDeviceAndAddress) {
     const Registry::Entry entry = registry_->entries()[0];
     EXPECT_EQ(entry.device, node_->device());
     EXPECT_EQ(entry.address, node_->address());
-    EXPECT_TRUE(entry.renderer->openScene({}, Registry::Clock::now() + std::chrono::seconds(20)).ok());
+    EXPECT_TRUE(
+        entry.renderer->openScene({}, Registry::Clock::now() + std::chrono::seconds(20)).ok());
 }
 
 TEST_F(RendererNodeTest, WaitsForACoordinatorThatComesLater) {
@@ -164,7 +164,8 @@ TEST_F(RendererNodeTest, EndsWhenItIsStopped) {
 TEST(RendererNode, AnAddressOfAnotherFormIsRefused) {
     RendererNodeOptions options;
     options.coordinator = "nowhere";
-    const auto node = RendererNode::start(options, fakeDrawers(std::make_shared<FakeDrawerControl>()));
+    const auto node =
+        RendererNode::start(options, fakeDrawers(std::make_shared<FakeDrawerControl>()));
     EXPECT_EQ(node.status().code(), absl::StatusCode::kInvalidArgument);
 }
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/image_files.h"
 
-#include <fmt/format.h>
-#include <png.h>
-
 #include <algorithm>
 #include <cstring>
 #include <fstream>
 #include <sstream>
+
+#include <fmt/format.h>
+#include <png.h>
 
 namespace eyrie::test {
 
@@ -42,9 +42,9 @@ absl::StatusOr<DepthPicture> readPfm(const std::string& path) {
         static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
     const auto header = static_cast<std::size_t>(file.tellg());
     if (text->size() - header != pixels * sizeof(float))
-        return absl::InvalidArgumentError(
-            fmt::format("{}: {} bytes of pixels, expected {}", path, text->size() - header,
-                        pixels * sizeof(float)));
+        return absl::InvalidArgumentError(fmt::format("{}: {} bytes of pixels, expected {}", path,
+                                                      text->size() - header,
+                                                      pixels * sizeof(float)));
     picture.metres.resize(pixels);
     std::memcpy(picture.metres.data(), text->data() + header, pixels * sizeof(float));
     return picture;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "fabric/image.h"
+#include <string>
+#include <vector>
 
 #include <absl/status/statusor.h>
 
-#include <string>
-#include <vector>
+#include "fabric/image.h"
 
 /// Readers of what `eyrie render` writes, independent of its writers.
 namespace eyrie::test {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "tests/support/process.h"
-
-#include <gtest/gtest.h>
-
 #include <filesystem>
 #include <set>
 #include <string>
 #include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/process.h"
 
 /// The program under test, as its users run it. EYRIE_BINARY comes from eyrie_test().
 namespace eyrie::test {
@@ -32,8 +32,8 @@ inline testing::AssertionResult succeeded(const std::vector<std::string>& argume
         return testing::AssertionSuccess();
     std::string line = "eyrie";
     for (const std::string& argument : arguments) line += " " + argument;
-    return testing::AssertionFailure()
-           << line << ": " << outcome.exit << "\n" << outcome.output << outcome.errors;
+    return testing::AssertionFailure() << line << ": " << outcome.exit << "\n"
+                                       << outcome.output << outcome.errors;
 }
 
 /// Names of the entries of a folder.

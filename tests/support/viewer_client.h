@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "eyrie/v1/viewer.pb.h"
-
-#include <absl/status/statusor.h>
-
 #include <chrono>
 #include <cstdint>
 #include <memory>
 #include <string>
+
+#include <absl/status/statusor.h>
+
+#include "eyrie/v1/viewer.pb.h"
 
 namespace eyrie::test {
 
@@ -25,7 +25,8 @@ public:
 
     absl::Status send(const v1::ViewerRequest& request);
 
-    /// The next message. Errors: DeadlineExceeded (the next call may have it), Unavailable (closed).
+    /// The next message. Errors: DeadlineExceeded (the next call may have it), Unavailable
+    /// (closed).
     absl::StatusOr<v1::ViewerResponse> receive(Milliseconds limit);
 
     /// Asks for a view and answers with the next frame that shows it, acknowledging every frame and

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fabric/camera.h"
 
+#include <cmath>
+#include <limits>
+#include <string>
+
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <gmock/gmock.h>
 #include <rapidcheck/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <string>
 
 namespace eyrie::fabric {
 namespace {
@@ -23,7 +23,8 @@ TEST(Camera, ARefusalNamesTheField) {
     EXPECT_THAT(refusal({{nan, 0, 0}, {0, 1, 0}, {0, 0, 1}, 45}), testing::HasSubstr("camera.eye"));
     EXPECT_THAT(refusal({{0, 0, 0}, {0, infinity, 0}, {0, 0, 1}, 45}),
                 testing::HasSubstr("camera.target"));
-    EXPECT_THAT(refusal({{0, 0, 0}, {0, 0, 0}, {0, 0, 1}, 45}), testing::HasSubstr("camera.target"));
+    EXPECT_THAT(refusal({{0, 0, 0}, {0, 0, 0}, {0, 0, 1}, 45}),
+                testing::HasSubstr("camera.target"));
     EXPECT_THAT(refusal({{0, 0, 0}, {0, 1, 0}, {0, 0, 0}, 45}), testing::HasSubstr("camera.up"));
     EXPECT_THAT(refusal({{0, 0, 0}, {0, 0, -3}, {0, 0, 1}, 45}), testing::HasSubstr("camera.up"));
     for (const double fovY : {0.0, -45.0, 171.0, nan})

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fabric/depth_merge.h"
 
-#include "sample_images.h"
+#include <cmath>
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include <cmath>
+#include "sample_images.h"
 
 namespace eyrie::fabric {
 namespace {

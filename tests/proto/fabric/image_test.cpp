@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fabric/image.h"
 
-#include "sample_images.h"
-
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
+
+#include "sample_images.h"
 
 namespace eyrie::fabric {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "fabric/image.h"
-
 #include <cstdint>
 #include <random>
+
+#include "fabric/image.h"
 
 namespace eyrie::fabric {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fabric/scene.h"
 
-#include <gmock/gmock.h>
-
 #include <limits>
 #include <string>
+
+#include <gmock/gmock.h>
 
 namespace eyrie::fabric {
 namespace {

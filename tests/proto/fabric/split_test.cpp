@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "fabric/range.h"
-#include "fabric/viewport.h"
+#include <algorithm>
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include <algorithm>
+#include "fabric/range.h"
+#include "fabric/viewport.h"
 
 namespace eyrie::fabric {
 namespace {
@@ -19,8 +19,7 @@ RC_GTEST_PROP(PixelViewportSplit, CoversEveryPixelOnce, ()) {
             RC_ASSERT(std::count_if(parts.begin(), parts.end(), [&](const PixelViewport& part) {
                           return part.contains({x, y, 1, 1});
                       }) == 1);
-    for (const PixelViewport& part : parts)
-        RC_ASSERT(whole.contains(part) && !part.isEmpty());
+    for (const PixelViewport& part : parts) RC_ASSERT(whole.contains(part) && !part.isEmpty());
 }
 
 RC_GTEST_PROP(PixelViewportSplit, PartsDifferByOnePixelAtMost, ()) {

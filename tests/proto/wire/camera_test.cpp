@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "wire/camera.h"
 
-#include "eyrie/v1/camera.pb.h"
+#include <limits>
 
 #include <gmock/gmock.h>
 #include <rapidcheck/gtest.h>
 
-#include <limits>
+#include "eyrie/v1/camera.pb.h"
 
 namespace eyrie::wire {
 namespace {

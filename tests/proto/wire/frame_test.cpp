@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "wire/frame.h"
 
-#include "eyrie/v1/frame.pb.h"
+#include <limits>
 
 #include <gmock/gmock.h>
 #include <rapidcheck/gtest.h>
 
-#include <limits>
+#include "eyrie/v1/frame.pb.h"
 
 namespace eyrie::wire {
 namespace {

@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "wire/json.h"
 
-#include "eyrie/v1/scene.pb.h"
-#include "wire/scene.h"
+#include <limits>
 
 #include <gmock/gmock.h>
 #include <google/protobuf/struct.pb.h>
 #include <google/protobuf/util/json_util.h>
 
-#include <limits>
+#include "eyrie/v1/scene.pb.h"
+#include "wire/scene.h"
 
 namespace eyrie::wire {
 namespace {
 
 TEST(CameraJson, TheShortFormOfTheDesignIsRead) {
     const fabric::Camera camera =
-        cameraFromJson(R"({"eye":[1,2,3],"target":[4,5,6],"up":[0,1,0],"fovyDegrees":30})", "c.json")
+        cameraFromJson(R"({"eye":[1,2,3],"target":[4,5,6],"up":[0,1,0],"fovyDegrees":30})",
+                       "c.json")
             .value();
     EXPECT_EQ(camera, (fabric::Camera{{1, 2, 3}, {4, 5, 6}, {0, 1, 0}, 30}));
 }
@@ -25,8 +26,8 @@ TEST(CameraJson, ARefusalNamesFileAndField) {
         return std::string(cameraFromJson(text, "c.json").status().message());
     };
     EXPECT_THAT(refusal(R"({"eye":[1,2,3]})"), testing::HasSubstr("c.json: camera.target"));
-    EXPECT_THAT(refusal(R"({"eyes":[1,2,3]})"), testing::AllOf(testing::HasSubstr("c.json"),
-                                                               testing::HasSubstr("eyes")));
+    EXPECT_THAT(refusal(R"({"eyes":[1,2,3]})"),
+                testing::AllOf(testing::HasSubstr("c.json"), testing::HasSubstr("eyes")));
     EXPECT_THAT(refusal("{"), testing::HasSubstr("c.json: this is no camera file"));
     EXPECT_THAT(refusal(""), testing::HasSubstr("c.json: this is no camera file"));
 }
@@ -45,7 +46,8 @@ TEST(SceneJson, DeepNestingIsAnErrorAndNoCrash) {
 
 TEST(SceneJson, WhatIsWrittenIsRead) {
     fabric::Scene scene;
-    scene.objects.push_back({"peak", fabric::ObjectKind::Terrain, "peak.eyt", fabric::Mat4(2.0), {}});
+    scene.objects.push_back(
+        {"peak", fabric::ObjectKind::Terrain, "peak.eyt", fabric::Mat4(2.0), {}});
     scene.objects[0].worldFromObject[3][3] = 1;
     const v1::Scene message = sceneMessageFromJson(toJson(toMessage(scene)), "s.json").value();
     EXPECT_EQ(fromMessage(message).value(), scene);
@@ -65,8 +67,8 @@ TEST(StatisticsJson, HasTheDesignsFieldsAsPlainNumbers) {
     statistics.tauAchievedPixels = 0.75;
     statistics.triangles = 1'234'567'890'123;
     statistics.milliseconds = {0.5, 20, 1, 0, 21.5};
-    const auto json = parsed(statisticsJson(statistics, 1280, 720,
-                                            {"Mesa \"x\"", "llvmpipe", "4.5", "surfaceless", true}));
+    const auto json = parsed(statisticsJson(
+        statistics, 1280, 720, {"Mesa \"x\"", "llvmpipe", "4.5", "surfaceless", true}));
     const auto number = [&](const char* name) { return json.fields().at(name).number_value(); };
     EXPECT_EQ(number("width"), 1280);
     EXPECT_EQ(number("height"), 720);

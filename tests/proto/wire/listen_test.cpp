@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "wire/listen.h"
 
-#include "eyrie/v1/coordinator_service.grpc.pb.h"
+#include <string>
 
 #include <gmock/gmock.h>
 #include <grpcpp/server.h>
 
-#include <string>
+#include "eyrie/v1/coordinator_service.grpc.pb.h"
 
 namespace eyrie::wire {
 namespace {

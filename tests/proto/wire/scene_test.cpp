@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "wire/scene.h"
 
-#include "eyrie/v1/render_service.pb.h"
-#include "eyrie/v1/scene.pb.h"
-#include "wire/json.h"
-#include "wire/scene_info.h"
+#include <limits>
 
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 #include <rapidcheck/gtest.h>
 
-#include <limits>
+#include "eyrie/v1/render_service.pb.h"
+#include "eyrie/v1/scene.pb.h"
+#include "wire/json.h"
+#include "wire/scene_info.h"
 
 namespace eyrie::wire {
 namespace {
@@ -35,8 +35,7 @@ fabric::Scene anyScene() {
         object.kind = *rc::gen::element(fabric::ObjectKind::Terrain, fabric::ObjectKind::Mesh);
         object.worldFromObject = fabric::Mat4(1.0);
         for (int column = 0; column < 4; ++column)
-            for (int row = 0; row < 3; ++row)
-                object.worldFromObject[column][row] = number();
+            for (int row = 0; row < 3; ++row) object.worldFromObject[column][row] = number();
         object.colour = {fraction(), fraction(), fraction()};
         scene.objects.push_back(object);
     }
@@ -77,7 +76,8 @@ TEST(WireScene, AMatrixIsWrittenRowByRow) {
 }
 
 TEST(WireScene, WhatIsAbsentTakesItsDefault) {
-    const fabric::Scene scene = sceneFrom(R"({"objects":[{"terrain":"/data/rainier.eyt"}]})").value();
+    const fabric::Scene scene =
+        sceneFrom(R"({"objects":[{"terrain":"/data/rainier.eyt"}]})").value();
     EXPECT_EQ(scene.objects[0].name, "rainier.eyt");
     EXPECT_EQ(scene.objects[0].kind, fabric::ObjectKind::Terrain);
     EXPECT_EQ(scene.objects[0].worldFromObject, fabric::Mat4(1.0));
@@ -85,9 +85,7 @@ TEST(WireScene, WhatIsAbsentTakesItsDefault) {
     EXPECT_EQ(scene.background, fabric::Scene{}.background);
 }
 
-TEST(WireScene, AmbientMayBeZero) {
-    EXPECT_EQ(sceneFrom(R"({"ambient":0})").value().ambient, 0);
-}
+TEST(WireScene, AmbientMayBeZero) { EXPECT_EQ(sceneFrom(R"({"ambient":0})").value().ambient, 0); }
 
 TEST(WireScene, ColoursAreSrgb) {
     const fabric::Scene scene =

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "wire/statistics.h"
 
-#include "eyrie/v1/statistics.pb.h"
+#include <limits>
+#include <string>
 
 #include <gmock/gmock.h>
 
-#include <limits>
-#include <string>
+#include "eyrie/v1/statistics.pb.h"
 
 namespace eyrie::wire {
 namespace {

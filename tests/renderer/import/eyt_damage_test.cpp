@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "renderer/terrain/eyt_format.h"
-#include "tests/renderer/import/terrain_fixture.h"
-#include "tests/renderer/terrain/hard_grids.h"
-
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cstring>
 #include <fstream>
 #include <numeric>
+
+#include <gtest/gtest.h>
+
+#include "renderer/terrain/eyt_format.h"
+#include "tests/renderer/import/terrain_fixture.h"
+#include "tests/renderer/terrain/hard_grids.h"
 
 namespace eyrie {
 namespace {
@@ -21,7 +21,8 @@ std::vector<char> bytesOf(const std::string& path) {
 }
 
 void writeBytes(const std::string& path, const std::vector<char>& bytes) {
-    std::ofstream(path, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    std::ofstream(path, std::ios::binary)
+        .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
 }
 
 /// Uses all that a page offers, as a renderer would.
@@ -32,8 +33,7 @@ std::uint64_t touched(const terrain::Page& page) {
         for (const terrain::IndexRange& part : tile.parts)
             for (std::uint32_t k = part.first; k < part.first + part.count; ++k)
                 sum += tile.words[tile.indices[k] * static_cast<std::size_t>(tile.wordsPerVertex)];
-        for (const std::int8_t normal : tile.normals)
-            sum += static_cast<std::uint8_t>(normal);
+        for (const std::int8_t normal : tile.normals) sum += static_cast<std::uint8_t>(normal);
     }
     return sum;
 }
@@ -88,7 +88,8 @@ TEST_F(EytDamage, IsNoticedWhereverTheFileEnds) {
     for (int round = 0; round < 100; ++round) {
         std::vector<char> damaged = bytes_;
         damaged.resize(round < 10 ? static_cast<std::size_t>(round * 25)
-                                  : static_cast<std::size_t>(random.integer(0, static_cast<std::int32_t>(bytes_.size()) - 1)));
+                                  : static_cast<std::size_t>(random.integer(
+                                        0, static_cast<std::int32_t>(bytes_.size()) - 1)));
         writeBytes(path_, damaged);
         EXPECT_FALSE(isReadable(path_)) << damaged.size() << " bytes";
     }
@@ -132,8 +133,10 @@ TEST_F(EytDamage, OfTheMagicOrVersionIsCalledWhatItIs) {
     const absl::Status newer = terrain::EytFile::open(path_).status();
     EXPECT_EQ(newer.code(), absl::StatusCode::kInvalidArgument);
     EXPECT_NE(newer.ToString().find("version is 9"), std::string::npos) << newer;
-    EXPECT_EQ(terrain::EytFile::open(folder_.path("none.eyt")).status().code(), absl::StatusCode::kNotFound);
-    EXPECT_EQ(terrain::EytFile::open(folder_.path("")).status().code(), absl::StatusCode::kInvalidArgument);
+    EXPECT_EQ(terrain::EytFile::open(folder_.path("none.eyt")).status().code(),
+              absl::StatusCode::kNotFound);
+    EXPECT_EQ(terrain::EytFile::open(folder_.path("")).status().code(),
+              absl::StatusCode::kInvalidArgument);
 }
 
 }  // namespace

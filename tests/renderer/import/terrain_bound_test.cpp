@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // The promise of every tile, checked on what was written: no point of any form of it is farther
 // from the source, however that is read between its posts, than the error in the index.
-#include "tests/renderer/import/terrain_fixture.h"
-#include "tests/renderer/terrain/hard_grids.h"
-#include "tests/renderer/terrain/reference_surface.h"
-
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <tuple>
+
+#include <gtest/gtest.h>
+
+#include "tests/renderer/import/terrain_fixture.h"
+#include "tests/renderer/terrain/hard_grids.h"
+#include "tests/renderer/terrain/reference_surface.h"
 
 namespace eyrie {
 namespace {
@@ -28,8 +28,7 @@ template <typename Visit>
 void forEachTile(const terrain::Quadtree& quadtree, Visit visit) {
     for (int level = 0; level < quadtree.levels(); ++level)
         for (std::int32_t y = 0; y < quadtree.tilesY(level); ++y)
-            for (std::int32_t x = 0; x < quadtree.tilesX(level); ++x)
-                visit(TileId{level, x, y});
+            for (std::int32_t x = 0; x < quadtree.tilesX(level); ++x) visit(TileId{level, x, y});
 }
 
 /// Posts that lie on the drawn surface, were its corners not quantised, to within 1/2048 of a post.
@@ -142,8 +141,10 @@ TEST_P(TerrainBound, BoundsHoldTheDrawnAndTheSourceSurface) {
             for (const terrain::Corner& corner : test::inMetres(*file_, triangle))
                 expectInside(corner.i, corner.j, corner.z);
         const std::int32_t side = terrain::Quadtree::side(id.level);
-        for (std::int32_t j = id.y * side; j <= std::min(id.y * side + side, grid_.rows - 1); j += 3)
-            for (std::int32_t i = id.x * side; i <= std::min(id.x * side + side, grid_.columns - 1); i += 3)
+        for (std::int32_t j = id.y * side; j <= std::min(id.y * side + side, grid_.rows - 1);
+             j += 3)
+            for (std::int32_t i = id.x * side; i <= std::min(id.x * side + side, grid_.columns - 1);
+                 i += 3)
                 expectInside(i, j, grid_.at(i, j));
     });
 }
@@ -152,21 +153,32 @@ std::vector<Case> cases() {
     std::vector<Case> all;
     for (int kind = 0; kind < test::kGridKinds; ++kind)
         all.push_back({static_cast<GridKind>(kind), 150, 71});
-    for (const auto& [columns, rows] : {std::pair{2, 2}, {3, 3}, {2, 5}, {33, 33}, {34, 32}, {128, 128},
-                                        {129, 129}, {130, 130}, {200, 33}, {257, 40}})
+    for (const auto& [columns, rows] : {std::pair{2, 2},
+                                        {3, 3},
+                                        {2, 5},
+                                        {33, 33},
+                                        {34, 32},
+                                        {128, 128},
+                                        {129, 129},
+                                        {130, 130},
+                                        {200, 33},
+                                        {257, 40}})
         all.push_back({GridKind::Noise, columns, rows});
     all.push_back({GridKind::Smooth, 300, 280});
     return all;
 }
 
-INSTANTIATE_TEST_SUITE_P(HardGrids, TerrainBound, testing::ValuesIn(cases()), [](const auto& tested) {
-    return test::name(tested.param.kind) + "_" + std::to_string(tested.param.columns) + "x" +
-           std::to_string(tested.param.rows);
-});
+INSTANTIATE_TEST_SUITE_P(HardGrids, TerrainBound, testing::ValuesIn(cases()),
+                         [](const auto& tested) {
+                             return test::name(tested.param.kind) + "_" +
+                                    std::to_string(tested.param.columns) + "x" +
+                                    std::to_string(tested.param.rows);
+                         });
 
 /// A grid of one tile per level has no borders to adapt: what is left is the level's own threshold.
 TEST(TerrainThreshold, IsKeptByLevelsThatMayUseEveryPost) {
-    for (const GridKind kind : {GridKind::Noise, GridKind::Smooth, GridKind::Cliff, GridKind::Checkerboard}) {
+    for (const GridKind kind :
+         {GridKind::Noise, GridKind::Smooth, GridKind::Cliff, GridKind::Checkerboard}) {
         for (const int posts : {33, 65, 129}) {
             const test::TemporaryFolder folder;
             const HeightGrid grid = test::hardGrid(kind, posts, posts, 3);
@@ -176,8 +188,9 @@ TEST(TerrainThreshold, IsKeptByLevelsThatMayUseEveryPost) {
             ASSERT_LE(top.level, 2);
             const double step = file->index().heightStepMetres();
             const double allowed =
-                top.level == 0 ? step * 0.75
-                               : import::kErrorPerSpacing * 10 * std::exp2(top.level - 2) + step / 2;
+                top.level == 0
+                    ? step * 0.75
+                    : import::kErrorPerSpacing * 10 * std::exp2(top.level - 2) + step / 2;
             EXPECT_LE(file->index().tile(top).errorMetres, allowed + 1e-6) << name(kind) << posts;
         }
     }

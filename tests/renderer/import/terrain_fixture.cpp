@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/renderer/import/terrain_fixture.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cstdlib>
+
+#include <gtest/gtest.h>
 
 namespace eyrie::test {
 
@@ -39,14 +39,17 @@ std::shared_ptr<const terrain::EytFile> imported(const terrain::HeightGrid& grid
     return file.ok() ? *file : nullptr;
 }
 
-std::vector<DrawnTriangle> drawnPart(const terrain::EytFile& file, const terrain::TileGeometry& tile,
-                                     const terrain::TileId& id, int part) {
+std::vector<DrawnTriangle> drawnPart(const terrain::EytFile& file,
+                                     const terrain::TileGeometry& tile, const terrain::TileId& id,
+                                     int part) {
     const terrain::Quadtree& quadtree = file.index().quadtree;
     const auto corner = [&](std::uint16_t vertex) {
-        const std::uint32_t* word = &tile.words[vertex * static_cast<std::size_t>(tile.wordsPerVertex)];
+        const std::uint32_t* word =
+            &tile.words[vertex * static_cast<std::size_t>(tile.wordsPerVertex)];
         const std::uint32_t second = tile.wordsPerVertex == 2 ? word[1] : 0;
         const auto post = [&](std::int32_t first, std::uint32_t half, std::int32_t posts) {
-            const auto offset = static_cast<std::int32_t>(half << terrain::Quadtree::spacingShift(id.level)) / 2;
+            const auto offset =
+                static_cast<std::int32_t>(half << terrain::Quadtree::spacingShift(id.level)) / 2;
             return std::min(first * terrain::Quadtree::side(id.level) + offset, posts - 1);
         };
         return DrawnCorner{post(id.x, word[0] & 1023, quadtree.columns()),
@@ -57,8 +60,8 @@ std::vector<DrawnTriangle> drawnPart(const terrain::EytFile& file, const terrain
     std::vector<DrawnTriangle> triangles;
     const terrain::IndexRange range = tile.parts[static_cast<std::size_t>(part)];
     for (std::uint32_t k = range.first; k < range.first + range.count; k += 3)
-        triangles.push_back({corner(tile.indices[k]), corner(tile.indices[k + 1]),
-                             corner(tile.indices[k + 2])});
+        triangles.push_back(
+            {corner(tile.indices[k]), corner(tile.indices[k + 1]), corner(tile.indices[k + 2])});
     return triangles;
 }
 
@@ -81,9 +84,9 @@ std::vector<DrawnTriangle> drawnTile(const terrain::EytFile& file, const terrain
 terrain::Triangle inMetres(const terrain::EytFile& file, const DrawnTriangle& triangle) {
     terrain::Triangle result;
     for (std::size_t k = 0; k < 3; ++k)
-        result[k] = {triangle[k].i, triangle[k].j,
-                     file.index().heightOriginMetres() +
-                         file.index().heightStepMetres() * triangle[k].q};
+        result[k] = {
+            triangle[k].i, triangle[k].j,
+            file.index().heightOriginMetres() + file.index().heightStepMetres() * triangle[k].q};
     return result;
 }
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "renderer/import/terrain_import.h"
-#include "renderer/terrain/deviation.h"
-#include "renderer/terrain/eyt_format.h"
-
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
+
+#include "renderer/import/terrain_import.h"
+#include "renderer/terrain/deviation.h"
+#include "renderer/terrain/eyt_format.h"
 
 namespace eyrie::test {
 
@@ -43,8 +43,9 @@ struct DrawnCorner {
 using DrawnTriangle = std::array<DrawnCorner, 3>;
 
 /// The triangles of one part of a tile, decoded as TileGeometry says.
-std::vector<DrawnTriangle> drawnPart(const terrain::EytFile& file, const terrain::TileGeometry& tile,
-                                     const terrain::TileId& id, int part);
+std::vector<DrawnTriangle> drawnPart(const terrain::EytFile& file,
+                                     const terrain::TileGeometry& tile, const terrain::TileId& id,
+                                     int part);
 
 /// The triangles of a tile whose neighbours beyond `finerEdges` are one level finer.
 std::vector<DrawnTriangle> drawnTile(const terrain::EytFile& file, const terrain::TileId& id,

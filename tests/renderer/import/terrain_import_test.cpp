@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/import/terrain_import.h"
 
+#include <fstream>
+#include <map>
+
+#include <gtest/gtest.h>
+
 #include "renderer/import/dem_source.h"
 #include "renderer/import/terrain_synth.h"
 #include "tests/renderer/import/terrain_fixture.h"
 #include "tests/renderer/terrain/hard_grids.h"
-
-#include <gtest/gtest.h>
-
-#include <fstream>
-#include <map>
 
 namespace eyrie::import {
 namespace {
@@ -26,8 +26,7 @@ TEST(TerrainSynth, IsTheSameForASeedWhateverTheSize) {
     const terrain::HeightGrid small = synthesizeTerrain(70, 5);
     const terrain::HeightGrid large = synthesizeTerrain(300, 5);
     for (std::int32_t j = 0; j < small.rows; ++j)
-        for (std::int32_t i = 0; i < small.columns; ++i)
-            ASSERT_EQ(small.at(i, j), large.at(i, j));
+        for (std::int32_t i = 0; i < small.columns; ++i) ASSERT_EQ(small.at(i, j), large.at(i, j));
     EXPECT_NE(synthesizeTerrain(70, 6).heights, small.heights);
 }
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "renderer/import/terrain_import.h"
-#include "tests/renderer/import/terrain_fixture.h"
-#include "tests/renderer/terrain/hard_grids.h"
+#include <algorithm>
+#include <set>
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <set>
+#include "renderer/import/terrain_import.h"
+#include "tests/renderer/import/terrain_fixture.h"
+#include "tests/renderer/terrain/hard_grids.h"
 
 namespace eyrie {
 namespace {
@@ -20,16 +20,14 @@ using Hole = std::vector<std::pair<std::int32_t, std::int32_t>>;
 
 HeightGrid gridWithHole(const Hole& hole) {
     HeightGrid grid = test::hardGrid(GridKind::Noise, 300, 140, 4);
-    for (const auto& [i, j] : hole)
-        grid.row(j)[i] = terrain::kNodata;
+    for (const auto& [i, j] : hole) grid.row(j)[i] = terrain::kNodata;
     return grid;
 }
 
 Hole rectangle(std::int32_t i0, std::int32_t j0, std::int32_t i1, std::int32_t j1) {
     Hole hole;
     for (std::int32_t j = j0; j <= j1; ++j)
-        for (std::int32_t i = i0; i <= i1; ++i)
-            hole.emplace_back(i, j);
+        for (std::int32_t i = i0; i <= i1; ++i) hole.emplace_back(i, j);
     return hole;
 }
 
@@ -96,16 +94,16 @@ TEST_P(TerrainNodata, CountsAsErrorOfTheLevelsThatBlurIt) {
     EXPECT_GE(file->index().tile(coarse).errorMetres, 20 * std::sqrt(2) - 1e-3);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Holes, TerrainNodata,
-    testing::Values(std::pair{"single", Hole{{77, 45}}}, std::pair{"tileCorner", Hole{{128, 128}}},
-                    std::pair{"tileCentre", Hole{{64, 64}}},
-                    std::pair{"gridCorner", Hole{{299, 139}}},
-                    std::pair{"rowOnABorder", rectangle(0, 128, 299, 128)},
-                    std::pair{"columnOnABorder", rectangle(128, 0, 128, 139)},
-                    std::pair{"tiles", rectangle(30, 20, 180, 100)},
-                    std::pair{"lastColumn", rectangle(299, 0, 299, 139)}),
-    [](const auto& tested) { return std::string(tested.param.first); });
+INSTANTIATE_TEST_SUITE_P(Holes, TerrainNodata,
+                         testing::Values(std::pair{"single", Hole{{77, 45}}},
+                                         std::pair{"tileCorner", Hole{{128, 128}}},
+                                         std::pair{"tileCentre", Hole{{64, 64}}},
+                                         std::pair{"gridCorner", Hole{{299, 139}}},
+                                         std::pair{"rowOnABorder", rectangle(0, 128, 299, 128)},
+                                         std::pair{"columnOnABorder", rectangle(128, 0, 128, 139)},
+                                         std::pair{"tiles", rectangle(30, 20, 180, 100)},
+                                         std::pair{"lastColumn", rectangle(299, 0, 299, 139)}),
+                         [](const auto& tested) { return std::string(tested.param.first); });
 
 TEST(TerrainNodata, LeavesTilesOutThatHoldNothingElse) {
     const test::TemporaryFolder folder;
@@ -119,12 +117,14 @@ TEST(TerrainNodata, LeavesTilesOutThatHoldNothingElse) {
 TEST(TerrainNodata, IsRefusedWhenThereIsNothingElse) {
     const test::TemporaryFolder folder;
     const Hole all = rectangle(0, 0, 299, 139);
-    const auto nothing = import::importTerrain(gridWithHole(all), {"empty.tif", "", 0}, folder.path("a.eyt"), {});
+    const auto nothing =
+        import::importTerrain(gridWithHole(all), {"empty.tif", "", 0}, folder.path("a.eyt"), {});
     EXPECT_EQ(nothing.status().code(), absl::StatusCode::kInvalidArgument);
 
     HeightGrid lonely = gridWithHole(all);
     lonely.row(60)[60] = 5;
-    const auto lone = import::importTerrain(lonely, {"lonely.tif", "", 0}, folder.path("a.eyt"), {});
+    const auto lone =
+        import::importTerrain(lonely, {"lonely.tif", "", 0}, folder.path("a.eyt"), {});
     EXPECT_EQ(lone.status().code(), absl::StatusCode::kInvalidArgument);
     EXPECT_TRUE(folder.files().empty());
 }

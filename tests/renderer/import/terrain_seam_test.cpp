@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cracks and T-junctions, looked for as what they are: edges of drawn triangles that do not have
 // exactly one triangle on either side, each corner being the same three integers on both.
-#include "renderer/terrain/terrain_cut.h"
-#include "tests/renderer/import/terrain_fixture.h"
-#include "tests/renderer/terrain/hard_grids.h"
-
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <map>
 #include <utility>
+
+#include <gtest/gtest.h>
+
+#include "renderer/terrain/terrain_cut.h"
+#include "tests/renderer/import/terrain_fixture.h"
+#include "tests/renderer/terrain/hard_grids.h"
 
 namespace eyrie {
 namespace {
@@ -25,8 +25,7 @@ using Edge = std::pair<DrawnCorner, DrawnCorner>;
 std::vector<std::pair<Edge, int>> edgeUse(const std::vector<DrawnTriangle>& triangles) {
     std::vector<Edge> edges;
     for (const DrawnTriangle& t : triangles)
-        for (std::size_t k = 0; k < 3; ++k)
-            edges.push_back(std::minmax(t[k], t[(k + 1) % 3]));
+        for (std::size_t k = 0; k < 3; ++k) edges.push_back(std::minmax(t[k], t[(k + 1) % 3]));
     std::sort(edges.begin(), edges.end());
     std::vector<std::pair<Edge, int>> use;
     for (const Edge& edge : edges) {
@@ -92,7 +91,8 @@ TEST_P(TerrainSeams, HaveOneTriangleOnEitherSideInEveryCut) {
             ASSERT_GT(test::doubleArea(triangle), 0) << "clockwise or flat, round " << round;
             area += test::doubleArea(triangle);
         }
-        EXPECT_EQ(area, std::int64_t{2} * (grid.columns - 1) * (grid.rows - 1)) << "round " << round;
+        EXPECT_EQ(area, std::int64_t{2} * (grid.columns - 1) * (grid.rows - 1))
+            << "round " << round;
         for (const auto& [edge, uses] : edgeUse(triangles))
             ASSERT_EQ(uses, isOnOutline(edge, grid) ? 1 : 2)
                 << "round " << round << ", from (" << edge.first.i << ", " << edge.first.j << ", "
@@ -104,19 +104,16 @@ TEST_P(TerrainSeams, HaveOneTriangleOnEitherSideInEveryCut) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(HardGrids, TerrainSeams,
-                         testing::Values(Case{GridKind::Smooth, 513, 513},
-                                         Case{GridKind::Smooth, 600, 530},
-                                         Case{GridKind::Noise, 514, 300},
-                                         Case{GridKind::Spikes, 700, 401},
-                                         Case{GridKind::Terraces, 643, 515},
-                                         Case{GridKind::Cliff, 520, 259},
-                                         Case{GridKind::Noise, 2, 3}, Case{GridKind::Noise, 200, 33}),
-                         [](const auto& tested) {
-                             return test::name(tested.param.kind) + "_" +
-                                    std::to_string(tested.param.columns) + "x" +
-                                    std::to_string(tested.param.rows);
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    HardGrids, TerrainSeams,
+    testing::Values(Case{GridKind::Smooth, 513, 513}, Case{GridKind::Smooth, 600, 530},
+                    Case{GridKind::Noise, 514, 300}, Case{GridKind::Spikes, 700, 401},
+                    Case{GridKind::Terraces, 643, 515}, Case{GridKind::Cliff, 520, 259},
+                    Case{GridKind::Noise, 2, 3}, Case{GridKind::Noise, 200, 33}),
+    [](const auto& tested) {
+        return test::name(tested.param.kind) + "_" + std::to_string(tested.param.columns) + "x" +
+               std::to_string(tested.param.rows);
+    });
 
 /// Every pair of levels across every border, whether a view would choose it or not.
 TEST(TerrainSeams, MeetOneLevelApartAtEveryBorder) {
@@ -139,15 +136,20 @@ TEST(TerrainSeams, MeetOneLevelApartAtEveryBorder) {
             for (std::int32_t x = 0; x + 1 < quadtree.tilesX(level); ++x) {
                 const std::int32_t side = terrain::Quadtree::side(level);
                 const std::int32_t border = (x + 1) * side;
-                const auto coarse = chain(test::drawnTile(*file, {level, x, y}, 1 << terrain::kEdgeMaxX),
-                                          border, y * side, y * side + side);
+                const auto coarse =
+                    chain(test::drawnTile(*file, {level, x, y}, 1 << terrain::kEdgeMaxX), border,
+                          y * side, y * side + side);
                 std::map<Edge, int> fine;
                 for (std::int32_t half = 0; half < 2; ++half)
-                    if (const terrain::TileId id{level - 1, 2 * x + 2, 2 * y + half}; quadtree.contains(id))
-                        fine.merge(chain(test::drawnTile(*file, id, 0), border, y * side, y * side + side));
+                    if (const terrain::TileId id{level - 1, 2 * x + 2, 2 * y + half};
+                        quadtree.contains(id))
+                        fine.merge(chain(test::drawnTile(*file, id, 0), border, y * side,
+                                         y * side + side));
                 EXPECT_EQ(coarse, fine) << level << " " << x << " " << y;
-                const auto own = chain(test::drawnTile(*file, {level, x, y}, 0), border, y * side, y * side + side);
-                EXPECT_EQ(own, chain(test::drawnTile(*file, {level, x + 1, y}, 0), border, y * side, y * side + side));
+                const auto own = chain(test::drawnTile(*file, {level, x, y}, 0), border, y * side,
+                                       y * side + side);
+                EXPECT_EQ(own, chain(test::drawnTile(*file, {level, x + 1, y}, 0), border, y * side,
+                                     y * side + side));
             }
 }
 
@@ -169,7 +171,8 @@ TEST(TerrainNormals, AgreeWhereTilesMeet) {
         const auto right = normals({level, 1, 0});
         for (std::size_t row = 0; row < samples; ++row)
             for (std::size_t k = 0; k < 2; ++k)
-                EXPECT_EQ(left[2 * (row * samples + samples - 1) + k], right[2 * row * samples + k]);
+                EXPECT_EQ(left[2 * (row * samples + samples - 1) + k],
+                          right[2 * row * samples + k]);
     }
 }
 

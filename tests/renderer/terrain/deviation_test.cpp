@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/terrain/deviation.h"
 
+#include <gtest/gtest.h>
+
 #include "tests/renderer/terrain/hard_grids.h"
 #include "tests/renderer/terrain/reference_surface.h"
-
-#include <gtest/gtest.h>
 
 namespace eyrie::terrain {
 namespace {
@@ -26,14 +26,16 @@ double sampledDeviation(const HeightGrid& grid, const Triangle& triangle, int de
 double deviationAtPosts(const HeightGrid& grid, const Triangle& triangle) {
     double worst = 0;
     test::forEachSample(triangle, 1, [&](double x, double y, double drawn) {
-        worst = std::max(worst, std::abs(drawn - static_cast<double>(grid.at(static_cast<int>(x), static_cast<int>(y)))));
+        worst = std::max(worst, std::abs(drawn - static_cast<double>(grid.at(
+                                                     static_cast<int>(x), static_cast<int>(y)))));
     });
     return worst;
 }
 
 Triangle withHeights(const HeightGrid& grid, Triangle triangle, double offset, Random& random) {
     for (Corner& corner : triangle)
-        corner.z = static_cast<double>(grid.at(corner.i, corner.j)) + offset * (random.unit() - 0.5);
+        corner.z =
+            static_cast<double>(grid.at(corner.i, corner.j)) + offset * (random.unit() - 0.5);
     return triangle;
 }
 
@@ -146,7 +148,9 @@ TEST(Deviation, OfNothingButNodataIsZero) {
     HeightGrid grid = test::hardGrid(GridKind::Noise, 9, 9, 0);
     std::fill(grid.heights.begin(), grid.heights.end(), kNodata);
     const SourceSurface surface(grid, true);
-    EXPECT_EQ(surface.ofAligned({Corner{0, 0, kNodata}, Corner{8, 0, kNodata}, Corner{0, 8, kNodata}}), 0);
+    EXPECT_EQ(
+        surface.ofAligned({Corner{0, 0, kNodata}, Corner{8, 0, kNodata}, Corner{0, 8, kNodata}}),
+        0);
 }
 
 }  // namespace

@@ -28,7 +28,8 @@ std::string name(GridKind kind) {
 
 namespace {
 
-double heightAt(GridKind kind, std::int32_t i, std::int32_t j, std::int32_t columns, Random& random) {
+double heightAt(GridKind kind, std::int32_t i, std::int32_t j, std::int32_t columns,
+                Random& random) {
     switch (kind) {
         case GridKind::Noise:
             return 100 * random.unit();

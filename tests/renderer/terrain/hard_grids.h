@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "renderer/terrain/height_grid.h"
-
 #include <cstdint>
 #include <string>
 #include <vector>
+
+#include "renderer/terrain/height_grid.h"
 
 namespace eyrie::test {
 

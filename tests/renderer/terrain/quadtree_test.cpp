@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/terrain/quadtree.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <set>
 #include <utility>
+
+#include <gtest/gtest.h>
 
 namespace eyrie::terrain {
 namespace {
@@ -19,7 +19,8 @@ TEST(Quadtree, HasOneTileOnTopThatCoversTheGrid) {
         EXPECT_EQ(quadtree.tilesX(top) * quadtree.tilesY(top), 1);
         EXPECT_GE(Quadtree::side(top), static_cast<std::int32_t>(std::max(columns, rows)) - 1);
         if (top > 0) {
-            EXPECT_LT(Quadtree::side(top - 1), static_cast<std::int32_t>(std::max(columns, rows)) - 1);
+            EXPECT_LT(Quadtree::side(top - 1),
+                      static_cast<std::int32_t>(std::max(columns, rows)) - 1);
         }
     }
 }
@@ -66,8 +67,7 @@ TEST(Quadtree, FindsTheFirstTileOfEveryPage) {
 
 TEST(Quadtree, ParentsHoldTheirChildren) {
     const TileId tile{3, 5, 2};
-    for (int i = 0; i < 4; ++i)
-        EXPECT_EQ(Quadtree::parent(Quadtree::child(tile, i)), tile);
+    for (int i = 0; i < 4; ++i) EXPECT_EQ(Quadtree::parent(Quadtree::child(tile, i)), tile);
     EXPECT_EQ(Quadtree::neighbour(Quadtree::neighbour(tile, kEdgeMinX), kEdgeMaxX), tile);
     EXPECT_EQ(Quadtree::neighbour(Quadtree::neighbour(tile, kEdgeMinY), kEdgeMaxY), tile);
 }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "renderer/terrain/deviation.h"
-#include "renderer/terrain/height_grid.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "renderer/terrain/deviation.h"
+#include "renderer/terrain/height_grid.h"
 
 /// What terrain is held against in these tests: written from the definitions, sharing no code with
 /// what it checks.
@@ -21,11 +21,11 @@ inline std::array<double, 3> readings(const terrain::HeightGrid& grid, double x,
     const double v = y - j;
     const double a = grid.at(i, j), b = grid.at(i + 1, j);
     const double c = grid.at(i, j + 1), d = grid.at(i + 1, j + 1);
-    const double mainDiagonal = u >= v ? a + u * (b - a) + v * (d - b) : a + v * (c - a) + u * (d - c);
+    const double mainDiagonal =
+        u >= v ? a + u * (b - a) + v * (d - b) : a + v * (c - a) + u * (d - c);
     const double otherDiagonal =
         u + v <= 1 ? a + u * (b - a) + v * (c - a) : d + (1 - u) * (c - d) + (1 - v) * (b - d);
-    const double bilinear =
-        a * (1 - u) * (1 - v) + b * u * (1 - v) + c * (1 - u) * v + d * u * v;
+    const double bilinear = a * (1 - u) * (1 - v) + b * u * (1 - v) + c * (1 - u) * v + d * u * v;
     return {mainDiagonal, otherDiagonal, bilinear};
 }
 
@@ -43,7 +43,8 @@ inline bool isInside(const std::array<double, 3>& weights) {
     return std::min({weights[0], weights[1], weights[2]}) >= -1e-12;
 }
 
-/// Calls visit(x, y, drawn height) for all points of a triangle on a lattice of 1 / `density` posts.
+/// Calls visit(x, y, drawn height) for all points of a triangle on a lattice of 1 / `density`
+/// posts.
 template <typename Visit>
 void forEachSample(const terrain::Triangle& t, int density, Visit visit) {
     const auto [left, right] = std::minmax({t[0].i, t[1].i, t[2].i});

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/terrain/terrain_cut.h"
 
-#include "tests/renderer/terrain/hard_grids.h"
-
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <map>
 #include <optional>
 #include <utility>
+
+#include <gtest/gtest.h>
+
+#include "tests/renderer/terrain/hard_grids.h"
 
 namespace eyrie::terrain {
 namespace {
@@ -26,12 +26,14 @@ EytIndex randomIndex(std::uint32_t columns, std::uint32_t rows, Random& random) 
             for (std::int32_t x = 0; x < index.quadtree.tilesX(level); ++x) {
                 const TileId id{level, x, y};
                 TileRecord& tile = index.tiles[index.quadtree.tileIndex(id)];
-                tile.errorMetres = level == 0 ? 0 : static_cast<float>(random.unit() * (4 << level));
+                tile.errorMetres =
+                    level == 0 ? 0 : static_cast<float>(random.unit() * (4 << level));
                 tile.maxHeightMetres = 1000;
                 tile.triangles = 100;
                 for (int i = 0; i < 4 && level > 0; ++i)
                     if (const TileId child = Quadtree::child(id, i); index.quadtree.contains(child))
-                        tile.errorMetres = std::max(tile.errorMetres, index.tile(child).errorMetres);
+                        tile.errorMetres =
+                            std::max(tile.errorMetres, index.tile(child).errorMetres);
             }
     return index;
 }
@@ -137,9 +139,9 @@ TEST_P(TerrainCutLaws, IsTheSameEachTimeAndInDepthFirstOrder) {
             code |= (x >> bit & 1) << (2 * bit) | (y >> bit & 1) << (2 * bit + 1);
         return code;
     };
-    EXPECT_TRUE(std::is_sorted(cut_.tiles.begin(), cut_.tiles.end(), [&](const auto& a, const auto& b) {
-        return morton(a.id) < morton(b.id);
-    }));
+    EXPECT_TRUE(
+        std::is_sorted(cut_.tiles.begin(), cut_.tiles.end(),
+                       [&](const auto& a, const auto& b) { return morton(a.id) < morton(b.id); }));
 }
 
 INSTANTIATE_TEST_SUITE_P(RandomTerrains, TerrainCutLaws, testing::Range<std::uint64_t>(0, 60));

@@ -31,7 +31,8 @@ RC_GTEST_PROP(VertexPacking, UnpacksToWhatWasPacked, ()) {
 TEST(VertexPacking, NeedsTwoWordsWhereReliefExceeds4095Steps) {
     for (const std::int32_t base : {-11034, 0, 8849}) {
         for (const auto& [relief, words] : {std::pair{4095, 1}, {4097, 2}}) {
-            const std::vector<TileVertex> vertices = {{0, 0, base}, {2, 0, base + 1}, {0, 2, base + relief}};
+            const std::vector<TileVertex> vertices = {
+                {0, 0, base}, {2, 0, base + 1}, {0, 2, base + relief}};
             EXPECT_EQ(packVertices(vertices).wordsPerVertex, words) << relief;
             EXPECT_EQ(unpacked(packVertices(vertices)), vertices);
         }

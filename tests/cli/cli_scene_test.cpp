@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cli/data_cache.h"
+#include "cli/placement.h"
+#include "cli/scene_files.h"
+#include "renderer/import/dem_source.h"
+#include "renderer/import/mesh_synth.h"
+#include "renderer/import/ply_writer.h"
+#include "renderer/mesh/eym_format.h"
+#include "tests/support/temporary_folder.h"
+
+namespace eyrie::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kPosts = 200;
+
+/// A slope that rises to the east, 10 m a post, with its south-west post at (500000, 5200000).
+std::string writeSlope(const test::TemporaryFolder& folder) {
+    terrain::HeightGrid grid{.columns = kPosts,
+                             .rows = kPosts,
+                             .heights = {},
+                             .origin = {500000, 5200000},
+                             .perColumn = {30, 0},
+                             .perRow = {0, 30}};
+    for (int j = 0; j < kPosts; ++j)
+        for (int i = 0; i < kPosts; ++i) grid.heights.push_back(static_cast<float>(10 * i));
+    const std::string path = folder.path("slope.tif");
+    EXPECT_TRUE(import::writeGeoTiff(grid, path).ok());
+    return path;
+}
+
+std::string writeBall(const test::TemporaryFolder& folder, std::uint64_t seed = 1) {
+    const std::string path = folder.path("ball.ply");
+    EXPECT_TRUE(import::writePly(import::synthesizeMesh(2000, seed), path).ok());
+    return path;
+}
+
+class SceneFiles : public testing::Test {
+protected:
+    absl::StatusOr<fabric::Scene> assemble(const std::vector<std::string>& paths) {
+        return assembleScene(paths, cache_, notes_);
+    }
+    std::size_t importsKept() const {
+        const fs::path imports = folder_.path() / "imports";
+        return fs::exists(imports) ? static_cast<std::size_t>(std::distance(
+                                         fs::directory_iterator(imports), fs::directory_iterator()))
+                                   : 0;
+    }
+
+    test::TemporaryFolder folder_;
+    DataCache cache_{folder_.path() / "imports", ProgressBar::Style::Quiet, {}};
+    std::vector<std::string> notes_;
+};
+
+TEST(DataFileOf, TellsFilesByTheirEndingInAnyCase) {
+    EXPECT_EQ(dataFileOf("a/b.json"), DataFile::Scene);
+    EXPECT_EQ(dataFileOf("b.eyt"), DataFile::Terrain);
+    EXPECT_EQ(dataFileOf("b.eym"), DataFile::Mesh);
+    EXPECT_EQ(dataFileOf("B.PLY"), DataFile::MeshSource);
+    EXPECT_EQ(dataFileOf("b.tif.gz"), DataFile::TerrainSource);
+}
+
+TEST_F(SceneFiles, ASourceIsImportedOnceForTheSameContent) {
+    const std::string ball = writeBall(folder_);
+    const auto first = cache_.dataFor(ball, fabric::ObjectKind::Mesh);
+    ASSERT_TRUE(first.ok()) << first.status();
+    const auto made = fs::last_write_time(*first);
+    fs::copy_file(ball, folder_.path("copy.ply"));
+    const auto second = cache_.dataFor(folder_.path("copy.ply"), fabric::ObjectKind::Mesh);
+    ASSERT_TRUE(second.ok()) << second.status();
+    EXPECT_EQ(*second, *first);
+    EXPECT_EQ(fs::last_write_time(*second), made);
+}
+
+TEST_F(SceneFiles, ChangedContentIsImportedAnew) {
+    const auto first = cache_.dataFor(writeBall(folder_, 1), fabric::ObjectKind::Mesh);
+    const auto second = cache_.dataFor(writeBall(folder_, 2), fabric::ObjectKind::Mesh);
+    ASSERT_TRUE(first.ok() && second.ok());
+    EXPECT_NE(*first, *second);
+    EXPECT_EQ(importsKept(), 2U);
+}
+
+TEST_F(SceneFiles, ADamagedImportIsMadeAgain) {
+    const std::string ball = writeBall(folder_);
+    const auto data = cache_.dataFor(ball, fabric::ObjectKind::Mesh);
+    ASSERT_TRUE(data.ok());
+    fs::resize_file(*data, 100);
+    ASSERT_TRUE(cache_.dataFor(ball, fabric::ObjectKind::Mesh).ok());
+    EXPECT_TRUE(mesh::EymFile::open(*data).ok());
+}
+
+TEST_F(SceneFiles, ASourceThatCannotBeImportedLeavesNothingInTheCache) {
+    const std::string wrong = folder_.write("wrong.ply", "ply\nnonsense\n");
+    EXPECT_TRUE(absl::IsInvalidArgument(cache_.dataFor(wrong, fabric::ObjectKind::Mesh).status()));
+    EXPECT_EQ(importsKept(), 0U);
+}
+
+TEST_F(SceneFiles, PathsStartAtTheSceneFilesFolder) {
+    writeBall(folder_);
+    fs::create_directory(folder_.path("scenes"));
+    const std::string scene = folder_.write(
+        "scenes/a.json", R"({"objects":[{"mesh":"../ball.ply"}],"background":[1,0,0]})");
+    const auto read = readSceneFile(scene);
+    ASSERT_TRUE(read.ok()) << read.status();
+    EXPECT_EQ(read->objects.front().path, folder_.path("ball.ply"));
+    const auto assembled = assemble({scene});
+    ASSERT_TRUE(assembled.ok()) << assembled.status();
+    EXPECT_EQ(fs::path(assembled->objects.front().path).extension(), ".eym");
+    EXPECT_EQ(assembled->background, (fabric::Rgba{255, 0, 0, 255}));
+}
+
+TEST_F(SceneFiles, AMessageNamesTheSceneFile) {
+    const std::string scene = folder_.write("bad.json", R"({"objects":[{"name":"ghost"}]})");
+    EXPECT_THAT(std::string(readSceneFile(scene).status().message()),
+                testing::AllOf(testing::HasSubstr("bad.json"), testing::HasSubstr("ghost")));
+}
+
+TEST_F(SceneFiles, AMeshWithoutTheTerrainsCoordinatesStandsOnItsMiddleAndThatIsSaid) {
+    const auto scene = assemble({writeSlope(folder_), writeBall(folder_)});
+    ASSERT_TRUE(scene.ok()) << scene.status();
+    ASSERT_EQ(scene->objects.size(), 2U);
+    const auto mesh = mesh::EymFile::open(scene->objects[1].path);
+    ASSERT_TRUE(mesh.ok());
+    const fabric::Box placed =
+        fabric::transformed(mesh->bounds(), scene->objects[1].worldFromObject);
+    const double side = 30 * (kPosts - 1);
+    EXPECT_NEAR(placed.centre().x, 500000 + side / 2, 30);
+    EXPECT_NEAR(placed.centre().y, 5200000 + side / 2, 30);
+    EXPECT_NEAR(placed.min.z, 10 * (kPosts - 1) / 2.0, 10) << "the height of the slope there";
+    const fabric::Vec3 size = placed.size();
+    EXPECT_NEAR(std::max({size.x, size.y, size.z}), side / 4, 1);
+    ASSERT_EQ(notes_.size(), 1U);
+    EXPECT_THAT(notes_.front(), testing::HasSubstr("ball"));
+}
+
+TEST_F(SceneFiles, AMeshThatSharesTheTerrainsCoordinatesStaysWhereItIs) {
+    import::TriangleMesh mesh = import::synthesizeMesh(500, 1);
+    for (fabric::Vec3& position : mesh.positions) position += fabric::Vec3(501000, 5201000, 400);
+    ASSERT_TRUE(import::writePly(mesh, folder_.path("near.ply")).ok());
+    const auto scene = assemble({writeSlope(folder_), folder_.path("near.ply")});
+    ASSERT_TRUE(scene.ok()) << scene.status();
+    EXPECT_EQ(scene->objects[1].worldFromObject, fabric::Mat4(1.0));
+    EXPECT_TRUE(notes_.empty());
+}
+
+TEST_F(SceneFiles, AMeshAloneStaysWhereItIs) {
+    const auto scene = assemble({writeBall(folder_)});
+    ASSERT_TRUE(scene.ok()) << scene.status();
+    EXPECT_EQ(scene->objects.front().worldFromObject, fabric::Mat4(1.0));
+    EXPECT_EQ(scene->objects.front().name, "ball");
+}
+
+TEST_F(SceneFiles, WhatIsMissingIsNotFound) {
+    EXPECT_TRUE(absl::IsNotFound(readText(folder_.path("no.json")).status()));
+    EXPECT_TRUE(absl::IsNotFound(assemble({folder_.path("no.ply")}).status()));
+    EXPECT_TRUE(absl::IsNotFound(assemble({folder_.path("no.eyt")}).status()));
+    EXPECT_TRUE(absl::IsInvalidArgument(readText(folder_.path().string()).status()));
+}
+
+TEST(OverlapsInPlan, LooksAtTheGroundPlanAlone) {
+    const fabric::Box a{{0, 0, 0}, {1, 1, 1}};
+    EXPECT_TRUE(overlapsInPlan(a, {{0.5, 0.5, 90}, {2, 2, 99}}));
+    EXPECT_FALSE(overlapsInPlan(a, {{1.5, 0, 0}, {2, 1, 1}}));
+    EXPECT_FALSE(overlapsInPlan(a, {{0, -2, 0}, {1, -1, 1}}));
+}
+
+}  // namespace
+}  // namespace eyrie::cli

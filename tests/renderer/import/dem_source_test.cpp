@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/import/dem_source.h"
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "renderer/import/terrain_synth.h"
+#include "tests/renderer/import/terrain_fixture.h"
+
+namespace eyrie::import {
+namespace {
+
+using test::TemporaryFolder;
+using testing::HasSubstr;
+
+constexpr const char* kSharedData = EYRIE_SOURCE_DIR "/../shared/data/";
+
+class DemSource : public testing::Test {
+protected:
+    std::string written(const std::string& name, const std::string& text) const {
+        std::ofstream(folder_.path(name), std::ios::binary) << text;
+        return folder_.path(name);
+    }
+
+    /// An ESRI ASCII grid, 10 m posts, lower left corner at (1000, 2000).
+    std::string asciiGrid(int columns, int rows, const std::string& values) const {
+        return written("grid.asc",
+                       "ncols " + std::to_string(columns) + "\nnrows " + std::to_string(rows) +
+                           "\nxllcorner 1000\nyllcorner 2000\ncellsize 10\nNODATA_value -9999\n" +
+                           values + "\n");
+    }
+
+    /// A virtual raster over a 3 x 2 grid of 0 to 5, with `dataset` and `band` elements of one's
+    /// own.
+    std::string virtualRaster(const std::string& dataset, const std::string& band,
+                              const std::string& bandType = "Float32", int columns = 3,
+                              int rows = 2) const {
+        const std::string source = asciiGrid(3, 2, "0 1 2\n3 4 5");
+        return written("virtual.vrt",
+                       "<VRTDataset rasterXSize=\"" + std::to_string(columns) +
+                           "\" rasterYSize=\"" + std::to_string(rows) + "\">" + dataset +
+                           "<VRTRasterBand dataType=\"" + bandType + "\" band=\"1\">" + band +
+                           "<SimpleSource><SourceFilename relativeToVRT=\"0\">" + source +
+                           "</SourceFilename><SourceBand>1</SourceBand></SimpleSource>"
+                           "</VRTRasterBand></VRTDataset>");
+    }
+
+    void expectRefused(const std::string& path, absl::StatusCode code,
+                       const std::string& words) const {
+        testing::internal::CaptureStderr();
+        const auto dem = readDem(path, {});
+        EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+        EXPECT_EQ(dem.status().code(), code) << path << ": " << dem.status();
+        EXPECT_THAT(dem.status().ToString(), HasSubstr(words));
+        EXPECT_THAT(dem.status().ToString(), HasSubstr(path));
+    }
+
+    TemporaryFolder folder_;
+};
+
+TEST_F(DemSource, PutsTheSouthernRowFirstAndPostsOnPixelCentres) {
+    const auto dem = readDem(asciiGrid(3, 2, "0 1 2\n3 4 -9999"), {});
+    ASSERT_TRUE(dem.ok()) << dem.status();
+    EXPECT_EQ(dem->grid.columns, 3);
+    EXPECT_EQ(dem->grid.rows, 2);
+    EXPECT_EQ(dem->grid.at(0, 0), 3);
+    EXPECT_EQ(dem->grid.at(2, 1), 2);
+    EXPECT_TRUE(std::isnan(dem->grid.at(2, 0)));
+    EXPECT_EQ(dem->grid.origin, fabric::Vec2(1005, 2005));
+    EXPECT_EQ(dem->grid.perColumn, fabric::Vec2(10, 0));
+    EXPECT_EQ(dem->grid.perRow, fabric::Vec2(0, 10));
+    EXPECT_NE(dem->sourceHash, 0U);
+}
+
+TEST_F(DemSource, AppliesScaleOffsetAndFeet) {
+    const auto dem = readDem(
+        virtualRaster("", "<UnitType>ft</UnitType><Offset>100</Offset><Scale>2</Scale>"), {});
+    ASSERT_TRUE(dem.ok()) << dem.status();
+    EXPECT_FLOAT_EQ(dem->grid.at(0, 1), 30.48F);
+    EXPECT_FLOAT_EQ(dem->grid.at(2, 0), 110 * 0.3048F);
+    EXPECT_THAT(dem->notes, testing::Contains(HasSubstr("ft")));
+}
+
+TEST_F(DemSource, TurnsUnitsOfTheCrsToMetres) {
+    const auto dem =
+        readDem(virtualRaster(
+                    "<SRS>EPSG:2263</SRS><GeoTransform>1000,100,0,5000,0,-100</GeoTransform>", ""),
+                {});
+    ASSERT_TRUE(dem.ok()) << dem.status();
+    EXPECT_NEAR(dem->grid.perColumn.x, 100 * 1200.0 / 3937, 1e-9);
+    EXPECT_NEAR(dem->grid.origin.x, 1050 * 1200.0 / 3937, 1e-9);
+}
+
+TEST_F(DemSource, KeepsARotatedGridRightHanded) {
+    const auto dem = readDem(std::string(kSharedData) + "hard/dem/rio_rotated.tif", {});
+    ASSERT_TRUE(dem.ok()) << dem.status();
+    const terrain::HeightGrid& grid = dem->grid;
+    EXPECT_NEAR(glm::length(grid.perColumn), 20, 1e-9);
+    EXPECT_NEAR(glm::length(grid.perRow), 10, 1e-9);
+    EXPECT_GT(grid.perColumn.x * grid.perRow.y - grid.perColumn.y * grid.perRow.x, 0);
+    EXPECT_NE(grid.perColumn.y, 0);
+}
+
+TEST_F(DemSource, ReprojectsDegreesToTheUtmZoneOfTheirCentre) {
+    struct Case {
+        const char* transform;
+        const char* crs;
+    };
+    const Case cases[] = {{"9,0.001,0,47,0,-0.001", "UTM zone 32N"},
+                          {"-70,0.001,0,-33,0,-0.001", "UTM zone 19S"},
+                          {"359.5,0.001,0,10,0,-0.001", "UTM zone 30N"},
+                          {"20,0.001,0,86,0,-0.001", "UPS North"},
+                          {"20,0.001,0,-86,0,-0.001", "UPS South"}};
+    for (const Case& example : cases) {
+        const auto dem = readDem(
+            virtualRaster("<SRS dataAxisToSRSAxisMapping=\"2,1\">EPSG:4326</SRS><GeoTransform>" +
+                              std::string(example.transform) + "</GeoTransform>",
+                          ""),
+            {});
+        ASSERT_TRUE(dem.ok()) << dem.status();
+        EXPECT_THAT(dem->crsWkt, HasSubstr(example.crs)) << example.transform;
+        EXPECT_EQ(dem->grid.perColumn.x, dem->grid.perRow.y);
+        for (const float h : dem->grid.heights)
+            EXPECT_TRUE(std::isnan(h) || (h >= 0 && h <= 5)) << h;
+    }
+}
+
+TEST_F(DemSource, ReadsEverythingThatIsNoHeightAsNodata) {
+    const auto dem = readDem(
+        written("grid.asc",
+                "ncols 4\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\nNODATA_value -9999\n"
+                "1.5 nan inf -9999\n-3.4e38 3.4e38 2 -32768\n"),
+        {});
+    ASSERT_TRUE(dem.ok()) << dem.status();
+    std::string pattern;
+    for (const float h : dem->grid.heights) pattern += std::isnan(h) ? '-' : 'x';
+    EXPECT_EQ(pattern, "--xxx---");  // -32768 is a height unless the raster has 16 bits
+}
+
+TEST_F(DemSource, ReadsTheLowest16BitValueAsNodata) {
+    const auto dem = readDem(
+        virtualRaster("", "<NoDataValue>-32678</NoDataValue><Offset>0</Offset>", "Int16"), {});
+    ASSERT_TRUE(dem.ok()) << dem.status();
+    const auto hole = readDem(std::string(kSharedData) + "hard/dem/N44E005_big_hole.tif.gz", {});
+    ASSERT_TRUE(hole.ok()) << hole.status();
+    for (const float h : hole->grid.heights) ASSERT_TRUE(std::isnan(h) || h > -100) << h;
+}
+
+TEST_F(DemSource, RefusesWhatIsNoRaster) {
+    expectRefused(folder_.path("none.tif"), absl::StatusCode::kNotFound, "no such file");
+    expectRefused(written("text.tif", "not a raster at all"), absl::StatusCode::kInvalidArgument,
+                  "is no raster");
+    expectRefused(written("empty.tif", ""), absl::StatusCode::kInvalidArgument, "is no raster");
+    expectRefused(written("broken.tif.gz", "not gzip"), absl::StatusCode::kInvalidArgument,
+                  "is no raster");
+    const auto folder = readDem(folder_.path(""), {});
+    EXPECT_FALSE(folder.ok());
+}
+
+TEST_F(DemSource, RefusesRastersTooSmallForATriangle) {
+    expectRefused(asciiGrid(1, 1, "7"), absl::StatusCode::kInvalidArgument, "1 x 1 posts");
+    expectRefused(asciiGrid(5, 1, "1 2 3 4 5"), absl::StatusCode::kInvalidArgument, "5 x 1 posts");
+    expectRefused(asciiGrid(1, 3, "1\n2\n3"), absl::StatusCode::kInvalidArgument, "1 x 3 posts");
+}
+
+TEST_F(DemSource, RefusesAGridWithoutAnyData) {
+    expectRefused(asciiGrid(2, 2, "-9999 -9999\n-9999 -9999"), absl::StatusCode::kInvalidArgument,
+                  "all posts are nodata");
+}
+
+TEST_F(DemSource, RefusesPicturesAndComplexNumbers) {
+    const std::string hard = std::string(kSharedData) + "hard/dem/";
+    expectRefused(hard + "gt_utm.tif", absl::StatusCode::kInvalidArgument, "palette");
+    expectRefused(hard + "rio_RGB.byte.tif.gz", absl::StatusCode::kInvalidArgument, "picture");
+    expectRefused(virtualRaster("", "", "CFloat32"), absl::StatusCode::kInvalidArgument, "complex");
+}
+
+TEST_F(DemSource, RefusesGeoreferencesWithoutArea) {
+    for (const char* transform : {"0,1,0,0,0,0", "0,nan,0,0,0,-1", "0,inf,0,0,0,-1", "0,1,2,0,1,2"})
+        expectRefused(
+            virtualRaster("<GeoTransform>" + std::string(transform) + "</GeoTransform>", ""),
+            absl::StatusCode::kInvalidArgument, "geotransform");
+}
+
+TEST_F(DemSource, RefusesDegreesThatNoUtmZoneHolds) {
+    expectRefused(virtualRaster("<SRS dataAxisToSRSAxisMapping=\"2,1\">EPSG:4326</SRS>"
+                                "<GeoTransform>-180,120,0,90,0,-90</GeoTransform>",
+                                ""),
+                  absl::StatusCode::kInvalidArgument, "gdalwarp");
+}
+
+TEST_F(DemSource, RefusesMoreThanItsMemoryLimitBeforeReading) {
+    expectRefused(virtualRaster("", "", "Float32", 100000, 100000),
+                  absl::StatusCode::kResourceExhausted, "100000 x 100000");
+}
+
+TEST_F(DemSource, CallsATruncatedFileUnreadable) {
+    const std::string path = folder_.path("cut.tif");
+    ASSERT_TRUE(writeGeoTiff(synthesizeTerrain(200, 1), path).ok());
+    std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
+    EXPECT_FALSE(readDem(path, {}).ok());
+}
+
+TEST_F(DemSource, WritesNothingBesideCompressedFiles) {
+    const std::string copy = folder_.path("bigtujunga.tif.gz");
+    ASSERT_TRUE(
+        std::filesystem::copy_file(std::string(kSharedData) + "terrain/bigtujunga.tif.gz", copy))
+        << "shared test data is missing";
+    ASSERT_TRUE(readDem(copy, {}).ok());
+    EXPECT_EQ(folder_.files().size(), 1U);
+}
+
+/// Real files, and what gdalinfo and their README say of them.
+struct RealDem {
+    const char* path;
+    std::int32_t columns;
+    std::int32_t rows;
+    float min;
+    float max;
+    bool isExact;  ///< not resampled: minimum and maximum to the last bit
+};
+
+class RealDems : public testing::TestWithParam<RealDem> {};
+
+TEST_P(RealDems, AreReadAsDocumented) {
+    const RealDem& expected = GetParam();
+    const auto dem = readDem(std::string(kSharedData) + expected.path, {});
+    ASSERT_TRUE(dem.ok()) << dem.status();
+    EXPECT_EQ(dem->grid.columns, expected.columns);
+    EXPECT_EQ(dem->grid.rows, expected.rows);
+    const terrain::HeightStatistics found = heightStatistics(dem->grid);
+    if (expected.isExact) {
+        EXPECT_EQ(std::lround(found.min), std::lround(expected.min));
+        EXPECT_EQ(std::lround(found.max), std::lround(expected.max));
+    } else {  // bilinear: between the source's extremes, and near them
+        EXPECT_GE(found.min, expected.min);
+        EXPECT_LE(found.max, expected.max);
+        EXPECT_GE(found.max, expected.max - 60);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Shared, RealDems,
+    testing::Values(RealDem{"terrain/bigtujunga.tif.gz", 1197, 643, 315, 2295, true},
+                    RealDem{"terrain/SainteHelens.dem.gz", 327, 468, 682, 2543, true},
+                    RealDem{"terrain/exploradores_aster_dem.tif", 539, 618, 318, 3960, true},
+                    RealDem{"terrain/N44E005_UTM.tif.gz", 922, 1262, 33, 2745, true},
+                    RealDem{"terrain/mt_rainier_90m.tif.gz", 991, 1416, 263, 4371, false},
+                    RealDem{"terrain/N44W072.hgt.gz", 1030, 1411, 115, 1908, false},
+                    RealDem{"terrain/utah_zion_srtm90.tif", 422, 515, 1024, 2892, false},
+                    RealDem{"hard/dem/wb_DEM.tif", 237, 188, 212, 1233, true},
+                    RealDem{"hard/dem/rio_float_nan.tif", 3, 2, -2, 1, true},
+                    RealDem{"hard/dem/rio_rotated.tif", 10, 15, 0, 149, true},
+                    RealDem{"hard/dem/RealisticTerrain.ter", 257, 257, -79, 875, true},
+                    RealDem{"hard/dem/eudem_N2000000E3000000.tif", 42, 42, 0, 2006, true},
+                    RealDem{"hard/dem/richdem_garbrecht_valley.dem", 25, 25, 0, 4, true}),
+    [](const auto& tested) {
+        std::string name = std::filesystem::path(tested.param.path).filename().string();
+        for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
+        return name;
+    });
+
+}  // namespace
+}  // namespace eyrie::import
