@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <deque>
 #include <optional>
 
@@ -13,7 +14,7 @@ namespace eyrie::cli {
 class RestartPolicy {
 public:
     using Clock = std::chrono::steady_clock;
-    static constexpr int kMaxPerMinute = 6;
+    static constexpr std::size_t kMaxPerMinute = 6;
     static constexpr std::chrono::milliseconds kFirstPause{250};
     static constexpr std::chrono::milliseconds kLongestPause{10'000};
 
@@ -21,7 +22,7 @@ public:
     Clock::time_point ended(Clock::time_point now);
 
 private:
-    std::deque<Clock::time_point> recent_;  ///< ends within the last minute
+    std::deque<Clock::time_point> starts_;  ///< granted within the last minute, or to come
 };
 
 }  // namespace eyrie::cli

@@ -82,7 +82,8 @@ absl::StatusOr<fabric::SceneObject> objectFrom(const v1::SceneObject& message, i
     object.path = message.has_terrain() ? message.terrain() : message.mesh();
     if (object.path.empty())
         return absl::InvalidArgumentError(
-            fmt::format("{} has no data; give it a \"terrain\" or a \"mesh\" file", field));
+            fmt::format("{}{} has no data; give it a \"terrain\" or a \"mesh\" file", field,
+                        message.name().empty() ? "" : " '" + message.name() + "'"));
     object.name = message.name().empty() ? std::filesystem::path(object.path).filename().string()
                                          : message.name();
     if (object.name.empty())

@@ -39,7 +39,7 @@ RC_GTEST_PROP(DepthMerge, IsTheScalarRule, (std::uint32_t seed)) {
     const Image target = sampleImage(kWhole, seed);
     const int x = *rc::gen::inRange(0, 37);
     const int y = *rc::gen::inRange(0, 6);
-    const PixelViewport part{x, y, *rc::gen::inRange(0, 38 - x), *rc::gen::inRange(0, 7 - y)};
+    const PixelViewport part{x, y, *rc::gen::inRange(1, 38 - x), *rc::gen::inRange(1, 7 - y)};
     const Image source = sampleImage(part, seed + 1);
     RC_ASSERT(merged(source, target) == mergedPlainly(source, target));
 }

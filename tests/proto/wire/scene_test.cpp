@@ -98,7 +98,7 @@ TEST(WireScene, ColoursAreSrgb) {
 
 TEST(WireScene, ARefusalNamesTheObjectAndField) {
     EXPECT_THAT(refusal(R"({"objects":[{"mesh":"a.eym"},{"name":"ghost"}]})"),
-                testing::HasSubstr("objects[1] has no data"));
+                testing::HasSubstr("objects[1] 'ghost' has no data"));
     EXPECT_THAT(refusal(R"({"objects":[{"mesh":"a","transform":{"scale":0}}]})"),
                 testing::HasSubstr("objects[0].transform.scale"));
     EXPECT_THAT(refusal(R"({"objects":[{"mesh":"a","transform":{"scale":2,"matrix":[1]}}]})"),
