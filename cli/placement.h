@@ -11,8 +11,8 @@ namespace eyrie::cli {
 /// Whether the two boxes have a point of the ground plan in common.
 bool overlapsInPlan(const fabric::Box& a, const fabric::Box& b);
 
-/// Height of the terrain at (x, y), object space, at full resolution; the bounds' lowest where there
-/// is no data. Errors: those of EytFile::readPage.
+/// Height of the terrain at (x, y), object space, at full resolution; the bounds' lowest where
+/// there is no data. Errors: those of EytFile::readPage.
 absl::StatusOr<double> groundHeightMetres(const terrain::EytFile& terrain, double x, double y);
 
 /// World from a mesh's object space so that it stands at the middle of the terrain, its lowest

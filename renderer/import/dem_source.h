@@ -23,7 +23,7 @@ struct Dem {
 };
 
 /// Limit on columns * rows * 4 bytes of an elevation model, before and after reprojection: the
-/// whole grid is held in memory, and an import takes about 2.5 times as much again.
+/// whole grid is held in memory, and an import takes about twice as much again.
 inline constexpr std::uint64_t kMaxDemBytes = std::uint64_t{8} << 30;
 
 /// Reads the first band of any raster GDAL opens; `.gz` and `.zip` are looked into.
