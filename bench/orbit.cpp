@@ -55,6 +55,8 @@ double quantile(std::vector<double>& values, double q) {
 absl::Status runOrbit(Renderer& renderer, const fabric::SceneInfo& info, const Options& options,
                       double tau) {
     std::vector<double> milliseconds;
+    std::vector<double> drawMilliseconds;
+    std::vector<double> readbackMilliseconds;
     std::uint64_t triangles = 0;
     double achieved = 0;
     const double processorStart = processorMilliseconds();
@@ -70,16 +72,18 @@ absl::Status runOrbit(Renderer& renderer, const fabric::SceneInfo& info, const O
         if (!result.ok())
             return result.status();
         milliseconds.push_back(result->statistics.milliseconds.total);
+        drawMilliseconds.push_back(result->statistics.milliseconds.draw);
+        readbackMilliseconds.push_back(result->statistics.milliseconds.readback);
         triangles += result->statistics.triangles;
         achieved = std::max(achieved, result->statistics.tauAchievedPixels);
     }
     const double p95 = quantile(milliseconds, 0.95);
     const double processor = processorMilliseconds() - processorStart;
     fmt::print(
-        "tau {:>5} px  achieved {:>8.3f} px  median {:>7.2f} ms  p95 {:>7.2f} ms  processor "
-        "{:>7.2f} "
-        "ms  {:>9} triangles\n",
-        tau, achieved, quantile(milliseconds, 0.5), p95, processor / options.frames,
+        "tau {:>4} px  achieved {:>7.3f} px  median {:>7.2f} ms  p95 {:>7.2f} ms  (draw {:.2f}, "
+        "readback {:.2f}; processor {:.2f})  {:>9} triangles\n",
+        tau, achieved, quantile(milliseconds, 0.5), p95, quantile(drawMilliseconds, 0.5),
+        quantile(readbackMilliseconds, 0.5), processor / options.frames,
         triangles / static_cast<std::uint64_t>(options.frames));
     return absl::OkStatus();
 }

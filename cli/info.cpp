@@ -113,7 +113,10 @@ void printFacts(const std::string& name, const Facts& facts) {
                facts.coarsestErrorMetres, facts.finestErrorMetres);
 }
 
-absl::Status sceneInfo(const std::string& path, bool json) {
+/// How facts are told.
+enum class Form { Text, Json, Nothing };
+
+absl::Status sceneInfo(const std::string& path, Form form) {
     ASSIGN_OR_RETURN(const fabric::Scene scene, readSceneFile(path));
     std::vector<JsonObject> objects;
     fabric::Box bounds;
@@ -129,14 +132,14 @@ absl::Status sceneInfo(const std::string& path, bool json) {
             bytes += facts.bytes;
             triangles += facts.triangles;
             one.object("data", toJson(facts));
-            if (!json)
+            if (form == Form::Text)
                 printFacts(object.name, facts);
-        } else if (!json) {
+        } else if (form == Form::Text) {
             fmt::print("{}: {}, not imported yet\n", object.name, object.path);
         }
         objects.push_back(std::move(one));
     }
-    if (!json)
+    if (form != Form::Json)
         return absl::OkStatus();
     JsonObject whole;
     whole.text("kind", "scene").count("triangles", triangles).count("bytes", bytes);
@@ -146,13 +149,13 @@ absl::Status sceneInfo(const std::string& path, bool json) {
     return absl::OkStatus();
 }
 
-absl::Status info(const std::string& path, bool json) {
+absl::Status info(const std::string& path, Form form) {
     if (dataFileOf(path) == DataFile::Scene)
-        return sceneInfo(path, json);
+        return sceneInfo(path, form);
     ASSIGN_OR_RETURN(const Facts facts, dataFacts(path));
-    if (json)
+    if (form == Form::Json)
         fmt::print("{}\n", toJson(facts).str());
-    else
+    else if (form == Form::Text)
         printFacts(path, facts);
     return absl::OkStatus();
 }
@@ -163,6 +166,7 @@ void addInfo(CLI::App& app, Run& run) {
     struct Options {
         std::string file;
         bool json = false;
+        bool quiet = false;
     };
     auto options = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand("info", "Say what a data or scene file is");
@@ -170,9 +174,12 @@ void addInfo(CLI::App& app, Run& run) {
         ->type_name("FILE")
         ->required();
     command->add_flag("--json", options->json, "Print it as JSON");
+    command->add_flag("--quiet", options->quiet, "Print nothing: the exit status tells");
     command->footer("Example:\n  eyrie info dem.eyt --json");
-    command->callback(
-        [options, &run] { run = [options] { return info(options->file, options->json); }; });
+    command->callback([options, &run] {
+        const Form form = options->quiet ? Form::Nothing : options->json ? Form::Json : Form::Text;
+        run = [options, form] { return info(options->file, form); };
+    });
 }
 
 }  // namespace eyrie::cli

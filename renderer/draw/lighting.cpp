@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/draw/lighting.h"
 
-#include <vector>
+#include <array>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
@@ -19,28 +19,24 @@ std::string fragmentSource(std::string_view fragment) {
 }
 
 LightingUniforms::LightingUniforms(const gl::Program& program)
-    : lightCount_(program.uniform("lightCount")),
-      lightDirections_(program.uniform("lightDirections")),
+    : lightDirections_(program.uniform("lightDirections")),
       lightColours_(program.uniform("lightColours")),
       ambient_(program.uniform("ambient")) {}
 
 void LightingUniforms::set(const FrameState& frame) const {
-    std::vector<glm::vec3> directions;
-    std::vector<glm::vec3> colours;
-    for (const fabric::DirectionalLight& light : frame.scene.lights) {
-        directions.emplace_back(-glm::normalize(light.direction));
-        colours.emplace_back(light.colour);
+    std::array<glm::vec3, fabric::kMaxLights> directions{};
+    std::array<glm::vec3, fabric::kMaxLights> colours{};
+    for (std::size_t i = 0; i < frame.scene.lights.size(); ++i) {
+        directions[i] = glm::vec3(-glm::normalize(frame.scene.lights[i].direction));
+        colours[i] = glm::vec3(frame.scene.lights[i].colour);
     }
-    if (directions.empty()) {
+    if (frame.scene.lights.empty()) {
         const fabric::Mat3 worldFromView = glm::transpose(frame.view.viewFromWorldRotation);
-        directions.emplace_back(glm::normalize(worldFromView * fabric::Vec3(-0.3, 0.4, 1)));
-        colours.emplace_back(1.0F);
+        directions[0] = glm::vec3(glm::normalize(worldFromView * fabric::Vec3(-0.3, 0.4, 1)));
+        colours[0] = glm::vec3(1.0F);
     }
-    glUniform1i(lightCount_, static_cast<GLint>(directions.size()));
-    glUniform3fv(lightDirections_, static_cast<GLsizei>(directions.size()),
-                 glm::value_ptr(directions.front()));
-    glUniform3fv(lightColours_, static_cast<GLsizei>(colours.size()),
-                 glm::value_ptr(colours.front()));
+    glUniform3fv(lightDirections_, fabric::kMaxLights, glm::value_ptr(directions[0]));
+    glUniform3fv(lightColours_, fabric::kMaxLights, glm::value_ptr(colours[0]));
     glUniform1f(ambient_, static_cast<float>(frame.scene.ambient));
 }
 

@@ -21,7 +21,6 @@ public:
     void set(const FrameState& frame) const;
 
 private:
-    GLint lightCount_;
     GLint lightDirections_;
     GLint lightColours_;
     GLint ambient_;

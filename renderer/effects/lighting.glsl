@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lights of a scene. Colours here are linear; the display's transfer function is taken as a square.
 
-uniform int lightCount;
-uniform vec3 lightDirections[4];  // towards the light, world axes, unit
+// Lights that the scene does not have are black. The loops have a constant length on purpose:
+// software renderers pay for a computed uniform index three times what four lights cost.
+uniform vec3 lightDirections[4];  // towards the light, world axes, unit; the first is the key light
 uniform vec3 lightColours[4];
 uniform float ambient;
 
 vec3 diffuseLight(vec3 normal) {
-    vec3 light = vec3(ambient);
-    for (int i = 0; i < lightCount; ++i)
-        light += lightColours[i] * max(dot(normal, lightDirections[i]), 0.0) * (1.0 - ambient);
-    return light;
+    vec3 light = vec3(0.0);
+    for (int i = 0; i < 4; ++i)
+        light += lightColours[i] * max(dot(normal, lightDirections[i]), 0.0);
+    return vec3(ambient) + light * (1.0 - ambient);
 }
 
-float specularLight(vec3 normal, vec3 towardsEye, float exponent) {
-    float light = 0.0;
-    for (int i = 0; i < lightCount; ++i)
-        light += pow(max(dot(normal, normalize(lightDirections[i] + towardsEye)), 0.0), exponent);
-    return light;
+/// Of the key light alone.
+vec3 specularLight(vec3 normal, vec3 towardsEye, float exponent) {
+    vec3 halfway = normalize(lightDirections[0] + towardsEye);
+    return lightColours[0] * pow(max(dot(normal, halfway), 0.0), exponent);
 }
 
 vec4 display(vec3 linear) { return vec4(sqrt(clamp(linear, 0.0, 1.0)), 1.0); }

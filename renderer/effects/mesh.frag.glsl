@@ -14,6 +14,6 @@ void main() {
     // Scans are open surfaces: both sides are lit.
     if (dot(normal, towardsEye) < 0.0)
         normal = -normal;
-    vec3 lit = albedo * diffuseLight(normal) + vec3(0.08) * specularLight(normal, towardsEye, 40.0);
+    vec3 lit = albedo * diffuseLight(normal) + 0.08 * specularLight(normal, towardsEye, 40.0);
     colour = display(lit);
 }
