@@ -168,7 +168,8 @@ void addRender(CLI::App& app, Run& run) {
     command
         ->add_option("--compound", options->compound,
                      "How these cut the frame: 2D, by pixels, or DB, by data [2D]")
-        ->transform(CLI::CheckedTransformer(compoundNames()));
+        ->transform(CLI::CheckedTransformer(compoundNames()).description(""))
+        ->type_name("2D|DB");
     command->add_option("--cache", options->cache, "Where imports are kept [~/.cache/eyrie]")
         ->type_name("FOLDER");
     addOutputOptions(*command, *options);

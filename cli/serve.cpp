@@ -109,7 +109,8 @@ void addServe(CLI::App& app, Run& run) {
     command
         ->add_option("--compound", options->compound,
                      "How a frame is cut: 2D, by pixels, or DB, by data [2D]")
-        ->transform(CLI::CheckedTransformer(compoundNames()));
+        ->transform(CLI::CheckedTransformer(compoundNames()).description(""))
+        ->type_name("2D|DB");
     command->add_option("--cache", options->cache, "Where imports are kept [~/.cache/eyrie]")
         ->type_name("FOLDER");
     command->add_flag("--quiet", options->quiet, "No progress, only warnings and errors");

@@ -5,7 +5,7 @@
 #include <grpcpp/server_builder.h>
 #include <grpcpp/support/channel_arguments.h>
 
-#include "wire/grpc_log.h"
+#include "wire/grpc_runtime.h"
 
 namespace eyrie::wire {
 namespace {
@@ -16,7 +16,7 @@ constexpr int kFrameBytes = 4 << 20;
 }  // namespace
 
 grpc::ChannelArguments clientArguments() {
-    adoptGrpcLog();
+    startGrpc();
     grpc::ChannelArguments arguments;
     arguments.SetMaxReceiveMessageSize(kMaxMessageBytes);
     arguments.SetMaxSendMessageSize(kMaxMessageBytes);
@@ -35,7 +35,7 @@ grpc::ChannelArguments clientArguments() {
 }
 
 void configureServer(grpc::ServerBuilder& builder) {
-    adoptGrpcLog();
+    startGrpc();
     builder.SetMaxReceiveMessageSize(kMaxMessageBytes);
     builder.SetMaxSendMessageSize(kMaxMessageBytes);
     builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace eyrie::wire {
+
+/// Readies the gRPC library for this process, once; later calls do nothing.
+///
+/// What it would print on standard error goes to our log, at level debug: whatever matters of it
+/// comes back as a status, and is told once, in words for people. And it stays initialised until
+/// the process ends, because the shutdown of gRPC 1.51 after the last server or channel may wait
+/// 10 seconds for a poller that watches a connection which is gone.
+void startGrpc();
+
+}  // namespace eyrie::wire
