@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <string_view>
 #include <system_error>
@@ -51,6 +53,22 @@ absl::StatusOr<std::string> importName(const std::string& source, fabric::Object
         hash = hash * 31 + part;
     }
     return fmt::format("{:016x}-{}.eyt", hash, kTerrainImporterVersion);
+}
+
+/// Removes what imports that were killed have left: mesh::OutputFile and the terrain writer name
+/// unfinished files NAME.partial-PID.
+void removeLeftovers(const fs::path& folder) {
+    constexpr std::string_view kMark = ".partial-";
+    std::error_code error;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+        const std::string name = entry.path().filename().string();
+        const std::size_t mark = name.rfind(kMark);
+        if (mark == std::string::npos)
+            continue;
+        const pid_t maker = std::atoi(name.c_str() + mark + kMark.size());
+        if (maker > 0 && kill(maker, 0) != 0 && errno == ESRCH)
+            fs::remove(entry.path(), error);
+    }
 }
 
 bool opens(const std::string& path, fabric::ObjectKind kind) {
@@ -121,6 +139,7 @@ absl::StatusOr<std::string> DataCache::imported(const std::string& source,
             fmt::format("{}: cannot create this folder for imports ({}); name another with "
                         "--cache FOLDER",
                         folder_.string(), error.message()));
+    removeLeftovers(folder_);
     RETURN_IF_ERROR(import(source, target, kind));
     return target;
 }

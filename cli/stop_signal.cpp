@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/stop_signal.h"
 
+#include <chrono>
 #include <condition_variable>
 #include <csignal>
 #include <ctime>
 #include <mutex>
+#include <optional>
 
 namespace eyrie::cli {
 namespace {
+
+constexpr std::chrono::seconds kEchoes{1};
 
 sigset_t stopSignals() {
     sigset_t set;
@@ -36,11 +40,18 @@ StopSignal::StopSignal() {
 }
 
 void StopSignal::listen(const std::stop_token& ending) {
+    using Clock = std::chrono::steady_clock;
     const sigset_t set = stopSignals();
     const timespec shortly{0, 20'000'000};  // how soon the destructor is noticed
+    std::optional<Clock::time_point> first;
     while (!ending.stop_requested()) {
         const int signal = sigtimedwait(&set, nullptr, &shortly);
-        if (signal < 0 || source_.request_stop())
+        if (signal < 0)
+            continue;
+        source_.request_stop();
+        if (!first)
+            first = Clock::now();
+        if (Clock::now() - *first < kEchoes)
             continue;
         std::signal(signal, SIG_DFL);
         unblockStopSignals();

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "wire/grpc_runtime.h"
 
+#include <mutex>
+
 #include <grpc/grpc.h>
 #include <grpc/support/log.h>
 #include <spdlog/spdlog.h>
-
-#include <mutex>
 
 namespace eyrie::wire {
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -90,12 +91,27 @@ TEST(StopSignal, TurnsAnInterruptIntoARequest) {
     EXPECT_TRUE(stop.token().stop_requested());
 }
 
-TEST(StopSignalDeathTest, EndsTheProcessOnTheSecondSignal) {
+TEST(StopSignalDeathTest, TakesEchoesOfASignalForOne) {
     EXPECT_EXIT(
         {
             const StopSignal stop;
             kill(getpid(), SIGTERM);
             stop.wait();
+            kill(getpid(), SIGTERM);
+            std::this_thread::sleep_for(milliseconds(200));
+            std::exit(0);
+        },
+        testing::ExitedWithCode(0), "");
+}
+
+TEST(StopSignalDeathTest, EndsTheProcessOnASignalLongAfterTheFirst) {
+    EXPECT_EXIT(
+        {
+            const StopSignal stop;
+            kill(getpid(), SIGTERM);
+            stop.wait();
+            kill(getpid(), SIGTERM);  // an echo
+            std::this_thread::sleep_for(milliseconds(1200));
             kill(getpid(), SIGTERM);
             std::this_thread::sleep_for(seconds(20));
         },

@@ -3,9 +3,11 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <glm/common.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "cli/data_cache.h"
 #include "cli/placement.h"
@@ -96,6 +98,15 @@ TEST_F(SceneFiles, ADamagedImportIsMadeAgain) {
     fs::resize_file(*data, 100);
     ASSERT_TRUE(cache_.dataFor(ball, fabric::ObjectKind::Mesh).ok());
     EXPECT_TRUE(mesh::EymFile::open(*data).ok());
+}
+
+TEST_F(SceneFiles, WhatAKilledImportLeftIsClearedAway) {
+    fs::create_directory(folder_.path("imports"));
+    const int nobody = 1 << 30;  // beyond every process id
+    folder_.write(fmt::format("imports/a.eym.partial-{}", nobody), "half");
+    folder_.write(fmt::format("imports/b.eym.partial-{}", getpid()), "being written");
+    ASSERT_TRUE(cache_.dataFor(writeBall(folder_), fabric::ObjectKind::Mesh).ok());
+    EXPECT_EQ(importsKept(), 2U) << "the import, and the one being written";
 }
 
 TEST_F(SceneFiles, ASourceThatCannotBeImportedLeavesNothingInTheCache) {

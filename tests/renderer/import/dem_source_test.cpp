@@ -214,8 +214,8 @@ TEST_F(DemSource, WritesNothingBesideCompressedFiles) {
     EXPECT_EQ(folder_.files().size(), 1U);
 }
 
-/// Real files: their extremes as their README gives them or, where it does not, as read when the test
-/// was written.
+/// Real files: their extremes as their README gives them or, where it does not, as read when the
+/// test was written.
 struct RealDem {
     const char* path;
     std::int32_t columns;
