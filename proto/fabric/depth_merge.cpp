@@ -5,22 +5,17 @@
 #include <cassert>
 #include <cstring>
 
-// The thread sanitizer is not ready yet when the loader chooses a clone.
-#ifdef __SANITIZE_THREAD__
-#define EYRIE_MERGE_CLONES
-#else
-#define EYRIE_MERGE_CLONES __attribute__((target_clones("avx2", "default")))
-#endif
+#include "fabric/simd_clones.h"
 
 namespace eyrie::fabric {
 namespace {
 
 /// Non-negative floats order as their bits do, so the comparison is one of integers: exact, total
 /// and, unlike that of floats, vectorised into a compare and two blends.
-EYRIE_MERGE_CLONES void mergeRow(const std::uint32_t* __restrict sourceDepth,
-                                 const std::uint32_t* __restrict sourceColour,
-                                 std::uint32_t* __restrict depth, std::uint32_t* __restrict colour,
-                                 int count) {
+EYRIE_SIMD_CLONES void mergeRow(const std::uint32_t* __restrict sourceDepth,
+                                const std::uint32_t* __restrict sourceColour,
+                                std::uint32_t* __restrict depth, std::uint32_t* __restrict colour,
+                                int count) {
     for (int i = 0; i < count; ++i) {
         const auto theirs = static_cast<std::int32_t>(sourceDepth[i]);
         const auto ours = static_cast<std::int32_t>(depth[i]);

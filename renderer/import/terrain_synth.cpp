@@ -12,7 +12,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "renderer/terrain/simd_clones.h"
+#include "fabric/simd_clones.h"
 
 namespace eyrie::import {
 namespace {

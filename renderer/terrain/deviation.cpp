@@ -7,7 +7,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "renderer/terrain/simd_clones.h"
+#include "fabric/simd_clones.h"
 
 namespace eyrie::terrain {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "renderer/terrain/simd_clones.h"
+#include "fabric/simd_clones.h"
 
 namespace eyrie::terrain {
 namespace {

@@ -7,7 +7,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include "renderer/terrain/simd_clones.h"
+#include "fabric/simd_clones.h"
 
 namespace eyrie::terrain {
 namespace {
