@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cstdio>
+#include <exception>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -60,9 +62,7 @@ void explain(const CLI::App& app, const CLI::ParseError& error) {
         fmt::print(stderr, "`{} --help` explains it\n", name);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+ExitStatus runCommandLine(int argc, char** argv) {
     startLog();
     eyrie::cli::Run run;
     CLI::App app("Eyrie shows terrain and massive meshes, drawn by headless renderer processes.",
@@ -72,14 +72,27 @@ int main(int argc, char** argv) {
         app.parse(argc, argv);
     } catch (const CLI::Success& asked) {  // --help and --version
         app.exit(asked);
-        return static_cast<int>(ExitStatus::Done);
+        return ExitStatus::Done;
     } catch (const CLI::ParseError& error) {
         explain(app, error);
-        return static_cast<int>(ExitStatus::WrongInput);
+        return ExitStatus::WrongInput;
     }
     const absl::Status status = run();
     if (!status.ok())
         fmt::print(stderr, "eyrie: {}\n",
                    std::string_view(status.message().data(), status.message().size()));
-    return static_cast<int>(eyrie::cli::exitStatusOf(status));
+    return eyrie::cli::exitStatusOf(status);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        return static_cast<int>(runCommandLine(argc, argv));
+    } catch (const std::exception& error) {  // such as too little memory
+        std::fputs("eyrie: ", stderr);
+        std::fputs(error.what(), stderr);
+        std::fputs("\n", stderr);
+        return static_cast<int>(ExitStatus::Failed);
+    }
 }

@@ -116,6 +116,7 @@ RendererProcesses::~RendererProcesses() = default;
 
 void RendererProcesses::supervise(const std::stop_token& stop) {
     std::vector<Slot> slots;
+    slots.reserve(static_cast<std::size_t>(options_.count));
     for (int i = 0; i < options_.count; ++i) slots.emplace_back(i, options_, sockets_);
     while (!stop.stop_requested()) {
         for (Slot& slot : slots)

@@ -83,7 +83,7 @@ absl::Status serve(const Options& options) {
     if (stop.token().stop_requested())
         return absl::OkStatus();
     announce(door->url(), farm->frames().status(), options.quiet);
-    const absl::Status end = serveUntilStopped(*farm, stop.token());
+    absl::Status end = serveUntilStopped(*farm, stop.token());
     door->stop();  // while there are renderers: a frame in progress is waited for
     return end;
 }

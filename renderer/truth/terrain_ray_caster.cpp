@@ -179,10 +179,8 @@ void TerrainRayCaster::buildLevels() {
             static_cast<std::size_t>(coarse.columns) * static_cast<std::size_t>(coarse.rows), none);
         for (int row = 0; row < fine.rows; ++row)
             for (int column = 0; column < fine.columns; ++column) {
-                const Extent& part =
-                    fine.blocks[static_cast<std::size_t>(row * fine.columns + column)];
-                Extent& whole =
-                    coarse.blocks[static_cast<std::size_t>(row / 2 * coarse.columns + column / 2)];
+                const Extent& part = fine.blocks[fine.index(column, row)];
+                Extent& whole = coarse.blocks[coarse.index(column / 2, row / 2)];
                 whole = {std::min(whole.min, part.min), std::max(whole.max, part.max)};
             }
         levels_.push_back(std::move(coarse));
@@ -215,7 +213,7 @@ void TerrainRayCaster::visit(Traversal& traversal, int level, int column, int ro
     const Level& blocks = levels_[static_cast<std::size_t>(level)];
     if (column >= blocks.columns || row >= blocks.rows)
         return;
-    const Extent& extent = blocks.blocks[static_cast<std::size_t>(row * blocks.columns + column)];
+    const Extent& extent = blocks.blocks[blocks.index(column, row)];
     const double side = kBlockCells << level;
     if (extent.min > extent.max || traversal
                                        .within(column * side, (column + 1) * side, row * side,

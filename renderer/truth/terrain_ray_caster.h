@@ -52,6 +52,11 @@ private:
         int columns;
         int rows;
         std::vector<Extent> blocks;
+
+        std::size_t index(int column, int row) const {
+            return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+                   static_cast<std::size_t>(column);
+        }
     };
     struct Traversal;
 
