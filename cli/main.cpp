@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <malloc.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
@@ -23,6 +24,13 @@ void startLog() {
     auto logger = spdlog::stderr_color_mt("eyrie");
     logger->set_pattern("%H:%M:%S.%e %^%l%$ %v");
     spdlog::set_default_logger(std::move(logger));
+}
+
+/// Pictures are megabytes that come and go every frame. By default each would be mapped anew and
+/// faulted in page by page, which costs more than filling it.
+void keepFreedPictures() {
+    mallopt(M_MMAP_THRESHOLD, 64 << 20);
+    mallopt(M_TRIM_THRESHOLD, 256 << 20);
 }
 
 void declare(CLI::App& app, eyrie::cli::Run& run) {
@@ -64,6 +72,7 @@ void explain(const CLI::App& app, const CLI::ParseError& error) {
 
 ExitStatus runCommandLine(int argc, char** argv) {
     startLog();
+    keepFreedPictures();
     eyrie::cli::Run run;
     CLI::App app("Eyrie shows terrain and massive meshes, drawn by headless renderer processes.",
                  "eyrie");

@@ -64,6 +64,12 @@ struct OrderedPiece {
     draw::Piece piece;
 };
 
+/// What a channel draws, and the pixels outside which none of it falls.
+struct Selection {
+    std::vector<OrderedPiece> pieces;
+    fabric::PixelViewport covered;
+};
+
 struct OpenObject {
     fabric::Mat4 worldFromObject;
     std::unique_ptr<draw::Drawable> drawable;
@@ -81,24 +87,19 @@ public:
                                                  const fabric::ChannelTask& task);
 
 private:
-    Impl(std::unique_ptr<gl::EglContext> context, draw::TerrainProgram terrain,
-         draw::MeshProgram mesh, std::uint64_t memoryBytes)
-        : context_(std::move(context)),
-          terrainProgram_(std::move(terrain)),
-          meshProgram_(std::move(mesh)),
-          memoryBytes_(memoryBytes) {}
+    Impl(std::unique_ptr<gl::EglContext> context, std::uint64_t memoryBytes)
+        : context_(std::move(context)), memoryBytes_(memoryBytes) {}
 
     absl::StatusOr<std::unique_ptr<draw::Drawable>> openObject(const fabric::SceneObject& object,
-                                                               std::uint64_t memoryBytes) const;
-    std::vector<OrderedPiece> selectPieces(const lod::View& view, double tauPixels,
-                                           const fabric::ChannelTask& task,
-                                           fabric::FrameStatistics& statistics);
+                                                               std::uint64_t memoryBytes);
+    Selection selectPieces(const lod::View& view, double tauPixels, const fabric::ChannelTask& task,
+                           fabric::FrameStatistics& statistics);
     absl::Status drawPieces(const std::vector<OrderedPiece>& pieces, const draw::FrameState& frame,
                             fabric::FrameStatistics& statistics);
 
     std::unique_ptr<gl::EglContext> context_;  // first: everything below needs it current
-    draw::TerrainProgram terrainProgram_;
-    draw::MeshProgram meshProgram_;
+    draw::Variants<draw::TerrainProgram> terrainPrograms_;
+    draw::Variants<draw::MeshProgram> meshPrograms_;
     gl::Framebuffer framebuffer_;
     std::uint64_t memoryBytes_;
     std::optional<fabric::Scene> scene_;
@@ -108,17 +109,14 @@ private:
 absl::StatusOr<std::unique_ptr<Renderer::Impl>> Renderer::Impl::create(
     const RendererOptions& options) {
     ASSIGN_OR_RETURN(auto context, gl::EglContext::create(options.device));
-    ASSIGN_OR_RETURN(draw::TerrainProgram terrain, draw::TerrainProgram::create());
-    ASSIGN_OR_RETURN(draw::MeshProgram mesh, draw::MeshProgram::create());
-    return std::unique_ptr<Impl>(
-        new Impl(std::move(context), std::move(terrain), std::move(mesh), options.memoryBytes));
+    return std::unique_ptr<Impl>(new Impl(std::move(context), options.memoryBytes));
 }
 
 absl::StatusOr<std::unique_ptr<draw::Drawable>> Renderer::Impl::openObject(
-    const fabric::SceneObject& object, std::uint64_t memoryBytes) const {
+    const fabric::SceneObject& object, std::uint64_t memoryBytes) {
     if (object.kind == fabric::ObjectKind::Terrain)
-        return draw::openTerrain(object, terrainProgram_, memoryBytes);
-    return draw::openMesh(object, meshProgram_, memoryBytes);
+        return draw::openTerrain(object, terrainPrograms_, memoryBytes);
+    return draw::openMesh(object, meshPrograms_, memoryBytes);
 }
 
 absl::StatusOr<fabric::SceneInfo> Renderer::Impl::openScene(const fabric::Scene& scene) {
@@ -141,25 +139,32 @@ absl::StatusOr<fabric::SceneInfo> Renderer::Impl::openScene(const fabric::Scene&
 /// The pieces of all objects that fall to the task, in the order of their place in the range.
 /// Every channel of a frame draws in that order, so where depths tie the lower range wins in one
 /// channel as it does in compositing.
-std::vector<OrderedPiece> Renderer::Impl::selectPieces(const lod::View& view, double tauPixels,
-                                                       const fabric::ChannelTask& task,
-                                                       fabric::FrameStatistics& statistics) {
-    std::vector<OrderedPiece> pieces;
+Selection Renderer::Impl::selectPieces(const lod::View& view, double tauPixels,
+                                       const fabric::ChannelTask& task,
+                                       fabric::FrameStatistics& statistics) {
+    Selection selection;
+    std::vector<OrderedPiece>& pieces = selection.pieces;
     const fabric::Frustum channel = lod::subFrustum(view, task.pixelViewport);
     for (std::uint32_t i = 0; i < objects_.size(); ++i) {
         const lod::ObjectView objectView(view, objects_[i].worldFromObject);
         const draw::Cut cut = objects_[i].drawable->selectCut(objectView, tauPixels);
         statistics.tauAchievedPixels =
             std::max(statistics.tauAchievedPixels, cut.tauAchievedPixels);
-        for (const draw::Piece& piece : cut.pieces)
-            if (task.range.contains(piece.rangePosition) &&
-                objectView.isVisible(piece.bounds, channel))
-                pieces.push_back({i, piece});
+        for (const draw::Piece& piece : cut.pieces) {
+            if (!task.range.contains(piece.rangePosition) ||
+                !objectView.isVisible(piece.bounds, channel))
+                continue;
+            pieces.push_back({i, piece});
+            if (!selection.covered.contains(task.pixelViewport))
+                selection.covered =
+                    enclosing(selection.covered, objectView.coveredPixels(piece.bounds));
+        }
     }
     std::stable_sort(pieces.begin(), pieces.end(), [](const auto& a, const auto& b) {
         return a.piece.rangePosition < b.piece.rangePosition;
     });
-    return pieces;
+    selection.covered = intersection(selection.covered, task.pixelViewport);
+    return selection;
 }
 
 absl::Status Renderer::Impl::drawPieces(const std::vector<OrderedPiece>& pieces,
@@ -189,22 +194,18 @@ absl::StatusOr<fabric::ChannelResult> Renderer::Impl::render(const fabric::Frame
     const auto start = Clock::now();
 
     const lod::View view(frameData.camera, task.viewWidth, task.viewHeight);
-    const std::vector<OrderedPiece> pieces =
-        selectPieces(view, frameData.tauPixels, task, statistics);
+    const Selection selection = selectPieces(view, frameData.tauPixels, task, statistics);
     statistics.milliseconds.cull = millisecondsSince(start);
 
     const auto drawStart = Clock::now();
     RETURN_IF_ERROR(framebuffer_.resize(task.viewWidth, task.viewHeight));
-    framebuffer_.begin(task.viewWidth, task.viewHeight, task.pixelViewport, scene_->background);
-    RETURN_IF_ERROR(drawPieces(pieces, {view, *scene_, frameData.shading}, statistics));
+    framebuffer_.begin(task.viewWidth, task.viewHeight, selection.covered, scene_->background);
+    RETURN_IF_ERROR(drawPieces(selection.pieces, {view, *scene_, frameData.shading}, statistics));
     glFinish();
     statistics.milliseconds.draw = millisecondsSince(drawStart);
 
     const auto readStart = Clock::now();
-    const fabric::Image whole = framebuffer_.read(task.pixelViewport);
-    result.image = fabric::crop(whole, fabric::coveredArea(whole));
-    if (!task.wantsDepth)
-        result.image.depth.clear();
+    result.image = framebuffer_.read(selection.covered, task.wantsDepth);
     statistics.milliseconds.readback = millisecondsSince(readStart);
     for (const OpenObject& object : objects_) object.drawable->trim();
     statistics.milliseconds.total = millisecondsSince(start);

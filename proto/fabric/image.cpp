@@ -28,41 +28,6 @@ Image makeImage(const PixelViewport& area, Rgba background, bool withDepth) {
             std::vector<float>(withDepth ? pixels : 0, 0.0F)};
 }
 
-PixelViewport coveredArea(const Image& image) {
-    const int width = image.area.width;
-    int left = width;
-    int right = -1;
-    int bottom = image.area.height;
-    int top = -1;
-    for (int y = 0; y < image.area.height; ++y) {
-        const float* row = image.depth.data() + static_cast<std::size_t>(y) * width;
-        const auto drawn = [](float d) { return d != 0.0F; };
-        const auto first = static_cast<int>(std::find_if(row, row + width, drawn) - row);
-        if (first == width)
-            continue;
-        int last = width - 1;
-        while (last > right && !drawn(row[last])) --last;
-        left = std::min(left, first);
-        right = std::max(right, last);
-        bottom = std::min(bottom, y);
-        top = y;
-    }
-    if (top < 0)
-        return {image.area.x, image.area.y, 0, 0};
-    return {image.area.x + left, image.area.y + bottom, right - left + 1, top - bottom + 1};
-}
-
-Image crop(const Image& image, const PixelViewport& area) {
-    assert(image.area.contains(area));
-    Image result = makeImage(area, {}, image.hasDepth());
-    if (area.isEmpty())
-        return result;
-    copyRows(image.colour, image.area, result.colour, area, area);
-    if (image.hasDepth())
-        copyRows(image.depth, image.area, result.depth, area, area);
-    return result;
-}
-
 void paste(const Image& source, Image& target) {
     assert(target.area.contains(source.area));
     if (source.area.isEmpty())

@@ -36,13 +36,6 @@ struct Image {
 /// An image of `area` filled with `background` and, if asked for, depth 0.
 Image makeImage(const PixelViewport& area, Rgba background, bool withDepth);
 
-/// The smallest part of `image` outside which its depth is 0; empty when nothing was drawn.
-/// Precondition: image.hasDepth().
-PixelViewport coveredArea(const Image& image);
-
-/// The pixels of `image` inside `area`. Precondition: image.area contains `area`.
-Image crop(const Image& image, const PixelViewport& area);
-
 /// Copies `source` over `target` (sort-first assembly); depth too where both have it.
 /// Precondition: target.area contains source.area.
 void paste(const Image& source, Image& target);

@@ -15,6 +15,15 @@ PixelViewport intersection(const PixelViewport& a, const PixelViewport& b) {
     return {left, bottom, right - left, top - bottom};
 }
 
+PixelViewport enclosing(const PixelViewport& a, const PixelViewport& b) {
+    if (a.isEmpty() || b.isEmpty())
+        return a.isEmpty() ? b : a;
+    const int left = std::min(a.x, b.x);
+    const int bottom = std::min(a.y, b.y);
+    return {left, bottom, std::max(a.x + a.width, b.x + b.width) - left,
+            std::max(a.y + a.height, b.y + b.height) - bottom};
+}
+
 std::vector<PixelViewport> split(const PixelViewport& whole, int count) {
     std::vector<PixelViewport> parts;
     const bool wide = whole.width >= whole.height;

@@ -24,6 +24,9 @@ struct PixelViewport {
 
 PixelViewport intersection(const PixelViewport& a, const PixelViewport& b);
 
+/// The smallest rectangle around both; an empty one adds nothing.
+PixelViewport enclosing(const PixelViewport& a, const PixelViewport& b);
+
 /// `count` rectangles side by side along the longer axis that cover `whole` once, differing by at
 /// most one pixel. Fewer when there are not that many pixels.
 std::vector<PixelViewport> split(const PixelViewport& whole, int count);

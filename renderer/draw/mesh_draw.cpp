@@ -3,16 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
+#include <utility>
 
-#include <glm/gtc/matrix_inverse.hpp>
 #include <glm/gtc/matrix_transform.hpp>
-#include <glm/gtc/type_ptr.hpp>
 
 #include "eyrie_shaders.h"
 #include "fabric/status.h"
 #include "renderer/gl/object.h"
-#include "renderer/lod/lattice_view.h"
 #include "renderer/mesh/eym_format.h"
 #include "renderer/page/lru_cache.h"
 
@@ -63,9 +60,9 @@ std::uint32_t packedSrgb(const fabric::Vec3& linear) {
 
 class MeshDrawable : public Drawable {
 public:
-    MeshDrawable(const fabric::SceneObject& object, const MeshProgram& program, mesh::EymFile file,
-                 std::uint64_t memoryBytes)
-        : program_(program),
+    MeshDrawable(const fabric::SceneObject& object, Variants<MeshProgram>& programs,
+                 mesh::EymFile file, std::uint64_t memoryBytes)
+        : programs_(programs),
           worldFromObject_(object.worldFromObject),
           uniformColour_(packedSrgb(object.colour)),
           file_(std::move(file)),
@@ -89,12 +86,11 @@ private:
     void defineVertexFormat();
     void visit(std::uint32_t index, bool errorKnown, const lod::ObjectView& view, double tauPixels,
                Cut& cut) const;
-    void setUniforms(const FrameState& frame) const;
     absl::StatusOr<const DeviceNode*> residentNode(std::uint32_t index,
                                                    fabric::FrameStatistics& statistics);
     void drawNode(const DeviceNode& node) const;
 
-    const MeshProgram& program_;
+    Variants<MeshProgram>& programs_;
     fabric::Mat4 worldFromObject_;
     fabric::Mat4 objectFromLattice_;
     std::uint32_t uniformColour_;
@@ -146,20 +142,6 @@ void MeshDrawable::visit(std::uint32_t index, bool errorKnown, const lod::Object
     visit(static_cast<std::uint32_t>(node.right), errorKnown, view, tauPixels, cut);
 }
 
-void MeshDrawable::setUniforms(const FrameState& frame) const {
-    const lod::LatticeView lattice(frame.view, worldFromObject_ * objectFromLattice_);
-    const glm::mat3 normalMatrix(glm::inverseTranspose(fabric::Mat3(worldFromObject_)));
-    glUniformMatrix4fv(program_.clipFromLattice, 1, GL_FALSE,
-                       glm::value_ptr(lattice.clipFromLattice));
-    glUniformMatrix3fv(program_.metresFromLattice, 1, GL_FALSE,
-                       glm::value_ptr(lattice.metresFromLattice));
-    glUniformMatrix3fv(program_.worldFromNormal, 1, GL_FALSE, glm::value_ptr(normalMatrix));
-    glUniform3iv(program_.cameraLattice, 1, glm::value_ptr(lattice.cameraLattice));
-    glUniform3fv(program_.cameraOffsetMetres, 1, glm::value_ptr(lattice.cameraOffsetMetres));
-    glUniform1i(program_.flatShading, frame.shading == fabric::Shading::Flat ? 1 : 0);
-    program_.lighting.set(frame);
-}
-
 absl::StatusOr<const DeviceNode*> MeshDrawable::residentNode(std::uint32_t index,
                                                              fabric::FrameStatistics& statistics) {
     if (const DeviceNode* node = resident_.find(index); node != nullptr)
@@ -184,10 +166,10 @@ void MeshDrawable::drawNode(const DeviceNode& node) const {
 
 absl::Status MeshDrawable::draw(std::span<const Piece> pieces, const FrameState& frame,
                                 fabric::FrameStatistics& statistics) {
-    glUseProgram(program_.program.id());
+    ASSIGN_OR_RETURN(const MeshProgram* program, programs_.find(variantFor(frame)));
+    program->object.use(frame, worldFromObject_, objectFromLattice_);
     glBindVertexArray(vertexArray_.id());
     glVertexAttribI4ui(kColour, uniformColour_, 0, 0, 0);
-    setUniforms(frame);
     for (const Piece& piece : pieces) {
         ASSIGN_OR_RETURN(const DeviceNode* node, residentNode(piece.index, statistics));
         drawNode(*node);
@@ -198,29 +180,18 @@ absl::Status MeshDrawable::draw(std::span<const Piece> pieces, const FrameState&
 
 }  // namespace
 
-MeshProgram::MeshProgram(gl::Program linked)
-    : program(std::move(linked)),
-      lighting(program),
-      clipFromLattice(program.uniform("clipFromLattice")),
-      metresFromLattice(program.uniform("metresFromLattice")),
-      worldFromNormal(program.uniform("worldFromNormal")),
-      cameraLattice(program.uniform("cameraLattice")),
-      cameraOffsetMetres(program.uniform("cameraOffsetMetres")),
-      flatShading(program.uniform("flatShading")) {}
-
-absl::StatusOr<MeshProgram> MeshProgram::create() {
-    const std::string fragment = fragmentSource(effects::kMeshFragGlsl);
-    ASSIGN_OR_RETURN(gl::Program program,
-                     gl::Program::create({"mesh.vert.glsl", effects::kMeshVertGlsl},
-                                         {"lighting.glsl + mesh.frag.glsl", fragment}));
-    return MeshProgram(std::move(program));
+absl::StatusOr<MeshProgram> MeshProgram::create(Variant variant) {
+    ASSIGN_OR_RETURN(ObjectProgram object,
+                     ObjectProgram::create({"mesh.vert.glsl", effects::kMeshVertGlsl},
+                                           {"mesh.frag.glsl", effects::kMeshFragGlsl}, variant));
+    return MeshProgram{std::move(object)};
 }
 
 absl::StatusOr<std::unique_ptr<Drawable>> openMesh(const fabric::SceneObject& object,
-                                                   const MeshProgram& program,
+                                                   Variants<MeshProgram>& programs,
                                                    std::uint64_t memoryBytes) {
     ASSIGN_OR_RETURN(mesh::EymFile file, mesh::EymFile::open(object.path));
-    return std::make_unique<MeshDrawable>(object, program, std::move(file), memoryBytes);
+    return std::make_unique<MeshDrawable>(object, programs, std::move(file), memoryBytes);
 }
 
 }  // namespace eyrie::draw

@@ -7,32 +7,21 @@
 
 #include "fabric/scene.h"
 #include "renderer/draw/drawable.h"
-#include "renderer/draw/lighting.h"
-#include "renderer/gl/program.h"
+#include "renderer/draw/object_program.h"
 
 namespace eyrie::draw {
 
-/// The shaders of meshes, made once a context. Outlives the drawables that use it.
-class MeshProgram {
-public:
-    static absl::StatusOr<MeshProgram> create();
+/// The shaders of meshes.
+struct MeshProgram {
+    static absl::StatusOr<MeshProgram> create(Variant variant);
 
-    gl::Program program;
-    LightingUniforms lighting;
-    GLint clipFromLattice;
-    GLint metresFromLattice;
-    GLint worldFromNormal;
-    GLint cameraLattice;
-    GLint cameraOffsetMetres;
-    GLint flatShading;
-
-private:
-    explicit MeshProgram(gl::Program linked);
+    ObjectProgram object;
 };
 
-/// Opens `object.path` as a .eym file. Errors: NotFound, InvalidArgument, DataLoss.
+/// Opens `object.path` as a .eym file. `programs` outlives what is returned. Errors: NotFound,
+/// InvalidArgument, DataLoss.
 absl::StatusOr<std::unique_ptr<Drawable>> openMesh(const fabric::SceneObject& object,
-                                                   const MeshProgram& program,
+                                                   Variants<MeshProgram>& programs,
                                                    std::uint64_t memoryBytes);
 
 }  // namespace eyrie::draw

@@ -2,16 +2,13 @@
 #include "renderer/draw/terrain_draw.h"
 
 #include <algorithm>
-#include <string>
 #include <utility>
 
-#include <glm/gtc/matrix_inverse.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
 #include "eyrie_shaders.h"
 #include "fabric/status.h"
 #include "renderer/gl/object.h"
-#include "renderer/lod/lattice_view.h"
 #include "renderer/page/lru_cache.h"
 #include "renderer/terrain/eyt_format.h"
 #include "renderer/terrain/terrain_cut.h"
@@ -66,9 +63,9 @@ DeviceTile upload(const terrain::TileGeometry& geometry, std::uint64_t& bytesUse
 
 class TerrainDrawable : public Drawable {
 public:
-    TerrainDrawable(const fabric::SceneObject& object, const TerrainProgram& program,
+    TerrainDrawable(const fabric::SceneObject& object, Variants<TerrainProgram>& programs,
                     std::shared_ptr<const terrain::EytFile> file, std::uint64_t memoryBytes)
-        : program_(program),
+        : programs_(programs),
           worldFromObject_(object.worldFromObject),
           file_(std::move(file)),
           bounds_(index().bounds()),
@@ -97,14 +94,15 @@ public:
 
 private:
     const terrain::EytIndex& index() const { return file_->index(); }
-    void setUniforms(const FrameState& frame) const;
+    void use(const TerrainProgram& program, const FrameState& frame) const;
     absl::StatusOr<const terrain::Page*> hostPage(std::uint32_t page,
                                                   fabric::FrameStatistics& statistics);
     absl::StatusOr<const DeviceTile*> deviceTile(const terrain::TileId& id,
                                                  fabric::FrameStatistics& statistics);
-    std::uint64_t drawTile(const terrain::TileChoice& choice, const DeviceTile& tile) const;
+    std::uint64_t drawTile(const TerrainProgram& program, const terrain::TileChoice& choice,
+                           const DeviceTile& tile) const;
 
-    const TerrainProgram& program_;
+    Variants<TerrainProgram>& programs_;
     fabric::Mat4 worldFromObject_;
     std::shared_ptr<const terrain::EytFile> file_;
     fabric::Box bounds_;
@@ -135,22 +133,13 @@ Cut TerrainDrawable::selectCut(const lod::ObjectView& view, double tauPixels) {
     return cut;
 }
 
-void TerrainDrawable::setUniforms(const FrameState& frame) const {
-    const lod::LatticeView lattice(frame.view, worldFromObject_ * index().objectFromLattice);
-    const glm::mat3 normalMatrix(glm::inverseTranspose(fabric::Mat3(worldFromObject_)));
+void TerrainDrawable::use(const TerrainProgram& program, const FrameState& frame) const {
     const glm::vec2 heights(bounds_.min.z, bounds_.max.z);
-    glUniformMatrix4fv(program_.clipFromLattice, 1, GL_FALSE,
-                       glm::value_ptr(lattice.clipFromLattice));
-    glUniformMatrix3fv(program_.metresFromLattice, 1, GL_FALSE,
-                       glm::value_ptr(lattice.metresFromLattice));
-    glUniformMatrix3fv(program_.worldFromNormal, 1, GL_FALSE, glm::value_ptr(normalMatrix));
-    glUniform3iv(program_.cameraLattice, 1, glm::value_ptr(lattice.cameraLattice));
-    glUniform2i(program_.lastPost, index().quadtree.columns() - 1, index().quadtree.rows() - 1);
-    glUniform1f(program_.heightStepMetres, static_cast<float>(index().heightStepMetres()));
-    glUniform1f(program_.heightOriginMetres, static_cast<float>(index().heightOriginMetres()));
-    glUniform2fv(program_.heightRangeMetres, 1, glm::value_ptr(heights));
-    glUniform1i(program_.flatShading, frame.shading == fabric::Shading::Flat ? 1 : 0);
-    program_.lighting.set(frame);
+    program.object.use(frame, worldFromObject_, index().objectFromLattice);
+    glUniform2i(program.lastPost, index().quadtree.columns() - 1, index().quadtree.rows() - 1);
+    glUniform1f(program.heightStepMetres, static_cast<float>(index().heightStepMetres()));
+    glUniform1f(program.heightOriginMetres, static_cast<float>(index().heightOriginMetres()));
+    glUniform2fv(program.heightRangeMetres, 1, glm::value_ptr(heights));
 }
 
 absl::StatusOr<const terrain::Page*> TerrainDrawable::hostPage(
@@ -176,13 +165,14 @@ absl::StatusOr<const DeviceTile*> TerrainDrawable::deviceTile(const terrain::Til
 }
 
 /// Draws the interior and one form of each edge; returns the triangles.
-std::uint64_t TerrainDrawable::drawTile(const terrain::TileChoice& choice,
+std::uint64_t TerrainDrawable::drawTile(const TerrainProgram& program,
+                                        const terrain::TileChoice& choice,
                                         const DeviceTile& tile) const {
     const terrain::TileId& id = choice.id;
-    glUniform3i(program_.tileOrigin, id.x * terrain::Quadtree::side(id.level),
+    glUniform3i(program.tileOrigin, id.x * terrain::Quadtree::side(id.level),
                 id.y * terrain::Quadtree::side(id.level), tile.baseHeight);
-    glUniform1i(program_.spacingShift, terrain::Quadtree::spacingShift(id.level));
-    glUniform1i(program_.heightMultiplier, tile.heightMultiplier);
+    glUniform1i(program.spacingShift, terrain::Quadtree::spacingShift(id.level));
+    glUniform1i(program.heightMultiplier, tile.heightMultiplier);
     glBindTextureUnit(kNormalMapUnit, tile.normalMap.id());
 
     const GLuint array = tile.vertexStride == 4 ? shortVertices_.id() : longVertices_.id();
@@ -214,48 +204,42 @@ std::uint64_t TerrainDrawable::drawTile(const terrain::TileChoice& choice,
 
 absl::Status TerrainDrawable::draw(std::span<const Piece> pieces, const FrameState& frame,
                                    fabric::FrameStatistics& statistics) {
-    glUseProgram(program_.program.id());
-    setUniforms(frame);
+    ASSIGN_OR_RETURN(const TerrainProgram* program, programs_.find(variantFor(frame)));
+    use(*program, frame);
     for (const Piece& piece : pieces) {
         const terrain::TileChoice& choice = choices_[piece.index];
         ASSIGN_OR_RETURN(const DeviceTile* tile, deviceTile(choice.id, statistics));
-        statistics.triangles += drawTile(choice, *tile);
+        statistics.triangles += drawTile(*program, choice, *tile);
     }
     return absl::OkStatus();
 }
 
 }  // namespace
 
-TerrainProgram::TerrainProgram(gl::Program linked)
-    : program(std::move(linked)),
-      lighting(program),
-      clipFromLattice(program.uniform("clipFromLattice")),
-      metresFromLattice(program.uniform("metresFromLattice")),
-      worldFromNormal(program.uniform("worldFromNormal")),
-      cameraLattice(program.uniform("cameraLattice")),
-      tileOrigin(program.uniform("tileOrigin")),
-      spacingShift(program.uniform("spacingShift")),
-      heightMultiplier(program.uniform("heightMultiplier")),
-      lastPost(program.uniform("lastPost")),
-      heightStepMetres(program.uniform("heightStepMetres")),
-      heightOriginMetres(program.uniform("heightOriginMetres")),
-      heightRangeMetres(program.uniform("heightRangeMetres")),
-      flatShading(program.uniform("flatShading")) {}
+TerrainProgram::TerrainProgram(ObjectProgram linked)
+    : object(std::move(linked)),
+      tileOrigin(object.uniform("tileOrigin")),
+      spacingShift(object.uniform("spacingShift")),
+      heightMultiplier(object.uniform("heightMultiplier")),
+      lastPost(object.uniform("lastPost")),
+      heightStepMetres(object.uniform("heightStepMetres")),
+      heightOriginMetres(object.uniform("heightOriginMetres")),
+      heightRangeMetres(object.uniform("heightRangeMetres")) {}
 
-absl::StatusOr<TerrainProgram> TerrainProgram::create() {
-    const std::string fragment = fragmentSource(effects::kTerrainFragGlsl);
-    ASSIGN_OR_RETURN(gl::Program program,
-                     gl::Program::create({"terrain.vert.glsl", effects::kTerrainVertGlsl},
-                                         {"lighting.glsl + terrain.frag.glsl", fragment}));
-    return TerrainProgram(std::move(program));
+absl::StatusOr<TerrainProgram> TerrainProgram::create(Variant variant) {
+    ASSIGN_OR_RETURN(
+        ObjectProgram object,
+        ObjectProgram::create({"terrain.vert.glsl", effects::kTerrainVertGlsl},
+                              {"terrain.frag.glsl", effects::kTerrainFragGlsl}, variant));
+    return TerrainProgram(std::move(object));
 }
 
 absl::StatusOr<std::unique_ptr<Drawable>> openTerrain(const fabric::SceneObject& object,
-                                                      const TerrainProgram& program,
+                                                      Variants<TerrainProgram>& programs,
                                                       std::uint64_t memoryBytes) {
     ASSIGN_OR_RETURN(std::shared_ptr<const terrain::EytFile> file,
                      terrain::EytFile::open(object.path));
-    return std::make_unique<TerrainDrawable>(object, program, std::move(file), memoryBytes);
+    return std::make_unique<TerrainDrawable>(object, programs, std::move(file), memoryBytes);
 }
 
 }  // namespace eyrie::draw

@@ -7,22 +7,16 @@
 
 #include "fabric/scene.h"
 #include "renderer/draw/drawable.h"
-#include "renderer/draw/lighting.h"
-#include "renderer/gl/program.h"
+#include "renderer/draw/object_program.h"
 
 namespace eyrie::draw {
 
-/// The shaders of terrain, made once a context. Outlives the drawables that use it.
+/// The shaders of terrain, with the uniforms that only terrain has.
 class TerrainProgram {
 public:
-    static absl::StatusOr<TerrainProgram> create();
+    static absl::StatusOr<TerrainProgram> create(Variant variant);
 
-    gl::Program program;
-    LightingUniforms lighting;
-    GLint clipFromLattice;
-    GLint metresFromLattice;
-    GLint worldFromNormal;
-    GLint cameraLattice;
+    ObjectProgram object;
     GLint tileOrigin;
     GLint spacingShift;
     GLint heightMultiplier;
@@ -30,15 +24,15 @@ public:
     GLint heightStepMetres;
     GLint heightOriginMetres;
     GLint heightRangeMetres;
-    GLint flatShading;
 
 private:
-    explicit TerrainProgram(gl::Program linked);
+    explicit TerrainProgram(ObjectProgram linked);
 };
 
-/// Opens `object.path` as a .eyt file. Errors: NotFound, InvalidArgument, DataLoss.
+/// Opens `object.path` as a .eyt file. `programs` outlives what is returned. Errors: NotFound,
+/// InvalidArgument, DataLoss.
 absl::StatusOr<std::unique_ptr<Drawable>> openTerrain(const fabric::SceneObject& object,
-                                                      const TerrainProgram& program,
+                                                      Variants<TerrainProgram>& programs,
                                                       std::uint64_t memoryBytes);
 
 }  // namespace eyrie::draw

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lights of a scene. Colours here are linear; the display's transfer function is taken as a square.
 
-// Lights that the scene does not have are black. The loops have a constant length on purpose:
-// software renderers pay for a computed uniform index three times what four lights cost.
-uniform vec3 lightDirections[4];  // towards the light, world axes, unit; the first is the key light
-uniform vec3 lightColours[4];
+// LIGHTS is defined before this text, for the number of lights that the scene has.
+uniform vec3 lightDirections[LIGHTS];  // towards the light, world axes, unit; the first is the key
+uniform vec3 lightColours[LIGHTS];
 uniform float ambient;
 
 vec3 diffuseLight(vec3 normal) {
     vec3 light = vec3(0.0);
-    for (int i = 0; i < 4; ++i)
+    for (int i = 0; i < LIGHTS; ++i)
         light += lightColours[i] * max(dot(normal, lightDirections[i]), 0.0);
     return vec3(ambient) + light * (1.0 - ambient);
 }

@@ -3,14 +3,16 @@ in vec3 worldNormal;
 in vec3 albedo;
 
 uniform vec3 cameraOffsetMetres;  // from the snapped camera to the camera, world axes
-uniform int flatShading;
 
 out vec4 colour;
 
 void main() {
     vec3 towardsEye = normalize(cameraOffsetMetres - relativeMetres);
-    vec3 normal = flatShading != 0 ? cross(dFdx(relativeMetres), dFdy(relativeMetres)) : worldNormal;
-    normal = normalize(normal);
+#if FLAT
+    vec3 normal = normalize(cross(dFdx(relativeMetres), dFdy(relativeMetres)));
+#else
+    vec3 normal = normalize(worldNormal);
+#endif
     // Scans are open surfaces: both sides are lit.
     if (dot(normal, towardsEye) < 0.0)
         normal = -normal;

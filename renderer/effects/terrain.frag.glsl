@@ -5,7 +5,6 @@ in float heightMetres;
 uniform sampler2D normalMap;      // x and y of the object-space normal
 uniform mat3 worldFromNormal;     // inverse transpose of world from object
 uniform vec2 heightRangeMetres;   // lowest and highest of the data set
-uniform int flatShading;
 
 out vec4 colour;
 
@@ -23,17 +22,15 @@ vec3 tint(float elevation, float slope) {
 }
 
 void main() {
-    vec3 normal;
     vec3 objectNormal;
     vec2 coordinate = normalMapCoordinate / vec2(textureSize(normalMap, 0));
     objectNormal.xy = textureLod(normalMap, coordinate, 0.0).xy;
     objectNormal.z = sqrt(max(1.0 - dot(objectNormal.xy, objectNormal.xy), 0.0));
-    if (flatShading != 0) {
-        normal = normalize(cross(dFdx(relativeMetres), dFdy(relativeMetres)));
-        normal *= sign(dot(normal, worldFromNormal * objectNormal));
-    } else {
-        normal = normalize(worldFromNormal * objectNormal);
-    }
+    vec3 normal = normalize(worldFromNormal * objectNormal);
+#if FLAT
+    vec3 facet = normalize(cross(dFdx(relativeMetres), dFdy(relativeMetres)));
+    normal = dot(facet, normal) < 0.0 ? -facet : facet;
+#endif
     float span = max(heightRangeMetres.y - heightRangeMetres.x, 1.0e-3);
     float elevation = (heightMetres - heightRangeMetres.x) / span;
     colour = display(tint(elevation, 1.0 - objectNormal.z) * diffuseLight(normal) * 1.35);

@@ -51,14 +51,18 @@ void Framebuffer::begin(int viewWidth, int viewHeight, const fabric::PixelViewpo
     glClearNamedFramebufferfv(framebuffer_.id(), GL_DEPTH, 0, &kInfinitelyFar);
 }
 
-fabric::Image Framebuffer::read(const fabric::PixelViewport& part) {
+fabric::Image Framebuffer::read(const fabric::PixelViewport& part, bool withDepth) {
     fabric::Image image;
     image.area = part;
-    image.colour.resize(static_cast<std::size_t>(part.area()));
-    image.depth.resize(static_cast<std::size_t>(part.area()));
+    if (part.isEmpty())
+        return image;
     glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_.id());
+    image.colour.resize(static_cast<std::size_t>(part.area()));
     glReadPixels(part.x, part.y, part.width, part.height, GL_RGBA, GL_UNSIGNED_BYTE,
                  image.colour.data());
+    if (!withDepth)
+        return image;
+    image.depth.resize(static_cast<std::size_t>(part.area()));
     glReadPixels(part.x, part.y, part.width, part.height, GL_DEPTH_COMPONENT, GL_FLOAT,
                  image.depth.data());
     return image;

@@ -23,8 +23,8 @@ public:
     void begin(int viewWidth, int viewHeight, const fabric::PixelViewport& part,
                fabric::Rgba background);
 
-    /// Reads `part` back, colour and depth; waits for drawing to finish.
-    fabric::Image read(const fabric::PixelViewport& part);
+    /// Reads `part` back, depth only where asked for; waits for drawing to finish.
+    fabric::Image read(const fabric::PixelViewport& part, bool withDepth);
 
 private:
     FramebufferObject framebuffer_;

@@ -149,6 +149,29 @@ bool ObjectView::isVisible(const Box& bounds, const Frustum& frustum) const {
     return std::none_of(planes.begin(), planes.end(), allOutside);
 }
 
+fabric::PixelViewport ObjectView::coveredPixels(const Box& bounds) const {
+    const fabric::PixelViewport whole{0, 0, view_.width, view_.height};
+    constexpr double kNone = std::numeric_limits<double>::infinity();
+    Frustum extent{kNone, -kNone, kNone, -kNone};  // of the box, on the plane at unit distance
+    for (const Vec3& p : viewCorners(bounds, viewFromObject_)) {
+        if (p.z < fabric::kNearMetres)
+            return whole;
+        extent = {std::min(extent.left, p.x / p.z), std::max(extent.right, p.x / p.z),
+                  std::min(extent.bottom, p.y / p.z), std::max(extent.top, p.y / p.z)};
+    }
+    // One pixel more on each side: vertices are rounded to floats, and lines have a width.
+    const auto pixel = [&](double tangent, double origin, double margin, int side) {
+        const double at = std::floor((tangent - origin) * view_.focalPixels + margin);
+        return static_cast<std::int32_t>(std::clamp(at, 0.0, static_cast<double>(side)));
+    };
+    const Frustum& f = view_.frustum;
+    const std::int32_t left = pixel(extent.left, f.left, -1, view_.width);
+    const std::int32_t right = pixel(extent.right, f.left, 2, view_.width);
+    const std::int32_t bottom = pixel(extent.bottom, f.bottom, -1, view_.height);
+    const std::int32_t top = pixel(extent.top, f.bottom, 2, view_.height);
+    return {left, bottom, right - left, top - bottom};
+}
+
 double ObjectView::screenSpaceErrorPixels(double errorMetres, const Box& bounds) const {
     if (errorMetres == 0)
         return 0;

@@ -34,6 +34,10 @@ public:
     /// The same for the whole view.
     bool isVisible(const fabric::Box& bounds) const { return isVisible(bounds, view_.frustum); }
 
+    /// Pixels of the whole view outside which no point of `bounds` is drawn (conservative); all of
+    /// the view when part of `bounds` is beside or behind the eye.
+    fabric::PixelViewport coveredPixels(const fabric::Box& bounds) const;
+
     /// Screen-space error, in pixels, of an LOD node drawn with `errorMetres` of geometric error.
     ///
     /// An upper bound for every visible point in `bounds` and every direction of the error: it

@@ -27,21 +27,24 @@ public:
                  static_cast<std::uint8_t>(1 + i)});
     }
 
-    /// As a renderer answers: cropped to what is covered.
+    /// As a renderer answers: the part that its rectangles cover.
     fabric::ChannelResult draw(const fabric::ChannelTask& task) const {
-        fabric::Image image = fabric::makeImage(task.pixelViewport, kBackground, true);
-        std::uint64_t drawn = 0;
-        for (std::size_t i = 0; i < rectangles_.size(); ++i)
-            if (task.range.contains(static_cast<double>(i) /
-                                    static_cast<double>(rectangles_.size()))) {
-                drawRectangle(rectangles_[i], image);
-                ++drawn;
-            }
+        std::vector<const Rectangle*> drawn;
+        fabric::PixelViewport covered;
+        for (std::size_t i = 0; i < rectangles_.size(); ++i) {
+            const double place = static_cast<double>(i) / static_cast<double>(rectangles_.size());
+            if (!task.range.contains(place))
+                continue;
+            drawn.push_back(&rectangles_[i]);
+            covered = enclosing(covered, rectangles_[i].pixels);
+        }
         fabric::ChannelResult result;
-        result.image = fabric::crop(image, fabric::coveredArea(image));
+        result.image =
+            fabric::makeImage(intersection(covered, task.pixelViewport), kBackground, true);
+        for (const Rectangle* rectangle : drawn) drawRectangle(*rectangle, result.image);
         if (!task.wantsDepth)
             result.image.depth.clear();
-        result.statistics.nodes = drawn;
+        result.statistics.nodes = drawn.size();
         return result;
     }
 

@@ -40,6 +40,12 @@ TEST(PixelViewport, TheIntersectionIsWhatBothHold) {
     EXPECT_TRUE(intersection({0, 0, 10, 10}, {10, 0, 10, 10}).isEmpty());
 }
 
+TEST(PixelViewport, TheEnclosingOneHoldsBothAndNoMore) {
+    EXPECT_EQ(enclosing({0, 0, 10, 10}, {14, 6, 2, 10}), (PixelViewport{0, 0, 16, 16}));
+    EXPECT_EQ(enclosing({}, {14, 6, 2, 10}), (PixelViewport{14, 6, 2, 10}));
+    EXPECT_EQ(enclosing({14, 6, 2, 10}, {0, 0, 0, 5}), (PixelViewport{14, 6, 2, 10}));
+}
+
 RC_GTEST_PROP(RangeSplit, CoversEveryPositionOnce, ()) {
     const double begin = *rc::gen::inRange(0, 500) / 1000.0;
     const double end = begin + *rc::gen::inRange(1, 500) / 1000.0;

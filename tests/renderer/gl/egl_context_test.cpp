@@ -52,7 +52,7 @@ TEST_F(EglContextTest, FramebufferClearsAndReadsOnlyItsPart) {
     ASSERT_TRUE(framebuffer.resize(64, 32).ok());
     framebuffer.begin(64, 32, {0, 0, 64, 32}, {1, 2, 3, 255});
     framebuffer.begin(64, 32, {8, 4, 16, 8}, {200, 100, 50, 255});
-    const fabric::Image image = framebuffer.read({0, 0, 64, 32});
+    const fabric::Image image = framebuffer.read({0, 0, 64, 32}, true);
     EXPECT_EQ(image.colour[0], (fabric::Rgba{1, 2, 3, 255}));
     EXPECT_EQ(image.colour[4 * 64 + 8], (fabric::Rgba{200, 100, 50, 255}));
     EXPECT_EQ(image.colour[4 * 64 + 24], (fabric::Rgba{1, 2, 3, 255}));

@@ -152,6 +152,46 @@ RC_GTEST_PROP(Visibility, NeverHidesAPointThatIsInThePicture, (unsigned seed)) {
     }
 }
 
+RC_GTEST_PROP(CoveredPixels, HoldEveryPointOfTheBoxThatIsInThePicture, (unsigned seed)) {
+    Dice dice(seed);
+    Camera camera;
+    camera.eye = dice.vector(20);
+    camera.target = camera.eye + dice.direction();
+    if (!fabric::validate(camera).ok())
+        return;
+    Box box;
+    box.grow(dice.vector(10));
+    box.grow(dice.vector(10));
+    const fabric::PixelViewport covered =
+        ObjectView(View(camera, 1000, 500), Mat4(1.0)).coveredPixels(box);
+    RC_ASSERT((fabric::PixelViewport{0, 0, 1000, 500}).contains(covered));
+    for (int i = 0; i < 200; ++i) {
+        const Vec3 point = box.min + box.size() * Vec3(dice.in(0, 1), dice.in(0, 1), dice.in(0, 1));
+        const auto p = project(camera, 1000, 500, point);
+        if (inPicture(p, 999, 499))
+            RC_ASSERT(covered.contains({static_cast<int>(p->x), static_cast<int>(p->y), 1, 1}));
+    }
+}
+
+TEST(CoveredPixels, AreTightAroundABoxInTheMiddle) {
+    Camera camera;
+    camera.eye = {0, -10, 0};
+    camera.target = {0, 0, 0};
+    camera.fovYDegrees = 90;
+    const ObjectView view(View(camera, 1000, 500), Mat4(1.0));
+    // The near face, 2 m wide at 10 m, is 50 pixels of the 500 that 20 m have; one more each side.
+    const fabric::PixelViewport covered = view.coveredPixels(Box{Vec3(-1, 0, -1), Vec3(1, 1, 1)});
+    EXPECT_EQ(covered, (fabric::PixelViewport{474, 224, 53, 53}));
+}
+
+TEST(CoveredPixels, AreNoneOfABoxBesideThePicture) {
+    Camera camera;
+    camera.eye = {0, -10, 0};
+    camera.target = {0, 0, 0};
+    const ObjectView view(View(camera, 1000, 500), Mat4(1.0));
+    EXPECT_TRUE(view.coveredPixels(Box{Vec3(100, 0, 0), Vec3(101, 1, 1)}).isEmpty());
+}
+
 TEST(LatticeView, PlacesTheSameWorldPointAlikeAtAnyDistanceFromTheOrigin) {
     for (const double origin : {0.0, 5e5, 6.378e6}) {
         Camera camera;
