@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "fabric/channel_task.h"
@@ -13,13 +14,14 @@ enum class Decomposition {
     Db,    ///< sort-last: each draws a share of the data, composited by depth
 };
 
-/// `whole` cut into at most `renderers` tasks (fewer when there are fewer pixels), in the order in
-/// which they are to be assembled.
+/// `whole` cut at `cuts` (positions in (0, 1), ascending) into one task more than there are cuts,
+/// or fewer where there are not that many pixels; in the order in which they are to be assembled.
 ///
 /// 2D cuts the picture along its longer side, which keeps the parts near square and so the LOD
 /// nodes that two of them share few. DB cuts the range and needs depth, so every task asks for it.
-/// One renderer gets `whole` itself. Precondition: renderers >= 1.
+/// No cuts: `whole` itself.
 std::vector<fabric::ChannelTask> decompose(const fabric::ChannelTask& whole,
-                                           Decomposition decomposition, int renderers);
+                                           Decomposition decomposition,
+                                           std::span<const double> cuts);
 
 }  // namespace eyrie::coordinator

@@ -57,6 +57,7 @@ absl::StatusOr<RenderedFrame> FramePipeline::renderFrame(const FrameRequest& req
 
 absl::StatusOr<std::vector<Flight::Leg>> FramePipeline::draw(const FrameRequest& request,
                                                              std::uint64_t revision) {
+    forgetOtherKinds(request, revision);
     const fabric::FrameData& frameData = frameDataFor(request);
     const fabric::ChannelTask whole{++frameNumber_,
                                     frameData.version,
@@ -65,11 +66,16 @@ absl::StatusOr<std::vector<Flight::Leg>> FramePipeline::draw(const FrameRequest&
                                     {0, 0, request.width, request.height},
                                     {},
                                     request.wantsDepth};
-    auto flight = std::make_shared<Flight>(
-        Flight::Plan{frameData, decompose(whole, options_.decomposition, freeRenderers(revision)),
-                     revision, lateAfter(request, revision), options_.callTimeout});
+    auto flight = std::make_shared<Flight>(Flight::Plan{
+        frameData, decompose(whole, options_.decomposition, balance_.cuts(freeRenderers(revision))),
+        revision, patience_.limit(), options_.callTimeout});
     ASSIGN_OR_RETURN(std::vector<Flight::Leg> legs, flight->fly(crew_));
-    for (const Flight::Leg& leg : legs) patience_.record(leg.taken);
+    std::vector<double> milliseconds;
+    for (const Flight::Leg& leg : legs) {
+        patience_.record(leg.taken);
+        milliseconds.push_back(leg.result.statistics.milliseconds.total);
+    }
+    balance_.record(milliseconds);
     return legs;
 }
 
@@ -83,15 +89,16 @@ const fabric::FrameData& FramePipeline::frameDataFor(const FrameRequest& request
     return frameData_;
 }
 
-std::chrono::milliseconds FramePipeline::lateAfter(const FrameRequest& request,
-                                                   std::uint64_t revision) {
+/// What earlier frames took tells of frames that differ in nothing but the camera.
+void FramePipeline::forgetOtherKinds(const FrameRequest& request, std::uint64_t revision) {
     FrameRequest likeLast = request;
     likeLast.camera = lastRequest_.camera;
-    if (likeLast != lastRequest_ || revision != lastRevision_)
+    if (likeLast != lastRequest_ || revision != lastRevision_) {
         patience_.forget();
+        balance_.forget();
+    }
     lastRequest_ = request;
     lastRevision_ = revision;
-    return patience_.limit();
 }
 
 /// A renderer that is still busy with an earlier frame's part sits out until it has finished.

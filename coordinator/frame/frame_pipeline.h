@@ -4,6 +4,7 @@
 #include <string>
 
 #include "coordinator/compound/decompose.h"
+#include "coordinator/compound/load_balance.h"
 #include "coordinator/farm/listeners.h"
 #include "coordinator/farm/registry.h"
 #include "coordinator/frame/crew.h"
@@ -43,7 +44,7 @@ public:
 
 private:
     const fabric::FrameData& frameDataFor(const FrameRequest& request);
-    std::chrono::milliseconds lateAfter(const FrameRequest& request, std::uint64_t revision);
+    void forgetOtherKinds(const FrameRequest& request, std::uint64_t revision);
     int freeRenderers(std::uint64_t revision) const;
     absl::StatusOr<std::vector<Flight::Leg>> draw(const FrameRequest& request,
                                                   std::uint64_t revision);
@@ -59,6 +60,7 @@ private:
     std::uint64_t frameNumber_ = 0;
     fabric::FrameData frameData_;
     Patience patience_;
+    LoadBalance balance_;
     FrameRequest lastRequest_;
     std::uint64_t lastRevision_ = 0;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <vector>
 
 namespace eyrie::fabric {
@@ -17,13 +18,21 @@ struct Range {
     bool operator==(const Range&) const = default;
 };
 
-/// `count` equal ranges that cover `whole` without gap or overlap.
-inline std::vector<Range> split(const Range& whole, int count) {
-    std::vector<Range> parts;
-    const double size = whole.end - whole.begin;
-    for (int i = 0; i < count; ++i)
-        parts.push_back({i == 0 ? whole.begin : parts.back().end,
-                         i + 1 == count ? whole.end : whole.begin + size * (i + 1) / count});
+/// The positions in (0, 1) that cut a whole into `count` equal parts. Precondition: count >= 1.
+inline std::vector<double> equalCuts(int count) {
+    std::vector<double> cuts;
+    for (int i = 1; i < count; ++i) cuts.push_back(static_cast<double>(i) / count);
+    return cuts;
+}
+
+/// One range more than `cuts` (ascending, in (0, 1)) that cover `whole` without gap or overlap.
+inline std::vector<Range> split(const Range& whole, std::span<const double> cuts) {
+    std::vector<Range> parts = {whole};
+    for (const double cut : cuts) {
+        const double at = whole.begin + (whole.end - whole.begin) * cut;
+        parts.back().end = at;
+        parts.push_back({at, whole.end});
+    }
     return parts;
 }
 

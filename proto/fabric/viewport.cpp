@@ -2,6 +2,7 @@
 #include "fabric/viewport.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace eyrie::fabric {
 
@@ -24,18 +25,20 @@ PixelViewport enclosing(const PixelViewport& a, const PixelViewport& b) {
             std::max(a.y + a.height, b.y + b.height) - bottom};
 }
 
-std::vector<PixelViewport> split(const PixelViewport& whole, int count) {
+std::vector<PixelViewport> split(const PixelViewport& whole, std::span<const double> cuts) {
     std::vector<PixelViewport> parts;
     const bool wide = whole.width >= whole.height;
-    const std::int64_t length = wide ? whole.width : whole.height;
-    for (std::int64_t i = 0; i < count; ++i) {
-        const int begin = static_cast<int>(length * i / count);
-        const int size = static_cast<int>(length * (i + 1) / count) - begin;
-        if (size == 0)
-            continue;
-        parts.push_back(wide ? PixelViewport{whole.x + begin, whole.y, size, whole.height}
-                             : PixelViewport{whole.x, whole.y + begin, whole.width, size});
-    }
+    const int length = wide ? whole.width : whole.height;
+    int begin = 0;
+    const auto endAt = [&](int end) {
+        if (end > begin)
+            parts.push_back(
+                wide ? PixelViewport{whole.x + begin, whole.y, end - begin, whole.height}
+                     : PixelViewport{whole.x, whole.y + begin, whole.width, end - begin});
+        begin = std::max(begin, end);
+    };
+    for (const double cut : cuts) endAt(static_cast<int>(std::lround(length * cut)));
+    endAt(length);
     return parts;
 }
 

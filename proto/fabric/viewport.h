@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace eyrie::fabric {
@@ -27,8 +28,9 @@ PixelViewport intersection(const PixelViewport& a, const PixelViewport& b);
 /// The smallest rectangle around both; an empty one adds nothing.
 PixelViewport enclosing(const PixelViewport& a, const PixelViewport& b);
 
-/// `count` rectangles side by side along the longer axis that cover `whole` once, differing by at
-/// most one pixel. Fewer when there are not that many pixels.
-std::vector<PixelViewport> split(const PixelViewport& whole, int count);
+/// One rectangle more than `cuts` (ascending, in (0, 1)), side by side along the longer axis, that
+/// cover `whole` once; each cut falls between the pixels nearest to it. Those that would have no
+/// pixels are left out.
+std::vector<PixelViewport> split(const PixelViewport& whole, std::span<const double> cuts);
 
 }  // namespace eyrie::fabric

@@ -166,7 +166,8 @@ void MeshDrawable::drawNode(const DeviceNode& node) const {
 
 absl::Status MeshDrawable::draw(std::span<const Piece> pieces, const FrameState& frame,
                                 fabric::FrameStatistics& statistics) {
-    ASSIGN_OR_RETURN(const MeshProgram* program, programs_.find(variantFor(frame)));
+    ASSIGN_OR_RETURN(const MeshProgram* program,
+                     programs_.find(variantFor(frame, worldFromObject_)));
     program->object.use(frame, worldFromObject_, objectFromLattice_);
     glBindVertexArray(vertexArray_.id());
     glVertexAttribI4ui(kColour, uniformColour_, 0, 0, 0);

@@ -15,15 +15,16 @@
 namespace eyrie::draw {
 
 /// What a program is compiled for. Software renderers pay in every pixel for a light the scene does
-/// not have and for a branch not taken, so both are settled before the shader is compiled.
+/// not have, a branch not taken and a rotation that the lights could have been given once.
 struct Variant {
-    int lights = 1;     ///< a scene without lights has one that shines from the camera
-    bool flat = false;  ///< one normal a triangle
+    int lights = 1;         ///< a scene without lights has one that shines from the camera
+    bool flat = false;      ///< one normal a triangle
+    bool conformal = true;  ///< the object is turned and scaled evenly: lit along its own axes
 
     auto operator<=>(const Variant&) const = default;
 };
 
-Variant variantFor(const FrameState& frame);
+Variant variantFor(const FrameState& frame, const fabric::Mat4& worldFromObject);
 
 /// A linked program with the uniforms that every kind of object has: where its lattice lies in the
 /// view, and the lights of effects/lighting.glsl.
@@ -41,7 +42,7 @@ public:
 
 private:
     explicit ObjectProgram(gl::Program program);
-    void setLights(const FrameState& frame) const;
+    void setLights(const FrameState& frame, const fabric::Mat3& shadingFromWorld) const;
 
     gl::Program program_;
     GLint clipFromLattice_;

@@ -18,6 +18,7 @@ namespace {
 
 constexpr GLuint kPackedVertex = 0;
 constexpr GLuint kNormalMapUnit = 0;
+constexpr double kElevationBands = 5;  ///< of effects/terrain.frag.glsl
 /// Pages kept in host memory after their tiles are on the device: neighbours are asked for next.
 constexpr std::uint64_t kHostPageBytes = std::uint64_t{64} << 20;
 
@@ -134,12 +135,13 @@ Cut TerrainDrawable::selectCut(const lod::ObjectView& view, double tauPixels) {
 }
 
 void TerrainDrawable::use(const TerrainProgram& program, const FrameState& frame) const {
-    const glm::vec2 heights(bounds_.min.z, bounds_.max.z);
+    const double step = index().heightStepMetres();
+    const double lowest = (bounds_.min.z - index().heightOriginMetres()) / step;
+    const double heights = std::max((bounds_.max.z - bounds_.min.z) / step, 1.0);
     program.object.use(frame, worldFromObject_, index().objectFromLattice);
     glUniform2i(program.lastPost, index().quadtree.columns() - 1, index().quadtree.rows() - 1);
-    glUniform1f(program.heightStepMetres, static_cast<float>(index().heightStepMetres()));
-    glUniform1f(program.heightOriginMetres, static_cast<float>(index().heightOriginMetres()));
-    glUniform2fv(program.heightRangeMetres, 1, glm::value_ptr(heights));
+    glUniform1f(program.lowestHeight, static_cast<float>(lowest));
+    glUniform1f(program.bandsPerHeight, static_cast<float>(kElevationBands / heights));
 }
 
 absl::StatusOr<const terrain::Page*> TerrainDrawable::hostPage(
@@ -204,7 +206,8 @@ std::uint64_t TerrainDrawable::drawTile(const TerrainProgram& program,
 
 absl::Status TerrainDrawable::draw(std::span<const Piece> pieces, const FrameState& frame,
                                    fabric::FrameStatistics& statistics) {
-    ASSIGN_OR_RETURN(const TerrainProgram* program, programs_.find(variantFor(frame)));
+    ASSIGN_OR_RETURN(const TerrainProgram* program,
+                     programs_.find(variantFor(frame, worldFromObject_)));
     use(*program, frame);
     for (const Piece& piece : pieces) {
         const terrain::TileChoice& choice = choices_[piece.index];
@@ -222,9 +225,8 @@ TerrainProgram::TerrainProgram(ObjectProgram linked)
       spacingShift(object.uniform("spacingShift")),
       heightMultiplier(object.uniform("heightMultiplier")),
       lastPost(object.uniform("lastPost")),
-      heightStepMetres(object.uniform("heightStepMetres")),
-      heightOriginMetres(object.uniform("heightOriginMetres")),
-      heightRangeMetres(object.uniform("heightRangeMetres")) {}
+      lowestHeight(object.uniform("lowestHeight")),
+      bandsPerHeight(object.uniform("bandsPerHeight")) {}
 
 absl::StatusOr<TerrainProgram> TerrainProgram::create(Variant variant) {
     ASSIGN_OR_RETURN(

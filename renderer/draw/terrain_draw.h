@@ -21,9 +21,8 @@ public:
     GLint spacingShift;
     GLint heightMultiplier;
     GLint lastPost;
-    GLint heightStepMetres;
-    GLint heightOriginMetres;
-    GLint heightRangeMetres;
+    GLint lowestHeight;
+    GLint bandsPerHeight;
 
 private:
     explicit TerrainProgram(ObjectProgram linked);

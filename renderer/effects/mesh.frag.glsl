@@ -1,8 +1,8 @@
 in vec3 relativeMetres;
-in vec3 worldNormal;
+in vec3 objectNormal;
 in vec3 albedo;
 
-uniform vec3 cameraOffsetMetres;  // from the snapped camera to the camera, world axes
+uniform vec3 cameraOffsetMetres;  // from the snapped camera to the camera, shading axes
 
 out vec4 colour;
 
@@ -11,7 +11,7 @@ void main() {
 #if FLAT
     vec3 normal = normalize(cross(dFdx(relativeMetres), dFdy(relativeMetres)));
 #else
-    vec3 normal = normalize(worldNormal);
+    vec3 normal = shadingNormal(normalize(objectNormal));
 #endif
     // Scans are open surfaces: both sides are lit.
     if (dot(normal, towardsEye) < 0.0)

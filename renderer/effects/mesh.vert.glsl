@@ -9,12 +9,11 @@ layout(location = 1) in uint packedNormal;
 layout(location = 2) in uint packedColour;
 
 uniform mat4 clipFromLattice;    // camera-relative lattice -> clip; one for all nodes
-uniform mat3 metresFromLattice;  // lattice steps -> metres along world axes
-uniform mat3 worldFromNormal;    // inverse transpose of world from object
+uniform mat3 metresFromLattice;  // lattice steps -> metres along shading axes
 uniform ivec3 cameraLattice;     // the lattice point the camera snapped to
 
 out vec3 relativeMetres;
-out vec3 worldNormal;
+out vec3 objectNormal;
 out vec3 albedo;
 
 // Meyer et al. 2010, "On Floating-Point Normal Vectors".
@@ -33,7 +32,7 @@ void main() {
     vec3 relative = vec3(lattice - cameraLattice);
     gl_Position = clipFromLattice * vec4(relative, 1.0);
     relativeMetres = metresFromLattice * relative;
-    worldNormal = worldFromNormal * octahedralNormal(unpackSnorm2x16(packedNormal));
+    objectNormal = octahedralNormal(unpackSnorm2x16(packedNormal));
     vec3 encoded = unpackUnorm4x8(packedColour).rgb;
     albedo = encoded * encoded;
 }

@@ -7,18 +7,19 @@ invariant gl_Position;
 layout(location = 0) in uvec2 packedVertex;
 
 uniform mat4 clipFromLattice;    // camera-relative lattice -> clip; one for all tiles
-uniform mat3 metresFromLattice;  // lattice steps -> metres along world axes
+uniform mat3 metresFromLattice;  // lattice steps -> metres along shading axes
 uniform ivec3 cameraLattice;     // the lattice point the camera snapped to
 uniform ivec3 tileOrigin;        // lattice point of the tile's first post; z its base height
 uniform int spacingShift;        // samples of the tile's level are 2^spacingShift posts apart
 uniform int heightMultiplier;    // lattice height steps of one packed step
 uniform ivec2 lastPost;          // posts past the data's edge sit on it
-uniform float heightStepMetres;
-uniform float heightOriginMetres;
+uniform float lowestHeight;      // of the data set, in lattice height steps
+uniform float bandsPerHeight;    // bands of elevation in one lattice height step
+uniform sampler2D normalMap;
 
-out vec2 normalMapCoordinate;  // in texels
+out vec2 normalMapCoordinate;
 out vec3 relativeMetres;
-out float heightMetres;
+out float band;
 
 void main() {
     uint word = packedVertex.x;
@@ -32,6 +33,7 @@ void main() {
     gl_Position = clipFromLattice * vec4(relative, 1.0);
 
     relativeMetres = metresFromLattice * relative;
-    heightMetres = heightOriginMetres + float(lattice.z) * heightStepMetres;
-    normalMapCoordinate = vec2(post - tileOrigin.xy) / float(1 << spacingShift) + 0.5;
+    band = (float(lattice.z) - lowestHeight) * bandsPerHeight;
+    vec2 texel = vec2(post - tileOrigin.xy) / float(1 << spacingShift) + 0.5;
+    normalMapCoordinate = texel / vec2(textureSize(normalMap, 0));
 }

@@ -23,8 +23,8 @@ LatticeView::LatticeView(const View& view, const fabric::Mat4& worldFromLattice)
                       Mat4(view.viewFromWorldRotation) * relativeFromLattice;
     cameraLattice = glm::ivec3(snapped);
     clipFromLattice = glm::mat4(clip);
-    metresFromLattice = glm::mat3(linear);
-    cameraOffsetMetres = glm::vec3(-offset);
+    metresFromLattice = linear;
+    cameraOffsetMetres = -offset;
 }
 
 }  // namespace eyrie::lod

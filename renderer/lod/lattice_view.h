@@ -19,10 +19,10 @@ struct LatticeView {
     /// `worldFromLattice` is affine, world metres per lattice step and origin.
     LatticeView(const View& view, const fabric::Mat4& worldFromLattice);
 
-    glm::ivec3 cameraLattice;      ///< each at most 2^23, so that differences stay below 2^24
-    glm::mat4 clipFromLattice;     ///< of (lattice - cameraLattice); reversed infinite depth
-    glm::mat3 metresFromLattice;   ///< of the same, along world axes
-    glm::vec3 cameraOffsetMetres;  ///< from the snapped camera to the camera, along world axes
+    glm::ivec3 cameraLattice;         ///< each at most 2^23, so that differences stay below 2^24
+    glm::mat4 clipFromLattice;        ///< of (lattice - cameraLattice); reversed infinite depth
+    fabric::Mat3 metresFromLattice;   ///< of the same, along world axes
+    fabric::Vec3 cameraOffsetMetres;  ///< from the snapped camera to the camera, along world axes
 };
 
 }  // namespace eyrie::lod

@@ -20,7 +20,8 @@ std::vector<fabric::Image> drawn(const LayeredScene& scene, Decomposition decomp
                                  int renderers) {
     std::vector<fabric::Image> images;
     const fabric::ChannelTask whole{1, 1, kWidth, kHeight, kArea, {}, true};
-    for (const fabric::ChannelTask& task : decompose(whole, decomposition, renderers))
+    for (const fabric::ChannelTask& task :
+         decompose(whole, decomposition, fabric::equalCuts(renderers)))
         images.push_back(scene.draw(task).image);
     return images;
 }

@@ -86,7 +86,7 @@ protected:
 
     Image sortFirst(const FrameData& frame, int count) {
         Image whole = blank();
-        for (const PixelViewport& part : fabric::split(kView, count)) {
+        for (const PixelViewport& part : fabric::split(kView, fabric::equalCuts(count))) {
             ChannelTask task = wholeView();
             task.pixelViewport = part;
             fabric::paste(draw(frame, task), whole);
@@ -96,7 +96,7 @@ protected:
 
     Image sortLast(const FrameData& frame, int count) {
         Image whole = blank();
-        for (const Range& range : fabric::split(Range{}, count)) {
+        for (const Range& range : fabric::split(Range{}, fabric::equalCuts(count))) {
             ChannelTask task = wholeView();
             task.range = range;
             fabric::mergeDepth(draw(frame, task), whole);

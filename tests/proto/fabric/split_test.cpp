@@ -13,7 +13,7 @@ namespace {
 RC_GTEST_PROP(PixelViewportSplit, CoversEveryPixelOnce, ()) {
     const PixelViewport whole{*rc::gen::inRange(0, 50), *rc::gen::inRange(0, 50),
                               *rc::gen::inRange(1, 40), *rc::gen::inRange(1, 40)};
-    const std::vector<PixelViewport> parts = split(whole, *rc::gen::inRange(1, 50));
+    const std::vector<PixelViewport> parts = split(whole, equalCuts(*rc::gen::inRange(1, 50)));
     for (int y = whole.y; y < whole.y + whole.height; ++y)
         for (int x = whole.x; x < whole.x + whole.width; ++x)
             RC_ASSERT(std::count_if(parts.begin(), parts.end(), [&](const PixelViewport& part) {
@@ -24,15 +24,15 @@ RC_GTEST_PROP(PixelViewportSplit, CoversEveryPixelOnce, ()) {
 
 RC_GTEST_PROP(PixelViewportSplit, PartsDifferByOnePixelAtMost, ()) {
     const PixelViewport whole{0, 0, *rc::gen::inRange(100, 5000), *rc::gen::inRange(1, 100)};
-    const auto parts = split(whole, *rc::gen::inRange(1, 100));
+    const auto parts = split(whole, equalCuts(*rc::gen::inRange(1, 100)));
     const auto [least, most] = std::minmax_element(
         parts.begin(), parts.end(), [](const auto& a, const auto& b) { return a.width < b.width; });
     RC_ASSERT(most->width - least->width <= 1);
 }
 
 TEST(PixelViewportSplit, CutsTheLongerSide) {
-    EXPECT_EQ(split(PixelViewport{0, 0, 100, 50}, 2)[1], (PixelViewport{50, 0, 50, 50}));
-    EXPECT_EQ(split(PixelViewport{0, 0, 50, 100}, 2)[1], (PixelViewport{0, 50, 50, 50}));
+    EXPECT_EQ(split(PixelViewport{0, 0, 100, 50}, equalCuts(2))[1], (PixelViewport{50, 0, 50, 50}));
+    EXPECT_EQ(split(PixelViewport{0, 0, 50, 100}, equalCuts(2))[1], (PixelViewport{0, 50, 50, 50}));
 }
 
 TEST(PixelViewport, TheIntersectionIsWhatBothHold) {
@@ -49,7 +49,7 @@ TEST(PixelViewport, TheEnclosingOneHoldsBothAndNoMore) {
 RC_GTEST_PROP(RangeSplit, CoversEveryPositionOnce, ()) {
     const double begin = *rc::gen::inRange(0, 500) / 1000.0;
     const double end = begin + *rc::gen::inRange(1, 500) / 1000.0;
-    const std::vector<Range> parts = split(Range{begin, end}, *rc::gen::inRange(1, 20));
+    const std::vector<Range> parts = split(Range{begin, end}, equalCuts(*rc::gen::inRange(1, 20)));
     RC_ASSERT(parts.front().begin == begin);
     RC_ASSERT(parts.back().end == end);
     for (std::size_t i = 1; i < parts.size(); ++i)
