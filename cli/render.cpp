@@ -18,6 +18,7 @@
 #include "coordinator/frame/frame_source.h"
 #include "fabric/frame_data.h"
 #include "fabric/status.h"
+#include "renderer/mesh/output_file.h"
 #include "renderer/renderer.h"
 #include "wire/json.h"
 
@@ -115,9 +116,18 @@ absl::Status writeResults(const coordinator::RenderedFrame& frame, const Options
     return absl::OkStatus();
 }
 
+/// Finds out what cannot be written before anything is drawn or written.
+absl::Status checkOutputs(const Options& options) {
+    RETURN_IF_ERROR(checkPictureName(options.out, "-o"));
+    for (const std::string& path : {options.out, options.depth, options.stats})
+        if (!path.empty())
+            RETURN_IF_ERROR(mesh::OutputFile::create(path).status());
+    return absl::OkStatus();
+}
+
 absl::Status render(const Options& options) {
     const StopSignal stop;
-    RETURN_IF_ERROR(checkPictureName(options.out, "-o"));
+    RETURN_IF_ERROR(checkOutputs(options));
     ASSIGN_OR_RETURN(const coordinator::FrameRequest request, requestOf(options));
     ASSIGN_OR_RETURN(fabric::Scene scene, loadScene(options, stop.token()));
     const Frame frame = options.renderers == 0

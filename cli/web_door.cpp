@@ -34,7 +34,7 @@ absl::StatusOr<std::unique_ptr<http::Server>> openWebDoor(const std::string& lis
         return server;
     const auto message = server.status().message();
     return absl::InvalidArgumentError(
-        fmt::format("--listen {}: {}; choose another with --listen HOST:PORT", listen,
+        fmt::format("{}; choose another place with --listen HOST:PORT",
                     std::string_view(message.data(), message.size())));
 }
 

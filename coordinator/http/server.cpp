@@ -40,13 +40,11 @@ std::string hostAndPort(std::string_view host, std::uint16_t port) {
 absl::Status cannotListen(const ServerOptions& options, const error_code& error) {
     const std::string place = hostAndPort(options.host, options.port);
     if (error == boost::asio::error::address_in_use)
-        return absl::UnavailableError(fmt::format(
-            "cannot listen on {}: address in use; choose another with --listen HOST:PORT", place));
+        return absl::UnavailableError(
+            fmt::format("cannot listen on {}: another program does already", place));
     if (error == boost::asio::error::access_denied)
         return absl::UnavailableError(
-            fmt::format("cannot listen on {}: permission denied; choose a port from 1024 on with "
-                        "--listen HOST:PORT",
-                        place));
+            fmt::format("cannot listen on {}: permission denied for ports below 1024", place));
     return absl::InvalidArgumentError(fmt::format(
         "cannot listen on {}: {}; choose an address of this machine with --listen HOST:PORT", place,
         error.message()));

@@ -2,6 +2,7 @@
 #include "fabric/camera.h"
 
 #include <cmath>
+#include <string>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -11,8 +12,8 @@
 namespace eyrie::fabric {
 namespace {
 
-bool isFinite(const Vec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+bool isWithin(const Vec3& v, double limit) {
+    return std::abs(v.x) <= limit && std::abs(v.y) <= limit && std::abs(v.z) <= limit;
 }
 
 absl::Status invalid(std::string_view field, std::string_view found, std::string_view expected) {
@@ -23,12 +24,14 @@ absl::Status invalid(std::string_view field, std::string_view found, std::string
 }  // namespace
 
 absl::Status validate(const Camera& camera) {
-    if (!isFinite(camera.eye))
-        return invalid("eye", "not finite", "three finite numbers (world metres)");
-    if (!isFinite(camera.target))
-        return invalid("target", "not finite", "three finite numbers (world metres)");
-    if (!isFinite(camera.up))
-        return invalid("up", "not finite", "three finite numbers");
+    const std::string inWorld = fmt::format("three numbers (world metres) from {0:g} to {1:g}",
+                                            -kMaxCoordinateMetres, kMaxCoordinateMetres);
+    if (!isWithin(camera.eye, kMaxCoordinateMetres))
+        return invalid("eye", "out of range", inWorld);
+    if (!isWithin(camera.target, kMaxCoordinateMetres))
+        return invalid("target", "out of range", inWorld);
+    if (!isWithin(camera.up, kMaxCoordinateMetres))
+        return invalid("up", "out of range", "a direction, such as [0,0,1]");
     if (!(camera.fovYDegrees >= 1 && camera.fovYDegrees <= 170))
         return invalid("fovyDegrees", fmt::format("{}", camera.fovYDegrees), "from 1 to 170");
     const Vec3 forward = camera.target - camera.eye;

@@ -7,6 +7,9 @@
 
 namespace eyrie::fabric {
 
+/// Of a camera's position: further away a double has no tenth of a metre left.
+inline constexpr double kMaxCoordinateMetres = 1e15;
+
 /// A pinhole camera in world space (metres, right-handed, z up unless `up` says otherwise).
 struct Camera {
     Vec3 eye{0, 0, 0};
@@ -17,8 +20,9 @@ struct Camera {
     bool operator==(const Camera&) const = default;
 };
 
-/// InvalidArgument, naming the field, when the camera spans no picture: not finite, eye equal to
-/// target, up parallel to the view direction, or a field of view outside 1 to 170 degrees.
+/// InvalidArgument, naming the field, when the camera spans no picture: not finite or beyond
+/// kMaxCoordinateMetres, eye equal to target, up parallel to the view direction, or a field of view
+/// outside 1 to 170 degrees.
 absl::Status validate(const Camera& camera);
 
 /// Rotation from world to view axes (view: right-handed, x right, y up, looks down -z).

@@ -27,6 +27,10 @@ TEST(Camera, ARefusalNamesTheField) {
                 testing::HasSubstr("camera.target"));
     EXPECT_THAT(refusal({{0, 0, 0}, {0, 1, 0}, {0, 0, 0}, 45}), testing::HasSubstr("camera.up"));
     EXPECT_THAT(refusal({{0, 0, 0}, {0, 0, -3}, {0, 0, 1}, 45}), testing::HasSubstr("camera.up"));
+    EXPECT_THAT(refusal({{1e300, 0, 0}, {0, 1, 0}, {0, 0, 1}, 45}),
+                testing::HasSubstr("camera.eye"));
+    EXPECT_THAT(refusal({{0, 0, 0}, {0, 1, 0}, {0, 0, 1e300}, 45}),
+                testing::HasSubstr("camera.up"));
     for (const double fovY : {0.0, -45.0, 171.0, nan})
         EXPECT_THAT(refusal({{0, 0, 0}, {0, 1, 0}, {0, 0, 1}, fovY}),
                     testing::HasSubstr("camera.fovyDegrees"));
