@@ -22,6 +22,7 @@ struct SceneObject {
     std::string path;            ///< of the .eyt or .eym file
     Mat4 worldFromObject{1.0};   ///< affine; object space is the file's own, in metres
     Vec3 colour{0.8, 0.8, 0.8};  ///< linear; meshes without vertex colours only
+    bool singleSided = false;    ///< triangles facing away are left out; meshes only
 
     bool operator==(const SceneObject&) const = default;
 };

@@ -96,6 +96,10 @@ absl::StatusOr<fabric::SceneObject> objectFrom(const v1::SceneObject& message, i
                          colourFrom(message.colour(), field + ".colour"));
         object.colour = perChannel(colour, linearFromSrgb);
     }
+    object.singleSided = message.single_sided();
+    if (object.singleSided && object.kind != fabric::ObjectKind::Mesh)
+        return absl::InvalidArgumentError(
+            fmt::format("{}.singleSided is for meshes; leave it out of a terrain", field));
     return object;
 }
 
@@ -128,6 +132,7 @@ void setObject(const fabric::SceneObject& object, v1::SceneObject& message) {
         message.set_mesh(object.path);
     setTransform(object.worldFromObject, message);
     setNumbers(perChannel(object.colour, srgbFromLinear), *message.mutable_colour());
+    message.set_single_sided(object.singleSided);
 }
 
 }  // namespace

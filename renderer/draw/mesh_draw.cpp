@@ -5,7 +5,9 @@
 #include <cmath>
 #include <utility>
 
+#include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <glm/matrix.hpp>
 
 #include "eyrie_shaders.h"
 #include "fabric/status.h"
@@ -65,6 +67,7 @@ public:
         : programs_(programs),
           worldFromObject_(object.worldFromObject),
           uniformColour_(packedSrgb(object.colour)),
+          singleSided_(object.singleSided),
           file_(std::move(file)),
           resident_(memoryBytes) {
         const mesh::Lattice& lattice = file_.lattice();
@@ -88,12 +91,14 @@ private:
                Cut& cut) const;
     absl::StatusOr<const DeviceNode*> residentNode(std::uint32_t index,
                                                    fabric::FrameStatistics& statistics);
+    void setFaces(const FrameState& frame) const;
     void drawNode(const DeviceNode& node) const;
 
     Variants<MeshProgram>& programs_;
     fabric::Mat4 worldFromObject_;
     fabric::Mat4 objectFromLattice_;
     std::uint32_t uniformColour_;
+    bool singleSided_;
     mesh::EymFile file_;
     gl::VertexArray vertexArray_;
     page::LruCache<std::uint32_t, DeviceNode> resident_;
@@ -153,6 +158,18 @@ absl::StatusOr<const DeviceNode*> MeshDrawable::residentNode(std::uint32_t index
     return &resident_.insert(index, std::move(node), bytes);
 }
 
+/// From inside its bounds a surface may well be seen from behind, and lines have no sides.
+void MeshDrawable::setFaces(const FrameState& frame) const {
+    const fabric::Vec3 eye(glm::inverse(worldFromObject_) * fabric::Vec4(frame.view.eye, 1.0));
+    const bool isInside = bounds().grownBy(0.01 * glm::length(bounds().size())).contains(eye);
+    if (!singleSided_ || isInside || frame.shading == fabric::Shading::Wireframe) {
+        glDisable(GL_CULL_FACE);
+        return;
+    }
+    glEnable(GL_CULL_FACE);
+    glFrontFace(glm::determinant(fabric::Mat3(worldFromObject_)) < 0 ? GL_CW : GL_CCW);
+}
+
 void MeshDrawable::drawNode(const DeviceNode& node) const {
     const GLuint array = vertexArray_.id();
     glVertexArrayVertexBuffer(array, kPosition, node.buffer.id(), 0, 8);
@@ -169,6 +186,7 @@ absl::Status MeshDrawable::draw(std::span<const Piece> pieces, const FrameState&
     ASSIGN_OR_RETURN(const MeshProgram* program,
                      programs_.find(variantFor(frame, worldFromObject_)));
     program->object.use(frame, worldFromObject_, objectFromLattice_);
+    setFaces(frame);
     glBindVertexArray(vertexArray_.id());
     glVertexAttribI4ui(kColour, uniformColour_, 0, 0, 0);
     for (const Piece& piece : pieces) {
@@ -176,6 +194,7 @@ absl::Status MeshDrawable::draw(std::span<const Piece> pieces, const FrameState&
         drawNode(*node);
         statistics.triangles += static_cast<std::uint64_t>(node->indexCount) / 3;
     }
+    glDisable(GL_CULL_FACE);
     return absl::OkStatus();
 }
 

@@ -37,6 +37,7 @@ fabric::Scene anyScene() {
         for (int column = 0; column < 4; ++column)
             for (int row = 0; row < 3; ++row) object.worldFromObject[column][row] = number();
         object.colour = {fraction(), fraction(), fraction()};
+        object.singleSided = object.kind == fabric::ObjectKind::Mesh && *rc::gen::arbitrary<bool>();
         scene.objects.push_back(object);
     }
     for (int i = 0; i < *rc::gen::inRange(0, 5); ++i)
@@ -107,6 +108,8 @@ TEST(WireScene, ARefusalNamesTheObjectAndField) {
                 testing::HasSubstr("objects[0].transform.matrix has 1 numbers"));
     EXPECT_THAT(refusal(R"({"objects":[{"mesh":"a","transform":{"axisDegrees":[0,0,0,9]}}]})"),
                 testing::HasSubstr("objects[0].transform.axisDegrees"));
+    EXPECT_THAT(refusal(R"({"objects":[{"terrain":"a","singleSided":true}]})"),
+                testing::HasSubstr("objects[0].singleSided"));
     EXPECT_THAT(refusal(R"({"objects":[{"mesh":"a","colour":[0,0,2]}]})"),
                 testing::HasSubstr("objects[0].colour[2]"));
     EXPECT_THAT(refusal(R"({"background":["NaN",0,0]})"), testing::HasSubstr("background[0]"));
