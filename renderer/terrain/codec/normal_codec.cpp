@@ -19,8 +19,11 @@ inline int unzigzag(std::uint8_t code) { return (code >> 1) ^ -(code & 1); }
 
 /// The median of left, up and the plane through the three.
 inline int medianEdge(int left, int up, int upLeft) {
-    const int plane = left + up - upLeft;
-    return std::clamp(plane, std::min(left, up), std::max(left, up));
+    const int low = left < up ? left : up;
+    const int high = left < up ? up : left;
+    const int plane = left + (up - upLeft);
+    const int capped = plane < high ? plane : high;
+    return capped > low ? capped : low;
 }
 
 /// Contexts of a row from the residuals of the row above; the first row's are all alike.

@@ -20,13 +20,13 @@ struct Share {
     std::uint32_t size = 1;
 };
 
-/// A decoder's slot in 32 bits: bits 0-7 the symbol, 8-19 its share less one, 20-31 the slot's
+/// A decoder's slot in 32 bits: bits 0-7 the symbol, 8-19 its share, 20-31 the slot's
 /// place within the share.
 struct SlotEntry {
     std::uint32_t bits = 0;
 
     std::uint32_t symbol() const { return bits & 0xff; }
-    std::uint32_t size() const { return (bits >> 8 & 0xfff) + 1; }
+    std::uint32_t size() const { return bits >> 8 & 0xfff; }
     std::uint32_t place() const { return bits >> 20; }
 };
 
@@ -112,14 +112,18 @@ public:
                 slots[(std::size_t{contexts[k]} << kBits) + (x & ((1U << kBits) - 1))]};
             symbols[k] = static_cast<std::uint8_t>(entry.symbol());
             x = entry.size() * (x >> kBits) + entry.place();
-            const bool isLow = x < kRansLow;
-            x = isLow ? x << 16 | *next : x;
+            const std::uint32_t isLow = x < kRansLow ? 1 : 0;
+            x = x << (16 * isLow) | (*next & (0 - isLow));
             next += isLow;
         };
         std::size_t k = 0;
         for (; k + kStates <= count; k += kStates)
+
+#pragma GCC unroll 8
             for (std::size_t state = 0; state < kStates; ++state) one(k + state, states[state]);
-        for (; k < count; ++k) one(k, states[k % kStates]);
+        for (std::size_t state = 0; state + 1 < kStates; ++state)
+            if (k + state < count)
+                one(k + state, states[state]);
         states_ = states;
         next_ = next;
     }

@@ -65,10 +65,10 @@ void SymbolShares::fillSlots(std::span<std::uint32_t, kAllShares> slots) const {
     // Without symbols every slot leaves the state as it is, until its tile is found to be wrong.
     std::uint32_t symbol = 0;
     if (shares_.empty())
-        for (std::uint32_t k = 0; k < kAllShares; ++k) slots[k] = (kAllShares - 1) << 8 | k << 20;
+        for (std::uint32_t k = 0; k < kAllShares; ++k) slots[k] = kAllShares << 8 | k << 20;
     for (const Share& share : shares_) {
         for (std::uint32_t k = 0; k < share.size; ++k)
-            slots[share.start + k] = symbol | (share.size - 1) << 8 | k << 20;
+            slots[share.start + k] = symbol | share.size << 8 | k << 20;
         ++symbol;
     }
 }
