@@ -204,6 +204,30 @@ void decodeCompressed(const MeshoptPage& page) {
     }
 }
 
+/// What is left of a page's normals after left + up - upleft, plane by plane, under zstd.
+struct ZstdNormals {
+    std::size_t bytes = 0;
+    Bytes compressed;
+};
+
+ZstdNormals encodeZstdNormals(const LoadedPage& page) {
+    const auto side = static_cast<std::size_t>(page.header.cells) + 1;
+    Bytes left;
+    for (int place = 0; place < kPageTiles * kPageTiles; ++place) {
+        const std::span<const std::int8_t> normals = page.page.tile(place).normals;
+        for (std::size_t plane = 0; plane < 2 && !normals.empty(); ++plane)
+            for (std::size_t k = 0; k < side * side; ++k) {
+                const auto at = [&](std::size_t sample) { return normals[2 * sample + plane]; };
+                const bool hasLeft = k % side > 0;
+                const int up = k >= side ? at(k - side) : 0;
+                const int upLeft = hasLeft && k >= side ? at(k - side - 1) : 0;
+                left.push_back(
+                    static_cast<unsigned char>(at(k) - (hasLeft ? at(k - 1) : 0) - up + upLeft));
+            }
+    }
+    return {left.size(), zstd(left)};
+}
+
 struct Totals {
     double triangles = 0;
     double samples = 0;
@@ -244,7 +268,6 @@ void compare(const std::vector<LoadedPage>& pages, const Totals& totals, int rou
     }
     std::vector<std::uint32_t> words;
     std::vector<std::uint16_t> indices;
-    std::vector<std::int8_t> normals;
     fmt::print("| geometry                 | bits/tri | b/sample |  M tri/s |\n");
     const double copying = seconds(
         [&] {
@@ -281,13 +304,38 @@ void compare(const std::vector<LoadedPage>& pages, const Totals& totals, int rou
         rounds);
     printRow("ours, normals too", totals.geometryBytes + totals.headerBytes + totals.normalBytes,
              all, totals);
-    const double normalTime = seconds(
+}
+
+void compareNormals(const std::vector<LoadedPage>& pages, const Totals& totals, int rounds) {
+    std::vector<std::int8_t> normals;
+    std::vector<ZstdNormals> zstdPages;
+    double zstdBytes = 0;
+    for (const LoadedPage& page : pages) {
+        zstdPages.push_back(encodeZstdNormals(page));
+        zstdBytes += static_cast<double>(zstdPages.back().compressed.size());
+    }
+    const auto print = [&](const char* name, double bytes, double time) {
+        fmt::print("| {:<36} | {:>8.2f} | {:>10.1f} |\n", name, 8 * bytes / totals.samples,
+                   totals.samples / time / 1e6);
+    };
+    fmt::print("| normals                              | b/sample | M sample/s |\n");
+    Bytes left;
+    const double unpacking = seconds(
+        [&] {
+            for (const ZstdNormals& page : zstdPages) {
+                left.resize(page.bytes);
+                ZSTD_decompress(left.data(), left.size(), page.compressed.data(),
+                                page.compressed.size());
+            }
+        },
+        rounds);
+    print("left + up - upleft, zstd; unpacked", zstdBytes, unpacking);
+    const double ours = seconds(
         [&] {
             for (const LoadedPage& page : pages) decodeNormals(page, normals);
         },
         rounds);
-    fmt::print("normals: {:.2f} of 16 bits a sample, {:.1f} M samples/s\n",
-               8 * totals.normalBytes / totals.samples, totals.samples / normalTime / 1e6);
+    print("ours", totals.normalBytes, ours);
 }
 
 }  // namespace
@@ -309,7 +357,10 @@ int main(int argc, char** argv) {
                totals.normalBytes, totals.headerBytes,
                static_cast<double>((*file)->sizeBytes()) - totals.geometryBytes -
                    totals.normalBytes - totals.headerBytes);
-    if (totals.triangles > 0)
-        compare(pages, totals, argc > 2 ? std::max(1, std::atoi(argv[2])) : 9);
+    const int rounds = argc > 2 ? std::max(1, std::atoi(argv[2])) : 9;
+    if (totals.triangles > 0) {
+        compare(pages, totals, rounds);
+        compareNormals(pages, totals, rounds);
+    }
     return 0;
 }

@@ -120,8 +120,9 @@ void NormalEncoder::addPlane(const std::vector<std::uint8_t>& left, std::size_t 
     std::vector<std::uint8_t> contexts(left.size(), kFirstRowContext);
     for (std::size_t j = 1; j < samples_; ++j)
         rowContexts(left.data() + (j - 1) * samples_, samples_, contexts.data() + j * samples_);
-    for (const std::uint8_t context : contexts)
-        contexts_.push_back(static_cast<std::uint8_t>(context + firstContext));
+    for (std::uint8_t& context : contexts)
+        context = static_cast<std::uint8_t>(context + firstContext);
+    contexts_.insert(contexts_.end(), contexts.begin(), contexts.end());
     symbols_.insert(symbols_.end(), left.begin(), left.end());
 }
 
@@ -135,8 +136,11 @@ std::vector<std::uint8_t> NormalEncoder::finish() const {
         shares[k].write(writer);
     }
     RansEncoder<4> rans;
-    for (std::size_t k = symbols_.size(); k-- > 0;)
-        rans.put(k % samples_ % 4, shares[contexts_[k]].of(symbols_[k]), kSymbolBits);
+    for (std::size_t row = symbols_.size(); row > 0;) {
+        row -= samples_;
+        for (std::size_t i = samples_; i-- > 0;)
+            rans.put(i % 4, shares[contexts_[row + i]].of(symbols_[row + i]), kSymbolBits);
+    }
     std::vector<std::uint8_t> bytes = std::move(writer).finish();
     const std::vector<std::uint16_t> words = std::move(rans).finish();
     const std::size_t first = bytes.size() + bytes.size() % 2;

@@ -118,8 +118,6 @@ public:
         };
         std::size_t k = 0;
         for (; k + kStates <= count; k += kStates)
-
-#pragma GCC unroll 8
             for (std::size_t state = 0; state < kStates; ++state) one(k + state, states[state]);
         for (std::size_t state = 0; state + 1 < kStates; ++state)
             if (k + state < count)
