@@ -2,7 +2,6 @@
 #include "renderer/terrain/eyt_format.h"
 
 #include <algorithm>
-#include <bit>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
@@ -133,105 +132,6 @@ absl::Status parseIndex(const FileHeader& header, const std::vector<char>& bytes
     return absl::OkStatus();
 }
 
-/// Checks one tile's header against the page and makes its spans.
-class TileReader {
-public:
-    TileReader(const std::vector<std::uint32_t>& storage, const TileHeader& header)
-        : storage_(storage), header_(header), pageBytes_(storage.size() * sizeof(std::uint32_t)) {}
-
-    /// The field that is wrong; null when all is well.
-    const char* read(TileGeometry& tile) {
-        if (header_.vertices == 0)
-            return emptyTile();
-        if (header_.wordsPerVertex != 1 && header_.wordsPerVertex != 2)
-            return "wordsPerVertex";
-        if (header_.cells < kFinestTileCells || header_.cells > kMaxTileCells)
-            return "cells";
-        if (header_.vertices > kNoVertex)
-            return "vertices";
-        if (!readParts(tile))
-            return "indexCounts";
-        if (!isArray(header_.wordsOffset, vertexWords() * sizeof(std::uint32_t)))
-            return "wordsOffset";
-        if (!isArray(header_.indicesOffset, indexCount_ * sizeof(std::uint16_t)))
-            return "indicesOffset";
-        if (!isArray(header_.normalsOffset, normalBytes()))
-            return "normalsOffset";
-        makeSpans(tile);
-        if (*std::max_element(tile.indices.begin(), tile.indices.end()) >= header_.vertices)
-            return "indices";
-        return readHeights(tile);
-    }
-
-private:
-    static constexpr std::uint32_t kNoVertex = 0xffff;
-
-    const char* emptyTile() const {
-        constexpr TileHeader kEmpty;
-        return std::memcmp(&header_, &kEmpty, sizeof header_) == 0 ? nullptr : "vertices";
-    }
-
-    std::uint64_t vertexWords() const {
-        return std::uint64_t{header_.vertices} * header_.wordsPerVertex;
-    }
-
-    std::uint64_t normalBytes() const {
-        return 2 * (std::uint64_t{header_.cells} + 1) * (std::uint64_t{header_.cells} + 1);
-    }
-
-    bool isArray(std::uint64_t offset, std::uint64_t bytes) const {
-        return offset % 4 == 0 && offset >= sizeof(PageHeader) && fits(offset, bytes, pageBytes_);
-    }
-
-    bool readParts(TileGeometry& tile) {
-        for (std::size_t part = 0; part < kTileParts; ++part) {
-            if (header_.indexCounts[part] % 3 != 0 || header_.indexCounts[part] > pageBytes_)
-                return false;
-            tile.parts[part] = {static_cast<std::uint32_t>(indexCount_), header_.indexCounts[part]};
-            indexCount_ += header_.indexCounts[part];
-        }
-        return indexCount_ > 0 && indexCount_ <= pageBytes_;
-    }
-
-    void makeSpans(TileGeometry& tile) const {
-        const char* bytes = reinterpret_cast<const char*>(storage_.data());
-        tile.words = {storage_.data() + header_.wordsOffset / 4, vertexWords()};
-        tile.wordsPerVertex = static_cast<int>(header_.wordsPerVertex);
-        tile.indices = {reinterpret_cast<const std::uint16_t*>(bytes + header_.indicesOffset),
-                        indexCount_};
-        tile.normals = {reinterpret_cast<const std::int8_t*>(bytes + header_.normalsOffset),
-                        normalBytes()};
-        tile.cells = header_.cells;
-        tile.baseHeight = header_.baseHeight;
-        tile.heightMultiplier = header_.heightMultiplier;
-    }
-
-    const char* readHeights(const TileGeometry& tile) const {
-        if (header_.heightMultiplier < 1 || header_.heightMultiplier > 2 * kMaxHeightSteps ||
-            !std::has_single_bit(static_cast<std::uint32_t>(header_.heightMultiplier)))
-            return "heightMultiplier";
-        if (std::abs(std::int64_t{header_.baseHeight}) > kMaxHeightSteps)
-            return "baseHeight";
-        const std::size_t stride = header_.wordsPerVertex;
-        std::uint64_t highest = 0;
-        for (std::size_t k = 0; k < tile.words.size(); k += stride) {
-            const std::uint32_t word = tile.words[k];
-            if ((word & 1023) > 2U * header_.cells || (word >> 10 & 1023) > 2U * header_.cells)
-                return "vertex position";
-            highest = std::max(highest,
-                               std::uint64_t{word >> 20} + (stride == 2 ? tile.words[k + 1] : 0));
-        }
-        const std::int64_t top =
-            header_.baseHeight + static_cast<std::int64_t>(highest) * header_.heightMultiplier;
-        return top > kMaxHeightSteps ? "vertex height" : nullptr;
-    }
-
-    const std::vector<std::uint32_t>& storage_;
-    const TileHeader& header_;
-    std::uint64_t pageBytes_;
-    std::uint64_t indexCount_ = 0;
-};
-
 /// Whether each tile of the page draws as many triangles as the index says.
 absl::Status checkAgainstIndex(const Page& page, std::uint32_t number, const EytIndex& index,
                                const std::string& name) {
@@ -286,19 +186,6 @@ std::uint64_t EytIndex::triangles() const {
     return sum;
 }
 
-absl::StatusOr<Page> Page::decode(std::vector<std::uint32_t> bytes, const std::string& name) {
-    Page page;
-    page.storage_ = std::move(bytes);
-    if (page.storage_.size() * sizeof(std::uint32_t) < sizeof(PageHeader))
-        return corrupt(name, "shorter than its header");
-    PageHeader header;
-    std::memcpy(static_cast<void*>(&header), page.storage_.data(), sizeof header);
-    for (std::size_t place = 0; place < header.size(); ++place)
-        if (const char* field = TileReader(page.storage_, header[place]).read(page.tiles_[place]))
-            return corrupt(name, fmt::format("tile {}: impossible {}", place, field));
-    return page;
-}
-
 absl::StatusOr<std::shared_ptr<const EytFile>> EytFile::open(const std::string& path) {
     const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
     if (fd < 0)
@@ -339,11 +226,11 @@ EytFile::~EytFile() { close(fd_); }
 absl::StatusOr<std::shared_ptr<const Page>> EytFile::readPage(std::uint32_t page) const {
     const PageRecord& record = index_.pages[page];
     const std::string name = fmt::format("{}: page {}", path_, page);
-    std::vector<std::uint32_t> bytes(record.bytes == 0 ? sizeof(PageHeader) / 4 : record.bytes / 4);
+    std::vector<std::uint32_t> bytes(record.bytes / 4);
     RETURN_IF_ERROR(readAt(fd_, bytes.data(), record.bytes, record.offset, name));
     if (record.bytes != 0 && XXH64(bytes.data(), record.bytes, 0) != record.checksum)
         return corrupt(name, "its checksum is wrong");
-    ASSIGN_OR_RETURN(Page decoded, Page::decode(std::move(bytes), name));
+    ASSIGN_OR_RETURN(Page decoded, Page::decode(bytes, name));
     RETURN_IF_ERROR(checkAgainstIndex(decoded, page, index_, name));
     return std::make_shared<const Page>(std::move(decoded));
 }

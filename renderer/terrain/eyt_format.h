@@ -116,18 +116,22 @@ struct TileGeometry {
     }
 };
 
-/// One page of tiles, checked. Owns its bytes; immutable, so shared freely between threads.
+/// One page of tiles, decoded and checked. Owns its arrays; immutable, so shared freely between
+/// threads.
 class Page {
 public:
     Page(Page&&) = default;
     Page& operator=(Page&&) = default;
 
-    /// Checks that nothing in `bytes` leads outside of them: every offset, count, index and height.
-    /// Errors: DataLoss. `name` is used in messages only.
-    static absl::StatusOr<Page> decode(std::vector<std::uint32_t> bytes, const std::string& name);
+    /// Decodes what PageBuilder made; of no bytes at all, a page without triangles. Whatever the
+    /// bytes are, nothing leads out of bounds, and time and memory are bounded by what 16 full
+    /// tiles take (6 MB). Errors: DataLoss. `name` is used in messages only.
+    static absl::StatusOr<Page> decode(std::span<const std::uint32_t> bytes,
+                                       const std::string& name);
 
     /// By Quadtree::placeInPage; empty for tiles without triangles.
     const TileGeometry& tile(int place) const { return tiles_[static_cast<std::size_t>(place)]; }
+    /// Of memory; on disk a page is smaller.
     std::size_t sizeBytes() const { return storage_.size() * sizeof(std::uint32_t); }
 
 private:

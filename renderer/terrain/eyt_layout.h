@@ -9,20 +9,21 @@
 
 #include "renderer/terrain/quadtree.h"
 
-/// The bytes of an .eyt file, version 1; little-endian throughout.
+/// The bytes of an .eyt file, version 2; little-endian throughout.
 ///
 ///   FileHeader
-///   pages, each a PageHeader and the arrays its tiles name, padded to 4 bytes
+///   pages, each a PageHeader, `words` (uint16) and `raw` bytes of the geometry, the bytes of the
+///   normals, and zeros up to a multiple of 4
 ///   index at FileHeader::indexOffset: CRS as WKT (crsBytes, padded to 8), then a TileRecord for
 ///   every tile of the quadtree, then (at a multiple of 8) a PageRecord for every page
 ///
-/// Tiles and pages are counted as Quadtree does. All offsets in a page are from its start.
+/// Tiles and pages are counted as Quadtree does. codec/ describes the bits of geometry and normals.
 namespace eyrie::terrain {
 
 static_assert(std::endian::native == std::endian::little, "pages are used as they lie on disk");
 
 inline constexpr std::array<char, 8> kEytMagic = {'E', 'Y', 'R', 'I', 'E', 'E', 'Y', 'T'};
-inline constexpr std::uint32_t kEytVersion = 1;
+inline constexpr std::uint32_t kEytVersion = 2;
 inline constexpr std::uint64_t kMaxCrsBytes = 1 << 20;
 inline constexpr std::int32_t kMaxHeightSteps = 1 << 23;  ///< of |q|
 
@@ -43,21 +44,29 @@ struct FileHeader {
 };
 static_assert(sizeof(FileHeader) == 208 && std::is_trivially_copyable_v<FileHeader>);
 
-/// What a page says of one tile. All zero: the tile has no triangles.
+/// What a page says of one tile besides its bits. All zero: the tile has no triangles.
 struct TileHeader {
-    std::uint32_t wordsOffset = 0;
-    std::uint32_t indicesOffset = 0;
-    std::uint32_t normalsOffset = 0;
-    std::uint32_t vertices = 0;
-    std::uint16_t wordsPerVertex = 0;
-    std::uint16_t cells = 0;  ///< Quadtree::cells of the level
-    std::int32_t baseHeight = 0;
-    std::int32_t heightMultiplier = 0;
-    std::array<std::uint32_t, 9> indexCounts{};  ///< of each part
+    std::int32_t baseHeight = 0;  ///< q of height 0
+    std::uint16_t vertices = 0;
+    std::uint16_t triangles = 0;  ///< of all parts
+    std::uint16_t limitX = 0;     ///< of TileShape
+    std::uint16_t limitY = 0;
+    std::uint8_t finerEdges = 0;
+    std::uint8_t wordsPerVertex = 0;
+    std::uint8_t heightShift = 0;  ///< TileGeometry::heightMultiplier is 1 << heightShift
+    std::uint8_t isSparse = 0;     ///< 1: each point says whether it is a vertex at all
 };
-static_assert(sizeof(TileHeader) == 64 && std::is_trivially_copyable_v<TileHeader>);
+static_assert(sizeof(TileHeader) == 16 && std::is_trivially_copyable_v<TileHeader>);
 
-using PageHeader = std::array<TileHeader, static_cast<std::size_t>(kPageTiles) * kPageTiles>;
+struct PageHeader {
+    std::uint32_t wordBytes = 0;
+    std::uint32_t rawBytes = 0;
+    std::uint32_t normalBytes = 0;
+    std::uint16_t cells = 0;      ///< Quadtree::cells of the page's level
+    std::uint16_t finerStep = 0;  ///< of TileShape
+    std::array<TileHeader, static_cast<std::size_t>(kPageTiles) * kPageTiles> tiles;
+};
+static_assert(sizeof(PageHeader) == 272 && std::is_trivially_copyable_v<PageHeader>);
 
 inline std::uint64_t roundUp(std::uint64_t value, std::uint64_t multiple) {
     return (value + multiple - 1) / multiple * multiple;

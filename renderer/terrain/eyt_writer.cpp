@@ -73,41 +73,52 @@ FileHeader headerOf(const EytIndex& index, std::uint64_t indexOffset,
 
 }  // namespace
 
-PageBuilder::PageBuilder() : words_(sizeof(PageHeader) / sizeof(std::uint32_t)) {}
-
-std::uint32_t PageBuilder::append(const void* data, std::size_t bytes) {
-    const std::size_t first = words_.size();
-    words_.resize(first + roundUp(bytes, sizeof(std::uint32_t)) / sizeof(std::uint32_t));
-    std::memcpy(words_.data() + first, data, bytes);
-    return static_cast<std::uint32_t>(first * sizeof(std::uint32_t));
-}
-
 void PageBuilder::add(int place, int level, const TileMesh& mesh,
                       std::span<const std::int8_t> normals) {
     assert(normals.size() == normalMapBytes(level));
     if (mesh.indices.empty())
         return;
-    hasTiles_ = true;
-    const PackedVertices packed = packVertices(mesh.vertices);
-    TileHeader header;
-    header.vertices = static_cast<std::uint32_t>(mesh.vertices.size());
-    header.wordsPerVertex = static_cast<std::uint16_t>(packed.wordsPerVertex);
-    header.cells = static_cast<std::uint16_t>(Quadtree::cells(level));
-    header.baseHeight = packed.baseHeight;
-    header.heightMultiplier = packed.heightMultiplier;
-    for (std::size_t part = 0; part < kTileParts; ++part)
-        header.indexCounts[part] = mesh.parts[part].count;
-    header.wordsOffset = append(packed.words.data(), packed.words.size() * sizeof(std::uint32_t));
-    header.indicesOffset = append(mesh.indices.data(), mesh.indices.size() * sizeof(std::uint16_t));
-    header.normalsOffset = append(normals.data(), normals.size());
-    std::memcpy(words_.data() + static_cast<std::size_t>(place) * sizeof(TileHeader) / 4, &header,
-                sizeof header);
+    if (!normals_)
+        normals_.emplace(Quadtree::cells(level));
+    header_.cells = static_cast<std::uint16_t>(Quadtree::cells(level));
+    header_.finerStep = static_cast<std::uint16_t>(mesh.shape.finerStep);
+    const HeightPacking heights = chooseHeightPacking(mesh.vertices);
+    header_.tiles[static_cast<std::size_t>(place)] = {
+        .baseHeight = heights.base,
+        .vertices = static_cast<std::uint16_t>(mesh.vertices.size()),
+        .triangles = static_cast<std::uint16_t>(mesh.indices.size() / 3),
+        .limitX = static_cast<std::uint16_t>(mesh.shape.limitX),
+        .limitY = static_cast<std::uint16_t>(mesh.shape.limitY),
+        .finerEdges = mesh.shape.finerEdges,
+        .wordsPerVertex = static_cast<std::uint8_t>(heights.wordsPerVertex),
+        .heightShift = static_cast<std::uint8_t>(heights.shift),
+        .isSparse = isSparse(mesh),
+    };
+    geometry_.add(mesh, heights.base, heights.shift);
+    normals_->add(normals);
 }
 
 std::vector<std::uint32_t> PageBuilder::finish() && {
-    if (!hasTiles_)
+    if (!normals_)
         return {};
-    return std::move(words_);
+    const GeometryBits geometry = geometry_.finish();
+    const std::vector<std::uint8_t> normals = normals_->finish();
+    header_.wordBytes = static_cast<std::uint32_t>(geometry.words.size() * sizeof(std::uint16_t));
+    header_.rawBytes = static_cast<std::uint32_t>(geometry.raw.size());
+    header_.normalBytes = static_cast<std::uint32_t>(normals.size());
+    const std::size_t bytes =
+        sizeof header_ + header_.wordBytes + header_.rawBytes + header_.normalBytes;
+    std::vector<std::uint32_t> page(roundUp(bytes, sizeof(std::uint32_t)) / sizeof(std::uint32_t));
+    char* next = reinterpret_cast<char*>(page.data());
+    const auto append = [&](const void* data, std::size_t size) {
+        std::memcpy(next, data, size);
+        next += size;
+    };
+    append(&header_, sizeof header_);
+    append(geometry.words.data(), header_.wordBytes);
+    append(geometry.raw.data(), header_.rawBytes);
+    append(normals.data(), header_.normalBytes);
+    return page;
 }
 
 EytWriter::EytWriter(std::string path, std::string partialPath, int fd)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -9,16 +10,19 @@
 #include <absl/status/status.h>
 #include <absl/status/statusor.h>
 
+#include "renderer/terrain/codec/geometry_encoder.h"
+#include "renderer/terrain/codec/normal_codec.h"
 #include "renderer/terrain/eyt_format.h"
+#include "renderer/terrain/eyt_layout.h"
 #include "renderer/terrain/tile_mesh.h"
 
 namespace eyrie::terrain {
 
-/// Puts the tiles of one page together. Give each tile its place once, in any order.
+/// Puts the tiles of one page together. Page::decode gives back what went in, in the order of
+/// TileTriangulation.
 class PageBuilder {
 public:
-    PageBuilder();
-
+    /// Give each tile its place once, in ascending order, all of one level.
     /// Precondition: normals.size() == normalMapBytes(level). Tiles without indices are left out.
     void add(int place, int level, const TileMesh& mesh, std::span<const std::int8_t> normals);
 
@@ -26,10 +30,9 @@ public:
     std::vector<std::uint32_t> finish() &&;
 
 private:
-    std::uint32_t append(const void* data, std::size_t bytes);
-
-    std::vector<std::uint32_t> words_;
-    bool hasTiles_ = false;
+    PageHeader header_;
+    GeometryEncoder geometry_;
+    std::optional<NormalEncoder> normals_;  ///< empty: no tile so far
 };
 
 /// Writes an .eyt file that appears under its name only when it is complete: bytes go to

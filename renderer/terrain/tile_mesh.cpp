@@ -2,15 +2,18 @@
 #include "renderer/terrain/tile_mesh.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
-#include <cstdlib>
 #include <utility>
 
 namespace eyrie::terrain {
 namespace {
 
-constexpr std::uint16_t kNoSlot = 0xffff;
+/// The first half spacing that lies `posts` posts or more from the tile's first post.
+std::int32_t limit(std::int32_t posts, int shift, std::int32_t side) {
+    std::int32_t half = std::min(side, posts * 2 >> shift);
+    while (half < side && half << shift >> 1 < posts) ++half;
+    return half;
+}
 
 }  // namespace
 
@@ -19,108 +22,104 @@ TileMesher::TileMesher(const SourceSurface& surface, const VertexLevels& levels,
     : surface_(surface), levels_(levels), lattice_(lattice), quadtree_(quadtree) {}
 
 TileMesh TileMesher::mesh(const TileId& tile) {
+    begin(tile);
+    TileTriangulation<TileMesher>(mesh_.shape, slots_, *this).walk();
+    finish();
+    return std::move(mesh_);
+}
+
+void TileMesher::begin(const TileId& tile) {
     tile_ = tile;
     const std::int32_t side = Quadtree::side(tile.level);
     shift_ = Quadtree::spacingShift(tile.level);
-    side_ = 2 * Quadtree::cells(tile.level);
-    finerStep_ = shift_ == Quadtree::spacingShift(tile.level - 1) ? 2 : 1;
     firstColumn_ = tile.x * side;
     firstRow_ = tile.y * side;
     isCut_ = firstColumn_ + side >= quadtree_.columns() || firstRow_ + side >= quadtree_.rows();
-    for (int edge = 0; edge < kEdges; ++edge)
-        hasNeighbour_[static_cast<std::size_t>(edge)] =
-            quadtree_.contains(Quadtree::neighbour(tile, edge));
     mesh_ = {};
-    slots_.assign(static_cast<std::size_t>((side_ + 1) * (side_ + 1)), kNoSlot);
+    TileShape& shape = mesh_.shape;
+    shape.cells = Quadtree::cells(tile.level);
+    shape.finerStep = shift_ == Quadtree::spacingShift(tile.level - 1) ? 2 : 1;
+    shape.limitX = limit(quadtree_.columns() - 1 - firstColumn_, shift_, 2 * shape.cells);
+    shape.limitY = limit(quadtree_.rows() - 1 - firstRow_, shift_, 2 * shape.cells);
+    for (int edge = 0; edge < kEdges; ++edge)
+        if (tile.level > 0 && quadtree_.contains(Quadtree::neighbour(tile, edge)))
+            shape.finerEdges = static_cast<std::uint8_t>(shape.finerEdges | 1 << edge);
     for (std::vector<std::uint16_t>& part : partIndices_) part.clear();
+}
 
-    const Point centre{side_ / 2, side_ / 2};
-    const std::array<Point, 5> around = {{{0, 0}, {side_, 0}, {side_, side_}, {0, side_}, {0, 0}}};
-    for (std::size_t k = 0; k < 4; ++k) refine(centre, around[k], around[k + 1]);
+/// Numbers by vertex that is used, kAbsentPoint for the others, which are dropped.
+std::vector<std::uint16_t> TileMesher::dropUnused() {
+    std::vector<std::uint16_t> numbers(mesh_.vertices.size(), kAbsentPoint);
+    for (const std::vector<std::uint16_t>& part : partIndices_)
+        for (const std::uint16_t index : part) numbers[index] = 0;
+    std::size_t kept = 0;
+    std::size_t old = 0;
+    for (std::uint8_t& isPresent : mesh_.isPresent) {
+        if (isPresent == 0)
+            continue;
+        if (numbers[old] == kAbsentPoint) {
+            isPresent = 0;
+        } else {
+            numbers[old] = static_cast<std::uint16_t>(kept);
+            mesh_.vertices[kept++] = mesh_.vertices[old];
+        }
+        ++old;
+    }
+    mesh_.vertices.resize(kept);
+    return numbers;
+}
 
+/// Puts the parts together and measures what is used.
+void TileMesher::finish() {
+    if (isCut_ || surface_.hasNodata()) {
+        const std::vector<std::uint16_t> numbers = dropUnused();
+        for (std::vector<std::uint16_t>& part : partIndices_)
+            for (std::uint16_t& index : part) index = numbers[index];
+    }
     for (std::size_t part = 0; part < kTileParts; ++part) {
         mesh_.parts[part] = {static_cast<std::uint32_t>(mesh_.indices.size()),
                              static_cast<std::uint32_t>(partIndices_[part].size())};
         mesh_.indices.insert(mesh_.indices.end(), partIndices_[part].begin(),
                              partIndices_[part].end());
     }
-    return std::move(mesh_);
-}
-
-bool TileMesher::isVertex(const Point& p) const {
-    return levels_.isNeeded(column(p), row(p), tile_.level);
-}
-
-/// A vertex of the next finer level's tiles along this tile's border: theirs by need, or a corner.
-bool TileMesher::isFinerVertex(const Point& p) const {
-    return p.x + p.y == side_ / 2 || p.x + p.y == side_ + side_ / 2 ||
-           levels_.isNeeded(column(p), row(p), tile_.level - 1);
-}
-
-/// Splits the triangle of right angle `apex` and hypotenuse left-right, counter-clockwise, as far
-/// as the level has vertices.
-void TileMesher::refine(const Point& apex, const Point& left, const Point& right) {
-    if (isCut_) {  // all of it past the last column or row: squeezed to nothing
-        const Point nearest{std::min({apex.x, left.x, right.x}),
-                            std::min({apex.y, left.y, right.y})};
-        if (column(nearest) >= quadtree_.columns() - 1 || row(nearest) >= quadtree_.rows() - 1)
-            return;
-    }
-    const Point middle{(left.x + right.x) / 2, (left.y + right.y) / 2};
-    const bool isOnGrid = ((middle.x | middle.y) & 1) == 0;  // sample positions are even
-    if (isOnGrid && isVertex(middle)) {
-        refine(middle, apex, left);
-        refine(middle, right, apex);
-    } else {
-        addLeaf(apex, left, right);
+    for (const TileVertex& vertex : mesh_.vertices) {
+        const TilePoint p{static_cast<std::uint32_t>(vertex.x | vertex.y << 10), 0, 0};
+        const float source = surface_.grid().at(std::min(column(p), quadtree_.columns() - 1),
+                                                std::min(row(p), quadtree_.rows() - 1));
+        const double drawn = vertex.q * lattice_.stepMetres;
+        mesh_.errorMetres =
+            std::max(mesh_.errorMetres, std::abs(drawn - static_cast<double>(source)));
+        mesh_.minHeightMetres = std::min(mesh_.minHeightMetres, drawn);
+        mesh_.maxHeightMetres = std::max(mesh_.maxHeightMetres, drawn);
     }
 }
 
-/// Edge number of a side on the tile's border, -1 otherwise.
-int TileMesher::borderEdge(const Point& a, const Point& b) const {
-    if (a.x == b.x && (a.x == 0 || a.x == side_))
-        return a.x == 0 ? kEdgeMinX : kEdgeMaxX;
-    if (a.y == b.y && (a.y == 0 || a.y == side_))
-        return a.y == 0 ? kEdgeMinY : kEdgeMaxY;
-    return -1;
+bool TileMesher::isVertex(TilePoint middle, const SplitContext&) {
+    const bool isNeeded = levels_.isNeeded(column(middle), row(middle), tile_.level);
+    mesh_.splits.push_back(isNeeded);
+    return isNeeded;
 }
 
-void TileMesher::addLeaf(const Point& a, const Point& b, const Point& c) {
+/// A vertex of the next finer level's tiles along this tile's border.
+bool TileMesher::isFinerVertex(TilePoint middle, int) {
+    const bool isNeeded = levels_.isNeeded(column(middle), row(middle), tile_.level - 1);
+    mesh_.splits.push_back(isNeeded);
+    return isNeeded;
+}
+
+void TileMesher::triangle(int part, TilePoint a, TilePoint b, TilePoint c) {
     measure(a, b, c, true);
-    const std::array<Point, 5> corners = {a, b, c, a, b};
-    int edge = -1;
-    std::size_t side = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const int found = borderEdge(corners[k], corners[k + 1]);
-        if (found < 0)
-            continue;
-        assert(edge < 0 && "a triangle has sides on two borders");
-        edge = found;
-        side = k;
-    }
-    addTriangle(edge < 0 ? kInteriorPart : kOwnPart + edge, a, b, c);
-    if (edge >= 0 && tile_.level > 0 && hasNeighbour_[static_cast<std::size_t>(edge)])
-        addFan(edge, corners[side + 2], corners[side], corners[side + 1]);
+    addTriangle(part, a, b, c);
 }
 
-/// The border triangle apex, from, to, split at the finer level's vertices between from and to.
-void TileMesher::addFan(int edge, const Point& apex, const Point& from, const Point& to) {
-    const std::int32_t dx = finerStep_ * ((to.x > from.x) - (to.x < from.x));
-    const std::int32_t dy = finerStep_ * ((to.y > from.y) - (to.y < from.y));
-    Point last = from;
-    const auto add = [&](const Point& next) {
-        if (last.x != from.x || last.y != from.y || next.x != to.x || next.y != to.y)
-            measure(apex, last, next, false);
-        addTriangle(kFinerPart + edge, apex, last, next);
-        last = next;
-    };
-    for (Point p{from.x + dx, from.y + dy}; p.x != to.x || p.y != to.y; p = {p.x + dx, p.y + dy})
-        if (isFinerVertex(p))
-            add(p);
-    add(to);
+void TileMesher::finerTriangle(int part, TilePoint apex, TilePoint from, TilePoint to,
+                               bool isWhole) {
+    if (!isWhole)
+        measure(apex, from, to, false);
+    addTriangle(part, apex, from, to);
 }
 
-Corner TileMesher::corner(const Point& p) const {
+Corner TileMesher::corner(TilePoint p) const {
     const std::int32_t i = std::min(column(p), quadtree_.columns() - 1);
     const std::int32_t j = std::min(row(p), quadtree_.rows() - 1);
     const float height = surface_.grid().at(i, j);
@@ -129,13 +128,13 @@ Corner TileMesher::corner(const Point& p) const {
                                : lattice_.quantise(height) * lattice_.stepMetres};
 }
 
-void TileMesher::measure(const Point& a, const Point& b, const Point& c, bool mayBeAligned) {
-    const std::int32_t width = std::max({a.x, b.x, c.x}) - std::min({a.x, b.x, c.x});
-    const std::int32_t height = std::max({a.y, b.y, c.y}) - std::min({a.y, b.y, c.y});
+void TileMesher::measure(TilePoint a, TilePoint b, TilePoint c, bool mayBeAligned) {
+    const std::int32_t width = std::max({a.x(), b.x(), c.x()}) - std::min({a.x(), b.x(), c.x()});
+    const std::int32_t height = std::max({a.y(), b.y(), c.y()}) - std::min({a.y(), b.y(), c.y()});
     if (shift_ == 0 && width == 2 && height == 2)
         return;  // half a cell: all its posts are vertices, and those are measured as such
     const Triangle triangle = {corner(a), corner(b), corner(c)};
-    const auto isUnmoved = [&](const Point& p) {
+    const auto isUnmoved = [&](TilePoint p) {
         return column(p) < quadtree_.columns() && row(p) < quadtree_.rows();
     };
     double deviation = 0;
@@ -147,35 +146,21 @@ void TileMesher::measure(const Point& a, const Point& b, const Point& c, bool ma
     mesh_.errorMetres = std::max(mesh_.errorMetres, deviation);
 }
 
-void TileMesher::addTriangle(int part, const Point& a, const Point& b, const Point& c) {
-    if (isCut_ || surface_.hasNodata()) {
-        const Corner ca = corner(a);
-        const Corner cb = corner(b);
-        const Corner cc = corner(c);
-        if (std::int64_t{cb.i - ca.i} * (cc.j - ca.j) ==
-                std::int64_t{cc.i - ca.i} * (cb.j - ca.j) ||
-            std::isnan(ca.z) || std::isnan(cb.z) || std::isnan(cc.z))
-            return;
-    }
+void TileMesher::addTriangle(int part, TilePoint a, TilePoint b, TilePoint c) {
+    if (a.isAbsent() || b.isAbsent() || c.isAbsent())
+        return;
     std::vector<std::uint16_t>& indices = partIndices_[static_cast<std::size_t>(part)];
-    for (const Point& p : {a, b, c}) indices.push_back(vertex(p));
+    indices.insert(indices.end(), {a.number, b.number, c.number});
 }
 
-std::uint16_t TileMesher::vertex(const Point& p) {
-    std::uint16_t& number = slots_[static_cast<std::size_t>(p.y * (side_ + 1) + p.x)];
-    if (number != kNoSlot)
-        return number;
-    number = static_cast<std::uint16_t>(mesh_.vertices.size());
-    const std::int32_t i = std::min(column(p), quadtree_.columns() - 1);
-    const std::int32_t j = std::min(row(p), quadtree_.rows() - 1);
-    const float source = surface_.grid().at(i, j);
-    const std::int32_t q = lattice_.quantise(source);
-    const double drawn = q * lattice_.stepMetres;
-    mesh_.vertices.push_back({p.x, p.y, q});
-    mesh_.errorMetres = std::max(mesh_.errorMetres, std::abs(drawn - static_cast<double>(source)));
-    mesh_.minHeightMetres = std::min(mesh_.minHeightMetres, drawn);
-    mesh_.maxHeightMetres = std::max(mesh_.maxHeightMetres, drawn);
-    return number;
+std::uint16_t TileMesher::add(TilePoint p) {
+    const float source = surface_.grid().at(std::min(column(p), quadtree_.columns() - 1),
+                                            std::min(row(p), quadtree_.rows() - 1));
+    mesh_.isPresent.push_back(!std::isnan(source));
+    if (std::isnan(source))
+        return kAbsentPoint;
+    mesh_.vertices.push_back({p.x(), p.y(), lattice_.quantise(source)});
+    return static_cast<std::uint16_t>(mesh_.vertices.size() - 1);
 }
 
 }  // namespace eyrie::terrain

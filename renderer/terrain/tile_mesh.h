@@ -9,16 +9,23 @@
 #include "renderer/terrain/deviation.h"
 #include "renderer/terrain/eyt_format.h"
 #include "renderer/terrain/quadtree.h"
+#include "renderer/terrain/tile_triangulation.h"
 #include "renderer/terrain/vertex_levels.h"
 #include "renderer/terrain/vertex_packing.h"
 
 namespace eyrie::terrain {
 
-/// One tile's triangulation, measured.
+/// One tile's triangulation, measured. Vertices and triangles are in TileTriangulation's order.
 struct TileMesh {
     std::vector<TileVertex> vertices;
     std::vector<std::uint16_t> indices;  ///< by parts, see kTileParts
     std::array<IndexRange, kTileParts> parts;
+    /// What TileTriangulation has to be told to walk the same tile again: its shape, the answers to
+    /// isVertex and isFinerVertex (0 or 1) in the order asked, and for each point in the order
+    /// added whether it is a vertex. Points that no triangle uses are none, nor is nodata.
+    TileShape shape;
+    std::vector<std::uint8_t> splits;
+    std::vector<std::uint8_t> isPresent;
     /// Greatest deviation of any triangle of any part from the source, nodata included.
     double errorMetres = 0;
     double minHeightMetres = std::numeric_limits<double>::infinity();  ///< of the vertices
@@ -45,24 +52,29 @@ public:
     TileMesh mesh(const TileId& tile);
 
 private:
-    /// A lattice point in half sample spacings from the tile's first post.
-    struct Point {
-        std::int32_t x;
-        std::int32_t y;
-    };
+    friend class TileTriangulation<TileMesher>;
 
-    std::int32_t column(const Point& p) const { return firstColumn_ + (p.x << shift_ >> 1); }
-    std::int32_t row(const Point& p) const { return firstRow_ + (p.y << shift_ >> 1); }
-    bool isVertex(const Point& p) const;
-    int borderEdge(const Point& a, const Point& b) const;
-    void refine(const Point& apex, const Point& left, const Point& right);
-    void addLeaf(const Point& a, const Point& b, const Point& c);
-    void addFan(int edge, const Point& apex, const Point& from, const Point& to);
-    bool isFinerVertex(const Point& p) const;
-    Corner corner(const Point& p) const;
-    void measure(const Point& a, const Point& b, const Point& c, bool mayBeAligned);
-    void addTriangle(int part, const Point& a, const Point& b, const Point& c);
-    std::uint16_t vertex(const Point& p);
+    std::int32_t column(TilePoint p) const { return firstColumn_ + (p.x() << shift_ >> 1); }
+    std::int32_t row(TilePoint p) const { return firstRow_ + (p.y() << shift_ >> 1); }
+    void begin(const TileId& tile);
+    void finish();
+
+    // What TileTriangulation asks and tells.
+    bool isVertex(TilePoint middle, const SplitContext& context);
+    bool isFinerVertex(TilePoint middle, int length);
+    std::uint16_t addCorner(TilePoint p, TilePoint) { return add(p); }
+    std::uint16_t addMiddle(TilePoint p, TilePoint, TilePoint, TilePoint, int) { return add(p); }
+    std::uint16_t addFinerMiddle(TilePoint p, TilePoint, TilePoint, TilePoint, int) {
+        return add(p);
+    }
+    void triangle(int part, TilePoint a, TilePoint b, TilePoint c);
+    void finerTriangle(int part, TilePoint apex, TilePoint from, TilePoint to, bool isWhole);
+
+    std::uint16_t add(TilePoint p);
+    void addTriangle(int part, TilePoint a, TilePoint b, TilePoint c);
+    Corner corner(TilePoint p) const;
+    void measure(TilePoint a, TilePoint b, TilePoint c, bool mayBeAligned);
+    std::vector<std::uint16_t> dropUnused();
 
     const SourceSurface& surface_;
     const VertexLevels& levels_;
@@ -70,16 +82,13 @@ private:
     const Quadtree& quadtree_;
 
     TileId tile_;
-    int shift_ = 0;               ///< of the level's sample spacing
-    std::int32_t side_ = 0;       ///< of the tile, in half spacings
-    std::int32_t finerStep_ = 1;  ///< half spacings between samples of the finer level
+    int shift_ = 0;  ///< of the level's sample spacing
     std::int32_t firstColumn_ = 0;
     std::int32_t firstRow_ = 0;
     bool isCut_ = false;  ///< reaches past the last column or row
-    std::array<bool, kEdges> hasNeighbour_{};
     TileMesh mesh_;
     std::array<std::vector<std::uint16_t>, kTileParts> partIndices_;
-    std::vector<std::uint16_t> slots_;  ///< vertex number by point, kNoSlot where there is none
+    std::vector<std::uint16_t> slots_;
 };
 
 }  // namespace eyrie::terrain

@@ -6,34 +6,30 @@
 
 namespace eyrie::terrain {
 
-PackedVertices packVertices(std::span<const TileVertex> vertices) {
-    PackedVertices packed;
+HeightPacking chooseHeightPacking(std::span<const TileVertex> vertices) {
     const auto byHeight = [](const TileVertex& a, const TileVertex& b) { return a.q < b.q; };
     const auto [lowest, highest] = std::minmax_element(vertices.begin(), vertices.end(), byHeight);
-    packed.baseHeight = lowest->q;
-
+    HeightPacking packing;
+    packing.base = lowest->q;
     std::uint32_t bits = 0;  // set in any height above the lowest
     for (const TileVertex& vertex : vertices)
-        bits |= static_cast<std::uint32_t>(vertex.q - packed.baseHeight);
-    const int shift = bits == 0 ? 0 : std::countr_zero(bits);
-    packed.heightMultiplier = 1 << shift;
+        bits |= static_cast<std::uint32_t>(vertex.q - packing.base);
+    packing.shift = bits == 0 ? 0 : std::countr_zero(bits);
+    const auto steps = static_cast<std::uint32_t>(highest->q - packing.base) >> packing.shift;
+    packing.wordsPerVertex = steps <= kMaxShortHeight ? 1 : 2;
+    return packing;
+}
 
-    const auto steps = [&](const TileVertex& vertex) {
-        return static_cast<std::uint32_t>(vertex.q - packed.baseHeight) >> shift;
-    };
-    packed.wordsPerVertex = steps(*highest) <= kMaxShortHeight ? 1 : 2;
-    packed.words.reserve(vertices.size() * static_cast<std::size_t>(packed.wordsPerVertex));
-    for (const TileVertex& vertex : vertices) {
-        const std::uint32_t word =
-            static_cast<std::uint32_t>(vertex.x) | static_cast<std::uint32_t>(vertex.y) << 10;
-        if (packed.wordsPerVertex == 1) {
-            packed.words.push_back(word | steps(vertex) << 20);
-        } else {
-            packed.words.push_back(word);
-            packed.words.push_back(steps(vertex));
-        }
+void packVertices(std::span<const std::uint32_t> positions, std::span<const std::uint32_t> heights,
+                  int wordsPerVertex, std::span<std::uint32_t> out) {
+    if (wordsPerVertex == 1) {
+        for (std::size_t k = 0; k < heights.size(); ++k) out[k] = positions[k] | heights[k] << 20;
+        return;
     }
-    return packed;
+    for (std::size_t k = 0; k < heights.size(); ++k) {
+        out[2 * k] = positions[k];
+        out[2 * k + 1] = heights[k];
+    }
 }
 
 }  // namespace eyrie::terrain

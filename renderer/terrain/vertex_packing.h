@@ -17,20 +17,26 @@ struct TileVertex {
     bool operator==(const TileVertex&) const = default;
 };
 
-/// Vertices as the GPU reads them; see TileGeometry for the bits.
-struct PackedVertices {
-    std::int32_t baseHeight = 0;
-    std::int32_t heightMultiplier = 1;
-    int wordsPerVertex = 1;
-    std::vector<std::uint32_t> words;
-};
-
 inline constexpr std::uint32_t kMaxShortHeight = 4095;
 
-/// One word a vertex where 12 bits hold every height above the lowest, two otherwise. The
-/// multiplier is the greatest power of two that divides all differences of height.
-/// Precondition: not empty; x and y from 0 to twice the tile's cells, 256 at most; |q| < 2^24.
-PackedVertices packVertices(std::span<const TileVertex> vertices);
+/// How a tile's heights become whole numbers from 0 on: (q - base) >> shift.
+struct HeightPacking {
+    std::int32_t base = 0;
+    int shift = 0;
+    int wordsPerVertex = 1;
+
+    bool operator==(const HeightPacking&) const = default;
+};
+
+/// From the lowest height on, in steps of the greatest power of two that divides all differences;
+/// one word a vertex where 12 bits hold every height, two otherwise.
+/// Precondition: not empty; |q| < 2^24.
+HeightPacking chooseHeightPacking(std::span<const TileVertex> vertices);
+
+/// Vertices as the GPU reads them, see TileGeometry for the bits; positions are x | y << 10.
+/// Precondition: out.size() == heights.size() * wordsPerVertex; heights fit.
+void packVertices(std::span<const std::uint32_t> positions, std::span<const std::uint32_t> heights,
+                  int wordsPerVertex, std::span<std::uint32_t> out);
 
 inline TileVertex unpackVertex(std::span<const std::uint32_t> words, int wordsPerVertex,
                                std::size_t vertex, std::int32_t baseHeight,

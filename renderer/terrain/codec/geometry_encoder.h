@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "renderer/terrain/codec/symbol_shares.h"
+#include "renderer/terrain/codec/tile_model.h"
+#include "renderer/terrain/tile_mesh.h"
+
+namespace eyrie::terrain {
+
+/// The geometry of a page's tiles in bits; geometry_decoder.h reads them.
+struct GeometryBits {
+    std::vector<std::uint16_t> words;  ///< flags and symbols
+    std::vector<std::uint8_t> raw;  ///< symbol shares by context, then the raw bits of heights; an
+                                    ///< even number
+};
+
+/// Collects tiles first, since all of a page share their symbols' shares.
+class GeometryEncoder {
+public:
+    /// Heights are counted in steps of 2^heightShift from baseHeight. Give the tiles in the order
+    /// in which they are to be decoded. Precondition: `mesh` has triangles.
+    void add(const TileMesh& mesh, std::int32_t baseHeight, int heightShift);
+
+    GeometryBits finish() const;
+
+private:
+    friend class TileModel<GeometryEncoder>;
+
+    /// A flag's answer, or the symbol of a height; in the order of the walk.
+    struct Event {
+        bool isFlag = false;
+        std::uint8_t context = 0;
+        std::uint8_t value = 0;
+    };
+
+    bool isVertex(int context);
+    bool isPresent(int context);
+    std::uint32_t height(int context, std::uint32_t foreseen);
+    void triangle(int, std::uint16_t, std::uint16_t, std::uint16_t) {}
+
+    bool flag(int context, bool value);
+    std::array<SymbolShares, kHeightContexts> symbolShares() const;
+
+    std::vector<Event> events_;
+    std::vector<Residual> raws_;
+
+    // The tile being added.
+    const TileMesh* mesh_ = nullptr;
+    std::int32_t baseHeight_ = 0;
+    int heightShift_ = 0;
+    std::size_t nextSplit_ = 0;
+    std::size_t nextPoint_ = 0;
+    std::size_t nextVertex_ = 0;
+    std::vector<std::uint16_t> slots_;
+    std::vector<std::uint32_t> positions_;
+    std::vector<std::uint32_t> heights_;
+};
+
+/// Whether a point of the mesh's walk is no vertex.
+bool isSparse(const TileMesh& mesh);
+
+}  // namespace eyrie::terrain

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/terrain/codec/normal_codec.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+#include "fabric/simd_clones.h"
+
+namespace eyrie::terrain {
+namespace {
+
+inline std::uint8_t zigzag(int difference) {
+    const auto d = static_cast<std::int8_t>(difference);
+    return static_cast<std::uint8_t>(d << 1 ^ d >> 7);
+}
+
+inline int unzigzag(std::uint8_t code) { return (code >> 1) ^ -(code & 1); }
+
+/// The median of left, up and the plane through the three.
+inline int medianEdge(int left, int up, int upLeft) {
+    const int low = left < up ? left : up;
+    const int high = left < up ? up : left;
+    const int plane = left + (up - upLeft);
+    const int capped = plane < high ? plane : high;
+    return capped > low ? capped : low;
+}
+
+/// Contexts of a row from the residuals of the row above; the first row's are all alike.
+EYRIE_SIMD_CLONES void rowContexts(const std::uint8_t* above, std::size_t samples,
+                                   std::uint8_t* contexts) {
+    std::array<std::uint8_t, kPaddedRow> sizes{};
+    for (std::size_t k = 0; k < samples; ++k)
+        sizes[k + 1] = static_cast<std::uint8_t>((above[k] >> 1) + (above[k] & 1));
+    sizes[0] = sizes[1];
+    sizes[samples + 1] = sizes[samples];
+    for (std::size_t k = 0; k < samples; ++k) {
+        const int around = sizes[k] + 2 * sizes[k + 1] + sizes[k + 2];
+        contexts[k] = static_cast<std::uint8_t>((around > 2) + (around > 6) + (around > 14));
+    }
+}
+
+constexpr std::uint8_t kFirstRowContext = 2;
+
+/// Whether y at column i of a row between two others is foreseen from x.
+constexpr std::size_t kFirstCurlColumn = 2;
+
+/// Foreseen from the samples before it in the same plane.
+inline int fromPlane(const std::int8_t* row, const std::int8_t* above, std::size_t i) {
+    if (above == nullptr)
+        return i == 0 ? 0 : row[i - 1];
+    return i == 0 ? above[0] : medianEdge(row[i - 1], above[i], above[i - 1]);
+}
+
+/// A row of x, or a row or the first columns of y, from its residuals.
+void restoreFromPlane(const std::uint8_t* left, const std::int8_t* above, std::size_t count,
+                      std::int8_t* row) {
+    if (above == nullptr) {
+        for (std::size_t i = 0; i < count; ++i)
+            row[i] = static_cast<std::int8_t>(fromPlane(row, above, i) + unzigzag(left[i]));
+        return;
+    }
+    int last = static_cast<std::int8_t>(above[0] + unzigzag(left[0]));
+    row[0] = static_cast<std::int8_t>(last);
+    for (std::size_t i = 1; i < count; ++i) {
+        last =
+            static_cast<std::int8_t>(medianEdge(last, above[i], above[i - 1]) + unzigzag(left[i]));
+        row[i] = static_cast<std::int8_t>(last);
+    }
+}
+
+EYRIE_SIMD_CLONES void restoreFromCurl(const std::uint8_t* left, const std::int8_t* xBelow,
+                                       const std::int8_t* xAbove, std::size_t samples,
+                                       std::int8_t* row) {
+    std::array<std::int8_t, kPaddedRow> change{};
+    for (std::size_t i = kFirstCurlColumn; i < samples; ++i)
+        change[i] = static_cast<std::int8_t>(xAbove[i - 1] - xBelow[i - 1] + unzigzag(left[i]));
+    for (std::size_t i = kFirstCurlColumn; i < samples; ++i)
+        row[i] = static_cast<std::int8_t>(row[i - 2] + change[i]);
+}
+
+EYRIE_SIMD_CLONES void interleave(const std::int8_t* x, const std::int8_t* y, std::size_t count,
+                                  std::int8_t* out) {
+    for (std::size_t k = 0; k < count; ++k) {
+        out[2 * k] = x[k];
+        out[2 * k + 1] = y[k];
+    }
+}
+
+}  // namespace
+
+void NormalEncoder::add(std::span<const std::int8_t> normals) {
+    const std::size_t n = samples_;
+    std::vector<std::int8_t> x(n * n);
+    std::vector<std::int8_t> y(n * n);
+    for (std::size_t k = 0; k < n * n; ++k) {
+        x[k] = normals[2 * k];
+        y[k] = normals[2 * k + 1];
+    }
+    std::vector<std::uint8_t> left(n * n);
+    for (std::size_t j = 0; j < n; ++j)
+        for (std::size_t i = 0; i < n; ++i) {
+            const std::int8_t* row = x.data() + j * n;
+            left[j * n + i] = zigzag(row[i] - fromPlane(row, j == 0 ? nullptr : row - n, i));
+        }
+    addPlane(left, 0);
+    for (std::size_t j = 0; j < n; ++j)
+        for (std::size_t i = 0; i < n; ++i) {
+            const std::int8_t* row = y.data() + j * n;
+            const std::int8_t* xs = x.data() + j * n + i;
+            const bool isFromCurl = j > 0 && j + 1 < n && i >= kFirstCurlColumn;
+            const int foreseen = isFromCurl ? row[i - 2] + *(xs - 1 + n) - *(xs - 1 - n)
+                                            : fromPlane(row, j == 0 ? nullptr : row - n, i);
+            left[j * n + i] = zigzag(row[i] - foreseen);
+        }
+    addPlane(left, kNormalContexts);
+}
+
+void NormalEncoder::addPlane(const std::vector<std::uint8_t>& left, std::size_t firstContext) {
+    std::vector<std::uint8_t> contexts(left.size(), kFirstRowContext);
+    for (std::size_t j = 1; j < samples_; ++j)
+        rowContexts(left.data() + (j - 1) * samples_, samples_, contexts.data() + j * samples_);
+    for (std::uint8_t& context : contexts)
+        context = static_cast<std::uint8_t>(context + firstContext);
+    contexts_.insert(contexts_.end(), contexts.begin(), contexts.end());
+    symbols_.insert(symbols_.end(), left.begin(), left.end());
+}
+
+std::vector<std::uint8_t> NormalEncoder::finish() const {
+    std::array<std::array<std::uint32_t, 256>, 2 * kNormalContexts> counts{};
+    for (std::size_t k = 0; k < symbols_.size(); ++k) ++counts[contexts_[k]][symbols_[k]];
+    std::array<SymbolShares, 2 * kNormalContexts> shares;
+    BitWriter writer;
+    for (std::size_t k = 0; k < shares.size(); ++k) {
+        shares[k] = SymbolShares(counts[k]);
+        shares[k].write(writer);
+    }
+    RansEncoder<4> rans;
+    for (std::size_t row = symbols_.size(); row > 0;) {
+        row -= samples_;
+        for (std::size_t i = samples_; i-- > 0;)
+            rans.put(i % 4, shares[contexts_[row + i]].of(symbols_[row + i]), kSymbolBits);
+    }
+    std::vector<std::uint8_t> bytes = std::move(writer).finish();
+    const std::vector<std::uint16_t> words = std::move(rans).finish();
+    const std::size_t first = bytes.size() + bytes.size() % 2;
+    bytes.resize(first + words.size() * sizeof(std::uint16_t));
+    std::memcpy(bytes.data() + first, words.data(), words.size() * sizeof(std::uint16_t));
+    return bytes;
+}
+
+NormalDecoder::NormalDecoder(std::span<const std::uint8_t> bytes, std::int32_t cells)
+    : samples_(static_cast<std::size_t>(cells) + 1),
+      bytes_(bytes),
+      rans_({}),
+      slots_(2 * kNormalContexts * kAllShares),
+      left_(samples_ * samples_),
+      x_(samples_ * samples_),
+      y_(samples_ * samples_) {}
+
+bool NormalDecoder::begin() {
+    BitReader reader(bytes_);
+    for (std::size_t k = 0; k < 2 * kNormalContexts; ++k) {
+        SymbolShares shares;
+        if (!shares.read(reader, 256))
+            return false;
+        shares.fillSlots(std::span<std::uint32_t, kAllShares>(slots_.data() + k * kAllShares,
+                                                              std::size_t{kAllShares}));
+    }
+    const std::size_t first = reader.bytesRead() + reader.bytesRead() % 2;
+    if (first > bytes_.size() || bytes_.size() % 2 != 0)
+        return false;
+    rans_ = RansDecoder<4>({reinterpret_cast<const std::uint16_t*>(bytes_.data() + first),
+                            (bytes_.size() - first) / sizeof(std::uint16_t)});
+    return true;
+}
+
+void NormalDecoder::decodePlane(std::size_t firstContext, std::uint8_t* left) {
+    std::array<std::uint8_t, kPaddedRow> contexts;
+    contexts.fill(kFirstRowContext);
+    const std::uint32_t* slots = slots_.data() + firstContext * kAllShares;
+    for (std::size_t j = 0; j < samples_; ++j, left += samples_) {
+        if (j > 0)
+            rowContexts(left - samples_, samples_, contexts.data());
+        rans_.takeRow<kSymbolBits>(slots, contexts.data(), samples_, left);
+    }
+}
+
+bool NormalDecoder::decode(std::span<std::int8_t> normals) {
+    const std::size_t n = samples_;
+    decodePlane(0, left_.data());
+    for (std::size_t j = 0; j < n; ++j) {
+        std::int8_t* row = x_.data() + j * n;
+        restoreFromPlane(left_.data() + j * n, j == 0 ? nullptr : row - n, n, row);
+    }
+    decodePlane(kNormalContexts, left_.data());
+    for (std::size_t j = 0; j < n; ++j) {
+        std::int8_t* row = y_.data() + j * n;
+        const std::int8_t* x = x_.data() + j * n;
+        const bool isBetween = j > 0 && j + 1 < n;
+        restoreFromPlane(left_.data() + j * n, j == 0 ? nullptr : row - n,
+                         isBetween ? kFirstCurlColumn : n, row);
+        if (isBetween)
+            restoreFromCurl(left_.data() + j * n, x - n, x + n, n, row);
+    }
+    interleave(x_.data(), y_.data(), n * n, normals.data());
+    return !rans_.isPastEnd();
+}
+
+}  // namespace eyrie::terrain
