@@ -16,26 +16,13 @@
 #include "renderer/page/tau_ladder.h"
 #include "renderer/terrain/eyt_format.h"
 #include "renderer/terrain/terrain_cut.h"
+#include "renderer/terrain/tile_bytes.h"
 
 namespace eyrie::draw {
 namespace {
 
 constexpr GLuint kPackedVertex = 0;
 constexpr GLuint kNormalMapUnit = 0;
-/// Share of the device's limit that the wanted cut may need; the rest is for what stands in.
-constexpr std::uint64_t kWantedShare = 3;
-constexpr std::uint64_t kOfShares = 4;
-
-/// The bytes that the visible tiles of a cut take, as far as can be told before they are read.
-std::uint64_t estimatedBytes(const terrain::EytIndex& index, const terrain::TerrainCut& cut) {
-    std::uint64_t bytes = 0;
-    for (const terrain::TileChoice& choice : cut.tiles)
-        if (choice.isVisible)
-            bytes += estimatedTileBytes(index.tile(choice.id).triangles,
-                                        terrain::Quadtree::cells(choice.id.level));
-    return bytes;
-}
-
 /// What decides which step of the ladder fits.
 struct SettledView {
     SettledView(const lod::View& view, double tau, double shareOfRange)
@@ -60,13 +47,12 @@ class TerrainDrawable : public Drawable {
 public:
     TerrainDrawable(const fabric::SceneObject& object, Variants<TerrainProgram>& programs,
                     std::shared_ptr<const terrain::EytFile> file,
-                    std::unique_ptr<TerrainPaging> paging, std::uint64_t deviceBytes)
+                    std::unique_ptr<TerrainPaging> paging)
         : programs_(programs),
           worldFromObject_(object.worldFromObject),
           file_(std::move(file)),
           bounds_(index().bounds()),
           triangles_(index().triangles()),
-          wantedBytes_(deviceBytes / kOfShares * kWantedShare),
           needed_(index()),
           prefetch_(index(), object.worldFromObject),
           paging_(std::move(paging)) {
@@ -94,7 +80,9 @@ private:
     struct Wanted {
         terrain::Refinement refinement;
         terrain::TerrainCut cut;
+        std::uint64_t bytes = 0;  ///< of its visible tiles and all above, which may stand in
     };
+    std::uint64_t bytesOf(const lod::ObjectView& view, const terrain::TerrainCut& cut);
     const Wanted& wantedAt(int step, const CutRequest& request);
     page::TauLadder::Choice chooseStep(const CutRequest& request);
     std::uint64_t drawTile(const TerrainProgram& program, const terrain::TileChoice& choice,
@@ -107,7 +95,6 @@ private:
     std::uint64_t triangles_;
     gl::VertexArray shortVertices_;  ///< one word a vertex; the second reads as 0
     gl::VertexArray longVertices_;   ///< two words
-    std::uint64_t wantedBytes_;
     NeededTiles needed_;
     TerrainPrefetch prefetch_;
     std::unique_ptr<TerrainPaging> paging_;
@@ -118,6 +105,17 @@ private:
     std::vector<terrain::TileChoice> choices_;  ///< of the last cut; pieces index it
 };
 
+std::uint64_t TerrainDrawable::bytesOf(const lod::ObjectView& view,
+                                       const terrain::TerrainCut& cut) {
+    needed_.assign(cut, {view, view.view().frustum, {}, 1, {}});
+    std::uint64_t bytes = 0;
+    for (const auto* tiles : {&needed_.leaves(), &needed_.inner()})
+        for (const terrain::TileId& tile : *tiles)
+            if (tile != index().quadtree.top())
+                bytes += terrain::estimatedTileBytes(index(), tile);
+    return bytes;
+}
+
 const TerrainDrawable::Wanted& TerrainDrawable::wantedAt(int step, const CutRequest& request) {
     const auto known = wanted_.find(step);
     if (known != wanted_.end())
@@ -125,7 +123,9 @@ const TerrainDrawable::Wanted& TerrainDrawable::wantedAt(int step, const CutRequ
     terrain::Refinement refinement = terrain::refineForError(
         index(), request.view, request.tauPixels * page::TauLadder::factor(step));
     terrain::TerrainCut cut = terrain::cutOf(index(), request.view, refinement);
-    return wanted_.emplace(step, Wanted{std::move(refinement), std::move(cut)}).first->second;
+    const std::uint64_t bytes = bytesOf(request.view, cut);
+    return wanted_.emplace(step, Wanted{std::move(refinement), std::move(cut), bytes})
+        .first->second;
 }
 
 /// What a channel needs is judged by its share of the whole view, so that the channels of a frame
@@ -133,8 +133,8 @@ const TerrainDrawable::Wanted& TerrainDrawable::wantedAt(int step, const CutRequ
 page::TauLadder::Choice TerrainDrawable::chooseStep(const CutRequest& request) {
     const double share = request.range.end - request.range.begin;
     const auto need = [&](int step) {
-        return static_cast<std::uint64_t>(
-            share * static_cast<double>(estimatedBytes(index(), wantedAt(step, request).cut)));
+        return static_cast<std::uint64_t>(share *
+                                          static_cast<double>(wantedAt(step, request).bytes));
     };
     const SettledView view(request.view.view(), request.tauPixels, share);
     if (settled_ == view)
@@ -143,10 +143,10 @@ page::TauLadder::Choice TerrainDrawable::chooseStep(const CutRequest& request) {
     last_ = view;
     if (!isRepeated && request.completeness == fabric::Completeness::Interactive) {
         settled_.reset();
-        return ladder_.follow(need, wantedBytes_);
+        return ladder_.follow(need, paging_->roomBytes());
     }
     settled_ = view;
-    return ladder_.settle(need, wantedBytes_);
+    return ladder_.settle(need, paging_->roomBytes());
 }
 
 Cut TerrainDrawable::selectCut(const CutRequest& request) {
@@ -263,8 +263,7 @@ absl::StatusOr<std::unique_ptr<Drawable>> openTerrain(const fabric::SceneObject&
                      terrain::EytFile::open(object.path));
     ASSIGN_OR_RETURN(std::unique_ptr<TerrainPaging> paging,
                      TerrainPaging::open(file, loader, limits));
-    return std::make_unique<TerrainDrawable>(object, programs, std::move(file), std::move(paging),
-                                             limits.deviceBytes);
+    return std::make_unique<TerrainDrawable>(object, programs, std::move(file), std::move(paging));
 }
 
 }  // namespace eyrie::draw

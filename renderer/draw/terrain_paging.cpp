@@ -12,6 +12,7 @@
 #include <spdlog/spdlog.h>
 
 #include "fabric/status.h"
+#include "renderer/terrain/tile_bytes.h"
 
 namespace eyrie::draw {
 namespace {
@@ -24,24 +25,10 @@ using terrain::TileId;
 /// Share of an interactive frame that may go into copying tiles to the device.
 constexpr duration<double, std::milli> kUploadTime{3};
 constexpr std::uint32_t kLowestRank = std::numeric_limits<std::uint32_t>::max() - 1;
-/// A page's own tables, beside its tiles.
-constexpr std::uint64_t kPageTableBytes = 4096;
-
-std::uint64_t greatestPageBytes(const terrain::EytIndex& index, std::uint32_t page) {
-    const TileId first = index.quadtree.firstTileOfPage(page);
-    std::uint64_t bytes = kPageTableBytes;
-    for (int y = 0; y < terrain::kPageTiles; ++y)
-        for (int x = 0; x < terrain::kPageTiles; ++x)
-            if (const TileId tile{first.level, first.x + x, first.y + y};
-                index.quadtree.contains(tile))
-                bytes += greatestTileBytes(index.tile(tile).triangles, Quadtree::cells(tile.level));
-    return bytes;
-}
-
 std::uint64_t greatestOfAllPages(const terrain::EytIndex& index) {
     std::uint64_t most = 0;
     for (std::uint32_t page = 0; page < index.quadtree.pageCount(); ++page)
-        most = std::max(most, greatestPageBytes(index, page));
+        most = std::max(most, terrain::greatestPageBytes(index, page));
     return most;
 }
 
@@ -63,7 +50,7 @@ absl::StatusOr<std::unique_ptr<TerrainPaging>> TerrainPaging::open(
     ASSIGN_OR_RETURN(const std::shared_ptr<const terrain::Page> page,
                      file->readPage(index.quadtree.pageIndex(top)));
     const terrain::TileGeometry& geometry = page->tile(Quadtree::placeInPage(top));
-    const std::uint64_t topBytes = deviceBytes(geometry);
+    const std::uint64_t topBytes = terrain::tileBytes(geometry);
     const std::uint64_t greatestPage = greatestOfAllPages(index);
     const std::uint64_t least = 2 * greatestPage;
     if (limits.hostBytes < least || limits.deviceBytes < topBytes)
@@ -100,11 +87,8 @@ bool TerrainPaging::isGivenUp(std::uint32_t page, Clock::time_point time) const 
 
 std::uint64_t TerrainPaging::pageBytes(std::uint32_t page) const {
     const auto known = knownPageBytes_.find(page);
-    return known != knownPageBytes_.end() ? known->second : greatestPageBytes(index_, page);
-}
-
-std::uint64_t TerrainPaging::tileBytes(const TileId& tile) const {
-    return estimatedTileBytes(index_.tile(tile).triangles, Quadtree::cells(tile.level));
+    return known != knownPageBytes_.end() ? known->second
+                                          : terrain::greatestPageBytes(index_, page);
 }
 
 Refinement TerrainPaging::drawable(const Refinement& wanted, const NeededTiles& needed) const {
@@ -151,7 +135,7 @@ void TerrainPaging::rankTiles(const std::vector<TileId>& order, std::uint64_t re
     std::uint64_t bytes = reservedBytes;
     std::uint32_t rank = 0;
     for (const TileId& tile : order) {
-        bytes += tileBytes(tile);
+        bytes += terrain::estimatedTileBytes(index_, tile);
         if (bytes > tiles_.limitBytes())
             return;
         tiles_.rank(index_.quadtree.tileIndex(tile), ++rank);
@@ -228,7 +212,7 @@ bool TerrainPaging::upload(duration<double> time) {
         if (page == nullptr)
             return false;
         const terrain::TileGeometry& geometry = (*page)->tile(Quadtree::placeInPage(tile));
-        const std::uint64_t bytes = deviceBytes(geometry);
+        const std::uint64_t bytes = terrain::tileBytes(geometry);
         if (!tiles_.makeRoom(bytes, rank))
             return false;
         tiles_.insert(index_.quadtree.tileIndex(tile), DeviceTile(geometry), bytes, rank);
@@ -279,7 +263,7 @@ TerrainPaging::Result TerrainPaging::approach(const Refinement& wanted, const Ne
         const bool isReached = drawn.isSplit(Quadtree::parent(tile));
         if (isReached && !drawn.isSplit(tile)) {
             tiles_.rank(index_.quadtree.tileIndex(tile), 0);
-            drawnBytes += tileBytes(tile);
+            drawnBytes += terrain::estimatedTileBytes(index_, tile);
         } else {
             (isReached ? above : below).push_back(tile);
         }

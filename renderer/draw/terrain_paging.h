@@ -68,6 +68,8 @@ public:
     }
 
     MemoryUse memory() const;
+    /// Room for tiles on the device beside the top tile.
+    std::uint64_t roomBytes() const { return tiles_.limitBytes(); }
     /// From a page's first wish to its arrival, averaged over the last ones.
     std::chrono::duration<double> latency() const { return latency_; }
 
@@ -91,7 +93,6 @@ private:
     terrain::Refinement drawable(const terrain::Refinement& wanted,
                                  const NeededTiles& needed) const;
     std::uint64_t pageBytes(std::uint32_t page) const;
-    std::uint64_t tileBytes(const terrain::TileId& tile) const;
 
     void beginFrame();
     std::vector<terrain::TileId> inOrder(std::vector<terrain::TileId> tiles,

@@ -190,6 +190,10 @@ std::vector<Arrival> Loader::Source::take() {
             const auto held = state_->held.find(arrival.page);
             state_->heldBytes -= held->second;
             state_->held.erase(held);
+            // A wish that is older than the arrival is fulfilled by it.
+            if (arrival.result.ok())
+                std::erase_if(state_->wishes,
+                              [&](const Wish& wish) { return wish.page == arrival.page; });
         }
     }
     loader_.wished.notify_all();

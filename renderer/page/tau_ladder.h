@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 namespace eyrie::page {
 
@@ -23,7 +24,11 @@ public:
     };
 
     int step() const { return step_; }
-    static double factor(int step) { return std::exp2(step / 4.0); }
+    /// Of the last step: infinite. Around an eye that is inside a tile's bounds no finite error is
+    /// promised, so no finite factor would do.
+    static double factor(int step) {
+        return step < kSteps ? std::exp2(step / 4.0) : std::numeric_limits<double>::infinity();
+    }
 
     /// `need(step)` says how many bytes the view needs at a step, and falls as steps rise.
     template <typename Need>
