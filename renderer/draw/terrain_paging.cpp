@@ -164,9 +164,9 @@ void TerrainPaging::rankPages(const std::vector<TileId>& prefetch) {
             add(index_.quadtree.pageIndex(tile));
 }
 
-std::uint64_t TerrainPaging::takeArrivals() {
+std::uint64_t TerrainPaging::keep(std::vector<page::Arrival> arrivals) {
     std::uint64_t loaded = 0;
-    for (page::Arrival& arrival : source_->take()) {
+    for (page::Arrival& arrival : arrivals) {
         if (!arrival.result.ok()) {
             noteFailure(arrival);
             continue;
@@ -222,7 +222,7 @@ bool TerrainPaging::upload(duration<double> time) {
     return hasUploaded;
 }
 
-void TerrainPaging::wishForPages() {
+std::vector<page::Wish> TerrainPaging::missingPages() {
     std::vector<page::Wish> wishes;
     std::unordered_map<std::uint32_t, Clock::time_point> since;
     for (const RankedPage& ranked : rankedPages_) {
@@ -233,7 +233,7 @@ void TerrainPaging::wishForPages() {
         since.emplace(ranked.page, known == wishedSince_.end() ? Clock::now() : known->second);
     }
     wishedSince_ = std::move(since);
-    source_->wish(std::move(wishes));
+    return wishes;
 }
 
 TerrainPaging::Result TerrainPaging::resultOf(Refinement drawn, const NeededTiles& needed) const {
@@ -277,10 +277,10 @@ TerrainPaging::Result TerrainPaging::approach(const Refinement& wanted, const Ne
     below.insert(below.end(), above.begin(), above.end());
     rankTiles(below, drawnBytes);
     rankPages(isUrgent ? std::vector<TileId>{} : prefetch());
-    const std::uint64_t loaded = takeArrivals();
+    const std::uint64_t loaded = keep(source_->tryTake());
     if (upload(kUploadTime))
         drawn = drawable(wanted, needed);
-    wishForPages();
+    source_->tryWish(missingPages());
     Result result = resultOf(std::move(drawn), needed);
     result.pagesLoaded = loaded;
     return result;
@@ -306,9 +306,9 @@ TerrainPaging::Result TerrainPaging::reach(const Refinement& wanted, const Neede
         if (missing_.empty())
             break;
         rankPages({});
-        loaded += takeArrivals();
+        loaded += keep(source_->take());
         const bool hasUploaded = upload(std::chrono::hours(1));
-        wishForPages();
+        source_->wish(missingPages());
         if (missing_.empty() || (!hasUploaded && !source_->wait()))
             break;
     }

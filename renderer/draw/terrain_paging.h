@@ -99,11 +99,12 @@ private:
                                          const lod::ObjectView& view) const;
     void rankTiles(const std::vector<terrain::TileId>& order, std::uint64_t reservedBytes);
     void rankPages(const std::vector<terrain::TileId>& prefetch);
-    std::uint64_t takeArrivals();
+    /// Returns how many pages have come.
+    std::uint64_t keep(std::vector<page::Arrival> arrivals);
     void noteFailure(const page::Arrival& arrival);
     /// Returns whether it brought any.
     bool upload(std::chrono::duration<double> time);
-    void wishForPages();
+    std::vector<page::Wish> missingPages();
     Result resultOf(terrain::Refinement drawn, const NeededTiles& needed) const;
 
     const std::shared_ptr<const terrain::EytFile> file_;

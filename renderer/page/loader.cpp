@@ -22,6 +22,11 @@ using Clock = std::chrono::steady_clock;
 /// Of the threads that load: measured on two cores that also draw, see docs/benchmarks.md.
 constexpr int kNice = 10;
 
+void sort(std::vector<Wish>& wishes) {
+    std::stable_sort(wishes.begin(), wishes.end(),
+                     [](const Wish& a, const Wish& b) { return a.priority < b.priority; });
+}
+
 /// Reads a page whatever the source does.
 absl::StatusOr<Loaded> load(const Loader::Load& load, std::uint32_t page) {
     try {
@@ -172,31 +177,49 @@ Loader::Source::~Source() {
 }
 
 void Loader::Source::wish(std::vector<Wish> wishes) {
-    std::stable_sort(wishes.begin(), wishes.end(),
-                     [](const Wish& a, const Wish& b) { return a.priority < b.priority; });
+    sort(wishes);
     {
         const std::lock_guard lock(loader_.mutex);
-        state_->wishes = std::move(wishes);
+        state_->wishes.swap(wishes);
+    }
+    loader_.wished.notify_all();
+}
+
+void Loader::Source::tryWish(std::vector<Wish> wishes) {
+    sort(wishes);
+    {
+        const std::unique_lock lock(loader_.mutex, std::try_to_lock);
+        if (!lock.owns_lock())
+            return;
+        state_->wishes.swap(wishes);
     }
     loader_.wished.notify_all();
 }
 
 std::vector<Arrival> Loader::Source::take() {
+    const std::lock_guard lock(loader_.mutex);
+    return takeLocked();
+}
+
+std::vector<Arrival> Loader::Source::tryTake() {
+    const std::unique_lock lock(loader_.mutex, std::try_to_lock);
+    return lock.owns_lock() ? takeLocked() : std::vector<Arrival>{};
+}
+
+std::vector<Arrival> Loader::Source::takeLocked() {
     std::vector<Arrival> arrivals;
-    {
-        const std::lock_guard lock(loader_.mutex);
-        arrivals.swap(state_->arrivals);
-        for (const Arrival& arrival : arrivals) {
-            const auto held = state_->held.find(arrival.page);
-            state_->heldBytes -= held->second;
-            state_->held.erase(held);
-            // A wish that is older than the arrival is fulfilled by it.
-            if (arrival.result.ok())
-                std::erase_if(state_->wishes,
-                              [&](const Wish& wish) { return wish.page == arrival.page; });
-        }
+    arrivals.swap(state_->arrivals);
+    for (const Arrival& arrival : arrivals) {
+        const auto held = state_->held.find(arrival.page);
+        state_->heldBytes -= held->second;
+        state_->held.erase(held);
+        // A wish that is older than the arrival is fulfilled by it.
+        if (arrival.result.ok())
+            std::erase_if(state_->wishes,
+                          [&](const Wish& wish) { return wish.page == arrival.page; });
     }
-    loader_.wished.notify_all();
+    if (!arrivals.empty())
+        loader_.wished.notify_all();
     return arrivals;
 }
 

@@ -78,6 +78,12 @@ public:
     /// What has arrived since the last call; each failure of a page once for each attempt.
     std::vector<Arrival> take();
 
+    /// The same without ever waiting: while a thread of the loader is at its books, nothing is
+    /// wished or taken. Those threads have a low priority and may be kept from going on for long;
+    /// a frame must not wait for them.
+    void tryWish(std::vector<Wish> wishes);
+    std::vector<Arrival> tryTake();
+
     /// Blocks until something can be taken, or no wish is left that is not waiting to be tried
     /// again. True when something can be taken.
     bool wait();
@@ -89,6 +95,7 @@ private:
     friend class Loader;
     struct State;
     Source(Loader::State& loader, Load load, std::uint64_t limitBytes);
+    std::vector<Arrival> takeLocked();
 
     Loader::State& loader_;
     std::unique_ptr<State> state_;

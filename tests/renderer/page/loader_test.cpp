@@ -117,6 +117,19 @@ TEST(Loader, LoadsAPageOnceHoweverOftenItIsWishedForMeanwhile) {
     EXPECT_EQ(pages.begun().size(), 1U);
 }
 
+TEST(Loader, CanBeUsedWithoutWaiting) {
+    FakePages pages;
+    Loader loader({.threads = 2});
+    const auto source = loader.open(pages.function(), 1000);
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+    std::size_t taken = 0;
+    while (taken < 100 && std::chrono::steady_clock::now() < end) {
+        source->tryWish(wishes({static_cast<std::uint32_t>(taken)}));
+        taken += source->tryTake().size();
+    }
+    EXPECT_EQ(taken, 100U);
+}
+
 TEST(Loader, TakesTheMostWantedOfAllSources) {
     FakePages one;
     FakePages other;
