@@ -15,6 +15,7 @@
 #include "renderer/gl/egl_context.h"
 #include "renderer/gl/framebuffer.h"
 #include "renderer/lod/view.h"
+#include "renderer/page/loader.h"
 
 namespace eyrie {
 namespace {
@@ -70,6 +71,14 @@ struct Selection {
     fabric::PixelViewport covered;
 };
 
+void addTo(fabric::FrameStatistics& statistics, const draw::Cut& cut) {
+    statistics.tauAchievedPixels = std::max(statistics.tauAchievedPixels, cut.tauAchievedPixels);
+    statistics.complete = statistics.complete && cut.isComplete;
+    statistics.pagesLoaded += cut.pagesLoaded;
+    statistics.pagesMissing += cut.pagesMissing;
+    statistics.pagesFailed += cut.pagesFailed;
+}
+
 struct OpenObject {
     fabric::Mat4 worldFromObject;
     std::unique_ptr<draw::Drawable> drawable;
@@ -85,13 +94,16 @@ public:
     absl::StatusOr<fabric::SceneInfo> openScene(const fabric::Scene& scene);
     absl::StatusOr<fabric::ChannelResult> render(const fabric::FrameData& frameData,
                                                  const fabric::ChannelTask& task);
+    RendererMemory memory() const;
 
 private:
-    Impl(std::unique_ptr<gl::EglContext> context, std::uint64_t memoryBytes)
-        : context_(std::move(context)), memoryBytes_(memoryBytes) {}
+    Impl(std::unique_ptr<gl::EglContext> context, const RendererOptions& options)
+        : context_(std::move(context)),
+          options_(options),
+          loader_({.threads = options.loaderThreads}) {}
 
     absl::StatusOr<std::unique_ptr<draw::Drawable>> openObject(const fabric::SceneObject& object,
-                                                               std::uint64_t memoryBytes);
+                                                               std::size_t objects);
     Selection selectPieces(const lod::View& view, double tauPixels, const fabric::ChannelTask& task,
                            fabric::FrameStatistics& statistics);
     absl::Status drawPieces(const std::vector<OrderedPiece>& pieces, const draw::FrameState& frame,
@@ -101,7 +113,8 @@ private:
     draw::Variants<draw::TerrainProgram> terrainPrograms_;
     draw::Variants<draw::MeshProgram> meshPrograms_;
     gl::Framebuffer framebuffer_;
-    std::uint64_t memoryBytes_;
+    RendererOptions options_;
+    page::Loader loader_;
     std::optional<fabric::Scene> scene_;
     std::vector<OpenObject> objects_;
 };
@@ -109,23 +122,24 @@ private:
 absl::StatusOr<std::unique_ptr<Renderer::Impl>> Renderer::Impl::create(
     const RendererOptions& options) {
     ASSIGN_OR_RETURN(auto context, gl::EglContext::create(options.device));
-    return std::unique_ptr<Impl>(new Impl(std::move(context), options.memoryBytes));
+    return std::unique_ptr<Impl>(new Impl(std::move(context), options));
 }
 
 absl::StatusOr<std::unique_ptr<draw::Drawable>> Renderer::Impl::openObject(
-    const fabric::SceneObject& object, std::uint64_t memoryBytes) {
+    const fabric::SceneObject& object, std::size_t objects) {
     if (object.kind == fabric::ObjectKind::Terrain)
-        return draw::openTerrain(object, terrainPrograms_, memoryBytes);
-    return draw::openMesh(object, meshPrograms_, memoryBytes);
+        return draw::openTerrain(
+            object, terrainPrograms_, loader_,
+            {options_.memoryBytes / objects, options_.hostMemoryBytes / objects});
+    return draw::openMesh(object, meshPrograms_, options_.memoryBytes / objects);
 }
 
 absl::StatusOr<fabric::SceneInfo> Renderer::Impl::openScene(const fabric::Scene& scene) {
     RETURN_IF_ERROR(fabric::validate(scene));
     std::vector<OpenObject> objects;
     fabric::SceneInfo info;
-    const std::uint64_t share = memoryBytes_ / std::max<std::size_t>(scene.objects.size(), 1);
     for (const fabric::SceneObject& object : scene.objects) {
-        ASSIGN_OR_RETURN(auto drawable, openObject(object, share));
+        ASSIGN_OR_RETURN(auto drawable, openObject(object, scene.objects.size()));
         info.bounds.grow(fabric::transformed(drawable->bounds(), object.worldFromObject));
         info.triangles += drawable->triangles();
         info.bytes += drawable->bytes();
@@ -147,9 +161,9 @@ Selection Renderer::Impl::selectPieces(const lod::View& view, double tauPixels,
     const fabric::Frustum channel = lod::subFrustum(view, task.pixelViewport);
     for (std::uint32_t i = 0; i < objects_.size(); ++i) {
         const lod::ObjectView objectView(view, objects_[i].worldFromObject);
-        const draw::Cut cut = objects_[i].drawable->selectCut(objectView, tauPixels);
-        statistics.tauAchievedPixels =
-            std::max(statistics.tauAchievedPixels, cut.tauAchievedPixels);
+        const draw::Cut cut = objects_[i].drawable->selectCut(
+            {objectView, channel, task.range, tauPixels, task.completeness});
+        addTo(statistics, cut);
         for (const draw::Piece& piece : cut.pieces) {
             if (!task.range.contains(piece.rangePosition) ||
                 !objectView.isVisible(piece.bounds, channel))
@@ -212,6 +226,16 @@ absl::StatusOr<fabric::ChannelResult> Renderer::Impl::render(const fabric::Frame
     return result;
 }
 
+RendererMemory Renderer::Impl::memory() const {
+    RendererMemory sum;
+    for (const OpenObject& object : objects_) {
+        const draw::MemoryUse use = object.drawable->memory();
+        sum.deviceBytes += use.deviceBytes;
+        sum.hostBytes += use.hostBytes;
+    }
+    return sum;
+}
+
 absl::StatusOr<std::unique_ptr<Renderer>> Renderer::create(const RendererOptions& options) {
     ASSIGN_OR_RETURN(auto impl, Impl::create(options));
     return std::unique_ptr<Renderer>(new Renderer(std::move(impl)));
@@ -230,5 +254,7 @@ absl::StatusOr<fabric::ChannelResult> Renderer::render(const fabric::FrameData& 
                                                        const fabric::ChannelTask& task) {
     return impl_->render(frameData, task);
 }
+
+RendererMemory Renderer::memory() const { return impl_->memory(); }
 
 }  // namespace eyrie

@@ -15,9 +15,21 @@ namespace eyrie {
 struct RendererOptions {
     /// Index of the EGL device (`eyrie renderer --device`); -1 takes the first that works.
     int device = -1;
-    /// Limit on the bytes of geometry and textures kept on the device, least recently drawn out
-    /// first. What one frame draws may exceed it for that frame.
+    /// Limit on the bytes of geometry and textures kept on the device, shared out evenly among the
+    /// scene's objects. Terrain keeps within its share at all times: where what a view needs does
+    /// not fit, the error rises, and the statistics say so. A mesh may exceed its share for the
+    /// frame that it is drawn in.
     std::uint64_t memoryBytes = std::uint64_t{2} << 30;
+    /// Limit on the bytes of pages in host memory, those being loaded included; shared likewise.
+    std::uint64_t hostMemoryBytes = std::uint64_t{512} << 20;
+    /// Threads that read and decode pages.
+    int loaderThreads = 2;
+};
+
+/// What a renderer holds in memory for its scene, besides what open files need.
+struct RendererMemory {
+    std::uint64_t deviceBytes = 0;  ///< geometry and textures
+    std::uint64_t hostBytes = 0;    ///< pages, those being loaded included
 };
 
 /// Draws channel tasks without a window: the only header of the library that outsiders include.
@@ -36,13 +48,17 @@ public:
     const fabric::DeviceInfo& device() const;
 
     /// Opens the .eyt and .eym files of `scene` in place of the scene before. On an error the scene
-    /// before stays open. Errors: InvalidArgument (scene or file), NotFound, DataLoss.
+    /// before stays open. Errors: InvalidArgument (scene or file), NotFound, DataLoss,
+    /// ResourceExhausted (the limits are too small for it).
     absl::StatusOr<fabric::SceneInfo> openScene(const fabric::Scene& scene);
 
-    /// Draws one channel. Errors: InvalidArgument (the task or frame data), FailedPrecondition (no
-    /// scene open), ResourceExhausted, DataLoss (a page is corrupt).
+    /// Draws one channel. A page of terrain that cannot be read is no error: coarser data stand in
+    /// for it, the statistics count it and the log names it. Errors: InvalidArgument (the task or
+    /// frame data), FailedPrecondition (no scene open), ResourceExhausted, DataLoss (of a mesh).
     absl::StatusOr<fabric::ChannelResult> render(const fabric::FrameData& frameData,
                                                  const fabric::ChannelTask& task);
+
+    RendererMemory memory() const;
 
 private:
     class Impl;

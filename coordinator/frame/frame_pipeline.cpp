@@ -65,7 +65,8 @@ absl::StatusOr<std::vector<Flight::Leg>> FramePipeline::draw(const FrameRequest&
                                     request.height,
                                     {0, 0, request.width, request.height},
                                     {},
-                                    request.wantsDepth};
+                                    request.wantsDepth,
+                                    request.completeness};
     auto flight = std::make_shared<Flight>(Flight::Plan{
         frameData, decompose(whole, options_.decomposition, balance_.cuts(freeRenderers(revision))),
         revision, patience_.limit(), options_.callTimeout});

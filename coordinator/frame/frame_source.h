@@ -8,6 +8,7 @@
 #include <absl/status/statusor.h>
 
 #include "fabric/camera.h"
+#include "fabric/channel_task.h"
 #include "fabric/frame_data.h"
 #include "fabric/image.h"
 #include "fabric/scene.h"
@@ -23,6 +24,7 @@ struct FrameRequest {
     int width = 1280;  ///< pixels, 1 to fabric::kMaxViewPixels
     int height = 720;
     bool wantsDepth = false;
+    fabric::Completeness completeness = fabric::Completeness::Complete;
 
     bool operator==(const FrameRequest&) const = default;
 };
@@ -54,10 +56,10 @@ class FrameSource {
 public:
     virtual ~FrameSource() = default;
 
-    /// Draws one frame; blocks until it is complete. Calls from several threads take turns.
-    /// A renderer that fails has its part drawn by another, so an error means that no complete
-    /// frame can be had: InvalidArgument (the request), Unavailable (no renderer, or no scene), or
-    /// what the last renderer said.
+    /// Draws one frame; blocks until all of the picture is there. Calls from several threads take
+    /// turns. A renderer that fails has its part drawn by another, so an error means that no
+    /// complete frame can be had: InvalidArgument (the request), Unavailable (no renderer, or no
+    /// scene), or what the last renderer said.
     virtual absl::StatusOr<RenderedFrame> renderFrame(const FrameRequest& request) = 0;
 
     virtual Status status() const = 0;

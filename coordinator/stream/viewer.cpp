@@ -123,6 +123,8 @@ private:
         isRenderNeeded_ = true;
         wantedSince_ = Clock::now();
         retryAt_.reset();
+        redrawAt_.reset();
+        isLoading_ = false;
     }
 
     void setProblem(std::string& problem, std::string value) {
@@ -145,17 +147,19 @@ private:
 
     bool isWaitingToRetry() const { return retryAt_.has_value() && Clock::now() < *retryAt_; }
 
+    bool isRedrawDue() const { return redrawAt_.has_value() && Clock::now() >= *redrawAt_; }
+
     bool mayRender() const {
-        return isRenderNeeded_ && wanted_.has_value() && !rendered_.has_value() && hasRoom() &&
-               !isWaitingToRetry();
+        return (isRenderNeeded_ || isRedrawDue()) && wanted_.has_value() &&
+               !rendered_.has_value() && hasRoom() && !isWaitingToRetry();
     }
 
     bool hasRested() const { return Clock::now() >= wantedSince_ + options_.restDelay; }
 
     /// The last picture shows the view that is wanted, and was sent as a moving one.
     bool needsStill() const {
-        return last_.has_value() && !isLastStill_ && !isRenderNeeded_ && !isRendering_ &&
-               !rendered_.has_value() && last_->view.frame == wanted_->frame;
+        return last_.has_value() && !isLastStill_ && !isRenderNeeded_ && !isLoading_ &&
+               !isRendering_ && !rendered_.has_value() && last_->view.frame == wanted_->frame;
     }
 
     /// Waits for a change, or until `deadline` if there is one.
@@ -175,14 +179,22 @@ private:
             if (mayRender())
                 renderOne(lock);
             else
-                waitForChange(lock, isWaitingToRetry() ? retryAt_ : std::nullopt);
+                waitForChange(lock, nextAttempt());
         }
+    }
+
+    /// When a frame is next to be drawn although nothing changes.
+    std::optional<Clock::time_point> nextAttempt() const {
+        if (isWaitingToRetry())
+            return retryAt_;
+        return isRedrawDue() ? std::nullopt : redrawAt_;
     }
 
     void renderOne(std::unique_lock<std::mutex>& lock) {
         const ViewRequest view = *wanted_;
         const Clock::time_point started = Clock::now();
         isRenderNeeded_ = false;
+        redrawAt_.reset();
         isRendering_ = true;
         lock.unlock();
         absl::StatusOr<coordinator::RenderedFrame> frame = frames_.renderFrame(view.frame);
@@ -192,6 +204,8 @@ private:
             pacer_.rendered(Clock::now() - started);
             setProblem(renderProblem_, "");
             retryAt_.reset();
+            if (view.frame == wanted_->frame)
+                redrawUnlessComplete(frame->statistics);
             rendered_ =
                 Picture{view, std::make_shared<const coordinator::RenderedFrame>(*std::move(frame)),
                         started};
@@ -199,6 +213,13 @@ private:
             renderFailed(frame.status());
         }
         changed_.notify_all();
+    }
+
+    void redrawUnlessComplete(const fabric::FrameStatistics& statistics) {
+        isLoading_ = !statistics.complete && (statistics.pagesMissing == 0 ||
+                                              statistics.pagesFailed < statistics.pagesMissing);
+        if (!statistics.complete)
+            redrawAt_ = Clock::now() + (isLoading_ ? options_.loadingDelay : options_.missingDelay);
     }
 
     void renderFailed(const absl::Status& status) {
@@ -229,7 +250,7 @@ private:
 
     void encode(std::unique_lock<std::mutex>& lock, Picture picture) {
         const bool isStill =
-            hasRested() && picture.view.frame == wanted_->frame && !isRenderNeeded_;
+            hasRested() && picture.view.frame == wanted_->frame && !isRenderNeeded_ && !isLoading_;
         const std::uint64_t frameNumber = ++lastFrameNumber_;
         isEncoding_ = true;
         lock.unlock();
@@ -308,7 +329,9 @@ private:
     std::optional<ViewRequest> wanted_;
     Clock::time_point wantedSince_;  // when the view, not just its number, became another
     bool isRenderNeeded_ = false;
-    std::optional<Clock::time_point> retryAt_;  // set after a failure
+    std::optional<Clock::time_point> retryAt_;   // set after a failure
+    std::optional<Clock::time_point> redrawAt_;  // set after an incomplete frame of this view
+    bool isLoading_ = false;                     // that frame lacked data that are on their way
     std::optional<PictureSource> source_;
 
     bool isRendering_ = false;

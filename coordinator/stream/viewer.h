@@ -22,6 +22,11 @@ struct ViewerOptions {
     std::chrono::milliseconds restDelay{150};
     /// How long after a failed frame the same view is tried again.
     std::chrono::milliseconds retryDelay{1000};
+    /// After a frame that shows less than it should because data are still being loaded, the same
+    /// view is drawn again, with this pause for the loading.
+    std::chrono::milliseconds loadingDelay{30};
+    /// The same when all that is missing could not be read, and may be readable later.
+    std::chrono::milliseconds missingDelay{5000};
     int movingQuality = 75;  ///< JPEG, 4:2:0
     int stillQuality = 95;   ///< JPEG, 4:4:4
 };
@@ -32,8 +37,8 @@ struct ViewerOptions {
 /// The newest view request replaces the one before. A render thread draws it while a second thread
 /// encodes the frame before. At most as many frames are under way as the Pacer says, and an encoded
 /// frame that still waits is replaced by a newer one. Nothing is rendered while neither the view
-/// nor the scene nor the renderers change. A frame that fails leaves the last picture in place and
-/// becomes the state's problem text.
+/// nor the scene nor the renderers change and the last frame is complete. A frame that fails leaves
+/// the last picture in place and becomes the state's problem text.
 ///
 /// All functions may be called from any thread.
 class Viewer {

@@ -29,6 +29,7 @@ absl::StatusOr<ViewRequest> viewFromMessage(const v1::ViewRequest& message) {
     view.frame.camera = frameData.camera;
     view.frame.tauPixels = frameData.tauPixels;
     view.frame.shading = frameData.shading;
+    view.frame.completeness = fabric::Completeness::Interactive;
     view.frame.width = std::clamp(message.width(), kMinPictureSide, kMaxPictureSide);
     view.frame.height = std::clamp(message.height(), kMinPictureSide, kMaxPictureSide);
     return view;

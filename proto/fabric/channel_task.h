@@ -10,6 +10,12 @@
 
 namespace eyrie::fabric {
 
+/// Whether a frame waits for data.
+enum class Completeness {
+    Complete,     ///< it shows the error asked for, however long loading takes
+    Interactive,  ///< it shows at once what is there; what is missing is loaded for the next ones
+};
+
 /// One renderer's part of one frame: which pixels of which view, and which share of the data.
 struct ChannelTask {
     std::uint64_t frameNumber = 0;
@@ -22,6 +28,7 @@ struct ChannelTask {
     PixelViewport pixelViewport;  ///< the part of the view to draw
     Range range;                  ///< the share of the data to draw
     bool wantsDepth = false;      ///< depth is to come back beside colour
+    Completeness completeness = Completeness::Complete;
 
     bool operator==(const ChannelTask&) const = default;
 };

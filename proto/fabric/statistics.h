@@ -24,11 +24,13 @@ struct FrameStatistics {
     /// Bound on the screen-space error of everything drawn. May exceed what was asked for when the
     /// data end (the finest level is drawn) or are missing.
     double tauAchievedPixels = 0;
-    bool complete = true;  ///< false when data that the frame needs could not be read
+    bool complete = true;  ///< false when data that the frame needs are not there (yet)
     std::uint64_t triangles = 0;
     std::uint64_t points = 0;
     std::uint64_t nodes = 0;  ///< LOD nodes drawn
     std::uint64_t pagesLoaded = 0;
+    std::uint64_t pagesMissing = 0;  ///< coarser data stand in for them
+    std::uint64_t pagesFailed = 0;   ///< those of the missing that could not be read
     StageMilliseconds milliseconds;
 
     bool operator==(const FrameStatistics&) const = default;
@@ -44,6 +46,8 @@ inline void accumulate(FrameStatistics& sum, const FrameStatistics& part) {
     sum.points += part.points;
     sum.nodes += part.nodes;
     sum.pagesLoaded += part.pagesLoaded;
+    sum.pagesMissing += part.pagesMissing;
+    sum.pagesFailed += part.pagesFailed;
     StageMilliseconds& ms = sum.milliseconds;
     ms.cull = std::max(ms.cull, part.milliseconds.cull);
     ms.draw = std::max(ms.draw, part.milliseconds.draw);

@@ -38,6 +38,25 @@ absl::StatusOr<fabric::Shading> fromMessage(v1::Shading shading) {
     }
 }
 
+v1::Completeness toMessage(fabric::Completeness completeness) {
+    return completeness == fabric::Completeness::Interactive ? v1::COMPLETENESS_INTERACTIVE
+                                                             : v1::COMPLETENESS_COMPLETE;
+}
+
+absl::StatusOr<fabric::Completeness> fromMessage(v1::Completeness completeness) {
+    switch (completeness) {
+        case v1::COMPLETENESS_UNSPECIFIED:
+        case v1::COMPLETENESS_COMPLETE:
+            return fabric::Completeness::Complete;
+        case v1::COMPLETENESS_INTERACTIVE:
+            return fabric::Completeness::Interactive;
+        default:
+            return absl::InvalidArgumentError(
+                fmt::format("task.completeness is {}, which this version does not know",
+                            static_cast<int>(completeness)));
+    }
+}
+
 absl::Status checkPixels(std::int32_t value, std::int32_t least, std::string_view field) {
     if (value >= least && value <= fabric::kMaxViewPixels)
         return absl::OkStatus();
@@ -113,6 +132,7 @@ v1::ChannelTask toMessage(const fabric::ChannelTask& task) {
     *message.mutable_pixel_viewport() = toMessage(task.pixelViewport);
     *message.mutable_range() = toMessage(task.range);
     message.set_wants_depth(task.wantsDepth);
+    message.set_completeness(toMessage(task.completeness));
     return message;
 }
 
@@ -136,6 +156,7 @@ absl::StatusOr<fabric::ChannelTask> fromMessage(const v1::ChannelTask& message) 
         ASSIGN_OR_RETURN(task.range, fromMessage(message.range()));
     }
     task.wantsDepth = message.wants_depth();
+    ASSIGN_OR_RETURN(task.completeness, fromMessage(message.completeness()));
     return task;
 }
 

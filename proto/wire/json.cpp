@@ -95,13 +95,16 @@ std::string statisticsJson(const fabric::FrameStatistics& statistics, int width,
   "points": {},
   "nodes": {},
   "pagesLoaded": {},
+  "pagesMissing": {},
+  "pagesFailed": {},
   "milliseconds": {},
   "renderer": {}
 }}
 )",
         width, height, number(statistics.tauAskedPixels), number(statistics.tauAchievedPixels),
         statistics.complete, statistics.triangles, statistics.points, statistics.nodes,
-        statistics.pagesLoaded, millisecondsJson(statistics.milliseconds), deviceJson(device));
+        statistics.pagesLoaded, statistics.pagesMissing, statistics.pagesFailed,
+        millisecondsJson(statistics.milliseconds), deviceJson(device));
 }
 
 }  // namespace eyrie::wire

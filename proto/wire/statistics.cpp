@@ -60,6 +60,8 @@ v1::FrameStatistics toMessage(const fabric::FrameStatistics& statistics) {
     message.set_points(statistics.points);
     message.set_nodes(statistics.nodes);
     message.set_pages_loaded(statistics.pagesLoaded);
+    message.set_pages_missing(statistics.pagesMissing);
+    message.set_pages_failed(statistics.pagesFailed);
     *message.mutable_milliseconds() = toMessage(statistics.milliseconds);
     return message;
 }
@@ -77,6 +79,12 @@ absl::StatusOr<fabric::FrameStatistics> fromMessage(const v1::FrameStatistics& m
     statistics.points = message.points();
     statistics.nodes = message.nodes();
     statistics.pagesLoaded = message.pages_loaded();
+    statistics.pagesMissing = message.pages_missing();
+    statistics.pagesFailed = message.pages_failed();
+    if (statistics.pagesFailed > statistics.pagesMissing)
+        return absl::InvalidArgumentError(
+            fmt::format("statistics.pages_failed is {}; it must be at most pages_missing, {}",
+                        statistics.pagesFailed, statistics.pagesMissing));
     ASSIGN_OR_RETURN(statistics.milliseconds, fromMessage(message.milliseconds()));
     return statistics;
 }

@@ -8,7 +8,9 @@
 #include <absl/status/status.h>
 
 #include "fabric/box.h"
+#include "fabric/channel_task.h"
 #include "fabric/frame_data.h"
+#include "fabric/frustum.h"
 #include "fabric/scene.h"
 #include "fabric/statistics.h"
 #include "renderer/lod/view.h"
@@ -22,10 +24,29 @@ struct Piece {
     fabric::Box bounds;        ///< object space, metres
 };
 
-/// What a drawable shows of itself in one view.
+/// What part of which view a channel draws, and how well.
+struct CutRequest {
+    const lod::ObjectView& view;     ///< the whole view, from the object
+    const fabric::Frustum& channel;  ///< the part that the channel looks through
+    fabric::Range range;             ///< the share of the view's pieces that it draws
+    double tauPixels = 1;
+    fabric::Completeness completeness = fabric::Completeness::Complete;
+};
+
+/// What a drawable shows of itself in one channel.
 struct Cut {
     std::vector<Piece> pieces;     ///< ascending by rangePosition
-    double tauAchievedPixels = 0;  ///< bound over all pieces
+    double tauAchievedPixels = 0;  ///< bound over all pieces of the view
+    bool isComplete = true;        ///< false when data that would lower the error are to come
+    std::uint64_t pagesLoaded = 0;
+    std::uint64_t pagesMissing = 0;  ///< that the wanted cut needs; coarser ones stand in
+    std::uint64_t pagesFailed = 0;   ///< those of them that could not be read
+};
+
+/// What a drawable holds in memory now, besides what it needs to be open.
+struct MemoryUse {
+    std::uint64_t deviceBytes = 0;  ///< geometry and textures
+    std::uint64_t hostBytes = 0;    ///< pages, those being loaded included
 };
 
 /// What is the same for every piece of a frame.
@@ -45,16 +66,20 @@ public:
     virtual std::uint64_t triangles() const = 0;
     virtual std::uint64_t bytes() const = 0;
 
-    /// Chooses what stands for the object in a whole view. Depends on the view alone.
-    virtual Cut selectCut(const lod::ObjectView& view, double tauPixels) = 0;
+    /// Chooses what stands for the object in a channel. Complete cuts of one view and range are the
+    /// same whatever the channel, so the channels of a frame fit together; they wait for what has
+    /// to be loaded. Interactive ones take what is there.
+    virtual Cut selectCut(const CutRequest& request) = 0;
 
-    /// Draws pieces of the last cut, in order, into the bound framebuffer. Loads what is missing;
-    /// counts triangles and loaded pages in `statistics`. DataLoss when a page is corrupt.
+    /// Draws pieces of the last cut, in order, into the bound framebuffer. Counts triangles, and
+    /// pages that are loaded only now, in `statistics`.
     virtual absl::Status draw(std::span<const Piece> pieces, const FrameState& frame,
                               fabric::FrameStatistics& statistics) = 0;
 
     /// Ends a frame: what has not been drawn longest leaves the device when memory is short.
-    virtual void trim() = 0;
+    virtual void trim() {}
+
+    virtual MemoryUse memory() const { return {}; }
 };
 
 }  // namespace eyrie::draw

@@ -80,10 +80,11 @@ public:
     std::uint64_t triangles() const override { return file_.triangleCount(); }
     std::uint64_t bytes() const override { return file_.fileBytes(); }
 
-    Cut selectCut(const lod::ObjectView& view, double tauPixels) override;
+    Cut selectCut(const CutRequest& request) override;
     absl::Status draw(std::span<const Piece> pieces, const FrameState& frame,
                       fabric::FrameStatistics& statistics) override;
     void trim() override { resident_.trim(); }
+    MemoryUse memory() const override { return {resident_.bytes(), 0}; }
 
 private:
     void defineVertexFormat();
@@ -117,9 +118,9 @@ void MeshDrawable::defineVertexFormat() {
         glEnableVertexArrayAttrib(array, kColour);
 }
 
-Cut MeshDrawable::selectCut(const lod::ObjectView& view, double tauPixels) {
+Cut MeshDrawable::selectCut(const CutRequest& request) {
     Cut cut;
-    visit(0, false, view, tauPixels, cut);
+    visit(0, false, request.view, request.tauPixels, cut);
     return cut;
 }
 

@@ -1,17 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/draw/terrain_draw.h"
 
-#include <algorithm>
+#include <map>
+#include <optional>
 #include <utility>
 
 #include <glm/gtc/type_ptr.hpp>
 
 #include "eyrie_shaders.h"
 #include "fabric/status.h"
+#include "renderer/draw/needed_tiles.h"
+#include "renderer/draw/terrain_prefetch.h"
+#include "renderer/draw/terrain_tiles.h"
 #include "renderer/gl/object.h"
-#include "renderer/page/lru_cache.h"
+#include "renderer/page/tau_ladder.h"
 #include "renderer/terrain/eyt_format.h"
 #include "renderer/terrain/terrain_cut.h"
+#include "renderer/terrain/tile_bytes.h"
 
 namespace eyrie::draw {
 namespace {
@@ -19,60 +24,40 @@ namespace {
 constexpr GLuint kPackedVertex = 0;
 constexpr GLuint kNormalMapUnit = 0;
 constexpr double kElevationBands = 5;  ///< of effects/terrain.frag.glsl
-/// Pages kept in host memory after their tiles are on the device: neighbours are asked for next.
-constexpr std::uint64_t kHostPageBytes = std::uint64_t{64} << 20;
 
-/// A tile on the device: words and indices in one buffer, and its normal map.
-struct DeviceTile {
-    gl::Buffer buffer;
-    gl::Texture2D normalMap;
-    GLintptr indexOffset = 0;
-    GLsizei vertexStride = 4;
-    std::array<terrain::IndexRange, terrain::kTileParts> parts;
-    std::int32_t baseHeight = 0;
-    std::int32_t heightMultiplier = 1;
+/// What decides which step of the ladder fits.
+struct SettledView {
+    SettledView(const lod::View& view, double tau, double shareOfRange)
+        : eye(view.eye),
+          rotation(view.viewFromWorldRotation),
+          frustum(view.frustum),
+          height(view.height),
+          tauPixels(tau),
+          share(shareOfRange) {}
+
+    fabric::Vec3 eye;
+    fabric::Mat3 rotation;
+    fabric::Frustum frustum;
+    int height;
+    double tauPixels;
+    double share;
+
+    bool operator==(const SettledView&) const = default;
 };
-
-gl::Texture2D uploadNormals(std::span<const std::int8_t> normals, GLsizei side) {
-    gl::Texture2D texture;
-    glTextureStorage2D(texture.id(), 1, GL_RG8_SNORM, side, side);
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    glTextureSubImage2D(texture.id(), 0, 0, 0, side, side, GL_RG, GL_BYTE, normals.data());
-    glTextureParameteri(texture.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    glTextureParameteri(texture.id(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    glTextureParameteri(texture.id(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    glTextureParameteri(texture.id(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    return texture;
-}
-
-DeviceTile upload(const terrain::TileGeometry& geometry, std::uint64_t& bytesUsed) {
-    DeviceTile tile;
-    const auto words = static_cast<GLsizeiptr>(geometry.words.size_bytes());
-    const auto indices = static_cast<GLsizeiptr>(geometry.indices.size_bytes());
-    glNamedBufferStorage(tile.buffer.id(), words + indices, nullptr, GL_DYNAMIC_STORAGE_BIT);
-    glNamedBufferSubData(tile.buffer.id(), 0, words, geometry.words.data());
-    glNamedBufferSubData(tile.buffer.id(), words, indices, geometry.indices.data());
-    tile.normalMap = uploadNormals(geometry.normals, geometry.cells + 1);
-    tile.indexOffset = words;
-    tile.vertexStride = 4 * geometry.wordsPerVertex;
-    tile.parts = geometry.parts;
-    tile.baseHeight = geometry.baseHeight;
-    tile.heightMultiplier = geometry.heightMultiplier;
-    bytesUsed = static_cast<std::uint64_t>(words + indices) + geometry.normals.size_bytes();
-    return tile;
-}
 
 class TerrainDrawable : public Drawable {
 public:
     TerrainDrawable(const fabric::SceneObject& object, Variants<TerrainProgram>& programs,
-                    std::shared_ptr<const terrain::EytFile> file, std::uint64_t memoryBytes)
+                    std::shared_ptr<const terrain::EytFile> file,
+                    std::unique_ptr<TerrainPaging> paging)
         : programs_(programs),
           worldFromObject_(object.worldFromObject),
           file_(std::move(file)),
           bounds_(index().bounds()),
           triangles_(index().triangles()),
-          hostPages_(kHostPageBytes),
-          deviceTiles_(memoryBytes) {
+          needed_(index()),
+          prefetch_(index(), object.worldFromObject),
+          paging_(std::move(paging)) {
         glEnableVertexArrayAttrib(shortVertices_.id(), kPackedVertex);
         glVertexArrayAttribIFormat(shortVertices_.id(), kPackedVertex, 1, GL_UNSIGNED_INT, 0);
         glVertexArrayAttribBinding(shortVertices_.id(), kPackedVertex, 0);
@@ -85,21 +70,23 @@ public:
     std::uint64_t triangles() const override { return triangles_; }
     std::uint64_t bytes() const override { return file_->sizeBytes(); }
 
-    Cut selectCut(const lod::ObjectView& view, double tauPixels) override;
+    Cut selectCut(const CutRequest& request) override;
     absl::Status draw(std::span<const Piece> pieces, const FrameState& frame,
                       fabric::FrameStatistics& statistics) override;
-    void trim() override {
-        hostPages_.trim();
-        deviceTiles_.trim();
-    }
+    MemoryUse memory() const override { return paging_->memory(); }
 
 private:
     const terrain::EytIndex& index() const { return file_->index(); }
     void use(const TerrainProgram& program, const FrameState& frame) const;
-    absl::StatusOr<const terrain::Page*> hostPage(std::uint32_t page,
-                                                  fabric::FrameStatistics& statistics);
-    absl::StatusOr<const DeviceTile*> deviceTile(const terrain::TileId& id,
-                                                 fabric::FrameStatistics& statistics);
+    /// What a view wants at one step of the ladder.
+    struct Wanted {
+        terrain::Refinement refinement;
+        terrain::TerrainCut cut;
+        std::uint64_t bytes = 0;  ///< of its visible tiles and all above, which may stand in
+    };
+    std::uint64_t bytesOf(const lod::ObjectView& view, const terrain::TerrainCut& cut);
+    const Wanted& wantedAt(int step, const CutRequest& request);
+    page::TauLadder::Choice chooseStep(const CutRequest& request);
     std::uint64_t drawTile(const TerrainProgram& program, const terrain::TileChoice& choice,
                            const DeviceTile& tile) const;
 
@@ -110,27 +97,85 @@ private:
     std::uint64_t triangles_;
     gl::VertexArray shortVertices_;  ///< one word a vertex; the second reads as 0
     gl::VertexArray longVertices_;   ///< two words
-    page::LruCache<std::uint32_t, std::shared_ptr<const terrain::Page>> hostPages_;
-    page::LruCache<std::uint32_t, DeviceTile> deviceTiles_;
+    NeededTiles needed_;
+    TerrainPrefetch prefetch_;
+    std::unique_ptr<TerrainPaging> paging_;
+    page::TauLadder ladder_;
+    std::optional<SettledView> last_;
+    std::optional<SettledView> settled_;        ///< whose lowest step the ladder is at
+    std::map<int, Wanted> wanted_;              ///< of this view and tau, by step
     std::vector<terrain::TileChoice> choices_;  ///< of the last cut; pieces index it
 };
 
-/// The range is a share of the visible cut, by triangles: every channel of the frame computes the
-/// same cut, so their shares meet exactly.
-Cut TerrainDrawable::selectCut(const lod::ObjectView& view, double tauPixels) {
-    terrain::TerrainCut tiles = terrain::selectCut(index(), view, tauPixels);
-    choices_ = std::move(tiles.tiles);
-    Cut cut;
-    cut.tauAchievedPixels = tiles.tauAchievedPixels;
-    std::uint64_t total = 0;
-    for (std::uint32_t i = 0; i < choices_.size(); ++i) {
-        const fabric::Box box = index().bounds(choices_[i].id);
-        if (!view.isVisible(box))
-            continue;
-        cut.pieces.push_back({i, static_cast<double>(total), box});
-        total += index().tile(choices_[i].id).triangles;
+std::uint64_t TerrainDrawable::bytesOf(const lod::ObjectView& view,
+                                       const terrain::TerrainCut& cut) {
+    needed_.assign(cut, {view, view.view().frustum, {}, 1, {}});
+    std::uint64_t bytes = 0;
+    for (const auto* tiles : {&needed_.leaves(), &needed_.inner()})
+        for (const terrain::TileId& tile : *tiles)
+            if (tile != index().quadtree.top())
+                bytes += terrain::estimatedTileBytes(index(), tile);
+    return bytes;
+}
+
+const TerrainDrawable::Wanted& TerrainDrawable::wantedAt(int step, const CutRequest& request) {
+    const auto known = wanted_.find(step);
+    if (known != wanted_.end())
+        return known->second;
+    terrain::Refinement refinement = terrain::refineForError(
+        index(), request.view, request.tauPixels * page::TauLadder::factor(step));
+    terrain::TerrainCut cut = terrain::cutOf(index(), request.view, refinement);
+    const std::uint64_t bytes = bytesOf(request.view, cut);
+    return wanted_.emplace(step, Wanted{std::move(refinement), std::move(cut), bytes})
+        .first->second;
+}
+
+/// What a channel needs is judged by its share of the whole view, so that the channels of a frame
+/// choose the same step. A view that is drawn once more, or waited for, gets the lowest that fits.
+page::TauLadder::Choice TerrainDrawable::chooseStep(const CutRequest& request) {
+    const double share = request.range.end - request.range.begin;
+    const auto need = [&](int step) {
+        return static_cast<std::uint64_t>(share *
+                                          static_cast<double>(wantedAt(step, request).bytes));
+    };
+    const SettledView view(request.view.view(), request.tauPixels, share);
+    if (settled_ == view)
+        return {ladder_.step(), true};
+    const bool isRepeated = last_ == view;
+    last_ = view;
+    if (!isRepeated && request.completeness == fabric::Completeness::Interactive) {
+        settled_.reset();
+        return ladder_.follow(need, paging_->roomBytes());
     }
-    for (Piece& piece : cut.pieces) piece.rangePosition /= static_cast<double>(total);
+    settled_ = view;
+    return ladder_.settle(need, paging_->roomBytes());
+}
+
+Cut TerrainDrawable::selectCut(const CutRequest& request) {
+    wanted_.clear();
+    const page::TauLadder::Choice choice = chooseStep(request);
+    const Wanted& wanted = wantedAt(choice.step, request);
+    needed_.assign(wanted.cut, request);
+    prefetch_.follow(request.view.view());
+    const double tauPixels = request.tauPixels * page::TauLadder::factor(choice.step);
+    const TerrainPaging::Result result =
+        request.completeness == fabric::Completeness::Complete
+            ? paging_->reach(wanted.refinement, needed_, request.view)
+            : paging_->approach(wanted.refinement, needed_, request.view,
+                                [&] { return prefetch_.tiles(tauPixels, paging_->latency()); });
+
+    terrain::TerrainCut drawn = terrain::cutOf(index(), request.view, result.drawn);
+    Cut cut;
+    cut.tauAchievedPixels = drawn.tauAchievedPixels;
+    cut.isComplete = result.pagesMissing == 0 && choice.isLowest;
+    cut.pagesLoaded = result.pagesLoaded;
+    cut.pagesMissing = result.pagesMissing;
+    cut.pagesFailed = result.pagesFailed;
+    choices_ = std::move(drawn.tiles);
+    for (std::uint32_t i = 0; i < choices_.size(); ++i)
+        if (needed_.contains(choices_[i].id))
+            cut.pieces.push_back(
+                {i, needed_.position(choices_[i].id), index().bounds(choices_[i].id)});
     return cut;
 }
 
@@ -142,28 +187,6 @@ void TerrainDrawable::use(const TerrainProgram& program, const FrameState& frame
     glUniform2i(program.lastPost, index().quadtree.columns() - 1, index().quadtree.rows() - 1);
     glUniform1f(program.lowestHeight, static_cast<float>(lowest));
     glUniform1f(program.bandsPerHeight, static_cast<float>(kElevationBands / heights));
-}
-
-absl::StatusOr<const terrain::Page*> TerrainDrawable::hostPage(
-    std::uint32_t page, fabric::FrameStatistics& statistics) {
-    if (const auto* found = hostPages_.find(page); found != nullptr)
-        return found->get();
-    ASSIGN_OR_RETURN(std::shared_ptr<const terrain::Page> read, file_->readPage(page));
-    ++statistics.pagesLoaded;
-    const std::size_t bytes = read->sizeBytes();
-    return hostPages_.insert(page, std::move(read), bytes).get();
-}
-
-absl::StatusOr<const DeviceTile*> TerrainDrawable::deviceTile(const terrain::TileId& id,
-                                                              fabric::FrameStatistics& statistics) {
-    const std::uint32_t key = index().quadtree.tileIndex(id);
-    if (const DeviceTile* tile = deviceTiles_.find(key); tile != nullptr)
-        return tile;
-    ASSIGN_OR_RETURN(const terrain::Page* page,
-                     hostPage(index().quadtree.pageIndex(id), statistics));
-    std::uint64_t bytes = 0;
-    DeviceTile tile = upload(page->tile(terrain::Quadtree::placeInPage(id)), bytes);
-    return &deviceTiles_.insert(key, std::move(tile), bytes);
 }
 
 /// Draws the interior and one form of each edge; returns the triangles.
@@ -211,8 +234,7 @@ absl::Status TerrainDrawable::draw(std::span<const Piece> pieces, const FrameSta
     use(*program, frame);
     for (const Piece& piece : pieces) {
         const terrain::TileChoice& choice = choices_[piece.index];
-        ASSIGN_OR_RETURN(const DeviceTile* tile, deviceTile(choice.id, statistics));
-        statistics.triangles += drawTile(*program, choice, *tile);
+        statistics.triangles += drawTile(*program, choice, *paging_->tile(choice.id));
     }
     return absl::OkStatus();
 }
@@ -238,10 +260,13 @@ absl::StatusOr<TerrainProgram> TerrainProgram::create(Variant variant) {
 
 absl::StatusOr<std::unique_ptr<Drawable>> openTerrain(const fabric::SceneObject& object,
                                                       Variants<TerrainProgram>& programs,
-                                                      std::uint64_t memoryBytes) {
+                                                      page::Loader& loader,
+                                                      const TerrainMemory& limits) {
     ASSIGN_OR_RETURN(std::shared_ptr<const terrain::EytFile> file,
                      terrain::EytFile::open(object.path));
-    return std::make_unique<TerrainDrawable>(object, programs, std::move(file), memoryBytes);
+    ASSIGN_OR_RETURN(std::unique_ptr<TerrainPaging> paging,
+                     TerrainPaging::open(file, loader, limits));
+    return std::make_unique<TerrainDrawable>(object, programs, std::move(file), std::move(paging));
 }
 
 }  // namespace eyrie::draw

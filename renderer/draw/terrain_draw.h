@@ -8,6 +8,8 @@
 #include "fabric/scene.h"
 #include "renderer/draw/drawable.h"
 #include "renderer/draw/object_program.h"
+#include "renderer/draw/terrain_paging.h"
+#include "renderer/page/loader.h"
 
 namespace eyrie::draw {
 
@@ -28,10 +30,11 @@ private:
     explicit TerrainProgram(ObjectProgram linked);
 };
 
-/// Opens `object.path` as a .eyt file. `programs` outlives what is returned. Errors: NotFound,
-/// InvalidArgument, DataLoss.
+/// Opens `object.path` as a .eyt file. `programs` and `loader` outlive what is returned. Errors:
+/// NotFound, InvalidArgument, DataLoss, Unavailable, ResourceExhausted (the limits are too small).
 absl::StatusOr<std::unique_ptr<Drawable>> openTerrain(const fabric::SceneObject& object,
                                                       Variants<TerrainProgram>& programs,
-                                                      std::uint64_t memoryBytes);
+                                                      page::Loader& loader,
+                                                      const TerrainMemory& limits);
 
 }  // namespace eyrie::draw

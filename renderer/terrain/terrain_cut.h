@@ -6,6 +6,7 @@
 
 #include "renderer/lod/view.h"
 #include "renderer/terrain/eyt_format.h"
+#include "renderer/terrain/refinement.h"
 
 namespace eyrie::terrain {
 
@@ -15,6 +16,7 @@ struct TileChoice {
     /// Bit `edge` is set where the neighbour beyond that edge is drawn one level finer: draw
     /// kFinerPart + edge there, kOwnPart + edge elsewhere.
     std::uint8_t finerEdges = 0;
+    bool isVisible = false;             ///< to the view
     double screenSpaceErrorPixels = 0;  ///< 0 when the view does not see the tile
 
     bool operator==(const TileChoice&) const = default;
@@ -28,9 +30,14 @@ struct TerrainCut {
     double tauAchievedPixels = 0;  ///< bound over all visible tiles
 };
 
-/// The coarsest cut whose visible tiles keep `tauPixels`, as far as the data go. Tiles that share
-/// an edge differ by one level at most. Depends on the view alone, so all channels of a frame,
-/// on whatever node, choose the same.
+/// The coarsest restricted refinement whose visible tiles keep `tauPixels`, as far as the data go.
+/// Depends on the view alone, so all channels of a frame, on whatever node, choose the same.
+Refinement refineForError(const EytIndex& index, const lod::ObjectView& view, double tauPixels);
+
+/// The leaves of a restricted refinement, and how they are drawn.
+TerrainCut cutOf(const EytIndex& index, const lod::ObjectView& view, const Refinement& refinement);
+
+/// cutOf(refineForError()).
 TerrainCut selectCut(const EytIndex& index, const lod::ObjectView& view, double tauPixels);
 
 }  // namespace eyrie::terrain

@@ -234,6 +234,66 @@ TEST(Viewer, DoesNothingWhileNothingChanges) {
     EXPECT_EQ(frames.requests().size(), 1u);
 }
 
+/// A source whose first `count` frames lack pages, of which `failed` cannot be read.
+void lackPages(FakeFrameSource& frames, std::size_t count, std::uint64_t failed) {
+    frames.setDraw([&frames, count, failed](const FrameRequest& request) {
+        coordinator::RenderedFrame frame = coordinator::plainFrame(request, {});
+        frame.statistics.complete = frames.requests().size() > count;
+        frame.statistics.pagesMissing = frame.statistics.complete ? 0 : 2;
+        frame.statistics.pagesFailed = frame.statistics.complete ? 0 : failed;
+        return frame;
+    });
+}
+
+TEST(Viewer, AsksForFramesThatDoNotWait) {
+    FakeFrameSource frames;
+    Browser browser(frames, moving(1));
+    browser.look(1);
+    ASSERT_TRUE(browser.nextFrame().has_value());
+    EXPECT_EQ(frames.requests().front().completeness, fabric::Completeness::Interactive);
+}
+
+TEST(Viewer, DrawsOnWhilePagesAreBeingLoadedAndThenRests) {
+    FakeFrameSource frames;
+    lackPages(frames, 5, 1);
+    ViewerOptions options = resting();
+    options.loadingDelay = milliseconds(1);
+    Browser browser(frames, options);
+    browser.look(1);
+    for (;;) {
+        const auto frame = browser.nextFrame();
+        ASSERT_TRUE(frame.has_value());
+        browser.acknowledge(frame->frame_number());
+        EXPECT_EQ(frame->statistics().pages_missing(), frame->statistics().complete() ? 0u : 2u);
+        EXPECT_FALSE(frame->still() && !frame->statistics().complete()) << "it is not its best";
+        if (frame->still())
+            break;
+    }
+    EXPECT_FALSE(browser.nextFrame(milliseconds(100)).has_value());
+    EXPECT_EQ(frames.requests().size(), 6u);
+}
+
+TEST(Viewer, LooksNowAndThenWhetherWhatCouldNotBeReadCanBe) {
+    FakeFrameSource frames;
+    lackPages(frames, 1, 2);
+    ViewerOptions options = resting();
+    options.restDelay = milliseconds(1);
+    options.loadingDelay = std::chrono::hours(1);
+    options.missingDelay = milliseconds(100);
+    Browser browser(frames, options);
+    browser.look(1);
+    bool hadStill = false;
+    for (;;) {
+        const auto frame = browser.nextFrame();
+        ASSERT_TRUE(frame.has_value());
+        browser.acknowledge(frame->frame_number());
+        hadStill = hadStill || frame->still();
+        if (frame->statistics().complete())
+            break;
+    }
+    EXPECT_TRUE(hadStill) << "what there is deserves its best, too";
+}
+
 TEST(Viewer, DrawsAgainWhenTheRenderersChange) {
     FakeFrameSource frames;
     Browser browser(frames, moving(2));

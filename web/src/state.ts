@@ -42,6 +42,9 @@ export interface Numbers {
   tauAsked: number;
   tauAchieved: number;
   complete: boolean;
+  /** Pages that coarser data stand in for, and those of them that could not be read. */
+  pagesMissing: number;
+  pagesFailed: number;
   triangles: number;
   /** Wall-clock time of rendering on the server. */
   renderMilliseconds: number;

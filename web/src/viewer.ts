@@ -197,6 +197,8 @@ export class Viewer implements CameraHolder {
       tauAsked: statistics?.tauAsked ?? 0,
       tauAchieved: statistics?.tauAchieved ?? 0,
       complete: statistics?.complete ?? true,
+      pagesMissing: Number(statistics?.pagesMissing ?? 0n),
+      pagesFailed: Number(statistics?.pagesFailed ?? 0n),
       triangles: Number(statistics?.triangles ?? 0n),
       renderMilliseconds: statistics?.milliseconds?.total ?? 0,
       fps: this.rate.perSecond(time),

@@ -26,6 +26,8 @@ fabric::ChannelTask anyTask() {
     const int begin = *rc::gen::inRange(0, 1001);
     task.range = {begin / 1000.0, *rc::gen::inRange(begin, 1001) / 1000.0};
     task.wantsDepth = *rc::gen::arbitrary<bool>();
+    task.completeness = *rc::gen::element(fabric::Completeness::Complete,
+                                          fabric::Completeness::Interactive);
     return task;
 }
 
@@ -69,6 +71,15 @@ TEST(WireChannelTask, ARefusalNamesTheField) {
     v1::ChannelTask empty = taskMessage();
     empty.mutable_pixel_viewport()->set_width(0);
     EXPECT_THAT(refusal(empty), testing::HasSubstr("task.pixel_viewport"));
+    v1::ChannelTask unknown = taskMessage();
+    unknown.set_completeness(static_cast<v1::Completeness>(7));
+    EXPECT_THAT(refusal(unknown), testing::HasSubstr("task.completeness"));
+}
+
+TEST(WireChannelTask, WaitsForDataUnlessItSaysOtherwise) {
+    v1::ChannelTask message = taskMessage();
+    message.clear_completeness();
+    EXPECT_EQ(fromMessage(message).value().completeness, fabric::Completeness::Complete);
 }
 
 TEST(WireChannelTask, AnAbsentRangeIsTheWhole) {

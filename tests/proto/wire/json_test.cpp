@@ -66,6 +66,8 @@ TEST(StatisticsJson, HasTheDesignsFieldsAsPlainNumbers) {
     statistics.tauAskedPixels = 1;
     statistics.tauAchievedPixels = 0.75;
     statistics.triangles = 1'234'567'890'123;
+    statistics.pagesMissing = 3;
+    statistics.pagesFailed = 2;
     statistics.milliseconds = {0.5, 20, 1, 0, 21.5};
     const auto json = parsed(statisticsJson(
         statistics, 1280, 720, {"Mesa \"x\"", "llvmpipe", "4.5", "surfaceless", true}));
@@ -78,6 +80,8 @@ TEST(StatisticsJson, HasTheDesignsFieldsAsPlainNumbers) {
     EXPECT_EQ(number("points"), 0);
     EXPECT_EQ(number("nodes"), 0);
     EXPECT_EQ(number("pagesLoaded"), 0);
+    EXPECT_EQ(number("pagesMissing"), 3);
+    EXPECT_EQ(number("pagesFailed"), 2);
     EXPECT_TRUE(json.fields().at("complete").bool_value());
     const auto& milliseconds = json.fields().at("milliseconds").struct_value().fields();
     EXPECT_EQ(milliseconds.at("draw").number_value(), 20);

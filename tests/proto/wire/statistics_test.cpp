@@ -12,7 +12,7 @@ namespace eyrie::wire {
 namespace {
 
 fabric::FrameStatistics sample() {
-    return {1, 2.5, false, 10, 20, 30, 40, {0.1, 0.2, 0.3, 0.4, 1.5}};
+    return {1, 2.5, false, 10, 20, 30, 40, 6, 5, {0.1, 0.2, 0.3, 0.4, 1.5}};
 }
 
 TEST(WireStatistics, ComeBackAsTheyWere) {
@@ -30,6 +30,10 @@ TEST(WireStatistics, ARefusalNamesTheField) {
     message.set_tau_achieved(std::numeric_limits<double>::quiet_NaN());
     EXPECT_THAT(std::string(fromMessage(message).status().message()),
                 testing::HasSubstr("statistics.tau_achieved"));
+    message = toMessage(sample());
+    message.set_pages_failed(7);
+    EXPECT_THAT(std::string(fromMessage(message).status().message()),
+                testing::HasSubstr("statistics.pages_failed"));
     message = toMessage(sample());
     message.mutable_milliseconds()->set_draw(-1);
     EXPECT_THAT(std::string(fromMessage(message).status().message()),

@@ -144,6 +144,22 @@ TEST_P(TerrainCutLaws, IsTheSameEachTimeAndInDepthFirstOrder) {
                        [&](const auto& a, const auto& b) { return morton(a.id) < morton(b.id); }));
 }
 
+TEST_P(TerrainCutLaws, OfWhatIsThereHasTheErrorOfItsWorstTile) {
+    Random random(GetParam());
+    const double share = random.unit();
+    std::vector<bool> isResident(index_.quadtree.tileCount());
+    for (std::size_t i = 0; i < isResident.size(); ++i) isResident[i] = random.unit() < share;
+    Refinement drawn = refineForError(index_, *view_, tau_);
+    drawn.coarsen([&](const TileId& tile) { return isResident[index_.quadtree.tileIndex(tile)]; });
+    const TerrainCut cut = cutOf(index_, *view_, drawn);
+    double worst = 0;
+    for (const TileChoice& choice : cut.tiles)
+        if (const fabric::Box bounds = index_.bounds(choice.id); view_->isVisible(bounds))
+            worst = std::max(
+                worst, view_->screenSpaceErrorPixels(index_.tile(choice.id).errorMetres, bounds));
+    EXPECT_EQ(cut.tauAchievedPixels, worst);
+}
+
 INSTANTIATE_TEST_SUITE_P(RandomTerrains, TerrainCutLaws, testing::Range<std::uint64_t>(0, 60));
 
 TEST(TerrainCut, IsTheTopTileWhenNothingIsSeen) {

@@ -8,7 +8,7 @@ import { count, deviceName, milliseconds, pixels } from "./format";
 import { bannerFor, lossText, messageFor } from "./message";
 import { triangleText } from "./numbers";
 import { tauHint } from "./quality";
-import { statusOf } from "./status";
+import { missingText, statusOf } from "./status";
 
 const connected: Connection = { kind: "connected" };
 const lost: Connection = { kind: "lost", since: 1000 };
@@ -92,6 +92,8 @@ describe("numbers", () => {
     tauAsked: 1,
     tauAchieved: 1,
     complete: true,
+    pagesMissing: 0,
+    pagesFailed: 0,
     triangles: 1,
     renderMilliseconds: 1,
     fps: 1,
@@ -100,8 +102,20 @@ describe("numbers", () => {
 
   it("explain an error above the one asked for", () => {
     expect(tauHint(numbers)).toBe("");
-    expect(tauHint({ ...numbers, tauAchieved: 1.5 })).toBe("finest data drawn");
+    expect(tauHint({ ...numbers, tauAchieved: 1.5 })).toContain("finest data drawn");
     expect(tauHint({ ...numbers, tauAchieved: Infinity, complete: false })).toContain("incomplete");
+    const loading = { ...numbers, tauAchieved: 9, complete: false, pagesMissing: 3 };
+    expect(tauHint(loading)).toContain("refining");
+  });
+
+  it("say what is being loaded and what cannot be read", () => {
+    expect(missingText(null)).toBe("");
+    expect(missingText(numbers)).toBe("");
+    expect(missingText({ ...numbers, pagesMissing: 1 })).toBe("loading 1 page");
+    expect(missingText({ ...numbers, pagesMissing: 5, pagesFailed: 2 })).toBe(
+      "loading 3 pages, 2 pages unreadable",
+    );
+    expect(missingText({ ...numbers, pagesMissing: 2, pagesFailed: 2 })).toBe("2 pages unreadable");
   });
 
   it("are short", () => {

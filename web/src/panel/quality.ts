@@ -43,7 +43,10 @@ const tolerance = 1 + 1e-6;
 /** Why the error drawn is larger than the one asked for, or "". */
 export function tauHint(numbers: Numbers): string {
   if (numbers.tauAchieved <= numbers.tauAsked * tolerance) return "";
-  return numbers.complete ? "finest data drawn" : "incomplete: data are missing";
+  if (numbers.complete) return "finest data drawn, or all that memory holds";
+  return numbers.pagesMissing > numbers.pagesFailed
+    ? "refining while data are loaded"
+    : "incomplete: data are missing";
 }
 
 function tauAchieved(state: State): HTMLElement {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The chip that says whether all is well, and who renders.
 import type { SessionState } from "../protocol/messages";
-import type { Connection, State } from "../state";
+import type { Connection, Numbers, State } from "../state";
 import { byId, make, setText } from "./element";
 import { deviceName, plural } from "./format";
 
@@ -25,15 +25,26 @@ export function rendererText(session: SessionState): string {
   return [number, ...names].join(" · ");
 }
 
+/** What the last picture lacks: "loading 3 pages", "2 pages unreadable", or "". */
+export function missingText(numbers: Numbers | null): string {
+  if (numbers === null) return "";
+  const loading = numbers.pagesMissing - numbers.pagesFailed;
+  const parts = [];
+  if (loading > 0) parts.push(`loading ${plural(loading, "page")}`);
+  if (numbers.pagesFailed > 0) parts.push(`${plural(numbers.pagesFailed, "page")} unreadable`);
+  return parts.join(", ");
+}
+
 export function statusOf(
   connection: Connection,
   session: SessionState | null,
   stale: boolean,
+  missing = "",
 ): Status {
   if (connection.kind === "connecting") return { level: "wait", text: "Connecting", detail: "" };
   if (connection.kind === "lost") return { level: "bad", text: "Reconnecting", detail: "" };
   if (session === null) return { level: "wait", text: "Connected", detail: "" };
-  const detail = rendererText(session);
+  const detail = [missing, rendererText(session)].filter((text) => text !== "").join(" · ");
   const alive = session.renderers.filter((renderer) => renderer.alive).length;
   if (alive === 0) return { level: "bad", text: "No renderer", detail: "" };
   if (session.problem !== "") return { level: "bad", text: "Problem", detail };
@@ -50,7 +61,8 @@ export function showStatus(state: State): void {
   const scene = byId("scene-name", HTMLElement);
   const update = (): void => {
     const session = state.session.value;
-    const status = statusOf(state.connection.value, session, state.stale.value);
+    const missing = missingText(state.numbers.value);
+    const status = statusOf(state.connection.value, session, state.stale.value, missing);
     chip.dataset["level"] = status.level;
     setText(text, status.text);
     setText(detail, status.detail);
@@ -62,4 +74,10 @@ export function showStatus(state: State): void {
   state.connection.watch(update);
   state.session.watch(update);
   state.stale.watch(update);
+  let shown = "";
+  state.numbers.watch((numbers) => {
+    const missing = missingText(numbers);
+    if (missing !== shown) update();
+    shown = missing;
+  });
 }

@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/draw/terrain_paging.h"
+
+#include <algorithm>
+#include <limits>
+#include <string_view>
+#include <unordered_set>
+#include <utility>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <spdlog/spdlog.h>
+
+#include "fabric/status.h"
+#include "renderer/terrain/tile_bytes.h"
+
+namespace eyrie::draw {
+namespace {
+
+using std::chrono::duration;
+using terrain::Quadtree;
+using terrain::Refinement;
+using terrain::TileId;
+
+/// Share of an interactive frame that may go into copying tiles to the device.
+constexpr duration<double, std::milli> kUploadTime{3};
+constexpr std::uint32_t kLowestRank = std::numeric_limits<std::uint32_t>::max() - 1;
+std::uint64_t greatestOfAllPages(const terrain::EytIndex& index) {
+    std::uint64_t most = 0;
+    for (std::uint32_t page = 0; page < index.quadtree.pageCount(); ++page)
+        most = std::max(most, terrain::greatestPageBytes(index, page));
+    return most;
+}
+
+page::Loader::Load loadFrom(std::shared_ptr<const terrain::EytFile> file) {
+    return [file = std::move(file)](std::uint32_t page) -> absl::StatusOr<page::Loaded> {
+        ASSIGN_OR_RETURN(std::shared_ptr<const terrain::Page> read, file->readPage(page));
+        const std::uint64_t bytes = read->sizeBytes();
+        return page::Loaded{std::move(read), bytes};
+    };
+}
+
+}  // namespace
+
+absl::StatusOr<std::unique_ptr<TerrainPaging>> TerrainPaging::open(
+    std::shared_ptr<const terrain::EytFile> file, page::Loader& loader,
+    const TerrainMemory& limits) {
+    const terrain::EytIndex& index = file->index();
+    const TileId top = index.quadtree.top();
+    ASSIGN_OR_RETURN(const std::shared_ptr<const terrain::Page> page,
+                     file->readPage(index.quadtree.pageIndex(top)));
+    const terrain::TileGeometry& geometry = page->tile(Quadtree::placeInPage(top));
+    const std::uint64_t topBytes = terrain::tileBytes(geometry);
+    const std::uint64_t greatestPage = greatestOfAllPages(index);
+    const std::uint64_t least = 2 * greatestPage;
+    if (limits.hostBytes < least || limits.deviceBytes < topBytes)
+        return absl::ResourceExhaustedError(fmt::format(
+            "{}: this terrain's share of memory is {} bytes on the device and {} on the host; its "
+            "pages need {} and {} at least; raise the limits, or open fewer objects",
+            file->path(), limits.deviceBytes, limits.hostBytes, topBytes, least));
+    // Pages that are being loaded or wait to be taken get a quarter of the host's share.
+    std::unique_ptr<TerrainPaging> paging(new TerrainPaging(
+        std::move(file), loader, limits, topBytes, std::max(limits.hostBytes / 4, greatestPage)));
+    if (!geometry.isEmpty())
+        paging->top_ = std::make_unique<DeviceTile>(geometry);
+    return paging;
+}
+
+TerrainPaging::TerrainPaging(std::shared_ptr<const terrain::EytFile> file, page::Loader& loader,
+                             const TerrainMemory& limits, std::uint64_t topBytes,
+                             std::uint64_t loaderBytes)
+    : file_(std::move(file)),
+      index_(file_->index()),
+      tiles_(limits.deviceBytes - topBytes),
+      pages_(limits.hostBytes - loaderBytes),
+      topBytes_(topBytes),
+      source_(loader.open(loadFrom(file_), loaderBytes)) {}
+
+MemoryUse TerrainPaging::memory() const {
+    return {topBytes_ + tiles_.bytes(), pages_.bytes() + source_->bytes()};
+}
+
+bool TerrainPaging::isGivenUp(std::uint32_t page, Clock::time_point time) const {
+    const auto failure = failures_.find(page);
+    return failure != failures_.end() && time < failure->second.retryAt;
+}
+
+std::uint64_t TerrainPaging::pageBytes(std::uint32_t page) const {
+    const auto known = knownPageBytes_.find(page);
+    return known != knownPageBytes_.end() ? known->second
+                                          : terrain::greatestPageBytes(index_, page);
+}
+
+Refinement TerrainPaging::drawable(const Refinement& wanted, const NeededTiles& needed) const {
+    Refinement drawn = wanted;
+    drawn.coarsen([&](const TileId& tile) {
+        return !needed.contains(tile) || isEmpty(tile) || isResident(tile);
+    });
+    return drawn;
+}
+
+void TerrainPaging::beginFrame() {
+    tiles_.beginFrame();
+    pages_.beginFrame();
+    missing_.clear();
+    rankedPages_.clear();
+    rankOfPage_.clear();
+}
+
+/// Coarse levels first; within a level by error over distance, and by nearness to the view's axis.
+std::vector<TileId> TerrainPaging::inOrder(std::vector<TileId> tiles,
+                                           const lod::ObjectView& view) const {
+    struct Scored {
+        TileId tile;
+        double score;
+    };
+    std::vector<Scored> scored;
+    scored.reserve(tiles.size());
+    for (const TileId& tile : tiles) {
+        const fabric::PixelViewport covered = view.coveredPixels(index_.bounds(tile));
+        const double x = (covered.x + 0.5 * covered.width) / view.view().width - 0.5;
+        const double y = (covered.y + 0.5 * covered.height) / view.view().height - 0.5;
+        const double pixels = std::max(covered.width, covered.height);
+        scored.push_back({tile, pixels / (0.1 + x * x + y * y)});
+    }
+    std::stable_sort(scored.begin(), scored.end(), [](const Scored& a, const Scored& b) {
+        return a.tile.level != b.tile.level ? a.tile.level > b.tile.level : a.score > b.score;
+    });
+    for (std::size_t i = 0; i < tiles.size(); ++i) tiles[i] = scored[i].tile;
+    return tiles;
+}
+
+/// Gives what is on the device its rank, and lists what is missing as far as it will fit.
+void TerrainPaging::rankTiles(const std::vector<TileId>& order, std::uint64_t reservedBytes) {
+    std::uint64_t bytes = reservedBytes;
+    std::uint32_t rank = 0;
+    for (const TileId& tile : order) {
+        bytes += terrain::estimatedTileBytes(index_, tile);
+        if (bytes > tiles_.limitBytes())
+            return;
+        tiles_.rank(index_.quadtree.tileIndex(tile), ++rank);
+        if (!isResident(tile))
+            missing_.push_back({tile, rank});
+    }
+}
+
+/// Pages of missing tiles, then those to prefetch, as far as they fit.
+void TerrainPaging::rankPages(const std::vector<TileId>& prefetch) {
+    std::uint64_t bytes = 0;
+    const auto add = [&](std::uint32_t page) {
+        if (rankOfPage_.contains(page) || index_.pages[page].bytes == 0)
+            return;
+        bytes += pageBytes(page);
+        if (bytes > pages_.limitBytes())
+            return;
+        const auto rank = static_cast<std::uint32_t>(rankedPages_.size());
+        rankedPages_.push_back({page, rank});
+        rankOfPage_.emplace(page, rank);
+        pages_.rank(page, rank);
+    };
+    for (const RankedTile& ranked : missing_) add(index_.quadtree.pageIndex(ranked.tile));
+    for (const TileId& tile : prefetch)
+        if (!isResident(tile))
+            add(index_.quadtree.pageIndex(tile));
+}
+
+std::uint64_t TerrainPaging::keep(std::vector<page::Arrival> arrivals) {
+    std::uint64_t loaded = 0;
+    for (page::Arrival& arrival : arrivals) {
+        if (!arrival.result.ok()) {
+            noteFailure(arrival);
+            continue;
+        }
+        ++loaded;
+        if (failures_.erase(arrival.page) != 0)
+            spdlog::info("{}: page {} can be read again", file_->path(), arrival.page);
+        if (const auto since = wishedSince_.find(arrival.page); since != wishedSince_.end()) {
+            latency_ += 0.1 * (duration<double>(Clock::now() - since->second) - latency_);
+            wishedSince_.erase(since);
+        }
+        const std::uint64_t bytes = arrival.result->bytes;
+        knownPageBytes_[arrival.page] = bytes;
+        const auto found = rankOfPage_.find(arrival.page);
+        const std::uint32_t rank = found == rankOfPage_.end() ? kLowestRank : found->second;
+        if (!pages_.contains(arrival.page) && pages_.makeRoom(bytes, rank))
+            pages_.insert(arrival.page,
+                          std::static_pointer_cast<const terrain::Page>(arrival.result->value),
+                          bytes, rank);
+    }
+    return loaded;
+}
+
+void TerrainPaging::noteFailure(const page::Arrival& arrival) {
+    const absl::Status& status = arrival.result.status();
+    std::string message(status.message().data(), status.message().size());
+    Failure& failure = failures_[arrival.page];
+    failure.retryAt = arrival.retryAt;
+    if (failure.message == message)
+        return;
+    spdlog::warn("{}; coarser data stand in for it", message);
+    failure.message = std::move(message);
+}
+
+bool TerrainPaging::upload(duration<double> time) {
+    const auto end = Clock::now() + time;
+    bool hasUploaded = false;
+    std::erase_if(missing_, [&](const RankedTile& ranked) {
+        const auto& [tile, rank] = ranked;
+        if (hasUploaded && Clock::now() >= end)
+            return false;
+        const auto* page = pages_.find(index_.quadtree.pageIndex(tile));
+        if (page == nullptr)
+            return false;
+        const terrain::TileGeometry& geometry = (*page)->tile(Quadtree::placeInPage(tile));
+        const std::uint64_t bytes = terrain::tileBytes(geometry);
+        if (!tiles_.makeRoom(bytes, rank))
+            return false;
+        tiles_.insert(index_.quadtree.tileIndex(tile), DeviceTile(geometry), bytes, rank);
+        hasUploaded = true;
+        return true;
+    });
+    return hasUploaded;
+}
+
+std::vector<page::Wish> TerrainPaging::missingPages() {
+    std::vector<page::Wish> wishes;
+    std::unordered_map<std::uint32_t, Clock::time_point> since;
+    for (const RankedPage& ranked : rankedPages_) {
+        if (pages_.contains(ranked.page))
+            continue;
+        wishes.push_back({ranked.page, -static_cast<double>(ranked.rank), pageBytes(ranked.page)});
+        const auto known = wishedSince_.find(ranked.page);
+        since.emplace(ranked.page, known == wishedSince_.end() ? Clock::now() : known->second);
+    }
+    wishedSince_ = std::move(since);
+    return wishes;
+}
+
+TerrainPaging::Result TerrainPaging::resultOf(Refinement drawn, const NeededTiles& needed) const {
+    std::unordered_set<std::uint32_t> missing;
+    for (const TileId& tile : needed.leaves())
+        if (!isResident(tile))
+            missing.insert(index_.quadtree.pageIndex(tile));
+    Result result{std::move(drawn), 0, missing.size(), 0};
+    for (const std::uint32_t page : missing) result.pagesFailed += failures_.contains(page) ? 1 : 0;
+    return result;
+}
+
+TerrainPaging::Result TerrainPaging::approach(const Refinement& wanted, const NeededTiles& needed,
+                                              const lod::ObjectView& view,
+                                              const Prefetch& prefetch) {
+    beginFrame();
+    Refinement drawn = drawable(wanted, needed);
+    // What is drawn stays; then comes what lies below it, then, against the day when the camera
+    // draws back, what lies above.
+    std::vector<TileId> below;
+    std::vector<TileId> above;
+    std::uint64_t drawnBytes = 0;
+    const auto sort = [&](const TileId& tile) {
+        const bool isTop = tile == index_.quadtree.top();
+        if (isTop || isEmpty(tile))
+            return;
+        const bool isReached = drawn.isSplit(Quadtree::parent(tile));
+        if (isReached && !drawn.isSplit(tile)) {
+            tiles_.rank(index_.quadtree.tileIndex(tile), 0);
+            drawnBytes += terrain::estimatedTileBytes(index_, tile);
+        } else {
+            (isReached ? above : below).push_back(tile);
+        }
+    };
+    for (const TileId& tile : needed.leaves()) sort(tile);
+    for (const TileId& tile : needed.inner()) sort(tile);
+    const bool isUrgent = std::any_of(below.begin(), below.end(),
+                                      [&](const TileId& tile) { return !isResident(tile); });
+    below = inOrder(std::move(below), view);
+    above = inOrder(std::move(above), view);
+    below.insert(below.end(), above.begin(), above.end());
+    rankTiles(below, drawnBytes);
+    rankPages(isUrgent ? std::vector<TileId>{} : prefetch());
+    const std::uint64_t loaded = keep(source_->tryTake());
+    if (upload(kUploadTime))
+        drawn = drawable(wanted, needed);
+    source_->tryWish(missingPages());
+    Result result = resultOf(std::move(drawn), needed);
+    result.pagesLoaded = loaded;
+    return result;
+}
+
+TerrainPaging::Result TerrainPaging::reach(const Refinement& wanted, const NeededTiles& needed,
+                                           const lod::ObjectView& view) {
+    const auto start = Clock::now();
+    std::uint64_t loaded = 0;
+    while (true) {
+        beginFrame();
+        Refinement readable = wanted;
+        readable.coarsen([&](const TileId& tile) {
+            return !needed.contains(tile) || isEmpty(tile) || isResident(tile) ||
+                   !isGivenUp(index_.quadtree.pageIndex(tile), start);
+        });
+        std::vector<TileId> leaves;
+        readable.forEachLeaf([&](const TileId& tile) {
+            if (needed.contains(tile) && !isEmpty(tile) && tile != index_.quadtree.top())
+                leaves.push_back(tile);
+        });
+        rankTiles(inOrder(std::move(leaves), view), 0);
+        if (missing_.empty())
+            break;
+        rankPages({});
+        loaded += keep(source_->take());
+        const bool hasUploaded = upload(std::chrono::hours(1));
+        source_->wish(missingPages());
+        if (missing_.empty() || (!hasUploaded && !source_->wait()))
+            break;
+    }
+    Result result = resultOf(drawable(wanted, needed), needed);
+    result.pagesLoaded = loaded;
+    return result;
+}
+
+}  // namespace eyrie::draw

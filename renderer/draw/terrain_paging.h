@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include <absl/status/status.h>
+
+#include "renderer/draw/needed_tiles.h"
+#include "renderer/draw/terrain_tiles.h"
+#include "renderer/page/loader.h"
+#include "renderer/page/resident_set.h"
+#include "renderer/terrain/eyt_format.h"
+#include "renderer/terrain/refinement.h"
+
+namespace eyrie::draw {
+
+/// Limits in bytes of what one terrain holds; they hold at all times.
+struct TerrainMemory {
+    std::uint64_t deviceBytes = 0;
+    std::uint64_t hostBytes = 0;  ///< pages in memory or being loaded
+};
+
+/// Which tiles of one terrain are on the device, and the pages on their way there. GL thread.
+///
+/// What a channel needs is brought to the device coarse levels first, so that it refines evenly,
+/// and within a level by error and nearness to the view's axis. Whatever is missing, what is there
+/// is drawn as a restricted cut: there are no cracks to hide. A page that cannot be read is logged
+/// once, and tried again by the loader.
+class TerrainPaging {
+public:
+    /// Reads the top tile, which stays on the device: it stands in for everything. `loader`
+    /// outlives this. Errors: of reading its page; ResourceExhausted when the limits hold no page
+    /// of `file`.
+    static absl::StatusOr<std::unique_ptr<TerrainPaging>> open(
+        std::shared_ptr<const terrain::EytFile> file, page::Loader& loader,
+        const TerrainMemory& limits);
+
+    using Prefetch = std::function<std::vector<terrain::TileId>()>;
+
+    /// What there is to draw.
+    struct Result {
+        terrain::Refinement drawn;  ///< all needed tiles of this cut are on the device
+        std::uint64_t pagesLoaded = 0;
+        std::uint64_t pagesMissing = 0;  ///< pages of wanted needed tiles that are not there
+        std::uint64_t pagesFailed = 0;   ///< of them
+    };
+
+    /// Goes towards `wanted` as far as it can without waiting: takes what the loader has, brings
+    /// tiles to the device for a few milliseconds, and wishes for the rest; where nothing is
+    /// missing, for the pages of `prefetch()`: tiles that may be needed soon, likely ones first.
+    Result approach(const terrain::Refinement& wanted, const NeededTiles& needed,
+                    const lod::ObjectView& view, const Prefetch& prefetch);
+
+    /// Goes there: waits for every page that can be read.
+    Result reach(const terrain::Refinement& wanted, const NeededTiles& needed,
+                 const lod::ObjectView& view);
+
+    /// Null when it is not on the device. Valid until the next approach() or reach().
+    const DeviceTile* tile(const terrain::TileId& id) {
+        return id == index_.quadtree.top() ? top_.get()
+                                           : tiles_.find(index_.quadtree.tileIndex(id));
+    }
+
+    MemoryUse memory() const;
+    /// Room for tiles on the device beside the top tile.
+    std::uint64_t roomBytes() const { return tiles_.limitBytes(); }
+    /// From a page's first wish to its arrival, averaged over the last ones.
+    std::chrono::duration<double> latency() const { return latency_; }
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    TerrainPaging(std::shared_ptr<const terrain::EytFile> file, page::Loader& loader,
+                  const TerrainMemory& limits, std::uint64_t topBytes, std::uint64_t loaderBytes);
+
+    struct Failure {
+        std::string message;
+        Clock::time_point retryAt;
+    };
+
+    bool isEmpty(const terrain::TileId& tile) const { return index_.tile(tile).triangles == 0; }
+    bool isResident(const terrain::TileId& tile) const {
+        return tile == index_.quadtree.top() || tiles_.contains(index_.quadtree.tileIndex(tile));
+    }
+    /// Whether its last attempt failed and the next one comes after `time`.
+    bool isGivenUp(std::uint32_t page, Clock::time_point time) const;
+    terrain::Refinement drawable(const terrain::Refinement& wanted,
+                                 const NeededTiles& needed) const;
+    std::uint64_t pageBytes(std::uint32_t page) const;
+
+    void beginFrame();
+    std::vector<terrain::TileId> inOrder(std::vector<terrain::TileId> tiles,
+                                         const lod::ObjectView& view) const;
+    void rankTiles(const std::vector<terrain::TileId>& order, std::uint64_t reservedBytes);
+    void rankPages(const std::vector<terrain::TileId>& prefetch);
+    /// Returns how many pages have come.
+    std::uint64_t keep(std::vector<page::Arrival> arrivals);
+    void noteFailure(const page::Arrival& arrival);
+    /// Returns whether it brought any.
+    bool upload(std::chrono::duration<double> time);
+    std::vector<page::Wish> missingPages();
+    Result resultOf(terrain::Refinement drawn, const NeededTiles& needed) const;
+
+    const std::shared_ptr<const terrain::EytFile> file_;
+    const terrain::EytIndex& index_;
+    std::unique_ptr<DeviceTile> top_;
+    page::ResidentSet<std::uint32_t, DeviceTile> tiles_;                            // by tile index
+    page::ResidentSet<std::uint32_t, std::shared_ptr<const terrain::Page>> pages_;  // by page index
+    std::uint64_t topBytes_;
+
+    struct RankedTile {
+        terrain::TileId tile;
+        std::uint32_t rank;
+    };
+    std::vector<RankedTile> missing_;  // of this frame, in the order in which they are to come
+    struct RankedPage {
+        std::uint32_t page;
+        std::uint32_t rank;
+    };
+    std::vector<RankedPage> rankedPages_;  // of this frame, distinct, ascending
+    std::unordered_map<std::uint32_t, std::uint32_t> rankOfPage_;
+
+    std::unordered_map<std::uint32_t, std::uint64_t> knownPageBytes_;
+    std::unordered_map<std::uint32_t, Failure> failures_;
+    std::unordered_map<std::uint32_t, Clock::time_point> wishedSince_;
+    std::chrono::duration<double> latency_{0.1};
+    std::unique_ptr<page::Loader::Source> source_;  // last: its loads use the file
+};
+
+}  // namespace eyrie::draw

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/page/loader.h"
+
+#include <algorithm>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <unordered_map>
+#include <utility>
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+namespace eyrie::page {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Of the threads that load, so that on few cores they give way to those that draw.
+constexpr int kNice = 10;
+
+void sort(std::vector<Wish>& wishes) {
+    std::stable_sort(wishes.begin(), wishes.end(),
+                     [](const Wish& a, const Wish& b) { return a.priority < b.priority; });
+}
+
+/// Reads a page whatever the source does.
+absl::StatusOr<Loaded> load(const Loader::Load& load, std::uint32_t page) {
+    try {
+        return load(page);
+    } catch (const std::exception& error) {
+        return absl::ResourceExhaustedError(
+            fmt::format("page {} cannot be loaded: {}", page, error.what()));
+    }
+}
+
+}  // namespace
+
+struct Loader::Source::State {
+    Load load;
+    std::uint64_t limitBytes = 0;
+
+    struct Failure {
+        int times = 0;
+        Clock::time_point retryAt;
+    };
+
+    // Guarded by Loader::State::mutex.
+    std::vector<Wish> wishes;  ///< ascending by priority
+    /// Bytes of the pages that are being loaded or have not been taken.
+    std::unordered_map<std::uint32_t, std::uint64_t> held;
+    std::uint64_t heldBytes = 0;
+    std::vector<Arrival> arrivals;
+    std::unordered_map<std::uint32_t, Failure> failures;
+    int loading = 0;
+
+    /// Drops wishes that are being fulfilled; returns the most wanted one that may start now. The
+    /// first that would start but for its size ends the search: smaller ones do not overtake it.
+    std::optional<Wish> next(Clock::time_point now, Clock::time_point& wakeAt) const {
+        for (auto wish = wishes.rbegin(); wish != wishes.rend(); ++wish) {
+            if (held.contains(wish->page))
+                continue;
+            const auto failure = failures.find(wish->page);
+            if (failure != failures.end() && failure->second.retryAt > now) {
+                wakeAt = std::min(wakeAt, failure->second.retryAt);
+                continue;
+            }
+            if (heldBytes + wish->bytes > limitBytes)
+                return std::nullopt;
+            return *wish;
+        }
+        return std::nullopt;
+    }
+};
+
+struct Loader::State {
+    LoaderOptions options;
+    std::mutex mutex;  ///< guards what follows and the states of the sources
+    std::condition_variable wished;
+    std::condition_variable arrived;
+    std::vector<Source::State*> sources;
+    bool isStopping = false;
+    std::vector<std::thread> threads;
+
+    void work();
+    void fulfil(std::unique_lock<std::mutex>& lock, Source::State& source, const Wish& wish);
+};
+
+void Loader::State::work() {
+    // On Linux the nice value is a thread's own. Being refused it costs smoothness only.
+    setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNice);
+    std::unique_lock lock(mutex);
+    while (!isStopping) {
+        Source::State* source = nullptr;
+        std::optional<Wish> best;
+        Clock::time_point wakeAt = Clock::time_point::max();
+        for (Source::State* candidate : sources)
+            if (const auto wish = candidate->next(Clock::now(), wakeAt);
+                wish && (!best || wish->priority > best->priority)) {
+                best = wish;
+                source = candidate;
+            }
+        if (best)
+            fulfil(lock, *source, *best);
+        else if (wakeAt == Clock::time_point::max())
+            wished.wait(lock);
+        else
+            wished.wait_until(lock, wakeAt);
+    }
+}
+
+void Loader::State::fulfil(std::unique_lock<std::mutex>& lock, Source::State& source,
+                           const Wish& wish) {
+    std::erase_if(source.wishes, [&](const Wish& other) { return other.page == wish.page; });
+    source.held[wish.page] = wish.bytes;
+    source.heldBytes += wish.bytes;
+    ++source.loading;
+    lock.unlock();
+    absl::StatusOr<Loaded> result = load(source.load, wish.page);
+    if (result.ok() && result->bytes > wish.bytes)
+        result = absl::ResourceExhaustedError(fmt::format(
+            "page {} has {} bytes where {} were expected", wish.page, result->bytes, wish.bytes));
+    lock.lock();
+    --source.loading;
+    const std::uint64_t bytes = result.ok() ? result->bytes : 0;
+    source.held[wish.page] = bytes;
+    source.heldBytes -= wish.bytes - bytes;
+    Clock::time_point retryAt;
+    if (result.ok()) {
+        source.failures.erase(wish.page);
+    } else {
+        auto& failure = source.failures[wish.page];
+        const auto delay =
+            std::min(options.firstRetry * (1 << std::min(failure.times++, 20)), options.lastRetry);
+        retryAt = failure.retryAt = Clock::now() + delay;
+    }
+    source.arrivals.push_back({wish.page, std::move(result), retryAt});
+    arrived.notify_all();
+    if (bytes < wish.bytes)
+        wished.notify_all();
+}
+
+Loader::Loader(const LoaderOptions& options) : state_(std::make_unique<State>()) {
+    state_->options = options;
+    for (int i = 0; i < options.threads; ++i)
+        state_->threads.emplace_back([state = state_.get()] { state->work(); });
+}
+
+Loader::~Loader() {
+    {
+        const std::lock_guard lock(state_->mutex);
+        state_->isStopping = true;
+    }
+    state_->wished.notify_all();
+    for (std::thread& thread : state_->threads) thread.join();
+}
+
+std::unique_ptr<Loader::Source> Loader::open(Load load, std::uint64_t limitBytes) {
+    return std::unique_ptr<Source>(new Source(*state_, std::move(load), limitBytes));
+}
+
+Loader::Source::Source(Loader::State& loader, Load load, std::uint64_t limitBytes)
+    : loader_(loader), state_(std::make_unique<State>()) {
+    state_->load = std::move(load);
+    state_->limitBytes = limitBytes;
+    const std::lock_guard lock(loader_.mutex);
+    loader_.sources.push_back(state_.get());
+}
+
+Loader::Source::~Source() {
+    std::unique_lock lock(loader_.mutex);
+    std::erase(loader_.sources, state_.get());
+    loader_.arrived.wait(lock, [this] { return state_->loading == 0; });
+}
+
+void Loader::Source::wish(std::vector<Wish> wishes) {
+    sort(wishes);
+    {
+        const std::lock_guard lock(loader_.mutex);
+        state_->wishes.swap(wishes);
+    }
+    loader_.wished.notify_all();
+}
+
+void Loader::Source::tryWish(std::vector<Wish> wishes) {
+    sort(wishes);
+    {
+        const std::unique_lock lock(loader_.mutex, std::try_to_lock);
+        if (!lock.owns_lock())
+            return;
+        state_->wishes.swap(wishes);
+    }
+    loader_.wished.notify_all();
+}
+
+std::vector<Arrival> Loader::Source::take() {
+    const std::lock_guard lock(loader_.mutex);
+    return takeLocked();
+}
+
+std::vector<Arrival> Loader::Source::tryTake() {
+    const std::unique_lock lock(loader_.mutex, std::try_to_lock);
+    return lock.owns_lock() ? takeLocked() : std::vector<Arrival>{};
+}
+
+std::vector<Arrival> Loader::Source::takeLocked() {
+    std::vector<Arrival> arrivals;
+    arrivals.swap(state_->arrivals);
+    for (const Arrival& arrival : arrivals) {
+        const auto held = state_->held.find(arrival.page);
+        state_->heldBytes -= held->second;
+        state_->held.erase(held);
+        // A wish that is older than the arrival is fulfilled by it.
+        if (arrival.result.ok())
+            std::erase_if(state_->wishes,
+                          [&](const Wish& wish) { return wish.page == arrival.page; });
+    }
+    if (!arrivals.empty())
+        loader_.wished.notify_all();
+    return arrivals;
+}
+
+bool Loader::Source::wait() {
+    std::unique_lock lock(loader_.mutex);
+    loader_.arrived.wait(lock, [this] {
+        Clock::time_point wakeAt;
+        return !state_->arrivals.empty() ||
+               (state_->loading == 0 && !state_->next(Clock::now(), wakeAt).has_value());
+    });
+    return !state_->arrivals.empty();
+}
+
+std::uint64_t Loader::Source::bytes() const {
+    const std::lock_guard lock(loader_.mutex);
+    return state_->heldBytes;
+}
+
+}  // namespace eyrie::page

@@ -1,0 +1,351 @@
+// SPDX-License-Identifier: Apache-2.0
+// Terrain whose pages come late, never, or do not all fit into memory.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+#include <spdlog/sinks/ostream_sink.h>
+#include <spdlog/spdlog.h>
+
+#include "renderer/gl/debug_output.h"
+#include "renderer/renderer.h"
+#include "renderer/terrain/eyt_format.h"
+#include "tests/renderer/sample_scene.h"
+
+namespace eyrie {
+namespace {
+
+using fabric::Camera;
+using fabric::ChannelResult;
+using fabric::Completeness;
+using fabric::Vec3;
+using terrain::Quadtree;
+using terrain::TileId;
+
+constexpr int kWidth = 640;
+constexpr int kHeight = 360;
+constexpr auto kPatience = std::chrono::seconds(30);
+
+/// Catches what is logged while it lives.
+class Log {
+public:
+    Log() : before_(spdlog::default_logger()) {
+        spdlog::set_default_logger(std::make_shared<spdlog::logger>(
+            "test", std::make_shared<spdlog::sinks::ostream_sink_mt>(text_)));
+    }
+    ~Log() { spdlog::set_default_logger(before_); }
+
+    int count(const std::string& part) const {
+        const std::string text = text_.str();
+        int times = 0;
+        for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+            ++times;
+        return times;
+    }
+
+private:
+    std::ostringstream text_;
+    std::shared_ptr<spdlog::logger> before_;
+};
+
+class Paging : public testing::Test {
+protected:
+    void SetUp() override {
+        gl::setOnGlError(gl::OnGlError::Abort);
+        auto scene = test::sampleScene(test::SampleKind::Terrain);
+        ASSERT_TRUE(scene.ok()) << scene.status();
+        scene_ = *scene;
+        auto file = terrain::EytFile::open(scene_.objects[0].path);
+        ASSERT_TRUE(file.ok()) << file.status();
+        file_ = *file;
+        copy_ = scene_.objects[0].path + ".copy";
+        std::filesystem::copy_file(scene_.objects[0].path, copy_,
+                                   std::filesystem::copy_options::overwrite_existing);
+    }
+    void TearDown() override { std::filesystem::remove(copy_); }
+
+    const Quadtree& quadtree() const { return file_->index().quadtree; }
+
+    /// Damages the copy's page, or repairs it when it is damaged.
+    void flip(std::uint32_t page) {
+        const terrain::PageRecord& record = file_->index().pages[page];
+        if (record.bytes == 0)
+            return;
+        std::fstream file(copy_, std::ios::in | std::ios::out | std::ios::binary);
+        const auto at = static_cast<std::streamoff>(record.offset + record.bytes / 2);
+        file.seekg(at);
+        const char byte = static_cast<char>(~file.get());
+        file.seekp(at);
+        file.put(byte);
+    }
+
+    /// Damages the pages of all levels below `level` that lie in the western half, or everywhere.
+    void withhold(int level, bool everywhere) {
+        for (std::uint32_t page = 0; page < quadtree().pageCount(); ++page) {
+            const TileId first = quadtree().firstTileOfPage(page);
+            const bool isWest = 2 * first.x < quadtree().tilesX(first.level);
+            if (first.level < level && (isWest || everywhere))
+                flip(page);
+        }
+    }
+
+    std::unique_ptr<Renderer> open(const std::string& path, const RendererOptions& options = {}) {
+        auto renderer = Renderer::create(options);
+        EXPECT_TRUE(renderer.ok()) << renderer.status();
+        fabric::Scene scene = scene_;
+        scene.objects[0].path = path;
+        const auto info = (*renderer)->openScene(scene);
+        EXPECT_TRUE(info.ok()) << info.status();
+        return *std::move(renderer);
+    }
+
+    /// Above the border between the western and the eastern half; only terrain can be seen.
+    Camera lookingDown(int i) const {
+        const fabric::Box box = file_->index().bounds();
+        Camera camera;
+        camera.eye = box.centre() + Vec3(200.0 * (i % 5 - 2), 1500.0 * (i - 4), 0);
+        camera.eye.z = box.max.z + 300.0 * (i + 1);
+        camera.target = camera.eye + Vec3(300.0 * (i % 3 - 1), 200.0 * (i % 2), -1000);
+        camera.up = {0, 1, 0};
+        return camera;
+    }
+
+    /// Level, so that a column of the picture is a vertical plane of the world.
+    Camera lookingAhead(int i) const {
+        const fabric::Box box = file_->index().bounds();
+        const double azimuth = 0.7 * i;
+        Camera camera;
+        camera.eye = box.centre();
+        camera.eye.z = box.max.z + 10 + 100 * i;
+        camera.target = camera.eye + Vec3(std::cos(azimuth), std::sin(azimuth), 0);
+        return camera;
+    }
+
+    ChannelResult draw(Renderer& renderer, const Camera& camera, Completeness completeness,
+                       double tau = 1) {
+        fabric::FrameData frame;
+        frame.camera = camera;
+        frame.tauPixels = tau;
+        fabric::ChannelTask task;
+        task.viewWidth = kWidth;
+        task.viewHeight = kHeight;
+        task.pixelViewport = {0, 0, kWidth, kHeight};
+        task.wantsDepth = true;
+        task.completeness = completeness;
+        auto result = renderer.render(frame, task);
+        EXPECT_TRUE(result.ok()) << result.status();
+        if (!result.ok())
+            return {};
+        fabric::Image whole = fabric::makeImage(task.pixelViewport, scene_.background, true);
+        if (!result->image.area.isEmpty())
+            fabric::paste(result->image, whole);
+        return {std::move(whole), result->statistics};
+    }
+
+    /// Interactive frames until one is complete.
+    ChannelResult converge(Renderer& renderer, const Camera& camera) {
+        const auto deadline = std::chrono::steady_clock::now() + kPatience;
+        while (std::chrono::steady_clock::now() < deadline) {
+            ChannelResult result = draw(renderer, camera, Completeness::Interactive);
+            if (result.statistics.complete)
+                return result;
+            EXPECT_GT(result.statistics.pagesMissing, 0U);
+        }
+        ADD_FAILURE() << "no interactive frame was complete in time";
+        return {};
+    }
+
+    static std::size_t uncovered(const fabric::Image& image) {
+        return static_cast<std::size_t>(
+            std::count_if(image.depth.begin(), image.depth.end(), [](float d) { return d <= 0; }));
+    }
+
+    /// Pixels through which one sees the background below terrain.
+    static std::size_t holesBelowTerrain(const fabric::Image& image) {
+        std::size_t holes = 0;
+        for (std::size_t x = 0; x < kWidth; ++x) {
+            bool isBelow = false;
+            for (std::size_t y = kHeight; y-- > 0;) {  // rows go from the bottom up
+                const bool isCovered = image.depth[y * kWidth + x] > 0;
+                holes += isBelow && !isCovered ? 1 : 0;
+                isBelow = isBelow || isCovered;
+            }
+        }
+        return holes;
+    }
+
+    static std::size_t different(const fabric::Image& one, const fabric::Image& other) {
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < one.depth.size(); ++i)
+            count += one.depth[i] == other.depth[i] && one.colour[i] == other.colour[i] ? 0 : 1;
+        return count;
+    }
+
+    fabric::Scene scene_;
+    std::shared_ptr<const terrain::EytFile> file_;
+    std::string copy_;
+};
+
+class WithheldPages : public Paging, public testing::WithParamInterface<int> {};
+
+TEST_P(WithheldPages, LeaveNoHoleWhereLevelsJump) {
+    const Log log;
+    const int jump = GetParam();
+    withhold(jump, 2 * jump > quadtree().levels());
+    const auto intact = open(scene_.objects[0].path);
+    const auto withheld = open(copy_);
+    for (int i = 0; i < 9; ++i) {
+        const ChannelResult whole = draw(*intact, lookingDown(i), Completeness::Complete, 0.25);
+        EXPECT_TRUE(whole.statistics.complete);
+        EXPECT_EQ(uncovered(whole.image), 0U) << "the test wants terrain everywhere";
+        const ChannelResult coarse = draw(*withheld, lookingDown(i), Completeness::Complete, 0.25);
+        EXPECT_EQ(uncovered(coarse.image), 0U) << "looking down, camera " << i;
+        EXPECT_FALSE(coarse.statistics.complete);
+        EXPECT_GT(coarse.statistics.pagesMissing, 0U);
+        EXPECT_GE(coarse.statistics.pagesFailed, 1U);
+        EXPECT_GT(coarse.statistics.tauAchievedPixels, whole.statistics.tauAchievedPixels);
+        EXPECT_EQ(
+            holesBelowTerrain(draw(*withheld, lookingAhead(i), Completeness::Complete, 0.25).image),
+            0U)
+            << "looking ahead, camera " << i;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Jumps, WithheldPages, testing::Values(2, 3, 5));
+
+TEST_F(Paging, AnInteractiveFrameDoesNotWaitAndHasNoHoles) {
+    const auto renderer = open(scene_.objects[0].path);
+    const ChannelResult first = draw(*renderer, lookingDown(0), Completeness::Interactive, 0.25);
+    EXPECT_FALSE(first.statistics.complete);
+    EXPECT_GT(first.statistics.tauAchievedPixels, 0.25);
+    EXPECT_EQ(uncovered(first.image), 0U);
+    for (int i = 0; i < 60; ++i)
+        EXPECT_EQ(uncovered(draw(*renderer, lookingDown(i % 9), Completeness::Interactive).image),
+                  0U);
+}
+
+TEST_F(Paging, InteractiveFramesBecomeTheCompleteOne) {
+    const auto waiting = open(scene_.objects[0].path);
+    const auto interactive = open(scene_.objects[0].path);
+    for (int i = 0; i < 4; ++i) {
+        const ChannelResult expected = draw(*waiting, lookingAhead(i), Completeness::Complete);
+        EXPECT_TRUE(expected.statistics.complete);
+        const ChannelResult actual = converge(*interactive, lookingAhead(i));
+        EXPECT_EQ(different(expected.image, actual.image), 0U) << "camera " << i;
+        EXPECT_EQ(actual.statistics.tauAchievedPixels, expected.statistics.tauAchievedPixels);
+        EXPECT_EQ(actual.statistics.triangles, expected.statistics.triangles);
+    }
+}
+
+TEST_F(Paging, ACorruptPageIsDrawnAsItsAncestorAndNamedOnce) {
+    const TileId seen{0, quadtree().tilesX(0) / 2, quadtree().tilesY(0) / 2};
+    const std::uint32_t page = quadtree().pageIndex(seen);
+    Camera camera;
+    camera.target = file_->index().bounds(seen).centre();
+    camera.eye = camera.target + Vec3(0, 0, 2000);
+    camera.up = {0, 1, 0};
+    const ChannelResult whole =
+        draw(*open(scene_.objects[0].path), camera, Completeness::Complete, 0.1);
+    flip(page);
+    const Log log;
+    const auto renderer = open(copy_);
+    const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(700);
+    while (std::chrono::steady_clock::now() < end)  // it is tried again meanwhile
+        for (const Completeness completeness :
+             {Completeness::Complete, Completeness::Interactive}) {
+            const ChannelResult result = draw(*renderer, camera, completeness, 0.1);
+            EXPECT_FALSE(result.statistics.complete);
+            EXPECT_EQ(result.statistics.pagesFailed, 1U);
+            EXPECT_EQ(uncovered(result.image), 0U);
+            EXPECT_GT(result.statistics.tauAchievedPixels, whole.statistics.tauAchievedPixels);
+        }
+    EXPECT_EQ(log.count(fmt::format("page {}:", page)), 1);
+    flip(page);
+    const auto deadline = std::chrono::steady_clock::now() + kPatience;
+    ChannelResult result;
+    while (!result.statistics.complete || result.image.depth.empty()) {
+        ASSERT_LT(std::chrono::steady_clock::now(), deadline) << "the page is readable again";
+        result = draw(*renderer, camera, Completeness::Interactive, 0.1);
+    }
+    EXPECT_EQ(different(result.image, whole.image), 0U);
+    EXPECT_EQ(log.count("can be read again"), 1);
+}
+
+TEST_F(Paging, ATopPageThatCannotBeReadKeepsTheSceneFromOpening) {
+    flip(quadtree().pageIndex(quadtree().top()));
+    auto renderer = Renderer::create({});
+    ASSERT_TRUE(renderer.ok());
+    fabric::Scene scene = scene_;
+    scene.objects[0].path = copy_;
+    EXPECT_TRUE(absl::IsDataLoss((*renderer)->openScene(scene).status()));
+}
+
+TEST_F(Paging, TooLittleMemoryForAPageKeepsTheSceneFromOpening) {
+    RendererOptions options;
+    options.hostMemoryBytes = 1000;
+    auto renderer = Renderer::create(options);
+    ASSERT_TRUE(renderer.ok());
+    EXPECT_TRUE(absl::IsResourceExhausted((*renderer)->openScene(scene_).status()));
+}
+
+class LittleMemory : public Paging, public testing::WithParamInterface<bool> {
+protected:
+    /// Inside the coarser tiles' bounds, where no finite error is promised, or clear of them.
+    Camera camera(int i) const {
+        if (GetParam())
+            return lookingAhead(i);
+        Camera camera = lookingAhead(0);
+        camera.eye += Vec3(0, 300 * i, 9000);
+        camera.target = camera.eye + Vec3(1, 0, -1);
+        return camera;
+    }
+};
+
+TEST_P(LittleMemory, AQuarterOfWhatIsNeededIsKeptToAndLoadingComesToRest) {
+    const auto unlimited = open(scene_.objects[0].path);
+    draw(*unlimited, camera(0), Completeness::Complete, 0.1);
+    RendererOptions options;
+    options.memoryBytes = unlimited->memory().deviceBytes / 4;
+    options.hostMemoryBytes = std::uint64_t{8} << 20;
+    const auto renderer = open(scene_.objects[0].path, options);
+    const auto withinLimits = [&] {
+        const RendererMemory memory = renderer->memory();
+        return memory.deviceBytes <= options.memoryBytes &&
+               memory.hostBytes <= options.hostMemoryBytes;
+    };
+    for (int i = 0; i < 40; ++i) {
+        const ChannelResult result =
+            draw(*renderer, camera(i % 10), Completeness::Interactive, 0.1);
+        EXPECT_TRUE(withinLimits());
+        EXPECT_EQ(holesBelowTerrain(result.image), 0U);
+    }
+    // A camera at rest: all that fits arrives, then nothing more is loaded.
+    const auto deadline = std::chrono::steady_clock::now() + kPatience;
+    ChannelResult result;
+    for (int quiet = 0; quiet < 30;) {
+        ASSERT_LT(std::chrono::steady_clock::now(), deadline) << "loading does not come to rest";
+        result = draw(*renderer, camera(0), Completeness::Interactive, 0.1);
+        EXPECT_TRUE(withinLimits());
+        quiet = result.statistics.pagesLoaded == 0 && result.statistics.complete ? quiet + 1 : 0;
+    }
+    EXPECT_EQ(result.statistics.pagesMissing, 0U);
+    EXPECT_EQ(holesBelowTerrain(result.image), 0U);
+    EXPECT_GT(result.statistics.tauAchievedPixels, 0.1) << "which does not fit";
+    EXPECT_TRUE(GetParam() || std::isfinite(result.statistics.tauAchievedPixels));
+    const ChannelResult complete =
+        draw(*open(scene_.objects[0].path, options), camera(0), Completeness::Complete, 0.1);
+    EXPECT_TRUE(complete.statistics.complete);
+    EXPECT_EQ(different(complete.image, result.image), 0U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Cameras, LittleMemory, testing::Bool());
+
+}  // namespace
+}  // namespace eyrie
