@@ -58,7 +58,7 @@ absl::Status importTerrain(const Options& options) {
     {
         ProgressBar bar(options.source, sourceMegabytes(options), "MB",
                         ProgressBar::styleFor(options.quiet));
-        made = import::importTerrain(options.source, options.out, {bar.callback(), stop.token()});
+        made = import::importTerrain({options.source}, options.out, {}, {bar.callback(), stop.token()});
     }
     RETURN_IF_ERROR(made.status());
     const auto samples =

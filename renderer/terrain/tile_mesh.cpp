@@ -14,12 +14,13 @@ constexpr std::uint16_t kNoSlot = 0xffff;
 
 }  // namespace
 
-TileMesher::TileMesher(const SourceSurface& surface, const VertexLevels& levels,
-                       const HeightLattice& lattice, const Quadtree& quadtree)
-    : surface_(surface), levels_(levels), lattice_(lattice), quadtree_(quadtree) {}
+TileMesher::TileMesher(SourceSurface& surface, TileSamples& samples, const HeightLattice& lattice,
+                       const Quadtree& quadtree)
+    : surface_(surface), samples_(samples), lattice_(lattice), quadtree_(quadtree) {}
 
 TileMesh TileMesher::mesh(const TileId& tile) {
     tile_ = tile;
+    samples_.load(tile);
     const std::int32_t side = Quadtree::side(tile.level);
     shift_ = Quadtree::spacingShift(tile.level);
     side_ = 2 * Quadtree::cells(tile.level);
@@ -48,13 +49,13 @@ TileMesh TileMesher::mesh(const TileId& tile) {
 }
 
 bool TileMesher::isVertex(const Point& p) const {
-    return levels_.isNeeded(column(p), row(p), tile_.level);
+    return samples_.isNeeded(column(p), row(p), tile_.level);
 }
 
 /// A vertex of the next finer level's tiles along this tile's border: theirs by need, or a corner.
 bool TileMesher::isFinerVertex(const Point& p) const {
     return p.x + p.y == side_ / 2 || p.x + p.y == side_ + side_ / 2 ||
-           levels_.isNeeded(column(p), row(p), tile_.level - 1);
+           samples_.isNeeded(column(p), row(p), tile_.level - 1);
 }
 
 /// Splits the triangle of right angle `apex` and hypotenuse left-right, counter-clockwise, as far
@@ -123,7 +124,7 @@ void TileMesher::addFan(int edge, const Point& apex, const Point& from, const Po
 Corner TileMesher::corner(const Point& p) const {
     const std::int32_t i = std::min(column(p), quadtree_.columns() - 1);
     const std::int32_t j = std::min(row(p), quadtree_.rows() - 1);
-    const float height = surface_.grid().at(i, j);
+    const float height = samples_.height(i, j);
     return {i, j,
             std::isnan(height) ? static_cast<double>(height)
                                : lattice_.quantise(height) * lattice_.stepMetres};
@@ -140,10 +141,10 @@ void TileMesher::measure(const Point& a, const Point& b, const Point& c, bool ma
     };
     double deviation = 0;
     if (mayBeAligned && (!isCut_ || (isUnmoved(a) && isUnmoved(b) && isUnmoved(c))))
-        deviation = surface_.ofAligned(triangle);
+        deviation = surface_.ofAligned(triangle, {mesh_.errorMetres});
     else if (std::int64_t{triangle[1].i - triangle[0].i} * (triangle[2].j - triangle[0].j) !=
              std::int64_t{triangle[2].i - triangle[0].i} * (triangle[1].j - triangle[0].j))
-        deviation = surface_.ofGeneral(triangle);
+        deviation = surface_.ofGeneral(triangle, {mesh_.errorMetres});
     mesh_.errorMetres = std::max(mesh_.errorMetres, deviation);
 }
 
@@ -168,7 +169,7 @@ std::uint16_t TileMesher::vertex(const Point& p) {
     number = static_cast<std::uint16_t>(mesh_.vertices.size());
     const std::int32_t i = std::min(column(p), quadtree_.columns() - 1);
     const std::int32_t j = std::min(row(p), quadtree_.rows() - 1);
-    const float source = surface_.grid().at(i, j);
+    const float source = samples_.height(i, j);
     const std::int32_t q = lattice_.quantise(source);
     const double drawn = q * lattice_.stepMetres;
     mesh_.vertices.push_back({p.x, p.y, q});

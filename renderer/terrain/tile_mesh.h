@@ -9,7 +9,7 @@
 #include "renderer/terrain/deviation.h"
 #include "renderer/terrain/eyt_format.h"
 #include "renderer/terrain/quadtree.h"
-#include "renderer/terrain/vertex_levels.h"
+#include "renderer/terrain/tile_samples.h"
 #include "renderer/terrain/vertex_packing.h"
 
 namespace eyrie::terrain {
@@ -38,10 +38,10 @@ struct TileMesh {
 /// Keeps scratch memory: one object per thread. Keeps references to what it is made from.
 class TileMesher {
 public:
-    TileMesher(const SourceSurface& surface, const VertexLevels& levels,
-               const HeightLattice& lattice, const Quadtree& quadtree);
+    TileMesher(SourceSurface& surface, TileSamples& samples, const HeightLattice& lattice,
+               const Quadtree& quadtree);
 
-    /// Without the triangles that clamping squeezed to nothing or that touch nodata.
+    /// Loads the tile's samples. Without the triangles that clamping squeezed to nothing or that touch nodata.
     TileMesh mesh(const TileId& tile);
 
 private:
@@ -64,8 +64,8 @@ private:
     void addTriangle(int part, const Point& a, const Point& b, const Point& c);
     std::uint16_t vertex(const Point& p);
 
-    const SourceSurface& surface_;
-    const VertexLevels& levels_;
+    SourceSurface& surface_;
+    TileSamples& samples_;
     const HeightLattice& lattice_;
     const Quadtree& quadtree_;
 
