@@ -67,23 +67,22 @@ double DeviationGoal::bar(double worst) const {
 SourceSurface::SourceSurface(const ElevationModel& model)
     : model_(model), postTolerance_(std::min(model.frame.postMetres() / 2048, 0.05)) {}
 
-HeightPatch SourceSurface::tilePatch(std::int32_t x, std::int32_t y) {
-    if (x != tileX_ || y != tileY_) {
-        tile_ = model_.heights.tile(x, y);
-        tileX_ = x;
-        tileY_ = y;
-    }
+const HeightPatch& SourceSurface::tilePatch(std::int32_t x, std::int32_t y) {
     const std::int32_t i0 = x * kRasterTileCells;
     const std::int32_t j0 = y * kRasterTileCells;
-    return {tile_.get(),
-            kRasterTilePosts,
-            i0,
-            j0,
-            std::min(i0 + kRasterTileCells, model_.frame.columns - 1),
-            std::min(j0 + kRasterTileCells, model_.frame.rows - 1)};
+    if (patch_.posts != nullptr && patch_.i0 == i0 && patch_.j0 == j0)
+        return patch_;
+    tile_ = model_.heights.tile(x, y);
+    patch_ = {tile_.get(),
+              kRasterTilePosts,
+              i0,
+              j0,
+              std::min(i0 + kRasterTileCells, model_.frame.columns - 1),
+              std::min(j0 + kRasterTileCells, model_.frame.rows - 1)};
+    return patch_;
 }
 
-float SourceSurface::heightAt(std::int32_t i, std::int32_t j) {
+float SourceSurface::farHeightAt(std::int32_t i, std::int32_t j) {
     return tilePatch(std::min(i / kRasterTileCells, model_.heights.tilesX() - 1),
                      std::min(j / kRasterTileCells, model_.heights.tilesY() - 1))
         .at(i, j);
@@ -101,15 +100,17 @@ double SourceSurface::longestEdgeMetres(const Triangle& triangle) const {
     return longest;
 }
 
-/// The tile that holds all of a triangle, if one does.
-std::optional<HeightPatch> SourceSurface::onlyTile(const Triangle& triangle) {
-    const Bounds box(triangle);
+/// The tile that holds all of a triangle, null if none does.
+const HeightPatch* SourceSurface::onlyTile(const Triangle& t) {
+    if (patch_.has(t[0].i, t[0].j) && patch_.has(t[1].i, t[1].j) && patch_.has(t[2].i, t[2].j))
+        return &patch_;
+    const Bounds box(t);
     const std::int32_t x = box.i0 / kRasterTileCells;
     const std::int32_t y = box.j0 / kRasterTileCells;
     if (lastBlock(x, box.i1, kRasterTileCells) > x || lastBlock(y, box.j1, kRasterTileCells) > y)
-        return std::nullopt;
-    return tilePatch(std::min(x, model_.heights.tilesX() - 1),
-                     std::min(y, model_.heights.tilesY() - 1));
+        return nullptr;
+    return &tilePatch(std::min(x, model_.heights.tilesX() - 1),
+                      std::min(y, model_.heights.tilesY() - 1));
 }
 
 /// Calls visit(x, y, patch), patch() making a HeightPatch, for the summary's blocks that the
@@ -146,7 +147,7 @@ void SourceSurface::forEachBlock(const Triangle& triangle, Visit visit) {
 
 SourceSurface::Contents SourceSurface::contents(const Triangle& triangle) {
     PostCounts all;
-    if (const auto tile = onlyTile(triangle)) {
+    if (const HeightPatch* tile = onlyTile(triangle)) {
         all = countPosts(*tile, triangle);
     } else {
         forEachBlock(triangle, [&](std::int32_t x, std::int32_t y, auto patch) {
@@ -182,9 +183,9 @@ double SourceSurface::scanBlocks(const Triangle& triangle, const Plane& plane,
 bool SourceSurface::liesOnItsPosts(const Triangle& triangle) {
     Triangle unmoved = triangle;
     for (Corner& corner : unmoved) corner.z = static_cast<double>(heightAt(corner.i, corner.j));
-    const Plane plane = planeOf(unmoved);
-    if (const auto tile = onlyTile(triangle))
-        return scanAligned(*tile, unmoved, plane, true, 0) <= postTolerance_;
+    const Plane plane = planeOfAligned(unmoved);
+    if (const HeightPatch* tile = onlyTile(triangle))
+        return scanAligned(*tile, unmoved, plane, 0) <= postTolerance_;
     const std::array<double, 1> step{postTolerance_};
     return scanBlocks(unmoved, plane, {0, step}, 0) <= postTolerance_;
 }
@@ -196,11 +197,11 @@ double SourceSurface::ofAligned(const Triangle& triangle, const DeviationGoal& g
             return held == Contents::Mixed ? std::max(goal.floor, longestEdgeMetres(triangle))
                                            : goal.floor;
     }
-    const Plane plane = planeOf(triangle);
+    const Plane plane = planeOfAligned(triangle);
     double atPosts = goal.floor;
     double atCentres = goal.floor;
-    if (const auto tile = onlyTile(triangle)) {
-        atPosts = scanAligned(*tile, triangle, plane, true, atPosts);
+    if (const HeightPatch* tile = onlyTile(triangle)) {
+        atPosts = scanAligned(*tile, triangle, plane, atPosts);
         atCentres = scanDiagonalEdges(*tile, triangle, atCentres);
     } else {
         atPosts = scanBlocks(triangle, plane, goal, atPosts);
@@ -223,7 +224,7 @@ double SourceSurface::ofGeneral(const Triangle& triangle, const DeviationGoal& g
     }
     const Plane plane = planeOf(triangle);
     Crossed crossed{goal.floor, false};
-    if (const auto tile = onlyTile(triangle)) {
+    if (const HeightPatch* tile = onlyTile(triangle)) {
         crossed = scanCrossings(*tile, triangle, scanGeneral(*tile, triangle, plane, goal.floor));
     } else {
         double bar = goal.bar(crossed.worst);

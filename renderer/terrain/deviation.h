@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 
 #include "renderer/terrain/height_grid.h"
@@ -41,7 +40,24 @@ struct DeviationGoal {
     double bar(double worst) const;
 };
 
-struct HeightPatch;
+/// Part of a height raster in memory: posts (i0, j0) to (i1, j1), all included.
+struct HeightPatch {
+    const float* posts = nullptr;  ///< of (i0, j0)
+    std::ptrdiff_t stride = 0;
+    std::int32_t i0 = 0;
+    std::int32_t j0 = 0;
+    std::int32_t i1 = -1;
+    std::int32_t j1 = -1;
+
+    const float* row(std::int32_t j) const { return posts + stride * (j - j0); }
+    float at(std::int32_t i, std::int32_t j) const { return row(j)[i - i0]; }
+    bool has(std::int32_t i, std::int32_t j) const {
+        return i >= i0 && i <= i1 && j >= j0 && j <= j1;
+    }
+    /// The posts that both have.
+    HeightPatch clipped(std::int32_t fromI, std::int32_t fromJ, std::int32_t toI,
+                        std::int32_t toJ) const;
+};
 
 /// Greatest vertical distance between drawn triangles and the full-resolution source, in metres.
 ///
@@ -73,7 +89,9 @@ public:
     /// Of any triangle with corners on posts. Counts cells' diagonals even on planes.
     double ofGeneral(const Triangle& triangle, const DeviationGoal& goal = {});
 
-    float heightAt(std::int32_t i, std::int32_t j);
+    float heightAt(std::int32_t i, std::int32_t j) {
+        return patch_.has(i, j) ? patch_.at(i, j) : farHeightAt(i, j);
+    }
     const GridFrame& frame() const { return model_.frame; }
     bool hasNodata() const { return model_.hasNodata(); }
     double longestEdgeMetres(const Triangle& triangle) const;
@@ -83,8 +101,9 @@ public:
 private:
     enum class Contents { Data, Nodata, Mixed };
 
-    HeightPatch tilePatch(std::int32_t x, std::int32_t y);
-    std::optional<HeightPatch> onlyTile(const Triangle& triangle);
+    const HeightPatch& tilePatch(std::int32_t x, std::int32_t y);
+    const HeightPatch* onlyTile(const Triangle& triangle);
+    float farHeightAt(std::int32_t i, std::int32_t j);
     template <typename Visit>
     void forEachBlock(const Triangle& triangle, Visit visit);
     double scanBlocks(const Triangle& triangle, const Plane& plane, const DeviationGoal& goal,
@@ -95,8 +114,7 @@ private:
     const ElevationModel& model_;
     double postTolerance_;
     TiledRaster<float>::Tile tile_;
-    std::int32_t tileX_ = -1;
-    std::int32_t tileY_ = -1;
+    HeightPatch patch_;  ///< all of tile_
 };
 
 /// Share of the greatest height that rounding may take off a computed deviation.

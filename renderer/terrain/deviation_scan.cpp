@@ -69,17 +69,6 @@ inline double rowDeviation(const float* row, std::int32_t count, double first, d
     return worst;
 }
 
-/// A few posts at a time, without the set-up of a vector loop.
-inline double shortRowDeviation(const float* row, std::int32_t count, double first, double slope,
-                                std::int32_t offset, double worst) {
-    for (std::int32_t k = 0; k < count; ++k) {
-        const double d =
-            std::abs(static_cast<double>(row[k]) - (first + slope * static_cast<double>(offset + k)));
-        worst = d > worst ? d : worst;
-    }
-    return worst;
-}
-
 EYRIE_SIMD_CLONES double slabDeviation(const HeightPatch& patch, const Slab& slab,
                                        const Plane& plane, double worst) {
     std::int32_t low = slab.low;
@@ -95,15 +84,20 @@ EYRIE_SIMD_CLONES double slabDeviation(const HeightPatch& patch, const Slab& sla
     return worst;
 }
 
-double smallSlabDeviation(const HeightPatch& patch, const Slab& slab, const Plane& plane,
+/// Without the set-up of a vector loop.
+__attribute__((optimize("no-tree-vectorize"))) double smallSlabDeviation(const HeightPatch& patch, const Slab& slab, const Plane& plane,
                           double worst) {
     std::int32_t low = slab.low;
     std::int32_t high = slab.high;
     for (std::int32_t r = 0; r < slab.count; ++r) {
         const std::int32_t j = slab.firstRow + r;
         const double first = plane.z0 + plane.perRow * (j - plane.j0);
-        worst = shortRowDeviation(patch.row(j) + (low - patch.i0), high - low + 1, first,
-                                  plane.perColumn, low - plane.i0, worst);
+        const float* row = patch.row(j) - patch.i0;
+        for (std::int32_t i = low; i <= high; ++i) {
+            const double d = std::abs(static_cast<double>(row[i]) -
+                                      (first + plane.perColumn * (i - plane.i0)));
+            worst = d > worst ? d : worst;
+        }
         low += slab.lowStep;
         high += slab.highStep;
     }
@@ -285,11 +279,6 @@ private:
 
 }  // namespace
 
-bool HeightPatch::contains(const Triangle& t) const {
-    return std::min({t[0].i, t[1].i, t[2].i}) >= i0 && std::max({t[0].i, t[1].i, t[2].i}) <= i1 &&
-           std::min({t[0].j, t[1].j, t[2].j}) >= j0 && std::max({t[0].j, t[1].j, t[2].j}) <= j1;
-}
-
 HeightPatch HeightPatch::clipped(std::int32_t fromI, std::int32_t fromJ, std::int32_t toI,
                                  std::int32_t toJ) const {
     HeightPatch part = *this;
@@ -301,7 +290,6 @@ HeightPatch HeightPatch::clipped(std::int32_t fromI, std::int32_t fromJ, std::in
     return part;
 }
 
-/// All exact in double for aligned triangles, whose determinant is a power of two.
 Plane planeOf(const Triangle& t) {
     const double x1 = t[1].i - t[0].i, y1 = t[1].j - t[0].j, z1 = t[1].z - t[0].z;
     const double x2 = t[2].i - t[0].i, y2 = t[2].j - t[0].j, z2 = t[2].z - t[0].z;
@@ -310,11 +298,17 @@ Plane planeOf(const Triangle& t) {
             (x1 * z2 - x2 * z1) / determinant};
 }
 
+/// The determinant is a power of two, or that negated: dividing by it is exact.
+Plane planeOfAligned(const Triangle& t) {
+    const double x1 = t[1].i - t[0].i, y1 = t[1].j - t[0].j, z1 = t[1].z - t[0].z;
+    const double x2 = t[2].i - t[0].i, y2 = t[2].j - t[0].j, z2 = t[2].z - t[0].z;
+    const double inverse = 1 / (x1 * y2 - x2 * y1);
+    return {t[0].i, t[0].j, t[0].z, (z1 * y2 - z2 * y1) * inverse, (x1 * z2 - x2 * z1) * inverse};
+}
+
 double scanAligned(const HeightPatch& patch, const Triangle& triangle, const Plane& plane,
-                   bool wholly, double worst) {
+                   double worst) {
     constexpr std::int32_t kSmall = 5;  // rows; tried 3 to 17
-    if (!wholly)
-        return scanGeneral(patch, triangle, plane, worst);
     const Slabs slabs = slabsOf(triangle);
     for (int k = 0; k < slabs.count; ++k) {
         const Slab& slab = slabs.slabs[static_cast<std::size_t>(k)];

@@ -127,7 +127,8 @@ public:
         for (std::int32_t s = 1; s < kRasterTileCells; s *= 2) {
             if (s > 1)
                 measureEdges(s);
-            measureCentres(s);
+            if (s > 1 || !measureFinestCentres())
+                measureCentres(s);
         }
         return std::move(counts_);
     }
@@ -157,6 +158,21 @@ private:
                     measureVertex(u, v, 1, false);
             }
         }
+    }
+
+    /// The centres of squares of two cells, a quarter of all vertices. False, with nothing done,
+    /// for tiles with nodata or at the grid's end.
+    bool measureFinestCentres() {
+        if (surface_.hasNodata() || limitI_ < kRasterTileCells || limitJ_ < kRasterTileCells)
+            return false;
+        for (std::int32_t v = 1; v < kRasterTileCells; v += 2)
+            for (std::int32_t u = 1; u < kRasterTileCells; u += 2) {
+                const auto own = static_cast<std::uint8_t>(levels_.thresholdsExceededBy(
+                    finestCentre(heights_.get() + v * kRasterTilePosts + u, kRasterTilePosts,
+                                 ((u ^ v) & 2) == 0, surface_.postToleranceMetres())));
+                at(u, v) = std::max(own, static_cast<std::uint8_t>(children(u, v, 1, true)));
+            }
+        return true;
     }
 
     void measureEdges(std::int32_t s) {
