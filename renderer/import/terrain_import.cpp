@@ -123,11 +123,13 @@ absl::StatusOr<TerrainImportReport> importTerrain(const std::vector<std::string>
                                                   const std::string& out,
                                                   const TerrainImportOptions& options,
                                                   const ImportControl& control) {
-    ASSIGN_OR_RETURN(Dem source, readDem(dems.front(), control));
-    GridHeightSource posts(source.grid);
+    ASSIGN_OR_RETURN(DemSource source, openDems(dems, control));
+    const std::string name =
+        dems.size() == 1 ? dems.front()
+                         : fmt::format("{} and {} more", dems.front(), dems.size() - 1);
     ASSIGN_OR_RETURN(TerrainImportReport report,
-                     importTerrain(posts, {dems.front(), source.crsWkt, source.sourceHash}, out,
-                                   options, control));
+                     importTerrain(*source.posts, {name, source.crsWkt, source.hash}, out, options,
+                                   control));
     report.notes = std::move(source.notes);
     return report;
 }
