@@ -380,6 +380,8 @@ absl::StatusOr<DemSource> openAsItIs(DemFile file) {
 absl::StatusOr<DemSource> openDems(const std::vector<std::string>& paths,
                                    const ImportControl& control) {
     QuietGdal gdal;
+    constexpr GIntBig kCacheBytes = 48 << 20;
+    GDALSetCacheMax64(kCacheBytes);
     std::vector<DemFile> files;
     std::uint64_t hash = 0;
     for (const std::string& path : paths) {

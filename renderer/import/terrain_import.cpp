@@ -2,17 +2,23 @@
 #include "renderer/import/terrain_import.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <csignal>
+#include <cstdlib>
 #include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
-#include <tbb/task_arena.h>
+#include <tbb/global_control.h>
+#include <xxhash.h>
 
 #include "fabric/status.h"
 #include "renderer/import/dem_source.h"
 #include "renderer/import/elevation_reading.h"
 #include "renderer/import/page_line.h"
+#include "renderer/import/terrain_stages.h"
 #include "renderer/terrain/eyt_format.h"
 
 namespace eyrie::import {
@@ -72,43 +78,158 @@ TerrainImportReport reportOf(const terrain::EytIndex& index, double postMetres,
             .notes = {}};
 }
 
+/// Bytes that every import holds in memory, whatever lies on scratch.
+std::uint64_t residentBytes(const terrain::GridFrame& frame) {
+    // The program with GDAL and PROJ, GDAL's cache, strips and pages under way: measured.
+    constexpr std::uint64_t kProgram = std::uint64_t{144} << 20;
+    constexpr std::uint64_t kPostsPerByte = 16;  // summaries, tile records, coarse vertex levels
+    return kProgram + static_cast<std::uint64_t>(frame.columns) *
+                          static_cast<std::uint64_t>(frame.rows) / kPostsPerByte;
+}
+
+std::uint64_t scratchBytes(const terrain::GridFrame& frame, std::uint64_t memoryBytes) {
+    constexpr std::uint64_t kLeast = std::uint64_t{32} << 20;
+    const std::uint64_t resident = residentBytes(frame);
+    return std::max(kLeast, memoryBytes > resident ? memoryBytes - resident : 0);
+}
+
+std::string scratchPath(const std::string& out, const std::string& folder) {
+    namespace fs = std::filesystem;
+    if (folder.empty())
+        return out + ".scratch";
+    const std::string whole = fs::absolute(out).lexically_normal().string();
+    return (fs::path(folder) / fmt::format("{}-{:016x}.scratch", fs::path(out).filename().string(),
+                                           XXH64(whole.data(), whole.size(), 0)))
+        .string();
+}
+
+/// Removes what killed imports into `out` have left: EytWriter's unfinished files.
+void removeLeftovers(const std::string& out) {
+    namespace fs = std::filesystem;
+    const fs::path whole = fs::absolute(out);
+    const std::string mark = whole.filename().string() + ".partial-";
+    std::error_code error;
+    for (const fs::directory_entry& entry : fs::directory_iterator(whole.parent_path(), error)) {
+        const std::string name = entry.path().filename().string();
+        if (!name.starts_with(mark))
+            continue;
+        const pid_t maker = std::atoi(name.c_str() + mark.size());
+        if (maker > 0 && kill(maker, 0) != 0 && errno == ESRCH)
+            fs::remove(entry.path(), error);
+    }
+}
+
+/// One import: what it holds, and its stages.
+class TerrainJob {
+public:
+    TerrainJob(HeightSource& posts, const TerrainSource& source, const std::string& out,
+               const TerrainImportOptions& options, const ImportControl& control)
+        : posts_(posts),
+          source_(source),
+          out_(out),
+          options_(options),
+          control_(control),
+          scratch_(scratchPath(out, options.scratchFolder),
+                   scratchBytes(posts.frame(), options.memoryBytes)),
+          model_(emptyModel(posts.frame(), scratch_)),
+          levels_(terrain::Quadtree(static_cast<std::uint32_t>(model_.frame.columns),
+                                    static_cast<std::uint32_t>(model_.frame.rows))
+                      .levels()),
+          heights_(model_, scratch_, std::max(1, terrain::Quadtree::spacingShift(levels_ - 1))),
+          normals_(model_, scratch_, levels_),
+          vertexLevels_(model_, scratch_) {}
+
+    absl::StatusOr<TerrainImportReport> run() {
+        removeLeftovers(out_);
+        ASSIGN_OR_RETURN(terrain::EytWriter writer, terrain::EytWriter::create(out_));
+        ASSIGN_OR_RETURN(TerrainStages stages,
+                         TerrainStages::open(scratch_, key(), options_.startsOver));
+        absl::StatusOr<TerrainImportReport> report = runStages(stages, writer);
+        const bool mayGoOn = !report.ok() && !absl::IsInvalidArgument(report.status());
+        if (!mayGoOn) {
+            stages.remove();
+        } else if (const std::string kept = stages.keptIn(); !kept.empty()) {
+            const auto message = report.status().message();
+            return absl::Status(
+                report.status().code(),
+                fmt::format("{}; what is done is kept in {}: the same command goes on from there",
+                            std::string_view(message.data(), message.size()), kept));
+        }
+        return report;
+    }
+
+private:
+    std::uint64_t key() const {
+        const std::string text = fmt::format(
+            "{} {:x} {} {} {} {} {} {} {} {} {}", kImportVersion, source_.hash,
+            model_.frame.columns, model_.frame.rows, model_.frame.origin.x, model_.frame.origin.y,
+            model_.frame.perColumn.x, model_.frame.perColumn.y, model_.frame.perRow.x,
+            model_.frame.perRow.y, options_.errorMetres.value_or(-1));
+        return XXH64(text.data(), text.size(), 0);
+    }
+
+    absl::Status joinLevels() {
+        RETURN_IF_ERROR(vertexLevels_.join(control_));
+        return vertexLevels_.finish(control_);
+    }
+
+    absl::StatusOr<TerrainImportReport> runStages(TerrainStages& stages,
+                                                  terrain::EytWriter& writer) {
+        RETURN_IF_ERROR(stages.run(
+            [&] { return readElevation(posts_, scratch_, control_, model_); },
+            {[&] { return model_.state(); }, [&](const auto& s) { return model_.restore(s); }}));
+        if (model_.statistics.min > model_.statistics.max)
+            return absl::InvalidArgumentError(
+                fmt::format("{}: all posts are nodata; check the nodata value", source_.name));
+        const double postMetres = model_.frame.postMetres();
+        const terrain::HeightLattice lattice =
+            chooseHeightLattice(model_.statistics, postMetres);
+        vertexLevels_.setThresholds(
+            levelThresholds(levels_, postMetres, lattice, options_.errorMetres));
+        RETURN_IF_ERROR(stages.run([&] { return vertexLevels_.measure(control_); }));
+        RETURN_IF_ERROR(stages.run(
+            [&] { return joinLevels(); },
+            {[&] { return vertexLevels_.state(); },
+             [&](const auto& s) { return vertexLevels_.restore(s); }}));
+        RETURN_IF_ERROR(stages.run([&] { return heights_.make(control_); }));
+        RETURN_IF_ERROR(stages.run([&] { return normals_.make(control_); }));
+        terrain::EytIndex index = indexOf(model_, lattice, source_);
+        RETURN_IF_ERROR(buildPages({model_, heights_, vertexLevels_, normals_, lattice}, scratch_,
+                                   control_, index, writer));
+        if (index.triangles() == 0)
+            return absl::InvalidArgumentError(fmt::format(
+                "{}: no three neighbouring posts have data; check the nodata value", source_.name));
+        ASSIGN_OR_RETURN(const std::uint64_t sizeBytes, writer.commit(index));
+        return reportOf(index, postMetres, sizeBytes);
+    }
+
+    static constexpr int kImportVersion = 1;  ///< raise it when scratch or journal change
+
+    HeightSource& posts_;
+    const TerrainSource& source_;
+    const std::string& out_;
+    const TerrainImportOptions& options_;
+    const ImportControl& control_;
+    terrain::Scratch scratch_;
+    terrain::ElevationModel model_;
+    int levels_;
+    terrain::HeightLayers heights_;
+    terrain::NormalMaps normals_;
+    terrain::VertexLevels vertexLevels_;
+};
+
 }  // namespace
 
 absl::StatusOr<TerrainImportReport> importTerrain(HeightSource& posts, const TerrainSource& source,
                                                   const std::string& out,
                                                   const TerrainImportOptions& options,
                                                   const ImportControl& control) {
-    ASSIGN_OR_RETURN(terrain::EytWriter writer, terrain::EytWriter::create(out));
-    terrain::Scratch scratch(out + ".scratch", options.memoryBytes / 2);
-    terrain::ElevationModel model = emptyModel(posts.frame(), scratch);
-    const int levels = terrain::Quadtree(static_cast<std::uint32_t>(model.frame.columns),
-                                         static_cast<std::uint32_t>(model.frame.rows))
-                           .levels();
-    const int shift = terrain::Quadtree::spacingShift(levels - 1);
-    terrain::HeightLayers heights(model, scratch, std::max(1, shift));
-    terrain::NormalMaps normals(model, scratch, levels);
-    terrain::VertexLevels vertexLevels(model, scratch);
-
-    RETURN_IF_ERROR(readElevation(posts, scratch, control, model));
-    if (model.statistics.min > model.statistics.max)
-        return absl::InvalidArgumentError(fmt::format("{}: all posts are nodata", source.name));
-    const terrain::HeightLattice lattice =
-        chooseHeightLattice(model.statistics, model.frame.postMetres());
-    vertexLevels.setThresholds(
-        levelThresholds(levels, model.frame.postMetres(), lattice, options.errorMetres));
-    RETURN_IF_ERROR(vertexLevels.measure(control));
-    RETURN_IF_ERROR(vertexLevels.join(control));
-    RETURN_IF_ERROR(vertexLevels.finish(control));
-    RETURN_IF_ERROR(heights.make(control));
-    RETURN_IF_ERROR(normals.make(control));
-    terrain::EytIndex index = indexOf(model, lattice, source);
-    RETURN_IF_ERROR(buildPages({model, heights, vertexLevels, normals, lattice}, scratch, control,
-                               index, writer));
-    if (index.triangles() == 0)
-        return absl::InvalidArgumentError(fmt::format(
-            "{}: no three neighbouring posts have data; check the nodata value", source.name));
-    ASSIGN_OR_RETURN(const std::uint64_t sizeBytes, writer.commit(index));
-    return reportOf(index, model.frame.postMetres(), sizeBytes);
+    const tbb::global_control threads(
+        tbb::global_control::max_allowed_parallelism,
+        options.threads > 0
+            ? static_cast<std::size_t>(options.threads)
+            : tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+    return TerrainJob(posts, source, out, options, control).run();
 }
 
 absl::StatusOr<TerrainImportReport> importTerrain(const terrain::HeightGrid& grid,

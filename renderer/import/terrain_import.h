@@ -45,9 +45,10 @@ struct TerrainImportOptions {
     /// What level 0 may leave out; none: nothing that its lattice of heights can tell.
     std::optional<double> errorMetres;
     bool startsOver = false;  ///< ignores what an interrupted import left
+    int threads = 0;          ///< 0: all
 };
 
-inline constexpr std::uint64_t kLeastImportMemory = std::uint64_t{160} << 20;
+inline constexpr std::uint64_t kLeastImportMemory = std::uint64_t{192} << 20;
 
 /// What an .eyt says of where its posts came from.
 struct TerrainSource {

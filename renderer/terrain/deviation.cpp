@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
+#include <type_traits>
 
 #include <glm/geometric.hpp>
 
@@ -56,6 +58,22 @@ private:
 };
 
 }  // namespace
+
+std::vector<std::byte> ElevationModel::state() const {
+    std::vector<std::byte> state(sizeof statistics);
+    std::memcpy(state.data(), &statistics, sizeof statistics);
+    const std::vector<std::byte> summary = relief.bytes();
+    state.insert(state.end(), summary.begin(), summary.end());
+    return state;
+}
+
+bool ElevationModel::restore(std::span<const std::byte> state) {
+    static_assert(std::is_trivially_copyable_v<HeightStatistics>);
+    if (state.size() < sizeof statistics || !relief.restore(state.subspan(sizeof statistics)))
+        return false;
+    std::memcpy(&statistics, state.data(), sizeof statistics);
+    return true;
+}
 
 double DeviationGoal::bar(double worst) const {
     if (steps.empty())

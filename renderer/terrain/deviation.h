@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "renderer/terrain/height_grid.h"
 #include "renderer/terrain/relief_summary.h"
@@ -28,6 +29,10 @@ struct ElevationModel {
     ReliefSummary relief;
 
     bool hasNodata() const { return statistics.nodataPosts > 0; }
+
+    /// What is not on scratch, and the same brought back; false for what is not of this frame.
+    std::vector<std::byte> state() const;
+    bool restore(std::span<const std::byte> state);
 };
 
 /// How much of a deviation someone wants to know: one that is not above `floor` may be told as

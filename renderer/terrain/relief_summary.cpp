@@ -106,7 +106,7 @@ std::vector<std::byte> ReliefSummary::bytes() const {
     return bytes;
 }
 
-bool ReliefSummary::restore(const std::vector<std::byte>& bytes) {
+bool ReliefSummary::restore(std::span<const std::byte> bytes) {
     if (bytes.size() != blocks_.size() * sizeof(Block))
         return false;
     std::memcpy(blocks_.data(), bytes.data(), bytes.size());

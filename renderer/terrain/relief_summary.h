@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "renderer/terrain/tiled_raster.h"
@@ -42,7 +44,7 @@ public:
 
     std::vector<std::byte> bytes() const;
     /// Takes what bytes() gave for a raster of the same size; false for anything else.
-    bool restore(const std::vector<std::byte>& bytes);
+    bool restore(std::span<const std::byte> bytes);
 
 private:
     struct Block {

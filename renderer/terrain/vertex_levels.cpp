@@ -415,12 +415,13 @@ void VertexLevels::finishClass(std::int32_t s, bool isCentre) {
                 if (isCovered(i, j))
                     coarse_[coarseIndex(i, j)] = static_cast<std::uint8_t>(known);
                 else if (known > 0)
-                    outside.local().push_back({key(i, j), static_cast<std::uint8_t>(known)});
+                    outside.local().push_back({key(i, j), static_cast<std::uint64_t>(known)});
             }
         }
     });
     for (const std::vector<Found>& found : outside)
-        for (const Found& vertex : found) outside_[vertex.key] = vertex.exceeded;
+        for (const Found& vertex : found)
+            outside_[vertex.key] = static_cast<std::uint8_t>(vertex.exceeded);
 }
 
 absl::Status VertexLevels::finish(const import::ImportControl& control) {
@@ -433,10 +434,26 @@ absl::Status VertexLevels::finish(const import::ImportControl& control) {
     return absl::OkStatus();
 }
 
-bool VertexLevels::restoreCoarse(std::vector<std::uint8_t> coarse) {
-    if (coarse.size() != coarse_.size())
+std::vector<std::byte> VertexLevels::state() const {
+    std::vector<Found> outside;
+    for (const auto& [key, exceeded] : outside_) outside.push_back({key, exceeded});
+    const auto coarse = std::as_bytes(std::span(coarse_));
+    const auto rest = std::as_bytes(std::span(outside));
+    std::vector<std::byte> state(coarse.begin(), coarse.end());
+    state.insert(state.end(), rest.begin(), rest.end());
+    return state;
+}
+
+bool VertexLevels::restore(std::span<const std::byte> state) {
+    if (state.size() < coarse_.size() || (state.size() - coarse_.size()) % sizeof(Found) != 0)
         return false;
-    coarse_ = std::move(coarse);
+    std::memcpy(coarse_.data(), state.data(), coarse_.size());
+    for (state = state.subspan(coarse_.size()); !state.empty();
+         state = state.subspan(sizeof(Found))) {
+        Found found;
+        std::memcpy(&found, state.data(), sizeof found);
+        outside_[found.key] = static_cast<std::uint8_t>(found.exceeded);
+    }
     return true;
 }
 

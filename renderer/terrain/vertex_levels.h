@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -54,9 +55,10 @@ public:
     /// `rect` counts posts 2^layer apart; `out` gets its values row by row.
     void read(int layer, const PostRect& rect, std::uint8_t* out) const;
 
-    /// What `join` and `finish` keep in memory, to go on from a scratch that has the rest.
-    const std::vector<std::uint8_t>& coarse() const { return coarse_; }
-    bool restoreCoarse(std::vector<std::uint8_t> coarse);
+    /// What the steps leave in memory, and the same brought back; false for what is not of this
+    /// model.
+    std::vector<std::byte> state() const;
+    bool restore(std::span<const std::byte> state);
 
 private:
     struct Point {  ///< of the padded square
@@ -65,7 +67,7 @@ private:
     };
     struct Found {
         std::uint64_t key;
-        std::uint8_t exceeded;
+        std::uint64_t exceeded;
     };
     class TileMeasure;
     class GroupJoin;

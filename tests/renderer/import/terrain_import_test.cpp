@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "renderer/import/dem_source.h"
+#include "renderer/import/geotiff_writer.h"
 #include "renderer/import/terrain_synth.h"
 #include "tests/renderer/import/terrain_fixture.h"
 #include "tests/renderer/terrain/hard_grids.h"
@@ -16,11 +16,8 @@ namespace {
 
 using test::GridKind;
 using test::TemporaryFolder;
-
-std::string contents(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
+using test::contents;
+using test::readDem;
 
 TEST(TerrainSynth, IsTheSameForASeedWhateverTheSize) {
     const terrain::HeightGrid small = synthesizeTerrain(70, 5);
@@ -35,7 +32,7 @@ TEST(TerrainSynth, ComesBackFromItsGeoTiffUnchanged) {
     terrain::HeightGrid grid = synthesizeTerrain(130, 1);
     grid.row(3)[4] = terrain::kNodata;
     ASSERT_TRUE(writeGeoTiff(grid, folder.path("a.tif")).ok());
-    const auto dem = readDem(folder.path("a.tif"), {});
+    const auto dem = readDem(folder.path("a.tif"));
     ASSERT_TRUE(dem.ok()) << dem.status();
     EXPECT_EQ(dem->grid.origin, grid.origin);
     EXPECT_EQ(dem->grid.perColumn, grid.perColumn);
@@ -68,7 +65,7 @@ TEST(TerrainImport, ReportsWhatTheFileSays) {
         EXPECT_GE(fraction, last);
         last = fraction;
     };
-    const auto report = importTerrain(tif, folder.path("a.eyt"), control);
+    const auto report = importTerrain({tif}, folder.path("a.eyt"), {}, control);
     ASSERT_TRUE(report.ok()) << report.status();
     for (const char* stage : {"reading", "measuring", "building"})
         EXPECT_EQ(progress[stage], 1) << stage;
