@@ -104,17 +104,17 @@ void ImportJournal::read() {
         header != Header{.key = key_})
         return;
     const auto size = static_cast<std::uint64_t>(status.st_size);
-    std::uint64_t offset = sizeof header;
+    std::uint64_t offset = sizeof header;  // end of the last whole record
     RecordHeader record;
     while (readUpTo(fd_, &record, sizeof record, offset) == sizeof record) {
-        offset += sizeof record;
-        if (record.bytes > size - offset)
+        const std::uint64_t first = offset + sizeof record;
+        if (record.bytes > size - first)
             break;
         std::vector<std::byte> state(record.bytes);
-        if (readUpTo(fd_, state.data(), state.size(), offset) != state.size() ||
+        if (readUpTo(fd_, state.data(), state.size(), first) != state.size() ||
             checksumOf(record.step, state) != record.checksum)
             break;
-        offset += record.bytes;
+        offset = first + record.bytes;
         steps_[static_cast<std::uint32_t>(record.step)] = std::move(state);
     }
     if (ftruncate(fd_, static_cast<off_t>(steps_.empty() ? 0 : offset)) == 0)

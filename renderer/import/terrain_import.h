@@ -41,9 +41,9 @@ struct TerrainImportOptions {
     /// scratch file.
     std::uint64_t memoryBytes = std::uint64_t{512} << 20;
     /// Folder for the scratch file; empty: that of the output.
-    std::string scratchFolder;
+    std::string scratchFolder = {};
     /// What level 0 may leave out; none: nothing that its lattice of heights can tell.
-    std::optional<double> errorMetres;
+    std::optional<double> errorMetres = {};
     bool startsOver = false;  ///< ignores what an interrupted import left
     int threads = 0;          ///< 0: all
 };

@@ -3,13 +3,79 @@
 
 #include <cerrno>
 #include <cstring>
+#include <map>
+#include <new>
 #include <utility>
+#include <vector>
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 namespace eyrie::terrain {
+namespace {
+
+std::size_t wholePages(std::size_t bytes) {
+    constexpr std::size_t kPage = 4096;
+    return (bytes + kPage - 1) / kPage * kPage;
+}
+
+/// Pieces just given back, to be used again without asking the system: a few of each size.
+class SparePieces {
+public:
+    ~SparePieces() {
+        for (auto& [bytes, pieces] : spare_)
+            for (std::byte* const piece : pieces) munmap(piece, bytes);
+    }
+
+    std::byte* take(std::size_t bytes) {
+        {
+            const std::lock_guard lock(mutex_);
+            std::vector<std::byte*>& pieces = spare_[bytes];
+            if (!pieces.empty()) {
+                std::byte* const piece = pieces.back();
+                pieces.pop_back();
+                return piece;
+            }
+        }
+        void* const fresh = mmap(nullptr, bytes, PROT_READ | PROT_WRITE,
+                                 MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+        if (fresh == MAP_FAILED)
+            throw std::bad_alloc();
+        return static_cast<std::byte*>(fresh);
+    }
+
+    void giveBack(std::byte* piece, std::size_t bytes) {
+        constexpr std::size_t kMostSpareBytes = 2 << 20;
+        {
+            const std::lock_guard lock(mutex_);
+            std::vector<std::byte*>& pieces = spare_[bytes];
+            if ((pieces.size() + 1) * bytes <= kMostSpareBytes) {
+                pieces.push_back(piece);
+                return;
+            }
+        }
+        munmap(piece, bytes);
+    }
+
+private:
+    std::mutex mutex_;  ///< guards spare_
+    std::map<std::size_t, std::vector<std::byte*>> spare_;  // by bytes
+};
+
+SparePieces& sparePieces() {
+    static SparePieces spare;
+    return spare;
+}
+
+}  // namespace
+
+std::shared_ptr<std::byte[]> Scratch::newPiece(std::size_t bytes) {
+    const std::size_t whole = wholePages(bytes);
+    return {sparePieces().take(whole),
+            [whole](std::byte* piece) { sparePieces().giveBack(piece, whole); }};
+}
 
 Scratch::Scratch(std::string path, std::uint64_t budgetBytes)
     : path_(std::move(path)), budget_(budgetBytes) {}
@@ -33,7 +99,7 @@ Scratch::Piece Scratch::read(std::uint64_t place, std::size_t bytes) {
         shard.byUse.splice(shard.byUse.begin(), shard.byUse, found->second);
         return found->second->data;
     }
-    const std::shared_ptr<std::byte[]> data(new std::byte[bytes]);
+    const std::shared_ptr<std::byte[]> data = newPiece(bytes);
     load(place, {data.get(), bytes});
     keep(shard, {place, data, bytes, false});
     return data;
@@ -43,7 +109,7 @@ void Scratch::write(std::uint64_t place, Piece data, std::size_t bytes) {
     Shard& shard = shardOf(place);
     const std::lock_guard lock(shard.mutex);
     if (const auto found = shard.byPlace.find(place); found != shard.byPlace.end()) {
-        shard.bytes -= found->second->bytes;
+        shard.bytes -= wholePages(found->second->bytes);
         shard.byUse.erase(found->second);
         shard.byPlace.erase(found);
     }
@@ -52,7 +118,7 @@ void Scratch::write(std::uint64_t place, Piece data, std::size_t bytes) {
 
 /// Precondition: the shard's mutex is held, and the place is not in it.
 void Scratch::keep(Shard& shard, Entry entry) {
-    shard.bytes += entry.bytes;
+    shard.bytes += wholePages(entry.bytes);
     shard.byUse.push_front(std::move(entry));
     shard.byPlace[shard.byUse.front().place] = shard.byUse.begin();
     if (fitsInMemory())
@@ -61,7 +127,7 @@ void Scratch::keep(Shard& shard, Entry entry) {
         const Entry& oldest = shard.byUse.back();
         if (oldest.isDirty)
             store(oldest);
-        shard.bytes -= oldest.bytes;
+        shard.bytes -= wholePages(oldest.bytes);
         shard.byPlace.erase(oldest.place);
         shard.byUse.pop_back();
     }

@@ -38,6 +38,10 @@ public:
     /// All that was reserved fits in memory.
     bool fitsInMemory() const { return reserved_ <= budget_; }
 
+    /// Memory for a piece to be written. Goes back to the system page by page when nobody holds it:
+    /// a heap would keep what pieces of different sizes leave between them.
+    static std::shared_ptr<std::byte[]> newPiece(std::size_t bytes);
+
     Piece read(std::uint64_t place, std::size_t bytes);
     void write(std::uint64_t place, Piece data, std::size_t bytes);
     /// Brings every piece to the disk, not only the ones that did not fit.

@@ -60,7 +60,8 @@ public:
         scratch_->write(placeOf(x, y), {std::move(values), bytes}, kTileBytes);
     }
     static std::shared_ptr<T[]> newTile() {
-        return std::shared_ptr<T[]>(new T[kRasterTileValues]);
+        const std::shared_ptr<std::byte[]> piece = Scratch::newPiece(kTileBytes);
+        return {piece, reinterpret_cast<T*>(piece.get())};
     }
 
     /// Calls visit(values, stride, part) for each tile's part of `rect`; `values` points at the

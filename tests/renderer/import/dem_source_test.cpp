@@ -89,8 +89,7 @@ TEST_F(DemSource, AppliesScaleOffsetAndFeet) {
 TEST_F(DemSource, TurnsUnitsOfTheCrsToMetres) {
     const auto dem =
         test::readDem(virtualRaster(
-                    "<SRS>EPSG:2263</SRS><GeoTransform>1000,100,0,5000,0,-100</GeoTransform>", ""),
-                {});
+                    "<SRS>EPSG:2263</SRS><GeoTransform>1000,100,0,5000,0,-100</GeoTransform>", ""));
     ASSERT_TRUE(dem.ok()) << dem.status();
     EXPECT_NEAR(dem->grid.perColumn.x, 100 * 1200.0 / 3937, 1e-9);
     EXPECT_NEAR(dem->grid.origin.x, 1050 * 1200.0 / 3937, 1e-9);
@@ -120,8 +119,7 @@ TEST_F(DemSource, ReprojectsDegreesToTheUtmZoneOfTheirCentre) {
         const auto dem = test::readDem(
             virtualRaster("<SRS dataAxisToSRSAxisMapping=\"2,1\">EPSG:4326</SRS><GeoTransform>" +
                               std::string(example.transform) + "</GeoTransform>",
-                          ""),
-            {});
+                          ""));
         ASSERT_TRUE(dem.ok()) << dem.status();
         EXPECT_THAT(dem->crsWkt, HasSubstr(example.crs)) << example.transform;
         EXPECT_EQ(dem->grid.perColumn.x, dem->grid.perRow.y);
@@ -134,8 +132,7 @@ TEST_F(DemSource, ReadsEverythingThatIsNoHeightAsNodata) {
     const auto dem = test::readDem(
         written("grid.asc",
                 "ncols 4\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\nNODATA_value -9999\n"
-                "1.5 nan inf -9999\n-3.4e38 3.4e38 2 -32768\n"),
-        {});
+                "1.5 nan inf -9999\n-3.4e38 3.4e38 2 -32768\n"));
     ASSERT_TRUE(dem.ok()) << dem.status();
     std::string pattern;
     for (const float h : dem->grid.heights) pattern += std::isnan(h) ? '-' : 'x';
@@ -166,11 +163,6 @@ TEST_F(DemSource, RefusesRastersTooSmallForATriangle) {
     expectRefused(asciiGrid(1, 1, "7"), absl::StatusCode::kInvalidArgument, "1 x 1 posts");
     expectRefused(asciiGrid(5, 1, "1 2 3 4 5"), absl::StatusCode::kInvalidArgument, "5 x 1 posts");
     expectRefused(asciiGrid(1, 3, "1\n2\n3"), absl::StatusCode::kInvalidArgument, "1 x 3 posts");
-}
-
-TEST_F(DemSource, RefusesAGridWithoutAnyData) {
-    expectRefused(asciiGrid(2, 2, "-9999 -9999\n-9999 -9999"), absl::StatusCode::kInvalidArgument,
-                  "all posts are nodata");
 }
 
 TEST_F(DemSource, RefusesPicturesAndComplexNumbers) {
@@ -234,7 +226,8 @@ TEST_P(RealDems, AreReadAsDocumented) {
     ASSERT_TRUE(dem.ok()) << dem.status();
     EXPECT_EQ(dem->grid.columns, expected.columns);
     EXPECT_EQ(dem->grid.rows, expected.rows);
-    const terrain::HeightStatistics found = heightStatistics(dem->grid);
+    terrain::HeightStatistics found;
+    found.add(dem->grid.heights.data(), static_cast<std::int32_t>(dem->grid.heights.size()));
     if (expected.isExact) {
         EXPECT_EQ(std::lround(found.min), std::lround(expected.min));
         EXPECT_EQ(std::lround(found.max), std::lround(expected.max));

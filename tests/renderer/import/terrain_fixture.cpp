@@ -37,10 +37,15 @@ absl::StatusOr<Dem> readDems(const std::vector<std::string>& paths) {
     if (!source.ok())
         return source.status();
     const terrain::GridFrame& frame = source->posts->frame();
-    Dem dem{{frame.columns, frame.rows, {}, frame.origin, frame.perColumn, frame.perRow},
-            source->crsWkt,
-            source->hash,
-            source->notes};
+    Dem dem;
+    dem.grid.columns = frame.columns;
+    dem.grid.rows = frame.rows;
+    dem.grid.origin = frame.origin;
+    dem.grid.perColumn = frame.perColumn;
+    dem.grid.perRow = frame.perRow;
+    dem.crsWkt = source->crsWkt;
+    dem.sourceHash = source->hash;
+    dem.notes = source->notes;
     dem.grid.heights.resize(static_cast<std::size_t>(frame.columns) *
                             static_cast<std::size_t>(frame.rows));
     const absl::Status read =

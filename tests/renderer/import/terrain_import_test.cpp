@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/import/terrain_import.h"
 
-#include <fstream>
+#include <algorithm>
 #include <map>
 
 #include <gtest/gtest.h>
@@ -108,6 +108,33 @@ TEST(TerrainImport, NamesTheFolderThatIsMissing) {
     EXPECT_NE(report.status().ToString().find("no/where.eyt"), std::string::npos);
     EXPECT_FALSE(writeGeoTiff(grid, folder.path("no/where.tif")).ok());
     EXPECT_TRUE(folder.files().empty());
+}
+
+TEST(TerrainImport, RefusesAGridWithoutAnyDataOrTriangle) {
+    const TemporaryFolder folder;
+    terrain::HeightGrid grid = test::hardGrid(GridKind::Noise, 40, 30, 0);
+    std::fill(grid.heights.begin(), grid.heights.end(), terrain::kNodata);
+    const auto none = importTerrain(grid, {"a.tif", "", 0}, folder.path("a.eyt"), {});
+    EXPECT_EQ(none.status().code(), absl::StatusCode::kInvalidArgument);
+    EXPECT_NE(none.status().ToString().find("a.tif: all posts are nodata"), std::string::npos);
+    grid.row(3)[4] = grid.row(3)[5] = 7;
+    const auto two = importTerrain(grid, {"a.tif", "", 0}, folder.path("a.eyt"), {});
+    EXPECT_EQ(two.status().code(), absl::StatusCode::kInvalidArgument);
+    EXPECT_TRUE(folder.files().empty());
+}
+
+/// Level 0 may leave out what the others may not.
+TEST(TerrainImport, KeepsTheErrorAskedForAtTheFinestLevel) {
+    for (const double asked : {0.5, 3.0, 40.0}) {
+        const TemporaryFolder folder;
+        const terrain::HeightGrid grid = synthesizeTerrain(300, 6);
+        GridHeightSource posts(grid);
+        const auto report = importTerrain(posts, {"grid", "", 0}, folder.path("a.eyt"),
+                                          {.errorMetres = asked}, {});
+        ASSERT_TRUE(report.ok()) << report.status();
+        EXPECT_LE(report->finestErrorMetres, asked);
+        EXPECT_GT(report->finestErrorMetres, asked / 4) << "less was left out than might be";
+    }
 }
 
 TEST(HeightLattice, IsOfWholeMetresForWholeMetresAndFineEnoughOtherwise) {
