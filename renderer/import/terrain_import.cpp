@@ -88,7 +88,7 @@ std::uint64_t residentBytes(const terrain::GridFrame& frame) {
 }
 
 std::uint64_t scratchBytes(const terrain::GridFrame& frame, std::uint64_t memoryBytes) {
-    constexpr std::uint64_t kLeast = std::uint64_t{16} << 20;
+    constexpr std::uint64_t kLeast = std::uint64_t{4} << 20;
     const std::uint64_t resident = residentBytes(frame);
     return std::max(kLeast, memoryBytes > resident ? memoryBytes - resident : 0);
 }

@@ -20,9 +20,9 @@ using testing::HasSubstr;
 constexpr const char* kStages[] = {"reading", "measuring", "joining",
                                    "thinning", "smoothing", "building"};
 
-/// Too large for the 16 MiB that a scratch has at least.
+/// Too large for the 4 MiB that a scratch has at least.
 const terrain::HeightGrid& largeGrid() {
-    static const terrain::HeightGrid grid = synthesizeTerrain(1500, 4);
+    static const terrain::HeightGrid grid = synthesizeTerrain(800, 4);
     return grid;
 }
 
