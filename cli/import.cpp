@@ -133,7 +133,8 @@ absl::Status importMesh(const Options& options) {
     {
         ProgressBar bar(options.title(), sourceMegabytes(options), "MB",
                         ProgressBar::styleFor(options.quiet));
-        made = import::importMesh(options.sources.front(), options.out, {}, {bar.callback(), stop.token()});
+        made = import::importMesh(options.sources.front(), options.out, {},
+                                  {bar.callback(), stop.token()});
     }
     RETURN_IF_ERROR(made.status());
     if (options.json) {
@@ -163,9 +164,7 @@ absl::Status importMesh(const Options& options) {
 }
 
 void addCommon(CLI::App& command, Options& options) {
-    command.add_option("-o,--output", options.out, "File to write")
-        ->type_name("FILE")
-        ->required();
+    command.add_option("-o,--output", options.out, "File to write")->type_name("FILE")->required();
     command.add_flag("--quiet", options.quiet, "No progress");
     command.add_flag("--json", options.json, "Print what was made as JSON");
 }
@@ -191,17 +190,20 @@ void addTerrain(CLI::App& parent, Run& run) {
         ->type_name("FILE")
         ->required();
     addCommon(*command, *options);
-    command->add_option("--error", options->errorMetres,
-                        "Metres that the finest level may be off. Without it, it is as exact as "
-                        "its heights are stored; 1 saves much where posts are close and noisy")
+    command
+        ->add_option("--error", options->errorMetres,
+                     "Metres that the finest level may be off. Without it, it is as exact as "
+                     "its heights are stored; 1 saves much where posts are close and noisy")
         ->type_name("METRES")
         ->check(CLI::Range(1e-6, 1e6));
-    command->add_option("--memory", options->memory,
-                        "About as much is used, whatever the size; the rest goes to a scratch file")
+    command
+        ->add_option("--memory", options->memory,
+                     "About as much is used, whatever the size; the rest goes to a scratch file")
         ->type_name("BYTES")
         ->capture_default_str();
-    command->add_option("--scratch", options->scratch,
-                        "Folder for that file (9 bytes a post); beside the output otherwise")
+    command
+        ->add_option("--scratch", options->scratch,
+                     "Folder for that file (9 bytes a post); beside the output otherwise")
         ->type_name("FOLDER")
         ->check(CLI::ExistingDirectory);
     command->add_option("--threads", options->threads, "0: as many as there are cores")

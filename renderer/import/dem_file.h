@@ -19,10 +19,10 @@ struct DemFile {
     Dataset dataset;
     int columns = 0;
     int rows = 0;
-    Georeference reference;     ///< in units of the CRS
+    Georeference reference;  ///< in units of the CRS
     bool isGeoreferenced = false;
-    SpatialReference crs;       ///< null: none
-    std::uint64_t hash = 0;     ///< XXH64 of the file's bytes, and of the files that it names
+    SpatialReference crs;    ///< null: none
+    std::uint64_t hash = 0;  ///< XXH64 of the file's bytes, and of the files that it names
     std::vector<std::string> notes;
 
     bool isGeographic() const;

@@ -55,8 +55,7 @@ public:
     /// Best layer first. `reference` is in metres, of a raster of columns x rows.
     LayeredSource(std::vector<Layer> layers, const Georeference& reference, int columns, int rows)
         : layers_(std::move(layers)), isFlipped_(determinant(reference) < 0) {
-        frame_ = {columns, rows,
-                  reference.origin + (reference.perColumn + reference.perRow) * 0.5,
+        frame_ = {columns, rows, reference.origin + (reference.perColumn + reference.perRow) * 0.5,
                   reference.perColumn, reference.perRow};
         if (!isFlipped_)
             return;
@@ -84,12 +83,12 @@ public:
 private:
     /// Fills in what is nodata so far.
     absl::Status addLayer(const Layer& layer, const terrain::PostRect& window, float* out) {
-        const int firstRow =
-            isFlipped_ ? frame_.rows - window.j - window.rows : window.j;
+        const int firstRow = isFlipped_ ? frame_.rows - window.j - window.rows : window.j;
         const auto box = layer.box;
         const int i0 = std::max(window.i, static_cast<int>(box.column));
         const int j0 = std::max(firstRow, static_cast<int>(box.row));
-        const int i1 = std::min(window.i + window.columns, static_cast<int>(box.column) + box.columns);
+        const int i1 =
+            std::min(window.i + window.columns, static_cast<int>(box.column) + box.columns);
         const int j1 = std::min(firstRow + window.rows, static_cast<int>(box.row) + box.rows);
         if (i0 >= i1 || j0 >= j1)
             return absl::OkStatus();
@@ -100,9 +99,9 @@ private:
         if (GDALRasterIO(layer.band(), GF_Read, i0 - static_cast<int>(box.column),
                          j0 - static_cast<int>(box.row), columns, rows, buffer_.data(), columns,
                          rows, GDT_Float32, 0, 0) != CE_None)
-            return absl::DataLossError(fmt::format(
-                "{}: rows {} to {} cannot be read ({}); the file may be truncated",
-                layer.file.path, j0 - box.row, j1 - 1 - box.row, gdal.takeError()));
+            return absl::DataLossError(
+                fmt::format("{}: rows {} to {} cannot be read ({}); the file may be truncated",
+                            layer.file.path, j0 - box.row, j1 - 1 - box.row, gdal.takeError()));
         constexpr float kImpossible = 1e30F;
         for (int v = 0; v < rows; ++v) {
             const int row = isFlipped_ ? window.rows - 1 - (j0 - firstRow + v) : j0 - firstRow + v;
@@ -173,8 +172,9 @@ private:
     absl::Status check() {
         for (const DemFile& file : files_) {
             if (!file.isGeoreferenced)
-                return invalid(file.path, "is not georeferenced, so it cannot be laid beside "
-                                          "others; give it a georeference (gdal_edit.py)");
+                return invalid(file.path,
+                               "is not georeferenced, so it cannot be laid beside "
+                               "others; give it a georeference (gdal_edit.py)");
             if ((file.crs == nullptr) != (files_.front().crs == nullptr))
                 return invalid(file.path,
                                fmt::format("{} a CRS, unlike {}; set the right one (gdal_edit.py "
@@ -185,9 +185,8 @@ private:
     }
 
     absl::Status chooseCrs() {
-        const auto projected = std::find_if(order_.begin(), order_.end(), [&](std::size_t k) {
-            return !files_[k].isGeographic();
-        });
+        const auto projected = std::find_if(
+            order_.begin(), order_.end(), [&](std::size_t k) { return !files_[k].isGeographic(); });
         if (projected != order_.end()) {
             if (const OGRSpatialReferenceH crs = files_[*projected].crs.get())
                 crs_.reset(OSRClone(crs));
@@ -197,9 +196,10 @@ private:
         Vec2 low(std::numeric_limits<double>::infinity());
         Vec2 high = -low;
         for (const DemFile& file : files_) {
-            const Vec2 reach = (glm::abs(file.reference.perColumn * static_cast<double>(file.columns)) +
-                                glm::abs(file.reference.perRow * static_cast<double>(file.rows))) *
-                               0.5;
+            const Vec2 reach =
+                (glm::abs(file.reference.perColumn * static_cast<double>(file.columns)) +
+                 glm::abs(file.reference.perRow * static_cast<double>(file.rows))) *
+                0.5;
             low = glm::min(low, centreOf(file) - reach);
             high = glm::max(high, centreOf(file) + reach);
         }
@@ -211,8 +211,8 @@ private:
                                        "much for one UTM zone (at most {}); reproject it with "
                                        "gdalwarp -t_srs first",
                                        span.x, span.y, centre.y, kMaxDegrees));
-        ASSIGN_OR_RETURN(crs_, localProjection(name_, files_.front().crs.get(), centre.x,
-                                               centre.y));
+        ASSIGN_OR_RETURN(crs_,
+                         localProjection(name_, files_.front().crs.get(), centre.x, centre.y));
         return absl::OkStatus();
     }
 
@@ -297,9 +297,10 @@ private:
                                         GDALGetRasterYSize(suggested.get())));
         }
         if (!box) {
-            notes_.push_back(fmt::format("{} has no pixel as large as the finest raster's; it is "
-                                         "left out",
-                                         source.path));
+            notes_.push_back(
+                fmt::format("{} has no pixel as large as the finest raster's; it is "
+                            "left out",
+                            source.path));
             return std::nullopt;
         }
         layer.box = *box;
@@ -326,11 +327,11 @@ private:
             layer.box.row -= all.row;
         }
         const double metres = crs_ ? OSRGetLinearUnits(crs_.get(), nullptr) : 1;
-        const Georeference reference{
-            Vec2(grid_.x + grid_.width * static_cast<double>(all.column),
-                 grid_.y - grid_.height * static_cast<double>(all.row)) *
-                metres,
-            Vec2(grid_.width, 0) * metres, Vec2(0, -grid_.height) * metres};
+        const Georeference reference{Vec2(grid_.x + grid_.width * static_cast<double>(all.column),
+                                          grid_.y - grid_.height * static_cast<double>(all.row)) *
+                                         metres,
+                                     Vec2(grid_.width, 0) * metres,
+                                     Vec2(0, -grid_.height) * metres};
         const auto columns = static_cast<int>(endColumn - all.column);
         const auto rows = static_cast<int>(endRow - all.row);
         notes_.push_back(fmt::format("brought to {}: {} x {} posts, {:.4g} m apart",

@@ -21,8 +21,8 @@ struct DemSource {
     std::vector<std::string> notes;  ///< what was assumed or changed, for people
 };
 
-/// Opens the first band of any rasters GDAL reads; `.gz` and `.zip` are looked into. Pixels are read
-/// when posts are asked for, so what is held in memory does not grow with the files.
+/// Opens the first band of any rasters GDAL reads; `.gz` and `.zip` are looked into. Pixels are
+/// read when posts are asked for, so what is held in memory does not grow with the files.
 ///
 /// Posts are pixel centres. One raster in a projected CRS, or none, keeps its grid, rotation
 /// included, with units turned to metres. A geographic one is reprojected to the UTM zone of its

@@ -13,9 +13,8 @@ namespace {
 
 absl::StatusOr<Dataset> warped(const DemFile& file, const std::string& targetWkt,
                                const std::vector<std::string>& more, QuietGdal& gdal) {
-    std::vector<std::string> arguments = {"-of", "VRT",      "-r",     "bilinear",
-                                          "-dstnodata", "nan", "-et", "0.01",
-                                          "-wo", "NUM_THREADS=ALL_CPUS"};
+    std::vector<std::string> arguments = {"-of", "VRT", "-r",   "bilinear", "-dstnodata",
+                                          "nan", "-et", "0.01", "-wo",      "NUM_THREADS=ALL_CPUS"};
     if (!targetWkt.empty())
         arguments.insert(arguments.end(), {"-t_srs", targetWkt});
     arguments.insert(arguments.end(), more.begin(), more.end());
@@ -70,11 +69,12 @@ absl::StatusOr<Dataset> reprojected(const DemFile& file, const std::string& targ
                                     const PixelGrid& grid, const PixelBox& box, QuietGdal& gdal) {
     const double west = grid.x + grid.width * static_cast<double>(box.column);
     const double north = grid.y - grid.height * static_cast<double>(box.row);
-    return warped(file, targetWkt,
-                  {"-te", fmt::format("{}", west), fmt::format("{}", north - grid.height * box.rows),
-                   fmt::format("{}", west + grid.width * box.columns), fmt::format("{}", north),
-                   "-ts", fmt::format("{}", box.columns), fmt::format("{}", box.rows)},
-                  gdal);
+    return warped(
+        file, targetWkt,
+        {"-te", fmt::format("{}", west), fmt::format("{}", north - grid.height * box.rows),
+         fmt::format("{}", west + grid.width * box.columns), fmt::format("{}", north), "-ts",
+         fmt::format("{}", box.columns), fmt::format("{}", box.rows)},
+        gdal);
 }
 
 }  // namespace eyrie::import

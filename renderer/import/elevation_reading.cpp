@@ -33,10 +33,10 @@ std::shared_ptr<float[]> tileOf(const Strip& strip, std::int32_t firstColumn) {
     const std::int32_t columns = std::min(kRasterTilePosts, strip.rect.columns - firstColumn);
     for (std::int32_t v = 0; v < kRasterTilePosts; ++v) {
         float* out = tile.get() + v * kRasterTilePosts;
-        const float* in = strip.posts.data() +
-                          static_cast<std::ptrdiff_t>(std::min(v, strip.rect.rows - 1)) *
-                              strip.rect.columns +
-                          firstColumn;
+        const float* in =
+            strip.posts.data() +
+            static_cast<std::ptrdiff_t>(std::min(v, strip.rect.rows - 1)) * strip.rect.columns +
+            firstColumn;
         std::fill(std::copy_n(in, columns, out), out + kRasterTilePosts, in[columns - 1]);
     }
     return tile;
@@ -94,7 +94,8 @@ private:
         if (!status_.ok())
             return nullptr;
         ++next_;
-        control_.report("reading", static_cast<double>(next_) / (static_cast<double>(strips) * rows));
+        control_.report("reading",
+                        static_cast<double>(next_) / (static_cast<double>(strips) * rows));
         return strip;
     }
 
@@ -111,8 +112,7 @@ private:
         const bool isLastY = strip.y + 1 == model_.heights.tilesY();
         const std::int32_t columns = strip.rect.columns - (isLastX ? 0 : 1);
         for (std::int32_t v = 0; v < strip.rect.rows - (isLastY ? 0 : 1); ++v)
-            statistics.add(strip.posts.data() +
-                               static_cast<std::ptrdiff_t>(v) * strip.rect.columns,
+            statistics.add(strip.posts.data() + static_cast<std::ptrdiff_t>(v) * strip.rect.columns,
                            columns);
         const std::lock_guard lock(statisticsMutex_);
         model_.statistics.add(statistics);

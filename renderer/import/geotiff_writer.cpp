@@ -30,7 +30,7 @@ absl::Status writeGeoTiff(const terrain::HeightGrid& grid, const std::string& pa
         if (!file)
             return failed("cannot be written");
         const fabric::Vec2 corner = grid.origin - (grid.perColumn - grid.perRow) * 0.5 +
-                            grid.perRow * static_cast<double>(grid.rows - 1);
+                                    grid.perRow * static_cast<double>(grid.rows - 1);
         std::array<double, 6> transform = geoTransform({corner, grid.perColumn, -grid.perRow});
         const SpatialReference crs(OSRNewSpatialReference(nullptr));
         constexpr int kUtm33North = 32633;

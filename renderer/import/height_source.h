@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <absl/status/status.h>
-
 #include <algorithm>
+
+#include <absl/status/status.h>
 
 #include "renderer/terrain/height_grid.h"
 #include "renderer/terrain/tiled_raster.h"

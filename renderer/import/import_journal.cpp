@@ -47,8 +47,9 @@ absl::Status errnoStatus(const std::string& path, const char* what) {
             return absl::PermissionDeniedError(message);
         case ENOSPC:
         case EDQUOT:
-            return absl::ResourceExhaustedError(message + "; free some space on that disk, then "
-                                                          "run the same command again");
+            return absl::ResourceExhaustedError(message +
+                                                "; free some space on that disk, then "
+                                                "run the same command again");
         default:
             return absl::UnavailableError(message);
     }

@@ -33,8 +33,8 @@ std::vector<double> levelThresholds(int levels, double postMetres,
                              std::exp2(level - terrain::kFullResolutionLevels + 1));
     thresholds[0] = lattice.isLossless ? 0 : lattice.stepMetres / 4;
     if (errorMetres)  // half a step is for the heights' own rounding
-        thresholds[0] = std::max(
-            thresholds[0], *errorMetres - (lattice.isLossless ? 0 : lattice.stepMetres / 2));
+        thresholds[0] = std::max(thresholds[0],
+                                 *errorMetres - (lattice.isLossless ? 0 : lattice.stepMetres / 2));
     for (double& threshold : thresholds) threshold = std::max(threshold, thresholds[0]);
     return thresholds;
 }
@@ -182,15 +182,13 @@ private:
             return absl::InvalidArgumentError(
                 fmt::format("{}: all posts are nodata; check the nodata value", source_.name));
         const double postMetres = model_.frame.postMetres();
-        const terrain::HeightLattice lattice =
-            chooseHeightLattice(model_.statistics, postMetres);
+        const terrain::HeightLattice lattice = chooseHeightLattice(model_.statistics, postMetres);
         vertexLevels_.setThresholds(
             levelThresholds(levels_, postMetres, lattice, options_.errorMetres));
         RETURN_IF_ERROR(stages.run([&] { return vertexLevels_.measure(control_); }));
-        RETURN_IF_ERROR(stages.run(
-            [&] { return joinLevels(); },
-            {[&] { return vertexLevels_.state(); },
-             [&](const auto& s) { return vertexLevels_.restore(s); }}));
+        RETURN_IF_ERROR(stages.run([&] { return joinLevels(); },
+                                   {[&] { return vertexLevels_.state(); },
+                                    [&](const auto& s) { return vertexLevels_.restore(s); }}));
         RETURN_IF_ERROR(stages.run([&] { return heights_.make(control_); }));
         RETURN_IF_ERROR(stages.run([&] { return normals_.make(control_); }));
         terrain::EytIndex index = indexOf(model_, lattice, source_);
@@ -245,12 +243,12 @@ absl::StatusOr<TerrainImportReport> importTerrain(const std::vector<std::string>
                                                   const TerrainImportOptions& options,
                                                   const ImportControl& control) {
     ASSIGN_OR_RETURN(DemSource source, openDems(dems, control));
-    const std::string name =
-        dems.size() == 1 ? dems.front()
-                         : fmt::format("{} and {} more", dems.front(), dems.size() - 1);
-    ASSIGN_OR_RETURN(TerrainImportReport report,
-                     importTerrain(*source.posts, {name, source.crsWkt, source.hash}, out, options,
-                                   control));
+    const std::string name = dems.size() == 1
+                                 ? dems.front()
+                                 : fmt::format("{} and {} more", dems.front(), dems.size() - 1);
+    ASSIGN_OR_RETURN(
+        TerrainImportReport report,
+        importTerrain(*source.posts, {name, source.crsWkt, source.hash}, out, options, control));
     report.notes = std::move(source.notes);
     return report;
 }

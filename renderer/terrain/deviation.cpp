@@ -33,9 +33,8 @@ std::int32_t lastBlock(std::int32_t first, std::int32_t post, std::int32_t cells
 class Overlap {
 public:
     explicit Overlap(const Triangle& t) : t_(t) {
-        const std::int64_t area =
-            std::int64_t{t[1].i - t[0].i} * (t[2].j - t[0].j) -
-            std::int64_t{t[2].i - t[0].i} * (t[1].j - t[0].j);
+        const std::int64_t area = std::int64_t{t[1].i - t[0].i} * (t[2].j - t[0].j) -
+                                  std::int64_t{t[2].i - t[0].i} * (t[1].j - t[0].j);
         sign_ = area < 0 ? -1 : 1;
     }
     bool meets(std::int32_t i0, std::int32_t j0, std::int32_t cells) const {
@@ -44,8 +43,8 @@ public:
             const Corner& b = t_[(e + 1) % 3];
             const std::int64_t nx = -sign_ * std::int64_t{b.j - a.j};
             const std::int64_t ny = sign_ * std::int64_t{b.i - a.i};
-            const std::int64_t inmost = nx * (i0 + (nx > 0 ? cells : 0) - a.i) +
-                                        ny * (j0 + (ny > 0 ? cells : 0) - a.j);
+            const std::int64_t inmost =
+                nx * (i0 + (nx > 0 ? cells : 0) - a.i) + ny * (j0 + (ny > 0 ? cells : 0) - a.j);
             if (inmost < 0)
                 return false;
         }
@@ -141,10 +140,10 @@ void SourceSurface::forEachBlock(const Triangle& triangle, Visit visit) {
     const std::int32_t perTile = kRasterTileCells / cells;
     const std::int32_t x0 = box.i0 / kRasterTileCells;
     const std::int32_t y0 = box.j0 / kRasterTileCells;
-    const std::int32_t x1 = std::min(lastBlock(x0, box.i1, kRasterTileCells),
-                                     model_.heights.tilesX() - 1);
-    const std::int32_t y1 = std::min(lastBlock(y0, box.j1, kRasterTileCells),
-                                     model_.heights.tilesY() - 1);
+    const std::int32_t x1 =
+        std::min(lastBlock(x0, box.i1, kRasterTileCells), model_.heights.tilesX() - 1);
+    const std::int32_t y1 =
+        std::min(lastBlock(y0, box.j1, kRasterTileCells), model_.heights.tilesY() - 1);
     for (std::int32_t y = y0; y <= y1; ++y)
         for (std::int32_t x = x0; x <= x1; ++x) {
             if (!overlap.meets(x * kRasterTileCells, y * kRasterTileCells, kRasterTileCells))
@@ -172,8 +171,7 @@ SourceSurface::Contents SourceSurface::contents(const Triangle& triangle) {
             const bool isPlain = !model_.relief.hasNodata(x, y) || !model_.relief.hasData(x, y);
             const bool addsNothing = isPlain && (all.data > 0 || all.nodata > 0) &&
                                      model_.relief.hasData(x, y) == (all.data > 0);
-            const PostCounts counts =
-                addsNothing ? PostCounts{} : countPosts(patch(), triangle);
+            const PostCounts counts = addsNothing ? PostCounts{} : countPosts(patch(), triangle);
             all.data += counts.data;
             all.nodata += counts.nodata;
             return all.data == 0 || all.nodata == 0;

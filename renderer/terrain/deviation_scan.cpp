@@ -62,8 +62,8 @@ inline double rowDeviation(const float* row, std::int32_t count, double first, d
                            std::int32_t offset, double worst) {
 #pragma omp simd reduction(max : worst)
     for (std::int32_t k = 0; k < count; ++k) {
-        const double d =
-            std::abs(static_cast<double>(row[k]) - (first + slope * static_cast<double>(offset + k)));
+        const double d = std::abs(static_cast<double>(row[k]) -
+                                  (first + slope * static_cast<double>(offset + k)));
         worst = d > worst ? d : worst;
     }
     return worst;
@@ -85,8 +85,10 @@ EYRIE_SIMD_CLONES double slabDeviation(const HeightPatch& patch, const Slab& sla
 }
 
 /// Without the set-up of a vector loop.
-__attribute__((optimize("no-tree-vectorize"))) double smallSlabDeviation(const HeightPatch& patch, const Slab& slab, const Plane& plane,
-                          double worst) {
+__attribute__((optimize("no-tree-vectorize"))) double smallSlabDeviation(const HeightPatch& patch,
+                                                                         const Slab& slab,
+                                                                         const Plane& plane,
+                                                                         double worst) {
     std::int32_t low = slab.low;
     std::int32_t high = slab.high;
     for (std::int32_t r = 0; r < slab.count; ++r) {
@@ -94,8 +96,8 @@ __attribute__((optimize("no-tree-vectorize"))) double smallSlabDeviation(const H
         const double first = plane.z0 + plane.perRow * (j - plane.j0);
         const float* row = patch.row(j) - patch.i0;
         for (std::int32_t i = low; i <= high; ++i) {
-            const double d = std::abs(static_cast<double>(row[i]) -
-                                      (first + plane.perColumn * (i - plane.i0)));
+            const double d =
+                std::abs(static_cast<double>(row[i]) - (first + plane.perColumn * (i - plane.i0)));
             worst = d > worst ? d : worst;
         }
         low += slab.lowStep;
@@ -252,10 +254,10 @@ private:
         narrow(dx_, a_.i, patch_.i0, patch_.i1);
         narrow(dy_, a_.j, patch_.j0, patch_.j1);
         const auto scale = static_cast<double>(den);
-        const auto from = std::max<std::int64_t>(
-            1, static_cast<std::int64_t>(std::floor(first * scale)) - 1);
-        const auto to = std::min<std::int64_t>(
-            den - 1, static_cast<std::int64_t>(std::ceil(last * scale)) + 1);
+        const auto from =
+            std::max<std::int64_t>(1, static_cast<std::int64_t>(std::floor(first * scale)) - 1);
+        const auto to =
+            std::min<std::int64_t>(den - 1, static_cast<std::int64_t>(std::ceil(last * scale)) + 1);
         for (std::int64_t k = from; k <= to; ++k) visit(k);
     }
 

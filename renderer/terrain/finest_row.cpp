@@ -57,9 +57,8 @@ double finestCentre(const float* centre, std::ptrdiff_t stride, bool isMain, dou
                                       std::abs(from + slope * 1.5 - (after + north) / 2));
     const double atMiddle = std::abs(at(0, 0) - (from + to) / 2);
     const auto ofTriangle = [&](double apex, double besideFrom, double besideTo) {
-        const double atPosts =
-            std::max({atMiddle, std::abs(besideFrom - (from + apex) / 2),
-                      std::abs(besideTo - (to + apex) / 2)});
+        const double atPosts = std::max({atMiddle, std::abs(besideFrom - (from + apex) / 2),
+                                         std::abs(besideTo - (to + apex) / 2)});
         return atPosts > tolerance ? std::max(atPosts, atCentres) : atPosts;
     };
     return std::max(ofTriangle(at(d, -1), south, after), ofTriangle(at(-d, 1), before, north));

@@ -14,8 +14,8 @@ namespace eyrie::terrain {
 
 inline constexpr float kNodata = std::numeric_limits<float>::quiet_NaN();
 
-/// Where the posts of an elevation model stand: post (i, j) at (x, y) = origin + i * perColumn + j *
-/// perRow, in metres. The two span a right-handed basis (their determinant is positive): for a
+/// Where the posts of an elevation model stand: post (i, j) at (x, y) = origin + i * perColumn + j
+/// * perRow, in metres. The two span a right-handed basis (their determinant is positive): for a
 /// raster with its north row first, row 0 here is the southern one.
 struct GridFrame {
     std::int32_t columns = 0;

@@ -35,11 +35,11 @@ absl::Status HeightLayers::make(const import::ImportControl& control) {
         const TiledRaster<float>& finer = layer(static_cast<int>(k));
         TiledRaster<float>& coarser = thinned_[k];
         const import::ImportControl quiet{{}, control.stop};
-        RETURN_IF_ERROR(forEachTile(coarser.tilesX(), coarser.tilesY(), "thinning", scratch_, quiet,
-                                    [&](std::int32_t x, std::int32_t y) {
-                                        coarser.write(x, y, thinned(finer, x, y));
-                                    }));
-        control.report("thinning", static_cast<double>(k + 1) / static_cast<double>(thinned_.size()));
+        RETURN_IF_ERROR(forEachTile(
+            coarser.tilesX(), coarser.tilesY(), "thinning", scratch_, quiet,
+            [&](std::int32_t x, std::int32_t y) { coarser.write(x, y, thinned(finer, x, y)); }));
+        control.report("thinning",
+                       static_cast<double>(k + 1) / static_cast<double>(thinned_.size()));
     }
     return absl::OkStatus();
 }

@@ -76,8 +76,7 @@ void smoothRow(const float* rows, std::int32_t stride, float* out) {
                  (weights[2 * i] + 2 * weights[2 * i + 1] + weights[2 * i + 2]);
 }
 
-std::shared_ptr<float[]> smoothed(const TiledRaster<float>& finer, std::int32_t x,
-                                  std::int32_t y) {
+std::shared_ptr<float[]> smoothed(const TiledRaster<float>& finer, std::int32_t x, std::int32_t y) {
     constexpr std::int32_t kSide = 2 * kRasterTilePosts + 1;
     thread_local std::vector<float> posts(static_cast<std::size_t>(kSide) * kSide);
     readClamped(finer, {2 * x * kRasterTileCells - 1, 2 * y * kRasterTileCells - 1, kSide, kSide},
@@ -106,10 +105,9 @@ absl::Status NormalMaps::make(const import::ImportControl& control) {
     for (std::size_t k = 0; k < smoothed_.size(); ++k) {
         const TiledRaster<float>& finer = layer(static_cast<int>(k));
         TiledRaster<float>& coarser = smoothed_[k];
-        RETURN_IF_ERROR(forEachTile(coarser.tilesX(), coarser.tilesY(), "smoothing", scratch_,
-                                    quiet, [&](std::int32_t x, std::int32_t y) {
-                                        coarser.write(x, y, smoothed(finer, x, y));
-                                    }));
+        RETURN_IF_ERROR(forEachTile(
+            coarser.tilesX(), coarser.tilesY(), "smoothing", scratch_, quiet,
+            [&](std::int32_t x, std::int32_t y) { coarser.write(x, y, smoothed(finer, x, y)); }));
         control.report("smoothing",
                        static_cast<double>(k + 1) / static_cast<double>(smoothed_.size()));
     }
@@ -137,17 +135,16 @@ void NormalMaps::fill(const TileId& tile, std::span<std::int8_t> out) const {
 
     std::array<float, kMaxSamples> inverseX{};
     for (std::int32_t k = 0; k < samples; ++k)
-        inverseX[static_cast<std::size_t>(k)] =
-            inverseDistance(post(column(k - 1), model_.frame.columns), post(column(k + 1), model_.frame.columns));
+        inverseX[static_cast<std::size_t>(k)] = inverseDistance(
+            post(column(k - 1), model_.frame.columns), post(column(k + 1), model_.frame.columns));
     const fabric::Vec2 a = model_.frame.perColumn;
     const fabric::Vec2 b = model_.frame.perRow;
     const Basis basis{static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(b.x),
                       static_cast<float>(b.y), static_cast<float>(a.x * b.y - a.y * b.x)};
 
     for (std::int32_t k = 0; k < samples; ++k) {
-        const float inverseY =
-            inverseDistance(post(rowIndex(k - 1), model_.frame.rows),
-                            post(rowIndex(k + 1), model_.frame.rows));
+        const float inverseY = inverseDistance(post(rowIndex(k - 1), model_.frame.rows),
+                                               post(rowIndex(k + 1), model_.frame.rows));
         const float* below = padded.data() + k * side;
         normalRow(below, below + side, below + 2 * side, inverseX.data(), inverseY, basis, samples,
                   out.data() + 2 * k * samples);

@@ -86,14 +86,13 @@ double ReliefSummary::farthest(std::int32_t x, std::int32_t y, const Plane& plan
     const Block& block = at(x, y);
     if (block.low > block.high)
         return 0;
-    const double first =
-        static_cast<double>(block.z0) - plane.at(x * blockCells_, y * blockCells_);
+    const double first = static_cast<double>(block.z0) - plane.at(x * blockCells_, y * blockCells_);
     const double across = (static_cast<double>(block.perColumn) - plane.perColumn) * blockCells_;
     const double up = (static_cast<double>(block.perRow) - plane.perRow) * blockCells_;
-    const double lowest = first + std::min(across, 0.0) + std::min(up, 0.0) +
-                          static_cast<double>(block.low);
-    const double highest = first + std::max(across, 0.0) + std::max(up, 0.0) +
-                           static_cast<double>(block.high);
+    const double lowest =
+        first + std::min(across, 0.0) + std::min(up, 0.0) + static_cast<double>(block.low);
+    const double highest =
+        first + std::max(across, 0.0) + std::max(up, 0.0) + static_cast<double>(block.high);
     constexpr double kRounding = 1e-12;
     const double slack = kRounding * (std::abs(static_cast<double>(block.z0)) + std::abs(first) +
                                       std::abs(across) + std::abs(up));

@@ -39,8 +39,8 @@ public:
                 return piece;
             }
         }
-        void* const fresh = mmap(nullptr, bytes, PROT_READ | PROT_WRITE,
-                                 MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+        void* const fresh =
+            mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
         if (fresh == MAP_FAILED)
             throw std::bad_alloc();
         return static_cast<std::byte*>(fresh);
@@ -60,7 +60,7 @@ public:
     }
 
 private:
-    std::mutex mutex_;  ///< guards spare_
+    std::mutex mutex_;                                      ///< guards spare_
     std::map<std::size_t, std::vector<std::byte*>> spare_;  // by bytes
 };
 
@@ -162,8 +162,8 @@ void Scratch::store(const Entry& entry) {
 void Scratch::load(std::uint64_t place, std::span<std::byte> out) {
     std::size_t have = 0;
     while (have < out.size()) {
-        const ssize_t got = pread(file(), out.data() + have, out.size() - have,
-                                  static_cast<off_t>(place + have));
+        const ssize_t got =
+            pread(file(), out.data() + have, out.size() - have, static_cast<off_t>(place + have));
         if (got < 0 && errno == EINTR)
             continue;
         if (got < 0)
@@ -185,8 +185,9 @@ void Scratch::fail(const char* what) {
         case ENOSPC:
         case EDQUOT:
             status_ = absl::ResourceExhaustedError(
-                message + "; free some space or name a folder on another disk with --scratch, "
-                          "then run the same command again: it goes on from here");
+                message +
+                "; free some space or name a folder on another disk with --scratch, "
+                "then run the same command again: it goes on from here");
             break;
         case ENOENT:
         case ENOTDIR:

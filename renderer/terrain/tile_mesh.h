@@ -41,7 +41,8 @@ public:
     TileMesher(SourceSurface& surface, TileSamples& samples, const HeightLattice& lattice,
                const Quadtree& quadtree);
 
-    /// Loads the tile's samples. Without the triangles that clamping squeezed to nothing or that touch nodata.
+    /// Loads the tile's samples. Without the triangles that clamping squeezed to nothing or that
+    /// touch nodata.
     TileMesh mesh(const TileId& tile);
 
 private:

@@ -31,7 +31,8 @@ absl::Status forEachTile(std::int32_t tilesX, std::int32_t tilesY, std::string_v
     tbb::parallel_for(tbb::blocked_range<std::int64_t>(0, count, 1), [&](const auto& range) {
         for (std::int64_t k = range.begin(); k < range.end() && !stops; ++k) {
             const std::int64_t tile = next++;
-            work(static_cast<std::int32_t>(tile % tilesX), static_cast<std::int32_t>(tile / tilesX));
+            work(static_cast<std::int32_t>(tile % tilesX),
+                 static_cast<std::int32_t>(tile / tilesX));
             const std::lock_guard lock(doneMutex);
             if (++done % perReport != 0)
                 continue;

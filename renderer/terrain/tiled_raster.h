@@ -86,9 +86,9 @@ private:
         return std::clamp((post - 1) / kRasterTileCells, 0, tiles - 1);
     }
     std::uint64_t placeOf(std::int32_t x, std::int32_t y) const {
-        return place_ + kTileBytes * (static_cast<std::uint64_t>(y) *
-                                          static_cast<std::uint64_t>(tilesX_) +
-                                      static_cast<std::uint64_t>(x));
+        return place_ +
+               kTileBytes * (static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(tilesX_) +
+                             static_cast<std::uint64_t>(x));
     }
     template <typename Visit>
     void visitPart(const PostRect& rect, std::int32_t x, std::int32_t y, Visit& visit) const {
@@ -122,11 +122,11 @@ void readClamped(const TiledRaster<T>& raster, const PostRect& rect, T* out) {
     const auto at = [&](std::int32_t i, std::int32_t j) {
         return out + static_cast<std::ptrdiff_t>(j - rect.j) * rect.columns + (i - rect.i);
     };
-    raster.forEachPart({i0, j0, i1 - i0 + 1, j1 - j0 + 1}, [&](const T* values,
-                                                               const PostRect& part) {
-        for (std::int32_t j = 0; j < part.rows; ++j)
-            std::copy_n(values + j * kRasterTilePosts, part.columns, at(part.i, part.j + j));
-    });
+    raster.forEachPart(
+        {i0, j0, i1 - i0 + 1, j1 - j0 + 1}, [&](const T* values, const PostRect& part) {
+            for (std::int32_t j = 0; j < part.rows; ++j)
+                std::copy_n(values + j * kRasterTilePosts, part.columns, at(part.i, part.j + j));
+        });
     for (std::int32_t j = j0; j <= j1; ++j) {
         std::fill(at(rect.i, j), at(i0, j), *at(i0, j));
         std::fill(at(i1, j) + 1, at(rect.i, j) + rect.columns, *at(i1, j));

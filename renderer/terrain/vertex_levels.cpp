@@ -27,10 +27,10 @@ VertexLevels::VertexLevels(const ElevationModel& model, Scratch& scratch)
       scratch_(scratch),
       columns_(model.frame.columns),
       rows_(model.frame.rows),
-      side_(Quadtree::side(Quadtree(static_cast<std::uint32_t>(columns_),
-                                    static_cast<std::uint32_t>(rows_))
-                               .top()
-                               .level)),
+      side_(Quadtree::side(
+          Quadtree(static_cast<std::uint32_t>(columns_), static_cast<std::uint32_t>(rows_))
+              .top()
+              .level)),
       coveredI_(model.heights.tilesX() * kRasterTileCells),
       coveredJ_(model.heights.tilesY() * kRasterTileCells),
       coarseColumns_(coveredI_ / kCoarseSpacing + 1),
@@ -38,8 +38,8 @@ VertexLevels::VertexLevels(const ElevationModel& model, Scratch& scratch)
       coarse_(static_cast<std::size_t>(coarseColumns_) *
               static_cast<std::size_t>(coveredJ_ / kCoarseSpacing + 1)) {
     for (int layer = 0; layer < kLayers; ++layer)
-        joined_[static_cast<std::size_t>(layer)] = TiledRaster<std::uint8_t>(
-            scratch, (coveredI_ >> layer) + 1, (coveredJ_ >> layer) + 1);
+        joined_[static_cast<std::size_t>(layer)] =
+            TiledRaster<std::uint8_t>(scratch, (coveredI_ >> layer) + 1, (coveredJ_ >> layer) + 1);
 }
 
 void VertexLevels::setThresholds(std::vector<double> metres) {
@@ -189,8 +189,7 @@ private:
     void measureVertex(std::int32_t u, std::int32_t v, std::int32_t s, bool isCentre);
     int children(std::int32_t u, std::int32_t v, std::int32_t s, bool isCentre) const {
         const auto get = [&](std::int32_t x, std::int32_t y) -> int {
-            const bool isHere =
-                x >= 0 && y >= 0 && x <= kRasterTileCells && y <= kRasterTileCells;
+            const bool isHere = x >= 0 && y >= 0 && x <= kRasterTileCells && y <= kRasterTileCells;
             return isHere ? counts_[static_cast<std::size_t>(y * kRasterTilePosts + x)] : 0;
         };
         if (isCentre)
@@ -284,8 +283,7 @@ private:
     }
 
     void load() {
-        levels_.measured_.forEachPart(rect_, [&](const std::uint8_t* values,
-                                                 const PostRect& part) {
+        levels_.measured_.forEachPart(rect_, [&](const std::uint8_t* values, const PostRect& part) {
             for (std::int32_t j = 0; j < part.rows; ++j) {
                 std::uint8_t* out = row(part.j - rect_.j + j) + (part.i - rect_.i);
                 const std::uint8_t* in = values + j * kRasterTilePosts;
@@ -388,10 +386,9 @@ int VertexLevels::exceededByChildren(std::int32_t i, std::int32_t j, std::int32_
         return std::max(
             {exceeded(i - s, j), exceeded(i + s, j), exceeded(i, j - s), exceeded(i, j + s)});
     const std::int32_t h = s / 2;
-    return h < kCoarseSpacing
-               ? 0
-               : std::max({exceeded(i - h, j - h), exceeded(i + h, j - h), exceeded(i - h, j + h),
-                           exceeded(i + h, j + h)});
+    return h < kCoarseSpacing ? 0
+                              : std::max({exceeded(i - h, j - h), exceeded(i + h, j - h),
+                                          exceeded(i - h, j + h), exceeded(i + h, j + h)});
 }
 
 /// All vertices of one spacing: midpoints of the sides of squares of side 2s, or their centres.
@@ -402,23 +399,23 @@ void VertexLevels::finishClass(std::int32_t s, bool isCentre) {
     const std::int32_t count = (end - first + step - 1) / step;
     const bool isMeasured = 2 * s <= kRasterTileCells;
     tbb::enumerable_thread_specific<std::vector<Found>> outside;
-    tbb::parallel_for(tbb::blocked_range<std::int32_t>(0, std::max(count, 0)), [&](const auto&
-                                                                                       range) {
-        SourceSurface surface(model_);
-        for (std::int32_t k = range.begin(); k < range.end(); ++k) {
-            const std::int32_t j = first + k * step;
-            const std::int32_t endI = std::min(columns_ - 1 + s, side_ + 1);
-            for (std::int32_t i = isCentre || (j & s) == 0 ? s : 0; i < endI; i += 2 * s) {
-                int known = std::max(exceeded(i, j), exceededByChildren(i, j, s, isCentre));
-                if (!isMeasured)
-                    known = exceededBySplit(surface, i, j, s, isCentre, known);
-                if (isCovered(i, j))
-                    coarse_[coarseIndex(i, j)] = static_cast<std::uint8_t>(known);
-                else if (known > 0)
-                    outside.local().push_back({key(i, j), static_cast<std::uint64_t>(known)});
+    tbb::parallel_for(
+        tbb::blocked_range<std::int32_t>(0, std::max(count, 0)), [&](const auto& range) {
+            SourceSurface surface(model_);
+            for (std::int32_t k = range.begin(); k < range.end(); ++k) {
+                const std::int32_t j = first + k * step;
+                const std::int32_t endI = std::min(columns_ - 1 + s, side_ + 1);
+                for (std::int32_t i = isCentre || (j & s) == 0 ? s : 0; i < endI; i += 2 * s) {
+                    int known = std::max(exceeded(i, j), exceededByChildren(i, j, s, isCentre));
+                    if (!isMeasured)
+                        known = exceededBySplit(surface, i, j, s, isCentre, known);
+                    if (isCovered(i, j))
+                        coarse_[coarseIndex(i, j)] = static_cast<std::uint8_t>(known);
+                    else if (known > 0)
+                        outside.local().push_back({key(i, j), static_cast<std::uint64_t>(known)});
+                }
             }
-        }
-    });
+        });
     for (const std::vector<Found>& found : outside)
         for (const Found& vertex : found)
             outside_[vertex.key] = static_cast<std::uint8_t>(vertex.exceeded);

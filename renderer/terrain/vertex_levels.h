@@ -83,7 +83,9 @@ private:
     int exceeded(std::int32_t i, std::int32_t j) const;
     int exceededByChildren(std::int32_t i, std::int32_t j, std::int32_t s, bool isCentre) const;
     void finishClass(std::int32_t s, bool isCentre);
-    bool isCovered(std::int32_t i, std::int32_t j) const { return i <= coveredI_ && j <= coveredJ_; }
+    bool isCovered(std::int32_t i, std::int32_t j) const {
+        return i <= coveredI_ && j <= coveredJ_;
+    }
     std::size_t coarseIndex(std::int32_t i, std::int32_t j) const {
         return static_cast<std::size_t>(j / kCoarseSpacing) *
                    static_cast<std::size_t>(coarseColumns_) +
@@ -103,7 +105,7 @@ private:
     std::int32_t coveredI_;  ///< last column and row of the raster's tiles
     std::int32_t coveredJ_;
     std::int32_t coarseColumns_;
-    TiledRaster<std::uint8_t> measured_;                  ///< by `measure`; borders differ
+    TiledRaster<std::uint8_t> measured_;                     ///< by `measure`; borders differ
     std::array<TiledRaster<std::uint8_t>, kLayers> joined_;  ///< without the coarse vertices
     std::vector<std::uint8_t> coarse_;
     std::unordered_map<std::uint64_t, std::uint8_t> outside_;  ///< of the tiles

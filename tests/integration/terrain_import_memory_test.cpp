@@ -25,8 +25,9 @@ protected:
                                      folder_.path("dem.tif"), "--quiet"}));
     }
     Words importInto(const std::string& out, const std::string& memory) const {
-        return {"import", "terrain", folder_.path("dem.tif"), "-o", folder_.path(out),
-                "--memory", memory, "--error", "20"};
+        return {"import", "terrain",         folder_.path("dem.tif"),
+                "-o",     folder_.path(out), "--memory",
+                memory,   "--error",         "20"};
     }
     std::string bytesOf(const std::string& name) const {
         std::ifstream file(folder_.path(name), std::ios::binary);
@@ -49,8 +50,7 @@ std::int64_t peakBytes(const Words& command) {
     }
     int status = 0;
     rusage usage{};
-    if (wait4(child, &status, 0, &usage) != child || !WIFEXITED(status) ||
-        WEXITSTATUS(status) != 0)
+    if (wait4(child, &status, 0, &usage) != child || !WIFEXITED(status) || WEXITSTATUS(status) != 0)
         return -1;
     return std::int64_t{usage.ru_maxrss} * 1024;
 }

@@ -43,8 +43,8 @@ protected:
         const std::string path = folder_.path(fmt::format("{}.tif", files_++));
         const GDALDatasetUniquePtr file(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
             path.c_str(), raster.columns, raster.rows, 1, GDT_Float32, nullptr));
-        std::array<double, 6> transform{raster.west, raster.pixel, 0, raster.north, 0,
-                                        -raster.pixel};
+        std::array<double, 6> transform{raster.west, raster.pixel, 0, raster.north,
+                                        0,           -raster.pixel};
         file->SetGeoTransform(transform.data());
         if (raster.epsg != 0) {
             OGRSpatialReference crs;
@@ -58,9 +58,9 @@ protected:
         std::vector<float> row(static_cast<std::size_t>(raster.columns));
         for (int j = 0; j < raster.rows; ++j) {
             for (int i = 0; i < raster.columns; ++i)
-                row[static_cast<std::size_t>(i)] = static_cast<float>(
-                    raster.height(raster.west + raster.pixel * (i + 0.5),
-                                  raster.north - raster.pixel * (j + 0.5)));
+                row[static_cast<std::size_t>(i)] =
+                    static_cast<float>(raster.height(raster.west + raster.pixel * (i + 0.5),
+                                                     raster.north - raster.pixel * (j + 0.5)));
             EXPECT_EQ(band->RasterIO(GF_Write, 0, j, raster.columns, 1, row.data(), raster.columns,
                                      1, GDT_Float32, 0, 0, nullptr),
                       CE_None);
@@ -110,7 +110,9 @@ TEST_F(DemMosaic, TakesTheLastNamedOfEquallyFineOnes) {
 }
 
 TEST_F(DemMosaic, TakesTheFinestAndSeesThroughItsHoles) {
-    const auto ground = [](double x, double y) { return (x - 500000) * 0.5 + (y - 5199000) * 0.25; };
+    const auto ground = [](double x, double y) {
+        return (x - 500000) * 0.5 + (y - 5199000) * 0.25;
+    };
     const std::string coarse = write({.west = 500000,
                                       .north = 5200000,
                                       .pixel = 40,
@@ -191,10 +193,9 @@ TEST_F(DemMosaic, JoinsTwoCrsWithoutAStepAtTheSeam) {
     EXPECT_GT(beyond, 10000);
     for (std::int32_t j = 100; j < 200; ++j)  // the seam, near x = 501500
         for (std::int32_t i = 140; i < 160; ++i)
-            ASSERT_NEAR(grid.at(i, j),
-                        hill(grid.origin.x + grid.perColumn.x * i,
-                             grid.origin.y + grid.perRow.y * j),
-                        0.3);
+            ASSERT_NEAR(
+                grid.at(i, j),
+                hill(grid.origin.x + grid.perColumn.x * i, grid.origin.y + grid.perRow.y * j), 0.3);
 }
 
 TEST_F(DemMosaic, TurnsEachRastersOwnUnitToMetres) {
@@ -220,8 +221,8 @@ TEST_F(DemMosaic, HonoursEachRastersOwnNodata) {
                                  .north = 5200200,
                                  .height = half(std::numeric_limits<double>::infinity()),
                                  .nodata = 0});
-    const std::string c = write(
-        {.west = 500000, .north = 5200300, .height = half(std::nan("")), .nodata = 650});
+    const std::string c =
+        write({.west = 500000, .north = 5200300, .height = half(std::nan("")), .nodata = 650});
     const auto dem = test::readDems({a, b, c});
     ASSERT_TRUE(dem.ok()) << dem.status();
     EXPECT_EQ(dem->grid.rows, 30);
@@ -235,10 +236,10 @@ TEST_F(DemMosaic, HonoursEachRastersOwnNodata) {
 }
 
 TEST_F(DemMosaic, AllInDegreesGoesToTheZoneOfTheirMiddle) {
-    const std::string a = write(
-        {.epsg = kDegrees, .west = 9.0, .north = 47, .pixel = 0.001, .height = constant(5)});
-    const std::string b = write(
-        {.epsg = kDegrees, .west = 9.01, .north = 47, .pixel = 0.001, .height = constant(5)});
+    const std::string a =
+        write({.epsg = kDegrees, .west = 9.0, .north = 47, .pixel = 0.001, .height = constant(5)});
+    const std::string b =
+        write({.epsg = kDegrees, .west = 9.01, .north = 47, .pixel = 0.001, .height = constant(5)});
     const auto dem = test::readDems({a, b});
     ASSERT_TRUE(dem.ok()) << dem.status();
     EXPECT_THAT(dem->crsWkt, HasSubstr("UTM zone 32N"));
@@ -269,8 +270,7 @@ TEST_F(DemMosaic, RefusesWhatCannotBeBroughtTogether) {
     EXPECT_THAT(mixed.status().ToString(), HasSubstr(plain));
     const auto missing = test::readDems({good, folder_.path("none.tif")});
     EXPECT_EQ(missing.status().code(), absl::StatusCode::kNotFound);
-    const std::string far =
-        write({.west = 500000, .north = -5e9, .height = constant(1)});
+    const std::string far = write({.west = 500000, .north = -5e9, .height = constant(1)});
     EXPECT_FALSE(test::readDems({good, far}).ok());
     EXPECT_FALSE(test::readDems({}).ok());
 }

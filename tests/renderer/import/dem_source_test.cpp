@@ -87,9 +87,8 @@ TEST_F(DemSource, AppliesScaleOffsetAndFeet) {
 }
 
 TEST_F(DemSource, TurnsUnitsOfTheCrsToMetres) {
-    const auto dem =
-        test::readDem(virtualRaster(
-                    "<SRS>EPSG:2263</SRS><GeoTransform>1000,100,0,5000,0,-100</GeoTransform>", ""));
+    const auto dem = test::readDem(virtualRaster(
+        "<SRS>EPSG:2263</SRS><GeoTransform>1000,100,0,5000,0,-100</GeoTransform>", ""));
     ASSERT_TRUE(dem.ok()) << dem.status();
     EXPECT_NEAR(dem->grid.perColumn.x, 100 * 1200.0 / 3937, 1e-9);
     EXPECT_NEAR(dem->grid.origin.x, 1050 * 1200.0 / 3937, 1e-9);

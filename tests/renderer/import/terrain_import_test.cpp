@@ -14,10 +14,10 @@
 namespace eyrie::import {
 namespace {
 
-using test::GridKind;
-using test::TemporaryFolder;
 using test::contents;
+using test::GridKind;
 using test::readDem;
+using test::TemporaryFolder;
 
 TEST(TerrainSynth, IsTheSameForASeedWhateverTheSize) {
     const terrain::HeightGrid small = synthesizeTerrain(70, 5);
@@ -129,8 +129,8 @@ TEST(TerrainImport, KeepsTheErrorAskedForAtTheFinestLevel) {
         const TemporaryFolder folder;
         const terrain::HeightGrid grid = synthesizeTerrain(300, 6);
         GridHeightSource posts(grid);
-        const auto report = importTerrain(posts, {"grid", "", 0}, folder.path("a.eyt"),
-                                          {.errorMetres = asked}, {});
+        const auto report =
+            importTerrain(posts, {"grid", "", 0}, folder.path("a.eyt"), {.errorMetres = asked}, {});
         ASSERT_TRUE(report.ok()) << report.status();
         EXPECT_LE(report->finestErrorMetres, asked);
         EXPECT_GT(report->finestErrorMetres, asked / 4) << "less was left out than might be";

@@ -17,7 +17,7 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr const char* kStages[] = {"reading", "measuring", "joining",
+constexpr const char* kStages[] = {"reading",  "measuring", "joining",
                                    "thinning", "smoothing", "building"};
 
 /// Too large for the 4 MiB that a scratch has at least.
@@ -115,9 +115,9 @@ TEST_F(TerrainResume, IsTheSameForAnyMemoryThreadsAndScratchFolder) {
     const std::string b = folder_.path("b.eyt");
     std::filesystem::create_directory(folder_.path("scratch"));
     ASSERT_TRUE(import(a, {}, {}).ok());
-    ASSERT_TRUE(import(b, {},
-                       {.memoryBytes = 1, .scratchFolder = folder_.path("scratch"), .threads = 1})
-                    .ok());
+    ASSERT_TRUE(
+        import(b, {}, {.memoryBytes = 1, .scratchFolder = folder_.path("scratch"), .threads = 1})
+            .ok());
     EXPECT_EQ(test::contents(a), test::contents(b));
     EXPECT_TRUE(std::filesystem::is_empty(folder_.path("scratch")));
 }

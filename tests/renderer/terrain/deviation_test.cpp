@@ -151,11 +151,12 @@ TEST(Deviation, WithAGoalIsTheSameWhereItMatters) {
         test::GridModel model(grid);
         SourceSurface& surface = model.surface();
         const bool isAligned = round % 2 == 0;
-        const Triangle triangle =
-            withHeights(grid, isAligned ? randomAligned(grid, random, 8) : randomGeneral(grid, random),
-                        2, random);
+        const Triangle triangle = withHeights(
+            grid, isAligned ? randomAligned(grid, random, 8) : randomGeneral(grid, random), 2,
+            random);
         const auto measured = [&](const DeviationGoal& goal) {
-            return isAligned ? surface.ofAligned(triangle, goal) : surface.ofGeneral(triangle, goal);
+            return isAligned ? surface.ofAligned(triangle, goal)
+                             : surface.ofGeneral(triangle, goal);
         };
         const double whole = measured({});
         const double floor = whole * random.unit() * 2;
@@ -176,7 +177,7 @@ TEST(Deviation, OfAPlaneInWholeMetresIsExactlyZero) {
         for (std::int32_t i = 0; i < grid.columns; ++i)
             grid.row(j)[i] = static_cast<float>(-11034 + 7 * i - 3 * j);
     test::GridModel model(grid);
-        SourceSurface& surface = model.surface();
+    SourceSurface& surface = model.surface();
     Random random(3);
     for (int round = 0; round < 200; ++round)
         EXPECT_EQ(surface.ofAligned(withHeights(grid, randomAligned(grid, random), 0, random)), 0);
@@ -186,7 +187,7 @@ TEST(Deviation, SeesARidgeThatTheHypotenuseMidpointMisses) {
     HeightGrid grid = test::hardGrid(GridKind::Flat, 17, 17, 0);
     grid.row(3)[5] = 100;
     test::GridModel model(grid);
-        SourceSurface& surface = model.surface();
+    SourceSurface& surface = model.surface();
     EXPECT_EQ(surface.ofAligned({Corner{16, 0, 0}, Corner{0, 0, 0}, Corner{16, 16, 0}}), 100);
     EXPECT_EQ(surface.ofGeneral({Corner{0, 0, 0}, Corner{15, 1, 0}, Corner{7, 16, 0}}), 100);
 }

@@ -36,8 +36,9 @@ RC_GTEST_PROP(Scratch, GivesBackWhatWasWrittenLast, ()) {
         std::vector<std::uint64_t> places;
         for (std::size_t k = 0; k < kPlaces; ++k) places.push_back(scratch.reserve(kBytes));
         std::vector<int> expected(kPlaces, 0);
-        for (const auto& [place, value] : *rc::gen::container<std::vector<std::pair<std::size_t, int>>>(
-                 rc::gen::pair(rc::gen::inRange<std::size_t>(0, kPlaces), rc::gen::inRange(0, 256)))) {
+        for (const auto& [place, value] :
+             *rc::gen::container<std::vector<std::pair<std::size_t, int>>>(rc::gen::pair(
+                 rc::gen::inRange<std::size_t>(0, kPlaces), rc::gen::inRange(0, 256)))) {
             if (value % 2 == 0) {
                 scratch.write(places[place], pieceOf(kBytes, value), kBytes);
                 expected[place] = value;

@@ -46,7 +46,8 @@ private:
         if (isCentre)
             count = std::max({at(i - s, j), at(i + s, j), at(i, j - s), at(i, j + s)});
         else if (h > 0)
-            count = std::max({at(i - h, j - h), at(i + h, j - h), at(i - h, j + h), at(i + h, j + h)});
+            count =
+                std::max({at(i - h, j - h), at(i + h, j - h), at(i - h, j + h), at(i + h, j + h)});
         std::int32_t dx = s, dy = 0;
         if (isCentre) {
             dx = (((i - s) ^ (j - s)) & (2 * s)) == 0 ? s : -s;
