@@ -139,13 +139,12 @@ absl::Status ImportJournal::append(std::span<const std::byte> bytes) {
     return absl::OkStatus();
 }
 
-absl::Status ImportJournal::add(std::uint32_t step, std::vector<std::byte> state) {
+absl::Status ImportJournal::add(std::uint32_t step, std::span<const std::byte> state) {
     const RecordHeader record{step, state.size(), checksumOf(step, state)};
     RETURN_IF_ERROR(append(std::as_bytes(std::span(&record, 1))));
     RETURN_IF_ERROR(append(state));
     if (fsync(fd_) != 0)
         return errnoStatus(path_, "cannot be flushed to disk");
-    steps_[step] = std::move(state);
     return absl::OkStatus();
 }
 

@@ -33,11 +33,13 @@ public:
     ImportJournal& operator=(ImportJournal&&) = delete;
     ~ImportJournal();
 
-    /// What a step left when it was done; null: it is not.
+    /// What a step left when it was done before this run; null: it was not.
     const std::vector<std::byte>* find(std::uint32_t step) const;
+    /// Lets go of the memory of what `find` gave for a step.
+    void release(std::uint32_t step) { steps_.erase(step); }
     bool isEmpty() const { return steps_.empty(); }
     /// On disk when this returns.
-    absl::Status add(std::uint32_t step, std::vector<std::byte> state);
+    absl::Status add(std::uint32_t step, std::span<const std::byte> state);
     /// Forgets all steps.
     absl::Status clear();
     /// Deletes the file: the job is done.

@@ -82,7 +82,8 @@ TerrainImportReport reportOf(const terrain::EytIndex& index, double postMetres,
 std::uint64_t residentBytes(const terrain::GridFrame& frame) {
     // The program with GDAL and PROJ, GDAL's cache, strips and pages under way: measured.
     constexpr std::uint64_t kProgram = std::uint64_t{144} << 20;
-    constexpr std::uint64_t kPostsPerByte = 16;  // summaries, tile records, coarse vertex levels
+    // Summaries, coarse vertex levels, tile records, and those again while they are written.
+    constexpr std::uint64_t kPostsPerByte = 10;
     return kProgram + static_cast<std::uint64_t>(frame.columns) *
                           static_cast<std::uint64_t>(frame.rows) / kPostsPerByte;
 }

@@ -29,8 +29,10 @@ absl::Status TerrainStages::run(const std::function<absl::Status()>& work, const
     if (!journal_)
         return work();
     const std::vector<std::byte>* done = journal_->find(step);
-    if (done != nullptr && state.restore(*done))
+    if (done != nullptr && state.restore(*done)) {
+        journal_->release(step);
         return absl::OkStatus();
+    }
     RETURN_IF_ERROR(work());
     RETURN_IF_ERROR(scratch_->flush());
     return journal_->add(step, state.save());

@@ -129,7 +129,7 @@ TEST(ImportJournal, GivesBackWhatWasAddedForTheSameKeyOnly) {
     {
         auto journal = ImportJournal::open(path, 5, false);
         ASSERT_TRUE(journal.ok()) << journal.status();
-        ASSERT_TRUE(journal->add(0, {}).ok());
+        ASSERT_TRUE(journal->add(0, std::vector<std::byte>{}).ok());
         ASSERT_TRUE(journal->add(1, state).ok());
         EXPECT_EQ(ImportJournal::open(path, 5, false).status().code(),
                   absl::StatusCode::kFailedPrecondition);
@@ -165,7 +165,7 @@ TEST(ImportJournal, KeepsWholeRecordsOfACutFile) {
             auto journal = ImportJournal::open(path, 5, false);
             ASSERT_TRUE(journal.ok());
             while (journal->find(kept) != nullptr) ++kept;
-            ASSERT_TRUE(journal->add(kept, {}).ok());
+            ASSERT_TRUE(journal->add(kept, std::vector<std::byte>{}).ok());
         }
         auto again = ImportJournal::open(path, 5, false);
         ASSERT_TRUE(again.ok());
