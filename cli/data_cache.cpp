@@ -152,7 +152,7 @@ absl::Status DataCache::import(const std::string& source, const std::string& tar
     const import::ImportControl control{bar.callback(), stop_};
     if (kind == fabric::ObjectKind::Mesh)
         return import::importMesh(source, target, {}, control).status();
-    return import::importTerrain(source, target, control).status();
+    return import::importTerrain({source}, target, {}, control).status();
 }
 
 }  // namespace eyrie::cli

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -12,6 +13,7 @@
 #include "cli/json_object.h"
 #include "cli/progress_bar.h"
 #include "cli/stop_signal.h"
+#include "cli/values.h"
 #include "fabric/status.h"
 #include "renderer/import/mesh_import.h"
 #include "renderer/import/terrain_import.h"
@@ -20,16 +22,35 @@ namespace eyrie::cli {
 namespace {
 
 struct Options {
-    std::string source;
+    std::vector<std::string> sources;
     std::string out;
     bool quiet = false;
     bool json = false;
+
+    /// For the progress bar and messages.
+    std::string title() const {
+        return sources.size() == 1
+                   ? sources.front()
+                   : fmt::format("{} and {} more", sources.front(), sources.size() - 1);
+    }
+};
+
+struct TerrainOptions : Options {
+    std::string memory = "512M";
+    std::string scratch;
+    double errorMetres = 0;
+    int threads = 0;
+    bool fresh = false;
 };
 
 double sourceMegabytes(const Options& options) {
-    std::error_code none;
-    const auto bytes = std::filesystem::file_size(options.source, none);
-    return none ? 0 : static_cast<double>(bytes) / 1e6;
+    double megabytes = 0;
+    for (const std::string& source : options.sources) {
+        std::error_code none;
+        const auto bytes = std::filesystem::file_size(source, none);
+        megabytes += none ? 0 : static_cast<double>(bytes) / 1e6;
+    }
+    return megabytes;
 }
 
 /// Wall-clock seconds since it was made.
@@ -50,15 +71,32 @@ absl::Status checkEnding(const Options& options, std::string_view ending) {
         fmt::format("-o is '{}'; its name must end in {}", options.out, ending));
 }
 
-absl::Status importTerrain(const Options& options) {
+absl::StatusOr<import::TerrainImportOptions> importOptions(const TerrainOptions& options) {
+    import::TerrainImportOptions result;
+    ASSIGN_OR_RETURN(result.memoryBytes, parseBytes(options.memory, "--memory"));
+    if (result.memoryBytes < import::kLeastImportMemory)
+        return absl::InvalidArgumentError(
+            fmt::format("--memory is {}; an import takes at least {}M", options.memory,
+                        import::kLeastImportMemory >> 20));
+    result.scratchFolder = options.scratch;
+    if (options.errorMetres > 0)
+        result.errorMetres = options.errorMetres;
+    result.startsOver = options.fresh;
+    result.threads = options.threads;
+    return result;
+}
+
+absl::Status importTerrain(const TerrainOptions& options) {
     StopSignal stop;
     RETURN_IF_ERROR(checkEnding(options, ".eyt"));
+    ASSIGN_OR_RETURN(const import::TerrainImportOptions how, importOptions(options));
     const StopWatch watch;
     absl::StatusOr<import::TerrainImportReport> made;
     {
-        ProgressBar bar(options.source, sourceMegabytes(options), "MB",
+        ProgressBar bar(options.title(), sourceMegabytes(options), "MB",
                         ProgressBar::styleFor(options.quiet));
-        made = import::importTerrain(options.source, options.out, {bar.callback(), stop.token()});
+        made = import::importTerrain(options.sources, options.out, how,
+                                     {bar.callback(), stop.token()});
     }
     RETURN_IF_ERROR(made.status());
     const auto samples =
@@ -81,7 +119,7 @@ absl::Status importTerrain(const Options& options) {
     if (options.quiet)
         return absl::OkStatus();
     for (const std::string& note : made->notes)
-        fmt::print(stderr, "{}: {}\n", options.source, note);
+        fmt::print(stderr, "{}: {}\n", options.title(), note);
     fmt::print(stderr, "{}: {} x {} samples, {} levels, {:.1f} MB, {:.2f} s\n", options.out,
                made->columns, made->rows, made->levels, static_cast<double>(made->sizeBytes) / 1e6,
                watch.seconds());
@@ -93,9 +131,10 @@ absl::Status importMesh(const Options& options) {
     RETURN_IF_ERROR(checkEnding(options, ".eym"));
     absl::StatusOr<import::MeshImportReport> made;
     {
-        ProgressBar bar(options.source, sourceMegabytes(options), "MB",
+        ProgressBar bar(options.title(), sourceMegabytes(options), "MB",
                         ProgressBar::styleFor(options.quiet));
-        made = import::importMesh(options.source, options.out, {}, {bar.callback(), stop.token()});
+        made = import::importMesh(options.sources.front(), options.out, {},
+                                  {bar.callback(), stop.token()});
     }
     RETURN_IF_ERROR(made.status());
     if (options.json) {
@@ -117,25 +156,70 @@ absl::Status importMesh(const Options& options) {
     if (made->droppedFaces + made->counts.degenerateTriangles > 0)
         fmt::print(stderr,
                    "{}: left out {} faces of fewer than three corners, {} triangles without area\n",
-                   options.source, made->droppedFaces, made->counts.degenerateTriangles);
+                   options.title(), made->droppedFaces, made->counts.degenerateTriangles);
     fmt::print(stderr, "{}: {} triangles, {} vertices, {:.1f} MB, {:.2f} s\n", options.out,
                made->triangles, made->vertices, static_cast<double>(made->bytes) / 1e6,
                made->seconds.total);
     return absl::OkStatus();
 }
 
-CLI::App* addKind(CLI::App& parent, const char* name, const char* description, Run& run,
-                  absl::Status (*work)(const Options&), const char* sourceHelp) {
+void addCommon(CLI::App& command, Options& options) {
+    command.add_option("-o,--output", options.out, "File to write")->type_name("FILE")->required();
+    command.add_flag("--quiet", options.quiet, "No progress");
+    command.add_flag("--json", options.json, "Print what was made as JSON");
+}
+
+void addMesh(CLI::App& parent, Run& run) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = parent.add_subcommand(name, description);
-    command->add_option("source", options->source, sourceHelp)->type_name("FILE")->required();
-    command->add_option("-o,--output", options->out, "File to write")
+    CLI::App* command = parent.add_subcommand("mesh", "A polygon mesh to .eym");
+    command->add_option("source", options->sources, "A .ply file")
+        ->type_name("FILE")
+        ->required()
+        ->expected(1);
+    addCommon(*command, *options);
+    command->footer("Example:\n  eyrie import mesh scan.ply -o scan.eym");
+    command->callback([options, &run] { run = [options] { return importMesh(*options); }; });
+}
+
+void addTerrain(CLI::App& parent, Run& run) {
+    auto options = std::make_shared<TerrainOptions>();
+    CLI::App* command = parent.add_subcommand("terrain", "Elevation models to .eyt");
+    command
+        ->add_option("sources", options->sources,
+                     "Any rasters that GDAL reads, as many as you like: they become one terrain")
         ->type_name("FILE")
         ->required();
-    command->add_flag("--quiet", options->quiet, "No progress");
-    command->add_flag("--json", options->json, "Print what was made as JSON");
-    command->callback([options, work, &run] { run = [options, work] { return work(*options); }; });
-    return command;
+    addCommon(*command, *options);
+    command
+        ->add_option("--error", options->errorMetres,
+                     "Metres that the finest level may be off. Without it, it is as exact as "
+                     "its heights are stored; 1 saves much where posts are close and noisy")
+        ->type_name("METRES")
+        ->check(CLI::Range(1e-6, 1e6));
+    command
+        ->add_option("--memory", options->memory,
+                     "About as much is used, whatever the size; the rest goes to a scratch file")
+        ->type_name("BYTES")
+        ->capture_default_str();
+    command
+        ->add_option("--scratch", options->scratch,
+                     "Folder for that file (9 bytes a post); beside the output otherwise")
+        ->type_name("FOLDER")
+        ->check(CLI::ExistingDirectory);
+    command->add_option("--threads", options->threads, "0: as many as there are cores")
+        ->check(CLI::Range(0, 1024))
+        ->capture_default_str();
+    command->add_flag("--fresh", options->fresh,
+                      "Start over instead of going on with an interrupted import");
+    command->footer(
+        "Several files are laid over each other: the finest wins, among equals the one named\n"
+        "last; gaps stay open. Degrees become metres (UTM), feet too.\n"
+        "An import that is stopped or killed goes on when the same command is run again.\n"
+        "Examples:\n"
+        "  eyrie import terrain dem.tif -o dem.eyt\n"
+        "  eyrie import terrain tiles/*.tif survey.tif -o all.eyt\n"
+        "  eyrie import terrain huge.vrt -o huge.eyt --memory 2G --scratch /fast/disk");
+    command->callback([options, &run] { run = [options] { return importTerrain(*options); }; });
 }
 
 }  // namespace
@@ -143,11 +227,8 @@ CLI::App* addKind(CLI::App& parent, const char* name, const char* description, R
 void addImport(CLI::App& app, Run& run) {
     CLI::App* command = app.add_subcommand("import", "Make data that renderers can draw");
     command->require_subcommand(1);
-    addKind(*command, "terrain", "An elevation model to .eyt", run, importTerrain,
-            "Any raster that GDAL reads")
-        ->footer("Example:\n  eyrie import terrain dem.tif -o dem.eyt");
-    addKind(*command, "mesh", "A polygon mesh to .eym", run, importMesh, "A .ply file")
-        ->footer("Example:\n  eyrie import mesh scan.ply -o scan.eym");
+    addTerrain(*command, run);
+    addMesh(*command, run);
 }
 
 }  // namespace eyrie::cli

@@ -12,7 +12,7 @@
 #include "cli/progress_bar.h"
 #include "cli/stop_signal.h"
 #include "fabric/status.h"
-#include "renderer/import/dem_source.h"
+#include "renderer/import/geotiff_writer.h"
 #include "renderer/import/mesh_import.h"
 #include "renderer/import/mesh_synth.h"
 #include "renderer/import/ply_writer.h"

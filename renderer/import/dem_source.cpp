@@ -2,527 +2,407 @@
 #include "renderer/import/dem_source.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
-#include <filesystem>
 #include <limits>
-#include <memory>
-#include <mutex>
 #include <optional>
-#include <system_error>
 #include <utility>
 
-#include <cpl_conv.h>
-#include <cpl_error.h>
-#include <cpl_string.h>
-#include <cpl_vsi.h>
 #include <fmt/format.h>
-#include <gdal.h>
-#include <gdal_utils.h>
-#include <ogr_srs_api.h>
-#include <unistd.h>
-#include <xxhash.h>
 
 #include "fabric/status.h"
+#include "renderer/import/dem_file.h"
+#include "renderer/import/dem_warp.h"
 #include "renderer/terrain/quadtree.h"
 
 namespace eyrie::import {
 namespace {
 
 using fabric::Vec2;
-using terrain::HeightGrid;
 
-template <auto Release>
-struct Releaser {
-    template <typename Handle>
-    void operator()(Handle* handle) const {
-        Release(handle);
+/// One raster of a mosaic, as pixels of the mosaic.
+struct Layer {
+    DemFile file;
+    Dataset warped;  ///< null: the file's own pixels
+    PixelBox box;
+
+    GDALRasterBandH band() const {
+        return GDALGetRasterBand(warped ? warped.get() : file.dataset.get(), 1);
     }
 };
-using Dataset = std::unique_ptr<void, Releaser<GDALClose>>;
-using SpatialReference = std::unique_ptr<std::remove_pointer_t<OGRSpatialReferenceH>,
-                                         Releaser<OSRDestroySpatialReference>>;
-using StringList = std::unique_ptr<char*, Releaser<CSLDestroy>>;
 
-/// Keeps what GDAL would print, while it lives, on this thread; no sidecar files are written.
-class QuietGdal {
+double determinant(const Georeference& g) {
+    return g.perColumn.x * g.perRow.y - g.perColumn.y * g.perRow.x;
+}
+
+Vec2 centreOf(const DemFile& file) {
+    return file.reference.origin + file.reference.perColumn * (file.columns * 0.5) +
+           file.reference.perRow * (file.rows * 0.5);
+}
+
+/// Side of a pixel, about.
+double pixelMetres(const DemFile& file) {
+    constexpr double kMetresPerDegree = 111320;
+    const double side = std::sqrt(std::abs(determinant(file.reference)));
+    if (file.isGeographic())
+        return side * kMetresPerDegree *
+               std::sqrt(std::max(0.01, std::cos(centreOf(file).y * M_PI / 180)));
+    return file.crs ? side * OSRGetLinearUnits(file.crs.get(), nullptr) : side;
+}
+
+/// `out` rows from the last to the first where the raster's first row is the frame's last.
+class LayeredSource : public HeightSource {
 public:
-    QuietGdal() {
-        static std::once_flag registered;
-        std::call_once(registered, GDALAllRegister);
-        CPLPushErrorHandlerEx(&QuietGdal::note, this);
-        CPLSetThreadLocalConfigOption("CPL_VSIL_GZIP_WRITE_PROPERTIES", "NO");
-        CPLErrorReset();
-    }
-    QuietGdal(const QuietGdal&) = delete;
-    QuietGdal& operator=(const QuietGdal&) = delete;
-    ~QuietGdal() {
-        CPLSetThreadLocalConfigOption("CPL_VSIL_GZIP_WRITE_PROPERTIES", nullptr);
-        CPLPopErrorHandler();
+    /// Best layer first. `reference` is in metres, of a raster of columns x rows.
+    LayeredSource(std::vector<Layer> layers, const Georeference& reference, int columns, int rows)
+        : layers_(std::move(layers)), isFlipped_(determinant(reference) < 0) {
+        frame_ = {columns, rows, reference.origin + (reference.perColumn + reference.perRow) * 0.5,
+                  reference.perColumn, reference.perRow};
+        if (!isFlipped_)
+            return;
+        frame_.origin += reference.perRow * static_cast<double>(rows - 1);
+        frame_.perRow = Vec2(0.0) - reference.perRow;  // no negative zeros
     }
 
-    /// The first failure since the last call, "" for none.
-    std::string takeError() { return std::exchange(error_, {}); }
+    const terrain::GridFrame& frame() const override { return frame_; }
+    bool isLastRowFirst() const override { return isFlipped_; }
+
+    absl::Status read(const terrain::PostRect& window, float* out) override {
+        const auto count =
+            static_cast<std::size_t>(window.columns) * static_cast<std::size_t>(window.rows);
+        std::fill_n(out, count, terrain::kNodata);
+        bool isFirst = true;
+        for (const Layer& layer : layers_) {
+            if (!isFirst && std::none_of(out, out + count, [](float h) { return h != h; }))
+                break;
+            RETURN_IF_ERROR(addLayer(layer, window, out));
+            isFirst = false;
+        }
+        return absl::OkStatus();
+    }
 
 private:
-    static void CPL_STDCALL note(CPLErr severity, CPLErrorNum, const char* message) {
-        auto& self = *static_cast<QuietGdal*>(CPLGetErrorHandlerUserData());
-        if (severity >= CE_Failure && self.error_.empty())
-            self.error_ = message;
+    /// Fills in what is nodata so far.
+    absl::Status addLayer(const Layer& layer, const terrain::PostRect& window, float* out) {
+        const int firstRow = isFlipped_ ? frame_.rows - window.j - window.rows : window.j;
+        const auto box = layer.box;
+        const int i0 = std::max(window.i, static_cast<int>(box.column));
+        const int j0 = std::max(firstRow, static_cast<int>(box.row));
+        const int i1 =
+            std::min(window.i + window.columns, static_cast<int>(box.column) + box.columns);
+        const int j1 = std::min(firstRow + window.rows, static_cast<int>(box.row) + box.rows);
+        if (i0 >= i1 || j0 >= j1)
+            return absl::OkStatus();
+        const int columns = i1 - i0;
+        const int rows = j1 - j0;
+        buffer_.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+        QuietGdal gdal;
+        if (GDALRasterIO(layer.band(), GF_Read, i0 - static_cast<int>(box.column),
+                         j0 - static_cast<int>(box.row), columns, rows, buffer_.data(), columns,
+                         rows, GDT_Float32, 0, 0) != CE_None)
+            return absl::DataLossError(
+                fmt::format("{}: rows {} to {} cannot be read ({}); the file may be truncated",
+                            layer.file.path, j0 - box.row, j1 - 1 - box.row, gdal.takeError()));
+        constexpr float kImpossible = 1e30F;
+        for (int v = 0; v < rows; ++v) {
+            const int row = isFlipped_ ? window.rows - 1 - (j0 - firstRow + v) : j0 - firstRow + v;
+            float* to = out + static_cast<std::ptrdiff_t>(row) * window.columns + (i0 - window.i);
+            const float* from = buffer_.data() + static_cast<std::ptrdiff_t>(v) * columns;
+            for (int u = 0; u < columns; ++u)
+                if (to[u] != to[u] && std::abs(from[u]) < kImpossible)
+                    to[u] = from[u];
+        }
+        return absl::OkStatus();
     }
 
-    std::string error_;
+    std::vector<Layer> layers_;
+    bool isFlipped_;
+    terrain::GridFrame frame_;
+    std::vector<float> buffer_;
 };
 
-/// What a pixel value has to go through to be metres.
-struct ValueRule {
-    std::optional<float> nodata;
-    bool lowestIsNodata = false;  ///< -32768, in 16-bit rasters
-    double scale = 1;
-    double offset = 0;
-};
-
-/// Pixel to projected metres: (x, y) = origin + column * perColumn + row * perRow, from the outer
-/// corner of the first pixel.
-struct Georeference {
-    Vec2 origin{0, 0};
-    Vec2 perColumn{1, 0};
-    Vec2 perRow{0, -1};
-};
-
-std::string gdalPath(const std::string& path) {
-    if (path.starts_with("/vsi"))
-        return path;
-    if (path.ends_with(".gz"))
-        return "/vsigzip/" + path;
-    if (path.ends_with(".zip"))
-        return "/vsizip/" + path;
-    return path;
-}
-
-absl::Status invalid(const std::string& path, const std::string& what) {
-    return absl::InvalidArgumentError(fmt::format("{}: {}", path, what));
-}
-
-absl::StatusOr<std::uint64_t> hashFile(const std::string& path) {
-    const std::unique_ptr<VSILFILE, Releaser<VSIFCloseL>> file(VSIFOpenL(path.c_str(), "rb"));
-    if (!file)
-        return absl::NotFoundError(fmt::format("{}: no such file, or not readable", path));
-    const std::unique_ptr<XXH64_state_t, Releaser<XXH64_freeState>> state(XXH64_createState());
-    XXH64_reset(state.get(), 0);
-    std::vector<char> buffer(std::size_t{1} << 20);
-    while (const std::size_t got = VSIFReadL(buffer.data(), 1, buffer.size(), file.get()))
-        XXH64_update(state.get(), buffer.data(), got);
-    return XXH64_digest(state.get());
-}
-
-absl::StatusOr<Dataset> openRaster(const std::string& path, QuietGdal& gdal) {
-    Dataset dataset(GDALOpenEx(gdalPath(path).c_str(),
-                               GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, nullptr,
-                               nullptr, nullptr));
-    if (!dataset)
-        return invalid(path, fmt::format("is no raster that GDAL {} reads ({}); give a DEM such as "
-                                         "a GeoTIFF",
-                                         GDALVersionInfo("RELEASE_NAME"), gdal.takeError()));
-    if (GDALGetRasterCount(dataset.get()) < 1)
-        return invalid(path,
-                       "has no raster band of its own; name one of its subdatasets instead "
-                       "(gdalinfo lists them)");
-    return dataset;
-}
-
-absl::Status checkSize(const std::string& path, int columns, int rows) {
+absl::Status checkSize(const std::string& path, std::int64_t columns, std::int64_t rows) {
     if (columns < 2 || rows < 2)
         return invalid(
             path, fmt::format("has {} x {} posts; a terrain needs at least 2 x 2", columns, rows));
-    constexpr auto kMaxPosts = static_cast<int>(terrain::kMaxPosts);
-    const std::uint64_t bytes =
-        static_cast<std::uint64_t>(columns) * static_cast<std::uint64_t>(rows) * sizeof(float);
-    if (columns > kMaxPosts || rows > kMaxPosts || bytes > kMaxDemBytes)
+    constexpr std::int64_t kMaxSide = terrain::kMaxPosts;
+    if (columns > kMaxSide || rows > kMaxSide ||
+        static_cast<std::uint64_t>(columns * rows) > terrain::kMaxGridPosts)
         return absl::ResourceExhaustedError(fmt::format(
-            "{}: has {} x {} posts, {:.1f} GiB in memory; the limits are {} posts a side and "
-            "{:.1f} GiB; import a part of it (gdal_translate -srcwin) or fewer posts (-outsize)",
-            path, columns, rows, static_cast<double>(bytes) / (1 << 30), kMaxPosts,
-            static_cast<double>(kMaxDemBytes) / (1 << 30)));
+            "{}: has {} x {} posts; the limits are {} posts a side and {} in all; import a part of "
+            "it (gdal_translate -srcwin) or fewer posts (-outsize)",
+            path, columns, rows, kMaxSide, terrain::kMaxGridPosts));
     return absl::OkStatus();
 }
 
-/// Refuses bands that hold something else than heights.
-absl::Status checkBand(const std::string& path, GDALRasterBandH band) {
-    const GDALDataType type = GDALGetRasterDataType(band);
-    if (GDALDataTypeIsComplex(type))
-        return invalid(path, fmt::format("band 1 holds complex numbers ({}), not heights",
-                                         GDALGetDataTypeName(type)));
-    const GDALColorInterp colour = GDALGetRasterColorInterpretation(band);
-    if (colour == GCI_PaletteIndex || GDALGetRasterColorTable(band) != nullptr)
-        return invalid(path, "band 1 holds palette indices of a picture, not heights");
-    if (colour >= GCI_RedBand && colour <= GCI_YCbCr_CrBand)
-        return invalid(path, fmt::format("band 1 is a picture's ({}), not heights; give a DEM",
-                                         GDALGetColorInterpretationName(colour)));
-    return absl::OkStatus();
+bool isSameCrs(OGRSpatialReferenceH a, OGRSpatialReferenceH b) {
+    return (a == nullptr && b == nullptr) || (a != nullptr && b != nullptr && OSRIsSame(a, b) != 0);
 }
 
-/// Metres per unit of a band's unit tag; 1 for metres and for what it does not know.
-double metresPerUnit(const std::string& unit, std::vector<std::string>& notes) {
-    struct Unit {
-        const char* name;
-        double metres;
-    };
-    constexpr double kFoot = 0.3048;
-    constexpr double kUsSurveyFoot = 1200.0 / 3937.0;
-    constexpr std::array<Unit, 20> kUnits = {{{"", 1},
-                                              {"m", 1},
-                                              {"metre", 1},
-                                              {"meter", 1},
-                                              {"metres", 1},
-                                              {"meters", 1},
-                                              {"ft", kFoot},
-                                              {"feet", kFoot},
-                                              {"foot", kFoot},
-                                              {"International foot", kFoot},
-                                              {"US survey foot", kUsSurveyFoot},
-                                              {"us-ft", kUsSurveyFoot},
-                                              {"ftUS", kUsSurveyFoot},
-                                              {"foot_survey_us", kUsSurveyFoot},
-                                              {"Foot_US", kUsSurveyFoot},
-                                              {"km", 1000},
-                                              {"dm", 0.1},
-                                              {"cm", 0.01},
-                                              {"centimeters", 0.01},
-                                              {"mm", 0.001}}};
-    for (const Unit& known : kUnits)
-        if (EQUAL(unit.c_str(), known.name)) {
-            if (known.metres != 1)
-                notes.push_back(fmt::format("heights in {} turned to metres", unit));
-            return known.metres;
+/// Chooses what several rasters, or one in degrees, are brought to, and brings them there.
+class Mosaic {
+public:
+    Mosaic(std::vector<DemFile> files, QuietGdal& gdal)
+        : files_(std::move(files)),
+          name_(files_.size() == 1
+                    ? files_.front().path
+                    : fmt::format("{} and {} more", files_.front().path, files_.size() - 1)),
+          gdal_(gdal) {}
+
+    absl::StatusOr<DemSource> open() {
+        RETURN_IF_ERROR(check());
+        order_.resize(files_.size());
+        for (std::size_t k = 0; k < order_.size(); ++k) order_[k] = order_.size() - 1 - k;
+        std::stable_sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) {
+            return pixelMetres(files_[a]) < pixelMetres(files_[b]) * (1 - kEquallyFine);
+        });
+        RETURN_IF_ERROR(chooseCrs());
+        RETURN_IF_ERROR(chooseGrid());
+        std::vector<Layer> layers;
+        for (const std::size_t k : order_) {
+            ASSIGN_OR_RETURN(std::optional<Layer> layer, layerOf(std::move(files_[k])));
+            if (layer)
+                layers.push_back(*std::move(layer));
         }
-    notes.push_back(fmt::format("height unit '{}' is unknown; taken for metres", unit));
-    return 1;
-}
-
-absl::StatusOr<ValueRule> valueRule(const std::string& path, GDALRasterBandH band,
-                                    std::vector<std::string>& notes) {
-    ValueRule rule;
-    int isSet = 0;
-    const double nodata = GDALGetRasterNoDataValue(band, &isSet);
-    if (isSet != 0)
-        rule.nodata = static_cast<float>(nodata);
-    rule.lowestIsNodata = GDALGetRasterDataType(band) == GDT_Int16;
-    const double scale = GDALGetRasterScale(band, &isSet);
-    const double offset = GDALGetRasterOffset(band, &isSet);
-    if (!std::isfinite(scale) || !std::isfinite(offset) || scale == 0)
-        return invalid(path, fmt::format("band 1 has scale {} and offset {}; both must be finite "
-                                         "and the scale not 0",
-                                         scale, offset));
-    const double unit = metresPerUnit(GDALGetRasterUnitType(band), notes);
-    rule.scale = scale * unit;
-    rule.offset = offset * unit;
-    return rule;
-}
-
-float heightOf(float value, const ValueRule& rule) {
-    constexpr float kImpossible = 1e30F;
-    const bool isNodata = (rule.nodata && value == *rule.nodata) ||
-                          (rule.lowestIsNodata && value == -32768.0F) ||
-                          !(std::abs(value) < kImpossible);
-    return isNodata ? terrain::kNodata
-                    : static_cast<float>(static_cast<double>(value) * rule.scale + rule.offset);
-}
-
-void clean(float* heights, std::size_t count, const ValueRule& rule) {
-    for (std::size_t k = 0; k < count; ++k) heights[k] = heightOf(heights[k], rule);
-}
-
-/// Reads a band into `heights` in blocks of rows; calls each block done with its first height and
-/// count of heights. Rows stay in the raster's order.
-template <typename Done>
-absl::Status readRows(const std::string& path, GDALRasterBandH band, std::vector<float>& heights,
-                      QuietGdal& gdal, const ImportControl& control, Done done) {
-    constexpr int kBlockRows = 256;
-    const int columns = GDALGetRasterBandXSize(band);
-    const int rows = GDALGetRasterBandYSize(band);
-    heights.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
-    for (int row = 0; row < rows; row += kBlockRows) {
-        RETURN_IF_ERROR(control.check());
-        const int count = std::min(kBlockRows, rows - row);
-        float* first =
-            heights.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(columns);
-        if (GDALRasterIO(band, GF_Read, 0, row, columns, count, first, columns, count, GDT_Float32,
-                         0, 0) != CE_None)
-            return absl::DataLossError(
-                fmt::format("{}: rows {} to {} cannot be read ({}); the file may be truncated",
-                            path, row, row + count - 1, gdal.takeError()));
-        done(row, first, static_cast<std::size_t>(columns) * static_cast<std::size_t>(count));
-        control.report("reading", static_cast<double>(row + count) / rows);
+        return assembled(std::move(layers));
     }
-    return absl::OkStatus();
-}
 
-/// Nodata by a mask of the whole file, where there is one.
-absl::Status applyMask(const std::string& path, GDALRasterBandH band, std::vector<float>& heights,
-                       QuietGdal& gdal) {
-    const int flags = GDALGetMaskFlags(band);
-    if ((flags & (GMF_PER_DATASET | GMF_ALPHA)) == 0)
+private:
+    static constexpr double kEquallyFine = 0.01;
+
+    absl::Status check() {
+        for (const DemFile& file : files_) {
+            if (!file.isGeoreferenced)
+                return invalid(file.path,
+                               "is not georeferenced, so it cannot be laid beside "
+                               "others; give it a georeference (gdal_edit.py)");
+            if ((file.crs == nullptr) != (files_.front().crs == nullptr))
+                return invalid(file.path,
+                               fmt::format("{} a CRS, unlike {}; set the right one (gdal_edit.py "
+                                           "-a_srs)",
+                                           file.crs ? "has" : "has not", files_.front().path));
+        }
         return absl::OkStatus();
-    const int columns = GDALGetRasterBandXSize(band);
-    const int rows = GDALGetRasterBandYSize(band);
-    std::vector<unsigned char> mask(static_cast<std::size_t>(columns));
-    for (int row = 0; row < rows; ++row) {
-        if (GDALRasterIO(GDALGetMaskBand(band), GF_Read, 0, row, columns, 1, mask.data(), columns,
-                         1, GDT_Byte, 0, 0) != CE_None)
-            return absl::DataLossError(
-                fmt::format("{}: its mask cannot be read ({})", path, gdal.takeError()));
-        float* first = heights.data() + static_cast<std::size_t>(row) * mask.size();
-        for (std::size_t k = 0; k < mask.size(); ++k)
-            if (mask[k] == 0)
-                first[k] = terrain::kNodata;
     }
-    return absl::OkStatus();
-}
 
-absl::StatusOr<Georeference> georeferenceOf(const std::string& path, GDALDatasetH dataset,
-                                            std::vector<std::string>& notes) {
-    std::array<double, 6> t{};
-    if (GDALGetGeoTransform(dataset, t.data()) != CE_None) {
-        notes.emplace_back("not georeferenced: posts are taken to be 1 m apart");
-        const double rows = GDALGetRasterYSize(dataset);
-        return Georeference{{0, rows}, {1, 0}, {0, -1}};
+    absl::Status chooseCrs() {
+        const auto projected = std::find_if(
+            order_.begin(), order_.end(), [&](std::size_t k) { return !files_[k].isGeographic(); });
+        if (projected != order_.end()) {
+            if (const OGRSpatialReferenceH crs = files_[*projected].crs.get())
+                crs_.reset(OSRClone(crs));
+            return absl::OkStatus();
+        }
+        constexpr double kMaxDegrees = 30;
+        Vec2 low(std::numeric_limits<double>::infinity());
+        Vec2 high = -low;
+        for (const DemFile& file : files_) {
+            const Vec2 reach =
+                (glm::abs(file.reference.perColumn * static_cast<double>(file.columns)) +
+                 glm::abs(file.reference.perRow * static_cast<double>(file.rows))) *
+                0.5;
+            low = glm::min(low, centreOf(file) - reach);
+            high = glm::max(high, centreOf(file) + reach);
+        }
+        const Vec2 span = high - low;
+        const Vec2 centre = (low + high) * 0.5;
+        if (std::max(span.x, span.y) > kMaxDegrees || std::abs(centre.y) > 90)
+            return invalid(name_,
+                           fmt::format("spans {:.1f} x {:.1f} degrees around latitude {:.1f}, too "
+                                       "much for one UTM zone (at most {}); reproject it with "
+                                       "gdalwarp -t_srs first",
+                                       span.x, span.y, centre.y, kMaxDegrees));
+        ASSIGN_OR_RETURN(crs_,
+                         localProjection(name_, files_.front().crs.get(), centre.x, centre.y));
+        return absl::OkStatus();
     }
-    const double determinant = t[1] * t[5] - t[2] * t[4];
-    const bool isFinite =
-        std::all_of(t.begin(), t.end(), [](double v) { return std::isfinite(v); });
-    if (!isFinite || determinant == 0 || !std::isfinite(determinant))
-        return invalid(path, fmt::format("geotransform ({}) is not finite or has no area; set "
-                                         "another (gdal_edit.py -a_ullr)",
-                                         fmt::join(t, ", ")));
-    return Georeference{{t[0], t[3]}, {t[1], t[4]}, {t[2], t[5]}};
-}
 
-std::array<double, 6> geoTransform(const Georeference& g) {
-    return {g.origin.x, g.perColumn.x, g.perRow.x, g.origin.y, g.perColumn.y, g.perRow.y};
-}
-
-std::string wktOf(OGRSpatialReferenceH reference) {
-    char* text = nullptr;
-    const char* const options[] = {"FORMAT=WKT2_2019", nullptr};
-    OSRExportToWktEx(reference, &text, options);
-    std::string wkt = text == nullptr ? "" : text;
-    CPLFree(text);
-    return wkt;
-}
-
-/// The projected CRS for data around a longitude and latitude of `geographic`.
-absl::StatusOr<SpatialReference> localProjection(const std::string& path,
-                                                 OGRSpatialReferenceH geographic, double longitude,
-                                                 double latitude) {
-    constexpr double kUtmLimit = 84;
-    SpatialReference local(OSRNewSpatialReference(nullptr));
-    OGRErr error = OGRERR_NONE;
-    if (std::abs(latitude) > kUtmLimit) {
-        error = OSRImportFromEPSG(local.get(), latitude > 0 ? 32661 : 32761);
-    } else {
-        const double wrapped = longitude - 360 * std::floor((longitude + 180) / 360);
-        const int zone = std::clamp(static_cast<int>((wrapped + 180) / 6) + 1, 1, 60);
-        OSRSetProjCS(local.get(),
-                     fmt::format("UTM zone {}{}", zone, latitude < 0 ? 'S' : 'N').c_str());
-        error = OSRCopyGeogCSFrom(local.get(), geographic);
-        if (error == OGRERR_NONE)
-            error = OSRSetUTM(local.get(), zone, latitude >= 0 ? 1 : 0);
+    /// The finest raster's grid, resampled if need be.
+    absl::Status chooseGrid() {
+        const DemFile& finest = files_[order_.front()];
+        wkt_ = crs_ ? wktOf(crs_.get()) : "";
+        if (isNorthUp(finest)) {
+            grid_ = gridOf(finest.reference);
+            return absl::OkStatus();
+        }
+        ASSIGN_OR_RETURN(const Dataset suggested, reprojected(finest, wkt_, gdal_));
+        grid_ = gridOf(referenceOf(suggested.get()));
+        return absl::OkStatus();
     }
-    if (error != OGRERR_NONE)
-        return invalid(path,
-                       "its geographic CRS has no UTM zone; reproject it with gdalwarp first");
-    OSRSetAxisMappingStrategy(local.get(), OAMS_TRADITIONAL_GIS_ORDER);
-    return local;
-}
 
-/// `heights` as a GDAL dataset, without a copy.
-absl::StatusOr<Dataset> asDataset(const std::string& path, std::vector<float>& heights, int columns,
-                                  int rows, const Georeference& reference,
-                                  OGRSpatialReferenceH crs) {
-    Dataset memory(
-        GDALCreate(GDALGetDriverByName("MEM"), "", columns, rows, 0, GDT_Float32, nullptr));
-    if (!memory)
-        return absl::InternalError(fmt::format("{}: GDAL's MEM driver is missing", path));
-    const std::string pointer =
-        fmt::format("DATAPOINTER={}", reinterpret_cast<std::uintptr_t>(heights.data()));
-    const char* const options[] = {pointer.c_str(), nullptr};
-    GDALAddBand(memory.get(), GDT_Float32, const_cast<char**>(options));
-    std::array<double, 6> transform = geoTransform(reference);
-    GDALSetGeoTransform(memory.get(), transform.data());
-    GDALSetSpatialRef(memory.get(), crs);
-    GDALSetRasterNoDataValue(GDALGetRasterBand(memory.get(), 1),
-                             std::numeric_limits<double>::quiet_NaN());
-    return memory;
-}
+    bool isNorthUp(const DemFile& file) const {
+        const Georeference& g = file.reference;
+        return isSameCrs(file.crs.get(), crs_.get()) && g.perColumn.y == 0 && g.perRow.x == 0 &&
+               g.perColumn.x > 0 && g.perRow.y < 0;
+    }
 
-/// A lazily computed reprojection of `source`.
-absl::StatusOr<Dataset> reprojected(const std::string& path, GDALDatasetH source,
-                                    const std::string& targetWkt, QuietGdal& gdal) {
-    StringList arguments;
-    for (const char* argument : {"-of", "VRT", "-r", "bilinear", "-dstnodata", "nan", "-et", "0.01",
-                                 "-wo", "NUM_THREADS=ALL_CPUS", "-t_srs", targetWkt.c_str()})
-        arguments.reset(CSLAddString(arguments.release(), argument));
-    const std::unique_ptr<GDALWarpAppOptions, Releaser<GDALWarpAppOptionsFree>> options(
-        GDALWarpAppOptionsNew(arguments.get(), nullptr));
-    GDALDatasetH sources[] = {source};
-    int usageError = 0;
-    Dataset warped(GDALWarp("", nullptr, 1, sources, options.get(), &usageError));
-    if (!warped)
-        return invalid(path, fmt::format("cannot be reprojected to UTM ({}); reproject it with "
-                                         "gdalwarp first",
-                                         gdal.takeError()));
-    return warped;
-}
+    static Georeference referenceOf(GDALDatasetH dataset) {
+        std::array<double, 6> t{};
+        GDALGetGeoTransform(dataset, t.data());
+        return {{t[0], t[3]}, {t[1], t[4]}, {t[2], t[5]}};
+    }
 
-/// Turns rows over where that makes lattice and ground both right-handed, and fills in `grid`.
-void orient(const Georeference& g, int columns, int rows, std::vector<float> heights,
-            HeightGrid& grid) {
-    grid.columns = columns;
-    grid.rows = rows;
-    grid.heights = std::move(heights);
-    grid.perColumn = g.perColumn;
-    grid.perRow = g.perRow;
-    grid.origin = g.origin + (g.perColumn + g.perRow) * 0.5;  // centre of the first pixel
-    if (g.perColumn.x * g.perRow.y - g.perColumn.y * g.perRow.x > 0)
-        return;
-    grid.origin += g.perRow * static_cast<double>(rows - 1);
-    grid.perRow = Vec2(0.0) - g.perRow;  // no negative zeros
-    for (int j = 0; j < rows / 2; ++j)
-        std::swap_ranges(grid.row(j), grid.row(j) + columns, grid.row(rows - 1 - j));
-}
+    static PixelGrid gridOf(const Georeference& g) {
+        return {g.origin.x, g.origin.y, g.perColumn.x, -g.perRow.y};
+    }
 
-/// A DEM in degrees: reprojects what was read.
-absl::Status reprojectInto(const std::string& path, std::vector<float> heights, int columns,
-                           int rows, const Georeference& degrees, OGRSpatialReferenceH crs,
-                           QuietGdal& gdal, const ImportControl& control, Dem& dem) {
-    constexpr double kMaxDegrees = 30;
-    const Vec2 across = degrees.perColumn * static_cast<double>(columns);
-    const Vec2 down = degrees.perRow * static_cast<double>(rows);
-    const Vec2 span = glm::abs(across) + glm::abs(down);
-    const Vec2 centre = degrees.origin + (across + down) * 0.5;
-    if (std::max(span.x, span.y) > kMaxDegrees || std::abs(centre.y) > 90)
-        return invalid(path,
-                       fmt::format("spans {:.1f} x {:.1f} degrees around latitude {:.1f}, too "
-                                   "much for one UTM zone (at most {}); reproject it with "
-                                   "gdalwarp -t_srs first",
-                                   span.x, span.y, centre.y, kMaxDegrees));
-    ASSIGN_OR_RETURN(const SpatialReference local, localProjection(path, crs, centre.x, centre.y));
-    ASSIGN_OR_RETURN(const Dataset source, asDataset(path, heights, columns, rows, degrees, crs));
-    ASSIGN_OR_RETURN(const Dataset warped,
-                     reprojected(path, source.get(), wktOf(local.get()), gdal));
-    const int newColumns = GDALGetRasterXSize(warped.get());
-    const int newRows = GDALGetRasterYSize(warped.get());
-    RETURN_IF_ERROR(checkSize(path, newColumns, newRows));
-    std::vector<float> result;
-    RETURN_IF_ERROR(
-        readRows(path, GDALGetRasterBand(warped.get(), 1), result, gdal, control,
-                 [](int, float* first, std::size_t count) { clean(first, count, {}); }));
-    std::vector<std::string> none;
-    ASSIGN_OR_RETURN(const Georeference metres, georeferenceOf(path, warped.get(), none));
-    dem.crsWkt = wktOf(local.get());
-    dem.notes.push_back(fmt::format("degrees reprojected to {}: {} x {} posts, {:.4g} m apart",
-                                    OSRGetName(local.get()), newColumns, newRows,
-                                    metres.perColumn.x));
-    orient(metres, newColumns, newRows, std::move(result), dem.grid);
-    return absl::OkStatus();
-}
+    /// Pixels of the grid whose centres lie in a north-up raster.
+    absl::StatusOr<std::optional<PixelBox>> boxOf(const DemFile& file, const Georeference& g,
+                                                  int columns, int rows) const {
+        const double x0 = (g.origin.x - grid_.x) / grid_.width;
+        const double y0 = (grid_.y - g.origin.y) / grid_.height;
+        const double x1 = x0 + g.perColumn.x * columns / grid_.width;
+        const double y1 = y0 - g.perRow.y * rows / grid_.height;
+        constexpr double kFarthest = 1 << 30;
+        if (!(std::abs(x0) < kFarthest && std::abs(y0) < kFarthest && std::abs(x1) < kFarthest &&
+              std::abs(y1) < kFarthest))
+            return invalid(file.path, "lies too far from the other rasters for one grid");
+        constexpr double kSlack = 1e-6;
+        const auto first = [](double v) {
+            return static_cast<std::int64_t>(std::ceil(v - 0.5 - kSlack));
+        };
+        const auto end = [](double v) {
+            return static_cast<std::int64_t>(std::floor(v - 0.5 + kSlack)) + 1;
+        };
+        if (end(x1) <= first(x0) || end(y1) <= first(y0))
+            return std::nullopt;
+        return PixelBox{first(x0), first(y0), static_cast<int>(end(x1) - first(x0)),
+                        static_cast<int>(end(y1) - first(y0))};
+    }
 
-bool hasData(const std::vector<float>& heights) {
-    return std::any_of(heights.begin(), heights.end(), [](float h) { return h == h; });
+    /// Whether a raster's pixels are pixels of the grid.
+    bool isOnGrid(const DemFile& file) const {
+        if (!isNorthUp(file))
+            return false;
+        constexpr double kPixels = 1e-3;
+        const Georeference& g = file.reference;
+        const double x = (g.origin.x - grid_.x) / grid_.width;
+        const double y = (grid_.y - g.origin.y) / grid_.height;
+        return std::abs(g.perColumn.x / grid_.width - 1) * file.columns < kPixels &&
+               std::abs(-g.perRow.y / grid_.height - 1) * file.rows < kPixels &&
+               std::abs(x - std::round(x)) < kPixels && std::abs(y - std::round(y)) < kPixels;
+    }
+
+    absl::StatusOr<std::optional<Layer>> layerOf(DemFile file) {
+        Layer layer;
+        layer.file = std::move(file);
+        const DemFile& source = layer.file;
+        notes_.insert(notes_.end(), source.notes.begin(), source.notes.end());
+        std::optional<PixelBox> box;
+        if (isNorthUp(source)) {
+            ASSIGN_OR_RETURN(box, boxOf(source, source.reference, source.columns, source.rows));
+        } else {
+            ASSIGN_OR_RETURN(const Dataset suggested, reprojected(source, wkt_, gdal_));
+            ASSIGN_OR_RETURN(box, boxOf(source, referenceOf(suggested.get()),
+                                        GDALGetRasterXSize(suggested.get()),
+                                        GDALGetRasterYSize(suggested.get())));
+        }
+        if (!box) {
+            notes_.push_back(
+                fmt::format("{} has no pixel as large as the finest raster's; it is "
+                            "left out",
+                            source.path));
+            return std::nullopt;
+        }
+        layer.box = *box;
+        if (!isOnGrid(source)) {
+            ASSIGN_OR_RETURN(layer.warped, reprojected(source, wkt_, grid_, layer.box, gdal_));
+            notes_.push_back(fmt::format("{} resampled", source.path));
+        }
+        return layer;
+    }
+
+    absl::StatusOr<DemSource> assembled(std::vector<Layer> layers) {
+        PixelBox all = layers.front().box;
+        std::int64_t endColumn = all.column + all.columns;
+        std::int64_t endRow = all.row + all.rows;
+        for (const Layer& layer : layers) {
+            all.column = std::min(all.column, layer.box.column);
+            all.row = std::min(all.row, layer.box.row);
+            endColumn = std::max(endColumn, layer.box.column + layer.box.columns);
+            endRow = std::max(endRow, layer.box.row + layer.box.rows);
+        }
+        RETURN_IF_ERROR(checkSize(name_, endColumn - all.column, endRow - all.row));
+        for (Layer& layer : layers) {
+            layer.box.column -= all.column;
+            layer.box.row -= all.row;
+        }
+        const double metres = crs_ ? OSRGetLinearUnits(crs_.get(), nullptr) : 1;
+        const Georeference reference{Vec2(grid_.x + grid_.width * static_cast<double>(all.column),
+                                          grid_.y - grid_.height * static_cast<double>(all.row)) *
+                                         metres,
+                                     Vec2(grid_.width, 0) * metres,
+                                     Vec2(0, -grid_.height) * metres};
+        const auto columns = static_cast<int>(endColumn - all.column);
+        const auto rows = static_cast<int>(endRow - all.row);
+        notes_.push_back(fmt::format("brought to {}: {} x {} posts, {:.4g} m apart",
+                                     crs_ ? OSRGetName(crs_.get()) : "one grid", columns, rows,
+                                     reference.perColumn.x));
+        return DemSource{
+            std::make_unique<LayeredSource>(std::move(layers), reference, columns, rows), wkt_, 0,
+            std::move(notes_)};
+    }
+
+    std::vector<DemFile> files_;
+    std::string name_;  ///< for messages about all of them
+    QuietGdal& gdal_;
+    std::vector<std::size_t> order_;  ///< best first
+    SpatialReference crs_;
+    std::string wkt_;
+    PixelGrid grid_;
+    std::vector<std::string> notes_;
+};
+
+/// One raster on the grid it has.
+absl::StatusOr<DemSource> openAsItIs(DemFile file) {
+    RETURN_IF_ERROR(checkSize(file.path, file.columns, file.rows));
+    DemSource source;
+    source.notes = file.notes;
+    Georeference reference = file.reference;
+    if (file.crs) {
+        source.crsWkt = wktOf(file.crs.get());
+        const double metres = OSRGetLinearUnits(file.crs.get(), nullptr);
+        if (metres != 1 && metres > 0 && std::isfinite(metres)) {
+            reference = {reference.origin * metres, reference.perColumn * metres,
+                         reference.perRow * metres};
+            source.notes.push_back(fmt::format("CRS unit of {} m turned to metres", metres));
+        }
+    }
+    const int columns = file.columns;
+    const int rows = file.rows;
+    std::vector<Layer> layers(1);
+    layers.front().box = {0, 0, columns, rows};
+    layers.front().file = std::move(file);
+    source.posts = std::make_unique<LayeredSource>(std::move(layers), reference, columns, rows);
+    return source;
 }
 
 }  // namespace
 
-absl::StatusOr<Dem> readDem(const std::string& path, const ImportControl& control) {
+absl::StatusOr<DemSource> openDems(const std::vector<std::string>& paths,
+                                   const ImportControl& control) {
     QuietGdal gdal;
-    Dem dem;
-    control.report("reading", 0);
-    ASSIGN_OR_RETURN(dem.sourceHash, hashFile(path));
-    ASSIGN_OR_RETURN(const Dataset dataset, openRaster(path, gdal));
-    const GDALRasterBandH band = GDALGetRasterBand(dataset.get(), 1);
-    const int columns = GDALGetRasterXSize(dataset.get());
-    const int rows = GDALGetRasterYSize(dataset.get());
-    RETURN_IF_ERROR(checkSize(path, columns, rows));
-    RETURN_IF_ERROR(checkBand(path, band));
-    if (GDALGetRasterCount(dataset.get()) > 1)
-        dem.notes.push_back(
-            fmt::format("band 1 of {} taken for heights", GDALGetRasterCount(dataset.get())));
-    ASSIGN_OR_RETURN(const ValueRule rule, valueRule(path, band, dem.notes));
-    ASSIGN_OR_RETURN(Georeference reference, georeferenceOf(path, dataset.get(), dem.notes));
-
-    std::vector<float> heights;
-    RETURN_IF_ERROR(
-        readRows(path, band, heights, gdal, control,
-                 [&](int, float* first, std::size_t count) { clean(first, count, rule); }));
-    RETURN_IF_ERROR(applyMask(path, band, heights, gdal));
-    if (!hasData(heights))
-        return invalid(path, "all posts are nodata; check the band's nodata value");
-
-    const OGRSpatialReferenceH crs = GDALGetSpatialRef(dataset.get());
-    if (crs != nullptr && OSRIsGeographic(crs) != 0) {
-        RETURN_IF_ERROR(reprojectInto(path, std::move(heights), columns, rows, reference, crs, gdal,
-                                      control, dem));
-        if (!hasData(dem.grid.heights))
-            return invalid(path,
-                           "reprojection to UTM left no post with data; reproject it with "
-                           "gdalwarp first");
-        return dem;
+    constexpr GIntBig kCacheBytes = 48 << 20;
+    GDALSetCacheMax64(kCacheBytes);
+    std::vector<DemFile> files;
+    std::uint64_t hash = 0;
+    for (const std::string& path : paths) {
+        RETURN_IF_ERROR(control.check());
+        control.report("checking",
+                       static_cast<double>(files.size()) / static_cast<double>(paths.size()));
+        ASSIGN_OR_RETURN(DemFile file, openDemFile(path, gdal));
+        hash = files.empty() ? file.hash : hash * 0x9e3779b97f4a7c15 + file.hash;
+        files.push_back(std::move(file));
     }
-    if (crs != nullptr) {
-        dem.crsWkt = wktOf(crs);
-        const double metres = OSRGetLinearUnits(crs, nullptr);
-        if (metres != 1 && metres > 0 && std::isfinite(metres)) {
-            reference = {reference.origin * metres, reference.perColumn * metres,
-                         reference.perRow * metres};
-            dem.notes.push_back(fmt::format("CRS unit of {} m turned to metres", metres));
-        }
-    }
-    orient(reference, columns, rows, std::move(heights), dem.grid);
-    return dem;
-}
-
-absl::Status writeGeoTiff(const HeightGrid& grid, const std::string& path) {
-    const auto folder = std::filesystem::absolute(path).parent_path();
-    if (std::error_code ignored; !std::filesystem::is_directory(folder, ignored))
-        return absl::NotFoundError(fmt::format(
-            "{}: cannot create it: {} is no folder; create it first", path, folder.string()));
-    QuietGdal gdal;
-    const std::string partial = fmt::format("{}.partial-{}", path, getpid());
-    const auto failed = [&](const char* what) {
-        std::remove(partial.c_str());
-        return absl::UnavailableError(fmt::format("{}: {} ({})", path, what, gdal.takeError()));
-    };
-    {
-        const Dataset file(GDALCreate(GDALGetDriverByName("GTiff"), partial.c_str(), grid.columns,
-                                      grid.rows, 1, GDT_Float32, nullptr));
-        if (!file)
-            return failed("cannot be written");
-        const Vec2 corner = grid.origin - (grid.perColumn - grid.perRow) * 0.5 +
-                            grid.perRow * static_cast<double>(grid.rows - 1);
-        std::array<double, 6> transform = geoTransform({corner, grid.perColumn, -grid.perRow});
-        const SpatialReference crs(OSRNewSpatialReference(nullptr));
-        constexpr int kUtm33North = 32633;
-        OSRImportFromEPSG(crs.get(), kUtm33North);
-        const GDALRasterBandH band = GDALGetRasterBand(file.get(), 1);
-        GDALSetGeoTransform(file.get(), transform.data());
-        GDALSetSpatialRef(file.get(), crs.get());
-        GDALSetRasterNoDataValue(band, std::numeric_limits<double>::quiet_NaN());
-        // Rows from the last to the first: a negative line spacing turns the grid over.
-        const auto stride = static_cast<GSpacing>(sizeof(float)) * grid.columns;
-        if (GDALRasterIOEx(band, GF_Write, 0, 0, grid.columns, grid.rows,
-                           const_cast<float*>(grid.row(grid.rows - 1)), grid.columns, grid.rows,
-                           GDT_Float32, sizeof(float), -stride, nullptr) != CE_None)
-            return failed("cannot be written");
-    }
-    if (const std::string error = gdal.takeError(); !error.empty()) {
-        std::remove(partial.c_str());
-        return absl::UnavailableError(fmt::format("{}: cannot be written ({})", path, error));
-    }
-    if (std::rename(partial.c_str(), path.c_str()) != 0)
-        return failed("cannot be renamed from its partial file");
-    return absl::OkStatus();
+    control.report("checking", 1);
+    if (files.empty())
+        return absl::InvalidArgumentError("no elevation model was named");
+    const bool isOne = files.size() == 1 && !files.front().isGeographic();
+    if (files.size() == 1)
+        RETURN_IF_ERROR(checkSize(files.front().path, files.front().columns, files.front().rows));
+    ASSIGN_OR_RETURN(DemSource source, isOne ? openAsItIs(std::move(files.front()))
+                                             : Mosaic(std::move(files), gdal).open());
+    source.hash = hash;
+    return source;
 }
 
 }  // namespace eyrie::import

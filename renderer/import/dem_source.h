@@ -2,45 +2,46 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include <absl/status/status.h>
 #include <absl/status/statusor.h>
 
+#include "renderer/import/height_source.h"
 #include "renderer/import/progress.h"
-#include "renderer/terrain/height_grid.h"
 
-/// All that Eyrie does with GDAL: elevation models in, synthetic ones out.
 namespace eyrie::import {
 
-/// An elevation model in metres, ready to triangulate.
-struct Dem {
-    terrain::HeightGrid grid;
-    std::string crsWkt;              ///< of the grid's x and y; empty: the source has none
-    std::uint64_t sourceHash = 0;    ///< XXH64 of the bytes of the file that was named
+/// Elevation models on disk, opened as one.
+struct DemSource {
+    std::unique_ptr<HeightSource> posts;
+    std::string crsWkt;              ///< of the posts' x and y; empty: the source has none
+    std::uint64_t hash = 0;          ///< of all bytes of all files, in their order
     std::vector<std::string> notes;  ///< what was assumed or changed, for people
 };
 
-/// Limit on columns * rows * 4 bytes of an elevation model, before and after reprojection: the
-/// whole grid is held in memory, and an import takes about twice as much again.
-inline constexpr std::uint64_t kMaxDemBytes = std::uint64_t{8} << 30;
-
-/// Reads the first band of any raster GDAL opens; `.gz` and `.zip` are looked into.
+/// Opens the first band of any rasters GDAL reads; `.gz` and `.zip` are looked into. Pixels are
+/// read when posts are asked for, so what is held in memory does not grow with the files.
 ///
-/// Posts are pixel centres. A geographic CRS is reprojected to the UTM zone of its centre (beyond
-/// 84 degrees to polar stereographic), bilinearly, at the spacing GDAL suggests. Other CRS keep
-/// their grid, rotation included, with units turned to metres. Scale, offset and foot units of the
-/// band are applied. Nodata: the band's tag, its mask, NaN, infinities, magnitudes from 1e30, and
-/// -32768 in 16-bit rasters.
+/// Posts are pixel centres. One raster in a projected CRS, or none, keeps its grid, rotation
+/// included, with units turned to metres. A geographic one is reprojected to the UTM zone of its
+/// centre (beyond 84 degrees to polar stereographic), bilinearly, at the spacing GDAL suggests.
 ///
-/// Errors, naming file and field: NotFound, InvalidArgument (no raster, not heights, all nodata,
-/// less than 2 x 2 posts, no usable georeference), ResourceExhausted (over kMaxDemBytes),
-/// DataLoss (unreadable pixels), Cancelled. Nothing is printed, no file is written.
-absl::StatusOr<Dem> readDem(const std::string& path, const ImportControl& control);
-
-/// Writes an unrotated grid as GeoTIFF, float32, in UTM zone 33 north, north row first.
-/// Nothing is left behind on errors: NotFound, PermissionDenied, Unavailable.
-absl::Status writeGeoTiff(const terrain::HeightGrid& grid, const std::string& path);
+/// Several are laid over each other: the CRS is that of the finest projected one, or the UTM zone
+/// of all their middle where all are geographic; the grid is that of the finest. Those on that grid
+/// already keep their posts as they are; the others are resampled bilinearly. Where some overlap
+/// the finest with data wins, among equally fine ones the one named last. What none covers is
+/// nodata.
+///
+/// Each raster's own scale, offset and foot units are applied. Nodata: the band's tag, its mask,
+/// NaN, infinities, magnitudes from 1e30, and -32768 in 16-bit rasters.
+///
+/// Reports as "checking" while it reads the files for their hash. Errors, naming file and field:
+/// NotFound, InvalidArgument (no raster, not heights, less than 2 x 2 posts, no usable
+/// georeference, not to be brought together), ResourceExhausted (more posts than an .eyt holds).
+/// Posts that cannot be read are DataLoss. Nothing is printed, no file is written.
+absl::StatusOr<DemSource> openDems(const std::vector<std::string>& paths,
+                                   const ImportControl& control);
 
 }  // namespace eyrie::import

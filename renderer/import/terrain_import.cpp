@@ -2,270 +2,254 @@
 #include "renderer/import/terrain_import.h"
 
 #include <algorithm>
-#include <array>
-#include <atomic>
+#include <cerrno>
 #include <cmath>
-#include <limits>
-#include <memory>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_pipeline.h>
-#include <tbb/task_arena.h>
+#include <tbb/global_control.h>
+#include <xxhash.h>
 
 #include "fabric/status.h"
 #include "renderer/import/dem_source.h"
-#include "renderer/terrain/deviation.h"
+#include "renderer/import/elevation_reading.h"
+#include "renderer/import/page_line.h"
+#include "renderer/import/terrain_stages.h"
 #include "renderer/terrain/eyt_format.h"
-#include "renderer/terrain/eyt_writer.h"
-#include "renderer/terrain/normal_map.h"
-#include "renderer/terrain/tile_mesh.h"
-#include "renderer/terrain/vertex_levels.h"
 
 namespace eyrie::import {
 namespace {
 
-using terrain::HeightGrid;
-using terrain::TileId;
-
 std::vector<double> levelThresholds(int levels, double postMetres,
-                                    const terrain::HeightLattice& lattice) {
+                                    const terrain::HeightLattice& lattice,
+                                    const std::optional<double>& errorMetres) {
     std::vector<double> thresholds;
     for (int level = 0; level < levels; ++level)
         thresholds.push_back(kErrorPerSpacing * postMetres *
                              std::exp2(level - terrain::kFullResolutionLevels + 1));
     thresholds[0] = lattice.isLossless ? 0 : lattice.stepMetres / 4;
+    if (errorMetres)  // half a step is for the heights' own rounding
+        thresholds[0] = std::max(thresholds[0],
+                                 *errorMetres - (lattice.isLossless ? 0 : lattice.stepMetres / 2));
+    for (double& threshold : thresholds) threshold = std::max(threshold, thresholds[0]);
     return thresholds;
 }
 
-fabric::Mat4 objectFromLattice(const HeightGrid& grid, const terrain::HeightLattice& lattice) {
+fabric::Mat4 objectFromLattice(const terrain::GridFrame& frame,
+                               const terrain::HeightLattice& lattice) {
     fabric::Mat4 m(1.0);
-    m[0] = {grid.perColumn.x, grid.perColumn.y, 0, 0};
-    m[1] = {grid.perRow.x, grid.perRow.y, 0, 0};
+    m[0] = {frame.perColumn.x, frame.perColumn.y, 0, 0};
+    m[1] = {frame.perRow.x, frame.perRow.y, 0, 0};
     m[2] = {0, 0, lattice.stepMetres, 0};
-    m[3] = {grid.origin.x, grid.origin.y, 0, 1};
+    m[3] = {frame.origin.x, frame.origin.y, 0, 1};
     return m;
 }
 
-float roundedUp(double value) {
-    const auto nearest = static_cast<float>(value);
-    return static_cast<double>(nearest) >= value
-               ? nearest
-               : std::nextafter(nearest, std::numeric_limits<float>::infinity());
+terrain::EytIndex indexOf(const terrain::ElevationModel& model,
+                          const terrain::HeightLattice& lattice, const TerrainSource& source) {
+    terrain::EytIndex index;
+    index.quadtree = terrain::Quadtree(static_cast<std::uint32_t>(model.frame.columns),
+                                       static_cast<std::uint32_t>(model.frame.rows));
+    index.objectFromLattice = objectFromLattice(model.frame, lattice);
+    index.crsWkt = source.crsWkt;
+    index.sourceHash = source.hash;
+    index.nodataPosts = model.statistics.nodataPosts;
+    index.tiles.resize(index.quadtree.tileCount());
+    index.pages.resize(index.quadtree.pageCount());
+    return index;
 }
 
-/// A tile's record before its children are known; no heights while min > max.
-terrain::TileRecord recordOf(const terrain::TileMesh& mesh, double rounding) {
-    terrain::TileRecord record;
-    record.errorMetres = mesh.errorMetres > 0 ? roundedUp(mesh.errorMetres + rounding) : 0;
-    record.minHeightMetres = -roundedUp(-mesh.minHeightMetres);
-    record.maxHeightMetres = roundedUp(mesh.maxHeightMetres);
-    record.triangles = mesh.ownTriangles();
-    return record;
-}
-
-/// Widens a level-0 record to the posts that its triangles leave out.
-void coverPosts(const HeightGrid& grid, const TileId& tile, terrain::TileRecord& record) {
-    if (record.triangles == 0)
-        return;
-    const std::int32_t side = terrain::Quadtree::side(0);
-    const std::int32_t i0 = tile.x * side;
-    const std::int32_t i1 = std::min(i0 + side, grid.columns - 1);
-    const std::int32_t j1 = std::min(tile.y * side + side, grid.rows - 1);
-    for (std::int32_t j = tile.y * side; j <= j1; ++j)
-        for (std::int32_t i = i0; i <= i1; ++i) {
-            const float h = grid.at(i, j);
-            record.minHeightMetres = h < record.minHeightMetres ? h : record.minHeightMetres;
-            record.maxHeightMetres = h > record.maxHeightMetres ? h : record.maxHeightMetres;
-        }
-}
-
-/// Makes each record cover its children's, from the finest level up.
-void saturate(terrain::EytIndex& index) {
-    const terrain::Quadtree& quadtree = index.quadtree;
-    for (int level = 1; level < quadtree.levels(); ++level)
-        for (std::int32_t y = 0; y < quadtree.tilesY(level); ++y)
-            for (std::int32_t x = 0; x < quadtree.tilesX(level); ++x) {
-                const TileId tile{level, x, y};
-                terrain::TileRecord& record = index.tiles[quadtree.tileIndex(tile)];
-                for (int i = 0; i < 4; ++i) {
-                    const TileId child = terrain::Quadtree::child(tile, i);
-                    if (!quadtree.contains(child))
-                        continue;
-                    const terrain::TileRecord& finer = index.tile(child);
-                    record.errorMetres = std::max(record.errorMetres, finer.errorMetres);
-                    record.minHeightMetres =
-                        std::min(record.minHeightMetres, finer.minHeightMetres);
-                    record.maxHeightMetres =
-                        std::max(record.maxHeightMetres, finer.maxHeightMetres);
-                }
-            }
-    for (terrain::TileRecord& record : index.tiles)
-        if (record.minHeightMetres > record.maxHeightMetres)
-            record = {};  // no triangle here in any level
-}
-
-/// Builds pages in parallel and writes them in order.
-class PageLine {
-public:
-    PageLine(const HeightGrid& grid, const terrain::SourceSurface& surface,
-             const terrain::VertexLevels& levels, const terrain::HeightLattice& lattice,
-             const terrain::NormalMaps& normals, double rounding, terrain::EytIndex& index,
-             terrain::EytWriter& writer, const ImportControl& control)
-        : grid_(grid),
-          normals_(normals),
-          rounding_(rounding),
-          index_(index),
-          writer_(writer),
-          control_(control),
-          meshers_([&] { return terrain::TileMesher(surface, levels, lattice, index.quadtree); }) {}
-
-    absl::Status run() {
-        std::uint32_t next = 0;
-        const auto tokens = static_cast<std::size_t>(2 * tbb::this_task_arena::max_concurrency());
-        tbb::parallel_pipeline(
-            tokens,
-            tbb::make_filter<void, std::uint32_t>(tbb::filter_mode::serial_in_order,
-                                                  [&](tbb::flow_control& flow) {
-                                                      if (!goesOn(next))
-                                                          flow.stop();
-                                                      return next++;
-                                                  }) &
-                tbb::make_filter<std::uint32_t, BuiltPage>(
-                    tbb::filter_mode::parallel, [&](std::uint32_t page) { return build(page); }) &
-                tbb::make_filter<BuiltPage, void>(tbb::filter_mode::serial_in_order,
-                                                  [&](const BuiltPage& page) { write(page); }));
-        return cancelled_.ok() ? status_ : cancelled_;
-    }
-
-private:
-    struct BuiltPage {
-        std::uint32_t number = 0;
-        std::shared_ptr<const std::vector<std::uint32_t>> bytes;
-    };
-
-    bool goesOn(std::uint32_t page) {
-        if (page >= index_.quadtree.pageCount() || hasFailed_)
-            return false;
-        cancelled_ = control_.check();
-        return cancelled_.ok();
-    }
-
-    BuiltPage build(std::uint32_t number) {
-        terrain::TileMesher& mesher = meshers_.local();
-        terrain::PageBuilder builder;
-        const TileId first = index_.quadtree.firstTileOfPage(number);
-        std::vector<std::int8_t> normals(terrain::normalMapBytes(first.level));
-        for (std::int32_t place = 0; place < terrain::kPageTiles * terrain::kPageTiles; ++place) {
-            const TileId tile{first.level, first.x + place % terrain::kPageTiles,
-                              first.y + place / terrain::kPageTiles};
-            if (!index_.quadtree.contains(tile))
-                continue;
-            const terrain::TileMesh mesh = mesher.mesh(tile);
-            terrain::TileRecord record = recordOf(mesh, rounding_);
-            if (tile.level == 0)
-                coverPosts(grid_, tile, record);
-            index_.tiles[index_.quadtree.tileIndex(tile)] = record;
-            if (mesh.indices.empty())
-                continue;
-            normals_.fill(tile, normals);
-            builder.add(place, tile.level, mesh, normals);
-        }
-        return {number,
-                std::make_shared<const std::vector<std::uint32_t>>(std::move(builder).finish())};
-    }
-
-    void write(const BuiltPage& page) {
-        if (hasFailed_)
-            return;
-        absl::StatusOr<terrain::PageRecord> record = writer_.addPage(*page.bytes);
-        if (!record.ok()) {
-            status_ = record.status();
-            hasFailed_ = true;
-            return;
-        }
-        index_.pages[page.number] = *record;
-        control_.report("building",
-                        static_cast<double>(page.number + 1) / index_.quadtree.pageCount());
-    }
-
-    const HeightGrid& grid_;
-    const terrain::NormalMaps& normals_;
-    double rounding_;
-    terrain::EytIndex& index_;
-    terrain::EytWriter& writer_;
-    const ImportControl& control_;
-    tbb::enumerable_thread_specific<terrain::TileMesher> meshers_;
-    absl::Status status_;  // by the last stage
-    std::atomic<bool> hasFailed_ = false;
-    absl::Status cancelled_;  // by the first stage
-};
-
-TerrainImportReport reportOf(const HeightGrid& grid, const terrain::EytIndex& index,
+TerrainImportReport reportOf(const terrain::EytIndex& index, double postMetres,
                              std::uint64_t sizeBytes) {
-    return {.columns = grid.columns,
-            .rows = grid.rows,
+    return {.columns = index.quadtree.columns(),
+            .rows = index.quadtree.rows(),
             .levels = index.quadtree.levels(),
             .triangles = index.triangles(),
             .nodataPosts = index.nodataPosts,
             .sizeBytes = sizeBytes,
-            .postMetres = grid.postMetres(),
+            .postMetres = postMetres,
             .heightStepMetres = index.heightStepMetres(),
             .finestErrorMetres = index.finestErrorMetres(),
             .coarsestErrorMetres = index.coarsestErrorMetres(),
             .notes = {}};
 }
 
+/// Bytes that every import holds in memory, whatever lies on scratch.
+std::uint64_t residentBytes(const terrain::GridFrame& frame) {
+    // The program with GDAL and PROJ, GDAL's cache, strips and pages under way: measured.
+    constexpr std::uint64_t kProgram = std::uint64_t{144} << 20;
+    // Summaries, coarse vertex levels, tile records, and those again while they are written.
+    constexpr std::uint64_t kPostsPerByte = 10;
+    return kProgram + static_cast<std::uint64_t>(frame.columns) *
+                          static_cast<std::uint64_t>(frame.rows) / kPostsPerByte;
+}
+
+std::uint64_t scratchBytes(const terrain::GridFrame& frame, std::uint64_t memoryBytes) {
+    constexpr std::uint64_t kLeast = std::uint64_t{4} << 20;
+    const std::uint64_t resident = residentBytes(frame);
+    return std::max(kLeast, memoryBytes > resident ? memoryBytes - resident : 0);
+}
+
+std::string scratchPath(const std::string& out, const std::string& folder) {
+    namespace fs = std::filesystem;
+    if (folder.empty())
+        return out + ".scratch";
+    const std::string whole = fs::absolute(out).lexically_normal().string();
+    return (fs::path(folder) / fmt::format("{}-{:016x}.scratch", fs::path(out).filename().string(),
+                                           XXH64(whole.data(), whole.size(), 0)))
+        .string();
+}
+
+/// Removes what killed imports into `out` have left: EytWriter's unfinished files.
+void removeLeftovers(const std::string& out) {
+    namespace fs = std::filesystem;
+    const fs::path whole = fs::absolute(out);
+    const std::string mark = whole.filename().string() + ".partial-";
+    std::error_code error;
+    for (const fs::directory_entry& entry : fs::directory_iterator(whole.parent_path(), error)) {
+        const std::string name = entry.path().filename().string();
+        if (!name.starts_with(mark))
+            continue;
+        const pid_t maker = std::atoi(name.c_str() + mark.size());
+        if (maker > 0 && kill(maker, 0) != 0 && errno == ESRCH)
+            fs::remove(entry.path(), error);
+    }
+}
+
+/// One import: what it holds, and its stages.
+class TerrainJob {
+public:
+    TerrainJob(HeightSource& posts, const TerrainSource& source, const std::string& out,
+               const TerrainImportOptions& options, const ImportControl& control)
+        : posts_(posts),
+          source_(source),
+          out_(out),
+          options_(options),
+          control_(control),
+          scratch_(scratchPath(out, options.scratchFolder),
+                   scratchBytes(posts.frame(), options.memoryBytes)),
+          model_(emptyModel(posts.frame(), scratch_)),
+          levels_(terrain::Quadtree(static_cast<std::uint32_t>(model_.frame.columns),
+                                    static_cast<std::uint32_t>(model_.frame.rows))
+                      .levels()),
+          heights_(model_, scratch_, std::max(1, terrain::Quadtree::spacingShift(levels_ - 1))),
+          normals_(model_, scratch_, levels_),
+          vertexLevels_(model_, scratch_) {}
+
+    absl::StatusOr<TerrainImportReport> run() {
+        removeLeftovers(out_);
+        ASSIGN_OR_RETURN(terrain::EytWriter writer, terrain::EytWriter::create(out_));
+        ASSIGN_OR_RETURN(TerrainStages stages,
+                         TerrainStages::open(scratch_, key(), options_.startsOver));
+        absl::StatusOr<TerrainImportReport> report = runStages(stages, writer);
+        const bool mayGoOn = !report.ok() && !absl::IsInvalidArgument(report.status());
+        if (!mayGoOn) {
+            stages.remove();
+        } else if (const std::string kept = stages.keptIn(); !kept.empty()) {
+            const auto message = report.status().message();
+            return absl::Status(
+                report.status().code(),
+                fmt::format("{}; what is done is kept in {}: the same command goes on from there",
+                            std::string_view(message.data(), message.size()), kept));
+        }
+        return report;
+    }
+
+private:
+    std::uint64_t key() const {
+        const std::string text = fmt::format(
+            "{} {:x} {} {} {} {} {} {} {} {} {}", kImportVersion, source_.hash,
+            model_.frame.columns, model_.frame.rows, model_.frame.origin.x, model_.frame.origin.y,
+            model_.frame.perColumn.x, model_.frame.perColumn.y, model_.frame.perRow.x,
+            model_.frame.perRow.y, options_.errorMetres.value_or(-1));
+        return XXH64(text.data(), text.size(), 0);
+    }
+
+    absl::Status joinLevels() {
+        RETURN_IF_ERROR(vertexLevels_.join(control_));
+        return vertexLevels_.finish(control_);
+    }
+
+    absl::StatusOr<TerrainImportReport> runStages(TerrainStages& stages,
+                                                  terrain::EytWriter& writer) {
+        RETURN_IF_ERROR(stages.run(
+            [&] { return readElevation(posts_, scratch_, control_, model_); },
+            {[&] { return model_.state(); }, [&](const auto& s) { return model_.restore(s); }}));
+        if (model_.statistics.min > model_.statistics.max)
+            return absl::InvalidArgumentError(
+                fmt::format("{}: all posts are nodata; check the nodata value", source_.name));
+        const double postMetres = model_.frame.postMetres();
+        const terrain::HeightLattice lattice = chooseHeightLattice(model_.statistics, postMetres);
+        vertexLevels_.setThresholds(
+            levelThresholds(levels_, postMetres, lattice, options_.errorMetres));
+        RETURN_IF_ERROR(stages.run([&] { return vertexLevels_.measure(control_); }));
+        RETURN_IF_ERROR(stages.run([&] { return joinLevels(); },
+                                   {[&] { return vertexLevels_.state(); },
+                                    [&](const auto& s) { return vertexLevels_.restore(s); }}));
+        RETURN_IF_ERROR(stages.run([&] { return heights_.make(control_); }));
+        RETURN_IF_ERROR(stages.run([&] { return normals_.make(control_); }));
+        terrain::EytIndex index = indexOf(model_, lattice, source_);
+        RETURN_IF_ERROR(buildPages({model_, heights_, vertexLevels_, normals_, lattice}, scratch_,
+                                   control_, index, writer));
+        if (index.triangles() == 0)
+            return absl::InvalidArgumentError(fmt::format(
+                "{}: no three neighbouring posts have data; check the nodata value", source_.name));
+        ASSIGN_OR_RETURN(const std::uint64_t sizeBytes, writer.commit(index));
+        return reportOf(index, postMetres, sizeBytes);
+    }
+
+    static constexpr int kImportVersion = 1;  ///< raise it when scratch or journal change
+
+    HeightSource& posts_;
+    const TerrainSource& source_;
+    const std::string& out_;
+    const TerrainImportOptions& options_;
+    const ImportControl& control_;
+    terrain::Scratch scratch_;
+    terrain::ElevationModel model_;
+    int levels_;
+    terrain::HeightLayers heights_;
+    terrain::NormalMaps normals_;
+    terrain::VertexLevels vertexLevels_;
+};
+
 }  // namespace
 
-absl::StatusOr<TerrainImportReport> importTerrain(const HeightGrid& grid,
+absl::StatusOr<TerrainImportReport> importTerrain(HeightSource& posts, const TerrainSource& source,
+                                                  const std::string& out,
+                                                  const TerrainImportOptions& options,
+                                                  const ImportControl& control) {
+    const tbb::global_control threads(
+        tbb::global_control::max_allowed_parallelism,
+        options.threads > 0
+            ? static_cast<std::size_t>(options.threads)
+            : tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+    return TerrainJob(posts, source, out, options, control).run();
+}
+
+absl::StatusOr<TerrainImportReport> importTerrain(const terrain::HeightGrid& grid,
                                                   const TerrainSource& source,
                                                   const std::string& out,
                                                   const ImportControl& control) {
-    const terrain::HeightStatistics statistics = heightStatistics(grid);
-    if (statistics.min > statistics.max)
-        return absl::InvalidArgumentError(fmt::format("{}: all posts are nodata", source.name));
-    ASSIGN_OR_RETURN(terrain::EytWriter writer, terrain::EytWriter::create(out));
-
-    terrain::EytIndex index;
-    index.quadtree = terrain::Quadtree(static_cast<std::uint32_t>(grid.columns),
-                                       static_cast<std::uint32_t>(grid.rows));
-    const terrain::HeightLattice lattice = chooseHeightLattice(statistics, grid.postMetres());
-    index.objectFromLattice = objectFromLattice(grid, lattice);
-    index.crsWkt = source.crsWkt;
-    index.sourceHash = source.hash;
-    index.nodataPosts = statistics.nodataPosts;
-    index.tiles.resize(index.quadtree.tileCount());
-    index.pages.resize(index.quadtree.pageCount());
-
-    const terrain::SourceSurface surface(grid, statistics.nodataPosts > 0);
-    ASSIGN_OR_RETURN(
-        const terrain::VertexLevels levels,
-        terrain::VertexLevels::compute(
-            surface, levelThresholds(index.quadtree.levels(), grid.postMetres(), lattice),
-            control));
-    control.report("smoothing", 0);
-    const terrain::NormalMaps normals(grid, index.quadtree.levels());
-    const double highest = std::max(std::abs(static_cast<double>(statistics.min)),
-                                    std::abs(static_cast<double>(statistics.max)));
-    PageLine line(grid, surface, levels, lattice, normals, highest * terrain::kDeviationRounding,
-                  index, writer, control);
-    RETURN_IF_ERROR(line.run());
-    saturate(index);
-    if (index.triangles() == 0)
-        return absl::InvalidArgumentError(fmt::format(
-            "{}: no three neighbouring posts have data; check the nodata value", source.name));
-    ASSIGN_OR_RETURN(const std::uint64_t sizeBytes, writer.commit(index));
-    return reportOf(grid, index, sizeBytes);
+    GridHeightSource posts(grid);
+    return importTerrain(posts, source, out, {}, control);
 }
 
-absl::StatusOr<TerrainImportReport> importTerrain(const std::string& dem, const std::string& out,
+absl::StatusOr<TerrainImportReport> importTerrain(const std::vector<std::string>& dems,
+                                                  const std::string& out,
+                                                  const TerrainImportOptions& options,
                                                   const ImportControl& control) {
-    ASSIGN_OR_RETURN(Dem source, readDem(dem, control));
+    ASSIGN_OR_RETURN(DemSource source, openDems(dems, control));
+    const std::string name = dems.size() == 1
+                                 ? dems.front()
+                                 : fmt::format("{} and {} more", dems.front(), dems.size() - 1);
     ASSIGN_OR_RETURN(
         TerrainImportReport report,
-        importTerrain(source.grid, {dem, source.crsWkt, source.sourceHash}, out, control));
+        importTerrain(*source.posts, {name, source.crsWkt, source.hash}, out, options, control));
     report.notes = std::move(source.notes);
     return report;
 }

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <absl/status/statusor.h>
 
+#include "renderer/import/height_source.h"
 #include "renderer/import/progress.h"
 #include "renderer/terrain/height_grid.h"
 
@@ -33,20 +35,50 @@ struct TerrainImportReport {
     std::vector<std::string> notes;  ///< what was assumed or changed, for people
 };
 
-/// Makes an .eyt of the elevation model `dem`. `out` appears complete or not at all.
-/// Stages reported: reading, measuring, smoothing, building.
-/// Errors: those of readDem; NotFound, PermissionDenied, ResourceExhausted for `out`; Cancelled.
-absl::StatusOr<TerrainImportReport> importTerrain(const std::string& dem, const std::string& out,
-                                                  const ImportControl& control);
+/// How an import goes about it. None but errorMetres changes what is made.
+struct TerrainImportOptions {
+    /// Of the whole process, about; at least kLeastImportMemory. What does not fit goes to a
+    /// scratch file.
+    std::uint64_t memoryBytes = std::uint64_t{512} << 20;
+    /// Folder for the scratch file; empty: that of the output.
+    std::string scratchFolder = {};
+    /// What level 0 may leave out; none: nothing that its lattice of heights can tell.
+    std::optional<double> errorMetres = {};
+    bool startsOver = false;  ///< ignores what an interrupted import left
+    int threads = 0;          ///< 0: all
+};
 
-/// What an .eyt says of where its grid came from.
+inline constexpr std::uint64_t kLeastImportMemory = std::uint64_t{192} << 20;
+
+/// What an .eyt says of where its posts came from.
 struct TerrainSource {
     std::string name;  ///< for messages
     std::string crsWkt;
     std::uint64_t hash = 0;
 };
 
-/// The same from a grid in memory. InvalidArgument also when no cell has data on three corners.
+/// Makes an .eyt of elevation models, mosaicked as openMosaic says. `out` appears complete or not
+/// at all.
+///
+/// What does not fit in memory lies in `OUT.scratch` until the import is done. An import that was
+/// called off, killed or ran out of disk leaves it, and the same call goes on after the last
+/// stage that was finished; the result is the same to the byte. Imports that fit leave nothing.
+///
+/// Stages reported: checking, reading, measuring, joining, thinning, smoothing, building.
+/// Errors: those of openMosaic; NotFound, PermissionDenied, ResourceExhausted for `out` and the
+/// scratch; InvalidArgument when no cell has data on three corners; Cancelled.
+absl::StatusOr<TerrainImportReport> importTerrain(const std::vector<std::string>& dems,
+                                                  const std::string& out,
+                                                  const TerrainImportOptions& options,
+                                                  const ImportControl& control);
+
+/// The same of any source of posts; `source.hash` stands for all that it would give.
+absl::StatusOr<TerrainImportReport> importTerrain(HeightSource& posts, const TerrainSource& source,
+                                                  const std::string& out,
+                                                  const TerrainImportOptions& options,
+                                                  const ImportControl& control);
+
+/// The same of a grid in memory.
 absl::StatusOr<TerrainImportReport> importTerrain(const terrain::HeightGrid& grid,
                                                   const TerrainSource& source,
                                                   const std::string& out,

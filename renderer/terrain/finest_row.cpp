@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/terrain/finest_row.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "fabric/simd_clones.h"
@@ -40,6 +41,27 @@ EYRIE_SIMD_CLONES void finestRow(const float* below, const float* here, const fl
                           (above[i - 1] + above[i] + above[i + 1]);
         out[i] = static_cast<std::uint8_t>(all == all ? exceeded : kFinestRowNodata);
     }
+}
+
+double finestCentre(const float* centre, std::ptrdiff_t stride, bool isMain, double tolerance) {
+    const auto at = [&](std::ptrdiff_t i, std::ptrdiff_t j) {
+        return static_cast<double>(centre[j * stride + i]);
+    };
+    const std::ptrdiff_t d = isMain ? 1 : -1;
+    const double from = at(-d, -1), to = at(d, 1);
+    const double west = at(-1, 0), east = at(1, 0), south = at(0, -1), north = at(0, 1);
+    const double before = isMain ? west : east, after = isMain ? east : west;
+    // Cells on either side of the centre along the hypotenuse: their other diagonals.
+    const double slope = (to - from) / 2;
+    const double atCentres = std::max(std::abs(from + slope * 0.5 - (south + before) / 2),
+                                      std::abs(from + slope * 1.5 - (after + north) / 2));
+    const double atMiddle = std::abs(at(0, 0) - (from + to) / 2);
+    const auto ofTriangle = [&](double apex, double besideFrom, double besideTo) {
+        const double atPosts = std::max({atMiddle, std::abs(besideFrom - (from + apex) / 2),
+                                         std::abs(besideTo - (to + apex) / 2)});
+        return atPosts > tolerance ? std::max(atPosts, atCentres) : atPosts;
+    };
+    return std::max(ofTriangle(at(d, -1), south, after), ofTriangle(at(-d, 1), before, north));
 }
 
 }  // namespace eyrie::terrain

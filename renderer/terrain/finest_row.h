@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -17,5 +18,11 @@ inline constexpr std::uint8_t kFinestRowNodata = 0xff;
 void finestRow(const float* below, const float* here, const float* above, std::int32_t columns,
                bool alongRow, float tolerance, std::span<const float> thresholds,
                std::uint8_t* out);
+
+/// What SourceSurface says of a quarter of all vertices: the greater deviation of the two triangles
+/// with legs of two posts that the centre of a square of two cells splits. `centre` points at its
+/// height, rows are `stride` apart. The hypotenuse runs from post (-1, -1) to (1, 1) where
+/// `isMain`, across it otherwise. Precondition: none of the nine posts is nodata.
+double finestCentre(const float* centre, std::ptrdiff_t stride, bool isMain, double tolerance);
 
 }  // namespace eyrie::terrain

@@ -1,51 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/terrain/height_grid.h"
 
-#include <algorithm>
-
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
-
 namespace eyrie::terrain {
-namespace {
 
-void addRow(HeightStatistics& statistics, const float* row, std::int32_t columns) {
-    float min = statistics.min;
-    float max = statistics.max;
+void HeightStatistics::add(const float* posts, std::int32_t count) {
+    float low = min;
+    float high = max;
     std::int32_t nodata = 0;
     std::int32_t fractions = 0;
-    for (std::int32_t i = 0; i < columns; ++i) {
-        const float h = row[i];
-        min = h < min ? h : min;
-        max = h > max ? h : max;
+    for (std::int32_t i = 0; i < count; ++i) {
+        const float h = posts[i];
+        low = h < low ? h : low;
+        high = h > high ? h : high;
         nodata += h != h ? 1 : 0;
         fractions += std::trunc(h) < h || std::trunc(h) > h ? 1 : 0;
     }
-    statistics.min = min;
-    statistics.max = max;
-    statistics.nodataPosts += static_cast<std::uint64_t>(nodata);
-    statistics.allIntegers = statistics.allIntegers && fractions == 0;
+    min = low;
+    max = high;
+    nodataPosts += static_cast<std::uint64_t>(nodata);
+    allIntegers = allIntegers && fractions == 0;
 }
 
-HeightStatistics join(HeightStatistics a, const HeightStatistics& b) {
-    a.min = std::min(a.min, b.min);
-    a.max = std::max(a.max, b.max);
-    a.nodataPosts += b.nodataPosts;
-    a.allIntegers = a.allIntegers && b.allIntegers;
-    return a;
-}
-
-}  // namespace
-
-HeightStatistics heightStatistics(const HeightGrid& grid) {
-    return tbb::parallel_reduce(
-        tbb::blocked_range<std::int32_t>(0, grid.rows), HeightStatistics{},
-        [&](const tbb::blocked_range<std::int32_t>& range, HeightStatistics statistics) {
-            for (std::int32_t j = range.begin(); j < range.end(); ++j)
-                addRow(statistics, grid.row(j), grid.columns);
-            return statistics;
-        },
-        join);
+void HeightStatistics::add(const HeightStatistics& other) {
+    min = std::min(min, other.min);
+    max = std::max(max, other.max);
+    nodataPosts += other.nodataPosts;
+    allIntegers = allIntegers && other.allIntegers;
 }
 
 HeightLattice chooseHeightLattice(const HeightStatistics& statistics, double postMetres) {
@@ -57,8 +37,7 @@ HeightLattice chooseHeightLattice(const HeightStatistics& statistics, double pos
         lattice = {
             std::min(std::exp2(std::floor(std::log2(postMetres / kStepsPerPost))), kCoarsestStep),
             false};
-    const double highest = std::max(std::abs(static_cast<double>(statistics.min)),
-                                    std::abs(static_cast<double>(statistics.max)));
+    const double highest = statistics.highestMagnitude();
     while (highest / lattice.stepMetres > kMaxSteps) lattice = {lattice.stepMetres * 2, false};
     return lattice;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -13,12 +14,22 @@ namespace eyrie::terrain {
 
 inline constexpr float kNodata = std::numeric_limits<float>::quiet_NaN();
 
+/// Where the posts of an elevation model stand: post (i, j) at (x, y) = origin + i * perColumn + j
+/// * perRow, in metres. The two span a right-handed basis (their determinant is positive): for a
+/// raster with its north row first, row 0 here is the southern one.
+struct GridFrame {
+    std::int32_t columns = 0;
+    std::int32_t rows = 0;
+    fabric::Vec2 origin{0, 0};
+    fabric::Vec2 perColumn{1, 0};
+    fabric::Vec2 perRow{0, 1};
+
+    /// Side of a square as large as a cell.
+    double postMetres() const { return std::sqrt(perColumn.x * perRow.y - perColumn.y * perRow.x); }
+};
+
 /// Posts of an elevation model in memory: row-major, post (i, j) is heights[j * columns + i] metres
-/// high and stands at (x, y) = origin + i * perColumn + j * perRow, in metres. NaN is nodata; there
-/// are no infinities.
-///
-/// perColumn and perRow span a right-handed basis (their determinant is positive): for a raster
-/// with its north row first, row 0 here is the southern one.
+/// high and stands where GridFrame says. NaN is nodata; there are no infinities.
 struct HeightGrid {
     std::int32_t columns = 0;
     std::int32_t rows = 0;
@@ -35,8 +46,7 @@ struct HeightGrid {
     }
     float at(std::int32_t i, std::int32_t j) const { return row(j)[i]; }
 
-    /// Side of a square as large as a cell.
-    double postMetres() const { return std::sqrt(perColumn.x * perRow.y - perColumn.y * perRow.x); }
+    GridFrame frame() const { return {columns, rows, origin, perColumn, perRow}; }
 };
 
 /// What one pass over all posts tells.
@@ -45,10 +55,13 @@ struct HeightStatistics {
     float max = -std::numeric_limits<float>::infinity();  ///< below min: there is no data at all
     std::uint64_t nodataPosts = 0;
     bool allIntegers = true;
-};
 
-/// Parallel.
-HeightStatistics heightStatistics(const HeightGrid& grid);
+    void add(const float* posts, std::int32_t count);
+    void add(const HeightStatistics& other);
+    double highestMagnitude() const {
+        return std::max(std::abs(static_cast<double>(min)), std::abs(static_cast<double>(max)));
+    }
+};
 
 /// The lattice of heights: multiples of a power of two, in metres.
 struct HeightLattice {

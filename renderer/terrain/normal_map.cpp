@@ -4,18 +4,19 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-
-#include <tbb/parallel_for.h>
+#include <memory>
 
 #include "fabric/simd_clones.h"
+#include "fabric/status.h"
+#include "renderer/terrain/tile_progress.h"
 
 namespace eyrie::terrain {
 namespace {
 
 constexpr std::int32_t kMaxSamples = kMaxTileCells + 1;
 
-/// A row of a tile's heights with one sample more on either side.
-using PaddedRow = std::array<float, kMaxSamples + 2>;
+/// A tile's samples with one more on either side.
+constexpr std::int32_t kPaddedSamples = kMaxSamples + 2;
 
 /// Metres of object space as the normal needs them: n = (dP/di) x (dP/dj).
 struct Basis {
@@ -63,50 +64,54 @@ EYRIE_SIMD_CLONES void weigh(const float* source, float weight, std::int32_t col
     }
 }
 
+/// One row of smoothed heights out of three rows of finer ones, every second column.
+void smoothRow(const float* rows, std::int32_t stride, float* out) {
+    constexpr std::int32_t kColumns = 2 * kRasterTilePosts + 1;
+    std::array<float, kColumns> sum{};
+    std::array<float, kColumns> weights{};
+    for (std::int32_t d = 0; d < 3; ++d)
+        weigh(rows + d * stride, d == 1 ? 2.0F : 1.0F, kColumns, sum.data(), weights.data());
+    for (std::size_t i = 0; i < static_cast<std::size_t>(kRasterTilePosts); ++i)
+        out[i] = (sum[2 * i] + 2 * sum[2 * i + 1] + sum[2 * i + 2]) /
+                 (weights[2 * i] + 2 * weights[2 * i + 1] + weights[2 * i + 2]);
+}
+
+std::shared_ptr<float[]> smoothed(const TiledRaster<float>& finer, std::int32_t x, std::int32_t y) {
+    constexpr std::int32_t kSide = 2 * kRasterTilePosts + 1;
+    thread_local std::vector<float> posts(static_cast<std::size_t>(kSide) * kSide);
+    readClamped(finer, {2 * x * kRasterTileCells - 1, 2 * y * kRasterTileCells - 1, kSide, kSide},
+                posts.data());
+    auto tile = TiledRaster<float>::newTile();
+    for (std::int32_t v = 0; v < kRasterTilePosts; ++v)
+        smoothRow(posts.data() + 2 * v * kSide, kSide, tile.get() + v * kRasterTilePosts);
+    return tile;
+}
+
 }  // namespace
 
-NormalMaps::NormalMaps(const HeightGrid& grid, int levels)
-    : grid_(grid), thinned_(static_cast<std::size_t>(Quadtree::spacingShift(levels - 1) + 1)) {
-    thinned_[0] = {grid.columns, grid.rows, {}};
-    for (std::size_t shift = 1; shift < thinned_.size(); ++shift) {
-        const Thinned& finer = thinned_[shift - 1];
-        Thinned& coarser = thinned_[shift];
-        coarser.columns = finer.columns / 2 + 1;
-        coarser.rows = finer.rows / 2 + 1;
-        coarser.heights.resize(static_cast<std::size_t>(coarser.columns) *
-                               static_cast<std::size_t>(coarser.rows));
-        tbb::parallel_for(std::int32_t{0}, coarser.rows,
-                          [&](std::int32_t j) { smoothRow(static_cast<int>(shift), j); });
+NormalMaps::NormalMaps(const ElevationModel& model, Scratch& scratch, int levels)
+    : model_(model), scratch_(scratch) {
+    std::int32_t columns = model.frame.columns;
+    std::int32_t rows = model.frame.rows;
+    for (int shift = 1; shift <= Quadtree::spacingShift(levels - 1); ++shift) {
+        columns = columns / 2 + 1;
+        rows = rows / 2 + 1;
+        smoothed_.emplace_back(scratch, columns, rows);
     }
 }
 
-const float* NormalMaps::row(int shift, std::int32_t j) const {
-    if (shift == 0)
-        return grid_.row(j);
-    const Thinned& thinned = thinned_[static_cast<std::size_t>(shift)];
-    return thinned.heights.data() +
-           static_cast<std::size_t>(j) * static_cast<std::size_t>(thinned.columns);
-}
-
-void NormalMaps::smoothRow(int shift, std::int32_t j) {
-    Thinned& coarser = thinned_[static_cast<std::size_t>(shift)];
-    const Thinned& finer = thinned_[static_cast<std::size_t>(shift - 1)];
-    thread_local std::vector<float> sum;
-    thread_local std::vector<float> weights;
-    sum.assign(static_cast<std::size_t>(finer.columns), 0.0F);
-    weights.assign(static_cast<std::size_t>(finer.columns), 0.0F);
-    for (std::int32_t d = -1; d <= 1; ++d)
-        weigh(row(shift - 1, std::clamp(2 * j + d, 0, finer.rows - 1)), d == 0 ? 2.0F : 1.0F,
-              finer.columns, sum.data(), weights.data());
-    float* out = coarser.heights.data() +
-                 static_cast<std::size_t>(j) * static_cast<std::size_t>(coarser.columns);
-    for (std::int32_t i = 0; i < coarser.columns; ++i) {
-        const auto at = [&](std::int32_t k) {
-            return static_cast<std::size_t>(std::clamp(k, 0, finer.columns - 1));
-        };
-        const std::size_t a = at(2 * i - 1), b = at(2 * i), c = at(2 * i + 1);
-        out[i] = (sum[a] + 2 * sum[b] + sum[c]) / (weights[a] + 2 * weights[b] + weights[c]);
+absl::Status NormalMaps::make(const import::ImportControl& control) {
+    const import::ImportControl quiet{{}, control.stop};
+    for (std::size_t k = 0; k < smoothed_.size(); ++k) {
+        const TiledRaster<float>& finer = layer(static_cast<int>(k));
+        TiledRaster<float>& coarser = smoothed_[k];
+        RETURN_IF_ERROR(forEachTile(
+            coarser.tilesX(), coarser.tilesY(), "smoothing", scratch_, quiet,
+            [&](std::int32_t x, std::int32_t y) { coarser.write(x, y, smoothed(finer, x, y)); }));
+        control.report("smoothing",
+                       static_cast<double>(k + 1) / static_cast<double>(smoothed_.size()));
     }
+    return absl::OkStatus();
 }
 
 void NormalMaps::fill(const TileId& tile, std::span<std::int8_t> out) const {
@@ -114,42 +119,35 @@ void NormalMaps::fill(const TileId& tile, std::span<std::int8_t> out) const {
     const int shift = Quadtree::spacingShift(tile.level);
     const std::int32_t cells = Quadtree::cells(tile.level);
     const std::int32_t samples = cells + 1;
-    const Thinned& thinned = thinned_[static_cast<std::size_t>(shift)];
+    const TiledRaster<float>& heights = layer(shift);
     const auto column = [&](std::int32_t k) {
-        return std::clamp(tile.x * cells + k, 0, thinned.columns - 1);
+        return std::clamp(tile.x * cells + k, 0, heights.columns() - 1);
     };
     const auto rowIndex = [&](std::int32_t k) {
-        return std::clamp(tile.y * cells + k, 0, thinned.rows - 1);
+        return std::clamp(tile.y * cells + k, 0, heights.rows() - 1);
     };
     const auto post = [&](std::int32_t sample, std::int32_t posts) {
         return std::min(sample << shift, posts - 1);
     };
-    const auto load = [&](std::int32_t k, PaddedRow& padded) {
-        const float* source = row(shift, rowIndex(k));
-        for (std::int32_t i = 0; i < samples + 2; ++i)
-            padded[static_cast<std::size_t>(i)] = source[column(i - 1)];
-    };
+    const std::int32_t side = samples + 2;
+    std::array<float, static_cast<std::size_t>(kPaddedSamples) * kPaddedSamples> padded;
+    readClamped(heights, {tile.x * cells - 1, tile.y * cells - 1, side, side}, padded.data());
 
     std::array<float, kMaxSamples> inverseX{};
     for (std::int32_t k = 0; k < samples; ++k)
-        inverseX[static_cast<std::size_t>(k)] =
-            inverseDistance(post(column(k - 1), grid_.columns), post(column(k + 1), grid_.columns));
-    const fabric::Vec2 a = grid_.perColumn;
-    const fabric::Vec2 b = grid_.perRow;
+        inverseX[static_cast<std::size_t>(k)] = inverseDistance(
+            post(column(k - 1), model_.frame.columns), post(column(k + 1), model_.frame.columns));
+    const fabric::Vec2 a = model_.frame.perColumn;
+    const fabric::Vec2 b = model_.frame.perRow;
     const Basis basis{static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(b.x),
                       static_cast<float>(b.y), static_cast<float>(a.x * b.y - a.y * b.x)};
 
-    std::array<PaddedRow, 3> rows{};
-    load(-1, rows[0]);
-    load(0, rows[1]);
     for (std::int32_t k = 0; k < samples; ++k) {
-        const auto r = static_cast<std::size_t>(k);
-        load(k + 1, rows[(r + 2) % 3]);
-        const float inverseY =
-            inverseDistance(post(rowIndex(k - 1), grid_.rows), post(rowIndex(k + 1), grid_.rows));
-        normalRow(rows[r % 3].data(), rows[(r + 1) % 3].data(), rows[(r + 2) % 3].data(),
-                  inverseX.data(), inverseY, basis, samples,
-                  out.data() + r * 2 * static_cast<std::size_t>(samples));
+        const float inverseY = inverseDistance(post(rowIndex(k - 1), model_.frame.rows),
+                                               post(rowIndex(k + 1), model_.frame.rows));
+        const float* below = padded.data() + k * side;
+        normalRow(below, below + side, below + 2 * side, inverseX.data(), inverseY, basis, samples,
+                  out.data() + 2 * k * samples);
     }
 }
 

@@ -5,8 +5,12 @@
 #include <span>
 #include <vector>
 
-#include "renderer/terrain/height_grid.h"
+#include <absl/status/status.h>
+
+#include "renderer/import/progress.h"
+#include "renderer/terrain/deviation.h"
 #include "renderer/terrain/quadtree.h"
+#include "renderer/terrain/tiled_raster.h"
 
 namespace eyrie::terrain {
 
@@ -18,28 +22,27 @@ inline std::size_t normalMapBytes(int level) {
 /// Shading normals of all levels: central differences of the heights, which are smoothed (1-2-1)
 /// and thinned by two from one spacing to the next. Made from the whole grid, so neighbours agree
 /// on their border samples. Nodata neighbours are left out of a difference; with none left a normal
-/// points up.
+/// points up. The smoothed heights lie on scratch.
 class NormalMaps {
 public:
-    /// Keeps a reference to `grid`. Parallel.
-    NormalMaps(const HeightGrid& grid, int levels);
+    /// Reserves its room; keeps a reference to `model`.
+    NormalMaps(const ElevationModel& model, Scratch& scratch, int levels);
+
+    /// Parallel; stage "smoothing". Errors: Cancelled, the scratch's.
+    absl::Status make(const import::ImportControl& control);
 
     /// x and y of the unit normals of a tile's samples, as TileGeometry::normals describes.
-    /// Precondition: out.size() == normalMapBytes(tile.level).
+    /// Precondition: out.size() == normalMapBytes(tile.level). Any thread, once made.
     void fill(const TileId& tile, std::span<std::int8_t> out) const;
 
 private:
-    struct Thinned {
-        std::int32_t columns = 0;
-        std::int32_t rows = 0;
-        std::vector<float> heights;  ///< empty at shift 0, which is the grid
-    };
+    const TiledRaster<float>& layer(int shift) const {
+        return shift == 0 ? model_.heights : smoothed_[static_cast<std::size_t>(shift - 1)];
+    }
 
-    const float* row(int shift, std::int32_t j) const;
-    void smoothRow(int shift, std::int32_t j);
-
-    const HeightGrid& grid_;
-    std::vector<Thinned> thinned_;  // by Quadtree::spacingShift
+    const ElevationModel& model_;
+    Scratch& scratch_;
+    std::vector<TiledRaster<float>> smoothed_;  // by Quadtree::spacingShift - 1
 };
 
 }  // namespace eyrie::terrain

@@ -17,9 +17,9 @@ std::int32_t limit(std::int32_t posts, int shift, std::int32_t side) {
 
 }  // namespace
 
-TileMesher::TileMesher(const SourceSurface& surface, const VertexLevels& levels,
-                       const HeightLattice& lattice, const Quadtree& quadtree)
-    : surface_(surface), levels_(levels), lattice_(lattice), quadtree_(quadtree) {}
+TileMesher::TileMesher(SourceSurface& surface, TileSamples& samples, const HeightLattice& lattice,
+                       const Quadtree& quadtree)
+    : surface_(surface), samples_(samples), lattice_(lattice), quadtree_(quadtree) {}
 
 TileMesh TileMesher::mesh(const TileId& tile) {
     begin(tile);
@@ -30,6 +30,7 @@ TileMesh TileMesher::mesh(const TileId& tile) {
 
 void TileMesher::begin(const TileId& tile) {
     tile_ = tile;
+    samples_.load(tile);
     const std::int32_t side = Quadtree::side(tile.level);
     shift_ = Quadtree::spacingShift(tile.level);
     firstColumn_ = tile.x * side;
@@ -84,8 +85,8 @@ void TileMesher::finish() {
     }
     for (const TileVertex& vertex : mesh_.vertices) {
         const TilePoint p{static_cast<std::uint32_t>(vertex.x | vertex.y << 10), 0, 0};
-        const float source = surface_.grid().at(std::min(column(p), quadtree_.columns() - 1),
-                                                std::min(row(p), quadtree_.rows() - 1));
+        const float source = samples_.height(std::min(column(p), quadtree_.columns() - 1),
+                                             std::min(row(p), quadtree_.rows() - 1));
         const double drawn = vertex.q * lattice_.stepMetres;
         mesh_.errorMetres =
             std::max(mesh_.errorMetres, std::abs(drawn - static_cast<double>(source)));
@@ -95,14 +96,14 @@ void TileMesher::finish() {
 }
 
 bool TileMesher::isVertex(TilePoint middle, const SplitContext&) {
-    const bool isNeeded = levels_.isNeeded(column(middle), row(middle), tile_.level);
+    const bool isNeeded = samples_.isNeeded(column(middle), row(middle), tile_.level);
     mesh_.splits.push_back(isNeeded);
     return isNeeded;
 }
 
 /// A vertex of the next finer level's tiles along this tile's border.
 bool TileMesher::isFinerVertex(TilePoint middle, int) {
-    const bool isNeeded = levels_.isNeeded(column(middle), row(middle), tile_.level - 1);
+    const bool isNeeded = samples_.isNeeded(column(middle), row(middle), tile_.level - 1);
     mesh_.splits.push_back(isNeeded);
     return isNeeded;
 }
@@ -122,7 +123,7 @@ void TileMesher::finerTriangle(int part, TilePoint apex, TilePoint from, TilePoi
 Corner TileMesher::corner(TilePoint p) const {
     const std::int32_t i = std::min(column(p), quadtree_.columns() - 1);
     const std::int32_t j = std::min(row(p), quadtree_.rows() - 1);
-    const float height = surface_.grid().at(i, j);
+    const float height = samples_.height(i, j);
     return {i, j,
             std::isnan(height) ? static_cast<double>(height)
                                : lattice_.quantise(height) * lattice_.stepMetres};
@@ -139,10 +140,10 @@ void TileMesher::measure(TilePoint a, TilePoint b, TilePoint c, bool mayBeAligne
     };
     double deviation = 0;
     if (mayBeAligned && (!isCut_ || (isUnmoved(a) && isUnmoved(b) && isUnmoved(c))))
-        deviation = surface_.ofAligned(triangle);
+        deviation = surface_.ofAligned(triangle, {mesh_.errorMetres});
     else if (std::int64_t{triangle[1].i - triangle[0].i} * (triangle[2].j - triangle[0].j) !=
              std::int64_t{triangle[2].i - triangle[0].i} * (triangle[1].j - triangle[0].j))
-        deviation = surface_.ofGeneral(triangle);
+        deviation = surface_.ofGeneral(triangle, {mesh_.errorMetres});
     mesh_.errorMetres = std::max(mesh_.errorMetres, deviation);
 }
 
@@ -154,8 +155,8 @@ void TileMesher::addTriangle(int part, TilePoint a, TilePoint b, TilePoint c) {
 }
 
 std::uint16_t TileMesher::add(TilePoint p) {
-    const float source = surface_.grid().at(std::min(column(p), quadtree_.columns() - 1),
-                                            std::min(row(p), quadtree_.rows() - 1));
+    const float source = samples_.height(std::min(column(p), quadtree_.columns() - 1),
+                                         std::min(row(p), quadtree_.rows() - 1));
     mesh_.isPresent.push_back(!std::isnan(source));
     if (std::isnan(source))
         return kAbsentPoint;

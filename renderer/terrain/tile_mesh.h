@@ -9,8 +9,8 @@
 #include "renderer/terrain/deviation.h"
 #include "renderer/terrain/eyt_format.h"
 #include "renderer/terrain/quadtree.h"
+#include "renderer/terrain/tile_samples.h"
 #include "renderer/terrain/tile_triangulation.h"
-#include "renderer/terrain/vertex_levels.h"
 #include "renderer/terrain/vertex_packing.h"
 
 namespace eyrie::terrain {
@@ -45,10 +45,11 @@ struct TileMesh {
 /// Keeps scratch memory: one object per thread. Keeps references to what it is made from.
 class TileMesher {
 public:
-    TileMesher(const SourceSurface& surface, const VertexLevels& levels,
-               const HeightLattice& lattice, const Quadtree& quadtree);
+    TileMesher(SourceSurface& surface, TileSamples& samples, const HeightLattice& lattice,
+               const Quadtree& quadtree);
 
-    /// Without the triangles that clamping squeezed to nothing or that touch nodata.
+    /// Loads the tile's samples. Without the triangles that clamping squeezed to nothing or that
+    /// touch nodata.
     TileMesh mesh(const TileId& tile);
 
 private:
@@ -76,8 +77,8 @@ private:
     void measure(TilePoint a, TilePoint b, TilePoint c, bool mayBeAligned);
     std::vector<std::uint16_t> dropUnused();
 
-    const SourceSurface& surface_;
-    const VertexLevels& levels_;
+    SourceSurface& surface_;
+    TileSamples& samples_;
     const HeightLattice& lattice_;
     const Quadtree& quadtree_;
 

@@ -7,54 +7,44 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstring>
+#include <memory>
 #include <utility>
 
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
+#include "fabric/status.h"
 #include "renderer/terrain/finest_row.h"
 #include "renderer/terrain/quadtree.h"
+#include "renderer/terrain/tile_progress.h"
 
 namespace eyrie::terrain {
 
-VertexLevels::VertexLevels(const SourceSurface& surface, std::vector<double> thresholdsMetres)
-    : surface_(surface),
-      thresholds_(std::move(thresholdsMetres)),
-      floatThresholds_(thresholds_.begin(), thresholds_.end()),
-      columns_(surface.grid().columns),
-      rows_(surface.grid().rows),
-      levels_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)) {
-    const Quadtree quadtree(static_cast<std::uint32_t>(columns_),
-                            static_cast<std::uint32_t>(rows_));
-    assert(static_cast<int>(thresholds_.size()) == quadtree.levels());
-    side_ = Quadtree::side(quadtree.top().level);
+VertexLevels::VertexLevels(const ElevationModel& model, Scratch& scratch)
+    : model_(model),
+      scratch_(scratch),
+      columns_(model.frame.columns),
+      rows_(model.frame.rows),
+      side_(Quadtree::side(
+          Quadtree(static_cast<std::uint32_t>(columns_), static_cast<std::uint32_t>(rows_))
+              .top()
+              .level)),
+      coveredI_(model.heights.tilesX() * kRasterTileCells),
+      coveredJ_(model.heights.tilesY() * kRasterTileCells),
+      coarseColumns_(coveredI_ / kCoarseSpacing + 1),
+      measured_(scratch, coveredI_ + 1, coveredJ_ + 1),
+      coarse_(static_cast<std::size_t>(coarseColumns_) *
+              static_cast<std::size_t>(coveredJ_ / kCoarseSpacing + 1)) {
+    for (int layer = 0; layer < kLayers; ++layer)
+        joined_[static_cast<std::size_t>(layer)] =
+            TiledRaster<std::uint8_t>(scratch, (coveredI_ >> layer) + 1, (coveredJ_ >> layer) + 1);
 }
 
-absl::StatusOr<VertexLevels> VertexLevels::compute(const SourceSurface& surface,
-                                                   std::vector<double> thresholdsMetres,
-                                                   const import::ImportControl& control) {
-    VertexLevels levels(surface, std::move(thresholdsMetres));
-    control.report("measuring", 0);
-    double done = 0;
-    for (std::int32_t s = 1; s < levels.side_; s *= 2) {
-        for (const bool isCentre : {false, true}) {
-            if (absl::Status status = control.check(); !status.ok())
-                return status;
-            levels.measureClass(s, isCentre);
-            // Three quarters of the vertices belong to the first two classes, and so on.
-            done += (1 - done) * (isCentre ? 0.4 : 0.5);
-            control.report("measuring", done);
-        }
-    }
-    control.report("measuring", 1);
-    return levels;
-}
-
-Corner VertexLevels::corner(const Point& p) const {
-    const std::int32_t i = std::min(p.i, columns_ - 1);
-    const std::int32_t j = std::min(p.j, rows_ - 1);
-    return {i, j, surface_.grid().at(i, j)};
+void VertexLevels::setThresholds(std::vector<double> metres) {
+    thresholds_ = std::move(metres);
+    floatThresholds_.assign(thresholds_.begin(), thresholds_.end());
 }
 
 int VertexLevels::thresholdsExceededBy(double deviationMetres) const {
@@ -67,118 +57,423 @@ int VertexLevels::thresholdsExceededBy(double deviationMetres) const {
     return count;
 }
 
-/// Of a triangle of the padded square.
-double VertexLevels::deviation(const std::array<Point, 3>& t) const {
-    const auto isInside = [&](const Point& p) { return p.i < columns_ && p.j < rows_; };
-    const Triangle triangle = {corner(t[0]), corner(t[1]), corner(t[2])};
-    if (std::all_of(t.begin(), t.end(), isInside))
-        return surface_.ofAligned(triangle);
-    const auto pastColumns = [&](const Corner& c) { return c.i == columns_ - 1; };
-    const auto pastRows = [&](const Corner& c) { return c.j == rows_ - 1; };
-    if (std::all_of(triangle.begin(), triangle.end(), pastColumns) ||
-        std::all_of(triangle.begin(), triangle.end(), pastRows))
-        return 0;  // squeezed to nothing
-    return surface_.ofGeneral(triangle);
+/// Thresholds exceeded by the triangle p, apex, q of the padded square; not below `known`.
+int VertexLevels::exceededByTriangle(SourceSurface& surface, const Point& p, const Point& apex,
+                                     const Point& q, int known) const {
+    if (known == static_cast<int>(thresholds_.size()))
+        return known;
+    const DeviationGoal goal{thresholds_[static_cast<std::size_t>(known)], thresholds_};
+    const auto corner = [&](const Point& at) {
+        const std::int32_t i = std::min(at.i, columns_ - 1);
+        const std::int32_t j = std::min(at.j, rows_ - 1);
+        return Corner{i, j, static_cast<double>(surface.heightAt(i, j))};
+    };
+    const Triangle triangle = {corner(apex), corner(p), corner(q)};
+    const auto isInside = [&](const Point& at) { return at.i < columns_ && at.j < rows_; };
+    double deviation = goal.floor;
+    if (isInside(p) && isInside(apex) && isInside(q)) {
+        deviation = surface.ofAligned(triangle, goal);
+    } else {
+        const auto pastColumns = [&](const Corner& c) { return c.i == columns_ - 1; };
+        const auto pastRows = [&](const Corner& c) { return c.j == rows_ - 1; };
+        const bool isSqueezed = std::all_of(triangle.begin(), triangle.end(), pastColumns) ||
+                                std::all_of(triangle.begin(), triangle.end(), pastRows);
+        if (!isSqueezed)
+            deviation = surface.ofGeneral(triangle, goal);
+    }
+    return deviation > goal.floor ? thresholdsExceededBy(deviation) : known;
 }
 
-/// Thresholds exceeded by the triangle p, apex, q; none where the apex lies outside of the square.
-int VertexLevels::exceededByTriangle(const Point& p, const Point& apex, const Point& q) const {
-    if (apex.i < 0 || apex.j < 0 || apex.i > side_ || apex.j > side_)
-        return 0;
-    return thresholdsExceededBy(deviation({p, apex, q}));
-}
-
-/// Thresholds exceeded by the two triangles that vertex (i, j) of spacing s splits.
-int VertexLevels::exceededBySplit(std::int32_t i, std::int32_t j, std::int32_t s,
-                                  bool isCentre) const {
+/// Thresholds exceeded by the two triangles that vertex (i, j) of spacing s splits, of which one
+/// may lie outside of the square.
+int VertexLevels::exceededBySplit(SourceSurface& surface, std::int32_t i, std::int32_t j,
+                                  std::int32_t s, bool isCentre, int known) const {
+    const auto measured = [&](const Point& p, const Point& apex, const Point& q) {
+        if (apex.i >= 0 && apex.j >= 0 && apex.i <= side_ && apex.j <= side_)
+            known = exceededByTriangle(surface, p, apex, q, known);
+    };
     if (isCentre) {
         // Of a square of side 2s the diagonal that meets the centre of the square around it.
-        const bool isMain = (((i - s) ^ (j - s)) & (2 * s)) == 0;
-        const std::int32_t d = isMain ? s : -s;
-        const Point p{i - d, j - s};
-        const Point q{i + d, j + s};
-        return std::max(exceededByTriangle(p, {i + d, j - s}, q),
-                        exceededByTriangle(q, {i - d, j + s}, p));
+        const std::int32_t d = (((i - s) ^ (j - s)) & (2 * s)) == 0 ? s : -s;
+        measured({i - d, j - s}, {i + d, j - s}, {i + d, j + s});
+        measured({i + d, j + s}, {i - d, j + s}, {i - d, j - s});
+        return known;
     }
     const bool isHorizontal = (i & s) != 0;
     const std::int32_t dx = isHorizontal ? s : 0;
     const std::int32_t dy = isHorizontal ? 0 : s;
-    const Point p{i - dx, j - dy};
-    const Point q{i + dx, j + dy};
-    return std::max(exceededByTriangle(p, {i + dy, j - dx}, q),
-                    exceededByTriangle(q, {i - dy, j + dx}, p));
+    measured({i - dx, j - dy}, {i + dy, j - dx}, {i + dx, j + dy});
+    measured({i + dx, j + dy}, {i - dy, j + dx}, {i - dx, j - dy});
+    return known;
+}
+
+/// One tile's vertices, from what lies in the tile alone.
+class VertexLevels::TileMeasure {
+public:
+    TileMeasure(const VertexLevels& levels, std::int32_t x, std::int32_t y)
+        : levels_(levels),
+          surface_(levels.model_),
+          heights_(levels.model_.heights.tile(x, y)),
+          i0_(x * kRasterTileCells),
+          j0_(y * kRasterTileCells),
+          limitI_(std::min(kRasterTileCells, levels.columns_ - 1 - i0_)),
+          limitJ_(std::min(kRasterTileCells, levels.rows_ - 1 - j0_)),
+          counts_(TiledRaster<std::uint8_t>::newTile()) {
+        std::memset(counts_.get(), 0, kRasterTileValues);
+    }
+
+    std::shared_ptr<std::uint8_t[]> run() {
+        measureFinest();
+        for (std::int32_t s = 1; s < kRasterTileCells; s *= 2) {
+            if (s > 1)
+                measureEdges(s);
+            if (s > 1 || !measureFinestCentres())
+                measureCentres(s);
+        }
+        return std::move(counts_);
+    }
+
+private:
+    std::uint8_t& at(std::int32_t u, std::int32_t v) {
+        return counts_[static_cast<std::size_t>(v * kRasterTilePosts + u)];
+    }
+    std::int32_t end(std::int32_t limit, std::int32_t s) const {
+        return std::min(limit + s, kRasterTilePosts);
+    }
+
+    void measureFinest() {
+        std::array<std::uint8_t, kRasterTilePosts> row{};
+        const auto tolerance = static_cast<float>(surface_.postToleranceMetres());
+        for (std::int32_t v = 0; v < end(limitJ_, 1); ++v) {
+            const bool isInner = v > 0 && v < limitJ_ && limitI_ > 1;
+            const float* here = heights_.get() + v * kRasterTilePosts;
+            if (isInner)
+                finestRow(here - kRasterTilePosts, here, here + kRasterTilePosts, limitI_ + 1,
+                          (v & 1) == 0, tolerance, levels_.floatThresholds_, row.data());
+            for (std::int32_t u = (v & 1) == 0 ? 1 : 0; u < end(limitI_, 1); u += 2) {
+                const std::uint8_t found = row[static_cast<std::size_t>(u)];
+                if (isInner && u > 0 && u < limitI_ && found != kFinestRowNodata)
+                    at(u, v) = found;
+                else
+                    measureVertex(u, v, 1, false);
+            }
+        }
+    }
+
+    /// The centres of squares of two cells, a quarter of all vertices. False, with nothing done,
+    /// for tiles with nodata or at the grid's end.
+    bool measureFinestCentres() {
+        if (surface_.hasNodata() || limitI_ < kRasterTileCells || limitJ_ < kRasterTileCells)
+            return false;
+        for (std::int32_t v = 1; v < kRasterTileCells; v += 2)
+            for (std::int32_t u = 1; u < kRasterTileCells; u += 2) {
+                const auto own = static_cast<std::uint8_t>(levels_.thresholdsExceededBy(
+                    finestCentre(heights_.get() + v * kRasterTilePosts + u, kRasterTilePosts,
+                                 ((u ^ v) & 2) == 0, surface_.postToleranceMetres())));
+                at(u, v) = std::max(own, static_cast<std::uint8_t>(children(u, v, 1, true)));
+            }
+        return true;
+    }
+
+    void measureEdges(std::int32_t s) {
+        for (std::int32_t v = 0; v < end(limitJ_, s); v += s)
+            for (std::int32_t u = (v & s) == 0 ? s : 0; u < end(limitI_, s); u += 2 * s)
+                measureVertex(u, v, s, false);
+    }
+
+    void measureCentres(std::int32_t s) {
+        for (std::int32_t v = s; v < end(limitJ_, s); v += 2 * s)
+            for (std::int32_t u = s; u < end(limitI_, s); u += 2 * s) measureVertex(u, v, s, true);
+    }
+
+    void measureVertex(std::int32_t u, std::int32_t v, std::int32_t s, bool isCentre);
+    int children(std::int32_t u, std::int32_t v, std::int32_t s, bool isCentre) const {
+        const auto get = [&](std::int32_t x, std::int32_t y) -> int {
+            const bool isHere = x >= 0 && y >= 0 && x <= kRasterTileCells && y <= kRasterTileCells;
+            return isHere ? counts_[static_cast<std::size_t>(y * kRasterTilePosts + x)] : 0;
+        };
+        if (isCentre)
+            return std::max({get(u - s, v), get(u + s, v), get(u, v - s), get(u, v + s)});
+        const std::int32_t h = s / 2;
+        return h == 0 ? 0
+                      : std::max({get(u - h, v - h), get(u + h, v - h), get(u - h, v + h),
+                                  get(u + h, v + h)});
+    }
+
+    const VertexLevels& levels_;
+    SourceSurface surface_;
+    TiledRaster<float>::Tile heights_;
+    std::int32_t i0_;
+    std::int32_t j0_;
+    std::int32_t limitI_;  ///< last post of the grid, in the tile's own counting
+    std::int32_t limitJ_;
+    std::shared_ptr<std::uint8_t[]> counts_;
+};
+
+void VertexLevels::TileMeasure::measureVertex(std::int32_t u, std::int32_t v, std::int32_t s,
+                                              bool isCentre) {
+    int known = children(u, v, s, isCentre);
+    const auto measured = [&](std::int32_t pu, std::int32_t pv, std::int32_t au, std::int32_t av,
+                              std::int32_t qu, std::int32_t qv) {
+        if (au < 0 || av < 0 || au > kRasterTileCells || av > kRasterTileCells)
+            return;
+        known = levels_.exceededByTriangle(surface_, {i0_ + pu, j0_ + pv}, {i0_ + au, j0_ + av},
+                                           {i0_ + qu, j0_ + qv}, known);
+    };
+    if (isCentre) {
+        const std::int32_t d = (((i0_ + u - s) ^ (j0_ + v - s)) & (2 * s)) == 0 ? s : -s;
+        measured(u - d, v - s, u + d, v - s, u + d, v + s);
+        measured(u + d, v + s, u - d, v + s, u - d, v - s);
+    } else {
+        const std::int32_t dx = (u & s) != 0 ? s : 0;
+        const std::int32_t dy = s - dx;
+        measured(u - dx, v - dy, u + dy, v - dx, u + dx, v + dy);
+        measured(u + dx, v + dy, u - dy, v + dx, u - dx, v - dy);
+    }
+    at(u, v) = static_cast<std::uint8_t>(known);
+}
+
+absl::Status VertexLevels::measure(const import::ImportControl& control) {
+    return forEachTile(measured_.tilesX(), measured_.tilesY(), "measuring", scratch_, control,
+                       [&](std::int32_t x, std::int32_t y) {
+                           measured_.write(x, y, TileMeasure(*this, x, y).run());
+                       });
+}
+
+/// A square of 8 x 8 tiles: the vertices up to a spacing of 16, with their children across
+/// borders. A vertex of spacing s depends on others within 2s + s / 2 of it at most.
+class VertexLevels::GroupJoin {
+public:
+    static constexpr std::int32_t kTiles = 8;
+    static constexpr std::int32_t kCells = kTiles * kRasterTileCells;
+    static constexpr std::int32_t kHalo = 2 * kCoarseSpacing;
+
+    GroupJoin(VertexLevels& levels, std::int32_t x, std::int32_t y)
+        : levels_(levels), x_(x), y_(y) {
+        const std::int32_t i1 = std::min(x * kCells + kCells + kHalo, levels.coveredI_);
+        const std::int32_t j1 = std::min(y * kCells + kCells + kHalo, levels.coveredJ_);
+        rect_.i = std::max(0, x * kCells - kHalo);
+        rect_.j = std::max(0, y * kCells - kHalo);
+        rect_.columns = i1 - rect_.i + 1;
+        rect_.rows = j1 - rect_.j + 1;
+        counts_.resize(static_cast<std::size_t>(rect_.columns) *
+                       static_cast<std::size_t>(rect_.rows));
+    }
+
+    void run() {
+        load();
+        for (std::int32_t s = 1; s <= kCoarseSpacing; s *= 2) {
+            if (s > 1)
+                raiseEdges(s);
+            if (s < kCoarseSpacing)
+                raiseCentres(s);
+        }
+        for (int layer = 0; layer < kLayers; ++layer) store(layer);
+        storeCoarse();
+    }
+
+private:
+    std::uint8_t* row(std::int32_t v) {
+        return counts_.data() +
+               static_cast<std::ptrdiff_t>(v) * static_cast<std::ptrdiff_t>(rect_.columns);
+    }
+    std::int32_t endOf(std::int32_t posts, std::int32_t first, std::int32_t size,
+                       std::int32_t s) const {
+        return std::min(size, posts - 1 + s - first);
+    }
+
+    void load() {
+        levels_.measured_.forEachPart(rect_, [&](const std::uint8_t* values, const PostRect& part) {
+            for (std::int32_t j = 0; j < part.rows; ++j) {
+                std::uint8_t* out = row(part.j - rect_.j + j) + (part.i - rect_.i);
+                const std::uint8_t* in = values + j * kRasterTilePosts;
+                for (std::int32_t k = 0; k < part.columns; ++k) out[k] = std::max(out[k], in[k]);
+            }
+        });
+    }
+
+    /// Vertices at the group's own edge lack children; they lie in the halo.
+    void raiseCentres(std::int32_t s) {
+        const std::int32_t endU = endOf(levels_.columns_, rect_.i, rect_.columns - s, s);
+        const std::int32_t endV = endOf(levels_.rows_, rect_.j, rect_.rows - s, s);
+        for (std::int32_t v = s; v < endV; v += 2 * s) {
+            std::uint8_t* here = row(v);
+            const std::uint8_t* below = row(v - s);
+            const std::uint8_t* above = row(v + s);
+            for (std::int32_t u = s; u < endU; u += 2 * s)
+                here[u] = std::max({here[u], here[u - s], here[u + s], below[u], above[u]});
+        }
+    }
+
+    void raiseEdges(std::int32_t s) {
+        const std::int32_t h = s / 2;
+        const std::int32_t endU = endOf(levels_.columns_, rect_.i, rect_.columns, s);
+        const std::int32_t endV = endOf(levels_.rows_, rect_.j, rect_.rows, s);
+        for (std::int32_t v = 0; v < endV; v += s) {
+            std::uint8_t* here = row(v);
+            const std::uint8_t* below = v >= h ? row(v - h) : nullptr;
+            const std::uint8_t* above = v + h < rect_.rows ? row(v + h) : nullptr;
+            for (std::int32_t u = (v & s) == 0 ? s : 0; u < endU; u += 2 * s)
+                for (const std::uint8_t* other : {below, above}) {
+                    if (other != nullptr && u >= h)
+                        here[u] = std::max(here[u], other[u - h]);
+                    if (other != nullptr && u + h < rect_.columns)
+                        here[u] = std::max(here[u], other[u + h]);
+                }
+        }
+    }
+
+    void store(int layer) {
+        TiledRaster<std::uint8_t>& raster = levels_.joined_[static_cast<std::size_t>(layer)];
+        const std::int32_t tiles = kTiles >> layer;
+        for (std::int32_t y = y_ * tiles; y < std::min((y_ + 1) * tiles, raster.tilesY()); ++y)
+            for (std::int32_t x = x_ * tiles; x < std::min((x_ + 1) * tiles, raster.tilesX()); ++x)
+                raster.write(x, y, thinned(layer, x, y));
+    }
+
+    std::shared_ptr<std::uint8_t[]> thinned(int layer, std::int32_t x, std::int32_t y) {
+        auto tile = TiledRaster<std::uint8_t>::newTile();
+        for (std::int32_t v = 0; v < kRasterTilePosts; ++v)
+            for (std::int32_t u = 0; u < kRasterTilePosts; ++u) {
+                const std::int32_t i = ((x * kRasterTileCells + u) << layer) - rect_.i;
+                const std::int32_t j = ((y * kRasterTileCells + v) << layer) - rect_.j;
+                tile[static_cast<std::size_t>(v * kRasterTilePosts + u)] =
+                    i < rect_.columns && j < rect_.rows ? row(j)[i] : std::uint8_t{0};
+            }
+        return tile;
+    }
+
+    void storeCoarse() {
+        const std::int32_t endI = std::min(x_ * kCells + kCells, levels_.coveredI_ + 1);
+        const std::int32_t endJ = std::min(y_ * kCells + kCells, levels_.coveredJ_ + 1);
+        // The last column and row of the tiles begin no group of their own.
+        const std::int32_t lastI = endI == levels_.coveredI_ ? endI + 1 : endI;
+        const std::int32_t lastJ = endJ == levels_.coveredJ_ ? endJ + 1 : endJ;
+        for (std::int32_t j = y_ * kCells; j < lastJ; j += kCoarseSpacing)
+            for (std::int32_t i = x_ * kCells; i < lastI; i += kCoarseSpacing)
+                levels_.coarse_[levels_.coarseIndex(i, j)] = row(j - rect_.j)[i - rect_.i];
+    }
+
+    VertexLevels& levels_;
+    std::int32_t x_;
+    std::int32_t y_;
+    PostRect rect_;
+    std::vector<std::uint8_t> counts_;
+};
+
+absl::Status VertexLevels::join(const import::ImportControl& control) {
+    const auto over = [](std::int32_t tiles) {
+        return (tiles + GroupJoin::kTiles - 1) / GroupJoin::kTiles;
+    };
+    return forEachTile(over(measured_.tilesX()), over(measured_.tilesY()), "joining", scratch_,
+                       control,
+                       [&](std::int32_t x, std::int32_t y) { GroupJoin(*this, x, y).run(); });
+}
+
+int VertexLevels::exceeded(std::int32_t i, std::int32_t j) const {
+    if (i < 0 || j < 0 || i > side_ || j > side_)
+        return 0;
+    if (isCovered(i, j)) [[likely]]
+        return coarse_[coarseIndex(i, j)];
+    const auto found = outside_.find(key(i, j));
+    return found == outside_.end() ? 0 : found->second;
 }
 
 /// Thresholds exceeded by the vertices that split the halves of (i, j)'s triangles.
 int VertexLevels::exceededByChildren(std::int32_t i, std::int32_t j, std::int32_t s,
                                      bool isCentre) const {
-    const auto at = [&](std::int32_t x, std::int32_t y) {
-        return x < 0 || y < 0 || x > side_ || y > side_ ? 0 : exceeded(x, y);
-    };
     if (isCentre)
-        return std::max({at(i - s, j), at(i + s, j), at(i, j - s), at(i, j + s)});
-    if (s == 1)
-        return 0;
+        return std::max(
+            {exceeded(i - s, j), exceeded(i + s, j), exceeded(i, j - s), exceeded(i, j + s)});
     const std::int32_t h = s / 2;
-    return std::max({at(i - h, j - h), at(i + h, j - h), at(i - h, j + h), at(i + h, j + h)});
-}
-
-int VertexLevels::exceededBy(std::int32_t i, std::int32_t j, std::int32_t s, bool isCentre) const {
-    const int exceeded = exceededByChildren(i, j, s, isCentre);
-    if (exceeded == static_cast<int>(thresholds_.size()))
-        return exceeded;
-    return std::max(exceeded, exceededBySplit(i, j, s, isCentre));
-}
-
-/// Row j of the first class but for its ends. Precondition: 0 < j < rows - 1.
-void VertexLevels::measureFinestRow(std::int32_t j) {
-    const HeightGrid& grid = surface_.grid();
-    thread_local std::vector<std::uint8_t> counts;
-    counts.resize(static_cast<std::size_t>(columns_));
-    const bool isEven = (j & 1) == 0;
-    finestRow(grid.row(j - 1), grid.row(j), grid.row(j + 1), columns_, isEven,
-              static_cast<float>(surface_.postToleranceMetres()), floatThresholds_, counts.data());
-    for (std::int32_t i = isEven ? 1 : 2; i < columns_ - 1; i += 2) {
-        const std::uint8_t count = counts[static_cast<std::size_t>(i)];
-        levels_[index(i, j)] = count == kFinestRowNodata
-                                   ? static_cast<std::uint8_t>(exceededBy(i, j, 1, false))
-                                   : count;
-    }
-}
-
-void VertexLevels::measureRow(std::int32_t j, std::int32_t s, bool isCentre,
-                              std::vector<Found>& outside) {
-    const bool isFinest = s == 1 && !isCentre && j > 0 && j < rows_ - 1;
-    if (isFinest)
-        measureFinestRow(j);
-    const std::int32_t first = isCentre || (j & s) == 0 ? s : 0;
-    const std::int32_t end = std::min(columns_ - 1 + s, side_ + 1);
-    for (std::int32_t i = first; i < end; i += 2 * s) {
-        if (isFinest && i > 0 && i < columns_ - 1)
-            continue;
-        const auto exceeded = static_cast<std::uint8_t>(exceededBy(i, j, s, isCentre));
-        if (i < columns_ && j < rows_)
-            levels_[index(i, j)] = exceeded;
-        else if (exceeded > 0)
-            outside.push_back({key(i, j), exceeded});
-    }
+    return h < kCoarseSpacing ? 0
+                              : std::max({exceeded(i - h, j - h), exceeded(i + h, j - h),
+                                          exceeded(i - h, j + h), exceeded(i + h, j + h)});
 }
 
 /// All vertices of one spacing: midpoints of the sides of squares of side 2s, or their centres.
-void VertexLevels::measureClass(std::int32_t s, bool isCentre) {
+void VertexLevels::finishClass(std::int32_t s, bool isCentre) {
     const std::int32_t first = isCentre ? s : 0;
     const std::int32_t step = isCentre ? 2 * s : s;
     const std::int32_t end = std::min(rows_ - 1 + s, side_ + 1);
     const std::int32_t count = (end - first + step - 1) / step;
+    const bool isMeasured = 2 * s <= kRasterTileCells;
     tbb::enumerable_thread_specific<std::vector<Found>> outside;
-    tbb::parallel_for(tbb::blocked_range<std::int32_t>(0, count),
-                      [&](const tbb::blocked_range<std::int32_t>& range) {
-                          std::vector<Found>& mine = outside.local();
-                          for (std::int32_t k = range.begin(); k < range.end(); ++k)
-                              measureRow(first + k * step, s, isCentre, mine);
-                      });
+    tbb::parallel_for(
+        tbb::blocked_range<std::int32_t>(0, std::max(count, 0)), [&](const auto& range) {
+            SourceSurface surface(model_);
+            for (std::int32_t k = range.begin(); k < range.end(); ++k) {
+                const std::int32_t j = first + k * step;
+                const std::int32_t endI = std::min(columns_ - 1 + s, side_ + 1);
+                for (std::int32_t i = isCentre || (j & s) == 0 ? s : 0; i < endI; i += 2 * s) {
+                    int known = std::max(exceeded(i, j), exceededByChildren(i, j, s, isCentre));
+                    if (!isMeasured)
+                        known = exceededBySplit(surface, i, j, s, isCentre, known);
+                    if (isCovered(i, j))
+                        coarse_[coarseIndex(i, j)] = static_cast<std::uint8_t>(known);
+                    else if (known > 0)
+                        outside.local().push_back({key(i, j), static_cast<std::uint64_t>(known)});
+                }
+            }
+        });
     for (const std::vector<Found>& found : outside)
-        for (const Found& vertex : found) outside_[vertex.key] = vertex.exceeded;
+        for (const Found& vertex : found)
+            outside_[vertex.key] = static_cast<std::uint8_t>(vertex.exceeded);
+}
+
+absl::Status VertexLevels::finish(const import::ImportControl& control) {
+    for (std::int32_t s = kCoarseSpacing; s < side_; s *= 2)
+        for (const bool isCentre : {false, true}) {
+            RETURN_IF_ERROR(control.check());
+            finishClass(s, isCentre);
+            RETURN_IF_ERROR(scratch_.status());
+        }
+    return absl::OkStatus();
+}
+
+std::vector<std::byte> VertexLevels::state() const {
+    std::vector<Found> outside;
+    for (const auto& [key, exceeded] : outside_) outside.push_back({key, exceeded});
+    const auto coarse = std::as_bytes(std::span(coarse_));
+    const auto rest = std::as_bytes(std::span(outside));
+    std::vector<std::byte> state(coarse.begin(), coarse.end());
+    state.insert(state.end(), rest.begin(), rest.end());
+    return state;
+}
+
+bool VertexLevels::restore(std::span<const std::byte> state) {
+    if (state.size() < coarse_.size() || (state.size() - coarse_.size()) % sizeof(Found) != 0)
+        return false;
+    std::memcpy(coarse_.data(), state.data(), coarse_.size());
+    for (state = state.subspan(coarse_.size()); !state.empty();
+         state = state.subspan(sizeof(Found))) {
+        Found found;
+        std::memcpy(&found, state.data(), sizeof found);
+        outside_[found.key] = static_cast<std::uint8_t>(found.exceeded);
+    }
+    return true;
+}
+
+void VertexLevels::read(int layer, const PostRect& rect, std::uint8_t* out) const {
+    const auto at = [&](std::int32_t i, std::int32_t j) -> std::uint8_t& {
+        return out[static_cast<std::ptrdiff_t>(j - rect.j) * rect.columns + (i - rect.i)];
+    };
+    std::memset(out, 0,
+                static_cast<std::size_t>(rect.columns) * static_cast<std::size_t>(rect.rows));
+    if (layer < kLayers) {
+        const TiledRaster<std::uint8_t>& raster = joined_[static_cast<std::size_t>(layer)];
+        const PostRect inner{rect.i, rect.j, std::min(rect.columns, raster.columns() - rect.i),
+                             std::min(rect.rows, raster.rows() - rect.j)};
+        raster.forEachPart(inner, [&](const std::uint8_t* values, const PostRect& part) {
+            for (std::int32_t v = 0; v < part.rows; ++v)
+                std::copy_n(values + v * kRasterTilePosts, part.columns, &at(part.i, part.j + v));
+        });
+    }
+    const std::int32_t step = layer < kLayers ? kCoarseSpacing >> layer : 1;
+    const auto up = [&](std::int32_t first) { return (first + step - 1) / step * step; };
+    for (std::int32_t j = up(rect.j); j < rect.j + rect.rows; j += step)
+        for (std::int32_t i = up(rect.i); i < rect.i + rect.columns; i += step)
+            at(i, j) = static_cast<std::uint8_t>(exceeded(i << layer, j << layer));
 }
 
 }  // namespace eyrie::terrain

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -11,6 +12,7 @@
 
 #include "renderer/import/progress.h"
 #include "renderer/terrain/deviation.h"
+#include "renderer/terrain/tiled_raster.h"
 
 namespace eyrie::terrain {
 
@@ -28,65 +30,85 @@ namespace eyrie::terrain {
 /// Posts past the last column or row stand on it (their indices are clamped). Vertices there
 /// matter where their triangles reach back into the grid.
 ///
-/// What is kept of an error is the number of thresholds that it exceeds: one byte a post.
+/// What is kept of an error is the number of thresholds that it exceeds: one byte a post, on
+/// scratch; for every 16th column and row also in memory.
+///
+/// A triangle up to 128 cells wide lies in one tile of the raster, so three steps find them all:
+/// `measure` takes each tile by itself, with the vertices inside of it that it knows; `join`
+/// brings the tiles' answers together where a vertex's children lie beyond a border; `finish`
+/// does the wider triangles, each in memory but for the blocks that are in doubt.
 class VertexLevels {
 public:
-    /// `thresholdsMetres` ascend, one a level. Parallel; reports as stage "measuring".
-    /// Errors: Cancelled.
-    static absl::StatusOr<VertexLevels> compute(const SourceSurface& surface,
-                                                std::vector<double> thresholdsMetres,
-                                                const import::ImportControl& control);
+    /// Reserves its room on `scratch`; keeps a reference to `model`.
+    VertexLevels(const ElevationModel& model, Scratch& scratch);
 
-    /// Whether the error of lattice vertex (i, j) exceeds the level's threshold.
-    bool isNeeded(std::int32_t i, std::int32_t j, int level) const {
-        return exceeded(i, j) > level;
-    }
+    /// Ascending, one a level; before the steps.
+    void setThresholds(std::vector<double> metres);
+
+    // In this order; each is parallel. Errors: Cancelled, the scratch's.
+
+    absl::Status measure(const import::ImportControl& control);
+    absl::Status join(const import::ImportControl& control);
+    absl::Status finish(const import::ImportControl& control);
+
+    /// Numbers of exceeded thresholds: vertex (i, j) is needed by all levels below that number.
+    /// `rect` counts posts 2^layer apart; `out` gets its values row by row.
+    void read(int layer, const PostRect& rect, std::uint8_t* out) const;
+
+    /// What the steps leave in memory, and the same brought back; false for what is not of this
+    /// model.
+    std::vector<std::byte> state() const;
+    bool restore(std::span<const std::byte> state);
 
 private:
-    VertexLevels(const SourceSurface& surface, std::vector<double> thresholdsMetres);
-
     struct Point {  ///< of the padded square
         std::int32_t i;
         std::int32_t j;
     };
     struct Found {
         std::uint64_t key;
-        std::uint8_t exceeded;
+        std::uint64_t exceeded;
     };
+    class TileMeasure;
+    class GroupJoin;
 
-    int exceeded(std::int32_t i, std::int32_t j) const {
-        if (i < columns_ && j < rows_) [[likely]]
-            return levels_[index(i, j)];
-        const auto found = outside_.find(key(i, j));
-        return found == outside_.end() ? 0 : found->second;
+    static constexpr int kLayers = 4;  ///< on scratch; from layer 4 on memory has all
+    static constexpr std::int32_t kCoarseSpacing = 1 << kLayers;
+
+    int thresholdsExceededBy(double deviationMetres) const;
+    int exceededByTriangle(SourceSurface& surface, const Point& p, const Point& apex,
+                           const Point& q, int known) const;
+    int exceededBySplit(SourceSurface& surface, std::int32_t i, std::int32_t j, std::int32_t s,
+                        bool isCentre, int known) const;
+    int exceeded(std::int32_t i, std::int32_t j) const;
+    int exceededByChildren(std::int32_t i, std::int32_t j, std::int32_t s, bool isCentre) const;
+    void finishClass(std::int32_t s, bool isCentre);
+    bool isCovered(std::int32_t i, std::int32_t j) const {
+        return i <= coveredI_ && j <= coveredJ_;
     }
-    std::size_t index(std::int32_t i, std::int32_t j) const {
-        return static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) +
-               static_cast<std::size_t>(i);
+    std::size_t coarseIndex(std::int32_t i, std::int32_t j) const {
+        return static_cast<std::size_t>(j / kCoarseSpacing) *
+                   static_cast<std::size_t>(coarseColumns_) +
+               static_cast<std::size_t>(i / kCoarseSpacing);
     }
     static std::uint64_t key(std::int32_t i, std::int32_t j) {
         return static_cast<std::uint64_t>(j) << 32 | static_cast<std::uint32_t>(i);
     }
 
-    int thresholdsExceededBy(double deviationMetres) const;
-    Corner corner(const Point& p) const;
-    double deviation(const std::array<Point, 3>& triangle) const;
-    int exceededByTriangle(const Point& p, const Point& apex, const Point& q) const;
-    int exceededBySplit(std::int32_t i, std::int32_t j, std::int32_t s, bool isCentre) const;
-    int exceededByChildren(std::int32_t i, std::int32_t j, std::int32_t s, bool isCentre) const;
-    int exceededBy(std::int32_t i, std::int32_t j, std::int32_t s, bool isCentre) const;
-    void measureFinestRow(std::int32_t j);
-    void measureClass(std::int32_t s, bool isCentre);
-    void measureRow(std::int32_t j, std::int32_t s, bool isCentre, std::vector<Found>& outside);
-
-    const SourceSurface& surface_;
+    const ElevationModel& model_;
+    Scratch& scratch_;
     std::vector<double> thresholds_;
     std::vector<float> floatThresholds_;
     std::int32_t columns_;
     std::int32_t rows_;
-    std::int32_t side_;  ///< cells a side of the padded square
-    std::vector<std::uint8_t> levels_;
-    std::unordered_map<std::uint64_t, std::uint8_t> outside_;
+    std::int32_t side_;      ///< cells a side of the padded square
+    std::int32_t coveredI_;  ///< last column and row of the raster's tiles
+    std::int32_t coveredJ_;
+    std::int32_t coarseColumns_;
+    TiledRaster<std::uint8_t> measured_;                     ///< by `measure`; borders differ
+    std::array<TiledRaster<std::uint8_t>, kLayers> joined_;  ///< without the coarse vertices
+    std::vector<std::uint8_t> coarse_;
+    std::unordered_map<std::uint64_t, std::uint8_t> outside_;  ///< of the tiles
 };
 
 }  // namespace eyrie::terrain

@@ -12,7 +12,7 @@
 #include "cli/data_cache.h"
 #include "cli/placement.h"
 #include "cli/scene_files.h"
-#include "renderer/import/dem_source.h"
+#include "renderer/import/geotiff_writer.h"
 #include "renderer/import/mesh_synth.h"
 #include "renderer/import/ply_writer.h"
 #include "renderer/mesh/eym_format.h"

@@ -15,7 +15,7 @@
 #include <gtest/gtest.h>
 
 #include "fabric/frustum.h"
-#include "renderer/import/dem_source.h"
+#include "renderer/import/geotiff_writer.h"
 #include "renderer/import/terrain_import.h"
 #include "renderer/import/terrain_synth.h"
 #include "renderer/renderer.h"
@@ -137,7 +137,7 @@ protected:
         ASSERT_TRUE(posts.ok()) << posts.status();
         ground_ = std::make_unique<truth::TerrainRayCaster>(*std::move(posts));
         const std::string terrain = folder_.path("terrain.eyt");
-        const auto report = import::importTerrain(dem, terrain, {});
+        const auto report = import::importTerrain({dem}, terrain, {}, {});
         ASSERT_TRUE(report.ok()) << report.status();
         fabric::Scene scene;
         scene.objects.push_back(

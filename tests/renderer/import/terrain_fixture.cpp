@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <fstream>
 
 #include <gtest/gtest.h>
+
+#include "renderer/import/dem_source.h"
 
 namespace eyrie::test {
 
@@ -25,6 +28,36 @@ std::vector<std::string> TemporaryFolder::files() const {
     for (const auto& entry : std::filesystem::directory_iterator(folder_))
         names.push_back(entry.path().filename().string());
     return names;
+}
+
+absl::StatusOr<Dem> readDem(const std::string& path) { return readDems({path}); }
+
+absl::StatusOr<Dem> readDems(const std::vector<std::string>& paths) {
+    auto source = import::openDems(paths, {});
+    if (!source.ok())
+        return source.status();
+    const terrain::GridFrame& frame = source->posts->frame();
+    Dem dem;
+    dem.grid.columns = frame.columns;
+    dem.grid.rows = frame.rows;
+    dem.grid.origin = frame.origin;
+    dem.grid.perColumn = frame.perColumn;
+    dem.grid.perRow = frame.perRow;
+    dem.crsWkt = source->crsWkt;
+    dem.sourceHash = source->hash;
+    dem.notes = source->notes;
+    dem.grid.heights.resize(static_cast<std::size_t>(frame.columns) *
+                            static_cast<std::size_t>(frame.rows));
+    const absl::Status read =
+        source->posts->read({0, 0, frame.columns, frame.rows}, dem.grid.heights.data());
+    if (!read.ok())
+        return read;
+    return dem;
+}
+
+std::string contents(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
 }
 
 std::shared_ptr<const terrain::EytFile> imported(const terrain::HeightGrid& grid,

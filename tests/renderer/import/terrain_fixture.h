@@ -28,6 +28,19 @@ private:
     std::filesystem::path folder_;
 };
 
+/// What an elevation model on disk is read as, whole.
+struct Dem {
+    terrain::HeightGrid grid;
+    std::string crsWkt;
+    std::uint64_t sourceHash = 0;
+    std::vector<std::string> notes;
+};
+absl::StatusOr<Dem> readDem(const std::string& path);
+absl::StatusOr<Dem> readDems(const std::vector<std::string>& paths);
+
+/// All bytes of a file.
+std::string contents(const std::string& path);
+
 /// Writes `grid` as an .eyt in `folder` and opens it. Fails the test, and returns null, on errors.
 std::shared_ptr<const terrain::EytFile> imported(const terrain::HeightGrid& grid,
                                                  const TemporaryFolder& folder);

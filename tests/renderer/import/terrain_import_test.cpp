@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/import/terrain_import.h"
 
-#include <fstream>
+#include <algorithm>
 #include <map>
 
 #include <gtest/gtest.h>
 
-#include "renderer/import/dem_source.h"
+#include "renderer/import/geotiff_writer.h"
 #include "renderer/import/terrain_synth.h"
 #include "tests/renderer/import/terrain_fixture.h"
 #include "tests/renderer/terrain/hard_grids.h"
@@ -14,13 +14,10 @@
 namespace eyrie::import {
 namespace {
 
+using test::contents;
 using test::GridKind;
+using test::readDem;
 using test::TemporaryFolder;
-
-std::string contents(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
 
 TEST(TerrainSynth, IsTheSameForASeedWhateverTheSize) {
     const terrain::HeightGrid small = synthesizeTerrain(70, 5);
@@ -35,7 +32,7 @@ TEST(TerrainSynth, ComesBackFromItsGeoTiffUnchanged) {
     terrain::HeightGrid grid = synthesizeTerrain(130, 1);
     grid.row(3)[4] = terrain::kNodata;
     ASSERT_TRUE(writeGeoTiff(grid, folder.path("a.tif")).ok());
-    const auto dem = readDem(folder.path("a.tif"), {});
+    const auto dem = readDem(folder.path("a.tif"));
     ASSERT_TRUE(dem.ok()) << dem.status();
     EXPECT_EQ(dem->grid.origin, grid.origin);
     EXPECT_EQ(dem->grid.perColumn, grid.perColumn);
@@ -68,7 +65,7 @@ TEST(TerrainImport, ReportsWhatTheFileSays) {
         EXPECT_GE(fraction, last);
         last = fraction;
     };
-    const auto report = importTerrain(tif, folder.path("a.eyt"), control);
+    const auto report = importTerrain({tif}, folder.path("a.eyt"), {}, control);
     ASSERT_TRUE(report.ok()) << report.status();
     for (const char* stage : {"reading", "measuring", "building"})
         EXPECT_EQ(progress[stage], 1) << stage;
@@ -111,6 +108,33 @@ TEST(TerrainImport, NamesTheFolderThatIsMissing) {
     EXPECT_NE(report.status().ToString().find("no/where.eyt"), std::string::npos);
     EXPECT_FALSE(writeGeoTiff(grid, folder.path("no/where.tif")).ok());
     EXPECT_TRUE(folder.files().empty());
+}
+
+TEST(TerrainImport, RefusesAGridWithoutAnyDataOrTriangle) {
+    const TemporaryFolder folder;
+    terrain::HeightGrid grid = test::hardGrid(GridKind::Noise, 40, 30, 0);
+    std::fill(grid.heights.begin(), grid.heights.end(), terrain::kNodata);
+    const auto none = importTerrain(grid, {"a.tif", "", 0}, folder.path("a.eyt"), {});
+    EXPECT_EQ(none.status().code(), absl::StatusCode::kInvalidArgument);
+    EXPECT_NE(none.status().ToString().find("a.tif: all posts are nodata"), std::string::npos);
+    grid.row(3)[4] = grid.row(3)[5] = 7;
+    const auto two = importTerrain(grid, {"a.tif", "", 0}, folder.path("a.eyt"), {});
+    EXPECT_EQ(two.status().code(), absl::StatusCode::kInvalidArgument);
+    EXPECT_TRUE(folder.files().empty());
+}
+
+/// Level 0 may leave out what the others may not.
+TEST(TerrainImport, KeepsTheErrorAskedForAtTheFinestLevel) {
+    for (const double asked : {0.5, 3.0, 40.0}) {
+        const TemporaryFolder folder;
+        const terrain::HeightGrid grid = synthesizeTerrain(300, 6);
+        GridHeightSource posts(grid);
+        const auto report =
+            importTerrain(posts, {"grid", "", 0}, folder.path("a.eyt"), {.errorMetres = asked}, {});
+        ASSERT_TRUE(report.ok()) << report.status();
+        EXPECT_LE(report->finestErrorMetres, asked);
+        EXPECT_GT(report->finestErrorMetres, asked / 4) << "less was left out than might be";
+    }
 }
 
 TEST(HeightLattice, IsOfWholeMetresForWholeMetresAndFineEnoughOtherwise) {

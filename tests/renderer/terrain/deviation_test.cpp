@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/terrain/deviation.h"
 
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+
 #include <gtest/gtest.h>
 
+#include "tests/renderer/terrain/grid_model.h"
 #include "tests/renderer/terrain/hard_grids.h"
 #include "tests/renderer/terrain/reference_surface.h"
 
@@ -40,9 +45,9 @@ Triangle withHeights(const HeightGrid& grid, Triangle triangle, double offset, R
 }
 
 /// A right isosceles triangle inside the grid: legs along the axes, or the hypotenuse.
-Triangle randomAligned(const HeightGrid& grid, Random& random) {
+Triangle randomAligned(const HeightGrid& grid, Random& random, int largestLeg = 4) {
     for (;;) {
-        const std::int32_t leg = 1 << random.integer(0, 4);
+        const std::int32_t leg = 1 << random.integer(0, largestLeg);
         const std::int32_t i = random.integer(0, grid.columns - 1);
         const std::int32_t j = random.integer(0, grid.rows - 1);
         const std::int32_t dx = random.integer(0, 1) == 0 ? leg : -leg;
@@ -53,10 +58,10 @@ Triangle randomAligned(const HeightGrid& grid, Random& random) {
                 triangle = {Corner{i, j, 0}, Corner{i + dx, j, 0}, Corner{i, j + dy, 0}};
                 break;
             case 1:
-                triangle = {Corner{i - leg, j, 0}, Corner{i + leg, j, 0}, Corner{i, j + dy, 0}};
+                triangle = {Corner{i, j + dy, 0}, Corner{i - leg, j, 0}, Corner{i + leg, j, 0}};
                 break;
             default:
-                triangle = {Corner{i, j - leg, 0}, Corner{i, j + leg, 0}, Corner{i + dx, j, 0}};
+                triangle = {Corner{i + dx, j, 0}, Corner{i, j - leg, 0}, Corner{i, j + leg, 0}};
         }
         const auto isIn = [&](const Corner& c) {
             return c.i >= 0 && c.j >= 0 && c.i < grid.columns && c.j < grid.rows;
@@ -82,7 +87,8 @@ TEST(Deviation, OfAlignedTrianglesIsWhatSamplingFindsToTheLastBit) {
     for (int round = 0; round < 2000; ++round) {
         const auto kind = static_cast<GridKind>(round % test::kGridKinds);
         const HeightGrid grid = test::hardGrid(kind, 37, 34, random.next());
-        const SourceSurface surface(grid, false);
+        test::GridModel model(grid);
+        SourceSurface& surface = model.surface();
         const double offset = round % 3 == 0 ? 0 : 0.5;
         const Triangle place = randomAligned(grid, random);
         const Triangle triangle = withHeights(grid, place, offset, random);
@@ -101,7 +107,8 @@ TEST(Deviation, OfGeneralTrianglesIsNeverBelowAndCloseToDenseSamples) {
     for (int round = 0; round < 400; ++round) {
         const auto kind = static_cast<GridKind>(round % test::kGridKinds);
         const HeightGrid grid = test::hardGrid(kind, 19, 23, random.next());
-        const SourceSurface surface(grid, false);
+        test::GridModel model(grid);
+        SourceSurface& surface = model.surface();
         const Triangle triangle = withHeights(grid, randomGeneral(grid, random), 0.5, random);
         const double sampled = sampledDeviation(grid, triangle, 8);
         const double computed = surface.ofGeneral(triangle);
@@ -113,12 +120,64 @@ TEST(Deviation, OfGeneralTrianglesIsNeverBelowAndCloseToDenseSamples) {
     EXPECT_LT(largestShortfall, 34.0 / 8);
 }
 
+/// Over the borders of the raster's tiles, where blocks are left out that cannot matter.
+TEST(Deviation, OfWideTrianglesIsWhatSamplingFinds) {
+    Random random(4);
+    for (int round = 0; round < 60; ++round) {
+        const auto kind = static_cast<GridKind>(round % test::kGridKinds);
+        const HeightGrid grid = test::hardGrid(kind, 270, 263, random.next());
+        test::GridModel model(grid);
+        Triangle triangle;
+        do {
+            triangle = randomAligned(grid, random, 8);
+        } while (std::abs(triangle[0].i - triangle[1].i) + std::abs(triangle[0].j - triangle[1].j) <
+                 64);
+        const Triangle drawn = withHeights(grid, triangle, 20, random);
+        EXPECT_NEAR(model.surface().ofAligned(drawn), sampledDeviation(grid, drawn, 2), 1e-9)
+            << name(kind) << " round " << round;
+        const Triangle any = withHeights(grid, randomGeneral(grid, random), 20, random);
+        EXPECT_GE(model.surface().ofGeneral(any), sampledDeviation(grid, any, 2) - 1e-9);
+    }
+}
+
+TEST(Deviation, WithAGoalIsTheSameWhereItMatters) {
+    Random random(5);
+    const std::array<double, 7> steps{0.01, 1, 2, 4, 40, 80, 400};
+    for (int round = 0; round < 600; ++round) {
+        const auto kind = static_cast<GridKind>(round % test::kGridKinds);
+        HeightGrid grid = test::hardGrid(kind, 270, 263, random.next());
+        if (round % 4 == 0)
+            grid.row(random.integer(0, 262))[random.integer(0, 269)] = kNodata;
+        test::GridModel model(grid);
+        SourceSurface& surface = model.surface();
+        const bool isAligned = round % 2 == 0;
+        const Triangle triangle = withHeights(
+            grid, isAligned ? randomAligned(grid, random, 8) : randomGeneral(grid, random), 2,
+            random);
+        const auto measured = [&](const DeviationGoal& goal) {
+            return isAligned ? surface.ofAligned(triangle, goal)
+                             : surface.ofGeneral(triangle, goal);
+        };
+        const double whole = measured({});
+        const double floor = whole * random.unit() * 2;
+        EXPECT_EQ(measured({floor}), std::max(floor, whole)) << name(kind) << " round " << round;
+        const auto stepsBelow = [&](double deviation) {
+            return std::count_if(steps.begin(), steps.end(),
+                                 [&](double step) { return deviation > step; });
+        };
+        const double first = steps[static_cast<std::size_t>(random.integer(0, 6))];
+        EXPECT_EQ(stepsBelow(measured({first, steps})), stepsBelow(std::max(first, whole)))
+            << name(kind) << " round " << round;
+    }
+}
+
 TEST(Deviation, OfAPlaneInWholeMetresIsExactlyZero) {
     HeightGrid grid = test::hardGrid(GridKind::Flat, 65, 65, 0);
     for (std::int32_t j = 0; j < grid.rows; ++j)
         for (std::int32_t i = 0; i < grid.columns; ++i)
             grid.row(j)[i] = static_cast<float>(-11034 + 7 * i - 3 * j);
-    const SourceSurface surface(grid, false);
+    test::GridModel model(grid);
+    SourceSurface& surface = model.surface();
     Random random(3);
     for (int round = 0; round < 200; ++round)
         EXPECT_EQ(surface.ofAligned(withHeights(grid, randomAligned(grid, random), 0, random)), 0);
@@ -127,15 +186,17 @@ TEST(Deviation, OfAPlaneInWholeMetresIsExactlyZero) {
 TEST(Deviation, SeesARidgeThatTheHypotenuseMidpointMisses) {
     HeightGrid grid = test::hardGrid(GridKind::Flat, 17, 17, 0);
     grid.row(3)[5] = 100;
-    const SourceSurface surface(grid, false);
-    EXPECT_EQ(surface.ofAligned({Corner{0, 0, 0}, Corner{16, 0, 0}, Corner{16, 16, 0}}), 100);
+    test::GridModel model(grid);
+    SourceSurface& surface = model.surface();
+    EXPECT_EQ(surface.ofAligned({Corner{16, 0, 0}, Corner{0, 0, 0}, Corner{16, 16, 0}}), 100);
     EXPECT_EQ(surface.ofGeneral({Corner{0, 0, 0}, Corner{15, 1, 0}, Corner{7, 16, 0}}), 100);
 }
 
 TEST(Deviation, OfDataMixedWithNodataIsTheLongestEdge) {
     HeightGrid grid = test::hardGrid(GridKind::Flat, 17, 17, 0);
     grid.row(4)[2] = kNodata;
-    const SourceSurface surface(grid, true);
+    test::GridModel model(grid);
+    SourceSurface& surface = model.surface();
     const Triangle mixed = {Corner{0, 0, 0}, Corner{8, 0, 0}, Corner{0, 8, 0}};
     EXPECT_NEAR(surface.ofAligned(mixed), 80 * std::sqrt(2), 1e-9);
     EXPECT_NEAR(surface.ofGeneral(mixed), 80 * std::sqrt(2), 1e-9);
@@ -147,7 +208,8 @@ TEST(Deviation, OfDataMixedWithNodataIsTheLongestEdge) {
 TEST(Deviation, OfNothingButNodataIsZero) {
     HeightGrid grid = test::hardGrid(GridKind::Noise, 9, 9, 0);
     std::fill(grid.heights.begin(), grid.heights.end(), kNodata);
-    const SourceSurface surface(grid, true);
+    test::GridModel model(grid);
+    SourceSurface& surface = model.surface();
     EXPECT_EQ(
         surface.ofAligned({Corner{0, 0, kNodata}, Corner{8, 0, kNodata}, Corner{0, 8, kNodata}}),
         0);

@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
 #include "renderer/terrain/eyt_writer.h"
 #include "renderer/terrain/normal_map.h"
+#include "renderer/terrain/tile_samples.h"
 #include "renderer/terrain/vertex_levels.h"
+#include "tests/renderer/terrain/grid_model.h"
 
 namespace eyrie::test {
 namespace {
@@ -89,14 +92,22 @@ std::vector<SamplePage> samplePages(const SampleTerrain& sample) {
     const terrain::HeightGrid grid = gridOf(sample);
     const terrain::Quadtree quadtree(static_cast<std::uint32_t>(grid.columns),
                                      static_cast<std::uint32_t>(grid.rows));
-    const terrain::SourceSurface surface(grid, sample.nodataShare > 0);
+    GridModel model(grid);
     std::vector<double> thresholds;
     for (int level = 0; level < quadtree.levels(); ++level)
         thresholds.push_back(sample.finestThresholdMetres * (1 << level));
-    const auto levels = terrain::VertexLevels::compute(surface, thresholds, {});
+    terrain::VertexLevels levels(model.model(), model.scratch());
+    levels.setThresholds(thresholds);
+    const int layers = terrain::Quadtree::spacingShift(quadtree.levels() - 1) + 1;
+    terrain::HeightLayers heights(model.model(), model.scratch(), layers);
+    terrain::NormalMaps normals(model.model(), model.scratch(), quadtree.levels());
+    for (const absl::Status& status : {levels.measure({}), levels.join({}), levels.finish({}),
+                                       heights.make({}), normals.make({})})
+        if (!status.ok())
+            throw std::runtime_error(status.ToString());
     const terrain::HeightLattice lattice{sample.stepMetres, false};
-    const terrain::NormalMaps normals(grid, quadtree.levels());
-    terrain::TileMesher mesher(surface, *levels, lattice, quadtree);
+    terrain::TileSamples samples(heights, levels);
+    terrain::TileMesher mesher(model.surface(), samples, lattice, quadtree);
 
     std::vector<SamplePage> pages;
     for (std::uint32_t number = 0; number < quadtree.pageCount(); ++number) {

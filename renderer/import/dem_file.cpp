@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/import/dem_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <optional>
+
+#include <cpl_string.h>
+#include <cpl_vsi.h>
+#include <fmt/format.h>
+#include <gdal_priv.h>
+#include <xxhash.h>
+
+#include "fabric/status.h"
+#include "renderer/terrain/height_grid.h"
+
+namespace eyrie::import {
+namespace {
+
+/// What a pixel value has to go through to be metres.
+struct ValueRule {
+    std::optional<float> nodata;
+    bool lowestIsNodata = false;  ///< -32768, in 16-bit rasters
+    double scale = 1;
+    double offset = 0;
+};
+
+std::string gdalPath(const std::string& path) {
+    if (path.starts_with("/vsi"))
+        return path;
+    if (path.ends_with(".gz"))
+        return "/vsigzip/" + path;
+    if (path.ends_with(".zip"))
+        return "/vsizip/" + path;
+    return path;
+}
+
+absl::StatusOr<std::uint64_t> hashFile(const std::string& path) {
+    const std::unique_ptr<VSILFILE, Releaser<VSIFCloseL>> file(VSIFOpenL(path.c_str(), "rb"));
+    if (!file)
+        return absl::NotFoundError(fmt::format("{}: no such file, or not readable", path));
+    const std::unique_ptr<XXH64_state_t, Releaser<XXH64_freeState>> state(XXH64_createState());
+    XXH64_reset(state.get(), 0);
+    std::vector<char> buffer(std::size_t{1} << 20);
+    while (const std::size_t got = VSIFReadL(buffer.data(), 1, buffer.size(), file.get()))
+        XXH64_update(state.get(), buffer.data(), got);
+    return XXH64_digest(state.get());
+}
+
+absl::StatusOr<Dataset> openRaster(const std::string& path, QuietGdal& gdal) {
+    Dataset dataset(GDALOpenEx(gdalPath(path).c_str(),
+                               GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, nullptr,
+                               nullptr, nullptr));
+    if (!dataset)
+        return invalid(path, fmt::format("is no raster that GDAL {} reads ({}); give a DEM such as "
+                                         "a GeoTIFF",
+                                         GDALVersionInfo("RELEASE_NAME"), gdal.takeError()));
+    if (GDALGetRasterCount(dataset.get()) < 1)
+        return invalid(path,
+                       "has no raster band of its own; name one of its subdatasets instead "
+                       "(gdalinfo lists them)");
+    return dataset;
+}
+
+/// Refuses bands that hold something else than heights.
+absl::Status checkBand(const std::string& path, GDALRasterBandH band) {
+    const GDALDataType type = GDALGetRasterDataType(band);
+    if (GDALDataTypeIsComplex(type))
+        return invalid(path, fmt::format("band 1 holds complex numbers ({}), not heights",
+                                         GDALGetDataTypeName(type)));
+    const GDALColorInterp colour = GDALGetRasterColorInterpretation(band);
+    if (colour == GCI_PaletteIndex || GDALGetRasterColorTable(band) != nullptr)
+        return invalid(path, "band 1 holds palette indices of a picture, not heights");
+    if (colour >= GCI_RedBand && colour <= GCI_YCbCr_CrBand)
+        return invalid(path, fmt::format("band 1 is a picture's ({}), not heights; give a DEM",
+                                         GDALGetColorInterpretationName(colour)));
+    return absl::OkStatus();
+}
+
+/// Metres per unit of a band's unit tag; 1 for metres and for what it does not know.
+double metresPerUnit(const std::string& unit, std::vector<std::string>& notes) {
+    struct Unit {
+        const char* name;
+        double metres;
+    };
+    constexpr double kFoot = 0.3048;
+    constexpr double kUsSurveyFoot = 1200.0 / 3937.0;
+    constexpr std::array<Unit, 20> kUnits = {{{"", 1},
+                                              {"m", 1},
+                                              {"metre", 1},
+                                              {"meter", 1},
+                                              {"metres", 1},
+                                              {"meters", 1},
+                                              {"ft", kFoot},
+                                              {"feet", kFoot},
+                                              {"foot", kFoot},
+                                              {"International foot", kFoot},
+                                              {"US survey foot", kUsSurveyFoot},
+                                              {"us-ft", kUsSurveyFoot},
+                                              {"ftUS", kUsSurveyFoot},
+                                              {"foot_survey_us", kUsSurveyFoot},
+                                              {"Foot_US", kUsSurveyFoot},
+                                              {"km", 1000},
+                                              {"dm", 0.1},
+                                              {"cm", 0.01},
+                                              {"centimeters", 0.01},
+                                              {"mm", 0.001}}};
+    for (const Unit& known : kUnits)
+        if (EQUAL(unit.c_str(), known.name)) {
+            if (known.metres != 1)
+                notes.push_back(fmt::format("heights in {} turned to metres", unit));
+            return known.metres;
+        }
+    notes.push_back(fmt::format("height unit '{}' is unknown; taken for metres", unit));
+    return 1;
+}
+
+absl::StatusOr<ValueRule> valueRule(const std::string& path, GDALRasterBandH band,
+                                    std::vector<std::string>& notes) {
+    ValueRule rule;
+    int isSet = 0;
+    const double nodata = GDALGetRasterNoDataValue(band, &isSet);
+    if (isSet != 0)
+        rule.nodata = static_cast<float>(nodata);
+    rule.lowestIsNodata = GDALGetRasterDataType(band) == GDT_Int16;
+    const double scale = GDALGetRasterScale(band, &isSet);
+    const double offset = GDALGetRasterOffset(band, &isSet);
+    if (!std::isfinite(scale) || !std::isfinite(offset) || scale == 0)
+        return invalid(path, fmt::format("band 1 has scale {} and offset {}; both must be finite "
+                                         "and the scale not 0",
+                                         scale, offset));
+    const double unit = metresPerUnit(GDALGetRasterUnitType(band), notes);
+    rule.scale = scale * unit;
+    rule.offset = offset * unit;
+    return rule;
+}
+
+float heightOf(float value, const ValueRule& rule) {
+    constexpr float kImpossible = 1e30F;
+    const bool isNodata = (rule.nodata && value == *rule.nodata) ||
+                          (rule.lowestIsNodata && value == -32768.0F) ||
+                          !(std::abs(value) < kImpossible);
+    return isNodata ? terrain::kNodata
+                    : static_cast<float>(static_cast<double>(value) * rule.scale + rule.offset);
+}
+
+absl::StatusOr<Georeference> georeferenceOf(const std::string& path, GDALDatasetH dataset,
+                                            std::vector<std::string>& notes) {
+    std::array<double, 6> t{};
+    if (GDALGetGeoTransform(dataset, t.data()) != CE_None) {
+        notes.emplace_back("not georeferenced: posts are taken to be 1 m apart");
+        const double rows = GDALGetRasterYSize(dataset);
+        return Georeference{{0, rows}, {1, 0}, {0, -1}};
+    }
+    const double determinant = t[1] * t[5] - t[2] * t[4];
+    const bool isFinite =
+        std::all_of(t.begin(), t.end(), [](double v) { return std::isfinite(v); });
+    if (!isFinite || determinant == 0 || !std::isfinite(determinant))
+        return invalid(path, fmt::format("geotransform ({}) is not finite or has no area; set "
+                                         "another (gdal_edit.py -a_ullr)",
+                                         fmt::join(t, ", ")));
+    return Georeference{{t[0], t[3]}, {t[1], t[4]}, {t[2], t[5]}};
+}
+
+/// The heights of another dataset's first band, turned to metres block by block.
+class HeightBand : public GDALRasterBand {
+public:
+    HeightBand(GDALDataset* owner, GDALRasterBand* source, const ValueRule& rule)
+        : source_(source), rule_(rule) {
+        poDS = owner;
+        nBand = 1;
+        eDataType = GDT_Float32;
+        nRasterXSize = source->GetXSize();
+        nRasterYSize = source->GetYSize();
+        source->GetBlockSize(&nBlockXSize, &nBlockYSize);
+        constexpr std::int64_t kMostValues = 1 << 22;
+        if (nBlockXSize < 1 || nBlockYSize < 1 ||
+            std::int64_t{nBlockXSize} * nBlockYSize > kMostValues)
+            nBlockXSize = nBlockYSize = 512;
+        hasMask_ = (source->GetMaskFlags() & (GMF_PER_DATASET | GMF_ALPHA)) != 0;
+    }
+
+    double GetNoDataValue(int* isSet) override {
+        if (isSet != nullptr)
+            *isSet = 1;
+        return std::numeric_limits<double>::quiet_NaN();
+    }
+
+protected:
+    CPLErr IReadBlock(int x, int y, void* data) override {
+        const int i = x * nBlockXSize;
+        const int j = y * nBlockYSize;
+        const int columns = std::min(nBlockXSize, nRasterXSize - i);
+        const int rows = std::min(nBlockYSize, nRasterYSize - j);
+        auto* heights = static_cast<float*>(data);
+        const auto line = static_cast<GSpacing>(nBlockXSize) * static_cast<GSpacing>(sizeof(float));
+        if (source_->RasterIO(GF_Read, i, j, columns, rows, heights, columns, rows, GDT_Float32,
+                              sizeof(float), line, nullptr) != CE_None)
+            return CE_Failure;
+        for (int v = 0; v < rows; ++v)
+            for (int u = 0; u < columns; ++u) {
+                float& height = heights[v * std::ptrdiff_t{nBlockXSize} + u];
+                height = heightOf(height, rule_);
+            }
+        return hasMask_ ? applyMask(i, j, columns, rows, heights) : CE_None;
+    }
+
+private:
+    CPLErr applyMask(int i, int j, int columns, int rows, float* heights) {
+        mask_.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+        if (source_->GetMaskBand()->RasterIO(GF_Read, i, j, columns, rows, mask_.data(), columns,
+                                             rows, GDT_Byte, 0, 0, nullptr) != CE_None)
+            return CE_Failure;
+        for (int v = 0; v < rows; ++v)
+            for (int u = 0; u < columns; ++u)
+                if (mask_[static_cast<std::size_t>(v) * static_cast<std::size_t>(columns) +
+                          static_cast<std::size_t>(u)] == 0)
+                    heights[v * std::ptrdiff_t{nBlockXSize} + u] = terrain::kNodata;
+        return CE_None;
+    }
+
+    GDALRasterBand* source_;
+    ValueRule rule_;
+    bool hasMask_ = false;
+    std::vector<unsigned char> mask_;
+};
+
+class HeightDataset : public GDALDataset {
+public:
+    HeightDataset(Dataset source, const ValueRule& rule) : source_(std::move(source)) {
+        GDALDataset* const dataset = GDALDataset::FromHandle(source_.get());
+        nRasterXSize = dataset->GetRasterXSize();
+        nRasterYSize = dataset->GetRasterYSize();
+        SetBand(1, new HeightBand(this, dataset->GetRasterBand(1), rule));
+    }
+    ~HeightDataset() override { FlushCache(true); }
+
+    CPLErr GetGeoTransform(double* transform) override {
+        return GDALGetGeoTransform(source_.get(), transform);
+    }
+    const OGRSpatialReference* GetSpatialRef() const override {
+        return GDALDataset::FromHandle(source_.get())->GetSpatialRef();
+    }
+
+private:
+    Dataset source_;
+};
+
+/// Of the file that was named and, where it is one of several or names others, of all of them.
+absl::StatusOr<std::uint64_t> hashFiles(const std::string& path, GDALDatasetH dataset) {
+    ASSIGN_OR_RETURN(std::uint64_t hash, hashFile(path));
+    char** const files = GDALGetFileList(dataset);
+    for (char** file = files; file != nullptr && *file != nullptr; ++file) {
+        if (path == *file || gdalPath(path) == *file)
+            continue;
+        const absl::StatusOr<std::uint64_t> other = hashFile(*file);
+        if (other.ok())
+            hash = hash * 0x9e3779b97f4a7c15 + *other;
+    }
+    CSLDestroy(files);
+    return hash;
+}
+
+}  // namespace
+
+bool DemFile::isGeographic() const { return crs && OSRIsGeographic(crs.get()) != 0; }
+
+absl::StatusOr<DemFile> openDemFile(const std::string& path, QuietGdal& gdal) {
+    DemFile file;
+    file.path = path;
+    if (VSIStatBufL status; VSIStatL(path.c_str(), &status) != 0)
+        return absl::NotFoundError(fmt::format("{}: no such file, or not readable", path));
+    ASSIGN_OR_RETURN(Dataset dataset, openRaster(path, gdal));
+    const GDALRasterBandH band = GDALGetRasterBand(dataset.get(), 1);
+    RETURN_IF_ERROR(checkBand(path, band));
+    file.columns = GDALGetRasterXSize(dataset.get());
+    file.rows = GDALGetRasterYSize(dataset.get());
+    if (GDALGetRasterCount(dataset.get()) > 1)
+        file.notes.push_back(
+            fmt::format("band 1 of {} taken for heights", GDALGetRasterCount(dataset.get())));
+    ASSIGN_OR_RETURN(const ValueRule rule, valueRule(path, band, file.notes));
+    std::array<double, 6> ignored{};
+    file.isGeoreferenced = GDALGetGeoTransform(dataset.get(), ignored.data()) == CE_None;
+    ASSIGN_OR_RETURN(file.reference, georeferenceOf(path, dataset.get(), file.notes));
+    if (const OGRSpatialReferenceH crs = GDALGetSpatialRef(dataset.get()))
+        file.crs.reset(OSRClone(crs));
+    ASSIGN_OR_RETURN(file.hash, hashFiles(path, dataset.get()));
+    file.dataset.reset(GDALDataset::ToHandle(new HeightDataset(std::move(dataset), rule)));
+    return file;
+}
+
+}  // namespace eyrie::import

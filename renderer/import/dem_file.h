@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <absl/status/statusor.h>
+
+#include "renderer/import/gdal_handles.h"
+
+namespace eyrie::import {
+
+/// One file of heights, as it lies on disk.
+struct DemFile {
+    std::string path;
+    /// One band of float heights in metres, NaN for nodata: scale, offset, unit and mask are done
+    /// with. Blocks are read and turned when they are asked for.
+    Dataset dataset;
+    int columns = 0;
+    int rows = 0;
+    Georeference reference;  ///< in units of the CRS
+    bool isGeoreferenced = false;
+    SpatialReference crs;    ///< null: none
+    std::uint64_t hash = 0;  ///< XXH64 of the file's bytes, and of the files that it names
+    std::vector<std::string> notes;
+
+    bool isGeographic() const;
+};
+
+/// Looks at everything but the pixels. Errors: NotFound, InvalidArgument (no raster, not heights,
+/// no usable georeference).
+absl::StatusOr<DemFile> openDemFile(const std::string& path, QuietGdal& gdal);
+
+}  // namespace eyrie::import

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/import/gdal_handles.h"
+
+#include <mutex>
+
+#include <cpl_conv.h>
+#include <fmt/format.h>
+
+namespace eyrie::import {
+
+QuietGdal::QuietGdal() {
+    static std::once_flag registered;
+    std::call_once(registered, GDALAllRegister);
+    CPLPushErrorHandlerEx(&QuietGdal::note, this);
+    CPLSetThreadLocalConfigOption("CPL_VSIL_GZIP_WRITE_PROPERTIES", "NO");
+    CPLErrorReset();
+}
+
+QuietGdal::~QuietGdal() {
+    CPLSetThreadLocalConfigOption("CPL_VSIL_GZIP_WRITE_PROPERTIES", nullptr);
+    CPLPopErrorHandler();
+}
+
+void QuietGdal::note(CPLErr severity, CPLErrorNum, const char* message) {
+    auto& self = *static_cast<QuietGdal*>(CPLGetErrorHandlerUserData());
+    if (severity >= CE_Failure && self.error_.empty())
+        self.error_ = message;
+}
+
+std::array<double, 6> geoTransform(const Georeference& g) {
+    return {g.origin.x, g.perColumn.x, g.perRow.x, g.origin.y, g.perColumn.y, g.perRow.y};
+}
+
+std::string wktOf(OGRSpatialReferenceH reference) {
+    char* text = nullptr;
+    const char* const options[] = {"FORMAT=WKT2_2019", nullptr};
+    OSRExportToWktEx(reference, &text, options);
+    std::string wkt = text == nullptr ? "" : text;
+    CPLFree(text);
+    return wkt;
+}
+
+absl::Status invalid(const std::string& path, const std::string& what) {
+    return absl::InvalidArgumentError(fmt::format("{}: {}", path, what));
+}
+
+}  // namespace eyrie::import

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+#include <absl/status/status.h>
+#include <cpl_error.h>
+#include <gdal.h>
+#include <ogr_srs_api.h>
+
+#include "fabric/vec.h"
+
+/// Owners of what GDAL hands out. Included by the DEM sources of this folder only.
+namespace eyrie::import {
+
+template <auto Release>
+struct Releaser {
+    template <typename Handle>
+    void operator()(Handle* handle) const {
+        Release(handle);
+    }
+};
+using Dataset = std::unique_ptr<void, Releaser<GDALClose>>;
+using SpatialReference = std::unique_ptr<std::remove_pointer_t<OGRSpatialReferenceH>,
+                                         Releaser<OSRDestroySpatialReference>>;
+
+/// Keeps what GDAL would print, while it lives, on this thread; no sidecar files are written.
+class QuietGdal {
+public:
+    QuietGdal();
+    QuietGdal(const QuietGdal&) = delete;
+    QuietGdal& operator=(const QuietGdal&) = delete;
+    ~QuietGdal();
+
+    /// The first failure since the last call, "" for none.
+    std::string takeError() { return std::exchange(error_, {}); }
+
+private:
+    static void CPL_STDCALL note(CPLErr severity, CPLErrorNum, const char* message);
+
+    std::string error_;
+};
+
+/// Pixel to projected metres: (x, y) = origin + column * perColumn + row * perRow, from the outer
+/// corner of the first pixel.
+struct Georeference {
+    fabric::Vec2 origin{0, 0};
+    fabric::Vec2 perColumn{1, 0};
+    fabric::Vec2 perRow{0, -1};
+};
+
+/// As GDAL writes it.
+std::array<double, 6> geoTransform(const Georeference& reference);
+
+std::string wktOf(OGRSpatialReferenceH reference);
+
+/// InvalidArgument "path: what".
+absl::Status invalid(const std::string& path, const std::string& what);
+
+}  // namespace eyrie::import

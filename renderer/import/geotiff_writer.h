@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include <absl/status/status.h>
+
+#include "renderer/terrain/height_grid.h"
+
+namespace eyrie::import {
+
+/// Writes an unrotated grid as GeoTIFF, float32, in UTM zone 33 north, north row first.
+/// Nothing is left behind on errors: NotFound, PermissionDenied, Unavailable.
+absl::Status writeGeoTiff(const terrain::HeightGrid& grid, const std::string& path);
+
+}  // namespace eyrie::import

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+
+#include <absl/status/status.h>
+
+#include "renderer/terrain/height_grid.h"
+#include "renderer/terrain/tiled_raster.h"
+
+namespace eyrie::import {
+
+/// Where the posts of an elevation model come from, a window at a time. One thread at a time.
+class HeightSource {
+public:
+    virtual ~HeightSource() = default;
+
+    virtual const terrain::GridFrame& frame() const = 0;
+    /// Rows are stored from the last to the first: quicker read in that order.
+    virtual bool isLastRowFirst() const = 0;
+    /// The heights of a window of the frame, in metres, row by row; NaN is nodata, and there are no
+    /// infinities. Errors: DataLoss.
+    virtual absl::Status read(const terrain::PostRect& window, float* out) = 0;
+};
+
+/// A grid in memory, which is referred to.
+class GridHeightSource : public HeightSource {
+public:
+    explicit GridHeightSource(const terrain::HeightGrid& grid)
+        : grid_(grid), frame_(grid.frame()) {}
+
+    const terrain::GridFrame& frame() const override { return frame_; }
+    bool isLastRowFirst() const override { return false; }
+    absl::Status read(const terrain::PostRect& window, float* out) override {
+        for (std::int32_t j = 0; j < window.rows; ++j)
+            out = std::copy_n(grid_.row(window.j + j) + window.i, window.columns, out);
+        return absl::OkStatus();
+    }
+
+private:
+    const terrain::HeightGrid& grid_;
+    terrain::GridFrame frame_;
+};
+
+}  // namespace eyrie::import

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/import/import_journal.h"
+
+#include <cerrno>
+#include <cstring>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <xxhash.h>
+
+#include "fabric/status.h"
+
+namespace eyrie::import {
+namespace {
+
+struct Header {
+    std::array<char, 8> magic = {'E', 'Y', 'R', 'I', 'E', 'J', 'N', 'L'};
+    std::uint64_t version = 1;
+    std::uint64_t key = 0;
+
+    bool operator==(const Header&) const = default;
+};
+
+struct RecordHeader {
+    std::uint64_t step = 0;
+    std::uint64_t bytes = 0;
+    std::uint64_t checksum = 0;  ///< XXH64 of the state, seeded with the step
+};
+
+std::uint64_t checksumOf(std::uint64_t step, std::span<const std::byte> state) {
+    return XXH64(state.data(), state.size(), step);
+}
+
+absl::Status errnoStatus(const std::string& path, const char* what) {
+    const int error = errno;
+    const std::string message = fmt::format("{}: {}: {}", path, what, std::strerror(error));
+    switch (error) {
+        case ENOENT:
+        case ENOTDIR:
+            return absl::NotFoundError(message + "; create the folder first");
+        case EACCES:
+        case EPERM:
+        case EROFS:
+            return absl::PermissionDeniedError(message);
+        case ENOSPC:
+        case EDQUOT:
+            return absl::ResourceExhaustedError(message +
+                                                "; free some space on that disk, then "
+                                                "run the same command again");
+        default:
+            return absl::UnavailableError(message);
+    }
+}
+
+std::size_t readUpTo(int fd, void* out, std::size_t bytes, std::uint64_t offset) {
+    std::size_t have = 0;
+    while (have < bytes) {
+        const ssize_t got = pread(fd, static_cast<char*>(out) + have, bytes - have,
+                                  static_cast<off_t>(offset + have));
+        if (got < 0 && errno == EINTR)
+            continue;
+        if (got <= 0)
+            break;
+        have += static_cast<std::size_t>(got);
+    }
+    return have;
+}
+
+}  // namespace
+
+ImportJournal::ImportJournal(ImportJournal&& other) noexcept
+    : path_(std::move(other.path_)),
+      fd_(std::exchange(other.fd_, -1)),
+      key_(other.key_),
+      steps_(std::move(other.steps_)) {}
+
+ImportJournal::~ImportJournal() {
+    if (fd_ >= 0)
+        close(fd_);
+}
+
+absl::StatusOr<ImportJournal> ImportJournal::open(const std::string& path, std::uint64_t key,
+                                                  bool startsOver) {
+    const int fd = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+    if (fd < 0)
+        return errnoStatus(path, "cannot be written");
+    ImportJournal journal(path, fd, key);
+    if (flock(fd, LOCK_EX | LOCK_NB) != 0)
+        return absl::FailedPreconditionError(fmt::format(
+            "{}: another import into the same file is at work; wait for it, or stop it", path));
+    if (!startsOver)
+        journal.read();
+    if (journal.isEmpty())
+        RETURN_IF_ERROR(journal.clear());
+    return journal;
+}
+
+void ImportJournal::read() {
+    struct stat status {};
+    Header header;
+    if (fstat(fd_, &status) != 0 || readUpTo(fd_, &header, sizeof header, 0) != sizeof header ||
+        header != Header{.key = key_})
+        return;
+    const auto size = static_cast<std::uint64_t>(status.st_size);
+    std::uint64_t offset = sizeof header;  // end of the last whole record
+    RecordHeader record;
+    while (readUpTo(fd_, &record, sizeof record, offset) == sizeof record) {
+        const std::uint64_t first = offset + sizeof record;
+        if (record.bytes > size - first)
+            break;
+        std::vector<std::byte> state(record.bytes);
+        if (readUpTo(fd_, state.data(), state.size(), first) != state.size() ||
+            checksumOf(record.step, state) != record.checksum)
+            break;
+        offset = first + record.bytes;
+        steps_[static_cast<std::uint32_t>(record.step)] = std::move(state);
+    }
+    if (ftruncate(fd_, static_cast<off_t>(steps_.empty() ? 0 : offset)) == 0)
+        lseek(fd_, 0, SEEK_END);
+}
+
+const std::vector<std::byte>* ImportJournal::find(std::uint32_t step) const {
+    const auto found = steps_.find(step);
+    return found == steps_.end() ? nullptr : &found->second;
+}
+
+absl::Status ImportJournal::append(std::span<const std::byte> bytes) {
+    while (!bytes.empty()) {
+        const ssize_t done = write(fd_, bytes.data(), bytes.size());
+        if (done < 0 && errno == EINTR)
+            continue;
+        if (done < 0)
+            return errnoStatus(path_, "cannot be written");
+        bytes = bytes.subspan(static_cast<std::size_t>(done));
+    }
+    return absl::OkStatus();
+}
+
+absl::Status ImportJournal::add(std::uint32_t step, std::span<const std::byte> state) {
+    const RecordHeader record{step, state.size(), checksumOf(step, state)};
+    RETURN_IF_ERROR(append(std::as_bytes(std::span(&record, 1))));
+    RETURN_IF_ERROR(append(state));
+    if (fsync(fd_) != 0)
+        return errnoStatus(path_, "cannot be flushed to disk");
+    return absl::OkStatus();
+}
+
+absl::Status ImportJournal::clear() {
+    steps_.clear();
+    if (ftruncate(fd_, 0) != 0 || lseek(fd_, 0, SEEK_SET) != 0)
+        return errnoStatus(path_, "cannot be emptied");
+    const Header header{.key = key_};
+    return append(std::as_bytes(std::span(&header, 1)));
+}
+
+void ImportJournal::remove() { unlink(path_.c_str()); }
+
+}  // namespace eyrie::import

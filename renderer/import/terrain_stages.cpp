@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/import/terrain_stages.h"
+
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include <unistd.h>
+
+#include "fabric/status.h"
+
+namespace eyrie::import {
+
+absl::StatusOr<TerrainStages> TerrainStages::open(terrain::Scratch& scratch, std::uint64_t key,
+                                                  bool startsOver) {
+    if (scratch.fitsInMemory())
+        return TerrainStages(scratch, std::nullopt);
+    std::error_code ignored;
+    const bool hasScratch = std::filesystem::exists(scratch.path(), ignored);
+    ASSIGN_OR_RETURN(ImportJournal journal, ImportJournal::open(scratch.path() + ".journal", key,
+                                                                startsOver || !hasScratch));
+    if (journal.isEmpty())
+        unlink(scratch.path().c_str());
+    return TerrainStages(scratch, std::move(journal));
+}
+
+absl::Status TerrainStages::run(const std::function<absl::Status()>& work, const State& state) {
+    const std::uint32_t step = next_++;
+    if (!journal_)
+        return work();
+    const std::vector<std::byte>* done = journal_->find(step);
+    if (done != nullptr && state.restore(*done)) {
+        journal_->release(step);
+        return absl::OkStatus();
+    }
+    RETURN_IF_ERROR(work());
+    RETURN_IF_ERROR(scratch_->flush());
+    return journal_->add(step, state.save());
+}
+
+void TerrainStages::remove() {
+    if (!journal_)
+        return;
+    unlink(scratch_->path().c_str());
+    journal_->remove();
+}
+
+}  // namespace eyrie::import

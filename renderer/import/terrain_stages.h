@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <absl/status/status.h>
+
+#include "renderer/import/import_journal.h"
+#include "renderer/terrain/scratch.h"
+
+namespace eyrie::import {
+
+/// The stages of an import whose results lie on a scratch. Where that has a file, finished stages
+/// are kept in a journal beside it and are not run again; where all fits in memory there is no
+/// file, no journal and nothing to go on from.
+class TerrainStages {
+public:
+    /// `key` stands for all that the result depends on. Errors: ImportJournal's.
+    static absl::StatusOr<TerrainStages> open(terrain::Scratch& scratch, std::uint64_t key,
+                                              bool startsOver);
+
+    /// What a stage leaves in memory, as bytes; restore is false for bytes that do not fit.
+    struct State {
+        std::function<std::vector<std::byte>()> save = [] { return std::vector<std::byte>(); };
+        std::function<bool(const std::vector<std::byte>&)> restore =
+            [](const std::vector<std::byte>&) { return true; };
+    };
+    /// Runs the next stage, or takes its result from the journal.
+    absl::Status run(const std::function<absl::Status()>& work, const State& state);
+    absl::Status run(const std::function<absl::Status()>& work) { return run(work, State{}); }
+
+    /// Deletes scratch file and journal.
+    void remove();
+    /// The file that keeps what is done; "" where there is none.
+    std::string keptIn() const { return journal_ ? scratch_->path() : ""; }
+
+private:
+    TerrainStages(terrain::Scratch& scratch, std::optional<ImportJournal> journal)
+        : scratch_(&scratch), journal_(std::move(journal)) {}
+
+    terrain::Scratch* scratch_;
+    std::optional<ImportJournal> journal_;
+    std::uint32_t next_ = 0;
+};
+
+}  // namespace eyrie::import

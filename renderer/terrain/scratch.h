@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <string>
+#include <unordered_map>
+
+#include <absl/status/status.h>
+#include <absl/status/statusor.h>
+
+namespace eyrie::terrain {
+
+/// Pieces of bytes that are kept in memory while they fit in a budget, and in a file beyond: the
+/// least recently used go to the file first. What fits never touches the disk.
+///
+/// Any thread may read and write any piece. A failure of the disk is kept: reads then give zeros,
+/// and status() says what happened; whoever fills or uses a scratch looks there before going on.
+class Scratch {
+public:
+    using Piece = std::shared_ptr<const std::byte[]>;
+
+    /// The file `path` is made when the first piece leaves memory; an existing one is read.
+    Scratch(std::string path, std::uint64_t budgetBytes);
+    Scratch(const Scratch&) = delete;
+    Scratch& operator=(const Scratch&) = delete;
+    /// Leaves the file where it is.
+    ~Scratch();
+
+    /// Room for `bytes`, as the place of its first byte. The same calls give the same places.
+    std::uint64_t reserve(std::uint64_t bytes);
+    /// All that was reserved fits in memory.
+    bool fitsInMemory() const { return reserved_ <= budget_; }
+
+    /// Memory for a piece to be written. Goes back to the system page by page when nobody holds it:
+    /// a heap would keep what pieces of different sizes leave between them.
+    static std::shared_ptr<std::byte[]> newPiece(std::size_t bytes);
+
+    Piece read(std::uint64_t place, std::size_t bytes);
+    void write(std::uint64_t place, Piece data, std::size_t bytes);
+    /// Brings every piece to the disk, not only the ones that did not fit.
+    absl::Status flush();
+    absl::Status status() const;
+
+    const std::string& path() const { return path_; }
+
+private:
+    struct Entry {
+        std::uint64_t place;
+        Piece data;
+        std::size_t bytes;
+        bool isDirty;
+    };
+    struct Shard {
+        std::mutex mutex;
+        std::list<Entry> byUse;  ///< most recent first
+        std::unordered_map<std::uint64_t, std::list<Entry>::iterator> byPlace;
+        std::uint64_t bytes = 0;
+    };
+    static constexpr std::size_t kShards = 16;
+
+    Shard& shardOf(std::uint64_t place) { return shards_[place * 0x9e3779b97f4a7c15 >> 60]; }
+    void keep(Shard& shard, Entry entry);
+    void store(const Entry& entry);
+    void load(std::uint64_t place, std::span<std::byte> out);
+    int file();
+    void fail(const char* what);
+
+    const std::string path_;
+    const std::uint64_t budget_;
+    std::uint64_t reserved_ = 0;
+    std::array<Shard, kShards> shards_;
+    mutable std::mutex fileMutex_;  ///< guards opening, and status_
+    std::atomic<int> fd_ = -1;
+    std::atomic<bool> hasFailed_ = false;
+    absl::Status status_;
+};
+
+}  // namespace eyrie::terrain

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// The import as people run it: how much memory it takes, and what a kill leaves.
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "tests/support/program.h"
+#include "tests/support/temporary_folder.h"
+
+namespace eyrie {
+namespace {
+
+using std::chrono::seconds;
+using Words = std::vector<std::string>;
+
+class TerrainImportProcess : public testing::Test {
+protected:
+    void synthesize(int posts) {
+        ASSERT_TRUE(test::succeeded({"synth", "terrain", "--size", std::to_string(posts), "-o",
+                                     folder_.path("dem.tif"), "--quiet"}));
+    }
+    Words importInto(const std::string& out, const std::string& memory) const {
+        return {"import", "terrain",         folder_.path("dem.tif"),
+                "-o",     folder_.path(out), "--memory",
+                memory,   "--error",         "20"};
+    }
+    std::string bytesOf(const std::string& name) const {
+        std::ifstream file(folder_.path(name), std::ios::binary);
+        return {std::istreambuf_iterator<char>(file), {}};
+    }
+
+    test::TemporaryFolder folder_;
+};
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // those take their own
+/// Runs a program to its end; its greatest resident memory in bytes, -1 when it failed.
+std::int64_t peakBytes(const Words& command) {
+    const pid_t child = fork();
+    if (child == 0) {
+        std::vector<char*> words;
+        for (const std::string& word : command) words.push_back(const_cast<char*>(word.c_str()));
+        words.push_back(nullptr);
+        execv(words[0], words.data());
+        _exit(127);
+    }
+    int status = 0;
+    rusage usage{};
+    if (wait4(child, &status, 0, &usage) != child || !WIFEXITED(status) || WEXITSTATUS(status) != 0)
+        return -1;
+    return std::int64_t{usage.ru_maxrss} * 1024;
+}
+
+TEST_F(TerrainImportProcess, StaysWithinItsMemory) {
+    synthesize(6000);  // 36 M posts: 335 MB of heights, levels and smoothed heights
+    Words arguments = importInto("dem.eyt", "192M");
+    arguments.emplace_back("--quiet");
+    const std::int64_t peak = peakBytes(test::eyrieCommand(arguments));
+    ASSERT_GT(peak, 0);
+    EXPECT_LE(peak, std::int64_t{192} << 20);
+    EXPECT_FALSE(std::filesystem::exists(folder_.path("dem.eyt.scratch")));
+}
+#endif
+
+TEST_F(TerrainImportProcess, GoesOnAfterAKill) {
+    synthesize(2600);
+    ASSERT_TRUE(test::succeeded(importInto("whole.eyt", "512M")));
+    {
+        test::Process killed(test::eyrieCommand(importInto("dem.eyt", "192M")));
+        ASSERT_TRUE(test::eventually(seconds(60), [&] {
+            return killed.errors().find("building") != std::string::npos;
+        })) << killed.errors();
+        killed.send(SIGKILL);
+        ASSERT_TRUE(killed.waitFor(seconds(20)).has_value());
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder_.path("dem.eyt")));
+    const test::Outcome again = test::eyrie(importInto("dem.eyt", "192M"));
+    EXPECT_EQ(again.exit, (test::Exit{0, 0})) << again.errors;
+    EXPECT_EQ(again.errors.find("measuring"), std::string::npos) << again.errors;
+    EXPECT_EQ(bytesOf("dem.eyt"), bytesOf("whole.eyt"));
+    EXPECT_EQ(test::namesIn(folder_.path()),
+              (std::set<std::string>{"dem.eyt", "dem.tif", "whole.eyt"}));
+}
+
+TEST_F(TerrainImportProcess, SaysHowToGoOnWhenInterrupted) {
+    synthesize(2600);
+    test::Process stopped(test::eyrieCommand(importInto("dem.eyt", "192M")));
+    ASSERT_TRUE(test::eventually(seconds(60), [&] {
+        return stopped.errors().find("building") != std::string::npos;
+    })) << stopped.errors();
+    stopped.send(SIGINT);
+    ASSERT_TRUE(stopped.waitFor(seconds(20)).has_value());
+    EXPECT_NE(stopped.errors().find("the same command goes on"), std::string::npos)
+        << stopped.errors();
+    EXPECT_TRUE(std::filesystem::exists(folder_.path("dem.eyt.scratch")));
+    EXPECT_FALSE(std::filesystem::exists(folder_.path("dem.eyt")));
+}
+
+}  // namespace
+}  // namespace eyrie

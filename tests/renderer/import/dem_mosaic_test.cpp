@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: Apache-2.0
+// Several rasters as one terrain: expected heights come from formulas over the ground, evaluated
+// where the mosaic says that its posts stand.
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include <fmt/format.h>
+#include <gdal_priv.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <ogr_spatialref.h>
+
+#include "renderer/import/dem_source.h"
+#include "tests/renderer/import/terrain_fixture.h"
+
+namespace eyrie::import {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr int kUtm32 = 32632;
+constexpr int kDegrees = 4326;
+
+/// A raster whose pixels are `height` of their centres' coordinates.
+struct Raster {
+    int epsg = kUtm32;
+    double west = 0;
+    double north = 0;
+    double pixel = 10;
+    int columns = 10;
+    int rows = 10;
+    std::function<double(double, double)> height;
+    double nodata = -9999;
+    const char* unit = "";
+    double scale = 1;
+};
+
+class DemMosaic : public testing::Test {
+protected:
+    std::string write(const Raster& raster) {
+        GDALAllRegister();
+        const std::string path = folder_.path(fmt::format("{}.tif", files_++));
+        const GDALDatasetUniquePtr file(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
+            path.c_str(), raster.columns, raster.rows, 1, GDT_Float32, nullptr));
+        std::array<double, 6> transform{raster.west, raster.pixel, 0, raster.north,
+                                        0,           -raster.pixel};
+        file->SetGeoTransform(transform.data());
+        if (raster.epsg != 0) {
+            OGRSpatialReference crs;
+            crs.importFromEPSG(raster.epsg);
+            file->SetSpatialRef(&crs);
+        }
+        GDALRasterBand* const band = file->GetRasterBand(1);
+        band->SetNoDataValue(raster.nodata);
+        band->SetUnitType(raster.unit);
+        band->SetScale(raster.scale);
+        std::vector<float> row(static_cast<std::size_t>(raster.columns));
+        for (int j = 0; j < raster.rows; ++j) {
+            for (int i = 0; i < raster.columns; ++i)
+                row[static_cast<std::size_t>(i)] =
+                    static_cast<float>(raster.height(raster.west + raster.pixel * (i + 0.5),
+                                                     raster.north - raster.pixel * (j + 0.5)));
+            EXPECT_EQ(band->RasterIO(GF_Write, 0, j, raster.columns, 1, row.data(), raster.columns,
+                                     1, GDT_Float32, 0, 0, nullptr),
+                      CE_None);
+        }
+        return path;
+    }
+
+    static std::function<double(double, double)> constant(double height) {
+        return [height](double, double) { return height; };
+    }
+
+    test::TemporaryFolder folder_;
+    int files_ = 0;
+};
+
+TEST_F(DemMosaic, LeavesOpenWhatNoRasterCovers) {
+    const std::string a = write({.west = 500000, .north = 5200100, .height = constant(1)});
+    const std::string b = write({.west = 500150, .north = 5200050, .height = constant(2)});
+    const auto dem = test::readDems({a, b});
+    ASSERT_TRUE(dem.ok()) << dem.status();
+    EXPECT_EQ(dem->grid.columns, 25);
+    EXPECT_EQ(dem->grid.rows, 15);
+    EXPECT_EQ(dem->grid.origin, fabric::Vec2(500005, 5199955));
+    for (std::int32_t j = 0; j < 15; ++j)
+        for (std::int32_t i = 0; i < 25; ++i) {
+            const float h = dem->grid.at(i, j);
+            if (i < 10 && j >= 5)
+                EXPECT_EQ(h, 1);
+            else if (i >= 15 && j < 10)
+                EXPECT_EQ(h, 2);
+            else
+                EXPECT_TRUE(std::isnan(h)) << i << " " << j;
+        }
+}
+
+TEST_F(DemMosaic, TakesTheLastNamedOfEquallyFineOnes) {
+    const std::string a = write({.west = 500000, .north = 5200100, .height = constant(1)});
+    const std::string b = write({.west = 500050, .north = 5200100, .height = constant(2)});
+    const auto ab = test::readDems({a, b});
+    const auto ba = test::readDems({b, a});
+    ASSERT_TRUE(ab.ok() && ba.ok()) << ab.status() << ba.status();
+    EXPECT_EQ(ab->grid.at(4, 3), 1);
+    EXPECT_EQ(ab->grid.at(5, 3), 2);
+    EXPECT_EQ(ba->grid.at(9, 3), 1);
+    EXPECT_EQ(ba->grid.at(10, 3), 2);
+    EXPECT_NE(ab->sourceHash, ba->sourceHash);
+}
+
+TEST_F(DemMosaic, TakesTheFinestAndSeesThroughItsHoles) {
+    const auto ground = [](double x, double y) {
+        return (x - 500000) * 0.5 + (y - 5199000) * 0.25;
+    };
+    const std::string coarse = write({.west = 500000,
+                                      .north = 5200000,
+                                      .pixel = 40,
+                                      .columns = 20,
+                                      .rows = 20,
+                                      .height = ground});
+    const auto holed = [](double x, double y) {
+        return std::abs(x - 500400) < 30 && std::abs(y - 5199600) < 30 ? -9999.0 : 5000.0;
+    };
+    const std::string fine = write({.west = 500300,
+                                    .north = 5199700,
+                                    .pixel = 10,
+                                    .columns = 20,
+                                    .rows = 20,
+                                    .height = holed});
+    for (const auto& order : {std::vector{fine, coarse}, std::vector{coarse, fine}}) {
+        const auto dem = test::readDems(order);
+        ASSERT_TRUE(dem.ok()) << dem.status();
+        const terrain::HeightGrid& grid = dem->grid;
+        EXPECT_EQ(grid.perColumn, fabric::Vec2(10, 0));
+        EXPECT_EQ(grid.columns, 80);
+        EXPECT_EQ(grid.rows, 80);
+        for (std::int32_t j = 2; j < 78; ++j)
+            for (std::int32_t i = 2; i < 78; ++i) {
+                const double x = grid.origin.x + 10 * i, y = grid.origin.y + 10 * j;
+                const bool isFine = x > 500300 && x < 500500 && y > 5199500 && y < 5199700;
+                const bool isHole = std::abs(x - 500400) < 30 && std::abs(y - 5199600) < 30;
+                // Bilinear gives a plane back to within float's rounding.
+                EXPECT_NEAR(grid.at(i, j), isFine && !isHole ? 5000 : ground(x, y), 1e-2)
+                    << i << " " << j;
+            }
+    }
+}
+
+/// One hill, seen by a raster in UTM metres on the west and one in degrees on the east.
+TEST_F(DemMosaic, JoinsTwoCrsWithoutAStepAtTheSeam) {
+    OGRSpatialReference utm, degrees;
+    utm.importFromEPSG(kUtm32);
+    degrees.importFromEPSG(kDegrees);
+    degrees.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    const std::unique_ptr<OGRCoordinateTransformation> toUtm(
+        OGRCreateCoordinateTransformation(&degrees, &utm));
+    const auto hill = [](double x, double y) {
+        return 300 * std::sin((x - 500000) / 900) * std::cos((y - 5200000) / 700) + 400;
+    };
+    const std::string west = write({.west = 500000,
+                                    .north = 5203000,
+                                    .pixel = 10,
+                                    .columns = 150,
+                                    .rows = 300,
+                                    .height = hill});
+    const std::string east = write({.epsg = kDegrees,
+                                    .west = 9.018,
+                                    .north = 46.98,
+                                    .pixel = 0.0001,
+                                    .columns = 300,
+                                    .rows = 350,
+                                    .height = [&](double x, double y) {
+                                        toUtm->Transform(1, &x, &y);
+                                        return hill(x, y);
+                                    }});
+    const auto dem = test::readDems({west, east});
+    ASSERT_TRUE(dem.ok()) << dem.status();
+    EXPECT_THAT(dem->crsWkt, HasSubstr("UTM zone 32N"));
+    const terrain::HeightGrid& grid = dem->grid;
+    int beyond = 0;
+    for (std::int32_t j = 0; j < grid.rows; ++j)
+        for (std::int32_t i = 0; i < grid.columns; ++i) {
+            const double x = grid.origin.x + grid.perColumn.x * i;
+            const double y = grid.origin.y + grid.perRow.y * j;
+            if (std::isnan(grid.at(i, j)))
+                continue;
+            beyond += x > 501600 ? 1 : 0;
+            // 11 m posts of a hill with a curvature of 4e-4 per metre; half a post at the rim,
+            // where there is nothing to interpolate towards, of a slope of 0.43 at most.
+            ASSERT_NEAR(grid.at(i, j), hill(x, y), 3.5) << x << " " << y;
+        }
+    EXPECT_GT(beyond, 10000);
+    for (std::int32_t j = 100; j < 200; ++j)  // the seam, near x = 501500
+        for (std::int32_t i = 140; i < 160; ++i)
+            ASSERT_NEAR(
+                grid.at(i, j),
+                hill(grid.origin.x + grid.perColumn.x * i, grid.origin.y + grid.perRow.y * j), 0.3);
+}
+
+TEST_F(DemMosaic, TurnsEachRastersOwnUnitToMetres) {
+    const std::string metres = write({.west = 500000, .north = 5200100, .height = constant(100)});
+    const std::string feet =
+        write({.west = 500100, .north = 5200100, .height = constant(1000), .unit = "ft"});
+    const std::string scaled =
+        write({.west = 500200, .north = 5200100, .height = constant(7), .scale = 3});
+    const auto dem = test::readDems({metres, feet, scaled});
+    ASSERT_TRUE(dem.ok()) << dem.status();
+    EXPECT_FLOAT_EQ(dem->grid.at(5, 5), 100);
+    EXPECT_FLOAT_EQ(dem->grid.at(15, 5), 304.8F);
+    EXPECT_FLOAT_EQ(dem->grid.at(25, 5), 21);
+}
+
+TEST_F(DemMosaic, HonoursEachRastersOwnNodata) {
+    const auto half = [](double nodata) {
+        return [nodata](double x, double) { return x < 500050 ? nodata : 8.0; };
+    };
+    const std::string a =
+        write({.west = 500000, .north = 5200100, .height = half(-1), .nodata = -1});
+    const std::string b = write({.west = 500000,
+                                 .north = 5200200,
+                                 .height = half(std::numeric_limits<double>::infinity()),
+                                 .nodata = 0});
+    const std::string c =
+        write({.west = 500000, .north = 5200300, .height = half(std::nan("")), .nodata = 650});
+    const auto dem = test::readDems({a, b, c});
+    ASSERT_TRUE(dem.ok()) << dem.status();
+    EXPECT_EQ(dem->grid.rows, 30);
+    for (std::int32_t j = 0; j < 30; ++j)
+        for (std::int32_t i = 0; i < 10; ++i) {
+            if (i < 5)
+                EXPECT_TRUE(std::isnan(dem->grid.at(i, j))) << i << " " << j;
+            else
+                EXPECT_EQ(dem->grid.at(i, j), 8);
+        }
+}
+
+TEST_F(DemMosaic, AllInDegreesGoesToTheZoneOfTheirMiddle) {
+    const std::string a =
+        write({.epsg = kDegrees, .west = 9.0, .north = 47, .pixel = 0.001, .height = constant(5)});
+    const std::string b =
+        write({.epsg = kDegrees, .west = 9.01, .north = 47, .pixel = 0.001, .height = constant(5)});
+    const auto dem = test::readDems({a, b});
+    ASSERT_TRUE(dem.ok()) << dem.status();
+    EXPECT_THAT(dem->crsWkt, HasSubstr("UTM zone 32N"));
+    const auto middle = dem->grid.at(dem->grid.columns / 2, dem->grid.rows / 2);
+    EXPECT_EQ(middle, 5) << "no gap where the two meet";
+}
+
+TEST_F(DemMosaic, JoinsStripsOfOnePixel) {
+    std::vector<std::string> strips;
+    for (int k = 0; k < 3; ++k)
+        strips.push_back(write({.west = 500000.0 + 10 * k,
+                                .north = 5200100,
+                                .columns = 1,
+                                .rows = 4,
+                                .height = constant(k)}));
+    const auto dem = test::readDems(strips);
+    ASSERT_TRUE(dem.ok()) << dem.status();
+    EXPECT_EQ(dem->grid.columns, 3);
+    for (std::int32_t i = 0; i < 3; ++i) EXPECT_EQ(dem->grid.at(i, 2), static_cast<float>(i));
+}
+
+TEST_F(DemMosaic, RefusesWhatCannotBeBroughtTogether) {
+    const std::string good = write({.west = 500000, .north = 5200100, .height = constant(1)});
+    const std::string plain =
+        write({.epsg = 0, .west = 500000, .north = 5200100, .height = constant(1)});
+    const auto mixed = test::readDems({good, plain});
+    EXPECT_EQ(mixed.status().code(), absl::StatusCode::kInvalidArgument);
+    EXPECT_THAT(mixed.status().ToString(), HasSubstr(plain));
+    const auto missing = test::readDems({good, folder_.path("none.tif")});
+    EXPECT_EQ(missing.status().code(), absl::StatusCode::kNotFound);
+    const std::string far = write({.west = 500000, .north = -5e9, .height = constant(1)});
+    EXPECT_FALSE(test::readDems({good, far}).ok());
+    EXPECT_FALSE(test::readDems({}).ok());
+}
+
+}  // namespace
+}  // namespace eyrie::import

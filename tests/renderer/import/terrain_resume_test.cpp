@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "renderer/import/geotiff_writer.h"
+#include "renderer/import/import_journal.h"
+#include "renderer/import/terrain_import.h"
+#include "renderer/import/terrain_synth.h"
+#include "tests/renderer/import/terrain_fixture.h"
+
+namespace eyrie::import {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr const char* kStages[] = {"reading",  "measuring", "joining",
+                                   "thinning", "smoothing", "building"};
+
+/// Too large for the 4 MiB that a scratch has at least.
+const terrain::HeightGrid& largeGrid() {
+    static const terrain::HeightGrid grid = synthesizeTerrain(800, 4);
+    return grid;
+}
+
+class TerrainResume : public testing::Test {
+protected:
+    absl::Status import(const std::string& out, const ImportControl& control = {},
+                        const TerrainImportOptions& how = {.memoryBytes = 1}) const {
+        GridHeightSource posts(largeGrid());
+        return importTerrain(posts, {"grid", "", 77}, out, how, control).status();
+    }
+
+    /// Called off in the middle of `stage`; the stages that were begun are noted in `begun`.
+    absl::Status importUntil(const std::string& stage, const std::string& out) {
+        std::stop_source stop;
+        ImportControl control;
+        control.stop = stop.get_token();
+        begun_.clear();
+        control.progress = [&](std::string_view reached, double fraction) {
+            if (begun_.empty() || begun_.back() != reached)
+                begun_.emplace_back(reached);
+            if (reached == stage && fraction > 0.3)
+                stop.request_stop();
+        };
+        return import(out, control);
+    }
+
+    test::TemporaryFolder folder_;
+    std::vector<std::string> begun_;
+};
+
+TEST_F(TerrainResume, GivesTheSameBytesAfterAnAbortInEachStage) {
+    const std::string whole = folder_.path("whole.eyt");
+    ASSERT_TRUE(import(whole, {}, {}).ok());
+    for (const char* stage : kStages) {
+        const std::string out = folder_.path(std::string(stage) + ".eyt");
+        const absl::Status aborted = importUntil(stage, out);
+        EXPECT_EQ(aborted.code(), absl::StatusCode::kCancelled) << stage << aborted;
+        EXPECT_THAT(aborted.ToString(), HasSubstr("goes on")) << stage;
+        EXPECT_FALSE(std::filesystem::exists(out)) << stage;
+        EXPECT_TRUE(std::filesystem::exists(out + ".scratch.journal")) << stage;
+        ASSERT_TRUE(importUntil("never", out).ok()) << stage;
+        EXPECT_EQ(begun_.front(), stage) << "the stages before it were not run again";
+        EXPECT_EQ(test::contents(out), test::contents(whole)) << stage;
+        EXPECT_FALSE(std::filesystem::exists(out + ".scratch")) << stage;
+        EXPECT_FALSE(std::filesystem::exists(out + ".scratch.journal")) << stage;
+    }
+}
+
+TEST_F(TerrainResume, StartsOverForOtherOptionsOrWhenToldSo) {
+    const std::string out = folder_.path("a.eyt");
+    ASSERT_FALSE(importUntil("building", out).ok());
+    begun_.clear();
+    ImportControl control;
+    control.progress = [&](std::string_view stage, double) { begun_.emplace_back(stage); };
+    ASSERT_TRUE(import(out, control, {.memoryBytes = 1, .errorMetres = 5}).ok());
+    EXPECT_EQ(begun_.front(), "reading");
+    ASSERT_FALSE(importUntil("building", out).ok());
+    begun_.clear();
+    ASSERT_TRUE(import(out, control, {.memoryBytes = 1, .startsOver = true}).ok());
+    EXPECT_EQ(begun_.front(), "reading");
+}
+
+TEST_F(TerrainResume, GoesOnAfterADamagedJournal) {
+    const std::string whole = folder_.path("whole.eyt");
+    ASSERT_TRUE(import(whole, {}, {}).ok());
+    const std::string out = folder_.path("a.eyt");
+    for (const double share : {0.0, 0.01, 0.5, 0.999}) {
+        ASSERT_FALSE(importUntil("building", out).ok());
+        const std::string journal = out + ".scratch.journal";
+        const auto size = static_cast<double>(std::filesystem::file_size(journal));
+        std::fstream file(journal, std::ios::in | std::ios::out | std::ios::binary);
+        file.seekp(static_cast<std::streamoff>(size * share));
+        file.put('\x5a');
+        file.close();
+        ASSERT_TRUE(import(out).ok());
+        EXPECT_EQ(test::contents(out), test::contents(whole)) << share;
+    }
+}
+
+TEST_F(TerrainResume, SaysWhatIsWrongWithTheScratchFolder) {
+    const absl::Status status = import(folder_.path("a.eyt"), {},
+                                       {.memoryBytes = 1, .scratchFolder = folder_.path("none")});
+    EXPECT_EQ(status.code(), absl::StatusCode::kNotFound);
+    EXPECT_THAT(status.ToString(), HasSubstr("none"));
+    EXPECT_TRUE(folder_.files().empty());
+}
+
+TEST_F(TerrainResume, IsTheSameForAnyMemoryThreadsAndScratchFolder) {
+    const std::string a = folder_.path("a.eyt");
+    const std::string b = folder_.path("b.eyt");
+    std::filesystem::create_directory(folder_.path("scratch"));
+    ASSERT_TRUE(import(a, {}, {}).ok());
+    ASSERT_TRUE(
+        import(b, {}, {.memoryBytes = 1, .scratchFolder = folder_.path("scratch"), .threads = 1})
+            .ok());
+    EXPECT_EQ(test::contents(a), test::contents(b));
+    EXPECT_TRUE(std::filesystem::is_empty(folder_.path("scratch")));
+}
+
+TEST(ImportJournal, GivesBackWhatWasAddedForTheSameKeyOnly) {
+    const test::TemporaryFolder folder;
+    const std::string path = folder.path("journal");
+    const std::vector<std::byte> state(1000, std::byte{7});
+    {
+        auto journal = ImportJournal::open(path, 5, false);
+        ASSERT_TRUE(journal.ok()) << journal.status();
+        ASSERT_TRUE(journal->add(0, std::vector<std::byte>{}).ok());
+        ASSERT_TRUE(journal->add(1, state).ok());
+        EXPECT_EQ(ImportJournal::open(path, 5, false).status().code(),
+                  absl::StatusCode::kFailedPrecondition);
+    }
+    {
+        auto journal = ImportJournal::open(path, 5, false);
+        ASSERT_TRUE(journal.ok()) << journal.status();
+        ASSERT_NE(journal->find(1), nullptr);
+        EXPECT_EQ(*journal->find(1), state);
+        EXPECT_EQ(journal->find(2), nullptr);
+    }
+    auto other = ImportJournal::open(path, 6, false);
+    ASSERT_TRUE(other.ok());
+    EXPECT_TRUE(other->isEmpty());
+}
+
+/// Cut anywhere, a journal keeps the records before the cut and takes new ones after them.
+TEST(ImportJournal, KeepsWholeRecordsOfACutFile) {
+    const test::TemporaryFolder folder;
+    const std::string path = folder.path("journal");
+    {
+        auto journal = ImportJournal::open(path, 5, false);
+        ASSERT_TRUE(journal.ok());
+        for (std::uint32_t step = 0; step < 3; ++step)
+            ASSERT_TRUE(journal->add(step, std::vector<std::byte>(50, std::byte{1})).ok());
+    }
+    const std::string whole = test::contents(path);
+    std::size_t most = 0;
+    for (std::size_t cut = 0; cut <= whole.size(); ++cut) {
+        std::ofstream(path, std::ios::binary) << whole.substr(0, cut);
+        std::uint32_t kept = 0;
+        {
+            auto journal = ImportJournal::open(path, 5, false);
+            ASSERT_TRUE(journal.ok());
+            while (journal->find(kept) != nullptr) ++kept;
+            ASSERT_TRUE(journal->add(kept, std::vector<std::byte>{}).ok());
+        }
+        auto again = ImportJournal::open(path, 5, false);
+        ASSERT_TRUE(again.ok());
+        EXPECT_NE(again->find(kept), nullptr) << cut;
+        EXPECT_GE(kept, most);
+        most = kept;
+    }
+    EXPECT_EQ(most, 3U);
+}
+
+}  // namespace
+}  // namespace eyrie::import

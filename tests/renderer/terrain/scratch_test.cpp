@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/terrain/scratch.h"
+
+#include <cstring>
+#include <filesystem>
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+#include <unistd.h>
+
+#include "renderer/terrain/tiled_raster.h"
+
+namespace eyrie::terrain {
+namespace {
+
+std::string freshPath() {
+    static int count = 0;
+    return (std::filesystem::temp_directory_path() /
+            ("eyrie-scratch-" + std::to_string(getpid()) + "-" + std::to_string(count++)))
+        .string();
+}
+
+Scratch::Piece pieceOf(std::size_t bytes, int value) {
+    const auto piece = Scratch::newPiece(bytes);
+    std::memset(piece.get(), value, bytes);
+    return piece;
+}
+
+/// Whatever the order of writes and reads, and however little stays in memory.
+RC_GTEST_PROP(Scratch, GivesBackWhatWasWrittenLast, ()) {
+    constexpr std::size_t kPlaces = 40;
+    constexpr std::size_t kBytes = 5000;
+    const std::string path = freshPath();
+    {
+        Scratch scratch(path, *rc::gen::inRange<std::uint64_t>(0, 400000));
+        std::vector<std::uint64_t> places;
+        for (std::size_t k = 0; k < kPlaces; ++k) places.push_back(scratch.reserve(kBytes));
+        std::vector<int> expected(kPlaces, 0);
+        for (const auto& [place, value] :
+             *rc::gen::container<std::vector<std::pair<std::size_t, int>>>(rc::gen::pair(
+                 rc::gen::inRange<std::size_t>(0, kPlaces), rc::gen::inRange(0, 256)))) {
+            if (value % 2 == 0) {
+                scratch.write(places[place], pieceOf(kBytes, value), kBytes);
+                expected[place] = value;
+            } else if (expected[place] != 0) {
+                RC_ASSERT(std::memcmp(scratch.read(places[place], kBytes).get(),
+                                      pieceOf(kBytes, expected[place]).get(), kBytes) == 0);
+            }
+        }
+        RC_ASSERT(scratch.status().ok());
+        RC_ASSERT(scratch.flush().ok());
+    }
+    std::filesystem::remove(path);
+}
+
+TEST(Scratch, TouchesNoDiskForWhatFits) {
+    const std::string path = freshPath();
+    Scratch scratch(path, 1 << 20);
+    const std::uint64_t place = scratch.reserve(100000);
+    scratch.write(place, pieceOf(100000, 3), 100000);
+    EXPECT_EQ(static_cast<int>(scratch.read(place, 100000)[5]), 3);
+    EXPECT_FALSE(std::filesystem::exists(path));
+}
+
+TEST(Scratch, SaysThatTheDiskIsFullAndHowToGoOn) {
+    Scratch scratch("/dev/full", 1000);
+    const std::uint64_t place = scratch.reserve(100000);
+    scratch.write(place, pieceOf(100000, 3), 100000);
+    const absl::Status status = scratch.flush();
+    EXPECT_EQ(status.code(), absl::StatusCode::kResourceExhausted);
+    EXPECT_NE(status.ToString().find("--scratch"), std::string::npos);
+    EXPECT_EQ(scratch.status(), status);
+}
+
+/// Clamped at the border, over any number of tiles.
+RC_GTEST_PROP(TiledRaster, ReadsAnyRectangleAcrossTiles, ()) {
+    const auto columns = *rc::gen::inRange(1, 400);
+    const auto rows = *rc::gen::inRange(1, 300);
+    Scratch scratch("/nowhere", 1 << 30);
+    TiledRaster<float> raster(scratch, columns, rows);
+    const auto valueAt = [](std::int32_t i, std::int32_t j) {
+        return static_cast<float>(i) + 1000.0F * static_cast<float>(j);
+    };
+    for (std::int32_t y = 0; y < raster.tilesY(); ++y)
+        for (std::int32_t x = 0; x < raster.tilesX(); ++x) {
+            auto tile = TiledRaster<float>::newTile();
+            for (std::int32_t v = 0; v < kRasterTilePosts; ++v)
+                for (std::int32_t u = 0; u < kRasterTilePosts; ++u)
+                    tile[static_cast<std::size_t>(v * kRasterTilePosts + u)] =
+                        valueAt(x * kRasterTileCells + u, y * kRasterTileCells + v);
+            raster.write(x, y, std::move(tile));
+        }
+    const auto i = *rc::gen::inRange(0, columns);
+    const auto j = *rc::gen::inRange(0, rows);
+    const PostRect rect{i - *rc::gen::inRange(0, 3), j - *rc::gen::inRange(0, 3),
+                        *rc::gen::inRange(3, 200), *rc::gen::inRange(3, 200)};
+    std::vector<float> read(static_cast<std::size_t>(rect.columns * rect.rows));
+    readClamped(raster, rect, read.data());
+    for (std::int32_t v = 0; v < rect.rows; ++v)
+        for (std::int32_t u = 0; u < rect.columns; ++u)
+            RC_ASSERT(read[static_cast<std::size_t>(v * rect.columns + u)] ==
+                      valueAt(std::clamp(rect.i + u, 0, columns - 1),
+                              std::clamp(rect.j + v, 0, rows - 1)));
+}
+
+}  // namespace
+}  // namespace eyrie::terrain
