@@ -5,33 +5,19 @@
 
 #include <absl/status/statusor.h>
 
+#include "effects/terrain_effect.h"
 #include "fabric/scene.h"
 #include "renderer/draw/drawable.h"
-#include "renderer/draw/object_program.h"
+#include "renderer/effects/effect_variants.h"
 
 namespace eyrie::draw {
 
-/// The shaders of terrain, with the uniforms that only terrain has.
-class TerrainProgram {
-public:
-    static absl::StatusOr<TerrainProgram> create(Variant variant);
-
-    ObjectProgram object;
-    GLint tileOrigin;
-    GLint spacingShift;
-    GLint heightMultiplier;
-    GLint lastPost;
-    GLint lowestHeight;
-    GLint bandsPerHeight;
-
-private:
-    explicit TerrainProgram(ObjectProgram linked);
-};
+using TerrainPrograms = effects::EffectVariants<effects::TerrainEffect>;
 
 /// Opens `object.path` as a .eyt file. `programs` outlives what is returned. Errors: NotFound,
 /// InvalidArgument, DataLoss.
 absl::StatusOr<std::unique_ptr<Drawable>> openTerrain(const fabric::SceneObject& object,
-                                                      Variants<TerrainProgram>& programs,
+                                                      TerrainPrograms& programs,
                                                       std::uint64_t memoryBytes);
 
 }  // namespace eyrie::draw
