@@ -60,8 +60,8 @@ std::uint32_t packedSrgb(const fabric::Vec3& linear) {
 
 class MeshDrawable : public Drawable {
 public:
-    MeshDrawable(const fabric::SceneObject& object, MeshPrograms& programs,
-                 mesh::EymFile file, std::uint64_t memoryBytes)
+    MeshDrawable(const fabric::SceneObject& object, MeshPrograms& programs, mesh::EymFile file,
+                 std::uint64_t memoryBytes)
         : programs_(programs),
           worldFromObject_(object.worldFromObject),
           uniformColour_(packedSrgb(object.colour)),

@@ -22,7 +22,7 @@ struct BuiltDeclaration {
 /// An effect's GLSL: what the build put into the program, or what a folder holds at run time.
 struct EffectSource {
     std::string name;                ///< "terrain.effect"
-    std::vector<std::string> files;  ///< by their number in #line directives
+    std::vector<std::string> files;  ///< by their number in line numbers: language/glsl_writer.h
     std::vector<BuiltDeclaration> declarations;
     std::string vertex;  ///< without version and parameters, as is `fragment`
     std::string fragment;

@@ -45,8 +45,8 @@ public:
         if (!watch_)
             return;
         if (auto changed = watch_->changed(now))
-            reportReload(Effect::builtIn(), changed->ok() ? replace(**std::move(changed))
-                                                          : changed->status());
+            reportReload(Effect::builtIn(),
+                         changed->ok() ? replace(**std::move(changed)) : changed->status());
     }
 
 private:

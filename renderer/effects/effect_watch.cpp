@@ -26,17 +26,20 @@ absl::Status checkUnchanged(const EffectSource& builtIn, const std::vector<Decla
         if (built == builtIn.declarations.end())
             return absl::InvalidArgumentError(messageAt(
                 now.place, fmt::format("'{}' is new and nothing sets it; build Eyrie anew to use "
-                                       "it", now.text)));
+                                       "it",
+                                       now.text)));
         if (built->text != now.text)
             return absl::InvalidArgumentError(
                 messageAt(now.place, fmt::format("'{}' was built as '{}'; put it back, or build "
-                                                 "Eyrie anew", now.text, built->text)));
+                                                 "Eyrie anew",
+                                                 now.text, built->text)));
     }
     for (const BuiltDeclaration& built : builtIn.declarations)
         if (findName(edited, built.name) == edited.end())
             return absl::InvalidArgumentError(
                 fmt::format("{}: '{}' is missing, and Eyrie was built to set it; put it back, or "
-                            "build Eyrie anew", builtIn.name, built.text));
+                            "build Eyrie anew",
+                            builtIn.name, built.text));
     return absl::OkStatus();
 }
 

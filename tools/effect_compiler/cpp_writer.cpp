@@ -105,30 +105,34 @@ std::string constants(const EffectFile& file) {
             const std::string source =
                 input.sources.size() == 1 ? "" : fmt::format("FromUint32x{}", words);
             text += doc(input.comment);
-            text += fmt::format("    static constexpr gl::VertexInput k{}{}{{.location = {}, "
-                                ".words = {}}};\n",
-                                capitalised(input.name), source, input.location, words);
+            text += fmt::format(
+                "    static constexpr gl::VertexInput k{}{}{{.location = {}, "
+                ".words = {}}};\n",
+                capitalised(input.name), source, input.location, words);
         }
     for (const Pass& pass : file.passes) {
         text += doc(pass.comment);
-        text += fmt::format("    static constexpr gl::PassState k{}{{.depthFunction = {},\n"
-                            "        .culledFace = {}, .polygonMode = {}}};\n",
-                            capitalised(pass.name), cppOf(depthFunctions(), pass.depth),
-                            cppOf(culledFaces(), pass.cull), cppOf(polygonModes(), pass.polygon));
+        text += fmt::format(
+            "    static constexpr gl::PassState k{}{{.depthFunction = {},\n"
+            "        .culledFace = {}, .polygonMode = {}}};\n",
+            capitalised(pass.name), cppOf(depthFunctions(), pass.depth),
+            cppOf(culledFaces(), pass.cull), cppOf(polygonModes(), pass.polygon));
     }
-    return text;
+    return text.empty() ? text : text + "\n";
 }
 
 std::string setter(const Uniform& uniform, std::string_view id) {
     const std::string_view type = cppOf(uniformTypes(), uniform.type);
     if (uniform.unit >= 0)
-        return fmt::format("    void {}(const {}& texture) const {{ glBindTextureUnit({}, "
-                           "texture.id()); }}\n", uniform.name, type, uniform.unit);
+        return fmt::format(
+            "    void {}(const {}& texture) const {{ glBindTextureUnit({}, "
+            "texture.id()); }}\n",
+            uniform.name, type, uniform.unit);
     const bool isNumber = type == "float" || type == "int";
-    const std::string parameter =
-        !uniform.length.empty() ? fmt::format("std::span<const {}> value", type)
-        : isNumber              ? fmt::format("std::same_as<{}> auto value", type)
-                                : fmt::format("const {}& value", type);
+    const std::string parameter = !uniform.length.empty()
+                                      ? fmt::format("std::span<const {}> value", type)
+                                  : isNumber ? fmt::format("std::same_as<{}> auto value", type)
+                                             : fmt::format("const {}& value", type);
     return fmt::format("    void {}({}) const {{ gl::setUniform({}, {}_, value); }}\n",
                        uniform.name, parameter, id, uniform.name);
 }
@@ -163,7 +167,8 @@ std::string builtIn(const Effect& effect) {
         "    /// The GLSL that was built into the program.\n"
         "    static const EffectSource& builtIn() {{\n"
         "        static const EffectSource source{{\n"
-        "            .name = {},\n            .files = {{{}}},\n            .declarations = {{{}}},\n"
+        "            .name = {},\n            .files = {{{}}},\n            .declarations = "
+        "{{{}}},\n"
         "            .vertex ={},\n            .fragment ={}}};\n        return source;\n    }}\n",
         literal(effect.main().name), files, list,
         literalLines(stageText(effect, true), "                "),
@@ -189,10 +194,11 @@ std::string blockHeader(const EffectFile& block) {
     std::string text = opening(block.name, "");
     text += fmt::format("/// What effects that include {} share.\nclass {} {{\npublic:\n",
                         block.name, name);
-    text += variantStruct(block, {}) + "\n" + constants(block) + "\n" + uniforms.setters;
-    text += fmt::format("\nprotected:\n    explicit {}(const gl::Program& program)\n"
-                        "        : id_(program.id()){} {{}}\n\nprivate:\n    GLuint id_;\n{}}};\n",
-                        name, uniforms.initialisers, uniforms.locations);
+    text += variantStruct(block, {}) + "\n" + constants(block) + uniforms.setters;
+    text += fmt::format(
+        "\nprotected:\n    explicit {}(const gl::Program& program)\n"
+        "        : id_(program.id()){} {{}}\n\nprivate:\n    GLuint id_;\n{}}};\n",
+        name, uniforms.initialisers, uniforms.locations);
     return text + "\n}  // namespace eyrie::effects\n";
 }
 
@@ -211,9 +217,11 @@ std::string effectHeader(const Effect& effect) {
     }
     const UniformCode uniforms = uniformCode(main, "program_.id()", "program_");
     std::string text = opening(main.name, includes);
-    text += fmt::format("/// One variant of {}, compiled. Its uniforms may be set whether or not it "
-                        "is in use.\nclass {}{} {{\npublic:\n", main.name, name, inherited);
-    text += variantStruct(main, bases) + "\n" + constants(main) + "\n" + builtIn(effect);
+    text += fmt::format(
+        "/// One variant of {}, compiled. Its uniforms may be set whether or not it "
+        "is in use.\nclass {}{} {{\npublic:\n",
+        main.name, name, inherited);
+    text += variantStruct(main, bases) + "\n" + constants(main) + builtIn(effect);
     text += fmt::format(
         "\n    /// Internal, with the driver's log by file and line, when it does not compile.\n"
         "    static absl::StatusOr<{0}> create(const Variant& variant,\n"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/effect_compiler/glsl_validator.h"
 
-#include <sys/wait.h>
-
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -10,6 +8,7 @@
 #include <fstream>
 
 #include <fmt/format.h>
+#include <sys/wait.h>
 
 #include "fabric/status.h"
 #include "renderer/effects/language/glsl_writer.h"
@@ -50,6 +49,14 @@ std::string quoted(const std::string& argument) {
     return text + "'";
 }
 
+/// `log` without the lines on which the validator names the files it was given.
+std::string without(std::string log, const std::vector<std::string>& files) {
+    for (const std::string& file : files)
+        if (const std::size_t at = log.find(file + "\n"); at != std::string::npos)
+            log.erase(at, file.size() + 1);
+    return log;
+}
+
 struct Outcome {
     bool succeeded = false;
     std::string output;
@@ -86,10 +93,10 @@ absl::Status validateGlsl(const Effect& effect, const std::string& validator) {
                          runProgram(fmt::format("{} -l {} {} 2>&1", quoted(validator),
                                                 quoted(vertex), quoted(fragment))));
         if (!outcome.succeeded)
-            return absl::InvalidArgumentError(
-                fmt::format("{}\n{}: the GLSL above is refused{}",
-                            namedLog(outcome.output, sourceFiles(effect)), effect.main().name,
-                            values.empty() ? "" : " with " + describe(values)));
+            return absl::InvalidArgumentError(fmt::format(
+                "{}\n{}: the GLSL above is refused{}",
+                namedLog(without(outcome.output, {vertex, fragment}), sourceFiles(effect)),
+                effect.main().name, values.empty() ? "" : " with " + describe(values)));
     }
     return absl::OkStatus();
 }

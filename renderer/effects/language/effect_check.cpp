@@ -34,8 +34,9 @@ absl::Status checkParameter(const Parameter& parameter) {
                        fmt::format("GLSL keeps names like {} for itself", parameter.name));
     if (parameter.low <= parameter.high)
         return absl::OkStatus();
-    return errorAt(parameter.place, fmt::format("{} ranges from {} down to {}; the lower comes first",
-                                                parameter.name, parameter.low, parameter.high));
+    return errorAt(parameter.place,
+                   fmt::format("{} ranges from {} down to {}; the lower comes first",
+                               parameter.name, parameter.low, parameter.high));
 }
 
 absl::Status checkUniform(const Uniform& uniform) {
@@ -44,17 +45,19 @@ absl::Status checkUniform(const Uniform& uniform) {
     const bool isSampler = uniform.type == "sampler2D";
     if (isSampler && !uniform.length.empty())
         return errorAt(uniform.place, fmt::format("{} is a sampler and an array; give each sampler "
-                                                  "a name of its own", uniform.name));
+                                                  "a name of its own",
+                                                  uniform.name));
     if (isSampler && uniform.unit < 0)
         return errorAt(uniform.place, fmt::format("{} is a sampler; say which texture unit it has, "
-                                                  "as in 'at 0'", uniform.name));
+                                                  "as in 'at 0'",
+                                                  uniform.name));
     if (!isSampler && uniform.unit >= 0)
         return errorAt(uniform.place,
                        fmt::format("{} is no sampler and has no texture unit", uniform.name));
     if (uniform.unit >= kMaxUnitsOrLocations)
-        return errorAt(uniform.place, fmt::format("{} has texture unit {}; it must be from 0 to {}",
-                                                  uniform.name, uniform.unit,
-                                                  kMaxUnitsOrLocations - 1));
+        return errorAt(uniform.place,
+                       fmt::format("{} has texture unit {}; it must be from 0 to {}", uniform.name,
+                                   uniform.unit, kMaxUnitsOrLocations - 1));
     return absl::OkStatus();
 }
 
@@ -62,9 +65,9 @@ absl::Status checkInput(const Input& input) {
     const std::string what = "the type of input " + input.name;
     RETURN_IF_ERROR(checkWord(inputTypes(), input.type, what, input.place));
     if (input.location >= kMaxUnitsOrLocations)
-        return errorAt(input.place, fmt::format("{} has location {}; it must be from 0 to {}",
-                                                input.name, input.location,
-                                                kMaxUnitsOrLocations - 1));
+        return errorAt(input.place,
+                       fmt::format("{} has location {}; it must be from 0 to {}", input.name,
+                                   input.location, kMaxUnitsOrLocations - 1));
     const int components = cppOf(inputTypes(), input.type)[0] - '0';
     std::set<int> seen;
     for (const int words : input.sources) {
@@ -73,8 +76,7 @@ absl::Status checkInput(const Input& input) {
                            fmt::format("{} is fed from uint32[{}]; a {} takes from 1 to {} words",
                                        input.name, words, input.type, components));
         if (!seen.insert(words).second)
-            return errorAt(input.place,
-                           fmt::format("{} names the same source twice", input.name));
+            return errorAt(input.place, fmt::format("{} names the same source twice", input.name));
     }
     return absl::OkStatus();
 }
@@ -112,8 +114,8 @@ class Names {
 public:
     absl::Status add(const std::string& name, const Place& place) {
         if (isTakenInCpp(name))
-            return errorAt(place, fmt::format("'{}' means something else in C++; choose another name",
-                                              name));
+            return errorAt(
+                place, fmt::format("'{}' means something else in C++; choose another name", name));
         const auto [first, isNew] = places_.emplace(name, place);
         if (isNew)
             return absl::OkStatus();
@@ -157,8 +159,9 @@ absl::Status checkVariants(const std::vector<Parameter>& parameters) {
     for (const Parameter& parameter : parameters) {
         variants *= parameter.high - parameter.low + 1;
         if (variants > kMaxVariants)
-            return errorAt(parameter.place, fmt::format("{} makes more than {} variants of an effect",
-                                                        parameter.name, kMaxVariants));
+            return errorAt(parameter.place,
+                           fmt::format("{} makes more than {} variants of an effect",
+                                       parameter.name, kMaxVariants));
     }
     return absl::OkStatus();
 }
@@ -174,14 +177,15 @@ absl::Status checkTogether(const std::vector<EffectFile>& files) {
     std::set<int> places;
     for (const Input& input : files.back().inputs)
         if (!places.insert(input.location).second)
-            return errorAt(input.place, fmt::format("location {} is already another input's",
-                                                    input.location));
+            return errorAt(input.place,
+                           fmt::format("location {} is already another input's", input.location));
     std::set<int> units;
     for (const EffectFile& file : files)
         for (const Uniform& uniform : file.uniforms)
             if (uniform.unit >= 0 && !units.insert(uniform.unit).second)
                 return errorAt(uniform.place, fmt::format("texture unit {} is already another "
-                                                          "sampler's", uniform.unit));
+                                                          "sampler's",
+                                                          uniform.unit));
     return checkVariants(parameters);
 }
 

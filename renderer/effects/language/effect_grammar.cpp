@@ -43,13 +43,13 @@ template <typename Rule>
 struct Action : tao::pegtl::nothing<Rule> {};
 
 /// Actions whose whole work is one assignment from the matched text.
-#define EYRIE_SET(RULE, TARGET, VALUE)             \
-    template <>                                    \
-    struct Action<rules::RULE> {                   \
-        template <typename In>                     \
+#define EYRIE_SET(RULE, TARGET, VALUE)                  \
+    template <>                                         \
+    struct Action<rules::RULE> {                        \
+        template <typename In>                          \
         static void apply(const In& in, Draft& draft) { \
-            draft.TARGET = VALUE;                  \
-        }                                          \
+            draft.TARGET = VALUE;                       \
+        }                                               \
     };
 EYRIE_SET(DocText, doc, in.string())
 EYRIE_SET(ParameterName, parameter.name, in.string())
@@ -126,13 +126,13 @@ void addDocumented(std::vector<Statement>& list, Statement& statement, const In&
     add(list, statement, in);
 }
 
-#define EYRIE_ADD(RULE, LIST, STATEMENT)                                    \
-    template <>                                                             \
-    struct Action<rules::RULE> {                                            \
-        template <typename In>                                              \
-        static void apply(const In& in, Draft& draft) {                     \
-            addDocumented(draft.file.LIST, draft.STATEMENT, in, draft);     \
-        }                                                                   \
+#define EYRIE_ADD(RULE, LIST, STATEMENT)                                \
+    template <>                                                         \
+    struct Action<rules::RULE> {                                        \
+        template <typename In>                                          \
+        static void apply(const In& in, Draft& draft) {                 \
+            addDocumented(draft.file.LIST, draft.STATEMENT, in, draft); \
+        }                                                               \
     };
 EYRIE_ADD(Variant, parameters, parameter)
 EYRIE_ADD(Uniform, uniforms, uniform)
@@ -151,30 +151,37 @@ struct Action<rules::Stage> {
 template <typename Rule>
 using Control = tao::pegtl::must_if<rules::Expected, tao::pegtl::normal, false>::control<Rule>;
 
+bool isWord(char c) {
+    return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_';
+}
+
+/// How far into a word or number `offset` is: rules fail where a word stops being what they want.
+std::size_t bytesIntoWord(std::string_view text, std::size_t offset) {
+    std::size_t begin = offset;
+    if (offset < text.size() && isWord(text[offset]))
+        while (begin > 0 && isWord(text[begin - 1])) --begin;
+    return offset - begin;
+}
+
 /// What stands at `offset`, for messages: a word or number, one other character, or the end.
 std::string foundAt(std::string_view text, std::size_t offset) {
+    constexpr std::size_t kLongest = 40;
     if (offset >= text.size())
         return "the end of the file";
-    const auto isWord = [](char c) {
-        return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') ||
-               c == '_';
-    };
-    std::size_t end = offset;
-    while (end < text.size() && end < offset + 40 && isWord(text[end])) ++end;
-    const auto byte = static_cast<unsigned char>(text[offset]);
-    if (end == offset && byte < 0x80 && byte > 0x20)
-        ++end;
-    if (end == offset)
-        return byte > 0x20 ? fmt::format("byte 0x{:02x}", byte) : "white space";
-    return fmt::format("'{}'", text.substr(offset, end - offset));
+    const std::string_view rest = text.substr(offset, kLongest);
+    const auto end = std::find_if_not(rest.begin(), rest.end(), isWord);
+    if (end != rest.begin())
+        return fmt::format("'{}'", std::string_view(rest.begin(), end));
+    const auto byte = static_cast<unsigned char>(rest[0]);
+    return byte > 0x20 && byte < 0x7F ? fmt::format("'{}'", rest[0])
+                                      : fmt::format("byte 0x{:02x}", byte);
 }
 
 /// Text only: a NUL would end the text early for GL, and other control bytes are never meant.
 absl::Status checkBytes(std::string_view text, std::string_view name) {
     if (text.size() > kMaxEffectBytes)
-        return absl::InvalidArgumentError(
-            fmt::format("{}: has {} bytes; an effect file has at most {}", name, text.size(),
-                        kMaxEffectBytes));
+        return absl::InvalidArgumentError(fmt::format(
+            "{}: has {} bytes; an effect file has at most {}", name, text.size(), kMaxEffectBytes));
     const auto bad = std::find_if(text.begin(), text.end(), [](char c) {
         const auto byte = static_cast<unsigned char>(c);
         return (byte < 0x20 && c != '\n' && c != '\t' && c != '\r') || byte == 0x7F;
@@ -184,8 +191,8 @@ absl::Status checkBytes(std::string_view text, std::string_view name) {
     const auto before = std::string_view(text.begin(), bad);
     const auto lines = static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n'));
     const Place place{std::string(name), lines + 1, before.size() - (before.rfind('\n') + 1) + 1};
-    return absl::InvalidArgumentError(
-        messageAt(place, fmt::format("byte 0x{:02x} is not text", static_cast<unsigned char>(*bad))));
+    return absl::InvalidArgumentError(messageAt(
+        place, fmt::format("byte 0x{:02x} is not text", static_cast<unsigned char>(*bad))));
 }
 
 }  // namespace
@@ -204,11 +211,14 @@ absl::StatusOr<EffectFile> parseEffectFile(std::string_view text, std::string_vi
         tao::pegtl::parse<rules::File, Action, Control>(in, draft);
     } catch (const tao::pegtl::parse_error& error) {
         const auto& position = error.positions().front();
+        Place place{position.source, position.line, position.column};
         std::string message(error.message());
-        if (message.starts_with("expected"))
-            message += fmt::format(", found {}", foundAt(text, position.byte));
-        return absl::InvalidArgumentError(
-            messageAt({position.source, position.line, position.column}, message));
+        if (message.starts_with("expected")) {
+            const std::size_t into = bytesIntoWord(text, position.byte);
+            place.column -= into;
+            message += fmt::format(", found {}", foundAt(text, position.byte - into));
+        }
+        return absl::InvalidArgumentError(messageAt(place, message));
     }
     return std::move(draft.file);
 }

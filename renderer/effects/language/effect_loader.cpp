@@ -13,6 +13,8 @@
 namespace eyrie::effects {
 namespace {
 
+constexpr std::size_t kMaxIncludes = 16;
+
 absl::StatusOr<EffectFile> loadFile(std::string_view name, const ReadEffectFile& read) {
     if (!isEffectFileName(name))
         return absl::InvalidArgumentError(fmt::format(
@@ -26,10 +28,12 @@ absl::Status checkInclude(const Include& include, std::set<std::string>& seen) {
         return absl::InvalidArgumentError(messageAt(include.place, message));
     };
     if (!isEffectFileName(include.file) || !include.file.ends_with(".block"))
-        return error(fmt::format("\"{}\" is no block; blocks are called lower_case.block",
-                                 include.file));
+        return error(
+            fmt::format("\"{}\" is no block; blocks are called lower_case.block", include.file));
     if (!seen.insert(include.file).second)
         return error(fmt::format("\"{}\" is included twice", include.file));
+    if (seen.size() > kMaxIncludes)
+        return error(fmt::format("an effect includes at most {} blocks", kMaxIncludes));
     return absl::OkStatus();
 }
 

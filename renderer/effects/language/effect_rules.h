@@ -16,9 +16,46 @@ namespace eyrie::effects::rules {
 
 namespace peg = tao::pegtl;
 
+/// Ends the parse `at` bytes from here.
+template <typename ParseInput>
+[[noreturn]] void fail(ParseInput& in, std::size_t at, const char* message) {
+    in.bump(at);
+    throw peg::parse_error(message, in);
+}
+
+/// The last byte of the comment that begins at `at`, or `at` where none does. As in GLSL, a
+/// backslash before the line's end continues a line comment.
+template <typename ParseInput>
+std::size_t endOfComment(ParseInput& in, std::size_t at) {
+    const char second = in.size(at + 2) > at + 1 ? in.peek_char(at + 1) : '\0';
+    if (in.peek_char(at) != '/' || (second != '/' && second != '*'))
+        return at;
+    std::size_t end = at + 2;
+    for (; in.size(end + 1) > end; ++end) {
+        if (second == '/' && in.peek_char(end) == '\n' && in.peek_char(end - 1) != '\\')
+            return end;
+        if (second == '*' && end > at + 2 && in.peek_char(end) == '/' &&
+            in.peek_char(end - 1) == '*')
+            return end;
+    }
+    if (second == '*')
+        fail(in, at, "the comment that begins here has no '*/' that ends it");
+    return end - 1;
+}
+
 // Between words.
-struct CommentRest : peg::until<peg::string<'*', '/'>> {};
-struct BlockComment : peg::seq<peg::string<'/', '*'>, CommentRest> {};
+struct BlockComment {
+    using rule_t = BlockComment;
+    using subs_t = peg::empty_list;
+
+    template <typename ParseInput>
+    static bool match(ParseInput& in) {
+        if (in.size(2) < 2 || in.peek_char(0) != '/' || in.peek_char(1) != '*')
+            return false;
+        in.bump(endOfComment(in, 0) + 1);
+        return true;
+    }
+};
 struct LineComment : peg::seq<peg::two<'/'>, peg::until<peg::eolf>> {};
 struct Blank : peg::star<peg::sor<peg::space, BlockComment, LineComment>> {};
 
@@ -31,7 +68,7 @@ struct OpenBrace : peg::one<'{'> {};
 struct CloseBrace : peg::one<'}'> {};
 struct CloseBracket : peg::one<']'> {};
 struct DotDot : peg::string<'.', '.'> {};
-struct Digits : peg::rep_min_max<1, 6, peg::digit> {};
+struct Digits : peg::seq<peg::rep_min_max<1, 6, peg::digit>, peg::not_at<peg::identifier_other>> {};
 
 /// A word on its own, so that `passion` does not begin with `pass`.
 template <char... Letters>
@@ -54,8 +91,9 @@ struct ParameterName
                peg::not_at<peg::identifier_other>> {};
 struct Low : Digits {};
 struct High : Digits {};
-struct IntParameter : peg::seq<Word<'i', 'n', 't'>, Blank, ParameterName, Blank, Low, Blank, DotDot,
-                               Blank, High> {};
+struct IntParameter
+    : peg::seq<Word<'i', 'n', 't'>, Blank, ParameterName, Blank, Low, Blank, DotDot, Blank, High> {
+};
 struct BoolWord : Word<'b', 'o', 'o', 'l'> {};
 struct BoolParameter : peg::seq<BoolWord, Blank, ParameterName> {};
 struct ParameterKind : peg::sor<IntParameter, BoolParameter> {};
@@ -94,8 +132,8 @@ struct PassName : Name {};
 struct StateName : peg::identifier {};
 struct StateValue : peg::identifier {};
 struct Setting : peg::seq<StateName, Blank, StateValue, Blank, Semicolon, Blank> {};
-struct Pass : peg::seq<PassWord, Blank, PassName, Blank, OpenBrace, Blank, peg::star<Setting>, CloseBrace,
-                       Doc> {};
+struct Pass : peg::seq<PassWord, Blank, PassName, Blank, OpenBrace, Blank, peg::star<Setting>,
+                       CloseBrace, Doc> {};
 
 /// GLSL up to the brace that closes the stage, which it leaves. Braces in comments do not count.
 struct Body {
@@ -106,10 +144,9 @@ struct Body {
     static bool match(ParseInput& in) {
         int depth = 0;
         for (std::size_t at = 0; in.size(at + 1) > at; ++at) {
+            at = endOfComment(in, at);
             const char byte = in.peek_char(at);
-            if (byte == '/' && in.size(at + 2) > at + 1)
-                at = afterComment(in, at);
-            else if (byte == '{' && ++depth > kMaxBraceDepth)
+            if (byte == '{' && ++depth > kMaxBraceDepth)
                 fail(in, at, "braces nest too deep: at most 64 may be open");
             else if (byte == '}' && depth-- == 0) {
                 in.bump(at);
@@ -117,33 +154,6 @@ struct Body {
             }
         }
         fail(in, 0, "the stage that begins here has no '}' that ends it");
-    }
-
-private:
-    template <typename ParseInput>
-    [[noreturn]] static void fail(ParseInput& in, std::size_t at, const char* message) {
-        in.bump(at);
-        throw peg::parse_error(message, in);
-    }
-
-    /// The last byte of the comment that begins at `at`, or `at` where none does. As in GLSL, a
-    /// backslash before the line's end continues a line comment.
-    template <typename ParseInput>
-    static std::size_t afterComment(ParseInput& in, std::size_t at) {
-        const char second = in.peek_char(at + 1);
-        if (second != '/' && second != '*')
-            return at;
-        std::size_t end = at + 2;
-        for (; in.size(end + 1) > end; ++end) {
-            if (second == '/' && in.peek_char(end) == '\n' && in.peek_char(end - 1) != '\\')
-                return end;
-            if (second == '*' && end > at + 2 && in.peek_char(end) == '/' &&
-                in.peek_char(end - 1) == '*')
-                return end;
-        }
-        if (second == '*')
-            fail(in, at, "the comment that begins here has no '*/' that ends it");
-        return end;
     }
 };
 
@@ -163,9 +173,6 @@ struct Expected {
     static constexpr const char* message = nullptr;
 };
 template <>
-inline constexpr const char* Expected::message<CommentRest> =
-    "the comment that begins here has no '*/' that ends it";
-template <>
 inline constexpr const char* Expected::message<Semicolon> = "expected ';'";
 template <>
 inline constexpr const char* Expected::message<OpenBrace> = "expected '{'";
@@ -180,8 +187,7 @@ template <>
 inline constexpr const char* Expected::message<QuotedFile> =
     "expected a block's name in quotes, such as \"object.block\"";
 template <>
-inline constexpr const char* Expected::message<ParameterKind> =
-    "expected 'int' or 'bool'";
+inline constexpr const char* Expected::message<ParameterKind> = "expected 'int' or 'bool'";
 template <>
 inline constexpr const char* Expected::message<ParameterName> =
     "expected the parameter's name in capitals";

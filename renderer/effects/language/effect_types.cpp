@@ -8,10 +8,10 @@ namespace eyrie::effects {
 
 std::span<const Word> uniformTypes() {
     static constexpr std::array words{
-        Word{"float", "float"},          Word{"int", "int"},
-        Word{"vec3", "glm::vec3"},       Word{"ivec2", "glm::ivec2"},
-        Word{"ivec3", "glm::ivec3"},     Word{"mat3", "glm::mat3"},
-        Word{"mat4", "glm::mat4"},       Word{"sampler2D", "gl::Texture2D"},
+        Word{"float", "float"},      Word{"int", "int"},
+        Word{"vec3", "glm::vec3"},   Word{"ivec2", "glm::ivec2"},
+        Word{"ivec3", "glm::ivec3"}, Word{"mat3", "glm::mat3"},
+        Word{"mat4", "glm::mat4"},   Word{"sampler2D", "gl::Texture2D"},
     };
     return words;
 }
@@ -24,8 +24,8 @@ std::span<const Word> inputTypes() {
 
 std::span<const Word> depthFunctions() {
     static constexpr std::array words{
-        Word{"less", "GL_LESS"},         Word{"lessEqual", "GL_LEQUAL"},
-        Word{"equal", "GL_EQUAL"},       Word{"greater", "GL_GREATER"},
+        Word{"less", "GL_LESS"},           Word{"lessEqual", "GL_LEQUAL"},
+        Word{"equal", "GL_EQUAL"},         Word{"greater", "GL_GREATER"},
         Word{"greaterEqual", "GL_GEQUAL"}, Word{"always", "GL_ALWAYS"},
     };
     return words;

@@ -42,7 +42,7 @@ void append(std::vector<Declaration>& list, const Statements& statements) {
 
 /// The next line of GLSL is line `line` of file `file`.
 std::string lineDirective(std::size_t line, std::size_t file) {
-    return fmt::format("#line {} {}\n", line, file);
+    return fmt::format("#line {} 0\n", file * kLinesPerFile + line);
 }
 
 std::string glslOf(const Uniform& uniform) {
@@ -100,8 +100,8 @@ std::string stageText(const Effect& effect, bool isVertex) {
         if (isVertex)
             for (const Input& input : file.inputs)
                 text += lineDirective(input.place.line, i) +
-                        fmt::format("layout(location = {}) in {} {};\n", input.location,
-                                    input.type, input.name);
+                        fmt::format("layout(location = {}) in {} {};\n", input.location, input.type,
+                                    input.name);
         for (const Uniform& uniform : file.uniforms)
             text += lineDirective(uniform.place.line, i) + glslOf(uniform);
         for (const Stage& stage : file.stages)

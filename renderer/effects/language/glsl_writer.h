@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
+#include "renderer/effects/language/effect_grammar.h"
 #include "renderer/effects/language/effect_model.h"
 
 namespace eyrie::effects {
@@ -35,8 +37,12 @@ std::string describe(const ParameterValues& values);
 /// What GLSL must see before a stage: the version and a macro for each parameter.
 std::string stagePreamble(const ParameterValues& values);
 
-/// One stage without its preamble: the declarations of all files, then their GLSL. #line directives
-/// name each line's place: source string N is the effect's file N, of `sourceFiles`.
+/// Compilers number lines with #line L 0: line L % kLinesPerFile of file L / kLinesPerFile of
+/// `sourceFiles`. #line's own number for a file stays 0: Mesa 22 reports 0 for any.
+inline constexpr std::size_t kLinesPerFile = 2'000'000;
+static_assert(kLinesPerFile > kMaxEffectBytes);
+
+/// One stage without its preamble: each file's declarations, then its GLSL, with #line directives.
 std::string stageText(const Effect& effect, bool isVertex);
 
 /// File names in the order in which #line numbers them.

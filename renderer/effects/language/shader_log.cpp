@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/effects/language/shader_log.h"
 
+#include <algorithm>
 #include <charconv>
 #include <optional>
 
 #include <fmt/format.h>
+
+#include "renderer/effects/language/glsl_writer.h"
 
 namespace eyrie::effects {
 namespace {
@@ -31,14 +34,13 @@ std::optional<std::string> named(std::string_view line, std::span<const std::str
     const std::string_view kind = take(line, "ERROR: ")     ? "error: "
                                   : take(line, "WARNING: ") ? "warning: "
                                                             : "";
-    const auto file = takeNumber(line);
-    if (!file || *file >= files.size())
+    if (!takeNumber(line))
         return std::nullopt;
     const bool bracketed = take(line, "(");
     if (!bracketed && !take(line, ":"))
         return std::nullopt;
     const auto number = takeNumber(line);
-    if (!number || (bracketed && !take(line, ")")))
+    if (!number || *number / kLinesPerFile >= files.size() || (bracketed && !take(line, ")")))
         return std::nullopt;
     std::string column;
     if (std::string_view rest = line; take(rest, "("))
@@ -48,7 +50,8 @@ std::optional<std::string> named(std::string_view line, std::span<const std::str
         }
     while (take(line, " ") || take(line, ":")) {
     }
-    return fmt::format("{}:{}{}: {}{}", files[*file], *number, column, kind, line);
+    return fmt::format("{}:{}{}: {}{}", files[*number / kLinesPerFile], *number % kLinesPerFile,
+                       column, kind, line);
 }
 
 }  // namespace
