@@ -6,7 +6,7 @@ find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
 
 function(eyrie_effects TARGET)
     cmake_parse_arguments(ARG "" "" "EFFECTS;BLOCKS" ${ARGN})
-    set(generated ${CMAKE_CURRENT_BINARY_DIR}/generated)
+    set(generated ${CMAKE_BINARY_DIR}/generated)
     foreach(file ${ARG_EFFECTS} ${ARG_BLOCKS})
         string(REPLACE . _ name ${file})
         set(header ${generated}/effects/${name}.h)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/effects/effect_variants.h"
 
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -123,6 +124,29 @@ TEST_F(EffectVariantsTest, UniformsArriveWithTheirTypes) {
     float ambient = 0;
     glGetUniformfv(id, glGetUniformLocation(id, "ambient"), &ambient);
     EXPECT_EQ(ambient, 0.25F);
+}
+
+TEST_F(EffectVariantsTest, APassSetsTheStateThatItsFileNames) {
+    const auto value = [](GLenum name) {
+        std::array<GLint, 2> values{};
+        glGetIntegerv(name, values.data());
+        return static_cast<GLenum>(values[0]);
+    };
+    glEnable(GL_BLEND);
+    TerrainEffect::kWireframe.apply();
+    EXPECT_EQ(value(GL_POLYGON_MODE), static_cast<GLenum>(GL_LINE));
+    EXPECT_EQ(value(GL_DEPTH_FUNC), static_cast<GLenum>(GL_GREATER));
+    EXPECT_EQ(value(GL_CLIP_DEPTH_MODE), static_cast<GLenum>(GL_ZERO_TO_ONE));
+    EXPECT_TRUE(glIsEnabled(GL_DEPTH_TEST));
+    EXPECT_FALSE(glIsEnabled(GL_BLEND));
+    gl::PassState culled = TerrainEffect::kSolid;
+    culled.culledFace = GL_FRONT;
+    culled.apply();
+    EXPECT_EQ(value(GL_POLYGON_MODE), static_cast<GLenum>(GL_FILL));
+    EXPECT_EQ(value(GL_CULL_FACE_MODE), static_cast<GLenum>(GL_FRONT));
+    EXPECT_TRUE(glIsEnabled(GL_CULL_FACE));
+    TerrainEffect::kSolid.apply();
+    EXPECT_FALSE(glIsEnabled(GL_CULL_FACE));
 }
 
 TEST_F(EffectVariantsTest, ADriversErrorNamesTheEffectFilesLine) {
