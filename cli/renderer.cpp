@@ -69,7 +69,8 @@ void addRenderer(CLI::App& app, Run& run) {
     command->footer(
         "Example, on each machine that draws:\n"
         "  eyrie renderer --coordinator viz:9090 --listen 0.0.0.0:0 --memory 8G\n"
-        "The data must be readable under the paths that the coordinator names.");
+        "The data must be readable under the paths that the coordinator names.\n"
+        "EYRIE_EFFECTS=FOLDER takes shaders from there, also while drawing: docs/effects.md.");
     command->callback([options, &run] { run = [options] { return cli::run(*options); }; });
 }
 

@@ -18,6 +18,11 @@ pkg_check_modules(TURBOJPEG REQUIRED IMPORTED_TARGET libturbojpeg)
 pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
 
+find_path(PEGTL_INCLUDE_DIR tao/pegtl.hpp REQUIRED)
+add_library(eyrie_pegtl INTERFACE)
+add_library(eyrie::pegtl ALIAS eyrie_pegtl)
+target_include_directories(eyrie_pegtl SYSTEM INTERFACE ${PEGTL_INCLUDE_DIR})
+
 find_path(GLM_INCLUDE_DIR glm/glm.hpp REQUIRED)
 add_library(eyrie_glm INTERFACE)
 add_library(eyrie::glm ALIAS eyrie_glm)

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "effects/object_block.h"
 #include "fabric/status.h"
 #include "renderer/draw/drawable.h"
 #include "renderer/draw/mesh_draw.h"
@@ -47,16 +48,9 @@ absl::Status validateTask(const fabric::FrameData& frameData, const fabric::Chan
     return absl::OkStatus();
 }
 
-/// The state of the one pass: opaque surfaces, nearest wins, the first drawn where depths tie.
 void setPassState(fabric::Shading shading) {
-    glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-    glEnable(GL_DEPTH_TEST);
-    glDepthFunc(GL_GREATER);
-    glDepthMask(GL_TRUE);
-    glDisable(GL_BLEND);
-    glDisable(GL_CULL_FACE);
-    glDisable(GL_DITHER);
-    glPolygonMode(GL_FRONT_AND_BACK, shading == fabric::Shading::Wireframe ? GL_LINE : GL_FILL);
+    const bool wireframe = shading == fabric::Shading::Wireframe;
+    (wireframe ? effects::ObjectBlock::kWireframe : effects::ObjectBlock::kSolid).apply();
 }
 
 /// A piece of some object in the order in which a frame draws.
@@ -110,8 +104,8 @@ private:
                             fabric::FrameStatistics& statistics);
 
     std::unique_ptr<gl::EglContext> context_;  // first: everything below needs it current
-    draw::Variants<draw::TerrainProgram> terrainPrograms_;
-    draw::Variants<draw::MeshProgram> meshPrograms_;
+    effects::EffectVariants<effects::TerrainEffect> terrainPrograms_;
+    effects::EffectVariants<effects::MeshEffect> meshPrograms_;
     gl::Framebuffer framebuffer_;
     RendererOptions options_;
     page::Loader loader_;
@@ -206,6 +200,8 @@ absl::StatusOr<fabric::ChannelResult> Renderer::Impl::render(const fabric::Frame
     fabric::FrameStatistics& statistics = result.statistics;
     statistics.tauAskedPixels = frameData.tauPixels;
     const auto start = Clock::now();
+    terrainPrograms_.reloadChanged(start);
+    meshPrograms_.reloadChanged(start);
 
     const lod::View view(frameData.camera, task.viewWidth, task.viewHeight);
     const Selection selection = selectPieces(view, frameData.tauPixels, task, statistics);

@@ -9,8 +9,8 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
 
-#include "eyrie_shaders.h"
 #include "fabric/status.h"
+#include "renderer/draw/object_program.h"
 #include "renderer/gl/object.h"
 #include "renderer/mesh/eym_format.h"
 #include "renderer/page/lru_cache.h"
@@ -18,7 +18,7 @@
 namespace eyrie::draw {
 namespace {
 
-enum Attribute : GLuint { kPosition = 0, kNormal = 1, kColour = 2 };
+using Program = effects::MeshEffect;
 
 /// A node's geometry on the device: one buffer, sections one after another.
 struct DeviceNode {
@@ -62,8 +62,8 @@ std::uint32_t packedSrgb(const fabric::Vec3& linear) {
 
 class MeshDrawable : public Drawable {
 public:
-    MeshDrawable(const fabric::SceneObject& object, Variants<MeshProgram>& programs,
-                 mesh::EymFile file, std::uint64_t memoryBytes)
+    MeshDrawable(const fabric::SceneObject& object, MeshPrograms& programs, mesh::EymFile file,
+                 std::uint64_t memoryBytes)
         : programs_(programs),
           worldFromObject_(object.worldFromObject),
           uniformColour_(packedSrgb(object.colour)),
@@ -95,7 +95,7 @@ private:
     void setFaces(const FrameState& frame) const;
     void drawNode(const DeviceNode& node) const;
 
-    Variants<MeshProgram>& programs_;
+    MeshPrograms& programs_;
     fabric::Mat4 worldFromObject_;
     fabric::Mat4 objectFromLattice_;
     std::uint32_t uniformColour_;
@@ -106,16 +106,9 @@ private:
 };
 
 void MeshDrawable::defineVertexFormat() {
-    const GLuint array = vertexArray_.id();
-    glVertexArrayAttribIFormat(array, kPosition, 2, GL_UNSIGNED_INT, 0);
-    glVertexArrayAttribIFormat(array, kNormal, 1, GL_UNSIGNED_INT, 0);
-    glVertexArrayAttribIFormat(array, kColour, 1, GL_UNSIGNED_INT, 0);
-    for (const GLuint attribute : {kPosition, kNormal, kColour})
-        glVertexArrayAttribBinding(array, attribute, attribute);
-    glEnableVertexArrayAttrib(array, kPosition);
-    glEnableVertexArrayAttrib(array, kNormal);
-    if (file_.hasColours())
-        glEnableVertexArrayAttrib(array, kColour);
+    Program::kPackedPosition.define(vertexArray_);
+    Program::kPackedNormal.define(vertexArray_);
+    Program::kPackedColour.define(vertexArray_, file_.hasColours());
 }
 
 Cut MeshDrawable::selectCut(const CutRequest& request) {
@@ -172,24 +165,23 @@ void MeshDrawable::setFaces(const FrameState& frame) const {
 }
 
 void MeshDrawable::drawNode(const DeviceNode& node) const {
-    const GLuint array = vertexArray_.id();
-    glVertexArrayVertexBuffer(array, kPosition, node.buffer.id(), 0, 8);
-    glVertexArrayVertexBuffer(array, kNormal, node.buffer.id(), node.normalOffset, 4);
+    Program::kPackedPosition.source(vertexArray_, node.buffer, 0);
+    Program::kPackedNormal.source(vertexArray_, node.buffer, node.normalOffset);
     if (file_.hasColours())
-        glVertexArrayVertexBuffer(array, kColour, node.buffer.id(), node.colourOffset, 4);
-    glVertexArrayElementBuffer(array, node.buffer.id());
+        Program::kPackedColour.source(vertexArray_, node.buffer, node.colourOffset);
+    glVertexArrayElementBuffer(vertexArray_.id(), node.buffer.id());
     glDrawElements(GL_TRIANGLES, node.indexCount, GL_UNSIGNED_SHORT,
                    reinterpret_cast<const void*>(node.indexOffset));
 }
 
 absl::Status MeshDrawable::draw(std::span<const Piece> pieces, const FrameState& frame,
                                 fabric::FrameStatistics& statistics) {
-    ASSIGN_OR_RETURN(const MeshProgram* program,
-                     programs_.find(variantFor(frame, worldFromObject_)));
-    program->object.use(frame, worldFromObject_, objectFromLattice_);
+    ASSIGN_OR_RETURN(const Program* program, programs_.find(variantFor(frame, worldFromObject_)));
+    program->use();
+    setObject(*program, frame, worldFromObject_, objectFromLattice_);
     setFaces(frame);
     glBindVertexArray(vertexArray_.id());
-    glVertexAttribI4ui(kColour, uniformColour_, 0, 0, 0);
+    glVertexAttribI4ui(Program::kPackedColour.location, uniformColour_, 0, 0, 0);
     for (const Piece& piece : pieces) {
         ASSIGN_OR_RETURN(const DeviceNode* node, residentNode(piece.index, statistics));
         drawNode(*node);
@@ -201,15 +193,8 @@ absl::Status MeshDrawable::draw(std::span<const Piece> pieces, const FrameState&
 
 }  // namespace
 
-absl::StatusOr<MeshProgram> MeshProgram::create(Variant variant) {
-    ASSIGN_OR_RETURN(ObjectProgram object,
-                     ObjectProgram::create({"mesh.vert.glsl", effects::kMeshVertGlsl},
-                                           {"mesh.frag.glsl", effects::kMeshFragGlsl}, variant));
-    return MeshProgram{std::move(object)};
-}
-
 absl::StatusOr<std::unique_ptr<Drawable>> openMesh(const fabric::SceneObject& object,
-                                                   Variants<MeshProgram>& programs,
+                                                   MeshPrograms& programs,
                                                    std::uint64_t memoryBytes) {
     ASSIGN_OR_RETURN(mesh::EymFile file, mesh::EymFile::open(object.path));
     return std::make_unique<MeshDrawable>(object, programs, std::move(file), memoryBytes);

@@ -5,23 +5,19 @@
 
 #include <absl/status/statusor.h>
 
+#include "effects/mesh_effect.h"
 #include "fabric/scene.h"
 #include "renderer/draw/drawable.h"
-#include "renderer/draw/object_program.h"
+#include "renderer/effects/effect_variants.h"
 
 namespace eyrie::draw {
 
-/// The shaders of meshes.
-struct MeshProgram {
-    static absl::StatusOr<MeshProgram> create(Variant variant);
-
-    ObjectProgram object;
-};
+using MeshPrograms = effects::EffectVariants<effects::MeshEffect>;
 
 /// Opens `object.path` as a .eym file. `programs` outlives what is returned. Errors: NotFound,
 /// InvalidArgument, DataLoss.
 absl::StatusOr<std::unique_ptr<Drawable>> openMesh(const fabric::SceneObject& object,
-                                                   Variants<MeshProgram>& programs,
+                                                   MeshPrograms& programs,
                                                    std::uint64_t memoryBytes);
 
 }  // namespace eyrie::draw

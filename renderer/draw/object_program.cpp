@@ -4,28 +4,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string>
+#include <span>
 
-#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_inverse.hpp>
-#include <glm/gtc/type_ptr.hpp>
 #include <glm/matrix.hpp>
 
-#include "eyrie_shaders.h"
-#include "fabric/status.h"
 #include "renderer/lod/lattice_view.h"
 
 namespace eyrie::draw {
 namespace {
 
-/// The GLSL version, what the variant defines, effects/lighting.glsl, then `fragment`.
-std::string fragmentText(std::string_view fragment, Variant variant) {
-    return fmt::format(
-        "#version 450 core\n#define LIGHTS {}\n#define FLAT {}\n#define CONFORMAL {}\n{}{}",
-        variant.lights, variant.flat ? 1 : 0, variant.conformal ? 1 : 0, effects::kLightingGlsl,
-        fragment);
-}
+static_assert(effects::ObjectBlock::Variant::kMaxLights == fabric::kMaxLights);
 
 /// The even scale of a rotation that also scales; 0 where the map shears, mirrors or scales
 /// unevenly.
@@ -39,54 +29,9 @@ double conformalScale(const fabric::Mat3& map) {
     return glm::determinant(map) > 0 ? scale : 0;
 }
 
-}  // namespace
-
-Variant variantFor(const FrameState& frame, const fabric::Mat4& worldFromObject) {
-    return {.lights = std::max(static_cast<int>(frame.scene.lights.size()), 1),
-            .flat = frame.shading == fabric::Shading::Flat,
-            .conformal = conformalScale(fabric::Mat3(worldFromObject)) > 0};
-}
-
-absl::StatusOr<ObjectProgram> ObjectProgram::create(const gl::ShaderSource& vertex,
-                                                    const gl::ShaderSource& fragment,
-                                                    Variant variant) {
-    const std::string text = fragmentText(fragment.text, variant);
-    const std::string name = fmt::format("lighting.glsl + {}", fragment.name);
-    ASSIGN_OR_RETURN(gl::Program program, gl::Program::create(vertex, {name, text}));
-    return ObjectProgram(std::move(program));
-}
-
-ObjectProgram::ObjectProgram(gl::Program program)
-    : program_(std::move(program)),
-      clipFromLattice_(uniform("clipFromLattice")),
-      metresFromLattice_(uniform("metresFromLattice")),
-      worldFromNormal_(uniform("worldFromNormal")),
-      cameraLattice_(uniform("cameraLattice")),
-      cameraOffsetMetres_(uniform("cameraOffsetMetres")),
-      lightDirections_(uniform("lightDirections")),
-      lightColours_(uniform("lightColours")),
-      ambient_(uniform("ambient")) {}
-
-void ObjectProgram::use(const FrameState& frame, const fabric::Mat4& worldFromObject,
-                        const fabric::Mat4& objectFromLattice) const {
-    const fabric::Mat3 linear(worldFromObject);
-    const double scale = conformalScale(linear);
-    const fabric::Mat3 shadingFromWorld =
-        scale > 0 ? glm::transpose(linear / scale) : fabric::Mat3(1.0);
-    const lod::LatticeView lattice(frame.view, worldFromObject * objectFromLattice);
-    const glm::mat3 metresFromLattice(shadingFromWorld * lattice.metresFromLattice);
-    const glm::vec3 cameraOffset(shadingFromWorld * lattice.cameraOffsetMetres);
-    const glm::mat3 worldFromNormal(glm::inverseTranspose(linear));
-    glUseProgram(program_.id());
-    glUniformMatrix4fv(clipFromLattice_, 1, GL_FALSE, glm::value_ptr(lattice.clipFromLattice));
-    glUniformMatrix3fv(metresFromLattice_, 1, GL_FALSE, glm::value_ptr(metresFromLattice));
-    glUniformMatrix3fv(worldFromNormal_, 1, GL_FALSE, glm::value_ptr(worldFromNormal));
-    glUniform3iv(cameraLattice_, 1, glm::value_ptr(lattice.cameraLattice));
-    glUniform3fv(cameraOffsetMetres_, 1, glm::value_ptr(cameraOffset));
-    setLights(frame, shadingFromWorld);
-}
-
-void ObjectProgram::setLights(const FrameState& frame, const fabric::Mat3& shadingFromWorld) const {
+/// `shadingFromWorld` turns directions; see the axes in effects/object.block.
+void setLights(const effects::ObjectBlock& program, const FrameState& frame,
+               const fabric::Mat3& shadingFromWorld) {
     std::array<glm::vec3, fabric::kMaxLights> directions{};
     std::array<glm::vec3, fabric::kMaxLights> colours{};
     int count = 0;
@@ -100,9 +45,34 @@ void ObjectProgram::setLights(const FrameState& frame, const fabric::Mat3& shadi
     if (count == 0)
         add(glm::transpose(frame.view.viewFromWorldRotation) * fabric::Vec3(-0.3, 0.4, 1),
             fabric::Vec3(1));
-    glUniform3fv(lightDirections_, count, glm::value_ptr(directions[0]));
-    glUniform3fv(lightColours_, count, glm::value_ptr(colours[0]));
-    glUniform1f(ambient_, static_cast<float>(frame.scene.ambient));
+    const auto used = static_cast<std::size_t>(count);
+    program.lightDirections(std::span(directions).first(used));
+    program.lightColours(std::span(colours).first(used));
+    program.ambient(static_cast<float>(frame.scene.ambient));
+}
+
+}  // namespace
+
+effects::ObjectBlock::Variant variantFor(const FrameState& frame,
+                                         const fabric::Mat4& worldFromObject) {
+    return {.lights = std::max(static_cast<int>(frame.scene.lights.size()), 1),
+            .flat = frame.shading == fabric::Shading::Flat,
+            .conformal = conformalScale(fabric::Mat3(worldFromObject)) > 0};
+}
+
+void setObject(const effects::ObjectBlock& program, const FrameState& frame,
+               const fabric::Mat4& worldFromObject, const fabric::Mat4& objectFromLattice) {
+    const fabric::Mat3 linear(worldFromObject);
+    const double scale = conformalScale(linear);
+    const fabric::Mat3 shadingFromWorld =
+        scale > 0 ? glm::transpose(linear / scale) : fabric::Mat3(1.0);
+    const lod::LatticeView lattice(frame.view, worldFromObject * objectFromLattice);
+    program.clipFromLattice(lattice.clipFromLattice);
+    program.metresFromLattice(glm::mat3(shadingFromWorld * lattice.metresFromLattice));
+    program.cameraLattice(lattice.cameraLattice);
+    program.cameraOffsetMetres(glm::vec3(shadingFromWorld * lattice.cameraOffsetMetres));
+    program.worldFromNormal(glm::mat3(glm::inverseTranspose(linear)));
+    setLights(program, frame, shadingFromWorld);
 }
 
 }  // namespace eyrie::draw

@@ -5,11 +5,9 @@
 #include <optional>
 #include <utility>
 
-#include <glm/gtc/type_ptr.hpp>
-
-#include "eyrie_shaders.h"
 #include "fabric/status.h"
 #include "renderer/draw/needed_tiles.h"
+#include "renderer/draw/object_program.h"
 #include "renderer/draw/terrain_prefetch.h"
 #include "renderer/draw/terrain_tiles.h"
 #include "renderer/gl/object.h"
@@ -21,9 +19,9 @@
 namespace eyrie::draw {
 namespace {
 
-constexpr GLuint kPackedVertex = 0;
-constexpr GLuint kNormalMapUnit = 0;
-constexpr double kElevationBands = 5;  ///< of effects/terrain.frag.glsl
+using effects::TerrainEffect;
+
+constexpr double kElevationBands = 5;  ///< of effects/terrain.effect
 
 /// What decides which step of the ladder fits.
 struct SettledView {
@@ -47,7 +45,7 @@ struct SettledView {
 
 class TerrainDrawable : public Drawable {
 public:
-    TerrainDrawable(const fabric::SceneObject& object, Variants<TerrainProgram>& programs,
+    TerrainDrawable(const fabric::SceneObject& object, TerrainPrograms& programs,
                     std::shared_ptr<const terrain::EytFile> file,
                     std::unique_ptr<TerrainPaging> paging)
         : programs_(programs),
@@ -58,12 +56,8 @@ public:
           needed_(index()),
           prefetch_(index(), object.worldFromObject),
           paging_(std::move(paging)) {
-        glEnableVertexArrayAttrib(shortVertices_.id(), kPackedVertex);
-        glVertexArrayAttribIFormat(shortVertices_.id(), kPackedVertex, 1, GL_UNSIGNED_INT, 0);
-        glVertexArrayAttribBinding(shortVertices_.id(), kPackedVertex, 0);
-        glEnableVertexArrayAttrib(longVertices_.id(), kPackedVertex);
-        glVertexArrayAttribIFormat(longVertices_.id(), kPackedVertex, 2, GL_UNSIGNED_INT, 0);
-        glVertexArrayAttribBinding(longVertices_.id(), kPackedVertex, 0);
+        TerrainEffect::kPackedVertexFromUint32x1.define(shortVertices_);
+        TerrainEffect::kPackedVertexFromUint32x2.define(longVertices_);
     }
 
     fabric::Box bounds() const override { return bounds_; }
@@ -77,7 +71,7 @@ public:
 
 private:
     const terrain::EytIndex& index() const { return file_->index(); }
-    void use(const TerrainProgram& program, const FrameState& frame) const;
+    void use(const TerrainEffect& program, const FrameState& frame) const;
     /// What a view wants at one step of the ladder.
     struct Wanted {
         terrain::Refinement refinement;
@@ -87,10 +81,10 @@ private:
     std::uint64_t bytesOf(const lod::ObjectView& view, const terrain::TerrainCut& cut);
     const Wanted& wantedAt(int step, const CutRequest& request);
     page::TauLadder::Choice chooseStep(const CutRequest& request);
-    std::uint64_t drawTile(const TerrainProgram& program, const terrain::TileChoice& choice,
+    std::uint64_t drawTile(const TerrainEffect& program, const terrain::TileChoice& choice,
                            const DeviceTile& tile) const;
 
-    Variants<TerrainProgram>& programs_;
+    TerrainPrograms& programs_;
     fabric::Mat4 worldFromObject_;
     std::shared_ptr<const terrain::EytFile> file_;
     fabric::Box bounds_;
@@ -179,31 +173,35 @@ Cut TerrainDrawable::selectCut(const CutRequest& request) {
     return cut;
 }
 
-void TerrainDrawable::use(const TerrainProgram& program, const FrameState& frame) const {
+void TerrainDrawable::use(const TerrainEffect& program, const FrameState& frame) const {
     const double step = index().heightStepMetres();
     const double lowest = (bounds_.min.z - index().heightOriginMetres()) / step;
     const double heights = std::max((bounds_.max.z - bounds_.min.z) / step, 1.0);
-    program.object.use(frame, worldFromObject_, index().objectFromLattice);
-    glUniform2i(program.lastPost, index().quadtree.columns() - 1, index().quadtree.rows() - 1);
-    glUniform1f(program.lowestHeight, static_cast<float>(lowest));
-    glUniform1f(program.bandsPerHeight, static_cast<float>(kElevationBands / heights));
+    program.use();
+    setObject(program, frame, worldFromObject_, index().objectFromLattice);
+    program.lastPost({index().quadtree.columns() - 1, index().quadtree.rows() - 1});
+    program.lowestHeight(static_cast<float>(lowest));
+    program.bandsPerHeight(static_cast<float>(kElevationBands / heights));
 }
 
 /// Draws the interior and one form of each edge; returns the triangles.
-std::uint64_t TerrainDrawable::drawTile(const TerrainProgram& program,
+std::uint64_t TerrainDrawable::drawTile(const TerrainEffect& program,
                                         const terrain::TileChoice& choice,
                                         const DeviceTile& tile) const {
     const terrain::TileId& id = choice.id;
-    glUniform3i(program.tileOrigin, id.x * terrain::Quadtree::side(id.level),
-                id.y * terrain::Quadtree::side(id.level), tile.baseHeight);
-    glUniform1i(program.spacingShift, terrain::Quadtree::spacingShift(id.level));
-    glUniform1i(program.heightMultiplier, tile.heightMultiplier);
-    glBindTextureUnit(kNormalMapUnit, tile.normalMap.id());
+    program.tileOrigin({id.x * terrain::Quadtree::side(id.level),
+                        id.y * terrain::Quadtree::side(id.level), tile.baseHeight});
+    program.spacingShift(terrain::Quadtree::spacingShift(id.level));
+    program.heightMultiplier(tile.heightMultiplier);
+    program.normalMap(tile.normalMap);
 
-    const GLuint array = tile.vertexStride == 4 ? shortVertices_.id() : longVertices_.id();
-    glBindVertexArray(array);
-    glVertexArrayVertexBuffer(array, 0, tile.buffer.id(), 0, tile.vertexStride);
-    glVertexArrayElementBuffer(array, tile.buffer.id());
+    const bool isShort = tile.vertexStride == 4;
+    const gl::VertexArray& array = isShort ? shortVertices_ : longVertices_;
+    const auto& packedVertex = isShort ? TerrainEffect::kPackedVertexFromUint32x1
+                                       : TerrainEffect::kPackedVertexFromUint32x2;
+    glBindVertexArray(array.id());
+    packedVertex.source(array, tile.buffer, 0);
+    glVertexArrayElementBuffer(array.id(), tile.buffer.id());
 
     std::array<GLsizei, 1 + terrain::kEdges> counts{};
     std::array<const void*, 1 + terrain::kEdges> offsets{};
@@ -229,7 +227,7 @@ std::uint64_t TerrainDrawable::drawTile(const TerrainProgram& program,
 
 absl::Status TerrainDrawable::draw(std::span<const Piece> pieces, const FrameState& frame,
                                    fabric::FrameStatistics& statistics) {
-    ASSIGN_OR_RETURN(const TerrainProgram* program,
+    ASSIGN_OR_RETURN(const TerrainEffect* program,
                      programs_.find(variantFor(frame, worldFromObject_)));
     use(*program, frame);
     for (const Piece& piece : pieces) {
@@ -241,25 +239,8 @@ absl::Status TerrainDrawable::draw(std::span<const Piece> pieces, const FrameSta
 
 }  // namespace
 
-TerrainProgram::TerrainProgram(ObjectProgram linked)
-    : object(std::move(linked)),
-      tileOrigin(object.uniform("tileOrigin")),
-      spacingShift(object.uniform("spacingShift")),
-      heightMultiplier(object.uniform("heightMultiplier")),
-      lastPost(object.uniform("lastPost")),
-      lowestHeight(object.uniform("lowestHeight")),
-      bandsPerHeight(object.uniform("bandsPerHeight")) {}
-
-absl::StatusOr<TerrainProgram> TerrainProgram::create(Variant variant) {
-    ASSIGN_OR_RETURN(
-        ObjectProgram object,
-        ObjectProgram::create({"terrain.vert.glsl", effects::kTerrainVertGlsl},
-                              {"terrain.frag.glsl", effects::kTerrainFragGlsl}, variant));
-    return TerrainProgram(std::move(object));
-}
-
 absl::StatusOr<std::unique_ptr<Drawable>> openTerrain(const fabric::SceneObject& object,
-                                                      Variants<TerrainProgram>& programs,
+                                                      TerrainPrograms& programs,
                                                       page::Loader& loader,
                                                       const TerrainMemory& limits) {
     ASSIGN_OR_RETURN(std::shared_ptr<const terrain::EytFile> file,

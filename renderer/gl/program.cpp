@@ -4,11 +4,17 @@
 #include <string>
 
 #include <fmt/format.h>
+#include <glm/gtc/type_ptr.hpp>
 
 #include "fabric/status.h"
 
 namespace eyrie::gl {
 namespace {
+
+template <typename T>
+GLsizei count(std::span<const T> values) {
+    return static_cast<GLsizei>(values.size());
+}
 
 /// A shader object that lives until its program is linked.
 class Shader {
@@ -36,7 +42,7 @@ absl::Status compile(const Shader& shader, const ShaderSource& source) {
     GLsizei written = 0;
     glGetShaderInfoLog(shader.id(), static_cast<GLsizei>(log.size()), &written, log.data());
     log.resize(static_cast<std::size_t>(written));
-    return absl::InternalError(fmt::format("{}: {}", source.name, log));
+    return absl::InternalError(fmt::format("{}:\n{}", source.name, log));
 }
 
 }  // namespace
@@ -60,7 +66,37 @@ absl::StatusOr<Program> Program::create(const ShaderSource& vertex, const Shader
     GLsizei written = 0;
     glGetProgramInfoLog(program.id(), static_cast<GLsizei>(log.size()), &written, log.data());
     log.resize(static_cast<std::size_t>(written));
-    return absl::InternalError(fmt::format("{} + {}: {}", vertex.name, fragment.name, log));
+    return absl::InternalError(fmt::format("{} + {}:\n{}", vertex.name, fragment.name, log));
+}
+
+void setUniform(GLuint program, GLint location, std::span<const float> values) {
+    glProgramUniform1fv(program, location, count(values), values.data());
+}
+
+void setUniform(GLuint program, GLint location, std::span<const int> values) {
+    glProgramUniform1iv(program, location, count(values), values.data());
+}
+
+void setUniform(GLuint program, GLint location, std::span<const glm::vec3> values) {
+    glProgramUniform3fv(program, location, count(values), glm::value_ptr(values.front()));
+}
+
+void setUniform(GLuint program, GLint location, std::span<const glm::ivec2> values) {
+    glProgramUniform2iv(program, location, count(values), glm::value_ptr(values.front()));
+}
+
+void setUniform(GLuint program, GLint location, std::span<const glm::ivec3> values) {
+    glProgramUniform3iv(program, location, count(values), glm::value_ptr(values.front()));
+}
+
+void setUniform(GLuint program, GLint location, std::span<const glm::mat3> values) {
+    glProgramUniformMatrix3fv(program, location, count(values), GL_FALSE,
+                              glm::value_ptr(values.front()));
+}
+
+void setUniform(GLuint program, GLint location, std::span<const glm::mat4> values) {
+    glProgramUniformMatrix4fv(program, location, count(values), GL_FALSE,
+                              glm::value_ptr(values.front()));
 }
 
 }  // namespace eyrie::gl

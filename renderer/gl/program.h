@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <string_view>
 
 #include <absl/status/statusor.h>
+#include <glm/fwd.hpp>
 
 #include "renderer/gl/object.h"
 
@@ -25,10 +27,27 @@ public:
     GLuint id() const { return object_.id(); }
     /// Location of a uniform; -1 (which GL ignores) when the compiler removed it.
     GLint uniform(const char* name) const { return glGetUniformLocation(id(), name); }
+    void use() const { glUseProgram(id()); }
 
 private:
     Program() = default;
     ProgramObject object_;
 };
+
+/// Set a uniform of `program`, which need not be in use. Generated code calls these with the type
+/// that the effect file declares. There is at least one value; what is beyond the end of an array
+/// is ignored.
+void setUniform(GLuint program, GLint location, std::span<const float> values);
+void setUniform(GLuint program, GLint location, std::span<const int> values);
+void setUniform(GLuint program, GLint location, std::span<const glm::vec3> values);
+void setUniform(GLuint program, GLint location, std::span<const glm::ivec2> values);
+void setUniform(GLuint program, GLint location, std::span<const glm::ivec3> values);
+void setUniform(GLuint program, GLint location, std::span<const glm::mat3> values);
+void setUniform(GLuint program, GLint location, std::span<const glm::mat4> values);
+
+template <typename T>
+void setUniform(GLuint program, GLint location, const T& value) {
+    setUniform(program, location, std::span<const T>(&value, 1));
+}
 
 }  // namespace eyrie::gl
