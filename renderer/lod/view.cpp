@@ -44,15 +44,14 @@ std::array<Vec3, 4> sidePlanes(const Frustum& f) {
     return {Vec3{1, 0, -f.left}, Vec3{-1, 0, f.right}, Vec3{0, 1, -f.bottom}, Vec3{0, -1, f.top}};
 }
 
-/// Sutherland and Hodgman 1974, one plane: what lies on its inner side or within `reach` of it.
-Polygon clip(const Polygon& polygon, const Vec3& plane, double reach = 0) {
-    const double offset = reach == 0 ? 0 : reach * glm::length(plane);
+/// Sutherland and Hodgman 1974, one plane.
+Polygon clip(const Polygon& polygon, const Vec3& plane) {
     Polygon result;
     for (int i = 0; i < polygon.count; ++i) {
         const Vec3& a = polygon.corners[static_cast<std::size_t>(i)];
         const Vec3& b = polygon.corners[static_cast<std::size_t>((i + 1) % polygon.count)];
-        const double da = glm::dot(plane, a) + offset;
-        const double db = glm::dot(plane, b) + offset;
+        const double da = glm::dot(plane, a);
+        const double db = glm::dot(plane, b);
         if (da >= 0)
             result.add(a);
         if ((da >= 0) != (db >= 0))
@@ -92,15 +91,6 @@ VisiblePart visiblePart(const Corners& corners, const Frustum& frustum) {
 
 Frustum widened(const Frustum& f, double tangent) {
     return {f.left - tangent, f.right + tangent, f.bottom - tangent, f.top + tangent};
-}
-
-constexpr std::array<double, 4> kMarginsPixels = {16, 256, 4096, 65536};
-
-/// tan² of the widest angle off the axis at which a frustum sees.
-double cornerTangentSquared(const Frustum& f) {
-    const double x = std::max(std::abs(f.left), std::abs(f.right));
-    const double y = std::max(std::abs(f.bottom), std::abs(f.top));
-    return x * x + y * y;
 }
 
 /// Largest singular value of a linear map: the root of the largest eigenvalue of mᵀm, by the
@@ -192,7 +182,7 @@ double ObjectView::screenSpaceErrorPixels(double errorMetres, const Box& bounds)
         return std::numeric_limits<double>::infinity();
     // A visible point may be displaced out of the frustum, so the bound is taken over a frustum
     // wider by a margin; it holds once it is no larger than that margin (docs/errors.md).
-    for (const double marginPixels : kMarginsPixels) {
+    for (const double marginPixels : {16.0, 256.0, 4096.0, 65536.0}) {
         const VisiblePart part =
             visiblePart(corners, widened(view_.frustum, marginPixels / view_.focalPixels));
         if (part.minDepth == std::numeric_limits<double>::infinity())
@@ -201,45 +191,6 @@ double ObjectView::screenSpaceErrorPixels(double errorMetres, const Box& bounds)
             return std::numeric_limits<double>::infinity();
         const double bound = errorMetres * metresPerObjectUnit_ * view_.focalPixels *
                              std::sqrt(1 + part.maxTangentSquared) / part.minDepth;
-        if (bound <= marginPixels)
-            return bound;
-    }
-    return std::numeric_limits<double>::infinity();
-}
-
-/// Least view-space depth of the triangles' points that lie in `frustum` or within `reachMetres` of
-/// it; infinity when there are none.
-double ObjectView::nearestVisibleDepth(std::span<const Vec3> triangleCorners,
-                                       const Frustum& frustum, double reachMetres) const {
-    const auto planes = sidePlanes(frustum);
-    double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i + 2 < triangleCorners.size(); i += 3) {
-        Polygon polygon;
-        for (std::size_t k = i; k < i + 3; ++k) {
-            const Vec3 p(viewFromObject_ * fabric::Vec4(triangleCorners[k], 1.0));
-            polygon.add({p.x, p.y, -p.z});
-        }
-        for (const Vec3& plane : planes) polygon = clip(polygon, plane, reachMetres);
-        for (int k = 0; k < polygon.count; ++k)
-            nearest = std::min(nearest, polygon.corners[static_cast<std::size_t>(k)].z);
-    }
-    return nearest;
-}
-
-double ObjectView::screenSpaceErrorPixels(double errorMetres,
-                                          std::span<const Vec3> triangleCorners) const {
-    const double reach = errorMetres * metresPerObjectUnit_;
-    if (reach == 0)
-        return 0;
-    for (const double marginPixels : kMarginsPixels) {
-        const Frustum frustum = widened(view_.frustum, marginPixels / view_.focalPixels);
-        const double depth = nearestVisibleDepth(triangleCorners, frustum, reach) - reach;
-        if (depth == std::numeric_limits<double>::infinity())
-            return 0;
-        if (depth <= 0)
-            return std::numeric_limits<double>::infinity();
-        const double bound =
-            reach * view_.focalPixels * std::sqrt(1 + cornerTangentSquared(frustum)) / depth;
         if (bound <= marginPixels)
             return bound;
     }

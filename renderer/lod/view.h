@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <span>
-
 #include "fabric/box.h"
 #include "fabric/camera.h"
 #include "fabric/frustum.h"
@@ -49,17 +47,9 @@ public:
     /// Proof: docs/errors.md#projection.
     double screenSpaceErrorPixels(double errorMetres, const fabric::Box& bounds) const;
 
-    /// The same of a surface given by its triangles (object space, three corners each) instead of a
-    /// box: finite wherever the eye is farther than `errorMetres` from what it sees of them.
-    double screenSpaceErrorPixels(double errorMetres,
-                                  std::span<const fabric::Vec3> triangleCorners) const;
-
     const View& view() const { return view_; }
 
 private:
-    double nearestVisibleDepth(std::span<const fabric::Vec3> triangleCorners,
-                               const fabric::Frustum& frustum, double reachMetres) const;
-
     View view_;
     fabric::Mat4 viewFromObject_;
     double metresPerObjectUnit_;  ///< the largest stretch of worldFromObject

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <optional>
 #include <random>
-#include <vector>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
@@ -87,51 +86,6 @@ RC_GTEST_PROP(ScreenSpaceError, IsNeverBelowTheMeasuredDisplacement, (unsigned s
             continue;
         RC_ASSERT(glm::distance(*p, *q) <= bound * (1 + 1e-9) + 1e-9);
     }
-}
-
-RC_GTEST_PROP(ScreenSpaceErrorOfTriangles, IsNeverBelowTheMeasuredDisplacement, (unsigned seed)) {
-    Dice dice(seed);
-    Camera camera;
-    camera.eye = dice.vector(4);
-    camera.target = camera.eye + dice.direction();
-    camera.fovYDegrees = dice.in(5, 150);
-    if (!fabric::validate(camera).ok())
-        return;
-    std::vector<Vec3> corners;
-    for (int i = 0; i < 12; ++i) corners.push_back(dice.vector(5));
-    const double scale = std::exp(dice.in(-1, 1));
-    const Mat4 worldFromObject =
-        glm::rotate(glm::scale(Mat4(1.0), Vec3(scale)), dice.in(0, 6), dice.direction());
-    const double error = std::exp(dice.in(-9, 0));
-    const double bound =
-        ObjectView(View(camera, 1280, 720), worldFromObject).screenSpaceErrorPixels(error, corners);
-    for (int i = 0; i < 200; ++i) {
-        const std::size_t first = 3 * static_cast<std::size_t>(dice.in(0, 3.999));
-        const double a = dice.in(0, 1);
-        const double b = dice.in(0, 1 - a);
-        const Vec3 drawn =
-            corners[first] * (1 - a - b) + corners[first + 1] * a + corners[first + 2] * b;
-        const Vec3 source = drawn + dice.direction() * error;
-        const auto p = project(camera, 1280, 720, Vec3(worldFromObject * glm::dvec4(drawn, 1)));
-        const auto q = project(camera, 1280, 720, Vec3(worldFromObject * glm::dvec4(source, 1)));
-        if (!inPicture(p, 1280, 720) || !q)
-            continue;
-        RC_ASSERT(glm::distance(*p, *q) <= bound * (1 + 1e-9) + 1e-9);
-    }
-}
-
-TEST(ScreenSpaceErrorOfTriangles, IsFiniteCloseAboveASlopeWhoseBoxHoldsTheEye) {
-    Camera camera;
-    camera.eye = {0, 0, 2};
-    camera.target = {10, 0, 5};
-    const std::vector<Vec3> slope = {{-50, -50, -50}, {50, -50, 50}, {50, 50, 50}};
-    Box box;
-    for (const Vec3& corner : slope) box.grow(corner);
-    const ObjectView view(View(camera, 640, 480), Mat4(1.0));
-    EXPECT_TRUE(std::isinf(view.screenSpaceErrorPixels(0.01, box)));
-    EXPECT_LT(view.screenSpaceErrorPixels(0.01, slope), 10);
-    EXPECT_GT(view.screenSpaceErrorPixels(0.01, slope), 1);
-    EXPECT_TRUE(std::isinf(view.screenSpaceErrorPixels(3, slope)));
 }
 
 TEST(ScreenSpaceError, HoldsInTheCornerOfAWideView) {
