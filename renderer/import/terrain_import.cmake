@@ -1,10 +1,8 @@
-#SPDX - License - Identifier : Apache - 2.0
-add_library(eyrie_terrain_import dem_file.cpp dem_source.cpp dem_warp.cpp elevation_reading
-                .cpp gdal_handles.cpp geotiff_writer.cpp import_journal.cpp page_line
-                .cpp terrain_import.cpp terrain_stages.cpp terrain_synth.cpp)
-    add_library(eyrie::terrain_import ALIAS eyrie_terrain_import)
-        target_link_libraries(eyrie_terrain_import PUBLIC eyrie::fabric eyrie::terrain PRIVATE
-                                  GDAL::GDAL fmt::fmt PkgConfig::XXHASH TBB::tbb)
-#The noise loops : -O2 of g++ 12 leaves them scalar.
-            set_source_files_properties(terrain_synth.cpp PROPERTIES COMPILE_OPTIONS
-                                        "-O3;-fopenmp-simd")
+# SPDX-License-Identifier: Apache-2.0
+add_library(eyrie_terrain_import dem_file.cpp dem_source.cpp dem_warp.cpp elevation_reading.cpp gdal_handles.cpp geotiff_writer.cpp import_journal.cpp
+                                  page_line.cpp terrain_import.cpp terrain_stages.cpp terrain_synth.cpp)
+add_library(eyrie::terrain_import ALIAS eyrie_terrain_import)
+target_link_libraries(eyrie_terrain_import PUBLIC eyrie::fabric eyrie::terrain
+                                           PRIVATE GDAL::GDAL fmt::fmt PkgConfig::XXHASH TBB::tbb)
+# The noise loops: -O2 of g++ 12 leaves them scalar.
+set_source_files_properties(terrain_synth.cpp PROPERTIES COMPILE_OPTIONS "-O3;-fopenmp-simd")
