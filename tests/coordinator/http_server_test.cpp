@@ -68,9 +68,12 @@ private:
 template <typename Condition>
 bool eventually(Condition isTrue) {
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(10);
-    while (!isTrue() && std::chrono::steady_clock::now() < deadline)
+    while (!isTrue()) {
+        if (std::chrono::steady_clock::now() >= deadline)
+            return false;
         std::this_thread::sleep_for(milliseconds(5));
-    return isTrue();
+    }
+    return true;
 }
 
 class HttpServer : public testing::Test {
