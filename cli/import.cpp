@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -79,6 +80,8 @@ absl::StatusOr<import::TerrainImportOptions> importOptions(const TerrainOptions&
             fmt::format("--memory is {}; an import takes at least {}M", options.memory,
                         import::kLeastImportMemory >> 20));
     result.scratchFolder = options.scratch;
+    if (std::isnan(options.errorMetres))  // which passes every check of a range
+        return absl::InvalidArgumentError("--error is not a number; give metres, such as 0.5");
     if (options.errorMetres > 0)
         result.errorMetres = options.errorMetres;
     result.startsOver = options.fresh;

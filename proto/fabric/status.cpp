@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fabric/status.h"
 
+#include <cerrno>
+#include <cstring>
+#include <string>
+
 #include <fmt/format.h>
 
 namespace eyrie::fabric {
@@ -11,6 +15,26 @@ absl::Status withContext(const absl::Status& status, std::string_view context) {
     const auto message = status.message();
     return {status.code(),
             fmt::format("{}: {}", context, std::string_view(message.data(), message.size()))};
+}
+
+absl::Status writeError(std::string_view path, std::string_view what, int error) {
+    const std::string message = fmt::format("{}: {}: {}", path, what, std::strerror(error));
+    switch (error) {
+        case ENOENT:
+        case ENOTDIR:
+            return absl::NotFoundError(message + "; create the folder first");
+        case EACCES:
+        case EPERM:
+        case EROFS:
+            return absl::PermissionDeniedError(message);
+        case ENOSPC:
+        case EDQUOT:
+        case EFBIG:
+            return absl::ResourceExhaustedError(
+                message + "; free some space on that disk, then run the same command again");
+        default:
+            return absl::UnavailableError(message);
+    }
 }
 
 }  // namespace eyrie::fabric

@@ -2,7 +2,6 @@
 #include "renderer/import/import_journal.h"
 
 #include <cerrno>
-#include <cstring>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -32,27 +31,6 @@ struct RecordHeader {
 
 std::uint64_t checksumOf(std::uint64_t step, std::span<const std::byte> state) {
     return XXH64(state.data(), state.size(), step);
-}
-
-absl::Status errnoStatus(const std::string& path, const char* what) {
-    const int error = errno;
-    const std::string message = fmt::format("{}: {}: {}", path, what, std::strerror(error));
-    switch (error) {
-        case ENOENT:
-        case ENOTDIR:
-            return absl::NotFoundError(message + "; create the folder first");
-        case EACCES:
-        case EPERM:
-        case EROFS:
-            return absl::PermissionDeniedError(message);
-        case ENOSPC:
-        case EDQUOT:
-            return absl::ResourceExhaustedError(message +
-                                                "; free some space on that disk, then "
-                                                "run the same command again");
-        default:
-            return absl::UnavailableError(message);
-    }
 }
 
 std::size_t readUpTo(int fd, void* out, std::size_t bytes, std::uint64_t offset) {
@@ -86,7 +64,7 @@ absl::StatusOr<ImportJournal> ImportJournal::open(const std::string& path, std::
                                                   bool startsOver) {
     const int fd = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
     if (fd < 0)
-        return errnoStatus(path, "cannot be written");
+        return fabric::writeError(path, "cannot be written", errno);
     ImportJournal journal(path, fd, key);
     if (flock(fd, LOCK_EX | LOCK_NB) != 0)
         return absl::FailedPreconditionError(fmt::format(
@@ -133,7 +111,7 @@ absl::Status ImportJournal::append(std::span<const std::byte> bytes) {
         if (done < 0 && errno == EINTR)
             continue;
         if (done < 0)
-            return errnoStatus(path_, "cannot be written");
+            return fabric::writeError(path_, "cannot be written", errno);
         bytes = bytes.subspan(static_cast<std::size_t>(done));
     }
     return absl::OkStatus();
@@ -144,14 +122,14 @@ absl::Status ImportJournal::add(std::uint32_t step, std::span<const std::byte> s
     RETURN_IF_ERROR(append(std::as_bytes(std::span(&record, 1))));
     RETURN_IF_ERROR(append(state));
     if (fsync(fd_) != 0)
-        return errnoStatus(path_, "cannot be flushed to disk");
+        return fabric::writeError(path_, "cannot be flushed to disk", errno);
     return absl::OkStatus();
 }
 
 absl::Status ImportJournal::clear() {
     steps_.clear();
     if (ftruncate(fd_, 0) != 0 || lseek(fd_, 0, SEEK_SET) != 0)
-        return errnoStatus(path_, "cannot be emptied");
+        return fabric::writeError(path_, "cannot be emptied", errno);
     const Header header{.key = key_};
     return append(std::as_bytes(std::span(&header, 1)));
 }

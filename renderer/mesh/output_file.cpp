@@ -3,7 +3,6 @@
 
 #include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <vector>
 
 #include <absl/status/status.h>
@@ -11,27 +10,15 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "fabric/status.h"
+
 namespace eyrie::mesh {
-namespace {
-
-absl::Status systemError(const std::string& path, const char* action, int error) {
-    const std::string message = fmt::format("{}: cannot {}: {}", path, action, strerror(error));
-    if (error == ENOENT || error == ENOTDIR)
-        return absl::NotFoundError(message + "; create the folder first");
-    if (error == EACCES || error == EPERM || error == EROFS)
-        return absl::PermissionDeniedError(message);
-    if (error == ENOSPC || error == EDQUOT || error == EFBIG)
-        return absl::ResourceExhaustedError(message + "; free some space");
-    return absl::UnavailableError(message);
-}
-
-}  // namespace
 
 absl::StatusOr<OutputFile> OutputFile::create(const std::string& path) {
     std::string partial = fmt::format("{}.partial-{}", path, ::getpid());
     const int fd = ::open(partial.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     if (fd < 0)
-        return systemError(path, "create it", errno);
+        return fabric::writeError(path, "cannot create it", errno);
     return OutputFile(path, std::move(partial), fd);
 }
 
@@ -48,7 +35,7 @@ absl::Status OutputFile::write(std::span<const std::byte> bytes) {
         if (written < 0 && errno == EINTR)
             continue;
         if (written < 0)
-            return systemError(path_, "write it", errno);
+            return fabric::writeError(path_, "cannot write it", errno);
         size_ += static_cast<std::uint64_t>(written);
         bytes = bytes.subspan(static_cast<std::size_t>(written));
     }
@@ -62,9 +49,9 @@ absl::Status OutputFile::padTo(std::uint64_t alignment) {
 
 absl::Status OutputFile::commit() {
     if (::fsync(fd_) != 0)
-        return systemError(path_, "flush it to the disk", errno);
+        return fabric::writeError(path_, "cannot flush it to the disk", errno);
     if (::rename(partialPath_.c_str(), path_.c_str()) != 0)
-        return systemError(path_, "put it in place", errno);
+        return fabric::writeError(path_, "cannot put it in place", errno);
     ::close(std::exchange(fd_, -1));
     return absl::OkStatus();
 }

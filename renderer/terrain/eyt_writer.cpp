@@ -20,25 +20,6 @@
 namespace eyrie::terrain {
 namespace {
 
-absl::Status errnoStatus(const std::string& path, const char* what) {
-    const int error = errno;
-    const std::string message = fmt::format("{}: {}: {}", path, what, std::strerror(error));
-    switch (error) {
-        case ENOENT:
-        case ENOTDIR:
-            return absl::NotFoundError(message + "; create the folder first");
-        case EACCES:
-        case EPERM:
-        case EROFS:
-            return absl::PermissionDeniedError(message);
-        case ENOSPC:
-        case EDQUOT:
-            return absl::ResourceExhaustedError(message + "; free some space on that disk");
-        default:
-            return absl::UnavailableError(message);
-    }
-}
-
 /// The index's bytes: CRS, tiles, pages.
 std::vector<char> indexBytes(const EytIndex& index) {
     const std::uint64_t tilesOffset = roundUp(index.crsWkt.size(), 8);
@@ -144,7 +125,7 @@ absl::StatusOr<EytWriter> EytWriter::create(const std::string& path) {
     std::string partialPath = fmt::format("{}.partial-{}", path, getpid());
     const int fd = open(partialPath.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
     if (fd < 0)
-        return errnoStatus(path, "cannot be written");
+        return fabric::writeError(path, "cannot be written", errno);
     return EytWriter(path, std::move(partialPath), fd);
 }
 
@@ -155,7 +136,7 @@ absl::Status EytWriter::writeAt(const void* data, std::size_t bytes, std::uint64
         if (written < 0 && errno == EINTR)
             continue;
         if (written < 0)
-            return errnoStatus(path_, "write failed");
+            return fabric::writeError(path_, "write failed", errno);
         next += written;
         bytes -= static_cast<std::size_t>(written);
         offset += static_cast<std::uint64_t>(written);
@@ -183,9 +164,9 @@ absl::StatusOr<std::uint64_t> EytWriter::commit(const EytIndex& index) {
     RETURN_IF_ERROR(writeAt(bytes.data(), bytes.size(), indexOffset));
     RETURN_IF_ERROR(writeAt(&header, sizeof header, 0));
     if (fsync(fd_) != 0)
-        return errnoStatus(path_, "cannot be flushed to disk");
+        return fabric::writeError(path_, "cannot be flushed to disk", errno);
     if (std::rename(partialPath_.c_str(), path_.c_str()) != 0)
-        return errnoStatus(path_, "cannot be renamed from its partial file");
+        return fabric::writeError(path_, "cannot be renamed from its partial file", errno);
     close(std::exchange(fd_, -1));
     return indexOffset + bytes.size();
 }

@@ -13,6 +13,8 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include "fabric/status.h"
+
 namespace eyrie::terrain {
 namespace {
 
@@ -180,27 +182,12 @@ void Scratch::fail(const char* what) {
     const std::lock_guard lock(fileMutex_);
     if (hasFailed_.exchange(true))
         return;
-    const std::string message = fmt::format("{}: {}: {}", path_, what, std::strerror(error));
-    switch (error) {
-        case ENOSPC:
-        case EDQUOT:
-            status_ = absl::ResourceExhaustedError(
-                message +
-                "; free some space or name a folder on another disk with --scratch, "
-                "then run the same command again: it goes on from here");
-            break;
-        case ENOENT:
-        case ENOTDIR:
-            status_ = absl::NotFoundError(message + "; create the folder first");
-            break;
-        case EACCES:
-        case EPERM:
-        case EROFS:
-            status_ = absl::PermissionDeniedError(message);
-            break;
-        default:
-            status_ = absl::UnavailableError(message);
-    }
+    status_ = fabric::writeError(path_, what, error);
+    if (absl::IsResourceExhausted(status_))
+        status_ = absl::ResourceExhaustedError(
+            fmt::format("{}: {}: {}; free some space or name a folder on another disk with "
+                        "--scratch, then run the same command again: it goes on from here",
+                        path_, what, std::strerror(error)));
 }
 
 absl::Status Scratch::flush() {

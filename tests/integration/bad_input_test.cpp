@@ -254,6 +254,10 @@ TEST_F(BadInput, OptionsOutOfRangeAreRefusedByName) {
     for (const char* count : {"0", "-1", "abc", "100000"})
         expectRenderRefused({"--renderers", count}, {"--renderers"});
     expectRenderRefused({"--renderers", "2", "--compound", "3D"}, {"--compound"});
+    for (const char* metres : {"0", "-1", "nan", "inf", "abc", "1e9"})
+        expectRefused({"import", "terrain", EYRIE_SOURCE_DIR "/demo/mount_rainier.tif", "--error",
+                       metres, "-o", bad("out.eyt")},
+                      {"--error"});
     expectRefused({"render", good("ball.eym"), "--size", "32x32", "-o", bad("out.png")},
                   {"--camera"});
     expectRefused({"render", good("ball.eym"), "--camera", good("camera.json"), "-o",
