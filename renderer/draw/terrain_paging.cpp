@@ -164,14 +164,15 @@ void TerrainPaging::rankPages(const std::vector<TileId>& prefetch) {
             add(index_.quadtree.pageIndex(tile));
 }
 
-std::uint64_t TerrainPaging::keep(std::vector<page::Arrival> arrivals) {
-    std::uint64_t loaded = 0;
+TerrainPaging::Loads TerrainPaging::keep(std::vector<page::Arrival> arrivals) {
+    Loads loaded;
     for (page::Arrival& arrival : arrivals) {
         if (!arrival.result.ok()) {
             noteFailure(arrival);
             continue;
         }
-        ++loaded;
+        ++loaded.pages;
+        loaded.bytes += index_.pages[arrival.page].bytes;
         if (failures_.erase(arrival.page) != 0)
             spdlog::info("{}: page {} can be read again", file_->path(), arrival.page);
         if (const auto since = wishedSince_.find(arrival.page); since != wishedSince_.end()) {
@@ -241,7 +242,7 @@ TerrainPaging::Result TerrainPaging::resultOf(Refinement drawn, const NeededTile
     for (const TileId& tile : needed.leaves())
         if (!isResident(tile))
             missing.insert(index_.quadtree.pageIndex(tile));
-    Result result{std::move(drawn), 0, missing.size(), 0};
+    Result result{std::move(drawn), {}, missing.size(), 0};
     for (const std::uint32_t page : missing) result.pagesFailed += failures_.contains(page) ? 1 : 0;
     return result;
 }
@@ -277,19 +278,19 @@ TerrainPaging::Result TerrainPaging::approach(const Refinement& wanted, const Ne
     below.insert(below.end(), above.begin(), above.end());
     rankTiles(below, drawnBytes);
     rankPages(isUrgent ? std::vector<TileId>{} : prefetch());
-    const std::uint64_t loaded = keep(source_->tryTake());
+    const Loads loaded = keep(source_->tryTake());
     if (upload(kUploadTime))
         drawn = drawable(wanted, needed);
     source_->tryWish(missingPages());
     Result result = resultOf(std::move(drawn), needed);
-    result.pagesLoaded = loaded;
+    result.loaded = loaded;
     return result;
 }
 
 TerrainPaging::Result TerrainPaging::reach(const Refinement& wanted, const NeededTiles& needed,
                                            const lod::ObjectView& view) {
     const auto start = Clock::now();
-    std::uint64_t loaded = 0;
+    Loads loaded;
     while (true) {
         beginFrame();
         Refinement readable = wanted;
@@ -306,14 +307,15 @@ TerrainPaging::Result TerrainPaging::reach(const Refinement& wanted, const Neede
         if (missing_.empty())
             break;
         rankPages({});
-        loaded += keep(source_->take());
+        const Loads arrived = keep(source_->take());
+        loaded = {loaded.pages + arrived.pages, loaded.bytes + arrived.bytes};
         const bool hasUploaded = upload(std::chrono::hours(1));
         source_->wish(missingPages());
         if (missing_.empty() || (!hasUploaded && !source_->wait()))
             break;
     }
     Result result = resultOf(drawable(wanted, needed), needed);
-    result.pagesLoaded = loaded;
+    result.loaded = loaded;
     return result;
 }
 
