@@ -82,7 +82,8 @@ MemoryUse TerrainPaging::memory() const {
 
 bool TerrainPaging::isGivenUp(std::uint32_t page, Clock::time_point time) const {
     const auto failure = failures_.find(page);
-    return failure != failures_.end() && time < failure->second.retryAt;
+    return failure != failures_.end() && failure->second.isGivenUp &&
+           time < failure->second.retryAt;
 }
 
 std::uint64_t TerrainPaging::pageBytes(std::uint32_t page) const {
@@ -195,6 +196,7 @@ void TerrainPaging::noteFailure(const page::Arrival& arrival) {
     std::string message(status.message().data(), status.message().size());
     Failure& failure = failures_[arrival.page];
     failure.retryAt = arrival.retryAt;
+    failure.isGivenUp = arrival.isGivenUp;
     if (failure.message == message)
         return;
     spdlog::warn("{}; coarser data stand in for it", message);

@@ -57,7 +57,7 @@ public:
     Result approach(const terrain::Refinement& wanted, const NeededTiles& needed,
                     const lod::ObjectView& view, const Prefetch& prefetch);
 
-    /// Goes there: waits for every page that can be read.
+    /// Goes there: waits for every page that can be read, through the first failures of a server.
     Result reach(const terrain::Refinement& wanted, const NeededTiles& needed,
                  const lod::ObjectView& view);
 
@@ -82,13 +82,14 @@ private:
     struct Failure {
         std::string message;
         Clock::time_point retryAt;
+        bool isGivenUp = false;
     };
 
     bool isEmpty(const terrain::TileId& tile) const { return index_.tile(tile).triangles == 0; }
     bool isResident(const terrain::TileId& tile) const {
         return tile == index_.quadtree.top() || tiles_.contains(index_.quadtree.tileIndex(tile));
     }
-    /// Whether its last attempt failed and the next one comes after `time`.
+    /// Whether it has failed for good, for now, and the next attempt comes after `time`.
     bool isGivenUp(std::uint32_t page, Clock::time_point time) const;
     terrain::Refinement drawable(const terrain::Refinement& wanted,
                                  const NeededTiles& needed) const;
