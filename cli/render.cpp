@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "cli/cache_options.h"
 #include "cli/commands.h"
 #include "cli/compound_names.h"
 #include "cli/data_cache.h"
@@ -37,7 +38,7 @@ struct Options {
     std::string out;
     std::string depth;
     std::string stats;
-    std::string cache;
+    CacheOptions cache;
     bool quiet = false;
     bool json = false;
 };
@@ -61,14 +62,19 @@ absl::StatusOr<coordinator::FrameRequest> requestOf(const Options& options) {
 }
 
 absl::StatusOr<fabric::Scene> loadScene(const Options& options, const std::stop_token& stop) {
-    ASSIGN_OR_RETURN(const auto folder, cacheFolder(options.cache));
-    DataCache cache(folder, ProgressBar::styleFor(options.quiet), stop);
+    ASSIGN_OR_RETURN(const auto folder, cacheFolder(options.cache.folder));
+    ASSIGN_OR_RETURN(const RemoteData remote, remoteDataOf(options.cache));
+    DataCache cache(folder, ProgressBar::styleFor(options.quiet), stop,
+                    page::sourceOptions(remote.cacheFolder, remote.cacheBytes));
     std::vector<std::string> notes;
     return assembleScene(std::vector<std::string>{options.scene}, cache, notes);
 }
 
-Frame renderHere(const fabric::Scene& scene, const coordinator::FrameRequest& request) {
-    ASSIGN_OR_RETURN(const auto renderer, Renderer::create({}));
+Frame renderHere(const fabric::Scene& scene, const coordinator::FrameRequest& request,
+                 const CacheOptions& cache) {
+    RendererOptions settings;
+    ASSIGN_OR_RETURN(settings.remote, remoteDataOf(cache));
+    ASSIGN_OR_RETURN(const auto renderer, Renderer::create(settings));
     RETURN_IF_ERROR(renderer->openScene(scene).status());
     const fabric::FrameData frameData{
         .version = 1, .camera = request.camera, .tauPixels = request.tauPixels};
@@ -90,7 +96,7 @@ Frame renderHere(const fabric::Scene& scene, const coordinator::FrameRequest& re
 Frame renderInProcesses(fabric::Scene scene, const coordinator::FrameRequest& request,
                         const Options& options, const std::stop_token& stop) {
     spdlog::set_level(spdlog::level::warn);
-    ASSIGN_OR_RETURN(const auto farm, LocalFarm::start(options.compound));
+    ASSIGN_OR_RETURN(const auto farm, LocalFarm::start(options.compound, options.cache));
     RETURN_IF_ERROR(farm->coordinator().setScene(std::move(scene)));
     farm->startRenderers(options.renderers);
     RETURN_IF_ERROR(farm->awaitRenderers(options.renderers, kRenderersLimit, stop));
@@ -131,7 +137,7 @@ absl::Status render(const Options& options) {
     ASSIGN_OR_RETURN(const coordinator::FrameRequest request, requestOf(options));
     ASSIGN_OR_RETURN(fabric::Scene scene, loadScene(options, stop.token()));
     const Frame frame = options.renderers == 0
-                            ? renderHere(scene, request)
+                            ? renderHere(scene, request, options.cache)
                             : renderInProcesses(std::move(scene), request, options, stop.token());
     RETURN_IF_ERROR(frame.status());
     if (stop.token().stop_requested())
@@ -159,7 +165,7 @@ void addRender(CLI::App& app, Run& run) {
     auto options = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand("render", "Render a picture without a screen");
     command->add_option("scene", options->scene, "What is drawn, as for `eyrie serve`")
-        ->type_name("FILE")
+        ->type_name("FILE|URL")
         ->required();
     command
         ->add_option("--camera", options->camera,
@@ -180,8 +186,7 @@ void addRender(CLI::App& app, Run& run) {
                      "How these cut the frame: 2D, by pixels, or DB, by data [2D]")
         ->transform(CLI::CheckedTransformer(compoundNames()).description(""))
         ->type_name("2D|DB");
-    command->add_option("--cache", options->cache, "Where imports are kept [~/.cache/eyrie]")
-        ->type_name("FOLDER");
+    addCacheOptions(*command, options->cache);
     addOutputOptions(*command, *options);
     command->footer(
         "Examples:\n"

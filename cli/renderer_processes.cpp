@@ -54,7 +54,14 @@ private:
             "--listen",
             sockets_.socket(fmt::format("renderer-{}-{}", number_, generation_)),
             "--exit-with-coordinator",
+            // Only their own coordinator reaches them, and its scenes are the user's.
+            "--allow-url",
+            "any",
+            "--cache-size",
+            options_.cache.size,
             "--quiet"};
+        if (!options_.cache.folder.empty())
+            arguments.insert(arguments.end(), {"--cache", options_.cache.folder});
         if (!options_.devices.empty()) {
             const auto index = static_cast<std::size_t>(number_) % options_.devices.size();
             arguments.insert(arguments.end(),

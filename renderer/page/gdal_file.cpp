@@ -29,6 +29,7 @@ namespace eyrie::page {
 namespace {
 
 constexpr std::size_t kMostBytesOfARequest = std::size_t{1} << 20;
+constexpr std::chrono::seconds kLongWait{2};
 
 struct Setting {
     const char* name;
@@ -225,11 +226,17 @@ private:
             return rangesRefused(url_);
         const std::string what = fmt::format("{} of {} bytes at {} came", got, asked, offset);
         // It has just been waited for in vain: asking why would take as long again.
-        if (took > std::chrono::seconds(2))
+        if (took > kLongWait)
             return unavailable(url_, fmt::format("{} in {:.1f} s", what,
                                                  std::chrono::duration<double>(took).count()));
-        ASSIGN_OR_RETURN(const Handle probe, openAnew(url_));
-        RETURN_IF_ERROR(checkSize(sizeOf(*probe)));
+        // If that fails GDAL takes the file as gone, in the handle that was open, too.
+        absl::StatusOr<Handle> again = openAnew(url_);
+        {
+            const std::lock_guard lock(mutex_);
+            handle_ = again.ok() ? *again : nullptr;
+        }
+        RETURN_IF_ERROR(again.status());
+        RETURN_IF_ERROR(checkSize(sizeOf(**again)));
         return unavailable(
             url_, fmt::format("{}{}{}", what, said.empty() ? "" : ": ", said));
     }

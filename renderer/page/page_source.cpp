@@ -81,6 +81,10 @@ bool isIntact(std::span<const std::byte> bytes, const Block& block) {
 
 }  // namespace
 
+SourceOptions sourceOptions(const std::filesystem::path& folder, std::uint64_t limitBytes) {
+    return {folder.empty() ? nullptr : std::make_shared<DiskCache>(folder, limitBytes)};
+}
+
 PageSource::PageSource(std::string name, std::unique_ptr<ByteSource> bytes,
                        std::vector<std::byte> head, std::shared_ptr<DiskCache> cache)
     : name_(std::move(name)),

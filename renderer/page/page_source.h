@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <span>
@@ -26,6 +27,9 @@ struct Block {
 struct SourceOptions {
     std::shared_ptr<DiskCache> cache;  ///< of remote files only
 };
+
+/// With a cache in `folder`; without one where `folder` is empty.
+SourceOptions sourceOptions(const std::filesystem::path& folder, std::uint64_t limitBytes);
 
 /// Reads a data file by parts that have checksums, wherever the file lies: a path of this machine,
 /// or an address (remote_name.h), whose parts are kept in a cache. Any thread may read at any time.
