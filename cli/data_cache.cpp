@@ -129,10 +129,12 @@ absl::Status DataCache::reach(const std::string& url, fabric::ObjectKind kind) {
         return terrain::EytFile::open(url, sources_).status();
     ProgressBar bar(fs::path(page::withoutQuery(url)).filename().string(), 0, "", progress_);
     const auto show = bar.callback();
-    return mesh::EymFile::open(url, sources_, [&](double fraction) {
-               show("copying", fraction);
-               return stop_.stop_requested() ? absl::CancelledError("stopped") : absl::OkStatus();
-           })
+    return mesh::EymFile::open(url, sources_,
+                               [&](double fraction) {
+                                   show("copying", fraction);
+                                   return stop_.stop_requested() ? absl::CancelledError("stopped")
+                                                                 : absl::OkStatus();
+                               })
         .status();
 }
 

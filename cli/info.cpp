@@ -34,8 +34,7 @@ struct Facts {
     double finestErrorMetres = 0;
 };
 
-absl::StatusOr<Facts> terrainFacts(const std::string& path,
-                                   const page::SourceOptions& sources) {
+absl::StatusOr<Facts> terrainFacts(const std::string& path, const page::SourceOptions& sources) {
     ASSIGN_OR_RETURN(const auto file, terrain::EytFile::open(path, sources));
     const terrain::EytIndex& index = file->index();
     const terrain::Quadtree& tree = index.quadtree;
@@ -176,13 +175,15 @@ void addInfo(CLI::App& app, Run& run) {
     };
     auto options = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand("info", "Say what a data or scene file is");
-    command->add_option("file", options->file, "An .eyt, .eym or scene .json file, or the URL of data")
+    command
+        ->add_option("file", options->file, "An .eyt, .eym or scene .json file, or the URL of data")
         ->type_name("FILE|URL")
         ->required();
     addCacheOptions(*command, options->cache);
     command->add_flag("--json", options->json, "Print it as JSON");
     command->add_flag("--quiet", options->quiet, "Print nothing: the exit status tells");
-    command->footer("Example:\n  eyrie info dem.eyt --json\n  eyrie info https://data.example/dem.eyt");
+    command->footer(
+        "Example:\n  eyrie info dem.eyt --json\n  eyrie info https://data.example/dem.eyt");
     command->callback([options, &run] {
         const Form form = options->quiet ? Form::Nothing : options->json ? Form::Json : Form::Text;
         run = [options, form] { return info(options->file, options->cache, form); };

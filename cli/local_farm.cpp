@@ -24,14 +24,13 @@ absl::StatusOr<std::unique_ptr<LocalFarm>> LocalFarm::start(
     options.grpcAddresses = {folder.socket("coordinator")};
     options.decomposition = decomposition;
     ASSIGN_OR_RETURN(auto coordinator, coordinator::Coordinator::start(options));
-    return std::unique_ptr<LocalFarm>(new LocalFarm(std::move(folder), std::move(coordinator), cache));
+    return std::unique_ptr<LocalFarm>(
+        new LocalFarm(std::move(folder), std::move(coordinator), cache));
 }
 
 LocalFarm::LocalFarm(TemporaryFolder folder, std::unique_ptr<coordinator::Coordinator> coordinator,
                      CacheOptions cache)
-    : folder_(std::move(folder)),
-      cache_(std::move(cache)),
-      coordinator_(std::move(coordinator)) {}
+    : folder_(std::move(folder)), cache_(std::move(cache)), coordinator_(std::move(coordinator)) {}
 
 void LocalFarm::startRenderers(int count) {
     renderers_ = std::make_unique<RendererProcesses>(

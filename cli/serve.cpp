@@ -97,10 +97,11 @@ void addServe(CLI::App& app, Run& run) {
     auto options = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand("serve", "Show data in the browser, drawn here");
     command
-        ->add_option("data", options->data,
-                     "Scenes (.json), imported data (.eyt, .eym), or sources: .ply meshes and "
-                     "any raster that GDAL reads, imported when they are new. Imported data may lie "
-                     "at URLs: https://…, or GDAL's /vsis3/…, /vsigs/…, /vsiaz/…")
+        ->add_option(
+            "data", options->data,
+            "Scenes (.json), imported data (.eyt, .eym), or sources: .ply meshes and "
+            "any raster that GDAL reads, imported when they are new. Imported data may lie "
+            "at URLs: https://…, or GDAL's /vsis3/…, /vsigs/…, /vsiaz/…")
         ->type_name("FILE|URL")
         ->required();
     command->add_option("--listen", options->listen, "Where browsers find it; port 0: any free one")

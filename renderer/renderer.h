@@ -59,9 +59,9 @@ public:
 
     const fabric::DeviceInfo& device() const;
 
-    /// Opens the .eyt and .eym files of `scene`, here or at URLs, in place of the scene before. On an error the scene
-    /// before stays open. Errors: InvalidArgument (scene or file), NotFound, DataLoss,
-    /// ResourceExhausted (the limits are too small for it); of URLs Unavailable and
+    /// Opens the .eyt and .eym files of `scene`, here or at URLs, in place of the scene before. On
+    /// an error the scene before stays open. Errors: InvalidArgument (scene or file), NotFound,
+    /// DataLoss, ResourceExhausted (the limits are too small for it); of URLs Unavailable and
     /// PermissionDenied, too.
     absl::StatusOr<fabric::SceneInfo> openScene(const fabric::Scene& scene);
 

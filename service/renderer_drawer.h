@@ -8,7 +8,8 @@
 namespace eyrie::service {
 
 /// Makes an eyrie::Renderer, on the thread that calls it. A scene that names a URL beyond `allowed`
-/// is refused: whoever reaches a renderer could else have it read from servers that only it reaches.
+/// is refused: whoever reaches a renderer could else have it read from servers that only it
+/// reaches.
 DrawerFactory rendererDrawer(const RendererOptions& options, const page::AllowedUrls& allowed);
 
 }  // namespace eyrie::service

@@ -173,6 +173,7 @@ std::uint64_t TerrainPaging::keep(std::vector<page::Arrival> arrivals) {
             continue;
         }
         ++loaded;
+        isSourceDown_ = false;
         if (failures_.erase(arrival.page) != 0)
             spdlog::info("{}: page {} can be read again", file_->path(), arrival.page);
         if (const auto since = wishedSince_.find(arrival.page); since != wishedSince_.end()) {
@@ -194,6 +195,7 @@ std::uint64_t TerrainPaging::keep(std::vector<page::Arrival> arrivals) {
 void TerrainPaging::noteFailure(const page::Arrival& arrival) {
     const absl::Status& status = arrival.result.status();
     std::string message(status.message().data(), status.message().size());
+    isSourceDown_ = absl::IsUnavailable(status);
     Failure& failure = failures_[arrival.page];
     failure.retryAt = arrival.retryAt;
     failure.isGivenUp = arrival.isGivenUp;
@@ -244,7 +246,8 @@ TerrainPaging::Result TerrainPaging::resultOf(Refinement drawn, const NeededTile
         if (!isResident(tile))
             missing.insert(index_.quadtree.pageIndex(tile));
     Result result{std::move(drawn), 0, missing.size(), 0};
-    for (const std::uint32_t page : missing) result.pagesFailed += failures_.contains(page) ? 1 : 0;
+    for (const std::uint32_t page : missing)
+        result.pagesFailed += isSourceDown_ || failures_.contains(page) ? 1 : 0;
     return result;
 }
 

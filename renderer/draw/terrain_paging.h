@@ -48,7 +48,7 @@ public:
         terrain::Refinement drawn;  ///< all needed tiles of this cut are on the device
         std::uint64_t pagesLoaded = 0;
         std::uint64_t pagesMissing = 0;  ///< pages of wanted needed tiles that are not there
-        std::uint64_t pagesFailed = 0;   ///< of them
+        std::uint64_t pagesFailed = 0;   ///< of them; all, while their source is unavailable
     };
 
     /// Goes towards `wanted` as far as it can without waiting: takes what the loader has, brings
@@ -129,6 +129,7 @@ private:
 
     std::unordered_map<std::uint32_t, std::uint64_t> knownPageBytes_;
     std::unordered_map<std::uint32_t, Failure> failures_;
+    bool isSourceDown_ = false;  ///< says the last attempt
     std::unordered_map<std::uint32_t, Clock::time_point> wishedSince_;
     std::chrono::duration<double> latency_{0.1};
     std::unique_ptr<page::Loader::Source> source_;  // last: its loads use the file

@@ -21,7 +21,8 @@ public:
 
     /// Fills `into` from `offset` on, in a bounded time and without a cache. Errors: DataLoss (the
     /// file ends before), Unavailable (trying again may help), and of remote files NotFound,
-    /// PermissionDenied and InvalidArgument (the server cannot read ranges). Messages name the file.
+    /// PermissionDenied and InvalidArgument (the server cannot read ranges). Messages name the
+    /// file.
     virtual absl::Status read(std::uint64_t offset, std::span<std::byte> into) const = 0;
 };
 

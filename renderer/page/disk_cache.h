@@ -56,7 +56,9 @@ public:
     std::uint64_t limitBytes() const { return limitBytes_; }
 
 private:
-    std::filesystem::path pathOf(const CacheKey& key) const { return folder_ / key.group / key.part; }
+    std::filesystem::path pathOf(const CacheKey& key) const {
+        return folder_ / key.group / key.part;
+    }
     void warnOnce(const std::string& why);
 
     const std::filesystem::path folder_;

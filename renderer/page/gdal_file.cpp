@@ -97,8 +97,7 @@ int numberAfter(const std::string& text, std::string_view mark) {
 
 absl::Status unavailable(const std::string& url, const std::string& why) {
     return absl::UnavailableError(
-        fmt::format("{}: {}; look at the server and the network, then try again",
-                    url, why));
+        fmt::format("{}: {}; look at the server and the network, then try again", url, why));
 }
 
 absl::Status rangesRefused(const std::string& url) {
@@ -128,9 +127,7 @@ absl::Status whyNotOpen(const std::string& url, const std::string& said) {
 }
 
 struct CloseFile {
-    void operator()(VSIVirtualHandle* file) const {
-        VSIFCloseL(reinterpret_cast<VSILFILE*>(file));
-    }
+    void operator()(VSIVirtualHandle* file) const { VSIFCloseL(reinterpret_cast<VSILFILE*>(file)); }
 };
 using Handle = std::shared_ptr<VSIVirtualHandle>;
 
@@ -227,7 +224,7 @@ private:
         const std::string what = fmt::format("{} of {} bytes at {} came", got, asked, offset);
         // It has just been waited for in vain: asking why would take as long again.
         if (took > kLongWait)
-            return unavailable(url_, fmt::format("{} in {:.1f} s", what,
+            return unavailable(url_, fmt::format("{} in {:.0f} s", what,
                                                  std::chrono::duration<double>(took).count()));
         // If that fails GDAL takes the file as gone, in the handle that was open, too.
         absl::StatusOr<Handle> again = openAnew(url_);
@@ -237,8 +234,7 @@ private:
         }
         RETURN_IF_ERROR(again.status());
         RETURN_IF_ERROR(checkSize(sizeOf(**again)));
-        return unavailable(
-            url_, fmt::format("{}{}{}", what, said.empty() ? "" : ": ", said));
+        return unavailable(url_, fmt::format("{}{}{}", what, said.empty() ? "" : ": ", said));
     }
 
     const std::string url_;

@@ -197,8 +197,7 @@ void Loader::State::fulfil(std::unique_lock<std::mutex>& lock, Source::State& so
     } else {
         failure = source.noteFailure(wish.page, result.status(), begun, options);
     }
-    source.arrivals.push_back(
-        {wish.page, std::move(result), failure.retryAt, failure.isGivenUp});
+    source.arrivals.push_back({wish.page, std::move(result), failure.retryAt, failure.isGivenUp});
     arrived.notify_all();
     wished.notify_all();
 }

@@ -31,17 +31,15 @@ public:
 
     absl::Status read(std::uint64_t offset, std::span<std::byte> into) const override {
         while (!into.empty()) {
-            const ssize_t got =
-                pread(fd_, into.data(), into.size(), static_cast<off_t>(offset));
+            const ssize_t got = pread(fd_, into.data(), into.size(), static_cast<off_t>(offset));
             if (got < 0 && errno == EINTR)
                 continue;
             if (got < 0)
                 return absl::UnavailableError(
                     fmt::format("{}: read failed: {}", path_, std::strerror(errno)));
             if (got == 0)
-                return absl::DataLossError(
-                    fmt::format("{}: the file ends at byte {}; import or copy it again", path_,
-                                offset));
+                return absl::DataLossError(fmt::format(
+                    "{}: the file ends at byte {}; import or copy it again", path_, offset));
             into = into.subspan(static_cast<std::size_t>(got));
             offset += static_cast<std::uint64_t>(got);
         }

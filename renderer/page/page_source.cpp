@@ -145,8 +145,8 @@ absl::Status PageSource::read(const Block& block, std::span<std::byte> into,
         return absl::OkStatus();
     }
     RETURN_IF_ERROR(checkHead());
-    return absl::DataLossError(fmt::format(
-        "{}: {}: its checksum is wrong; import or copy the file again", name_, what));
+    return absl::DataLossError(
+        fmt::format("{}: {}: its checksum is wrong; import or copy the file again", name_, what));
 }
 
 /// `status` of a ByteSource, whose message begins with the file's name, with `what` after that.
@@ -183,8 +183,8 @@ absl::Status PageSource::copyTo(int file, const Progress& progress) const {
             static_cast<std::size_t>(std::min<std::uint64_t>(kCopyPieceBytes, sizeBytes() - at)));
         RETURN_IF_ERROR(bytes_->read(at, piece));
         for (std::size_t put = 0; put < piece.size();) {
-            const ssize_t now = pwrite(file, piece.data() + put, piece.size() - put,
-                                       static_cast<off_t>(at + put));
+            const ssize_t now =
+                pwrite(file, piece.data() + put, piece.size() - put, static_cast<off_t>(at + put));
             if (now < 0 && errno != EINTR)
                 return fabric::writeError(name_, "cannot keep a copy", errno);
             put += static_cast<std::size_t>(std::max<ssize_t>(now, 0));

@@ -186,9 +186,9 @@ absl::StatusOr<std::shared_ptr<const EytFile>> EytFile::open(const std::string& 
     index.sourceHash = header.sourceHash;
     index.nodataPosts = header.nodataPosts;
     std::vector<char> bytes(header.indexBytes);
-    RETURN_IF_ERROR(file->source_->read(
-        {header.indexOffset, header.indexBytes, header.indexChecksum},
-        std::as_writable_bytes(std::span(bytes)), "the index"));
+    RETURN_IF_ERROR(
+        file->source_->read({header.indexOffset, header.indexBytes, header.indexChecksum},
+                            std::as_writable_bytes(std::span(bytes)), "the index"));
     RETURN_IF_ERROR(parseIndex(header, bytes, path, index));
     return file;
 }

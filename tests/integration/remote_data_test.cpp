@@ -29,8 +29,7 @@ protected:
         const auto path = [](const char* name) { return data_->path(name); };
         ASSERT_TRUE(test::succeeded(
             {"synth", "terrain", "--size", "600", "--seed", "1", "-o", path("dem.tif")}));
-        ASSERT_TRUE(
-            test::succeeded({"import", "terrain", path("dem.tif"), "-o", path("dem.eyt")}));
+        ASSERT_TRUE(test::succeeded({"import", "terrain", path("dem.tif"), "-o", path("dem.eyt")}));
         ASSERT_TRUE(test::succeeded(
             {"synth", "mesh", "--size", "20000", "--seed", "1", "-o", path("ball.ply")}));
         ASSERT_TRUE(test::succeeded({"import", "mesh", path("ball.ply"), "-o", path("ball.eym")}));
@@ -102,11 +101,10 @@ TEST_F(RemoteData, OfAMeshAreDrawnAsLocalOnesAndFromTheCacheWithoutAServer) {
 TEST_F(RemoteData, OfASceneLieAtUrlsBesideRelativePaths) {
     std::filesystem::copy_file(local("dem.eyt"), folder_.path("dem.eyt"));
     const auto scene = [&](const std::string& terrain) {
-        return folder_.write("scene.json",
-                             fmt::format(R"({{"objects":[
+        return folder_.write("scene.json", fmt::format(R"({{"objects":[
             {{"name":"dem","terrain":"{}"}},
             {{"name":"ball","mesh":"{}"}}]}})",
-                                         terrain, url("ball.eym")));
+                                                       terrain, url("ball.eym")));
     };
     const std::string expected = picture(scene("dem.eyt"));
     EXPECT_TRUE(picture(scene(url("dem.eyt"))) == expected);
@@ -134,13 +132,18 @@ TEST_F(RemoteData, ThatAreNotThereAreRefusedByName) {
 
 TEST_F(RemoteData, AreReadByARendererOnlyFromWhereItIsAllowedTo) {
     const auto drawsFor = [&](const Words& options) {
-        test::Process coordinator(test::eyrieCommand(
-            {"coordinator", url("dem.eyt"), "--listen", "127.0.0.1:0", "--grpc",
-             "unix:" + folder_.path("grpc"), "--cache", folder_.path("cache")}));
+        test::Process coordinator(
+            test::eyrieCommand({"coordinator", url("dem.eyt"), "--listen", "127.0.0.1:0", "--grpc",
+                                "unix:" + folder_.path("grpc"), "--cache", folder_.path("cache")}));
         EXPECT_TRUE(coordinator.waitForOutput("Renderers register", std::chrono::seconds(20)))
             << coordinator.errors();
-        Words command = {"renderer", "--coordinator", "unix:" + folder_.path("grpc"), "--listen",
-                         "unix:" + folder_.path("renderer"), "--cache", folder_.path("cache")};
+        Words command = {"renderer",
+                         "--coordinator",
+                         "unix:" + folder_.path("grpc"),
+                         "--listen",
+                         "unix:" + folder_.path("renderer"),
+                         "--cache",
+                         folder_.path("cache")};
         command.insert(command.end(), options.begin(), options.end());
         const std::uint64_t before = nginx_->bytesSent();
         test::Process renderer(test::eyrieCommand(command));
@@ -148,9 +151,8 @@ TEST_F(RemoteData, AreReadByARendererOnlyFromWhereItIsAllowedTo) {
             return (coordinator.errors() + renderer.errors()).find("--allow-url") !=
                    std::string::npos;
         };
-        const bool ended = test::eventually(std::chrono::seconds(20), [&] {
-            return refused() || nginx_->bytesSent() > before;
-        });
+        const bool ended = test::eventually(
+            std::chrono::seconds(20), [&] { return refused() || nginx_->bytesSent() > before; });
         EXPECT_TRUE(ended) << coordinator.errors() << renderer.errors();
         EXPECT_NE(refused(), nginx_->bytesSent() > before);
         return !refused();

@@ -98,8 +98,7 @@ protected:
 };
 
 TEST_F(RemotePages, MakeTheLocalPicture) {
-    const ChannelResult local =
-        draw(*open(scene_.objects[0].path), Completeness::Complete);
+    const ChannelResult local = draw(*open(scene_.objects[0].path), Completeness::Complete);
     EXPECT_TRUE(local.statistics.complete);
     const ChannelResult remote = draw(*open(url()), Completeness::Complete);
     EXPECT_TRUE(remote.statistics.complete);

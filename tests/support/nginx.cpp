@@ -38,14 +38,13 @@ Nginx::Nginx(const std::filesystem::path& data) : port_(freePort()) {
     for (const char* kind : {"client_body", "proxy", "fastcgi", "uwsgi", "scgi"})
         temporary += fmt::format("  {0}_temp_path {1}/{0};\n", kind, folder);
     // Started as root its workers would be somebody who may not enter the folder.
-    folder_.write("nginx.conf",
-                  fmt::format("{}daemon off;\nworker_processes 1;\npid {}/pid;\n"
-                              "events {{}}\nhttp {{\n{}"
-                              "  log_format bytes '$body_bytes_sent';\n"
-                              "  access_log {}/access.log bytes;\n"
-                              "  server {{ listen 127.0.0.1:{}; root {}; }}\n}}\n",
-                              geteuid() == 0 ? "user root;\n" : "", folder, temporary, folder,
-                              port_, data.string()));
+    folder_.write("nginx.conf", fmt::format("{}daemon off;\nworker_processes 1;\npid {}/pid;\n"
+                                            "events {{}}\nhttp {{\n{}"
+                                            "  log_format bytes '$body_bytes_sent';\n"
+                                            "  access_log {}/access.log bytes;\n"
+                                            "  server {{ listen 127.0.0.1:{}; root {}; }}\n}}\n",
+                                            geteuid() == 0 ? "user root;\n" : "", folder, temporary,
+                                            folder, port_, data.string()));
     start();
 }
 

@@ -123,8 +123,8 @@ bool PageServer::answer(int connection, const std::string& request) {
     const std::string whole = content();
     const std::size_t range = request.find("Range: bytes=");
     if (isHead || range == std::string::npos || mood == Mood::IgnoresRange)
-        return sendAll(connection,
-                       fmt::format("HTTP/1.1 200 OK\r\nContent-Length: {}\r\n\r\n", whole.size())) &&
+        return sendAll(connection, fmt::format("HTTP/1.1 200 OK\r\nContent-Length: {}\r\n\r\n",
+                                               whole.size())) &&
                (isHead || sendAll(connection, whole));
     char* next = nullptr;
     const std::size_t first = std::strtoull(request.c_str() + range + 13, &next, 10);
@@ -137,8 +137,7 @@ bool PageServer::answer(int connection, const std::string& request) {
         "HTTP/1.1 206 Partial Content\r\nContent-Length: {}\r\nContent-Range: bytes "
         "{}-{}/{}\r\n\r\n",
         bytes, first, last, whole.size());
-    const std::string body =
-        whole.substr(first, mood == Mood::ClosesMidway ? bytes / 2 : bytes);
+    const std::string body = whole.substr(first, mood == Mood::ClosesMidway ? bytes / 2 : bytes);
     return sendAll(connection, header + body) && mood != Mood::ClosesMidway;
 }
 
