@@ -9,9 +9,11 @@
 #include <google/protobuf/wrappers.pb.h>
 
 #include "eyrie/v1/camera.pb.h"
+#include "eyrie/v1/look.pb.h"
 #include "eyrie/v1/scene.pb.h"
 #include "fabric/status.h"
 #include "wire/camera.h"
+#include "wire/look.h"
 
 namespace eyrie::wire {
 namespace {
@@ -74,6 +76,15 @@ absl::StatusOr<fabric::Camera> cameraFromJson(std::string_view text, std::string
     if (!camera.ok())
         return fabric::withContext(camera.status(), name);
     return camera;
+}
+
+absl::StatusOr<fabric::Look> lookFromJson(std::string_view text, std::string_view name) {
+    v1::Look message;
+    RETURN_IF_ERROR(parse(text, name, "look", message));
+    absl::StatusOr<fabric::Look> look = fromMessage(message);
+    if (!look.ok())
+        return fabric::withContext(look.status(), name);
+    return look;
 }
 
 std::string toJson(const google::protobuf::Message& message) {
