@@ -43,7 +43,7 @@ struct EncodedFrame {
     std::uint64_t viewSequence = 0;
     bool isStill = false;
     std::span<const std::byte> jpeg;
-    std::optional<fabric::Camera> liftedCamera;  ///< shown in place of the one asked for
+    std::optional<fabric::Camera> liftedCamera = {};  ///< shown in place of the one asked for
 };
 
 /// A ViewerResponse with a Frame: `encoded` of what `rendered` shows.

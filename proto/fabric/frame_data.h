@@ -18,7 +18,7 @@ struct FrameData {
     Camera camera;
     double tauPixels = 1;  ///< screen-space error asked for; 0.01 to 1000
     Shading shading = Shading::Smooth;
-    Look look;
+    Look look = {};
 
     bool operator==(const FrameData&) const = default;
 };

@@ -22,15 +22,15 @@ struct ContourLines {
 struct Look {
     /// Heights are drawn times this, about height 0 of the object; -1000 to 1000.
     double exaggeration = 1;
-    std::optional<TransferFunction> transfer;  ///< none: hypsometricTints()
-    double slopeShading = 1;                   ///< how far steep ground shows rock, 0 to 1
-    std::optional<ContourLines> contours;
+    std::optional<TransferFunction> transfer = {};  ///< none: hypsometricTints()
+    double slopeShading = 1;                        ///< how far steep ground shows rock, 0 to 1
+    std::optional<ContourLines> contours = {};
     double saturation = 1;    ///< 0 (grey) to 2
     bool tileBounds = false;  ///< boxes around the tiles that are drawn
     bool pageBounds = false;  ///< boxes around the pages whose tiles the view needs
     bool levelTint = false;   ///< each level of the quadtree has a colour
     /// What is drawn is chosen for this camera, and seen from the frame's: no error is promised.
-    std::optional<Camera> cutCamera;
+    std::optional<Camera> cutCamera = {};
 
     bool operator==(const Look&) const = default;
 };

@@ -59,7 +59,7 @@ struct SceneInfo {
     std::uint64_t triangles = 0;  ///< at full resolution
     std::uint64_t bytes = 0;      ///< of all files
     /// One for each terrain, at most kMaxGroundCells together; null where there is none.
-    std::shared_ptr<const std::vector<GroundGrid>> ground;
+    std::shared_ptr<const std::vector<GroundGrid>> ground = {};
 
     bool operator==(const SceneInfo& other) const {
         return bounds == other.bounds && triangles == other.triangles && bytes == other.bytes &&

@@ -37,7 +37,7 @@ enum class HeightUnit { Relative, Metres };
 /// "GPU Ray-Casting for Scalable Terrain Rendering", and the terrain engine around it.
 struct TransferFunction {
     HeightUnit unit = HeightUnit::Relative;
-    std::vector<TransferPrimitive> primitives;  ///< at most kMaxTransferPrimitives
+    std::vector<TransferPrimitive> primitives = {};  ///< at most kMaxTransferPrimitives
 
     bool operator==(const TransferFunction&) const = default;
 };

@@ -15,10 +15,10 @@ inline constexpr int kTransferTexels = 2048;
 /// as displayed and opacity, 8 bits each, the first at `lowestMetres`, the last `reliefMetres`
 /// above.
 ///
-/// A shader that evaluated every primitive in every pixel takes longer, on llvmpipe, than it takes
-/// to draw all else (docs/benchmarks.md). The table costs a 510th of the range of each channel by
-/// rounding, and spreads each edge of a box over a 2047th of the relief. Where nothing is coloured
-/// texels have their neighbours' colour, so that filtering does not darken what fades out.
+/// Looking it up costs the same for any function; on llvmpipe evaluating six primitives in every
+/// pixel costs half as much again (docs/benchmarks.md). The table is off by half of 1/255 a channel
+/// by rounding, and spreads each edge of a box over a 2047th of the relief. Where nothing is
+/// coloured texels have their neighbours' colour, so that filtering does not darken what fades out.
 std::vector<std::uint8_t> transferTable(const fabric::TransferFunction& function,
                                         double lowestMetres, double reliefMetres);
 

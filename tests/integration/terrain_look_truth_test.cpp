@@ -48,7 +48,8 @@ protected:
 
     truth::TerrainRayCaster timesHeight(double exaggeration) const {
         truth::HeightGrid grid = source_;
-        for (float& height : grid.heights) height = static_cast<float>(height * exaggeration);
+        for (float& height : grid.heights)
+            height = static_cast<float>(static_cast<double>(height) * exaggeration);
         return truth::TerrainRayCaster(std::move(grid));
     }
 
@@ -161,7 +162,7 @@ public:
 private:
     double elevation(double x, double y) const {
         const truth::Ray ray = pinhole_.rayThrough(x, y);
-        return ray.at(ground_.firstHit(ray)).z / interval_;
+        return ray.at(ground_.firstHit(ray, truth::kNoHit)).z / interval_;
     }
 
     const truth::TerrainRayCaster& ground_;
@@ -171,7 +172,7 @@ private:
 
 /// How much darker, in linear light, a pixel is than without lines.
 double darkening(const fabric::Rgba& with, const fabric::Rgba& without) {
-    const double ratio = with.g / std::max(1.0, double{without.g});
+    const double ratio = with.g / std::max(1.0, static_cast<double>(without.g));
     return 1 - ratio * ratio;
 }
 

@@ -171,7 +171,7 @@ TEST_F(TerrainLookTest, WhatIsDrawnFlatHasTheDepthOfAPlane) {
     const fabric::Image image = draw({.exaggeration = 0}, from).image;
     const fabric::Mat3 worldFromView = glm::transpose(fabric::viewFromWorldRotation(from));
     const fabric::Frustum frustum =
-        fabric::symmetricFrustum(from.fovYDegrees, double{kWidth} / kHeight);
+        fabric::symmetricFrustum(from.fovYDegrees, static_cast<double>(kWidth) / kHeight);
     std::size_t seen = 0;
     for (int y = 0; y < kHeight; ++y)
         for (int x = 0; x < kWidth; ++x) {
@@ -225,7 +225,7 @@ TEST_F(TerrainLookTest, TheGroundReportedIsNowhereBelowWhatIsDrawn) {
     const fabric::Image image = draw({}, down).image;
     const fabric::Mat3 worldFromView = glm::transpose(fabric::viewFromWorldRotation(down));
     const fabric::Frustum frustum =
-        fabric::symmetricFrustum(down.fovYDegrees, double{kWidth} / kHeight);
+        fabric::symmetricFrustum(down.fovYDegrees, static_cast<double>(kWidth) / kHeight);
     const fabric::Mat4 gridFromWorld = glm::inverse(grid.worldFromGrid);
     double tightest = std::numeric_limits<double>::infinity();
     for (int y = 0; y < kHeight; ++y)

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/draw/transfer_table.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 namespace eyrie::draw {
@@ -38,12 +40,10 @@ fabric::TransferFunction anyFunction(HeightUnit unit, const std::vector<Primitiv
 fabric::Vec4 lookedUp(const std::vector<std::uint8_t>& table, double at) {
     const double texel = at * (kTransferTexels - 1);
     const int low = std::min(static_cast<int>(texel), kTransferTexels - 2);
+    const auto byte = [&](int index) -> double { return table[static_cast<std::size_t>(index)]; };
     fabric::Vec4 result;
     for (int i = 0; i < 4; ++i)
-        result[i] =
-            glm::mix(double{table[static_cast<std::size_t>(4 * low + i)]},
-                     double{table[static_cast<std::size_t>(4 * low + 4 + i)]}, texel - low) /
-            255;
+        result[i] = glm::mix(byte(4 * low + i), byte(4 * low + 4 + i), texel - low) / 255;
     return result;
 }
 
@@ -72,7 +72,7 @@ RC_GTEST_PROP(TransferTable, HoldsTheFunctionAtEveryTexel, ()) {
         {PrimitiveShape::Blend, PrimitiveShape::Box, PrimitiveShape::Tent, PrimitiveShape::Smooth});
     const auto table = transferTable(function, kLowest, kRelief);
     for (int i = 0; i < kTransferTexels; ++i) {
-        const double at = double{i} / (kTransferTexels - 1);
+        const double at = static_cast<double>(i) / (kTransferTexels - 1);
         const fabric::Tint tint = evaluate(function, at);
         const fabric::Vec4 found = lookedUp(table, at);
         RC_ASSERT(std::abs(found.a - tint.opacity) <= 0.5 / 255 + 1e-6);

@@ -107,7 +107,7 @@ RC_GTEST_PROP(AboveGround, ACameraLedIntoTheGroundSlidesAlongIt, ()) {
     const double step = glm::length(to.eye - from.eye) / kSteps;
     Vec3 last = aboveGround(from, {grid}, 1).eye;
     for (int i = 1; i <= kSteps; ++i) {
-        const Vec3 eye = aboveGround({.eye = glm::mix(from.eye, to.eye, double{i} / kSteps),
+        const Vec3 eye = aboveGround({.eye = glm::mix(from.eye, to.eye, static_cast<double>(i) / kSteps),
                                       .target = to.target + Vec3(1e4, 0, 0)},
                                      {grid}, 1)
                              .eye;
