@@ -7,7 +7,9 @@
 namespace eyrie::draw {
 
 absl::Status BoxLines::begin(const lod::View& view, const fabric::Mat4& worldFromObject) {
-    ASSIGN_OR_RETURN(program_, programs_.find({}));
+    if (!program_) {
+        ASSIGN_OR_RETURN(program_, effects::LinesEffect::create({}));
+    }
     clipFromWorldAxes_ = fabric::clipFromView(view.frustum, fabric::kNearMetres) *
                          fabric::Mat4(view.viewFromWorldRotation);
     eyeFromObject_ = worldFromObject;

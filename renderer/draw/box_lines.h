@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 #include <absl/status/status.h>
 
 #include "effects/lines_effect.h"
 #include "fabric/box.h"
-#include "renderer/effects/effect_variants.h"
 #include "renderer/gl/object.h"
 #include "renderer/lod/view.h"
 
@@ -21,8 +22,7 @@ public:
     void draw(const fabric::Box& box, const glm::vec3& colour) const;
 
 private:
-    effects::EffectVariants<effects::LinesEffect> programs_;
-    const effects::LinesEffect* program_ = nullptr;
+    std::optional<effects::LinesEffect> program_;  ///< compiled when first needed
     gl::VertexArray noVertices_;
     fabric::Mat4 clipFromWorldAxes_{1.0};  ///< of metres from the eye
     fabric::Mat4 eyeFromObject_{1.0};      ///< metres from the eye, world axes

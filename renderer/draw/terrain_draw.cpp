@@ -268,8 +268,10 @@ absl::Status TerrainDrawable::draw(std::span<const Piece> pieces, const FrameSta
             continue;
         }
         const terrain::TileChoice& choice = choices_[piece.index];
-        program->use();
-        program->levelColour(levelColour(choice.id.level));
+        if (frame.look.tileBounds || frame.look.pageBounds)
+            program->use();  // again after a box
+        if (frame.look.levelTint)
+            program->levelColour(levelColour(choice.id.level));
         statistics.triangles += drawTile(*program, choice, *paging_->tile(choice.id));
         // At once, so that where depths tie the lower range wins as in compositing.
         if (frame.look.tileBounds)

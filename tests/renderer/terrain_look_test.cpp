@@ -113,7 +113,7 @@ TEST_F(TerrainLookTest, HeightsInMetresAndInSharesOfTheReliefShowTheSame) {
 TEST_F(TerrainLookTest, OnlyColoursChangeWithColouring) {
     const fabric::ChannelResult plain = draw({}, camera(0.5));
     for (const fabric::Look& look :
-         {fabric::Look{.transfer = fabric::TransferFunction{}}, fabric::Look{.slopeShading = 0},
+         {fabric::Look{.transfer = fabric::TransferFunction{}},
           fabric::Look{.contours = fabric::ContourLines{25, 1}}, fabric::Look{.saturation = 0},
           fabric::Look{.levelTint = true}}) {
         const fabric::ChannelResult other = draw(look, camera(0.5));
