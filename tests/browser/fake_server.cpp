@@ -51,7 +51,7 @@ coordinator::RenderedFrame draw(const coordinator::FrameRequest& request) {
             frame.image.colour[i++] = colourAlong(camera.eye, worldFromView * ray);
         }
     if (request.look.saturation == 0)
-        for (fabric::Rgba& pixel : frame.image.colour) pixel.r = pixel.b = pixel.g;
+        for (fabric::Rgba& one : frame.image.colour) one.r = one.b = one.g;
     // As renderers do: half the error costs four times the triangles, and the data end somewhere.
     frame.statistics.tauAchievedPixels = std::max(0.5, request.tauPixels * 0.9);
     frame.statistics.triangles = std::min<std::uint64_t>(

@@ -83,11 +83,11 @@ await run("page_test", async (browser, started) => {
   check(colourful.length < grey.length / 400, "saturation takes the colour away");
   await page.locator("#saturation").dblclick();
 
-  await page.getByText("Edited").click();
+  await page.getByLabel("Edited").check();
   check(await page.locator(".strip").isVisible(), "editing colours shows a strip of them");
   await page.getByText("Add colour").click();
   check((await page.locator(".primitive:not(.names)").count()) === 7, "and a row for each");
-  await page.getByText("Tints").click();
+  await page.getByLabel("Tints").check();
   check(await page.locator(".strip").isHidden(), "which goes with the editing");
   await page.keyboard.press("c");
   check(await page.getByText("every ").isVisible(), "C draws contour lines");

@@ -102,7 +102,7 @@ TEST_F(EffectVariantsTest, EveryBuiltInVariantCompilesAndSetsWhatTheDriverKept) 
                     ASSERT_TRUE(terrain.ok()) << terrain.status();
                     // A uniform that this variant does not use may be set all the same.
                     terrain->worldFromNormal(glm::mat3(1.0F));
-                    terrain->lineWidth(1);
+                    terrain->lineWidth(1.0F);
                 }
                 const auto mesh = MeshEffect::create(object);
                 ASSERT_TRUE(mesh.ok()) << mesh.status();

@@ -215,7 +215,8 @@ export function showTerrain(state: State, viewer: Viewer): void {
     "\\": () => change(state, { exaggeration: 1 }),
   };
   window.addEventListener("keydown", (event) => {
-    const isTyping = event.target instanceof Element && event.target.matches("input, select");
+    const isTyping =
+      event.target instanceof Element && event.target.matches("input[type=number], select");
     if (event.ctrlKey || event.metaKey || event.altKey || isTyping) return;
     keys[event.key.toLowerCase()]?.();
   });

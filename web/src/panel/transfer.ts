@@ -124,7 +124,7 @@ export function transferEditor(state: State): HTMLElement {
   });
   const reset = button("Start over", () => set(defaultPrimitives));
   const names = make("div", "primitive names");
-  for (const name of ["", "", "centre", "width", ""]) names.append(make("span", "", name));
+  for (const name of ["", "", "centre %", "width %", ""]) names.append(make("span", "", name));
   const editor = make("div", "transfer", strip(state), names, list, make("div", "row", add, reset));
   state.look.watch(({ primitives, colouring }) => {
     editor.hidden = colouring !== "edited";
