@@ -64,7 +64,8 @@ coordinator::Status statusWith(bool hasRenderer) {
     coordinator::Status status = coordinator::readyStatus();
     status.renderers[0].device.renderer = "made-up pictures (no renderer)";
     fabric::GroundGrid plain;
-    plain.worldFromGrid[0].x = plain.worldFromGrid[1].y = 100;
+    plain.worldFromGrid[0].x = plain.worldFromGrid[1].y = 2000;
+    plain.worldFromGrid[3] = {-1000, -1000, 0, 1};
     plain.columns = plain.rows = 1;
     plain.highest = {0};
     status.sceneInfo.ground = std::make_shared<const std::vector<fabric::GroundGrid>>(1, plain);

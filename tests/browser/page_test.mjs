@@ -102,7 +102,8 @@ await run("page_test", async (browser, started) => {
   await page.waitForFunction(() => window.eyrie.camera.eye[2] >= 2 - 1e-5);
   check(true, "a camera led into the ground stays above it");
   await page.keyboard.press("u");
-  await browser.drag(0, -200);
+  await page.keyboard.press("r");
+  await browser.drag(0, -400);
   await page.waitForFunction(() => window.eyrie.camera.eye[2] < 0);
   check(true, "U lets it go below");
   await page.keyboard.press("u");

@@ -212,11 +212,12 @@ export class Viewer implements CameraHolder {
 
   /**
    * Goes on from the camera that the server lifted out of the ground, so that the next movement
-   * starts from what is seen; not while a newer view is on its way.
+   * starts from what is seen; not while a newer view is on its way, nor during a drag, which so
+   * leads back to where it came from.
    */
   private adopt(lifted: Camera | undefined, viewSequence: number): void {
     const isNewest = viewSequence === this.sequence && this.sendAt === undefined;
-    if (lifted !== undefined && isNewest) this.camera = lifted;
+    if (lifted !== undefined && isNewest && !this.controls.isDragging) this.camera = lifted;
   }
 
   /** Holds the cut as this camera has it, or lets it follow the view again. */
