@@ -58,7 +58,7 @@ Vec3 lift(const Vec3& eye, const GroundGrid& grid, double exaggeration) {
     // Upside down the lowest is on top.
     const double ceiling =
         exaggeration < 0 ? -flattened * grid.lowest : flattened * ceilingAt(grid, place.x, place.y);
-    const double height = place.z * std::copysign(flattened, exaggeration);
+    const double height = place.z * (exaggeration < 0 ? -flattened : flattened);
     const double missing = (ceiling - height) * worldPerMetre + kGroundClearanceMetres;
     return missing > kSlackMetres ? up * (missing / worldPerMetre) : Vec3(0);
 }

@@ -41,8 +41,8 @@ absl::Status validate(const Look& look) {
 }
 
 Mat4 exaggerated(const Mat4& worldFromObject, double exaggeration) {
-    const double factor =
-        std::abs(exaggeration) < kFlattest ? std::copysign(kFlattest, exaggeration) : exaggeration;
+    const double flattest = exaggeration < 0 ? -kFlattest : kFlattest;
+    const double factor = std::abs(exaggeration) < kFlattest ? flattest : exaggeration;
     Mat4 result = worldFromObject;
     result[2] *= factor;
     return result;

@@ -260,7 +260,8 @@ TEST_F(Render, ALookFileAndFlagsChangeHowTerrainIsShown) {
     const Rendered plain = render("dem.eyt", terrainCamera());
     folder_->write("look.json", R"({"exaggeration":3,"contours":{"intervalMetres":100}})");
     const std::string look = path("look.json");
-    const Rendered lined = render("dem.eyt", terrainCamera(), {"--look", look, "--exaggeration", "1"});
+    const Rendered lined =
+        render("dem.eyt", terrainCamera(), {"--look", look, "--exaggeration", "1"});
     EXPECT_EQ(lined.depth.metres, plain.depth.metres) << "the flag goes before the file";
     EXPECT_NE(lined.image.colour, plain.image.colour);
     EXPECT_NE(render("dem.eyt", terrainCamera(), {"--look", look}).depth.metres,
@@ -272,9 +273,8 @@ TEST_F(Render, ALookFileAndFlagsChangeHowTerrainIsShown) {
 TEST_F(Render, ALookThatCannotBeIsRefusedByName) {
     folder_->write("odd.json", R"({"saturation":9})");
     const auto errors = [&](const std::string& option, const std::string& value) {
-        const test::Outcome outcome =
-            eyrie({"render", path("dem.eyt"), "--camera", terrainCamera(), option, value, "-o",
-                   path("never.png")});
+        const test::Outcome outcome = eyrie({"render", path("dem.eyt"), "--camera", terrainCamera(),
+                                             option, value, "-o", path("never.png")});
         EXPECT_EQ(outcome.exit, (test::Exit{2, 0}));
         return outcome.errors;
     };

@@ -87,7 +87,7 @@ double heightAboveCeiling(const GroundGrid& grid, const Vec3& eye, double exagge
 RC_GTEST_PROP(AboveGround, KeepsItsClearanceAndLeavesAloneWhatHasIt, ()) {
     std::mt19937 random(*rc::gen::arbitrary<unsigned>());
     const GroundGrid grid = anyGrid(random);
-    const double exaggeration = *rc::gen::element(1.0, 0.0, 1e-3, 10.0, 100.0, -1.0, -3.0);
+    const double exaggeration = *rc::gen::element(1.0, 0.0, -0.0, 1e-3, 10.0, 100.0, -1.0, -3.0);
     const Camera camera = anyCamera(random, grid);
     const Camera lifted = aboveGround(camera, {grid}, exaggeration);
     RC_ASSERT(heightAboveCeiling(grid, lifted.eye, exaggeration) >= kGroundClearanceMetres - 2e-6);
@@ -107,10 +107,11 @@ RC_GTEST_PROP(AboveGround, ACameraLedIntoTheGroundSlidesAlongIt, ()) {
     const double step = glm::length(to.eye - from.eye) / kSteps;
     Vec3 last = aboveGround(from, {grid}, 1).eye;
     for (int i = 1; i <= kSteps; ++i) {
-        const Vec3 eye = aboveGround({.eye = glm::mix(from.eye, to.eye, static_cast<double>(i) / kSteps),
-                                      .target = to.target + Vec3(1e4, 0, 0)},
-                                     {grid}, 1)
-                             .eye;
+        const Vec3 eye =
+            aboveGround({.eye = glm::mix(from.eye, to.eye, static_cast<double>(i) / kSteps),
+                         .target = to.target + Vec3(1e4, 0, 0)},
+                        {grid}, 1)
+                .eye;
         RC_ASSERT(glm::length(eye - last) <=
                   step * (1 + 8 * (1010 + kCellMetres) / kCellMetres) + 1e-5);
         last = eye;
@@ -148,6 +149,7 @@ TEST(Exaggerated, ByOneChangesNoBitAndByNothingStaysInvertible) {
     const Mat4 any = glm::rotate(glm::translate(Mat4(1.0), Vec3(1e5, 2, 3)), 0.3, Vec3(1, 2, 3));
     EXPECT_EQ(exaggerated(any, 1), any);
     EXPECT_GT(glm::determinant(Mat3(exaggerated(any, 0))), 0);
+    EXPECT_EQ(exaggerated(any, -0.0), exaggerated(any, 0));
     EXPECT_LT(glm::determinant(Mat3(exaggerated(any, -1))), 0);
     EXPECT_EQ(exaggerated(any, 100)[2], any[2] * 100.0);
 }
