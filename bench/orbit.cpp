@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Frame times of one renderer on an orbit, beside the error at which they were reached.
 //
-//   build/release/bench/orbit FILE.eyt|FILE.eym [FRAMES=120] [WIDTHxHEIGHT=1280x720]
+//   build/release/bench/orbit FILE.eyt|FILE.eym [FRAMES=120] [WIDTHxHEIGHT=1280x720] [LOOK.json]
 //
 // Prints one line per tau: median and p95 frame time, processor time, triangles, tau achieved.
 // Single process, no network: the ceiling that distribution is measured against.
@@ -9,6 +9,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <ctime>
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,6 +19,7 @@
 #include <glm/geometric.hpp>
 
 #include "renderer/renderer.h"
+#include "wire/json.h"
 
 namespace {
 
@@ -27,6 +30,7 @@ struct Options {
     int frames = 120;
     int width = 1280;
     int height = 720;
+    fabric::Look look;
 };
 
 fabric::Camera orbitCamera(const fabric::Box& bounds, double turn) {
@@ -64,6 +68,7 @@ absl::Status runOrbit(Renderer& renderer, const fabric::SceneInfo& info, const O
         fabric::FrameData frame;
         frame.camera = orbitCamera(info.bounds, static_cast<double>(i) / options.frames);
         frame.tauPixels = tau;
+        frame.look = options.look;
         fabric::ChannelTask task;
         task.viewWidth = options.width;
         task.viewHeight = options.height;
@@ -111,7 +116,9 @@ absl::Status run(const Options& options) {
 
 int main(int argc, char** argv) {
     if (argc < 2 || std::string_view(argv[1]) == "--help") {
-        fmt::print(stderr, "usage: orbit FILE.eyt|FILE.eym [FRAMES=120] [WIDTHxHEIGHT=1280x720]\n");
+        fmt::print(stderr,
+                   "usage: orbit FILE.eyt|FILE.eym [FRAMES=120] [WIDTHxHEIGHT=1280x720] "
+                   "[LOOK.json]\n");
         return 2;
     }
     Options options;
@@ -123,6 +130,16 @@ int main(int argc, char** argv) {
     if (argc > 3 && std::sscanf(argv[3], "%dx%d", &options.width, &options.height) != 2) {
         fmt::print(stderr, "'{}' is not WIDTHxHEIGHT\n", argv[3]);
         return 2;
+    }
+    if (argc > 4) {
+        std::ifstream file(argv[4]);
+        const std::string text(std::istreambuf_iterator<char>(file), {});
+        const auto look = wire::lookFromJson(text, argv[4]);
+        if (!look.ok()) {
+            fmt::print(stderr, "{}\n", look.status().ToString());
+            return 2;
+        }
+        options.look = *look;
     }
     if (const absl::Status status = run(options); !status.ok()) {
         fmt::print(stderr, "{}\n", status.ToString());

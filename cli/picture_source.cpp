@@ -29,7 +29,7 @@ public:
 
     absl::StatusOr<RenderedFrame> draw(const FrameRequest& request) override {
         const fabric::FrameData frameData{++frames_, request.camera, request.tauPixels,
-                                          request.shading};
+                                          request.shading, request.look};
         fabric::ChannelTask task;
         task.frameNumber = frames_;
         task.frameDataVersion = frameData.version;

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,12 +32,31 @@ struct Options {
     std::string camera;
     std::string size = "1280x720";
     double tau = 1;
+    fabric::Shading shading = fabric::Shading::Smooth;
+    std::string look;
+    std::optional<double> exaggeration;
     PictureSourceOptions pictures;
     std::string out;
     std::string depth;
     std::string stats;
     bool json = false;
 };
+
+absl::StatusOr<fabric::Look> lookOf(const Options& options) {
+    fabric::Look look;
+    if (!options.look.empty()) {
+        ASSIGN_OR_RETURN(const std::string text, readText(options.look));
+        ASSIGN_OR_RETURN(look, wire::lookFromJson(text, options.look));
+    }
+    if (!options.exaggeration)
+        return look;
+    if (!(std::abs(*options.exaggeration) <= fabric::kMaxExaggeration))
+        return absl::InvalidArgumentError(
+            fmt::format("--exaggeration is {}; expected {} to {}", *options.exaggeration,
+                        -fabric::kMaxExaggeration, fabric::kMaxExaggeration));
+    look.exaggeration = *options.exaggeration;
+    return look;
+}
 
 absl::StatusOr<coordinator::FrameRequest> requestOf(const Options& options) {
     coordinator::FrameRequest request;
@@ -46,6 +68,8 @@ absl::StatusOr<coordinator::FrameRequest> requestOf(const Options& options) {
     ASSIGN_OR_RETURN(const std::string text, readText(options.camera));
     ASSIGN_OR_RETURN(request.camera, wire::cameraFromJson(text, options.camera));
     request.tauPixels = options.tau;
+    request.shading = options.shading;
+    ASSIGN_OR_RETURN(request.look, lookOf(options));
     request.width = size.width;
     request.height = size.height;
     request.wantsDepth = !options.depth.empty();
@@ -106,6 +130,22 @@ void addOutputOptions(CLI::App& command, Options& options) {
     command.add_flag("--json", options.json, "Print the statistics as JSON");
 }
 
+void addLookOptions(CLI::App& command, Options& options) {
+    static const std::map<std::string, fabric::Shading> kShadings = {
+        {"smooth", fabric::Shading::Smooth},
+        {"flat", fabric::Shading::Flat},
+        {"wireframe", fabric::Shading::Wireframe}};
+    command.add_option("--shading", options.shading, "How surfaces are drawn [smooth]")
+        ->transform(CLI::CheckedTransformer(kShadings).description(""))
+        ->type_name("smooth|flat|wireframe");
+    command
+        .add_option("--look", options.look,
+                    R"(JSON: how terrain is shown, such as {"contours":{"intervalMetres":100}})")
+        ->type_name("FILE");
+    command.add_option("--exaggeration", options.exaggeration,
+                       "Terrain's heights times this, before what --look says [1]");
+}
+
 }  // namespace
 
 void addRender(CLI::App& app, Run& run) {
@@ -124,6 +164,7 @@ void addRender(CLI::App& app, Run& run) {
         ->capture_default_str();
     command->add_option("--tau", options->tau, "Screen-space error allowed, in pixels")
         ->capture_default_str();
+    addLookOptions(*command, *options);
     command
         ->add_option("--renderers", options->pictures.renderers,
                      "Draw with so many processes instead of in this one")
@@ -136,6 +177,7 @@ void addRender(CLI::App& app, Run& run) {
     addCacheOptions(*command, options->pictures.cache);
     addOutputOptions(*command, *options);
     command->footer(
+        "docs/looks.md explains --look.\n"
         "Examples:\n"
         "  eyrie render scene.json --camera cam.json --size 1920x1080 --tau 1 -o a.png\n"
         "  eyrie render dem.eyt --camera cam.json --renderers 3 --compound DB \\\n"

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -30,6 +31,7 @@ double millisecondsSince(Clock::time_point start) {
 
 absl::Status validateTask(const fabric::FrameData& frameData, const fabric::ChannelTask& task) {
     RETURN_IF_ERROR(fabric::validate(frameData.camera));
+    RETURN_IF_ERROR(fabric::validate(frameData.look));
     if (!(frameData.tauPixels >= fabric::kMinTauPixels &&
           frameData.tauPixels <= fabric::kMaxTauPixels))
         return absl::InvalidArgumentError(fmt::format("tau is {} pixels; it must be from {} to {}",
@@ -47,6 +49,15 @@ absl::Status validateTask(const fabric::FrameData& frameData, const fabric::Chan
             task.pixelViewport.width, task.pixelViewport.height, task.pixelViewport.x,
             task.pixelViewport.y, task.viewWidth, task.viewHeight));
     return absl::OkStatus();
+}
+
+/// Pixels that what falls to a channel may touch. A line reaches half a pixel beyond its place, so
+/// the piece it belongs to may lie beside the channel.
+fabric::PixelViewport reach(const fabric::FrameData& frameData, const fabric::PixelViewport& part) {
+    const bool hasLines = frameData.shading == fabric::Shading::Wireframe ||
+                          frameData.look.tileBounds || frameData.look.pageBounds;
+    return hasLines ? fabric::PixelViewport{part.x - 1, part.y - 1, part.width + 2, part.height + 2}
+                    : part;
 }
 
 void setPassState(fabric::Shading shading) {
@@ -76,9 +87,31 @@ void addTo(fabric::FrameStatistics& statistics, const draw::Cut& cut) {
 }
 
 struct OpenObject {
-    fabric::Mat4 worldFromObject;
+    fabric::SceneObject object;
     std::unique_ptr<draw::Drawable> drawable;
 };
+
+/// A terrain's heights are drawn exaggerated; a mesh is not.
+fabric::Mat4 drawnWorldFromObject(const fabric::SceneObject& object, const fabric::Look& look) {
+    return object.kind == fabric::ObjectKind::Terrain
+               ? fabric::exaggerated(object.worldFromObject, look.exaggeration)
+               : object.worldFromObject;
+}
+
+/// How high the terrains among `objects` reach; null where there are none.
+std::shared_ptr<const std::vector<fabric::GroundGrid>> groundOf(
+    const std::vector<OpenObject>& objects) {
+    const auto terrains = std::count_if(objects.begin(), objects.end(), [](const auto& open) {
+        return open.object.kind == fabric::ObjectKind::Terrain;
+    });
+    if (terrains == 0 || terrains > fabric::kMaxGroundCells)
+        return nullptr;
+    auto ground = std::make_shared<std::vector<fabric::GroundGrid>>();
+    for (const OpenObject& open : objects)
+        if (auto grid = open.drawable->ground(fabric::kMaxGroundCells / static_cast<int>(terrains)))
+            ground->push_back(*std::move(grid));
+    return ground;
+}
 
 }  // namespace
 
@@ -102,8 +135,8 @@ private:
     page::Loader& loaderFor(const fabric::SceneObject& object);
     absl::StatusOr<std::unique_ptr<draw::Drawable>> openObject(const fabric::SceneObject& object,
                                                                std::size_t objects);
-    Selection selectPieces(const lod::View& view, double tauPixels, const fabric::ChannelTask& task,
-                           fabric::FrameStatistics& statistics);
+    Selection selectPieces(const lod::View& view, const fabric::FrameData& frameData,
+                           const fabric::ChannelTask& task, fabric::FrameStatistics& statistics);
     absl::Status drawPieces(const std::vector<OrderedPiece>& pieces, const draw::FrameState& frame,
                             fabric::FrameStatistics& statistics);
 
@@ -153,8 +186,9 @@ absl::StatusOr<fabric::SceneInfo> Renderer::Impl::openScene(const fabric::Scene&
         info.bounds.grow(fabric::transformed(drawable->bounds(), object.worldFromObject));
         info.triangles += drawable->triangles();
         info.bytes += drawable->bytes();
-        objects.push_back({object.worldFromObject, std::move(drawable)});
+        objects.push_back({object, std::move(drawable)});
     }
+    info.ground = groundOf(objects);
     scene_ = scene;
     objects_ = std::move(objects);
     return info;
@@ -163,16 +197,24 @@ absl::StatusOr<fabric::SceneInfo> Renderer::Impl::openScene(const fabric::Scene&
 /// The pieces of all objects that fall to the task, in the order of their place in the range.
 /// Every channel of a frame draws in that order, so where depths tie the lower range wins in one
 /// channel as it does in compositing.
-Selection Renderer::Impl::selectPieces(const lod::View& view, double tauPixels,
+Selection Renderer::Impl::selectPieces(const lod::View& view, const fabric::FrameData& frameData,
                                        const fabric::ChannelTask& task,
                                        fabric::FrameStatistics& statistics) {
     Selection selection;
     std::vector<OrderedPiece>& pieces = selection.pieces;
-    const fabric::Frustum channel = lod::subFrustum(view, task.pixelViewport);
+    const fabric::Look& look = frameData.look;
+    const fabric::Frustum channel = lod::subFrustum(view, reach(frameData, task.pixelViewport));
+    // A cut that was frozen is brought whole: this view may see all of it.
+    const lod::View cutView =
+        look.cutCamera ? lod::View(*look.cutCamera, task.viewWidth, task.viewHeight) : view;
+    const fabric::Frustum& cutChannel = look.cutCamera ? cutView.frustum : channel;
     for (std::uint32_t i = 0; i < objects_.size(); ++i) {
-        const lod::ObjectView objectView(view, objects_[i].worldFromObject);
+        const fabric::Mat4 worldFromObject = drawnWorldFromObject(objects_[i].object, look);
+        const lod::ObjectView objectView(view, worldFromObject);
+        const lod::ObjectView cutObjectView(cutView, worldFromObject);
         const draw::Cut cut = objects_[i].drawable->selectCut(
-            {objectView, channel, task.range, tauPixels, task.completeness});
+            {cutObjectView, cutChannel, task.range, frameData.tauPixels, task.completeness,
+             look.exaggeration, look.pageBounds});
         addTo(statistics, cut);
         for (const draw::Piece& piece : cut.pieces) {
             if (!task.range.contains(piece.rangePosition) ||
@@ -188,6 +230,8 @@ Selection Renderer::Impl::selectPieces(const lod::View& view, double tauPixels,
         return a.piece.rangePosition < b.piece.rangePosition;
     });
     selection.covered = intersection(selection.covered, task.pixelViewport);
+    if (look.cutCamera)
+        statistics.tauAchievedPixels = std::numeric_limits<double>::infinity();
     return selection;
 }
 
@@ -203,7 +247,8 @@ absl::Status Renderer::Impl::drawPieces(const std::vector<OrderedPiece>& pieces,
         RETURN_IF_ERROR(objects_[pieces[i].object].drawable->draw(run, frame, statistics));
         run.clear();
     }
-    statistics.nodes = pieces.size();
+    statistics.nodes = static_cast<std::uint64_t>(std::count_if(
+        pieces.begin(), pieces.end(), [](const auto& ordered) { return ordered.piece.isNode; }));
     return absl::OkStatus();
 }
 
@@ -220,13 +265,14 @@ absl::StatusOr<fabric::ChannelResult> Renderer::Impl::render(const fabric::Frame
     meshPrograms_.reloadChanged(start);
 
     const lod::View view(frameData.camera, task.viewWidth, task.viewHeight);
-    const Selection selection = selectPieces(view, frameData.tauPixels, task, statistics);
+    const Selection selection = selectPieces(view, frameData, task, statistics);
     statistics.milliseconds.cull = millisecondsSince(start);
 
     const auto drawStart = Clock::now();
     RETURN_IF_ERROR(framebuffer_.resize(task.viewWidth, task.viewHeight));
     framebuffer_.begin(task.viewWidth, task.viewHeight, selection.covered, scene_->background);
-    RETURN_IF_ERROR(drawPieces(selection.pieces, {view, *scene_, frameData.shading}, statistics));
+    RETURN_IF_ERROR(drawPieces(selection.pieces, {view, *scene_, frameData.shading, frameData.look},
+                               statistics));
     glFinish();
     statistics.milliseconds.draw = millisecondsSince(drawStart);
 

@@ -16,6 +16,7 @@ namespace {
 
 absl::Status check(const FrameRequest& request) {
     RETURN_IF_ERROR(fabric::validate(request.camera));
+    RETURN_IF_ERROR(fabric::validate(request.look));
     const auto [shorter, longer] = std::minmax(request.width, request.height);
     if (shorter < 1 || longer > fabric::kMaxViewPixels)
         return absl::InvalidArgumentError(
@@ -82,7 +83,7 @@ absl::StatusOr<std::vector<Dispatch::Drawn>> FramePipeline::draw(const FrameRequ
 
 const fabric::FrameData& FramePipeline::frameDataFor(const FrameRequest& request) {
     const fabric::FrameData asked{frameData_.version, request.camera, request.tauPixels,
-                                  request.shading};
+                                  request.shading, request.look};
     if (frameData_.version == 0 || asked != frameData_) {
         frameData_ = asked;
         ++frameData_.version;

@@ -21,6 +21,7 @@ struct FrameRequest {
     fabric::Camera camera;
     double tauPixels = 1;
     fabric::Shading shading = fabric::Shading::Smooth;
+    fabric::Look look = {};
     int width = 1280;  ///< pixels, 1 to fabric::kMaxViewPixels
     int height = 720;
     bool wantsDepth = false;

@@ -25,7 +25,12 @@ struct Picture {
     ViewRequest view;
     std::shared_ptr<const coordinator::RenderedFrame> frame;
     Clock::time_point started;
+    std::optional<fabric::Camera> liftedCamera;  ///< shown where the view's would be under ground
 };
+
+bool isSame(const ViewRequest& a, const ViewRequest& b) {
+    return a.frame == b.frame && a.isUnderground == b.isUnderground;
+}
 
 /// What must be equal for a picture to be still right.
 struct PictureSource {
@@ -115,7 +120,7 @@ private:
     // ---- With mutex_ held.
 
     void want(const ViewRequest& view) {
-        const bool isOther = !wanted_.has_value() || !(wanted_->frame == view.frame);
+        const bool isOther = !wanted_.has_value() || !isSame(*wanted_, view);
         wanted_ = view;
         setProblem(requestProblem_, "");
         if (!isOther)
@@ -159,7 +164,7 @@ private:
     /// The last picture shows the view that is wanted, and was sent as a moving one.
     bool needsStill() const {
         return last_.has_value() && !isLastStill_ && !isRenderNeeded_ && !isLoading_ &&
-               !isRendering_ && !rendered_.has_value() && last_->view.frame == wanted_->frame;
+               !isRendering_ && !rendered_.has_value() && isSame(last_->view, *wanted_);
     }
 
     /// Waits for a change, or until `deadline` if there is one.
@@ -192,27 +197,39 @@ private:
 
     void renderOne(std::unique_lock<std::mutex>& lock) {
         const ViewRequest view = *wanted_;
+        const coordinator::FrameRequest request = requestFor(view);
         const Clock::time_point started = Clock::now();
         isRenderNeeded_ = false;
         redrawAt_.reset();
         isRendering_ = true;
         lock.unlock();
-        absl::StatusOr<coordinator::RenderedFrame> frame = frames_.renderFrame(view.frame);
+        absl::StatusOr<coordinator::RenderedFrame> frame = frames_.renderFrame(request);
         lock.lock();
         isRendering_ = false;
         if (frame.ok()) {
             pacer_.rendered(Clock::now() - started);
             setProblem(renderProblem_, "");
             retryAt_.reset();
-            if (view.frame == wanted_->frame)
+            if (isSame(view, *wanted_))
                 redrawUnlessComplete(frame->statistics);
             rendered_ =
                 Picture{view, std::make_shared<const coordinator::RenderedFrame>(*std::move(frame)),
-                        started};
+                        started, std::nullopt};
+            if (!(request.camera == view.frame.camera))
+                rendered_->liftedCamera = request.camera;
         } else {
             renderFailed(frame.status());
         }
         changed_.notify_all();
+    }
+
+    /// The view with its eye lifted out of the ground, unless it may be there.
+    coordinator::FrameRequest requestFor(const ViewRequest& view) const {
+        coordinator::FrameRequest request = view.frame;
+        if (source_.has_value() && source_->sceneInfo.ground && !view.isUnderground)
+            request.camera = fabric::aboveGround(request.camera, *source_->sceneInfo.ground,
+                                                 request.look.exaggeration);
+        return request;
     }
 
     void redrawUnlessComplete(const fabric::FrameStatistics& statistics) {
@@ -240,7 +257,7 @@ private:
             else if (rendered_.has_value())
                 encode(lock, *std::exchange(rendered_, std::nullopt));
             else if (needsStill() && hasRested() && hasRoom())
-                encode(lock, Picture{last_->view, last_->frame, Clock::now()});
+                encode(lock, Picture{last_->view, last_->frame, Clock::now(), last_->liftedCamera});
             else
                 waitForChange(lock, needsStill() && hasRoom()
                                         ? std::optional(wantedSince_ + options_.restDelay)
@@ -250,7 +267,7 @@ private:
 
     void encode(std::unique_lock<std::mutex>& lock, Picture picture) {
         const bool isStill =
-            hasRested() && picture.view.frame == wanted_->frame && !isRenderNeeded_ && !isLoading_;
+            hasRested() && isSame(picture.view, *wanted_) && !isRenderNeeded_ && !isLoading_;
         const std::uint64_t frameNumber = ++lastFrameNumber_;
         isEncoding_ = true;
         lock.unlock();
@@ -259,8 +276,9 @@ private:
             isStill ? wire::ChromaSubsampling::None : wire::ChromaSubsampling::Half);
         std::string message;
         if (jpeg.ok())
-            message =
-                frameMessage({frameNumber, picture.view.sequence, isStill, *jpeg}, *picture.frame);
+            message = frameMessage(
+                {frameNumber, picture.view.sequence, isStill, *jpeg, picture.liftedCamera},
+                *picture.frame);
         lock.lock();
         isEncoding_ = false;
         isLastStill_ = isStill || !jpeg.ok();
@@ -286,7 +304,10 @@ private:
                                                                         : ownProblem);
         PictureSource source = pictureSource(status);
         lock.lock();
-        if (source_.has_value() && !(*source_ == source) && wanted_.has_value()) {
+        // A view that came before the first state was drawn without knowing the ground.
+        const bool isOther =
+            source_.has_value() ? !(*source_ == source) : source.sceneInfo.ground != nullptr;
+        if (isOther && wanted_.has_value()) {
             isRenderNeeded_ = true;
             retryAt_.reset();
         }

@@ -5,6 +5,7 @@
 
 #include "coordinator/stream/home_camera.h"
 #include "eyrie/v1/frame.pb.h"
+#include "eyrie/v1/look.pb.h"
 #include "eyrie/v1/viewer.pb.h"
 #include "fabric/status.h"
 #include "wire/camera.h"
@@ -18,17 +19,20 @@ namespace {
 constexpr std::size_t kMaxProblemBytes = 400;
 
 absl::StatusOr<ViewRequest> viewFromMessage(const v1::ViewRequest& message) {
-    v1::FrameData look;
-    look.set_version(1);
-    *look.mutable_camera() = message.camera();
-    look.set_tau_pixels(message.tau_pixels());
-    look.set_shading(message.shading());
-    ASSIGN_OR_RETURN(const fabric::FrameData frameData, wire::fromMessage(look));
+    v1::FrameData data;
+    data.set_version(1);
+    *data.mutable_camera() = message.camera();
+    data.set_tau_pixels(message.tau_pixels());
+    data.set_shading(message.shading());
+    *data.mutable_look() = message.look();
+    ASSIGN_OR_RETURN(const fabric::FrameData frameData, wire::fromMessage(data));
     ViewRequest view;
     view.sequence = message.sequence();
     view.frame.camera = frameData.camera;
     view.frame.tauPixels = frameData.tauPixels;
     view.frame.shading = frameData.shading;
+    view.frame.look = frameData.look;
+    view.isUnderground = message.underground();
     view.frame.completeness = fabric::Completeness::Interactive;
     view.frame.width = std::clamp(message.width(), kMinPictureSide, kMaxPictureSide);
     view.frame.height = std::clamp(message.height(), kMinPictureSide, kMaxPictureSide);
@@ -107,6 +111,8 @@ std::string frameMessage(const EncodedFrame& encoded, const coordinator::Rendere
     frame.mutable_statistics()->set_width(rendered.image.area.width);
     frame.mutable_statistics()->set_height(rendered.image.area.height);
     *frame.mutable_statistics()->mutable_renderer() = wire::toMessage(rendered.device);
+    if (encoded.liftedCamera)
+        *frame.mutable_lifted_camera() = wire::toMessage(*encoded.liftedCamera);
     return response.SerializeAsString();
 }
 

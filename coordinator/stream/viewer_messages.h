@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,6 +20,7 @@ namespace eyrie::stream {
 struct ViewRequest {
     std::uint64_t sequence = 0;
     coordinator::FrameRequest frame;
+    bool isUnderground = false;  ///< the camera may be under ground
 };
 
 struct FrameAck {
@@ -41,6 +43,7 @@ struct EncodedFrame {
     std::uint64_t viewSequence = 0;
     bool isStill = false;
     std::span<const std::byte> jpeg;
+    std::optional<fabric::Camera> liftedCamera = {};  ///< shown in place of the one asked for
 };
 
 /// A ViewerResponse with a Frame: `encoded` of what `rendered` shows.

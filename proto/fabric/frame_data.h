@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "fabric/camera.h"
+#include "fabric/look.h"
 
 namespace eyrie::fabric {
 
@@ -17,6 +18,7 @@ struct FrameData {
     Camera camera;
     double tauPixels = 1;  ///< screen-space error asked for; 0.01 to 1000
     Shading shading = Shading::Smooth;
+    Look look = {};
 
     bool operator==(const FrameData&) const = default;
 };

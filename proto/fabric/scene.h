@@ -2,12 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include <absl/status/status.h>
 
 #include "fabric/box.h"
+#include "fabric/ground.h"
 #include "fabric/image.h"
 #include "fabric/vec.h"
 
@@ -56,8 +58,13 @@ struct SceneInfo {
     Box bounds;                   ///< world space, metres
     std::uint64_t triangles = 0;  ///< at full resolution
     std::uint64_t bytes = 0;      ///< of all files
+    /// One for each terrain, at most kMaxGroundCells together; null where there is none.
+    std::shared_ptr<const std::vector<GroundGrid>> ground = {};
 
-    bool operator==(const SceneInfo&) const = default;
+    bool operator==(const SceneInfo& other) const {
+        return bounds == other.bounds && triangles == other.triangles && bytes == other.bytes &&
+               (ground == other.ground || (ground && other.ground && *ground == *other.ground));
+    }
 };
 
 }  // namespace eyrie::fabric

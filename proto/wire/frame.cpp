@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include "eyrie/v1/frame.pb.h"
+#include "eyrie/v1/look.pb.h"
 #include "fabric/status.h"
 #include "wire/camera.h"
+#include "wire/look.h"
 
 namespace eyrie::wire {
 namespace {
@@ -72,6 +74,7 @@ v1::FrameData toMessage(const fabric::FrameData& frameData) {
     *message.mutable_camera() = toMessage(frameData.camera);
     message.set_tau_pixels(frameData.tauPixels);
     message.set_shading(toMessage(frameData.shading));
+    *message.mutable_look() = toMessage(frameData.look);
     return message;
 }
 
@@ -88,6 +91,7 @@ absl::StatusOr<fabric::FrameData> fromMessage(const v1::FrameData& message) {
             fmt::format("frame_data.tau_pixels is {}; it must be from {} to {}",
                         frameData.tauPixels, fabric::kMinTauPixels, fabric::kMaxTauPixels));
     ASSIGN_OR_RETURN(frameData.shading, fromMessage(message.shading()));
+    ASSIGN_OR_RETURN(frameData.look, fromMessage(message.look()));
     return frameData;
 }
 

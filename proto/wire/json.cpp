@@ -10,10 +10,12 @@
 
 #include "eyrie/v1/camera.pb.h"
 #include "eyrie/v1/flight.pb.h"
+#include "eyrie/v1/look.pb.h"
 #include "eyrie/v1/scene.pb.h"
 #include "fabric/status.h"
 #include "wire/camera.h"
 #include "wire/flight.h"
+#include "wire/look.h"
 
 namespace eyrie::wire {
 namespace {
@@ -85,6 +87,15 @@ absl::StatusOr<fabric::Flight> flightFromJson(std::string_view text, std::string
     if (!flight.ok())
         return fabric::withContext(flight.status(), name);
     return flight;
+}
+
+absl::StatusOr<fabric::Look> lookFromJson(std::string_view text, std::string_view name) {
+    v1::Look message;
+    RETURN_IF_ERROR(parse(text, name, "look", message));
+    absl::StatusOr<fabric::Look> look = fromMessage(message);
+    if (!look.ok())
+        return fabric::withContext(look.status(), name);
+    return look;
 }
 
 std::string toJson(const google::protobuf::Message& message) {

@@ -8,6 +8,7 @@
 
 #include "fabric/camera.h"
 #include "fabric/flight.h"
+#include "fabric/look.h"
 #include "fabric/statistics.h"
 
 namespace google::protobuf {
@@ -30,6 +31,9 @@ absl::StatusOr<fabric::Camera> cameraFromJson(std::string_view text, std::string
 
 /// A flight file: {"keys":[{"seconds":0,"camera":{...}},...]}.
 absl::StatusOr<fabric::Flight> flightFromJson(std::string_view text, std::string_view name);
+
+/// A look file: {"exaggeration":2,"contours":{"intervalMetres":100}}.
+absl::StatusOr<fabric::Look> lookFromJson(std::string_view text, std::string_view name);
 
 /// Indented protobuf JSON. 64-bit integers become strings and infinity "Infinity", as protobuf has
 /// it.

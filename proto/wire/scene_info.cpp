@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "wire/scene_info.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
+#include <glm/matrix.hpp>
 
 #include "eyrie/v1/geometry.pb.h"
 #include "eyrie/v1/render_service.pb.h"
 #include "fabric/status.h"
+#include "wire/numbers.h"
 
 namespace eyrie::wire {
 namespace {
@@ -16,6 +22,55 @@ void setVector(const fabric::Vec3& value, v1::Vector3& message) {
     message.set_x(value.x);
     message.set_y(value.y);
     message.set_z(value.z);
+}
+
+v1::GroundGrid toMessage(const fabric::GroundGrid& grid) {
+    v1::GroundGrid message;
+    for (int row = 0; row < 4; ++row)
+        for (int column = 0; column < 4; ++column)
+            message.add_world_from_grid(grid.worldFromGrid[column][row]);
+    message.set_columns(grid.columns);
+    message.set_rows(grid.rows);
+    message.mutable_highest()->Add(grid.highest.begin(), grid.highest.end());
+    message.set_lowest(grid.lowest);
+    return message;
+}
+
+absl::Status checkCells(const v1::GroundGrid& message) {
+    const std::int64_t cells = std::int64_t{message.columns()} * message.rows();
+    if (message.columns() < 1 || message.rows() < 1 || cells > fabric::kMaxGroundCells ||
+        cells != message.highest_size())
+        return absl::InvalidArgumentError(fmt::format(
+            "ground.highest has {} numbers for {} x {} cells; it must have one a cell, and at most "
+            "{}",
+            message.highest_size(), message.columns(), message.rows(), fabric::kMaxGroundCells));
+    const auto isHeight = [&](float height) {
+        return std::isfinite(height) && height >= message.lowest();
+    };
+    if (!std::isfinite(message.lowest()) ||
+        !std::all_of(message.highest().begin(), message.highest().end(), isHeight))
+        return absl::InvalidArgumentError(
+            fmt::format("ground.highest has a height that is not finite or below ground.lowest, {}",
+                        message.lowest()));
+    return absl::OkStatus();
+}
+
+absl::StatusOr<fabric::GroundGrid> fromMessage(const v1::GroundGrid& message) {
+    RETURN_IF_ERROR(checkNumbers(message.world_from_grid(), 16, "ground.world_from_grid"));
+    RETURN_IF_ERROR(checkCells(message));
+    fabric::GroundGrid grid;
+    for (int row = 0; row < 4; ++row)
+        for (int column = 0; column < 4; ++column)
+            grid.worldFromGrid[column][row] = message.world_from_grid(4 * row + column);
+    const double determinant = glm::determinant(fabric::Mat3(grid.worldFromGrid));
+    if (!std::isfinite(determinant) || determinant == 0)
+        return absl::InvalidArgumentError(
+            "ground.world_from_grid is singular; it must have an inverse");
+    grid.columns = message.columns();
+    grid.rows = message.rows();
+    grid.highest.assign(message.highest().begin(), message.highest().end());
+    grid.lowest = message.lowest();
+    return grid;
 }
 
 }  // namespace
@@ -44,6 +99,8 @@ v1::OpenSceneResponse toMessage(const fabric::SceneInfo& info) {
         *message.mutable_bounds() = toMessage(info.bounds);
     message.set_triangles(info.triangles);
     message.set_bytes(info.bytes);
+    if (info.ground)
+        for (const fabric::GroundGrid& grid : *info.ground) *message.add_ground() = toMessage(grid);
     return message;
 }
 
@@ -54,6 +111,13 @@ absl::StatusOr<fabric::SceneInfo> fromMessage(const v1::OpenSceneResponse& messa
     }
     info.triangles = message.triangles();
     info.bytes = message.bytes();
+    std::vector<fabric::GroundGrid> ground;
+    for (const v1::GroundGrid& one : message.ground()) {
+        ASSIGN_OR_RETURN(fabric::GroundGrid grid, fromMessage(one));
+        ground.push_back(std::move(grid));
+    }
+    if (!ground.empty())
+        info.ground = std::make_shared<const std::vector<fabric::GroundGrid>>(std::move(ground));
     return info;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "fabric/channel_task.h"
 #include "fabric/frame_data.h"
 #include "fabric/frustum.h"
+#include "fabric/ground.h"
 #include "fabric/scene.h"
 #include "fabric/statistics.h"
 #include "renderer/lod/view.h"
@@ -22,6 +24,7 @@ struct Piece {
     std::uint32_t index = 0;   ///< the drawable's own name for it, valid until the next cut
     double rangePosition = 0;  ///< where it starts in the drawable's share [0, 1) of the data
     fabric::Box bounds;        ///< object space, metres
+    bool isNode = true;        ///< false for what is drawn beside the nodes
 };
 
 /// What part of which view a channel draws, and how well.
@@ -31,6 +34,8 @@ struct CutRequest {
     fabric::Range range;             ///< the share of the view's pieces that it draws
     double tauPixels = 1;
     fabric::Completeness completeness = fabric::Completeness::Complete;
+    double exaggeration = 1;       ///< of terrain; `view` holds it already
+    bool wantsPageBounds = false;  ///< pieces for them, beside the nodes
 };
 
 /// What a drawable shows of itself in one channel.
@@ -55,6 +60,7 @@ struct FrameState {
     const lod::View& view;
     const fabric::Scene& scene;
     fabric::Shading shading;
+    const fabric::Look& look;
 };
 
 /// One object of the scene, on the GL thread.
@@ -81,6 +87,11 @@ public:
     virtual void trim() {}
 
     virtual MemoryUse memory() const { return {}; }
+
+    /// How high it reaches, if it is terrain, in at most `maxCells` cells.
+    virtual std::optional<fabric::GroundGrid> ground(int /*maxCells*/) const {
+        return std::nullopt;
+    }
 };
 
 }  // namespace eyrie::draw

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/draw/terrain_draw.h"
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <utility>
 
 #include "fabric/status.h"
+#include "renderer/draw/box_lines.h"
 #include "renderer/draw/needed_tiles.h"
 #include "renderer/draw/object_program.h"
+#include "renderer/draw/page_bounds.h"
+#include "renderer/draw/terrain_ground.h"
+#include "renderer/draw/terrain_look.h"
 #include "renderer/draw/terrain_prefetch.h"
 #include "renderer/draw/terrain_tiles.h"
 #include "renderer/gl/object.h"
@@ -21,17 +26,19 @@ namespace {
 
 using effects::TerrainEffect;
 
-constexpr double kElevationBands = 5;  ///< of effects/terrain.effect
+constexpr glm::vec3 kPageColour(1.0F, 0.9F, 0.3F);  ///< of the bounds of pages; linear
+constexpr double kElevationBands = 5;               ///< of effects/terrain.effect
 
 /// What decides which step of the ladder fits.
 struct SettledView {
-    SettledView(const lod::View& view, double tau, double shareOfRange)
+    SettledView(const lod::View& view, double tau, double shareOfRange, double timesHeight)
         : eye(view.eye),
           rotation(view.viewFromWorldRotation),
           frustum(view.frustum),
           height(view.height),
           tauPixels(tau),
-          share(shareOfRange) {}
+          share(shareOfRange),
+          exaggeration(timesHeight) {}
 
     fabric::Vec3 eye;
     fabric::Mat3 rotation;
@@ -39,6 +46,7 @@ struct SettledView {
     int height;
     double tauPixels;
     double share;
+    double exaggeration;
 
     bool operator==(const SettledView&) const = default;
 };
@@ -54,7 +62,8 @@ public:
           bounds_(index().bounds()),
           triangles_(index().triangles()),
           needed_(index()),
-          prefetch_(index(), object.worldFromObject),
+          prefetch_(index()),
+          look_(index()),
           paging_(std::move(paging)) {
         TerrainEffect::kPackedVertexFromUint32x1.define(shortVertices_);
         TerrainEffect::kPackedVertexFromUint32x2.define(longVertices_);
@@ -68,10 +77,14 @@ public:
     absl::Status draw(std::span<const Piece> pieces, const FrameState& frame,
                       fabric::FrameStatistics& statistics) override;
     MemoryUse memory() const override { return paging_->memory(); }
+    std::optional<fabric::GroundGrid> ground(int maxCells) const override {
+        return groundOf(index(), worldFromObject_, maxCells);
+    }
 
 private:
     const terrain::EytIndex& index() const { return file_->index(); }
-    void use(const TerrainEffect& program, const FrameState& frame) const;
+    void use(const TerrainEffect& program, const FrameState& frame);
+    void addPageBounds(const terrain::TerrainCut& wanted, std::vector<Piece>& pieces) const;
     /// What a view wants at one step of the ladder.
     struct Wanted {
         terrain::Refinement refinement;
@@ -94,6 +107,8 @@ private:
     gl::VertexArray longVertices_;   ///< two words
     NeededTiles needed_;
     TerrainPrefetch prefetch_;
+    TerrainLook look_;
+    BoxLines boxLines_;
     std::unique_ptr<TerrainPaging> paging_;
     page::TauLadder ladder_;
     std::optional<SettledView> last_;
@@ -133,7 +148,7 @@ page::TauLadder::Choice TerrainDrawable::chooseStep(const CutRequest& request) {
         return static_cast<std::uint64_t>(share *
                                           static_cast<double>(wantedAt(step, request).bytes));
     };
-    const SettledView view(request.view.view(), request.tauPixels, share);
+    const SettledView view(request.view.view(), request.tauPixels, share, request.exaggeration);
     if (settled_ == view)
         return {ladder_.step(), true};
     const bool isRepeated = last_ == view;
@@ -151,7 +166,8 @@ Cut TerrainDrawable::selectCut(const CutRequest& request) {
     const page::TauLadder::Choice choice = chooseStep(request);
     const Wanted& wanted = wantedAt(choice.step, request);
     needed_.assign(wanted.cut, request);
-    prefetch_.follow(request.view.view());
+    prefetch_.follow(request.view.view(),
+                     fabric::exaggerated(worldFromObject_, request.exaggeration));
     const double tauPixels = request.tauPixels * page::TauLadder::factor(choice.step);
     const TerrainPaging::Result result =
         request.completeness == fabric::Completeness::Complete
@@ -172,15 +188,28 @@ Cut TerrainDrawable::selectCut(const CutRequest& request) {
         if (needed_.contains(choices_[i].id))
             cut.pieces.push_back(
                 {i, needed_.position(choices_[i].id), index().bounds(choices_[i].id)});
+    if (request.wantsPageBounds)
+        addPageBounds(wanted.cut, cut.pieces);
     return cut;
 }
 
-void TerrainDrawable::use(const TerrainEffect& program, const FrameState& frame) const {
+void TerrainDrawable::addPageBounds(const terrain::TerrainCut& wanted,
+                                    std::vector<Piece>& pieces) const {
+    const std::vector<Piece> pages = pagePieces(index(), wanted);
+    pieces.insert(pieces.end(), pages.begin(), pages.end());
+    std::stable_sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) {
+        return a.rangePosition < b.rangePosition;
+    });
+}
+
+void TerrainDrawable::use(const TerrainEffect& program, const FrameState& frame) {
     const double step = index().heightStepMetres();
     const double lowest = (bounds_.min.z - index().heightOriginMetres()) / step;
     const double heights = std::max((bounds_.max.z - bounds_.min.z) / step, 1.0);
     program.use();
-    setObject(program, frame, worldFromObject_, index().objectFromLattice);
+    setObject(program, frame, fabric::exaggerated(worldFromObject_, frame.look.exaggeration),
+              index().objectFromLattice);
+    look_.use(program, worldFromObject_, frame.look);
     program.lastPost({index().quadtree.columns() - 1, index().quadtree.rows() - 1});
     program.lowestHeight(static_cast<float>(lowest));
     program.bandsPerHeight(static_cast<float>(kElevationBands / heights));
@@ -211,37 +240,54 @@ std::uint64_t TerrainDrawable::drawTile(const TerrainEffect& program,
     packedVertex.source(array, tile.buffer, 0);
     glVertexArrayElementBuffer(array.id(), tile.buffer.id());
 
+    // Parts that follow each other are drawn as one: without finer neighbours, all of the tile.
     std::array<GLsizei, 1 + terrain::kEdges> counts{};
     std::array<const void*, 1 + terrain::kEdges> offsets{};
-    GLsizei parts = 0;
+    GLsizei runs = 0;
+    std::uint32_t end = 0;  // of the last run
     std::uint64_t indices = 0;
     const auto add = [&](int part) {
         const terrain::IndexRange& range = tile.parts[static_cast<std::size_t>(part)];
         if (range.count == 0)
             return;
-        const auto at = static_cast<std::size_t>(parts++);
-        counts[at] = static_cast<GLsizei>(range.count);
-        offsets[at] = reinterpret_cast<const void*>(tile.indexOffset +
-                                                    static_cast<GLintptr>(range.first) * 2);
+        if (runs == 0 || range.first != end)
+            offsets[static_cast<std::size_t>(runs++)] = reinterpret_cast<const void*>(
+                tile.indexOffset + static_cast<GLintptr>(range.first) * 2);
+        counts[static_cast<std::size_t>(runs - 1)] += static_cast<GLsizei>(range.count);
+        end = range.first + range.count;
         indices += range.count;
     };
     add(terrain::kInteriorPart);
     for (int edge = 0; edge < terrain::kEdges; ++edge)
         add(((choice.finerEdges >> edge & 1) != 0 ? terrain::kFinerPart : terrain::kOwnPart) +
             edge);
-    glMultiDrawElements(GL_TRIANGLES, counts.data(), GL_UNSIGNED_SHORT, offsets.data(), parts);
+    glMultiDrawElements(GL_TRIANGLES, counts.data(), GL_UNSIGNED_SHORT, offsets.data(), runs);
     return indices / 3;
 }
 
 absl::Status TerrainDrawable::draw(std::span<const Piece> pieces, const FrameState& frame,
                                    fabric::FrameStatistics& statistics) {
     ASSIGN_OR_RETURN(const TerrainEffect* program,
-                     programs_.find(variantFor(frame, worldFromObject_)));
+                     programs_.find(TerrainLook::variantFor(frame, worldFromObject_)));
     use(*program, frame);
+    if (frame.look.tileBounds || frame.look.pageBounds)
+        RETURN_IF_ERROR(boxLines_.begin(
+            frame.view, fabric::exaggerated(worldFromObject_, frame.look.exaggeration)));
     for (const Piece& piece : pieces) {
+        if (!piece.isNode) {
+            boxLines_.draw(piece.bounds, kPageColour);
+            continue;
+        }
         const terrain::TileChoice& choice = choices_[piece.index];
+        if (frame.look.tileBounds || frame.look.pageBounds)
+            program->use();  // again after a box
+        if (frame.look.levelTint)
+            program->levelColour(levelColour(choice.id.level));
         useNormals(*program, choice.id);
         statistics.triangles += drawTile(*program, choice, *paging_->tile(choice.id));
+        // At once, so that where depths tie the lower range wins as in compositing.
+        if (frame.look.tileBounds)
+            boxLines_.draw(piece.bounds, levelColour(choice.id.level));
     }
     return absl::OkStatus();
 }

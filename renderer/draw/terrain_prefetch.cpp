@@ -23,19 +23,16 @@ constexpr duration<double> kFurthestAhead{1.0};
 
 }  // namespace
 
-TerrainPrefetch::TerrainPrefetch(const terrain::EytIndex& index,
-                                 const fabric::Mat4& worldFromObject)
-    : index_(index), objectFromWorld_(glm::inverse(worldFromObject)) {}
-
-void TerrainPrefetch::follow(const lod::View& view) {
-    const Vec3 eye(objectFromWorld_ * fabric::Vec4(view.eye, 1.0));
+void TerrainPrefetch::follow(const lod::View& view, const fabric::Mat4& worldFromObject) {
+    const fabric::Mat4 objectFromWorld = glm::inverse(worldFromObject);
+    const Vec3 eye(objectFromWorld * fabric::Vec4(view.eye, 1.0));
     const Clock::time_point now = Clock::now();
     const duration<double> step = now - time_;
     const bool tells = step < kLongestStep && step > duration<double>(0);
     metresASecond_ = tells ? (eye - eye_) / step.count() : Vec3(0);
     eye_ = eye;
     time_ = now;
-    forward_ = glm::normalize(fabric::Mat3(objectFromWorld_) *
+    forward_ = glm::normalize(fabric::Mat3(objectFromWorld) *
                               (glm::transpose(view.viewFromWorldRotation) * Vec3(0, 0, -1)));
     focalPixels_ = view.focalPixels;
 }

@@ -16,10 +16,11 @@ namespace eyrie::draw {
 /// loaded. The radius of a tile of error e is e * focal / tau.
 class TerrainPrefetch {
 public:
-    TerrainPrefetch(const terrain::EytIndex& index, const fabric::Mat4& worldFromObject);
+    explicit TerrainPrefetch(const terrain::EytIndex& index) : index_(index) {}
 
-    /// The camera of this frame; with the one before it tells the motion.
-    void follow(const lod::View& view);
+    /// The camera of this frame and how the terrain is drawn in it; with the one before it tells
+    /// the motion.
+    void follow(const lod::View& view, const fabric::Mat4& worldFromObject);
 
     /// The most likely first: coarse levels, then those nearest the direction of view. `latency` is
     /// how far ahead to look.
@@ -38,7 +39,6 @@ private:
                         double focalOverTau) const;
 
     const terrain::EytIndex& index_;
-    fabric::Mat4 objectFromWorld_;
     fabric::Vec3 eye_{0};            ///< object space
     fabric::Vec3 metresASecond_{0};  ///< object space
     fabric::Vec3 forward_{0, 0, -1};

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <cstdio>
 #include <iostream>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -48,6 +50,8 @@ coordinator::RenderedFrame draw(const coordinator::FrameRequest& request) {
                                    (y - request.height / 2 + 0.5) * pixel, -1};
             frame.image.colour[i++] = colourAlong(camera.eye, worldFromView * ray);
         }
+    if (request.look.saturation == 0)
+        for (fabric::Rgba& one : frame.image.colour) one.r = one.b = one.g;
     // As renderers do: half the error costs four times the triangles, and the data end somewhere.
     frame.statistics.tauAchievedPixels = std::max(0.5, request.tauPixels * 0.9);
     frame.statistics.triangles = std::min<std::uint64_t>(
@@ -59,6 +63,12 @@ coordinator::RenderedFrame draw(const coordinator::FrameRequest& request) {
 coordinator::Status statusWith(bool hasRenderer) {
     coordinator::Status status = coordinator::readyStatus();
     status.renderers[0].device.renderer = "made-up pictures (no renderer)";
+    fabric::GroundGrid plain;
+    plain.worldFromGrid[0].x = plain.worldFromGrid[1].y = 2000;
+    plain.worldFromGrid[3] = {-1000, -1000, 0, 1};
+    plain.columns = plain.rows = 1;
+    plain.highest = {0};
+    status.sceneInfo.ground = std::make_shared<const std::vector<fabric::GroundGrid>>(1, plain);
     if (!hasRenderer) {
         status.renderers.clear();
         status.problem = "No renderer has registered.";

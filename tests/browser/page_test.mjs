@@ -75,6 +75,42 @@ await run("page_test", async (browser, started) => {
   await page.locator(".hint", { hasText: "finest data drawn" }).waitFor();
   check(true, "an error that cannot be met is said so");
 
+  await page.locator("#saturation").fill("0");
+  await browser.settled();
+  await page.waitForFunction(() => window.eyrie.still);
+  const grey = await browser.picture();
+  const colourful = grey.filter((_, i) => i % 4 === 0 && Math.abs(grey[i] - grey[i + 1]) > 12);
+  check(colourful.length < grey.length / 400, "saturation takes the colour away");
+  await page.locator("#saturation").dblclick();
+
+  await page.getByLabel("Edited").check();
+  check(await page.locator(".strip").isVisible(), "editing colours shows a strip of them");
+  await page.getByText("Add colour").click();
+  check((await page.locator(".primitive:not(.names)").count()) === 7, "and a row for each");
+  await page.getByLabel("Tints").check();
+  check(await page.locator(".strip").isHidden(), "which goes with the editing");
+  await page.keyboard.press("c");
+  check(await page.getByText("every ").isVisible(), "C draws contour lines");
+
+  await page.keyboard.press("x");
+  await page.locator(".hint", { hasText: "nothing is promised" }).waitFor();
+  check(true, "a frozen cut is said to promise nothing");
+  await page.keyboard.press("x");
+
+  await browser.drag(0, -400);
+  await browser.settled();
+  await page.waitForFunction(() => window.eyrie.camera.eye[2] >= 2 - 1e-5);
+  check(true, "a camera led into the ground stays above it");
+  await page.keyboard.press("u");
+  await page.keyboard.press("r");
+  await browser.drag(0, -400);
+  await page.waitForFunction(() => window.eyrie.camera.eye[2] < 0);
+  check(true, "U lets it go below");
+  await page.keyboard.press("u");
+  await page.keyboard.press("r");
+  await browser.settled();
+  await page.locator("canvas#view").focus();
+
   await page.keyboard.press("h");
   check(await page.locator("#help").isVisible(), "H opens the sheet of controls");
   await page.keyboard.press("Escape");

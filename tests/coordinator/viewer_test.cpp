@@ -16,6 +16,7 @@
 #include "coordinator/stream/home_camera.h"
 #include "coordinator/stream/pacer.h"
 #include "coordinator/stream/viewer_messages.h"
+#include "eyrie/v1/look.pb.h"
 #include "eyrie/v1/viewer.pb.h"
 #include "tests/coordinator/fake_frame_source.h"
 #include "wire/jpeg.h"
@@ -347,6 +348,64 @@ TEST(Viewer, ClampsThePictureSize) {
     const auto frame = browser.nextFrame();
     EXPECT_EQ(frame->width(), kMinPictureSide);
     EXPECT_EQ(frame->height(), kMaxPictureSide);
+}
+
+/// A plateau of 100 m around the origin, under the cameras that viewMessage makes.
+coordinator::Status plateauStatus() {
+    fabric::GroundGrid plateau;
+    plateau.worldFromGrid[0] = {200, 0, 0, 0};
+    plateau.worldFromGrid[1] = {0, 200, 0, 0};
+    plateau.worldFromGrid[3] = {-100, -100, 0, 1};
+    plateau.columns = plateau.rows = 1;
+    plateau.highest = {100};
+    coordinator::Status status = coordinator::readyStatus();
+    status.sceneInfo.ground = std::make_shared<const std::vector<fabric::GroundGrid>>(1, plateau);
+    return status;
+}
+
+TEST(Viewer, LiftsACameraOutOfTheGroundAndSaysSo) {
+    FakeFrameSource frames;
+    frames.setStatus(plateauStatus());
+    Browser browser(frames, moving(2));
+    ASSERT_TRUE(browser.stateWhere([](const auto&) { return true; }));
+    browser.look(1);
+    const auto frame = browser.nextFrame();
+    ASSERT_TRUE(frame.has_value());
+    EXPECT_EQ(frames.requests().back().camera.eye.z, 102);
+    EXPECT_EQ(frames.requests().back().camera.eye.x, 1);
+    ASSERT_TRUE(frame->has_lifted_camera());
+    EXPECT_EQ(frame->lifted_camera().eye(2), 102);
+}
+
+TEST(Viewer, LetsACameraUnderGroundThatIsMeantToBeThere) {
+    FakeFrameSource frames;
+    frames.setStatus(plateauStatus());
+    Browser browser(frames, moving(2));
+    ASSERT_TRUE(browser.stateWhere([](const auto&) { return true; }));
+    v1::ViewerRequest request = viewMessage(1, 1);
+    request.mutable_view()->set_underground(true);
+    browser.send(request);
+    const auto frame = browser.nextFrame();
+    ASSERT_TRUE(frame.has_value());
+    EXPECT_FALSE(frame->has_lifted_camera());
+    EXPECT_EQ(frames.requests().back().camera.eye.z, 3);
+    browser.acknowledge(frame->frame_number());
+    request.mutable_view()->set_underground(false);
+    browser.send(request);
+    EXPECT_TRUE(browser.nextFrame()->has_lifted_camera()) << "the same view, above ground again";
+}
+
+TEST(Viewer, LeavesACameraAboveGroundAsItIs) {
+    FakeFrameSource frames;
+    frames.setStatus(plateauStatus());
+    Browser browser(frames, moving(2));
+    ASSERT_TRUE(browser.stateWhere([](const auto&) { return true; }));
+    v1::ViewerRequest request = viewMessage(1, 1);
+    request.mutable_view()->mutable_camera()->set_eye(2, 103);
+    request.mutable_view()->mutable_look()->set_exaggeration(-2);
+    browser.send(request);
+    EXPECT_FALSE(browser.nextFrame()->has_lifted_camera());
+    EXPECT_EQ(frames.requests().back().look.exaggeration, -2);
 }
 
 TEST(Viewer, CallsForeignBytesAProtocolError) {

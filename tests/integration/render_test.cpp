@@ -235,6 +235,36 @@ TEST_F(Render, ASceneFilePlacesItsObjectsRelativeToItself) {
     EXPECT_EQ(test::namesIn(cache.path("imports")).size(), 1U) << "the source's import is kept";
 }
 
+TEST_F(Render, ALookFileAndFlagsChangeHowTerrainIsShown) {
+    const Rendered plain = render("dem.eyt", terrainCamera());
+    folder_->write("look.json", R"({"exaggeration":3,"contours":{"intervalMetres":100}})");
+    const std::string look = path("look.json");
+    const Rendered lined =
+        render("dem.eyt", terrainCamera(), {"--look", look, "--exaggeration", "1"});
+    EXPECT_EQ(lined.depth.metres, plain.depth.metres) << "the flag goes before the file";
+    EXPECT_NE(lined.image.colour, plain.image.colour);
+    EXPECT_NE(render("dem.eyt", terrainCamera(), {"--look", look}).depth.metres,
+              plain.depth.metres);
+    EXPECT_NE(render("dem.eyt", terrainCamera(), {"--shading", "wireframe"}).image.colour,
+              plain.image.colour);
+}
+
+TEST_F(Render, ALookThatCannotBeIsRefusedByName) {
+    folder_->write("odd.json", R"({"saturation":9})");
+    const auto errors = [&](const std::string& option, const std::string& value) {
+        const test::Outcome outcome = eyrie({"render", path("dem.eyt"), "--camera", terrainCamera(),
+                                             option, value, "-o", path("never.png")});
+        EXPECT_EQ(outcome.exit, (test::Exit{2, 0}));
+        return outcome.errors;
+    };
+    EXPECT_NE(errors("--look", path("odd.json")).find("odd.json: look.saturation is 9; it must be"),
+              std::string::npos);
+    EXPECT_NE(errors("--exaggeration", "1e9").find("--exaggeration is 1000000000; expected -1000"),
+              std::string::npos);
+    EXPECT_NE(errors("--exaggeration", "nan").find("--exaggeration is nan; expected -1000"),
+              std::string::npos);
+}
+
 TEST_F(Render, WritesJpegByItsName) {
     ASSERT_TRUE(succeeded({"render", path("ball.eym"), "--camera", meshCamera(), "--size", "64x64",
                            "-o", path("out.jpg")}));

@@ -136,6 +136,46 @@ TEST_P(DecompositionTest, EveryDecompositionEqualsTheSingleChannelAtTwentyCamera
     EXPECT_GT(covered, 20U * kWidth * kHeight / 10) << "the cameras should see something";
 }
 
+struct NamedLook {
+    const char* name;
+    fabric::Look look;
+    fabric::Shading shading = fabric::Shading::Smooth;
+};
+
+std::vector<NamedLook> looks(const fabric::Camera& frozen) {
+    fabric::TransferFunction boxes;
+    boxes.primitives = {{fabric::PrimitiveShape::Box, 0.2, 0.1, {0.8, 0.1, 0.1}, 0.7},
+                        {fabric::PrimitiveShape::Smooth, 0.6, 0.4, {0.2, 0.4, 0.9}, 1}};
+    return {
+        {"transfer function and contours",
+         {.transfer = boxes, .contours = fabric::ContourLines{20, 1.5}}},
+        {"adjusted", {.slopeShading = 0.2, .saturation = 1.7, .levelTint = true}},
+        {"wireframe", {}, fabric::Shading::Wireframe},
+        {"bounds", {.tileBounds = true, .pageBounds = true}},
+        {"bounds of a wireframe, upside down",
+         {.exaggeration = -1, .tileBounds = true, .pageBounds = true},
+         fabric::Shading::Wireframe},
+        {"flat", {.exaggeration = 0, .contours = fabric::ContourLines{50, 2}}},
+        {"thin", {.exaggeration = 1e-3}},
+        {"steep, one normal a triangle", {.exaggeration = 10}, fabric::Shading::Flat},
+        {"very steep", {.exaggeration = 100}},
+        {"frozen", {.tileBounds = true, .pageBounds = true, .cutCamera = frozen}},
+    };
+}
+
+TEST_P(DecompositionTest, EveryLookDecomposesAlike) {
+    std::mt19937 random(kSeed);
+    const fabric::Camera frozen = randomFrame(random, info_.bounds).camera;
+    for (const NamedLook& one : looks(frozen)) {
+        FrameData frame = randomFrame(random, info_.bounds);
+        frame.look = one.look;
+        frame.shading = one.shading;
+        const Image expected = single(frame);
+        expectEqual(expected, sortFirst(frame, 3), std::string(one.name) + ", 2D over 3");
+        expectEqual(expected, sortLast(frame, 3), std::string(one.name) + ", DB over 3");
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Scenes, DecompositionTest,
                          testing::Values(test::SampleKind::Mesh, test::SampleKind::Terrain,
                                          test::SampleKind::Both),

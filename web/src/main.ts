@@ -7,6 +7,7 @@ import { showMessages } from "./panel/message";
 import { showNumbers } from "./panel/numbers";
 import { showQuality } from "./panel/quality";
 import { showStatus } from "./panel/status";
+import { showTerrain } from "./panel/terrain";
 import { setUpToolbar } from "./panel/toolbar";
 import { State } from "./state";
 import { PictureCanvas } from "./view/canvas";
@@ -33,6 +34,7 @@ function start(): void {
   showStatus(state);
   showMessages(state);
   showQuality(state);
+  showTerrain(state, viewer);
   showNumbers(state);
   setUpToolbar(state, viewer);
   keepDescription(state, canvas);

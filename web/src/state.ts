@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+import type { Look } from "./look";
+import { defaultLook } from "./look";
 import type { SessionState } from "./protocol/messages";
 import { Shading } from "./protocol/messages";
 
@@ -52,6 +54,8 @@ export interface Numbers {
   fps: number;
   /** From an input to the picture that shows it: median of the last ones; NaN before any. */
   inputToDrawnMilliseconds: number;
+  /** It shows a cut that was chosen for another camera. */
+  frozen: boolean;
 }
 
 /** Everything the page shows. The viewer writes it; panels read it. */
@@ -64,4 +68,5 @@ export class State {
   readonly flying = new Value(false);
   readonly tau = new Value(1);
   readonly shading = new Value<Shading>(Shading.SMOOTH);
+  readonly look = new Value<Look>(defaultLook);
 }

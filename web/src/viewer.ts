@@ -62,6 +62,7 @@ export class Viewer implements CameraHolder {
     });
     state.tau.watch(() => this.requestView(performance.now()));
     state.shading.watch(() => this.requestView(performance.now()));
+    state.look.watch(() => this.requestView(performance.now()));
     this.ticker = window.setInterval(() => this.tick(), 250);
   }
 
@@ -117,6 +118,7 @@ export class Viewer implements CameraHolder {
       ...this.size,
       tauPixels: this.state.tau.value,
       shading: this.state.shading.value,
+      look: this.state.look.value,
     });
     // A view that cannot go now goes when the connection opens, or with the next frame.
     if (!isSent) {
@@ -187,6 +189,7 @@ export class Viewer implements CameraHolder {
     if (frame === undefined) return; // of a connection that is gone
     this.rate.drawn(time);
     this.latency.drawn(Number(frame.viewSequence), time);
+    this.adopt(cameraOf(frame.liftedCamera), Number(frame.viewSequence));
     const { statistics } = frame;
     this.state.numbers.set({
       frameNumber,
@@ -203,7 +206,23 @@ export class Viewer implements CameraHolder {
       renderMilliseconds: statistics?.milliseconds?.total ?? 0,
       fps: this.rate.perSecond(time),
       inputToDrawnMilliseconds: this.latency.median(),
+      frozen: this.state.look.value.frozen !== null,
     });
+  }
+
+  /**
+   * Goes on from the camera that the server lifted out of the ground, so that the next movement
+   * starts from what is seen; not while a newer view is on its way, nor during a drag, which so
+   * leads back to where it came from.
+   */
+  private adopt(lifted: Camera | undefined, viewSequence: number): void {
+    const isNewest = viewSequence === this.sequence && this.sendAt === undefined;
+    if (lifted !== undefined && isNewest && !this.controls.isDragging) this.camera = lifted;
+  }
+
+  /** Holds the cut as this camera has it, or lets it follow the view again. */
+  setFrozen(isFrozen: boolean): void {
+    this.state.look.set({ ...this.state.look.value, frozen: isFrozen ? this.camera : null });
   }
 
   /** What changes although no frame comes. */

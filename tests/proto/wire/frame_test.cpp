@@ -42,6 +42,7 @@ RC_GTEST_PROP(WireFrameData, ComesBackAsItWas, ()) {
     frameData.tauPixels = *rc::gen::inRange(1, 100'001) / 100.0;
     frameData.shading = *rc::gen::element(fabric::Shading::Smooth, fabric::Shading::Flat,
                                           fabric::Shading::Wireframe);
+    frameData.look.exaggeration = *rc::gen::inRange(-10, 11);
     RC_ASSERT(*fromMessage(toMessage(frameData)) == frameData);
 }
 

@@ -125,6 +125,48 @@ TEST(WireSceneInfo, ComesBackAsItWas) {
     EXPECT_EQ(fromMessage(toMessage(fabric::SceneInfo{})).value(), fabric::SceneInfo{});
 }
 
+fabric::SceneInfo infoWithGround() {
+    fabric::GroundGrid grid;
+    grid.worldFromGrid[0] = {0, 30, 0, 0};
+    grid.worldFromGrid[1] = {-30, 0, 0, 0};
+    grid.worldFromGrid[3] = {5e5, 4e6, 1, 1};
+    grid.columns = 3;
+    grid.rows = 2;
+    grid.highest = {1, 2, 3, 4, 5, 6};
+    grid.lowest = -7;
+    fabric::SceneInfo info{{{0, 0, 0}, {1, 1, 1}}, 1, 2};
+    info.ground = std::make_shared<const std::vector<fabric::GroundGrid>>(2, grid);
+    return info;
+}
+
+TEST(WireSceneInfo, KeepsHowHighTheGroundIs) {
+    const fabric::SceneInfo info = infoWithGround();
+    EXPECT_EQ(fromMessage(toMessage(info)).value(), info);
+    EXPECT_FALSE(fromMessage(toMessage(info)).value() == fabric::SceneInfo{});
+}
+
+TEST(WireSceneInfo, GroundThatCannotBeIsRefused) {
+    const auto refusal = [](auto change) {
+        v1::OpenSceneResponse message = toMessage(infoWithGround());
+        change(*message.mutable_ground(1));
+        return std::string(fromMessage(message).status().message());
+    };
+    constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+    using testing::HasSubstr;
+    EXPECT_THAT(refusal([](auto& grid) { grid.set_columns(4); }),
+                HasSubstr("ground.highest has 6"));
+    EXPECT_THAT(refusal([](auto& grid) { grid.set_rows(-2), grid.set_columns(-3); }),
+                HasSubstr("ground.highest has 6"));
+    EXPECT_THAT(refusal([](auto& grid) { grid.set_highest(5, kNan); }),
+                HasSubstr("not finite or below"));
+    EXPECT_THAT(refusal([](auto& grid) { grid.set_lowest(2); }), HasSubstr("below ground.lowest"));
+    EXPECT_THAT(
+        refusal([](auto& grid) { grid.set_world_from_grid(0, 0), grid.set_world_from_grid(1, 0); }),
+        HasSubstr("ground.world_from_grid is singular"));
+    EXPECT_THAT(refusal([](auto& grid) { grid.mutable_world_from_grid()->RemoveLast(); }),
+                HasSubstr("ground.world_from_grid has 15"));
+}
+
 TEST(WireSceneInfo, ABoxOutOfOrderIsRefused) {
     v1::OpenSceneResponse inverted = toMessage(fabric::SceneInfo{{{0, 0, 0}, {1, 1, 1}}, 0, 0});
     inverted.mutable_bounds()->mutable_min()->set_y(2);

@@ -92,19 +92,27 @@ TEST_F(EffectVariantsTest, EveryBuiltInVariantCompilesAndSetsWhatTheDriverKept) 
     for (const bool flat : {false, true})
         for (const bool conformal : {false, true})
             for (int lights = 1; lights <= Variant::kMaxLights; ++lights) {
-                const auto terrain = TerrainEffect::create({lights, flat, conformal});
-                ASSERT_TRUE(terrain.ok()) << terrain.status();
-                const auto mesh = MeshEffect::create({lights, flat, conformal});
+                const ObjectBlock::Variant object{lights, flat, conformal};
+                for (int look = 0; look < 8; ++look) {
+                    Variant variant{object};
+                    variant.transfer = (look & 1) != 0;
+                    variant.contours = (look & 2) != 0;
+                    variant.adjusted = (look & 4) != 0;
+                    const auto terrain = TerrainEffect::create(variant);
+                    ASSERT_TRUE(terrain.ok()) << terrain.status();
+                    // A uniform that this variant does not use may be set all the same.
+                    terrain->worldFromNormal(glm::mat3(1.0F));
+                    terrain->lineWidth(1.0F);
+                }
+                const auto mesh = MeshEffect::create(object);
                 ASSERT_TRUE(mesh.ok()) << mesh.status();
-                // A uniform that this variant does not use may be set all the same.
-                terrain->worldFromNormal(glm::mat3(1.0F));
                 mesh->worldFromNormal(glm::mat3(1.0F));
                 mesh->lightColours(std::vector<glm::vec3>(Variant::kMaxLights));
             }
 }
 
 TEST_F(EffectVariantsTest, RefusesAValueOutOfItsRange) {
-    const auto program = TerrainEffect::create({.lights = 5});
+    const auto program = TerrainEffect::create({{.lights = 5}});
     EXPECT_EQ(program.status(),
               absl::InvalidArgumentError("terrain.effect: LIGHTS is 5; it must be from 1 to 4"));
 }
@@ -213,10 +221,10 @@ TEST_F(EffectVariantsTest, AVariantThatFailsLaterIsDrawnAsItWasBuilt) {
     edit("terrain.effect", "#if FLAT", "#if FLAT\n    oops;");
     EXPECT_THAT(reload(), HasSubstr("taken from"));
     log_.str("");
-    EXPECT_NE(find({.flat = true}), nullptr);
+    EXPECT_NE(find({{.flat = true}}), nullptr);
     EXPECT_THAT(log_.str(), HasSubstr("oops"));
     log_.str("");
-    EXPECT_NE(find({.flat = true}), nullptr);
+    EXPECT_NE(find({{.flat = true}}), nullptr);
     EXPECT_EQ(log_.str(), "");
 }
 

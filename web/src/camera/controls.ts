@@ -65,6 +65,10 @@ export class Controls {
     this.releaseKeys();
   }
 
+  get isDragging(): boolean {
+    return this.pointers.size > 0;
+  }
+
   /** Offset from the canvas's centre, in CSS pixels. */
   private fromCentre(point: Point): Point {
     const box = this.canvas.getBoundingClientRect();

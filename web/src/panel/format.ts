@@ -36,3 +36,14 @@ export function deviceName(renderer: string): string {
 export function plural(number: number, word: string): string {
   return `${number} ${word}${number === 1 ? "" : "s"}`;
 }
+
+/** "250 m", "1 km". */
+export function metres(value: number): string {
+  return value >= 1000 ? `${value / 1000} km` : `${value} m`;
+}
+
+/** A factor: "× 2.5", "× 10", "true" for 1. */
+export function times(factor: number): string {
+  if (Math.abs(factor - 1) < 1e-9) return "true";
+  return `× ${factor >= 9.95 ? factor.toFixed(0) : factor.toFixed(factor < 0.995 ? 2 : 1)}`;
+}

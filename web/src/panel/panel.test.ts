@@ -98,6 +98,7 @@ describe("numbers", () => {
     renderMilliseconds: 1,
     fps: 1,
     inputToDrawnMilliseconds: 1,
+    frozen: false,
   };
 
   it("explain an error above the one asked for", () => {
@@ -106,6 +107,7 @@ describe("numbers", () => {
     expect(tauHint({ ...numbers, tauAchieved: Infinity, complete: false })).toContain("incomplete");
     const loading = { ...numbers, tauAchieved: 9, complete: false, pagesMissing: 3 };
     expect(tauHint(loading)).toContain("refining");
+    expect(tauHint({ ...numbers, frozen: true })).toContain("nothing is promised");
   });
 
   it("say what is being loaded and what cannot be read", () => {

@@ -42,6 +42,7 @@ const tolerance = 1 + 1e-6;
 
 /** Why the error drawn is larger than the one asked for, or "". */
 export function tauHint(numbers: Numbers): string {
+  if (numbers.frozen) return "the cut is frozen: nothing is promised";
   if (numbers.tauAchieved <= numbers.tauAsked * tolerance) return "";
   if (numbers.complete) return "finest data drawn, or all that memory holds";
   return numbers.pagesMissing > numbers.pagesFailed

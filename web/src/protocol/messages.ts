@@ -4,6 +4,15 @@ import { create, fromBinary, toBinary } from "@bufbuild/protobuf";
 import type { Camera } from "../camera/camera";
 import { CameraSchema } from "./gen/eyrie/v1/camera_pb";
 import { Shading } from "./gen/eyrie/v1/frame_pb";
+import type { Look } from "../look";
+import {
+  ContourLinesSchema,
+  HeightUnit,
+  LookSchema,
+  PrimitiveShape,
+  TransferFunctionSchema,
+} from "./gen/eyrie/v1/look_pb";
+import type { Look as LookMessage } from "./gen/eyrie/v1/look_pb";
 import {
   FrameAckSchema,
   ViewerRequestSchema,
@@ -24,6 +33,7 @@ export interface View {
   height: number;
   tauPixels: number;
   shading: Shading;
+  look: Look;
 }
 
 /** A buffer of its own, as toBinary makes it. */
@@ -32,15 +42,55 @@ function bytesOf(request: ViewerRequest["request"]): Uint8Array<ArrayBuffer> {
   return toBinary(ViewerRequestSchema, message) as Uint8Array<ArrayBuffer>;
 }
 
+const cameraMessage = ({ eye, target, up, fovyDegrees }: Camera) =>
+  create(CameraSchema, { eye: [...eye], target: [...target], up: [...up], fovyDegrees });
+
+const shapes = {
+  blend: PrimitiveShape.BLEND,
+  box: PrimitiveShape.BOX,
+  tent: PrimitiveShape.TENT,
+  smooth: PrimitiveShape.SMOOTH,
+} as const;
+
+function transferMessage(look: Look) {
+  if (look.colouring === "tints") return {};
+  const primitives = look.colouring === "bare" ? [] : look.primitives;
+  const transfer = create(TransferFunctionSchema, {
+    unit: HeightUnit.RELATIVE,
+    primitives: primitives.map((primitive) => ({
+      ...primitive,
+      shape: shapes[primitive.shape],
+      colour: [...primitive.colour],
+    })),
+  });
+  return { transfer };
+}
+
+export function lookMessage(look: Look): LookMessage {
+  return create(LookSchema, {
+    exaggeration: look.exaggeration,
+    ...transferMessage(look),
+    saturation: look.saturation,
+    ...(look.contourMetres > 0
+      ? { contours: create(ContourLinesSchema, { intervalMetres: look.contourMetres }) }
+      : {}),
+    tileBounds: look.tileBounds,
+    pageBounds: look.pageBounds,
+    levelTint: look.levelTint,
+    ...(look.frozen === null ? {} : { cutCamera: cameraMessage(look.frozen) }),
+  });
+}
+
 export function encodeView(view: View): Uint8Array<ArrayBuffer> {
-  const { eye, target, up, fovyDegrees } = view.camera;
   const value = create(ViewRequestSchema, {
     sequence: BigInt(view.sequence),
-    camera: create(CameraSchema, { eye: [...eye], target: [...target], up: [...up], fovyDegrees }),
+    camera: cameraMessage(view.camera),
     width: view.width,
     height: view.height,
     tauPixels: view.tauPixels,
     shading: view.shading,
+    look: lookMessage(view.look),
+    underground: view.look.underground,
   });
   return bytesOf({ case: "view", value });
 }

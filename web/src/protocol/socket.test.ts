@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { create, fromBinary, toBinary } from "@bufbuild/protobuf";
 import { describe, expect, it } from "vitest";
+import { defaultLook } from "../look";
 import { ViewerRequestSchema, ViewerResponseSchema } from "./gen/eyrie/v1/viewer_pb";
 import { cameraOf, decodeResponse, encodeAck, encodeView, Shading } from "./messages";
 import { reconnectDelay } from "./socket";
@@ -20,6 +21,7 @@ describe("messages", () => {
       height: 480,
       tauPixels: 2,
       shading: Shading.FLAT,
+      look: { ...defaultLook, underground: true },
     });
     const { request } = fromBinary(ViewerRequestSchema, bytes);
     expect(request.case).toBe("view");
@@ -27,6 +29,8 @@ describe("messages", () => {
     expect(request.value.sequence).toBe(7n);
     expect(request.value.camera?.eye).toEqual([1, 2, 3]);
     expect(request.value.shading).toBe(Shading.FLAT);
+    expect(request.value.underground).toBe(true);
+    expect(request.value.look?.exaggeration).toBe(1);
   });
 
   it("carry an acknowledgement", () => {

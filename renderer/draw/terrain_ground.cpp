@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/draw/terrain_ground.h"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace eyrie::draw {
+namespace {
+
+using terrain::Quadtree;
+
+int finestLevel(const Quadtree& quadtree, int maxCells) {
+    int level = 0;
+    while (level < quadtree.top().level &&
+           std::int64_t{quadtree.tilesX(level)} * quadtree.tilesY(level) > maxCells)
+        ++level;
+    return level;
+}
+
+/// World from (tiles along x, tiles along y, metres of height): the lattice's heights are steps.
+fabric::Mat4 worldFromTiles(const terrain::EytIndex& index, const fabric::Mat4& worldFromObject,
+                            int level) {
+    fabric::Mat4 objectFromTiles = index.objectFromLattice;
+    objectFromTiles[0] *= Quadtree::side(level);
+    objectFromTiles[1] *= Quadtree::side(level);
+    objectFromTiles[2] = {0, 0, 1, 0};
+    objectFromTiles[3].z = 0;
+    return worldFromObject * objectFromTiles;
+}
+
+}  // namespace
+
+fabric::GroundGrid groundOf(const terrain::EytIndex& index, const fabric::Mat4& worldFromObject,
+                            int maxCells) {
+    const Quadtree& quadtree = index.quadtree;
+    const int level = finestLevel(quadtree, maxCells);
+    fabric::GroundGrid grid;
+    grid.worldFromGrid = worldFromTiles(index, worldFromObject, level);
+    grid.columns = quadtree.tilesX(level);
+    grid.rows = quadtree.tilesY(level);
+    grid.lowest = index.tile(quadtree.top()).minHeightMetres;
+    for (int y = 0; y < grid.rows; ++y)
+        for (int x = 0; x < grid.columns; ++x) {
+            const terrain::TileRecord& tile = index.tile({level, x, y});
+            grid.highest.push_back(
+                tile.triangles == 0 ? grid.lowest : std::max(tile.maxHeightMetres, grid.lowest));
+        }
+    return grid;
+}
+
+}  // namespace eyrie::draw

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/draw/terrain_look.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <glm/gtc/matrix_inverse.hpp>
+
+#include "renderer/draw/object_program.h"
+#include "renderer/draw/transfer_table.h"
+
+namespace eyrie::draw {
+namespace {
+
+/// Every fifth contour line is stronger.
+constexpr int kLinesPerStrongOne = 5;
+
+}  // namespace
+
+glm::vec3 levelColour(int level) {
+    // Hues a golden section of the circle apart, as three cosines; squared for linear light.
+    constexpr float kGolden = 2.39996323F;
+    const float hue = kGolden * static_cast<float>(level);
+    const auto channel = [&](float phase) {
+        const float displayed = 0.55F + 0.4F * std::cos(hue + phase);
+        return displayed * displayed;
+    };
+    return {channel(0), channel(2.0943951F), channel(4.1887902F)};
+}
+
+TerrainLook::TerrainLook(const terrain::EytIndex& index)
+    : index_(index),
+      lowestMetres_(index.bounds().min.z),
+      reliefMetres_(std::max(index.bounds().size().z, index.heightStepMetres())) {}
+
+effects::TerrainEffect::Variant TerrainLook::variantFor(const FrameState& frame,
+                                                        const fabric::Mat4& worldFromObject) {
+    const fabric::Look& look = frame.look;
+    effects::TerrainEffect::Variant variant;
+    static_cast<effects::ObjectBlock::Variant&>(variant) =
+        draw::variantFor(frame, fabric::exaggerated(worldFromObject, look.exaggeration));
+    variant.transfer = look.transfer.has_value();
+    variant.contours = look.contours.has_value();
+    variant.adjusted = look.slopeShading != 1 || look.saturation != 1 || look.levelTint;
+    return variant;
+}
+
+void TerrainLook::use(const effects::TerrainEffect& program, const fabric::Mat4& worldFromObject,
+                      const fabric::Look& look) {
+    // Upside down, the side that was below faces up.
+    if (look.exaggeration < 0)
+        program.worldFromNormal(-glm::mat3(glm::inverseTranspose(
+            fabric::Mat3(fabric::exaggerated(worldFromObject, look.exaggeration)))));
+    program.slopeShading(static_cast<float>(look.slopeShading));
+    program.saturation(static_cast<float>(look.saturation));
+    program.levelShare(look.levelTint ? 0.6F : 0.0F);
+    if (look.contours)
+        setContours(program, *look.contours);
+    if (look.transfer)
+        setTransfer(program, *look.transfer);
+}
+
+/// Lines are counted from a height in the middle, so that float32 has digits left between them.
+void TerrainLook::setContours(const effects::TerrainEffect& program,
+                              const fabric::ContourLines& lines) const {
+    const double step = index_.heightStepMetres();
+    const double middle = lowestMetres_ + reliefMetres_ / 2 - index_.heightOriginMetres();
+    const double base = std::round(middle / step);
+    const double baseLine =
+        std::fmod((base * step + index_.heightOriginMetres()) / lines.intervalMetres,
+                  double{kLinesPerStrongOne});
+    program.contourBase(static_cast<int>(base));
+    program.linesPerHeight(static_cast<float>(step / lines.intervalMetres));
+    program.baseLine(static_cast<float>(baseLine));
+    program.lineWidth(static_cast<float>(lines.widthPixels));
+}
+
+void TerrainLook::setTransfer(const effects::TerrainEffect& program,
+                              const fabric::TransferFunction& function) {
+    if (tabled_ != function) {
+        const std::vector<std::uint8_t> texels =
+            transferTable(function, lowestMetres_, reliefMetres_);
+        if (!tabled_) {
+            glTextureStorage2D(table_.id(), 1, GL_RGBA8, kTransferTexels, 1);
+            glTextureParameteri(table_.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+            glTextureParameteri(table_.id(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+            glTextureParameteri(table_.id(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+            glTextureParameteri(table_.id(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+        }
+        glTextureSubImage2D(table_.id(), 0, 0, 0, kTransferTexels, 1, GL_RGBA, GL_UNSIGNED_BYTE,
+                            texels.data());
+        tabled_ = function;
+    }
+    program.transferTable(table_);
+}
+
+}  // namespace eyrie::draw

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "wire/look.h"
+
+#include <gmock/gmock.h>
+#include <rapidcheck/gtest.h>
+
+#include "eyrie/v1/look.pb.h"
+#include "wire/json.h"
+
+namespace eyrie::wire {
+namespace {
+
+double share() { return *rc::gen::inRange(0, 1001) / 1000.0; }
+bool coin() { return *rc::gen::arbitrary<bool>(); }
+
+fabric::TransferFunction anyTransfer() {
+    fabric::TransferFunction function;
+    function.unit = *rc::gen::element(fabric::HeightUnit::Relative, fabric::HeightUnit::Metres);
+    const int count = *rc::gen::inRange(0, 5);
+    for (int i = 0; i < count; ++i)
+        function.primitives.push_back(
+            {*rc::gen::element(fabric::PrimitiveShape::Blend, fabric::PrimitiveShape::Box,
+                               fabric::PrimitiveShape::Tent, fabric::PrimitiveShape::Smooth),
+             9000 * share() - 500,
+             0.01 + share(),
+             {share(), share(), share()},
+             share()});
+    return function;
+}
+
+fabric::Look anyLook() {
+    fabric::Look look;
+    look.exaggeration = 2000 * share() - 1000;
+    if (coin())
+        look.transfer = anyTransfer();
+    look.slopeShading = share();
+    if (coin())
+        look.contours = fabric::ContourLines{0.001 + 1000 * share(), 0.25 + share()};
+    look.saturation = 2 * share();
+    look.tileBounds = coin();
+    look.pageBounds = coin();
+    look.levelTint = coin();
+    if (coin())
+        look.cutCamera = fabric::Camera{.eye = {share(), 2, 3}, .target = {4, 5, 6}};
+    return look;
+}
+
+RC_GTEST_PROP(WireLook, ComesBackAsItWas, ()) {
+    const fabric::Look look = anyLook();
+    RC_ASSERT(fromMessage(toMessage(look)).value() == look);
+    RC_ASSERT(lookFromJson(toJson(toMessage(look)), "look.json").value() == look);
+}
+
+TEST(WireLook, OfNothingIsTheDefault) {
+    EXPECT_EQ(fromMessage(v1::Look()).value(), fabric::Look());
+    EXPECT_EQ(lookFromJson("{}", "look.json").value(), fabric::Look());
+}
+
+TEST(WireLook, ARefusalNamesFileAndField) {
+    const auto refusal = [](const char* text) {
+        return std::string(lookFromJson(text, "odd.json").status().message());
+    };
+    using testing::AllOf;
+    using testing::HasSubstr;
+    EXPECT_THAT(refusal(R"({"exaggeration":1001})"),
+                AllOf(HasSubstr("odd.json"), HasSubstr("look.exaggeration is 1001"),
+                      HasSubstr("from -1000 to 1000")));
+    EXPECT_THAT(refusal(R"({"exaggeration":"NaN"})"), HasSubstr("look.exaggeration is nan"));
+    EXPECT_THAT(refusal(R"({"saturation":2.5})"), HasSubstr("look.saturation"));
+    EXPECT_THAT(refusal(R"({"slopeShading":-1})"), HasSubstr("look.slopeShading"));
+    EXPECT_THAT(refusal(R"({"contours":{}})"), HasSubstr("look.contours.intervalMetres is 0"));
+    EXPECT_THAT(refusal(R"({"contours":{"intervalMetres":10,"widthPixels":99}})"),
+                HasSubstr("look.contours.widthPixels"));
+    EXPECT_THAT(refusal(R"({"transfer":{"primitives":[{"width":1}]}})"),
+                HasSubstr("look.transfer.primitives[0].colour has 0 numbers"));
+    EXPECT_THAT(refusal(R"({"transfer":{"primitives":[{"shape":9}]}})"),
+                HasSubstr("look.transfer.primitives[0].shape is 9"));
+    EXPECT_THAT(refusal(R"({"transfer":{"unit":7}})"), HasSubstr("look.transfer.unit is 7"));
+    EXPECT_THAT(refusal(R"({"cutCamera":{"eye":[0,0,0],"target":[0,0,0]}})"),
+                HasSubstr("look.cutCamera: camera.target"));
+    EXPECT_THAT(refusal(R"({"exageration":2})"), HasSubstr("exageration"));
+}
+
+}  // namespace
+}  // namespace eyrie::wire

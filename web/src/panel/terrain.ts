@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+// How terrain is shown: height, colours, contour lines, and what the engine did.
+import type { Colouring, Look } from "../look";
+import { defaultLook, exaggerationAt, nextInterval, placeOf, suggestedInterval } from "../look";
+import type { State } from "../state";
+import type { Viewer } from "../viewer";
+import { byId, make, setText } from "./element";
+import { metres, times } from "./format";
+import { transferEditor } from "./transfer";
+
+const colourings: readonly (readonly [Colouring, string])[] = [
+  ["tints", "Tints"],
+  ["edited", "Edited"],
+  ["bare", "Bare"],
+];
+
+/** Of the scene's bounds. */
+const reliefOf = (state: State): number => {
+  const { min, max } = state.session.value?.sceneBounds ?? {};
+  return min !== undefined && max !== undefined ? max.z - min.z : 1000;
+};
+
+const change = (state: State, by: Partial<Look>): void =>
+  state.look.set({ ...state.look.value, ...by });
+
+interface SliderOptions {
+  id: string;
+  name: string;
+  title: string;
+  min: number;
+  max: number;
+  step: number;
+  placeOf(look: Look): number;
+  text(look: Look): string;
+  change(place: number): Partial<Look>;
+}
+
+function slider(state: State, options: SliderOptions): HTMLElement {
+  const label = make("label", "label", options.name);
+  const output = make("output", "value");
+  const input = make("input", "slider");
+  input.type = "range";
+  input.id = options.id;
+  [input.min, input.max, input.step] = [options.min, options.max, options.step].map(String) as [
+    string,
+    string,
+    string,
+  ];
+  label.htmlFor = output.htmlFor.value = input.id;
+  label.title = options.title;
+  input.addEventListener("input", () => change(state, options.change(Number(input.value))));
+  input.addEventListener("dblclick", () => {
+    const place = options.placeOf(defaultLook);
+    change(state, options.change(place));
+  });
+  state.look.watch((look) => {
+    const place = options.placeOf(look);
+    if (Number(input.value) !== place) input.value = String(place);
+    setText(output, options.text(look));
+    input.setAttribute("aria-valuetext", options.text(look));
+  });
+  return make("div", "field", make("div", "row", label, output), input);
+}
+
+function colouringChoice(state: State): HTMLElement {
+  const choice = make("fieldset", "segments", make("legend", "label", "Colours"));
+  for (const [colouring, name] of colourings) {
+    const input = make("input", "");
+    input.type = "radio";
+    input.name = "colouring";
+    input.value = colouring;
+    input.addEventListener("change", () => change(state, { colouring }));
+    state.look.watch((look) => (input.checked = look.colouring === colouring));
+    choice.append(make("label", "segment", input, make("span", "", name)));
+  }
+  return choice;
+}
+
+function contourField(state: State): HTMLElement {
+  const label = make("span", "label", "Contour lines");
+  label.title = "Metres of elevation between two; every fifth is stronger (C)";
+  const value = make("output", "value");
+  const step = (text: string, name: string, by: 1 | -1): HTMLElement => {
+    const button = make("button", "step", text);
+    button.type = "button";
+    button.setAttribute("aria-label", name);
+    button.addEventListener("click", () => {
+      const { contourMetres } = state.look.value;
+      const isFirst = contourMetres === 0 && by === 1;
+      change(state, {
+        contourMetres: isFirst
+          ? suggestedInterval(reliefOf(state))
+          : nextInterval(contourMetres, by),
+      });
+    });
+    return button;
+  };
+  state.look.watch(({ contourMetres }) =>
+    setText(value, contourMetres > 0 ? `every ${metres(contourMetres)}` : "off"),
+  );
+  const less = step("−", "Smaller contour interval", -1);
+  const more = step("+", "Larger contour interval", 1);
+  return make("div", "field row", label, make("span", "stepper", less, value, more));
+}
+
+interface Toggle {
+  id: string;
+  name: string;
+  title: string;
+  isOn(look: Look): boolean;
+  set(isOn: boolean): void;
+}
+
+function toggles(state: State, name: string, list: readonly Toggle[]): HTMLElement {
+  const group = make("div", "toggles");
+  group.setAttribute("role", "group");
+  group.setAttribute("aria-label", name);
+  for (const toggle of list) {
+    const button = make("button", "toggle", toggle.name);
+    button.type = "button";
+    button.id = toggle.id;
+    button.title = toggle.title;
+    button.addEventListener("click", () => toggle.set(!toggle.isOn(state.look.value)));
+    state.look.watch((look) => button.setAttribute("aria-pressed", String(toggle.isOn(look))));
+    group.append(button);
+  }
+  return group;
+}
+
+export function showTerrain(state: State, viewer: Viewer): void {
+  const toggleContours = (): void =>
+    change(state, {
+      contourMetres: state.look.value.contourMetres > 0 ? 0 : suggestedInterval(reliefOf(state)),
+    });
+  const toggleFrozen = (): void => viewer.setFrozen(state.look.value.frozen === null);
+  const toggleUnderground = (): void =>
+    change(state, { underground: !state.look.value.underground });
+  const exaggerate = (step: number): void => {
+    const place = Math.round((placeOf(state.look.value.exaggeration) + step) * 20) / 20;
+    change(state, { exaggeration: exaggerationAt(Math.min(1, Math.max(-1, place))) });
+  };
+
+  byId("terrain", HTMLElement).append(
+    make("h2", "heading", "Terrain"),
+    slider(state, {
+      id: "exaggeration",
+      name: "Height",
+      title: "Heights are drawn times this ([ and ]; double-click or \\: true)",
+      min: -1,
+      max: 1,
+      step: 0.05,
+      placeOf: (look) => Math.round(placeOf(look.exaggeration) * 20) / 20,
+      text: (look) => times(look.exaggeration),
+      change: (place) => ({ exaggeration: exaggerationAt(place) }),
+    }),
+    slider(state, {
+      id: "saturation",
+      name: "Saturation",
+      title: "Grey to gaudy (double-click: as it is)",
+      min: 0,
+      max: 2,
+      step: 0.05,
+      placeOf: (look) => look.saturation,
+      text: (look) => look.saturation.toFixed(2),
+      change: (saturation) => ({ saturation }),
+    }),
+    contourField(state),
+    colouringChoice(state),
+    transferEditor(state),
+    toggles(state, "What the engine did", [
+      {
+        id: "tile-bounds",
+        name: "Tiles",
+        title: "Boxes around the tiles that are drawn",
+        isOn: (look) => look.tileBounds,
+        set: (tileBounds) => change(state, { tileBounds }),
+      },
+      {
+        id: "page-bounds",
+        name: "Pages",
+        title: "Boxes around the pages that the view needs",
+        isOn: (look) => look.pageBounds,
+        set: (pageBounds) => change(state, { pageBounds }),
+      },
+      {
+        id: "level-tint",
+        name: "Levels",
+        title: "A colour for each level of detail",
+        isOn: (look) => look.levelTint,
+        set: (levelTint) => change(state, { levelTint }),
+      },
+      {
+        id: "frozen",
+        name: "Freeze",
+        title: "Hold what is drawn as chosen for this camera, and move on (X)",
+        isOn: (look) => look.frozen !== null,
+        set: toggleFrozen,
+      },
+      {
+        id: "underground",
+        name: "Underground",
+        title: "Let the camera go below the ground (U)",
+        isOn: (look) => look.underground,
+        set: toggleUnderground,
+      },
+    ]),
+  );
+
+  const keys: Readonly<Record<string, () => void>> = {
+    c: toggleContours,
+    x: toggleFrozen,
+    u: toggleUnderground,
+    "[": () => exaggerate(-0.1),
+    "]": () => exaggerate(0.1),
+    "\\": () => change(state, { exaggeration: 1 }),
+  };
+  window.addEventListener("keydown", (event) => {
+    const isTyping =
+      event.target instanceof Element && event.target.matches("input[type=number], select");
+    if (event.ctrlKey || event.metaKey || event.altKey || isTyping) return;
+    keys[event.key.toLowerCase()]?.();
+  });
+}
