@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace eyrie::terrain {
@@ -46,6 +47,8 @@ void TileMesher::begin(const TileId& tile) {
         if (tile.level > 0 && quadtree_.contains(Quadtree::neighbour(tile, edge)))
             shape.finerEdges = static_cast<std::uint8_t>(shape.finerEdges | 1 << edge);
     for (std::vector<std::uint16_t>& part : partIndices_) part.clear();
+    drawn_.clear();
+    moved_.clear();
 }
 
 /// Numbers by vertex that is used, kAbsentPoint for the others, which are dropped.
@@ -72,8 +75,9 @@ std::vector<std::uint16_t> TileMesher::dropUnused() {
 
 /// Puts the parts together and measures what is used.
 void TileMesher::finish() {
-    if (isCut_ || surface_.hasNodata()) {
-        const std::vector<std::uint16_t> numbers = dropUnused();
+    std::vector<std::uint16_t> numbers;
+    if (mayHaveUnused()) {
+        numbers = dropUnused();
         for (std::vector<std::uint16_t>& part : partIndices_)
             for (std::uint16_t& index : part) index = numbers[index];
     }
@@ -83,15 +87,17 @@ void TileMesher::finish() {
         mesh_.indices.insert(mesh_.indices.end(), partIndices_[part].begin(),
                              partIndices_[part].end());
     }
-    for (const TileVertex& vertex : mesh_.vertices) {
-        const TilePoint p{static_cast<std::uint32_t>(vertex.x | vertex.y << 10), 0, 0};
-        const float source = samples_.height(std::min(column(p), quadtree_.columns() - 1),
-                                             std::min(row(p), quadtree_.rows() - 1));
-        const double drawn = vertex.q * lattice_.stepMetres;
-        mesh_.errorMetres =
-            std::max(mesh_.errorMetres, std::abs(drawn - static_cast<double>(source)));
-        mesh_.minHeightMetres = std::min(mesh_.minHeightMetres, drawn);
-        mesh_.maxHeightMetres = std::max(mesh_.maxHeightMetres, drawn);
+    measureVertices(numbers);
+}
+
+/// `numbers` is empty, or what dropUnused gave.
+void TileMesher::measureVertices(const std::vector<std::uint16_t>& numbers) {
+    for (std::size_t k = 0; k < drawn_.size(); ++k) {
+        if (!numbers.empty() && numbers[k] == kAbsentPoint)
+            continue;
+        mesh_.errorMetres = std::max(mesh_.errorMetres, moved_[k]);
+        mesh_.minHeightMetres = std::min(mesh_.minHeightMetres, drawn_[k]);
+        mesh_.maxHeightMetres = std::max(mesh_.maxHeightMetres, drawn_[k]);
     }
 }
 
@@ -109,31 +115,43 @@ bool TileMesher::isFinerVertex(TilePoint middle, int) {
 }
 
 void TileMesher::triangle(int part, TilePoint a, TilePoint b, TilePoint c) {
-    measure(a, b, c, true);
+    if (!isHalfCell(a, b, c) && mayBeWorst(a, b, c))
+        measure(a, b, c, true);
     addTriangle(part, a, b, c);
 }
 
 void TileMesher::finerTriangle(int part, TilePoint apex, TilePoint from, TilePoint to,
                                bool isWhole) {
-    if (!isWhole)
+    if (!isWhole && !isHalfCell(apex, from, to))
         measure(apex, from, to, false);
     addTriangle(part, apex, from, to);
 }
 
 Corner TileMesher::corner(TilePoint p) const {
-    const std::int32_t i = std::min(column(p), quadtree_.columns() - 1);
-    const std::int32_t j = std::min(row(p), quadtree_.rows() - 1);
-    const float height = samples_.height(i, j);
-    return {i, j,
-            std::isnan(height) ? static_cast<double>(height)
-                               : lattice_.quantise(height) * lattice_.stepMetres};
+    return {std::min(column(p), quadtree_.columns() - 1), std::min(row(p), quadtree_.rows() - 1),
+            p.isAbsent() ? std::numeric_limits<double>::quiet_NaN() : drawn_[p.number]};
+}
+
+/// Whether all posts of a triangle are its vertices, which are measured as such.
+bool TileMesher::isHalfCell(TilePoint a, TilePoint b, TilePoint c) const {
+    const std::int32_t width = std::max({a.x(), b.x(), c.x()}) - std::min({a.x(), b.x(), c.x()});
+    const std::int32_t height = std::max({a.y(), b.y(), c.y()}) - std::min({a.y(), b.y(), c.y()});
+    return shift_ == 0 && width == 2 && height == 2;
+}
+
+/// Whether a triangle of the global triangulation may deviate more than any so far. VertexLevels
+/// has measured it with the source's heights; here its corners have moved to the lattice.
+bool TileMesher::mayBeWorst(TilePoint apex, TilePoint left, TilePoint right) const {
+    if (isCut_ || apex.isAbsent() || left.isAbsent() || right.isAbsent())
+        return true;
+    const TilePoint middle{(left.position + right.position) / 2, 0, 0};
+    const double moved =
+        std::max({moved_[apex.number], moved_[left.number], moved_[right.number]});
+    return samples_.greatestDeviationMetres(column(middle), row(middle)) + moved >=
+           mesh_.errorMetres;
 }
 
 void TileMesher::measure(TilePoint a, TilePoint b, TilePoint c, bool mayBeAligned) {
-    const std::int32_t width = std::max({a.x(), b.x(), c.x()}) - std::min({a.x(), b.x(), c.x()});
-    const std::int32_t height = std::max({a.y(), b.y(), c.y()}) - std::min({a.y(), b.y(), c.y()});
-    if (shift_ == 0 && width == 2 && height == 2)
-        return;  // half a cell: all its posts are vertices, and those are measured as such
     const Triangle triangle = {corner(a), corner(b), corner(c)};
     const auto isUnmoved = [&](TilePoint p) {
         return column(p) < quadtree_.columns() && row(p) < quadtree_.rows();
@@ -160,7 +178,12 @@ std::uint16_t TileMesher::add(TilePoint p) {
     mesh_.isPresent.push_back(!std::isnan(source));
     if (std::isnan(source))
         return kAbsentPoint;
-    mesh_.vertices.push_back({p.x(), p.y(), lattice_.quantise(source)});
+    const std::int32_t q = lattice_.quantise(source);
+    mesh_.vertices.push_back({p.x(), p.y(), q});
+    drawn_.push_back(q * lattice_.stepMetres);
+    moved_.push_back(std::abs(drawn_.back() - static_cast<double>(source)));
+    if (!mayHaveUnused())  // else it counts once it is known to be used
+        mesh_.errorMetres = std::max(mesh_.errorMetres, moved_.back());
     return static_cast<std::uint16_t>(mesh_.vertices.size() - 1);
 }
 

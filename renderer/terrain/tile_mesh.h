@@ -74,8 +74,12 @@ private:
     std::uint16_t add(TilePoint p);
     void addTriangle(int part, TilePoint a, TilePoint b, TilePoint c);
     Corner corner(TilePoint p) const;
+    bool isHalfCell(TilePoint a, TilePoint b, TilePoint c) const;
+    bool mayBeWorst(TilePoint apex, TilePoint left, TilePoint right) const;
     void measure(TilePoint a, TilePoint b, TilePoint c, bool mayBeAligned);
+    bool mayHaveUnused() const { return isCut_ || surface_.hasNodata(); }
     std::vector<std::uint16_t> dropUnused();
+    void measureVertices(const std::vector<std::uint16_t>& numbers);
 
     SourceSurface& surface_;
     TileSamples& samples_;
@@ -89,6 +93,8 @@ private:
     bool isCut_ = false;  ///< reaches past the last column or row
     TileMesh mesh_;
     std::array<std::vector<std::uint16_t>, kTileParts> partIndices_;
+    std::vector<double> drawn_;  ///< heights of the vertices added, metres
+    std::vector<double> moved_;  ///< by how far they were, for the lattice
     std::vector<std::uint16_t> slots_;
 };
 

@@ -63,6 +63,7 @@ GeometryBits GeometryEncoder::finish() const {
 
     std::array<AdaptiveFlag, kFlagContexts> flags;
     std::vector<Share> shares;
+    shares.reserve(events_.size());
     for (const Event& event : events_) {
         if (event.isFlag) {
             shares.push_back(flags[event.context].share(event.value != 0));
