@@ -18,15 +18,25 @@ std::int32_t limit(std::int32_t posts, int shift, std::int32_t side) {
 
 }  // namespace
 
+void TileMesh::clear() {
+    vertices.clear();
+    indices.clear();
+    splits.clear();
+    isPresent.clear();
+    errorMetres = 0;
+    minHeightMetres = std::numeric_limits<double>::infinity();
+    maxHeightMetres = -std::numeric_limits<double>::infinity();
+}
+
 TileMesher::TileMesher(SourceSurface& surface, TileSamples& samples, const HeightLattice& lattice,
                        const Quadtree& quadtree)
     : surface_(surface), samples_(samples), lattice_(lattice), quadtree_(quadtree) {}
 
-TileMesh TileMesher::mesh(const TileId& tile) {
+const TileMesh& TileMesher::mesh(const TileId& tile) {
     begin(tile);
     TileTriangulation<TileMesher>(mesh_.shape, slots_, *this).walk();
     finish();
-    return std::move(mesh_);
+    return mesh_;
 }
 
 void TileMesher::begin(const TileId& tile) {
@@ -37,7 +47,8 @@ void TileMesher::begin(const TileId& tile) {
     firstColumn_ = tile.x * side;
     firstRow_ = tile.y * side;
     isCut_ = firstColumn_ + side >= quadtree_.columns() || firstRow_ + side >= quadtree_.rows();
-    mesh_ = {};
+    mesh_.clear();
+    mesh_.shape = {};
     TileShape& shape = mesh_.shape;
     shape.cells = Quadtree::cells(tile.level);
     shape.finerStep = shift_ == Quadtree::spacingShift(tile.level - 1) ? 2 : 1;
@@ -145,8 +156,7 @@ bool TileMesher::mayBeWorst(TilePoint apex, TilePoint left, TilePoint right) con
     if (isCut_ || apex.isAbsent() || left.isAbsent() || right.isAbsent())
         return true;
     const TilePoint middle{(left.position + right.position) / 2, 0, 0};
-    const double moved =
-        std::max({moved_[apex.number], moved_[left.number], moved_[right.number]});
+    const double moved = std::max({moved_[apex.number], moved_[left.number], moved_[right.number]});
     return samples_.greatestDeviationMetres(column(middle), row(middle)) + moved >=
            mesh_.errorMetres;
 }

@@ -31,6 +31,8 @@ struct TileMesh {
     double minHeightMetres = std::numeric_limits<double>::infinity();  ///< of the vertices
     double maxHeightMetres = -std::numeric_limits<double>::infinity();
 
+    /// Keeps the memory. Shape and parts are of no meaning then.
+    void clear();
     std::uint32_t ownTriangles() const { return (parts[kFinerPart].first) / 3; }
 };
 
@@ -49,8 +51,8 @@ public:
                const Quadtree& quadtree);
 
     /// Loads the tile's samples. Without the triangles that clamping squeezed to nothing or that
-    /// touch nodata.
-    TileMesh mesh(const TileId& tile);
+    /// touch nodata. Valid until the next call.
+    const TileMesh& mesh(const TileId& tile);
 
 private:
     friend class TileTriangulation<TileMesher>;

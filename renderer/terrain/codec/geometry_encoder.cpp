@@ -39,45 +39,39 @@ std::uint32_t GeometryEncoder::height(int context, std::uint32_t foreseen) {
     const Residual residual = Residual::of(height, foreseen);
     events_.push_back(
         {false, static_cast<std::uint8_t>(context), static_cast<std::uint8_t>(residual.symbol)});
+    ++counts_[static_cast<std::size_t>(context)][residual.symbol];
     if (residual.rawBits != 0)
         raws_.push_back(residual);
     return height;
 }
 
-std::array<SymbolShares, kHeightContexts> GeometryEncoder::symbolShares() const {
-    std::array<std::array<std::uint32_t, Residual::kSymbols>, kHeightContexts> counts{};
-    for (const Event& event : events_)
-        if (!event.isFlag)
-            ++counts[event.context][event.value];
-    std::array<SymbolShares, kHeightContexts> shares;
-    for (std::size_t k = 0; k < kHeightContexts; ++k) shares[k] = SymbolShares(counts[k]);
-    return shares;
-}
-
-GeometryBits GeometryEncoder::finish() const {
-    const std::array<SymbolShares, kHeightContexts> symbols = symbolShares();
+GeometryBits GeometryEncoder::finish() {
+    std::array<SymbolShares, kHeightContexts> symbols;
+    for (std::size_t k = 0; k < kHeightContexts; ++k) symbols[k] = SymbolShares(counts_[k]);
     BitWriter raw;
     for (const SymbolShares& shares : symbols) shares.write(raw);
     for (const Residual& residual : raws_)
         raw.put(residual.raw, static_cast<int>(residual.rawBits));
 
     std::array<AdaptiveFlag, kFlagContexts> flags;
-    std::vector<Share> shares;
-    shares.reserve(events_.size());
+    shares_.clear();
     for (const Event& event : events_) {
         if (event.isFlag) {
-            shares.push_back(flags[event.context].share(event.value != 0));
+            shares_.push_back(flags[event.context].share(event.value != 0));
             flags[event.context].learn(event.value != 0);
         } else {
-            shares.push_back(symbols[event.context].of(event.value));
+            shares_.push_back(symbols[event.context].of(event.value));
         }
     }
     RansEncoder<2> rans;
     for (std::size_t k = events_.size(); k-- > 0;)
-        rans.put(events_[k].isFlag ? 0 : 1, shares[k],
+        rans.put(events_[k].isFlag ? 0 : 1, shares_[k],
                  events_[k].isFlag ? AdaptiveFlag::kBits : kSymbolBits);
     std::vector<std::uint8_t> bytes = std::move(raw).finish();
     bytes.resize(bytes.size() + bytes.size() % 2);
+    events_.clear();
+    raws_.clear();
+    counts_ = {};
     return {std::move(rans).finish(), std::move(bytes)};
 }
 

@@ -18,14 +18,16 @@ struct GeometryBits {
                                     ///< even number
 };
 
-/// Collects tiles first, since all of a page share their symbols' shares.
+/// Collects tiles first, since all of a page share their symbols' shares. For one page after the
+/// other.
 class GeometryEncoder {
 public:
     /// Heights are counted in steps of 2^heightShift from baseHeight. Give the tiles in the order
     /// in which they are to be decoded. Precondition: `mesh` has triangles.
     void add(const TileMesh& mesh, std::int32_t baseHeight, int heightShift);
 
-    GeometryBits finish() const;
+    /// Starts over.
+    GeometryBits finish();
 
 private:
     friend class TileModel<GeometryEncoder>;
@@ -43,10 +45,11 @@ private:
     void triangle(int, std::uint16_t, std::uint16_t, std::uint16_t) {}
 
     bool flag(int context, bool value);
-    std::array<SymbolShares, kHeightContexts> symbolShares() const;
 
     std::vector<Event> events_;
+    std::vector<Share> shares_;  ///< of the events
     std::vector<Residual> raws_;
+    std::array<std::array<std::uint32_t, Residual::kSymbols>, kHeightContexts> counts_{};
 
     // The tile being added.
     const TileMesh* mesh_ = nullptr;
