@@ -58,7 +58,6 @@ void TileMesher::begin(const TileId& tile) {
         if (tile.level > 0 && quadtree_.contains(Quadtree::neighbour(tile, edge)))
             shape.finerEdges = static_cast<std::uint8_t>(shape.finerEdges | 1 << edge);
     for (std::vector<std::uint16_t>& part : partIndices_) part.clear();
-    drawn_.clear();
     moved_.clear();
 }
 
@@ -103,13 +102,19 @@ void TileMesher::finish() {
 
 /// `numbers` is empty, or what dropUnused gave.
 void TileMesher::measureVertices(const std::vector<std::uint16_t>& numbers) {
-    for (std::size_t k = 0; k < drawn_.size(); ++k) {
-        if (!numbers.empty() && numbers[k] == kAbsentPoint)
-            continue;
-        mesh_.errorMetres = std::max(mesh_.errorMetres, moved_[k]);
-        mesh_.minHeightMetres = std::min(mesh_.minHeightMetres, drawn_[k]);
-        mesh_.maxHeightMetres = std::max(mesh_.maxHeightMetres, drawn_[k]);
+    for (std::size_t k = 0; k < moved_.size(); ++k)
+        if (numbers.empty() || numbers[k] != kAbsentPoint)
+            mesh_.errorMetres = std::max(mesh_.errorMetres, moved_[k]);
+    if (mesh_.vertices.empty())
+        return;
+    std::int32_t lowest = mesh_.vertices.front().q;
+    std::int32_t highest = lowest;
+    for (const TileVertex& vertex : mesh_.vertices) {
+        lowest = std::min(lowest, vertex.q);
+        highest = std::max(highest, vertex.q);
     }
+    mesh_.minHeightMetres = lowest * lattice_.stepMetres;
+    mesh_.maxHeightMetres = highest * lattice_.stepMetres;
 }
 
 bool TileMesher::isVertex(TilePoint middle, const SplitContext&) {
@@ -126,7 +131,8 @@ bool TileMesher::isFinerVertex(TilePoint middle, int) {
 }
 
 void TileMesher::triangle(int part, TilePoint a, TilePoint b, TilePoint c) {
-    if (!isHalfCell(a, b, c) && mayBeWorst(a, b, c))
+    // Its hypotenuse tells half a cell.
+    if (!isHalfCell(b, c, c) && mayBeWorst(a, b, c))
         measure(a, b, c, true);
     addTriangle(part, a, b, c);
 }
@@ -140,14 +146,16 @@ void TileMesher::finerTriangle(int part, TilePoint apex, TilePoint from, TilePoi
 
 Corner TileMesher::corner(TilePoint p) const {
     return {std::min(column(p), quadtree_.columns() - 1), std::min(row(p), quadtree_.rows() - 1),
-            p.isAbsent() ? std::numeric_limits<double>::quiet_NaN() : drawn_[p.number]};
+            p.isAbsent() ? std::numeric_limits<double>::quiet_NaN()
+                         : mesh_.vertices[p.number].q * lattice_.stepMetres};
 }
 
 /// Whether all posts of a triangle are its vertices, which are measured as such.
 bool TileMesher::isHalfCell(TilePoint a, TilePoint b, TilePoint c) const {
-    const std::int32_t width = std::max({a.x(), b.x(), c.x()}) - std::min({a.x(), b.x(), c.x()});
-    const std::int32_t height = std::max({a.y(), b.y(), c.y()}) - std::min({a.y(), b.y(), c.y()});
-    return shift_ == 0 && width == 2 && height == 2;
+    const auto extent = [](std::int32_t u, std::int32_t v, std::int32_t w) {
+        return std::max(std::max(u, v), w) - std::min(std::min(u, v), w);
+    };
+    return shift_ == 0 && extent(a.x(), b.x(), c.x()) == 2 && extent(a.y(), b.y(), c.y()) == 2;
 }
 
 /// Whether a triangle of the global triangulation may deviate more than any so far. VertexLevels
@@ -179,7 +187,7 @@ void TileMesher::addTriangle(int part, TilePoint a, TilePoint b, TilePoint c) {
     if (a.isAbsent() || b.isAbsent() || c.isAbsent())
         return;
     std::vector<std::uint16_t>& indices = partIndices_[static_cast<std::size_t>(part)];
-    indices.insert(indices.end(), {a.number, b.number, c.number});
+    for (const std::uint16_t number : {a.number, b.number, c.number}) indices.push_back(number);
 }
 
 std::uint16_t TileMesher::add(TilePoint p) {
@@ -190,8 +198,7 @@ std::uint16_t TileMesher::add(TilePoint p) {
         return kAbsentPoint;
     const std::int32_t q = lattice_.quantise(source);
     mesh_.vertices.push_back({p.x(), p.y(), q});
-    drawn_.push_back(q * lattice_.stepMetres);
-    moved_.push_back(std::abs(drawn_.back() - static_cast<double>(source)));
+    moved_.push_back(std::abs(q * lattice_.stepMetres - static_cast<double>(source)));
     if (!mayHaveUnused())  // else it counts once it is known to be used
         mesh_.errorMetres = std::max(mesh_.errorMetres, moved_.back());
     return static_cast<std::uint16_t>(mesh_.vertices.size() - 1);

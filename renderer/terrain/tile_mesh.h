@@ -95,8 +95,7 @@ private:
     bool isCut_ = false;  ///< reaches past the last column or row
     TileMesh mesh_;
     std::array<std::vector<std::uint16_t>, kTileParts> partIndices_;
-    std::vector<double> drawn_;  ///< heights of the vertices added, metres
-    std::vector<double> moved_;  ///< by how far they were, for the lattice
+    std::vector<double> moved_;  ///< by how many metres each vertex added was, for the lattice
     std::vector<std::uint16_t> slots_;
 };
 
