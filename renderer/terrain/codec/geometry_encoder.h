@@ -32,11 +32,11 @@ public:
 private:
     friend class TileModel<GeometryEncoder>;
 
-    /// A flag's answer, or the symbol of a height; in the order of the walk.
+    /// A flag's share, which is known when it comes, or what tells a height's: of size 0, and
+    /// starting at context << 8 | symbol. In the order of the walk.
     struct Event {
-        bool isFlag = false;
-        std::uint8_t context = 0;
-        std::uint8_t value = 0;
+        std::uint16_t start = 0;
+        std::uint16_t size = 0;
     };
 
     bool isVertex(int context);
@@ -47,7 +47,7 @@ private:
     bool flag(int context, bool value);
 
     std::vector<Event> events_;
-    std::vector<Share> shares_;  ///< of the events
+    std::array<AdaptiveFlag, kFlagContexts> flags_;
     std::vector<Residual> raws_;
     std::array<std::array<std::uint32_t, Residual::kSymbols>, kHeightContexts> counts_{};
 
