@@ -116,6 +116,7 @@ private:
         terrain::SourceSurface surface;
         terrain::TileSamples samples;
         terrain::TileMesher mesher;
+        terrain::PageBuilder builder;
     };
     struct BuiltPage {
         std::uint32_t number = 0;
@@ -133,7 +134,6 @@ private:
 
     BuiltPage build(std::uint32_t number) {
         Worker& worker = *workers_.local();
-        terrain::PageBuilder builder;
         const TileId first = index_.quadtree.firstTileOfPage(number);
         std::vector<std::int8_t> normals;
         for (std::int32_t place = 0; place < terrain::kPageTiles * terrain::kPageTiles; ++place) {
@@ -141,7 +141,7 @@ private:
                               first.y + place / terrain::kPageTiles};
             if (!index_.quadtree.contains(tile))
                 continue;
-            const terrain::TileMesh mesh = worker.mesher.mesh(tile);
+            const terrain::TileMesh& mesh = worker.mesher.mesh(tile);
             terrain::TileRecord record = recordOf(mesh, rounding_);
             if (tile.level == 0)
                 coverPosts(worker.samples, record);
@@ -150,10 +150,10 @@ private:
                 hasNormals(tile, mesh, worker.samples) ? terrain::normalMapBytes(tile.level) : 0);
             if (!normals.empty())
                 sources_.normals.fill(tile, normals);
-            builder.add(place, tile.level, mesh, normals);
+            worker.builder.add(place, tile.level, mesh, normals);
         }
         return {number,
-                std::make_shared<const std::vector<std::uint32_t>>(std::move(builder).finish())};
+                std::make_shared<const std::vector<std::uint32_t>>(worker.builder.finish())};
     }
 
     /// Where finer tiles share the normals, they may be drawn where this one is not; but only

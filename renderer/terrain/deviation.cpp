@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "renderer/terrain/deviation_scan.h"
+#include "renderer/terrain/small_triangle.h"
 
 namespace eyrie::terrain {
 namespace {
@@ -199,8 +200,11 @@ double SourceSurface::scanBlocks(const Triangle& triangle, const Plane& plane,
 bool SourceSurface::liesOnItsPosts(const Triangle& triangle) {
     Triangle unmoved = triangle;
     for (Corner& corner : unmoved) corner.z = static_cast<double>(heightAt(corner.i, corner.j));
+    const HeightPatch* tile = onlyTile(triangle);
+    if (tile != nullptr && isSmall(unmoved))
+        return deviationOfSmall(*tile, unmoved, 0).atPosts <= postTolerance_;
     const Plane plane = planeOfAligned(unmoved);
-    if (const HeightPatch* tile = onlyTile(triangle))
+    if (tile != nullptr)
         return scanAligned(*tile, unmoved, plane, 0) <= postTolerance_;
     const std::array<double, 1> step{postTolerance_};
     return scanBlocks(unmoved, plane, {0, step}, 0) <= postTolerance_;
@@ -213,6 +217,11 @@ double SourceSurface::ofAligned(const Triangle& triangle, const DeviationGoal& g
             return held == Contents::Mixed ? std::max(goal.floor, longestEdgeMetres(triangle))
                                            : goal.floor;
     }
+    if (isSmall(triangle))
+        if (const HeightPatch* tile = onlyTile(triangle)) {
+            const auto [atPosts, atCentres] = deviationOfSmall(*tile, triangle, goal.floor);
+            return atCentres > atPosts && !liesOnItsPosts(triangle) ? atCentres : atPosts;
+        }
     const Plane plane = planeOfAligned(triangle);
     double atPosts = goal.floor;
     double atCentres = goal.floor;

@@ -63,10 +63,8 @@ void PageBuilder::add(int place, int level, const TileMesh& mesh,
         addGeometry(place, mesh);
     if (normals.empty())
         return;
-    if (!normals_)
-        normals_.emplace(Quadtree::cells(level));
     header_.normalTiles |= 1U << place;
-    normals_->add(normals);
+    normals_.add(header_.cells, normals);
 }
 
 void PageBuilder::addGeometry(int place, const TileMesh& mesh) {
@@ -86,12 +84,13 @@ void PageBuilder::addGeometry(int place, const TileMesh& mesh) {
     hasTriangles_ = true;
 }
 
-std::vector<std::uint32_t> PageBuilder::finish() && {
-    if (!hasTriangles_ && !normals_)
+std::vector<std::uint32_t> PageBuilder::finish() {
+    const bool hasNormals = header_.normalTiles != 0;
+    if (!hasTriangles_ && !hasNormals)
         return {};
     const GeometryBits geometry = geometry_.finish();
     const std::vector<std::uint8_t> normals =
-        normals_ ? normals_->finish() : std::vector<std::uint8_t>();
+        hasNormals ? normals_.finish() : std::vector<std::uint8_t>();
     header_.wordBytes = static_cast<std::uint32_t>(geometry.words.size() * sizeof(std::uint16_t));
     header_.rawBytes = static_cast<std::uint32_t>(geometry.raw.size());
     header_.normalBytes = static_cast<std::uint32_t>(normals.size());
@@ -107,6 +106,8 @@ std::vector<std::uint32_t> PageBuilder::finish() && {
     append(geometry.words.data(), header_.wordBytes);
     append(geometry.raw.data(), header_.rawBytes);
     append(normals.data(), header_.normalBytes);
+    header_ = {};
+    hasTriangles_ = false;
     return page;
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,8 +17,8 @@
 
 namespace eyrie::terrain {
 
-/// Puts the tiles of one page together. Page::decode gives back what went in, in the order of
-/// TileTriangulation.
+/// Puts the tiles of one page after the other together. Page::decode gives back what went in, in
+/// the order of TileTriangulation. Keeps scratch memory: one object per thread.
 class PageBuilder {
 public:
     /// Give each tile its place once, in ascending order, all of one level. A mesh without indices
@@ -27,8 +26,8 @@ public:
     /// Precondition: normals.size() is 0 or normalMapBytes(level).
     void add(int place, int level, const TileMesh& mesh, std::span<const std::int8_t> normals);
 
-    /// The page's bytes; empty when no tile has triangles or normals.
-    std::vector<std::uint32_t> finish() &&;
+    /// The page's bytes; empty when no tile has triangles or normals. Starts the next page.
+    std::vector<std::uint32_t> finish();
 
 private:
     void addGeometry(int place, const TileMesh& mesh);
@@ -36,7 +35,7 @@ private:
     PageHeader header_;
     bool hasTriangles_ = false;
     GeometryEncoder geometry_;
-    std::optional<NormalEncoder> normals_;  ///< of the tiles that have some
+    NormalEncoder normals_;
 };
 
 /// Writes an .eyt file that appears under its name only when it is complete: bytes go to

@@ -70,7 +70,11 @@ struct HeightLattice {
 
     /// Precondition: `height` is not NaN and within the statistics the lattice was chosen for.
     std::int32_t quantise(float height) const {
-        return static_cast<std::int32_t>(std::nearbyint(static_cast<double>(height) / stepMetres));
+        // Beyond 2^52 doubles are whole numbers: rounds halves to even, as std::nearbyint does,
+        // which is a call on processors without SSE4.1.
+        constexpr double kWhole = 0x1.8p52;
+        return static_cast<std::int32_t>(static_cast<double>(height) / stepMetres + kWhole -
+                                         kWhole);
     }
 };
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace eyrie::terrain {
@@ -17,15 +18,25 @@ std::int32_t limit(std::int32_t posts, int shift, std::int32_t side) {
 
 }  // namespace
 
+void TileMesh::clear() {
+    vertices.clear();
+    indices.clear();
+    splits.clear();
+    isPresent.clear();
+    errorMetres = 0;
+    minHeightMetres = std::numeric_limits<double>::infinity();
+    maxHeightMetres = -std::numeric_limits<double>::infinity();
+}
+
 TileMesher::TileMesher(SourceSurface& surface, TileSamples& samples, const HeightLattice& lattice,
                        const Quadtree& quadtree)
     : surface_(surface), samples_(samples), lattice_(lattice), quadtree_(quadtree) {}
 
-TileMesh TileMesher::mesh(const TileId& tile) {
+const TileMesh& TileMesher::mesh(const TileId& tile) {
     begin(tile);
     TileTriangulation<TileMesher>(mesh_.shape, slots_, *this).walk();
     finish();
-    return std::move(mesh_);
+    return mesh_;
 }
 
 void TileMesher::begin(const TileId& tile) {
@@ -36,7 +47,8 @@ void TileMesher::begin(const TileId& tile) {
     firstColumn_ = tile.x * side;
     firstRow_ = tile.y * side;
     isCut_ = firstColumn_ + side >= quadtree_.columns() || firstRow_ + side >= quadtree_.rows();
-    mesh_ = {};
+    mesh_.clear();
+    mesh_.shape = {};
     TileShape& shape = mesh_.shape;
     shape.cells = Quadtree::cells(tile.level);
     shape.finerStep = shift_ == Quadtree::spacingShift(tile.level - 1) ? 2 : 1;
@@ -46,6 +58,7 @@ void TileMesher::begin(const TileId& tile) {
         if (tile.level > 0 && quadtree_.contains(Quadtree::neighbour(tile, edge)))
             shape.finerEdges = static_cast<std::uint8_t>(shape.finerEdges | 1 << edge);
     for (std::vector<std::uint16_t>& part : partIndices_) part.clear();
+    moved_.clear();
 }
 
 /// Numbers by vertex that is used, kAbsentPoint for the others, which are dropped.
@@ -72,8 +85,9 @@ std::vector<std::uint16_t> TileMesher::dropUnused() {
 
 /// Puts the parts together and measures what is used.
 void TileMesher::finish() {
-    if (isCut_ || surface_.hasNodata()) {
-        const std::vector<std::uint16_t> numbers = dropUnused();
+    std::vector<std::uint16_t> numbers;
+    if (mayHaveUnused()) {
+        numbers = dropUnused();
         for (std::vector<std::uint16_t>& part : partIndices_)
             for (std::uint16_t& index : part) index = numbers[index];
     }
@@ -83,16 +97,24 @@ void TileMesher::finish() {
         mesh_.indices.insert(mesh_.indices.end(), partIndices_[part].begin(),
                              partIndices_[part].end());
     }
+    measureVertices(numbers);
+}
+
+/// `numbers` is empty, or what dropUnused gave.
+void TileMesher::measureVertices(const std::vector<std::uint16_t>& numbers) {
+    for (std::size_t k = 0; k < moved_.size(); ++k)
+        if (numbers.empty() || numbers[k] != kAbsentPoint)
+            mesh_.errorMetres = std::max(mesh_.errorMetres, moved_[k]);
+    if (mesh_.vertices.empty())
+        return;
+    std::int32_t lowest = mesh_.vertices.front().q;
+    std::int32_t highest = lowest;
     for (const TileVertex& vertex : mesh_.vertices) {
-        const TilePoint p{static_cast<std::uint32_t>(vertex.x | vertex.y << 10), 0, 0};
-        const float source = samples_.height(std::min(column(p), quadtree_.columns() - 1),
-                                             std::min(row(p), quadtree_.rows() - 1));
-        const double drawn = vertex.q * lattice_.stepMetres;
-        mesh_.errorMetres =
-            std::max(mesh_.errorMetres, std::abs(drawn - static_cast<double>(source)));
-        mesh_.minHeightMetres = std::min(mesh_.minHeightMetres, drawn);
-        mesh_.maxHeightMetres = std::max(mesh_.maxHeightMetres, drawn);
+        lowest = std::min(lowest, vertex.q);
+        highest = std::max(highest, vertex.q);
     }
+    mesh_.minHeightMetres = lowest * lattice_.stepMetres;
+    mesh_.maxHeightMetres = highest * lattice_.stepMetres;
 }
 
 bool TileMesher::isVertex(TilePoint middle, const SplitContext&) {
@@ -109,31 +131,45 @@ bool TileMesher::isFinerVertex(TilePoint middle, int) {
 }
 
 void TileMesher::triangle(int part, TilePoint a, TilePoint b, TilePoint c) {
-    measure(a, b, c, true);
+    // Its hypotenuse tells half a cell.
+    if (!isHalfCell(b, c, c) && mayBeWorst(a, b, c))
+        measure(a, b, c, true);
     addTriangle(part, a, b, c);
 }
 
 void TileMesher::finerTriangle(int part, TilePoint apex, TilePoint from, TilePoint to,
                                bool isWhole) {
-    if (!isWhole)
+    if (!isWhole && !isHalfCell(apex, from, to))
         measure(apex, from, to, false);
     addTriangle(part, apex, from, to);
 }
 
 Corner TileMesher::corner(TilePoint p) const {
-    const std::int32_t i = std::min(column(p), quadtree_.columns() - 1);
-    const std::int32_t j = std::min(row(p), quadtree_.rows() - 1);
-    const float height = samples_.height(i, j);
-    return {i, j,
-            std::isnan(height) ? static_cast<double>(height)
-                               : lattice_.quantise(height) * lattice_.stepMetres};
+    return {std::min(column(p), quadtree_.columns() - 1), std::min(row(p), quadtree_.rows() - 1),
+            p.isAbsent() ? std::numeric_limits<double>::quiet_NaN()
+                         : mesh_.vertices[p.number].q * lattice_.stepMetres};
+}
+
+/// Whether all posts of a triangle are its vertices, which are measured as such.
+bool TileMesher::isHalfCell(TilePoint a, TilePoint b, TilePoint c) const {
+    const auto extent = [](std::int32_t u, std::int32_t v, std::int32_t w) {
+        return std::max(std::max(u, v), w) - std::min(std::min(u, v), w);
+    };
+    return shift_ == 0 && extent(a.x(), b.x(), c.x()) == 2 && extent(a.y(), b.y(), c.y()) == 2;
+}
+
+/// Whether a triangle of the global triangulation may deviate more than any so far. VertexLevels
+/// has measured it with the source's heights; here its corners have moved to the lattice.
+bool TileMesher::mayBeWorst(TilePoint apex, TilePoint left, TilePoint right) const {
+    if (isCut_ || apex.isAbsent() || left.isAbsent() || right.isAbsent())
+        return true;
+    const TilePoint middle{(left.position + right.position) / 2, 0, 0};
+    const double moved = std::max({moved_[apex.number], moved_[left.number], moved_[right.number]});
+    return samples_.greatestDeviationMetres(column(middle), row(middle)) + moved >=
+           mesh_.errorMetres;
 }
 
 void TileMesher::measure(TilePoint a, TilePoint b, TilePoint c, bool mayBeAligned) {
-    const std::int32_t width = std::max({a.x(), b.x(), c.x()}) - std::min({a.x(), b.x(), c.x()});
-    const std::int32_t height = std::max({a.y(), b.y(), c.y()}) - std::min({a.y(), b.y(), c.y()});
-    if (shift_ == 0 && width == 2 && height == 2)
-        return;  // half a cell: all its posts are vertices, and those are measured as such
     const Triangle triangle = {corner(a), corner(b), corner(c)};
     const auto isUnmoved = [&](TilePoint p) {
         return column(p) < quadtree_.columns() && row(p) < quadtree_.rows();
@@ -151,7 +187,7 @@ void TileMesher::addTriangle(int part, TilePoint a, TilePoint b, TilePoint c) {
     if (a.isAbsent() || b.isAbsent() || c.isAbsent())
         return;
     std::vector<std::uint16_t>& indices = partIndices_[static_cast<std::size_t>(part)];
-    indices.insert(indices.end(), {a.number, b.number, c.number});
+    for (const std::uint16_t number : {a.number, b.number, c.number}) indices.push_back(number);
 }
 
 std::uint16_t TileMesher::add(TilePoint p) {
@@ -160,7 +196,11 @@ std::uint16_t TileMesher::add(TilePoint p) {
     mesh_.isPresent.push_back(!std::isnan(source));
     if (std::isnan(source))
         return kAbsentPoint;
-    mesh_.vertices.push_back({p.x(), p.y(), lattice_.quantise(source)});
+    const std::int32_t q = lattice_.quantise(source);
+    mesh_.vertices.push_back({p.x(), p.y(), q});
+    moved_.push_back(std::abs(q * lattice_.stepMetres - static_cast<double>(source)));
+    if (!mayHaveUnused())  // else it counts once it is known to be used
+        mesh_.errorMetres = std::max(mesh_.errorMetres, moved_.back());
     return static_cast<std::uint16_t>(mesh_.vertices.size() - 1);
 }
 

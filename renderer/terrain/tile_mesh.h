@@ -31,6 +31,8 @@ struct TileMesh {
     double minHeightMetres = std::numeric_limits<double>::infinity();  ///< of the vertices
     double maxHeightMetres = -std::numeric_limits<double>::infinity();
 
+    /// Keeps the memory. Shape and parts are of no meaning then.
+    void clear();
     std::uint32_t ownTriangles() const { return (parts[kFinerPart].first) / 3; }
 };
 
@@ -49,8 +51,8 @@ public:
                const Quadtree& quadtree);
 
     /// Loads the tile's samples. Without the triangles that clamping squeezed to nothing or that
-    /// touch nodata.
-    TileMesh mesh(const TileId& tile);
+    /// touch nodata. Valid until the next call.
+    const TileMesh& mesh(const TileId& tile);
 
 private:
     friend class TileTriangulation<TileMesher>;
@@ -74,8 +76,12 @@ private:
     std::uint16_t add(TilePoint p);
     void addTriangle(int part, TilePoint a, TilePoint b, TilePoint c);
     Corner corner(TilePoint p) const;
+    bool isHalfCell(TilePoint a, TilePoint b, TilePoint c) const;
+    bool mayBeWorst(TilePoint apex, TilePoint left, TilePoint right) const;
     void measure(TilePoint a, TilePoint b, TilePoint c, bool mayBeAligned);
+    bool mayHaveUnused() const { return isCut_ || surface_.hasNodata(); }
     std::vector<std::uint16_t> dropUnused();
+    void measureVertices(const std::vector<std::uint16_t>& numbers);
 
     SourceSurface& surface_;
     TileSamples& samples_;
@@ -89,6 +95,7 @@ private:
     bool isCut_ = false;  ///< reaches past the last column or row
     TileMesh mesh_;
     std::array<std::vector<std::uint16_t>, kTileParts> partIndices_;
+    std::vector<double> moved_;  ///< by how many metres each vertex added was, for the lattice
     std::vector<std::uint16_t> slots_;
 };
 

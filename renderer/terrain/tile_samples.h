@@ -26,6 +26,10 @@ public:
     bool isNeeded(std::int32_t i, std::int32_t j, int level) const {
         return levelsRead_[index(i, j)] > level;
     }
+    /// What the triangles that vertex (i, j) splits deviate from the source at most.
+    double greatestDeviationMetres(std::int32_t i, std::int32_t j) const {
+        return levels_.greatestDeviationMetres(levelsRead_[index(i, j)]);
+    }
     /// Posts of the tile, those past the grid standing on its edge; without any left out only up to
     /// level 2.
     const std::vector<float>& heights() const { return heightsRead_; }

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -45,6 +46,12 @@ VertexLevels::VertexLevels(const ElevationModel& model, Scratch& scratch)
 void VertexLevels::setThresholds(std::vector<double> metres) {
     thresholds_ = std::move(metres);
     floatThresholds_.assign(thresholds_.begin(), thresholds_.end());
+    constexpr double kFloatRounding = 1.0 / (1 << 20);
+    const double rounding = kFloatRounding * model_.statistics.highestMagnitude();
+    greatestDeviations_.clear();
+    for (const double threshold : thresholds_)
+        greatestDeviations_.push_back(threshold * (1 + kFloatRounding) + rounding);
+    greatestDeviations_.push_back(std::numeric_limits<double>::infinity());
 }
 
 int VertexLevels::thresholdsExceededBy(double deviationMetres) const {

@@ -51,6 +51,11 @@ public:
     absl::Status join(const import::ImportControl& control);
     absl::Status finish(const import::ImportControl& control);
 
+    /// What the triangles that a vertex splits deviate from the source at most, given how many
+    /// thresholds it exceeds; rounding, in float as well, included.
+    double greatestDeviationMetres(int exceeded) const {
+        return greatestDeviations_[static_cast<std::size_t>(exceeded)];
+    }
     /// Numbers of exceeded thresholds: vertex (i, j) is needed by all levels below that number.
     /// `rect` counts posts 2^layer apart; `out` gets its values row by row.
     void read(int layer, const PostRect& rect, std::uint8_t* out) const;
@@ -99,6 +104,7 @@ private:
     Scratch& scratch_;
     std::vector<double> thresholds_;
     std::vector<float> floatThresholds_;
+    std::vector<double> greatestDeviations_;  ///< by thresholds exceeded
     std::int32_t columns_;
     std::int32_t rows_;
     std::int32_t side_;      ///< cells a side of the padded square

@@ -7,15 +7,18 @@
 namespace eyrie::terrain {
 
 HeightPacking chooseHeightPacking(std::span<const TileVertex> vertices) {
-    const auto byHeight = [](const TileVertex& a, const TileVertex& b) { return a.q < b.q; };
-    const auto [lowest, highest] = std::minmax_element(vertices.begin(), vertices.end(), byHeight);
     HeightPacking packing;
-    packing.base = lowest->q;
+    packing.base = vertices.front().q;
+    std::int32_t highest = packing.base;
+    for (const TileVertex& vertex : vertices) {
+        packing.base = std::min(packing.base, vertex.q);
+        highest = std::max(highest, vertex.q);
+    }
     std::uint32_t bits = 0;  // set in any height above the lowest
     for (const TileVertex& vertex : vertices)
         bits |= static_cast<std::uint32_t>(vertex.q - packing.base);
     packing.shift = bits == 0 ? 0 : std::countr_zero(bits);
-    const auto steps = static_cast<std::uint32_t>(highest->q - packing.base) >> packing.shift;
+    const auto steps = static_cast<std::uint32_t>(highest - packing.base) >> packing.shift;
     packing.wordsPerVertex = steps <= kMaxShortHeight ? 1 : 2;
     return packing;
 }

@@ -21,7 +21,11 @@ void GeometryEncoder::add(const TileMesh& mesh, std::int32_t baseHeight, int hei
 }
 
 bool GeometryEncoder::flag(int context, bool value) {
-    events_.push_back({true, static_cast<std::uint8_t>(context), value});
+    AdaptiveFlag& model = flags_[static_cast<std::size_t>(context)];
+    const Share share = model.share(value);
+    model.learn(value);
+    events_.push_back(
+        {static_cast<std::uint16_t>(share.start), static_cast<std::uint16_t>(share.size)});
     return value;
 }
 
@@ -37,46 +41,43 @@ std::uint32_t GeometryEncoder::height(int context, std::uint32_t foreseen) {
     const TileVertex& vertex = mesh_->vertices[nextVertex_++];
     const auto height = static_cast<std::uint32_t>(vertex.q - baseHeight_) >> heightShift_;
     const Residual residual = Residual::of(height, foreseen);
+    static_assert(Residual::kSymbols <= 256);
     events_.push_back(
-        {false, static_cast<std::uint8_t>(context), static_cast<std::uint8_t>(residual.symbol)});
+        {static_cast<std::uint16_t>(static_cast<std::uint32_t>(context) << 8 | residual.symbol),
+         0});
+    ++counts_[static_cast<std::size_t>(context)][residual.symbol];
     if (residual.rawBits != 0)
         raws_.push_back(residual);
     return height;
 }
 
-std::array<SymbolShares, kHeightContexts> GeometryEncoder::symbolShares() const {
-    std::array<std::array<std::uint32_t, Residual::kSymbols>, kHeightContexts> counts{};
-    for (const Event& event : events_)
-        if (!event.isFlag)
-            ++counts[event.context][event.value];
-    std::array<SymbolShares, kHeightContexts> shares;
-    for (std::size_t k = 0; k < kHeightContexts; ++k) shares[k] = SymbolShares(counts[k]);
-    return shares;
-}
-
-GeometryBits GeometryEncoder::finish() const {
-    const std::array<SymbolShares, kHeightContexts> symbols = symbolShares();
+GeometryBits GeometryEncoder::finish() {
     BitWriter raw;
-    for (const SymbolShares& shares : symbols) shares.write(raw);
+    std::array<Share, kHeightContexts << 8> ofHeights{};
+    for (std::size_t context = 0; context < kHeightContexts; ++context) {
+        const SymbolShares shares(counts_[context]);
+        shares.write(raw);
+        for (std::uint32_t symbol = 0; symbol < Residual::kSymbols; ++symbol)
+            if (counts_[context][symbol] > 0)
+                ofHeights[context << 8 | symbol] = shares.of(symbol);
+    }
     for (const Residual& residual : raws_)
         raw.put(residual.raw, static_cast<int>(residual.rawBits));
 
-    std::array<AdaptiveFlag, kFlagContexts> flags;
-    std::vector<Share> shares;
-    for (const Event& event : events_) {
-        if (event.isFlag) {
-            shares.push_back(flags[event.context].share(event.value != 0));
-            flags[event.context].learn(event.value != 0);
-        } else {
-            shares.push_back(symbols[event.context].of(event.value));
-        }
-    }
     RansEncoder<2> rans;
-    for (std::size_t k = events_.size(); k-- > 0;)
-        rans.put(events_[k].isFlag ? 0 : 1, shares[k],
-                 events_[k].isFlag ? AdaptiveFlag::kBits : kSymbolBits);
+    for (std::size_t k = events_.size(); k-- > 0;) {
+        const auto [start, size] = events_[k];
+        if (size != 0)
+            rans.put(0, {start, size}, AdaptiveFlag::kBits);
+        else
+            rans.put(1, ofHeights[start], kSymbolBits);
+    }
     std::vector<std::uint8_t> bytes = std::move(raw).finish();
     bytes.resize(bytes.size() + bytes.size() % 2);
+    events_.clear();
+    flags_ = {};
+    raws_.clear();
+    counts_ = {};
     return {std::move(rans).finish(), std::move(bytes)};
 }
 

@@ -18,23 +18,25 @@ struct GeometryBits {
                                     ///< even number
 };
 
-/// Collects tiles first, since all of a page share their symbols' shares.
+/// Collects tiles first, since all of a page share their symbols' shares. For one page after the
+/// other.
 class GeometryEncoder {
 public:
     /// Heights are counted in steps of 2^heightShift from baseHeight. Give the tiles in the order
     /// in which they are to be decoded. Precondition: `mesh` has triangles.
     void add(const TileMesh& mesh, std::int32_t baseHeight, int heightShift);
 
-    GeometryBits finish() const;
+    /// Starts over.
+    GeometryBits finish();
 
 private:
     friend class TileModel<GeometryEncoder>;
 
-    /// A flag's answer, or the symbol of a height; in the order of the walk.
+    /// A flag's share, which is known when it comes, or what tells a height's: of size 0, and
+    /// starting at context << 8 | symbol. In the order of the walk.
     struct Event {
-        bool isFlag = false;
-        std::uint8_t context = 0;
-        std::uint8_t value = 0;
+        std::uint16_t start = 0;
+        std::uint16_t size = 0;
     };
 
     bool isVertex(int context);
@@ -43,10 +45,11 @@ private:
     void triangle(int, std::uint16_t, std::uint16_t, std::uint16_t) {}
 
     bool flag(int context, bool value);
-    std::array<SymbolShares, kHeightContexts> symbolShares() const;
 
     std::vector<Event> events_;
+    std::array<AdaptiveFlag, kFlagContexts> flags_;
     std::vector<Residual> raws_;
+    std::array<std::array<std::uint32_t, Residual::kSymbols>, kHeightContexts> counts_{};
 
     // The tile being added.
     const TileMesh* mesh_ = nullptr;

@@ -89,44 +89,46 @@ EYRIE_SIMD_CLONES void interleave(const std::int8_t* x, const std::int8_t* y, st
 
 }  // namespace
 
-void NormalEncoder::add(std::span<const std::int8_t> normals) {
+void NormalEncoder::add(std::int32_t cells, std::span<const std::int8_t> normals) {
+    samples_ = static_cast<std::size_t>(cells) + 1;
     const std::size_t n = samples_;
-    std::vector<std::int8_t> x(n * n);
-    std::vector<std::int8_t> y(n * n);
+    x_.resize(n * n);
+    y_.resize(n * n);
+    left_.resize(n * n);
     for (std::size_t k = 0; k < n * n; ++k) {
-        x[k] = normals[2 * k];
-        y[k] = normals[2 * k + 1];
+        x_[k] = normals[2 * k];
+        y_[k] = normals[2 * k + 1];
     }
-    std::vector<std::uint8_t> left(n * n);
     for (std::size_t j = 0; j < n; ++j)
         for (std::size_t i = 0; i < n; ++i) {
-            const std::int8_t* row = x.data() + j * n;
-            left[j * n + i] = zigzag(row[i] - fromPlane(row, j == 0 ? nullptr : row - n, i));
+            const std::int8_t* row = x_.data() + j * n;
+            left_[j * n + i] = zigzag(row[i] - fromPlane(row, j == 0 ? nullptr : row - n, i));
         }
-    addPlane(left, 0);
+    addPlane(0);
     for (std::size_t j = 0; j < n; ++j)
         for (std::size_t i = 0; i < n; ++i) {
-            const std::int8_t* row = y.data() + j * n;
-            const std::int8_t* xs = x.data() + j * n + i;
+            const std::int8_t* row = y_.data() + j * n;
+            const std::int8_t* xs = x_.data() + j * n + i;
             const bool isFromCurl = j > 0 && j + 1 < n && i >= kFirstCurlColumn;
             const int foreseen = isFromCurl ? row[i - 2] + *(xs - 1 + n) - *(xs - 1 - n)
                                             : fromPlane(row, j == 0 ? nullptr : row - n, i);
-            left[j * n + i] = zigzag(row[i] - foreseen);
+            left_[j * n + i] = zigzag(row[i] - foreseen);
         }
-    addPlane(left, kNormalContexts);
+    addPlane(kNormalContexts);
 }
 
-void NormalEncoder::addPlane(const std::vector<std::uint8_t>& left, std::size_t firstContext) {
-    std::vector<std::uint8_t> contexts(left.size(), kFirstRowContext);
+void NormalEncoder::addPlane(std::size_t firstContext) {
+    const std::size_t first = contexts_.size();
+    contexts_.resize(first + left_.size(), kFirstRowContext);
     for (std::size_t j = 1; j < samples_; ++j)
-        rowContexts(left.data() + (j - 1) * samples_, samples_, contexts.data() + j * samples_);
-    for (std::uint8_t& context : contexts)
-        context = static_cast<std::uint8_t>(context + firstContext);
-    contexts_.insert(contexts_.end(), contexts.begin(), contexts.end());
-    symbols_.insert(symbols_.end(), left.begin(), left.end());
+        rowContexts(left_.data() + (j - 1) * samples_, samples_,
+                    contexts_.data() + first + j * samples_);
+    for (std::size_t k = first; k < contexts_.size(); ++k)
+        contexts_[k] = static_cast<std::uint8_t>(contexts_[k] + firstContext);
+    symbols_.insert(symbols_.end(), left_.begin(), left_.end());
 }
 
-std::vector<std::uint8_t> NormalEncoder::finish() const {
+std::vector<std::uint8_t> NormalEncoder::finish() {
     std::array<std::array<std::uint32_t, 256>, 2 * kNormalContexts> counts{};
     for (std::size_t k = 0; k < symbols_.size(); ++k) ++counts[contexts_[k]][symbols_[k]];
     std::array<SymbolShares, 2 * kNormalContexts> shares;
@@ -146,6 +148,8 @@ std::vector<std::uint8_t> NormalEncoder::finish() const {
     const std::size_t first = bytes.size() + bytes.size() % 2;
     bytes.resize(first + words.size() * sizeof(std::uint16_t));
     std::memcpy(bytes.data() + first, words.data(), words.size() * sizeof(std::uint16_t));
+    symbols_.clear();
+    contexts_.clear();
     return bytes;
 }
 

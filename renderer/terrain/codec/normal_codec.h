@@ -25,20 +25,24 @@ inline constexpr std::size_t kNormalContexts = 4;
 /// A row with room for a copy of its ends on both sides.
 inline constexpr std::size_t kPaddedRow = kMaxTileCells + 3;
 
-/// Collects tiles, each (cells + 1)^2 samples as TileGeometry::normals describes.
+/// Collects tiles, each (cells + 1)^2 samples as TileGeometry::normals describes. For one page
+/// after the other.
 class NormalEncoder {
 public:
-    explicit NormalEncoder(std::int32_t cells) : samples_(static_cast<std::size_t>(cells) + 1) {}
-
-    void add(std::span<const std::int8_t> normals);
-    std::vector<std::uint8_t> finish() const;
+    /// All tiles of a page have the same number of cells.
+    void add(std::int32_t cells, std::span<const std::int8_t> normals);
+    /// Starts over.
+    std::vector<std::uint8_t> finish();
 
 private:
-    void addPlane(const std::vector<std::uint8_t>& left, std::size_t firstContext);
+    void addPlane(std::size_t firstContext);
 
-    std::size_t samples_;                 ///< a side
+    std::size_t samples_ = 0;             ///< a side
     std::vector<std::uint8_t> symbols_;   ///< plane by plane, row by row
     std::vector<std::uint8_t> contexts_;  ///< alike
+    std::vector<std::int8_t> x_;          ///< of the tile being added
+    std::vector<std::int8_t> y_;
+    std::vector<std::uint8_t> left_;  ///< residuals of one of the two
 };
 
 /// Reads what NormalEncoder wrote, tile by tile in the same order; safe on any bits.

@@ -131,7 +131,7 @@ std::vector<SamplePage> samplePages(const SampleTerrain& sample) {
                 makeNoise(tile.normals, sample.seed + static_cast<std::uint64_t>(place));
             builder.add(place, id.level, tile.mesh, tile.normals);
         }
-        page.bytes = std::move(builder).finish();
+        page.bytes = builder.finish();
         if (!page.bytes.empty())
             pages.push_back(std::move(page));
     }
