@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <stop_token>
 #include <string>
+#include <vector>
 
 #include <absl/status/statusor.h>
 
@@ -34,13 +35,16 @@ public:
     DataCache(std::filesystem::path folder, ProgressBar::Style progress, std::stop_token stop);
 
     /// The .eyt or .eym to draw for `path`: itself, or the import of a source file.
-    /// Errors: those of the importers; InvalidArgument where `path` is a scene.
-    absl::StatusOr<std::string> dataFor(const std::string& path, fabric::ObjectKind kind);
+    /// `imagery` names pictures to lay over an elevation model. Errors: those of the importers;
+    /// InvalidArgument where `path` is a scene, or imported already and so has no use for pictures.
+    absl::StatusOr<std::string> dataFor(const std::string& path, fabric::ObjectKind kind,
+                                        const std::vector<std::string>& imagery = {});
 
 private:
-    absl::StatusOr<std::string> imported(const std::string& source, fabric::ObjectKind kind);
+    absl::StatusOr<std::string> imported(const std::string& source, fabric::ObjectKind kind,
+                                         const std::vector<std::string>& imagery);
     absl::Status import(const std::string& source, const std::string& target,
-                        fabric::ObjectKind kind);
+                        fabric::ObjectKind kind, const std::vector<std::string>& imagery);
 
     const std::filesystem::path folder_;
     const ProgressBar::Style progress_;
