@@ -29,9 +29,7 @@ add_library(eyrie::glm ALIAS eyrie_glm)
 target_include_directories(eyrie_glm SYSTEM INTERFACE ${GLM_INCLUDE_DIR})
 target_compile_definitions(eyrie_glm INTERFACE GLM_FORCE_EXPLICIT_CTOR)
 
-find_path(SQUISH_INCLUDE_DIR squish.h REQUIRED)  # Debian's libsquish.pc names folders that are not
-find_library(SQUISH_LIBRARY squish REQUIRED)
-add_library(eyrie_squish INTERFACE)
-add_library(eyrie::squish ALIAS eyrie_squish)
-target_include_directories(eyrie_squish SYSTEM INTERFACE ${SQUISH_INCLUDE_DIR})
-target_link_libraries(eyrie_squish INTERFACE ${SQUISH_LIBRARY})
+find_path(STB_INCLUDE_DIR stb/stb_dxt.h REQUIRED)
+add_library(eyrie_stb INTERFACE)
+add_library(eyrie::stb ALIAS eyrie_stb)
+target_include_directories(eyrie_stb SYSTEM INTERFACE ${STB_INCLUDE_DIR})

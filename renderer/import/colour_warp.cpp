@@ -80,22 +80,43 @@ absl::StatusOr<ColourPlace> placeOf(const ColourFile& file, const TexelGrid& gri
                            std::sqrt(size.x * size.y / (columns * rows))};
     }
     ASSIGN_OR_RETURN(const Transformer transformer, transformerOf(file, grid, gdal));
-    std::array<double, 6> t{};
-    std::array<double, 4> extent{};
-    int ignored = 0;
-    if (GDALSuggestedWarpOutput2(file.dataset.get(), GDALGenImgProjTransform, transformer.get(),
-                                 t.data(), &ignored, &ignored, extent.data(), 0) != CE_None)
-        return cannotBeBrought(file, gdal);
+    // GDALSuggestedWarpOutput2 takes a picture that needs no reprojection for a square.
+    const auto postAt = [&](double column, double row, fabric::Vec2& post) {
+        double z = 0;
+        int isDone = 0;
+        GDALGenImgProjTransform(transformer.get(), FALSE, 1, &column, &row, &z, &isDone);
+        post = postOf({column, row}, frame);
+        return isDone != 0 && std::isfinite(post.x) && std::isfinite(post.y);
+    };
+    constexpr int kSteps = 20;
     ColourPlace place;
     place.low = fabric::Vec2(std::numeric_limits<double>::infinity());
     place.high = -place.low;
-    for (const double x : {extent[0], extent[2]})
-        for (const double y : {extent[1], extent[3]}) {
-            const fabric::Vec2 post = postOf({x, y}, frame);
+    double area = 0;
+    int cells = 0;
+    for (int j = 0; j <= kSteps; ++j)
+        for (int i = 0; i <= kSteps; ++i) {
+            const double column = columns * i / kSteps;
+            const double row = rows * j / kSteps;
+            fabric::Vec2 post;
+            fabric::Vec2 right;
+            fabric::Vec2 below;
+            if (!postAt(column, row, post))
+                continue;
             place.low = glm::min(place.low, post);
             place.high = glm::max(place.high, post);
+            if (postAt(column + 1, row, right) && postAt(column, row + 1, below)) {
+                area += std::abs(glm::determinant(glm::dmat2(right - post, below - post)));
+                ++cells;
+            }
         }
-    place.pixelPosts = std::sqrt(std::abs(t[1] * t[5])) / frame.postMetres();
+    if (cells == 0)
+        return cannotBeBrought(file, gdal);
+    // Sides may bulge between the points that were looked at.
+    const fabric::Vec2 margin = (place.high - place.low) / static_cast<double>(kSteps * kSteps);
+    place.low -= margin;
+    place.high += margin;
+    place.pixelPosts = std::sqrt(area / cells);
     return place;
 }
 

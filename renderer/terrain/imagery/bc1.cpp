@@ -5,8 +5,11 @@
 #include <bit>
 #include <cstddef>
 #include <cstring>
+#include <utility>
 
-#include <squish.h>
+#define STB_DXT_STATIC
+#define STB_DXT_IMPLEMENTATION
+#include <stb/stb_dxt.h>
 
 namespace eyrie::terrain {
 namespace {
@@ -37,16 +40,51 @@ Palette paletteOf(const Bc1Block& block) {
     return {a, b, between(a, b, 1, 2), fabric::Rgba{0, 0, 0, 0}};
 }
 
+bool isHole(const fabric::Rgba& texel) { return texel.a < 128; }
+
+Bc1Block withoutHoles(const BlockTexels& texels) {
+    Bc1Block block;
+    stb_compress_dxt_block(reinterpret_cast<unsigned char*>(&block),
+                           reinterpret_cast<const unsigned char*>(texels.data()), 0,
+                           STB_DXT_HIGHQUAL);
+    return block;
+}
+
+int distance(const fabric::Rgba& a, const fabric::Rgba& b) {
+    const int red = a.r - b.r;
+    const int green = a.g - b.g;
+    const int blue = a.b - b.b;
+    return red * red + green * green + blue * blue;
+}
+
+/// With the end colours of a block whose holes are filled with one of its texels.
+Bc1Block withHoles(const BlockTexels& texels) {
+    BlockTexels filled = texels;
+    std::replace_if(filled.begin(), filled.end(), isHole,
+                    *std::find_if_not(texels.begin(), texels.end(), isHole));
+    Bc1Block block = withoutHoles(filled);
+    if (block.first > block.second)
+        std::swap(block.first, block.second);
+    const Palette palette = paletteOf(block);
+    block.choices = 0;
+    for (std::size_t k = texels.size(); k-- > 0;) {
+        std::uint32_t best = isHole(texels[k]) ? 3 : 0;
+        for (std::uint32_t choice = 1; choice < 3 && best != 3; ++choice)
+            if (distance(texels[k], palette[choice]) < distance(texels[k], palette[best]))
+                best = choice;
+        block.choices = block.choices << 2 | best;
+    }
+    return block;
+}
+
 }  // namespace
 
 Bc1Block encodeBc1(const BlockTexels& texels) {
-    const auto isHole = [](const fabric::Rgba& texel) { return texel.a < 128; };
     if (std::all_of(texels.begin(), texels.end(), isHole))
         return kBc1Hole;
-    Bc1Block block;
-    squish::Compress(reinterpret_cast<const squish::u8*>(texels.data()), &block,
-                     squish::kDxt1 | squish::kColourClusterFit);
-    return block;
+    if (std::any_of(texels.begin(), texels.end(), isHole))
+        return withHoles(texels);
+    return withoutHoles(texels);
 }
 
 BlockTexels decodeBc1(const Bc1Block& block) {
