@@ -5,6 +5,7 @@
 //
 // Prints a table; speeds are those of the median round, in processor time of one thread. Triangles
 // are those of interiors and own borders; the bits hold the borders for finer neighbours as well.
+// Samples are those of the normals: the finest levels share theirs.
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
@@ -58,12 +59,11 @@ std::vector<LoadedPage> load(const EytFile& file) {
     return pages;
 }
 
+/// Tiles without triangles may have normals.
 template <typename Visit>
 void forEachTile(const std::vector<LoadedPage>& pages, Visit visit) {
     for (const LoadedPage& page : pages)
-        for (int place = 0; place < kPageTiles * kPageTiles; ++place)
-            if (!page.page.tile(place).isEmpty())
-                visit(page.page.tile(place));
+        for (int place = 0; place < kPageTiles * kPageTiles; ++place) visit(page.page.tile(place));
 }
 
 double seconds(const std::function<void()>& work, int rounds) {
@@ -109,9 +109,9 @@ void decodeNormals(const LoadedPage& page, std::vector<std::int8_t>& normals) {
     NormalDecoder decoder({bitsOf(page) + header.wordBytes + header.rawBytes, header.normalBytes},
                           header.cells);
     normals.resize(2 * (std::size_t{header.cells} + 1) * (std::size_t{header.cells} + 1));
-    bool isGood = decoder.begin();
-    for (const TileHeader& tile : header.tiles)
-        isGood = isGood && (tile.vertices == 0 || decoder.decode(normals));
+    bool isGood = header.normalTiles == 0 || decoder.begin();
+    for (std::size_t place = 0; place < header.tiles.size(); ++place)
+        isGood = isGood && ((header.normalTiles >> place & 1) == 0 || decoder.decode(normals));
     if (!isGood)
         std::abort();
 }

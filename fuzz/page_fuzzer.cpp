@@ -25,7 +25,9 @@ std::vector<Words> realPages() {
     for (const test::SampleTerrain& terrain :
          {test::SampleTerrain{.columns = 140, .rows = 70},
           test::SampleTerrain{.kind = test::GridKind::Noise, .stepMetres = 1.0 / 1024},
-          test::SampleTerrain{.columns = 260, .rows = 50, .nodataShare = 0.05}})
+          test::SampleTerrain{.columns = 260, .rows = 50, .nodataShare = 0.05},
+          test::SampleTerrain{
+              .columns = 140, .rows = 130, .nodataShare = 0.9, .shareWithNormals = 0.5}})
         for (test::SamplePage& page : test::samplePages(terrain))
             pages.push_back(std::move(page.bytes));
     return pages;

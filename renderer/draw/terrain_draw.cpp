@@ -81,6 +81,7 @@ private:
     std::uint64_t bytesOf(const lod::ObjectView& view, const terrain::TerrainCut& cut);
     const Wanted& wantedAt(int step, const CutRequest& request);
     page::TauLadder::Choice chooseStep(const CutRequest& request);
+    void useNormals(const TerrainEffect& program, const terrain::TileId& tile);
     std::uint64_t drawTile(const TerrainEffect& program, const terrain::TileChoice& choice,
                            const DeviceTile& tile) const;
 
@@ -184,6 +185,13 @@ void TerrainDrawable::use(const TerrainEffect& program, const FrameState& frame)
     program.bandsPerHeight(static_cast<float>(kElevationBands / heights));
 }
 
+void TerrainDrawable::useNormals(const TerrainEffect& program, const terrain::TileId& tile) {
+    const terrain::TileId id = index().quadtree.normalTile(tile);
+    program.normalOrigin(
+        {id.x * terrain::Quadtree::side(id.level), id.y * terrain::Quadtree::side(id.level)});
+    program.normalMap(*paging_->tile(id)->normalMap);
+}
+
 /// Draws the interior and one form of each edge; returns the triangles.
 std::uint64_t TerrainDrawable::drawTile(const TerrainEffect& program,
                                         const terrain::TileChoice& choice,
@@ -193,7 +201,6 @@ std::uint64_t TerrainDrawable::drawTile(const TerrainEffect& program,
                         id.y * terrain::Quadtree::side(id.level), tile.baseHeight});
     program.spacingShift(terrain::Quadtree::spacingShift(id.level));
     program.heightMultiplier(tile.heightMultiplier);
-    program.normalMap(tile.normalMap);
 
     const bool isShort = tile.vertexStride == 4;
     const gl::VertexArray& array = isShort ? shortVertices_ : longVertices_;
@@ -232,6 +239,7 @@ absl::Status TerrainDrawable::draw(std::span<const Piece> pieces, const FrameSta
     use(*program, frame);
     for (const Piece& piece : pieces) {
         const terrain::TileChoice& choice = choices_[piece.index];
+        useNormals(*program, choice.id);
         statistics.triangles += drawTile(*program, choice, *paging_->tile(choice.id));
     }
     return absl::OkStatus();

@@ -61,8 +61,7 @@ absl::StatusOr<std::unique_ptr<TerrainPaging>> TerrainPaging::open(
     // Pages that are being loaded or wait to be taken get a quarter of the host's share.
     std::unique_ptr<TerrainPaging> paging(new TerrainPaging(
         std::move(file), loader, limits, topBytes, std::max(limits.hostBytes / 4, greatestPage)));
-    if (!geometry.isEmpty())
-        paging->top_ = std::make_unique<DeviceTile>(geometry);
+    paging->top_ = std::make_unique<DeviceTile>(geometry);
     return paging;
 }
 
@@ -93,9 +92,7 @@ std::uint64_t TerrainPaging::pageBytes(std::uint32_t page) const {
 
 Refinement TerrainPaging::drawable(const Refinement& wanted, const NeededTiles& needed) const {
     Refinement drawn = wanted;
-    drawn.coarsen([&](const TileId& tile) {
-        return !needed.contains(tile) || isEmpty(tile) || isResident(tile);
-    });
+    drawn.coarsen([&](const TileId& tile) { return !needed.contains(tile) || isDrawable(tile); });
     return drawn;
 }
 
@@ -236,11 +233,27 @@ std::vector<page::Wish> TerrainPaging::missingPages() {
     return wishes;
 }
 
+std::vector<TileId> TerrainPaging::tilesOf(const Refinement& cut, const NeededTiles& needed) const {
+    std::vector<TileId> tiles;
+    std::unordered_set<std::uint32_t> normalTiles;
+    cut.forEachLeaf([&](const TileId& tile) {
+        if (!needed.contains(tile) || isEmpty(tile) || tile == index_.quadtree.top())
+            return;
+        tiles.push_back(tile);
+        const TileId normals = index_.quadtree.normalTile(tile);
+        if (normals != tile && normals != index_.quadtree.top() &&
+            normalTiles.insert(index_.quadtree.tileIndex(normals)).second)
+            tiles.push_back(normals);
+    });
+    return tiles;
+}
+
 TerrainPaging::Result TerrainPaging::resultOf(Refinement drawn, const NeededTiles& needed) const {
     std::unordered_set<std::uint32_t> missing;
-    for (const TileId& tile : needed.leaves())
-        if (!isResident(tile))
-            missing.insert(index_.quadtree.pageIndex(tile));
+    for (const TileId& leaf : needed.leaves())
+        for (const TileId& tile : {leaf, index_.quadtree.normalTile(leaf)})
+            if (!isResident(tile))
+                missing.insert(index_.quadtree.pageIndex(tile));
     Result result{std::move(drawn), 0, missing.size(), 0};
     for (const std::uint32_t page : missing) result.pagesFailed += failures_.contains(page) ? 1 : 0;
     return result;
@@ -251,17 +264,19 @@ TerrainPaging::Result TerrainPaging::approach(const Refinement& wanted, const Ne
                                               const Prefetch& prefetch) {
     beginFrame();
     Refinement drawn = drawable(wanted, needed);
-    // What is drawn stays; then comes what lies below it, then, against the day when the camera
-    // draws back, what lies above.
+    // What is drawn stays, with the normals it is drawn with; then comes what lies below it, then,
+    // against the day when the camera draws back, what lies above.
     std::vector<TileId> below;
     std::vector<TileId> above;
     std::uint64_t drawnBytes = 0;
     const auto sort = [&](const TileId& tile) {
         const bool isTop = tile == index_.quadtree.top();
-        if (isTop || isEmpty(tile))
+        if (isTop || !isStored(tile))
             return;
         const bool isReached = drawn.isSplit(Quadtree::parent(tile));
-        if (isReached && !drawn.isSplit(tile)) {
+        const bool isDrawn = !drawn.isSplit(tile) ||
+                             (tile.level == index_.quadtree.normalLevel() && isResident(tile));
+        if (isReached && isDrawn) {
             tiles_.rank(index_.quadtree.tileIndex(tile), 0);
             drawnBytes += terrain::estimatedTileBytes(index_, tile);
         } else {
@@ -293,16 +308,14 @@ TerrainPaging::Result TerrainPaging::reach(const Refinement& wanted, const Neede
     while (true) {
         beginFrame();
         Refinement readable = wanted;
+        const auto mayCome = [&](const TileId& tile) {
+            return isResident(tile) || !isGivenUp(index_.quadtree.pageIndex(tile), start);
+        };
         readable.coarsen([&](const TileId& tile) {
-            return !needed.contains(tile) || isEmpty(tile) || isResident(tile) ||
-                   !isGivenUp(index_.quadtree.pageIndex(tile), start);
+            return !needed.contains(tile) || isEmpty(tile) ||
+                   (mayCome(tile) && mayCome(index_.quadtree.normalTile(tile)));
         });
-        std::vector<TileId> leaves;
-        readable.forEachLeaf([&](const TileId& tile) {
-            if (needed.contains(tile) && !isEmpty(tile) && tile != index_.quadtree.top())
-                leaves.push_back(tile);
-        });
-        rankTiles(inOrder(std::move(leaves), view), 0);
+        rankTiles(inOrder(tilesOf(readable, needed), view), 0);
         if (missing_.empty())
             break;
         rankPages({});

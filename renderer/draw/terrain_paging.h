@@ -85,8 +85,16 @@ private:
     };
 
     bool isEmpty(const terrain::TileId& tile) const { return index_.tile(tile).triangles == 0; }
+    /// Whether there is anything of it to bring to the device.
+    bool isStored(const terrain::TileId& tile) const {
+        return !isEmpty(tile) || index_.hasNormals(tile);
+    }
     bool isResident(const terrain::TileId& tile) const {
         return tile == index_.quadtree.top() || tiles_.contains(index_.quadtree.tileIndex(tile));
+    }
+    /// Whether it can be drawn: it and the tile that has its normals are resident.
+    bool isDrawable(const terrain::TileId& tile) const {
+        return isEmpty(tile) || (isResident(tile) && isResident(index_.quadtree.normalTile(tile)));
     }
     /// Whether its last attempt failed and the next one comes after `time`.
     bool isGivenUp(std::uint32_t page, Clock::time_point time) const;
@@ -105,6 +113,9 @@ private:
     /// Returns whether it brought any.
     bool upload(std::chrono::duration<double> time);
     std::vector<page::Wish> missingPages();
+    /// The leaves of `cut` that are needed, and the tiles that have their normals.
+    std::vector<terrain::TileId> tilesOf(const terrain::Refinement& cut,
+                                         const NeededTiles& needed) const;
     Result resultOf(terrain::Refinement drawn, const NeededTiles& needed) const;
 
     const std::shared_ptr<const terrain::EytFile> file_;

@@ -25,10 +25,13 @@ DeviceTile::DeviceTile(const terrain::TileGeometry& geometry)
       heightMultiplier(geometry.heightMultiplier) {
     const auto words = static_cast<GLsizeiptr>(geometry.words.size_bytes());
     const auto indices = static_cast<GLsizeiptr>(geometry.indices.size_bytes());
-    glNamedBufferStorage(buffer.id(), words + indices, nullptr, GL_DYNAMIC_STORAGE_BIT);
-    glNamedBufferSubData(buffer.id(), 0, words, geometry.words.data());
-    glNamedBufferSubData(buffer.id(), words, indices, geometry.indices.data());
-    uploadNormals(normalMap, geometry.normals, geometry.cells + 1);
+    if (!geometry.isEmpty()) {
+        glNamedBufferStorage(buffer.id(), words + indices, nullptr, GL_DYNAMIC_STORAGE_BIT);
+        glNamedBufferSubData(buffer.id(), 0, words, geometry.words.data());
+        glNamedBufferSubData(buffer.id(), words, indices, geometry.indices.data());
+    }
+    if (!geometry.normals.empty())
+        uploadNormals(normalMap.emplace(), geometry.normals, geometry.cells + 1);
 }
 
 }  // namespace eyrie::draw

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "renderer/gl/object.h"
 #include "renderer/terrain/eyt_format.h"
@@ -10,13 +11,14 @@
 namespace eyrie::draw {
 
 /// A tile on the device, where it takes terrain::tileBytes: words and indices in one buffer, and
-/// its normal map. GL thread.
+/// its normal map. Either may be empty: without triangles there is nothing in the buffer, and tiles
+/// below Quadtree::normalLevel() are drawn with an ancestor's map. GL thread.
 struct DeviceTile {
-    /// Copies `geometry`, which must not be empty.
+    /// Copies `geometry`.
     explicit DeviceTile(const terrain::TileGeometry& geometry);
 
     gl::Buffer buffer;
-    gl::Texture2D normalMap;
+    std::optional<gl::Texture2D> normalMap;
     GLintptr indexOffset = 0;
     GLsizei vertexStride = 4;
     std::array<terrain::IndexRange, terrain::kTileParts> parts;

@@ -135,7 +135,7 @@ private:
         Worker& worker = *workers_.local();
         terrain::PageBuilder builder;
         const TileId first = index_.quadtree.firstTileOfPage(number);
-        std::vector<std::int8_t> normals(terrain::normalMapBytes(first.level));
+        std::vector<std::int8_t> normals;
         for (std::int32_t place = 0; place < terrain::kPageTiles * terrain::kPageTiles; ++place) {
             const TileId tile{first.level, first.x + place % terrain::kPageTiles,
                               first.y + place / terrain::kPageTiles};
@@ -146,13 +146,23 @@ private:
             if (tile.level == 0)
                 coverPosts(worker.samples, record);
             index_.tiles[index_.quadtree.tileIndex(tile)] = record;
-            if (mesh.indices.empty())
-                continue;
-            sources_.normals.fill(tile, normals);
+            normals.resize(
+                hasNormals(tile, mesh, worker.samples) ? terrain::normalMapBytes(tile.level) : 0);
+            if (!normals.empty())
+                sources_.normals.fill(tile, normals);
             builder.add(place, tile.level, mesh, normals);
         }
         return {number,
                 std::make_shared<const std::vector<std::uint32_t>>(std::move(builder).finish())};
+    }
+
+    /// Where finer tiles share the normals, they may be drawn where this one is not; but only
+    /// where there are data.
+    bool hasNormals(const TileId& tile, const terrain::TileMesh& mesh,
+                    const terrain::TileSamples& samples) const {
+        const int level = index_.quadtree.normalLevel();
+        return tile.level >= level &&
+               (!mesh.indices.empty() || (tile.level == level && samples.hasData()));
     }
 
     void write(const BuiltPage& page) {

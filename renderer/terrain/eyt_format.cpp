@@ -137,7 +137,7 @@ absl::Status parseIndex(const FileHeader& header, const std::vector<char>& bytes
     return absl::OkStatus();
 }
 
-/// Whether each tile of the page draws as many triangles as the index says.
+/// Whether each tile of the page has the triangles and normals that the index says.
 absl::Status checkAgainstIndex(const Page& page, std::uint32_t number, const EytIndex& index,
                                const std::string& name) {
     const TileId first = index.quadtree.firstTileOfPage(number);
@@ -145,9 +145,15 @@ absl::Status checkAgainstIndex(const Page& page, std::uint32_t number, const Eyt
         const TileId id{first.level, first.x + place % kPageTiles, first.y + place / kPageTiles};
         const std::uint32_t expected = index.quadtree.contains(id) ? index.tile(id).triangles : 0;
         const TileGeometry& tile = page.tile(place);
-        if (!tile.isEmpty() && tile.cells != Quadtree::cells(first.level))
+        if (tile.cells != 0 && tile.cells != Quadtree::cells(first.level))
             return corrupt(name, fmt::format("tile {} has {} cells a side, its level has {}", place,
                                              tile.cells, Quadtree::cells(first.level)));
+        const bool hasNormals = !tile.normals.empty();
+        const bool isThere = index.quadtree.contains(id);
+        if (hasNormals && !(isThere && id.level >= index.quadtree.normalLevel()))
+            return corrupt(name, fmt::format("tile {} has normals, its level has none", place));
+        if (!hasNormals && isThere && index.hasNormals(id))
+            return corrupt(name, fmt::format("tile {} has no normals", place));
         const std::uint32_t found = tile.parts[kFinerPart].first / 3;
         if (found != expected)
             return corrupt(name, fmt::format("tile {} has {} triangles, the index says {}", place,
@@ -157,6 +163,21 @@ absl::Status checkAgainstIndex(const Page& page, std::uint32_t number, const Eyt
 }
 
 }  // namespace
+
+bool EytIndex::hasNormals(const TileId& id) const {
+    if (id.level < quadtree.normalLevel())
+        return false;
+    if (tile(id).triangles > 0 || id.level > quadtree.normalLevel())
+        return tile(id).triangles > 0;
+    for (int level = 0; level < id.level; ++level) {
+        const std::int32_t across = 1 << (id.level - level);
+        for (std::int32_t k = 0; k < across * across; ++k)
+            if (const TileId finer{level, id.x * across + k % across, id.y * across + k / across};
+                quadtree.contains(finer) && tile(finer).triangles > 0)
+                return true;
+    }
+    return false;
+}
 
 fabric::Box EytIndex::bounds(const TileId& id) const {
     const std::int32_t side = Quadtree::side(id.level);

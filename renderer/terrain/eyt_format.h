@@ -73,6 +73,8 @@ struct EytIndex {
     std::optional<ImageryIndex> imagery;
 
     const TileRecord& tile(const TileId& id) const { return tiles[quadtree.tileIndex(id)]; }
+    /// Whether the tile's page has normals of it: it is drawn, or a tile that needs its normals is.
+    bool hasNormals(const TileId& id) const;
     /// Metres of one step of q, and of q = 0.
     double heightStepMetres() const { return objectFromLattice[2][2]; }
     double heightOriginMetres() const { return objectFromLattice[3][2]; }
@@ -86,7 +88,7 @@ struct EytIndex {
     std::uint64_t triangles() const;
 };
 
-/// One tile's geometry as spans into its page.
+/// One tile as spans into its page: its geometry, which may be empty, and its normals.
 ///
 /// Vertex n is `words[n * wordsPerVertex]`: bits 0-9 x and 10-19 y in half sample spacings (0 to
 /// 2 * cells), bits 20-31 height; with two words a vertex the second is the height instead. So
@@ -104,6 +106,7 @@ struct TileGeometry {
     std::int32_t cells = 0;                    ///< Quadtree::cells of its level
     /// x and y of the unit surface normal in object space (z > 0), signed normalised, interleaved:
     /// (cells + 1) squared, row by row from the tile's first post, one per sample of the level.
+    /// Empty below Quadtree::normalLevel(); there without geometry where finer tiles need them.
     std::span<const std::int8_t> normals;
 
     bool isEmpty() const { return indices.empty(); }
@@ -125,7 +128,7 @@ public:
     static absl::StatusOr<Page> decode(std::span<const std::uint32_t> bytes,
                                        const std::string& name);
 
-    /// By Quadtree::placeInPage; empty for tiles without triangles.
+    /// By Quadtree::placeInPage; its geometry is empty where there are no triangles.
     const TileGeometry& tile(int place) const { return tiles_[static_cast<std::size_t>(place)]; }
     /// Of memory; on disk a page is smaller.
     std::size_t sizeBytes() const { return storage_.size() * sizeof(std::uint32_t); }

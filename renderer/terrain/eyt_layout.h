@@ -9,7 +9,7 @@
 
 #include "renderer/terrain/quadtree.h"
 
-/// The bytes of an .eyt file, version 2; little-endian throughout.
+/// The bytes of an .eyt file, version 3; little-endian throughout.
 ///
 ///   FileHeader
 ///   pages, each a PageHeader, `words` (uint16) and `raw` bytes of the geometry, the bytes of the
@@ -24,7 +24,7 @@ namespace eyrie::terrain {
 static_assert(std::endian::native == std::endian::little, "pages are used as they lie on disk");
 
 inline constexpr std::array<char, 8> kEytMagic = {'E', 'Y', 'R', 'I', 'E', 'E', 'Y', 'T'};
-inline constexpr std::uint32_t kEytVersion = 2;
+inline constexpr std::uint32_t kEytVersion = 3;
 inline constexpr std::uint64_t kMaxCrsBytes = 1 << 20;
 inline constexpr std::int32_t kMaxHeightSteps = 1 << 23;  ///< of |q|
 
@@ -45,7 +45,7 @@ struct FileHeader {
 };
 static_assert(sizeof(FileHeader) == 208 && std::is_trivially_copyable_v<FileHeader>);
 
-/// What a page says of one tile besides its bits. All zero: the tile has no triangles.
+/// What a page says of one tile's geometry besides its bits. All zero: it has no triangles.
 struct TileHeader {
     std::int32_t baseHeight = 0;  ///< q of height 0
     std::uint16_t vertices = 0;
@@ -63,11 +63,12 @@ struct PageHeader {
     std::uint32_t wordBytes = 0;
     std::uint32_t rawBytes = 0;
     std::uint32_t normalBytes = 0;
-    std::uint16_t cells = 0;      ///< Quadtree::cells of the page's level
-    std::uint16_t finerStep = 0;  ///< of TileShape
+    std::uint16_t cells = 0;        ///< Quadtree::cells of the page's level
+    std::uint16_t finerStep = 0;    ///< of TileShape
+    std::uint32_t normalTiles = 0;  ///< bit of each place that has normals; none: no normalBytes
     std::array<TileHeader, static_cast<std::size_t>(kPageTiles) * kPageTiles> tiles;
 };
-static_assert(sizeof(PageHeader) == 272 && std::is_trivially_copyable_v<PageHeader>);
+static_assert(sizeof(PageHeader) == 276 && std::is_trivially_copyable_v<PageHeader>);
 
 inline std::uint64_t roundUp(std::uint64_t value, std::uint64_t multiple) {
     return (value + multiple - 1) / multiple * multiple;

@@ -2,6 +2,7 @@
 #include <bit>
 #include <cstdlib>
 #include <cstring>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -29,6 +30,8 @@ const char* impossibleField(const PageHeader& page) {
         return "cells";
     if (page.finerStep != 1 && page.finerStep != 2)
         return "finerStep";
+    if (page.normalTiles >> page.tiles.size() != 0)
+        return "normalTiles";
     if (page.wordBytes % 2 != 0 || page.rawBytes % 2 != 0)
         return "wordBytes or rawBytes";
     return nullptr;
@@ -63,41 +66,39 @@ public:
         : header_(header),
           geometry_({reinterpret_cast<const std::uint16_t*>(bytes + sizeof header),
                      header.wordBytes / sizeof(std::uint16_t)},
-                    {bytes + sizeof header + header.wordBytes, header.rawBytes}),
-          normals_({bytes + sizeof header + header.wordBytes + header.rawBytes, header.normalBytes},
-                   header.cells) {}
+                    {bytes + sizeof header + header.wordBytes, header.rawBytes}) {
+        if (header.normalTiles != 0)
+            normals_.emplace(std::span(bytes + sizeof header + header.wordBytes + header.rawBytes,
+                                       header.normalBytes),
+                             header.cells);
+    }
 
     /// What is wrong, or null.
     const char* begin() {
         if (const char* wrong = geometry_.begin())
             return wrong;
-        return normals_.begin() ? nullptr : "shares of normal symbols";
+        return normals_ && !normals_->begin() ? "shares of normal symbols" : nullptr;
     }
 
     /// Words of one tile in the array.
-    std::size_t wordsOf(const TileHeader& tile) const {
-        return isEmpty(tile) ? 0 : vertexWords(tile) + indexWords(tile) + normalWords();
+    std::size_t wordsOf(std::size_t place) const {
+        const TileHeader& tile = header_.tiles[place];
+        return vertexWords(tile) + indexWords(tile) + (hasNormals(place) ? normalWords() : 0);
     }
 
-    /// Decodes the next tile to `out`, wordsOf(tile) words. What is wrong, or null.
-    const char* decode(const TileHeader& header, std::uint32_t* out, TileGeometry& tile) {
-        const std::span<std::uint32_t> words(out, vertexWords(header));
-        const std::span indices(reinterpret_cast<std::uint16_t*>(out + words.size()),
-                                3 * std::size_t{header.triangles});
+    /// Decodes the next tile to `out`, wordsOf(place) words. What is wrong, or null.
+    const char* decode(std::size_t place, std::uint32_t* out, TileGeometry& tile) {
+        const TileHeader& header = header_.tiles[place];
+        if (!isEmpty(header))
+            if (const char* wrong = decodeGeometry(header, out, tile))
+                return wrong;
+        if (!hasNormals(place))
+            return nullptr;
         const std::span normals(
-            reinterpret_cast<std::int8_t*>(out + words.size() + indexWords(header)),
+            reinterpret_cast<std::int8_t*>(out + vertexWords(header) + indexWords(header)),
             2 * samplesOf(header_.cells));
-        const TileShape shape{header_.cells, header_.finerStep, header.limitX, header.limitY,
-                              header.finerEdges};
-        if (const char* wrong = geometry_.decode(header, shape, words, indices, tile.parts))
-            return wrong;
-        if (!normals_.decode(normals))
+        if (!normals_->decode(normals))
             return "length of the normals' bits";
-        tile.words = words;
-        tile.wordsPerVertex = header.wordsPerVertex;
-        tile.indices = indices;
-        tile.baseHeight = header.baseHeight;
-        tile.heightMultiplier = 1 << header.heightShift;
         tile.cells = header_.cells;
         tile.normals = normals;
         return nullptr;
@@ -106,10 +107,30 @@ public:
     const char* finish() const {
         if (const char* wrong = geometry_.finish())
             return wrong;
-        return normals_.isAtEnd() ? nullptr : "length of the normals' bits";
+        const bool isAtEnd = normals_ ? normals_->isAtEnd() : header_.normalBytes == 0;
+        return isAtEnd ? nullptr : "length of the normals' bits";
     }
 
 private:
+    bool hasNormals(std::size_t place) const { return (header_.normalTiles >> place & 1) != 0; }
+
+    const char* decodeGeometry(const TileHeader& header, std::uint32_t* out, TileGeometry& tile) {
+        const std::span<std::uint32_t> words(out, vertexWords(header));
+        const std::span indices(reinterpret_cast<std::uint16_t*>(out + words.size()),
+                                3 * std::size_t{header.triangles});
+        const TileShape shape{header_.cells, header_.finerStep, header.limitX, header.limitY,
+                              header.finerEdges};
+        if (const char* wrong = geometry_.decode(header, shape, words, indices, tile.parts))
+            return wrong;
+        tile.words = words;
+        tile.wordsPerVertex = header.wordsPerVertex;
+        tile.indices = indices;
+        tile.baseHeight = header.baseHeight;
+        tile.heightMultiplier = 1 << header.heightShift;
+        tile.cells = header_.cells;
+        return nullptr;
+    }
+
     static std::size_t vertexWords(const TileHeader& tile) {
         return std::size_t{tile.vertices} * tile.wordsPerVertex;
     }
@@ -120,7 +141,7 @@ private:
 
     const PageHeader& header_;
     GeometryDecoder geometry_;
-    NormalDecoder normals_;
+    std::optional<NormalDecoder> normals_;  ///< empty: no tile has any
 };
 
 absl::Status corrupt(const std::string& name, const std::string& what) {
@@ -162,16 +183,14 @@ absl::StatusOr<Page> Page::decode(std::span<const std::uint32_t> bytes, const st
     if (const char* wrong = reader.begin())
         return corrupt(name, fmt::format("impossible {}", wrong));
     std::size_t words = 0;
-    for (const TileHeader& tile : header.tiles) words += reader.wordsOf(tile);
+    for (std::size_t place = 0; place < header.tiles.size(); ++place)
+        words += reader.wordsOf(place);
     page.storage_.resize(words);
     std::uint32_t* out = page.storage_.data();
     for (std::size_t place = 0; place < header.tiles.size(); ++place) {
-        const TileHeader& tile = header.tiles[place];
-        if (isEmpty(tile))
-            continue;
-        if (const char* wrong = reader.decode(tile, out, page.tiles_[place]))
+        if (const char* wrong = reader.decode(place, out, page.tiles_[place]))
             return corruptTile(name, place, wrong);
-        out += reader.wordsOf(tile);
+        out += reader.wordsOf(place);
     }
     if (const char* wrong = reader.finish())
         return corrupt(name, fmt::format("impossible {}", wrong));

@@ -60,13 +60,20 @@ FileHeader headerOf(const EytIndex& index, std::uint64_t indexOffset,
 
 void PageBuilder::add(int place, int level, const TileMesh& mesh,
                       std::span<const std::int8_t> normals) {
-    assert(normals.size() == normalMapBytes(level));
-    if (mesh.indices.empty())
+    assert(normals.empty() || normals.size() == normalMapBytes(level));
+    header_.cells = static_cast<std::uint16_t>(Quadtree::cells(level));
+    header_.finerStep = static_cast<std::uint16_t>(mesh.shape.finerStep);
+    if (!mesh.indices.empty())
+        addGeometry(place, mesh);
+    if (normals.empty())
         return;
     if (!normals_)
         normals_.emplace(Quadtree::cells(level));
-    header_.cells = static_cast<std::uint16_t>(Quadtree::cells(level));
-    header_.finerStep = static_cast<std::uint16_t>(mesh.shape.finerStep);
+    header_.normalTiles |= 1U << place;
+    normals_->add(normals);
+}
+
+void PageBuilder::addGeometry(int place, const TileMesh& mesh) {
     const HeightPacking heights = chooseHeightPacking(mesh.vertices);
     header_.tiles[static_cast<std::size_t>(place)] = {
         .baseHeight = heights.base,
@@ -80,14 +87,15 @@ void PageBuilder::add(int place, int level, const TileMesh& mesh,
         .isSparse = isSparse(mesh),
     };
     geometry_.add(mesh, heights.base, heights.shift);
-    normals_->add(normals);
+    hasTriangles_ = true;
 }
 
 std::vector<std::uint32_t> PageBuilder::finish() && {
-    if (!normals_)
+    if (!hasTriangles_ && !normals_)
         return {};
     const GeometryBits geometry = geometry_.finish();
-    const std::vector<std::uint8_t> normals = normals_->finish();
+    const std::vector<std::uint8_t> normals =
+        normals_ ? normals_->finish() : std::vector<std::uint8_t>();
     header_.wordBytes = static_cast<std::uint32_t>(geometry.words.size() * sizeof(std::uint16_t));
     header_.rawBytes = static_cast<std::uint32_t>(geometry.raw.size());
     header_.normalBytes = static_cast<std::uint32_t>(normals.size());

@@ -23,17 +23,21 @@ namespace eyrie::terrain {
 /// TileTriangulation.
 class PageBuilder {
 public:
-    /// Give each tile its place once, in ascending order, all of one level.
-    /// Precondition: normals.size() == normalMapBytes(level). Tiles without indices are left out.
+    /// Give each tile its place once, in ascending order, all of one level. A mesh without indices
+    /// is left out, as are normals where they are empty.
+    /// Precondition: normals.size() is 0 or normalMapBytes(level).
     void add(int place, int level, const TileMesh& mesh, std::span<const std::int8_t> normals);
 
-    /// The page's bytes; empty when no tile has triangles.
+    /// The page's bytes; empty when no tile has triangles or normals.
     std::vector<std::uint32_t> finish() &&;
 
 private:
+    void addGeometry(int place, const TileMesh& mesh);
+
     PageHeader header_;
+    bool hasTriangles_ = false;
     GeometryEncoder geometry_;
-    std::optional<NormalEncoder> normals_;  ///< empty: no tile so far
+    std::optional<NormalEncoder> normals_;  ///< of the tiles that have some
 };
 
 /// Writes an .eyt file that appears under its name only when it is complete: bytes go to

@@ -19,10 +19,10 @@ inline std::size_t normalMapBytes(int level) {
     return 2 * side * side;
 }
 
-/// Shading normals of all levels: central differences of the heights, which are smoothed (1-2-1)
-/// and thinned by two from one spacing to the next. Made from the whole grid, so neighbours agree
-/// on their border samples. Nodata neighbours are left out of a difference; with none left a normal
-/// points up. The smoothed heights lie on scratch.
+/// Shading normals of all levels that store them (Quadtree::normalLevel()): central differences of
+/// the heights, which are smoothed (1-2-1) and thinned by two from one spacing to the next. Made
+/// from the whole grid, so neighbours agree on their border samples. Nodata neighbours are left out
+/// of a difference; with none left a normal points up. The smoothed heights lie on scratch.
 class NormalMaps {
 public:
     /// Reserves its room; keeps a reference to `model`.

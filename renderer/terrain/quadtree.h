@@ -59,6 +59,14 @@ public:
     static int spacingShift(int level) { return std::max(0, level - kFullResolutionLevels + 1); }
     static std::int32_t cells(int level) { return side(level) >> spacingShift(level); }
     TileId top() const { return {levels() - 1, 0, 0}; }
+    /// The coarsest level whose samples are all posts. It has the normals of the finer levels, too,
+    /// whose tiles would only repeat them.
+    int normalLevel() const { return std::min(kFullResolutionLevels, levels()) - 1; }
+    /// The tile whose normals `tile` is drawn with: its ancestor at normalLevel(), or itself.
+    TileId normalTile(const TileId& tile) const {
+        const int up = std::max(0, normalLevel() - tile.level);
+        return {tile.level + up, tile.x >> up, tile.y >> up};
+    }
     bool contains(const TileId& tile) const {
         return tile.level >= 0 && tile.level < levels() && tile.x >= 0 && tile.y >= 0 &&
                tile.x < tilesX(tile.level) && tile.y < tilesY(tile.level);

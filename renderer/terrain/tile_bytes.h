@@ -14,7 +14,7 @@ inline std::uint64_t tileBytes(const TileGeometry& geometry) {
 }
 
 /// What a tile will take, judged by its record: usually a little too much. The same on every
-/// machine. 0 for a tile without triangles.
+/// machine. 0 for a tile without triangles or normals.
 std::uint64_t estimatedTileBytes(const EytIndex& index, const TileId& tile);
 
 /// What a tile, or a page with its tables, takes at most.

@@ -19,4 +19,8 @@ void TileSamples::load(const TileId& tile) {
     levels_.read(layer_, rect, levelsRead_.data());
 }
 
+bool TileSamples::hasData() const {
+    return std::any_of(heightsRead_.begin(), heightsRead_.end(), [](float h) { return h == h; });
+}
+
 }  // namespace eyrie::terrain

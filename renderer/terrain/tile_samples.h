@@ -26,8 +26,11 @@ public:
     bool isNeeded(std::int32_t i, std::int32_t j, int level) const {
         return levelsRead_[index(i, j)] > level;
     }
-    /// Posts of the tile, those past the grid left out; without any left out only up to level 2.
+    /// Posts of the tile, those past the grid standing on its edge; without any left out only up to
+    /// level 2.
     const std::vector<float>& heights() const { return heightsRead_; }
+    /// Whether any of heights() is data.
+    bool hasData() const;
 
 private:
     std::size_t index(std::int32_t i, std::int32_t j) const {

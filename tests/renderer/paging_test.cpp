@@ -15,6 +15,8 @@
 #include <spdlog/spdlog.h>
 
 #include "renderer/gl/debug_output.h"
+#include "renderer/import/terrain_import.h"
+#include "renderer/import/terrain_synth.h"
 #include "renderer/renderer.h"
 #include "renderer/terrain/eyt_format.h"
 #include "tests/renderer/sample_scene.h"
@@ -94,6 +96,13 @@ protected:
             if (first.level < level && (isWest || everywhere))
                 flip(page);
         }
+    }
+
+    /// Damages the pages of one level everywhere.
+    void withholdLevel(int level) {
+        for (std::uint32_t page = 0; page < quadtree().pageCount(); ++page)
+            if (quadtree().firstTileOfPage(page).level == level)
+                flip(page);
     }
 
     std::unique_ptr<Renderer> open(const std::string& path, const RendererOptions& options = {}) {
@@ -219,6 +228,52 @@ TEST_P(WithheldPages, LeaveNoHoleWhereLevelsJump) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Jumps, WithheldPages, testing::Values(2, 3, 5));
+
+TEST_F(Paging, TilesWhoseNormalsCannotBeReadAreNotDrawn) {
+    const Log log;
+    withholdLevel(quadtree().normalLevel());
+    const auto renderer = open(copy_);
+    const auto intact = open(scene_.objects[0].path);
+    for (int i = 0; i < 4; ++i) {
+        const ChannelResult whole = draw(*intact, lookingDown(i), Completeness::Complete, 0.1);
+        for (const Completeness completeness :
+             {Completeness::Complete, Completeness::Interactive}) {
+            const ChannelResult result = draw(*renderer, lookingDown(i), completeness, 0.1);
+            EXPECT_EQ(uncovered(result.image), 0U);
+            EXPECT_FALSE(result.statistics.complete);
+            EXPECT_GE(result.statistics.pagesFailed, 1U);
+            EXPECT_LT(result.statistics.triangles, whole.statistics.triangles);
+        }
+    }
+}
+
+/// A hill 33 posts wide in the midst of nodata, where only the finest level can draw it: its
+/// normals are those of a tile that has no triangles.
+TEST_F(Paging, ATileIsDrawnWhereTheOneWithItsNormalsIsNot) {
+    terrain::HeightGrid grid = import::synthesizeTerrain(300, 7);
+    for (std::int32_t j = 0; j < grid.rows; ++j)
+        for (std::int32_t i = 0; i < grid.columns; ++i)
+            if (std::min(i, j) < 32 || std::max(i, j) > 64 || i + j == 128)
+                grid.row(j)[i] = terrain::kNodata;
+    import::GridHeightSource posts(grid);
+    import::TerrainImportOptions options;
+    options.errorMetres = 1e6;  // leaves the outline of the data as it is
+    ASSERT_TRUE(import::importTerrain(posts, {"hill", "", 0}, copy_, options, {}).ok());
+    const auto file = terrain::EytFile::open(copy_);
+    ASSERT_TRUE(file.ok());
+    const terrain::EytIndex& index = (*file)->index();
+    ASSERT_GT(index.tile({0, 1, 1}).triangles, 0U);
+    ASSERT_EQ(index.tile({2, 0, 0}).triangles, 0U);
+    Camera camera;
+    camera.target = index.bounds({0, 1, 1}).centre();
+    camera.eye = camera.target + Vec3(0, 0, 3000);
+    camera.up = {0, 1, 0};
+    const ChannelResult whole = draw(*open(copy_), camera, Completeness::Complete);
+    EXPECT_TRUE(whole.statistics.complete);
+    EXPECT_GT(whole.statistics.triangles, 0U);
+    EXPECT_LT(uncovered(whole.image), whole.image.depth.size());
+    EXPECT_EQ(different(converge(*open(copy_), camera).image, whole.image), 0U);
+}
 
 TEST_F(Paging, AnInteractiveFrameDoesNotWaitAndHasNoHoles) {
     const auto renderer = open(scene_.objects[0].path);

@@ -4,6 +4,7 @@ target_link_libraries(eyrie_test_terrain PUBLIC eyrie::terrain_import eyrie_test
 
 eyrie_test(terrain_bound_test LABEL unit LINK eyrie_test_terrain)
 eyrie_test(terrain_seam_test LABEL unit LINK eyrie_test_terrain)
+eyrie_test(terrain_normals_test LABEL unit LINK eyrie_test_terrain)
 eyrie_test(terrain_nodata_test LABEL unit LINK eyrie_test_terrain)
 eyrie_test(eyt_damage_test LABEL unit LINK eyrie_test_terrain)
 eyrie_test(terrain_import_test LABEL unit LINK eyrie_test_terrain)

@@ -153,45 +153,5 @@ TEST(TerrainSeams, MeetOneLevelApartAtEveryBorder) {
             }
 }
 
-TEST(TerrainNormals, AgreeWhereTilesMeet) {
-    const test::TemporaryFolder folder;
-    const HeightGrid grid = test::hardGrid(GridKind::Smooth, 300, 290, 2);
-    const auto file = test::imported(grid, folder);
-    ASSERT_NE(file, nullptr);
-    const terrain::Quadtree& quadtree = file->index().quadtree;
-    const auto normals = [&](const terrain::TileId& id) {
-        const auto page = file->readPage(quadtree.pageIndex(id));
-        EXPECT_TRUE(page.ok()) << page.status();
-        const auto span = (*page)->tile(terrain::Quadtree::placeInPage(id)).normals;
-        return std::vector<std::int8_t>(span.begin(), span.end());
-    };
-    for (int level = 0; level + 1 < quadtree.levels(); ++level) {
-        const auto samples = static_cast<std::size_t>(terrain::Quadtree::cells(level) + 1);
-        const auto left = normals({level, 0, 0});
-        const auto right = normals({level, 1, 0});
-        for (std::size_t row = 0; row < samples; ++row)
-            for (std::size_t k = 0; k < 2; ++k)
-                EXPECT_EQ(left[2 * (row * samples + samples - 1) + k],
-                          right[2 * row * samples + k]);
-    }
-}
-
-TEST(TerrainNormals, PointAwayFromTheSlope) {
-    const test::TemporaryFolder folder;
-    HeightGrid grid = test::hardGrid(GridKind::Flat, 200, 140, 2);
-    for (std::int32_t j = 0; j < grid.rows; ++j)
-        for (std::int32_t i = 0; i < grid.columns; ++i)
-            grid.row(j)[i] = static_cast<float>(10 * i);  // 45 degrees up to the east
-    const auto file = test::imported(grid, folder);
-    ASSERT_NE(file, nullptr);
-    const auto page = file->readPage(0);
-    ASSERT_TRUE(page.ok()) << page.status();
-    const auto normals = (*page)->tile(0).normals;
-    for (std::size_t k = 0; k < normals.size(); k += 2) {
-        EXPECT_EQ(normals[k], -90);  // -127 sin 45
-        EXPECT_EQ(normals[k + 1], 0);
-    }
-}
-
 }  // namespace
 }  // namespace eyrie

@@ -35,6 +35,7 @@ RC_GTEST_PROP(PageCodec, GivesBackEveryTileOfEveryLevel, ()) {
     terrain.stepMetres = *rc::gen::element(1.0, 1.0 / 16, 1.0 / 1024);
     terrain.nodataShare = *rc::gen::element(0.0, 0.0, 0.01, 0.2, 0.9);
     terrain.finestThresholdMetres = *rc::gen::element(0.0, 0.5, 8.0);
+    terrain.shareWithNormals = *rc::gen::element(0.0, 0.5, 1.0);
     terrain.hasNoisyNormals = *rc::gen::arbitrary<bool>();
     terrain.seed = *rc::gen::arbitrary<std::uint32_t>();
     RC_ASSERT(differences(terrain) == "");
@@ -79,7 +80,7 @@ TEST(PageCodec, TakesAtMostEightBitsATriangleOfSmoothTerrain) {
     std::uint64_t triangles = 0;
     for (const SamplePage& page : test::samplePages({.columns = 257, .rows = 257})) {
         const auto* header = reinterpret_cast<const std::uint32_t*>(page.bytes.data());
-        bytes += 272 + header[0] + header[1];  // PageHeader, wordBytes and rawBytes
+        bytes += 276 + header[0] + header[1];  // PageHeader, wordBytes and rawBytes
         for (const SamplePage::Tile& tile : page.tiles) triangles += tile.mesh.ownTriangles();
     }
     EXPECT_LE(8 * bytes, 8 * triangles);

@@ -15,8 +15,8 @@ namespace eyrie::test {
 /// What a page was built from.
 struct SamplePage {
     struct Tile {
-        terrain::TileMesh mesh;  ///< without indices: there is no tile
-        std::vector<std::int8_t> normals;
+        terrain::TileMesh mesh;            ///< without indices: there is no tile
+        std::vector<std::int8_t> normals;  ///< of no sample, or of all; with a mesh or without
     };
 
     int level = 0;
@@ -31,11 +31,12 @@ struct SampleTerrain {
     double stepMetres = 1.0 / 16;  ///< of the height lattice
     double nodataShare = 0;        ///< of all posts, in small holes
     double finestThresholdMetres = 0.5;
+    double shareWithNormals = 1;   ///< of tiles, whatever their level
     bool hasNoisyNormals = false;  ///< any bytes; otherwise those of the terrain
     std::uint64_t seed = 1;
 };
 
-/// All pages of all levels that have triangles.
+/// All pages of all levels that have triangles or normals.
 std::vector<SamplePage> samplePages(const SampleTerrain& terrain);
 
 /// In what the decoded page differs from what was put in; empty: in nothing.
