@@ -98,6 +98,10 @@ private:
 
     absl::StatusOr<std::unique_ptr<draw::Drawable>> openObject(const fabric::SceneObject& object,
                                                                std::size_t objects);
+    draw::TextureFormat textureFormat() const {
+        return GLEW_EXT_texture_compression_s3tc && !device().software ? draw::TextureFormat::Bc1
+                                                                       : draw::TextureFormat::Rgba8;
+    }
     Selection selectPieces(const lod::View& view, double tauPixels, const fabric::ChannelTask& task,
                            fabric::FrameStatistics& statistics);
     absl::Status drawPieces(const std::vector<OrderedPiece>& pieces, const draw::FrameState& frame,
@@ -124,7 +128,7 @@ absl::StatusOr<std::unique_ptr<draw::Drawable>> Renderer::Impl::openObject(
     if (object.kind == fabric::ObjectKind::Terrain)
         return draw::openTerrain(
             object, terrainPrograms_, loader_,
-            {options_.memoryBytes / objects, options_.hostMemoryBytes / objects});
+            {options_.memoryBytes / objects, options_.hostMemoryBytes / objects}, textureFormat());
     return draw::openMesh(object, meshPrograms_, options_.memoryBytes / objects);
 }
 

@@ -10,6 +10,7 @@
 #include "renderer/draw/object_program.h"
 #include "renderer/draw/terrain_prefetch.h"
 #include "renderer/draw/terrain_tiles.h"
+#include "renderer/draw/tile_imagery.h"
 #include "renderer/gl/object.h"
 #include "renderer/page/tau_ladder.h"
 #include "renderer/terrain/eyt_format.h"
@@ -22,6 +23,9 @@ namespace {
 using effects::TerrainEffect;
 
 constexpr double kElevationBands = 5;  ///< of effects/terrain.effect
+
+/// Where memory is short, texels grow as tau does.
+double texelPixels(int step) { return terrain::kTexelPixels * page::TauLadder::factor(step); }
 
 /// What decides which step of the ladder fits.
 struct SettledView {
@@ -55,7 +59,8 @@ public:
           triangles_(index().triangles()),
           needed_(index()),
           prefetch_(index(), object.worldFromObject),
-          paging_(std::move(paging)) {
+          paging_(std::move(paging)),
+          imagery_(index(), *paging_) {
         TerrainEffect::kPackedVertexFromUint32x1.define(shortVertices_);
         TerrainEffect::kPackedVertexFromUint32x2.define(longVertices_);
     }
@@ -76,14 +81,16 @@ private:
     struct Wanted {
         terrain::Refinement refinement;
         terrain::TerrainCut cut;
-        std::uint64_t bytes = 0;  ///< of its visible tiles and all above, which may stand in
+        /// Of its visible tiles and texture tiles, and all above, which may stand in.
+        std::uint64_t bytes = 0;
     };
-    std::uint64_t bytesOf(const lod::ObjectView& view, const terrain::TerrainCut& cut);
+    std::uint64_t bytesOf(const lod::ObjectView& view, const terrain::TerrainCut& cut,
+                          double texelPixels);
     const Wanted& wantedAt(int step, const CutRequest& request);
     page::TauLadder::Choice chooseStep(const CutRequest& request);
     void useNormals(const TerrainEffect& program, const terrain::TileId& tile);
     std::uint64_t drawTile(const TerrainEffect& program, const terrain::TileChoice& choice,
-                           const DeviceTile& tile) const;
+                           const DeviceTile& tile);
 
     TerrainPrograms& programs_;
     fabric::Mat4 worldFromObject_;
@@ -95,6 +102,7 @@ private:
     NeededTiles needed_;
     TerrainPrefetch prefetch_;
     std::unique_ptr<TerrainPaging> paging_;
+    TileImagery imagery_;
     page::TauLadder ladder_;
     std::optional<SettledView> last_;
     std::optional<SettledView> settled_;        ///< whose lowest step the ladder is at
@@ -102,15 +110,15 @@ private:
     std::vector<terrain::TileChoice> choices_;  ///< of the last cut; pieces index it
 };
 
-std::uint64_t TerrainDrawable::bytesOf(const lod::ObjectView& view,
-                                       const terrain::TerrainCut& cut) {
+std::uint64_t TerrainDrawable::bytesOf(const lod::ObjectView& view, const terrain::TerrainCut& cut,
+                                       double texelPixels) {
     needed_.assign(cut, {view, view.view().frustum, {}, 1, {}});
     std::uint64_t bytes = 0;
     for (const auto* tiles : {&needed_.leaves(), &needed_.inner()})
         for (const terrain::TileId& tile : *tiles)
             if (tile != index().quadtree.top())
                 bytes += terrain::estimatedTileBytes(index(), tile);
-    return bytes;
+    return bytes + imagery_.bytesOf(needed_.leaves(), view, texelPixels);
 }
 
 const TerrainDrawable::Wanted& TerrainDrawable::wantedAt(int step, const CutRequest& request) {
@@ -120,7 +128,7 @@ const TerrainDrawable::Wanted& TerrainDrawable::wantedAt(int step, const CutRequ
     terrain::Refinement refinement = terrain::refineForError(
         index(), request.view, request.tauPixels * page::TauLadder::factor(step));
     terrain::TerrainCut cut = terrain::cutOf(index(), request.view, refinement);
-    const std::uint64_t bytes = bytesOf(request.view, cut);
+    const std::uint64_t bytes = bytesOf(request.view, cut, texelPixels(step));
     return wanted_.emplace(step, Wanted{std::move(refinement), std::move(cut), bytes})
         .first->second;
 }
@@ -153,10 +161,12 @@ Cut TerrainDrawable::selectCut(const CutRequest& request) {
     needed_.assign(wanted.cut, request);
     prefetch_.follow(request.view.view());
     const double tauPixels = request.tauPixels * page::TauLadder::factor(choice.step);
+    const std::vector<terrain::TextureId> textures =
+        imagery_.texturesOf(needed_.leaves(), request.view, texelPixels(choice.step));
     const TerrainPaging::Result result =
         request.completeness == fabric::Completeness::Complete
-            ? paging_->reach(wanted.refinement, needed_, request.view)
-            : paging_->approach(wanted.refinement, needed_, request.view,
+            ? paging_->reach(wanted.refinement, needed_, textures, request.view)
+            : paging_->approach(wanted.refinement, needed_, textures, request.view,
                                 [&] { return prefetch_.tiles(tauPixels, paging_->latency()); });
 
     terrain::TerrainCut drawn = terrain::cutOf(index(), request.view, result.drawn);
@@ -171,6 +181,7 @@ Cut TerrainDrawable::selectCut(const CutRequest& request) {
         if (needed_.contains(choices_[i].id))
             cut.pieces.push_back(
                 {i, needed_.position(choices_[i].id), index().bounds(choices_[i].id)});
+    imagery_.choose(choices_, cut.pieces, request.view, texelPixels(choice.step));
     return cut;
 }
 
@@ -192,10 +203,10 @@ void TerrainDrawable::useNormals(const TerrainEffect& program, const terrain::Ti
     program.normalMap(*paging_->tile(id)->normalMap);
 }
 
-/// Draws the interior and one form of each edge; returns the triangles.
+/// Draws the interior and one form of each edge, once for each part of its imagery; returns the
+/// triangles.
 std::uint64_t TerrainDrawable::drawTile(const TerrainEffect& program,
-                                        const terrain::TileChoice& choice,
-                                        const DeviceTile& tile) const {
+                                        const terrain::TileChoice& choice, const DeviceTile& tile) {
     const terrain::TileId& id = choice.id;
     program.tileOrigin({id.x * terrain::Quadtree::side(id.level),
                         id.y * terrain::Quadtree::side(id.level), tile.baseHeight});
@@ -228,14 +239,27 @@ std::uint64_t TerrainDrawable::drawTile(const TerrainEffect& program,
     for (int edge = 0; edge < terrain::kEdges; ++edge)
         add(((choice.finerEdges >> edge & 1) != 0 ? terrain::kFinerPart : terrain::kOwnPart) +
             edge);
-    glMultiDrawElements(GL_TRIANGLES, counts.data(), GL_UNSIGNED_SHORT, offsets.data(), parts);
-    return indices / 3;
+    const auto draw = [&] {
+        glMultiDrawElements(GL_TRIANGLES, counts.data(), GL_UNSIGNED_SHORT, offsets.data(), parts);
+    };
+    if (!index().imagery) {
+        draw();
+        return indices / 3;
+    }
+    const std::vector<terrain::ImageryPart>& pictures = imagery_.partsOf(id);
+    for (const terrain::ImageryPart& picture : pictures) {
+        imagery_.use(program, id, picture);
+        draw();
+    }
+    return indices / 3 * pictures.size();
 }
 
 absl::Status TerrainDrawable::draw(std::span<const Piece> pieces, const FrameState& frame,
                                    fabric::FrameStatistics& statistics) {
-    ASSIGN_OR_RETURN(const TerrainEffect* program,
-                     programs_.find(variantFor(frame, worldFromObject_)));
+    TerrainEffect::Variant variant;
+    static_cast<effects::ObjectBlock::Variant&>(variant) = variantFor(frame, worldFromObject_);
+    variant.imagery = index().imagery.has_value();
+    ASSIGN_OR_RETURN(const TerrainEffect* program, programs_.find(variant));
     use(*program, frame);
     for (const Piece& piece : pieces) {
         const terrain::TileChoice& choice = choices_[piece.index];
@@ -250,11 +274,12 @@ absl::Status TerrainDrawable::draw(std::span<const Piece> pieces, const FrameSta
 absl::StatusOr<std::unique_ptr<Drawable>> openTerrain(const fabric::SceneObject& object,
                                                       TerrainPrograms& programs,
                                                       page::Loader& loader,
-                                                      const TerrainMemory& limits) {
+                                                      const TerrainMemory& limits,
+                                                      TextureFormat format) {
     ASSIGN_OR_RETURN(std::shared_ptr<const terrain::EytFile> file,
                      terrain::EytFile::open(object.path));
     ASSIGN_OR_RETURN(std::unique_ptr<TerrainPaging> paging,
-                     TerrainPaging::open(file, loader, limits));
+                     TerrainPaging::open(file, loader, limits, format));
     return std::make_unique<TerrainDrawable>(object, programs, std::move(file), std::move(paging));
 }
 

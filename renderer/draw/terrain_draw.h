@@ -21,6 +21,7 @@ using TerrainPrograms = effects::EffectVariants<effects::TerrainEffect>;
 absl::StatusOr<std::unique_ptr<Drawable>> openTerrain(const fabric::SceneObject& object,
                                                       TerrainPrograms& programs,
                                                       page::Loader& loader,
-                                                      const TerrainMemory& limits);
+                                                      const TerrainMemory& limits,
+                                                      TextureFormat format);
 
 }  // namespace eyrie::draw

@@ -13,9 +13,9 @@ inline constexpr std::int32_t kTextureSide = 512;
 /// the neighbour's own, so that filtering does not know where a tile ends.
 inline constexpr std::int32_t kTextureBorder = 4;
 inline constexpr std::int32_t kBlockSide = 4;  ///< texels of a BC1 block
-/// Limits of TexturePyramid::texelShift: texels from a thousandth of a post to a whole terrain.
+/// Limits of TexturePyramid::texelShift: a texture tile of a post to a texel of a whole terrain.
 inline constexpr int kMinTexelShift = -22;
-inline constexpr int kMaxTexelShift = 10;
+inline constexpr int kMaxTexelShift = 9;
 inline constexpr std::uint64_t kMaxTextureTiles = std::uint64_t{1} << 22;
 
 /// Level 0 is the finest; x and y count tiles of that level from texel (0, 0).
