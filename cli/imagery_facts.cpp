@@ -10,8 +10,9 @@ double texels(const terrain::ImagerySummary& imagery) {
     return static_cast<double>(imagery.columns) * static_cast<double>(imagery.rows);
 }
 
+/// Of covered texels: holes take next to nothing.
 double bytesPerTexel(const terrain::ImagerySummary& imagery) {
-    return static_cast<double>(imagery.bytes) / texels(imagery);
+    return static_cast<double>(imagery.bytes) / static_cast<double>(imagery.coveredTexels);
 }
 
 double coverage(const terrain::ImagerySummary& imagery) {

@@ -380,10 +380,15 @@ TerrainPaging::Result TerrainPaging::reach(const Refinement& wanted, const Neede
         if (missing_.empty())
             break;
         rankPages({});
-        loaded += keep(source_->take());
+        std::vector<page::Arrival> arrivals = source_->take();
+        // What could not be read is replaced by what lies above it: that is still to be wished for.
+        const bool hasFailed =
+            std::any_of(arrivals.begin(), arrivals.end(),
+                        [](const page::Arrival& arrival) { return !arrival.result.ok(); });
+        loaded += keep(std::move(arrivals));
         const bool hasUploaded = upload(std::chrono::hours(1));
         source_->wish(missingPages());
-        if (missing_.empty() || (!hasUploaded && !source_->wait()))
+        if (missing_.empty() || (!hasUploaded && !hasFailed && !source_->wait()))
             break;
     }
     Result result = resultOf(drawable(wanted, needed), needed, textures);
