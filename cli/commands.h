@@ -20,6 +20,7 @@ void addCoordinator(CLI::App& app, Run& run);
 void addRenderer(CLI::App& app, Run& run);
 void addImport(CLI::App& app, Run& run);
 void addInfo(CLI::App& app, Run& run);
+void addBench(CLI::App& app, Run& run);
 void addRender(CLI::App& app, Run& run);
 void addSynth(CLI::App& app, Run& run);
 

@@ -49,6 +49,10 @@ JsonObject& JsonObject::count(std::string_view name, std::uint64_t value) {
     return raw(name, fmt::format("{}", value));
 }
 
+JsonObject& JsonObject::flag(std::string_view name, bool value) {
+    return raw(name, value ? "true" : "false");
+}
+
 JsonObject& JsonObject::object(std::string_view name, const JsonObject& value) {
     return raw(name, value.str());
 }

@@ -17,6 +17,7 @@ public:
     JsonObject& text(std::string_view name, std::string_view value);
     JsonObject& number(std::string_view name, double value);
     JsonObject& count(std::string_view name, std::uint64_t value);
+    JsonObject& flag(std::string_view name, bool value);
     JsonObject& object(std::string_view name, const JsonObject& value);
     JsonObject& objects(std::string_view name, const std::vector<JsonObject>& values);
     /// {"min": [x, y, z], "max": [x, y, z]}

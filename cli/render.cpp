@@ -5,13 +5,13 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include "cli/commands.h"
 #include "cli/compound_names.h"
 #include "cli/data_cache.h"
 #include "cli/image_files.h"
-#include "cli/local_farm.h"
+#include "cli/picture_source.h"
+#include "cli/renderer_processes.h"
 #include "cli/scene_files.h"
 #include "cli/stop_signal.h"
 #include "cli/values.h"
@@ -19,13 +19,10 @@
 #include "fabric/frame_data.h"
 #include "fabric/status.h"
 #include "renderer/mesh/output_file.h"
-#include "renderer/renderer.h"
 #include "wire/json.h"
 
 namespace eyrie::cli {
 namespace {
-
-constexpr std::chrono::seconds kRenderersLimit{60};
 
 struct Options {
     std::string scene;
@@ -41,8 +38,6 @@ struct Options {
     bool quiet = false;
     bool json = false;
 };
-
-using Frame = absl::StatusOr<coordinator::RenderedFrame>;
 
 absl::StatusOr<coordinator::FrameRequest> requestOf(const Options& options) {
     coordinator::FrameRequest request;
@@ -65,36 +60,6 @@ absl::StatusOr<fabric::Scene> loadScene(const Options& options, const std::stop_
     DataCache cache(folder, ProgressBar::styleFor(options.quiet), stop);
     std::vector<std::string> notes;
     return assembleScene(std::vector<std::string>{options.scene}, cache, notes);
-}
-
-Frame renderHere(const fabric::Scene& scene, const coordinator::FrameRequest& request) {
-    ASSIGN_OR_RETURN(const auto renderer, Renderer::create({}));
-    RETURN_IF_ERROR(renderer->openScene(scene).status());
-    const fabric::FrameData frameData{
-        .version = 1, .camera = request.camera, .tauPixels = request.tauPixels};
-    fabric::ChannelTask task;
-    task.frameDataVersion = frameData.version;
-    task.viewWidth = request.width;
-    task.viewHeight = request.height;
-    task.pixelViewport = {0, 0, request.width, request.height};
-    task.wantsDepth = request.wantsDepth;
-    ASSIGN_OR_RETURN(const fabric::ChannelResult result, renderer->render(frameData, task));
-    coordinator::RenderedFrame frame{
-        fabric::makeImage(task.pixelViewport, scene.background, request.wantsDepth),
-        result.statistics, renderer->device()};
-    if (!result.image.area.isEmpty())
-        fabric::paste(result.image, frame.image);
-    return frame;
-}
-
-Frame renderInProcesses(fabric::Scene scene, const coordinator::FrameRequest& request,
-                        const Options& options, const std::stop_token& stop) {
-    spdlog::set_level(spdlog::level::warn);
-    ASSIGN_OR_RETURN(const auto farm, LocalFarm::start(options.compound));
-    RETURN_IF_ERROR(farm->coordinator().setScene(std::move(scene)));
-    farm->startRenderers(options.renderers);
-    RETURN_IF_ERROR(farm->awaitRenderers(options.renderers, kRenderersLimit, stop));
-    return farm->frames().renderFrame(request);
 }
 
 absl::Status writeResults(const coordinator::RenderedFrame& frame, const Options& options,
@@ -130,13 +95,13 @@ absl::Status render(const Options& options) {
     RETURN_IF_ERROR(checkOutputs(options));
     ASSIGN_OR_RETURN(const coordinator::FrameRequest request, requestOf(options));
     ASSIGN_OR_RETURN(fabric::Scene scene, loadScene(options, stop.token()));
-    const Frame frame = options.renderers == 0
-                            ? renderHere(scene, request)
-                            : renderInProcesses(std::move(scene), request, options, stop.token());
-    RETURN_IF_ERROR(frame.status());
+    ASSIGN_OR_RETURN(
+        const auto pictures,
+        PictureSource::open(std::move(scene), {options.renderers, options.compound}, stop.token()));
+    ASSIGN_OR_RETURN(const coordinator::RenderedFrame frame, pictures->draw(request));
     if (stop.token().stop_requested())
         return absl::CancelledError("stopped; nothing was written");
-    return writeResults(*frame, options, request);
+    return writeResults(frame, options, request);
 }
 
 void addOutputOptions(CLI::App& command, Options& options) {

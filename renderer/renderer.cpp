@@ -69,6 +69,7 @@ void addTo(fabric::FrameStatistics& statistics, const draw::Cut& cut) {
     statistics.tauAchievedPixels = std::max(statistics.tauAchievedPixels, cut.tauAchievedPixels);
     statistics.complete = statistics.complete && cut.isComplete;
     statistics.pagesLoaded += cut.pagesLoaded;
+    statistics.bytesLoaded += cut.bytesLoaded;
     statistics.pagesMissing += cut.pagesMissing;
     statistics.pagesFailed += cut.pagesFailed;
 }

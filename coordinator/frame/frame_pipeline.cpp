@@ -44,19 +44,19 @@ absl::StatusOr<RenderedFrame> FramePipeline::renderFrame(const FrameRequest& req
         const Crew::State state = crew_.state();
         if (const std::string why = problem(state); !why.empty())
             return absl::UnavailableError(why);
-        absl::StatusOr<std::vector<Flight::Leg>> legs = draw(request, state.revision);
-        if (!legs.ok() && crew_.state().revision != state.revision)
+        absl::StatusOr<std::vector<Dispatch::Drawn>> drawn = draw(request, state.revision);
+        if (!drawn.ok() && crew_.state().revision != state.revision)
             continue;  // the scene was replaced meanwhile: draw that one
-        RETURN_IF_ERROR(legs.status());
-        RenderedFrame frame = compose(request, state.scene->background, *std::move(legs));
+        RETURN_IF_ERROR(drawn.status());
+        RenderedFrame frame = compose(request, state.scene->background, *std::move(drawn));
         frame.statistics.milliseconds.total =
             std::chrono::duration<double, std::milli>(Registry::Clock::now() - start).count();
         return frame;
     }
 }
 
-absl::StatusOr<std::vector<Flight::Leg>> FramePipeline::draw(const FrameRequest& request,
-                                                             std::uint64_t revision) {
+absl::StatusOr<std::vector<Dispatch::Drawn>> FramePipeline::draw(const FrameRequest& request,
+                                                                 std::uint64_t revision) {
     forgetOtherKinds(request, revision);
     const fabric::FrameData& frameData = frameDataFor(request);
     const fabric::ChannelTask whole{++frameNumber_,
@@ -67,17 +67,17 @@ absl::StatusOr<std::vector<Flight::Leg>> FramePipeline::draw(const FrameRequest&
                                     {},
                                     request.wantsDepth,
                                     request.completeness};
-    auto flight = std::make_shared<Flight>(Flight::Plan{
+    auto dispatch = std::make_shared<Dispatch>(Dispatch::Plan{
         frameData, decompose(whole, options_.decomposition, balance_.cuts(freeRenderers(revision))),
         revision, patience_.limit(), options_.callTimeout});
-    ASSIGN_OR_RETURN(std::vector<Flight::Leg> legs, flight->fly(crew_));
+    ASSIGN_OR_RETURN(std::vector<Dispatch::Drawn> drawn, dispatch->run(crew_));
     std::vector<double> milliseconds;
-    for (const Flight::Leg& leg : legs) {
-        patience_.record(leg.taken);
-        milliseconds.push_back(leg.result.statistics.milliseconds.total);
+    for (const Dispatch::Drawn& part : drawn) {
+        patience_.record(part.taken);
+        milliseconds.push_back(part.result.statistics.milliseconds.total);
     }
     balance_.record(milliseconds);
-    return legs;
+    return drawn;
 }
 
 const fabric::FrameData& FramePipeline::frameDataFor(const FrameRequest& request) {
@@ -111,14 +111,14 @@ int FramePipeline::freeRenderers(std::uint64_t revision) const {
 }
 
 RenderedFrame FramePipeline::compose(const FrameRequest& request, fabric::Rgba background,
-                                     std::vector<Flight::Leg> legs) const {
+                                     std::vector<Dispatch::Drawn> drawn) const {
     RenderedFrame frame;
-    frame.device = legs.front().device;
+    frame.device = drawn.front().device;
     frame.statistics.tauAskedPixels = request.tauPixels;
     std::vector<fabric::Image> images;
-    for (Flight::Leg& leg : legs) {
-        fabric::accumulate(frame.statistics, leg.result.statistics);
-        images.push_back(std::move(leg.result.image));
+    for (Dispatch::Drawn& part : drawn) {
+        fabric::accumulate(frame.statistics, part.result.statistics);
+        images.push_back(std::move(part.result.image));
     }
     const fabric::PixelViewport area{0, 0, request.width, request.height};
     if (images.size() == 1 || options_.decomposition == Decomposition::TwoD) {

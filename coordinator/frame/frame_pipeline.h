@@ -8,7 +8,7 @@
 #include "coordinator/farm/listeners.h"
 #include "coordinator/farm/registry.h"
 #include "coordinator/frame/crew.h"
-#include "coordinator/frame/flight.h"
+#include "coordinator/frame/dispatch.h"
 #include "coordinator/frame/frame_source.h"
 #include "coordinator/frame/patience.h"
 #include "coordinator/frame/turn.h"
@@ -46,10 +46,10 @@ private:
     const fabric::FrameData& frameDataFor(const FrameRequest& request);
     void forgetOtherKinds(const FrameRequest& request, std::uint64_t revision);
     int freeRenderers(std::uint64_t revision) const;
-    absl::StatusOr<std::vector<Flight::Leg>> draw(const FrameRequest& request,
-                                                  std::uint64_t revision);
+    absl::StatusOr<std::vector<Dispatch::Drawn>> draw(const FrameRequest& request,
+                                                      std::uint64_t revision);
     RenderedFrame compose(const FrameRequest& request, fabric::Rgba background,
-                          std::vector<Flight::Leg> legs) const;
+                          std::vector<Dispatch::Drawn> drawn) const;
     std::string problem(const Crew::State& state) const;
 
     Registry& registry_;

@@ -32,8 +32,9 @@ absl::Status validate(const Camera& camera) {
         return invalid("target", "out of range", inWorld);
     if (!isWithin(camera.up, kMaxCoordinateMetres))
         return invalid("up", "out of range", "a direction, such as [0,0,1]");
-    if (!(camera.fovYDegrees >= 1 && camera.fovYDegrees <= 170))
-        return invalid("fovyDegrees", fmt::format("{}", camera.fovYDegrees), "from 1 to 170");
+    if (!(camera.fovYDegrees >= kMinFovYDegrees && camera.fovYDegrees <= kMaxFovYDegrees))
+        return invalid("fovyDegrees", fmt::format("{}", camera.fovYDegrees),
+                       fmt::format("from {} to {}", kMinFovYDegrees, kMaxFovYDegrees));
     const Vec3 forward = camera.target - camera.eye;
     if (glm::length(forward) == 0)
         return invalid("target", "equal to camera.eye", "another point");

@@ -10,12 +10,15 @@ namespace eyrie::fabric {
 /// Of a camera's position: further away a double has no tenth of a metre left.
 inline constexpr double kMaxCoordinateMetres = 1e15;
 
+inline constexpr double kMinFovYDegrees = 1;
+inline constexpr double kMaxFovYDegrees = 170;
+
 /// A pinhole camera in world space (metres, right-handed, z up unless `up` says otherwise).
 struct Camera {
     Vec3 eye{0, 0, 0};
     Vec3 target{0, 1, 0};
     Vec3 up{0, 0, 1};
-    double fovYDegrees = 45;  ///< whole vertical field of view, 1 to 170
+    double fovYDegrees = 45;  ///< whole vertical field of view, kMinFovYDegrees and up
 
     bool operator==(const Camera&) const = default;
 };

@@ -29,6 +29,7 @@ struct FrameStatistics {
     std::uint64_t points = 0;
     std::uint64_t nodes = 0;  ///< LOD nodes drawn
     std::uint64_t pagesLoaded = 0;
+    std::uint64_t bytesLoaded = 0;   ///< of these, as stored
     std::uint64_t pagesMissing = 0;  ///< coarser data stand in for them
     std::uint64_t pagesFailed = 0;   ///< those of the missing that could not be read
     StageMilliseconds milliseconds;
@@ -46,6 +47,7 @@ inline void accumulate(FrameStatistics& sum, const FrameStatistics& part) {
     sum.points += part.points;
     sum.nodes += part.nodes;
     sum.pagesLoaded += part.pagesLoaded;
+    sum.bytesLoaded += part.bytesLoaded;
     sum.pagesMissing += part.pagesMissing;
     sum.pagesFailed += part.pagesFailed;
     StageMilliseconds& ms = sum.milliseconds;

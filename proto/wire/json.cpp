@@ -9,9 +9,11 @@
 #include <google/protobuf/wrappers.pb.h>
 
 #include "eyrie/v1/camera.pb.h"
+#include "eyrie/v1/flight.pb.h"
 #include "eyrie/v1/scene.pb.h"
 #include "fabric/status.h"
 #include "wire/camera.h"
+#include "wire/flight.h"
 
 namespace eyrie::wire {
 namespace {
@@ -76,6 +78,15 @@ absl::StatusOr<fabric::Camera> cameraFromJson(std::string_view text, std::string
     return camera;
 }
 
+absl::StatusOr<fabric::Flight> flightFromJson(std::string_view text, std::string_view name) {
+    v1::Flight message;
+    RETURN_IF_ERROR(parse(text, name, "flight", message));
+    absl::StatusOr<fabric::Flight> flight = fromMessage(message);
+    if (!flight.ok())
+        return fabric::withContext(flight.status(), name);
+    return flight;
+}
+
 std::string toJson(const google::protobuf::Message& message) {
     google::protobuf::util::JsonPrintOptions options;
     options.add_whitespace = true;
@@ -95,6 +106,7 @@ std::string statisticsJson(const fabric::FrameStatistics& statistics, int width,
   "points": {},
   "nodes": {},
   "pagesLoaded": {},
+  "bytesLoaded": {},
   "pagesMissing": {},
   "pagesFailed": {},
   "milliseconds": {},
@@ -103,8 +115,8 @@ std::string statisticsJson(const fabric::FrameStatistics& statistics, int width,
 )",
         width, height, number(statistics.tauAskedPixels), number(statistics.tauAchievedPixels),
         statistics.complete, statistics.triangles, statistics.points, statistics.nodes,
-        statistics.pagesLoaded, statistics.pagesMissing, statistics.pagesFailed,
-        millisecondsJson(statistics.milliseconds), deviceJson(device));
+        statistics.pagesLoaded, statistics.bytesLoaded, statistics.pagesMissing,
+        statistics.pagesFailed, millisecondsJson(statistics.milliseconds), deviceJson(device));
 }
 
 }  // namespace eyrie::wire

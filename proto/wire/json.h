@@ -7,6 +7,7 @@
 #include <absl/status/statusor.h>
 
 #include "fabric/camera.h"
+#include "fabric/flight.h"
 #include "fabric/statistics.h"
 
 namespace google::protobuf {
@@ -26,6 +27,9 @@ absl::StatusOr<v1::Scene> sceneMessageFromJson(std::string_view text, std::strin
 
 /// A camera file: {"eye":[x,y,z],"target":[x,y,z],"up":[0,0,1],"fovyDegrees":45}.
 absl::StatusOr<fabric::Camera> cameraFromJson(std::string_view text, std::string_view name);
+
+/// A flight file: {"keys":[{"seconds":0,"camera":{...}},...]}.
+absl::StatusOr<fabric::Flight> flightFromJson(std::string_view text, std::string_view name);
 
 /// Indented protobuf JSON. 64-bit integers become strings and infinity "Infinity", as protobuf has
 /// it.

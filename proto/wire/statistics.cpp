@@ -60,6 +60,7 @@ v1::FrameStatistics toMessage(const fabric::FrameStatistics& statistics) {
     message.set_points(statistics.points);
     message.set_nodes(statistics.nodes);
     message.set_pages_loaded(statistics.pagesLoaded);
+    message.set_bytes_loaded(statistics.bytesLoaded);
     message.set_pages_missing(statistics.pagesMissing);
     message.set_pages_failed(statistics.pagesFailed);
     *message.mutable_milliseconds() = toMessage(statistics.milliseconds);
@@ -79,6 +80,7 @@ absl::StatusOr<fabric::FrameStatistics> fromMessage(const v1::FrameStatistics& m
     statistics.points = message.points();
     statistics.nodes = message.nodes();
     statistics.pagesLoaded = message.pages_loaded();
+    statistics.bytesLoaded = message.bytes_loaded();
     statistics.pagesMissing = message.pages_missing();
     statistics.pagesFailed = message.pages_failed();
     if (statistics.pagesFailed > statistics.pagesMissing)

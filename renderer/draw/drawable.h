@@ -39,6 +39,7 @@ struct Cut {
     double tauAchievedPixels = 0;  ///< bound over all pieces of the view
     bool isComplete = true;        ///< false when data that would lower the error are to come
     std::uint64_t pagesLoaded = 0;
+    std::uint64_t bytesLoaded = 0;   ///< of these, as they lie in their file
     std::uint64_t pagesMissing = 0;  ///< that the wanted cut needs; coarser ones stand in
     std::uint64_t pagesFailed = 0;   ///< those of them that could not be read
 };

@@ -149,6 +149,7 @@ absl::StatusOr<const DeviceNode*> MeshDrawable::residentNode(std::uint32_t index
     std::uint64_t bytes = 0;
     DeviceNode node = upload(geometry, bytes);
     ++statistics.pagesLoaded;
+    statistics.bytesLoaded += bytes;
     return &resident_.insert(index, std::move(node), bytes);
 }
 

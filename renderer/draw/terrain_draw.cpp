@@ -173,7 +173,8 @@ Cut TerrainDrawable::selectCut(const CutRequest& request) {
     Cut cut;
     cut.tauAchievedPixels = drawn.tauAchievedPixels;
     cut.isComplete = result.pagesMissing == 0 && choice.isLowest;
-    cut.pagesLoaded = result.pagesLoaded;
+    cut.pagesLoaded = result.loaded.pages;
+    cut.bytesLoaded = result.loaded.bytes;
     cut.pagesMissing = result.pagesMissing;
     cut.pagesFailed = result.pagesFailed;
     choices_ = std::move(drawn.tiles);

@@ -183,14 +183,15 @@ void TerrainPaging::rankPages(const std::vector<TileId>& prefetch) {
             add(index_.quadtree.pageIndex(tile));
 }
 
-std::uint64_t TerrainPaging::keep(std::vector<page::Arrival> arrivals) {
-    std::uint64_t loaded = 0;
+TerrainPaging::Loads TerrainPaging::keep(std::vector<page::Arrival> arrivals) {
+    Loads loaded;
     for (page::Arrival& arrival : arrivals) {
         if (!arrival.result.ok()) {
             noteFailure(arrival);
             continue;
         }
-        ++loaded;
+        ++loaded.pages;
+        loaded.bytes += index_.pages[arrival.page].bytes;
         if (failures_.erase(arrival.page) != 0)
             spdlog::info("{}: page {} can be read again", file_->path(), arrival.page);
         if (const auto since = wishedSince_.find(arrival.page); since != wishedSince_.end()) {
@@ -309,7 +310,7 @@ TerrainPaging::Result TerrainPaging::resultOf(Refinement drawn, const NeededTile
     for (const TextureId& texture : textures)
         if (!isResident(texture))
             missing.insert(names_.of(texture).page);
-    Result result{std::move(drawn), 0, missing.size(), 0};
+    Result result{std::move(drawn), {}, missing.size(), 0};
     for (const std::uint32_t page : missing) result.pagesFailed += failures_.contains(page) ? 1 : 0;
     return result;
 }
@@ -352,12 +353,12 @@ TerrainPaging::Result TerrainPaging::approach(const Refinement& wanted, const Ne
     order.insert(order.end(), last.begin(), last.end());
     rankItems(order, drawnBytes);
     rankPages(isUrgent ? std::vector<TileId>{} : prefetch());
-    const std::uint64_t loaded = keep(source_->tryTake());
+    const Loads loaded = keep(source_->tryTake());
     if (upload(kUploadTime))
         drawn = drawable(wanted, needed);
     source_->tryWish(missingPages());
     Result result = resultOf(std::move(drawn), needed, textures);
-    result.pagesLoaded = loaded;
+    result.loaded = loaded;
     return result;
 }
 
@@ -365,7 +366,7 @@ TerrainPaging::Result TerrainPaging::reach(const Refinement& wanted, const Neede
                                            const std::vector<TextureId>& textures,
                                            const lod::ObjectView& view) {
     const auto start = Clock::now();
-    std::uint64_t loaded = 0;
+    Loads loaded;
     while (true) {
         beginFrame();
         Refinement readable = wanted;
@@ -385,14 +386,15 @@ TerrainPaging::Result TerrainPaging::reach(const Refinement& wanted, const Neede
         const bool hasFailed =
             std::any_of(arrivals.begin(), arrivals.end(),
                         [](const page::Arrival& arrival) { return !arrival.result.ok(); });
-        loaded += keep(std::move(arrivals));
+        const Loads arrived = keep(std::move(arrivals));
+        loaded = {loaded.pages + arrived.pages, loaded.bytes + arrived.bytes};
         const bool hasUploaded = upload(std::chrono::hours(1));
         source_->wish(missingPages());
         if (missing_.empty() || (!hasUploaded && !hasFailed && !source_->wait()))
             break;
     }
     Result result = resultOf(drawable(wanted, needed), needed, textures);
-    result.pagesLoaded = loaded;
+    result.loaded = loaded;
     return result;
 }
 

@@ -48,10 +48,16 @@ public:
 
     using Prefetch = std::function<std::vector<terrain::TileId>()>;
 
+    /// What was read of the file.
+    struct Loads {
+        std::uint64_t pages = 0;
+        std::uint64_t bytes = 0;  ///< as they lie in the file
+    };
+
     /// What there is to draw.
     struct Result {
         terrain::Refinement drawn;  ///< all needed tiles of this cut are on the device
-        std::uint64_t pagesLoaded = 0;
+        Loads loaded;
         std::uint64_t pagesMissing = 0;  ///< pages of wanted needed tiles that are not there
         std::uint64_t pagesFailed = 0;   ///< of them
     };
@@ -137,7 +143,7 @@ private:
     void rankItems(const std::vector<TerrainItem>& order, std::uint64_t reservedBytes);
     void rankPages(const std::vector<terrain::TileId>& prefetch);
     /// Returns how many pages have come.
-    std::uint64_t keep(std::vector<page::Arrival> arrivals);
+    Loads keep(std::vector<page::Arrival> arrivals);
     void noteFailure(const page::Arrival& arrival);
     /// Returns whether it brought any.
     bool upload(std::chrono::duration<double> time);

@@ -3,50 +3,28 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <google/protobuf/struct.pb.h>
-#include <google/protobuf/util/json_util.h>
 #include <gtest/gtest.h>
 
 #include "tests/support/image_files.h"
+#include "tests/support/json.h"
 #include "tests/support/program.h"
 #include "tests/support/temporary_folder.h"
 
 namespace eyrie {
 namespace {
 
+using test::at;
 using test::eyrie;
+using test::JsonValue;
+using test::number;
+using test::parseJson;
 using test::succeeded;
-using JsonValue = google::protobuf::Value;
 
 constexpr int kWidth = 1280;
 constexpr int kHeight = 720;
 constexpr std::size_t kPixels = std::size_t{kWidth} * kHeight;
 /// Of kPixels, between one channel and any decomposition; the aim is none.
 constexpr std::size_t kMaxDifferentPixels = 50;
-
-JsonValue parseJson(const std::string& text) {
-    JsonValue value;
-    const auto status = google::protobuf::util::JsonStringToMessage(text, &value);
-    EXPECT_TRUE(status.ok()) << status.ToString() << "\n" << text;
-    return value;
-}
-
-/// The value at "a.b.c"; a null value where there is none.
-JsonValue at(JsonValue value, const std::string& path) {
-    std::istringstream names(path);
-    for (std::string name; std::getline(names, name, '.');) {
-        const auto& fields = value.struct_value().fields();
-        const auto field = fields.find(name);
-        value = field == fields.end() ? JsonValue() : JsonValue(field->second);
-    }
-    return value;
-}
-
-double number(const JsonValue& object, const std::string& path) {
-    const JsonValue value = at(object, path);
-    EXPECT_EQ(value.kind_case(), JsonValue::kNumberValue) << path << " should be a number";
-    return value.number_value();
-}
 
 std::string content(const std::string& path) {
     const auto text = test::readFile(path);
@@ -226,6 +204,7 @@ TEST_F(Render, StatisticsAreNumbersByTheirAgreedNames) {
     EXPECT_EQ(number(facts, "points"), 0);
     EXPECT_GE(number(facts, "nodes"), 1);
     EXPECT_GE(number(facts, "pagesLoaded"), 1);
+    EXPECT_GT(number(facts, "bytesLoaded"), 0);
     for (const char* stage : {"cull", "draw", "readback", "encode", "total"})
         EXPECT_GE(number(facts, fmt::format("milliseconds.{}", stage)), 0);
     EXPECT_NE(at(facts, "renderer.vendor").string_value(), "");

@@ -32,6 +32,27 @@ TEST(CameraJson, ARefusalNamesFileAndField) {
     EXPECT_THAT(refusal(""), testing::HasSubstr("c.json: this is no camera file"));
 }
 
+TEST(FlightJson, TheFormOfTheDesignIsRead) {
+    const fabric::Flight flight =
+        flightFromJson(R"({"keys":[{"seconds":0,"camera":{"eye":[0,0,0],"target":[1,0,0]}},
+                                   {"seconds":2.5,"camera":{"eye":[0,1,0],"target":[1,0,0]}}]})",
+                       "f.json")
+            .value();
+    ASSERT_EQ(flight.keys.size(), 2u);
+    EXPECT_EQ(flight.keys[1].seconds, 2.5);
+    EXPECT_EQ(flight.keys[1].camera.eye, fabric::Vec3(0, 1, 0));
+}
+
+TEST(FlightJson, ARefusalNamesFileKeyAndField) {
+    const auto refusal = [](const char* text) {
+        return std::string(flightFromJson(text, "f.json").status().message());
+    };
+    EXPECT_THAT(refusal(R"({"keys":[{"camera":{"eye":[1,2,3]}}]})"),
+                testing::HasSubstr("f.json: keys[0]: camera.target"));
+    EXPECT_THAT(refusal(R"({"keys":[]})"), testing::HasSubstr("f.json: the flight has no keys"));
+    EXPECT_THAT(refusal(R"({"cameras":[]})"), testing::HasSubstr("f.json: this is no flight file"));
+}
+
 TEST(SceneJson, AnUnknownFieldIsAnErrorThatNamesTheFile) {
     const auto scene = sceneMessageFromJson(R"({"objekts":[]})", "s.json");
     EXPECT_THAT(std::string(scene.status().message()),
@@ -80,6 +101,7 @@ TEST(StatisticsJson, HasTheDesignsFieldsAsPlainNumbers) {
     EXPECT_EQ(number("points"), 0);
     EXPECT_EQ(number("nodes"), 0);
     EXPECT_EQ(number("pagesLoaded"), 0);
+    EXPECT_EQ(number("bytesLoaded"), 0);
     EXPECT_EQ(number("pagesMissing"), 3);
     EXPECT_EQ(number("pagesFailed"), 2);
     EXPECT_TRUE(json.fields().at("complete").bool_value());

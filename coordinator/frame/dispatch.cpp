@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "coordinator/frame/flight.h"
+#include "coordinator/frame/dispatch.h"
 
 #include <algorithm>
 #include <utility>
@@ -11,29 +11,29 @@
 namespace eyrie::coordinator {
 namespace {
 
-/// How often a flight looks for renderers that have become free or late.
+/// How often a dispatch looks for renderers that have become free or late.
 constexpr std::chrono::milliseconds kLookAgain{20};
 
 }  // namespace
 
-Flight::Flight(Plan plan) : plan_(std::move(plan)), parts_(plan_.tasks.size()) {}
+Dispatch::Dispatch(Plan plan) : plan_(std::move(plan)), parts_(plan_.tasks.size()) {}
 
-absl::StatusOr<std::vector<Flight::Leg>> Flight::fly(Crew& crew) {
+absl::StatusOr<std::vector<Dispatch::Drawn>> Dispatch::run(Crew& crew) {
     std::unique_lock lock(mutex_);
     while (!isDone()) {
         RETURN_IF_ERROR(assign(crew));
         changed_.wait_for(lock, kLookAgain);
     }
-    std::vector<Leg> legs;
-    for (Part& part : parts_) legs.push_back(std::move(part.leg));
-    return legs;
+    std::vector<Drawn> drawn;
+    for (Part& part : parts_) drawn.push_back(std::move(part.drawn));
+    return drawn;
 }
 
-bool Flight::isDone() const {
+bool Dispatch::isDone() const {
     return std::all_of(parts_.begin(), parts_.end(), [](const Part& part) { return part.done; });
 }
 
-absl::Status Flight::assign(Crew& crew) {
+absl::Status Dispatch::assign(Crew& crew) {
     const std::vector<std::shared_ptr<Member>> members = crew.ready(plan_.sceneRevision);
     for (std::size_t i = 0; i < parts_.size(); ++i)
         if (!parts_[i].done && (parts_[i].running == 0 || Clock::now() >= parts_[i].late))
@@ -41,8 +41,8 @@ absl::Status Flight::assign(Crew& crew) {
     return absl::OkStatus();
 }
 
-absl::Status Flight::assign(std::size_t index, const std::vector<std::shared_ptr<Member>>& members,
-                            Crew& crew) {
+absl::Status Dispatch::assign(std::size_t index,
+                              const std::vector<std::shared_ptr<Member>>& members, Crew& crew) {
     Part& part = parts_[index];
     Member* chosen = nullptr;
     bool anyLeft = part.running != 0;
@@ -65,14 +65,14 @@ absl::Status Flight::assign(std::size_t index, const std::vector<std::shared_ptr
     return absl::OkStatus();
 }
 
-std::ptrdiff_t Flight::timesAsked(const Member& member) const {
+std::ptrdiff_t Dispatch::timesAsked(const Member& member) const {
     std::ptrdiff_t times = 0;
     for (const Part& part : parts_)
         times += std::count(part.asked.begin(), part.asked.end(), member.id());
     return times;
 }
 
-void Flight::start(std::size_t index, Member& member, Crew& crew) {
+void Dispatch::start(std::size_t index, Member& member, Crew& crew) {
     Part& part = parts_[index];
     ++part.running;
     part.asked.push_back(member.id());
@@ -81,14 +81,14 @@ void Flight::start(std::size_t index, Member& member, Crew& crew) {
     member.draw(plan_.frameData, plan_.tasks[index], plan_.sceneRevision, plan_.callTimeout,
                 [self = shared_from_this(), index, &member, &crew,
                  now](absl::StatusOr<fabric::ChannelResult> result) {
-                    if (!result.ok())  // even when the flight has ended without it
+                    if (!result.ok())  // even when the dispatch has ended without it
                         crew.noteFailure(member.id(), result.status());
                     self->finish(index, member, now, std::move(result));
                 });
 }
 
-void Flight::finish(std::size_t index, const Member& member, Clock::time_point started,
-                    absl::StatusOr<fabric::ChannelResult> result) {
+void Dispatch::finish(std::size_t index, const Member& member, Clock::time_point started,
+                      absl::StatusOr<fabric::ChannelResult> result) {
     const auto taken =
         std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - started);
     {
@@ -99,7 +99,7 @@ void Flight::finish(std::size_t index, const Member& member, Clock::time_point s
             part.error = result.status();
         } else if (!part.done) {
             part.done = true;
-            part.leg = {*std::move(result), member.device(), taken};
+            part.drawn = {*std::move(result), member.device(), taken};
         }
     }
     changed_.notify_one();

@@ -19,10 +19,10 @@ namespace eyrie::coordinator {
 ///
 /// Each task goes to a renderer. Where that fails, or takes too long while another one idles, the
 /// task goes to the other as well, to each renderer once at most; the first result counts. Answers
-/// that come after the flight has ended are dropped.
-class Flight : public std::enable_shared_from_this<Flight> {
+/// that come after the dispatch has ended are dropped.
+class Dispatch : public std::enable_shared_from_this<Dispatch> {
 public:
-    struct Leg {
+    struct Drawn {
         fabric::ChannelResult result;
         fabric::DeviceInfo device;          ///< of the renderer that drew it
         std::chrono::milliseconds taken{};  ///< by that renderer
@@ -36,19 +36,19 @@ public:
         std::chrono::milliseconds callTimeout{};  ///< then the renderer is given up
     };
 
-    explicit Flight(Plan plan);
+    explicit Dispatch(Plan plan);
 
-    /// One leg per task, in their order. `crew` outlives the calls to its renderers that the flight
-    /// may leave behind. Errors: what the last renderer said about a task, or Unavailable when none
-    /// is ready.
-    absl::StatusOr<std::vector<Leg>> fly(Crew& crew);
+    /// One result per task, in their order. `crew` outlives the calls to its renderers that the
+    /// dispatch may leave behind. Errors: what the last renderer said about a task, or Unavailable
+    /// when none is ready.
+    absl::StatusOr<std::vector<Drawn>> run(Crew& crew);
 
 private:
     using Clock = ChannelRenderer::Clock;
 
     struct Part {
         bool done = false;
-        Leg leg;
+        Drawn drawn;
         int running = 0;                 ///< renderers at work on it
         Clock::time_point late;          ///< when to ask another one as well
         std::vector<std::string> asked;  ///< ids of renderers

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "cli/bench/flights.h"
+#include "cli/bench/play.h"
+#include "cli/bench/report.h"
+#include "cli/commands.h"
+#include "cli/compound_names.h"
+#include "cli/data_cache.h"
+#include "cli/picture_source.h"
+#include "cli/progress_bar.h"
+#include "cli/renderer_processes.h"
+#include "cli/scene_files.h"
+#include "cli/stop_signal.h"
+#include "cli/values.h"
+#include "fabric/frame_data.h"
+#include "fabric/status.h"
+
+namespace eyrie::cli {
+namespace {
+
+struct Options {
+    std::string scene;
+    std::string flight = "orbit";
+    std::vector<double> taus{0.5, 1, 2, 4, 8};
+    std::string size = "1280x720";
+    int frames = 120;
+    int repeats = 3;
+    PictureSourceOptions pictures;
+    std::string out;
+    std::string cache;
+    bool quiet = false;
+    bool json = false;
+};
+
+absl::Status checkTaus(const std::vector<double>& taus) {
+    for (const double tau : taus)
+        if (!(tau >= fabric::kMinTauPixels && tau <= fabric::kMaxTauPixels))
+            return absl::InvalidArgumentError(fmt::format("--tau has {}; expected {} to {} pixels",
+                                                          tau, fabric::kMinTauPixels,
+                                                          fabric::kMaxTauPixels));
+    return absl::OkStatus();
+}
+
+absl::StatusOr<std::unique_ptr<PictureSource>> openScene(const Options& options,
+                                                         const std::stop_token& stop) {
+    ASSIGN_OR_RETURN(const auto folder, cacheFolder(options.cache));
+    DataCache cache(folder, ProgressBar::styleFor(options.quiet), stop);
+    std::vector<std::string> notes;
+    ASSIGN_OR_RETURN(fabric::Scene scene,
+                     assembleScene(std::vector<std::string>{options.scene}, cache, notes));
+    return PictureSource::open(std::move(scene), options.pictures, stop);
+}
+
+bench::BenchFacts factsOf(const Options& options, const PictureSize& size) {
+    const std::filesystem::path flight(options.flight);
+    return {std::filesystem::path(options.scene).filename().string(),
+            flight.filename().string(),
+            size.width,
+            size.height,
+            options.frames,
+            options.repeats,
+            options.pictures.renderers,
+            options.pictures.compound == coordinator::Decomposition::TwoD ? "2D" : "DB"};
+}
+
+absl::StatusOr<std::vector<bench::BenchRun>> playAll(PictureSource& pictures,
+                                                     const fabric::Flight& flight,
+                                                     const Options& options,
+                                                     const PictureSize& size,
+                                                     const std::stop_token& stop) {
+    std::vector<bench::BenchRun> runs;
+    const int framesOfRun = options.frames * (options.repeats + 1);
+    ProgressBar bar("bench", framesOfRun, "frames", ProgressBar::styleFor(options.quiet));
+    const import::Progress progress = bar.callback();
+    for (const double tau : options.taus) {
+        bench::PlayOptions play{{}, options.frames, options.repeats};
+        play.request.tauPixels = tau;
+        play.request.width = size.width;
+        play.request.height = size.height;
+        int done = 0;
+        const auto frameDone = [&] {
+            progress(fmt::format("tau {} px", tau), static_cast<double>(++done) / framesOfRun);
+        };
+        ASSIGN_OR_RETURN(bench::Played played,
+                         bench::play(pictures, flight, play, frameDone, stop));
+        runs.push_back({tau, std::move(played)});
+    }
+    return runs;
+}
+
+absl::Status runBench(const Options& options) {
+    const StopSignal stop;
+    RETURN_IF_ERROR(checkTaus(options.taus));
+    ASSIGN_OR_RETURN(const PictureSize size, parsePictureSize(options.size, "--size"));
+    ASSIGN_OR_RETURN(const auto pictures, openScene(options, stop.token()));
+    ASSIGN_OR_RETURN(const fabric::Flight flight,
+                     bench::flightNamed(options.flight, pictures->sceneInfo().bounds));
+    ASSIGN_OR_RETURN(const auto runs, playAll(*pictures, flight, options, size, stop.token()));
+    const bench::BenchFacts facts = factsOf(options, size);
+    RETURN_IF_ERROR(bench::writeReport(facts, runs, options.out));
+    if (options.json)
+        fmt::print("{}", bench::summaryJson(facts, runs));
+    else if (!options.quiet)
+        fmt::print("{}{}\n", bench::table(runs), options.out + "/index.html shows it");
+    return absl::OkStatus();
+}
+
+void addMeasuringOptions(CLI::App& command, Options& options) {
+    command
+        .add_option(
+            "--flight", options.flight,
+            R"(orbit, walkthrough, or a JSON file: {"keys":[{"seconds":0,"camera":{...}}]})")
+        ->type_name("NAME|FILE")
+        ->capture_default_str();
+    command.add_option("--tau", options.taus, "Screen-space errors to allow, in pixels")
+        ->delimiter(',')
+        ->capture_default_str();
+    command.add_option("--size", options.size, "Of the picture, in pixels")
+        ->type_name("WIDTHxHEIGHT")
+        ->capture_default_str();
+    command.add_option("--frames", options.frames, "Of one pass along the flight, evenly in time")
+        ->check(CLI::Range(1, 100'000))
+        ->capture_default_str();
+    command.add_option("--repeats", options.repeats, "Passes that count; one before them loads")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    command
+        .add_option("--renderers", options.pictures.renderers,
+                    "Draw with so many processes instead of in this one")
+        ->check(CLI::Range(1, RendererProcesses::kMaxCount));
+    command
+        .add_option("--compound", options.pictures.compound,
+                    "How these cut the frame: 2D, by pixels, or DB, by data [2D]")
+        ->transform(CLI::CheckedTransformer(compoundNames()).description(""))
+        ->type_name("2D|DB");
+}
+
+}  // namespace
+
+void addBench(CLI::App& app, Run& run) {
+    auto options = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand("bench", "Measure speed against error along a flight");
+    command->add_option("scene", options->scene, "What is drawn, as for `eyrie serve`")
+        ->type_name("FILE")
+        ->required();
+    addMeasuringOptions(*command, *options);
+    command->add_option("-o,--output", options->out, "Folder for the report")
+        ->type_name("FOLDER")
+        ->required();
+    command->add_option("--cache", options->cache, "Where imports are kept [~/.cache/eyrie]")
+        ->type_name("FOLDER");
+    command->add_flag("--quiet", options->quiet, "Only errors");
+    command->add_flag("--json", options->json, "Print the summary as JSON");
+    command->footer(
+        "The report is index.html to look at, summary.json and frames.csv to work with. The error\n"
+        "in it is the one promised for every frame; frames that promise more than was asked count\n"
+        "as framesBeyondTau.\n\n"
+        "Examples:\n"
+        "  eyrie bench dem.eyt --flight walkthrough -o report\n"
+        "  eyrie bench scene.json --flight flight.json --tau 1,2 --renderers 2 -o report");
+    command->callback([options, &run] { run = [options] { return runBench(*options); }; });
+}
+
+}  // namespace eyrie::cli

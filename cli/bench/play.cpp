@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/bench/play.h"
+
+#include <chrono>
+
+#include <fmt/format.h>
+
+#include "cli/bench/resident_memory.h"
+#include "fabric/status.h"
+
+namespace eyrie::cli::bench {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Of frame `index` of a pass: both ends of the flight are drawn.
+double secondsOf(const fabric::Flight& flight, int index, int frames) {
+    return frames == 1 ? 0 : flight.seconds() * index / (frames - 1);
+}
+
+}  // namespace
+
+absl::StatusOr<Played> play(PictureSource& pictures, const fabric::Flight& flight,
+                            const PlayOptions& options, const std::function<void()>& frameDone,
+                            const std::stop_token& stop) {
+    Played played;
+    coordinator::FrameRequest request = options.request;
+    resetPeakResidentBytes();
+    for (int pass = 0; pass <= options.repeats; ++pass) {
+        for (int i = 0; i < options.frames; ++i) {
+            if (stop.stop_requested())
+                return absl::CancelledError("stopped; nothing was written");
+            const double seconds = secondsOf(flight, i, options.frames);
+            request.camera = flight.at(seconds);
+            const auto start = Clock::now();
+            const auto frame = pictures.draw(request);
+            const std::chrono::duration<double, std::milli> taken = Clock::now() - start;
+            if (!frame.ok())
+                return fabric::withContext(frame.status(),
+                                           fmt::format("second {:.3f} of the flight", seconds));
+            played.frames.push_back({pass, seconds, taken.count(), frame->statistics});
+            played.device = frame->device;
+            frameDone();
+        }
+    }
+    played.peakResidentBytes = peakResidentBytes();
+    return played;
+}
+
+}  // namespace eyrie::cli::bench

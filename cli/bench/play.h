@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <stop_token>
+#include <vector>
+
+#include <absl/status/statusor.h>
+
+#include "cli/picture_source.h"
+#include "fabric/flight.h"
+#include "fabric/statistics.h"
+
+/// Playing a flight and taking its frames' times.
+namespace eyrie::cli::bench {
+
+struct PlayOptions {
+    coordinator::FrameRequest request;  ///< all but the camera
+    int frames = 120;                   ///< of one pass, evenly spaced in time; at least 1
+    int repeats = 3;                    ///< passes that are measured, after a first one
+};
+
+struct PlayedFrame {
+    int pass = 0;             ///< 0: the first one, which loads; measured passes from 1
+    double seconds = 0;       ///< of the flight
+    double milliseconds = 0;  ///< from asking for the picture to having all of it
+    fabric::FrameStatistics statistics;
+};
+
+struct Played {
+    std::vector<PlayedFrame> frames;      ///< pass by pass
+    std::uint64_t peakResidentBytes = 0;  ///< this process and its children, added up
+    fabric::DeviceInfo device;
+};
+
+/// Plays `flight` 1 + repeats times; every frame waits for its data. `frameDone` is called after
+/// each. Errors: those of PictureSource::draw, naming the second; Cancelled.
+absl::StatusOr<Played> play(PictureSource& pictures, const fabric::Flight& flight,
+                            const PlayOptions& options, const std::function<void()>& frameDone,
+                            const std::stop_token& stop);
+
+}  // namespace eyrie::cli::bench

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/picture_source.h"
+
+#include <utility>
+
+#include <spdlog/spdlog.h>
+
+#include "cli/local_farm.h"
+#include "fabric/status.h"
+#include "renderer/renderer.h"
+
+namespace eyrie::cli {
+namespace {
+
+using coordinator::FrameRequest;
+using coordinator::RenderedFrame;
+
+constexpr std::chrono::seconds kRenderersLimit{60};
+
+class InThisProcess final : public PictureSource {
+public:
+    InThisProcess(std::unique_ptr<Renderer> renderer, fabric::SceneInfo info,
+                  fabric::Rgba background)
+        : renderer_(std::move(renderer)), info_(std::move(info)), background_(background) {}
+
+    absl::StatusOr<RenderedFrame> draw(const FrameRequest& request) override {
+        const fabric::FrameData frameData{++frames_, request.camera, request.tauPixels,
+                                          request.shading};
+        fabric::ChannelTask task;
+        task.frameNumber = frames_;
+        task.frameDataVersion = frameData.version;
+        task.viewWidth = request.width;
+        task.viewHeight = request.height;
+        task.pixelViewport = {0, 0, request.width, request.height};
+        task.wantsDepth = request.wantsDepth;
+        task.completeness = request.completeness;
+        ASSIGN_OR_RETURN(const fabric::ChannelResult result, renderer_->render(frameData, task));
+        RenderedFrame frame{fabric::makeImage(task.pixelViewport, background_, request.wantsDepth),
+                            result.statistics, renderer_->device()};
+        if (!result.image.area.isEmpty())
+            fabric::paste(result.image, frame.image);
+        return frame;
+    }
+
+    fabric::SceneInfo sceneInfo() const override { return info_; }
+
+private:
+    const std::unique_ptr<Renderer> renderer_;
+    const fabric::SceneInfo info_;
+    const fabric::Rgba background_;
+    std::uint64_t frames_ = 0;
+};
+
+class InProcesses final : public PictureSource {
+public:
+    explicit InProcesses(std::unique_ptr<LocalFarm> farm) : farm_(std::move(farm)) {}
+
+    absl::StatusOr<RenderedFrame> draw(const FrameRequest& request) override {
+        return farm_->frames().renderFrame(request);
+    }
+
+    fabric::SceneInfo sceneInfo() const override { return farm_->frames().status().sceneInfo; }
+
+private:
+    const std::unique_ptr<LocalFarm> farm_;
+};
+
+}  // namespace
+
+absl::StatusOr<std::unique_ptr<PictureSource>> PictureSource::open(
+    fabric::Scene scene, const PictureSourceOptions& options, const std::stop_token& stop) {
+    if (options.renderers == 0) {
+        ASSIGN_OR_RETURN(auto renderer, Renderer::create({}));
+        ASSIGN_OR_RETURN(fabric::SceneInfo info, renderer->openScene(scene));
+        return std::make_unique<InThisProcess>(std::move(renderer), std::move(info),
+                                               scene.background);
+    }
+    spdlog::set_level(spdlog::level::warn);
+    ASSIGN_OR_RETURN(auto farm, LocalFarm::start(options.compound));
+    RETURN_IF_ERROR(farm->coordinator().setScene(std::move(scene)));
+    farm->startRenderers(options.renderers);
+    RETURN_IF_ERROR(farm->awaitRenderers(options.renderers, kRenderersLimit, stop));
+    return std::make_unique<InProcesses>(std::move(farm));
+}
+
+}  // namespace eyrie::cli

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <stop_token>
+
+#include <absl/status/statusor.h>
+
+#include "coordinator/compound/decompose.h"
+#include "coordinator/frame/frame_source.h"
+#include "fabric/scene.h"
+
+namespace eyrie::cli {
+
+struct PictureSourceOptions {
+    int renderers = 0;  ///< processes that draw; 0: draw in this one
+    coordinator::Decomposition compound = coordinator::Decomposition::TwoD;
+};
+
+/// Draws pictures of one scene, for commands that need no viewer. Belongs to the thread that opened
+/// it.
+class PictureSource {
+public:
+    /// Errors: those of Renderer::openScene and LocalFarm; Cancelled.
+    static absl::StatusOr<std::unique_ptr<PictureSource>> open(fabric::Scene scene,
+                                                               const PictureSourceOptions& options,
+                                                               const std::stop_token& stop);
+
+    virtual ~PictureSource() = default;
+
+    virtual absl::StatusOr<coordinator::RenderedFrame> draw(
+        const coordinator::FrameRequest& request) = 0;
+    virtual fabric::SceneInfo sceneInfo() const = 0;
+};
+
+}  // namespace eyrie::cli

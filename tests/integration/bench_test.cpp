@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// `eyrie bench` as its users run it.
+#include <filesystem>
+#include <fstream>
+
+#include <gmock/gmock.h>
+
+#include "tests/support/image_files.h"
+#include "tests/support/json.h"
+#include "tests/support/program.h"
+#include "tests/support/temporary_folder.h"
+
+namespace eyrie {
+namespace {
+
+using test::eyrie;
+using test::number;
+using test::succeeded;
+
+class Bench : public testing::Test {
+protected:
+    static void SetUpTestSuite() {
+        folder_ = std::make_unique<test::TemporaryFolder>();
+        ASSERT_TRUE(succeeded({"synth", "terrain", "--size", "257", "--seed", "3", "-o", dem()}));
+    }
+    static void TearDownTestSuite() { folder_.reset(); }
+
+    static std::string dem() { return folder_->path("dem.eyt"); }
+    static std::string path(const std::string& name) { return folder_->path(name); }
+
+    static test::JsonValue summaryOf(const std::string& report) {
+        const auto text = test::readFile(report + "/summary.json");
+        EXPECT_TRUE(text.ok()) << text.status();
+        return test::parseJson(text.value_or("{}"));
+    }
+
+    static std::string writeFlight(const std::string& name, const std::string& keys) {
+        std::ofstream(path(name)) << R"({"keys":[)" << keys << "]}";
+        return path(name);
+    }
+
+    static inline std::unique_ptr<test::TemporaryFolder> folder_;
+};
+
+/// A key at `seconds` that looks at the terrain's middle from the south.
+std::string key(double seconds, double height) {
+    return "{\"seconds\":" + std::to_string(seconds) + R"(,"camera":{"eye":[3840,-9000,)" +
+           std::to_string(height) + R"(],"target":[3840,3840,500]}})";
+}
+
+TEST_F(Bench, AReportHasARunForEachTau) {
+    const std::string report = path("report");
+    ASSERT_TRUE(succeeded({"bench", dem(), "--tau", "1,4", "--size", "320x180", "--frames", "4",
+                           "--repeats", "2", "-o", report}));
+    EXPECT_EQ(test::namesIn(report),
+              (std::set<std::string>{"frames.csv", "index.html", "summary.json"}));
+    const auto runs = test::list(summaryOf(report), "runs");
+    ASSERT_EQ(runs.size(), 2u);
+    EXPECT_LE(number(runs[0], "tauAchievedMax"), 1);
+    EXPECT_LE(number(runs[1], "tauAchievedMax"), 4);
+    EXPECT_GT(number(runs[0], "tauAchievedMax"), 0);
+    EXPECT_GT(number(runs[0], "trianglesMean"), number(runs[1], "trianglesMean"));
+    EXPECT_GT(number(runs[0], "fpsMedian"), 0);
+    EXPECT_GT(number(runs[0], "bytesLoaded"), 0);
+    EXPECT_GT(number(runs[0], "peakResidentBytes"), 1e6);
+}
+
+TEST_F(Bench, OfARecordedFlightPromisesTheSameForAnyNumberOfProcesses) {
+    const std::string flight = writeFlight("flight.json", key(0, 2500) + "," + key(2, 4000));
+    const auto errorWith = [&](const std::vector<std::string>& renderers, const char* name) {
+        std::vector<std::string> arguments{"bench",     dem(),    "--flight", flight,     "--tau",
+                                           "2",         "--size", "320x180",  "--frames", "3",
+                                           "--repeats", "1",      "-o",       path(name)};
+        arguments.insert(arguments.end(), renderers.begin(), renderers.end());
+        EXPECT_TRUE(succeeded(arguments));
+        return number(test::list(summaryOf(path(name)), "runs").at(0), "tauAchievedMax");
+    };
+    const double alone = errorWith({}, "alone");
+    EXPECT_GT(alone, 0);
+    EXPECT_EQ(errorWith({"--renderers", "2"}, "two"), alone);
+    EXPECT_EQ(errorWith({"--renderers", "2", "--compound", "DB"}, "two_db"), alone);
+}
+
+TEST_F(Bench, RefusesFlightsThatAreNone) {
+    const auto refusal = [&](const std::string& keys) {
+        const test::Outcome outcome =
+            eyrie({"bench", dem(), "--flight", writeFlight("bad.json", keys), "-o", path("none")});
+        EXPECT_EQ(outcome.exit, (test::Exit{2, 0}));
+        EXPECT_FALSE(std::filesystem::exists(path("none")));
+        return outcome.errors;
+    };
+    EXPECT_THAT(refusal(""), testing::HasSubstr("bad.json: the flight has no keys"));
+    EXPECT_THAT(refusal(key(2, 900) + "," + key(1, 900)),
+                testing::HasSubstr("keys[1].seconds is 1, not after the 2"));
+    EXPECT_THAT(refusal(R"({"seconds":"NaN","camera":{"eye":[0,0,0],"target":[1,0,0]}})"),
+                testing::HasSubstr("keys[0].seconds is not a finite number"));
+}
+
+TEST_F(Bench, RefusesWhatItCannotMeasure) {
+    const auto refusal = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> arguments{"bench", dem(), "-o", path("none")};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const test::Outcome outcome = eyrie(arguments);
+        EXPECT_EQ(outcome.exit, (test::Exit{2, 0})) << outcome.errors;
+        return outcome.errors;
+    };
+    EXPECT_THAT(refusal({"--tau", "1,0"}), testing::HasSubstr("--tau has 0"));
+    EXPECT_THAT(refusal({"--tau", "nan"}), testing::HasSubstr("--tau"));
+    EXPECT_THAT(refusal({"--frames", "0"}), testing::HasSubstr("--frames"));
+    EXPECT_THAT(refusal({"--flight", "missing.json"}), testing::HasSubstr("missing.json"));
+}
+
+}  // namespace
+}  // namespace eyrie
