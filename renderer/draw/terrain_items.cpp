@@ -23,8 +23,9 @@ TerrainItem TerrainItems::of(const TextureId& texture) const {
             textureBytes(pyramid, texture, format_)};
 }
 
-bool TerrainItems::isEmptyPage(std::uint32_t page) const {
-    return isTexture(page) ? !index_.imagery->has(textureOf(page)) : index_.pages[page].bytes == 0;
+std::uint64_t TerrainItems::bytesOnDisk(std::uint32_t page) const {
+    return isTexture(page) ? index_.imagery->tiles[page - index_.quadtree.pageCount()].bytes
+                           : index_.pages[page].bytes;
 }
 
 std::uint64_t TerrainItems::greatestPageBytes(std::uint32_t page) const {

@@ -35,7 +35,8 @@ public:
     terrain::TextureId textureOf(std::uint32_t page) const {
         return index_.imagery->pyramid.tileOf(page - index_.quadtree.pageCount());
     }
-    bool isEmptyPage(std::uint32_t page) const;
+    /// 0: there is nothing in it.
+    std::uint64_t bytesOnDisk(std::uint32_t page) const;
     /// Of memory on the host, at most.
     std::uint64_t greatestPageBytes(std::uint32_t page) const;
     std::uint64_t greatestOfAllPages() const;

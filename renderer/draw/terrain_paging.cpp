@@ -133,7 +133,7 @@ std::uint64_t TerrainPaging::sortTextures(const std::vector<TextureId>& textures
         bool isBelow = true;
         for (const TextureId& one : chainOf(texture)) {
             const TerrainItem item = names_.of(one);
-            if (names_.isEmptyPage(item.page))
+            if (names_.bytesOnDisk(item.page) == 0)
                 continue;
             if (isBelow && items_.contains(item.key)) {
                 isBelow = false;
@@ -167,7 +167,7 @@ void TerrainPaging::rankItems(const std::vector<TerrainItem>& order, std::uint64
 void TerrainPaging::rankPages(const std::vector<TileId>& prefetch) {
     std::uint64_t bytes = 0;
     const auto add = [&](std::uint32_t page) {
-        if (rankOfPage_.contains(page) || names_.isEmptyPage(page))
+        if (rankOfPage_.contains(page) || names_.bytesOnDisk(page) == 0)
             return;
         bytes += pageBytes(page);
         if (bytes > pages_.limitBytes())
@@ -191,7 +191,7 @@ TerrainPaging::Loads TerrainPaging::keep(std::vector<page::Arrival> arrivals) {
             continue;
         }
         ++loaded.pages;
-        loaded.bytes += index_.pages[arrival.page].bytes;
+        loaded.bytes += names_.bytesOnDisk(arrival.page);
         if (failures_.erase(arrival.page) != 0)
             spdlog::info("{}: page {} can be read again", file_->path(), arrival.page);
         if (const auto since = wishedSince_.find(arrival.page); since != wishedSince_.end()) {
@@ -275,7 +275,7 @@ std::vector<TextureId> TerrainPaging::readableOf(const std::vector<TextureId>& t
     for (const TextureId& texture : textures)
         for (const TextureId& one : chainOf(texture)) {
             const TerrainItem item = names_.of(one);
-            if (names_.isEmptyPage(item.page) ||
+            if (names_.bytesOnDisk(item.page) == 0 ||
                 (!items_.contains(item.key) && isGivenUp(item.page, start)))
                 continue;
             if (known.insert(item.key).second)
