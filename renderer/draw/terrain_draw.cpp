@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/draw/terrain_draw.h"
 
+#include <array>
 #include <map>
 #include <optional>
 #include <utility>
@@ -88,9 +89,15 @@ private:
                           double texelPixels);
     const Wanted& wantedAt(int step, const CutRequest& request);
     page::TauLadder::Choice chooseStep(const CutRequest& request);
+    /// By variant; null: not used in the frame so far.
+    using PicturePrograms =
+        std::array<const TerrainEffect*, TerrainEffect::Variant::kMaxImagery + 1>;
+    absl::StatusOr<const TerrainEffect*> programFor(const terrain::ImageryPart& part,
+                                                    const FrameState& frame,
+                                                    PicturePrograms& programs);
     void useNormals(const TerrainEffect& program, const terrain::TileId& tile);
     std::uint64_t drawTile(const TerrainEffect& program, const terrain::TileChoice& choice,
-                           const DeviceTile& tile);
+                           const DeviceTile& tile) const;
 
     TerrainPrograms& programs_;
     fabric::Mat4 worldFromObject_;
@@ -204,10 +211,10 @@ void TerrainDrawable::useNormals(const TerrainEffect& program, const terrain::Ti
     program.normalMap(*paging_->tile(id)->normalMap);
 }
 
-/// Draws the interior and one form of each edge, once for each part of its imagery; returns the
-/// triangles.
+/// Draws the interior and one form of each edge; returns the triangles.
 std::uint64_t TerrainDrawable::drawTile(const TerrainEffect& program,
-                                        const terrain::TileChoice& choice, const DeviceTile& tile) {
+                                        const terrain::TileChoice& choice,
+                                        const DeviceTile& tile) const {
     const terrain::TileId& id = choice.id;
     program.tileOrigin({id.x * terrain::Quadtree::side(id.level),
                         id.y * terrain::Quadtree::side(id.level), tile.baseHeight});
@@ -240,32 +247,37 @@ std::uint64_t TerrainDrawable::drawTile(const TerrainEffect& program,
     for (int edge = 0; edge < terrain::kEdges; ++edge)
         add(((choice.finerEdges >> edge & 1) != 0 ? terrain::kFinerPart : terrain::kOwnPart) +
             edge);
-    const auto draw = [&] {
-        glMultiDrawElements(GL_TRIANGLES, counts.data(), GL_UNSIGNED_SHORT, offsets.data(), parts);
-    };
-    if (!index().imagery) {
-        draw();
-        return indices / 3;
+    glMultiDrawElements(GL_TRIANGLES, counts.data(), GL_UNSIGNED_SHORT, offsets.data(), parts);
+    return indices / 3;
+}
+
+/// The program for a part of a tile, in use and with the frame's uniforms.
+absl::StatusOr<const TerrainEffect*> TerrainDrawable::programFor(const terrain::ImageryPart& part,
+                                                                 const FrameState& frame,
+                                                                 PicturePrograms& programs) {
+    TerrainEffect::Variant variant;
+    static_cast<effects::ObjectBlock::Variant&>(variant) = variantFor(frame, worldFromObject_);
+    variant.imagery = !part.isWhole() ? 2 : part.texture ? 1 : 0;
+    const TerrainEffect*& program = programs[static_cast<std::size_t>(variant.imagery)];
+    if (program == nullptr) {
+        ASSIGN_OR_RETURN(program, programs_.find(variant));
+        use(*program, frame);
     }
-    const std::vector<terrain::ImageryPart>& pictures = imagery_.partsOf(id);
-    for (const terrain::ImageryPart& picture : pictures) {
-        imagery_.use(program, id, picture);
-        draw();
-    }
-    return indices / 3 * pictures.size();
+    program->use();
+    return program;
 }
 
 absl::Status TerrainDrawable::draw(std::span<const Piece> pieces, const FrameState& frame,
                                    fabric::FrameStatistics& statistics) {
-    TerrainEffect::Variant variant;
-    static_cast<effects::ObjectBlock::Variant&>(variant) = variantFor(frame, worldFromObject_);
-    variant.imagery = index().imagery.has_value();
-    ASSIGN_OR_RETURN(const TerrainEffect* program, programs_.find(variant));
-    use(*program, frame);
+    PicturePrograms programs{};
     for (const Piece& piece : pieces) {
         const terrain::TileChoice& choice = choices_[piece.index];
-        useNormals(*program, choice.id);
-        statistics.triangles += drawTile(*program, choice, *paging_->tile(choice.id));
+        for (const terrain::ImageryPart& part : imagery_.partsOf(choice.id)) {
+            ASSIGN_OR_RETURN(const TerrainEffect* program, programFor(part, frame, programs));
+            useNormals(*program, choice.id);
+            imagery_.use(*program, choice.id, part);
+            statistics.triangles += drawTile(*program, choice, *paging_->tile(choice.id));
+        }
     }
     return absl::OkStatus();
 }

@@ -14,7 +14,7 @@
 
 namespace eyrie::draw {
 
-/// What pictures the tiles of one terrain are drawn with. Without imagery it does nothing. GL
+/// What pictures the tiles of one terrain are drawn with; without imagery, each whole with none. GL
 /// thread.
 class TileImagery {
 public:
@@ -35,8 +35,9 @@ public:
                 const lod::ObjectView& view, double texelPixels);
     /// Of a tile of the last choose(). Empty: the view sees none of it.
     const std::vector<terrain::ImageryPart>& partsOf(const terrain::TileId& tile) const {
-        return parts_.at(index_.quadtree.tileIndex(tile));
+        return index_.imagery ? parts_.at(index_.quadtree.tileIndex(tile)) : bare_;
     }
+    /// Sets what the program's variant has of uniforms for `part`.
     void use(const effects::TerrainEffect& program, const terrain::TileId& tile,
              const terrain::ImageryPart& part) const;
 
@@ -44,6 +45,7 @@ private:
     const terrain::EytIndex& index_;
     TerrainPaging& paging_;
     DeviceTexture hole_;  ///< where there is no picture
+    const std::vector<terrain::ImageryPart> bare_{{}};
     std::unordered_map<std::uint32_t, std::vector<terrain::ImageryPart>> parts_;  // by tile index
 };
 

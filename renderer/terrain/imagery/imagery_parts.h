@@ -24,6 +24,10 @@ struct ImageryPart {
     std::int32_t endY = kEndless;
     std::optional<TextureId> texture;  ///< none: there is no picture
 
+    /// It is all that there is of the tile.
+    bool isWhole() const {
+        return firstX == -kEndless && firstY == -kEndless && endX == kEndless && endY == kEndless;
+    }
     bool operator==(const ImageryPart&) const = default;
 };
 
