@@ -10,13 +10,12 @@
 #include "cli/bench/flights.h"
 #include "cli/bench/play.h"
 #include "cli/bench/report.h"
+#include "cli/cache_options.h"
 #include "cli/commands.h"
 #include "cli/compound_names.h"
-#include "cli/data_cache.h"
 #include "cli/picture_source.h"
 #include "cli/progress_bar.h"
 #include "cli/renderer_processes.h"
-#include "cli/scene_files.h"
 #include "cli/stop_signal.h"
 #include "cli/values.h"
 #include "fabric/frame_data.h"
@@ -34,8 +33,6 @@ struct Options {
     int repeats = 3;
     PictureSourceOptions pictures;
     std::string out;
-    std::string cache;
-    bool quiet = false;
     bool json = false;
 };
 
@@ -46,16 +43,6 @@ absl::Status checkTaus(const std::vector<double>& taus) {
                                                           tau, fabric::kMinTauPixels,
                                                           fabric::kMaxTauPixels));
     return absl::OkStatus();
-}
-
-absl::StatusOr<std::unique_ptr<PictureSource>> openScene(const Options& options,
-                                                         const std::stop_token& stop) {
-    ASSIGN_OR_RETURN(const auto folder, cacheFolder(options.cache));
-    DataCache cache(folder, ProgressBar::styleFor(options.quiet), stop);
-    std::vector<std::string> notes;
-    ASSIGN_OR_RETURN(fabric::Scene scene,
-                     assembleScene(std::vector<std::string>{options.scene}, cache, notes));
-    return PictureSource::open(std::move(scene), options.pictures, stop);
 }
 
 bench::BenchFacts factsOf(const Options& options, const PictureSize& size) {
@@ -77,7 +64,7 @@ absl::StatusOr<std::vector<bench::BenchRun>> playAll(PictureSource& pictures,
                                                      const std::stop_token& stop) {
     std::vector<bench::BenchRun> runs;
     const int framesOfRun = options.frames * (options.repeats + 1);
-    ProgressBar bar("bench", framesOfRun, "frames", ProgressBar::styleFor(options.quiet));
+    ProgressBar bar("bench", framesOfRun, "frames", ProgressBar::styleFor(options.pictures.quiet));
     const import::Progress progress = bar.callback();
     for (const double tau : options.taus) {
         bench::PlayOptions play{{}, options.frames, options.repeats};
@@ -99,7 +86,8 @@ absl::Status runBench(const Options& options) {
     const StopSignal stop;
     RETURN_IF_ERROR(checkTaus(options.taus));
     ASSIGN_OR_RETURN(const PictureSize size, parsePictureSize(options.size, "--size"));
-    ASSIGN_OR_RETURN(const auto pictures, openScene(options, stop.token()));
+    ASSIGN_OR_RETURN(const auto pictures,
+                     PictureSource::open(options.scene, options.pictures, stop.token()));
     ASSIGN_OR_RETURN(const fabric::Flight flight,
                      bench::flightNamed(options.flight, pictures->sceneInfo().bounds));
     ASSIGN_OR_RETURN(const auto runs, playAll(*pictures, flight, options, size, stop.token()));
@@ -107,7 +95,7 @@ absl::Status runBench(const Options& options) {
     RETURN_IF_ERROR(bench::writeReport(facts, runs, options.out));
     if (options.json)
         fmt::print("{}", bench::summaryJson(facts, runs));
-    else if (!options.quiet)
+    else if (!options.pictures.quiet)
         fmt::print("{}{}\n", bench::table(runs), options.out + "/index.html shows it");
     return absl::OkStatus();
 }
@@ -154,9 +142,8 @@ void addBench(CLI::App& app, Run& run) {
     command->add_option("-o,--output", options->out, "Folder for the report")
         ->type_name("FOLDER")
         ->required();
-    command->add_option("--cache", options->cache, "Where imports are kept [~/.cache/eyrie]")
-        ->type_name("FOLDER");
-    command->add_flag("--quiet", options->quiet, "Only errors");
+    addCacheOptions(*command, options->pictures.cache);
+    command->add_flag("--quiet", options->pictures.quiet, "Only errors");
     command->add_flag("--json", options->json, "Print the summary as JSON");
     command->footer(
         "The report is index.html to look at, summary.json and frames.csv to work with. The error\n"

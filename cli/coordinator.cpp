@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "cli/cache_options.h"
 #include "cli/commands.h"
 #include "cli/compound_names.h"
 #include "cli/data_cache.h"
@@ -26,14 +27,16 @@ struct Options {
     std::string scene;
     std::string listen = "127.0.0.1:8080";
     std::string grpc = "127.0.0.1:9090";
-    std::string cache;
+    CacheOptions cache;
     coordinator::Decomposition compound = coordinator::Decomposition::TwoD;
     bool quiet = false;
 };
 
 absl::StatusOr<fabric::Scene> loadScene(const Options& options, const std::stop_token& stop) {
-    ASSIGN_OR_RETURN(const auto folder, cacheFolder(options.cache));
-    DataCache cache(folder, ProgressBar::styleFor(options.quiet), stop);
+    ASSIGN_OR_RETURN(const auto folder, cacheFolder(options.cache.folder));
+    ASSIGN_OR_RETURN(const RemoteData remote, remoteDataOf(options.cache));
+    DataCache cache(folder, ProgressBar::styleFor(options.quiet), stop,
+                    page::sourceOptions(remote.cacheFolder, remote.cacheBytes));
     std::vector<std::string> notes;
     return assembleScene(std::vector<std::string>{options.scene}, cache, notes);
 }
@@ -69,7 +72,7 @@ void addCoordinator(CLI::App& app, Run& run) {
     CLI::App* command =
         app.add_subcommand("coordinator", "Show data in the browser, drawn by other processes");
     command->add_option("scene", options->scene, "What is shown, as for `eyrie serve`")
-        ->type_name("FILE")
+        ->type_name("FILE|URL")
         ->required();
     command->add_option("--listen", options->listen, "Where browsers find it; port 0: any free one")
         ->type_name("HOST:PORT")
@@ -82,8 +85,7 @@ void addCoordinator(CLI::App& app, Run& run) {
                      "How a frame is cut: 2D, by pixels, or DB, by data [2D]")
         ->transform(CLI::CheckedTransformer(compoundNames()).description(""))
         ->type_name("2D|DB");
-    command->add_option("--cache", options->cache, "Where imports are kept [~/.cache/eyrie]")
-        ->type_name("FOLDER");
+    addCacheOptions(*command, options->cache);
     command->add_flag("--quiet", options->quiet, "No progress, only warnings and errors");
     command->footer(
         "Example:\n"

@@ -17,6 +17,7 @@
 #include "renderer/import/mesh_import.h"
 #include "renderer/import/terrain_import.h"
 #include "renderer/mesh/eym_format.h"
+#include "renderer/page/remote_name.h"
 #include "renderer/terrain/eyt_format.h"
 
 namespace eyrie::cli {
@@ -32,7 +33,7 @@ constexpr int kTerrainImporterVersion = 3;
 constexpr std::array<std::string_view, 4> kSidecars = {".hdr", ".prj", ".tfw", ".aux.xml"};
 
 std::string lowerCaseEnding(const std::string& path) {
-    std::string ending = fs::path(path).extension().string();
+    std::string ending = fs::path(page::withoutQuery(path)).extension().string();
     std::transform(ending.begin(), ending.end(), ending.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return ending;
@@ -102,38 +103,30 @@ DataFile dataFileOf(const std::string& path) {
     return ending == ".ply" ? DataFile::MeshSource : DataFile::TerrainSource;
 }
 
-absl::StatusOr<fs::path> cacheFolder(const std::string& named) {
-    if (!named.empty())
-        return fs::path(named);
-    const auto variable = [](const char* name) {
-        const char* value = std::getenv(name);
-        return value == nullptr ? std::string() : std::string(value);
-    };
-    if (const std::string cache = variable("XDG_CACHE_HOME"); !cache.empty())
-        return fs::path(cache) / "eyrie";
-    if (const std::string home = variable("HOME"); !home.empty())
-        return fs::path(home) / ".cache" / "eyrie";
-    return absl::FailedPreconditionError(
-        "neither XDG_CACHE_HOME nor HOME is set, so there is no place for imports; name one with "
-        "--cache FOLDER");
-}
-
-DataCache::DataCache(fs::path folder, ProgressBar::Style progress, std::stop_token stop)
-    : folder_(std::move(folder)), progress_(progress), stop_(std::move(stop)) {}
+DataCache::DataCache(fs::path folder, ProgressBar::Style progress, std::stop_token stop,
+                     page::SourceOptions sources)
+    : folder_(std::move(folder)),
+      progress_(progress),
+      stop_(std::move(stop)),
+      sources_(std::move(sources)) {}
 
 absl::StatusOr<std::string> DataCache::dataFor(const std::string& path, fabric::ObjectKind kind,
                                                const std::vector<std::string>& imagery) {
     switch (dataFileOf(path)) {
         case DataFile::Terrain:
         case DataFile::Mesh:
-            // Said here, at once: a renderer would only find out when it opens the scene.
-            if (std::error_code ignored; !fs::exists(path, ignored))
-                return absl::NotFoundError(fmt::format("{}: no such file", path));
             if (!imagery.empty())
                 return absl::InvalidArgumentError(fmt::format(
                     "{}: is imported already, so its imagery ({}) cannot be laid over it; name the "
                     "elevation model instead, or run `eyrie import terrain` with --imagery",
                     path, fmt::join(imagery, ", ")));
+            // Said here, at once: a renderer would only find out when it opens the scene.
+            if (page::isRemote(path)) {
+                RETURN_IF_ERROR(reach(path, kind));
+                return path;
+            }
+            if (std::error_code ignored; !fs::exists(path, ignored))
+                return absl::NotFoundError(fmt::format("{}: no such file", path));
             return path;
         case DataFile::Scene:
             return absl::InvalidArgumentError(
@@ -142,7 +135,26 @@ absl::StatusOr<std::string> DataCache::dataFor(const std::string& path, fabric::
         case DataFile::TerrainSource:
             break;
     }
+    if (page::isRemote(path))
+        return absl::InvalidArgumentError(fmt::format(
+            "{}: only .eyt and .eym files are drawn from a URL; download this one, or `eyrie "
+            "import` it where it lies and name what that made",
+            path));
     return imported(path, kind, imagery);
+}
+
+absl::Status DataCache::reach(const std::string& url, fabric::ObjectKind kind) {
+    if (kind == fabric::ObjectKind::Terrain)
+        return terrain::EytFile::open(url, sources_).status();
+    ProgressBar bar(fs::path(page::withoutQuery(url)).filename().string(), 0, "", progress_);
+    const auto show = bar.callback();
+    return mesh::EymFile::open(url, sources_,
+                               [&](double fraction) {
+                                   show("copying", fraction);
+                                   return stop_.stop_requested() ? absl::CancelledError("stopped")
+                                                                 : absl::OkStatus();
+                               })
+        .status();
 }
 
 absl::StatusOr<std::string> DataCache::imported(const std::string& source, fabric::ObjectKind kind,

@@ -10,10 +10,11 @@
 
 #include "cli/progress_bar.h"
 #include "fabric/scene.h"
+#include "renderer/page/page_source.h"
 
 namespace eyrie::cli {
 
-/// What a file named on the command line is, told by its ending.
+/// What a file or URL named on the command line is, told by its ending.
 enum class DataFile {
     Scene,          ///< .json
     Terrain,        ///< .eyt
@@ -23,24 +24,27 @@ enum class DataFile {
 };
 DataFile dataFileOf(const std::string& path);
 
-/// What --cache names, or $XDG_CACHE_HOME/eyrie, or ~/.cache/eyrie. FailedPrecondition when there
-/// is none of them.
-absl::StatusOr<std::filesystem::path> cacheFolder(const std::string& named);
-
 /// Imports of source files, kept from run to run and named by the content of what they came from:
 /// a file is imported again only when its bytes, or the importer, have changed.
 class DataCache {
 public:
     /// Creates `folder` when the first import needs it.
-    DataCache(std::filesystem::path folder, ProgressBar::Style progress, std::stop_token stop);
+    DataCache(std::filesystem::path folder, ProgressBar::Style progress, std::stop_token stop,
+              page::SourceOptions sources = {});
 
-    /// The .eyt or .eym to draw for `path`: itself, or the import of a source file.
-    /// `imagery` names pictures to lay over an elevation model. Errors: those of the importers;
-    /// InvalidArgument where `path` is a scene, or imported already and so has no use for pictures.
+    /// The .eyt or .eym to draw for `path`: itself, or the import of a source file. Data at a URL
+    /// are opened once, to see whether they can be, and a mesh is copied, so that renderers of this
+    /// machine find it. `imagery` names pictures to lay over an elevation model. Errors: those of
+    /// the importers, and of opening a URL; InvalidArgument where `path` is a scene, or imported
+    /// already and so has no use for pictures.
     absl::StatusOr<std::string> dataFor(const std::string& path, fabric::ObjectKind kind,
                                         const std::vector<std::string>& imagery = {});
 
+    /// How data at URLs are read.
+    const page::SourceOptions& sources() const { return sources_; }
+
 private:
+    absl::Status reach(const std::string& url, fabric::ObjectKind kind);
     absl::StatusOr<std::string> imported(const std::string& source, fabric::ObjectKind kind,
                                          const std::vector<std::string>& imagery);
     absl::Status import(const std::string& source, const std::string& target,
@@ -49,6 +53,7 @@ private:
     const std::filesystem::path folder_;
     const ProgressBar::Style progress_;
     const std::stop_token stop_;
+    const page::SourceOptions sources_;
 };
 
 }  // namespace eyrie::cli

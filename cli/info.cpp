@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "cli/cache_options.h"
 #include "cli/commands.h"
 #include "cli/data_cache.h"
 #include "cli/imagery_facts.h"
@@ -15,6 +16,7 @@
 #include "cli/scene_files.h"
 #include "fabric/status.h"
 #include "renderer/mesh/eym_format.h"
+#include "renderer/page/remote_name.h"
 #include "renderer/terrain/eyt_format.h"
 
 namespace eyrie::cli {
@@ -35,8 +37,8 @@ struct Facts {
     std::optional<terrain::ImagerySummary> imagery;
 };
 
-absl::StatusOr<Facts> terrainFacts(const std::string& path) {
-    ASSIGN_OR_RETURN(const auto file, terrain::EytFile::open(path));
+absl::StatusOr<Facts> terrainFacts(const std::string& path, const page::SourceOptions& sources) {
+    ASSIGN_OR_RETURN(const auto file, terrain::EytFile::open(path, sources));
     const terrain::EytIndex& index = file->index();
     const terrain::Quadtree& tree = index.quadtree;
     return Facts{.kind = "terrain",
@@ -54,8 +56,8 @@ absl::StatusOr<Facts> terrainFacts(const std::string& path) {
                                           : std::nullopt};
 }
 
-absl::StatusOr<Facts> meshFacts(const std::string& path) {
-    ASSIGN_OR_RETURN(const mesh::EymFile file, mesh::EymFile::open(path));
+absl::StatusOr<Facts> meshFacts(const std::string& path, const page::SourceOptions& sources) {
+    ASSIGN_OR_RETURN(const mesh::EymFile file, mesh::EymFile::open(path, sources));
     return Facts{.kind = "mesh",
                  .bounds = file.bounds(),
                  .unit = "triangles",
@@ -69,16 +71,16 @@ absl::StatusOr<Facts> meshFacts(const std::string& path) {
                  .imagery = {}};
 }
 
-absl::StatusOr<Facts> dataFacts(const std::string& path) {
+absl::StatusOr<Facts> dataFacts(const std::string& path, const page::SourceOptions& sources) {
     switch (dataFileOf(path)) {
         case DataFile::Terrain:
-            return terrainFacts(path);
+            return terrainFacts(path, sources);
         case DataFile::Mesh:
-            return meshFacts(path);
+            return meshFacts(path, sources);
         default:
             break;
     }
-    if (!std::filesystem::exists(path))
+    if (!page::isRemote(path) && !std::filesystem::exists(path))
         return absl::NotFoundError(fmt::format("{}: no such file", path));
     return absl::InvalidArgumentError(fmt::format(
         "{}: this is no .eyt, .eym or .json file; make one of it with `eyrie import`", path));
@@ -127,7 +129,7 @@ void printFacts(const std::string& name, const Facts& facts) {
 /// How facts are told.
 enum class Form { Text, Json, Nothing };
 
-absl::Status sceneInfo(const std::string& path, Form form) {
+absl::Status sceneInfo(const std::string& path, const page::SourceOptions& sources, Form form) {
     ASSIGN_OR_RETURN(const fabric::Scene scene, readSceneFile(path));
     std::vector<JsonObject> objects;
     fabric::Box bounds;
@@ -138,7 +140,7 @@ absl::Status sceneInfo(const std::string& path, Form form) {
         one.text("name", object.name).text("path", object.path);
         const DataFile file = dataFileOf(object.path);
         if (file == DataFile::Terrain || file == DataFile::Mesh) {
-            ASSIGN_OR_RETURN(const Facts facts, dataFacts(object.path));
+            ASSIGN_OR_RETURN(const Facts facts, dataFacts(object.path, sources));
             bounds.grow(fabric::transformed(facts.bounds, object.worldFromObject));
             bytes += facts.bytes;
             triangles += facts.triangles;
@@ -160,10 +162,12 @@ absl::Status sceneInfo(const std::string& path, Form form) {
     return absl::OkStatus();
 }
 
-absl::Status info(const std::string& path, Form form) {
+absl::Status info(const std::string& path, const CacheOptions& cache, Form form) {
+    ASSIGN_OR_RETURN(const RemoteData remote, remoteDataOf(cache));
+    const page::SourceOptions sources = page::sourceOptions(remote.cacheFolder, remote.cacheBytes);
     if (dataFileOf(path) == DataFile::Scene)
-        return sceneInfo(path, form);
-    ASSIGN_OR_RETURN(const Facts facts, dataFacts(path));
+        return sceneInfo(path, sources, form);
+    ASSIGN_OR_RETURN(const Facts facts, dataFacts(path, sources));
     if (form == Form::Json)
         fmt::print("{}\n", toJson(facts).str());
     else if (form == Form::Text)
@@ -176,20 +180,24 @@ absl::Status info(const std::string& path, Form form) {
 void addInfo(CLI::App& app, Run& run) {
     struct Options {
         std::string file;
+        CacheOptions cache;
         bool json = false;
         bool quiet = false;
     };
     auto options = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand("info", "Say what a data or scene file is");
-    command->add_option("file", options->file, "An .eyt, .eym or scene .json file")
-        ->type_name("FILE")
+    command
+        ->add_option("file", options->file, "An .eyt, .eym or scene .json file, or the URL of data")
+        ->type_name("FILE|URL")
         ->required();
+    addCacheOptions(*command, options->cache);
     command->add_flag("--json", options->json, "Print it as JSON");
     command->add_flag("--quiet", options->quiet, "Print nothing: the exit status tells");
-    command->footer("Example:\n  eyrie info dem.eyt --json");
+    command->footer(
+        "Example:\n  eyrie info dem.eyt --json\n  eyrie info https://data.example/dem.eyt");
     command->callback([options, &run] {
         const Form form = options->quiet ? Form::Nothing : options->json ? Form::Json : Form::Text;
-        run = [options, form] { return info(options->file, form); };
+        run = [options, form] { return info(options->file, options->cache, form); };
     });
 }
 

@@ -18,21 +18,24 @@ constexpr std::chrono::milliseconds kPollInterval{10};
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<LocalFarm>> LocalFarm::start(
-    coordinator::Decomposition decomposition) {
+    coordinator::Decomposition decomposition, const CacheOptions& cache) {
     ASSIGN_OR_RETURN(TemporaryFolder folder, TemporaryFolder::create());
     coordinator::CoordinatorOptions options;
     options.grpcAddresses = {folder.socket("coordinator")};
     options.decomposition = decomposition;
     ASSIGN_OR_RETURN(auto coordinator, coordinator::Coordinator::start(options));
-    return std::unique_ptr<LocalFarm>(new LocalFarm(std::move(folder), std::move(coordinator)));
+    return std::unique_ptr<LocalFarm>(
+        new LocalFarm(std::move(folder), std::move(coordinator), cache));
 }
 
-LocalFarm::LocalFarm(TemporaryFolder folder, std::unique_ptr<coordinator::Coordinator> coordinator)
-    : folder_(std::move(folder)), coordinator_(std::move(coordinator)) {}
+LocalFarm::LocalFarm(TemporaryFolder folder, std::unique_ptr<coordinator::Coordinator> coordinator,
+                     CacheOptions cache)
+    : folder_(std::move(folder)), cache_(std::move(cache)), coordinator_(std::move(coordinator)) {}
 
 void LocalFarm::startRenderers(int count) {
     renderers_ = std::make_unique<RendererProcesses>(
-        RendererProcessesOptions{count, coordinator_->grpcAddresses().front(), hardwareDevices()},
+        RendererProcessesOptions{count, coordinator_->grpcAddresses().front(), hardwareDevices(),
+                                 cache_},
         folder_);
 }
 

@@ -7,6 +7,7 @@
 
 #include <absl/status/statusor.h>
 
+#include "cli/cache_options.h"
 #include "cli/renderer_processes.h"
 #include "cli/temporary_folder.h"
 #include "coordinator/coordinator.h"
@@ -17,9 +18,9 @@ namespace eyrie::cli {
 /// can enter, over Unix sockets.
 class LocalFarm {
 public:
-    /// Without renderers yet, and without a scene. Errors: Unavailable.
+    /// Without renderers yet, and without a scene. `cache` is the renderers'. Errors: Unavailable.
     static absl::StatusOr<std::unique_ptr<LocalFarm>> start(
-        coordinator::Decomposition decomposition);
+        coordinator::Decomposition decomposition, const CacheOptions& cache);
 
     coordinator::Coordinator& coordinator() { return *coordinator_; }
     coordinator::FrameSource& frames() { return coordinator_->frames(); }
@@ -36,9 +37,11 @@ public:
     absl::Status check() const;
 
 private:
-    LocalFarm(TemporaryFolder folder, std::unique_ptr<coordinator::Coordinator> coordinator);
+    LocalFarm(TemporaryFolder folder, std::unique_ptr<coordinator::Coordinator> coordinator,
+              CacheOptions cache);
 
     TemporaryFolder folder_;
+    const CacheOptions cache_;
     std::unique_ptr<coordinator::Coordinator> coordinator_;
     std::unique_ptr<RendererProcesses> renderers_;
 };

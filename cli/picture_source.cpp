@@ -2,10 +2,14 @@
 #include "cli/picture_source.h"
 
 #include <utility>
+#include <vector>
 
 #include <spdlog/spdlog.h>
 
+#include "cli/data_cache.h"
 #include "cli/local_farm.h"
+#include "cli/progress_bar.h"
+#include "cli/scene_files.h"
 #include "fabric/status.h"
 #include "renderer/renderer.h"
 
@@ -65,22 +69,44 @@ private:
     const std::unique_ptr<LocalFarm> farm_;
 };
 
-}  // namespace
+absl::StatusOr<fabric::Scene> loadScene(const std::string& path,
+                                        const PictureSourceOptions& options,
+                                        const std::stop_token& stop) {
+    ASSIGN_OR_RETURN(const auto folder, cacheFolder(options.cache.folder));
+    ASSIGN_OR_RETURN(const RemoteData remote, remoteDataOf(options.cache));
+    DataCache cache(folder, ProgressBar::styleFor(options.quiet), stop,
+                    page::sourceOptions(remote.cacheFolder, remote.cacheBytes));
+    std::vector<std::string> notes;
+    return assembleScene(std::vector<std::string>{path}, cache, notes);
+}
 
-absl::StatusOr<std::unique_ptr<PictureSource>> PictureSource::open(
-    fabric::Scene scene, const PictureSourceOptions& options, const std::stop_token& stop) {
-    if (options.renderers == 0) {
-        ASSIGN_OR_RETURN(auto renderer, Renderer::create({}));
-        ASSIGN_OR_RETURN(fabric::SceneInfo info, renderer->openScene(scene));
-        return std::make_unique<InThisProcess>(std::move(renderer), std::move(info),
-                                               scene.background);
-    }
+absl::StatusOr<std::unique_ptr<PictureSource>> openHere(const fabric::Scene& scene,
+                                                        const PictureSourceOptions& options) {
+    RendererOptions settings;
+    ASSIGN_OR_RETURN(settings.remote, remoteDataOf(options.cache));
+    ASSIGN_OR_RETURN(auto renderer, Renderer::create(settings));
+    ASSIGN_OR_RETURN(fabric::SceneInfo info, renderer->openScene(scene));
+    return std::make_unique<InThisProcess>(std::move(renderer), std::move(info), scene.background);
+}
+
+absl::StatusOr<std::unique_ptr<PictureSource>> openInProcesses(fabric::Scene scene,
+                                                               const PictureSourceOptions& options,
+                                                               const std::stop_token& stop) {
     spdlog::set_level(spdlog::level::warn);
-    ASSIGN_OR_RETURN(auto farm, LocalFarm::start(options.compound));
+    ASSIGN_OR_RETURN(auto farm, LocalFarm::start(options.compound, options.cache));
     RETURN_IF_ERROR(farm->coordinator().setScene(std::move(scene)));
     farm->startRenderers(options.renderers);
     RETURN_IF_ERROR(farm->awaitRenderers(options.renderers, kRenderersLimit, stop));
     return std::make_unique<InProcesses>(std::move(farm));
+}
+
+}  // namespace
+
+absl::StatusOr<std::unique_ptr<PictureSource>> PictureSource::open(
+    const std::string& path, const PictureSourceOptions& options, const std::stop_token& stop) {
+    ASSIGN_OR_RETURN(fabric::Scene scene, loadScene(path, options, stop));
+    return options.renderers == 0 ? openHere(scene, options)
+                                  : openInProcesses(std::move(scene), options, stop);
 }
 
 }  // namespace eyrie::cli

@@ -3,9 +3,11 @@
 
 #include <memory>
 #include <stop_token>
+#include <string>
 
 #include <absl/status/statusor.h>
 
+#include "cli/cache_options.h"
 #include "coordinator/compound/decompose.h"
 #include "coordinator/frame/frame_source.h"
 #include "fabric/scene.h"
@@ -15,14 +17,17 @@ namespace eyrie::cli {
 struct PictureSourceOptions {
     int renderers = 0;  ///< processes that draw; 0: draw in this one
     coordinator::Decomposition compound = coordinator::Decomposition::TwoD;
+    CacheOptions cache;
+    bool quiet = false;  ///< no progress of imports
 };
 
 /// Draws pictures of one scene, for commands that need no viewer. Belongs to the thread that opened
 /// it.
 class PictureSource {
 public:
-    /// Errors: those of Renderer::openScene and LocalFarm; Cancelled.
-    static absl::StatusOr<std::unique_ptr<PictureSource>> open(fabric::Scene scene,
+    /// `path` names what is drawn, as for assembleScene; sources are imported first. Errors: those
+    /// of assembleScene, Renderer::openScene and LocalFarm; Cancelled.
+    static absl::StatusOr<std::unique_ptr<PictureSource>> open(const std::string& path,
                                                                const PictureSourceOptions& options,
                                                                const std::stop_token& stop);
 

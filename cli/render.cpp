@@ -6,9 +6,9 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "cli/cache_options.h"
 #include "cli/commands.h"
 #include "cli/compound_names.h"
-#include "cli/data_cache.h"
 #include "cli/image_files.h"
 #include "cli/picture_source.h"
 #include "cli/renderer_processes.h"
@@ -29,13 +29,10 @@ struct Options {
     std::string camera;
     std::string size = "1280x720";
     double tau = 1;
-    int renderers = 0;  ///< 0: draw in this process
-    coordinator::Decomposition compound = coordinator::Decomposition::TwoD;
+    PictureSourceOptions pictures;
     std::string out;
     std::string depth;
     std::string stats;
-    std::string cache;
-    bool quiet = false;
     bool json = false;
 };
 
@@ -55,13 +52,6 @@ absl::StatusOr<coordinator::FrameRequest> requestOf(const Options& options) {
     return request;
 }
 
-absl::StatusOr<fabric::Scene> loadScene(const Options& options, const std::stop_token& stop) {
-    ASSIGN_OR_RETURN(const auto folder, cacheFolder(options.cache));
-    DataCache cache(folder, ProgressBar::styleFor(options.quiet), stop);
-    std::vector<std::string> notes;
-    return assembleScene(std::vector<std::string>{options.scene}, cache, notes);
-}
-
 absl::Status writeResults(const coordinator::RenderedFrame& frame, const Options& options,
                           const coordinator::FrameRequest& request) {
     const std::string statistics =
@@ -73,7 +63,7 @@ absl::Status writeResults(const coordinator::RenderedFrame& frame, const Options
     RETURN_IF_ERROR(writePicture(frame.image, options.out));
     if (options.json)
         fmt::print("{}\n", statistics);
-    else if (!options.quiet)
+    else if (!options.pictures.quiet)
         fmt::print(stderr, "{}: {} triangles, {:.1f} ms, error {:.3g} of {:.3g} pixels asked{}\n",
                    options.out, frame.statistics.triangles, frame.statistics.milliseconds.total,
                    frame.statistics.tauAchievedPixels, frame.statistics.tauAskedPixels,
@@ -94,10 +84,8 @@ absl::Status render(const Options& options) {
     const StopSignal stop;
     RETURN_IF_ERROR(checkOutputs(options));
     ASSIGN_OR_RETURN(const coordinator::FrameRequest request, requestOf(options));
-    ASSIGN_OR_RETURN(fabric::Scene scene, loadScene(options, stop.token()));
-    ASSIGN_OR_RETURN(
-        const auto pictures,
-        PictureSource::open(std::move(scene), {options.renderers, options.compound}, stop.token()));
+    ASSIGN_OR_RETURN(const auto pictures,
+                     PictureSource::open(options.scene, options.pictures, stop.token()));
     ASSIGN_OR_RETURN(const coordinator::RenderedFrame frame, pictures->draw(request));
     if (stop.token().stop_requested())
         return absl::CancelledError("stopped; nothing was written");
@@ -114,7 +102,7 @@ void addOutputOptions(CLI::App& command, Options& options) {
         ->type_name("FILE");
     command.add_option("--stats", options.stats, "JSON to write: what was drawn, and how well")
         ->type_name("FILE");
-    command.add_flag("--quiet", options.quiet, "Only errors");
+    command.add_flag("--quiet", options.pictures.quiet, "Only errors");
     command.add_flag("--json", options.json, "Print the statistics as JSON");
 }
 
@@ -124,7 +112,7 @@ void addRender(CLI::App& app, Run& run) {
     auto options = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand("render", "Render a picture without a screen");
     command->add_option("scene", options->scene, "What is drawn, as for `eyrie serve`")
-        ->type_name("FILE")
+        ->type_name("FILE|URL")
         ->required();
     command
         ->add_option("--camera", options->camera,
@@ -137,16 +125,15 @@ void addRender(CLI::App& app, Run& run) {
     command->add_option("--tau", options->tau, "Screen-space error allowed, in pixels")
         ->capture_default_str();
     command
-        ->add_option("--renderers", options->renderers,
+        ->add_option("--renderers", options->pictures.renderers,
                      "Draw with so many processes instead of in this one")
         ->check(CLI::Range(1, RendererProcesses::kMaxCount));
     command
-        ->add_option("--compound", options->compound,
+        ->add_option("--compound", options->pictures.compound,
                      "How these cut the frame: 2D, by pixels, or DB, by data [2D]")
         ->transform(CLI::CheckedTransformer(compoundNames()).description(""))
         ->type_name("2D|DB");
-    command->add_option("--cache", options->cache, "Where imports are kept [~/.cache/eyrie]")
-        ->type_name("FOLDER");
+    addCacheOptions(*command, options->pictures.cache);
     addOutputOptions(*command, *options);
     command->footer(
         "Examples:\n"

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "cli/cache_options.h"
 #include "cli/commands.h"
 #include "cli/stop_signal.h"
 #include "cli/values.h"
@@ -22,6 +24,8 @@ struct Options {
     std::string listen = "127.0.0.1:0";
     std::string memory = "2G";
     int device = -1;
+    std::vector<std::string> allowedUrls;
+    CacheOptions cache;
     bool exitWithCoordinator = false;
     bool quiet = false;
 };
@@ -33,13 +37,18 @@ absl::Status run(const Options& options) {
     RETURN_IF_ERROR(fabric::withContext(wire::checkAddress(options.coordinator), "--coordinator"));
     RETURN_IF_ERROR(fabric::withContext(wire::checkAddress(options.listen), "--listen"));
     ASSIGN_OR_RETURN(const std::uint64_t memory, parseBytes(options.memory, "--memory"));
+    RendererOptions settings;
+    settings.device = options.device;
+    settings.memoryBytes = memory;
+    ASSIGN_OR_RETURN(settings.remote, remoteDataOf(options.cache));
     service::RendererNodeOptions node;
     node.coordinator = options.coordinator;
     node.listen = options.listen;
     node.exitWithCoordinator = options.exitWithCoordinator;
     ASSIGN_OR_RETURN(
         const auto renderer,
-        service::RendererNode::start(node, service::rendererDrawer({options.device, memory})));
+        service::RendererNode::start(
+            node, service::rendererDrawer(settings, page::AllowedUrls(options.allowedUrls))));
     const fabric::DeviceInfo& device = renderer->device();
     spdlog::info("drawing with {} ({}, {}) at {}", device.renderer, device.platform,
                  device.software ? "software" : "hardware", renderer->address());
@@ -63,13 +72,22 @@ void addRenderer(CLI::App& app, Run& run) {
     command->add_option("--memory", options->memory, "Limit of geometry kept on the device")
         ->type_name("BYTES[K|M|G|T]")
         ->capture_default_str();
+    command
+        ->add_option("--allow-url", options->allowedUrls,
+                     "Beginning of the URLs that scenes may name, such as https://data.example/; "
+                     "may be given several times; any: all [none]")
+        ->type_name("URL")
+        ->allow_extra_args(false);
+    addCacheOptions(*command, options->cache);
     command->add_flag("--exit-with-coordinator", options->exitWithCoordinator,
                       "End when the coordinator has gone, instead of waiting for it");
     command->add_flag("--quiet", options->quiet, "Only warnings and errors");
     command->footer(
         "Example, on each machine that draws:\n"
         "  eyrie renderer --coordinator viz:9090 --listen 0.0.0.0:0 --memory 8G\n"
-        "The data must be readable under the paths that the coordinator names.\n"
+        "The data must be readable under the paths that the coordinator names. URLs are read only\n"
+        "where --allow-url says so: else whoever reaches this port could have this machine ask\n"
+        "servers that only it can reach. Redirections of an allowed server are followed.\n"
         "EYRIE_EFFECTS=FOLDER takes shaders from there, also while drawing: docs/effects.md.");
     command->callback([options, &run] { run = [options] { return cli::run(*options); }; });
 }

@@ -48,13 +48,13 @@ private:
     bool start(Clock::time_point now) {
         ++generation_;
         std::vector<std::string> arguments = {
-            "renderer",
-            "--coordinator",
-            options_.coordinator,
-            "--listen",
+            "renderer", "--coordinator", options_.coordinator, "--listen",
             sockets_.socket(fmt::format("renderer-{}-{}", number_, generation_)),
             "--exit-with-coordinator",
-            "--quiet"};
+            // Only their own coordinator reaches them, and its scenes are the user's.
+            "--allow-url", "any", "--cache-size", options_.cache.size, "--quiet"};
+        if (!options_.cache.folder.empty())
+            arguments.insert(arguments.end(), {"--cache", options_.cache.folder});
         if (!options_.devices.empty()) {
             const auto index = static_cast<std::size_t>(number_) % options_.devices.size();
             arguments.insert(arguments.end(),

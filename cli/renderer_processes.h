@@ -9,6 +9,7 @@
 
 #include <absl/status/status.h>
 
+#include "cli/cache_options.h"
 #include "cli/temporary_folder.h"
 
 namespace eyrie::cli {
@@ -17,6 +18,7 @@ struct RendererProcessesOptions {
     int count = 1;             ///< 1 to RendererProcesses::kMaxCount
     std::string coordinator;   ///< where they register
     std::vector<int> devices;  ///< EGL devices, taken in turn; empty: each takes the first it finds
+    CacheOptions cache;
 };
 
 /// Renderer processes of this machine's own: `eyrie renderer` as children that share its cores,

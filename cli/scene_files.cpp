@@ -13,6 +13,7 @@
 #include "eyrie/v1/scene.pb.h"
 #include "fabric/status.h"
 #include "renderer/mesh/eym_format.h"
+#include "renderer/page/remote_name.h"
 #include "renderer/terrain/eyt_format.h"
 #include "wire/json.h"
 #include "wire/scene.h"
@@ -27,7 +28,7 @@ constexpr std::uintmax_t kMaxTextBytes = 64 << 20;
 fabric::SceneObject objectOf(const std::string& path) {
     const DataFile file = dataFileOf(path);
     const bool mesh = file == DataFile::Mesh || file == DataFile::MeshSource;
-    return {.name = fs::path(path).stem().string(),
+    return {.name = fs::path(page::withoutQuery(path)).stem().string(),
             .kind = mesh ? fabric::ObjectKind::Mesh : fabric::ObjectKind::Terrain,
             .path = path};
 }
@@ -38,26 +39,27 @@ struct LooseObjects {
     std::shared_ptr<const terrain::EytFile> terrain;
 };
 
-absl::StatusOr<LooseObjects> looseObjects(fabric::Scene& scene, std::size_t firstLoose) {
+absl::StatusOr<LooseObjects> looseObjects(fabric::Scene& scene, std::size_t firstLoose,
+                                          const page::SourceOptions& sources) {
     LooseObjects loose;
     for (std::size_t i = firstLoose; i < scene.objects.size(); ++i) {
         fabric::SceneObject& object = scene.objects[i];
         if (object.kind == fabric::ObjectKind::Mesh)
             loose.meshes.push_back(&object);
         else if (!loose.terrain) {
-            ASSIGN_OR_RETURN(loose.terrain, terrain::EytFile::open(object.path));
+            ASSIGN_OR_RETURN(loose.terrain, terrain::EytFile::open(object.path, sources));
         }
     }
     return loose;
 }
 
 absl::Status placeMeshes(fabric::Scene& scene, std::size_t firstLoose,
-                         std::vector<std::string>& notes) {
-    ASSIGN_OR_RETURN(const LooseObjects loose, looseObjects(scene, firstLoose));
+                         const page::SourceOptions& sources, std::vector<std::string>& notes) {
+    ASSIGN_OR_RETURN(const LooseObjects loose, looseObjects(scene, firstLoose, sources));
     if (!loose.terrain)
         return absl::OkStatus();
     for (fabric::SceneObject* object : loose.meshes) {
-        ASSIGN_OR_RETURN(const mesh::EymFile file, mesh::EymFile::open(object->path));
+        ASSIGN_OR_RETURN(const mesh::EymFile file, mesh::EymFile::open(object->path, sources));
         if (overlapsInPlan(file.bounds(), loose.terrain->index().bounds()))
             continue;
         ASSIGN_OR_RETURN(object->worldFromObject, placeOnTerrain(file.bounds(), *loose.terrain));
@@ -72,6 +74,11 @@ absl::Status placeMeshes(fabric::Scene& scene, std::size_t firstLoose,
 }  // namespace
 
 absl::StatusOr<std::string> readText(const std::string& path) {
+    if (page::isRemote(path))
+        return absl::InvalidArgumentError(fmt::format(
+            "{}: a scene or camera file has to be on this machine; only the data that a scene "
+            "names may lie at URLs",
+            path));
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
     if (status.type() == fs::file_type::not_found)
@@ -96,7 +103,8 @@ absl::StatusOr<fabric::Scene> readSceneFile(const std::string& path) {
         return fabric::withContext(scene.status(), path);
     const fs::path folder = fs::absolute(path).parent_path();
     for (fabric::SceneObject& object : scene->objects) {
-        object.path = (folder / object.path).lexically_normal().string();
+        if (!page::isRemote(object.path))
+            object.path = (folder / object.path).lexically_normal().string();
         for (std::string& picture : object.imagery)
             picture = (folder / picture).lexically_normal().string();
     }
@@ -129,10 +137,10 @@ absl::StatusOr<fabric::Scene> assembleScene(std::span<const std::string> paths, 
     for (fabric::SceneObject& object : scene->objects) {
         ASSIGN_OR_RETURN(const std::string data,
                          cache.dataFor(object.path, object.kind, object.imagery));
-        object.path = fs::absolute(data).string();
+        object.path = page::isRemote(data) ? data : fs::absolute(data).string();
         object.imagery.clear();
     }
-    RETURN_IF_ERROR(placeMeshes(*scene, firstLoose, notes));
+    RETURN_IF_ERROR(placeMeshes(*scene, firstLoose, cache.sources(), notes));
     RETURN_IF_ERROR(fabric::validate(*scene));
     return *std::move(scene);
 }

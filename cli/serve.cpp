@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "cli/cache_options.h"
 #include "cli/commands.h"
 #include "cli/compound_names.h"
 #include "cli/data_cache.h"
@@ -30,15 +31,17 @@ constexpr std::chrono::milliseconds kPollInterval{100};
 struct Options {
     std::vector<std::string> data;
     std::string listen = "127.0.0.1:8080";
-    std::string cache;
+    CacheOptions cache;
     coordinator::Decomposition compound = coordinator::Decomposition::TwoD;
     int renderers = 0;  ///< 0: as many as suit this machine
     bool quiet = false;
 };
 
 absl::StatusOr<fabric::Scene> loadScene(const Options& options, const std::stop_token& stop) {
-    ASSIGN_OR_RETURN(const auto folder, cacheFolder(options.cache));
-    DataCache cache(folder, ProgressBar::styleFor(options.quiet), stop);
+    ASSIGN_OR_RETURN(const auto folder, cacheFolder(options.cache.folder));
+    ASSIGN_OR_RETURN(const RemoteData remote, remoteDataOf(options.cache));
+    DataCache cache(folder, ProgressBar::styleFor(options.quiet), stop,
+                    page::sourceOptions(remote.cacheFolder, remote.cacheBytes));
     std::vector<std::string> notes;
     ASSIGN_OR_RETURN(fabric::Scene scene, assembleScene(options.data, cache, notes));
     if (!options.quiet)
@@ -69,7 +72,7 @@ absl::Status serve(const Options& options) {
     const StopSignal stop;
     if (options.quiet)
         spdlog::set_level(spdlog::level::warn);
-    ASSIGN_OR_RETURN(const auto farm, LocalFarm::start(options.compound));
+    ASSIGN_OR_RETURN(const auto farm, LocalFarm::start(options.compound, options.cache));
     ASSIGN_OR_RETURN(const auto door, openWebDoor(options.listen, farm->frames()));
     ASSIGN_OR_RETURN(fabric::Scene scene, loadScene(options, stop.token()));
     RETURN_IF_ERROR(farm->coordinator().setScene(std::move(scene)));
@@ -94,10 +97,12 @@ void addServe(CLI::App& app, Run& run) {
     auto options = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand("serve", "Show data in the browser, drawn here");
     command
-        ->add_option("data", options->data,
-                     "Scenes (.json), imported data (.eyt, .eym), or sources: .ply meshes and "
-                     "any raster that GDAL reads, imported when they are new")
-        ->type_name("FILE")
+        ->add_option(
+            "data", options->data,
+            "Scenes (.json), imported data (.eyt, .eym), or sources: .ply meshes and "
+            "any raster that GDAL reads, imported when they are new. Imported data may lie "
+            "at URLs: https://…, or GDAL's /vsis3/…, /vsigs/…, /vsiaz/…")
+        ->type_name("FILE|URL")
         ->required();
     command->add_option("--listen", options->listen, "Where browsers find it; port 0: any free one")
         ->type_name("HOST:PORT")
@@ -111,12 +116,12 @@ void addServe(CLI::App& app, Run& run) {
                      "How a frame is cut: 2D, by pixels, or DB, by data [2D]")
         ->transform(CLI::CheckedTransformer(compoundNames()).description(""))
         ->type_name("2D|DB");
-    command->add_option("--cache", options->cache, "Where imports are kept [~/.cache/eyrie]")
-        ->type_name("FOLDER");
+    addCacheOptions(*command, options->cache);
     command->add_flag("--quiet", options->quiet, "No progress, only warnings and errors");
     command->footer(
         "Examples:\n"
         "  eyrie serve dem.tif scan.ply\n"
+        "  eyrie serve https://data.example/dem.eyt\n"
         "  eyrie serve scene.json --listen 0.0.0.0:8080 --renderers 4\n"
         "Ctrl-C ends it.");
     command->callback([options, &run] { run = [options] { return serve(*options); }; });

@@ -17,6 +17,7 @@
 #include "renderer/gl/framebuffer.h"
 #include "renderer/lod/view.h"
 #include "renderer/page/loader.h"
+#include "renderer/page/remote_name.h"
 
 namespace eyrie {
 namespace {
@@ -95,8 +96,10 @@ private:
     Impl(std::unique_ptr<gl::EglContext> context, const RendererOptions& options)
         : context_(std::move(context)),
           options_(options),
-          loader_({.threads = options.loaderThreads}) {}
+          loader_({.threads = options.loaderThreads}),
+          sources_(page::sourceOptions(options.remote.cacheFolder, options.remote.cacheBytes)) {}
 
+    page::Loader& loaderFor(const fabric::SceneObject& object);
     absl::StatusOr<std::unique_ptr<draw::Drawable>> openObject(const fabric::SceneObject& object,
                                                                std::size_t objects);
     draw::TextureFormat textureFormat() const {
@@ -114,6 +117,10 @@ private:
     gl::Framebuffer framebuffer_;
     RendererOptions options_;
     page::Loader loader_;
+    /// Of its own threads, so that a server that stalls does not hold up local files. Made for the
+    /// first scene that needs it.
+    std::optional<page::Loader> remoteLoader_;
+    page::SourceOptions sources_;
     std::optional<fabric::Scene> scene_;
     std::vector<OpenObject> objects_;
 };
@@ -124,13 +131,21 @@ absl::StatusOr<std::unique_ptr<Renderer::Impl>> Renderer::Impl::create(
     return std::unique_ptr<Impl>(new Impl(std::move(context), options));
 }
 
+page::Loader& Renderer::Impl::loaderFor(const fabric::SceneObject& object) {
+    if (!page::isRemote(object.path))
+        return loader_;
+    if (!remoteLoader_)
+        remoteLoader_.emplace(page::LoaderOptions{.threads = options_.remote.loaderThreads});
+    return *remoteLoader_;
+}
+
 absl::StatusOr<std::unique_ptr<draw::Drawable>> Renderer::Impl::openObject(
     const fabric::SceneObject& object, std::size_t objects) {
     if (object.kind == fabric::ObjectKind::Terrain)
         return draw::openTerrain(
-            object, terrainPrograms_, loader_,
+            object, terrainPrograms_, sources_, loaderFor(object),
             {options_.memoryBytes / objects, options_.hostMemoryBytes / objects}, textureFormat());
-    return draw::openMesh(object, meshPrograms_, options_.memoryBytes / objects);
+    return draw::openMesh(object, meshPrograms_, sources_, options_.memoryBytes / objects);
 }
 
 absl::StatusOr<fabric::SceneInfo> Renderer::Impl::openScene(const fabric::Scene& scene) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <memory>
 
 #include <absl/status/statusor.h>
@@ -11,6 +12,16 @@
 #include "fabric/statistics.h"
 
 namespace eyrie {
+
+/// How data at URLs are read.
+struct RemoteData {
+    /// Where what was read is kept; empty: nowhere, and meshes at URLs cannot be opened. Processes
+    /// that are given the same limit may share a folder.
+    std::filesystem::path cacheFolder;
+    std::uint64_t cacheBytes = std::uint64_t{10} << 30;
+    /// Threads that read: they mostly wait.
+    int loaderThreads = 8;
+};
 
 struct RendererOptions {
     /// Index of the EGL device (`eyrie renderer --device`); -1 takes the first that works.
@@ -24,6 +35,7 @@ struct RendererOptions {
     std::uint64_t hostMemoryBytes = std::uint64_t{512} << 20;
     /// Threads that read and decode pages.
     int loaderThreads = 2;
+    RemoteData remote;
 };
 
 /// What a renderer holds in memory for its scene, besides what open files need.
@@ -47,9 +59,10 @@ public:
 
     const fabric::DeviceInfo& device() const;
 
-    /// Opens the .eyt and .eym files of `scene` in place of the scene before. On an error the scene
-    /// before stays open. Errors: InvalidArgument (scene or file), NotFound, DataLoss,
-    /// ResourceExhausted (the limits are too small for it).
+    /// Opens the .eyt and .eym files of `scene`, here or at URLs, in place of the scene before. On
+    /// an error the scene before stays open. Errors: InvalidArgument (scene or file), NotFound,
+    /// DataLoss, ResourceExhausted (the limits are too small for it); of URLs Unavailable and
+    /// PermissionDenied, too.
     absl::StatusOr<fabric::SceneInfo> openScene(const fabric::Scene& scene);
 
     /// Draws one channel. A page of terrain that cannot be read is no error: coarser data stand in

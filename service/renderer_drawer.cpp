@@ -10,10 +10,13 @@ namespace {
 
 class RendererDrawer final : public ChannelDrawer {
 public:
-    explicit RendererDrawer(std::unique_ptr<Renderer> renderer) : renderer_(std::move(renderer)) {}
+    RendererDrawer(std::unique_ptr<Renderer> renderer, page::AllowedUrls allowed)
+        : renderer_(std::move(renderer)), allowed_(std::move(allowed)) {}
 
     const fabric::DeviceInfo& device() const override { return renderer_->device(); }
     absl::StatusOr<fabric::SceneInfo> openScene(const fabric::Scene& scene) override {
+        for (const fabric::SceneObject& object : scene.objects)
+            RETURN_IF_ERROR(allowed_.check(object.path));
         return renderer_->openScene(scene);
     }
     absl::StatusOr<fabric::ChannelResult> render(const fabric::FrameData& frameData,
@@ -23,14 +26,15 @@ public:
 
 private:
     std::unique_ptr<Renderer> renderer_;
+    page::AllowedUrls allowed_;
 };
 
 }  // namespace
 
-DrawerFactory rendererDrawer(const RendererOptions& options) {
-    return [options]() -> absl::StatusOr<std::unique_ptr<ChannelDrawer>> {
+DrawerFactory rendererDrawer(const RendererOptions& options, const page::AllowedUrls& allowed) {
+    return [options, allowed]() -> absl::StatusOr<std::unique_ptr<ChannelDrawer>> {
         ASSIGN_OR_RETURN(std::unique_ptr<Renderer> renderer, Renderer::create(options));
-        return std::make_unique<RendererDrawer>(std::move(renderer));
+        return std::make_unique<RendererDrawer>(std::move(renderer), allowed);
     };
 }
 

@@ -196,8 +196,9 @@ absl::Status MeshDrawable::draw(std::span<const Piece> pieces, const FrameState&
 
 absl::StatusOr<std::unique_ptr<Drawable>> openMesh(const fabric::SceneObject& object,
                                                    MeshPrograms& programs,
+                                                   const page::SourceOptions& sources,
                                                    std::uint64_t memoryBytes) {
-    ASSIGN_OR_RETURN(mesh::EymFile file, mesh::EymFile::open(object.path));
+    ASSIGN_OR_RETURN(mesh::EymFile file, mesh::EymFile::open(object.path, sources));
     return std::make_unique<MeshDrawable>(object, programs, std::move(file), memoryBytes);
 }
 

@@ -9,15 +9,17 @@
 #include "fabric/scene.h"
 #include "renderer/draw/drawable.h"
 #include "renderer/effects/effect_variants.h"
+#include "renderer/page/page_source.h"
 
 namespace eyrie::draw {
 
 using MeshPrograms = effects::EffectVariants<effects::MeshEffect>;
 
-/// Opens `object.path` as a .eym file. `programs` outlives what is returned. Errors: NotFound,
-/// InvalidArgument, DataLoss.
+/// Opens `object.path` as a .eym file. `programs` outlives what is returned. Errors: those
+/// of EymFile::open.
 absl::StatusOr<std::unique_ptr<Drawable>> openMesh(const fabric::SceneObject& object,
                                                    MeshPrograms& programs,
+                                                   const page::SourceOptions& sources,
                                                    std::uint64_t memoryBytes);
 
 }  // namespace eyrie::draw

@@ -286,11 +286,12 @@ absl::Status TerrainDrawable::draw(std::span<const Piece> pieces, const FrameSta
 
 absl::StatusOr<std::unique_ptr<Drawable>> openTerrain(const fabric::SceneObject& object,
                                                       TerrainPrograms& programs,
+                                                      const page::SourceOptions& sources,
                                                       page::Loader& loader,
                                                       const TerrainMemory& limits,
                                                       TextureFormat format) {
     ASSIGN_OR_RETURN(std::shared_ptr<const terrain::EytFile> file,
-                     terrain::EytFile::open(object.path));
+                     terrain::EytFile::open(object.path, sources));
     ASSIGN_OR_RETURN(std::unique_ptr<TerrainPaging> paging,
                      TerrainPaging::open(file, loader, limits, format));
     return std::make_unique<TerrainDrawable>(object, programs, std::move(file), std::move(paging));

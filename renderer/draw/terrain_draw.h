@@ -11,15 +11,17 @@
 #include "renderer/draw/terrain_paging.h"
 #include "renderer/effects/effect_variants.h"
 #include "renderer/page/loader.h"
+#include "renderer/page/page_source.h"
 
 namespace eyrie::draw {
 
 using TerrainPrograms = effects::EffectVariants<effects::TerrainEffect>;
 
 /// Opens `object.path` as a .eyt file. `programs` and `loader` outlive what is returned. Errors:
-/// NotFound, InvalidArgument, DataLoss, Unavailable, ResourceExhausted (the limits are too small).
+/// those of EytFile::open; ResourceExhausted (the limits are too small).
 absl::StatusOr<std::unique_ptr<Drawable>> openTerrain(const fabric::SceneObject& object,
                                                       TerrainPrograms& programs,
+                                                      const page::SourceOptions& sources,
                                                       page::Loader& loader,
                                                       const TerrainMemory& limits,
                                                       TextureFormat format);

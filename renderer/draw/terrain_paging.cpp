@@ -93,7 +93,8 @@ MemoryUse TerrainPaging::memory() const {
 
 bool TerrainPaging::isGivenUp(std::uint32_t page, Clock::time_point time) const {
     const auto failure = failures_.find(page);
-    return failure != failures_.end() && time < failure->second.retryAt;
+    return failure != failures_.end() && failure->second.isGivenUp &&
+           time < failure->second.retryAt;
 }
 
 std::uint64_t TerrainPaging::pageBytes(std::uint32_t page) const {
@@ -192,6 +193,7 @@ TerrainPaging::Loads TerrainPaging::keep(std::vector<page::Arrival> arrivals) {
         }
         ++loaded.pages;
         loaded.bytes += names_.bytesOnDisk(arrival.page);
+        isSourceDown_ = false;
         if (failures_.erase(arrival.page) != 0)
             spdlog::info("{}: page {} can be read again", file_->path(), arrival.page);
         if (const auto since = wishedSince_.find(arrival.page); since != wishedSince_.end()) {
@@ -211,8 +213,10 @@ TerrainPaging::Loads TerrainPaging::keep(std::vector<page::Arrival> arrivals) {
 void TerrainPaging::noteFailure(const page::Arrival& arrival) {
     const absl::Status& status = arrival.result.status();
     std::string message(status.message().data(), status.message().size());
+    isSourceDown_ = absl::IsUnavailable(status);
     Failure& failure = failures_[arrival.page];
     failure.retryAt = arrival.retryAt;
+    failure.isGivenUp = arrival.isGivenUp;
     if (failure.message == message)
         return;
     spdlog::warn("{}; coarser data stand in for it", message);
@@ -311,7 +315,8 @@ TerrainPaging::Result TerrainPaging::resultOf(Refinement drawn, const NeededTile
         if (!isResident(texture))
             missing.insert(names_.of(texture).page);
     Result result{std::move(drawn), {}, missing.size(), 0};
-    for (const std::uint32_t page : missing) result.pagesFailed += failures_.contains(page) ? 1 : 0;
+    for (const std::uint32_t page : missing)
+        result.pagesFailed += isSourceDown_ || failures_.contains(page) ? 1 : 0;
     return result;
 }
 

@@ -59,7 +59,7 @@ public:
         terrain::Refinement drawn;  ///< all needed tiles of this cut are on the device
         Loads loaded;
         std::uint64_t pagesMissing = 0;  ///< pages of wanted needed tiles that are not there
-        std::uint64_t pagesFailed = 0;   ///< of them
+        std::uint64_t pagesFailed = 0;   ///< of them; all, while their source is unavailable
     };
 
     /// Goes towards `wanted` as far as it can without waiting: takes what the loader has, brings
@@ -70,7 +70,7 @@ public:
                     const std::vector<terrain::TextureId>& textures, const lod::ObjectView& view,
                     const Prefetch& prefetch);
 
-    /// Goes there: waits for every page that can be read.
+    /// Goes there: waits for every page that can be read, through the first failures of a server.
     Result reach(const terrain::Refinement& wanted, const NeededTiles& needed,
                  const std::vector<terrain::TextureId>& textures, const lod::ObjectView& view);
 
@@ -112,6 +112,7 @@ private:
     struct Failure {
         std::string message;
         Clock::time_point retryAt;
+        bool isGivenUp = false;
     };
 
     bool isEmpty(const terrain::TileId& tile) const { return index_.tile(tile).triangles == 0; }
@@ -126,7 +127,7 @@ private:
     bool isDrawable(const terrain::TileId& tile) const {
         return isEmpty(tile) || (isResident(tile) && isResident(index_.quadtree.normalTile(tile)));
     }
-    /// Whether its last attempt failed and the next one comes after `time`.
+    /// Whether it has failed for good, for now, and the next attempt comes after `time`.
     bool isGivenUp(std::uint32_t page, Clock::time_point time) const;
     terrain::Refinement drawable(const terrain::Refinement& wanted,
                                  const NeededTiles& needed) const;
@@ -178,6 +179,7 @@ private:
 
     std::unordered_map<std::uint32_t, std::uint64_t> knownPageBytes_;
     std::unordered_map<std::uint32_t, Failure> failures_;
+    bool isSourceDown_ = false;  ///< says the last attempt
     std::unordered_map<std::uint32_t, Clock::time_point> wishedSince_;
     std::chrono::duration<double> latency_{0.1};
     std::unique_ptr<page::Loader::Source> source_;  // last: its loads use the file

@@ -230,10 +230,10 @@ absl::StatusOr<int> NodeCheck::run() {
 
 }  // namespace
 
-absl::Status checkHeader(std::span<const std::byte> file) {
-    RETURN_IF_ERROR(checkKind(file));
+absl::Status checkHeader(std::span<const std::byte> beginning, std::uint64_t fileBytes) {
+    RETURN_IF_ERROR(checkKind(beginning));
     EymHeader header;
-    std::memcpy(&header, file.data(), sizeof header);
+    std::memcpy(&header, beginning.data(), sizeof header);
     if (header.version != kEymVersion)
         return absl::InvalidArgumentError(fmt::format(
             "header.version is {}, this build reads {}; import the mesh again with this "
@@ -241,9 +241,9 @@ absl::Status checkHeader(std::span<const std::byte> file) {
             header.version, kEymVersion));
     if (header.headerBytes != sizeof(EymHeader))
         return damaged("header.headerBytes", header.headerBytes, sizeof(EymHeader));
-    if (header.fileBytes != file.size())
+    if (header.fileBytes != fileBytes)
         return damaged("header.fileBytes", header.fileBytes,
-                       fmt::format("the file's {}", file.size()));
+                       fmt::format("the file's {}", fileBytes));
     RETURN_IF_ERROR(checkCounts(header));
     RETURN_IF_ERROR(checkSections(header));
     return checkErrors(header);

@@ -9,6 +9,7 @@
 
 #include "fabric/status.h"
 #include "renderer/mesh/eym_check.h"
+#include "renderer/page/remote_name.h"
 
 namespace eyrie::mesh {
 namespace {
@@ -39,9 +40,33 @@ absl::StatusOr<std::uint64_t> contentHash(const std::string& path) {
 
 std::uint64_t contentHash(std::span<const std::byte> bytes) { return hash(bytes, 0); }
 
-absl::StatusOr<EymFile> EymFile::open(const std::string& path) {
+absl::StatusOr<EymFile> EymFile::open(const std::string& path, const page::SourceOptions& options,
+                                      const page::PageSource::Progress& progress) {
+    if (page::isRemote(path))
+        return openCopied(path, options, progress);
     ASSIGN_OR_RETURN(MappedFile mapped, MappedFile::open(path));
-    RETURN_IF_ERROR(fabric::withContext(checkHeader(mapped.bytes()), path));
+    return openMapped(path, std::move(mapped));
+}
+
+absl::StatusOr<EymFile> EymFile::openCopied(const std::string& url,
+                                            const page::SourceOptions& options,
+                                            const page::PageSource::Progress& progress) {
+    ASSIGN_OR_RETURN(const std::unique_ptr<page::PageSource> source,
+                     page::PageSource::open(url, sizeof(EymHeader), options));
+    RETURN_IF_ERROR(fabric::withContext(checkHeader(source->head(), source->sizeBytes()), url));
+    absl::StatusOr<EymFile> file = absl::DataLossError(url);
+    for (int attempt = 0; attempt < 2 && absl::IsDataLoss(file.status()); ++attempt) {
+        if (attempt > 0)  // the copy may be damaged, and the file sound
+            source->forget();
+        ASSIGN_OR_RETURN(const std::string copy, source->wholeFile(progress));
+        ASSIGN_OR_RETURN(MappedFile mapped, MappedFile::open(copy));
+        file = openMapped(url, std::move(mapped));
+    }
+    return file;
+}
+
+absl::StatusOr<EymFile> EymFile::openMapped(const std::string& path, MappedFile mapped) {
+    RETURN_IF_ERROR(fabric::withContext(checkHeader(mapped.bytes(), mapped.bytes().size()), path));
     EymFile file(path, std::move(mapped));
     const EymHeader& header = file.header();
     file.lattice_ = {{header.originMetres[0], header.originMetres[1], header.originMetres[2]},

@@ -15,6 +15,7 @@
 #include "fabric/box.h"
 #include "renderer/mesh/lattice.h"
 #include "renderer/mesh/mapped_file.h"
+#include "renderer/page/page_source.h"
 
 /// The .eym file, version 1: a mesh as a kd-tree of LOD nodes, read in place through a mapping.
 ///
@@ -103,9 +104,13 @@ struct NodeGeometry {
 /// for, so no file, however damaged, makes a reader leave its mapping.
 class EymFile {
 public:
-    /// Errors: NotFound, PermissionDenied, InvalidArgument (not an .eym file, another version),
-    /// DataLoss (truncated, or its tables are damaged).
-    static absl::StatusOr<EymFile> open(const std::string& path);
+    /// `path` may be an address (page/remote_name.h): the file is then copied whole, into the
+    /// cache of `options`, before it is mapped. Errors: NotFound, PermissionDenied, InvalidArgument
+    /// (not an .eym file, another version), DataLoss (truncated, or its tables are damaged); of an
+    /// address those of page::PageSource::wholeFile, too.
+    static absl::StatusOr<EymFile> open(const std::string& path,
+                                        const page::SourceOptions& options = {},
+                                        const page::PageSource::Progress& progress = {});
 
     const Lattice& lattice() const { return lattice_; }
     std::span<const Node> nodes() const { return nodes_; }  ///< never empty; [0] is the root
@@ -126,6 +131,10 @@ public:
     absl::StatusOr<NodeGeometry> geometry(std::uint32_t node) const;
 
 private:
+    static absl::StatusOr<EymFile> openCopied(const std::string& url,
+                                              const page::SourceOptions& options,
+                                              const page::PageSource::Progress& progress);
+    static absl::StatusOr<EymFile> openMapped(const std::string& name, MappedFile mapped);
     EymFile(std::string path, MappedFile file) : path_(std::move(path)), file_(std::move(file)) {}
 
     const EymHeader& header() const {

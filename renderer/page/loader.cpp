@@ -27,6 +27,11 @@ void sort(std::vector<Wish>& wishes) {
                      [](const Wish& a, const Wish& b) { return a.priority < b.priority; });
 }
 
+/// Trying again at once would bring the same.
+bool isDamaged(const absl::Status& status) {
+    return absl::IsDataLoss(status) || absl::IsInvalidArgument(status);
+}
+
 /// Reads a page whatever the source does.
 absl::StatusOr<Loaded> load(const Loader::Load& load, std::uint32_t page) {
     try {
@@ -43,8 +48,10 @@ struct Loader::Source::State {
     Load load;
     std::uint64_t limitBytes = 0;
 
-    struct Failure {
+    /// In a row.
+    struct Failures {
         int times = 0;
+        bool isGivenUp = false;
         Clock::time_point retryAt;
     };
 
@@ -54,27 +61,81 @@ struct Loader::Source::State {
     std::unordered_map<std::uint32_t, std::uint64_t> held;
     std::uint64_t heldBytes = 0;
     std::vector<Arrival> arrivals;
-    std::unordered_map<std::uint32_t, Failure> failures;
+    std::unordered_map<std::uint32_t, Failures> failures;  ///< by page
+    Failures outage;                                       ///< of the source as a whole
     int loading = 0;
 
-    /// Drops wishes that are being fulfilled; returns the most wanted one that may start now. The
-    /// first that would start but for its size ends the search: smaller ones do not overtake it.
-    std::optional<Wish> next(Clock::time_point now, Clock::time_point& wakeAt) const {
-        for (auto wish = wishes.rbegin(); wish != wishes.rend(); ++wish) {
-            if (held.contains(wish->page))
-                continue;
-            const auto failure = failures.find(wish->page);
-            if (failure != failures.end() && failure->second.retryAt > now) {
-                wakeAt = std::min(wakeAt, failure->second.retryAt);
-                continue;
-            }
-            if (heldBytes + wish->bytes > limitBytes)
-                return std::nullopt;
-            return *wish;
-        }
+    bool fits(const Wish& wish) const { return heldBytes + wish.bytes <= limitBytes; }
+    std::optional<Wish> next(Clock::time_point now, Clock::time_point& wakeAt) const;
+    bool hasHope() const;
+    Failures noteFailure(std::uint32_t page, const absl::Status& status, Clock::time_point begun,
+                         const LoaderOptions& options);
+};
+
+/// The most wanted page that may be loaded now. The first that would be but for its size ends the
+/// search: smaller ones do not overtake it. Pages that failed come after those that have not, so
+/// that one bad page does not use up every attempt at a source that is coming back.
+std::optional<Wish> Loader::Source::State::next(Clock::time_point now,
+                                                Clock::time_point& wakeAt) const {
+    if (outage.times > 0 && outage.retryAt > now) {
+        if (!wishes.empty())
+            wakeAt = std::min(wakeAt, outage.retryAt);
         return std::nullopt;
     }
-};
+    if (outage.times > 0 && loading > 0)
+        return std::nullopt;
+    std::optional<Wish> failed;
+    for (auto wish = wishes.rbegin(); wish != wishes.rend(); ++wish) {
+        if (held.contains(wish->page))
+            continue;
+        const auto failure = failures.find(wish->page);
+        if (failure != failures.end() && failure->second.retryAt > now) {
+            wakeAt = std::min(wakeAt, failure->second.retryAt);
+            continue;
+        }
+        if (!fits(*wish))
+            return failed;
+        if (failure == failures.end())
+            return *wish;
+        if (!failed)
+            failed = *wish;
+    }
+    return failed;
+}
+
+/// Whether a wish will be tried, now or after a pause, that is worth waiting for.
+bool Loader::Source::State::hasHope() const {
+    if (outage.isGivenUp)
+        return false;
+    return std::any_of(wishes.begin(), wishes.end(), [&](const Wish& wish) {
+        const auto failure = failures.find(wish.page);
+        return !held.contains(wish.page) && fits(wish) &&
+               (failure == failures.end() || !failure->second.isGivenUp);
+    });
+}
+
+/// Counts a failure of a load that began at `begun`, and says when the page is tried again.
+Loader::Source::State::Failures Loader::Source::State::noteFailure(std::uint32_t page,
+                                                                   const absl::Status& status,
+                                                                   Clock::time_point begun,
+                                                                   const LoaderOptions& options) {
+    const Clock::time_point now = Clock::now();
+    const auto count = [&](Failures& failures_) {
+        const auto pause = options.firstRetry * (1 << std::min(failures_.times++, 20));
+        failures_.retryAt = now + std::min<Clock::duration>(pause, options.lastRetry);
+        failures_.isGivenUp = failures_.times >= options.patience;
+    };
+    Failures& failure = failures[page];
+    count(failure);
+    if (isDamaged(status)) {
+        failure.retryAt = now + options.lastRetry;
+        failure.isGivenUp = true;
+    }
+    // Loads that were under way when the source failed last say nothing new of it.
+    if (absl::IsUnavailable(status) && begun >= outage.retryAt)
+        count(outage);
+    return failure;
+}
 
 struct Loader::State {
     LoaderOptions options;
@@ -118,6 +179,7 @@ void Loader::State::fulfil(std::unique_lock<std::mutex>& lock, Source::State& so
     source.held[wish.page] = wish.bytes;
     source.heldBytes += wish.bytes;
     ++source.loading;
+    const Clock::time_point begun = Clock::now();
     lock.unlock();
     absl::StatusOr<Loaded> result = load(source.load, wish.page);
     if (result.ok() && result->bytes > wish.bytes)
@@ -128,19 +190,16 @@ void Loader::State::fulfil(std::unique_lock<std::mutex>& lock, Source::State& so
     const std::uint64_t bytes = result.ok() ? result->bytes : 0;
     source.held[wish.page] = bytes;
     source.heldBytes -= wish.bytes - bytes;
-    Clock::time_point retryAt;
+    Source::State::Failures failure;
     if (result.ok()) {
         source.failures.erase(wish.page);
+        source.outage = {};
     } else {
-        auto& failure = source.failures[wish.page];
-        const auto delay =
-            std::min(options.firstRetry * (1 << std::min(failure.times++, 20)), options.lastRetry);
-        retryAt = failure.retryAt = Clock::now() + delay;
+        failure = source.noteFailure(wish.page, result.status(), begun, options);
     }
-    source.arrivals.push_back({wish.page, std::move(result), retryAt});
+    source.arrivals.push_back({wish.page, std::move(result), failure.retryAt, failure.isGivenUp});
     arrived.notify_all();
-    if (bytes < wish.bytes)
-        wished.notify_all();
+    wished.notify_all();
 }
 
 Loader::Loader(const LoaderOptions& options) : state_(std::make_unique<State>()) {
@@ -226,9 +285,7 @@ std::vector<Arrival> Loader::Source::takeLocked() {
 bool Loader::Source::wait() {
     std::unique_lock lock(loader_.mutex);
     loader_.arrived.wait(lock, [this] {
-        Clock::time_point wakeAt;
-        return !state_->arrivals.empty() ||
-               (state_->loading == 0 && !state_->next(Clock::now(), wakeAt).has_value());
+        return !state_->arrivals.empty() || (state_->loading == 0 && !state_->hasHope());
     });
     return !state_->arrivals.empty();
 }

@@ -29,17 +29,26 @@ struct Arrival {
     std::uint32_t page = 0;
     absl::StatusOr<Loaded> result;
     std::chrono::steady_clock::time_point retryAt;  ///< of a failure: not tried again before
+    bool isGivenUp = false;  ///< of a failure: nobody should wait for the next attempt
 };
 
 struct LoaderOptions {
     int threads = 2;
-    /// A page that failed is tried again after `firstRetry`, then after twice as long each time.
+    /// A page that failed is tried again after `firstRetry`, then after twice as long each time, up
+    /// to `lastRetry`; one that is damaged (DataLoss, InvalidArgument), after `lastRetry` at once:
+    /// it will not mend by itself, but somebody may mend it.
     std::chrono::milliseconds firstRetry{250};
-    std::chrono::milliseconds lastRetry{30'000};
+    std::chrono::milliseconds lastRetry{10'000};
+    /// After so many failures in a row nobody waits for a page; after one that is damaged.
+    int patience = 3;
 };
 
 /// Loads pages of any number of sources on threads of its own, most wanted first. The threads run
 /// at a low priority, so that on a machine whose processors also draw, drawing comes first.
+///
+/// A source that is Unavailable is left alone as long as a page that failed would be, and then
+/// asked for one page at a time until one comes, so that a server that stalls holds up neither all
+/// threads nor other sources for longer than it takes to find out.
 class Loader {
 public:
     /// Reads one page, on a thread of the loader; several at a time. May block and may fail.
@@ -84,8 +93,8 @@ public:
     void tryWish(std::vector<Wish> wishes);
     std::vector<Arrival> tryTake();
 
-    /// Blocks until something can be taken, or no wish is left that is not waiting to be tried
-    /// again. True when something can be taken.
+    /// Blocks until something can be taken, or no wish is left but for pages that are given up or
+    /// of a source that failed as often. True when something can be taken.
     bool wait();
 
     /// Of pages that are being loaded or wait to be taken.

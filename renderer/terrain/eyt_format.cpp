@@ -2,16 +2,12 @@
 #include "renderer/terrain/eyt_format.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <utility>
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <glm/matrix.hpp>
-#include <sys/stat.h>
-#include <unistd.h>
 #include <xxhash.h>
 
 #include "fabric/status.h"
@@ -24,25 +20,6 @@ constexpr const char* kRemedy = "import the elevation model again";
 
 absl::Status corrupt(const std::string& name, const std::string& what) {
     return absl::DataLossError(fmt::format("{}: {}; {}", name, what, kRemedy));
-}
-
-absl::Status readAt(int fd, void* data, std::size_t bytes, std::uint64_t offset,
-                    const std::string& name) {
-    char* next = static_cast<char*>(data);
-    while (bytes > 0) {
-        const ssize_t got = pread(fd, next, bytes, static_cast<off_t>(offset));
-        if (got < 0 && errno == EINTR)
-            continue;
-        if (got < 0)
-            return absl::UnavailableError(
-                fmt::format("{}: read failed: {}", name, std::strerror(errno)));
-        if (got == 0)
-            return corrupt(name, fmt::format("the file ends at byte {}", offset));
-        next += got;
-        bytes -= static_cast<std::size_t>(got);
-        offset += static_cast<std::uint64_t>(got);
-    }
-    return absl::OkStatus();
 }
 
 /// Whether bytes [offset, offset + bytes) lie within the first `limit`.
@@ -212,24 +189,19 @@ std::uint64_t EytIndex::triangles() const {
     return sum;
 }
 
-absl::StatusOr<std::shared_ptr<const EytFile>> EytFile::open(const std::string& path) {
-    const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (fd < 0)
-        return errno == ENOENT ? absl::NotFoundError(fmt::format("{}: no such file", path))
-                               : absl::InvalidArgumentError(fmt::format(
-                                     "{}: cannot be opened: {}", path, std::strerror(errno)));
-    std::shared_ptr<EytFile> file(new EytFile(path, fd, 0));
-    struct stat info {};
-    if (fstat(fd, &info) != 0 || !S_ISREG(info.st_mode))
-        return absl::InvalidArgumentError(fmt::format("{}: is not a regular file", path));
-    file->sizeBytes_ = static_cast<std::uint64_t>(info.st_size);
+absl::StatusOr<std::shared_ptr<const EytFile>> EytFile::open(const std::string& path,
+                                                             const page::SourceOptions& options) {
     FileHeader header;
-    if (file->sizeBytes_ < sizeof header)
+    ASSIGN_OR_RETURN(std::unique_ptr<page::PageSource> source,
+                     page::PageSource::open(path, sizeof header, options));
+    const std::shared_ptr<EytFile> file(new EytFile(std::move(source)));
+    const std::span<const std::byte> head = file->source_->head();
+    if (head.size() < sizeof header)
         return absl::InvalidArgumentError(
             fmt::format("{}: is no .eyt terrain: {} bytes are too few for its header of {}", path,
-                        file->sizeBytes_, sizeof header));
-    RETURN_IF_ERROR(readAt(fd, &header, sizeof header, 0, path));
-    RETURN_IF_ERROR(checkHeader(header, file->sizeBytes_, path));
+                        file->sizeBytes(), sizeof header));
+    std::memcpy(static_cast<void*>(&header), head.data(), sizeof header);
+    RETURN_IF_ERROR(checkHeader(header, file->sizeBytes(), path));
 
     EytIndex& index = file->index_;
     index.quadtree = Quadtree(header.columns, header.rows);
@@ -240,24 +212,23 @@ absl::StatusOr<std::shared_ptr<const EytFile>> EytFile::open(const std::string& 
     index.sourceHash = header.sourceHash;
     index.nodataPosts = header.nodataPosts;
     std::vector<char> bytes(header.indexBytes);
-    RETURN_IF_ERROR(readAt(fd, bytes.data(), bytes.size(), header.indexOffset, path));
-    if (XXH64(bytes.data(), bytes.size(), 0) != header.indexChecksum)
-        return corrupt(path, "the checksum of the index is wrong");
+    RETURN_IF_ERROR(
+        file->source_->read({header.indexOffset, header.indexBytes, header.indexChecksum},
+                            std::as_writable_bytes(std::span(bytes)), "the index"));
     RETURN_IF_ERROR(parseIndex(header, bytes, path, index));
     return file;
 }
 
-EytFile::~EytFile() { close(fd_); }
-
 absl::StatusOr<std::shared_ptr<const Page>> EytFile::readPage(std::uint32_t page) const {
     const PageRecord& record = index_.pages[page];
-    const std::string name = fmt::format("{}: page {}", path_, page);
+    const std::string name = fmt::format("page {}", page);
     std::vector<std::uint32_t> bytes(record.bytes / 4);
-    RETURN_IF_ERROR(readAt(fd_, bytes.data(), record.bytes, record.offset, name));
-    if (record.bytes != 0 && XXH64(bytes.data(), record.bytes, 0) != record.checksum)
-        return corrupt(name, "its checksum is wrong");
-    ASSIGN_OR_RETURN(Page decoded, Page::decode(bytes, name));
-    RETURN_IF_ERROR(checkAgainstIndex(decoded, page, index_, name));
+    if (record.bytes != 0)
+        RETURN_IF_ERROR(source_->read({record.offset, record.bytes, record.checksum},
+                                      std::as_writable_bytes(std::span(bytes)), name));
+    const std::string place = fmt::format("{}: {}", path(), name);
+    ASSIGN_OR_RETURN(Page decoded, Page::decode(bytes, place));
+    RETURN_IF_ERROR(checkAgainstIndex(decoded, page, index_, place));
     return std::make_shared<const Page>(std::move(decoded));
 }
 
@@ -265,14 +236,12 @@ absl::StatusOr<std::shared_ptr<const TexturePage>> EytFile::readTexture(
     const TextureId& tile) const {
     const ImageryIndex& imagery = *index_.imagery;
     const PageRecord& record = imagery.tiles[imagery.pyramid.tileIndex(tile)];
-    const std::string name =
-        fmt::format("{}: texture tile {}/{}/{}", path_, tile.level, tile.x, tile.y);
+    const std::string name = fmt::format("texture tile {}/{}/{}", tile.level, tile.x, tile.y);
     std::vector<std::byte> bytes(record.bytes);
-    RETURN_IF_ERROR(readAt(fd_, bytes.data(), record.bytes, record.offset, name));
-    if (XXH64(bytes.data(), record.bytes, 0) != record.checksum)
-        return corrupt(name, "its checksum is wrong");
+    RETURN_IF_ERROR(source_->read({record.offset, record.bytes, record.checksum}, bytes, name));
     ASSIGN_OR_RETURN(TexturePage decoded, TexturePage::decode(bytes, imagery.pyramid.blocksX(tile),
-                                                              imagery.pyramid.blocksY(tile), name));
+                                                              imagery.pyramid.blocksY(tile),
+                                                              fmt::format("{}: {}", path(), name)));
     return std::make_shared<const TexturePage>(std::move(decoded));
 }
 

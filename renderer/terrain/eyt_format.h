@@ -14,6 +14,7 @@
 
 #include "fabric/box.h"
 #include "fabric/vec.h"
+#include "renderer/page/page_source.h"
 #include "renderer/terrain/imagery/imagery_index.h"
 #include "renderer/terrain/imagery/texture_page.h"
 #include "renderer/terrain/page_record.h"
@@ -140,23 +141,25 @@ private:
     std::array<TileGeometry, kPageTiles * kPageTiles> tiles_;
 };
 
-/// An open .eyt file. Any thread may read pages at any time.
+/// An open .eyt file, here or elsewhere. Any thread may read pages at any time.
 class EytFile {
 public:
-    /// Reads and checks header and index. Errors: NotFound, InvalidArgument (not an .eyt, or a
-    /// newer version), DataLoss (truncated, or a checksum fails).
-    static absl::StatusOr<std::shared_ptr<const EytFile>> open(const std::string& path);
+    /// Reads and checks header and index. `path` may be an address (page/remote_name.h). Errors:
+    /// NotFound, InvalidArgument (not an .eyt, or a newer version), DataLoss (truncated, or a
+    /// checksum fails); of an address PermissionDenied and Unavailable, too.
+    static absl::StatusOr<std::shared_ptr<const EytFile>> open(
+        const std::string& path, const page::SourceOptions& options = {});
 
     EytFile(const EytFile&) = delete;
     EytFile& operator=(const EytFile&) = delete;
-    ~EytFile();
 
     const EytIndex& index() const { return index_; }
-    const std::string& path() const { return path_; }
-    std::uint64_t sizeBytes() const { return sizeBytes_; }
+    const std::string& path() const { return source_->name(); }
+    std::uint64_t sizeBytes() const { return source_->sizeBytes(); }
 
-    /// Reads one page from disk, without any cache. Errors: DataLoss (checksum, or contents that
-    /// contradict themselves or the index), Unavailable (read error).
+    /// Reads one page; of an address, from the cache or in a bounded time (page/byte_source.h).
+    /// Errors: DataLoss (checksum, or contents that contradict themselves or the index, or the
+    /// file has changed on its server), Unavailable (read error), others of PageSource::read.
     /// Precondition: page < index().pages.size().
     absl::StatusOr<std::shared_ptr<const Page>> readPage(std::uint32_t page) const;
 
@@ -164,12 +167,9 @@ public:
     absl::StatusOr<std::shared_ptr<const TexturePage>> readTexture(const TextureId& tile) const;
 
 private:
-    EytFile(std::string path, int fd, std::uint64_t sizeBytes)
-        : path_(std::move(path)), fd_(fd), sizeBytes_(sizeBytes) {}
+    explicit EytFile(std::unique_ptr<page::PageSource> source) : source_(std::move(source)) {}
 
-    std::string path_;
-    int fd_;
-    std::uint64_t sizeBytes_;
+    std::unique_ptr<page::PageSource> source_;
     EytIndex index_;
 };
 

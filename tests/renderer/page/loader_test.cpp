@@ -6,6 +6,7 @@
 #include <map>
 #include <mutex>
 #include <stdexcept>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -227,6 +228,90 @@ TEST(Loader, TriesAFailedPageAgainLaterAndLaterUntilItCanBeRead) {
         arrivals = source->take();
     }
     EXPECT_TRUE(arrivals.front().result.ok());
+}
+
+TEST(Loader, WaitsThroughTheFirstFailuresOfAPageAndNoLonger) {
+    FakePages pages;
+    pages.fail(5, absl::UnavailableError("the page server is busy"));
+    Loader loader({.threads = 2, .firstRetry = milliseconds(1), .lastRetry = milliseconds(2)});
+    const auto source = loader.open(pages.function(), 1000);
+    std::vector<bool> givenUp;
+    source->wish(wishes({5}));
+    while (source->wait()) {
+        for (const Arrival& arrival : source->take()) givenUp.push_back(arrival.isGivenUp);
+        source->wish(wishes({5}));
+        if (givenUp.size() == 3)
+            break;
+    }
+    EXPECT_EQ(givenUp, (std::vector<bool>{false, false, true}));
+    pages.repair(5);
+    while (!source->wait()) source->wish(wishes({5}));
+    bool hasCome = false;
+    while (!hasCome) {  // perhaps after one more failure that was under way
+        for (const Arrival& arrival : source->take()) hasCome |= arrival.result.ok();
+        source->wish(wishes({5}));
+    }
+}
+
+TEST(Loader, TriesADamagedPageAgainAfterTheLongestPauseOnly) {
+    FakePages pages;
+    pages.fail(5, absl::DataLossError("page 5: its checksum is wrong"));
+    Loader loader({.threads = 1, .firstRetry = milliseconds(1), .lastRetry = milliseconds(60'000)});
+    const auto source = loader.open(pages.function(), 1000);
+    source->wish(wishes({5}));
+    ASSERT_TRUE(source->wait());
+    const auto arrivals = source->take();
+    EXPECT_TRUE(arrivals.front().isGivenUp);
+    EXPECT_GT(arrivals.front().retryAt,
+              std::chrono::steady_clock::now() + std::chrono::seconds(50));
+    source->wish(wishes({5}));
+    EXPECT_FALSE(source->wait()) << "nobody waits for it";
+}
+
+TEST(Loader, AsksASourceThatFailedForOnePageAtATimeUntilOneComes) {
+    FakePages pages;
+    for (std::uint32_t page = 0; page < 8; ++page)
+        pages.fail(page, absl::UnavailableError("the server is down"));
+    pages.hold(true);
+    Loader loader({.threads = 4, .firstRetry = milliseconds(20), .lastRetry = milliseconds(20)});
+    const auto source = loader.open(pages.function(), 1000);
+    source->wish(wishes({0, 1, 2, 3, 4, 5, 6, 7}));
+    pages.awaitBegun(4);
+    pages.hold(false);
+    ASSERT_TRUE(source->wait());
+    while (source->bytes() > 0 && source->wait()) source->take();
+    pages.hold(true);
+    const std::size_t before = pages.begun().size();
+    source->take();
+    source->wish(wishes({4, 5, 6, 7}));
+    pages.awaitBegun(before + 1);
+    std::this_thread::sleep_for(milliseconds(60));  // long enough for the others to begin
+    EXPECT_LE(pages.begun().size(), before + 1);
+    for (std::uint32_t page = 0; page < 8; ++page) pages.repair(page);
+    pages.hold(false);
+    std::size_t come = 0;
+    while (come < 4 && source->wait())
+        for (const Arrival& arrival : source->take()) come += arrival.result.ok() ? 1 : 0;
+    EXPECT_EQ(come, 4U);
+}
+
+TEST(Loader, OnePageThatAlwaysFailsDoesNotKeepTheOthersAway) {
+    FakePages pages;
+    pages.fail(1, absl::UnavailableError("503 for this page alone"));
+    Loader loader({.threads = 1, .firstRetry = milliseconds(1), .lastRetry = milliseconds(1)});
+    const auto source = loader.open(pages.function(), 1000);
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+    std::size_t come = 0;
+    std::vector<std::uint32_t> left{1, 2, 3, 4, 5, 6, 7, 8};
+    while (left.size() > 1 && std::chrono::steady_clock::now() < end) {
+        source->wish(wishes(left));
+        for (const Arrival& arrival : source->take())
+            if (arrival.result.ok()) {
+                ++come;
+                std::erase(left, arrival.page);
+            }
+    }
+    EXPECT_EQ(come, 7U);
 }
 
 TEST(Loader, ASlowSourceDoesNotHoldUpAnother) {

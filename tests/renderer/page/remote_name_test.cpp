@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/page/remote_name.h"
+
+#include <gtest/gtest.h>
+
+namespace eyrie::page {
+namespace {
+
+TEST(RemoteName, IsAnAddressOrAVirtualFileSystemAndNothingElse) {
+    for (const char* remote :
+         {"http://h/a.eyt", "https://h/a.eyt", "/vsicurl/https://h/a.eyt", "/vsis3/bucket/a.eyt",
+          "/vsigs/bucket/a.eyt", "/vsizip/vsicurl/https://h/a.zip/a.eyt",
+          "/vsicurl?url=https%3A%2F%2Fh%2Fa.eyt"})
+        EXPECT_TRUE(isRemote(remote)) << remote;
+    for (const char* local : {"a.eyt", "/data/a.eyt", "https:/h/a.eyt", "/vsi", "/vsi/a.eyt",
+                              "/vsibility-study.eyt", "./http://h/a.eyt", "", "ftp"})
+        EXPECT_FALSE(isRemote(local)) << local;
+}
+
+TEST(RemoteName, OfAnAddressIsThatOfGdalsHttpFileSystem) {
+    EXPECT_EQ(gdalName("https://h/a.eyt"), "/vsicurl/https://h/a.eyt");
+    EXPECT_EQ(gdalName("/vsis3/b/a.eyt"), "/vsis3/b/a.eyt");
+}
+
+TEST(RemoteName, EndsBeforeTheQuery) {
+    EXPECT_EQ(withoutQuery("https://h/a.eyt?signature=x.y#z"), "https://h/a.eyt");
+    EXPECT_EQ(withoutQuery("/vsicurl/https://h/a.eyt?s=1"), "/vsicurl/https://h/a.eyt");
+    EXPECT_EQ(withoutQuery("what?.eyt"), "what?.eyt");
+}
+
+TEST(AllowedUrls, AreNoneUnlessSaid) {
+    EXPECT_TRUE(AllowedUrls().check("/data/a.eyt").ok());
+    const absl::Status status = AllowedUrls().check("https://h/a.eyt");
+    EXPECT_TRUE(absl::IsPermissionDenied(status));
+    EXPECT_NE(status.ToString().find("https://h/a.eyt"), std::string::npos);
+    EXPECT_NE(status.ToString().find("--allow-url"), std::string::npos);
+    EXPECT_TRUE(AllowedUrls({"any"}).check("/vsis3/bucket/a.eyt").ok());
+}
+
+TEST(AllowedUrls, AreThoseBelowAPrefix) {
+    const AllowedUrls allowed({"https://h/dem", "/vsis3/bucket/"});
+    for (const char* good : {"https://h/dem/a.eyt", "https://h/dem", "/vsicurl/https://h/dem/a.eyt",
+                             "/vsis3/bucket/x/a.eyt"})
+        EXPECT_TRUE(allowed.check(good).ok()) << good;
+    for (const char* bad :
+         {"https://h/demo.eyt", "https://h/a.eyt", "http://h/dem/a.eyt", "https://h.evil/dem/a.eyt",
+          "https://h/dem/../a.eyt", "https://h/dem/%2E%2e/a.eyt", "/vsis3/bucket2/a.eyt",
+          "/vsicurl?url=https://h/dem/a.eyt"})
+        EXPECT_FALSE(allowed.check(bad).ok()) << bad;
+    EXPECT_FALSE(AllowedUrls({"https://h"}).check("https://h.evil/a.eyt").ok());
+    EXPECT_FALSE(AllowedUrls({"https://h"}).check("https://h@evil/a.eyt").ok());
+}
+
+}  // namespace
+}  // namespace eyrie::page
