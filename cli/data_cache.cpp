@@ -39,11 +39,9 @@ std::string lowerCaseEnding(const std::string& path) {
     return ending;
 }
 
-/// Name of the import of `source`: what it holds, and what made it.
-absl::StatusOr<std::string> importName(const std::string& source, fabric::ObjectKind kind) {
+/// Of a raster's bytes and those of the files beside it.
+absl::StatusOr<std::uint64_t> rasterHash(const std::string& source) {
     ASSIGN_OR_RETURN(std::uint64_t hash, mesh::contentHash(source));
-    if (kind == fabric::ObjectKind::Mesh)
-        return fmt::format("{:016x}-{}.eym", hash, kMeshImporterVersion);
     for (const std::string_view ending : kSidecars) {
         const fs::path sidecar = ending == ".aux.xml" ? fs::path(source + std::string(ending))
                                                       : fs::path(source).replace_extension(ending);
@@ -52,6 +50,21 @@ absl::StatusOr<std::string> importName(const std::string& source, fabric::Object
             continue;
         ASSIGN_OR_RETURN(const std::uint64_t part, mesh::contentHash(sidecar.string()));
         hash = hash * 31 + part;
+    }
+    return hash;
+}
+
+/// Name of the import of `source`: what it holds, and what made it.
+absl::StatusOr<std::string> importName(const std::string& source, fabric::ObjectKind kind,
+                                       const std::vector<std::string>& imagery) {
+    if (kind == fabric::ObjectKind::Mesh) {
+        ASSIGN_OR_RETURN(const std::uint64_t hash, mesh::contentHash(source));
+        return fmt::format("{:016x}-{}.eym", hash, kMeshImporterVersion);
+    }
+    ASSIGN_OR_RETURN(std::uint64_t hash, rasterHash(source));
+    for (const std::string& picture : imagery) {
+        ASSIGN_OR_RETURN(const std::uint64_t part, rasterHash(picture));
+        hash = hash * 37 + part;
     }
     return fmt::format("{:016x}-{}.eyt", hash, kTerrainImporterVersion);
 }
@@ -97,10 +110,16 @@ DataCache::DataCache(fs::path folder, ProgressBar::Style progress, std::stop_tok
       stop_(std::move(stop)),
       sources_(std::move(sources)) {}
 
-absl::StatusOr<std::string> DataCache::dataFor(const std::string& path, fabric::ObjectKind kind) {
+absl::StatusOr<std::string> DataCache::dataFor(const std::string& path, fabric::ObjectKind kind,
+                                               const std::vector<std::string>& imagery) {
     switch (dataFileOf(path)) {
         case DataFile::Terrain:
         case DataFile::Mesh:
+            if (!imagery.empty())
+                return absl::InvalidArgumentError(fmt::format(
+                    "{}: is imported already, so its imagery ({}) cannot be laid over it; name the "
+                    "elevation model instead, or run `eyrie import terrain` with --imagery",
+                    path, fmt::join(imagery, ", ")));
             // Said here, at once: a renderer would only find out when it opens the scene.
             if (page::isRemote(path)) {
                 RETURN_IF_ERROR(reach(path, kind));
@@ -121,7 +140,7 @@ absl::StatusOr<std::string> DataCache::dataFor(const std::string& path, fabric::
             "{}: only .eyt and .eym files are drawn from a URL; download this one, or `eyrie "
             "import` it where it lies and name what that made",
             path));
-    return imported(path, kind);
+    return imported(path, kind, imagery);
 }
 
 absl::Status DataCache::reach(const std::string& url, fabric::ObjectKind kind) {
@@ -138,9 +157,9 @@ absl::Status DataCache::reach(const std::string& url, fabric::ObjectKind kind) {
         .status();
 }
 
-absl::StatusOr<std::string> DataCache::imported(const std::string& source,
-                                                fabric::ObjectKind kind) {
-    ASSIGN_OR_RETURN(const std::string name, importName(source, kind));
+absl::StatusOr<std::string> DataCache::imported(const std::string& source, fabric::ObjectKind kind,
+                                                const std::vector<std::string>& imagery) {
+    ASSIGN_OR_RETURN(const std::string name, importName(source, kind, imagery));
     const std::string target = (folder_ / name).string();
     std::error_code error;
     if (fs::exists(target, error) && opens(target, kind))
@@ -152,19 +171,19 @@ absl::StatusOr<std::string> DataCache::imported(const std::string& source,
                         "--cache FOLDER",
                         folder_.string(), error.message()));
     removeLeftovers(folder_);
-    RETURN_IF_ERROR(import(source, target, kind));
+    RETURN_IF_ERROR(import(source, target, kind, imagery));
     return target;
 }
 
 absl::Status DataCache::import(const std::string& source, const std::string& target,
-                               fabric::ObjectKind kind) {
+                               fabric::ObjectKind kind, const std::vector<std::string>& imagery) {
     std::error_code ignored;
     const auto megabytes = static_cast<double>(fs::file_size(source, ignored)) / 1e6;
     ProgressBar bar(fs::path(source).filename().string(), megabytes, "MB", progress_);
     const import::ImportControl control{bar.callback(), stop_};
     if (kind == fabric::ObjectKind::Mesh)
         return import::importMesh(source, target, {}, control).status();
-    return import::importTerrain({source}, target, {}, control).status();
+    return import::importTerrain({source}, target, {.imagery = imagery}, control).status();
 }
 
 }  // namespace eyrie::cli

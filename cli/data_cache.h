@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <stop_token>
 #include <string>
+#include <vector>
 
 #include <absl/status/statusor.h>
 
@@ -33,18 +34,21 @@ public:
 
     /// The .eyt or .eym to draw for `path`: itself, or the import of a source file. Data at a URL
     /// are opened once, to see whether they can be, and a mesh is copied, so that renderers of this
-    /// machine find it. Errors: those of the importers, and of opening a URL; InvalidArgument where
-    /// `path` is a scene.
-    absl::StatusOr<std::string> dataFor(const std::string& path, fabric::ObjectKind kind);
+    /// machine find it. `imagery` names pictures to lay over an elevation model. Errors: those of
+    /// the importers, and of opening a URL; InvalidArgument where `path` is a scene, or imported
+    /// already and so has no use for pictures.
+    absl::StatusOr<std::string> dataFor(const std::string& path, fabric::ObjectKind kind,
+                                        const std::vector<std::string>& imagery = {});
 
     /// How data at URLs are read.
     const page::SourceOptions& sources() const { return sources_; }
 
 private:
     absl::Status reach(const std::string& url, fabric::ObjectKind kind);
-    absl::StatusOr<std::string> imported(const std::string& source, fabric::ObjectKind kind);
+    absl::StatusOr<std::string> imported(const std::string& source, fabric::ObjectKind kind,
+                                         const std::vector<std::string>& imagery);
     absl::Status import(const std::string& source, const std::string& target,
-                        fabric::ObjectKind kind);
+                        fabric::ObjectKind kind, const std::vector<std::string>& imagery);
 
     const std::filesystem::path folder_;
     const ProgressBar::Style progress_;

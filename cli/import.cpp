@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "cli/commands.h"
+#include "cli/imagery_facts.h"
 #include "cli/json_object.h"
 #include "cli/progress_bar.h"
 #include "cli/stop_signal.h"
@@ -39,6 +40,7 @@ struct Options {
 struct TerrainOptions : Options {
     std::string memory = "512M";
     std::string scratch;
+    std::vector<std::string> imagery;
     double errorMetres = 0;
     int threads = 0;
     bool fresh = false;
@@ -80,6 +82,7 @@ absl::StatusOr<import::TerrainImportOptions> importOptions(const TerrainOptions&
             fmt::format("--memory is {}; an import takes at least {}M", options.memory,
                         import::kLeastImportMemory >> 20));
     result.scratchFolder = options.scratch;
+    result.imagery = options.imagery;
     if (std::isnan(options.errorMetres))  // which passes every check of a range
         return absl::InvalidArgumentError("--error is not a number; give metres, such as 0.5");
     if (options.errorMetres > 0)
@@ -105,18 +108,18 @@ absl::Status importTerrain(const TerrainOptions& options) {
     const auto samples =
         static_cast<std::uint64_t>(made->columns) * static_cast<std::uint64_t>(made->rows);
     if (options.json) {
-        fmt::print("{}\n",
-                   JsonObject()
-                       .text("file", options.out)
-                       .count("samples", samples)
-                       .count("levels", static_cast<std::uint64_t>(made->levels))
-                       .count("nodataSamples", made->nodataPosts)
-                       .count("bytes", made->sizeBytes)
-                       .object("errorMetres", JsonObject()
-                                                  .number("coarsest", made->coarsestErrorMetres)
-                                                  .number("finest", made->finestErrorMetres))
-                       .number("seconds", watch.seconds())
-                       .str());
+        JsonObject json;
+        json.text("file", options.out)
+            .count("samples", samples)
+            .count("levels", static_cast<std::uint64_t>(made->levels))
+            .count("nodataSamples", made->nodataPosts)
+            .count("bytes", made->sizeBytes)
+            .object("errorMetres", JsonObject()
+                                       .number("coarsest", made->coarsestErrorMetres)
+                                       .number("finest", made->finestErrorMetres));
+        if (made->imagery)
+            json.object("imagery", imageryJson(*made->imagery));
+        fmt::print("{}\n", json.number("seconds", watch.seconds()).str());
         return absl::OkStatus();
     }
     if (options.quiet)
@@ -126,6 +129,8 @@ absl::Status importTerrain(const TerrainOptions& options) {
     fmt::print(stderr, "{}: {} x {} samples, {} levels, {:.1f} MB, {:.2f} s\n", options.out,
                made->columns, made->rows, made->levels, static_cast<double>(made->sizeBytes) / 1e6,
                watch.seconds());
+    if (made->imagery)
+        fmt::print(stderr, "{}: {}\n", options.out, imageryText(*made->imagery));
     return absl::OkStatus();
 }
 
@@ -192,6 +197,12 @@ void addTerrain(CLI::App& parent, Run& run) {
                      "Any rasters that GDAL reads, as many as you like: they become one terrain")
         ->type_name("FILE")
         ->required();
+    command
+        ->add_option(
+            "--imagery", options->imagery,
+            "Pictures to lay over it, as many as you like, of any CRS and resolution. Where "
+            "none has a pixel the terrain is tinted by height")
+        ->type_name("FILE");
     addCommon(*command, *options);
     command
         ->add_option("--error", options->errorMetres,
@@ -221,6 +232,7 @@ void addTerrain(CLI::App& parent, Run& run) {
         "Examples:\n"
         "  eyrie import terrain dem.tif -o dem.eyt\n"
         "  eyrie import terrain tiles/*.tif survey.tif -o all.eyt\n"
+        "  eyrie import terrain dem.tif --imagery ortho/*.tif -o dem.eyt\n"
         "  eyrie import terrain huge.vrt -o huge.eyt --memory 2G --scratch /fast/disk");
     command->callback([options, &run] { run = [options] { return importTerrain(*options); }; });
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "cli/cache_options.h"
 #include "cli/commands.h"
 #include "cli/data_cache.h"
+#include "cli/imagery_facts.h"
 #include "cli/json_object.h"
 #include "cli/scene_files.h"
 #include "fabric/status.h"
@@ -32,6 +34,7 @@ struct Facts {
     std::uint64_t bytes = 0;
     double coarsestErrorMetres = 0;
     double finestErrorMetres = 0;
+    std::optional<terrain::ImagerySummary> imagery;
 };
 
 absl::StatusOr<Facts> terrainFacts(const std::string& path, const page::SourceOptions& sources) {
@@ -48,7 +51,9 @@ absl::StatusOr<Facts> terrainFacts(const std::string& path, const page::SourceOp
                  .crs = index.crsWkt,
                  .bytes = file->sizeBytes(),
                  .coarsestErrorMetres = index.coarsestErrorMetres(),
-                 .finestErrorMetres = index.finestErrorMetres()};
+                 .finestErrorMetres = index.finestErrorMetres(),
+                 .imagery = index.imagery ? std::optional(terrain::summaryOf(*index.imagery))
+                                          : std::nullopt};
 }
 
 absl::StatusOr<Facts> meshFacts(const std::string& path, const page::SourceOptions& sources) {
@@ -62,7 +67,8 @@ absl::StatusOr<Facts> meshFacts(const std::string& path, const page::SourceOptio
                  .crs = "",
                  .bytes = file.fileBytes(),
                  .coarsestErrorMetres = file.coarsestErrorMetres(),
-                 .finestErrorMetres = file.finestErrorMetres()};
+                 .finestErrorMetres = file.finestErrorMetres(),
+                 .imagery = {}};
 }
 
 absl::StatusOr<Facts> dataFacts(const std::string& path, const page::SourceOptions& sources) {
@@ -85,12 +91,15 @@ JsonObject toJson(const Facts& facts) {
     json.text("kind", facts.kind).box("bounds", facts.bounds).count(facts.unit, facts.count);
     if (facts.unit != "triangles")
         json.count("triangles", facts.triangles);
-    return json.count("levels", static_cast<std::uint64_t>(facts.levels))
+    json.count("levels", static_cast<std::uint64_t>(facts.levels))
         .text("crs", facts.crs)
         .count("bytes", facts.bytes)
         .object("errorMetres", JsonObject()
                                    .number("coarsest", facts.coarsestErrorMetres)
                                    .number("finest", facts.finestErrorMetres));
+    if (facts.imagery)
+        json.object("imagery", imageryJson(*facts.imagery));
+    return json;
 }
 
 /// The name in a coordinate reference system's well-known text.
@@ -113,6 +122,8 @@ void printFacts(const std::string& name, const Facts& facts) {
     fmt::print("  bytes       {}\n", facts.bytes);
     fmt::print("  error       {:.3g} m at the coarsest, {:.3g} m at the finest\n",
                facts.coarsestErrorMetres, facts.finestErrorMetres);
+    if (facts.imagery)
+        fmt::print("  imagery     {}\n", imageryText(*facts.imagery));
 }
 
 /// How facts are told.

@@ -102,9 +102,12 @@ absl::StatusOr<fabric::Scene> readSceneFile(const std::string& path) {
     if (!scene.ok())
         return fabric::withContext(scene.status(), path);
     const fs::path folder = fs::absolute(path).parent_path();
-    for (fabric::SceneObject& object : scene->objects)
+    for (fabric::SceneObject& object : scene->objects) {
         if (!page::isRemote(object.path))
             object.path = (folder / object.path).lexically_normal().string();
+        for (std::string& picture : object.imagery)
+            picture = (folder / picture).lexically_normal().string();
+    }
     return scene;
 }
 
@@ -132,8 +135,10 @@ absl::StatusOr<fabric::Scene> assembleScene(std::span<const std::string> paths, 
         return absl::InvalidArgumentError(
             fmt::format("{}: objects is empty; name a terrain or a mesh", paths.front()));
     for (fabric::SceneObject& object : scene->objects) {
-        ASSIGN_OR_RETURN(const std::string data, cache.dataFor(object.path, object.kind));
+        ASSIGN_OR_RETURN(const std::string data,
+                         cache.dataFor(object.path, object.kind, object.imagery));
         object.path = page::isRemote(data) ? data : fs::absolute(data).string();
+        object.imagery.clear();
     }
     RETURN_IF_ERROR(placeMeshes(*scene, firstLoose, cache.sources(), notes));
     RETURN_IF_ERROR(fabric::validate(*scene));

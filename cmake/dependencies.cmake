@@ -28,3 +28,8 @@ add_library(eyrie_glm INTERFACE)
 add_library(eyrie::glm ALIAS eyrie_glm)
 target_include_directories(eyrie_glm SYSTEM INTERFACE ${GLM_INCLUDE_DIR})
 target_compile_definitions(eyrie_glm INTERFACE GLM_FORCE_EXPLICIT_CTOR)
+
+find_path(STB_INCLUDE_DIR stb/stb_dxt.h REQUIRED)
+add_library(eyrie_stb INTERFACE)
+add_library(eyrie::stb ALIAS eyrie_stb)
+target_include_directories(eyrie_stb SYSTEM INTERFACE ${STB_INCLUDE_DIR})

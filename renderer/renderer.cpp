@@ -135,6 +135,10 @@ private:
     page::Loader& loaderFor(const fabric::SceneObject& object);
     absl::StatusOr<std::unique_ptr<draw::Drawable>> openObject(const fabric::SceneObject& object,
                                                                std::size_t objects);
+    draw::TextureFormat textureFormat() const {
+        return GLEW_EXT_texture_compression_s3tc && !device().software ? draw::TextureFormat::Bc1
+                                                                       : draw::TextureFormat::Rgba8;
+    }
     Selection selectPieces(const lod::View& view, const fabric::FrameData& frameData,
                            const fabric::ChannelTask& task, fabric::FrameStatistics& statistics);
     absl::Status drawPieces(const std::vector<OrderedPiece>& pieces, const draw::FrameState& frame,
@@ -173,7 +177,7 @@ absl::StatusOr<std::unique_ptr<draw::Drawable>> Renderer::Impl::openObject(
     if (object.kind == fabric::ObjectKind::Terrain)
         return draw::openTerrain(
             object, terrainPrograms_, sources_, loaderFor(object),
-            {options_.memoryBytes / objects, options_.hostMemoryBytes / objects});
+            {options_.memoryBytes / objects, options_.hostMemoryBytes / objects}, textureFormat());
     return draw::openMesh(object, meshPrograms_, sources_, options_.memoryBytes / objects);
 }
 

@@ -25,6 +25,8 @@ struct SceneObject {
     Mat4 worldFromObject{1.0};   ///< affine; object space is the file's own, in metres
     Vec3 colour{0.8, 0.8, 0.8};  ///< linear; meshes without vertex colours only
     bool singleSided = false;    ///< triangles facing away are left out; meshes only
+    /// Pictures to lay over a terrain that is still to be imported; an .eyt has its own.
+    std::vector<std::string> imagery = {};
 
     bool operator==(const SceneObject&) const = default;
 };

@@ -100,6 +100,10 @@ absl::StatusOr<fabric::SceneObject> objectFrom(const v1::SceneObject& message, i
     if (object.singleSided && object.kind != fabric::ObjectKind::Mesh)
         return absl::InvalidArgumentError(
             fmt::format("{}.singleSided is for meshes; leave it out of a terrain", field));
+    object.imagery.assign(message.imagery().begin(), message.imagery().end());
+    if (!object.imagery.empty() && object.kind != fabric::ObjectKind::Terrain)
+        return absl::InvalidArgumentError(
+            fmt::format("{}.imagery is for terrains; leave it out of a mesh", field));
     return object;
 }
 
@@ -133,6 +137,7 @@ void setObject(const fabric::SceneObject& object, v1::SceneObject& message) {
     setTransform(object.worldFromObject, message);
     setNumbers(perChannel(object.colour, srgbFromLinear), *message.mutable_colour());
     message.set_single_sided(object.singleSided);
+    message.mutable_imagery()->Assign(object.imagery.begin(), object.imagery.end());
 }
 
 }  // namespace

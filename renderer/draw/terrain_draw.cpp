@@ -2,6 +2,7 @@
 #include "renderer/draw/terrain_draw.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <optional>
 #include <utility>
@@ -15,6 +16,7 @@
 #include "renderer/draw/terrain_look.h"
 #include "renderer/draw/terrain_prefetch.h"
 #include "renderer/draw/terrain_tiles.h"
+#include "renderer/draw/tile_imagery.h"
 #include "renderer/gl/object.h"
 #include "renderer/page/tau_ladder.h"
 #include "renderer/terrain/eyt_format.h"
@@ -28,6 +30,9 @@ using effects::TerrainEffect;
 
 constexpr glm::vec3 kPageColour(1.0F, 0.9F, 0.3F);  ///< of the bounds of pages; linear
 constexpr double kElevationBands = 5;               ///< of effects/terrain.effect
+
+/// Where memory is short, texels grow as tau does.
+double texelPixels(int step) { return terrain::kTexelPixels * page::TauLadder::factor(step); }
 
 /// What decides which step of the ladder fits.
 struct SettledView {
@@ -64,7 +69,8 @@ public:
           needed_(index()),
           prefetch_(index()),
           look_(index()),
-          paging_(std::move(paging)) {
+          paging_(std::move(paging)),
+          imagery_(index(), *paging_) {
         TerrainEffect::kPackedVertexFromUint32x1.define(shortVertices_);
         TerrainEffect::kPackedVertexFromUint32x2.define(longVertices_);
     }
@@ -89,11 +95,19 @@ private:
     struct Wanted {
         terrain::Refinement refinement;
         terrain::TerrainCut cut;
-        std::uint64_t bytes = 0;  ///< of its visible tiles and all above, which may stand in
+        /// Of its visible tiles and texture tiles, and all above, which may stand in.
+        std::uint64_t bytes = 0;
     };
-    std::uint64_t bytesOf(const lod::ObjectView& view, const terrain::TerrainCut& cut);
+    std::uint64_t bytesOf(const lod::ObjectView& view, const terrain::TerrainCut& cut,
+                          double texelPixels);
     const Wanted& wantedAt(int step, const CutRequest& request);
     page::TauLadder::Choice chooseStep(const CutRequest& request);
+    /// By variant; null: not used in the frame so far.
+    using PicturePrograms =
+        std::array<const TerrainEffect*, TerrainEffect::Variant::kMaxImagery + 1>;
+    absl::StatusOr<const TerrainEffect*> programFor(const terrain::ImageryPart& part,
+                                                    const FrameState& frame,
+                                                    PicturePrograms& programs);
     void useNormals(const TerrainEffect& program, const terrain::TileId& tile);
     std::uint64_t drawTile(const TerrainEffect& program, const terrain::TileChoice& choice,
                            const DeviceTile& tile) const;
@@ -110,6 +124,7 @@ private:
     TerrainLook look_;
     BoxLines boxLines_;
     std::unique_ptr<TerrainPaging> paging_;
+    TileImagery imagery_;
     page::TauLadder ladder_;
     std::optional<SettledView> last_;
     std::optional<SettledView> settled_;        ///< whose lowest step the ladder is at
@@ -117,15 +132,15 @@ private:
     std::vector<terrain::TileChoice> choices_;  ///< of the last cut; pieces index it
 };
 
-std::uint64_t TerrainDrawable::bytesOf(const lod::ObjectView& view,
-                                       const terrain::TerrainCut& cut) {
+std::uint64_t TerrainDrawable::bytesOf(const lod::ObjectView& view, const terrain::TerrainCut& cut,
+                                       double texelPixels) {
     needed_.assign(cut, {view, view.view().frustum, {}, 1, {}});
     std::uint64_t bytes = 0;
     for (const auto* tiles : {&needed_.leaves(), &needed_.inner()})
         for (const terrain::TileId& tile : *tiles)
             if (tile != index().quadtree.top())
                 bytes += terrain::estimatedTileBytes(index(), tile);
-    return bytes;
+    return bytes + imagery_.bytesOf(needed_.leaves(), view, texelPixels);
 }
 
 const TerrainDrawable::Wanted& TerrainDrawable::wantedAt(int step, const CutRequest& request) {
@@ -135,7 +150,7 @@ const TerrainDrawable::Wanted& TerrainDrawable::wantedAt(int step, const CutRequ
     terrain::Refinement refinement = terrain::refineForError(
         index(), request.view, request.tauPixels * page::TauLadder::factor(step));
     terrain::TerrainCut cut = terrain::cutOf(index(), request.view, refinement);
-    const std::uint64_t bytes = bytesOf(request.view, cut);
+    const std::uint64_t bytes = bytesOf(request.view, cut, texelPixels(step));
     return wanted_.emplace(step, Wanted{std::move(refinement), std::move(cut), bytes})
         .first->second;
 }
@@ -169,10 +184,12 @@ Cut TerrainDrawable::selectCut(const CutRequest& request) {
     prefetch_.follow(request.view.view(),
                      fabric::exaggerated(worldFromObject_, request.exaggeration));
     const double tauPixels = request.tauPixels * page::TauLadder::factor(choice.step);
+    const std::vector<terrain::TextureId> textures =
+        imagery_.texturesOf(needed_.leaves(), request.view, texelPixels(choice.step));
     const TerrainPaging::Result result =
         request.completeness == fabric::Completeness::Complete
-            ? paging_->reach(wanted.refinement, needed_, request.view)
-            : paging_->approach(wanted.refinement, needed_, request.view,
+            ? paging_->reach(wanted.refinement, needed_, textures, request.view)
+            : paging_->approach(wanted.refinement, needed_, textures, request.view,
                                 [&] { return prefetch_.tiles(tauPixels, paging_->latency()); });
 
     terrain::TerrainCut drawn = terrain::cutOf(index(), request.view, result.drawn);
@@ -188,6 +205,7 @@ Cut TerrainDrawable::selectCut(const CutRequest& request) {
         if (needed_.contains(choices_[i].id))
             cut.pieces.push_back(
                 {i, needed_.position(choices_[i].id), index().bounds(choices_[i].id)});
+    imagery_.choose(choices_, cut.pieces, request.view, texelPixels(choice.step));
     if (request.wantsPageBounds)
         addPageBounds(wanted.cut, cut.pieces);
     return cut;
@@ -265,11 +283,24 @@ std::uint64_t TerrainDrawable::drawTile(const TerrainEffect& program,
     return indices / 3;
 }
 
+/// The program for a part of a tile, in use and with the frame's uniforms.
+absl::StatusOr<const TerrainEffect*> TerrainDrawable::programFor(const terrain::ImageryPart& part,
+                                                                 const FrameState& frame,
+                                                                 PicturePrograms& programs) {
+    TerrainEffect::Variant variant = TerrainLook::variantFor(frame, worldFromObject_);
+    variant.imagery = !part.isWhole() ? 2 : part.texture ? 1 : 0;
+    const TerrainEffect*& program = programs[static_cast<std::size_t>(variant.imagery)];
+    if (program == nullptr) {
+        ASSIGN_OR_RETURN(program, programs_.find(variant));
+        use(*program, frame);
+    }
+    program->use();
+    return program;
+}
+
 absl::Status TerrainDrawable::draw(std::span<const Piece> pieces, const FrameState& frame,
                                    fabric::FrameStatistics& statistics) {
-    ASSIGN_OR_RETURN(const TerrainEffect* program,
-                     programs_.find(TerrainLook::variantFor(frame, worldFromObject_)));
-    use(*program, frame);
+    PicturePrograms programs{};
     if (frame.look.tileBounds || frame.look.pageBounds)
         RETURN_IF_ERROR(boxLines_.begin(
             frame.view, fabric::exaggerated(worldFromObject_, frame.look.exaggeration)));
@@ -279,12 +310,14 @@ absl::Status TerrainDrawable::draw(std::span<const Piece> pieces, const FrameSta
             continue;
         }
         const terrain::TileChoice& choice = choices_[piece.index];
-        if (frame.look.tileBounds || frame.look.pageBounds)
-            program->use();  // again after a box
-        if (frame.look.levelTint)
-            program->levelColour(levelColour(choice.id.level));
-        useNormals(*program, choice.id);
-        statistics.triangles += drawTile(*program, choice, *paging_->tile(choice.id));
+        for (const terrain::ImageryPart& part : imagery_.partsOf(choice.id)) {
+            ASSIGN_OR_RETURN(const TerrainEffect* program, programFor(part, frame, programs));
+            if (frame.look.levelTint)
+                program->levelColour(levelColour(choice.id.level));
+            useNormals(*program, choice.id);
+            imagery_.use(*program, choice.id, part);
+            statistics.triangles += drawTile(*program, choice, *paging_->tile(choice.id));
+        }
         // At once, so that where depths tie the lower range wins as in compositing.
         if (frame.look.tileBounds)
             boxLines_.draw(piece.bounds, levelColour(choice.id.level));
@@ -298,11 +331,12 @@ absl::StatusOr<std::unique_ptr<Drawable>> openTerrain(const fabric::SceneObject&
                                                       TerrainPrograms& programs,
                                                       const page::SourceOptions& sources,
                                                       page::Loader& loader,
-                                                      const TerrainMemory& limits) {
+                                                      const TerrainMemory& limits,
+                                                      TextureFormat format) {
     ASSIGN_OR_RETURN(std::shared_ptr<const terrain::EytFile> file,
                      terrain::EytFile::open(object.path, sources));
     ASSIGN_OR_RETURN(std::unique_ptr<TerrainPaging> paging,
-                     TerrainPaging::open(file, loader, limits));
+                     TerrainPaging::open(file, loader, limits, format));
     return std::make_unique<TerrainDrawable>(object, programs, std::move(file), std::move(paging));
 }
 

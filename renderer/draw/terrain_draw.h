@@ -23,6 +23,7 @@ absl::StatusOr<std::unique_ptr<Drawable>> openTerrain(const fabric::SceneObject&
                                                       TerrainPrograms& programs,
                                                       const page::SourceOptions& sources,
                                                       page::Loader& loader,
-                                                      const TerrainMemory& limits);
+                                                      const TerrainMemory& limits,
+                                                      TextureFormat format);
 
 }  // namespace eyrie::draw

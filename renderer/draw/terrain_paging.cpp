@@ -20,20 +20,21 @@ namespace {
 using std::chrono::duration;
 using terrain::Quadtree;
 using terrain::Refinement;
+using terrain::TextureId;
 using terrain::TileId;
 
 /// Share of an interactive frame that may go into copying tiles to the device.
 constexpr duration<double, std::milli> kUploadTime{3};
 constexpr std::uint32_t kLowestRank = std::numeric_limits<std::uint32_t>::max() - 1;
-std::uint64_t greatestOfAllPages(const terrain::EytIndex& index) {
-    std::uint64_t most = 0;
-    for (std::uint32_t page = 0; page < index.quadtree.pageCount(); ++page)
-        most = std::max(most, terrain::greatestPageBytes(index, page));
-    return most;
-}
 
-page::Loader::Load loadFrom(std::shared_ptr<const terrain::EytFile> file) {
-    return [file = std::move(file)](std::uint32_t page) -> absl::StatusOr<page::Loaded> {
+page::Loader::Load loadFrom(std::shared_ptr<const terrain::EytFile> file,
+                            const TerrainItems& names) {
+    return [file = std::move(file), names](std::uint32_t page) -> absl::StatusOr<page::Loaded> {
+        if (names.isTexture(page)) {
+            ASSIGN_OR_RETURN(const auto read, file->readTexture(names.textureOf(page)));
+            return page::Loaded{std::make_shared<const TextureImage>(*read, names.format()),
+                                names.greatestPageBytes(page)};
+        }
         ASSIGN_OR_RETURN(std::shared_ptr<const terrain::Page> read, file->readPage(page));
         const std::uint64_t bytes = read->sizeBytes();
         return page::Loaded{std::move(read), bytes};
@@ -43,15 +44,23 @@ page::Loader::Load loadFrom(std::shared_ptr<const terrain::EytFile> file) {
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<TerrainPaging>> TerrainPaging::open(
-    std::shared_ptr<const terrain::EytFile> file, page::Loader& loader,
-    const TerrainMemory& limits) {
+    std::shared_ptr<const terrain::EytFile> file, page::Loader& loader, const TerrainMemory& limits,
+    TextureFormat format) {
     const terrain::EytIndex& index = file->index();
     const TileId top = index.quadtree.top();
     ASSIGN_OR_RETURN(const std::shared_ptr<const terrain::Page> page,
                      file->readPage(index.quadtree.pageIndex(top)));
     const terrain::TileGeometry& geometry = page->tile(Quadtree::placeInPage(top));
-    const std::uint64_t topBytes = terrain::tileBytes(geometry);
-    const std::uint64_t greatestPage = greatestOfAllPages(index);
+    const TerrainItems names(index, format);
+    std::uint64_t topBytes = terrain::tileBytes(geometry);
+    std::unique_ptr<DeviceTexture> topTexture;
+    if (index.imagery && index.imagery->has(index.imagery->pyramid.top())) {
+        const TextureId topId = index.imagery->pyramid.top();
+        ASSIGN_OR_RETURN(const auto texture, file->readTexture(topId));
+        topTexture = std::make_unique<DeviceTexture>(TextureImage(*texture, format));
+        topBytes += names.of(topId).deviceBytes;
+    }
+    const std::uint64_t greatestPage = names.greatestOfAllPages();
     const std::uint64_t least = 2 * greatestPage;
     if (limits.hostBytes < least || limits.deviceBytes < topBytes)
         return absl::ResourceExhaustedError(fmt::format(
@@ -59,24 +68,27 @@ absl::StatusOr<std::unique_ptr<TerrainPaging>> TerrainPaging::open(
             "pages need {} and {} at least; raise the limits, or open fewer objects",
             file->path(), limits.deviceBytes, limits.hostBytes, topBytes, least));
     // Pages that are being loaded or wait to be taken get a quarter of the host's share.
-    std::unique_ptr<TerrainPaging> paging(new TerrainPaging(
-        std::move(file), loader, limits, topBytes, std::max(limits.hostBytes / 4, greatestPage)));
+    std::unique_ptr<TerrainPaging> paging(
+        new TerrainPaging(std::move(file), loader, limits, format, topBytes,
+                          std::max(limits.hostBytes / 4, greatestPage)));
     paging->top_ = std::make_unique<DeviceTile>(geometry);
+    paging->topTexture_ = std::move(topTexture);
     return paging;
 }
 
 TerrainPaging::TerrainPaging(std::shared_ptr<const terrain::EytFile> file, page::Loader& loader,
-                             const TerrainMemory& limits, std::uint64_t topBytes,
-                             std::uint64_t loaderBytes)
+                             const TerrainMemory& limits, TextureFormat format,
+                             std::uint64_t topBytes, std::uint64_t loaderBytes)
     : file_(std::move(file)),
       index_(file_->index()),
-      tiles_(limits.deviceBytes - topBytes),
+      names_(index_, format),
+      items_(limits.deviceBytes - topBytes),
       pages_(limits.hostBytes - loaderBytes),
       topBytes_(topBytes),
-      source_(loader.open(loadFrom(file_), loaderBytes)) {}
+      source_(loader.open(loadFrom(file_, names_), loaderBytes)) {}
 
 MemoryUse TerrainPaging::memory() const {
-    return {topBytes_ + tiles_.bytes(), pages_.bytes() + source_->bytes()};
+    return {topBytes_ + items_.bytes(), pages_.bytes() + source_->bytes()};
 }
 
 bool TerrainPaging::isGivenUp(std::uint32_t page, Clock::time_point time) const {
@@ -87,8 +99,7 @@ bool TerrainPaging::isGivenUp(std::uint32_t page, Clock::time_point time) const 
 
 std::uint64_t TerrainPaging::pageBytes(std::uint32_t page) const {
     const auto known = knownPageBytes_.find(page);
-    return known != knownPageBytes_.end() ? known->second
-                                          : terrain::greatestPageBytes(index_, page);
+    return known != knownPageBytes_.end() ? known->second : names_.greatestPageBytes(page);
 }
 
 Refinement TerrainPaging::drawable(const Refinement& wanted, const NeededTiles& needed) const {
@@ -98,47 +109,58 @@ Refinement TerrainPaging::drawable(const Refinement& wanted, const NeededTiles& 
 }
 
 void TerrainPaging::beginFrame() {
-    tiles_.beginFrame();
+    items_.beginFrame();
     pages_.beginFrame();
     missing_.clear();
     rankedPages_.clear();
     rankOfPage_.clear();
 }
 
-/// Coarse levels first; within a level by error over distance, and by nearness to the view's axis.
-std::vector<TileId> TerrainPaging::inOrder(std::vector<TileId> tiles,
-                                           const lod::ObjectView& view) const {
-    struct Scored {
-        TileId tile;
-        double score;
-    };
-    std::vector<Scored> scored;
-    scored.reserve(tiles.size());
-    for (const TileId& tile : tiles) {
-        const fabric::PixelViewport covered = view.coveredPixels(index_.bounds(tile));
-        const double x = (covered.x + 0.5 * covered.width) / view.view().width - 0.5;
-        const double y = (covered.y + 0.5 * covered.height) / view.view().height - 0.5;
-        const double pixels = std::max(covered.width, covered.height);
-        scored.push_back({tile, pixels / (0.1 + x * x + y * y)});
+std::vector<TextureId> TerrainPaging::chainOf(TextureId texture) const {
+    std::vector<TextureId> chain;
+    for (; texture != index_.imagery->pyramid.top();
+         texture = terrain::TexturePyramid::parent(texture))
+        chain.push_back(texture);
+    return chain;
+}
+
+std::uint64_t TerrainPaging::sortTextures(const std::vector<TextureId>& textures,
+                                          std::vector<TextureId>& below,
+                                          std::vector<TextureId>& above) {
+    std::unordered_set<std::uint32_t> known;
+    std::unordered_set<std::uint32_t> drawn;
+    std::uint64_t drawnBytes = 0;
+    for (const TextureId& texture : textures) {
+        bool isBelow = true;
+        for (const TextureId& one : chainOf(texture)) {
+            const TerrainItem item = names_.of(one);
+            if (names_.bytesOnDisk(item.page) == 0)
+                continue;
+            if (isBelow && items_.contains(item.key)) {
+                isBelow = false;
+                items_.rank(item.key, 0);
+                if (drawn.insert(item.key).second)
+                    drawnBytes += item.deviceBytes;
+            } else if (known.insert(item.key).second) {
+                (isBelow ? below : above).push_back(one);
+            }
+        }
     }
-    std::stable_sort(scored.begin(), scored.end(), [](const Scored& a, const Scored& b) {
-        return a.tile.level != b.tile.level ? a.tile.level > b.tile.level : a.score > b.score;
-    });
-    for (std::size_t i = 0; i < tiles.size(); ++i) tiles[i] = scored[i].tile;
-    return tiles;
+    std::erase_if(above, [&](const TextureId& one) { return drawn.contains(names_.of(one).key); });
+    return drawnBytes;
 }
 
 /// Gives what is on the device its rank, and lists what is missing as far as it will fit.
-void TerrainPaging::rankTiles(const std::vector<TileId>& order, std::uint64_t reservedBytes) {
+void TerrainPaging::rankItems(const std::vector<TerrainItem>& order, std::uint64_t reservedBytes) {
     std::uint64_t bytes = reservedBytes;
     std::uint32_t rank = 0;
-    for (const TileId& tile : order) {
-        bytes += terrain::estimatedTileBytes(index_, tile);
-        if (bytes > tiles_.limitBytes())
+    for (const TerrainItem& item : order) {
+        bytes += item.deviceBytes;
+        if (bytes > items_.limitBytes())
             return;
-        tiles_.rank(index_.quadtree.tileIndex(tile), ++rank);
-        if (!isResident(tile))
-            missing_.push_back({tile, rank});
+        items_.rank(item.key, ++rank);
+        if (!items_.contains(item.key))
+            missing_.push_back({item, rank});
     }
 }
 
@@ -146,7 +168,7 @@ void TerrainPaging::rankTiles(const std::vector<TileId>& order, std::uint64_t re
 void TerrainPaging::rankPages(const std::vector<TileId>& prefetch) {
     std::uint64_t bytes = 0;
     const auto add = [&](std::uint32_t page) {
-        if (rankOfPage_.contains(page) || index_.pages[page].bytes == 0)
+        if (rankOfPage_.contains(page) || names_.bytesOnDisk(page) == 0)
             return;
         bytes += pageBytes(page);
         if (bytes > pages_.limitBytes())
@@ -156,7 +178,7 @@ void TerrainPaging::rankPages(const std::vector<TileId>& prefetch) {
         rankOfPage_.emplace(page, rank);
         pages_.rank(page, rank);
     };
-    for (const RankedTile& ranked : missing_) add(index_.quadtree.pageIndex(ranked.tile));
+    for (const RankedItem& ranked : missing_) add(ranked.item.page);
     for (const TileId& tile : prefetch)
         if (!isResident(tile))
             add(index_.quadtree.pageIndex(tile));
@@ -170,7 +192,7 @@ TerrainPaging::Loads TerrainPaging::keep(std::vector<page::Arrival> arrivals) {
             continue;
         }
         ++loaded.pages;
-        loaded.bytes += index_.pages[arrival.page].bytes;
+        loaded.bytes += names_.bytesOnDisk(arrival.page);
         isSourceDown_ = false;
         if (failures_.erase(arrival.page) != 0)
             spdlog::info("{}: page {} can be read again", file_->path(), arrival.page);
@@ -183,9 +205,7 @@ TerrainPaging::Loads TerrainPaging::keep(std::vector<page::Arrival> arrivals) {
         const auto found = rankOfPage_.find(arrival.page);
         const std::uint32_t rank = found == rankOfPage_.end() ? kLowestRank : found->second;
         if (!pages_.contains(arrival.page) && pages_.makeRoom(bytes, rank))
-            pages_.insert(arrival.page,
-                          std::static_pointer_cast<const terrain::Page>(arrival.result->value),
-                          bytes, rank);
+            pages_.insert(arrival.page, arrival.result->value, bytes, rank);
     }
     return loaded;
 }
@@ -203,21 +223,34 @@ void TerrainPaging::noteFailure(const page::Arrival& arrival) {
     failure.message = std::move(message);
 }
 
+bool TerrainPaging::upload(const RankedItem& ranked, const std::shared_ptr<const void>& page) {
+    const auto& [item, rank] = ranked;
+    if (names_.isTexture(item.page)) {
+        if (!items_.makeRoom(item.deviceBytes, rank))
+            return false;
+        items_.insert(item.key, DeviceTexture(*static_cast<const TextureImage*>(page.get())),
+                      item.deviceBytes, rank);
+        return true;
+    }
+    const TileId tile = index_.quadtree.tileOf(item.key);
+    const terrain::TileGeometry& geometry =
+        static_cast<const terrain::Page*>(page.get())->tile(Quadtree::placeInPage(tile));
+    const std::uint64_t bytes = terrain::tileBytes(geometry);
+    if (!items_.makeRoom(bytes, rank))
+        return false;
+    items_.insert(item.key, DeviceTile(geometry), bytes, rank);
+    return true;
+}
+
 bool TerrainPaging::upload(duration<double> time) {
     const auto end = Clock::now() + time;
     bool hasUploaded = false;
-    std::erase_if(missing_, [&](const RankedTile& ranked) {
-        const auto& [tile, rank] = ranked;
+    std::erase_if(missing_, [&](const RankedItem& ranked) {
         if (hasUploaded && Clock::now() >= end)
             return false;
-        const auto* page = pages_.find(index_.quadtree.pageIndex(tile));
-        if (page == nullptr)
+        const auto* page = pages_.find(ranked.item.page);
+        if (page == nullptr || !upload(ranked, *page))
             return false;
-        const terrain::TileGeometry& geometry = (*page)->tile(Quadtree::placeInPage(tile));
-        const std::uint64_t bytes = terrain::tileBytes(geometry);
-        if (!tiles_.makeRoom(bytes, rank))
-            return false;
-        tiles_.insert(index_.quadtree.tileIndex(tile), DeviceTile(geometry), bytes, rank);
         hasUploaded = true;
         return true;
     });
@@ -238,6 +271,24 @@ std::vector<page::Wish> TerrainPaging::missingPages() {
     return wishes;
 }
 
+/// Each, or in its place the nearest above that may still come.
+std::vector<TextureId> TerrainPaging::readableOf(const std::vector<TextureId>& textures,
+                                                 Clock::time_point start) const {
+    std::vector<TextureId> readable;
+    std::unordered_set<std::uint32_t> known;
+    for (const TextureId& texture : textures)
+        for (const TextureId& one : chainOf(texture)) {
+            const TerrainItem item = names_.of(one);
+            if (names_.bytesOnDisk(item.page) == 0 ||
+                (!items_.contains(item.key) && isGivenUp(item.page, start)))
+                continue;
+            if (known.insert(item.key).second)
+                readable.push_back(one);
+            break;
+        }
+    return readable;
+}
+
 std::vector<TileId> TerrainPaging::tilesOf(const Refinement& cut, const NeededTiles& needed) const {
     std::vector<TileId> tiles;
     std::unordered_set<std::uint32_t> normalTiles;
@@ -253,12 +304,16 @@ std::vector<TileId> TerrainPaging::tilesOf(const Refinement& cut, const NeededTi
     return tiles;
 }
 
-TerrainPaging::Result TerrainPaging::resultOf(Refinement drawn, const NeededTiles& needed) const {
+TerrainPaging::Result TerrainPaging::resultOf(Refinement drawn, const NeededTiles& needed,
+                                              const std::vector<TextureId>& textures) const {
     std::unordered_set<std::uint32_t> missing;
     for (const TileId& leaf : needed.leaves())
         for (const TileId& tile : {leaf, index_.quadtree.normalTile(leaf)})
             if (!isResident(tile))
                 missing.insert(index_.quadtree.pageIndex(tile));
+    for (const TextureId& texture : textures)
+        if (!isResident(texture))
+            missing.insert(names_.of(texture).page);
     Result result{std::move(drawn), {}, missing.size(), 0};
     for (const std::uint32_t page : missing)
         result.pagesFailed += isSourceDown_ || failures_.contains(page) ? 1 : 0;
@@ -266,6 +321,7 @@ TerrainPaging::Result TerrainPaging::resultOf(Refinement drawn, const NeededTile
 }
 
 TerrainPaging::Result TerrainPaging::approach(const Refinement& wanted, const NeededTiles& needed,
+                                              const std::vector<TextureId>& textures,
                                               const lod::ObjectView& view,
                                               const Prefetch& prefetch) {
     beginFrame();
@@ -283,7 +339,7 @@ TerrainPaging::Result TerrainPaging::approach(const Refinement& wanted, const Ne
         const bool isDrawn = !drawn.isSplit(tile) ||
                              (tile.level == index_.quadtree.normalLevel() && isResident(tile));
         if (isReached && isDrawn) {
-            tiles_.rank(index_.quadtree.tileIndex(tile), 0);
+            items_.rank(index_.quadtree.tileIndex(tile), 0);
             drawnBytes += terrain::estimatedTileBytes(index_, tile);
         } else {
             (isReached ? above : below).push_back(tile);
@@ -291,23 +347,28 @@ TerrainPaging::Result TerrainPaging::approach(const Refinement& wanted, const Ne
     };
     for (const TileId& tile : needed.leaves()) sort(tile);
     for (const TileId& tile : needed.inner()) sort(tile);
-    const bool isUrgent = std::any_of(below.begin(), below.end(),
-                                      [&](const TileId& tile) { return !isResident(tile); });
-    below = inOrder(std::move(below), view);
-    above = inOrder(std::move(above), view);
-    below.insert(below.end(), above.begin(), above.end());
-    rankTiles(below, drawnBytes);
+    std::vector<TextureId> texturesBelow;
+    std::vector<TextureId> texturesAbove;
+    drawnBytes += sortTextures(textures, texturesBelow, texturesAbove);
+    std::vector<TerrainItem> order = names_.inOrder(below, texturesBelow, view);
+    const bool isUrgent = std::any_of(order.begin(), order.end(), [&](const TerrainItem& item) {
+        return !items_.contains(item.key);
+    });
+    const std::vector<TerrainItem> last = names_.inOrder(above, texturesAbove, view);
+    order.insert(order.end(), last.begin(), last.end());
+    rankItems(order, drawnBytes);
     rankPages(isUrgent ? std::vector<TileId>{} : prefetch());
     const Loads loaded = keep(source_->tryTake());
     if (upload(kUploadTime))
         drawn = drawable(wanted, needed);
     source_->tryWish(missingPages());
-    Result result = resultOf(std::move(drawn), needed);
+    Result result = resultOf(std::move(drawn), needed, textures);
     result.loaded = loaded;
     return result;
 }
 
 TerrainPaging::Result TerrainPaging::reach(const Refinement& wanted, const NeededTiles& needed,
+                                           const std::vector<TextureId>& textures,
                                            const lod::ObjectView& view) {
     const auto start = Clock::now();
     Loads loaded;
@@ -321,18 +382,23 @@ TerrainPaging::Result TerrainPaging::reach(const Refinement& wanted, const Neede
             return !needed.contains(tile) || isEmpty(tile) ||
                    (mayCome(tile) && mayCome(index_.quadtree.normalTile(tile)));
         });
-        rankTiles(inOrder(tilesOf(readable, needed), view), 0);
+        rankItems(names_.inOrder(tilesOf(readable, needed), readableOf(textures, start), view), 0);
         if (missing_.empty())
             break;
         rankPages({});
-        const Loads arrived = keep(source_->take());
+        std::vector<page::Arrival> arrivals = source_->take();
+        // What could not be read is replaced by what lies above it: that is still to be wished for.
+        const bool hasFailed =
+            std::any_of(arrivals.begin(), arrivals.end(),
+                        [](const page::Arrival& arrival) { return !arrival.result.ok(); });
+        const Loads arrived = keep(std::move(arrivals));
         loaded = {loaded.pages + arrived.pages, loaded.bytes + arrived.bytes};
         const bool hasUploaded = upload(std::chrono::hours(1));
         source_->wish(missingPages());
-        if (missing_.empty() || (!hasUploaded && !source_->wait()))
+        if (missing_.empty() || (!hasUploaded && !hasFailed && !source_->wait()))
             break;
     }
-    Result result = resultOf(drawable(wanted, needed), needed);
+    Result result = resultOf(drawable(wanted, needed), needed, textures);
     result.loaded = loaded;
     return result;
 }

@@ -7,11 +7,14 @@
 #include <memory>
 #include <string>
 #include <unordered_map>
+#include <variant>
 #include <vector>
 
 #include <absl/status/status.h>
 
+#include "renderer/draw/device_texture.h"
 #include "renderer/draw/needed_tiles.h"
+#include "renderer/draw/terrain_items.h"
 #include "renderer/draw/terrain_tiles.h"
 #include "renderer/page/loader.h"
 #include "renderer/page/resident_set.h"
@@ -26,20 +29,22 @@ struct TerrainMemory {
     std::uint64_t hostBytes = 0;  ///< pages in memory or being loaded
 };
 
-/// Which tiles of one terrain are on the device, and the pages on their way there. GL thread.
+/// Which tiles and texture tiles of one terrain are on the device, and the pages on their way
+/// there. GL thread.
 ///
 /// What a channel needs is brought to the device coarse levels first, so that it refines evenly,
-/// and within a level by error and nearness to the view's axis. Whatever is missing, what is there
-/// is drawn as a restricted cut: there are no cracks to hide. A page that cannot be read is logged
-/// once, and tried again by the loader.
+/// and within a level by error and nearness to the view's axis; texture tiles in turn with the
+/// tiles of their size. Whatever is missing, what is there is drawn as a restricted cut: there are
+/// no cracks to hide; a texture tile's ancestor stands in for it. A page that cannot be read is
+/// logged once, and tried again by the loader.
 class TerrainPaging {
 public:
-    /// Reads the top tile, which stays on the device: it stands in for everything. `loader`
-    /// outlives this. Errors: of reading its page; ResourceExhausted when the limits hold no page
-    /// of `file`.
+    /// Reads the top tile and texture tile, which stay on the device: they stand in for everything.
+    /// `loader` outlives this. Errors: of reading its page; ResourceExhausted when the limits hold
+    /// no page of `file`.
     static absl::StatusOr<std::unique_ptr<TerrainPaging>> open(
         std::shared_ptr<const terrain::EytFile> file, page::Loader& loader,
-        const TerrainMemory& limits);
+        const TerrainMemory& limits, TextureFormat format);
 
     using Prefetch = std::function<std::vector<terrain::TileId>()>;
 
@@ -60,22 +65,36 @@ public:
     /// Goes towards `wanted` as far as it can without waiting: takes what the loader has, brings
     /// tiles to the device for a few milliseconds, and wishes for the rest; where nothing is
     /// missing, for the pages of `prefetch()`: tiles that may be needed soon, likely ones first.
+    /// `textures`: distinct ones, of those that the terrain has.
     Result approach(const terrain::Refinement& wanted, const NeededTiles& needed,
-                    const lod::ObjectView& view, const Prefetch& prefetch);
+                    const std::vector<terrain::TextureId>& textures, const lod::ObjectView& view,
+                    const Prefetch& prefetch);
 
     /// Goes there: waits for every page that can be read, through the first failures of a server.
     Result reach(const terrain::Refinement& wanted, const NeededTiles& needed,
-                 const lod::ObjectView& view);
+                 const std::vector<terrain::TextureId>& textures, const lod::ObjectView& view);
 
     /// Null when it is not on the device. Valid until the next approach() or reach().
     const DeviceTile* tile(const terrain::TileId& id) {
-        return id == index_.quadtree.top() ? top_.get()
-                                           : tiles_.find(index_.quadtree.tileIndex(id));
+        if (id == index_.quadtree.top())
+            return top_.get();
+        const auto* item = items_.find(index_.quadtree.tileIndex(id));
+        return item == nullptr ? nullptr : &std::get<DeviceTile>(*item);
+    }
+    const DeviceTexture* texture(const terrain::TextureId& id) {
+        if (id == index_.imagery->pyramid.top())
+            return topTexture_.get();
+        const auto* item = items_.find(names_.of(id).key);
+        return item == nullptr ? nullptr : &std::get<DeviceTexture>(*item);
+    }
+    bool isResident(const terrain::TextureId& texture) const {
+        return texture == index_.imagery->pyramid.top() || items_.contains(names_.of(texture).key);
     }
 
     MemoryUse memory() const;
-    /// Room for tiles on the device beside the top tile.
-    std::uint64_t roomBytes() const { return tiles_.limitBytes(); }
+    /// Room on the device beside the top tile and texture tile.
+    std::uint64_t roomBytes() const { return items_.limitBytes(); }
+    const TerrainItems& items() const { return names_; }
     /// From a page's first wish to its arrival, averaged over the last ones.
     std::chrono::duration<double> latency() const { return latency_; }
 
@@ -83,8 +102,13 @@ private:
     using Clock = std::chrono::steady_clock;
 
     TerrainPaging(std::shared_ptr<const terrain::EytFile> file, page::Loader& loader,
-                  const TerrainMemory& limits, std::uint64_t topBytes, std::uint64_t loaderBytes);
+                  const TerrainMemory& limits, TextureFormat format, std::uint64_t topBytes,
+                  std::uint64_t loaderBytes);
 
+    struct RankedItem {
+        TerrainItem item;
+        std::uint32_t rank;
+    };
     struct Failure {
         std::string message;
         Clock::time_point retryAt;
@@ -97,7 +121,7 @@ private:
         return !isEmpty(tile) || index_.hasNormals(tile);
     }
     bool isResident(const terrain::TileId& tile) const {
-        return tile == index_.quadtree.top() || tiles_.contains(index_.quadtree.tileIndex(tile));
+        return tile == index_.quadtree.top() || items_.contains(index_.quadtree.tileIndex(tile));
     }
     /// Whether it can be drawn: it and the tile that has its normals are resident.
     bool isDrawable(const terrain::TileId& tile) const {
@@ -110,33 +134,42 @@ private:
     std::uint64_t pageBytes(std::uint32_t page) const;
 
     void beginFrame();
-    std::vector<terrain::TileId> inOrder(std::vector<terrain::TileId> tiles,
-                                         const lod::ObjectView& view) const;
-    void rankTiles(const std::vector<terrain::TileId>& order, std::uint64_t reservedBytes);
+    /// A texture tile and those above it, up to below the top.
+    std::vector<terrain::TextureId> chainOf(terrain::TextureId texture) const;
+    /// What of `textures` and all above is drawn with, which gets its rank, and what lies below and
+    /// above that. Returns the bytes of the first.
+    std::uint64_t sortTextures(const std::vector<terrain::TextureId>& textures,
+                               std::vector<terrain::TextureId>& below,
+                               std::vector<terrain::TextureId>& above);
+    void rankItems(const std::vector<TerrainItem>& order, std::uint64_t reservedBytes);
     void rankPages(const std::vector<terrain::TileId>& prefetch);
     /// Returns how many pages have come.
     Loads keep(std::vector<page::Arrival> arrivals);
     void noteFailure(const page::Arrival& arrival);
     /// Returns whether it brought any.
     bool upload(std::chrono::duration<double> time);
+    /// One item of a page that is in memory; false when there is no room.
+    bool upload(const RankedItem& ranked, const std::shared_ptr<const void>& page);
     std::vector<page::Wish> missingPages();
+    std::vector<terrain::TextureId> readableOf(const std::vector<terrain::TextureId>& textures,
+                                               Clock::time_point start) const;
     /// The leaves of `cut` that are needed, and the tiles that have their normals.
     std::vector<terrain::TileId> tilesOf(const terrain::Refinement& cut,
                                          const NeededTiles& needed) const;
-    Result resultOf(terrain::Refinement drawn, const NeededTiles& needed) const;
+    Result resultOf(terrain::Refinement drawn, const NeededTiles& needed,
+                    const std::vector<terrain::TextureId>& textures) const;
 
     const std::shared_ptr<const terrain::EytFile> file_;
     const terrain::EytIndex& index_;
+    const TerrainItems names_;
     std::unique_ptr<DeviceTile> top_;
-    page::ResidentSet<std::uint32_t, DeviceTile> tiles_;                            // by tile index
-    page::ResidentSet<std::uint32_t, std::shared_ptr<const terrain::Page>> pages_;  // by page index
+    std::unique_ptr<DeviceTexture> topTexture_;  ///< null: it has none
+    page::ResidentSet<std::uint32_t, std::variant<DeviceTile, DeviceTexture>> items_;  // by key
+    /// By page: terrain::Page, or TextureImage.
+    page::ResidentSet<std::uint32_t, std::shared_ptr<const void>> pages_;
     std::uint64_t topBytes_;
 
-    struct RankedTile {
-        terrain::TileId tile;
-        std::uint32_t rank;
-    };
-    std::vector<RankedTile> missing_;  // of this frame, in the order in which they are to come
+    std::vector<RankedItem> missing_;  // of this frame, in the order in which they are to come
     struct RankedPage {
         std::uint32_t page;
         std::uint32_t rank;

@@ -14,6 +14,7 @@
 #include <xxhash.h>
 
 #include "fabric/status.h"
+#include "renderer/import/raster_file.h"
 #include "renderer/terrain/height_grid.h"
 
 namespace eyrie::import {
@@ -27,16 +28,6 @@ struct ValueRule {
     double offset = 0;
 };
 
-std::string gdalPath(const std::string& path) {
-    if (path.starts_with("/vsi"))
-        return path;
-    if (path.ends_with(".gz"))
-        return "/vsigzip/" + path;
-    if (path.ends_with(".zip"))
-        return "/vsizip/" + path;
-    return path;
-}
-
 absl::StatusOr<std::uint64_t> hashFile(const std::string& path) {
     const std::unique_ptr<VSILFILE, Releaser<VSIFCloseL>> file(VSIFOpenL(path.c_str(), "rb"));
     if (!file)
@@ -47,21 +38,6 @@ absl::StatusOr<std::uint64_t> hashFile(const std::string& path) {
     while (const std::size_t got = VSIFReadL(buffer.data(), 1, buffer.size(), file.get()))
         XXH64_update(state.get(), buffer.data(), got);
     return XXH64_digest(state.get());
-}
-
-absl::StatusOr<Dataset> openRaster(const std::string& path, QuietGdal& gdal) {
-    Dataset dataset(GDALOpenEx(gdalPath(path).c_str(),
-                               GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, nullptr,
-                               nullptr, nullptr));
-    if (!dataset)
-        return invalid(path, fmt::format("is no raster that GDAL {} reads ({}); give a DEM such as "
-                                         "a GeoTIFF",
-                                         GDALVersionInfo("RELEASE_NAME"), gdal.takeError()));
-    if (GDALGetRasterCount(dataset.get()) < 1)
-        return invalid(path,
-                       "has no raster band of its own; name one of its subdatasets instead "
-                       "(gdalinfo lists them)");
-    return dataset;
 }
 
 /// Refuses bands that hold something else than heights.
@@ -272,7 +248,7 @@ absl::StatusOr<DemFile> openDemFile(const std::string& path, QuietGdal& gdal) {
     file.path = path;
     if (VSIStatBufL status; VSIStatL(path.c_str(), &status) != 0)
         return absl::NotFoundError(fmt::format("{}: no such file, or not readable", path));
-    ASSIGN_OR_RETURN(Dataset dataset, openRaster(path, gdal));
+    ASSIGN_OR_RETURN(Dataset dataset, openRaster(path, "a DEM such as a GeoTIFF", gdal));
     const GDALRasterBandH band = GDALGetRasterBand(dataset.get(), 1);
     RETURN_IF_ERROR(checkBand(path, band));
     file.columns = GDALGetRasterXSize(dataset.get());

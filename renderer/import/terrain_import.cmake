@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-add_library(eyrie_terrain_import dem_file.cpp dem_source.cpp dem_warp.cpp elevation_reading.cpp gdal_handles.cpp geotiff_writer.cpp
-                                 import_journal.cpp page_line.cpp terrain_import.cpp terrain_stages.cpp terrain_synth.cpp)
+add_library(eyrie_terrain_import colour_file.cpp colour_warp.cpp dem_file.cpp dem_source.cpp dem_warp.cpp elevation_reading.cpp
+                                 gdal_handles.cpp geotiff_writer.cpp imagery_pages.cpp imagery_source.cpp import_journal.cpp
+                                 page_line.cpp raster_file.cpp terrain_import.cpp terrain_stages.cpp terrain_synth.cpp texel_store.cpp)
 add_library(eyrie::terrain_import ALIAS eyrie_terrain_import)
 target_link_libraries(eyrie_terrain_import PUBLIC eyrie::fabric eyrie::terrain PRIVATE GDAL::GDAL fmt::fmt PkgConfig::XXHASH TBB::tbb)
 # The noise loops: -O2 of g++ 12 leaves them scalar.

@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 #include <system_error>
 #include <utility>
 
@@ -17,8 +18,11 @@
 #include "fabric/status.h"
 #include "renderer/import/dem_source.h"
 #include "renderer/import/elevation_reading.h"
+#include "renderer/import/imagery_pages.h"
+#include "renderer/import/imagery_source.h"
 #include "renderer/import/page_line.h"
 #include "renderer/import/terrain_stages.h"
+#include "renderer/import/texel_store.h"
 #include "renderer/terrain/eyt_format.h"
 
 namespace eyrie::import {
@@ -65,33 +69,39 @@ terrain::EytIndex indexOf(const terrain::ElevationModel& model,
 
 TerrainImportReport reportOf(const terrain::EytIndex& index, double postMetres,
                              std::uint64_t sizeBytes) {
-    return {.columns = index.quadtree.columns(),
-            .rows = index.quadtree.rows(),
-            .levels = index.quadtree.levels(),
-            .triangles = index.triangles(),
-            .nodataPosts = index.nodataPosts,
-            .sizeBytes = sizeBytes,
-            .postMetres = postMetres,
-            .heightStepMetres = index.heightStepMetres(),
-            .finestErrorMetres = index.finestErrorMetres(),
-            .coarsestErrorMetres = index.coarsestErrorMetres(),
-            .notes = {}};
+    return {
+        .columns = index.quadtree.columns(),
+        .rows = index.quadtree.rows(),
+        .levels = index.quadtree.levels(),
+        .triangles = index.triangles(),
+        .nodataPosts = index.nodataPosts,
+        .sizeBytes = sizeBytes,
+        .postMetres = postMetres,
+        .heightStepMetres = index.heightStepMetres(),
+        .finestErrorMetres = index.finestErrorMetres(),
+        .coarsestErrorMetres = index.coarsestErrorMetres(),
+        .imagery = index.imagery ? std::optional(terrain::summaryOf(*index.imagery)) : std::nullopt,
+        .notes = {}};
 }
 
 /// Bytes that every import holds in memory, whatever lies on scratch.
-std::uint64_t residentBytes(const terrain::GridFrame& frame) {
+std::uint64_t residentBytes(const terrain::GridFrame& frame, bool hasImagery) {
     // The program with GDAL and PROJ, GDAL's cache, strips and pages under way: measured.
     constexpr std::uint64_t kProgram = std::uint64_t{144} << 20;
     // Summaries, coarse vertex levels, tile records, and those again while they are written.
     constexpr std::uint64_t kPostsPerByte = 10;
-    return kProgram + static_cast<std::uint64_t>(frame.columns) *
-                          static_cast<std::uint64_t>(frame.rows) / kPostsPerByte;
+    // What GDAL warps at once, and texture tiles under way.
+    constexpr std::uint64_t kImagery = std::uint64_t{40} << 20;
+    return kProgram + (hasImagery ? kImagery : 0) +
+           static_cast<std::uint64_t>(frame.columns) * static_cast<std::uint64_t>(frame.rows) /
+               kPostsPerByte;
 }
 
-std::uint64_t scratchBytes(const terrain::GridFrame& frame, std::uint64_t memoryBytes) {
+std::uint64_t scratchBytes(const terrain::GridFrame& frame, const TerrainImportOptions& options) {
     constexpr std::uint64_t kLeast = std::uint64_t{4} << 20;
-    const std::uint64_t resident = residentBytes(frame);
-    return std::max(kLeast, memoryBytes > resident ? memoryBytes - resident : 0);
+    const std::uint64_t resident = residentBytes(frame, !options.imagery.empty());
+    const std::uint64_t memory = options.memoryBytes;
+    return std::max(kLeast, memory > resident ? memory - resident : 0);
 }
 
 std::string scratchPath(const std::string& out, const std::string& folder) {
@@ -123,22 +133,27 @@ void removeLeftovers(const std::string& out) {
 /// One import: what it holds, and its stages.
 class TerrainJob {
 public:
-    TerrainJob(HeightSource& posts, const TerrainSource& source, const std::string& out,
-               const TerrainImportOptions& options, const ImportControl& control)
+    /// `imagery` may be null.
+    TerrainJob(HeightSource& posts, ImagerySource* imagery, const TerrainSource& source,
+               const std::string& out, const TerrainImportOptions& options,
+               const ImportControl& control)
         : posts_(posts),
+          imagery_(imagery),
           source_(source),
           out_(out),
           options_(options),
           control_(control),
-          scratch_(scratchPath(out, options.scratchFolder),
-                   scratchBytes(posts.frame(), options.memoryBytes)),
+          scratch_(scratchPath(out, options.scratchFolder), scratchBytes(posts.frame(), options)),
           model_(emptyModel(posts.frame(), scratch_)),
           levels_(terrain::Quadtree(static_cast<std::uint32_t>(model_.frame.columns),
                                     static_cast<std::uint32_t>(model_.frame.rows))
                       .levels()),
           heights_(model_, scratch_, std::max(1, terrain::Quadtree::spacingShift(levels_ - 1))),
           normals_(model_, scratch_, levels_),
-          vertexLevels_(model_, scratch_) {}
+          vertexLevels_(model_, scratch_) {
+        if (imagery_ != nullptr)
+            texels_.emplace(imagery_->pyramid(), scratch_);
+    }
 
     absl::StatusOr<TerrainImportReport> run() {
         removeLeftovers(out_);
@@ -198,6 +213,12 @@ private:
         if (index.triangles() == 0)
             return absl::InvalidArgumentError(fmt::format(
                 "{}: no three neighbouring posts have data; check the nodata value", source_.name));
+        if (imagery_ != nullptr) {
+            ASSIGN_OR_RETURN(
+                index.imagery,
+                buildImagery(*imagery_, fmt::format("{}", fmt::join(options_.imagery, ", ")),
+                             *texels_, scratch_, control_, writer));
+        }
         ASSIGN_OR_RETURN(const std::uint64_t sizeBytes, writer.commit(index));
         return reportOf(index, postMetres, sizeBytes);
     }
@@ -205,6 +226,7 @@ private:
     static constexpr int kImportVersion = 1;  ///< raise it when scratch or journal change
 
     HeightSource& posts_;
+    ImagerySource* imagery_;
     const TerrainSource& source_;
     const std::string& out_;
     const TerrainImportOptions& options_;
@@ -215,6 +237,8 @@ private:
     terrain::HeightLayers heights_;
     terrain::NormalMaps normals_;
     terrain::VertexLevels vertexLevels_;
+    std::optional<TexelStore>
+        texels_;  ///< reserved last: where the rest lies does not depend on it
 };
 
 }  // namespace
@@ -228,7 +252,15 @@ absl::StatusOr<TerrainImportReport> importTerrain(HeightSource& posts, const Ter
         options.threads > 0
             ? static_cast<std::size_t>(options.threads)
             : tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
-    return TerrainJob(posts, source, out, options, control).run();
+    OpenImagery imagery;
+    if (!options.imagery.empty()) {
+        ASSIGN_OR_RETURN(imagery,
+                         openImagery(options.imagery, posts.frame(), source.crsWkt, control));
+    }
+    ASSIGN_OR_RETURN(TerrainImportReport report,
+                     TerrainJob(posts, imagery.texels.get(), source, out, options, control).run());
+    report.notes = std::move(imagery.notes);
+    return report;
 }
 
 absl::StatusOr<TerrainImportReport> importTerrain(const terrain::HeightGrid& grid,
@@ -250,7 +282,7 @@ absl::StatusOr<TerrainImportReport> importTerrain(const std::vector<std::string>
     ASSIGN_OR_RETURN(
         TerrainImportReport report,
         importTerrain(*source.posts, {name, source.crsWkt, source.hash}, out, options, control));
-    report.notes = std::move(source.notes);
+    report.notes.insert(report.notes.begin(), source.notes.begin(), source.notes.end());
     return report;
 }
 

@@ -11,6 +11,7 @@
 #include "renderer/import/height_source.h"
 #include "renderer/import/progress.h"
 #include "renderer/terrain/height_grid.h"
+#include "renderer/terrain/imagery/imagery_index.h"
 
 namespace eyrie::import {
 
@@ -32,10 +33,11 @@ struct TerrainImportReport {
     double heightStepMetres = 0;
     double finestErrorMetres = 0;
     double coarsestErrorMetres = 0;
+    std::optional<terrain::ImagerySummary> imagery = {};
     std::vector<std::string> notes;  ///< what was assumed or changed, for people
 };
 
-/// How an import goes about it. None but errorMetres changes what is made.
+/// How an import goes about it. None but imagery and errorMetres changes what is made.
 struct TerrainImportOptions {
     /// Of the whole process, about; at least kLeastImportMemory. What does not fit goes to a
     /// scratch file.
@@ -44,8 +46,9 @@ struct TerrainImportOptions {
     std::string scratchFolder = {};
     /// What level 0 may leave out; none: nothing that its lattice of heights can tell.
     std::optional<double> errorMetres = {};
-    bool startsOver = false;  ///< ignores what an interrupted import left
-    int threads = 0;          ///< 0: all
+    std::vector<std::string> imagery = {};  ///< pictures to lay over it, see openImagery
+    bool startsOver = false;                ///< ignores what an interrupted import left
+    int threads = 0;                        ///< 0: all
 };
 
 inline constexpr std::uint64_t kLeastImportMemory = std::uint64_t{192} << 20;
@@ -64,9 +67,10 @@ struct TerrainSource {
 /// called off, killed or ran out of disk leaves it, and the same call goes on after the last
 /// stage that was finished; the result is the same to the byte. Imports that fit leave nothing.
 ///
-/// Stages reported: checking, reading, measuring, joining, thinning, smoothing, building.
-/// Errors: those of openMosaic; NotFound, PermissionDenied, ResourceExhausted for `out` and the
-/// scratch; InvalidArgument when no cell has data on three corners; Cancelled.
+/// Stages reported: checking, reading, measuring, joining, thinning, smoothing, building, imagery.
+/// Errors: those of openMosaic, openImagery and buildImagery; NotFound, PermissionDenied,
+/// ResourceExhausted for `out` and the scratch; InvalidArgument when no cell has data on three
+/// corners; Cancelled.
 absl::StatusOr<TerrainImportReport> importTerrain(const std::vector<std::string>& dems,
                                                   const std::string& out,
                                                   const TerrainImportOptions& options,

@@ -86,9 +86,10 @@ absl::Status parseIndex(const FileHeader& header, const std::vector<char>& bytes
     const std::uint64_t tilesBytes = std::uint64_t{index.quadtree.tileCount()} * sizeof(TileRecord);
     const std::uint64_t pagesOffset = roundUp(tilesOffset + tilesBytes, 8);
     const std::uint64_t pagesBytes = std::uint64_t{index.quadtree.pageCount()} * sizeof(PageRecord);
-    if (header.crsBytes > kMaxCrsBytes || pagesOffset + pagesBytes != bytes.size())
-        return corrupt(path, fmt::format("header.indexBytes is {}, expected {}", bytes.size(),
-                                         pagesOffset + pagesBytes));
+    const std::uint64_t pagesEnd = pagesOffset + pagesBytes;
+    if (header.crsBytes > kMaxCrsBytes || pagesEnd > bytes.size())
+        return corrupt(path, fmt::format("header.indexBytes is {}, expected {} at least",
+                                         bytes.size(), pagesEnd));
     index.crsWkt.assign(bytes.data(), header.crsBytes);
     index.tiles.resize(index.quadtree.tileCount());
     std::memcpy(index.tiles.data(), bytes.data() + tilesOffset, tilesBytes);
@@ -106,6 +107,10 @@ absl::Status parseIndex(const FileHeader& header, const std::vector<char>& bytes
             return corrupt(path, fmt::format("page {}: {} bytes at {} do not lie among the pages",
                                              k, page.bytes, page.offset));
     }
+    if (pagesEnd == bytes.size())
+        return absl::OkStatus();
+    const auto rest = std::as_bytes(std::span(bytes)).subspan(pagesEnd);
+    ASSIGN_OR_RETURN(index.imagery, imageryFrom(rest, index.quadtree, header.indexOffset, path));
     return absl::OkStatus();
 }
 
@@ -225,6 +230,19 @@ absl::StatusOr<std::shared_ptr<const Page>> EytFile::readPage(std::uint32_t page
     ASSIGN_OR_RETURN(Page decoded, Page::decode(bytes, place));
     RETURN_IF_ERROR(checkAgainstIndex(decoded, page, index_, place));
     return std::make_shared<const Page>(std::move(decoded));
+}
+
+absl::StatusOr<std::shared_ptr<const TexturePage>> EytFile::readTexture(
+    const TextureId& tile) const {
+    const ImageryIndex& imagery = *index_.imagery;
+    const PageRecord& record = imagery.tiles[imagery.pyramid.tileIndex(tile)];
+    const std::string name = fmt::format("texture tile {}/{}/{}", tile.level, tile.x, tile.y);
+    std::vector<std::byte> bytes(record.bytes);
+    RETURN_IF_ERROR(source_->read({record.offset, record.bytes, record.checksum}, bytes, name));
+    ASSIGN_OR_RETURN(TexturePage decoded, TexturePage::decode(bytes, imagery.pyramid.blocksX(tile),
+                                                              imagery.pyramid.blocksY(tile),
+                                                              fmt::format("{}: {}", path(), name)));
+    return std::make_shared<const TexturePage>(std::move(decoded));
 }
 
 }  // namespace eyrie::terrain

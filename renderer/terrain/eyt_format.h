@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,6 +15,9 @@
 #include "fabric/box.h"
 #include "fabric/vec.h"
 #include "renderer/page/page_source.h"
+#include "renderer/terrain/imagery/imagery_index.h"
+#include "renderer/terrain/imagery/texture_page.h"
+#include "renderer/terrain/page_record.h"
 #include "renderer/terrain/quadtree.h"
 
 /// The .eyt file: a terrain as a quadtree of triangulated tiles.
@@ -58,15 +62,6 @@ struct TileRecord {
     bool operator==(const TileRecord&) const = default;
 };
 
-/// Where a page lies in the file.
-struct PageRecord {
-    std::uint64_t offset = 0;
-    std::uint64_t bytes = 0;     ///< 0: none of its tiles has triangles or normals
-    std::uint64_t checksum = 0;  ///< XXH64 of the bytes
-
-    bool operator==(const PageRecord&) const = default;
-};
-
 /// All of an .eyt file but its pages; always resident.
 struct EytIndex {
     Quadtree quadtree;
@@ -76,6 +71,7 @@ struct EytIndex {
     std::uint64_t nodataPosts = 0;
     std::vector<TileRecord> tiles;  ///< by quadtree.tileIndex
     std::vector<PageRecord> pages;  ///< by quadtree.pageIndex
+    std::optional<ImageryIndex> imagery;
 
     const TileRecord& tile(const TileId& id) const { return tiles[quadtree.tileIndex(id)]; }
     /// Whether the tile's page has normals of it: it is drawn, or a tile that needs its normals is.
@@ -166,6 +162,9 @@ public:
     /// file has changed on its server), Unavailable (read error), others of PageSource::read.
     /// Precondition: page < index().pages.size().
     absl::StatusOr<std::shared_ptr<const Page>> readPage(std::uint32_t page) const;
+
+    /// The same of a texture tile. Precondition: index().imagery, which has the tile.
+    absl::StatusOr<std::shared_ptr<const TexturePage>> readTexture(const TextureId& tile) const;
 
 private:
     explicit EytFile(std::unique_ptr<page::PageSource> source) : source_(std::move(source)) {}

@@ -15,7 +15,8 @@
 ///   pages, each a PageHeader, `words` (uint16) and `raw` bytes of the geometry, the bytes of the
 ///   normals, and zeros up to a multiple of 4
 ///   index at FileHeader::indexOffset: CRS as WKT (crsBytes, padded to 8), then a TileRecord for
-///   every tile of the quadtree, then (at a multiple of 8) a PageRecord for every page
+///   every tile of the quadtree, then (at a multiple of 8) a PageRecord for every page, then, of a
+///   terrain with imagery, what imagery/imagery_index.h says; its texture tiles lie among the pages
 ///
 /// Tiles and pages are counted as Quadtree does. codec/ describes the bits of geometry and normals.
 namespace eyrie::terrain {

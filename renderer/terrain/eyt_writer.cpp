@@ -20,16 +20,20 @@
 namespace eyrie::terrain {
 namespace {
 
-/// The index's bytes: CRS, tiles, pages.
+/// The index's bytes: CRS, tiles, pages, imagery.
 std::vector<char> indexBytes(const EytIndex& index) {
     const std::uint64_t tilesOffset = roundUp(index.crsWkt.size(), 8);
     const std::uint64_t tilesBytes = index.tiles.size() * sizeof(TileRecord);
     const std::uint64_t pagesOffset = roundUp(tilesOffset + tilesBytes, 8);
     const std::uint64_t pagesBytes = index.pages.size() * sizeof(PageRecord);
-    std::vector<char> bytes(pagesOffset + pagesBytes);
+    const std::vector<std::byte> imagery =
+        index.imagery ? bytesOf(*index.imagery) : std::vector<std::byte>();
+    std::vector<char> bytes(pagesOffset + pagesBytes + imagery.size());
     std::memcpy(bytes.data(), index.crsWkt.data(), index.crsWkt.size());
     std::memcpy(bytes.data() + tilesOffset, index.tiles.data(), tilesBytes);
     std::memcpy(bytes.data() + pagesOffset, index.pages.data(), pagesBytes);
+    if (!imagery.empty())
+        std::memcpy(bytes.data() + pagesOffset + pagesBytes, imagery.data(), imagery.size());
     return bytes;
 }
 
@@ -154,9 +158,13 @@ absl::Status EytWriter::writeAt(const void* data, std::size_t bytes, std::uint64
 }
 
 absl::StatusOr<PageRecord> EytWriter::addPage(std::span<const std::uint32_t> page) {
+    return addPage(std::as_bytes(page));
+}
+
+absl::StatusOr<PageRecord> EytWriter::addPage(std::span<const std::byte> page) {
     if (page.empty())
         return PageRecord{};
-    const std::size_t bytes = page.size_bytes();
+    const std::size_t bytes = page.size();
     const PageRecord record{size_, bytes, XXH64(page.data(), bytes, 0)};
     RETURN_IF_ERROR(writeAt(page.data(), bytes, size_));
     // Starts the disk early, so that the flush at the end has little left to wait for.

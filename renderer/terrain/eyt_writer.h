@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -52,6 +53,7 @@ public:
     /// Appends a page; an empty one becomes a record of 0 bytes.
     /// Errors: ResourceExhausted (disk full), Unavailable.
     absl::StatusOr<PageRecord> addPage(std::span<const std::uint32_t> page);
+    absl::StatusOr<PageRecord> addPage(std::span<const std::byte> page);
 
     /// Writes index and header, flushes all to disk and renames. Returns the file's size.
     /// Precondition: index.pages holds what addPage returned.

@@ -26,6 +26,15 @@ Quadtree::Quadtree(std::uint32_t columns, std::uint32_t rows)
     } while (levels_.back().x > 1 || levels_.back().y > 1);
 }
 
+TileId Quadtree::tileOf(std::uint32_t index) const {
+    assert(index < tileCount_);
+    int level = levels() - 1;
+    while (levels_[static_cast<std::size_t>(level)].firstTile > index) --level;
+    const auto place =
+        static_cast<std::int32_t>(index - levels_[static_cast<std::size_t>(level)].firstTile);
+    return {level, place % tilesX(level), place / tilesX(level)};
+}
+
 std::uint32_t Quadtree::pageIndex(const TileId& tile) const {
     const Level& level = levels_[static_cast<std::size_t>(tile.level)];
     const std::int32_t row = tile.y / kPageTiles;

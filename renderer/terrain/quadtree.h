@@ -90,6 +90,8 @@ public:
         const Level& level = levels_[static_cast<std::size_t>(tile.level)];
         return level.firstTile + static_cast<std::uint32_t>(tile.y * level.x + tile.x);
     }
+    /// Precondition: index < tileCount().
+    TileId tileOf(std::uint32_t index) const;
     /// Pages of all levels in the same order.
     std::uint32_t pageCount() const { return pageCount_; }
     std::uint32_t pageIndex(const TileId& tile) const;

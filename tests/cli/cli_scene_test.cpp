@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@
 #include "renderer/import/mesh_synth.h"
 #include "renderer/import/ply_writer.h"
 #include "renderer/mesh/eym_format.h"
+#include "renderer/terrain/eyt_format.h"
 #include "tests/support/temporary_folder.h"
 
 namespace eyrie::cli {
@@ -127,6 +129,40 @@ TEST_F(SceneFiles, PathsStartAtTheSceneFilesFolder) {
     ASSERT_TRUE(assembled.ok()) << assembled.status();
     EXPECT_EQ(fs::path(assembled->objects.front().path).extension(), ".eym");
     EXPECT_EQ(assembled->background, (fabric::Rgba{255, 0, 0, 255}));
+}
+
+/// A picture of one colour without a place, which is stretched over the terrain.
+void writePixels(const std::string& path, char level) {
+    std::ofstream(path, std::ios::binary) << "P6 2 2 255\n" << std::string(12, level);
+}
+
+TEST_F(SceneFiles, ATerrainIsImportedWithItsImageryAndAgainWhenThatChanges) {
+    writeSlope(folder_);
+    writePixels(folder_.path("ground.ppm"), 'a');
+    const std::string path = folder_.path("scene.json");
+    std::ofstream(path) << R"({"objects":[{"terrain":"slope.tif","imagery":["ground.ppm"]}]})";
+    const auto scene = assemble({path});
+    ASSERT_TRUE(scene.ok()) << scene.status();
+    EXPECT_TRUE(scene->objects[0].imagery.empty());
+    const auto file = terrain::EytFile::open(scene->objects[0].path);
+    ASSERT_TRUE(file.ok()) << file.status();
+    EXPECT_TRUE((*file)->index().imagery.has_value());
+    ASSERT_TRUE(assemble({path}).ok());
+    EXPECT_EQ(importsKept(), 1U);
+    writePixels(folder_.path("ground.ppm"), 'b');
+    ASSERT_TRUE(assemble({path}).ok());
+    EXPECT_EQ(importsKept(), 2U);
+    ASSERT_TRUE(assemble({folder_.path("slope.tif")}).ok());
+    EXPECT_EQ(importsKept(), 3U) << "without imagery it is another terrain";
+}
+
+TEST_F(SceneFiles, ImageryOverAnImportedTerrainIsRefused) {
+    const auto scene = assemble({writeSlope(folder_)});
+    ASSERT_TRUE(scene.ok()) << scene.status();
+    const absl::Status refused =
+        cache_.dataFor(scene->objects[0].path, fabric::ObjectKind::Terrain, {"a.tif"}).status();
+    EXPECT_EQ(refused.code(), absl::StatusCode::kInvalidArgument);
+    EXPECT_THAT(refused.ToString(), testing::HasSubstr("a.tif"));
 }
 
 TEST_F(SceneFiles, AMessageNamesTheSceneFile) {

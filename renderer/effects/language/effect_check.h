@@ -11,7 +11,7 @@
 namespace eyrie::effects {
 
 /// Combinations of parameters that the build validates one by one.
-inline constexpr int kMaxVariants = 256;
+inline constexpr int kMaxVariants = 512;
 
 /// Whether `name` is lower_case.effect or lower_case.block: it makes a C++ class and a file name.
 bool isEffectFileName(std::string_view name);

@@ -38,6 +38,8 @@ fabric::Scene anyScene() {
             for (int row = 0; row < 3; ++row) object.worldFromObject[column][row] = number();
         object.colour = {fraction(), fraction(), fraction()};
         object.singleSided = object.kind == fabric::ObjectKind::Mesh && *rc::gen::arbitrary<bool>();
+        if (object.kind == fabric::ObjectKind::Terrain && *rc::gen::arbitrary<bool>())
+            object.imagery = {"a.tif", "folder/b.jpg"};
         scene.objects.push_back(object);
     }
     for (int i = 0; i < *rc::gen::inRange(0, 5); ++i)
@@ -110,6 +112,8 @@ TEST(WireScene, ARefusalNamesTheObjectAndField) {
                 testing::HasSubstr("objects[0].transform.axisDegrees"));
     EXPECT_THAT(refusal(R"({"objects":[{"terrain":"a","singleSided":true}]})"),
                 testing::HasSubstr("objects[0].singleSided"));
+    EXPECT_THAT(refusal(R"({"objects":[{"mesh":"a","imagery":["b.tif"]}]})"),
+                testing::HasSubstr("objects[0].imagery"));
     EXPECT_THAT(refusal(R"({"objects":[{"mesh":"a","colour":[0,0,2]}]})"),
                 testing::HasSubstr("objects[0].colour[2]"));
     EXPECT_THAT(refusal(R"({"background":["NaN",0,0]})"), testing::HasSubstr("background[0]"));

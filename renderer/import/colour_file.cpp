@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/import/colour_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <memory>
+#include <optional>
+
+#include <cpl_vsi.h>
+#include <fmt/format.h>
+#include <gdal_priv.h>
+
+#include "fabric/status.h"
+#include "renderer/import/raster_file.h"
+
+namespace eyrie::import {
+namespace {
+
+constexpr int kBands = 4;
+
+/// Which bands of a file hold what, and what their values mean.
+struct ColourRule {
+    std::array<int, 3> colours{1, 1, 1};  ///< bands, from 1
+    int alpha = 0;                        ///< 0: none
+    bool hasMask = false;
+    const GDALColorTable* palette = nullptr;
+    std::array<std::optional<double>, 3> nodata;
+    double bytePerValue = 1;
+    double alphaBytePerValue = 1;
+};
+
+int bandTagged(GDALDataset& dataset, GDALColorInterp tag) {
+    for (int band = 1; band <= dataset.GetRasterCount(); ++band)
+        if (dataset.GetRasterBand(band)->GetColorInterpretation() == tag)
+            return band;
+    return 0;
+}
+
+std::array<int, 3> colourBands(GDALDataset& dataset, int alpha) {
+    const std::array<int, 3> tagged = {bandTagged(dataset, GCI_RedBand),
+                                       bandTagged(dataset, GCI_GreenBand),
+                                       bandTagged(dataset, GCI_BlueBand)};
+    if (std::none_of(tagged.begin(), tagged.end(), [](int band) { return band == 0; }))
+        return tagged;
+    const int colours = dataset.GetRasterCount() - (alpha != 0 ? 1 : 0);
+    return colours >= 3 ? std::array{1, 2, 3} : std::array{1, 1, 1};
+}
+
+/// The largest value that 16-bit bands hold, by their tag or by a look at them.
+absl::StatusOr<double> brightest(const std::string& path, GDALDataset& dataset,
+                                 const std::array<int, 3>& bands) {
+    double most = 0;
+    for (const int number : bands) {
+        GDALRasterBand* const band = dataset.GetRasterBand(number);
+        if (const char* bits = band->GetMetadataItem("NBITS", "IMAGE_STRUCTURE")) {
+            most = std::max(most, std::exp2(std::clamp(std::atoi(bits), 1, 16)) - 1);
+            continue;
+        }
+        std::array<double, 2> range{};
+        if (band->ComputeRasterMinMax(TRUE, range.data()) == CE_None)
+            most = std::max(most, range[1]);
+    }
+    if (!(most > 0))
+        return invalid(path, "holds no value above 0; is it the picture you mean?");
+    return most;
+}
+
+absl::StatusOr<ColourRule> colourRule(const std::string& path, GDALDataset& dataset,
+                                      std::vector<std::string>& notes) {
+    ColourRule rule;
+    rule.alpha = bandTagged(dataset, GCI_AlphaBand);
+    rule.colours = colourBands(dataset, rule.alpha);
+    GDALRasterBand* const first = dataset.GetRasterBand(rule.colours[0]);
+    const GDALDataType type = first->GetRasterDataType();
+    if (type != GDT_Byte && type != GDT_UInt16 && type != GDT_Int16)
+        return invalid(path, fmt::format("holds {} values, not colours of 8 or 16 bits; turn it "
+                                         "into them with gdal_translate -ot Byte -scale",
+                                         GDALGetDataTypeName(type)));
+    rule.palette = first->GetColorTable();
+    rule.hasMask = rule.alpha == 0 && (first->GetMaskFlags() & GMF_PER_DATASET) != 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+        int isSet = 0;
+        const double value = dataset.GetRasterBand(rule.colours[c])->GetNoDataValue(&isSet);
+        if (isSet != 0)
+            rule.nodata[c] = value;
+    }
+    if (type != GDT_Byte && rule.palette == nullptr) {
+        ASSIGN_OR_RETURN(const double most, brightest(path, dataset, rule.colours));
+        rule.bytePerValue = 255 / most;
+        notes.push_back(fmt::format("{}: values of 0 to {} turned to 8 bits", path, most));
+    }
+    if (rule.alpha != 0 && dataset.GetRasterBand(rule.alpha)->GetRasterDataType() != GDT_Byte)
+        rule.alphaBytePerValue = 255.0 / 65535;
+    if (dataset.GetRasterCount() > 4 || (dataset.GetRasterCount() == 4 && rule.alpha == 0))
+        notes.push_back(fmt::format("{}: bands {}, {} and {} of {} taken for red, green and blue",
+                                    path, rule.colours[0], rule.colours[1], rule.colours[2],
+                                    dataset.GetRasterCount()));
+    return rule;
+}
+
+std::uint8_t toByte(double value) {
+    return static_cast<std::uint8_t>(std::clamp(std::lround(value), 0L, 255L));
+}
+
+class ColourDataset;
+
+/// One of the four bands; a block of one brings those of the others.
+class ColourBand : public GDALRasterBand {
+public:
+    ColourBand(ColourDataset* owner, int number, const GDALRasterBand& shape);
+
+    GDALColorInterp GetColorInterpretation() override {
+        constexpr std::array kTags = {GCI_RedBand, GCI_GreenBand, GCI_BlueBand, GCI_AlphaBand};
+        return kTags[static_cast<std::size_t>(nBand - 1)];
+    }
+
+protected:
+    CPLErr IReadBlock(int x, int y, void* data) override;
+};
+
+class ColourDataset : public GDALDataset {
+public:
+    ColourDataset(Dataset source, const ColourRule& rule)
+        : source_(std::move(source)), rule_(rule) {
+        GDALDataset& from = *GDALDataset::FromHandle(source_.get());
+        nRasterXSize = from.GetRasterXSize();
+        nRasterYSize = from.GetRasterYSize();
+        for (int band = 1; band <= kBands; ++band)
+            SetBand(band, new ColourBand(this, band, *from.GetRasterBand(rule.colours[0])));
+    }
+    ~ColourDataset() override { FlushCache(true); }
+
+    CPLErr GetGeoTransform(double* transform) override {
+        if (!transform_)
+            return GDALGetGeoTransform(source_.get(), transform);
+        std::copy(transform_->begin(), transform_->end(), transform);
+        return CE_None;
+    }
+    CPLErr SetGeoTransform(double* transform) override {
+        std::copy_n(transform, transform_.emplace().size(), transform_->begin());
+        return CE_None;
+    }
+    const OGRSpatialReference* GetSpatialRef() const override {
+        return GDALDataset::FromHandle(source_.get())->GetSpatialRef();
+    }
+
+    /// The four channels of a rectangle, one after the other.
+    CPLErr read(int i, int j, int columns, int rows, std::vector<std::uint8_t>& out) {
+        const std::size_t count =
+            static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+        out.resize(kBands * count);
+        values_.resize(kBands * count);
+        const int bands = rule_.colours[0] == rule_.colours[1] ? 1 : 3;
+        for (int c = 0; c < bands; ++c)
+            if (readBand(rule_.colours[static_cast<std::size_t>(c)], i, j, columns, rows,
+                         values_.data() + static_cast<std::size_t>(c) * count) != CE_None)
+                return CE_Failure;
+        int* const alpha = values_.data() + 3 * count;
+        if (rule_.alpha != 0 && readBand(rule_.alpha, i, j, columns, rows, alpha) != CE_None)
+            return CE_Failure;
+        if (rule_.hasMask && readMask(i, j, columns, rows, alpha) != CE_None)
+            return CE_Failure;
+        for (std::size_t k = 0; k < count; ++k) turn(k, count, bands, out);
+        return CE_None;
+    }
+
+private:
+    CPLErr readBand(int band, int i, int j, int columns, int rows, int* out) {
+        return GDALRasterIO(GDALGetRasterBand(source_.get(), band), GF_Read, i, j, columns, rows,
+                            out, columns, rows, GDT_Int32, 0, 0);
+    }
+    CPLErr readMask(int i, int j, int columns, int rows, int* out) {
+        return GDALRasterIO(GDALGetMaskBand(GDALGetRasterBand(source_.get(), rule_.colours[0])),
+                            GF_Read, i, j, columns, rows, out, columns, rows, GDT_Int32, 0, 0);
+    }
+
+    void turn(std::size_t k, std::size_t count, int bands, std::vector<std::uint8_t>& out) const {
+        bool isNodata = true;
+        std::array<std::uint8_t, kBands> texel{0, 0, 0, 255};
+        for (std::size_t c = 0; c < 3; ++c) {
+            const int value = values_[(bands == 1 ? 0 : c) * count + k];
+            isNodata = isNodata && rule_.nodata[c] && value == *rule_.nodata[c];
+            texel[c] = toByte(value * rule_.bytePerValue);
+        }
+        if (rule_.palette != nullptr)
+            texel = fromPalette(values_[k]);
+        if (rule_.alpha != 0)
+            texel[3] = toByte(values_[3 * count + k] * rule_.alphaBytePerValue);
+        else if (rule_.hasMask)
+            texel[3] = values_[3 * count + k] != 0 ? 255 : 0;
+        if (isNodata)
+            texel[3] = 0;
+        for (std::size_t c = 0; c < kBands; ++c) out[c * count + k] = texel[c];
+    }
+
+    std::array<std::uint8_t, kBands> fromPalette(int index) const {
+        GDALColorEntry entry{0, 0, 0, 0};
+        rule_.palette->GetColorEntryAsRGB(index, &entry);
+        return {toByte(entry.c1), toByte(entry.c2), toByte(entry.c3), toByte(entry.c4)};
+    }
+
+    Dataset source_;
+    ColourRule rule_;
+    std::optional<std::array<double, 6>> transform_;  ///< none: the source's
+    std::vector<int> values_;
+};
+
+ColourBand::ColourBand(ColourDataset* owner, int number, const GDALRasterBand& shape) {
+    poDS = owner;
+    nBand = number;
+    eDataType = GDT_Byte;
+    nRasterXSize = const_cast<GDALRasterBand&>(shape).GetXSize();
+    nRasterYSize = const_cast<GDALRasterBand&>(shape).GetYSize();
+    const_cast<GDALRasterBand&>(shape).GetBlockSize(&nBlockXSize, &nBlockYSize);
+    constexpr std::int64_t kMostValues = 1 << 22;
+    if (nBlockXSize < 1 || nBlockYSize < 1 || std::int64_t{nBlockXSize} * nBlockYSize > kMostValues)
+        nBlockXSize = nBlockYSize = 512;
+}
+
+CPLErr ColourBand::IReadBlock(int x, int y, void* data) {
+    const int i = x * nBlockXSize;
+    const int j = y * nBlockYSize;
+    const int columns = std::min(nBlockXSize, nRasterXSize - i);
+    const int rows = std::min(nBlockYSize, nRasterYSize - j);
+    std::vector<std::uint8_t> channels;
+    if (static_cast<ColourDataset*>(poDS)->read(i, j, columns, rows, channels) != CE_None)
+        return CE_Failure;
+    const std::size_t count = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+    for (int band = 1; band <= kBands; ++band) {
+        GDALRasterBlock* block = nullptr;
+        auto* to = static_cast<std::uint8_t*>(data);
+        if (band != nBand) {
+            block = poDS->GetRasterBand(band)->GetLockedBlockRef(x, y, TRUE);
+            if (block == nullptr)
+                return CE_Failure;
+            to = static_cast<std::uint8_t*>(block->GetDataRef());
+        }
+        const std::uint8_t* from = channels.data() + static_cast<std::size_t>(band - 1) * count;
+        for (int v = 0; v < rows; ++v, from += columns, to += nBlockXSize)
+            std::copy_n(from, columns, to);
+        if (block != nullptr)
+            block->DropLock();
+    }
+    return CE_None;
+}
+
+}  // namespace
+
+absl::StatusOr<ColourFile> openColourFile(const std::string& path, QuietGdal& gdal) {
+    ColourFile file;
+    file.path = path;
+    if (VSIStatBufL status; VSIStatL(path.c_str(), &status) != 0)
+        return absl::NotFoundError(fmt::format("{}: no such file, or not readable", path));
+    ASSIGN_OR_RETURN(Dataset dataset, openRaster(path, "a picture such as a GeoTIFF", gdal));
+    ASSIGN_OR_RETURN(const ColourRule rule,
+                     colourRule(path, *GDALDataset::FromHandle(dataset.get()), file.notes));
+    std::array<double, 6> t{};
+    file.isGeoreferenced = GDALGetGeoTransform(dataset.get(), t.data()) == CE_None;
+    const double determinant = t[1] * t[5] - t[2] * t[4];
+    if (file.isGeoreferenced && (determinant == 0 || !std::isfinite(determinant)))
+        return invalid(path,
+                       "its geotransform is not finite or has no area; set another "
+                       "(gdal_edit.py -a_ullr)");
+    if (const OGRSpatialReferenceH crs = GDALGetSpatialRef(dataset.get()))
+        file.crs.reset(OSRClone(crs));
+    file.dataset.reset(GDALDataset::ToHandle(new ColourDataset(std::move(dataset), rule)));
+    return file;
+}
+
+}  // namespace eyrie::import

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/import/colour_warp.h"
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include <cpl_string.h>
+#include <fmt/format.h>
+#include <gdal_alg.h>
+#include <gdalwarper.h>
+#include <glm/common.hpp>
+#include <glm/mat2x2.hpp>
+#include <glm/matrix.hpp>
+
+#include "fabric/status.h"
+
+namespace eyrie::import {
+namespace {
+
+using Transformer = std::unique_ptr<void, Releaser<GDALDestroyTransformer>>;
+using Options = std::unique_ptr<char*, Releaser<CSLDestroy>>;
+using WarpOptions = std::unique_ptr<GDALWarpOptions, Releaser<GDALDestroyWarpOptions>>;
+
+constexpr int kColours = 3;
+constexpr double kTransformPixels = 0.125;  ///< of the picture, that a transform may be off
+
+absl::Status cannotBeBrought(const ColourFile& file, QuietGdal& gdal) {
+    return invalid(file.path, fmt::format("cannot be brought to the terrain's CRS ({}); reproject "
+                                          "it with gdalwarp first",
+                                          gdal.takeError()));
+}
+
+/// The file's pixels in the terrain's CRS, without a reprojection where either has none.
+absl::StatusOr<Transformer> transformerOf(const ColourFile& file, const TexelGrid& grid,
+                                          QuietGdal& gdal) {
+    Options options;
+    if (grid.crs && file.crs) {
+        options.reset(CSLSetNameValue(options.release(), "SRC_SRS", wktOf(file.crs.get()).c_str()));
+        options.reset(CSLSetNameValue(options.release(), "DST_SRS", wktOf(grid.crs.get()).c_str()));
+    }
+    Transformer transformer(
+        GDALCreateGenImgProjTransformer2(file.dataset.get(), nullptr, options.get()));
+    if (!transformer)
+        return cannotBeBrought(file, gdal);
+    return transformer;
+}
+
+/// The whole terrain, each post the middle of a cell, with the picture's north on the terrain's.
+Georeference stretched(const TexelGrid& grid, int columns, int rows) {
+    const terrain::GridFrame& frame = grid.frame;
+    const fabric::Vec2 across = frame.perColumn * static_cast<double>(frame.columns);
+    const fabric::Vec2 up = frame.perRow * static_cast<double>(frame.rows);
+    const fabric::Vec2 corner = frame.origin - (frame.perColumn + frame.perRow) * 0.5;
+    return {corner + up, across / static_cast<double>(columns), up / -static_cast<double>(rows)};
+}
+
+fabric::Vec2 postOf(const fabric::Vec2& point, const terrain::GridFrame& frame) {
+    const glm::dmat2 pointFromPost(frame.perColumn, frame.perRow);
+    return glm::inverse(pointFromPost) * (point - frame.origin);
+}
+
+}  // namespace
+
+Georeference TexelGrid::reference(int texelShift) const {
+    const double posts = std::exp2(-texelShift);
+    return {frame.origin, frame.perColumn * posts, frame.perRow * posts};
+}
+
+absl::StatusOr<ColourPlace> placeOf(const ColourFile& file, const TexelGrid& grid,
+                                    QuietGdal& gdal) {
+    const double columns = GDALGetRasterXSize(file.dataset.get());
+    const double rows = GDALGetRasterYSize(file.dataset.get());
+    const terrain::GridFrame& frame = grid.frame;
+    if (!file.isGeoreferenced) {
+        const fabric::Vec2 size(frame.columns, frame.rows);
+        return ColourPlace{fabric::Vec2(-0.5), size - 0.5,
+                           std::sqrt(size.x * size.y / (columns * rows))};
+    }
+    ASSIGN_OR_RETURN(const Transformer transformer, transformerOf(file, grid, gdal));
+    // GDALSuggestedWarpOutput2 takes a picture that needs no reprojection for a square.
+    const auto postAt = [&](double column, double row, fabric::Vec2& post) {
+        double z = 0;
+        int isDone = 0;
+        GDALGenImgProjTransform(transformer.get(), FALSE, 1, &column, &row, &z, &isDone);
+        post = postOf({column, row}, frame);
+        return isDone != 0 && std::isfinite(post.x) && std::isfinite(post.y);
+    };
+    constexpr int kSteps = 20;
+    ColourPlace place;
+    place.low = fabric::Vec2(std::numeric_limits<double>::infinity());
+    place.high = -place.low;
+    double area = 0;
+    int cells = 0;
+    for (int j = 0; j <= kSteps; ++j)
+        for (int i = 0; i <= kSteps; ++i) {
+            const double column = columns * i / kSteps;
+            const double row = rows * j / kSteps;
+            fabric::Vec2 post;
+            fabric::Vec2 right;
+            fabric::Vec2 below;
+            if (!postAt(column, row, post))
+                continue;
+            place.low = glm::min(place.low, post);
+            place.high = glm::max(place.high, post);
+            if (postAt(column + 1, row, right) && postAt(column, row + 1, below)) {
+                area += std::abs(glm::determinant(glm::dmat2(right - post, below - post)));
+                ++cells;
+            }
+        }
+    if (cells == 0)
+        return cannotBeBrought(file, gdal);
+    // Sides may bulge between the points that were looked at.
+    const fabric::Vec2 margin = (place.high - place.low) / static_cast<double>(kSteps * kSteps);
+    place.low -= margin;
+    place.high += margin;
+    place.pixelPosts = std::sqrt(area / cells);
+    return place;
+}
+
+absl::StatusOr<Dataset> warpedTo(const ColourFile& file, const TexelGrid& grid, int texelShift,
+                                 const terrain::TexelRect& box, QuietGdal& gdal) {
+    if (!file.isGeoreferenced)
+        GDALSetGeoTransform(file.dataset.get(),
+                            geoTransform(stretched(grid, GDALGetRasterXSize(file.dataset.get()),
+                                                   GDALGetRasterYSize(file.dataset.get())))
+                                .data());
+    ASSIGN_OR_RETURN(Transformer exact, transformerOf(file, grid, gdal));
+    Georeference reference = grid.reference(texelShift);
+    reference.origin += reference.perColumn * static_cast<double>(box.x) +
+                        reference.perRow * static_cast<double>(box.y);
+    std::array<double, 6> t = geoTransform(reference);
+    GDALSetGenImgProjTransformerDstGeoTransform(exact.get(), t.data());
+    Transformer transformer(
+        GDALCreateApproxTransformer(GDALGenImgProjTransform, exact.get(), kTransformPixels));
+    GDALApproxTransformerOwnsSubtransformer(transformer.get(), TRUE);
+    exact.release();
+
+    const WarpOptions options(GDALCreateWarpOptions());
+    options->hSrcDS = file.dataset.get();
+    options->eResampleAlg = GRA_Bilinear;
+    options->eWorkingDataType = GDT_Byte;
+    options->dfWarpMemoryLimit = 16 << 20;
+    GDALWarpInitDefaultBandMapping(options.get(), kColours);
+    options->nSrcAlphaBand = kColours + 1;
+    options->nDstAlphaBand = kColours + 1;
+    options->papszWarpOptions =
+        CSLSetNameValue(options->papszWarpOptions, "NUM_THREADS", "ALL_CPUS");
+    options->papszWarpOptions = CSLSetNameValue(options->papszWarpOptions, "INIT_DEST", "0");
+    options->pfnTransformer = GDALApproxTransform;
+    options->pTransformerArg = transformer.release();  // of the result from here on
+    Dataset result(
+        GDALCreateWarpedVRT(file.dataset.get(), box.columns, box.rows, t.data(), options.get()));
+    if (!result)
+        return cannotBeBrought(file, gdal);
+    return result;
+}
+
+}  // namespace eyrie::import

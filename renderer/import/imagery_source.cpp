@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/import/imagery_source.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+
+#include "fabric/status.h"
+#include "renderer/import/colour_file.h"
+#include "renderer/import/colour_warp.h"
+
+namespace eyrie::import {
+namespace {
+
+using terrain::TexelRect;
+using terrain::TexturePyramid;
+
+/// A texel may be this many octaves larger than the finest picture's pixel: 2^(1/4).
+constexpr double kOctavesOfSlack = 0.25;
+constexpr double kEquallyFine = 0.01;
+
+struct Layer {
+    ColourFile file;
+    ColourPlace place;
+    Dataset warped;  ///< its texels of `box`
+    TexelRect box;   ///< of the finest level
+};
+
+class LayeredImagery : public ImagerySource {
+public:
+    /// Best layer first.
+    LayeredImagery(std::vector<Layer> layers, const TexturePyramid& pyramid, bool isLastRowFirst)
+        : layers_(std::move(layers)), pyramid_(pyramid), isLastRowFirst_(isLastRowFirst) {}
+
+    const TexturePyramid& pyramid() const override { return pyramid_; }
+    bool isLastRowFirst() const override { return isLastRowFirst_; }
+
+    absl::Status read(const TexelRect& window, std::span<fabric::Rgba> out) override {
+        std::fill(out.begin(), out.end(), fabric::Rgba{0, 0, 0, 0});
+        const TexelRect inside =
+            intersection(window, {0, 0, static_cast<std::int32_t>(pyramid_.width(0)),
+                                  static_cast<std::int32_t>(pyramid_.height(0))});
+        for (const Layer& layer : layers_) {
+            const TexelRect part = intersection(inside, layer.box);
+            if (part.columns > 0 && part.rows > 0)
+                RETURN_IF_ERROR(add(layer, part, window, out.data()));
+        }
+        repeatBorder(inside, window, out.data());
+        return absl::OkStatus();
+    }
+
+private:
+    static TexelRect intersection(const TexelRect& a, const TexelRect& b) {
+        const std::int64_t x = std::max(a.x, b.x);
+        const std::int64_t y = std::max(a.y, b.y);
+        return {x, y,
+                static_cast<std::int32_t>(
+                    std::max<std::int64_t>(0, std::min(a.x + a.columns, b.x + b.columns) - x)),
+                static_cast<std::int32_t>(
+                    std::max<std::int64_t>(0, std::min(a.y + a.rows, b.y + b.rows) - y))};
+    }
+
+    /// Fills in what has no better picture so far.
+    absl::Status add(const Layer& layer, const TexelRect& part, const TexelRect& window,
+                     fabric::Rgba* out) {
+        constexpr int kBands = 4;
+        buffer_.resize(static_cast<std::size_t>(part.columns) *
+                       static_cast<std::size_t>(part.rows));
+        QuietGdal gdal;
+        if (GDALDatasetRasterIO(layer.warped.get(), GF_Read, static_cast<int>(part.x - layer.box.x),
+                                static_cast<int>(part.y - layer.box.y), part.columns, part.rows,
+                                buffer_.data(), part.columns, part.rows, GDT_Byte, kBands, nullptr,
+                                kBands, kBands * part.columns, 1) != CE_None)
+            return absl::DataLossError(
+                fmt::format("{}: its pixels cannot be read ({}); the file may be truncated",
+                            layer.file.path, gdal.takeError()));
+        const fabric::Rgba* from = buffer_.data();
+        for (std::int32_t v = 0; v < part.rows; ++v) {
+            fabric::Rgba* to = out + (part.y + v - window.y) * window.columns + (part.x - window.x);
+            for (std::int32_t u = 0; u < part.columns; ++u, ++to, ++from)
+                if (to->a < 128 && from->a > to->a)
+                    *to = *from;
+        }
+        return absl::OkStatus();
+    }
+
+    /// Precondition: `inside` is not empty.
+    static void repeatBorder(const TexelRect& inside, const TexelRect& window, fabric::Rgba* out) {
+        const std::int64_t left = inside.x - window.x;
+        const std::int64_t top = inside.y - window.y;
+        for (std::int64_t v = top; v < top + inside.rows; ++v) {
+            fabric::Rgba* const row = out + v * window.columns;
+            std::fill(row, row + left, row[left]);
+            std::fill(row + left + inside.columns, row + window.columns,
+                      row[left + inside.columns - 1]);
+        }
+        for (std::int64_t v = 0; v < window.rows; ++v) {
+            const std::int64_t source = std::clamp(v, top, top + inside.rows - 1);
+            if (source != v)
+                std::copy_n(out + source * window.columns, window.columns,
+                            out + v * window.columns);
+        }
+    }
+
+    std::vector<Layer> layers_;
+    TexturePyramid pyramid_;
+    bool isLastRowFirst_;
+    std::vector<fabric::Rgba> buffer_;
+};
+
+/// Lays pictures over a terrain.
+class Overlay {
+public:
+    Overlay(const terrain::GridFrame& frame, const std::string& crsWkt) {
+        grid_.frame = frame;
+        if (crsWkt.empty())
+            return;
+        grid_.crs.reset(OSRNewSpatialReference(crsWkt.c_str()));
+        OSRSetAxisMappingStrategy(grid_.crs.get(), OAMS_TRADITIONAL_GIS_ORDER);
+        const double metres = OSRGetLinearUnits(grid_.crs.get(), nullptr);
+        grid_.frame.origin /= metres;
+        grid_.frame.perColumn /= metres;
+        grid_.frame.perRow /= metres;
+    }
+
+    absl::Status add(const std::string& path) {
+        ASSIGN_OR_RETURN(ColourFile file, openColourFile(path, gdal_));
+        if (!file.isGeoreferenced)
+            notes_.push_back(
+                fmt::format("{} is not georeferenced: stretched over the whole terrain", path));
+        else if (file.crs && !grid_.crs)
+            return invalid(path,
+                           "has a CRS but the terrain has none; give the elevation model its "
+                           "own (gdal_edit.py -a_srs) and import it again");
+        else if (!file.crs && grid_.crs)
+            notes_.push_back(fmt::format("{} has no CRS: taken to be in the terrain's", path));
+        ASSIGN_OR_RETURN(const ColourPlace place, placeOf(file, grid_, gdal_));
+        const fabric::Vec2 last(grid_.frame.columns - 1, grid_.frame.rows - 1);
+        notes_.insert(notes_.end(), file.notes.begin(), file.notes.end());
+        names_ += (names_.empty() ? "" : ", ") + path;
+        const bool overlaps =
+            place.low.x < last.x && place.low.y < last.y && place.high.x > 0 && place.high.y > 0;
+        if (overlaps)
+            layers_.push_back({std::move(file), place, nullptr, {}});
+        else
+            notes_.push_back(fmt::format("{} lies beside the terrain; it is left out", path));
+        return absl::OkStatus();
+    }
+
+    absl::StatusOr<OpenImagery> open() {
+        if (layers_.empty())
+            return absl::InvalidArgumentError(fmt::format(
+                "{}: no picture overlaps the terrain; check their coordinates and CRS (gdalinfo)",
+                names_));
+        std::reverse(layers_.begin(), layers_.end());
+        std::stable_sort(layers_.begin(), layers_.end(), [](const Layer& a, const Layer& b) {
+            return a.place.pixelPosts < b.place.pixelPosts * (1 - kEquallyFine);
+        });
+        const double octaves = -std::log2(layers_.front().place.pixelPosts) - kOctavesOfSlack;
+        const int shift = std::max(static_cast<int>(std::ceil(octaves)), terrain::kMinTexelShift);
+        if (!TexturePyramid::isPossible(grid_.frame.columns, grid_.frame.rows, shift))
+            return absl::ResourceExhaustedError(fmt::format(
+                "{}: its pixels are {:.3g} of a post, too fine for {} x {} posts (at most {} "
+                "texels a post, and {} tiles of {} squared in all); thin it out (gdal_translate "
+                "-outsize), or import a part of the terrain",
+                layers_.front().file.path, layers_.front().place.pixelPosts, grid_.frame.columns,
+                grid_.frame.rows, 1 << terrain::kMaxTexelShift, terrain::kMaxTextureTiles,
+                terrain::kTextureSide));
+        const TexturePyramid pyramid(grid_.frame.columns, grid_.frame.rows, shift);
+        for (Layer& layer : layers_) {
+            layer.box = boxOf(layer.place, pyramid);
+            ASSIGN_OR_RETURN(layer.warped, warpedTo(layer.file, grid_, shift, layer.box, gdal_));
+        }
+        notes_.push_back(fmt::format("imagery of {} x {} texels, 2^{} a post", pyramid.width(0),
+                                     pyramid.height(0), shift));
+        // Pictures begin in the north; so do the terrain's rows where they go towards lower y.
+        const bool isLastRowFirst = grid_.frame.perRow.y > 0;
+        return OpenImagery{
+            std::make_unique<LayeredImagery>(std::move(layers_), pyramid, isLastRowFirst),
+            std::move(notes_)};
+    }
+
+private:
+    /// The texels that a picture may cover.
+    static TexelRect boxOf(const ColourPlace& place, const TexturePyramid& pyramid) {
+        const double texels = std::exp2(pyramid.texelShift());
+        const fabric::Vec2 size(static_cast<double>(pyramid.width(0)),
+                                static_cast<double>(pyramid.height(0)));
+        const fabric::Vec2 low =
+            glm::clamp(glm::floor(place.low * texels) - 1.0, fabric::Vec2(0.0), size - 1.0);
+        const fabric::Vec2 high = glm::clamp(glm::ceil(place.high * texels) + 1.0, low + 1.0, size);
+        return {static_cast<std::int64_t>(low.x), static_cast<std::int64_t>(low.y),
+                static_cast<std::int32_t>(high.x - low.x),
+                static_cast<std::int32_t>(high.y - low.y)};
+    }
+
+    QuietGdal gdal_;
+    TexelGrid grid_;
+    std::vector<Layer> layers_;
+    std::vector<std::string> notes_;
+    std::string names_;
+};
+
+}  // namespace
+
+absl::StatusOr<OpenImagery> openImagery(const std::vector<std::string>& paths,
+                                        const terrain::GridFrame& frame, const std::string& crsWkt,
+                                        const ImportControl& control) {
+    Overlay overlay(frame, crsWkt);
+    for (const std::string& path : paths) {
+        RETURN_IF_ERROR(control.check());
+        RETURN_IF_ERROR(overlay.add(path));
+    }
+    return overlay.open();
+}
+
+}  // namespace eyrie::import

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <absl/status/statusor.h>
+
+#include "fabric/image.h"
+#include "renderer/import/progress.h"
+#include "renderer/terrain/height_grid.h"
+#include "renderer/terrain/imagery/texture_pyramid.h"
+
+namespace eyrie::import {
+
+/// Pictures on disk, laid over a terrain as one. One thread at a time.
+class ImagerySource {
+public:
+    virtual ~ImagerySource() = default;
+
+    virtual const terrain::TexturePyramid& pyramid() const = 0;
+    /// Rows are stored from the last to the first: quicker read in that order.
+    virtual bool isLastRowFirst() const = 0;
+    /// The texels of a window of the finest level, row by row, those outside of the level as its
+    /// nearest; alpha 0 where there is no picture. Errors: DataLoss.
+    virtual absl::Status read(const terrain::TexelRect& window, std::span<fabric::Rgba> out) = 0;
+};
+
+/// What pictures were opened as.
+struct OpenImagery {
+    std::unique_ptr<ImagerySource> texels;
+    std::vector<std::string> notes;  ///< what was assumed or changed, for people
+};
+
+/// Opens any pictures GDAL reads (see openColourFile) for a terrain on `frame`, in metres of
+/// `crsWkt` ("" for none). Pixels are read and warped, bilinearly, when texels are asked for.
+///
+/// Texels are a power of two smaller or larger than posts: at most 2^(1/4) of the finest picture's
+/// pixel. Where pictures overlap, the finest that has no hole there wins, among equally fine ones
+/// the one named last. A picture without a georeference is stretched over the whole terrain, north
+/// up; one without a CRS is taken to be in the terrain's.
+///
+/// Errors, naming the file: NotFound, InvalidArgument (no picture, not to be brought to the
+/// terrain, none overlaps it), ResourceExhausted (more texels than an .eyt holds).
+absl::StatusOr<OpenImagery> openImagery(const std::vector<std::string>& paths,
+                                        const terrain::GridFrame& frame, const std::string& crsWkt,
+                                        const ImportControl& control);
+
+}  // namespace eyrie::import
