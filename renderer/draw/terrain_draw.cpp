@@ -11,6 +11,7 @@
 #include "renderer/draw/terrain_prefetch.h"
 #include "renderer/draw/terrain_tiles.h"
 #include "renderer/gl/object.h"
+#include "renderer/lod/vertical_error.h"
 #include "renderer/page/tau_ladder.h"
 #include "renderer/terrain/eyt_format.h"
 #include "renderer/terrain/terrain_cut.h"
@@ -21,6 +22,8 @@ namespace {
 
 using effects::TerrainEffect;
 
+/// Tiles of a cut that keep tau whose triangles are looked at, to promise less: 0.1 ms each.
+constexpr int kMostLookedAt = 16;
 constexpr double kElevationBands = 5;  ///< of effects/terrain.effect
 
 /// What decides which step of the ladder fits.
@@ -79,6 +82,7 @@ private:
         std::uint64_t bytes = 0;  ///< of its visible tiles and all above, which may stand in
     };
     std::uint64_t bytesOf(const lod::ObjectView& view, const terrain::TerrainCut& cut);
+    double narrowerError(const CutRequest& request, const terrain::TileChoice& tile, double pixels);
     const Wanted& wantedAt(int step, const CutRequest& request);
     page::TauLadder::Choice chooseStep(const CutRequest& request);
     std::uint64_t drawTile(const TerrainEffect& program, const terrain::TileChoice& choice,
@@ -99,6 +103,7 @@ private:
     std::optional<SettledView> settled_;        ///< whose lowest step the ladder is at
     std::map<int, Wanted> wanted_;              ///< of this view and tau, by step
     std::vector<terrain::TileChoice> choices_;  ///< of the last cut; pieces index it
+    int lookedAt_ = 0;                          ///< tiles whose triangles were, of the last cut
 };
 
 std::uint64_t TerrainDrawable::bytesOf(const lod::ObjectView& view,
@@ -145,6 +150,29 @@ page::TauLadder::Choice TerrainDrawable::chooseStep(const CutRequest& request) {
     return ladder_.settle(need, paging_->roomBytes());
 }
 
+/// Judges a tile by the triangles that are drawn of it: one of the finest level that does not keep
+/// tau, about which nothing can be done (the eye may well be inside its box), and a few others that
+/// would decide what is promised. The channels that draw a tile that does not keep tau judge it.
+double TerrainDrawable::narrowerError(const CutRequest& request, const terrain::TileChoice& tile,
+                                      double pixels) {
+    const terrain::TileRecord& record = index().tile(tile.id);
+    const bool isLimit = tile.id.level == 0 && pixels > request.tauPixels;
+    if (record.mixesNodata || (!isLimit && lookedAt_ == kMostLookedAt))
+        return pixels;
+    if (!needed_.contains(tile.id) || record.triangles == 0)
+        return isLimit ? 0 : pixels;
+    lookedAt_ += isLimit ? 0 : 1;
+    const CornersByError corners = drawnCorners(index(), tile, *paging_->tile(tile.id));
+    double worst = 0;
+    for (std::size_t share = 1; share < corners.size(); ++share) {
+        const double errorMetres = static_cast<double>(record.errorMetres) *
+                                   static_cast<double>(share) / terrain::kFullPartError;
+        worst =
+            std::max(worst, lod::VerticalError(request.view, errorMetres).pixels(corners[share]));
+    }
+    return std::min(pixels, worst);
+}
+
 Cut TerrainDrawable::selectCut(const CutRequest& request) {
     wanted_.clear();
     const page::TauLadder::Choice choice = chooseStep(request);
@@ -158,7 +186,11 @@ Cut TerrainDrawable::selectCut(const CutRequest& request) {
             : paging_->approach(wanted.refinement, needed_, request.view,
                                 [&] { return prefetch_.tiles(tauPixels, paging_->latency()); });
 
-    terrain::TerrainCut drawn = terrain::cutOf(index(), request.view, result.drawn);
+    lookedAt_ = 0;
+    terrain::TerrainCut drawn = terrain::cutOf(index(), request.view, result.drawn,
+                                               [&](const terrain::TileChoice& tile, double pixels) {
+                                                   return narrowerError(request, tile, pixels);
+                                               });
     Cut cut;
     cut.tauAchievedPixels = drawn.tauAchievedPixels;
     cut.isComplete = result.pagesMissing == 0 && choice.isLowest;
@@ -217,10 +249,7 @@ std::uint64_t TerrainDrawable::drawTile(const TerrainEffect& program,
                                                     static_cast<GLintptr>(range.first) * 2);
         indices += range.count;
     };
-    add(terrain::kInteriorPart);
-    for (int edge = 0; edge < terrain::kEdges; ++edge)
-        add(((choice.finerEdges >> edge & 1) != 0 ? terrain::kFinerPart : terrain::kOwnPart) +
-            edge);
+    for (const int part : drawnParts(choice)) add(part);
     glMultiDrawElements(GL_TRIANGLES, counts.data(), GL_UNSIGNED_SHORT, offsets.data(), parts);
     return indices / 3;
 }

@@ -88,8 +88,10 @@ void TileMesher::finish() {
         const float source = samples_.height(std::min(column(p), quadtree_.columns() - 1),
                                              std::min(row(p), quadtree_.rows() - 1));
         const double drawn = vertex.q * lattice_.stepMetres;
-        mesh_.errorMetres =
-            std::max(mesh_.errorMetres, std::abs(drawn - static_cast<double>(source)));
+        const double deviation = std::abs(drawn - static_cast<double>(source));
+        mesh_.errorMetres = std::max(mesh_.errorMetres, deviation);
+        forEachPart(vertex.x - 1, vertex.y - 1, vertex.x + 1, vertex.y + 1,
+                    [&](double& error) { error = std::max(error, deviation); });
         mesh_.minHeightMetres = std::min(mesh_.minHeightMetres, drawn);
         mesh_.maxHeightMetres = std::max(mesh_.maxHeightMetres, drawn);
     }
@@ -138,13 +140,33 @@ void TileMesher::measure(TilePoint a, TilePoint b, TilePoint c, bool mayBeAligne
     const auto isUnmoved = [&](TilePoint p) {
         return column(p) < quadtree_.columns() && row(p) < quadtree_.rows();
     };
+    const std::int32_t x0 = std::min({a.x(), b.x(), c.x()});
+    const std::int32_t y0 = std::min({a.y(), b.y(), c.y()});
+    DeviationGoal goal{mesh_.errorMetres};
+    const auto forParts = [&](auto visit) { forEachPart(x0, y0, x0 + width, y0 + height, visit); };
+    forParts([&](double error) { goal.floor = std::min(goal.floor, error); });
     double deviation = 0;
     if (mayBeAligned && (!isCut_ || (isUnmoved(a) && isUnmoved(b) && isUnmoved(c))))
-        deviation = surface_.ofAligned(triangle, {mesh_.errorMetres});
+        deviation = surface_.ofAligned(triangle, goal);
     else if (std::int64_t{triangle[1].i - triangle[0].i} * (triangle[2].j - triangle[0].j) !=
              std::int64_t{triangle[2].i - triangle[0].i} * (triangle[1].j - triangle[0].j))
-        deviation = surface_.ofGeneral(triangle, {mesh_.errorMetres});
+        deviation = surface_.ofGeneral(triangle, goal);
     mesh_.errorMetres = std::max(mesh_.errorMetres, deviation);
+    // A mixed triangle deviates by its longest edge.
+    mesh_.mixesNodata = mesh_.mixesNodata ||
+                        (surface_.hasNodata() && deviation >= surface_.longestEdgeMetres(triangle));
+    forParts([&](double& error) { error = std::max(error, deviation); });
+}
+
+template <typename Visit>
+void TileMesher::forEachPart(std::int32_t x0, std::int32_t y0, std::int32_t x1, std::int32_t y1,
+                             Visit visit) {
+    const std::int32_t side = 2 * mesh_.shape.cells / kTilePartsPerSide;
+    const auto part = [&](std::int32_t at) {
+        return static_cast<std::size_t>(std::clamp(at / side, 0, kTilePartsPerSide - 1));
+    };
+    for (std::size_t y = part(y0); y <= part(y1 - 1); ++y)
+        for (std::size_t x = part(x0); x <= part(x1 - 1); ++x) visit(mesh_.partErrorMetres[y][x]);
 }
 
 void TileMesher::addTriangle(int part, TilePoint a, TilePoint b, TilePoint c) {

@@ -28,6 +28,10 @@ struct TileMesh {
     std::vector<std::uint8_t> isPresent;
     /// Greatest deviation of any triangle of any part from the source, nodata included.
     double errorMetres = 0;
+    /// The same of TileRecord's parts, by row and column.
+    std::array<std::array<double, kTilePartsPerSide>, kTilePartsPerSide> partErrorMetres{};
+    /// Whether a triangle of any part, dropped or not, may cover both data and nodata.
+    bool mixesNodata = false;
     double minHeightMetres = std::numeric_limits<double>::infinity();  ///< of the vertices
     double maxHeightMetres = -std::numeric_limits<double>::infinity();
 
@@ -75,6 +79,11 @@ private:
     void addTriangle(int part, TilePoint a, TilePoint b, TilePoint c);
     Corner corner(TilePoint p) const;
     void measure(TilePoint a, TilePoint b, TilePoint c, bool mayBeAligned);
+    /// Calls visit(double& errorMetres) for each part of which a rectangle, in half spacings,
+    /// covers some.
+    template <typename Visit>
+    void forEachPart(std::int32_t x0, std::int32_t y0, std::int32_t x1, std::int32_t y1,
+                     Visit visit);
     std::vector<std::uint16_t> dropUnused();
 
     SourceSurface& surface_;
