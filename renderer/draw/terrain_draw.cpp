@@ -18,6 +18,7 @@
 #include "renderer/draw/terrain_tiles.h"
 #include "renderer/draw/tile_imagery.h"
 #include "renderer/gl/object.h"
+#include "renderer/lod/vertical_error.h"
 #include "renderer/page/tau_ladder.h"
 #include "renderer/terrain/eyt_format.h"
 #include "renderer/terrain/terrain_cut.h"
@@ -33,6 +34,8 @@ constexpr double kElevationBands = 5;               ///< of effects/terrain.effe
 
 /// Where memory is short, texels grow as tau does.
 double texelPixels(int step) { return terrain::kTexelPixels * page::TauLadder::factor(step); }
+/// Tiles of a cut that keep tau whose triangles are looked at, to promise less.
+constexpr int kMostLookedAt = 16;
 
 /// What decides which step of the ladder fits.
 struct SettledView {
@@ -100,6 +103,7 @@ private:
     };
     std::uint64_t bytesOf(const lod::ObjectView& view, const terrain::TerrainCut& cut,
                           double texelPixels);
+    double narrowerError(const CutRequest& request, const terrain::TileChoice& tile, double pixels);
     const Wanted& wantedAt(int step, const CutRequest& request);
     page::TauLadder::Choice chooseStep(const CutRequest& request);
     /// By variant; null: not used in the frame so far.
@@ -130,6 +134,7 @@ private:
     std::optional<SettledView> settled_;        ///< whose lowest step the ladder is at
     std::map<int, Wanted> wanted_;              ///< of this view and tau, by step
     std::vector<terrain::TileChoice> choices_;  ///< of the last cut; pieces index it
+    int lookedAt_ = 0;                          ///< tiles whose triangles were, of the last cut
 };
 
 std::uint64_t TerrainDrawable::bytesOf(const lod::ObjectView& view, const terrain::TerrainCut& cut,
@@ -176,6 +181,29 @@ page::TauLadder::Choice TerrainDrawable::chooseStep(const CutRequest& request) {
     return ladder_.settle(need, paging_->roomBytes());
 }
 
+/// Judges a tile by the triangles that are drawn of it: one of the finest level that does not keep
+/// tau, about which nothing can be done (the eye may well be inside its box), and a few others that
+/// would decide what is promised. The channels that draw a tile that does not keep tau judge it.
+double TerrainDrawable::narrowerError(const CutRequest& request, const terrain::TileChoice& tile,
+                                      double pixels) {
+    const terrain::TileRecord& record = index().tile(tile.id);
+    const bool isLimit = tile.id.level == 0 && pixels > request.tauPixels;
+    if (record.mixesNodata || (!isLimit && lookedAt_ == kMostLookedAt))
+        return pixels;
+    if (!needed_.contains(tile.id) || record.triangles == 0)
+        return isLimit ? 0 : pixels;
+    lookedAt_ += isLimit ? 0 : 1;
+    const CornersByError corners = drawnCorners(index(), tile, *paging_->tile(tile.id));
+    double worst = 0;
+    for (std::size_t share = 1; share < corners.size(); ++share) {
+        const double errorMetres = static_cast<double>(record.errorMetres) *
+                                   static_cast<double>(share) / terrain::kFullPartError;
+        worst =
+            std::max(worst, lod::VerticalError(request.view, errorMetres).pixels(corners[share]));
+    }
+    return std::min(pixels, worst);
+}
+
 Cut TerrainDrawable::selectCut(const CutRequest& request) {
     wanted_.clear();
     const page::TauLadder::Choice choice = chooseStep(request);
@@ -192,7 +220,11 @@ Cut TerrainDrawable::selectCut(const CutRequest& request) {
             : paging_->approach(wanted.refinement, needed_, textures, request.view,
                                 [&] { return prefetch_.tiles(tauPixels, paging_->latency()); });
 
-    terrain::TerrainCut drawn = terrain::cutOf(index(), request.view, result.drawn);
+    lookedAt_ = 0;
+    terrain::TerrainCut drawn = terrain::cutOf(index(), request.view, result.drawn,
+                                               [&](const terrain::TileChoice& tile, double pixels) {
+                                                   return narrowerError(request, tile, pixels);
+                                               });
     Cut cut;
     cut.tauAchievedPixels = drawn.tauAchievedPixels;
     cut.isComplete = result.pagesMissing == 0 && choice.isLowest;
@@ -275,10 +307,7 @@ std::uint64_t TerrainDrawable::drawTile(const TerrainEffect& program,
         end = range.first + range.count;
         indices += range.count;
     };
-    add(terrain::kInteriorPart);
-    for (int edge = 0; edge < terrain::kEdges; ++edge)
-        add(((choice.finerEdges >> edge & 1) != 0 ? terrain::kFinerPart : terrain::kOwnPart) +
-            edge);
+    for (const int part : drawnParts(choice)) add(part);
     glMultiDrawElements(GL_TRIANGLES, counts.data(), GL_UNSIGNED_SHORT, offsets.data(), runs);
     return indices / 3;
 }

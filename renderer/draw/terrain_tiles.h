@@ -4,9 +4,11 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "renderer/gl/object.h"
 #include "renderer/terrain/eyt_format.h"
+#include "renderer/terrain/terrain_cut.h"
 
 namespace eyrie::draw {
 
@@ -25,5 +27,16 @@ struct DeviceTile {
     std::int32_t baseHeight = 0;
     std::int32_t heightMultiplier = 1;
 };
+
+/// The parts of a tile's index list that are drawn: the interior and one form of each edge.
+std::array<int, 1 + terrain::kEdges> drawnParts(const terrain::TileChoice& choice);
+
+/// The triangles that are drawn of a tile, three corners each in object space, by the error in
+/// fifteenths of the tile's (terrain::TileRecord) of the parts that they lie in.
+using CornersByError = std::array<std::vector<fabric::Vec3>, 1 + terrain::kFullPartError>;
+
+/// Read back from the device: some tens of microseconds.
+CornersByError drawnCorners(const terrain::EytIndex& index, const terrain::TileChoice& choice,
+                            const DeviceTile& tile);
 
 }  // namespace eyrie::draw

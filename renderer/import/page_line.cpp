@@ -29,13 +29,26 @@ float roundedUp(double value) {
                : std::nextafter(nearest, std::numeric_limits<float>::infinity());
 }
 
+std::uint64_t partErrors(const terrain::TileMesh& mesh, double errorMetres, double rounding) {
+    std::uint64_t shares = 0;
+    int shift = 0;
+    for (const auto& row : mesh.partErrorMetres)
+        for (const double error : row) {
+            shares |= terrain::partShare(error > 0 ? error + rounding : 0, errorMetres) << shift;
+            shift += 4;
+        }
+    return shares;
+}
+
 /// A tile's record before its children are known; no heights while min > max.
 terrain::TileRecord recordOf(const terrain::TileMesh& mesh, double rounding) {
     terrain::TileRecord record;
     record.errorMetres = mesh.errorMetres > 0 ? roundedUp(mesh.errorMetres + rounding) : 0;
+    record.partErrors = partErrors(mesh, record.errorMetres, rounding);
     record.minHeightMetres = -roundedUp(-mesh.minHeightMetres);
     record.maxHeightMetres = roundedUp(mesh.maxHeightMetres);
-    record.triangles = mesh.ownTriangles();
+    record.triangles = mesh.ownTriangles() & 0x7fffffff;
+    record.mixesNodata = mesh.mixesNodata;
     return record;
 }
 
@@ -62,7 +75,8 @@ void saturate(terrain::EytIndex& index) {
                     if (!quadtree.contains(child))
                         continue;
                     const terrain::TileRecord& finer = index.tile(child);
-                    record.errorMetres = std::max(record.errorMetres, finer.errorMetres);
+                    record.coverErrorsOf(i, finer);
+                    record.mixesNodata = record.mixesNodata || finer.mixesNodata;
                     record.minHeightMetres =
                         std::min(record.minHeightMetres, finer.minHeightMetres);
                     record.maxHeightMetres =

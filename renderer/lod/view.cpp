@@ -10,6 +10,8 @@
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "renderer/lod/frustum_clip.h"
+
 namespace eyrie::lod {
 namespace {
 
@@ -18,50 +20,6 @@ using fabric::Frustum;
 using fabric::Mat3;
 using fabric::Mat4;
 using fabric::Vec3;
-
-/// A convex polygon; a quadrilateral cut by four planes has at most eight corners.
-struct Polygon {
-    std::array<Vec3, 12> corners;
-    int count = 0;
-
-    void add(const Vec3& corner) { corners[static_cast<std::size_t>(count++)] = corner; }
-};
-
-/// Coordinates here are (x, y, depth) in view space, depth growing away from the eye.
-using Corners = std::array<Vec3, 8>;
-
-Corners viewCorners(const Box& bounds, const Mat4& viewFromObject) {
-    Corners corners;
-    for (int i = 0; i < 8; ++i) {
-        const Vec3 p(viewFromObject * fabric::Vec4(bounds.corner(i), 1.0));
-        corners[static_cast<std::size_t>(i)] = {p.x, p.y, -p.z};
-    }
-    return corners;
-}
-
-/// The four sides of a frustum as inward normals of planes through the eye.
-std::array<Vec3, 4> sidePlanes(const Frustum& f) {
-    return {Vec3{1, 0, -f.left}, Vec3{-1, 0, f.right}, Vec3{0, 1, -f.bottom}, Vec3{0, -1, f.top}};
-}
-
-/// Sutherland and Hodgman 1974, one plane.
-Polygon clip(const Polygon& polygon, const Vec3& plane) {
-    Polygon result;
-    for (int i = 0; i < polygon.count; ++i) {
-        const Vec3& a = polygon.corners[static_cast<std::size_t>(i)];
-        const Vec3& b = polygon.corners[static_cast<std::size_t>((i + 1) % polygon.count)];
-        const double da = glm::dot(plane, a);
-        const double db = glm::dot(plane, b);
-        if (da >= 0)
-            result.add(a);
-        if ((da >= 0) != (db >= 0))
-            result.add(a + (b - a) * (da / (da - db)));
-    }
-    return result;
-}
-
-constexpr std::array<std::array<std::size_t, 4>, 6> kFaces = {
-    {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}}};
 
 /// The part of a box inside a frustum: nearest depth and widest tangent off the axis.
 struct VisiblePart {
@@ -77,9 +35,8 @@ VisiblePart visiblePart(const Corners& corners, const Frustum& frustum) {
     for (const auto& face : kFaces) {
         Polygon polygon;
         for (const std::size_t i : face) polygon.add(corners[i]);
-        for (const Vec3& plane : planes) polygon = clip(polygon, plane);
-        for (int i = 0; i < polygon.count; ++i) {
-            const Vec3& p = polygon.corners[static_cast<std::size_t>(i)];
+        for (const Plane& plane : planes) polygon = clip(polygon, plane);
+        for (const Vec3& p : polygon) {
             part.minDepth = std::min(part.minDepth, p.z);
             if (p.z > 0)
                 part.maxTangentSquared =
@@ -135,15 +92,16 @@ ObjectView::ObjectView(const View& view, const Mat4& worldFromObject)
     Mat4 relativeFromObject = worldFromObject;
     relativeFromObject[3] -= fabric::Vec4(view.eye, 0.0);
     viewFromObject_ = Mat4(view.viewFromWorldRotation) * relativeFromObject;
+    objectFromView_ = glm::inverse(viewFromObject_);
 }
 
 bool ObjectView::isVisible(const Box& bounds, const Frustum& frustum) const {
     const Corners corners = viewCorners(bounds, viewFromObject_);
-    const auto allOutside = [&](const Vec3& plane) {
+    const auto allOutside = [&](const Plane& plane) {
         return std::all_of(corners.begin(), corners.end(),
-                           [&](const Vec3& p) { return glm::dot(plane, p) < 0; });
+                           [&](const Vec3& p) { return plane(p) < 0; });
     };
-    if (allOutside({0, 0, 1}))
+    if (allOutside({{0, 0, 1}}))
         return false;
     const auto planes = sidePlanes(frustum);
     return std::none_of(planes.begin(), planes.end(), allOutside);
@@ -177,8 +135,7 @@ double ObjectView::screenSpaceErrorPixels(double errorMetres, const Box& bounds)
         return 0;
     const Box grown = bounds.grownBy(errorMetres);
     const Corners corners = viewCorners(grown, viewFromObject_);
-    const Vec3 eyeInObject(glm::inverse(viewFromObject_)[3]);
-    if (grown.contains(eyeInObject))
+    if (grown.contains(Vec3(objectFromView_[3])))
         return std::numeric_limits<double>::infinity();
     // A visible point may be displaced out of the frustum, so the bound is taken over a frustum
     // wider by a margin; it holds once it is no larger than that margin (docs/errors.md).

@@ -43,15 +43,19 @@ public:
     /// An upper bound for every visible point in `bounds` and every direction of the error: it
     /// holds the 1/cos of the widest angle off axis besides the nearest depth. `bounds` covers the
     /// drawn surface; it is grown here by `errorMetres` to cover the source's. Infinite when the
-    /// grown bounds reach the eye; 0 when nothing of them can be seen.
+    /// grown bounds reach the eye; 0 when nothing of them can be seen. For errors along z, such as
+    /// terrain's, VerticalError is narrower.
     /// Proof: docs/errors.md#projection.
     double screenSpaceErrorPixels(double errorMetres, const fabric::Box& bounds) const;
 
     const View& view() const { return view_; }
+    const fabric::Mat4& viewFromObject() const { return viewFromObject_; }
+    const fabric::Mat4& objectFromView() const { return objectFromView_; }
 
 private:
     View view_;
     fabric::Mat4 viewFromObject_;
+    fabric::Mat4 objectFromView_;
     double metresPerObjectUnit_;  ///< the largest stretch of worldFromObject
 };
 

@@ -141,6 +141,35 @@ absl::Status checkAgainstIndex(const Page& page, std::uint32_t number, const Eyt
 
 }  // namespace
 
+double TileRecord::errorMetresOf(int x, int y, int count) const {
+    std::uint64_t greatest = 0;
+    for (int v = y; v < y + count; ++v)
+        for (int u = x; u < x + count; ++u) greatest = std::max(greatest, partError(u, v));
+    return static_cast<double>(errorMetres) * static_cast<double>(greatest) / kFullPartError;
+}
+
+void TileRecord::coverErrorsOf(int child, const TileRecord& record) {
+    const TileRecord own = *this;
+    errorMetres = std::max(errorMetres, record.errorMetres);
+    if (errorMetres == 0)
+        return;
+    partErrors = 0;
+    for (int y = 0; y < kTilePartsPerSide; ++y)
+        for (int x = 0; x < kTilePartsPerSide; ++x) {
+            double error = own.errorMetresOf(x, y, 1);
+            if (x / 2 == (child & 1) && y / 2 == child >> 1)
+                error = std::max(error, record.errorMetresOf(x % 2 * 2, y % 2 * 2, 2));
+            partErrors |= partShare(error, errorMetres) << 4 * (4 * y + x);
+        }
+}
+
+std::uint64_t partShare(double partMetres, double errorMetres) {
+    const double share = partMetres > 0 ? kFullPartError * (partMetres / errorMetres) : 0;
+    // Rounded up, but for what computing a share of a share has added.
+    return static_cast<std::uint64_t>(
+        std::min(std::ceil(share * (1 - 1e-12)), double{kFullPartError}));
+}
+
 bool EytIndex::hasNormals(const TileId& id) const {
     if (id.level < quadtree.normalLevel())
         return false;

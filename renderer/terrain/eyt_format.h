@@ -49,18 +49,39 @@ inline constexpr int kOwnPart = 1;
 inline constexpr int kFinerPart = 5;
 inline constexpr int kTileParts = 9;
 
+inline constexpr int kTilePartsPerSide = 4;  ///< of TileRecord::partErrors
+inline constexpr int kFullPartError = 15;
+
+/// A part's error as fifteenths of its tile's, rounded up.
+std::uint64_t partShare(double partMetres, double errorMetres);
+
 /// What is resident of every tile.
 struct TileRecord {
     /// Vertical distance, at most, between what any form of the tile draws and the source: both
-    /// diagonals of every cell and so the bilinear surface too, quantisation included. Not below
-    /// that of any tile under it. Where data and nodata mix it is the longest edge they mix on.
+    /// diagonals of every cell and so the bilinear surface too, quantisation included. Where data
+    /// and nodata mix it is the longest edge they mix on. Not below that of any tile under it.
     float errorMetres = 0;
     float minHeightMetres = 0;  ///< of what is drawn and of the source
     float maxHeightMetres = 0;
-    std::uint32_t triangles = 0;  ///< of interior and own borders; 0: nothing to draw
+    std::uint32_t triangles : 31 = 0;  ///< of interior and own borders; 0: nothing to draw
+    /// Whether a triangle of it, or of a tile under it, covers data and nodata. If not, its error
+    /// is vertical and nothing else.
+    bool mixesNodata : 1 = false;
+
+    /// The same of each of the tile's 4 x 4 parts: four bits each, fifteenths of errorMetres, row
+    /// by row from the lowest.
+    std::uint64_t partErrors = ~std::uint64_t{0};
+
+    /// Of one part, in fifteenths.
+    std::uint64_t partError(int x, int y) const { return partErrors >> 4 * (4 * y + x) & 15; }
+    /// Over a square of parts, from (x, y) on, `count` a side.
+    double errorMetresOf(int x, int y, int count) const;
+    /// Raises the errors to those of child 0 to 3.
+    void coverErrorsOf(int child, const TileRecord& record);
 
     bool operator==(const TileRecord&) const = default;
 };
+static_assert(sizeof(TileRecord) == 24);
 
 /// All of an .eyt file but its pages; always resident.
 struct EytIndex {

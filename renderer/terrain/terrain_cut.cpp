@@ -2,20 +2,87 @@
 #include "renderer/terrain/terrain_cut.h"
 
 #include <algorithm>
+#include <utility>
+
+#include "renderer/lod/vertical_error.h"
 
 namespace eyrie::terrain {
 namespace {
 
-double screenSpaceErrorPixels(const EytIndex& index, const lod::ObjectView& view,
-                              const TileId& tile) {
-    return view.screenSpaceErrorPixels(index.tile(tile).errorMetres, index.bounds(tile));
-}
+/// The error of one tile as one view sees it.
+class TileError {
+public:
+    TileError(const EytIndex& index, const lod::ObjectView& view, const TileId& tile)
+        : index_(index), view_(view), tile_(tile), record_(index.tile(tile)) {}
+
+    /// By the box of the whole tile: quick.
+    double atMost() const { return over(tile_); }
+
+    bool exceeds(double pixels) const { return exceeds(tile_, levelsDown(), pixels); }
+
+    /// The greatest over the parts; or anything up to `enough` when it is no more than that.
+    double pixels(double enough) const {
+        return std::max(enough, worstOver(tile_, atMost(), levelsDown(), enough));
+    }
+
+private:
+    static constexpr int kLevelsDown = 2;
+    static_assert(1 << kLevelsDown == kTilePartsPerSide);
+
+    int levelsDown() const { return record_.mixesNodata ? 0 : std::min(kLevelsDown, tile_.level); }
+
+    double over(const TileId& part) const {
+        const fabric::Box bounds = index_.bounds(part);
+        if (record_.mixesNodata)
+            return view_.screenSpaceErrorPixels(record_.errorMetres, bounds);
+        const int down = tile_.level - part.level;
+        const int count = kTilePartsPerSide >> down;
+        const double errorMetres = record_.errorMetresOf(
+            (part.x - (tile_.x << down)) * count, (part.y - (tile_.y << down)) * count, count);
+        return lod::VerticalError(view_, errorMetres).pixels(bounds);
+    }
+
+    template <typename Visit>
+    void forEachChild(const TileId& part, Visit visit) const {
+        for (int i = 0; i < 4; ++i)
+            if (const TileId child = Quadtree::child(part, i); index_.quadtree.contains(child))
+                visit(child);
+    }
+
+    bool exceeds(const TileId& part, int levelsDown, double pixels) const {
+        if (over(part) <= pixels)
+            return false;
+        if (levelsDown == 0)
+            return true;
+        bool any = false;
+        forEachChild(part, [&](const TileId& child) {
+            any = any || exceeds(child, levelsDown - 1, pixels);
+        });
+        return any;
+    }
+
+    /// `own` is over(part).
+    double worstOver(const TileId& part, double own, int levelsDown, double enough) const {
+        if (levelsDown == 0 || own <= enough)
+            return own;
+        double worst = enough;
+        forEachChild(part, [&](const TileId& child) {
+            worst = std::max(worst,
+                             worstOver(child, std::min(own, over(child)), levelsDown - 1, worst));
+        });
+        return worst;
+    }
+
+    const EytIndex& index_;
+    const lod::ObjectView& view_;
+    const TileId tile_;
+    const TileRecord& record_;
+};
 
 void refine(const EytIndex& index, const lod::ObjectView& view, double tauPixels,
             const TileId& tile, Refinement& refinement) {
     if (tile.level == 0 || index.tile(tile).errorMetres == 0 ||
-        !view.isVisible(index.bounds(tile)) ||
-        screenSpaceErrorPixels(index, view, tile) <= tauPixels)
+        !view.isVisible(index.bounds(tile)) || !TileError(index, view, tile).exceeds(tauPixels))
         return;
     refinement.split(tile);
     refinement.forEachChild(
@@ -31,7 +98,33 @@ std::uint8_t finerEdges(const Refinement& refinement, const TileId& tile) {
     return static_cast<std::uint8_t>(edges);
 }
 
+/// The greatest error of the tiles: worst first by their quick bound, so that few are looked at
+/// more closely.
+double worstError(const EytIndex& index, const lod::ObjectView& view,
+                  const std::vector<TileChoice>& tiles, const NarrowerError& narrower) {
+    std::vector<std::pair<double, const TileChoice*>> order;
+    for (const TileChoice& choice : tiles)
+        if (choice.isVisible)
+            order.emplace_back(TileError(index, view, choice.id).atMost(), &choice);
+    std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) {
+        return a.first != b.first ? a.first > b.first : a.second < b.second;
+    });
+    double worst = 0;
+    for (const auto& [atMost, choice] : order) {
+        if (atMost <= worst)
+            break;
+        const double pixels = TileError(index, view, choice->id).pixels(worst);
+        worst = std::max(worst, narrower && pixels > worst ? narrower(*choice, pixels) : pixels);
+    }
+    return worst;
+}
+
 }  // namespace
+
+double screenSpaceErrorPixels(const EytIndex& index, const lod::ObjectView& view,
+                              const TileId& tile) {
+    return TileError(index, view, tile).pixels(0);
+}
 
 Refinement refineForError(const EytIndex& index, const lod::ObjectView& view, double tauPixels) {
     Refinement refinement(index.quadtree);
@@ -40,17 +133,16 @@ Refinement refineForError(const EytIndex& index, const lod::ObjectView& view, do
     return refinement;
 }
 
-TerrainCut cutOf(const EytIndex& index, const lod::ObjectView& view, const Refinement& refinement) {
+TerrainCut cutOf(const EytIndex& index, const lod::ObjectView& view, const Refinement& refinement,
+                 const NarrowerError& narrower) {
     TerrainCut cut;
     refinement.forEachLeaf([&](const TileId& tile) {
-        TileChoice choice{.id = tile, .isVisible = view.isVisible(index.bounds(tile))};
-        if (choice.isVisible)
-            choice.screenSpaceErrorPixels = screenSpaceErrorPixels(index, view, tile);
-        cut.tauAchievedPixels = std::max(cut.tauAchievedPixels, choice.screenSpaceErrorPixels);
-        if (index.tile(tile).triangles == 0)
-            return;
-        choice.finerEdges = finerEdges(refinement, tile);
-        cut.tiles.push_back(choice);
+        cut.tiles.push_back(
+            {tile, finerEdges(refinement, tile), view.isVisible(index.bounds(tile))});
+    });
+    cut.tauAchievedPixels = worstError(index, view, cut.tiles, narrower);
+    std::erase_if(cut.tiles, [&](const TileChoice& choice) {
+        return index.tile(choice.id).triangles == 0;  // a hole; its outline's error does count
     });
     return cut;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "renderer/lod/view.h"
@@ -16,8 +17,7 @@ struct TileChoice {
     /// Bit `edge` is set where the neighbour beyond that edge is drawn one level finer: draw
     /// kFinerPart + edge there, kOwnPart + edge elsewhere.
     std::uint8_t finerEdges = 0;
-    bool isVisible = false;             ///< to the view
-    double screenSpaceErrorPixels = 0;  ///< 0 when the view does not see the tile
+    bool isVisible = false;  ///< to the view
 
     bool operator==(const TileChoice&) const = default;
 };
@@ -30,12 +30,24 @@ struct TerrainCut {
     double tauAchievedPixels = 0;  ///< bound over all visible tiles
 };
 
+/// Screen-space error of a tile, in pixels: a bound as lod::VerticalError's, over the boxes of the
+/// tile's parts two levels down, which lie closer to the ground than its own. Where the tile mixes
+/// data and nodata, the outline of which may be off to any side, ObjectView::screenSpaceErrorPixels
+/// of its own box.
+double screenSpaceErrorPixels(const EytIndex& index, const lod::ObjectView& view,
+                              const TileId& tile);
+
+/// A bound on the error of a tile that is narrower than `pixels`, where somebody knows one.
+using NarrowerError = std::function<double(const TileChoice& tile, double pixels)>;
+
 /// The coarsest restricted refinement whose visible tiles keep `tauPixels`, as far as the data go.
 /// Depends on the view alone, so all channels of a frame, on whatever node, choose the same.
 Refinement refineForError(const EytIndex& index, const lod::ObjectView& view, double tauPixels);
 
-/// The leaves of a restricted refinement, and how they are drawn.
-TerrainCut cutOf(const EytIndex& index, const lod::ObjectView& view, const Refinement& refinement);
+/// The leaves of a restricted refinement, and how they are drawn. `narrower` is asked of the tiles
+/// that would decide tauAchievedPixels, worst first.
+TerrainCut cutOf(const EytIndex& index, const lod::ObjectView& view, const Refinement& refinement,
+                 const NarrowerError& narrower = {});
 
 /// cutOf(refineForError()).
 TerrainCut selectCut(const EytIndex& index, const lod::ObjectView& view, double tauPixels);

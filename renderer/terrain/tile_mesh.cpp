@@ -24,6 +24,8 @@ void TileMesh::clear() {
     splits.clear();
     isPresent.clear();
     errorMetres = 0;
+    partErrorMetres = {};
+    mixesNodata = false;
     minHeightMetres = std::numeric_limits<double>::infinity();
     maxHeightMetres = -std::numeric_limits<double>::infinity();
 }
@@ -100,11 +102,11 @@ void TileMesher::finish() {
     measureVertices(numbers);
 }
 
-/// `numbers` is empty, or what dropUnused gave.
+/// `numbers` is what dropUnused gave; empty where all vertices have been counted.
 void TileMesher::measureVertices(const std::vector<std::uint16_t>& numbers) {
-    for (std::size_t k = 0; k < moved_.size(); ++k)
-        if (numbers.empty() || numbers[k] != kAbsentPoint)
-            mesh_.errorMetres = std::max(mesh_.errorMetres, moved_[k]);
+    for (std::size_t k = 0; k < numbers.size(); ++k)
+        if (numbers[k] != kAbsentPoint)
+            countVertex(mesh_.vertices[numbers[k]], moved_[k]);
     if (mesh_.vertices.empty())
         return;
     std::int32_t lowest = mesh_.vertices.front().q;
@@ -150,23 +152,56 @@ Corner TileMesher::corner(TilePoint p) const {
                          : mesh_.vertices[p.number].q * lattice_.stepMetres};
 }
 
-/// Whether all posts of a triangle are its vertices, which are measured as such.
-bool TileMesher::isHalfCell(TilePoint a, TilePoint b, TilePoint c) const {
-    const auto extent = [](std::int32_t u, std::int32_t v, std::int32_t w) {
-        return std::max(std::max(u, v), w) - std::min(std::min(u, v), w);
-    };
-    return shift_ == 0 && extent(a.x(), b.x(), c.x()) == 2 && extent(a.y(), b.y(), c.y()) == 2;
+TileMesher::Rectangle TileMesher::extent(TilePoint a, TilePoint b, TilePoint c) {
+    return {std::min({a.x(), b.x(), c.x()}), std::min({a.y(), b.y(), c.y()}),
+            std::max({a.x(), b.x(), c.x()}), std::max({a.y(), b.y(), c.y()})};
 }
 
-/// Whether a triangle of the global triangulation may deviate more than any so far. VertexLevels
-/// has measured it with the source's heights; here its corners have moved to the lattice.
-bool TileMesher::mayBeWorst(TilePoint apex, TilePoint left, TilePoint right) const {
-    if (isCut_ || apex.isAbsent() || left.isAbsent() || right.isAbsent())
-        return true;
+/// Whether all posts of a triangle are its vertices, which are measured as such.
+bool TileMesher::isHalfCell(TilePoint a, TilePoint b, TilePoint c) const {
+    if (shift_ != 0)
+        return false;
+    const Rectangle covered = extent(a, b, c);
+    return covered.x1 - covered.x0 == 2 && covered.y1 - covered.y0 == 2;
+}
+
+template <typename Visit>
+void TileMesher::forEachPart(const Rectangle& covered, Visit visit) {
+    const std::int32_t side = 2 * mesh_.shape.cells / kTilePartsPerSide;
+    const auto part = [&](std::int32_t at) {
+        return static_cast<std::size_t>(std::clamp(at / side, 0, kTilePartsPerSide - 1));
+    };
+    for (std::size_t y = part(covered.y0); y <= part(covered.y1 - 1); ++y)
+        for (std::size_t x = part(covered.x0); x <= part(covered.x1 - 1); ++x)
+            visit(mesh_.partErrorMetres[y][x]);
+}
+
+double TileMesher::leastPartError(const Rectangle& covered) {
+    double least = mesh_.errorMetres;
+    forEachPart(covered, [&](double error) { least = std::min(least, error); });
+    return least;
+}
+
+void TileMesher::countError(const Rectangle& covered, double deviationMetres) {
+    mesh_.errorMetres = std::max(mesh_.errorMetres, deviationMetres);
+    forEachPart(covered, [&](double& error) { error = std::max(error, deviationMetres); });
+}
+
+/// A vertex belongs to all triangles around it.
+void TileMesher::countVertex(const TileVertex& vertex, double movedMetres) {
+    countError({vertex.x - 1, vertex.y - 1, vertex.x + 1, vertex.y + 1}, movedMetres);
+}
+
+/// Whether a triangle of the global triangulation may deviate more than any so far of the parts
+/// that it lies in. VertexLevels has measured it with the source's heights; here its corners have
+/// moved to the lattice.
+bool TileMesher::mayBeWorst(TilePoint apex, TilePoint left, TilePoint right) {
+    if (mayHaveUnused() || apex.isAbsent() || left.isAbsent() || right.isAbsent())
+        return true;  // nodata has to be seen
     const TilePoint middle{(left.position + right.position) / 2, 0, 0};
     const double moved = std::max({moved_[apex.number], moved_[left.number], moved_[right.number]});
     return samples_.greatestDeviationMetres(column(middle), row(middle)) + moved >=
-           mesh_.errorMetres;
+           leastPartError(extent(apex, left, right));
 }
 
 void TileMesher::measure(TilePoint a, TilePoint b, TilePoint c, bool mayBeAligned) {
@@ -174,13 +209,18 @@ void TileMesher::measure(TilePoint a, TilePoint b, TilePoint c, bool mayBeAligne
     const auto isUnmoved = [&](TilePoint p) {
         return column(p) < quadtree_.columns() && row(p) < quadtree_.rows();
     };
+    const Rectangle covered = extent(a, b, c);
+    const DeviationGoal goal{leastPartError(covered)};
     double deviation = 0;
     if (mayBeAligned && (!isCut_ || (isUnmoved(a) && isUnmoved(b) && isUnmoved(c))))
-        deviation = surface_.ofAligned(triangle, {mesh_.errorMetres});
+        deviation = surface_.ofAligned(triangle, goal);
     else if (std::int64_t{triangle[1].i - triangle[0].i} * (triangle[2].j - triangle[0].j) !=
              std::int64_t{triangle[2].i - triangle[0].i} * (triangle[1].j - triangle[0].j))
-        deviation = surface_.ofGeneral(triangle, {mesh_.errorMetres});
-    mesh_.errorMetres = std::max(mesh_.errorMetres, deviation);
+        deviation = surface_.ofGeneral(triangle, goal);
+    // A mixed triangle deviates by its longest edge.
+    mesh_.mixesNodata = mesh_.mixesNodata ||
+                        (surface_.hasNodata() && deviation >= surface_.longestEdgeMetres(triangle));
+    countError(covered, deviation);
 }
 
 void TileMesher::addTriangle(int part, TilePoint a, TilePoint b, TilePoint c) {
@@ -200,7 +240,7 @@ std::uint16_t TileMesher::add(TilePoint p) {
     mesh_.vertices.push_back({p.x(), p.y(), q});
     moved_.push_back(std::abs(q * lattice_.stepMetres - static_cast<double>(source)));
     if (!mayHaveUnused())  // else it counts once it is known to be used
-        mesh_.errorMetres = std::max(mesh_.errorMetres, moved_.back());
+        countVertex(mesh_.vertices.back(), moved_.back());
     return static_cast<std::uint16_t>(mesh_.vertices.size() - 1);
 }
 

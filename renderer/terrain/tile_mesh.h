@@ -28,6 +28,10 @@ struct TileMesh {
     std::vector<std::uint8_t> isPresent;
     /// Greatest deviation of any triangle of any part from the source, nodata included.
     double errorMetres = 0;
+    /// The same of TileRecord's parts, by row and column.
+    std::array<std::array<double, kTilePartsPerSide>, kTilePartsPerSide> partErrorMetres{};
+    /// Whether a triangle of any part, dropped or not, may cover both data and nodata.
+    bool mixesNodata = false;
     double minHeightMetres = std::numeric_limits<double>::infinity();  ///< of the vertices
     double maxHeightMetres = -std::numeric_limits<double>::infinity();
 
@@ -77,8 +81,19 @@ private:
     void addTriangle(int part, TilePoint a, TilePoint b, TilePoint c);
     Corner corner(TilePoint p) const;
     bool isHalfCell(TilePoint a, TilePoint b, TilePoint c) const;
-    bool mayBeWorst(TilePoint apex, TilePoint left, TilePoint right) const;
+    /// Of the tile, in half spacings.
+    struct Rectangle {
+        std::int32_t x0, y0, x1, y1;
+    };
+    static Rectangle extent(TilePoint a, TilePoint b, TilePoint c);
+    /// Calls visit(double& errorMetres) for each part of which the rectangle covers some.
+    template <typename Visit>
+    void forEachPart(const Rectangle& covered, Visit visit);
+    bool mayBeWorst(TilePoint apex, TilePoint left, TilePoint right);
     void measure(TilePoint a, TilePoint b, TilePoint c, bool mayBeAligned);
+    double leastPartError(const Rectangle& covered);
+    void countError(const Rectangle& covered, double deviationMetres);
+    void countVertex(const TileVertex& vertex, double movedMetres);
     bool mayHaveUnused() const { return isCut_ || surface_.hasNodata(); }
     std::vector<std::uint16_t> dropUnused();
     void measureVertices(const std::vector<std::uint16_t>& numbers);

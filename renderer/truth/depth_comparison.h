@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -20,20 +21,43 @@ struct DepthComparison {
     /// Drawn at a depth that no reference pixel nearby has: something in front is missing, or
     /// something that should be hidden is in front (edges excepted).
     std::size_t misplaced = 0;
+    std::size_t suspects = 0;  ///< judged by the drawn point instead of by the depth
 };
+
+/// The point of the drawn surface that a picture point of some depth shows, where known.
+using ShownPoint =
+    std::function<std::optional<fabric::Vec3>(double x, double y, double depthMetres)>;
+
+struct Suspects {
+    double abovePixels = kNoHit;
+    ShownPoint shown;
+    static constexpr std::size_t kMost = 512;  ///< of a picture; more are no exceptions
+};
+
+/// How much farther than on the screen a surface may be off in depth: steeply from above one hardly
+/// sees it.
+inline constexpr double kDepthSlack = 4;
 
 /// Compares a picture with a reference, pixel by pixel.
 ///
 /// A pixel's displacement: its centre is taken back to the world at the tested depth, and the
 /// distance on the screen to the reference's counterpart of that point (ReferenceSurface) is
-/// measured, or, if smaller, that to the reference's hit in the same pixel, seen from the side.
+/// measured. Window coordinates being rounded to 1/256 pixel, the depth may be that of a point so
+/// far beside the centre: the least displacement around it counts.
+///
 /// Pixels within `edgePixels` of a place where the reference begins or ends are excepted from
-/// holes and falseHits, and depths are compared with the range of those within that distance:
-/// a surface moved by up to that much on the screen is no mistake.
+/// holes and falseHits, and depths are compared with the range of those within that distance, and
+/// kDepthSlack times that many pixels' size more: a surface moved by up to that much is no mistake.
+/// What the reference shows there is told by a ray per pixel, and where that does not explain a
+/// pixel by 256, which miss no more of a spire or gap than a width of 1/16 pixel.
 ///
 /// `depth`: view-space metres, infinity for nothing; rows from the bottom up, width * height of
 /// `camera`. Uses all cores.
+///
+/// A pixel displaced by more than `suspects.abovePixels` is judged by the drawn point that
+/// `suspects.shown` names for it, if any, instead of by its depth.
 DepthComparison compareDepth(const Pinhole& camera, std::span<const float> depth,
-                             const ReferenceSurface& reference, int edgePixels);
+                             const ReferenceSurface& reference, int edgePixels,
+                             const Suspects& suspects = {});
 
 }  // namespace eyrie::truth

@@ -86,7 +86,7 @@ std::uint32_t MeshRayCaster::build(std::uint32_t begin, std::uint32_t end) {
     return index;
 }
 
-double MeshRayCaster::firstHit(const Ray& ray, double) const {
+double MeshRayCaster::firstHit(const Ray& ray) const {
     const WatertightRay prepared(ray);
     double first = kNoHit;
     std::array<std::uint32_t, 64> stack;

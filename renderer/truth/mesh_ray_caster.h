@@ -23,7 +23,12 @@ public:
     /// Precondition: at least one triangle, indices within positions, positions finite.
     explicit MeshRayCaster(TriangleMesh mesh);
 
-    double firstHit(const Ray& ray, double near = kNoHit) const override;
+    /// The ray's parameter at its first hit, or kNoHit.
+    double firstHit(const Ray& ray) const;
+    HitRange hitRange(const Ray& ray) const override {
+        const double hit = firstHit(ray);
+        return {hit, hit};
+    }
     /// The closest point of the mesh.
     std::optional<fabric::Vec3> counterpart(const fabric::Vec3& point) const override;
 

@@ -15,9 +15,14 @@ class ReferenceSurface {
 public:
     virtual ~ReferenceSurface() = default;
 
-    /// The ray's parameter at its first hit, or kNoHit. Where the source allows several surfaces
-    /// (see TerrainRayCaster) the hit nearest to `near` is answered; kNoHit asks for the first.
-    virtual double firstHit(const Ray& ray, double near) const = 0;
+    /// Parameters between which a ray first hits the source; kNoHit where it may hit nothing.
+    struct HitRange {
+        double first = kNoHit;
+        double last = kNoHit;
+    };
+
+    /// Where a ray first hits: a range where the source allows several surfaces (TerrainRayCaster).
+    virtual HitRange hitRange(const Ray& ray) const = 0;
 
     /// The point of the source to hold `point` against: for terrain the one in the same column, for
     /// meshes the closest. Nothing where there is none.

@@ -131,8 +131,12 @@ double hitBilinear(const Cell& cell, const LocalRay& ray, Span span) {
 struct TerrainRayCaster::Traversal {
     Ray ray;  ///< in grid space: post (i, j) is at x = i, y = j; z stays metres
     std::array<double, kCellSurfaces> hits{kNoHit, kNoHit, kNoHit};
+    double upper = kNoHit;  ///< with the higher of the two diagonals in each cell
+    double lower = kNoHit;
 
-    double farthest() const { return *std::max_element(hits.begin(), hits.end()); }
+    double farthest() const {
+        return std::max({*std::max_element(hits.begin(), hits.end()), upper, lower});
+    }
     /// The part of the ray inside a box of cells and heights.
     Span within(double x0, double x1, double y0, double y1, double z0, double z1) const {
         Span span{0, farthest()};
@@ -203,10 +207,14 @@ Ray TerrainRayCaster::toGrid(const Ray& ray) const {
     return {{origin.x, origin.y, ray.origin.z}, {direction.x, direction.y, ray.direction.z}};
 }
 
-std::array<double, kCellSurfaces> TerrainRayCaster::firstHits(const Ray& ray) const {
-    Traversal traversal{toGrid(ray)};
+TerrainRayCaster::Traversal TerrainRayCaster::cast(const Ray& ray) const {
+    Traversal traversal{.ray = toGrid(ray)};
     visit(traversal, static_cast<int>(levels_.size()) - 1, 0, 0);
-    return traversal.hits;
+    return traversal;
+}
+
+std::array<double, kCellSurfaces> TerrainRayCaster::firstHits(const Ray& ray) const {
+    return cast(ray).hits;
 }
 
 void TerrainRayCaster::visit(Traversal& traversal, int level, int column, int row) const {
@@ -254,13 +262,16 @@ void TerrainRayCaster::visitCell(Traversal& traversal, int i, int j) const {
     const fabric::Vec3 p = ray.at(shift);
     const LocalRay local{p.x - i, p.y - j, p.z, ray.direction.x, ray.direction.y, ray.direction.z};
     const Span part{span.begin - shift, span.end - shift};
-    const auto keep = [&](CellSurface surface, double hit) {
-        double& first = traversal.hits[static_cast<std::size_t>(surface)];
-        first = std::min(first, hit + shift);
-    };
-    keep(CellSurface::MainDiagonal, hitTriangles(cell, CellSurface::MainDiagonal, local, part));
-    keep(CellSurface::OtherDiagonal, hitTriangles(cell, CellSurface::OtherDiagonal, local, part));
-    keep(CellSurface::Bilinear, hitBilinear(cell, local, part));
+    const auto keep = [&](double& first, double hit) { first = std::min(first, hit + shift); };
+    const double main = hitTriangles(cell, CellSurface::MainDiagonal, local, part);
+    const double other = hitTriangles(cell, CellSurface::OtherDiagonal, local, part);
+    keep(traversal.hits[static_cast<std::size_t>(CellSurface::MainDiagonal)], main);
+    keep(traversal.hits[static_cast<std::size_t>(CellSurface::OtherDiagonal)], other);
+    keep(traversal.hits[static_cast<std::size_t>(CellSurface::Bilinear)],
+         hitBilinear(cell, local, part));
+    const bool isMainHigher = cell.h00 + cell.h11 > cell.h10 + cell.h01;
+    keep(traversal.upper, isMainHigher ? main : other);
+    keep(traversal.lower, isMainHigher ? other : main);
 }
 
 std::array<double, kCellSurfaces> TerrainRayCaster::heightsAt(double x, double y) const {
@@ -277,13 +288,11 @@ std::array<double, kCellSurfaces> TerrainRayCaster::heightsAt(double x, double y
             height(CellSurface::Bilinear)};
 }
 
-double TerrainRayCaster::firstHit(const Ray& ray, double near) const {
-    const auto hits = firstHits(ray);
-    if (near == kNoHit)
-        return *std::min_element(hits.begin(), hits.end());
-    return *std::min_element(hits.begin(), hits.end(), [&](double a, double b) {
-        return std::abs(a - near) < std::abs(b - near);
-    });
+ReferenceSurface::HitRange TerrainRayCaster::hitRange(const Ray& ray) const {
+    const Traversal hit = cast(ray);
+    const auto [nearest, farthest] = std::minmax_element(hit.hits.begin(), hit.hits.end());
+    return {std::min({hit.upper, hit.lower, *nearest}),
+            std::max({hit.upper, hit.lower, *farthest})};
 }
 
 std::optional<fabric::Vec3> TerrainRayCaster::counterpart(const fabric::Vec3& point) const {

@@ -40,7 +40,10 @@ public:
     /// Heights of each reading over a world (x, y); NaN outside the posts and in holes.
     std::array<double, kCellSurfaces> heightsAt(double x, double y) const;
 
-    double firstHit(const Ray& ray, double near) const override;
+    /// Between the first hits with the three readings and with the upper and the lower side of the
+    /// cells' tetrahedra: any surface that reads each cell in some way of its own is hit in there.
+    HitRange hitRange(const Ray& ray) const override;
+    /// The point of the same column; of the readings, the nearest.
     std::optional<fabric::Vec3> counterpart(const fabric::Vec3& point) const override;
 
 private:
@@ -66,6 +69,7 @@ private:
     void visit(Traversal& traversal, int level, int column, int row) const;
     void visitCells(Traversal& traversal, int column, int row) const;
     void visitCell(Traversal& traversal, int i, int j) const;
+    Traversal cast(const Ray& ray) const;
     Ray toGrid(const Ray& ray) const;
     fabric::Vec2 toGrid(double x, double y) const;
 

@@ -180,7 +180,8 @@ public:
 private:
     double elevation(double x, double y) const {
         const truth::Ray ray = pinhole_.rayThrough(x, y);
-        return ray.at(ground_.firstHit(ray, truth::kNoHit)).z / interval_;
+        const auto hits = ground_.firstHits(ray);
+        return ray.at(*std::min_element(hits.begin(), hits.end())).z / interval_;
     }
 
     const truth::TerrainRayCaster& ground_;

@@ -2,6 +2,7 @@
 // The promise of every tile, checked on what was written: no point of any form of it is farther
 // from the source, however that is read between its posts, than the error in the index.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -62,10 +63,18 @@ private:
     std::vector<char> isExact_;
 };
 
-double measuredDeviation(const terrain::EytFile& file, const HeightGrid& grid,
-                         const std::vector<DrawnTriangle>& triangles) {
+/// By TileRecord's parts, row by row.
+using PartDeviations = std::array<double, terrain::kTilePartsPerSide * terrain::kTilePartsPerSide>;
+
+PartDeviations measuredDeviations(const terrain::EytFile& file, const HeightGrid& grid,
+                                  const TileId& id, const std::vector<DrawnTriangle>& triangles) {
     const ExactPosts posts(grid, triangles);
-    double worst = 0;
+    PartDeviations worst{};
+    const std::int32_t side = terrain::Quadtree::side(id.level);
+    const auto part = [&](double post, std::int32_t tile) {
+        const double at = (post - tile * side) * terrain::kTilePartsPerSide / side;
+        return std::min(static_cast<std::size_t>(at), std::size_t{terrain::kTilePartsPerSide - 1});
+    };
     for (const DrawnTriangle& triangle : triangles)
         test::forEachSample(
             test::inMetres(file, triangle), kSamplesPerPost, [&](double x, double y, double drawn) {
@@ -75,7 +84,8 @@ double measuredDeviation(const terrain::EytFile& file, const HeightGrid& grid,
                     nearest = std::min(nearest, std::abs(drawn - source));
                     farthest = std::max(farthest, std::abs(drawn - source));
                 }
-                worst = std::max(worst, posts.isCellExact(grid, x, y) ? nearest : farthest);
+                double& most = worst[part(y, id.y) * terrain::kTilePartsPerSide + part(x, id.x)];
+                most = std::max(most, posts.isCellExact(grid, x, y) ? nearest : farthest);
             });
     return worst;
 }
@@ -109,9 +119,15 @@ TEST_P(TerrainBound, HoldsForEveryFormOfEveryTile) {
             for (int edge = 0; edge < terrain::kEdges; ++edge)
                 if (file_->index().quadtree.contains(terrain::Quadtree::neighbour(id, edge)))
                     edges = static_cast<std::uint8_t>(edges | (finerEdges & 1 << edge));
-            EXPECT_LE(measuredDeviation(*file_, grid_, test::drawnTile(*file_, id, edges)),
-                      promised * (1 + 1e-6) + 1e-6)
-                << "tile " << id.level << " " << id.x << " " << id.y << " edges " << int{edges};
+            const PartDeviations measured =
+                measuredDeviations(*file_, grid_, id, test::drawnTile(*file_, id, edges));
+            for (int part = 0; part < static_cast<int>(measured.size()); ++part) {
+                const double ofPart = file_->index().tile(id).errorMetresOf(part % 4, part / 4, 1);
+                EXPECT_LE(ofPart, promised);
+                EXPECT_LE(measured[static_cast<std::size_t>(part)], ofPart * (1 + 1e-6) + 1e-6)
+                    << "tile " << id.level << " " << id.x << " " << id.y << " part " << part
+                    << " edges " << int{edges};
+            }
         }
     });
 }
@@ -123,6 +139,8 @@ TEST_P(TerrainBound, IsNotBelowThatOfTheTilesUnderIt) {
             return;
         const terrain::TileRecord& parent = index.tile(terrain::Quadtree::parent(id));
         EXPECT_GE(parent.errorMetres, index.tile(id).errorMetres);
+        EXPECT_GE(parent.errorMetresOf(id.x % 2 * 2, id.y % 2 * 2, 2) * (1 + 1e-9),
+                  index.tile(id).errorMetresOf(0, 0, terrain::kTilePartsPerSide));
         EXPECT_LE(parent.minHeightMetres, index.tile(id).minHeightMetres);
         EXPECT_GE(parent.maxHeightMetres, index.tile(id).maxHeightMetres);
     });

@@ -2,8 +2,7 @@
 #include "renderer/lod/view.h"
 
 #include <cmath>
-#include <optional>
-#include <random>
+#include <limits>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
@@ -11,6 +10,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "renderer/lod/lattice_view.h"
+#include "tests/renderer/lod/textbook.h"
 
 namespace eyrie::lod {
 namespace {
@@ -21,42 +21,9 @@ using fabric::Mat4;
 using fabric::Vec2;
 using fabric::Vec3;
 
-/// Where a world point falls in the picture, by the textbook and independent of the code under
-/// test; empty behind the eye.
-std::optional<Vec2> project(const Camera& camera, int width, int height, const Vec3& world) {
-    const Vec3 forward = glm::normalize(camera.target - camera.eye);
-    const Vec3 right = glm::normalize(glm::cross(forward, camera.up));
-    const Vec3 up = glm::cross(right, forward);
-    const Vec3 d = world - camera.eye;
-    const double depth = glm::dot(d, forward);
-    if (depth <= 0)
-        return std::nullopt;
-    const double focal = height / (2 * std::tan(camera.fovYDegrees * M_PI / 360));
-    return Vec2(width / 2.0 + focal * glm::dot(d, right) / depth,
-                height / 2.0 + focal * glm::dot(d, up) / depth);
-}
-
-bool inPicture(const std::optional<Vec2>& p, int width, int height) {
-    return p && p->x >= 0 && p->x <= width && p->y >= 0 && p->y <= height;
-}
-
-/// Random numbers from one seed, so that RapidCheck shrinks and prints just that.
-class Dice {
-public:
-    explicit Dice(unsigned seed) : engine_(seed) {}
-    double in(double low, double high) {
-        return std::uniform_real_distribution<double>(low, high)(engine_);
-    }
-    Vec3 vector(double size) { return {in(-size, size), in(-size, size), in(-size, size)}; }
-    Vec3 direction() {
-        Vec3 v = vector(1);
-        while (glm::length(v) < 0.1) v = vector(1);
-        return glm::normalize(v);
-    }
-
-private:
-    std::mt19937 engine_;
-};
+using test::Dice;
+using test::inPicture;
+using test::project;
 
 RC_GTEST_PROP(ScreenSpaceError, IsNeverBelowTheMeasuredDisplacement, (unsigned seed)) {
     Dice dice(seed);
@@ -207,6 +174,38 @@ TEST(LatticeView, PlacesTheSameWorldPointAlikeAtAnyDistanceFromTheOrigin) {
             ASSERT_TRUE(expected);
             EXPECT_LT(glm::distance(pixel, *expected), 1e-3) << "origin " << origin;
         }
+    }
+}
+
+/// Hard case 21: the camera walks 1,000 steps of a tenth of a millimetre, 6,400 km from the origin,
+/// snapping to lattice points of 8 mm and 1 m on its way. Positions there are doubles 1e-9 m apart.
+TEST(LatticeView, MovesThePictureSteadilyWhileTheCameraSnaps) {
+    for (const double step : {1.0 / 128, 1.0}) {
+        const Vec3 origin(6.4e6, -6.4e6, 0);
+        const Mat4 worldFromLattice = glm::scale(glm::translate(Mat4(1.0), origin), Vec3(step));
+        const glm::ivec3 point = glm::ivec3(glm::round(Vec3(6, 20, -1) / step));
+        double before = std::numeric_limits<double>::infinity();
+        int snaps = 0;
+        glm::ivec3 lastSnapped{};
+        for (int k = 0; k < 1000; ++k) {
+            Camera camera;
+            camera.eye = origin + Vec3(0.47 + 1e-4 * k, 0.3, 1.7);
+            camera.target = camera.eye + Vec3(0, 10, -1);
+            const LatticeView lattice(View(camera, 1280, 720), worldFromLattice);
+            const glm::vec4 clip =
+                lattice.clipFromLattice * glm::vec4(glm::vec3(point - lattice.cameraLattice), 1.0F);
+            const double x = (clip.x / clip.w + 1) * 640;
+            const auto expected =
+                project(camera, 1280, 720, Vec3(worldFromLattice * glm::dvec4(point, 1)));
+            ASSERT_TRUE(expected);
+            EXPECT_NEAR(x, expected->x, 0.005) << "step " << k;
+            // Each step moves the point 0.004 px to the left; a float here is 6e-5 px.
+            EXPECT_LT(x, before) << "step " << k;
+            before = x;
+            snaps += k > 0 && lattice.cameraLattice != lastSnapped ? 1 : 0;
+            lastSnapped = lattice.cameraLattice;
+        }
+        EXPECT_GE(snaps, step < 0.1 ? 12 : 1);
     }
 }
 

@@ -38,7 +38,7 @@ std::vector<float> depthOf(const ReferenceSurface& surface, const Pinhole& camer
     for (int y = 0; y < kHeight; ++y)
         for (int x = 0; x < kWidth; ++x)
             depth.push_back(
-                static_cast<float>(surface.firstHit(camera.rayThrough(x + 0.5, y + 0.5), kNoHit)));
+                static_cast<float>(surface.hitRange(camera.rayThrough(x + 0.5, y + 0.5)).first));
     return depth;
 }
 

@@ -116,6 +116,34 @@ TEST(TerrainRayCaster, AgreesWithAMarchOverTheHeights) {
     }
 }
 
+/// Whatever diagonal each cell is cut along, cell by cell.
+TEST(TerrainRayCaster, HitRangeHoldsEveryMixtureOfReadings) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> height(0, 100), coordinate(0, 8), share(0, 1);
+    const HeightGrid grid = gridOf(9, 9, [&](int, int) { return height(random); });
+    const TerrainRayCaster caster(grid);
+    for (int n = 0; n < 60; ++n) {
+        const Ray ray = rayTo(world(coordinate(random), coordinate(random), 150),
+                              world(coordinate(random), coordinate(random), -10));
+        const ReferenceSurface::HitRange range = caster.hitRange(ray);
+        std::array<double, 81> mixture;
+        for (double& s : mixture) s = share(random);
+        double marched = kNoHit;
+        constexpr int kSteps = 40000;
+        for (int step = 0; step <= kSteps && marched == kNoHit; ++step) {
+            const Vec3 p = ray.at(step / double{kSteps});
+            const auto heights = caster.heightsAt(p.x, p.y);
+            const Vec2 cell = (Vec2(p) - grid.origin) / Vec2(grid.perColumn.x, grid.perRow.y);
+            const double s = mixture[static_cast<std::size_t>(std::floor(cell.x)) +
+                                     9 * static_cast<std::size_t>(std::floor(cell.y))];
+            if (p.z <= heights[kMain] * s + heights[kOther] * (1 - s))
+                marched = step / double{kSteps};
+        }
+        EXPECT_GE(marched, range.first - 1e-9);
+        EXPECT_LE(marched, range.last + 1.0 / kSteps + 1e-9);
+    }
+}
+
 TEST(TerrainRayCaster, LooksThroughHolesInTheData) {
     const TerrainRayCaster caster(
         gridOf(5, 5, [](int i, int j) { return i == 2 && j == 2 ? kNoData : 10.0; }));
@@ -130,7 +158,7 @@ TEST(TerrainRayCaster, MissesBesideAndAboveThePosts) {
     const TerrainRayCaster caster(gridOf(20, 20, [](int, int) { return 10.0; }));
     for (const Ray& ray : {Ray{world(-0.01, 5, 100), {0, 0, -1}}, Ray{world(5, 5, 100), {0, 0, 1}},
                            Ray{world(5, 5, 100), {1, 0.3, 0}}})
-        EXPECT_EQ(caster.firstHit(ray, kNoHit), kNoHit);
+        EXPECT_EQ(caster.hitRange(ray).first, kNoHit);
     EXPECT_FALSE(caster.counterpart(world(-0.01, 5, 0)));
 }
 
@@ -140,7 +168,7 @@ TEST(TerrainRayCaster, TakesRotatedGridsAsTheyAre) {
     grid.perRow = {20, -20};
     const Vec2 p = grid.origin + 7.25 * grid.perColumn + 3.5 * grid.perRow;
     const TerrainRayCaster caster(std::move(grid));
-    EXPECT_NEAR(caster.firstHit({{p.x, p.y, 1000}, {0, 0, -1}}, kNoHit), 1000 - 72.5, 1e-8);
+    EXPECT_NEAR(caster.hitRange({{p.x, p.y, 1000}, {0, 0, -1}}).first, 1000 - 72.5, 1e-8);
 }
 
 }  // namespace

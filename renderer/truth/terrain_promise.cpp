@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/truth/terrain_promise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "fabric/frustum.h"
+#include "fabric/image.h"
+#include "fabric/status.h"
+#include "renderer/truth/drawn_terrain.h"
+
+namespace eyrie::truth {
+namespace {
+
+/// Depth of the whole view in metres, infinity for nothing, from the covered part of it.
+std::vector<float> depthMetres(const fabric::Image& image, int width, int height) {
+    fabric::Image whole = fabric::makeImage({0, 0, width, height}, {}, true);
+    if (!image.area.isEmpty())
+        fabric::paste(image, whole);
+    std::vector<float> metres;
+    for (const float reversed : whole.depth)
+        metres.push_back(
+            static_cast<float>(fabric::viewDepthMetres(reversed, fabric::kNearMetres)));
+    return metres;
+}
+
+}  // namespace
+
+absl::StatusOr<PromiseKept> TerrainPromise::hold(const fabric::Camera& camera, double tauPixels,
+                                                 int width, int height) const {
+    const fabric::FrameData frame{.version = 1, .camera = camera, .tauPixels = tauPixels};
+    fabric::ChannelTask task;
+    task.frameDataVersion = 1;
+    task.viewWidth = width;
+    task.viewHeight = height;
+    task.pixelViewport = {0, 0, width, height};
+    task.wantsDepth = true;
+    ASSIGN_OR_RETURN(const fabric::ChannelResult drawn, renderer_.render(frame, task));
+    PromiseKept kept{drawn.statistics.tauAchievedPixels, {}, drawn.statistics};
+
+    const Pinhole pinhole(camera, width, height);
+    absl::Status status;
+    std::optional<DrawnTerrain> triangles;  // only where it takes them
+    const ShownPoint shown = [&](double x, double y, double depth) -> std::optional<fabric::Vec3> {
+        if (!triangles && status.ok()) {
+            auto read = DrawnTerrain::of(*file_, lod::View(camera, width, height), tauPixels);
+            status = read.status();
+            if (read.ok())
+                triangles = *std::move(read);
+        }
+        const auto found =
+            triangles ? triangles->shownAt(pinhole, x, y, depth, kReachPixels) : std::nullopt;
+        return found ? std::optional(found->point) : std::nullopt;
+    };
+    // An outline may have moved by as much as everything else.
+    const int edgePixels = static_cast<int>(std::clamp(std::ceil(kept.promisedPixels), 1.0, 8.0));
+    kept.measured = compareDepth(pinhole, depthMetres(drawn.image, width, height), ground_,
+                                 edgePixels, {kept.promisedPixels + kRasterPixels, shown});
+    RETURN_IF_ERROR(status);
+    return kept;
+}
+
+}  // namespace eyrie::truth

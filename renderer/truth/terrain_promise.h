@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include <absl/status/statusor.h>
+
+#include "fabric/camera.h"
+#include "fabric/statistics.h"
+#include "renderer/renderer.h"
+#include "renderer/terrain/eyt_format.h"
+#include "renderer/truth/depth_comparison.h"
+#include "renderer/truth/terrain_ray_caster.h"
+
+namespace eyrie::truth {
+
+/// One picture: what the frame said of its error, and what there is.
+struct PromiseKept {
+    double promisedPixels = 0;
+    DepthComparison measured;
+    fabric::FrameStatistics statistics;
+};
+
+/// Holds what a renderer promises of one terrain against a ray cast of its source.
+class TerrainPromise {
+public:
+    /// `renderer` has the terrain of `file` open, alone and where it lies. All are referred to.
+    TerrainPromise(Renderer& renderer, const TerrainRayCaster& ground,
+                   std::shared_ptr<const terrain::EytFile> file)
+        : renderer_(renderer), ground_(ground), file_(std::move(file)) {}
+
+    /// Draws the picture, complete, and measures it. Errors: the renderer's.
+    absl::StatusOr<PromiseKept> hold(const fabric::Camera& camera, double tauPixels, int width,
+                                     int height) const;
+
+    /// Pixels whose depth seems to break the promise are judged by the point of the drawn triangle
+    /// that covers them: at its very edge a triangle that is seen edge-on may cover a pixel whose
+    /// centre it misses, by up to the 1/256 pixel to which its corners are rounded, and its plane
+    /// has any depth there.
+    static constexpr double kReachPixels = 1.0 / 128;
+    /// What rasterisation may add to what is promised: the 1/256 pixel that corners are rounded to.
+    static constexpr double kRasterPixels = 1.0 / 256;
+
+private:
+    Renderer& renderer_;
+    const TerrainRayCaster& ground_;
+    std::shared_ptr<const terrain::EytFile> file_;
+};
+
+}  // namespace eyrie::truth
