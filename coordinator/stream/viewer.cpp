@@ -268,6 +268,9 @@ private:
     void encode(std::unique_lock<std::mutex>& lock, Picture picture) {
         const bool isStill =
             hasRested() && isSame(picture.view, *wanted_) && !isRenderNeeded_ && !isLoading_;
+        // The same view may have come again meanwhile: this is the answer to that, too.
+        if (isSame(picture.view, *wanted_))
+            picture.view.sequence = wanted_->sequence;
         const std::uint64_t frameNumber = ++lastFrameNumber_;
         isEncoding_ = true;
         lock.unlock();

@@ -165,6 +165,22 @@ TEST(Viewer, DrawsTheNewestViewAndLeavesOutThoseBetween) {
     EXPECT_EQ(frames.requests().size(), 2u);
 }
 
+TEST(Viewer, AnswersTheSameViewWithTheNextPictureOfIt) {
+    FakeFrameSource frames;
+    ViewerOptions options = resting();
+    options.framesInFlight = 1;  // so nothing follows before the acknowledgement
+    Browser browser(frames, options);
+    browser.send(viewMessage(1, 7));
+    EXPECT_EQ(browser.nextFrame()->view_sequence(), 1u);
+    browser.send(viewMessage(2, 7));
+    browser.acknowledge(1);
+    const auto still = browser.nextFrame();
+    ASSERT_TRUE(still.has_value());
+    EXPECT_TRUE(still->still());
+    EXPECT_EQ(still->view_sequence(), 2u);
+    EXPECT_EQ(frames.requests().size(), 1u);
+}
+
 TEST(Viewer, NeverHasMoreFramesUnderWayThanAllowed) {
     FakeFrameSource frames;
     for (const int window : {1, 2, 4}) {

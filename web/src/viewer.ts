@@ -38,6 +38,13 @@ export class Viewer implements CameraHolder {
 
   private size: Size;
   private sequence = 0;
+  /** Of the last view, as text; empty before any on this connection. */
+  private sentContent = "";
+  /** What the last frame said of the camera of its view. */
+  private lifted: { camera: Camera | undefined; sequence: number } = {
+    camera: undefined,
+    sequence: 0,
+  };
   private sendAt: number | undefined;
   private inputTime: number | undefined;
   private sceneKey = "";
@@ -112,19 +119,23 @@ export class Viewer implements CameraHolder {
     const inputTime = this.inputTime;
     this.inputTime = undefined;
     if (this.camera === null) return;
-    const isSent = this.socket.sendView({
-      sequence: this.sequence + 1,
+    const view = {
       camera: this.camera,
       ...this.size,
       tauPixels: this.state.tau.value,
       shading: this.state.shading.value,
       look: this.state.look.value,
-    });
+    };
+    // The server draws what has changed: it would not answer the same view again.
+    const content = JSON.stringify(view);
+    if (content === this.sentContent) return;
+    const isSent = this.socket.sendView({ sequence: this.sequence + 1, ...view });
     // A view that cannot go now goes when the connection opens, or with the next frame.
     if (!isSent) {
       if (this.state.connection.value.kind === "connected") this.requestView(inputTime);
       return;
     }
+    this.sentContent = content;
     this.sequence += 1;
     this.latency.sent(this.sequence, performance.now(), inputTime);
   }
@@ -154,6 +165,7 @@ export class Viewer implements CameraHolder {
     this.latency.reset();
     this.frames.clear();
     this.inputTime = undefined;
+    this.sentContent = "";
     this.state.connection.set({ kind: "lost", since: performance.now() });
   }
 
@@ -189,7 +201,8 @@ export class Viewer implements CameraHolder {
     if (frame === undefined) return; // of a connection that is gone
     this.rate.drawn(time);
     this.latency.drawn(Number(frame.viewSequence), time);
-    this.adopt(cameraOf(frame.liftedCamera), Number(frame.viewSequence));
+    this.lifted = { camera: cameraOf(frame.liftedCamera), sequence: Number(frame.viewSequence) };
+    this.adoptLifted();
     const { statistics } = frame;
     this.state.numbers.set({
       frameNumber,
@@ -210,14 +223,19 @@ export class Viewer implements CameraHolder {
     });
   }
 
+  dragEnded(): void {
+    this.adoptLifted();
+  }
+
   /**
    * Goes on from the camera that the server lifted out of the ground, so that the next movement
    * starts from what is seen; not while a newer view is on its way, nor during a drag, which so
    * leads back to where it came from.
    */
-  private adopt(lifted: Camera | undefined, viewSequence: number): void {
-    const isNewest = viewSequence === this.sequence && this.sendAt === undefined;
-    if (lifted !== undefined && isNewest && !this.controls.isDragging) this.camera = lifted;
+  private adoptLifted(): void {
+    const { camera, sequence } = this.lifted;
+    const isNewest = sequence === this.sequence && this.sendAt === undefined;
+    if (camera !== undefined && isNewest && !this.controls.isDragging) this.camera = camera;
   }
 
   /** Holds the cut as this camera has it, or lets it follow the view again. */

@@ -14,6 +14,8 @@ export interface CameraHolder {
   /** `inputTime`: of the event that caused it, in ms of performance.now(). */
   move(camera: Camera, inputTime: number): void;
   goHome(inputTime: number): void;
+  /** The last pointer was let go. */
+  dragEnded(): void;
   readonly isFlying: boolean;
   setFlying(isFlying: boolean): void;
 }
@@ -52,7 +54,7 @@ export class Controls {
     canvas.addEventListener("pointerdown", (event) => this.pointerDown(event), { signal });
     canvas.addEventListener("pointermove", (event) => this.pointerMove(event), { signal });
     for (const end of ["pointerup", "pointercancel", "lostpointercapture"] as const)
-      canvas.addEventListener(end, (event) => this.pointers.delete(event.pointerId), { signal });
+      canvas.addEventListener(end, (event) => this.pointerEnd(event), { signal });
     canvas.addEventListener("wheel", (event) => this.wheel(event), { signal, passive: false });
     canvas.addEventListener("contextmenu", (event) => event.preventDefault(), { signal });
     window.addEventListener("keydown", (event) => this.keyDown(event), { signal });
@@ -88,6 +90,10 @@ export class Controls {
     const isPan = event.button !== 0 || event.shiftKey;
     this.pointers.set(event.pointerId, { x: event.clientX, y: event.clientY, isPan });
     event.preventDefault();
+  }
+
+  private pointerEnd(event: PointerEvent): void {
+    if (this.pointers.delete(event.pointerId) && !this.isDragging) this.holder.dragEnded();
   }
 
   private pointerMove(event: PointerEvent): void {
