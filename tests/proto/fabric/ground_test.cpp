@@ -79,8 +79,10 @@ RC_GTEST_PROP(GroundCeiling, DoesNotJumpAnywhere, ()) {
 double heightAboveCeiling(const GroundGrid& grid, const Vec3& eye, double exaggeration) {
     const double u = (eye.x - 1000) / kCellMetres;
     const double v = (eye.y - 2000) / -kCellMetres;
-    const double ceiling =
-        exaggeration < 0 ? grid.lowest * exaggeration : ceilingAt(grid, u, v) * exaggeration;
+    // Far outside the grid the ceiling is so low that even 0, drawn as 1e-9, leaves something of
+    // it.
+    const double drawn = exaggeration == 0 ? 1e-9 : exaggeration;
+    const double ceiling = drawn < 0 ? grid.lowest * drawn : ceilingAt(grid, u, v) * drawn;
     return eye.z - 30 - ceiling;
 }
 
