@@ -9,9 +9,9 @@ namespace eyrie::import {
 namespace {
 
 constexpr std::int32_t kSquareTiles = terrain::kPageTiles;
-/// A vertex of a spacing of up to 64 posts depends on others up to 128 posts away, and a post on a
-/// tile's border on the tiles on either side.
-constexpr std::int32_t kHaloTiles = 2;
+/// A vertex of a spacing of up to 64 posts depends on others less than 128 posts away, each of
+/// which was measured in all tiles that it lies in.
+constexpr std::int32_t kHaloTiles = 1;
 
 std::int32_t over(std::int32_t size, std::int32_t piece) { return (size + piece - 1) / piece; }
 

@@ -32,7 +32,7 @@ public:
 
     /// Of a tile of 128 cells of a raster over the grid.
     std::uint32_t ownerOfTile(std::int32_t x, std::int32_t y) const;
-    /// Whether what a shard makes may depend on the tile: it is its own, or within two of such.
+    /// Whether what a shard makes may depend on the tile: it is its own, or beside one.
     bool isNear(std::uint32_t shard, std::int32_t x, std::int32_t y) const;
     bool hasOwner(std::uint32_t page) const { return page < ownedPages_; }
     /// Precondition: hasOwner(page).

@@ -52,7 +52,7 @@ public:
     //
     // For a part of the model: `measure` and `join` with `needed` tiles, of which the model must
     // have the heights, and `finish` up to kTileSpacing then make whatever tiles of up to 128 cells
-    // ask for, as long as they and those up to 256 posts away are needed.
+    // ask for, as long as they and all tiles beside them are needed.
 
     absl::Status measure(const import::ImportControl& control, const TileChoice& needed = {});
     absl::Status join(const import::ImportControl& control, const TileChoice& needed = {});

@@ -65,13 +65,13 @@ RC_GTEST_PROP(ShardPlan, GivesAPageToTheOwnerOfItsPosts, ()) {
     }
 }
 
-RC_GTEST_PROP(ShardPlan, KnowsAllTilesWithinTwoOfAShardsOwn, ()) {
+RC_GTEST_PROP(ShardPlan, KnowsAllTilesBesideAShardsOwn, ()) {
     const ShardPlan plan(anyQuadtree(), static_cast<std::uint32_t>(*rc::gen::inRange(1, 12)));
     const std::int32_t x = *rc::gen::inRange(0, plan.tilesX());
     const std::int32_t y = *rc::gen::inRange(0, plan.tilesY());
     std::set<std::uint32_t> near;
-    for (std::int32_t v = std::max(0, y - 2); v <= std::min(y + 2, plan.tilesY() - 1); ++v)
-        for (std::int32_t u = std::max(0, x - 2); u <= std::min(x + 2, plan.tilesX() - 1); ++u)
+    for (std::int32_t v = std::max(0, y - 1); v <= std::min(y + 1, plan.tilesY() - 1); ++v)
+        for (std::int32_t u = std::max(0, x - 1); u <= std::min(x + 1, plan.tilesX() - 1); ++u)
             near.insert(plan.ownerOfTile(u, v));
     for (std::uint32_t k = 0; k < 12; ++k) RC_ASSERT(plan.isNear(k, x, y) == near.contains(k));
 }
