@@ -282,7 +282,7 @@ void addTerrain(CLI::App& parent, Run& run) {
         "An import that is stopped or killed goes on when the same command is run again.\n"
         "A large one spreads over machines: run it with --shard 0/N to --shard N-1/N, at once or\n"
         "one after the other, then once with --merge, all with the same sources and options. The\n"
-        "file is the one that a single machine would make. Pictures are read by --merge.\n"
+        "file is the one that a single machine would make.\n"
         "Examples:\n"
         "  eyrie import terrain dem.tif -o dem.eyt\n"
         "  eyrie import terrain tiles/*.tif survey.tif -o all.eyt\n"

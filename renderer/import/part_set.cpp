@@ -81,13 +81,14 @@ absl::Status missing(const std::string& folder, const std::vector<std::uint32_t>
 
 }  // namespace
 
-absl::StatusOr<PartSet> PartSet::open(const std::string& out, PartIdentity identity) {
+absl::StatusOr<PartSet> PartSet::open(const std::string& out, PartIdentity identity,
+                                      std::uint32_t textures) {
     const std::string folder = partsFolder(out);
     ASSIGN_OR_RETURN(const std::uint32_t shards, splitOf(folder));
     identity.shards = shards;
     PartSet set(out, ShardPlan(terrain::Quadtree(static_cast<std::uint32_t>(identity.columns),
                                                  static_cast<std::uint32_t>(identity.rows)),
-                               shards));
+                               shards, textures));
     std::vector<std::uint32_t> absent;
     for (std::uint32_t index = 0; index < shards; ++index) {
         const Shard shard{index, shards};
@@ -151,6 +152,11 @@ absl::Status PartSet::gatherMeasured(const terrain::Scratch& scratch, const Impo
 absl::StatusOr<std::vector<std::uint32_t>> PartSet::readPage(std::uint32_t page,
                                                              PageTiles& tiles) const {
     return parts_[plan_.ownerOfPage(page)].readPage(page, tiles);
+}
+
+absl::StatusOr<TexturePiece> PartSet::readTexture(std::uint32_t texture,
+                                                  std::size_t halfTexels) const {
+    return parts_[plan_.ownerOfTexture(texture)].readTexture(texture, halfTexels);
 }
 
 void PartSet::remove() {

@@ -20,9 +20,11 @@ namespace eyrie::import {
 class PartSet {
 public:
     /// Opens what partsFolder(out) holds; `identity` is that of this import with any number of
-    /// shards. Errors: PartFile's, and NotFound where there are no parts, or where some are missing
-    /// (all of them are named); InvalidArgument where there are parts of two different splits.
-    static absl::StatusOr<PartSet> open(const std::string& out, PartIdentity identity);
+    /// shards, `textures` its number of texture tiles of level 0. Errors: PartFile's, and NotFound
+    /// where there are no parts, or where some are missing (all of them are named); InvalidArgument
+    /// where there are parts of two different splits.
+    static absl::StatusOr<PartSet> open(const std::string& out, PartIdentity identity,
+                                        std::uint32_t textures);
 
     /// What readElevation does: all heights, their statistics and summary. Stage "gathering".
     absl::Status gatherHeights(const terrain::Scratch& scratch, const ImportControl& control,
@@ -33,6 +35,9 @@ public:
 
     bool hasPage(std::uint32_t page) const { return plan_.hasOwner(page); }
     absl::StatusOr<std::vector<std::uint32_t>> readPage(std::uint32_t page, PageTiles& tiles) const;
+
+    /// Errors: PartFile's.
+    absl::StatusOr<TexturePiece> readTexture(std::uint32_t texture, std::size_t halfTexels) const;
 
     /// Removes the parts and what belongs to them: the import is done.
     void remove();

@@ -30,7 +30,7 @@ struct FactsFile {
     std::uint64_t allIntegers = 0;
     std::uint64_t checksum = 0;
 };
-static_assert(sizeof(FactsFile) == 144, "no padding");
+static_assert(sizeof(FactsFile) == 152, "no padding");
 
 std::uint64_t checksumOf(const FactsFile& file) {
     return XXH64(&file, offsetof(FactsFile, checksum), 0);

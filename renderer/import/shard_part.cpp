@@ -35,15 +35,23 @@ struct Header {
     std::uint64_t allIntegers = 0;
     std::uint64_t tiles = 0;
     std::uint64_t pages = 0;
+    std::uint64_t textures = 0;
     std::uint64_t tableOffset = 0;
     std::uint64_t tableChecksum = 0;
     std::uint64_t headerChecksum = 0;
 };
-static_assert(sizeof(PartIdentity) == 96 && sizeof(Header) == 184, "no padding");
+static_assert(sizeof(PartIdentity) == 104 && sizeof(Header) == 200, "no padding");
 static_assert(std::is_trivially_copyable_v<terrain::TileRecord>);
 
 constexpr std::size_t kHeightsBytes = terrain::kRasterTileValues * sizeof(float);
 constexpr std::size_t kMeasuredBytes = terrain::kRasterTileValues;
+
+/// How a texture's piece begins; the half's texels follow, then the page.
+struct TextureHeader {
+    std::uint64_t lossSquares = 0;
+    std::uint64_t coveredTexels = 0;
+    std::uint64_t halfTexels = 0;
+};
 
 std::uint64_t checksumOf(const Header& header) {
     return XXH64(&header, offsetof(Header, headerChecksum), 0);
@@ -68,10 +76,11 @@ std::string_view versionOf(const PartIdentity& identity) {
 }  // namespace
 
 PartIdentity identityOf(const terrain::GridFrame& frame, std::uint64_t sourceHash,
-                        double errorMetres, std::uint32_t shards) {
+                        double errorMetres, std::uint64_t pictures, std::uint32_t shards) {
     PartIdentity identity;
     fabric::kVersion.copy(identity.programVersion.data(), identity.programVersion.size());
     identity.sourceHash = sourceHash;
+    identity.pictures = pictures;
     identity.columns = frame.columns;
     identity.rows = frame.rows;
     identity.frame = {frame.origin.x,    frame.origin.y, frame.perColumn.x,
@@ -100,6 +109,10 @@ std::string difference(const PartIdentity& found, const PartIdentity& expected) 
     if (found.sourceHash != expected.sourceHash)
         return fmt::format("made from other sources: their checksum was {:016x}, now it is {:016x}",
                            found.sourceHash, expected.sourceHash);
+    if (found.pictures != expected.pictures)
+        return found.pictures == 0      ? "made without --imagery"
+               : expected.pictures == 0 ? "made with --imagery"
+                                        : "made with other pictures";
     return "";
 }
 
@@ -126,9 +139,16 @@ absl::StatusOr<PartWriter> PartWriter::create(const std::string& path, const Par
     return PartWriter(std::move(file), identity, shard, statistics);
 }
 
+absl::StatusOr<PageRecord> PartWriter::append(std::span<const std::byte> bytes) {
+    const PageRecord record{file_.sizeBytes(), bytes.size(), XXH64(bytes.data(), bytes.size(), 0)};
+    RETURN_IF_ERROR(file_.append(bytes));
+    return record;
+}
+
 absl::Status PartWriter::add(std::span<const std::byte> bytes) {
-    table_.push_back({file_.sizeBytes(), bytes.size(), XXH64(bytes.data(), bytes.size(), 0)});
-    return file_.append(bytes);
+    ASSIGN_OR_RETURN(const PageRecord record, append(bytes));
+    table_.push_back(record);
+    return absl::OkStatus();
 }
 
 absl::Status PartWriter::addTile(const float* heights, const std::uint8_t* measured) {
@@ -146,6 +166,18 @@ absl::Status PartWriter::addPage(const PageTiles& tiles, std::span<const std::ui
     return add(bytes);
 }
 
+absl::Status PartWriter::addTexture(std::size_t k, const TexturePiece& texture) {
+    const TextureHeader header{texture.lossSquares, texture.coveredTexels, texture.half.size()};
+    const std::span<const std::byte> half = bytesOf(texture.half);
+    std::vector<std::byte> bytes(sizeof header);
+    std::memcpy(bytes.data(), &header, sizeof header);
+    bytes.insert(bytes.end(), half.begin(), half.end());
+    bytes.insert(bytes.end(), texture.page.begin(), texture.page.end());
+    textures_.resize(std::max(textures_.size(), k + 1));
+    ASSIGN_OR_RETURN(textures_[k], append(bytes));
+    return absl::OkStatus();
+}
+
 absl::StatusOr<std::uint64_t> PartWriter::commit() {
     Header header;
     header.identity = identity_;
@@ -156,7 +188,9 @@ absl::StatusOr<std::uint64_t> PartWriter::commit() {
     header.allIntegers = statistics_.allIntegers ? 1 : 0;
     header.tiles = tiles_;
     header.pages = pages_;
+    header.textures = textures_.size();
     header.tableOffset = file_.sizeBytes();
+    table_.insert(table_.end(), textures_.begin(), textures_.end());
     const std::span<const std::byte> table = bytesOf(table_);
     header.tableChecksum = XXH64(table.data(), table.size(), 0);
     header.headerChecksum = checksumOf(header);
@@ -177,6 +211,7 @@ PartFile::PartFile(PartFile&& other) noexcept
       statistics_(other.statistics_),
       tiles_(std::move(other.tiles_)),
       pages_(std::move(other.pages_)),
+      textures_(std::move(other.textures_)),
       table_(std::move(other.table_)) {}
 
 PartFile::~PartFile() {
@@ -226,15 +261,17 @@ absl::Status PartFile::check(const PartIdentity& identity, const ShardPlan& plan
             path_, found, shard_.index, shard_.count));
     tiles_ = plan.tilesOf(shard_.index);
     pages_ = plan.pagesOf(shard_.index);
+    textures_ = plan.texturesOf(shard_.index);
     if (header.shard != shard_.index || header.tiles != tiles_.size() ||
-        header.pages != pages_.size())
+        header.pages != pages_.size() || header.textures != textures_.size())
         return damaged("is the part of another shard");
     statistics_ = {header.minHeight, header.maxHeight, header.nodataPosts, header.allIntegers != 0};
     return readTable(header.tableOffset, header.tableChecksum);
 }
 
 absl::Status PartFile::readTable(std::uint64_t offset, std::uint64_t checksum) {
-    const std::size_t entries = 2 * tiles_.size() + pages_.size();
+    const std::size_t firstTexture = 2 * tiles_.size() + pages_.size();
+    const std::size_t entries = firstTexture + textures_.size();
     const std::uint64_t bytes = entries * sizeof(PageRecord);
     if (offset > size_ || bytes != size_ - offset)
         return damaged("is cut short");
@@ -243,8 +280,9 @@ absl::Status PartFile::readTable(std::uint64_t offset, std::uint64_t checksum) {
     for (std::size_t k = 0; k < entries; ++k) {
         const PageRecord& piece = table_[k];
         const bool isPage = k >= 2 * tiles_.size();
-        const bool isSize = isPage ? piece.bytes >= sizeof(PageTiles) && piece.bytes % 4 == 0
-                                   : piece.bytes == (k % 2 == 0 ? kHeightsBytes : kMeasuredBytes);
+        const bool isSize = k >= firstTexture ? piece.bytes >= sizeof(TextureHeader)
+                            : isPage ? piece.bytes >= sizeof(PageTiles) && piece.bytes % 4 == 0
+                                     : piece.bytes == (k % 2 == 0 ? kHeightsBytes : kMeasuredBytes);
         if (!isSize || piece.offset > offset || piece.bytes > offset - piece.offset)
             return damaged(fmt::format("piece {} of its table cannot be", k));
     }
@@ -289,6 +327,26 @@ absl::StatusOr<std::vector<std::uint32_t>> PartFile::readPage(std::uint32_t page
     if (!words.empty())
         std::memcpy(words.data(), bytes.data() + sizeof tiles, bytes.size() - sizeof tiles);
     return words;
+}
+
+absl::StatusOr<TexturePiece> PartFile::readTexture(std::uint32_t texture,
+                                                   std::size_t halfTexels) const {
+    const PageRecord& piece =
+        table_[2 * tiles_.size() + pages_.size() + placeOf(textures_, texture)];
+    std::vector<std::byte> bytes(piece.bytes);
+    RETURN_IF_ERROR(read(piece, bytes.data()));
+    TextureHeader header;
+    std::memcpy(&header, bytes.data(), sizeof header);
+    const std::size_t halfBytes = halfTexels * sizeof(fabric::Rgba);
+    if (header.halfTexels != halfTexels || bytes.size() < sizeof header + halfBytes)
+        return damaged(fmt::format("texture {} has the wrong size", texture));
+    const std::byte* const half = bytes.data() + sizeof header;
+    TexturePiece result{
+        header.lossSquares, header.coveredTexels, std::vector<fabric::Rgba>(halfTexels),
+        std::vector<std::byte>(half + halfBytes, half + bytes.size() - sizeof header)};
+    if (halfTexels > 0)
+        std::memcpy(result.half.data(), half, halfBytes);
+    return result;
 }
 
 absl::Status PartFile::verify() const {

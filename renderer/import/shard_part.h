@@ -11,6 +11,7 @@
 #include <absl/status/status.h>
 #include <absl/status/statusor.h>
 
+#include "fabric/image.h"
 #include "renderer/import/shard_plan.h"
 #include "renderer/import/whole_file.h"
 #include "renderer/terrain/eyt_format.h"
@@ -23,6 +24,7 @@ namespace eyrie::import {
 struct PartIdentity {
     std::array<char, 16> programVersion{};
     std::uint64_t sourceHash = 0;
+    std::uint64_t pictures = 0;  ///< pictureFingerprint; 0: none
     std::int32_t columns = 0;
     std::int32_t rows = 0;
     std::array<double, 6> frame{};  ///< GridFrame's origin, perColumn, perRow
@@ -32,7 +34,7 @@ struct PartIdentity {
     bool operator==(const PartIdentity&) const = default;
 };
 PartIdentity identityOf(const terrain::GridFrame& frame, std::uint64_t sourceHash,
-                        double errorMetres, std::uint32_t shards);
+                        double errorMetres, std::uint64_t pictures, std::uint32_t shards);
 
 /// The first thing in which `found` is not what was expected, for a message; "" where all is.
 std::string difference(const PartIdentity& found, const PartIdentity& expected);
@@ -46,7 +48,16 @@ std::string factsPath(const std::string& out, const Shard& shard);
 using PageTiles = std::array<terrain::TileRecord,
                              static_cast<std::size_t>(terrain::kPageTiles) * terrain::kPageTiles>;
 
-/// Writes a part: first the tiles of ShardPlan::tilesOf, then the pages of pagesOf, in their order.
+/// A texture tile of level 0, made.
+struct TexturePiece {
+    std::uint64_t lossSquares = 0;    ///< summed squared differences of BC1, of covered texels
+    std::uint64_t coveredTexels = 0;  ///< of its own
+    std::vector<fabric::Rgba> half;   ///< what it becomes one level up; empty where there is none
+    std::vector<std::byte> page;      ///< empty where all is a hole
+};
+
+/// Writes a part: first the tiles of ShardPlan::tilesOf, then the pages of pagesOf, each in their
+/// order; then the tiles of texturesOf in any.
 /// Errors: WholeFile's.
 class PartWriter {
 public:
@@ -58,12 +69,16 @@ public:
     absl::Status addTile(const float* heights, const std::uint8_t* measured);
     absl::Status addPage(const PageTiles& tiles, std::span<const std::uint32_t> page);
 
+    /// `k`: the how manyth of texturesOf.
+    absl::Status addTexture(std::size_t k, const TexturePiece& texture);
+
     /// Returns the file's size.
     absl::StatusOr<std::uint64_t> commit();
 
 private:
     PartWriter(WholeFile file, const PartIdentity& identity, const Shard& shard,
                const terrain::HeightStatistics& statistics);
+    absl::StatusOr<terrain::PageRecord> append(std::span<const std::byte> bytes);
     absl::Status add(std::span<const std::byte> bytes);
 
     WholeFile file_;
@@ -73,6 +88,7 @@ private:
     std::uint64_t tiles_ = 0;
     std::uint64_t pages_ = 0;
     std::vector<terrain::PageRecord> table_;  ///< heights and measured of each tile, then pages
+    std::vector<terrain::PageRecord> textures_;
 };
 
 /// A part on disk. Any thread may read. Errors: NotFound; InvalidArgument (of another import, no
@@ -96,6 +112,8 @@ public:
     absl::Status readHeights(std::uint32_t tile, float* out) const;
     absl::Status readMeasured(std::uint32_t tile, std::uint8_t* out) const;
     absl::StatusOr<std::vector<std::uint32_t>> readPage(std::uint32_t page, PageTiles& tiles) const;
+    /// With as many texels one level up as `halfTexels` says.
+    absl::StatusOr<TexturePiece> readTexture(std::uint32_t texture, std::size_t halfTexels) const;
 
     /// Reads all there is.
     absl::Status verify() const;
@@ -114,6 +132,7 @@ private:
     terrain::HeightStatistics statistics_;
     std::vector<std::uint32_t> tiles_;
     std::vector<std::uint32_t> pages_;
+    std::vector<std::uint32_t> textures_;
     std::vector<terrain::PageRecord> table_;
 };
 

@@ -13,13 +13,20 @@ constexpr std::int32_t kSquareTiles = terrain::kPageTiles;
 /// which was measured in all tiles that it lies in.
 constexpr std::int32_t kHaloTiles = 1;
 
+/// Shard k has items k * all / shards to (k + 1) * all / shards.
+std::uint32_t ownerOf(std::uint64_t item, std::uint64_t all, std::uint32_t shards) {
+    return static_cast<std::uint32_t>(((item + 1) * shards - 1) / all);
+}
+
 std::int32_t over(std::int32_t size, std::int32_t piece) { return (size + piece - 1) / piece; }
 
 }  // namespace
 
-ShardPlan::ShardPlan(const terrain::Quadtree& quadtree, std::uint32_t shards)
+ShardPlan::ShardPlan(const terrain::Quadtree& quadtree, std::uint32_t shards,
+                     std::uint32_t textures)
     : quadtree_(quadtree),
       shards_(shards),
+      textures_(textures),
       tilesX_(over(quadtree.columns() - 1, terrain::kRasterTileCells)),
       tilesY_(over(quadtree.rows() - 1, terrain::kRasterTileCells)),
       squaresX_(over(tilesX_, kSquareTiles)),
@@ -28,11 +35,13 @@ ShardPlan::ShardPlan(const terrain::Quadtree& quadtree, std::uint32_t shards)
         ownedPages_ += static_cast<std::uint32_t>(quadtree.pagesX(level) * quadtree.pagesY(level));
 }
 
-/// Shard k has squares k * all / shards to (k + 1) * all / shards.
 std::uint32_t ShardPlan::ownerOfSquare(std::int32_t x, std::int32_t y) const {
-    const std::uint64_t all = static_cast<std::uint64_t>(squaresX_ * squaresY_);
-    const auto square = static_cast<std::uint64_t>(y * squaresX_ + x);
-    return static_cast<std::uint32_t>(((square + 1) * shards_ - 1) / all);
+    return ownerOf(static_cast<std::uint64_t>(y * squaresX_ + x),
+                   static_cast<std::uint64_t>(squaresX_ * squaresY_), shards_);
+}
+
+std::uint32_t ShardPlan::ownerOfTexture(std::uint32_t texture) const {
+    return ownerOf(texture, textures_, shards_);
 }
 
 std::uint32_t ShardPlan::ownerOfTile(std::int32_t x, std::int32_t y) const {
@@ -62,6 +71,14 @@ std::vector<std::uint32_t> ShardPlan::tilesOf(std::uint32_t shard) const {
             if (ownerOfTile(x, y) == shard)
                 tiles.push_back(static_cast<std::uint32_t>(y * tilesX_ + x));
     return tiles;
+}
+
+std::vector<std::uint32_t> ShardPlan::texturesOf(std::uint32_t shard) const {
+    std::vector<std::uint32_t> textures;
+    for (std::uint32_t texture = 0; texture < textures_; ++texture)
+        if (ownerOfTexture(texture) == shard)
+            textures.push_back(texture);
+    return textures;
 }
 
 std::vector<std::uint32_t> ShardPlan::pagesOf(std::uint32_t shard) const {

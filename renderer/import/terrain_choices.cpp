@@ -68,6 +68,12 @@ terrain::EytIndex emptyIndex(const terrain::ElevationModel& model,
     return index;
 }
 
+std::uint32_t texturesOf(const ImagerySource* imagery) {
+    return imagery == nullptr ? 0
+                              : static_cast<std::uint32_t>(imagery->pyramid().tilesX(0)) *
+                                    static_cast<std::uint32_t>(imagery->pyramid().tilesY(0));
+}
+
 std::uint64_t scratchBytes(const terrain::GridFrame& frame, bool hasImagery,
                            std::uint64_t memoryBytes) {
     constexpr std::uint64_t kLeast = std::uint64_t{4} << 20;

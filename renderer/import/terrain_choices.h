@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "renderer/import/imagery_source.h"
 #include "renderer/terrain/deviation.h"
 #include "renderer/terrain/eyt_format.h"
 #include "renderer/terrain/height_grid.h"
@@ -23,6 +24,9 @@ std::vector<double> levelThresholds(int levels, double postMetres,
 terrain::EytIndex emptyIndex(const terrain::ElevationModel& model,
                              const terrain::HeightLattice& lattice, const std::string& crsWkt,
                              std::uint64_t sourceHash);
+
+/// Texture tiles of level 0 that imagery has; 0 of null.
+std::uint32_t texturesOf(const ImagerySource* imagery);
 
 /// Bytes of a scratch's memory, so that the whole process takes about `memoryBytes`.
 std::uint64_t scratchBytes(const terrain::GridFrame& frame, bool hasImagery,

@@ -22,6 +22,7 @@
 #include "renderer/import/imagery_source.h"
 #include "renderer/import/page_line.h"
 #include "renderer/import/part_set.h"
+#include "renderer/import/picture_fingerprint.h"
 #include "renderer/import/terrain_choices.h"
 #include "renderer/import/terrain_stages.h"
 #include "renderer/import/texel_store.h"
@@ -158,7 +159,7 @@ private:
             ASSIGN_OR_RETURN(
                 index.imagery,
                 buildImagery(*imagery_, fmt::format("{}", fmt::join(options_.imagery, ", ")),
-                             *texels_, scratch_, control_, writer));
+                             parts_, *texels_, scratch_, control_, writer));
         }
         ASSIGN_OR_RETURN(const std::uint64_t sizeBytes, writer.commit(index));
         return reportOf(index, postMetres, sizeBytes);
@@ -194,16 +195,17 @@ absl::StatusOr<TerrainImportReport> importTerrain(HeightSource& posts, const Ter
         options.threads > 0
             ? static_cast<std::size_t>(options.threads)
             : tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
-    std::optional<PartSet> parts;
-    if (options.mergesParts) {
-        ASSIGN_OR_RETURN(parts,
-                         PartSet::open(out, identityOf(posts.frame(), source.hash,
-                                                       options.errorMetres.value_or(-1), 1)));
-    }
     OpenImagery imagery;
     if (!options.imagery.empty()) {
         ASSIGN_OR_RETURN(imagery,
                          openImagery(options.imagery, posts.frame(), source.crsWkt, control));
+    }
+    std::optional<PartSet> parts;
+    if (options.mergesParts) {
+        const PartIdentity identity =
+            identityOf(posts.frame(), source.hash, options.errorMetres.value_or(-1),
+                       pictureFingerprint(options.imagery), 1);
+        ASSIGN_OR_RETURN(parts, PartSet::open(out, identity, texturesOf(imagery.texels.get())));
     }
     ASSIGN_OR_RETURN(TerrainImportReport report,
                      TerrainJob(posts, imagery.texels.get(), parts ? &*parts : nullptr, source, out,

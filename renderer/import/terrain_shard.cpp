@@ -12,7 +12,10 @@
 #include "fabric/status.h"
 #include "renderer/import/dem_source.h"
 #include "renderer/import/elevation_reading.h"
+#include "renderer/import/imagery_pages.h"
+#include "renderer/import/imagery_source.h"
 #include "renderer/import/page_line.h"
+#include "renderer/import/picture_fingerprint.h"
 #include "renderer/import/shard_facts.h"
 #include "renderer/import/shard_part.h"
 #include "renderer/import/terrain_choices.h"
@@ -25,9 +28,12 @@ namespace {
 /// has something to do with it.
 class ShardJob {
 public:
-    ShardJob(HeightSource& posts, const TerrainSource& source, const std::string& out,
-             const Shard& shard, const TerrainImportOptions& options, const ImportControl& control)
+    /// `imagery` may be null.
+    ShardJob(HeightSource& posts, ImagerySource* imagery, const TerrainSource& source,
+             const std::string& out, const Shard& shard, const TerrainImportOptions& options,
+             const ImportControl& control)
         : posts_(posts),
+          imagery_(imagery),
           source_(source),
           out_(out),
           shard_(shard),
@@ -35,12 +41,12 @@ public:
           control_(control),
           quadtree_(static_cast<std::uint32_t>(posts.frame().columns),
                     static_cast<std::uint32_t>(posts.frame().rows)),
-          plan_(quadtree_, shard.count),
+          plan_(quadtree_, shard.count, texturesOf(imagery)),
           identity_(identityOf(posts.frame(), source.hash, options.errorMetres.value_or(-1),
-                               shard.count)),
+                               pictureFingerprint(options.imagery), shard.count)),
           path_(partPath(out, shard)),
           scratch_(scratchPath(path_, options.scratchFolder),
-                   scratchBytes(posts.frame(), false, options.memoryBytes)),
+                   scratchBytes(posts.frame(), imagery != nullptr, options.memoryBytes)),
           model_(emptyModel(posts.frame(), scratch_)),
           heights_(model_, scratch_, 1),
           normals_(model_, scratch_, 1),
@@ -87,7 +93,13 @@ private:
             posts += own(model_.frame.columns, number % plan_.tilesX()) *
                      own(model_.frame.rows, number / plan_.tilesX());
         }
-        return {path_, posts, plan_.pagesOf(shard_.index).size(), sizeBytes, wasThere, {}};
+        return {path_,
+                posts,
+                plan_.pagesOf(shard_.index).size(),
+                plan_.texturesOf(shard_.index).size(),
+                sizeBytes,
+                wasThere,
+                {}};
     }
 
     absl::Status read() {
@@ -141,10 +153,16 @@ private:
         };
         RETURN_IF_ERROR(buildPages({model_, heights_, vertexLevels_, normals_, lattice},
                                    plan_.pagesOf(shard_.index), scratch_, control_, index, sink));
+        if (imagery_ != nullptr)
+            RETURN_IF_ERROR(buildTextures(*imagery_, plan_.texturesOf(shard_.index), control_,
+                                          [&](std::size_t k, const TexturePiece& texture) {
+                                              return writer.addTexture(k, texture);
+                                          }));
         return writer.commit();
     }
 
     HeightSource& posts_;
+    ImagerySource* imagery_;
     const TerrainSource& source_;
     const std::string& out_;
     const Shard shard_;
@@ -192,8 +210,13 @@ absl::StatusOr<TerrainShardReport> importTerrainShard(HeightSource& posts,
             ? static_cast<std::size_t>(options.threads)
             : tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
     RETURN_IF_ERROR(checkShard(shard));
+    OpenImagery imagery;
+    if (!options.imagery.empty()) {
+        ASSIGN_OR_RETURN(imagery,
+                         openImagery(options.imagery, posts.frame(), source.crsWkt, control));
+    }
     RETURN_IF_ERROR(makeFolder(partsFolder(out)));
-    return ShardJob(posts, source, out, shard, options, control).run();
+    return ShardJob(posts, imagery.texels.get(), source, out, shard, options, control).run();
 }
 
 absl::StatusOr<TerrainShardReport> importTerrainShard(const std::vector<std::string>& dems,

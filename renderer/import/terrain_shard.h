@@ -17,6 +17,7 @@ struct TerrainShardReport {
     std::string part;  ///< the file
     std::uint64_t posts = 0;
     std::uint64_t pages = 0;
+    std::uint64_t textures = 0;
     std::uint64_t sizeBytes = 0;
     bool wasThere = false;  ///< it was made, and is whole, already
     std::vector<std::string> notes = {};
@@ -29,12 +30,12 @@ struct TerrainShardReport {
 /// them.
 ///
 /// Shards run on any machines that share out's folder, at once or one after the other, each any
-/// number of times, even the same at the same time. Needs importTerrain's memory; imagery is left
-/// to the merge.
+/// number of times, even the same at the same time. Needs importTerrain's memory. Of imagery it
+/// makes its share of the texture tiles of level 0.
 ///
-/// Stages reported: checking, reading, surveying, measuring, joining, building. Errors: those of
-/// importTerrain, shareFacts, PartWriter; FailedPrecondition where the same shard is at work on the
-/// same scratch; InvalidArgument for a shard that is none of its count.
+/// Stages reported: checking, reading, surveying, measuring, joining, building, imagery. Errors:
+/// those of importTerrain, shareFacts, PartWriter; FailedPrecondition where the same shard is at
+/// work on the same scratch; InvalidArgument for a shard that is none of its count.
 absl::StatusOr<TerrainShardReport> importTerrainShard(const std::vector<std::string>& dems,
                                                       const std::string& out, const Shard& shard,
                                                       const TerrainImportOptions& options,

@@ -76,6 +76,19 @@ RC_GTEST_PROP(ShardPlan, KnowsAllTilesBesideAShardsOwn, ()) {
     for (std::uint32_t k = 0; k < 12; ++k) RC_ASSERT(plan.isNear(k, x, y) == near.contains(k));
 }
 
+RC_GTEST_PROP(ShardPlan, SharesOutTexturesEvenly, ()) {
+    const auto shards = static_cast<std::uint32_t>(*rc::gen::inRange(1, 40));
+    const auto textures = static_cast<std::uint32_t>(*rc::gen::inRange(0, 400));
+    const ShardPlan plan(Quadtree(100, 100), shards, textures);
+    std::uint32_t next = 0;
+    for (std::uint32_t k = 0; k < shards; ++k) {
+        const std::vector<std::uint32_t> own = plan.texturesOf(k);
+        RC_ASSERT(own.size() == textures / shards || own.size() == textures / shards + 1);
+        for (const std::uint32_t texture : own) RC_ASSERT(texture == next++);
+    }
+    RC_ASSERT(next == textures);
+}
+
 TEST(ShardPlan, SharesOutEvenly) {
     const ShardPlan plan(Quadtree(8193, 8193), 5);  // 16 x 16 squares of 16 tiles
     std::vector<std::size_t> tiles;

@@ -172,9 +172,15 @@ TEST_F(TerrainShards, MakeTheSameBytesOfWarpedMosaicsWithImagery) {
         const auto report = importTerrainShard(dems, out(), {k, 3}, how, {});
         ASSERT_TRUE(report.ok()) << report.status();
         EXPECT_GT(report->posts, 0U);
+        EXPECT_GT(report->textures, 1U);
     }
     TerrainImportOptions merging = how;
     merging.mergesParts = true;
+    TerrainImportOptions without = merging;
+    without.imagery = {};
+    const absl::Status refused = importTerrain(dems, out(), without, {}).status();
+    EXPECT_TRUE(absl::IsInvalidArgument(refused)) << refused;
+    EXPECT_THAT(refused.ToString(), HasSubstr("is made with --imagery"));
     ASSERT_TRUE(importTerrain(dems, out(), merging, {}).ok());
     EXPECT_TRUE(contents(out()) == contents(single));
 }
@@ -283,7 +289,7 @@ TEST_F(Merging, RefusesPartsOfOtherSourcesAndOptionsAndSaysWhatDiffers) {
 }
 
 TEST_F(Merging, RefusesPartsOfAnotherVersion) {
-    PartIdentity other = identityOf(posts_.frame(), 7, -1, 3);
+    PartIdentity other = identityOf(posts_.frame(), 7, -1, 0, 3);
     other.programVersion = {'9', '.', '9'};
     auto writer = PartWriter::create(part(1, 3), other, {1, 3}, {});
     ASSERT_TRUE(writer.ok() && writer->commit().ok());
