@@ -19,6 +19,7 @@
 #include "fabric/status.h"
 #include "renderer/import/mesh_import.h"
 #include "renderer/import/terrain_import.h"
+#include "renderer/import/terrain_shard.h"
 
 namespace eyrie::cli {
 namespace {
@@ -44,6 +45,8 @@ struct TerrainOptions : Options {
     double errorMetres = 0;
     int threads = 0;
     bool fresh = false;
+    std::string shard;
+    bool merges = false;
 };
 
 double sourceMegabytes(const Options& options) {
@@ -89,6 +92,7 @@ absl::StatusOr<import::TerrainImportOptions> importOptions(const TerrainOptions&
         result.errorMetres = options.errorMetres;
     result.startsOver = options.fresh;
     result.threads = options.threads;
+    result.mergesParts = options.merges;
     return result;
 }
 
@@ -131,6 +135,45 @@ absl::Status importTerrain(const TerrainOptions& options) {
                watch.seconds());
     if (made->imagery)
         fmt::print(stderr, "{}: {}\n", options.out, imageryText(*made->imagery));
+    return absl::OkStatus();
+}
+
+absl::Status importShard(const TerrainOptions& options) {
+    StopSignal stop;
+    RETURN_IF_ERROR(checkEnding(options, ".eyt"));
+    ASSIGN_OR_RETURN(const ShardNumber shard,
+                     parseShard(options.shard, import::kMaxShards, "--shard"));
+    ASSIGN_OR_RETURN(const import::TerrainImportOptions how, importOptions(options));
+    const StopWatch watch;
+    absl::StatusOr<import::TerrainShardReport> made;
+    {
+        ProgressBar bar(options.title(), sourceMegabytes(options), "MB",
+                        ProgressBar::styleFor(options.quiet));
+        made = import::importTerrainShard(options.sources, options.out, {shard.index, shard.count},
+                                          how, {bar.callback(), stop.token()});
+    }
+    RETURN_IF_ERROR(made.status());
+    if (options.json) {
+        fmt::print("{}\n", JsonObject()
+                               .text("file", made->part)
+                               .count("shard", shard.index)
+                               .count("shards", shard.count)
+                               .count("samples", made->posts)
+                               .count("bytes", made->sizeBytes)
+                               .number("seconds", watch.seconds())
+                               .str());
+        return absl::OkStatus();
+    }
+    if (options.quiet)
+        return absl::OkStatus();
+    if (made->wasThere)
+        fmt::print(stderr, "{}: is there already\n", made->part);
+    else
+        fmt::print(stderr,
+                   "{}: {} samples, {:.1f} MB, {:.2f} s; with all shards done, give the "
+                   "same command --merge instead of --shard\n",
+                   made->part, made->posts, static_cast<double>(made->sizeBytes) / 1e6,
+                   watch.seconds());
     return absl::OkStatus();
 }
 
@@ -225,16 +268,33 @@ void addTerrain(CLI::App& parent, Run& run) {
         ->capture_default_str();
     command->add_flag("--fresh", options->fresh,
                       "Start over instead of going on with an interrupted import");
+    CLI::Option* const shard =
+        command
+            ->add_option("--shard", options->shard,
+                         "Do one of N shares of the work, I from 0 to N-1, and leave it in "
+                         "OUTPUT.parts, a folder that all machines share; see below")
+            ->type_name("I/N");
+    command->add_flag("--merge", options->merges, "Make the output of the shares of all shards")
+        ->excludes(shard);
     command->footer(
         "Several files are laid over each other: the finest wins, among equals the one named\n"
         "last; gaps stay open. Degrees become metres (UTM), feet too.\n"
         "An import that is stopped or killed goes on when the same command is run again.\n"
+        "A large one spreads over machines: run it with --shard 0/N to --shard N-1/N, at once or\n"
+        "one after the other, then once with --merge, all with the same sources and options. The\n"
+        "file is the one that a single machine would make.\n"
         "Examples:\n"
         "  eyrie import terrain dem.tif -o dem.eyt\n"
         "  eyrie import terrain tiles/*.tif survey.tif -o all.eyt\n"
         "  eyrie import terrain dem.tif --imagery ortho/*.tif -o dem.eyt\n"
-        "  eyrie import terrain huge.vrt -o huge.eyt --memory 2G --scratch /fast/disk");
-    command->callback([options, &run] { run = [options] { return importTerrain(*options); }; });
+        "  eyrie import terrain huge.vrt -o huge.eyt --memory 2G --scratch /fast/disk\n"
+        "  eyrie import terrain huge.vrt -o /shared/huge.eyt --shard $JOB_COMPLETION_INDEX/16\n"
+        "  eyrie import terrain huge.vrt -o /shared/huge.eyt --merge");
+    command->callback([options, &run] {
+        run = [options] {
+            return options->shard.empty() ? importTerrain(*options) : importShard(*options);
+        };
+    });
 }
 
 }  // namespace

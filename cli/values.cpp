@@ -59,6 +59,19 @@ absl::StatusOr<PictureSize> parsePictureSize(std::string_view text, std::string_
         fmt::format("WIDTHxHEIGHT, each from 1 to {}, such as 1280x720", fabric::kMaxViewPixels));
 }
 
+absl::StatusOr<ShardNumber> parseShard(std::string_view text, std::uint32_t most,
+                                       std::string_view option) {
+    const std::size_t slash = text.find('/');
+    if (slash != std::string_view::npos) {
+        const auto count = number<std::uint32_t>(text.substr(slash + 1), 1, most);
+        const auto index = number<std::uint32_t>(text.substr(0, slash), 0, count.value_or(1) - 1);
+        if (count && index)
+            return ShardNumber{*index, *count};
+    }
+    return wrong(option, text,
+                 fmt::format("I/N, N from 1 to {} and I from 0 to N-1, such as 0/4 to 3/4", most));
+}
+
 absl::StatusOr<std::uint64_t> parseBytes(std::string_view text, std::string_view option) {
     constexpr std::string_view kUnits = "KMGT";
     std::string_view digits = text;

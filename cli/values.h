@@ -31,6 +31,17 @@ struct PictureSize {
 /// "WIDTHxHEIGHT", each from 1 to fabric::kMaxViewPixels.
 absl::StatusOr<PictureSize> parsePictureSize(std::string_view text, std::string_view option);
 
+struct ShardNumber {
+    std::uint32_t index = 0;
+    std::uint32_t count = 1;
+
+    bool operator==(const ShardNumber&) const = default;
+};
+
+/// "I/N", N from 1 to `most`, I from 0 to N - 1.
+absl::StatusOr<ShardNumber> parseShard(std::string_view text, std::uint32_t most,
+                                       std::string_view option);
+
 /// A count of bytes: digits, or digits with K, M, G or T (powers of 1024). More than 0.
 absl::StatusOr<std::uint64_t> parseBytes(std::string_view text, std::string_view option);
 

@@ -22,6 +22,7 @@ constexpr std::int32_t kStripTiles = 32;
 /// Posts of some tiles side by side, cut off at the grid's end.
 struct Strip {
     std::int32_t x = 0;  ///< first tile
+    std::int32_t endX = 0;
     std::int32_t y = 0;
     terrain::PostRect rect;
     std::vector<float> posts;
@@ -45,8 +46,8 @@ std::shared_ptr<float[]> tileOf(const Strip& strip, std::int32_t firstColumn) {
 class Reading {
 public:
     Reading(HeightSource& source, const terrain::Scratch& scratch, const ImportControl& control,
-            terrain::ElevationModel& model)
-        : source_(source), scratch_(scratch), control_(control), model_(model) {}
+            terrain::ElevationModel& model, const ReadingShare& share)
+        : source_(source), scratch_(scratch), control_(control), model_(model), share_(share) {}
 
     absl::Status run() {
         control_.report("reading", 0);
@@ -70,23 +71,48 @@ public:
     }
 
 private:
+    bool isNeeded(std::int32_t x, std::int32_t y) const {
+        return !share_.needed || share_.needed(x, y);
+    }
+
+    std::int32_t stripsAcross() const {
+        return (model_.heights.tilesX() + kStripTiles - 1) / kStripTiles;
+    }
+    double stripCount() const {
+        return static_cast<double>(stripsAcross()) * model_.heights.tilesY();
+    }
+
+    /// The next strip, cut down to the tiles that are needed; null at the end.
+    std::shared_ptr<Strip> nextNeeded() {
+        const std::int32_t strips = stripsAcross();
+        const std::int32_t rows = model_.heights.tilesY();
+        for (; next_ < std::int64_t{strips} * rows; ++next_) {
+            const auto row = static_cast<std::int32_t>(next_ / strips);
+            auto strip = std::make_shared<Strip>();
+            strip->x = static_cast<std::int32_t>(next_ % strips) * kStripTiles;
+            strip->endX = std::min(strip->x + kStripTiles, model_.heights.tilesX());
+            strip->y = source_.isLastRowFirst() ? rows - 1 - row : row;
+            while (strip->x < strip->endX && !isNeeded(strip->x, strip->y)) ++strip->x;
+            while (strip->x < strip->endX && !isNeeded(strip->endX - 1, strip->y)) --strip->endX;
+            if (strip->x < strip->endX)
+                return strip;
+        }
+        return nullptr;
+    }
+
     /// Null at the end, or when there is no going on.
     std::shared_ptr<Strip> next() {
         const terrain::GridFrame& frame = model_.frame;
-        const std::int32_t strips = (model_.heights.tilesX() + kStripTiles - 1) / kStripTiles;
-        const std::int32_t rows = model_.heights.tilesY();
-        if (next_ == std::int64_t{strips} * rows || !scratch_.status().ok())
-            return nullptr;
         status_ = control_.check();
-        if (!status_.ok())
+        if (!status_.ok() || !scratch_.status().ok())
             return nullptr;
-        auto strip = std::make_shared<Strip>();
-        const auto row = static_cast<std::int32_t>(next_ / strips);
-        strip->x = static_cast<std::int32_t>(next_ % strips) * kStripTiles;
-        strip->y = source_.isLastRowFirst() ? rows - 1 - row : row;
+        const std::shared_ptr<Strip> strip = nextNeeded();
+        if (!strip)
+            return nullptr;
         const std::int32_t i = strip->x * kRasterTileCells;
         const std::int32_t j = strip->y * kRasterTileCells;
-        strip->rect = {i, j, std::min(kStripTiles * kRasterTileCells + 1, frame.columns - i),
+        strip->rect = {i, j,
+                       std::min((strip->endX - strip->x) * kRasterTileCells + 1, frame.columns - i),
                        std::min(kRasterTilePosts, frame.rows - j)};
         strip->posts.resize(static_cast<std::size_t>(strip->rect.columns) *
                             static_cast<std::size_t>(strip->rect.rows));
@@ -94,26 +120,21 @@ private:
         if (!status_.ok())
             return nullptr;
         ++next_;
-        control_.report("reading",
-                        static_cast<double>(next_) / (static_cast<double>(strips) * rows));
+        control_.report("reading", static_cast<double>(next_) / stripCount());
         return strip;
     }
 
     void store(const Strip& strip) {
         terrain::HeightStatistics statistics;
-        const std::int32_t end = std::min(strip.x + kStripTiles, model_.heights.tilesX());
-        for (std::int32_t x = strip.x; x < end; ++x) {
+        for (std::int32_t x = strip.x; x < strip.endX; ++x) {
+            if (!isNeeded(x, strip.y))
+                continue;
             auto tile = tileOf(strip, (x - strip.x) * kRasterTileCells);
             model_.relief.add(x, strip.y, tile.get());
+            if (!share_.counted || share_.counted(x, strip.y))
+                countTile(model_.frame, x, strip.y, tile.get(), kRasterTilePosts, statistics);
             model_.heights.write(x, strip.y, std::move(tile));
         }
-        // Borders between tiles are in two strips, and are counted with the latter.
-        const bool isLastX = end == model_.heights.tilesX();
-        const bool isLastY = strip.y + 1 == model_.heights.tilesY();
-        const std::int32_t columns = strip.rect.columns - (isLastX ? 0 : 1);
-        for (std::int32_t v = 0; v < strip.rect.rows - (isLastY ? 0 : 1); ++v)
-            statistics.add(strip.posts.data() + static_cast<std::ptrdiff_t>(v) * strip.rect.columns,
-                           columns);
         const std::lock_guard lock(statisticsMutex_);
         model_.statistics.add(statistics);
     }
@@ -122,6 +143,7 @@ private:
     const terrain::Scratch& scratch_;
     const ImportControl& control_;
     terrain::ElevationModel& model_;
+    const ReadingShare& share_;
     std::int64_t next_ = 0;
     absl::Status status_;
     std::mutex statisticsMutex_;
@@ -137,8 +159,19 @@ terrain::ElevationModel emptyModel(const terrain::GridFrame& frame, terrain::Scr
 }
 
 absl::Status readElevation(HeightSource& source, const terrain::Scratch& scratch,
-                           const ImportControl& control, terrain::ElevationModel& model) {
-    return Reading(source, scratch, control, model).run();
+                           const ImportControl& control, terrain::ElevationModel& model,
+                           const ReadingShare& share) {
+    return Reading(source, scratch, control, model, share).run();
+}
+
+void countTile(const terrain::GridFrame& frame, std::int32_t x, std::int32_t y, const float* posts,
+               std::ptrdiff_t stride, terrain::HeightStatistics& statistics) {
+    const auto own = [](std::int32_t all, std::int32_t tile) {
+        const std::int32_t left = all - tile * kRasterTileCells;
+        return left <= kRasterTilePosts ? left : kRasterTileCells;  // the last has its end, too
+    };
+    for (std::int32_t v = 0; v < own(frame.rows, y); ++v)
+        statistics.add(posts + v * stride, own(frame.columns, x));
 }
 
 }  // namespace eyrie::import

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+
 #include <absl/status/status.h>
 
 #include "renderer/import/height_source.h"
@@ -12,9 +15,21 @@ namespace eyrie::import {
 /// An elevation model of the source's shape with room on `scratch`, and no heights yet.
 terrain::ElevationModel emptyModel(const terrain::GridFrame& frame, terrain::Scratch& scratch);
 
-/// Reads all of `source` into `model`: heights, statistics, summary. Stage "reading"; memory for a
-/// few strips of 129 rows. Errors: the source's, the scratch's, Cancelled.
+/// Tiles of 128 cells that are read into a model, and those whose posts its statistics count.
+struct ReadingShare {
+    terrain::TileChoice needed = {};
+    terrain::TileChoice counted = {};
+};
+
+/// Reads `source`, all of it or a share, into `model`: heights, statistics, summary. Stage
+/// "reading"; memory for a few strips of 129 rows. Errors: the source's, the scratch's, Cancelled.
 absl::Status readElevation(HeightSource& source, const terrain::Scratch& scratch,
-                           const ImportControl& control, terrain::ElevationModel& model);
+                           const ImportControl& control, terrain::ElevationModel& model,
+                           const ReadingShare& share = {});
+
+/// Adds up the posts of a tile of `frame` but for those that a next tile has, too: over all tiles
+/// each post counts once. Rows of `posts` are `stride` apart.
+void countTile(const terrain::GridFrame& frame, std::int32_t x, std::int32_t y, const float* posts,
+               std::ptrdiff_t stride, terrain::HeightStatistics& statistics);
 
 }  // namespace eyrie::import

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 #include <memory>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -23,28 +24,25 @@ namespace {
 using terrain::TexelRect;
 using terrain::TextureId;
 
-/// How far blocks are from what they were made of.
-struct BlockLoss {
-    std::uint64_t squares = 0;  ///< of red, green and blue
-    std::uint64_t covered = 0;  ///< texels
+double psnrDb(std::uint64_t squares, std::uint64_t covered) {
+    return 10 * std::log10(255.0 * 255.0 * 3 * static_cast<double>(covered) /
+                           static_cast<double>(squares));
+}
 
-    void add(const BlockLoss& other) {
-        squares += other.squares;
-        covered += other.covered;
-    }
-    double psnrDb() const {
-        return 10 * std::log10(255.0 * 255.0 * 3 * static_cast<double>(covered) /
-                               static_cast<double>(squares));
-    }
-};
-
-/// One tile on its way: texels, then a page.
+/// One tile on its way: texels, then what is made of them.
 struct Tile {
+    Tile(const TextureId& tile, const terrain::TexturePyramid& pyramid)
+        : id(tile), rect(pyramid.texels(tile)) {}
+
+    void makeRoom() {
+        texels.resize(static_cast<std::size_t>(rect.columns) * static_cast<std::size_t>(rect.rows));
+    }
+
     TextureId id;
     TexelRect rect;  ///< border included
     std::vector<fabric::Rgba> texels;
-    std::vector<std::byte> page;
-    BlockLoss loss;
+    TexturePiece made;
+    absl::Status status;
 };
 using TilePointer = std::shared_ptr<Tile>;
 
@@ -72,7 +70,7 @@ public:
             std::all_of(blocks.begin(), blocks.end(),
                         [](const terrain::Bc1Block& block) { return block == terrain::kBc1Hole; });
         if (!isHole)
-            tile_.page = terrain::TexturePage::encode(blocks, blocksX_);
+            tile_.made.page = terrain::TexturePage::encode(blocks, blocksX_);
     }
 
 private:
@@ -103,9 +101,10 @@ private:
                 tile_.rect.y + blockY * terrain::kBlockSide + std::int64_t(k / 4);
             if (texels[k].a < 128 || x >= ownColumns_ || y >= ownRows_)
                 continue;
-            ++tile_.loss.covered;
-            tile_.loss.squares += square(texels[k].r, drawn[k].r) +
-                                  square(texels[k].g, drawn[k].g) + square(texels[k].b, drawn[k].b);
+            ++tile_.made.coveredTexels;
+            tile_.made.lossSquares += square(texels[k].r, drawn[k].r) +
+                                      square(texels[k].g, drawn[k].g) +
+                                      square(texels[k].b, drawn[k].b);
         }
     }
 
@@ -116,12 +115,86 @@ private:
     std::int64_t ownRows_;
 };
 
+/// Columns and rows of a tile's own texels.
+struct OwnTexels {
+    OwnTexels(const Tile& tile, const terrain::TexturePyramid& pyramid)
+        : columns(own(pyramid.width(tile.id.level), tile.rect.x + terrain::kTextureBorder)),
+          rows(own(pyramid.height(tile.id.level), tile.rect.y + terrain::kTextureBorder)) {}
+
+    std::size_t halfTexels() const {
+        return static_cast<std::size_t>((columns + 1) / 2) *
+               static_cast<std::size_t>((rows + 1) / 2);
+    }
+
+    std::int32_t columns;
+    std::int32_t rows;
+
+private:
+    static std::int32_t own(std::int64_t all, std::int64_t first) {
+        return static_cast<std::int32_t>(
+            std::min<std::int64_t>(terrain::kTextureSide, all - first));
+    }
+};
+
+/// What the tile's own texels become one level up.
+std::vector<fabric::Rgba> halved(const Tile& tile, const terrain::TexturePyramid& pyramid) {
+    const OwnTexels own(tile, pyramid);
+    std::vector<fabric::Rgba> inner;
+    inner.reserve(static_cast<std::size_t>(own.columns) * static_cast<std::size_t>(own.rows));
+    for (std::int32_t v = 0; v < own.rows; ++v) {
+        const auto first = tile.texels.begin() +
+                           std::ptrdiff_t{v + terrain::kTextureBorder} * tile.rect.columns +
+                           terrain::kTextureBorder;
+        inner.insert(inner.end(), first, first + own.columns);
+    }
+    std::vector<fabric::Rgba> half(own.halfTexels());
+    terrain::halve(inner, own.columns, own.rows, half);
+    return half;
+}
+
+/// Turns a tile's texels into what is made of them.
+void finish(Tile& tile, const terrain::TexturePyramid& pyramid) {
+    if (tile.id != pyramid.top())
+        tile.made.half = halved(tile, pyramid);
+    TileEncoder(tile, pyramid).encode();
+    tile.texels = {};
+}
+
+/// Runs tiles through three steps: begin, one after the other, null at the end; make, in parallel;
+/// end, one after the other in the order they were begun.
+template <typename Begin, typename Make, typename End>
+void runTiles(Begin begin, Make make, End end) {
+    const auto tokens = static_cast<std::size_t>(2 * tbb::this_task_arena::max_concurrency());
+    tbb::parallel_pipeline(
+        tokens,
+        tbb::make_filter<void, TilePointer>(tbb::filter_mode::serial_in_order,
+                                            [&](tbb::flow_control& flow) {
+                                                TilePointer tile = begin();
+                                                if (!tile)
+                                                    flow.stop();
+                                                return tile;
+                                            }) &
+            tbb::make_filter<TilePointer, TilePointer>(tbb::filter_mode::parallel,
+                                                       [&](const TilePointer& tile) {
+                                                           make(*tile);
+                                                           return tile;
+                                                       }) &
+            tbb::make_filter<TilePointer, void>(tbb::filter_mode::serial_in_order,
+                                                [&](const TilePointer& tile) { end(*tile); }));
+}
+
 /// Makes one level after the other.
 class ImageryLine {
 public:
-    ImageryLine(ImagerySource& source, TexelStore& store, const terrain::Scratch& scratch,
-                const ImportControl& control, terrain::EytWriter& writer)
-        : source_(source), store_(store), scratch_(scratch), control_(control), writer_(writer) {
+    ImageryLine(ImagerySource& source, const PartSet* parts, TexelStore& store,
+                const terrain::Scratch& scratch, const ImportControl& control,
+                terrain::EytWriter& writer)
+        : source_(source),
+          parts_(parts),
+          store_(store),
+          scratch_(scratch),
+          control_(control),
+          writer_(writer) {
         imagery_.pyramid = source.pyramid();
         imagery_.tiles.resize(imagery_.pyramid.tileCount());
     }
@@ -129,13 +202,13 @@ public:
     absl::StatusOr<terrain::ImageryIndex> run(const std::string& name) {
         for (int level = 0; level < imagery_.pyramid.levels(); ++level)
             RETURN_IF_ERROR(makeLevel(level));
-        if (loss_.covered == 0)
+        if (covered_ == 0)
             return absl::InvalidArgumentError(fmt::format(
                 "{}: the terrain lies where no picture has a pixel (alpha 0 or nodata); check "
                 "their coordinates and CRS (gdalinfo)",
                 name));
-        imagery_.psnrDb = loss_.psnrDb();
-        imagery_.coveredTexels = loss_.covered;
+        imagery_.psnrDb = psnrDb(lossSquares_, covered_);
+        imagery_.coveredTexels = covered_;
         return std::move(imagery_);
     }
 
@@ -144,23 +217,8 @@ private:
 
     absl::Status makeLevel(int level) {
         std::uint32_t next = 0;
-        const auto tokens = static_cast<std::size_t>(2 * tbb::this_task_arena::max_concurrency());
-        tbb::parallel_pipeline(
-            tokens, tbb::make_filter<void, TilePointer>(tbb::filter_mode::serial_in_order,
-                                                        [&](tbb::flow_control& flow) {
-                                                            TilePointer tile = begin(level, next++);
-                                                            if (!tile)
-                                                                flow.stop();
-                                                            return tile;
-                                                        }) &
-                        tbb::make_filter<TilePointer, TilePointer>(tbb::filter_mode::parallel,
-                                                                   [&](const TilePointer& tile) {
-                                                                       make(*tile);
-                                                                       return tile;
-                                                                   }) &
-                        tbb::make_filter<TilePointer, void>(
-                            tbb::filter_mode::serial_in_order,
-                            [&](const TilePointer& tile) { write(*tile); }));
+        runTiles([&] { return begin(level, next++); }, [&](Tile& tile) { make(tile); },
+                 [&](const Tile& tile) { write(tile); });
         RETURN_IF_ERROR(readStatus_);
         return writeStatus_;
     }
@@ -178,71 +236,71 @@ private:
         if (!readStatus_.ok())
             return nullptr;
         const std::uint32_t row = number / across;
-        auto tile = std::make_shared<Tile>();
-        tile->id = {level, static_cast<std::int32_t>(number % across),
-                    static_cast<std::int32_t>(source_.isLastRowFirst() ? down - 1 - row : row)};
-        tile->rect = pyramid().texels(tile->id);
-        tile->texels.resize(static_cast<std::size_t>(tile->rect.columns) *
-                            static_cast<std::size_t>(tile->rect.rows));
+        auto tile = std::make_shared<Tile>(
+            TextureId{level, static_cast<std::int32_t>(number % across),
+                      static_cast<std::int32_t>(source_.isLastRowFirst() ? down - 1 - row : row)},
+            pyramid());
+        if (isInParts(*tile))
+            return tile;
+        tile->makeRoom();
         if (level == 0)
             readStatus_ = source_.read(tile->rect, tile->texels);
         return readStatus_.ok() ? tile : nullptr;
     }
 
+    bool isInParts(const Tile& tile) const { return parts_ != nullptr && tile.id.level == 0; }
+
     void make(Tile& tile) const {
-        if (tile.id.level > 0)
-            store_.read(tile.id.level, tile.rect, tile.texels);
-        if (tile.id != pyramid().top())
-            storeHalf(tile);
-        TileEncoder(tile, pyramid()).encode();
-        tile.texels = {};
+        if (isInParts(tile))
+            take(tile);
+        else
+            build(tile);
+        if (tile.status.ok() && tile.id != pyramid().top())
+            store_.write(tile.id, std::exchange(tile.made.half, {}));
     }
 
-    /// What the tile's own texels become one level up.
-    void storeHalf(const Tile& tile) const {
-        const auto own = [](std::int64_t all, std::int64_t first) {
-            return static_cast<std::int32_t>(
-                std::min<std::int64_t>(terrain::kTextureSide, all - first));
-        };
-        const std::int32_t columns =
-            own(pyramid().width(tile.id.level), tile.rect.x + terrain::kTextureBorder);
-        const std::int32_t rows =
-            own(pyramid().height(tile.id.level), tile.rect.y + terrain::kTextureBorder);
-        std::vector<fabric::Rgba> inner;
-        inner.reserve(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
-        for (std::int32_t v = 0; v < rows; ++v) {
-            const auto first = tile.texels.begin() +
-                               std::ptrdiff_t{v + terrain::kTextureBorder} * tile.rect.columns +
-                               terrain::kTextureBorder;
-            inner.insert(inner.end(), first, first + columns);
-        }
-        std::vector<fabric::Rgba> half(static_cast<std::size_t>((columns + 1) / 2) *
-                                       static_cast<std::size_t>((rows + 1) / 2));
-        terrain::halve(inner, columns, rows, half);
-        store_.write(tile.id, half);
+    void take(Tile& tile) const {
+        const std::size_t half =
+            tile.id == pyramid().top() ? 0 : OwnTexels(tile, pyramid()).halfTexels();
+        absl::StatusOr<TexturePiece> piece =
+            parts_->readTexture(pyramid().tileIndex(tile.id), half);
+        tile.status = piece.status();
+        if (piece.ok())
+            tile.made = *std::move(piece);
+    }
+
+    void build(Tile& tile) const {
+        if (tile.id.level > 0)
+            store_.read(tile.id.level, tile.rect, tile.texels);
+        finish(tile, pyramid());
     }
 
     void write(const Tile& tile) {
         if (hasFailed_)
             return;
-        absl::StatusOr<terrain::PageRecord> record = writer_.addPage(tile.page);
+        using Record = absl::StatusOr<terrain::PageRecord>;
+        const Record record =
+            tile.status.ok() ? writer_.addPage(tile.made.page) : Record(tile.status);
         if (!record.ok()) {
             writeStatus_ = record.status();
             hasFailed_ = true;
             return;
         }
         imagery_.tiles[pyramid().tileIndex(tile.id)] = *record;
-        loss_.add(tile.loss);
+        lossSquares_ += tile.made.lossSquares;
+        covered_ += tile.made.coveredTexels;
         control_.report("imagery", static_cast<double>(++written_) / pyramid().tileCount());
     }
 
     ImagerySource& source_;
+    const PartSet* parts_;
     TexelStore& store_;
     const terrain::Scratch& scratch_;
     const ImportControl& control_;
     terrain::EytWriter& writer_;
     terrain::ImageryIndex imagery_;
-    BlockLoss loss_;
+    std::uint64_t lossSquares_ = 0;
+    std::uint64_t covered_ = 0;
     std::uint32_t written_ = 0;
     absl::Status readStatus_;   // by the first stage
     absl::Status writeStatus_;  // by the last stage
@@ -252,14 +310,50 @@ private:
 }  // namespace
 
 absl::StatusOr<terrain::ImageryIndex> buildImagery(ImagerySource& source, const std::string& name,
-                                                   TexelStore& store,
+                                                   const PartSet* parts, TexelStore& store,
                                                    const terrain::Scratch& scratch,
                                                    const ImportControl& control,
                                                    terrain::EytWriter& writer) {
     ASSIGN_OR_RETURN(terrain::ImageryIndex imagery,
-                     ImageryLine(source, store, scratch, control, writer).run(name));
+                     ImageryLine(source, parts, store, scratch, control, writer).run(name));
     RETURN_IF_ERROR(scratch.status());
     return imagery;
+}
+
+absl::Status buildTextures(ImagerySource& source, const std::vector<std::uint32_t>& textures,
+                           const ImportControl& control, const TextureSink& sink) {
+    const terrain::TexturePyramid& pyramid = source.pyramid();
+    std::vector<std::size_t> order(textures.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    if (source.isLastRowFirst())
+        std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+            return pyramid.tileOf(textures[a]).y > pyramid.tileOf(textures[b]).y;
+        });
+    absl::Status readStatus;
+    absl::Status sinkStatus;
+    std::atomic<bool> hasFailed = false;
+    std::size_t begun = 0;
+    std::size_t ended = 0;
+    const auto begin = [&]() -> TilePointer {
+        readStatus = control.check();
+        if (begun == order.size() || hasFailed || !readStatus.ok())
+            return nullptr;
+        auto tile = std::make_shared<Tile>(pyramid.tileOf(textures[order[begun++]]), pyramid);
+        tile->makeRoom();
+        readStatus = source.read(tile->rect, tile->texels);
+        return readStatus.ok() ? tile : nullptr;
+    };
+    const auto end = [&](const Tile& tile) {
+        if (sinkStatus.ok())
+            sinkStatus = sink(order[ended], tile.made);
+        hasFailed = !sinkStatus.ok();
+        ++ended;
+        control.report("imagery", static_cast<double>(ended) / static_cast<double>(order.size()));
+    };
+    runTiles(
+        begin, [&](Tile& tile) { finish(tile, pyramid); }, end);
+    RETURN_IF_ERROR(readStatus);
+    return sinkStatus;
 }
 
 }  // namespace eyrie::import

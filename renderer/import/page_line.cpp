@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -91,31 +92,33 @@ void saturate(terrain::EytIndex& index) {
 /// Builds pages in parallel and writes them in order.
 class PageLine {
 public:
-    PageLine(const PageSources& sources, const terrain::Scratch& scratch,
-             const ImportControl& control, terrain::EytIndex& index, terrain::EytWriter& writer)
+    PageLine(const PageSources& sources, std::span<const std::uint32_t> pages,
+             const terrain::Scratch& scratch, const ImportControl& control,
+             terrain::EytIndex& index, const PageSink& sink)
         : sources_(sources),
+          pages_(pages),
           scratch_(scratch),
           control_(control),
           index_(index),
-          writer_(writer),
+          sink_(sink),
           rounding_(sources.model.statistics.highestMagnitude() * terrain::kDeviationRounding),
           workers_([this] { return std::make_unique<Worker>(sources_, index_.quadtree); }) {}
 
     absl::Status run() {
-        std::uint32_t next = 0;
+        std::size_t next = 0;
         const auto tokens = static_cast<std::size_t>(2 * tbb::this_task_arena::max_concurrency());
         tbb::parallel_pipeline(
             tokens,
-            tbb::make_filter<void, std::uint32_t>(tbb::filter_mode::serial_in_order,
-                                                  [&](tbb::flow_control& flow) {
-                                                      if (!goesOn(next))
-                                                          flow.stop();
-                                                      return next++;
-                                                  }) &
-                tbb::make_filter<std::uint32_t, BuiltPage>(
-                    tbb::filter_mode::parallel, [&](std::uint32_t page) { return build(page); }) &
+            tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order,
+                                                [&](tbb::flow_control& flow) {
+                                                    if (!goesOn(next))
+                                                        flow.stop();
+                                                    return next++;
+                                                }) &
+                tbb::make_filter<std::size_t, BuiltPage>(
+                    tbb::filter_mode::parallel, [&](std::size_t k) { return make(pages_[k]); }) &
                 tbb::make_filter<BuiltPage, void>(tbb::filter_mode::serial_in_order,
-                                                  [&](const BuiltPage& page) { write(page); }));
+                                                  [&](const BuiltPage& page) { handOver(page); }));
         return cancelled_.ok() ? status_ : cancelled_;
     }
 
@@ -135,10 +138,11 @@ private:
     struct BuiltPage {
         std::uint32_t number = 0;
         std::shared_ptr<const std::vector<std::uint32_t>> bytes;
+        absl::Status status;
     };
 
-    bool goesOn(std::uint32_t page) {
-        if (page >= index_.quadtree.pageCount() || hasFailed_)
+    bool goesOn(std::size_t page) {
+        if (page >= pages_.size() || hasFailed_)
             return false;
         cancelled_ = scratch_.status();
         if (cancelled_.ok())
@@ -146,15 +150,28 @@ private:
         return cancelled_.ok();
     }
 
+    BuiltPage make(std::uint32_t number) {
+        const bool isBuilt = sources_.parts != nullptr && sources_.parts->hasPage(number);
+        return isBuilt ? take(number) : build(number);
+    }
+
+    BuiltPage take(std::uint32_t number) {
+        PageTiles records;
+        absl::StatusOr<std::vector<std::uint32_t>> bytes =
+            sources_.parts->readPage(number, records);
+        if (!bytes.ok())
+            return {number, nullptr, bytes.status()};
+        forEachTileOfPage(index_.quadtree, number, [&](const TileId& tile, int place) {
+            index_.tiles[index_.quadtree.tileIndex(tile)] =
+                records[static_cast<std::size_t>(place)];
+        });
+        return {number, std::make_shared<const std::vector<std::uint32_t>>(*std::move(bytes)), {}};
+    }
+
     BuiltPage build(std::uint32_t number) {
         Worker& worker = *workers_.local();
-        const TileId first = index_.quadtree.firstTileOfPage(number);
         std::vector<std::int8_t> normals;
-        for (std::int32_t place = 0; place < terrain::kPageTiles * terrain::kPageTiles; ++place) {
-            const TileId tile{first.level, first.x + place % terrain::kPageTiles,
-                              first.y + place / terrain::kPageTiles};
-            if (!index_.quadtree.contains(tile))
-                continue;
+        forEachTileOfPage(index_.quadtree, number, [&](const TileId& tile, int place) {
             const terrain::TileMesh& mesh = worker.mesher.mesh(tile);
             terrain::TileRecord record = recordOf(mesh, rounding_);
             if (tile.level == 0)
@@ -165,9 +182,10 @@ private:
             if (!normals.empty())
                 sources_.normals.fill(tile, normals);
             worker.builder.add(place, tile.level, mesh, normals);
-        }
+        });
         return {number,
-                std::make_shared<const std::vector<std::uint32_t>>(worker.builder.finish())};
+                std::make_shared<const std::vector<std::uint32_t>>(worker.builder.finish()),
+                {}};
     }
 
     /// Where finer tiles share the normals, they may be drawn where this one is not; but only
@@ -179,27 +197,25 @@ private:
                (!mesh.indices.empty() || (tile.level == level && samples.hasData()));
     }
 
-    void write(const BuiltPage& page) {
+    void handOver(const BuiltPage& page) {
         if (hasFailed_)
             return;
-        absl::StatusOr<terrain::PageRecord> record = writer_.addPage(*page.bytes);
-        if (!record.ok()) {
-            status_ = record.status();
-            hasFailed_ = true;
-            return;
-        }
-        index_.pages[page.number] = *record;
+        status_ = page.status.ok() ? sink_(page.number, *page.bytes) : page.status;
+        hasFailed_ = !status_.ok();
+        ++done_;
         control_.report("building",
-                        static_cast<double>(page.number + 1) / index_.quadtree.pageCount());
+                        static_cast<double>(done_) / static_cast<double>(pages_.size()));
     }
 
     const PageSources& sources_;
+    std::span<const std::uint32_t> pages_;
     const terrain::Scratch& scratch_;
     const ImportControl& control_;
     terrain::EytIndex& index_;
-    terrain::EytWriter& writer_;
+    const PageSink& sink_;
     double rounding_;
     tbb::enumerable_thread_specific<std::unique_ptr<Worker>> workers_;
+    std::size_t done_ = 0;
     absl::Status status_;  // by the last stage
     std::atomic<bool> hasFailed_ = false;
     absl::Status cancelled_;  // by the first stage
@@ -207,11 +223,26 @@ private:
 
 }  // namespace
 
-absl::Status buildPages(const PageSources& sources, const terrain::Scratch& scratch,
+absl::Status buildPages(const PageSources& sources, std::span<const std::uint32_t> pages,
+                        const terrain::Scratch& scratch, const ImportControl& control,
+                        terrain::EytIndex& index, const PageSink& sink) {
+    RETURN_IF_ERROR(PageLine(sources, pages, scratch, control, index, sink).run());
+    return scratch.status();
+}
+
+absl::Status writePages(const PageSources& sources, const terrain::Scratch& scratch,
                         const ImportControl& control, terrain::EytIndex& index,
                         terrain::EytWriter& writer) {
-    RETURN_IF_ERROR(PageLine(sources, scratch, control, index, writer).run());
-    RETURN_IF_ERROR(scratch.status());
+    std::vector<std::uint32_t> pages(index.quadtree.pageCount());
+    std::iota(pages.begin(), pages.end(), 0U);
+    RETURN_IF_ERROR(buildPages(sources, pages, scratch, control, index,
+                               [&](std::uint32_t page, std::span<const std::uint32_t> bytes) {
+                                   absl::StatusOr<terrain::PageRecord> record =
+                                       writer.addPage(bytes);
+                                   if (record.ok())
+                                       index.pages[page] = *record;
+                                   return record.status();
+                               }));
     saturate(index);
     return absl::OkStatus();
 }

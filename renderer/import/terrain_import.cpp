@@ -21,51 +21,15 @@
 #include "renderer/import/imagery_pages.h"
 #include "renderer/import/imagery_source.h"
 #include "renderer/import/page_line.h"
+#include "renderer/import/part_set.h"
+#include "renderer/import/picture_fingerprint.h"
+#include "renderer/import/terrain_choices.h"
 #include "renderer/import/terrain_stages.h"
 #include "renderer/import/texel_store.h"
 #include "renderer/terrain/eyt_format.h"
 
 namespace eyrie::import {
 namespace {
-
-std::vector<double> levelThresholds(int levels, double postMetres,
-                                    const terrain::HeightLattice& lattice,
-                                    const std::optional<double>& errorMetres) {
-    std::vector<double> thresholds;
-    for (int level = 0; level < levels; ++level)
-        thresholds.push_back(kErrorPerSpacing * postMetres *
-                             std::exp2(level - terrain::kFullResolutionLevels + 1));
-    thresholds[0] = lattice.isLossless ? 0 : lattice.stepMetres / 4;
-    if (errorMetres)  // half a step is for the heights' own rounding
-        thresholds[0] = std::max(thresholds[0],
-                                 *errorMetres - (lattice.isLossless ? 0 : lattice.stepMetres / 2));
-    for (double& threshold : thresholds) threshold = std::max(threshold, thresholds[0]);
-    return thresholds;
-}
-
-fabric::Mat4 objectFromLattice(const terrain::GridFrame& frame,
-                               const terrain::HeightLattice& lattice) {
-    fabric::Mat4 m(1.0);
-    m[0] = {frame.perColumn.x, frame.perColumn.y, 0, 0};
-    m[1] = {frame.perRow.x, frame.perRow.y, 0, 0};
-    m[2] = {0, 0, lattice.stepMetres, 0};
-    m[3] = {frame.origin.x, frame.origin.y, 0, 1};
-    return m;
-}
-
-terrain::EytIndex indexOf(const terrain::ElevationModel& model,
-                          const terrain::HeightLattice& lattice, const TerrainSource& source) {
-    terrain::EytIndex index;
-    index.quadtree = terrain::Quadtree(static_cast<std::uint32_t>(model.frame.columns),
-                                       static_cast<std::uint32_t>(model.frame.rows));
-    index.objectFromLattice = objectFromLattice(model.frame, lattice);
-    index.crsWkt = source.crsWkt;
-    index.sourceHash = source.hash;
-    index.nodataPosts = model.statistics.nodataPosts;
-    index.tiles.resize(index.quadtree.tileCount());
-    index.pages.resize(index.quadtree.pageCount());
-    return index;
-}
 
 TerrainImportReport reportOf(const terrain::EytIndex& index, double postMetres,
                              std::uint64_t sizeBytes) {
@@ -82,36 +46,6 @@ TerrainImportReport reportOf(const terrain::EytIndex& index, double postMetres,
         .coarsestErrorMetres = index.coarsestErrorMetres(),
         .imagery = index.imagery ? std::optional(terrain::summaryOf(*index.imagery)) : std::nullopt,
         .notes = {}};
-}
-
-/// Bytes that every import holds in memory, whatever lies on scratch.
-std::uint64_t residentBytes(const terrain::GridFrame& frame, bool hasImagery) {
-    // The program with GDAL and PROJ, GDAL's cache, strips and pages under way: measured.
-    constexpr std::uint64_t kProgram = std::uint64_t{144} << 20;
-    // Summaries, coarse vertex levels, tile records, and those again while they are written.
-    constexpr std::uint64_t kPostsPerByte = 10;
-    // What GDAL warps at once, and texture tiles under way.
-    constexpr std::uint64_t kImagery = std::uint64_t{40} << 20;
-    return kProgram + (hasImagery ? kImagery : 0) +
-           static_cast<std::uint64_t>(frame.columns) * static_cast<std::uint64_t>(frame.rows) /
-               kPostsPerByte;
-}
-
-std::uint64_t scratchBytes(const terrain::GridFrame& frame, const TerrainImportOptions& options) {
-    constexpr std::uint64_t kLeast = std::uint64_t{4} << 20;
-    const std::uint64_t resident = residentBytes(frame, !options.imagery.empty());
-    const std::uint64_t memory = options.memoryBytes;
-    return std::max(kLeast, memory > resident ? memory - resident : 0);
-}
-
-std::string scratchPath(const std::string& out, const std::string& folder) {
-    namespace fs = std::filesystem;
-    if (folder.empty())
-        return out + ".scratch";
-    const std::string whole = fs::absolute(out).lexically_normal().string();
-    return (fs::path(folder) / fmt::format("{}-{:016x}.scratch", fs::path(out).filename().string(),
-                                           XXH64(whole.data(), whole.size(), 0)))
-        .string();
 }
 
 /// Removes what killed imports into `out` have left: EytWriter's unfinished files.
@@ -133,17 +67,19 @@ void removeLeftovers(const std::string& out) {
 /// One import: what it holds, and its stages.
 class TerrainJob {
 public:
-    /// `imagery` may be null.
-    TerrainJob(HeightSource& posts, ImagerySource* imagery, const TerrainSource& source,
-               const std::string& out, const TerrainImportOptions& options,
-               const ImportControl& control)
+    /// `imagery` and `parts` may be null.
+    TerrainJob(HeightSource& posts, ImagerySource* imagery, const PartSet* parts,
+               const TerrainSource& source, const std::string& out,
+               const TerrainImportOptions& options, const ImportControl& control)
         : posts_(posts),
           imagery_(imagery),
+          parts_(parts),
           source_(source),
           out_(out),
           options_(options),
           control_(control),
-          scratch_(scratchPath(out, options.scratchFolder), scratchBytes(posts.frame(), options)),
+          scratch_(scratchPath(out, options.scratchFolder),
+                   scratchBytes(posts.frame(), !options.imagery.empty(), options.memoryBytes)),
           model_(emptyModel(posts.frame(), scratch_)),
           levels_(terrain::Quadtree(static_cast<std::uint32_t>(model_.frame.columns),
                                     static_cast<std::uint32_t>(model_.frame.rows))
@@ -192,7 +128,10 @@ private:
     absl::StatusOr<TerrainImportReport> runStages(TerrainStages& stages,
                                                   terrain::EytWriter& writer) {
         RETURN_IF_ERROR(stages.run(
-            [&] { return readElevation(posts_, scratch_, control_, model_); },
+            [&] {
+                return parts_ ? parts_->gatherHeights(scratch_, control_, model_)
+                              : readElevation(posts_, scratch_, control_, model_);
+            },
             {[&] { return model_.state(); }, [&](const auto& s) { return model_.restore(s); }}));
         if (model_.statistics.min > model_.statistics.max)
             return absl::InvalidArgumentError(
@@ -201,15 +140,18 @@ private:
         const terrain::HeightLattice lattice = chooseHeightLattice(model_.statistics, postMetres);
         vertexLevels_.setThresholds(
             levelThresholds(levels_, postMetres, lattice, options_.errorMetres));
-        RETURN_IF_ERROR(stages.run([&] { return vertexLevels_.measure(control_); }));
+        RETURN_IF_ERROR(stages.run([&] {
+            return parts_ ? parts_->gatherMeasured(scratch_, control_, vertexLevels_)
+                          : vertexLevels_.measure(control_);
+        }));
         RETURN_IF_ERROR(stages.run([&] { return joinLevels(); },
                                    {[&] { return vertexLevels_.state(); },
                                     [&](const auto& s) { return vertexLevels_.restore(s); }}));
         RETURN_IF_ERROR(stages.run([&] { return heights_.make(control_); }));
         RETURN_IF_ERROR(stages.run([&] { return normals_.make(control_); }));
-        terrain::EytIndex index = indexOf(model_, lattice, source_);
-        RETURN_IF_ERROR(buildPages({model_, heights_, vertexLevels_, normals_, lattice}, scratch_,
-                                   control_, index, writer));
+        terrain::EytIndex index = emptyIndex(model_, lattice, source_.crsWkt, source_.hash);
+        RETURN_IF_ERROR(writePages({model_, heights_, vertexLevels_, normals_, lattice, parts_},
+                                   scratch_, control_, index, writer));
         if (index.triangles() == 0)
             return absl::InvalidArgumentError(fmt::format(
                 "{}: no three neighbouring posts have data; check the nodata value", source_.name));
@@ -217,7 +159,7 @@ private:
             ASSIGN_OR_RETURN(
                 index.imagery,
                 buildImagery(*imagery_, fmt::format("{}", fmt::join(options_.imagery, ", ")),
-                             *texels_, scratch_, control_, writer));
+                             parts_, *texels_, scratch_, control_, writer));
         }
         ASSIGN_OR_RETURN(const std::uint64_t sizeBytes, writer.commit(index));
         return reportOf(index, postMetres, sizeBytes);
@@ -227,6 +169,7 @@ private:
 
     HeightSource& posts_;
     ImagerySource* imagery_;
+    const PartSet* parts_;
     const TerrainSource& source_;
     const std::string& out_;
     const TerrainImportOptions& options_;
@@ -257,8 +200,19 @@ absl::StatusOr<TerrainImportReport> importTerrain(HeightSource& posts, const Ter
         ASSIGN_OR_RETURN(imagery,
                          openImagery(options.imagery, posts.frame(), source.crsWkt, control));
     }
+    std::optional<PartSet> parts;
+    if (options.mergesParts) {
+        const PartIdentity identity =
+            identityOf(posts.frame(), source.hash, options.errorMetres.value_or(-1),
+                       pictureFingerprint(options.imagery), 1);
+        ASSIGN_OR_RETURN(parts, PartSet::open(out, identity, texturesOf(imagery.texels.get())));
+    }
     ASSIGN_OR_RETURN(TerrainImportReport report,
-                     TerrainJob(posts, imagery.texels.get(), source, out, options, control).run());
+                     TerrainJob(posts, imagery.texels.get(), parts ? &*parts : nullptr, source, out,
+                                options, control)
+                         .run());
+    if (parts)
+        parts->remove();
     report.notes = std::move(imagery.notes);
     return report;
 }

@@ -48,6 +48,7 @@ struct TerrainImportOptions {
     std::optional<double> errorMetres = {};
     std::vector<std::string> imagery = {};  ///< pictures to lay over it, see openImagery
     bool startsOver = false;                ///< ignores what an interrupted import left
+    bool mergesParts = false;               ///< takes what importTerrainShard has made
     int threads = 0;                        ///< 0: all
 };
 
@@ -67,8 +68,13 @@ struct TerrainSource {
 /// called off, killed or ran out of disk leaves it, and the same call goes on after the last
 /// stage that was finished; the result is the same to the byte. Imports that fit leave nothing.
 ///
-/// Stages reported: checking, reading, measuring, joining, thinning, smoothing, building, imagery.
-/// Errors: those of openMosaic, openImagery and buildImagery; NotFound, PermissionDenied,
+/// With `mergesParts` what importTerrainShard has left beside `out` takes the place of reading and
+/// measuring the posts and of building the finer pages; the parts are removed in the end. The file
+/// is the same to the byte.
+///
+/// Stages reported: checking, reading, measuring (gathering and collecting of parts), joining,
+/// thinning, smoothing, building, imagery.
+/// Errors: those of openMosaic, openImagery, buildImagery and PartSet; NotFound, PermissionDenied,
 /// ResourceExhausted for `out` and the scratch; InvalidArgument when no cell has data on three
 /// corners; Cancelled.
 absl::StatusOr<TerrainImportReport> importTerrain(const std::vector<std::string>& dems,

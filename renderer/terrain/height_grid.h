@@ -58,6 +58,7 @@ struct HeightStatistics {
 
     void add(const float* posts, std::int32_t count);
     void add(const HeightStatistics& other);
+    bool operator==(const HeightStatistics&) const = default;
     double highestMagnitude() const {
         return std::max(std::abs(static_cast<double>(min)), std::abs(static_cast<double>(max)));
     }

@@ -135,12 +135,13 @@ void Scratch::keep(Shard& shard, Entry entry) {
     }
 }
 
-int Scratch::file() {
+/// Made with `flags` O_CREAT; without, -1 while there is none.
+int Scratch::file(int flags) {
     if (fd_ >= 0)
         return fd_;
     const std::lock_guard lock(fileMutex_);
     if (fd_ < 0)
-        fd_ = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+        fd_ = open(path_.c_str(), O_RDWR | O_CLOEXEC | flags, 0644);
     return fd_;
 }
 
@@ -149,7 +150,7 @@ void Scratch::store(const Entry& entry) {
     std::size_t left = entry.bytes;
     auto offset = static_cast<off_t>(entry.place);
     while (left > 0) {
-        const ssize_t done = pwrite(file(), next, left, offset);
+        const ssize_t done = pwrite(file(O_CREAT), next, left, offset);
         if (done < 0 && errno == EINTR)
             continue;
         if (done <= 0)
@@ -163,7 +164,7 @@ void Scratch::store(const Entry& entry) {
 /// What was never written reads as zeros, as holes of a file do.
 void Scratch::load(std::uint64_t place, std::span<std::byte> out) {
     std::size_t have = 0;
-    while (have < out.size()) {
+    while (have < out.size() && (file() >= 0 || errno != ENOENT)) {
         const ssize_t got =
             pread(file(), out.data() + have, out.size() - have, static_cast<off_t>(place + have));
         if (got < 0 && errno == EINTR)
@@ -197,7 +198,7 @@ absl::Status Scratch::flush() {
             if (std::exchange(entry.isDirty, false))
                 store(entry);
     }
-    if (!hasFailed_ && fdatasync(file()) != 0)
+    if (!hasFailed_ && fdatasync(file(O_CREAT)) != 0)
         fail("scratch file cannot be flushed to disk");
     return status();
 }

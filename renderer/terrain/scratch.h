@@ -69,7 +69,7 @@ private:
     void keep(Shard& shard, Entry entry);
     void store(const Entry& entry);
     void load(std::uint64_t place, std::span<std::byte> out);
-    int file();
+    int file(int flags = 0);
     void fail(const char* what);
 
     const std::string path_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <utility>
 
@@ -17,6 +18,9 @@ inline constexpr std::int32_t kRasterTileCells = 128;
 inline constexpr std::int32_t kRasterTilePosts = kRasterTileCells + 1;
 inline constexpr std::size_t kRasterTileValues =
     static_cast<std::size_t>(kRasterTilePosts) * kRasterTilePosts;
+
+/// Which tiles of a raster something is about; none: all of them.
+using TileChoice = std::function<bool(std::int32_t x, std::int32_t y)>;
 
 /// A rectangle of posts.
 struct PostRect {

@@ -240,10 +240,11 @@ void VertexLevels::TileMeasure::measureVertex(std::int32_t u, std::int32_t v, st
     at(u, v) = static_cast<std::uint8_t>(known);
 }
 
-absl::Status VertexLevels::measure(const import::ImportControl& control) {
+absl::Status VertexLevels::measure(const import::ImportControl& control, const TileChoice& needed) {
     return forEachTile(measured_.tilesX(), measured_.tilesY(), "measuring", scratch_, control,
                        [&](std::int32_t x, std::int32_t y) {
-                           measured_.write(x, y, TileMeasure(*this, x, y).run());
+                           if (!needed || needed(x, y))
+                               measured_.write(x, y, TileMeasure(*this, x, y).run());
                        });
 }
 
@@ -368,13 +369,25 @@ private:
     std::vector<std::uint8_t> counts_;
 };
 
-absl::Status VertexLevels::join(const import::ImportControl& control) {
+absl::Status VertexLevels::join(const import::ImportControl& control, const TileChoice& needed) {
+    const auto isNeeded = [&](std::int32_t groupX, std::int32_t groupY) {
+        if (!needed)
+            return true;
+        constexpr std::int32_t kTiles = GroupJoin::kTiles;
+        for (std::int32_t y = groupY * kTiles; y < (groupY + 1) * kTiles; ++y)
+            for (std::int32_t x = groupX * kTiles; x < (groupX + 1) * kTiles; ++x)
+                if (x < measured_.tilesX() && y < measured_.tilesY() && needed(x, y))
+                    return true;
+        return false;
+    };
     const auto over = [](std::int32_t tiles) {
         return (tiles + GroupJoin::kTiles - 1) / GroupJoin::kTiles;
     };
     return forEachTile(over(measured_.tilesX()), over(measured_.tilesY()), "joining", scratch_,
-                       control,
-                       [&](std::int32_t x, std::int32_t y) { GroupJoin(*this, x, y).run(); });
+                       control, [&](std::int32_t x, std::int32_t y) {
+                           if (isNeeded(x, y))
+                               GroupJoin(*this, x, y).run();
+                       });
 }
 
 int VertexLevels::exceeded(std::int32_t i, std::int32_t j) const {
@@ -428,8 +441,8 @@ void VertexLevels::finishClass(std::int32_t s, bool isCentre) {
             outside_[vertex.key] = static_cast<std::uint8_t>(vertex.exceeded);
 }
 
-absl::Status VertexLevels::finish(const import::ImportControl& control) {
-    for (std::int32_t s = kCoarseSpacing; s < side_; s *= 2)
+absl::Status VertexLevels::finish(const import::ImportControl& control, std::int32_t endSpacing) {
+    for (std::int32_t s = kCoarseSpacing; s < std::min(side_, endSpacing); s *= 2)
         for (const bool isCentre : {false, true}) {
             RETURN_IF_ERROR(control.check());
             finishClass(s, isCentre);

@@ -4,8 +4,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <memory>
 #include <span>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include <absl/status/statusor.h>
@@ -46,10 +49,24 @@ public:
     void setThresholds(std::vector<double> metres);
 
     // In this order; each is parallel. Errors: Cancelled, the scratch's.
+    //
+    // For a part of the model: `measure` and `join` with `needed` tiles, of which the model must
+    // have the heights, and `finish` up to kTileSpacing then make whatever tiles of up to 128 cells
+    // ask for, as long as they and all tiles beside them are needed.
 
-    absl::Status measure(const import::ImportControl& control);
-    absl::Status join(const import::ImportControl& control);
-    absl::Status finish(const import::ImportControl& control);
+    absl::Status measure(const import::ImportControl& control, const TileChoice& needed = {});
+    absl::Status join(const import::ImportControl& control, const TileChoice& needed = {});
+    absl::Status finish(const import::ImportControl& control,
+                        std::int32_t endSpacing = std::numeric_limits<std::int32_t>::max());
+    static constexpr std::int32_t kTileSpacing = kRasterTileCells;
+
+    /// What `measure` has found in a tile; and the same put in its place. Any thread.
+    TiledRaster<std::uint8_t>::Tile measured(std::int32_t x, std::int32_t y) const {
+        return measured_.tile(x, y);
+    }
+    void setMeasured(std::int32_t x, std::int32_t y, std::shared_ptr<std::uint8_t[]> counts) {
+        measured_.write(x, y, std::move(counts));
+    }
 
     /// What the triangles that a vertex splits deviate from the source at most, given how many
     /// thresholds it exceeds; rounding, in float as well, included.

@@ -45,6 +45,17 @@ TEST(ParsePictureSize, RefusesEverythingElse) {
         EXPECT_TRUE(absl::IsInvalidArgument(parsePictureSize(wrong, "--size").status())) << wrong;
 }
 
+TEST(ParseShard, CountsFromZero) {
+    EXPECT_EQ(*parseShard("0/1", 8, "--shard"), (ShardNumber{0, 1}));
+    EXPECT_EQ(*parseShard("7/8", 8, "--shard"), (ShardNumber{7, 8}));
+}
+
+TEST(ParseShard, RefusesEverythingElse) {
+    for (const char* wrong : {"", "/", "1", "1/", "/1", "0/0", "1/1", "8/8", "0/9", "-1/4", "1/-4",
+                              "0x1/4", "1/4 ", "1/4/8", "4294967296/4294967297"})
+        EXPECT_TRUE(absl::IsInvalidArgument(parseShard(wrong, 8, "--shard").status())) << wrong;
+}
+
 TEST(ParseBytes, CountsInPowersOf1024) {
     EXPECT_EQ(*parseBytes("1", "--memory"), 1U);
     EXPECT_EQ(*parseBytes("3K", "--memory"), 3U << 10);

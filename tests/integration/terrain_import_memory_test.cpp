@@ -64,6 +64,18 @@ TEST_F(TerrainImportProcess, StaysWithinItsMemory) {
     EXPECT_LE(peak, std::int64_t{192} << 20);
     EXPECT_FALSE(std::filesystem::exists(folder_.path("dem.eyt.scratch")));
 }
+
+TEST_F(TerrainImportProcess, StaysWithinItsMemorySharded) {
+    synthesize(4000);  // 16 M posts: 48 MB of heights and levels a shard and 149 MB at the merge
+    for (const Words& share : {Words{"--shard", "0/2"}, {"--shard", "1/2"}, {"--merge"}}) {
+        Words arguments = importInto("dem.eyt", "192M");
+        arguments.emplace_back("--quiet");
+        arguments.insert(arguments.end(), share.begin(), share.end());
+        const std::int64_t peak = peakBytes(test::eyrieCommand(arguments));
+        ASSERT_GT(peak, 0) << share.back();
+        EXPECT_LE(peak, std::int64_t{192} << 20) << share.back();
+    }
+}
 #endif
 
 TEST_F(TerrainImportProcess, GoesOnAfterAKill) {

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/import/picture_fingerprint.h"
+
+#include <memory>
+
+#include <cpl_vsi.h>
+#include <xxhash.h>
+
+#include "renderer/import/gdal_handles.h"
+
+namespace eyrie::import {
+namespace {
+
+std::uint64_t fingerprintOf(const std::string& path) {
+    constexpr std::size_t kEnd = std::size_t{1} << 20;
+    const std::unique_ptr<VSILFILE, Releaser<VSIFCloseL>> file(VSIFOpenL(path.c_str(), "rb"));
+    if (!file)
+        return XXH64(path.data(), path.size(), 0);
+    std::vector<char> buffer(kEnd);
+    std::size_t got = VSIFReadL(buffer.data(), 1, kEnd, file.get());
+    const std::uint64_t first = XXH64(buffer.data(), got, 1);
+    VSIFSeekL(file.get(), 0, SEEK_END);
+    const vsi_l_offset bytes = VSIFTellL(file.get());
+    VSIFSeekL(file.get(), bytes > kEnd ? bytes - kEnd : 0, SEEK_SET);
+    got = VSIFReadL(buffer.data(), 1, kEnd, file.get());
+    return XXH64(buffer.data(), got, first ^ bytes);
+}
+
+}  // namespace
+
+std::uint64_t pictureFingerprint(const std::vector<std::string>& paths) {
+    const QuietGdal quiet;
+    std::uint64_t all = 0;
+    for (const std::string& path : paths) all = all * 0x9e3779b97f4a7c15 + fingerprintOf(path);
+    return all;
+}
+
+}  // namespace eyrie::import

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/import/terrain_choices.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include "renderer/import/terrain_import.h"
+
+namespace eyrie::import {
+namespace {
+
+fabric::Mat4 objectFromLattice(const terrain::GridFrame& frame,
+                               const terrain::HeightLattice& lattice) {
+    fabric::Mat4 m(1.0);
+    m[0] = {frame.perColumn.x, frame.perColumn.y, 0, 0};
+    m[1] = {frame.perRow.x, frame.perRow.y, 0, 0};
+    m[2] = {0, 0, lattice.stepMetres, 0};
+    m[3] = {frame.origin.x, frame.origin.y, 0, 1};
+    return m;
+}
+
+/// Bytes that every import holds in memory, whatever lies on scratch.
+std::uint64_t residentBytes(const terrain::GridFrame& frame, bool hasImagery) {
+    // The program with GDAL and PROJ, GDAL's cache, strips and pages under way: measured.
+    constexpr std::uint64_t kProgram = std::uint64_t{144} << 20;
+    // Summaries, coarse vertex levels, tile records, and those again while they are written.
+    constexpr std::uint64_t kPostsPerByte = 10;
+    // What GDAL warps at once, and texture tiles under way.
+    constexpr std::uint64_t kImagery = std::uint64_t{40} << 20;
+    return kProgram + (hasImagery ? kImagery : 0) +
+           static_cast<std::uint64_t>(frame.columns) * static_cast<std::uint64_t>(frame.rows) /
+               kPostsPerByte;
+}
+
+}  // namespace
+
+std::vector<double> levelThresholds(int levels, double postMetres,
+                                    const terrain::HeightLattice& lattice,
+                                    const std::optional<double>& errorMetres) {
+    std::vector<double> thresholds;
+    for (int level = 0; level < levels; ++level)
+        thresholds.push_back(kErrorPerSpacing * postMetres *
+                             std::exp2(level - terrain::kFullResolutionLevels + 1));
+    thresholds[0] = lattice.isLossless ? 0 : lattice.stepMetres / 4;
+    if (errorMetres)  // half a step is for the heights' own rounding
+        thresholds[0] = std::max(thresholds[0],
+                                 *errorMetres - (lattice.isLossless ? 0 : lattice.stepMetres / 2));
+    for (double& threshold : thresholds) threshold = std::max(threshold, thresholds[0]);
+    return thresholds;
+}
+
+terrain::EytIndex emptyIndex(const terrain::ElevationModel& model,
+                             const terrain::HeightLattice& lattice, const std::string& crsWkt,
+                             std::uint64_t sourceHash) {
+    terrain::EytIndex index;
+    index.quadtree = terrain::Quadtree(static_cast<std::uint32_t>(model.frame.columns),
+                                       static_cast<std::uint32_t>(model.frame.rows));
+    index.objectFromLattice = objectFromLattice(model.frame, lattice);
+    index.crsWkt = crsWkt;
+    index.sourceHash = sourceHash;
+    index.nodataPosts = model.statistics.nodataPosts;
+    index.tiles.resize(index.quadtree.tileCount());
+    index.pages.resize(index.quadtree.pageCount());
+    return index;
+}
+
+std::uint32_t texturesOf(const ImagerySource* imagery) {
+    return imagery == nullptr ? 0
+                              : static_cast<std::uint32_t>(imagery->pyramid().tilesX(0)) *
+                                    static_cast<std::uint32_t>(imagery->pyramid().tilesY(0));
+}
+
+std::uint64_t scratchBytes(const terrain::GridFrame& frame, bool hasImagery,
+                           std::uint64_t memoryBytes) {
+    constexpr std::uint64_t kLeast = std::uint64_t{4} << 20;
+    const std::uint64_t resident = residentBytes(frame, hasImagery);
+    return std::max(kLeast, memoryBytes > resident ? memoryBytes - resident : 0);
+}
+
+std::string scratchPath(const std::string& out, const std::string& folder) {
+    namespace fs = std::filesystem;
+    if (folder.empty())
+        return out + ".scratch";
+    const std::string whole = fs::absolute(out).lexically_normal().string();
+    return (fs::path(folder) / fmt::format("{}-{:016x}.scratch", fs::path(out).filename().string(),
+                                           XXH64(whole.data(), whole.size(), 0)))
+        .string();
+}
+
+}  // namespace eyrie::import

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include <absl/status/status.h>
+#include <absl/status/statusor.h>
+
+namespace eyrie::import {
+
+/// A file that appears under its name whole or not at all, also where several processes on several
+/// machines write it at once: each has a file of its own beside it, `PATH.partial-` and a random
+/// number, which is locked while it lives, and the last to commit wins. Without commit() that file
+/// is removed. One thread at a time.
+class WholeFile {
+public:
+    /// Removes what killed writers of the same path have left. Errors: NotFound (no such folder),
+    /// PermissionDenied, Unavailable.
+    static absl::StatusOr<WholeFile> create(const std::string& path);
+
+    WholeFile(WholeFile&& other) noexcept;
+    WholeFile& operator=(WholeFile&&) = delete;
+    ~WholeFile();
+
+    /// Errors: ResourceExhausted (disk full), Unavailable.
+    absl::Status append(std::span<const std::byte> bytes);
+    absl::Status writeAt(std::uint64_t offset, std::span<const std::byte> bytes);
+    std::uint64_t sizeBytes() const { return size_; }
+
+    /// Flushes to disk and renames.
+    absl::Status commit();
+
+private:
+    WholeFile(std::string path, std::string partialPath, int fd);
+
+    std::string path_;
+    std::string partialPath_;
+    int fd_;
+    std::uint64_t size_ = 0;
+};
+
+/// Removes files beside `path` that killed writers of it have left.
+void removeAbandoned(const std::string& path);
+
+}  // namespace eyrie::import
