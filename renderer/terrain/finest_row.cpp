@@ -43,7 +43,8 @@ EYRIE_SIMD_CLONES void finestRow(const float* below, const float* here, const fl
     }
 }
 
-double finestCentre(const float* centre, std::ptrdiff_t stride, bool isMain, double tolerance) {
+SourceSurface::Inside finestCentre(const float* centre, std::ptrdiff_t stride, bool isMain,
+                                   double tolerance) {
     const auto at = [&](std::ptrdiff_t i, std::ptrdiff_t j) {
         return static_cast<double>(centre[j * stride + i]);
     };
@@ -56,12 +57,18 @@ double finestCentre(const float* centre, std::ptrdiff_t stride, bool isMain, dou
     const double atCentres = std::max(std::abs(from + slope * 0.5 - (south + before) / 2),
                                       std::abs(from + slope * 1.5 - (after + north) / 2));
     const double atMiddle = std::abs(at(0, 0) - (from + to) / 2);
-    const auto ofTriangle = [&](double apex, double besideFrom, double besideTo) {
+    double deviation = 0;
+    double greatest = atCentres;
+    const auto addTriangle = [&](double apex, double besideFrom, double besideTo) {
         const double atPosts = std::max({atMiddle, std::abs(besideFrom - (from + apex) / 2),
                                          std::abs(besideTo - (to + apex) / 2)});
-        return atPosts > tolerance ? std::max(atPosts, atCentres) : atPosts;
+        greatest = std::max(greatest, atPosts);
+        deviation =
+            std::max(deviation, atPosts > tolerance ? std::max(atPosts, atCentres) : atPosts);
     };
-    return std::max(ofTriangle(at(d, -1), south, after), ofTriangle(at(-d, 1), before, north));
+    addTriangle(at(d, -1), south, after);
+    addTriangle(at(-d, 1), before, north);
+    return {deviation, greatest};
 }
 
 }  // namespace eyrie::terrain

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <span>
 
+#include "renderer/terrain/deviation.h"
+
 namespace eyrie::terrain {
 
 /// Result where a post among the nine is nodata.
@@ -22,7 +24,9 @@ void finestRow(const float* below, const float* here, const float* above, std::i
 /// What SourceSurface says of a quarter of all vertices: the greater deviation of the two triangles
 /// with legs of two posts that the centre of a square of two cells splits. `centre` points at its
 /// height, rows are `stride` apart. The hypotenuse runs from post (-1, -1) to (1, 1) where
-/// `isMain`, across it otherwise. Precondition: none of the nine posts is nodata.
-double finestCentre(const float* centre, std::ptrdiff_t stride, bool isMain, double tolerance);
+/// `isMain`, across it otherwise; as SourceSurface::inside with a floor of 0. Precondition: none of
+/// the nine posts is nodata.
+SourceSurface::Inside finestCentre(const float* centre, std::ptrdiff_t stride, bool isMain,
+                                   double tolerance);
 
 }  // namespace eyrie::terrain

@@ -16,15 +16,20 @@ std::int32_t limit(std::int32_t posts, int shift, std::int32_t side) {
     return half;
 }
 
+PartErrors::Rectangle extent(TilePoint a, TilePoint b, TilePoint c) {
+    return {std::min({a.x(), b.x(), c.x()}), std::min({a.y(), b.y(), c.y()}),
+            std::max({a.x(), b.x(), c.x()}), std::max({a.y(), b.y(), c.y()})};
+}
+
+std::size_t at(const TileSamples& samples, TilePoint p) { return samples.at(p.x(), p.y()); }
+
 }  // namespace
 
 void TileMesh::clear() {
     vertices.clear();
     indices.clear();
-    splits.clear();
-    isPresent.clear();
-    errorMetres = 0;
-    partErrorMetres = {};
+    walk.clear();
+    isSparse = false;
     mixesNodata = false;
     minHeightMetres = std::numeric_limits<double>::infinity();
     maxHeightMetres = -std::numeric_limits<double>::infinity();
@@ -50,6 +55,7 @@ void TileMesher::begin(const TileId& tile) {
     firstRow_ = tile.y * side;
     isCut_ = firstColumn_ + side >= quadtree_.columns() || firstRow_ + side >= quadtree_.rows();
     mesh_.clear();
+    mesh_.errors = PartErrors(Quadtree::cells(tile.level));
     mesh_.shape = {};
     TileShape& shape = mesh_.shape;
     shape.cells = Quadtree::cells(tile.level);
@@ -70,11 +76,20 @@ std::vector<std::uint16_t> TileMesher::dropUnused() {
         for (const std::uint16_t index : part) numbers[index] = 0;
     std::size_t kept = 0;
     std::size_t old = 0;
-    for (std::uint8_t& isPresent : mesh_.isPresent) {
-        if (isPresent == 0)
+    const auto renumbered = [&](std::uint16_t number) {
+        return number == kAbsentPoint ? kAbsentPoint : numbers[number];
+    };
+    for (WalkStep& step : mesh_.walk) {
+        if (step.kind == WalkStep::Kind::Flag)
+            continue;
+        if (step.kind == WalkStep::Kind::Point)
+            for (std::uint16_t* number : {&step.apex, &step.left, &step.right})
+                *number = renumbered(*number);
+        if (!step.answer)
             continue;
         if (numbers[old] == kAbsentPoint) {
-            isPresent = 0;
+            step.answer = false;
+            mesh_.isSparse = true;
         } else {
             numbers[old] = static_cast<std::uint16_t>(kept);
             mesh_.vertices[kept++] = mesh_.vertices[old];
@@ -119,30 +134,33 @@ void TileMesher::measureVertices(const std::vector<std::uint16_t>& numbers) {
     mesh_.maxHeightMetres = highest * lattice_.stepMetres;
 }
 
-bool TileMesher::isVertex(TilePoint middle, const SplitContext&) {
-    const bool isNeeded = samples_.isNeeded(column(middle), row(middle), tile_.level);
-    mesh_.splits.push_back(isNeeded);
+bool TileMesher::isVertex(TilePoint middle, const SplitContext& context) {
+    const bool isNeeded = samples_.isNeeded(at(samples_, middle), tile_.level);
+    mesh_.walk.push_back(
+        {.context = static_cast<std::uint8_t>(splitContext(context)), .answer = isNeeded});
     return isNeeded;
 }
 
 /// A vertex of the next finer level's tiles along this tile's border.
-bool TileMesher::isFinerVertex(TilePoint middle, int) {
-    const bool isNeeded = samples_.isNeeded(column(middle), row(middle), tile_.level - 1);
-    mesh_.splits.push_back(isNeeded);
+bool TileMesher::isFinerVertex(TilePoint middle, int length) {
+    const bool isNeeded = samples_.isNeeded(at(samples_, middle), tile_.level - 1);
+    mesh_.walk.push_back(
+        {.context = static_cast<std::uint8_t>(finerContext(length)), .answer = isNeeded});
     return isNeeded;
 }
 
 void TileMesher::triangle(int part, TilePoint a, TilePoint b, TilePoint c) {
-    // Its hypotenuse tells half a cell.
-    if (!isHalfCell(b, c, c) && mayBeWorst(a, b, c))
-        measure(a, b, c, true);
+    const PartErrors::Rectangle covered = extent(a, b, c);
+    if (!isHalfCell(covered) && mayBeWorst(covered, a, b, c))
+        measure(covered, a, b, c, true);
     addTriangle(part, a, b, c);
 }
 
 void TileMesher::finerTriangle(int part, TilePoint apex, TilePoint from, TilePoint to,
                                bool isWhole) {
-    if (!isWhole && !isHalfCell(apex, from, to))
-        measure(apex, from, to, false);
+    const PartErrors::Rectangle covered = extent(apex, from, to);
+    if (!isWhole && !isHalfCell(covered))
+        measure(covered, apex, from, to, false);
     addTriangle(part, apex, from, to);
 }
 
@@ -152,65 +170,36 @@ Corner TileMesher::corner(TilePoint p) const {
                          : mesh_.vertices[p.number].q * lattice_.stepMetres};
 }
 
-TileMesher::Rectangle TileMesher::extent(TilePoint a, TilePoint b, TilePoint c) {
-    return {std::min({a.x(), b.x(), c.x()}), std::min({a.y(), b.y(), c.y()}),
-            std::max({a.x(), b.x(), c.x()}), std::max({a.y(), b.y(), c.y()})};
-}
-
-/// Whether all posts of a triangle are its vertices, which are measured as such.
-bool TileMesher::isHalfCell(TilePoint a, TilePoint b, TilePoint c) const {
-    if (shift_ != 0)
-        return false;
-    const Rectangle covered = extent(a, b, c);
-    return covered.x1 - covered.x0 == 2 && covered.y1 - covered.y0 == 2;
-}
-
-template <typename Visit>
-void TileMesher::forEachPart(const Rectangle& covered, Visit visit) {
-    const std::int32_t side = 2 * mesh_.shape.cells / kTilePartsPerSide;
-    const auto part = [&](std::int32_t at) {
-        return static_cast<std::size_t>(std::clamp(at / side, 0, kTilePartsPerSide - 1));
-    };
-    for (std::size_t y = part(covered.y0); y <= part(covered.y1 - 1); ++y)
-        for (std::size_t x = part(covered.x0); x <= part(covered.x1 - 1); ++x)
-            visit(mesh_.partErrorMetres[y][x]);
-}
-
-double TileMesher::leastPartError(const Rectangle& covered) {
-    double least = mesh_.errorMetres;
-    forEachPart(covered, [&](double error) { least = std::min(least, error); });
-    return least;
-}
-
-void TileMesher::countError(const Rectangle& covered, double deviationMetres) {
-    mesh_.errorMetres = std::max(mesh_.errorMetres, deviationMetres);
-    forEachPart(covered, [&](double& error) { error = std::max(error, deviationMetres); });
+/// Whether all posts of a triangle of that extent are its vertices, which are measured as such.
+bool TileMesher::isHalfCell(const PartErrors::Rectangle& covered) const {
+    return shift_ == 0 && covered.x1 - covered.x0 == 2 && covered.y1 - covered.y0 == 2;
 }
 
 /// A vertex belongs to all triangles around it.
 void TileMesher::countVertex(const TileVertex& vertex, double movedMetres) {
-    countError({vertex.x - 1, vertex.y - 1, vertex.x + 1, vertex.y + 1}, movedMetres);
+    mesh_.errors.raise({vertex.x - 1, vertex.y - 1, vertex.x + 1, vertex.y + 1}, movedMetres);
 }
 
 /// Whether a triangle of the global triangulation may deviate more than any so far of the parts
 /// that it lies in. VertexLevels has measured it with the source's heights; here its corners have
 /// moved to the lattice.
-bool TileMesher::mayBeWorst(TilePoint apex, TilePoint left, TilePoint right) {
+bool TileMesher::mayBeWorst(const PartErrors::Rectangle& covered, TilePoint apex, TilePoint left,
+                            TilePoint right) const {
     if (mayHaveUnused() || apex.isAbsent() || left.isAbsent() || right.isAbsent())
         return true;  // nodata has to be seen
     const TilePoint middle{(left.position + right.position) / 2, 0, 0};
     const double moved = std::max({moved_[apex.number], moved_[left.number], moved_[right.number]});
-    return samples_.greatestDeviationMetres(column(middle), row(middle)) + moved >=
-           leastPartError(extent(apex, left, right));
+    return samples_.greatestDeviationMetres(at(samples_, middle)) + moved >=
+           mesh_.errors.least(covered);
 }
 
-void TileMesher::measure(TilePoint a, TilePoint b, TilePoint c, bool mayBeAligned) {
+void TileMesher::measure(const PartErrors::Rectangle& covered, TilePoint a, TilePoint b,
+                         TilePoint c, bool mayBeAligned) {
     const Triangle triangle = {corner(a), corner(b), corner(c)};
     const auto isUnmoved = [&](TilePoint p) {
         return column(p) < quadtree_.columns() && row(p) < quadtree_.rows();
     };
-    const Rectangle covered = extent(a, b, c);
-    const DeviationGoal goal{leastPartError(covered)};
+    const DeviationGoal goal{mesh_.errors.least(covered)};
     double deviation = 0;
     if (mayBeAligned && (!isCut_ || (isUnmoved(a) && isUnmoved(b) && isUnmoved(c))))
         deviation = surface_.ofAligned(triangle, goal);
@@ -220,7 +209,7 @@ void TileMesher::measure(TilePoint a, TilePoint b, TilePoint c, bool mayBeAligne
     // A mixed triangle deviates by its longest edge.
     mesh_.mixesNodata = mesh_.mixesNodata ||
                         (surface_.hasNodata() && deviation >= surface_.longestEdgeMetres(triangle));
-    countError(covered, deviation);
+    mesh_.errors.raise(covered, deviation);
 }
 
 void TileMesher::addTriangle(int part, TilePoint a, TilePoint b, TilePoint c) {
@@ -230,12 +219,41 @@ void TileMesher::addTriangle(int part, TilePoint a, TilePoint b, TilePoint c) {
     for (const std::uint16_t number : {a.number, b.number, c.number}) indices.push_back(number);
 }
 
+std::uint16_t TileMesher::addCorner(TilePoint p, TilePoint) {
+    mesh_.walk.push_back({.kind = WalkStep::Kind::Corner});
+    return add(p);
+}
+
+std::uint16_t TileMesher::addMiddle(TilePoint p, TilePoint apex, TilePoint left, TilePoint right,
+                                    int steps) {
+    mesh_.walk.push_back({WalkStep::Kind::Point, middleContext(steps), false, apex.number,
+                          left.number, right.number});
+    return add(p);
+}
+
+std::uint16_t TileMesher::addFinerMiddle(TilePoint p, TilePoint apex, TilePoint from, TilePoint to,
+                                         int) {
+    mesh_.walk.push_back(
+        {WalkStep::Kind::Point, kFinerHeightContext, false, apex.number, from.number, to.number});
+    return add(p);
+}
+
+float TileMesher::sourceHeight(TilePoint p) const {
+    if (!isCut_) [[likely]]
+        return samples_.height(at(samples_, p));
+    return samples_.height(samples_.atPost(std::min(column(p), quadtree_.columns() - 1),
+                                           std::min(row(p), quadtree_.rows() - 1)));
+}
+
+/// The point that the walk's last step is about.
 std::uint16_t TileMesher::add(TilePoint p) {
-    const float source = samples_.height(std::min(column(p), quadtree_.columns() - 1),
-                                         std::min(row(p), quadtree_.rows() - 1));
-    mesh_.isPresent.push_back(!std::isnan(source));
-    if (std::isnan(source))
+    const float source = sourceHeight(p);
+    const bool isData = source == source;
+    mesh_.walk.back().answer = isData;
+    if (!isData) {
+        mesh_.isSparse = true;
         return kAbsentPoint;
+    }
     const std::int32_t q = lattice_.quantise(source);
     mesh_.vertices.push_back({p.x(), p.y(), q});
     moved_.push_back(std::abs(q * lattice_.stepMetres - static_cast<double>(source)));

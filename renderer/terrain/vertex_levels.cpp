@@ -125,6 +125,9 @@ public:
           j0_(y * kRasterTileCells),
           limitI_(std::min(kRasterTileCells, levels.columns_ - 1 - i0_)),
           limitJ_(std::min(kRasterTileCells, levels.rows_ - 1 - j0_)),
+          isWhole_(!surface_.hasNodata() && limitI_ == kRasterTileCells &&
+                   limitJ_ == kRasterTileCells),
+          rounding_(levels.model_.statistics.highestMagnitude() * kDeviationRounding),
           counts_(TiledRaster<std::uint8_t>::newTile()) {
         std::memset(counts_.get(), 0, kRasterTileValues);
     }
@@ -134,7 +137,9 @@ public:
         for (std::int32_t s = 1; s < kRasterTileCells; s *= 2) {
             if (s > 1)
                 measureEdges(s);
-            if (s > 1 || !measureFinestCentres())
+            if (s == 1 && isWhole_)
+                measureFinestCentres();
+            else
                 measureCentres(s);
         }
         return std::move(counts_);
@@ -167,33 +172,44 @@ private:
         }
     }
 
-    /// The centres of squares of two cells, a quarter of all vertices. False, with nothing done,
-    /// for tiles with nodata or at the grid's end.
-    bool measureFinestCentres() {
-        if (surface_.hasNodata() || limitI_ < kRasterTileCells || limitJ_ < kRasterTileCells)
-            return false;
+    /// The centres of squares of two cells, a quarter of all vertices.
+    void measureFinestCentres() {
         for (std::int32_t v = 1; v < kRasterTileCells; v += 2)
             for (std::int32_t u = 1; u < kRasterTileCells; u += 2) {
-                const auto own = static_cast<std::uint8_t>(levels_.thresholdsExceededBy(
+                const auto [deviation, greatest] =
                     finestCentre(heights_.get() + v * kRasterTilePosts + u, kRasterTilePosts,
-                                 ((u ^ v) & 2) == 0, surface_.postToleranceMetres())));
-                at(u, v) = std::max(own, static_cast<std::uint8_t>(children(u, v, 1, true)));
+                                 ((u ^ v) & 2) == 0, surface_.postToleranceMetres());
+                const int own = levels_.thresholdsExceededBy(deviation);
+                at(u, v) = static_cast<std::uint8_t>(std::max(own, children(u, v, 1, true)));
+                reach(u, v) = roundedUp(greatest);
             }
-        return true;
     }
 
     void measureEdges(std::int32_t s) {
         for (std::int32_t v = 0; v < end(limitJ_, s); v += s)
             for (std::int32_t u = (v & s) == 0 ? s : 0; u < end(limitI_, s); u += 2 * s)
-                measureVertex(u, v, s, false);
+                isWhole_ ? measureInside(u, v, s, false) : measureVertex(u, v, s, false);
     }
 
     void measureCentres(std::int32_t s) {
         for (std::int32_t v = s; v < end(limitJ_, s); v += 2 * s)
-            for (std::int32_t u = s; u < end(limitI_, s); u += 2 * s) measureVertex(u, v, s, true);
+            for (std::int32_t u = s; u < end(limitI_, s); u += 2 * s)
+                isWhole_ ? measureInside(u, v, s, true) : measureVertex(u, v, s, true);
     }
 
     void measureVertex(std::int32_t u, std::int32_t v, std::int32_t s, bool isCentre);
+    void measureInside(std::int32_t u, std::int32_t v, std::int32_t s, bool isCentre);
+    float& reach(std::int32_t u, std::int32_t v) {
+        return reaches_[static_cast<std::size_t>(v * kRasterTilePosts + u)];
+    }
+    Corner corner(Point p) const {
+        return {
+            i0_ + p.i, j0_ + p.j,
+            static_cast<double>(heights_[static_cast<std::size_t>(p.j * kRasterTilePosts + p.i)])};
+    }
+    static float roundedUp(double metres) {
+        return static_cast<float>(metres * (1 + 1.0 / (1 << 22)));
+    }
     int children(std::int32_t u, std::int32_t v, std::int32_t s, bool isCentre) const {
         const auto get = [&](std::int32_t x, std::int32_t y) -> int {
             const bool isHere = x >= 0 && y >= 0 && x <= kRasterTileCells && y <= kRasterTileCells;
@@ -214,7 +230,12 @@ private:
     std::int32_t j0_;
     std::int32_t limitI_;  ///< last post of the grid, in the tile's own counting
     std::int32_t limitJ_;
+    bool isWhole_;  ///< all posts are of the grid, and data
+    double rounding_;
     std::shared_ptr<std::uint8_t[]> counts_;
+    /// Of whole tiles, by vertices from spacing 1's centres on: what its triangles in the tile
+    /// deviate from the source at most, at posts and at edges, in metres.
+    std::array<float, kRasterTileValues> reaches_;
 };
 
 void VertexLevels::TileMeasure::measureVertex(std::int32_t u, std::int32_t v, std::int32_t s,
@@ -238,6 +259,44 @@ void VertexLevels::TileMeasure::measureVertex(std::int32_t u, std::int32_t v, st
         measured(u + dx, v + dy, u - dy, v + dx, u - dx, v - dy);
     }
     at(u, v) = static_cast<std::uint8_t>(known);
+}
+
+/// Of a whole tile. Where a triangle is split its drawing moves by the middle's own distance at
+/// most, so it deviates by no more than that and what its halves deviate: often that is below the
+/// next threshold, and the triangle need not be looked at.
+void VertexLevels::TileMeasure::measureInside(std::int32_t u, std::int32_t v, std::int32_t s,
+                                              bool isCentre) {
+    const bool isMain = (((i0_ + u - s) ^ (j0_ + v - s)) & (2 * s)) == 0;
+    const bool isHorizontal = (u & s) != 0;
+    const std::int32_t dx = isCentre ? (isMain ? s : -s) : (isHorizontal ? s : 0);
+    const std::int32_t dy = isCentre || !isHorizontal ? s : 0;
+    const Point p{u - dx, v - dy};
+    const Point q{u + dx, v + dy};
+    const std::array<Point, 2> apexes = {{{u + dy, v - dx}, {u - dy, v + dx}}};
+    const Corner left = corner(p);
+    const Corner right = corner(q);
+    const double moved = std::abs(corner({u, v}).z - (left.z + right.z) / 2);
+    const auto all = static_cast<int>(levels_.thresholds_.size());
+    int known = std::max(children(u, v, s, isCentre), levels_.thresholdsExceededBy(moved));
+    double greatest = moved;
+    for (const Point& apex : apexes) {
+        if (apex.i < 0 || apex.j < 0 || apex.i > kRasterTileCells || apex.j > kRasterTileCells)
+            continue;
+        double bound =
+            moved + static_cast<double>(std::max(reach((apex.i + p.i) / 2, (apex.j + p.j) / 2),
+                                                 reach((apex.i + q.i) / 2, (apex.j + q.j) / 2)));
+        const double floor =
+            known < all ? levels_.thresholds_[static_cast<std::size_t>(known)] : bound;
+        if (known < all && bound + rounding_ > floor) {
+            const auto found = surface_.inside({corner(apex), left, right}, floor);
+            bound = found.greatest;
+            if (found.deviation > floor)
+                known = levels_.thresholdsExceededBy(found.deviation);
+        }
+        greatest = std::max(greatest, bound);
+    }
+    at(u, v) = static_cast<std::uint8_t>(known);
+    reach(u, v) = roundedUp(greatest);
 }
 
 absl::Status VertexLevels::measure(const import::ImportControl& control) {

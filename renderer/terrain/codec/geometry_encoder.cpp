@@ -6,18 +6,24 @@
 
 namespace eyrie::terrain {
 
-bool isSparse(const TileMesh& mesh) { return mesh.isPresent.size() != mesh.vertices.size(); }
-
 void GeometryEncoder::add(const TileMesh& mesh, std::int32_t baseHeight, int heightShift) {
-    mesh_ = &mesh;
     baseHeight_ = baseHeight;
     heightShift_ = heightShift;
-    nextSplit_ = nextPoint_ = nextVertex_ = 0;
+    vertex_ = mesh.vertices.data();
     positions_.resize(kMaxTileVertices);
     heights_.resize(kMaxTileVertices);
-    TileModel<GeometryEncoder> model(*this, isSparse(mesh), positions_.data(), heights_.data());
-    TileTriangulation<TileModel<GeometryEncoder>>(mesh.shape, slots_, model).walk();
-    assert(nextSplit_ == mesh.splits.size() && nextVertex_ == mesh.vertices.size());
+    TileModel<GeometryEncoder> model(*this, mesh.isSparse, positions_.data(), heights_.data());
+    const auto point = [](std::uint16_t number) { return TilePoint{0, 0, number}; };
+    for (const WalkStep& step : mesh.walk) {
+        isVertexNext_ = step.answer;
+        if (step.kind == WalkStep::Kind::Flag)
+            flag(step.context, step.answer);
+        else if (step.kind == WalkStep::Kind::Corner)
+            model.addCorner({}, {});
+        else
+            model.add({}, point(step.apex), point(step.left), point(step.right), step.context);
+    }
+    assert(vertex_ == mesh.vertices.data() + mesh.vertices.size());
 }
 
 bool GeometryEncoder::flag(int context, bool value) {
@@ -29,16 +35,10 @@ bool GeometryEncoder::flag(int context, bool value) {
     return value;
 }
 
-bool GeometryEncoder::isVertex(int context) {
-    return flag(context, mesh_->splits[nextSplit_++] != 0);
-}
-
-bool GeometryEncoder::isPresent(int context) {
-    return flag(context, mesh_->isPresent[nextPoint_++] != 0);
-}
+bool GeometryEncoder::isPresent(int context) { return flag(context, isVertexNext_); }
 
 std::uint32_t GeometryEncoder::height(int context, std::uint32_t foreseen) {
-    const TileVertex& vertex = mesh_->vertices[nextVertex_++];
+    const TileVertex& vertex = *vertex_++;
     const auto height = static_cast<std::uint32_t>(vertex.q - baseHeight_) >> heightShift_;
     const Residual residual = Residual::of(height, foreseen);
     static_assert(Residual::kSymbols <= 256);
