@@ -32,10 +32,12 @@ public:
     }
     float height(std::size_t at) const { return heightsRead_[at]; }
     /// Whether the error of a vertex of the padded grid exceeds the level's threshold.
-    bool isNeeded(std::size_t at, int level) const { return levelsRead_[at] > level; }
+    bool isNeeded(std::size_t at, int level) const {
+        return DeviationScale::exceeded(levelsRead_[at]) > level;
+    }
     /// What the triangles that a vertex splits deviate from the source at most.
     double greatestDeviationMetres(std::size_t at) const {
-        return levels_.greatestDeviationMetres(levelsRead_[at]);
+        return levels_.scale().greatestMetres(levelsRead_[at]);
     }
     /// Posts of the tile, those past the grid standing on its edge; without any left out only up to
     /// level 2.
