@@ -28,21 +28,4 @@ DeviationScale::DeviationScale(std::vector<double> thresholds, double highestMet
     std::copy(eighths_.begin(), eighths_.end(), floatEighths_.begin());
 }
 
-int DeviationScale::exceededBy(double deviationMetres) const {
-    int count = 0;
-    for (const double threshold : thresholds_) {
-        if (!(deviationMetres > threshold))
-            break;
-        ++count;
-    }
-    return count;
-}
-
-std::uint8_t DeviationScale::code(int exceeded, double deviationMetres) const {
-    const auto k = static_cast<std::size_t>(exceeded);
-    const double eighths = (deviationMetres - last_[k]) * eighths_[k];
-    return static_cast<std::uint8_t>(lowest(exceeded) |
-                                     static_cast<int>(std::clamp(eighths, 0.0, 7.0)));
-}
-
 }  // namespace eyrie::terrain

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -25,7 +26,11 @@ public:
     std::span<const double> metres() const { return thresholds_; }
     /// Precondition: fewer than all are exceeded.
     double next(int exceeded) const { return thresholds_[static_cast<std::size_t>(exceeded)]; }
-    int exceededBy(double deviationMetres) const;
+    /// Thresholds that a deviation exceeds, given that it, or another one as well, exceeds `known`.
+    int exceededBy(double deviationMetres, int known = 0) const {
+        while (known < thresholds() && deviationMetres > next(known)) ++known;
+        return known;
+    }
 
     static constexpr int exceeded(std::uint8_t code) { return code >> kEighthBits; }
     /// Of a vertex whose own triangles do not deviate by more than the others that it stands for.
@@ -37,7 +42,12 @@ public:
         return static_cast<std::uint8_t>(((exceeded + 1) << kEighthBits) - 1);
     }
     /// `deviationMetres`: of the own triangles at most; not above next(exceeded).
-    std::uint8_t code(int exceeded, double deviationMetres) const;
+    std::uint8_t code(int exceeded, double deviationMetres) const {
+        const auto k = static_cast<std::size_t>(exceeded);
+        const double eighths = (deviationMetres - last_[k]) * eighths_[k];
+        return static_cast<std::uint8_t>(lowest(exceeded) |
+                                         static_cast<int>(std::clamp(eighths, 0.0, 7.0)));
+    }
     /// What a vertex's own triangles deviate from the source at most; rounding, in float as well,
     /// included.
     double greatestMetres(std::uint8_t code) const { return greatest_[code]; }

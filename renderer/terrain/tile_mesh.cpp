@@ -16,12 +16,12 @@ std::int32_t limit(std::int32_t posts, int shift, std::int32_t side) {
     return half;
 }
 
-PartErrors::Rectangle extent(TilePoint a, TilePoint b, TilePoint c) {
+inline PartErrors::Rectangle extent(TilePoint a, TilePoint b, TilePoint c) {
     return {std::min({a.x(), b.x(), c.x()}), std::min({a.y(), b.y(), c.y()}),
             std::max({a.x(), b.x(), c.x()}), std::max({a.y(), b.y(), c.y()})};
 }
 
-std::size_t at(const TileSamples& samples, TilePoint p) { return samples.at(p.x(), p.y()); }
+inline std::size_t at(const TileSamples& samples, TilePoint p) { return samples.at(p.x(), p.y()); }
 
 }  // namespace
 
@@ -37,7 +37,15 @@ void TileMesh::clear() {
 
 TileMesher::TileMesher(SourceSurface& surface, TileSamples& samples, const HeightLattice& lattice,
                        const Quadtree& quadtree)
-    : surface_(surface), samples_(samples), lattice_(lattice), quadtree_(quadtree) {}
+    : surface_(surface),
+      samples_(samples),
+      lattice_(lattice),
+      quadtree_(quadtree),
+      moved_(kMaxTileVertices) {
+    for (int part = 0; part < kTileParts; ++part)
+        partIndices_.emplace_back(3 *
+                                  (part == kInteriorPart ? kMaxOwnTriangles : kMaxBorderTriangles));
+}
 
 const TileMesh& TileMesher::mesh(const TileId& tile) {
     begin(tile);
@@ -54,6 +62,7 @@ void TileMesher::begin(const TileId& tile) {
     firstColumn_ = tile.x * side;
     firstRow_ = tile.y * side;
     isCut_ = firstColumn_ + side >= quadtree_.columns() || firstRow_ + side >= quadtree_.rows();
+    mayHaveUnused_ = isCut_ || surface_.hasNodata();
     mesh_.clear();
     mesh_.errors = PartErrors(Quadtree::cells(tile.level));
     mesh_.shape = {};
@@ -65,14 +74,14 @@ void TileMesher::begin(const TileId& tile) {
     for (int edge = 0; edge < kEdges; ++edge)
         if (tile.level > 0 && quadtree_.contains(Quadtree::neighbour(tile, edge)))
             shape.finerEdges = static_cast<std::uint8_t>(shape.finerEdges | 1 << edge);
-    for (std::vector<std::uint16_t>& part : partIndices_) part.clear();
+    for (BoundedList<std::uint16_t>& part : partIndices_) part.clear();
     moved_.clear();
 }
 
 /// Numbers by vertex that is used, kAbsentPoint for the others, which are dropped.
 std::vector<std::uint16_t> TileMesher::dropUnused() {
     std::vector<std::uint16_t> numbers(mesh_.vertices.size(), kAbsentPoint);
-    for (const std::vector<std::uint16_t>& part : partIndices_)
+    for (const BoundedList<std::uint16_t>& part : partIndices_)
         for (const std::uint16_t index : part) numbers[index] = 0;
     std::size_t kept = 0;
     std::size_t old = 0;
@@ -80,15 +89,15 @@ std::vector<std::uint16_t> TileMesher::dropUnused() {
         return number == kAbsentPoint ? kAbsentPoint : numbers[number];
     };
     for (WalkStep& step : mesh_.walk) {
-        if (step.kind == WalkStep::Kind::Flag)
+        if (step.isFlag())
             continue;
-        if (step.kind == WalkStep::Kind::Point)
+        if (!step.isCorner())
             for (std::uint16_t* number : {&step.apex, &step.left, &step.right})
                 *number = renumbered(*number);
-        if (!step.answer)
+        if (!step.isVertex())
             continue;
         if (numbers[old] == kAbsentPoint) {
-            step.answer = false;
+            step.kind = step.absentKind();
             mesh_.isSparse = true;
         } else {
             numbers[old] = static_cast<std::uint16_t>(kept);
@@ -96,16 +105,16 @@ std::vector<std::uint16_t> TileMesher::dropUnused() {
         }
         ++old;
     }
-    mesh_.vertices.resize(kept);
+    mesh_.vertices.shrink(kept);
     return numbers;
 }
 
 /// Puts the parts together and measures what is used.
 void TileMesher::finish() {
     std::vector<std::uint16_t> numbers;
-    if (mayHaveUnused()) {
+    if (mayHaveUnused_) {
         numbers = dropUnused();
-        for (std::vector<std::uint16_t>& part : partIndices_)
+        for (BoundedList<std::uint16_t>& part : partIndices_)
             for (std::uint16_t& index : part) index = numbers[index];
     }
     for (std::size_t part = 0; part < kTileParts; ++part) {
@@ -124,7 +133,7 @@ void TileMesher::measureVertices(const std::vector<std::uint16_t>& numbers) {
             countVertex(mesh_.vertices[numbers[k]], moved_[k]);
     if (mesh_.vertices.empty())
         return;
-    std::int32_t lowest = mesh_.vertices.front().q;
+    std::int32_t lowest = mesh_.vertices[0].q;
     std::int32_t highest = lowest;
     for (const TileVertex& vertex : mesh_.vertices) {
         lowest = std::min(lowest, vertex.q);
@@ -136,16 +145,14 @@ void TileMesher::measureVertices(const std::vector<std::uint16_t>& numbers) {
 
 bool TileMesher::isVertex(TilePoint middle, const SplitContext& context) {
     const bool isNeeded = samples_.isNeeded(at(samples_, middle), tile_.level);
-    mesh_.walk.push_back(
-        {.context = static_cast<std::uint8_t>(splitContext(context)), .answer = isNeeded});
+    mesh_.walk.push(WalkStep::flag(splitContext(context), isNeeded));
     return isNeeded;
 }
 
 /// A vertex of the next finer level's tiles along this tile's border.
 bool TileMesher::isFinerVertex(TilePoint middle, int length) {
     const bool isNeeded = samples_.isNeeded(at(samples_, middle), tile_.level - 1);
-    mesh_.walk.push_back(
-        {.context = static_cast<std::uint8_t>(finerContext(length)), .answer = isNeeded});
+    mesh_.walk.push(WalkStep::flag(finerContext(length), isNeeded));
     return isNeeded;
 }
 
@@ -185,7 +192,7 @@ void TileMesher::countVertex(const TileVertex& vertex, double movedMetres) {
 /// moved to the lattice.
 bool TileMesher::mayBeWorst(const PartErrors::Rectangle& covered, TilePoint apex, TilePoint left,
                             TilePoint right) const {
-    if (mayHaveUnused() || apex.isAbsent() || left.isAbsent() || right.isAbsent())
+    if (mayHaveUnused_ || apex.isAbsent() || left.isAbsent() || right.isAbsent())
         return true;  // nodata has to be seen
     const TilePoint middle{(left.position + right.position) / 2, 0, 0};
     const double moved = std::max({moved_[apex.number], moved_[left.number], moved_[right.number]});
@@ -215,27 +222,26 @@ void TileMesher::measure(const PartErrors::Rectangle& covered, TilePoint a, Tile
 void TileMesher::addTriangle(int part, TilePoint a, TilePoint b, TilePoint c) {
     if (a.isAbsent() || b.isAbsent() || c.isAbsent())
         return;
-    std::vector<std::uint16_t>& indices = partIndices_[static_cast<std::size_t>(part)];
-    for (const std::uint16_t number : {a.number, b.number, c.number}) indices.push_back(number);
+    std::uint16_t* out = partIndices_[static_cast<std::size_t>(part)].grow(3);
+    out[0] = a.number;
+    out[1] = b.number;
+    out[2] = c.number;
 }
 
 std::uint16_t TileMesher::addCorner(TilePoint p, TilePoint) {
-    mesh_.walk.push_back({.kind = WalkStep::Kind::Corner});
-    return add(p);
+    return add(p, {.kind = WalkStep::Kind::Corner});
 }
 
 std::uint16_t TileMesher::addMiddle(TilePoint p, TilePoint apex, TilePoint left, TilePoint right,
                                     int steps) {
-    mesh_.walk.push_back({WalkStep::Kind::Point, middleContext(steps), false, apex.number,
-                          left.number, right.number});
-    return add(p);
+    return add(
+        p, {WalkStep::Kind::Point, middleContext(steps), apex.number, left.number, right.number});
 }
 
 std::uint16_t TileMesher::addFinerMiddle(TilePoint p, TilePoint apex, TilePoint from, TilePoint to,
                                          int) {
-    mesh_.walk.push_back(
-        {WalkStep::Kind::Point, kFinerHeightContext, false, apex.number, from.number, to.number});
-    return add(p);
+    return add(p,
+               {WalkStep::Kind::Point, kFinerHeightContext, apex.number, from.number, to.number});
 }
 
 float TileMesher::sourceHeight(TilePoint p) const {
@@ -245,21 +251,25 @@ float TileMesher::sourceHeight(TilePoint p) const {
                                            std::min(row(p), quadtree_.rows() - 1)));
 }
 
-/// The point that the walk's last step is about.
-std::uint16_t TileMesher::add(TilePoint p) {
+/// The point that a step of the walk is about.
+std::uint16_t TileMesher::add(TilePoint p, WalkStep step) {
     const float source = sourceHeight(p);
-    const bool isData = source == source;
-    mesh_.walk.back().answer = isData;
-    if (!isData) {
+    if (std::isnan(source)) {
+        step.kind = step.absentKind();
+        mesh_.walk.push(step);
         mesh_.isSparse = true;
         return kAbsentPoint;
     }
+    mesh_.walk.push(step);
+    const auto number = static_cast<std::uint16_t>(mesh_.vertices.size());
     const std::int32_t q = lattice_.quantise(source);
-    mesh_.vertices.push_back({p.x(), p.y(), q});
-    moved_.push_back(std::abs(q * lattice_.stepMetres - static_cast<double>(source)));
-    if (!mayHaveUnused())  // else it counts once it is known to be used
-        countVertex(mesh_.vertices.back(), moved_.back());
-    return static_cast<std::uint16_t>(mesh_.vertices.size() - 1);
+    const TileVertex vertex{p.x(), p.y(), q};
+    const double moved = std::abs(q * lattice_.stepMetres - static_cast<double>(source));
+    mesh_.vertices.push(vertex);
+    moved_.push(moved);
+    if (!mayHaveUnused_)  // else it counts once it is known to be used
+        countVertex(vertex, moved);
+    return number;
 }
 
 }  // namespace eyrie::terrain

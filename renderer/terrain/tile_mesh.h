@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "renderer/terrain/bounded_list.h"
 #include "renderer/terrain/codec/tile_model.h"
 #include "renderer/terrain/deviation.h"
 #include "renderer/terrain/eyt_format.h"
@@ -19,26 +20,34 @@ namespace eyrie::terrain {
 
 /// What TileTriangulation asked or told on its walk of a tile: a flag, or a point added.
 struct WalkStep {
-    enum class Kind : std::uint8_t { Flag, Corner, Point };
+    enum class Kind : std::uint8_t { FlagNo, FlagYes, Corner, AbsentCorner, Point, AbsentPoint };
 
-    Kind kind = Kind::Flag;
+    static WalkStep flag(int context, bool value) {
+        return {value ? Kind::FlagYes : Kind::FlagNo, static_cast<std::uint8_t>(context)};
+    }
+    Kind absentKind() const { return isCorner() ? Kind::AbsentCorner : Kind::AbsentPoint; }
+    bool isFlag() const { return kind <= Kind::FlagYes; }
+    bool isCorner() const { return kind == Kind::Corner || kind == Kind::AbsentCorner; }
+    bool isVertex() const { return kind == Kind::Corner || kind == Kind::Point; }
+
+    Kind kind = Kind::FlagNo;
     std::uint8_t context = 0;  ///< of the flag or the height, see tile_model.h
-    bool answer = false;       ///< to the flag; whether the point is a vertex
     std::uint16_t apex = 0;    ///< of a Point, numbers of those it lies between
     std::uint16_t left = 0;
     std::uint16_t right = 0;
 };
+static_assert(sizeof(WalkStep) == 8);
 
 /// One tile's triangulation, measured. Vertices and triangles are in TileTriangulation's order.
 struct TileMesh {
-    std::vector<TileVertex> vertices;
+    BoundedList<TileVertex> vertices{kMaxTileVertices};
     std::vector<std::uint16_t> indices;  ///< by parts, see kTileParts
     std::array<IndexRange, kTileParts> parts;
     /// The walk, so that the encoder need not repeat it. Points that no triangle uses are no
     /// vertices, nor is nodata.
     TileShape shape;
-    std::vector<WalkStep> walk;
-    bool isSparse = false;  ///< some point of the walk is no vertex
+    BoundedList<WalkStep> walk{2 * kMaxTileVertices};  ///< as many flags as points, at most
+    bool isSparse = false;                             ///< some point of the walk is no vertex
     /// Greatest deviations of any triangle of any part from the source, nodata included.
     PartErrors errors;
     /// Whether a triangle of any part, dropped or not, may cover both data and nodata.
@@ -87,7 +96,7 @@ private:
     void triangle(int part, TilePoint a, TilePoint b, TilePoint c);
     void finerTriangle(int part, TilePoint apex, TilePoint from, TilePoint to, bool isWhole);
 
-    std::uint16_t add(TilePoint p);
+    std::uint16_t add(TilePoint p, WalkStep step);
     void addTriangle(int part, TilePoint a, TilePoint b, TilePoint c);
     Corner corner(TilePoint p) const;
     bool isHalfCell(const PartErrors::Rectangle& covered) const;
@@ -97,7 +106,6 @@ private:
                  bool mayBeAligned);
     float sourceHeight(TilePoint p) const;
     void countVertex(const TileVertex& vertex, double movedMetres);
-    bool mayHaveUnused() const { return isCut_ || surface_.hasNodata(); }
     std::vector<std::uint16_t> dropUnused();
     void measureVertices(const std::vector<std::uint16_t>& numbers);
 
@@ -111,9 +119,10 @@ private:
     std::int32_t firstColumn_ = 0;
     std::int32_t firstRow_ = 0;
     bool isCut_ = false;  ///< reaches past the last column or row
+    bool mayHaveUnused_ = false;
     TileMesh mesh_;
-    std::array<std::vector<std::uint16_t>, kTileParts> partIndices_;
-    std::vector<double> moved_;  ///< by how many metres each vertex added was, for the lattice
+    std::vector<BoundedList<std::uint16_t>> partIndices_;
+    BoundedList<double> moved_;  ///< by how many metres each vertex added was, for the lattice
     std::vector<std::uint16_t> slots_;
 };
 

@@ -80,7 +80,7 @@ private:
                     finestCentre(heights_.get() + v * kRasterTilePosts + u, kRasterTilePosts,
                                  ((u ^ v) & 2) == 0, surface_.postToleranceMetres());
                 const int exceeded =
-                    std::max(scale_.exceededBy(deviation), exceededByChildren(u, v, 1, true));
+                    scale_.exceededBy(deviation, exceededByChildren(u, v, 1, true));
                 at(u, v) = scale_.code(exceeded, deviation);
                 reach(u, v) = roundedUp(greatest);
             }
@@ -192,7 +192,7 @@ void VertexLevels::TileMeasure::measureInside(std::int32_t u, std::int32_t v, st
     const Corner left = corner(p);
     const Corner right = corner(q);
     const double moved = std::abs(corner({u, v}).z - (left.z + right.z) / 2);
-    int known = std::max(exceededByChildren(u, v, s, isCentre), scale_.exceededBy(moved));
+    int known = scale_.exceededBy(moved, exceededByChildren(u, v, s, isCentre));
     double deviation = moved;
     double greatest = moved;
     for (const Point& apex : apexes) {
@@ -202,7 +202,7 @@ void VertexLevels::TileMeasure::measureInside(std::int32_t u, std::int32_t v, st
                                      reach((apex.i + q.i) / 2, (apex.j + q.j) / 2));
         const SourceSurface::Inside found =
             reachOf({corner(apex), left, right}, moved + static_cast<double>(halves), known);
-        known = std::max(known, scale_.exceededBy(found.deviation));
+        known = scale_.exceededBy(found.deviation, known);
         deviation = std::max(deviation, found.deviation);
         greatest = std::max(greatest, found.greatest);
     }

@@ -15,10 +15,10 @@ void GeometryEncoder::add(const TileMesh& mesh, std::int32_t baseHeight, int hei
     TileModel<GeometryEncoder> model(*this, mesh.isSparse, positions_.data(), heights_.data());
     const auto point = [](std::uint16_t number) { return TilePoint{0, 0, number}; };
     for (const WalkStep& step : mesh.walk) {
-        isVertexNext_ = step.answer;
-        if (step.kind == WalkStep::Kind::Flag)
-            flag(step.context, step.answer);
-        else if (step.kind == WalkStep::Kind::Corner)
+        isVertexNext_ = step.isVertex();
+        if (step.isFlag())
+            flag(step.context, step.kind == WalkStep::Kind::FlagYes);
+        else if (step.isCorner())
             model.addCorner({}, {});
         else
             model.add({}, point(step.apex), point(step.left), point(step.right), step.context);
