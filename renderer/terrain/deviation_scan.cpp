@@ -322,8 +322,11 @@ double scanAligned(const HeightPatch& patch, const Triangle& triangle, const Pla
 
 double scanGeneral(const HeightPatch& patch, const Triangle& triangle, const Plane& plane,
                    double worst) {
+    constexpr std::int32_t kShort = 16;  // posts
     forEachRow(patch, triangle, [&](std::int32_t j, std::int32_t low, std::int32_t high) {
-        worst = slabDeviation(patch, {j, 1, low, 0, high, 0}, plane, worst);
+        const Slab row{j, 1, low, 0, high, 0};
+        worst = high - low < kShort ? smallSlabDeviation(patch, row, plane, worst)
+                                    : slabDeviation(patch, row, plane, worst);
     });
     return worst;
 }
@@ -363,9 +366,15 @@ double scanDiagonalEdges(const HeightPatch& patch, const Triangle& triangle, dou
 Crossed scanCrossings(const HeightPatch& patch, const Triangle& triangle, double worst) {
     Crossed all{worst, false};
     for (std::size_t e = 0; e < 3; ++e) {
-        EdgeCrossings crossings(patch, triangle[e], triangle[(e + 1) % 3], all.worst);
-        crossings.atColumns();
-        crossings.atRows();
+        const Corner& a = triangle[e];
+        const Corner& b = triangle[(e + 1) % 3];
+        if (a.i == b.i || a.j == b.j)
+            continue;  // meets all lines at posts
+        EdgeCrossings crossings(patch, a, b, all.worst);
+        if (std::abs(b.i - a.i) != std::abs(b.j - a.j)) {  // else at posts
+            crossings.atColumns();
+            crossings.atRows();
+        }
         crossings.atMainDiagonals();
         crossings.atOtherDiagonals();
         all = {crossings.result().worst, all.meetsNodata || crossings.result().meetsNodata};

@@ -263,9 +263,12 @@ std::uint16_t TileMesher::add(TilePoint p, WalkStep step) {
     mesh_.walk.push(step);
     const auto number = static_cast<std::uint16_t>(mesh_.vertices.size());
     const std::int32_t q = lattice_.quantise(source);
-    const TileVertex vertex{p.x(), p.y(), q};
     const double moved = std::abs(q * lattice_.stepMetres - static_cast<double>(source));
-    mesh_.vertices.push(vertex);
+    // Field by field: put together in a register first, it waits for its own halves.
+    TileVertex& vertex = *mesh_.vertices.grow(1);
+    vertex.x = p.x();
+    vertex.y = p.y();
+    vertex.q = q;
     moved_.push(moved);
     if (!mayHaveUnused_)  // else it counts once it is known to be used
         countVertex(vertex, moved);
