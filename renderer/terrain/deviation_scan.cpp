@@ -84,24 +84,16 @@ EYRIE_SIMD_CLONES double slabDeviation(const HeightPatch& patch, const Slab& sla
     return worst;
 }
 
-/// Without the set-up of a vector loop.
-__attribute__((optimize("no-tree-vectorize"))) double smallSlabDeviation(const HeightPatch& patch,
-                                                                         const Slab& slab,
-                                                                         const Plane& plane,
-                                                                         double worst) {
-    std::int32_t low = slab.low;
-    std::int32_t high = slab.high;
-    for (std::int32_t r = 0; r < slab.count; ++r) {
-        const std::int32_t j = slab.firstRow + r;
-        const double first = plane.z0 + plane.perRow * (j - plane.j0);
-        const float* row = patch.row(j) - patch.i0;
-        for (std::int32_t i = low; i <= high; ++i) {
-            const double d =
-                std::abs(static_cast<double>(row[i]) - (first + plane.perColumn * (i - plane.i0)));
-            worst = d > worst ? d : worst;
-        }
-        low += slab.lowStep;
-        high += slab.highStep;
+/// One row without the set-up of a vector loop.
+__attribute__((optimize("no-tree-vectorize"))) double shortRowDeviation(
+    const HeightPatch& patch, std::int32_t j, std::int32_t low, std::int32_t high,
+    const Plane& plane, double worst) {
+    const double first = plane.z0 + plane.perRow * (j - plane.j0);
+    const float* row = patch.row(j) - patch.i0;
+    for (std::int32_t i = low; i <= high; ++i) {
+        const double d =
+            std::abs(static_cast<double>(row[i]) - (first + plane.perColumn * (i - plane.i0)));
+        worst = d > worst ? d : worst;
     }
     return worst;
 }
@@ -310,12 +302,10 @@ Plane planeOfAligned(const Triangle& t) {
 
 double scanAligned(const HeightPatch& patch, const Triangle& triangle, const Plane& plane,
                    double worst) {
-    constexpr std::int32_t kSmall = 5;  // rows; tried 3 to 17
     const Slabs slabs = slabsOf(triangle);
     for (int k = 0; k < slabs.count; ++k) {
         const Slab& slab = slabs.slabs[static_cast<std::size_t>(k)];
-        worst = slab.count <= kSmall ? smallSlabDeviation(patch, slab, plane, worst)
-                                     : slabDeviation(patch, slab, plane, worst);
+        worst = slabDeviation(patch, slab, plane, worst);
     }
     return worst;
 }
@@ -324,9 +314,8 @@ double scanGeneral(const HeightPatch& patch, const Triangle& triangle, const Pla
                    double worst) {
     constexpr std::int32_t kShort = 16;  // posts
     forEachRow(patch, triangle, [&](std::int32_t j, std::int32_t low, std::int32_t high) {
-        const Slab row{j, 1, low, 0, high, 0};
-        worst = high - low < kShort ? smallSlabDeviation(patch, row, plane, worst)
-                                    : slabDeviation(patch, row, plane, worst);
+        worst = high - low < kShort ? shortRowDeviation(patch, j, low, high, plane, worst)
+                                    : slabDeviation(patch, {j, 1, low, 0, high, 0}, plane, worst);
     });
     return worst;
 }

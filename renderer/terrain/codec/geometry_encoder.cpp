@@ -53,13 +53,13 @@ std::uint32_t GeometryEncoder::height(int context, std::uint32_t foreseen) {
 
 GeometryBits GeometryEncoder::finish() {
     BitWriter raw;
-    std::array<Share, kHeightContexts << 8> ofHeights{};
+    std::array<ReadyShare<kSymbolBits>, kHeightContexts << 8> ofHeights;
     for (std::size_t context = 0; context < kHeightContexts; ++context) {
         const SymbolShares shares(counts_[context]);
         shares.write(raw);
         for (std::uint32_t symbol = 0; symbol < Residual::kSymbols; ++symbol)
             if (counts_[context][symbol] > 0)
-                ofHeights[context << 8 | symbol] = shares.of(symbol);
+                ofHeights[context << 8 | symbol] = ReadyShare<kSymbolBits>(shares.of(symbol));
     }
     for (const Residual& residual : raws_)
         raw.put(residual.raw, static_cast<int>(residual.rawBits));
@@ -70,7 +70,7 @@ GeometryBits GeometryEncoder::finish() {
         if (size != 0)
             rans.put(0, {start, size}, AdaptiveFlag::kBits);
         else
-            rans.put(1, ofHeights[start], kSymbolBits);
+            rans.put(1, ofHeights[start]);
     }
     std::vector<std::uint8_t> bytes = std::move(raw).finish();
     bytes.resize(bytes.size() + bytes.size() % 2);
