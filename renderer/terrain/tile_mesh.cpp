@@ -39,7 +39,8 @@ TileMesher::TileMesher(SourceSurface& surface, TileSamples& samples, const Heigh
                        const Quadtree& quadtree)
     : surface_(surface),
       samples_(samples),
-      lattice_(lattice),
+      stepMetres_(lattice.stepMetres),
+      stepsPerMetre_(lattice.stepsPerMetre()),
       quadtree_(quadtree),
       moved_(kMaxTileVertices) {
     for (int part = 0; part < kTileParts; ++part)
@@ -139,8 +140,8 @@ void TileMesher::measureVertices(const std::vector<std::uint16_t>& numbers) {
         lowest = std::min(lowest, vertex.q);
         highest = std::max(highest, vertex.q);
     }
-    mesh_.minHeightMetres = lowest * lattice_.stepMetres;
-    mesh_.maxHeightMetres = highest * lattice_.stepMetres;
+    mesh_.minHeightMetres = lowest * stepMetres_;
+    mesh_.maxHeightMetres = highest * stepMetres_;
 }
 
 bool TileMesher::isVertex(TilePoint middle, const SplitContext& context) {
@@ -174,7 +175,7 @@ void TileMesher::finerTriangle(int part, TilePoint apex, TilePoint from, TilePoi
 Corner TileMesher::corner(TilePoint p) const {
     return {std::min(column(p), quadtree_.columns() - 1), std::min(row(p), quadtree_.rows() - 1),
             p.isAbsent() ? std::numeric_limits<double>::quiet_NaN()
-                         : mesh_.vertices[p.number].q * lattice_.stepMetres};
+                         : mesh_.vertices[p.number].q * stepMetres_};
 }
 
 /// Whether all posts of a triangle of that extent are its vertices, which are measured as such.
@@ -262,8 +263,8 @@ std::uint16_t TileMesher::add(TilePoint p, WalkStep step) {
     }
     mesh_.walk.push(step);
     const auto number = static_cast<std::uint16_t>(mesh_.vertices.size());
-    const std::int32_t q = lattice_.quantise(source);
-    const double moved = std::abs(q * lattice_.stepMetres - static_cast<double>(source));
+    const std::int32_t q = HeightLattice::quantise(source, stepsPerMetre_);
+    const double moved = std::abs(q * stepMetres_ - static_cast<double>(source));
     // Field by field: put together in a register first, it waits for its own halves.
     TileVertex& vertex = *mesh_.vertices.grow(1);
     vertex.x = p.x();

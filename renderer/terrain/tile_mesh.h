@@ -111,7 +111,8 @@ private:
 
     SourceSurface& surface_;
     TileSamples& samples_;
-    const HeightLattice& lattice_;
+    const double stepMetres_;
+    const double stepsPerMetre_;
     const Quadtree& quadtree_;
 
     TileId tile_;
