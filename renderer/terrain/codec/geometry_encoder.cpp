@@ -47,7 +47,7 @@ std::uint32_t GeometryEncoder::height(int context, std::uint32_t foreseen) {
          0});
     ++counts_[static_cast<std::size_t>(context)][residual.symbol];
     if (residual.rawBits != 0)
-        raws_.push_back(residual);
+        raws_.push_back({residual.raw, residual.rawBits});
     return height;
 }
 
@@ -61,8 +61,7 @@ GeometryBits GeometryEncoder::finish() {
             if (counts_[context][symbol] > 0)
                 ofHeights[context << 8 | symbol] = ReadyShare<kSymbolBits>(shares.of(symbol));
     }
-    for (const Residual& residual : raws_)
-        raw.put(residual.raw, static_cast<int>(residual.rawBits));
+    for (const RawBits& bits : raws_) raw.put(bits.value, static_cast<int>(bits.count));
 
     RansEncoder<2> rans;
     for (std::size_t k = events_.size(); k-- > 0;) {

@@ -39,6 +39,11 @@ private:
         std::uint16_t size = 0;
     };
 
+    struct RawBits {
+        std::uint32_t value;
+        std::uint32_t count;
+    };
+
     bool isPresent(int context);
     std::uint32_t height(int context, std::uint32_t foreseen);
 
@@ -46,7 +51,7 @@ private:
 
     std::vector<Event> events_;
     std::array<AdaptiveFlag, kFlagContexts> flags_;
-    std::vector<Residual> raws_;
+    std::vector<RawBits> raws_;
     std::array<std::array<std::uint32_t, Residual::kSymbols>, kHeightContexts> counts_{};
 
     // The tile being added.
