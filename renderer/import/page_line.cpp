@@ -33,8 +33,9 @@ float roundedUp(double value) {
 std::uint64_t partErrors(const terrain::TileMesh& mesh, double errorMetres, double rounding) {
     std::uint64_t shares = 0;
     int shift = 0;
-    for (const auto& row : mesh.partErrorMetres)
-        for (const double error : row) {
+    for (std::int32_t y = 0; y < terrain::kTilePartsPerSide; ++y)
+        for (std::int32_t x = 0; x < terrain::kTilePartsPerSide; ++x) {
+            const double error = mesh.errors.metres(x, y);
             shares |= terrain::partShare(error > 0 ? error + rounding : 0, errorMetres) << shift;
             shift += 4;
         }
@@ -44,7 +45,8 @@ std::uint64_t partErrors(const terrain::TileMesh& mesh, double errorMetres, doub
 /// A tile's record before its children are known; no heights while min > max.
 terrain::TileRecord recordOf(const terrain::TileMesh& mesh, double rounding) {
     terrain::TileRecord record;
-    record.errorMetres = mesh.errorMetres > 0 ? roundedUp(mesh.errorMetres + rounding) : 0;
+    const double error = mesh.errors.greatest();
+    record.errorMetres = error > 0 ? roundedUp(error + rounding) : 0;
     record.partErrors = partErrors(mesh, record.errorMetres, rounding);
     record.minHeightMetres = -roundedUp(-mesh.minHeightMetres);
     record.maxHeightMetres = roundedUp(mesh.maxHeightMetres);

@@ -165,7 +165,7 @@ private:
         return reportOf(index, postMetres, sizeBytes);
     }
 
-    static constexpr int kImportVersion = 1;  ///< raise it when scratch or journal change
+    static constexpr int kImportVersion = 2;  ///< raise it when scratch or journal change
 
     HeightSource& posts_;
     ImagerySource* imagery_;

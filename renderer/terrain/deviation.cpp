@@ -240,6 +240,19 @@ double SourceSurface::ofAligned(const Triangle& triangle, const DeviationGoal& g
     return atCentres > atPosts && !liesOnItsPosts(triangle) ? atCentres : atPosts;
 }
 
+SourceSurface::Inside SourceSurface::inside(const Triangle& triangle, double floor) {
+    const HeightPatch& tile = *onlyTile(triangle);
+    SmallDeviation found;
+    if (isSmall(triangle))
+        found = deviationOfSmall(tile, triangle, 0);
+    else
+        found = {scanAligned(tile, triangle, planeOfAligned(triangle), 0),
+                 scanDiagonalEdges(tile, triangle, 0)};
+    const auto [atPosts, atCentres] = found;
+    const bool countsEdges = atCentres > std::max(atPosts, floor) && !liesOnItsPosts(triangle);
+    return {countsEdges ? atCentres : atPosts, std::max(atPosts, atCentres)};
+}
+
 double SourceSurface::ofGeneral(const Triangle& triangle, const DeviationGoal& goal) {
     if (hasNodata()) {
         const Contents held = contents(triangle);

@@ -94,6 +94,13 @@ public:
     /// Of any triangle with corners on posts. Counts cells' diagonals even on planes.
     double ofGeneral(const Triangle& triangle, const DeviationGoal& goal = {});
 
+    /// Of an aligned triangle that lies in one tile of the raster, without nodata.
+    struct Inside {
+        double deviation = 0;  ///< as ofAligned, but for what is not above `floor`
+        double greatest = 0;   ///< at posts and at edges, whether it lies on its posts or not
+    };
+    Inside inside(const Triangle& triangle, double floor);
+
     float heightAt(std::int32_t i, std::int32_t j) {
         return patch_.has(i, j) ? patch_.at(i, j) : farHeightAt(i, j);
     }

@@ -82,7 +82,7 @@ void PageBuilder::addGeometry(int place, const TileMesh& mesh) {
         .finerEdges = mesh.shape.finerEdges,
         .wordsPerVertex = static_cast<std::uint8_t>(heights.wordsPerVertex),
         .heightShift = static_cast<std::uint8_t>(heights.shift),
-        .isSparse = isSparse(mesh),
+        .isSparse = mesh.isSparse,
     };
     geometry_.add(mesh, heights.base, heights.shift);
     hasTriangles_ = true;

@@ -20,11 +20,13 @@ inline float atCentre(float neighbour, float otherNeighbour, float post, float c
 
 EYRIE_SIMD_CLONES void finestRow(const float* below, const float* here, const float* above,
                                  std::int32_t columns, bool alongRow, float tolerance,
-                                 std::span<const float> thresholds, std::uint8_t* out) {
+                                 const DeviationScale& scale, std::uint8_t* out) {
     const float* first = alongRow ? here - 1 : below;
     const float* second = alongRow ? here + 1 : above;
-    const float* limits = thresholds.data();
-    const auto count = static_cast<std::int32_t>(thresholds.size());
+    const float* limits = scale.floatMetres().data();
+    const float* last = scale.floatLast();
+    const float* eighths = scale.floatEighths();
+    const auto count = static_cast<std::int32_t>(scale.thresholds());
     for (std::int32_t i = 1; i < columns - 1; ++i) {
         const float h = here[i];
         const float atPost = std::abs((h - first[i]) + (h - second[i])) * 0.5F;
@@ -39,11 +41,15 @@ EYRIE_SIMD_CLONES void finestRow(const float* below, const float* here, const fl
         const float all = (h + here[i - 1] + here[i + 1]) +
                           (below[i - 1] + below[i] + below[i + 1]) +
                           (above[i - 1] + above[i] + above[i + 1]);
-        out[i] = static_cast<std::uint8_t>(all == all ? exceeded : kFinestRowNodata);
+        const float reach = (deviation - last[exceeded]) * eighths[exceeded];
+        const auto eighth = static_cast<std::int32_t>(reach < 7.0F ? reach : 7.0F);
+        out[i] = static_cast<std::uint8_t>(
+            all == all ? exceeded << DeviationScale::kEighthBits | eighth : kFinestRowNodata);
     }
 }
 
-double finestCentre(const float* centre, std::ptrdiff_t stride, bool isMain, double tolerance) {
+SourceSurface::Inside finestCentre(const float* centre, std::ptrdiff_t stride, bool isMain,
+                                   double tolerance) {
     const auto at = [&](std::ptrdiff_t i, std::ptrdiff_t j) {
         return static_cast<double>(centre[j * stride + i]);
     };
@@ -56,12 +62,18 @@ double finestCentre(const float* centre, std::ptrdiff_t stride, bool isMain, dou
     const double atCentres = std::max(std::abs(from + slope * 0.5 - (south + before) / 2),
                                       std::abs(from + slope * 1.5 - (after + north) / 2));
     const double atMiddle = std::abs(at(0, 0) - (from + to) / 2);
-    const auto ofTriangle = [&](double apex, double besideFrom, double besideTo) {
+    double deviation = 0;
+    double greatest = atCentres;
+    const auto addTriangle = [&](double apex, double besideFrom, double besideTo) {
         const double atPosts = std::max({atMiddle, std::abs(besideFrom - (from + apex) / 2),
                                          std::abs(besideTo - (to + apex) / 2)});
-        return atPosts > tolerance ? std::max(atPosts, atCentres) : atPosts;
+        greatest = std::max(greatest, atPosts);
+        deviation =
+            std::max(deviation, atPosts > tolerance ? std::max(atPosts, atCentres) : atPosts);
     };
-    return std::max(ofTriangle(at(d, -1), south, after), ofTriangle(at(-d, 1), before, north));
+    addTriangle(at(d, -1), south, after);
+    addTriangle(at(-d, 1), before, north);
+    return {deviation, greatest};
 }
 
 }  // namespace eyrie::terrain

@@ -9,7 +9,7 @@
 namespace eyrie::terrain {
 namespace {
 
-constexpr std::int32_t kSmallLeg = 4;
+constexpr std::int32_t kSmallLeg = 8;
 
 /// The posts around a triangle's right angle; u and v are one step along each leg.
 struct Legs {
@@ -96,6 +96,8 @@ SmallDeviation deviationOfSmall(const HeightPatch& patch, const Triangle& t, dou
             return isDiagonal ? withDiagonalLegs<1>(legs, floor) : withAxisLegs<1>(legs, floor);
         case 2:
             return isDiagonal ? withDiagonalLegs<2>(legs, floor) : withAxisLegs<2>(legs, floor);
+        case 4:
+            return isDiagonal ? withDiagonalLegs<4>(legs, floor) : withAxisLegs<4>(legs, floor);
         default:
             return isDiagonal ? withDiagonalLegs<kSmallLeg>(legs, floor)
                               : withAxisLegs<kSmallLeg>(legs, floor);

@@ -7,7 +7,7 @@
 /// deviation_scan.h does for any size is done here in loops of known length.
 namespace eyrie::terrain {
 
-/// Whether legs span at most four columns or rows.
+/// Whether legs span at most eight columns or rows.
 bool isSmall(const Triangle& aligned);
 
 struct SmallDeviation {

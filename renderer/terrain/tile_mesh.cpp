@@ -16,15 +16,20 @@ std::int32_t limit(std::int32_t posts, int shift, std::int32_t side) {
     return half;
 }
 
+inline PartErrors::Rectangle extent(TilePoint a, TilePoint b, TilePoint c) {
+    return {std::min({a.x(), b.x(), c.x()}), std::min({a.y(), b.y(), c.y()}),
+            std::max({a.x(), b.x(), c.x()}), std::max({a.y(), b.y(), c.y()})};
+}
+
+inline std::size_t at(const TileSamples& samples, TilePoint p) { return samples.at(p.x(), p.y()); }
+
 }  // namespace
 
 void TileMesh::clear() {
     vertices.clear();
     indices.clear();
-    splits.clear();
-    isPresent.clear();
-    errorMetres = 0;
-    partErrorMetres = {};
+    walk.clear();
+    isSparse = false;
     mixesNodata = false;
     minHeightMetres = std::numeric_limits<double>::infinity();
     maxHeightMetres = -std::numeric_limits<double>::infinity();
@@ -32,7 +37,16 @@ void TileMesh::clear() {
 
 TileMesher::TileMesher(SourceSurface& surface, TileSamples& samples, const HeightLattice& lattice,
                        const Quadtree& quadtree)
-    : surface_(surface), samples_(samples), lattice_(lattice), quadtree_(quadtree) {}
+    : surface_(surface),
+      samples_(samples),
+      stepMetres_(lattice.stepMetres),
+      stepsPerMetre_(lattice.stepsPerMetre()),
+      quadtree_(quadtree),
+      moved_(kMaxTileVertices) {
+    for (int part = 0; part < kTileParts; ++part)
+        partIndices_.emplace_back(3 *
+                                  (part == kInteriorPart ? kMaxOwnTriangles : kMaxBorderTriangles));
+}
 
 const TileMesh& TileMesher::mesh(const TileId& tile) {
     begin(tile);
@@ -49,7 +63,9 @@ void TileMesher::begin(const TileId& tile) {
     firstColumn_ = tile.x * side;
     firstRow_ = tile.y * side;
     isCut_ = firstColumn_ + side >= quadtree_.columns() || firstRow_ + side >= quadtree_.rows();
+    mayHaveUnused_ = isCut_ || surface_.hasNodata();
     mesh_.clear();
+    mesh_.errors = PartErrors(Quadtree::cells(tile.level));
     mesh_.shape = {};
     TileShape& shape = mesh_.shape;
     shape.cells = Quadtree::cells(tile.level);
@@ -59,38 +75,47 @@ void TileMesher::begin(const TileId& tile) {
     for (int edge = 0; edge < kEdges; ++edge)
         if (tile.level > 0 && quadtree_.contains(Quadtree::neighbour(tile, edge)))
             shape.finerEdges = static_cast<std::uint8_t>(shape.finerEdges | 1 << edge);
-    for (std::vector<std::uint16_t>& part : partIndices_) part.clear();
+    for (BoundedList<std::uint16_t>& part : partIndices_) part.clear();
     moved_.clear();
 }
 
 /// Numbers by vertex that is used, kAbsentPoint for the others, which are dropped.
 std::vector<std::uint16_t> TileMesher::dropUnused() {
     std::vector<std::uint16_t> numbers(mesh_.vertices.size(), kAbsentPoint);
-    for (const std::vector<std::uint16_t>& part : partIndices_)
+    for (const BoundedList<std::uint16_t>& part : partIndices_)
         for (const std::uint16_t index : part) numbers[index] = 0;
     std::size_t kept = 0;
     std::size_t old = 0;
-    for (std::uint8_t& isPresent : mesh_.isPresent) {
-        if (isPresent == 0)
+    const auto renumbered = [&](std::uint16_t number) {
+        return number == kAbsentPoint ? kAbsentPoint : numbers[number];
+    };
+    for (WalkStep& step : mesh_.walk) {
+        if (step.isFlag())
+            continue;
+        if (!step.isCorner())
+            for (std::uint16_t* number : {&step.apex, &step.left, &step.right})
+                *number = renumbered(*number);
+        if (!step.isVertex())
             continue;
         if (numbers[old] == kAbsentPoint) {
-            isPresent = 0;
+            step.kind = step.absentKind();
+            mesh_.isSparse = true;
         } else {
             numbers[old] = static_cast<std::uint16_t>(kept);
             mesh_.vertices[kept++] = mesh_.vertices[old];
         }
         ++old;
     }
-    mesh_.vertices.resize(kept);
+    mesh_.vertices.shrink(kept);
     return numbers;
 }
 
 /// Puts the parts together and measures what is used.
 void TileMesher::finish() {
     std::vector<std::uint16_t> numbers;
-    if (mayHaveUnused()) {
+    if (mayHaveUnused_) {
         numbers = dropUnused();
-        for (std::vector<std::uint16_t>& part : partIndices_)
+        for (BoundedList<std::uint16_t>& part : partIndices_)
             for (std::uint16_t& index : part) index = numbers[index];
     }
     for (std::size_t part = 0; part < kTileParts; ++part) {
@@ -109,108 +134,80 @@ void TileMesher::measureVertices(const std::vector<std::uint16_t>& numbers) {
             countVertex(mesh_.vertices[numbers[k]], moved_[k]);
     if (mesh_.vertices.empty())
         return;
-    std::int32_t lowest = mesh_.vertices.front().q;
+    std::int32_t lowest = mesh_.vertices[0].q;
     std::int32_t highest = lowest;
     for (const TileVertex& vertex : mesh_.vertices) {
         lowest = std::min(lowest, vertex.q);
         highest = std::max(highest, vertex.q);
     }
-    mesh_.minHeightMetres = lowest * lattice_.stepMetres;
-    mesh_.maxHeightMetres = highest * lattice_.stepMetres;
+    mesh_.minHeightMetres = lowest * stepMetres_;
+    mesh_.maxHeightMetres = highest * stepMetres_;
 }
 
-bool TileMesher::isVertex(TilePoint middle, const SplitContext&) {
-    const bool isNeeded = samples_.isNeeded(column(middle), row(middle), tile_.level);
-    mesh_.splits.push_back(isNeeded);
+bool TileMesher::isVertex(TilePoint middle, const SplitContext& context) {
+    const bool isNeeded = samples_.isNeeded(at(samples_, middle), tile_.level);
+    mesh_.walk.push(WalkStep::flag(splitContext(context), isNeeded));
     return isNeeded;
 }
 
 /// A vertex of the next finer level's tiles along this tile's border.
-bool TileMesher::isFinerVertex(TilePoint middle, int) {
-    const bool isNeeded = samples_.isNeeded(column(middle), row(middle), tile_.level - 1);
-    mesh_.splits.push_back(isNeeded);
+bool TileMesher::isFinerVertex(TilePoint middle, int length) {
+    const bool isNeeded = samples_.isNeeded(at(samples_, middle), tile_.level - 1);
+    mesh_.walk.push(WalkStep::flag(finerContext(length), isNeeded));
     return isNeeded;
 }
 
 void TileMesher::triangle(int part, TilePoint a, TilePoint b, TilePoint c) {
-    // Its hypotenuse tells half a cell.
-    if (!isHalfCell(b, c, c) && mayBeWorst(a, b, c))
-        measure(a, b, c, true);
+    const PartErrors::Rectangle covered = extent(a, b, c);
+    if (!isHalfCell(covered) && mayBeWorst(covered, a, b, c))
+        measure(covered, a, b, c, true);
     addTriangle(part, a, b, c);
 }
 
 void TileMesher::finerTriangle(int part, TilePoint apex, TilePoint from, TilePoint to,
                                bool isWhole) {
-    if (!isWhole && !isHalfCell(apex, from, to))
-        measure(apex, from, to, false);
+    const PartErrors::Rectangle covered = extent(apex, from, to);
+    if (!isWhole && !isHalfCell(covered))
+        measure(covered, apex, from, to, false);
     addTriangle(part, apex, from, to);
 }
 
 Corner TileMesher::corner(TilePoint p) const {
     return {std::min(column(p), quadtree_.columns() - 1), std::min(row(p), quadtree_.rows() - 1),
             p.isAbsent() ? std::numeric_limits<double>::quiet_NaN()
-                         : mesh_.vertices[p.number].q * lattice_.stepMetres};
+                         : mesh_.vertices[p.number].q * stepMetres_};
 }
 
-TileMesher::Rectangle TileMesher::extent(TilePoint a, TilePoint b, TilePoint c) {
-    return {std::min({a.x(), b.x(), c.x()}), std::min({a.y(), b.y(), c.y()}),
-            std::max({a.x(), b.x(), c.x()}), std::max({a.y(), b.y(), c.y()})};
-}
-
-/// Whether all posts of a triangle are its vertices, which are measured as such.
-bool TileMesher::isHalfCell(TilePoint a, TilePoint b, TilePoint c) const {
-    if (shift_ != 0)
-        return false;
-    const Rectangle covered = extent(a, b, c);
-    return covered.x1 - covered.x0 == 2 && covered.y1 - covered.y0 == 2;
-}
-
-template <typename Visit>
-void TileMesher::forEachPart(const Rectangle& covered, Visit visit) {
-    const std::int32_t side = 2 * mesh_.shape.cells / kTilePartsPerSide;
-    const auto part = [&](std::int32_t at) {
-        return static_cast<std::size_t>(std::clamp(at / side, 0, kTilePartsPerSide - 1));
-    };
-    for (std::size_t y = part(covered.y0); y <= part(covered.y1 - 1); ++y)
-        for (std::size_t x = part(covered.x0); x <= part(covered.x1 - 1); ++x)
-            visit(mesh_.partErrorMetres[y][x]);
-}
-
-double TileMesher::leastPartError(const Rectangle& covered) {
-    double least = mesh_.errorMetres;
-    forEachPart(covered, [&](double error) { least = std::min(least, error); });
-    return least;
-}
-
-void TileMesher::countError(const Rectangle& covered, double deviationMetres) {
-    mesh_.errorMetres = std::max(mesh_.errorMetres, deviationMetres);
-    forEachPart(covered, [&](double& error) { error = std::max(error, deviationMetres); });
+/// Whether all posts of a triangle of that extent are its vertices, which are measured as such.
+bool TileMesher::isHalfCell(const PartErrors::Rectangle& covered) const {
+    return shift_ == 0 && covered.x1 - covered.x0 == 2 && covered.y1 - covered.y0 == 2;
 }
 
 /// A vertex belongs to all triangles around it.
 void TileMesher::countVertex(const TileVertex& vertex, double movedMetres) {
-    countError({vertex.x - 1, vertex.y - 1, vertex.x + 1, vertex.y + 1}, movedMetres);
+    mesh_.errors.raise({vertex.x - 1, vertex.y - 1, vertex.x + 1, vertex.y + 1}, movedMetres);
 }
 
 /// Whether a triangle of the global triangulation may deviate more than any so far of the parts
 /// that it lies in. VertexLevels has measured it with the source's heights; here its corners have
 /// moved to the lattice.
-bool TileMesher::mayBeWorst(TilePoint apex, TilePoint left, TilePoint right) {
-    if (mayHaveUnused() || apex.isAbsent() || left.isAbsent() || right.isAbsent())
+bool TileMesher::mayBeWorst(const PartErrors::Rectangle& covered, TilePoint apex, TilePoint left,
+                            TilePoint right) const {
+    if (mayHaveUnused_ || apex.isAbsent() || left.isAbsent() || right.isAbsent())
         return true;  // nodata has to be seen
     const TilePoint middle{(left.position + right.position) / 2, 0, 0};
     const double moved = std::max({moved_[apex.number], moved_[left.number], moved_[right.number]});
-    return samples_.greatestDeviationMetres(column(middle), row(middle)) + moved >=
-           leastPartError(extent(apex, left, right));
+    return samples_.greatestDeviationMetres(at(samples_, middle)) + moved >=
+           mesh_.errors.least(covered);
 }
 
-void TileMesher::measure(TilePoint a, TilePoint b, TilePoint c, bool mayBeAligned) {
+void TileMesher::measure(const PartErrors::Rectangle& covered, TilePoint a, TilePoint b,
+                         TilePoint c, bool mayBeAligned) {
     const Triangle triangle = {corner(a), corner(b), corner(c)};
     const auto isUnmoved = [&](TilePoint p) {
         return column(p) < quadtree_.columns() && row(p) < quadtree_.rows();
     };
-    const Rectangle covered = extent(a, b, c);
-    const DeviationGoal goal{leastPartError(covered)};
+    const DeviationGoal goal{mesh_.errors.least(covered)};
     double deviation = 0;
     if (mayBeAligned && (!isCut_ || (isUnmoved(a) && isUnmoved(b) && isUnmoved(c))))
         deviation = surface_.ofAligned(triangle, goal);
@@ -220,28 +217,63 @@ void TileMesher::measure(TilePoint a, TilePoint b, TilePoint c, bool mayBeAligne
     // A mixed triangle deviates by its longest edge.
     mesh_.mixesNodata = mesh_.mixesNodata ||
                         (surface_.hasNodata() && deviation >= surface_.longestEdgeMetres(triangle));
-    countError(covered, deviation);
+    mesh_.errors.raise(covered, deviation);
 }
 
 void TileMesher::addTriangle(int part, TilePoint a, TilePoint b, TilePoint c) {
     if (a.isAbsent() || b.isAbsent() || c.isAbsent())
         return;
-    std::vector<std::uint16_t>& indices = partIndices_[static_cast<std::size_t>(part)];
-    for (const std::uint16_t number : {a.number, b.number, c.number}) indices.push_back(number);
+    std::uint16_t* out = partIndices_[static_cast<std::size_t>(part)].grow(3);
+    out[0] = a.number;
+    out[1] = b.number;
+    out[2] = c.number;
 }
 
-std::uint16_t TileMesher::add(TilePoint p) {
-    const float source = samples_.height(std::min(column(p), quadtree_.columns() - 1),
-                                         std::min(row(p), quadtree_.rows() - 1));
-    mesh_.isPresent.push_back(!std::isnan(source));
-    if (std::isnan(source))
+std::uint16_t TileMesher::addCorner(TilePoint p, TilePoint) {
+    return add(p, {.kind = WalkStep::Kind::Corner});
+}
+
+std::uint16_t TileMesher::addMiddle(TilePoint p, TilePoint apex, TilePoint left, TilePoint right,
+                                    int steps) {
+    return add(
+        p, {WalkStep::Kind::Point, middleContext(steps), apex.number, left.number, right.number});
+}
+
+std::uint16_t TileMesher::addFinerMiddle(TilePoint p, TilePoint apex, TilePoint from, TilePoint to,
+                                         int) {
+    return add(p,
+               {WalkStep::Kind::Point, kFinerHeightContext, apex.number, from.number, to.number});
+}
+
+float TileMesher::sourceHeight(TilePoint p) const {
+    if (!isCut_) [[likely]]
+        return samples_.height(at(samples_, p));
+    return samples_.height(samples_.atPost(std::min(column(p), quadtree_.columns() - 1),
+                                           std::min(row(p), quadtree_.rows() - 1)));
+}
+
+/// The point that a step of the walk is about.
+std::uint16_t TileMesher::add(TilePoint p, WalkStep step) {
+    const float source = sourceHeight(p);
+    if (std::isnan(source)) {
+        step.kind = step.absentKind();
+        mesh_.walk.push(step);
+        mesh_.isSparse = true;
         return kAbsentPoint;
-    const std::int32_t q = lattice_.quantise(source);
-    mesh_.vertices.push_back({p.x(), p.y(), q});
-    moved_.push_back(std::abs(q * lattice_.stepMetres - static_cast<double>(source)));
-    if (!mayHaveUnused())  // else it counts once it is known to be used
-        countVertex(mesh_.vertices.back(), moved_.back());
-    return static_cast<std::uint16_t>(mesh_.vertices.size() - 1);
+    }
+    mesh_.walk.push(step);
+    const auto number = static_cast<std::uint16_t>(mesh_.vertices.size());
+    const std::int32_t q = HeightLattice::quantise(source, stepsPerMetre_);
+    const double moved = std::abs(q * stepMetres_ - static_cast<double>(source));
+    // Field by field: put together in a register first, it waits for its own halves.
+    TileVertex& vertex = *mesh_.vertices.grow(1);
+    vertex.x = p.x();
+    vertex.y = p.y();
+    vertex.q = q;
+    moved_.push(moved);
+    if (!mayHaveUnused_)  // else it counts once it is known to be used
+        countVertex(vertex, moved);
+    return number;
 }
 
 }  // namespace eyrie::terrain

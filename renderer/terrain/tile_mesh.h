@@ -6,8 +6,11 @@
 #include <limits>
 #include <vector>
 
+#include "renderer/terrain/bounded_list.h"
+#include "renderer/terrain/codec/tile_model.h"
 #include "renderer/terrain/deviation.h"
 #include "renderer/terrain/eyt_format.h"
+#include "renderer/terrain/part_errors.h"
 #include "renderer/terrain/quadtree.h"
 #include "renderer/terrain/tile_samples.h"
 #include "renderer/terrain/tile_triangulation.h"
@@ -15,21 +18,38 @@
 
 namespace eyrie::terrain {
 
+/// What TileTriangulation asked or told on its walk of a tile: a flag, or a point added.
+struct WalkStep {
+    enum class Kind : std::uint8_t { FlagNo, FlagYes, Corner, AbsentCorner, Point, AbsentPoint };
+
+    static WalkStep flag(int context, bool value) {
+        return {value ? Kind::FlagYes : Kind::FlagNo, static_cast<std::uint8_t>(context)};
+    }
+    Kind absentKind() const { return isCorner() ? Kind::AbsentCorner : Kind::AbsentPoint; }
+    bool isFlag() const { return kind <= Kind::FlagYes; }
+    bool isCorner() const { return kind == Kind::Corner || kind == Kind::AbsentCorner; }
+    bool isVertex() const { return kind == Kind::Corner || kind == Kind::Point; }
+
+    Kind kind = Kind::FlagNo;
+    std::uint8_t context = 0;  ///< of the flag or the height, see tile_model.h
+    std::uint16_t apex = 0;    ///< of a Point, numbers of those it lies between
+    std::uint16_t left = 0;
+    std::uint16_t right = 0;
+};
+static_assert(sizeof(WalkStep) == 8);
+
 /// One tile's triangulation, measured. Vertices and triangles are in TileTriangulation's order.
 struct TileMesh {
-    std::vector<TileVertex> vertices;
+    BoundedList<TileVertex> vertices{kMaxTileVertices};
     std::vector<std::uint16_t> indices;  ///< by parts, see kTileParts
     std::array<IndexRange, kTileParts> parts;
-    /// What TileTriangulation has to be told to walk the same tile again: its shape, the answers to
-    /// isVertex and isFinerVertex (0 or 1) in the order asked, and for each point in the order
-    /// added whether it is a vertex. Points that no triangle uses are none, nor is nodata.
+    /// The walk, so that the encoder need not repeat it. Points that no triangle uses are no
+    /// vertices, nor is nodata.
     TileShape shape;
-    std::vector<std::uint8_t> splits;
-    std::vector<std::uint8_t> isPresent;
-    /// Greatest deviation of any triangle of any part from the source, nodata included.
-    double errorMetres = 0;
-    /// The same of TileRecord's parts, by row and column.
-    std::array<std::array<double, kTilePartsPerSide>, kTilePartsPerSide> partErrorMetres{};
+    BoundedList<WalkStep> walk{2 * kMaxTileVertices};  ///< as many flags as points, at most
+    bool isSparse = false;                             ///< some point of the walk is no vertex
+    /// Greatest deviations of any triangle of any part from the source, nodata included.
+    PartErrors errors;
     /// Whether a triangle of any part, dropped or not, may cover both data and nodata.
     bool mixesNodata = false;
     double minHeightMetres = std::numeric_limits<double>::infinity();  ///< of the vertices
@@ -69,38 +89,30 @@ private:
     // What TileTriangulation asks and tells.
     bool isVertex(TilePoint middle, const SplitContext& context);
     bool isFinerVertex(TilePoint middle, int length);
-    std::uint16_t addCorner(TilePoint p, TilePoint) { return add(p); }
-    std::uint16_t addMiddle(TilePoint p, TilePoint, TilePoint, TilePoint, int) { return add(p); }
-    std::uint16_t addFinerMiddle(TilePoint p, TilePoint, TilePoint, TilePoint, int) {
-        return add(p);
-    }
+    std::uint16_t addCorner(TilePoint p, TilePoint);
+    std::uint16_t addMiddle(TilePoint p, TilePoint apex, TilePoint left, TilePoint right,
+                            int steps);
+    std::uint16_t addFinerMiddle(TilePoint p, TilePoint apex, TilePoint from, TilePoint to, int);
     void triangle(int part, TilePoint a, TilePoint b, TilePoint c);
     void finerTriangle(int part, TilePoint apex, TilePoint from, TilePoint to, bool isWhole);
 
-    std::uint16_t add(TilePoint p);
+    std::uint16_t add(TilePoint p, WalkStep step);
     void addTriangle(int part, TilePoint a, TilePoint b, TilePoint c);
     Corner corner(TilePoint p) const;
-    bool isHalfCell(TilePoint a, TilePoint b, TilePoint c) const;
-    /// Of the tile, in half spacings.
-    struct Rectangle {
-        std::int32_t x0, y0, x1, y1;
-    };
-    static Rectangle extent(TilePoint a, TilePoint b, TilePoint c);
-    /// Calls visit(double& errorMetres) for each part of which the rectangle covers some.
-    template <typename Visit>
-    void forEachPart(const Rectangle& covered, Visit visit);
-    bool mayBeWorst(TilePoint apex, TilePoint left, TilePoint right);
-    void measure(TilePoint a, TilePoint b, TilePoint c, bool mayBeAligned);
-    double leastPartError(const Rectangle& covered);
-    void countError(const Rectangle& covered, double deviationMetres);
+    bool isHalfCell(const PartErrors::Rectangle& covered) const;
+    bool mayBeWorst(const PartErrors::Rectangle& covered, TilePoint apex, TilePoint left,
+                    TilePoint right) const;
+    void measure(const PartErrors::Rectangle& covered, TilePoint a, TilePoint b, TilePoint c,
+                 bool mayBeAligned);
+    float sourceHeight(TilePoint p) const;
     void countVertex(const TileVertex& vertex, double movedMetres);
-    bool mayHaveUnused() const { return isCut_ || surface_.hasNodata(); }
     std::vector<std::uint16_t> dropUnused();
     void measureVertices(const std::vector<std::uint16_t>& numbers);
 
     SourceSurface& surface_;
     TileSamples& samples_;
-    const HeightLattice& lattice_;
+    const double stepMetres_;
+    const double stepsPerMetre_;
     const Quadtree& quadtree_;
 
     TileId tile_;
@@ -108,9 +120,10 @@ private:
     std::int32_t firstColumn_ = 0;
     std::int32_t firstRow_ = 0;
     bool isCut_ = false;  ///< reaches past the last column or row
+    bool mayHaveUnused_ = false;
     TileMesh mesh_;
-    std::array<std::vector<std::uint16_t>, kTileParts> partIndices_;
-    std::vector<double> moved_;  ///< by how many metres each vertex added was, for the lattice
+    std::vector<BoundedList<std::uint16_t>> partIndices_;
+    BoundedList<double> moved_;  ///< by how many metres each vertex added was, for the lattice
     std::vector<std::uint16_t> slots_;
 };
 

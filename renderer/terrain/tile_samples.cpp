@@ -8,6 +8,7 @@ namespace eyrie::terrain {
 void TileSamples::load(const TileId& tile) {
     const std::int32_t side = Quadtree::side(tile.level);
     layer_ = std::max(0, Quadtree::spacingShift(tile.level) - 1);
+    halves_ = Quadtree::spacingShift(tile.level) == 0 ? 1 : 0;
     posts_ = (side >> layer_) + 1;
     firstColumn_ = tile.x * side;
     firstRow_ = tile.y * side;

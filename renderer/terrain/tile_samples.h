@@ -19,16 +19,25 @@ public:
 
     void load(const TileId& tile);
 
-    /// Of post (i, j) of the tile loaded, which is a multiple of half a sample spacing from its
-    /// first, or the grid's last column or row instead.
-    float height(std::int32_t i, std::int32_t j) const { return heightsRead_[index(i, j)]; }
-    /// Whether the error of vertex (i, j) of the padded grid exceeds the level's threshold.
-    bool isNeeded(std::int32_t i, std::int32_t j, int level) const {
-        return levelsRead_[index(i, j)] > level;
+    /// Where the values lie of the tile's point x, y half sample spacings from its first.
+    std::size_t at(std::int32_t x, std::int32_t y) const {
+        return static_cast<std::size_t>((y >> halves_) * posts_ + (x >> halves_));
     }
-    /// What the triangles that vertex (i, j) splits deviate from the source at most.
-    double greatestDeviationMetres(std::int32_t i, std::int32_t j) const {
-        return levels_.greatestDeviationMetres(levelsRead_[index(i, j)]);
+    /// The same of post (i, j), which is such a point, or the grid's last column or row instead.
+    std::size_t atPost(std::int32_t i, std::int32_t j) const {
+        // Rounded up: the grid's last column may stand for a multiple past it.
+        const std::int32_t up = (1 << layer_) - 1;
+        return static_cast<std::size_t>(((j - firstRow_ + up) >> layer_) * posts_ +
+                                        ((i - firstColumn_ + up) >> layer_));
+    }
+    float height(std::size_t at) const { return heightsRead_[at]; }
+    /// Whether the error of a vertex of the padded grid exceeds the level's threshold.
+    bool isNeeded(std::size_t at, int level) const {
+        return DeviationScale::exceeded(levelsRead_[at]) > level;
+    }
+    /// What the triangles that a vertex splits deviate from the source at most.
+    double greatestDeviationMetres(std::size_t at) const {
+        return levels_.scale().greatestMetres(levelsRead_[at]);
     }
     /// Posts of the tile, those past the grid standing on its edge; without any left out only up to
     /// level 2.
@@ -37,16 +46,10 @@ public:
     bool hasData() const;
 
 private:
-    std::size_t index(std::int32_t i, std::int32_t j) const {
-        // Rounded up: the grid's last column may stand for a multiple past it.
-        const std::int32_t up = (1 << layer_) - 1;
-        return static_cast<std::size_t>(((j - firstRow_ + up) >> layer_) * posts_ +
-                                        ((i - firstColumn_ + up) >> layer_));
-    }
-
     const HeightLayers& heights_;
     const VertexLevels& levels_;
     int layer_ = 0;
+    int halves_ = 0;          ///< 1 where half a spacing is no post
     std::int32_t posts_ = 0;  ///< a side
     std::int32_t firstColumn_ = 0;
     std::int32_t firstRow_ = 0;

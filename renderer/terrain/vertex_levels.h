@@ -15,6 +15,7 @@
 
 #include "renderer/import/progress.h"
 #include "renderer/terrain/deviation.h"
+#include "renderer/terrain/deviation_scale.h"
 #include "renderer/terrain/tiled_raster.h"
 
 namespace eyrie::terrain {
@@ -33,8 +34,9 @@ namespace eyrie::terrain {
 /// Posts past the last column or row stand on it (their indices are clamped). Vertices there
 /// matter where their triangles reach back into the grid.
 ///
-/// What is kept of an error is the number of thresholds that it exceeds: one byte a post, on
-/// scratch; for every 16th column and row also in memory.
+/// What is kept of an error is a byte of DeviationScale: the thresholds that it exceeds, and how
+/// far the vertex's own two triangles deviate. One a post, on scratch; for every 16th column and
+/// row also in memory.
 ///
 /// A triangle up to 128 cells wide lies in one tile of the raster, so three steps find them all:
 /// `measure` takes each tile by itself, with the vertices inside of it that it knows; `join`
@@ -64,17 +66,13 @@ public:
     TiledRaster<std::uint8_t>::Tile measured(std::int32_t x, std::int32_t y) const {
         return measured_.tile(x, y);
     }
-    void setMeasured(std::int32_t x, std::int32_t y, std::shared_ptr<std::uint8_t[]> counts) {
-        measured_.write(x, y, std::move(counts));
+    void setMeasured(std::int32_t x, std::int32_t y, std::shared_ptr<std::uint8_t[]> codes) {
+        measured_.write(x, y, std::move(codes));
     }
 
-    /// What the triangles that a vertex splits deviate from the source at most, given how many
-    /// thresholds it exceeds; rounding, in float as well, included.
-    double greatestDeviationMetres(int exceeded) const {
-        return greatestDeviations_[static_cast<std::size_t>(exceeded)];
-    }
-    /// Numbers of exceeded thresholds: vertex (i, j) is needed by all levels below that number.
-    /// `rect` counts posts 2^layer apart; `out` gets its values row by row.
+    const DeviationScale& scale() const { return scale_; }
+    /// Bytes of `scale`: vertex (i, j) is needed by all levels below the number of thresholds
+    /// exceeded. `rect` counts posts 2^layer apart; `out` gets its bytes row by row.
     void read(int layer, const PostRect& rect, std::uint8_t* out) const;
 
     /// What the steps leave in memory, and the same brought back; false for what is not of this
@@ -89,7 +87,7 @@ private:
     };
     struct Found {
         std::uint64_t key;
-        std::uint64_t exceeded;
+        std::uint64_t code;
     };
     class TileMeasure;
     class GroupJoin;
@@ -97,13 +95,18 @@ private:
     static constexpr int kLayers = 4;  ///< on scratch; from layer 4 on memory has all
     static constexpr std::int32_t kCoarseSpacing = 1 << kLayers;
 
-    int thresholdsExceededBy(double deviationMetres) const;
     int exceededByTriangle(SourceSurface& surface, const Point& p, const Point& apex,
                            const Point& q, int known) const;
     int exceededBySplit(SourceSurface& surface, std::int32_t i, std::int32_t j, std::int32_t s,
                         bool isCentre, int known) const;
-    int exceeded(std::int32_t i, std::int32_t j) const;
+    std::uint8_t codeAt(std::int32_t i, std::int32_t j) const;
+    int exceeded(std::int32_t i, std::int32_t j) const {
+        return DeviationScale::exceeded(codeAt(i, j));
+    }
     int exceededByChildren(std::int32_t i, std::int32_t j, std::int32_t s, bool isCentre) const;
+    std::uint8_t raised(std::int32_t i, std::int32_t j, std::int32_t s, bool isCentre) const;
+    std::uint8_t split(SourceSurface& surface, std::int32_t i, std::int32_t j, std::int32_t s,
+                       bool isCentre) const;
     void finishClass(std::int32_t s, bool isCentre);
     bool isCovered(std::int32_t i, std::int32_t j) const {
         return i <= coveredI_ && j <= coveredJ_;
@@ -119,9 +122,7 @@ private:
 
     const ElevationModel& model_;
     Scratch& scratch_;
-    std::vector<double> thresholds_;
-    std::vector<float> floatThresholds_;
-    std::vector<double> greatestDeviations_;  ///< by thresholds exceeded
+    DeviationScale scale_;
     std::int32_t columns_;
     std::int32_t rows_;
     std::int32_t side_;      ///< cells a side of the padded square

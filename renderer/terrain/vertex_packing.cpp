@@ -7,17 +7,18 @@
 namespace eyrie::terrain {
 
 HeightPacking chooseHeightPacking(std::span<const TileVertex> vertices) {
-    HeightPacking packing;
-    packing.base = vertices.front().q;
-    std::int32_t highest = packing.base;
+    const std::int32_t first = vertices.front().q;
+    std::int32_t lowest = first;
+    std::int32_t highest = first;
+    std::int32_t bits = 0;  // below the lowest one all heights are alike
     for (const TileVertex& vertex : vertices) {
-        packing.base = std::min(packing.base, vertex.q);
+        lowest = std::min(lowest, vertex.q);
         highest = std::max(highest, vertex.q);
+        bits |= vertex.q ^ first;
     }
-    std::uint32_t bits = 0;  // set in any height above the lowest
-    for (const TileVertex& vertex : vertices)
-        bits |= static_cast<std::uint32_t>(vertex.q - packing.base);
-    packing.shift = bits == 0 ? 0 : std::countr_zero(bits);
+    HeightPacking packing;
+    packing.base = lowest;
+    packing.shift = bits == 0 ? 0 : std::countr_zero(static_cast<std::uint32_t>(bits));
     const auto steps = static_cast<std::uint32_t>(highest - packing.base) >> packing.shift;
     packing.wordsPerVertex = steps <= kMaxShortHeight ? 1 : 2;
     return packing;

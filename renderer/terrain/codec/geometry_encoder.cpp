@@ -6,18 +6,24 @@
 
 namespace eyrie::terrain {
 
-bool isSparse(const TileMesh& mesh) { return mesh.isPresent.size() != mesh.vertices.size(); }
-
 void GeometryEncoder::add(const TileMesh& mesh, std::int32_t baseHeight, int heightShift) {
-    mesh_ = &mesh;
     baseHeight_ = baseHeight;
     heightShift_ = heightShift;
-    nextSplit_ = nextPoint_ = nextVertex_ = 0;
+    vertex_ = mesh.vertices.data();
     positions_.resize(kMaxTileVertices);
     heights_.resize(kMaxTileVertices);
-    TileModel<GeometryEncoder> model(*this, isSparse(mesh), positions_.data(), heights_.data());
-    TileTriangulation<TileModel<GeometryEncoder>>(mesh.shape, slots_, model).walk();
-    assert(nextSplit_ == mesh.splits.size() && nextVertex_ == mesh.vertices.size());
+    TileModel<GeometryEncoder> model(*this, mesh.isSparse, positions_.data(), heights_.data());
+    const auto point = [](std::uint16_t number) { return TilePoint{0, 0, number}; };
+    for (const WalkStep& step : mesh.walk) {
+        isVertexNext_ = step.isVertex();
+        if (step.isFlag())
+            flag(step.context, step.kind == WalkStep::Kind::FlagYes);
+        else if (step.isCorner())
+            model.addCorner({}, {});
+        else
+            model.add({}, point(step.apex), point(step.left), point(step.right), step.context);
+    }
+    assert(vertex_ == mesh.vertices.data() + mesh.vertices.size());
 }
 
 bool GeometryEncoder::flag(int context, bool value) {
@@ -29,16 +35,10 @@ bool GeometryEncoder::flag(int context, bool value) {
     return value;
 }
 
-bool GeometryEncoder::isVertex(int context) {
-    return flag(context, mesh_->splits[nextSplit_++] != 0);
-}
-
-bool GeometryEncoder::isPresent(int context) {
-    return flag(context, mesh_->isPresent[nextPoint_++] != 0);
-}
+bool GeometryEncoder::isPresent(int context) { return flag(context, isVertexNext_); }
 
 std::uint32_t GeometryEncoder::height(int context, std::uint32_t foreseen) {
-    const TileVertex& vertex = mesh_->vertices[nextVertex_++];
+    const TileVertex& vertex = *vertex_++;
     const auto height = static_cast<std::uint32_t>(vertex.q - baseHeight_) >> heightShift_;
     const Residual residual = Residual::of(height, foreseen);
     static_assert(Residual::kSymbols <= 256);
@@ -47,22 +47,21 @@ std::uint32_t GeometryEncoder::height(int context, std::uint32_t foreseen) {
          0});
     ++counts_[static_cast<std::size_t>(context)][residual.symbol];
     if (residual.rawBits != 0)
-        raws_.push_back(residual);
+        raws_.push_back({residual.raw, residual.rawBits});
     return height;
 }
 
 GeometryBits GeometryEncoder::finish() {
     BitWriter raw;
-    std::array<Share, kHeightContexts << 8> ofHeights{};
+    std::array<ReadyShare<kSymbolBits>, kHeightContexts << 8> ofHeights;
     for (std::size_t context = 0; context < kHeightContexts; ++context) {
         const SymbolShares shares(counts_[context]);
         shares.write(raw);
         for (std::uint32_t symbol = 0; symbol < Residual::kSymbols; ++symbol)
             if (counts_[context][symbol] > 0)
-                ofHeights[context << 8 | symbol] = shares.of(symbol);
+                ofHeights[context << 8 | symbol] = ReadyShare<kSymbolBits>(shares.of(symbol));
     }
-    for (const Residual& residual : raws_)
-        raw.put(residual.raw, static_cast<int>(residual.rawBits));
+    for (const RawBits& bits : raws_) raw.put(bits.value, static_cast<int>(bits.count));
 
     RansEncoder<2> rans;
     for (std::size_t k = events_.size(); k-- > 0;) {
@@ -70,7 +69,7 @@ GeometryBits GeometryEncoder::finish() {
         if (size != 0)
             rans.put(0, {start, size}, AdaptiveFlag::kBits);
         else
-            rans.put(1, ofHeights[start], kSymbolBits);
+            rans.put(1, ofHeights[start]);
     }
     std::vector<std::uint8_t> bytes = std::move(raw).finish();
     bytes.resize(bytes.size() + bytes.size() % 2);

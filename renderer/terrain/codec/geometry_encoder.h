@@ -39,31 +39,28 @@ private:
         std::uint16_t size = 0;
     };
 
-    bool isVertex(int context);
+    struct RawBits {
+        std::uint32_t value;
+        std::uint32_t count;
+    };
+
     bool isPresent(int context);
     std::uint32_t height(int context, std::uint32_t foreseen);
-    void triangle(int, std::uint16_t, std::uint16_t, std::uint16_t) {}
 
     bool flag(int context, bool value);
 
     std::vector<Event> events_;
     std::array<AdaptiveFlag, kFlagContexts> flags_;
-    std::vector<Residual> raws_;
+    std::vector<RawBits> raws_;
     std::array<std::array<std::uint32_t, Residual::kSymbols>, kHeightContexts> counts_{};
 
     // The tile being added.
-    const TileMesh* mesh_ = nullptr;
+    const TileVertex* vertex_ = nullptr;  ///< the next
+    bool isVertexNext_ = false;
     std::int32_t baseHeight_ = 0;
     int heightShift_ = 0;
-    std::size_t nextSplit_ = 0;
-    std::size_t nextPoint_ = 0;
-    std::size_t nextVertex_ = 0;
-    std::vector<std::uint16_t> slots_;
     std::vector<std::uint32_t> positions_;
     std::vector<std::uint32_t> heights_;
 };
-
-/// Whether a point of the mesh's walk is no vertex.
-bool isSparse(const TileMesh& mesh);
 
 }  // namespace eyrie::terrain

@@ -69,6 +69,25 @@ void restoreFromPlane(const std::uint8_t* left, const std::int8_t* above, std::s
     }
 }
 
+/// The residuals of a row of x, or of a row or the first columns of y.
+EYRIE_SIMD_CLONES void leaveFromPlane(const std::int8_t* row, const std::int8_t* above,
+                                      std::size_t count, std::uint8_t* left) {
+    left[0] = zigzag(row[0] - fromPlane(row, above, 0));
+    if (above == nullptr)
+        for (std::size_t i = 1; i < count; ++i) left[i] = zigzag(row[i] - row[i - 1]);
+    else
+        for (std::size_t i = 1; i < count; ++i)
+            left[i] = zigzag(row[i] - medianEdge(row[i - 1], above[i], above[i - 1]));
+}
+
+/// Of the rest of a row of y between two of x.
+EYRIE_SIMD_CLONES void leaveFromCurl(const std::int8_t* row, const std::int8_t* xBelow,
+                                     const std::int8_t* xAbove, std::size_t samples,
+                                     std::uint8_t* left) {
+    for (std::size_t i = kFirstCurlColumn; i < samples; ++i)
+        left[i] = zigzag(row[i] - (row[i - 2] + xAbove[i - 1] - xBelow[i - 1]));
+}
+
 EYRIE_SIMD_CLONES void restoreFromCurl(const std::uint8_t* left, const std::int8_t* xBelow,
                                        const std::int8_t* xAbove, std::size_t samples,
                                        std::int8_t* row) {
@@ -77,6 +96,14 @@ EYRIE_SIMD_CLONES void restoreFromCurl(const std::uint8_t* left, const std::int8
         change[i] = static_cast<std::int8_t>(xAbove[i - 1] - xBelow[i - 1] + unzigzag(left[i]));
     for (std::size_t i = kFirstCurlColumn; i < samples; ++i)
         row[i] = static_cast<std::int8_t>(row[i - 2] + change[i]);
+}
+
+EYRIE_SIMD_CLONES void separate(const std::int8_t* in, std::size_t count, std::int8_t* x,
+                                std::int8_t* y) {
+    for (std::size_t k = 0; k < count; ++k) {
+        x[k] = in[2 * k];
+        y[k] = in[2 * k + 1];
+    }
 }
 
 EYRIE_SIMD_CLONES void interleave(const std::int8_t* x, const std::int8_t* y, std::size_t count,
@@ -95,25 +122,21 @@ void NormalEncoder::add(std::int32_t cells, std::span<const std::int8_t> normals
     x_.resize(n * n);
     y_.resize(n * n);
     left_.resize(n * n);
-    for (std::size_t k = 0; k < n * n; ++k) {
-        x_[k] = normals[2 * k];
-        y_[k] = normals[2 * k + 1];
+    separate(normals.data(), n * n, x_.data(), y_.data());
+    for (std::size_t j = 0; j < n; ++j) {
+        const std::int8_t* row = x_.data() + j * n;
+        leaveFromPlane(row, j == 0 ? nullptr : row - n, n, left_.data() + j * n);
     }
-    for (std::size_t j = 0; j < n; ++j)
-        for (std::size_t i = 0; i < n; ++i) {
-            const std::int8_t* row = x_.data() + j * n;
-            left_[j * n + i] = zigzag(row[i] - fromPlane(row, j == 0 ? nullptr : row - n, i));
-        }
     addPlane(0);
-    for (std::size_t j = 0; j < n; ++j)
-        for (std::size_t i = 0; i < n; ++i) {
-            const std::int8_t* row = y_.data() + j * n;
-            const std::int8_t* xs = x_.data() + j * n + i;
-            const bool isFromCurl = j > 0 && j + 1 < n && i >= kFirstCurlColumn;
-            const int foreseen = isFromCurl ? row[i - 2] + *(xs - 1 + n) - *(xs - 1 - n)
-                                            : fromPlane(row, j == 0 ? nullptr : row - n, i);
-            left_[j * n + i] = zigzag(row[i] - foreseen);
-        }
+    for (std::size_t j = 0; j < n; ++j) {
+        const std::int8_t* row = y_.data() + j * n;
+        const std::int8_t* x = x_.data() + j * n;
+        const bool isBetween = j > 0 && j + 1 < n;
+        leaveFromPlane(row, j == 0 ? nullptr : row - n, isBetween ? kFirstCurlColumn : n,
+                       left_.data() + j * n);
+        if (isBetween)
+            leaveFromCurl(row, x - n, x + n, n, left_.data() + j * n);
+    }
     addPlane(kNormalContexts);
 }
 
@@ -131,17 +154,20 @@ void NormalEncoder::addPlane(std::size_t firstContext) {
 std::vector<std::uint8_t> NormalEncoder::finish() {
     std::array<std::array<std::uint32_t, 256>, 2 * kNormalContexts> counts{};
     for (std::size_t k = 0; k < symbols_.size(); ++k) ++counts[contexts_[k]][symbols_[k]];
-    std::array<SymbolShares, 2 * kNormalContexts> shares;
+    std::array<ReadyShare<kSymbolBits>, 2 * kNormalContexts << 8> ready;
     BitWriter writer;
-    for (std::size_t k = 0; k < shares.size(); ++k) {
-        shares[k] = SymbolShares(counts[k]);
-        shares[k].write(writer);
+    for (std::size_t k = 0; k < counts.size(); ++k) {
+        const SymbolShares shares(counts[k]);
+        shares.write(writer);
+        for (std::uint32_t symbol = 0; symbol < counts[k].size(); ++symbol)
+            if (counts[k][symbol] > 0)
+                ready[k << 8 | symbol] = ReadyShare<kSymbolBits>(shares.of(symbol));
     }
     RansEncoder<4> rans;
     for (std::size_t row = symbols_.size(); row > 0;) {
         row -= samples_;
         for (std::size_t i = samples_; i-- > 0;)
-            rans.put(i % 4, shares[contexts_[row + i]].of(symbols_[row + i]), kSymbolBits);
+            rans.put(i % 4, ready[std::size_t{contexts_[row + i]} << 8 | symbols_[row + i]]);
     }
     std::vector<std::uint8_t> bytes = std::move(writer).finish();
     const std::vector<std::uint16_t> words = std::move(rans).finish();

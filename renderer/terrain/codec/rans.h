@@ -20,6 +20,28 @@ struct Share {
     std::uint32_t size = 1;
 };
 
+/// A share of 2^kBits made ready for many symbols. Division by its size is a product and a shift
+/// (T. Granlund, P. Montgomery, "Division by invariant integers using multiplication", 1994), exact
+/// for the states that are divided: those below `limit`.
+template <int kBits>
+struct ReadyShare {
+    ReadyShare() = default;
+    explicit ReadyShare(Share share)
+        : reciprocal(((std::uint64_t{1} << (32 + kBits)) + share.size - 1) / share.size),
+          limit(std::uint64_t{share.size} << (32 - kBits)),
+          start(share.start),
+          others((1U << kBits) - share.size) {}
+
+    std::uint32_t quotient(std::uint32_t x) const {
+        return static_cast<std::uint32_t>(x * reciprocal >> (32 + kBits));
+    }
+
+    std::uint64_t reciprocal = 0;  ///< 2^(32 + kBits) / size, rounded up
+    std::uint64_t limit = 0;       ///< states from here on are renewed first
+    std::uint32_t start = 0;
+    std::uint32_t others = 0;  ///< what the other symbols have
+};
+
 /// A decoder's slot in 32 bits: bits 0-7 the symbol, 8-19 its share, 20-31 the slot's
 /// place within the share.
 struct SlotEntry {
@@ -43,6 +65,17 @@ public:
             x >>= 16;
         }
         x = (x / share.size << bits) + x % share.size + share.start;
+    }
+
+    /// The same, of a symbol put many times.
+    template <int kBits>
+    void put(std::size_t state, const ReadyShare<kBits>& share) {
+        std::uint32_t x = states_[state];
+        if (x >= share.limit) {
+            words_.push_back(static_cast<std::uint16_t>(x));
+            x >>= 16;
+        }
+        states_[state] = x + share.start + share.quotient(x) * share.others;
     }
 
     std::vector<std::uint16_t> finish() && {

@@ -19,6 +19,13 @@ inline constexpr int kPresenceContexts = 4;
 inline constexpr int kFlagContexts = kSplitContexts + kFinerContexts + kPresenceContexts;
 /// Contexts of heights, each with symbol shares of its own in every page.
 inline constexpr int kHeightContexts = 8;
+inline constexpr std::uint8_t kFinerHeightContext = kHeightContexts - 2;
+inline constexpr std::uint8_t kCornerHeightContext = kHeightContexts - 1;
+
+/// Of a point added with that many steps to go.
+inline std::uint8_t middleContext(int steps) {
+    return static_cast<std::uint8_t>(std::min<int>(steps, kFinerHeightContext - 1));
+}
 
 inline int splitContext(const SplitContext& c) {
     return (std::min(c.steps, 5) * 3 + c.legsUnsplit) * 9 + c.aroundSplit * 3 + c.aroundUnsplit;
@@ -78,15 +85,15 @@ public:
     bool isFinerVertex(TilePoint, int length) { return bits_.isVertex(finerContext(length)); }
     std::uint16_t addCorner(TilePoint p, TilePoint before) {
         before.number = vertices_ == 0 ? kAbsentPoint : static_cast<std::uint16_t>(vertices_ - 1);
-        return add(p, before, before, before, kHeightContexts - 1);
+        return add(p, before, before, before, kCornerHeightContext);
     }
     std::uint16_t addMiddle(TilePoint middle, TilePoint apex, TilePoint left, TilePoint right,
                             int steps) {
-        return add(middle, apex, left, right, std::min(steps, kHeightContexts - 3));
+        return add(middle, apex, left, right, middleContext(steps));
     }
     std::uint16_t addFinerMiddle(TilePoint middle, TilePoint apex, TilePoint from, TilePoint to,
                                  int) {
-        return add(middle, apex, from, to, kHeightContexts - 2);
+        return add(middle, apex, from, to, kFinerHeightContext);
     }
     void triangle(int part, TilePoint a, TilePoint b, TilePoint c) {
         if (!isSparse_ || !(a.isAbsent() || b.isAbsent() || c.isAbsent()))
@@ -96,7 +103,7 @@ public:
         triangle(part, apex, from, to);
     }
 
-private:
+    /// What the three above come to.
     std::uint16_t add(TilePoint p, TilePoint apex, TilePoint left, TilePoint right, int context) {
         std::uint32_t foreseen;
         if (!isSparse_) [[likely]] {
@@ -112,6 +119,7 @@ private:
         return vertices_++;
     }
 
+private:
     std::uint32_t fromPresent(TilePoint apex, TilePoint left, TilePoint right) const {
         if (!left.isAbsent() && !right.isAbsent())
             return (heights_[left.number] + heights_[right.number]) / 2;

@@ -171,6 +171,32 @@ TEST(Deviation, WithAGoalIsTheSameWhereItMatters) {
     }
 }
 
+/// VertexLevels leaves triangles out by this.
+TEST(Deviation, OfATriangleIsNoMoreThanOfItsHalvesAndItsMiddlesMove) {
+    Random random(12);
+    for (int kind = 0; kind < test::kGridKinds; ++kind) {
+        const HeightGrid grid = test::hardGrid(static_cast<GridKind>(kind), 129, 129, 5);
+        test::GridModel model(grid);
+        SourceSurface& surface = model.surface();
+        const auto corner = [&](std::int32_t i, std::int32_t j) {
+            return Corner{i, j, static_cast<double>(grid.at(i, j))};
+        };
+        for (int k = 0; k < 200; ++k) {
+            Triangle t = withHeights(grid, randomAligned(grid, random, 6), 0, random);
+            if ((t[1].i + t[2].i) % 2 != 0 || (t[1].j + t[2].j) % 2 != 0)
+                continue;  // its middle is no post
+            const Corner middle = corner((t[1].i + t[2].i) / 2, (t[1].j + t[2].j) / 2);
+            const double moved = std::abs(middle.z - (t[1].z + t[2].z) / 2);
+            const double halves = std::max(surface.inside({middle, t[0], t[1]}, 0).greatest,
+                                           surface.inside({middle, t[2], t[0]}, 0).greatest);
+            const auto whole = surface.inside(t, 0);
+            EXPECT_LE(whole.greatest, (moved + halves) * (1 + 1e-12)) << kind << " " << k;
+            EXPECT_EQ(whole.deviation, surface.ofAligned(t)) << kind << " " << k;
+            EXPECT_LE(whole.deviation, whole.greatest) << kind << " " << k;
+        }
+    }
+}
+
 TEST(Deviation, OfAPlaneInWholeMetresIsExactlyZero) {
     HeightGrid grid = test::hardGrid(GridKind::Flat, 65, 65, 0);
     for (std::int32_t j = 0; j < grid.rows; ++j)

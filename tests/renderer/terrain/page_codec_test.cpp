@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cstdint>
 #include <set>
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "renderer/terrain/codec/symbol_shares.h"
 #include "tests/renderer/terrain/sample_pages.h"
 
 namespace eyrie {
@@ -25,6 +28,15 @@ std::string differences(const SampleTerrain& terrain) {
             return found;
     }
     return "";
+}
+
+RC_GTEST_PROP(PageCodec, DividesByASharesSizeExactly, ()) {
+    const auto size = *rc::gen::inRange<std::uint32_t>(1, terrain::kAllShares + 1);
+    const terrain::ReadyShare<terrain::kSymbolBits> share({0, size});
+    const std::uint64_t last = std::min<std::uint64_t>(share.limit, 1ULL << 32) - 1;
+    const std::uint64_t multiple = *rc::gen::inRange<std::uint64_t>(0, last / size + 1) * size;
+    for (const std::uint64_t x : {multiple, multiple - std::min<std::uint64_t>(multiple, 1), last})
+        RC_ASSERT(share.quotient(static_cast<std::uint32_t>(x)) == x / size);
 }
 
 RC_GTEST_PROP(PageCodec, GivesBackEveryTileOfEveryLevel, ()) {

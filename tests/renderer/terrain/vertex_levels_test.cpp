@@ -38,9 +38,21 @@ public:
         const auto found = counts_.find({i, j});
         return found == counts_.end() ? 0 : found->second;
     }
+    /// Of the two triangles that the vertex splits.
+    double deviationAt(std::int32_t i, std::int32_t j) const {
+        const auto found = deviations_.find({i, j});
+        return found == deviations_.end() ? 0 : found->second;
+    }
 
 private:
     int countOf(std::int32_t i, std::int32_t j, std::int32_t s, bool isCentre) {
+        own_ = 0;
+        const int count = countWithOwn(i, j, s, isCentre);
+        deviations_[{i, j}] = own_;
+        return count;
+    }
+
+    int countWithOwn(std::int32_t i, std::int32_t j, std::int32_t s, bool isCentre) {
         int count = 0;
         const std::int32_t h = isCentre ? s : s / 2;
         if (isCentre)
@@ -80,6 +92,7 @@ private:
         if (isPastI || isPastJ)
             return 0;
         const double deviation = isInside ? surface_.ofAligned(t) : surface_.ofGeneral(t);
+        own_ = std::max(own_, deviation);
         return static_cast<int>(std::count_if(thresholds_.begin(), thresholds_.end(),
                                               [&](double limit) { return deviation > limit; }));
     }
@@ -89,6 +102,8 @@ private:
     std::vector<double> thresholds_;
     std::int32_t side_ = 0;
     std::map<std::pair<std::int32_t, std::int32_t>, int> counts_;
+    std::map<std::pair<std::int32_t, std::int32_t>, double> deviations_;
+    double own_ = 0;  ///< greatest of the vertex being counted
 };
 
 std::vector<double> thresholdsFor(const HeightGrid& grid) {
@@ -114,10 +129,14 @@ void expectTheDefinition(const HeightGrid& grid, const std::string& name) {
                                         static_cast<std::size_t>(all.rows));
         levels.read(layer, all, found.data());
         for (std::int32_t j = 0; j < all.rows; ++j)
-            for (std::int32_t i = 0; i < all.columns; ++i)
-                ASSERT_EQ(int{found[static_cast<std::size_t>(j * all.columns + i)]},
-                          expected.at(i << layer, j << layer))
+            for (std::int32_t i = 0; i < all.columns; ++i) {
+                const std::uint8_t code = found[static_cast<std::size_t>(j * all.columns + i)];
+                ASSERT_EQ(DeviationScale::exceeded(code), expected.at(i << layer, j << layer))
                     << name << " layer " << layer << " at " << i << " " << j;
+                ASSERT_GE(levels.scale().greatestMetres(code),
+                          expected.deviationAt(i << layer, j << layer))
+                    << name << " layer " << layer << " at " << i << " " << j;
+            }
     }
 }
 
