@@ -40,11 +40,11 @@ struct TerrainMemory {
 class TerrainPaging {
 public:
     /// Reads the top tile and texture tile, which stay on the device: they stand in for everything.
-    /// `loader` outlives this. Errors: of reading its page; ResourceExhausted when the limits hold
-    /// no page of `file`.
+    /// `decoder` makes the tiles; null: the CPU does. It and `loader` outlive this. Errors: of
+    /// reading its page; ResourceExhausted when the limits hold no page of `file`.
     static absl::StatusOr<std::unique_ptr<TerrainPaging>> open(
         std::shared_ptr<const terrain::EytFile> file, page::Loader& loader,
-        const TerrainMemory& limits, TextureFormat format);
+        const TerrainMemory& limits, TextureFormat format, const TileDecoder* decoder);
 
     using Prefetch = std::function<std::vector<terrain::TileId>()>;
 
@@ -102,8 +102,8 @@ private:
     using Clock = std::chrono::steady_clock;
 
     TerrainPaging(std::shared_ptr<const terrain::EytFile> file, page::Loader& loader,
-                  const TerrainMemory& limits, TextureFormat format, std::uint64_t topBytes,
-                  std::uint64_t loaderBytes);
+                  const TerrainMemory& limits, TextureFormat format, const TileDecoder* decoder,
+                  std::uint64_t topBytes, std::uint64_t loaderBytes);
 
     struct RankedItem {
         TerrainItem item;
@@ -162,6 +162,7 @@ private:
     const std::shared_ptr<const terrain::EytFile> file_;
     const terrain::EytIndex& index_;
     const TerrainItems names_;
+    const TileDecoder* const decoder_;
     std::unique_ptr<DeviceTile> top_;
     std::unique_ptr<DeviceTexture> topTexture_;  ///< null: it has none
     page::ResidentSet<std::uint32_t, std::variant<DeviceTile, DeviceTexture>> items_;  // by key
