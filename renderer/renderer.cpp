@@ -84,6 +84,7 @@ void addTo(fabric::FrameStatistics& statistics, const draw::Cut& cut) {
     statistics.bytesLoaded += cut.bytesLoaded;
     statistics.pagesMissing += cut.pagesMissing;
     statistics.pagesFailed += cut.pagesFailed;
+    statistics.tilesDecodedOnGpu += cut.tilesDecodedOnGpu;
 }
 
 struct OpenObject {

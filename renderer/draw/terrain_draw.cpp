@@ -229,6 +229,7 @@ Cut TerrainDrawable::selectCut(const CutRequest& request) {
     cut.tauAchievedPixels = drawn.tauAchievedPixels;
     cut.isComplete = result.pagesMissing == 0 && choice.isLowest;
     cut.pagesLoaded = result.loaded.pages;
+    cut.tilesDecodedOnGpu = result.tilesDecodedOnGpu;
     cut.bytesLoaded = result.loaded.bytes;
     cut.pagesMissing = result.pagesMissing;
     cut.pagesFailed = result.pagesFailed;

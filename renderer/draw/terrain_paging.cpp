@@ -246,6 +246,7 @@ bool TerrainPaging::upload(const RankedItem& ranked, const std::shared_ptr<const
     if (!items_.makeRoom(bytes, rank))
         return false;
     items_.insert(item.key, DeviceTile(geometry, decoder_), bytes, rank);
+    tilesDecodedOnGpu_ += geometry.outline.empty() ? 0 : 1;
     return true;
 }
 
@@ -321,7 +322,7 @@ TerrainPaging::Result TerrainPaging::resultOf(Refinement drawn, const NeededTile
     for (const TextureId& texture : textures)
         if (!isResident(texture))
             missing.insert(names_.of(texture).page);
-    Result result{std::move(drawn), {}, missing.size(), 0};
+    Result result{std::move(drawn), {}, missing.size(), 0, tilesDecodedOnGpu_};
     for (const std::uint32_t page : missing)
         result.pagesFailed += isSourceDown_ || failures_.contains(page) ? 1 : 0;
     return result;
@@ -332,6 +333,7 @@ TerrainPaging::Result TerrainPaging::approach(const Refinement& wanted, const Ne
                                               const lod::ObjectView& view,
                                               const Prefetch& prefetch) {
     beginFrame();
+    tilesDecodedOnGpu_ = 0;
     Refinement drawn = drawable(wanted, needed);
     // What is drawn stays, with the normals it is drawn with; then comes what lies below it, then,
     // against the day when the camera draws back, what lies above.
@@ -379,6 +381,7 @@ TerrainPaging::Result TerrainPaging::reach(const Refinement& wanted, const Neede
                                            const lod::ObjectView& view) {
     const auto start = Clock::now();
     Loads loaded;
+    tilesDecodedOnGpu_ = 0;
     while (true) {
         beginFrame();
         Refinement readable = wanted;

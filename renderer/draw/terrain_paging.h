@@ -60,6 +60,7 @@ public:
         Loads loaded;
         std::uint64_t pagesMissing = 0;  ///< pages of wanted needed tiles that are not there
         std::uint64_t pagesFailed = 0;   ///< of them; all, while their source is unavailable
+        std::uint64_t tilesDecodedOnGpu = 0;
     };
 
     /// Goes towards `wanted` as far as it can without waiting: takes what the loader has, brings
@@ -177,6 +178,7 @@ private:
     };
     std::vector<RankedPage> rankedPages_;  // of this frame, distinct, ascending
     std::unordered_map<std::uint32_t, std::uint32_t> rankOfPage_;
+    std::uint64_t tilesDecodedOnGpu_ = 0;  // of this frame
 
     std::unordered_map<std::uint32_t, std::uint64_t> knownPageBytes_;
     std::unordered_map<std::uint32_t, Failure> failures_;

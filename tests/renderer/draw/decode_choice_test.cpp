@@ -42,7 +42,7 @@ protected:
             task.viewWidth = 320;
             task.viewHeight = 180;
             task.pixelViewport = {0, 0, 320, 180};
-            task.buffers = fabric::Buffers::ColourAndDepth;
+            task.wantsDepth = true;
             const auto result = renderer->render(frame, task);
             EXPECT_TRUE(result.ok()) << result.status();
             EXPECT_GT(result->statistics.triangles, 1000U);
