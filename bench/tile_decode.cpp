@@ -89,8 +89,7 @@ void print(const Way& way) {
     fmt::print(
         "{:<12} {:>7.1f} M triangles/s on the device  {:>7.1f} M/s reading the bits  {:>8.0f} "
         "bytes sent a tile\n",
-        way.name, way.least.millionTrianglesPerSecond(),
-        triangles / way.leastReading.count() / 1e6,
+        way.name, way.least.millionTrianglesPerSecond(), triangles / way.leastReading.count() / 1e6,
         static_cast<double>(way.least.bytesSent) / static_cast<double>(way.least.tiles));
 }
 
@@ -103,8 +102,8 @@ absl::Status run(const std::string& path, int rounds, std::size_t count) {
     std::vector<Way> ways = {{"CPU", nullptr, {}, {}}, {"CPU and GPU", &decoder, {}, {}}};
     for (int round = 0; round < rounds; ++round)
         for (Way& way : ways) RETURN_IF_ERROR(measure(way, pages));
-    fmt::print("{} pages of {} tiles and {} triangles on {}\n", pages.size(),
-               ways[0].least.tiles, ways[0].least.triangles, context->device().renderer);
+    fmt::print("{} pages of {} tiles and {} triangles on {}\n", pages.size(), ways[0].least.tiles,
+               ways[0].least.triangles, context->device().renderer);
     for (const Way& way : ways) print(way);
     return absl::OkStatus();
 }

@@ -16,9 +16,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kRounds = 3;  ///< after one that compiles and warms up
+constexpr int kRounds = 3;    ///< after one that compiles and warms up
+constexpr double kClear = 4;  ///< times slower: no further round is needed
 
-/// The least of a few rounds of each, taken in turn.
+/// The least of up to kRounds of each, taken in turn.
 absl::StatusOr<std::pair<DecodeCost, DecodeCost>> compare(std::span<const std::uint32_t> bytes,
                                                           const TileDecoder& decoder) {
     std::pair<DecodeCost, DecodeCost> least;
@@ -29,6 +30,9 @@ absl::StatusOr<std::pair<DecodeCost, DecodeCost>> compare(std::span<const std::u
             least.first = cpu;
         if (round <= 0 || gpu.time < least.second.time)
             least.second = gpu;
+        const auto [less, more] = std::minmax(least.first.time, least.second.time);
+        if (round >= 0 && more > kClear * less)
+            break;
     }
     return least;
 }

@@ -36,7 +36,8 @@ public:
     explicit DecodeChoice(TileDecoding asked) : asked_(asked) {}
 
     /// Null: the CPU decodes. With TileDecoding::Auto the first file that has pages to measure
-    /// decides: some tens of milliseconds, before any frame of it is drawn. Valid as long as this.
+    /// decides, before any frame of it is drawn: in some tens of milliseconds, on llvmpipe in up to
+    /// some hundreds. Valid as long as this.
     /// Errors: FailedPrecondition, where Gpu was asked for and cannot be had.
     absl::StatusOr<const TileDecoder*> decoderFor(const terrain::EytFile& file);
 

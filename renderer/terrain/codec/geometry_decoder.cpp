@@ -33,7 +33,7 @@ const char* GeometryDecoder::begin() {
     return nullptr;
 }
 
-inline bool GeometryDecoder::flag(int context) {
+[[gnu::always_inline]] inline bool GeometryDecoder::flag(int context) {
     AdaptiveFlag& model = flags_[static_cast<std::size_t>(context)];
     const bool value = rans_.slot(0, AdaptiveFlag::kBits) < model.ones();
     rans_.take(0, model.share(value), AdaptiveFlag::kBits);
@@ -41,7 +41,8 @@ inline bool GeometryDecoder::flag(int context) {
     return value;
 }
 
-inline std::uint32_t GeometryDecoder::height(int context, std::uint32_t foreseen) {
+[[gnu::always_inline]] inline std::uint32_t GeometryDecoder::height(int context,
+                                                                    std::uint32_t foreseen) {
     const SlotEntry entry{symbols_[static_cast<std::size_t>(context)][rans_.slot(1, kSymbolBits)]};
     rans_.take(1, entry, kSymbolBits);
     Residual residual{entry.symbol(), Residual::rawBitsOf(entry.symbol()), 0};

@@ -46,18 +46,21 @@ protected:
             const auto result = renderer->render(frame, task);
             EXPECT_TRUE(result.ok()) << result.status();
             EXPECT_GT(result->statistics.triangles, 1000U);
+            tilesDecodedOnGpu_ += result->statistics.tilesDecodedOnGpu;
             images.push_back(result->image);
         }
         return images;
     }
 
     fabric::Scene scene_;
+    std::uint64_t tilesDecodedOnGpu_ = 0;  ///< in all pictures
 };
 
-TEST_F(DecodeChoiceTest, DrawsTheSamePicturesWhicheverDecodes) {
+TEST_F(DecodeChoiceTest, DrawsTheSamePicturesAndCountsTheGpusTiles) {
     const auto cpu = pictures(TileDecoding::Cpu);
+    EXPECT_EQ(tilesDecodedOnGpu_, 0U);
     EXPECT_EQ(cpu, pictures(TileDecoding::Gpu));
-    EXPECT_EQ(cpu, pictures(TileDecoding::Auto));
+    EXPECT_GT(tilesDecodedOnGpu_, 10U);
 }
 
 TEST_F(DecodeChoiceTest, TakesWhatIsAskedFor) {

@@ -1,89 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the device makes of a page's outlines, held against what the CPU decodes from the same bytes.
+// What the device makes of a page's outlines, held against what the CPU decodes from the same
+// bytes.
 #include "renderer/draw/tile_decoder.h"
 
 #include <algorithm>
-#include <memory>
-#include <optional>
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "renderer/draw/terrain_tiles.h"
-#include "renderer/gl/debug_output.h"
-#include "renderer/gl/egl_context.h"
-#include "renderer/terrain/tile_bytes.h"
+#include "renderer/import/terrain_import.h"
+#include "tests/renderer/draw/decoding_difference.h"
 #include "tests/renderer/terrain/sample_pages.h"
+#include "tests/support/temporary_folder.h"
 
 namespace eyrie {
 namespace {
 
-using draw::DeviceTile;
 using terrain::PageForm;
-using terrain::TileGeometry;
 using test::GridKind;
 using test::SamplePage;
 using Words = std::vector<std::uint32_t>;
 
-/// One context and decoder for all tests: compiling takes longer than they do.
-const draw::TileDecoder& decoder() {
-    static const auto context = [] {
-        gl::setOnGlError(gl::OnGlError::Abort);
-        return gl::EglContext::create(-1).value();
-    }();
-    static const auto decoder = draw::TileDecoder::create().value();
-    return decoder;
-}
-
-template <typename T>
-std::vector<T> readBack(const DeviceTile& tile, GLintptr first, std::size_t count) {
-    std::vector<T> values(count);
-    if (count != 0)
-        glGetNamedBufferSubData(tile.buffer.id(), first,
-                                static_cast<GLsizeiptr>(count * sizeof(T)), values.data());
-    return values;
-}
-
-std::string difference(const TileGeometry& expected, const TileGeometry& outlined) {
-    if (!expected.isEmpty() && (!outlined.words.empty() || outlined.outline.empty()))
-        return "is no outline";
-    if (outlined.vertexCount() != expected.vertexCount() || outlined.parts != expected.parts ||
-        outlined.wordsPerVertex != expected.wordsPerVertex || outlined.cells != expected.cells ||
-        outlined.baseHeight != expected.baseHeight ||
-        outlined.heightMultiplier != expected.heightMultiplier ||
-        terrain::tileBytes(outlined) != terrain::tileBytes(expected))
-        return "what is known of the tile";
-    if (!std::ranges::equal(outlined.normals, expected.normals))
-        return "normals";
-    const DeviceTile tile(outlined, &decoder());
-    if (!std::ranges::equal(readBack<std::uint32_t>(tile, 0, expected.words.size()),
-                            expected.words))
-        return "vertices";
-    if (!std::ranges::equal(
-            readBack<std::uint16_t>(tile, tile.indexOffset, expected.indices.size()),
-            expected.indices))
-        return "indices";
-    return "";
-}
-
-/// In what the two ways to decode a page differ; empty: in nothing, not even in what they refuse.
-std::string difference(const Words& bytes) {
-    const auto expected = terrain::Page::decode(bytes, "page");
-    const auto outlined = terrain::Page::decode(bytes, "page", PageForm::Outlines);
-    if (!expected.ok() || !outlined.ok())
-        return expected.status() == outlined.status()
-                   ? ""
-                   : expected.status().ToString() + " / " + outlined.status().ToString();
-    for (int place = 0; place < 16; ++place)
-        if (const auto found = difference(expected->tile(place), outlined->tile(place));
-            !found.empty())
-            return "tile " + std::to_string(place) + ": " + found;
-    return "";
-}
-
 std::string difference(const test::SampleTerrain& terrain) {
     for (const SamplePage& page : test::samplePages(terrain))
-        if (const std::string found = difference(page.bytes); !found.empty())
+        if (const std::string found = test::decodingDifference(page.bytes); !found.empty())
             return "level " + std::to_string(page.level) + ", " + found;
     return "";
 }
@@ -104,19 +44,16 @@ RC_GTEST_PROP(TileDecoder, MakesTheVerticesAndIndicesOfTheCpuBitForBit, ()) {
 TEST(TileDecoder, MakesTilesAsThinAsTheyCanBe) {
     for (const auto& [columns, rows] : {std::pair{2, 2}, {2, 300}, {300, 2}, {3, 3}, {34, 33}})
         for (const GridKind kind : {GridKind::Noise, GridKind::Flat, GridKind::Cliff})
-            EXPECT_EQ(difference(
-                          test::SampleTerrain{.kind = kind, .columns = columns, .rows = rows}),
-                      "")
+            EXPECT_EQ(
+                difference(test::SampleTerrain{.kind = kind, .columns = columns, .rows = rows}), "")
                 << columns << " x " << rows << ", " << test::name(kind);
 }
 
 /// Tiles of every size, full, both forms of vertices, and between samples those of a finer level.
 TEST(TileDecoder, MakesLevelsThatLeaveOutPosts) {
     for (const double step : {1.0, 1.0 / 1024})
-        EXPECT_EQ(difference(test::SampleTerrain{.kind = GridKind::Noise,
-                                                 .columns = 600,
-                                                 .rows = 530,
-                                                 .stepMetres = step}),
+        EXPECT_EQ(difference(test::SampleTerrain{
+                      .kind = GridKind::Noise, .columns = 600, .rows = 530, .stepMetres = step}),
                   "");
 }
 
@@ -138,7 +75,26 @@ RC_GTEST_PROP(TileDecoder, FindsTheSameWrongWithDamagedPages, ()) {
             *rc::gen::arbitrary<bool>() ? std::min<std::size_t>(69, bytes.size()) : bytes.size();
         bytes[*rc::gen::inRange<std::size_t>(0, end)] ^= 1U << *rc::gen::inRange(0, 32);
     }
-    RC_ASSERT(difference(bytes) == "");
+    RC_ASSERT(test::decodingDifference(bytes) == "");
+}
+
+/// Every tile of every level: mountains, and projected data with voids around them.
+TEST(TileDecoder, MakesEveryTileOfRealTerrain) {
+    const test::TemporaryFolder folder;
+    for (const char* name : {"SainteHelens.dem.gz", "utah_zion_srtm90.tif", "N44E005_UTM.tif.gz"}) {
+        const std::string path = std::string(EYRIE_SOURCE_DIR "/../shared/data/terrain/") + name;
+        const std::string source = path.ends_with(".gz") ? "/vsigzip/" + path : path;
+        const std::string out = folder.path("dem.eyt");
+        const auto report = import::importTerrain({source}, out, {}, {});
+        ASSERT_TRUE(report.ok()) << report.status();
+        const auto file = terrain::EytFile::open(out).value();
+        std::size_t tiles = 0;
+        for (std::uint32_t page = 0; page < file->index().pages.size(); ++page) {
+            const Words bytes = file->readPageBytes(page).value();
+            EXPECT_EQ(test::decodingDifference(bytes, &tiles), "") << name << ", page " << page;
+        }
+        EXPECT_GE(tiles, 100U) << name;
+    }
 }
 
 TEST(TileDecoder, SendsAQuarterOfTheBytes) {
