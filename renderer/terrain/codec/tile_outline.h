@@ -11,7 +11,7 @@
 #include "renderer/terrain/eyt_layout.h"
 
 /// What is left of a tile once its bits are read, and before vertices and indices are written down:
-/// which points are vertices, and their heights in the order of the walk. A sixth of the decoded
+/// which points are vertices, and their heights in the order of the walk. A quarter of the decoded
 /// tile. renderer/effects/tile_decode.effect walks it again, many pieces at once.
 ///
 /// In 32-bit words, bit k of a set in word k / 32:
