@@ -134,7 +134,7 @@ struct TileGeometry {
     /// Empty below Quadtree::normalLevel(); there without geometry where finer tiles need them.
     std::span<const std::int8_t> normals;
     std::span<const std::uint32_t> outline;
-    std::uint32_t vertices = 0;
+    std::uint32_t vertices = 0;  ///< of words, there or still to be made
 
     bool isEmpty() const { return indexCount() == 0; }
     std::size_t vertexCount() const { return vertices; }
