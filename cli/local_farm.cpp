@@ -18,24 +18,27 @@ constexpr std::chrono::milliseconds kPollInterval{10};
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<LocalFarm>> LocalFarm::start(
-    coordinator::Decomposition decomposition, const CacheOptions& cache) {
+    coordinator::Decomposition decomposition, const CacheOptions& cache, TileDecoding decoding) {
     ASSIGN_OR_RETURN(TemporaryFolder folder, TemporaryFolder::create());
     coordinator::CoordinatorOptions options;
     options.grpcAddresses = {folder.socket("coordinator")};
     options.decomposition = decomposition;
     ASSIGN_OR_RETURN(auto coordinator, coordinator::Coordinator::start(options));
     return std::unique_ptr<LocalFarm>(
-        new LocalFarm(std::move(folder), std::move(coordinator), cache));
+        new LocalFarm(std::move(folder), std::move(coordinator), cache, decoding));
 }
 
 LocalFarm::LocalFarm(TemporaryFolder folder, std::unique_ptr<coordinator::Coordinator> coordinator,
-                     CacheOptions cache)
-    : folder_(std::move(folder)), cache_(std::move(cache)), coordinator_(std::move(coordinator)) {}
+                     CacheOptions cache, TileDecoding decoding)
+    : folder_(std::move(folder)),
+      cache_(std::move(cache)),
+      decoding_(decoding),
+      coordinator_(std::move(coordinator)) {}
 
 void LocalFarm::startRenderers(int count) {
     renderers_ = std::make_unique<RendererProcesses>(
         RendererProcessesOptions{count, coordinator_->grpcAddresses().front(), hardwareDevices(),
-                                 cache_},
+                                 cache_, decoding_},
         folder_);
 }
 

@@ -18,9 +18,10 @@ namespace eyrie::cli {
 /// can enter, over Unix sockets.
 class LocalFarm {
 public:
-    /// Without renderers yet, and without a scene. `cache` is the renderers'. Errors: Unavailable.
+    /// Without renderers yet, and without a scene. `cache` and `decoding` are the renderers'.
+    /// Errors: Unavailable.
     static absl::StatusOr<std::unique_ptr<LocalFarm>> start(
-        coordinator::Decomposition decomposition, const CacheOptions& cache);
+        coordinator::Decomposition decomposition, const CacheOptions& cache, TileDecoding decoding);
 
     coordinator::Coordinator& coordinator() { return *coordinator_; }
     coordinator::FrameSource& frames() { return coordinator_->frames(); }
@@ -38,10 +39,11 @@ public:
 
 private:
     LocalFarm(TemporaryFolder folder, std::unique_ptr<coordinator::Coordinator> coordinator,
-              CacheOptions cache);
+              CacheOptions cache, TileDecoding decoding);
 
     TemporaryFolder folder_;
     const CacheOptions cache_;
+    const TileDecoding decoding_;
     std::unique_ptr<coordinator::Coordinator> coordinator_;
     std::unique_ptr<RendererProcesses> renderers_;
 };

@@ -84,6 +84,7 @@ absl::StatusOr<std::unique_ptr<PictureSource>> openHere(const fabric::Scene& sce
                                                         const PictureSourceOptions& options) {
     RendererOptions settings;
     ASSIGN_OR_RETURN(settings.remote, remoteDataOf(options.cache));
+    settings.decoding = options.decoding;
     ASSIGN_OR_RETURN(auto renderer, Renderer::create(settings));
     ASSIGN_OR_RETURN(fabric::SceneInfo info, renderer->openScene(scene));
     return std::make_unique<InThisProcess>(std::move(renderer), std::move(info), scene.background);
@@ -93,7 +94,8 @@ absl::StatusOr<std::unique_ptr<PictureSource>> openInProcesses(fabric::Scene sce
                                                                const PictureSourceOptions& options,
                                                                const std::stop_token& stop) {
     spdlog::set_level(spdlog::level::warn);
-    ASSIGN_OR_RETURN(auto farm, LocalFarm::start(options.compound, options.cache));
+    ASSIGN_OR_RETURN(auto farm,
+                     LocalFarm::start(options.compound, options.cache, options.decoding));
     RETURN_IF_ERROR(farm->coordinator().setScene(std::move(scene)));
     farm->startRenderers(options.renderers);
     RETURN_IF_ERROR(farm->awaitRenderers(options.renderers, kRenderersLimit, stop));

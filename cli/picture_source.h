@@ -18,6 +18,7 @@ struct PictureSourceOptions {
     int renderers = 0;  ///< processes that draw; 0: draw in this one
     coordinator::Decomposition compound = coordinator::Decomposition::TwoD;
     CacheOptions cache;
+    TileDecoding decoding = TileDecoding::Auto;
     bool quiet = false;  ///< no progress of imports
 };
 

@@ -12,6 +12,7 @@
 #include "cli/cache_options.h"
 #include "cli/commands.h"
 #include "cli/compound_names.h"
+#include "cli/decode_names.h"
 #include "cli/image_files.h"
 #include "cli/picture_source.h"
 #include "cli/renderer_processes.h"
@@ -174,6 +175,7 @@ void addRender(CLI::App& app, Run& run) {
                      "How these cut the frame: 2D, by pixels, or DB, by data [2D]")
         ->transform(CLI::CheckedTransformer(compoundNames()).description(""))
         ->type_name("2D|DB");
+    addDecodeOption(*command, options->pictures.decoding);
     addCacheOptions(*command, options->pictures.cache);
     addOutputOptions(*command, *options);
     command->footer(

@@ -9,6 +9,7 @@
 
 #include "cli/cache_options.h"
 #include "cli/commands.h"
+#include "cli/decode_names.h"
 #include "cli/stop_signal.h"
 #include "cli/values.h"
 #include "fabric/status.h"
@@ -24,6 +25,7 @@ struct Options {
     std::string listen = "127.0.0.1:0";
     std::string memory = "2G";
     int device = -1;
+    TileDecoding decoding = TileDecoding::Auto;
     std::vector<std::string> allowedUrls;
     CacheOptions cache;
     bool exitWithCoordinator = false;
@@ -40,6 +42,7 @@ absl::Status run(const Options& options) {
     RendererOptions settings;
     settings.device = options.device;
     settings.memoryBytes = memory;
+    settings.decoding = options.decoding;
     ASSIGN_OR_RETURN(settings.remote, remoteDataOf(options.cache));
     service::RendererNodeOptions node;
     node.coordinator = options.coordinator;
@@ -78,6 +81,7 @@ void addRenderer(CLI::App& app, Run& run) {
                      "may be given several times; any: all [none]")
         ->type_name("URL")
         ->allow_extra_args(false);
+    addDecodeOption(*command, options->decoding);
     addCacheOptions(*command, options->cache);
     command->add_flag("--exit-with-coordinator", options->exitWithCoordinator,
                       "End when the coordinator has gone, instead of waiting for it");

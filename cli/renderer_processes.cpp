@@ -9,6 +9,7 @@
 #include <spdlog/spdlog.h>
 
 #include "cli/child_process.h"
+#include "cli/decode_names.h"
 #include "cli/restart_policy.h"
 
 namespace eyrie::cli {
@@ -52,7 +53,8 @@ private:
             sockets_.socket(fmt::format("renderer-{}-{}", number_, generation_)),
             "--exit-with-coordinator",
             // Only their own coordinator reaches them, and its scenes are the user's.
-            "--allow-url", "any", "--cache-size", options_.cache.size, "--quiet"};
+            "--allow-url", "any", "--cache-size", options_.cache.size, "--decode",
+            nameOf(options_.decoding), "--quiet"};
         if (!options_.cache.folder.empty())
             arguments.insert(arguments.end(), {"--cache", options_.cache.folder});
         if (!options_.devices.empty()) {

@@ -19,6 +19,7 @@ struct RendererProcessesOptions {
     std::string coordinator;   ///< where they register
     std::vector<int> devices;  ///< EGL devices, taken in turn; empty: each takes the first it finds
     CacheOptions cache;
+    TileDecoding decoding = TileDecoding::Auto;
 };
 
 /// Renderer processes of this machine's own: `eyrie renderer` as children that share its cores,

@@ -14,6 +14,7 @@
 #include "cli/commands.h"
 #include "cli/compound_names.h"
 #include "cli/data_cache.h"
+#include "cli/decode_names.h"
 #include "cli/hardware_devices.h"
 #include "cli/local_farm.h"
 #include "cli/scene_files.h"
@@ -32,6 +33,7 @@ struct Options {
     std::vector<std::string> data;
     std::string listen = "127.0.0.1:8080";
     CacheOptions cache;
+    TileDecoding decoding = TileDecoding::Auto;
     coordinator::Decomposition compound = coordinator::Decomposition::TwoD;
     int renderers = 0;  ///< 0: as many as suit this machine
     bool quiet = false;
@@ -72,7 +74,8 @@ absl::Status serve(const Options& options) {
     const StopSignal stop;
     if (options.quiet)
         spdlog::set_level(spdlog::level::warn);
-    ASSIGN_OR_RETURN(const auto farm, LocalFarm::start(options.compound, options.cache));
+    ASSIGN_OR_RETURN(const auto farm,
+                     LocalFarm::start(options.compound, options.cache, options.decoding));
     ASSIGN_OR_RETURN(const auto door, openWebDoor(options.listen, farm->frames()));
     ASSIGN_OR_RETURN(fabric::Scene scene, loadScene(options, stop.token()));
     RETURN_IF_ERROR(farm->coordinator().setScene(std::move(scene)));
@@ -116,6 +119,7 @@ void addServe(CLI::App& app, Run& run) {
                      "How a frame is cut: 2D, by pixels, or DB, by data [2D]")
         ->transform(CLI::CheckedTransformer(compoundNames()).description(""))
         ->type_name("2D|DB");
+    addDecodeOption(*command, options->decoding);
     addCacheOptions(*command, options->cache);
     command->add_flag("--quiet", options->quiet, "No progress, only warnings and errors");
     command->footer(

@@ -55,9 +55,13 @@ Words pageOf(const std::uint8_t* data, std::size_t size) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     if (size == 0)
         return 0;
-    const auto page = terrain::Page::decode(pageOf(data, size), "fuzzed");
+    const Words bytes = pageOf(data, size);
+    const auto page = terrain::Page::decode(bytes, "fuzzed");
     if (page.ok() ? !test::broken(*page).empty()
                   : page.status().code() != absl::StatusCode::kDataLoss)
+        std::abort();
+    const auto outlines = terrain::Page::decode(bytes, "fuzzed", terrain::PageForm::Outlines);
+    if (outlines.status() != page.status())
         std::abort();
     return 0;
 }

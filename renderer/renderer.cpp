@@ -84,6 +84,7 @@ void addTo(fabric::FrameStatistics& statistics, const draw::Cut& cut) {
     statistics.bytesLoaded += cut.bytesLoaded;
     statistics.pagesMissing += cut.pagesMissing;
     statistics.pagesFailed += cut.pagesFailed;
+    statistics.tilesDecodedOnGpu += cut.tilesDecodedOnGpu;
 }
 
 struct OpenObject {
@@ -129,6 +130,7 @@ private:
     Impl(std::unique_ptr<gl::EglContext> context, const RendererOptions& options)
         : context_(std::move(context)),
           options_(options),
+          decoding_(options.decoding),
           loader_({.threads = options.loaderThreads}),
           sources_(page::sourceOptions(options.remote.cacheFolder, options.remote.cacheBytes)) {}
 
@@ -149,6 +151,7 @@ private:
     effects::EffectVariants<effects::MeshEffect> meshPrograms_;
     gl::Framebuffer framebuffer_;
     RendererOptions options_;
+    draw::DecodeChoice decoding_;
     page::Loader loader_;
     /// Of its own threads, so that a server that stalls does not hold up local files. Made for the
     /// first scene that needs it.
@@ -177,7 +180,8 @@ absl::StatusOr<std::unique_ptr<draw::Drawable>> Renderer::Impl::openObject(
     if (object.kind == fabric::ObjectKind::Terrain)
         return draw::openTerrain(
             object, terrainPrograms_, sources_, loaderFor(object),
-            {options_.memoryBytes / objects, options_.hostMemoryBytes / objects}, textureFormat());
+            {options_.memoryBytes / objects, options_.hostMemoryBytes / objects}, textureFormat(),
+            decoding_);
     return draw::openMesh(object, meshPrograms_, sources_, options_.memoryBytes / objects);
 }
 

@@ -10,6 +10,7 @@
 #include "fabric/frame_data.h"
 #include "fabric/scene.h"
 #include "fabric/statistics.h"
+#include "renderer/tile_decoding.h"
 
 namespace eyrie {
 
@@ -35,6 +36,7 @@ struct RendererOptions {
     std::uint64_t hostMemoryBytes = std::uint64_t{512} << 20;
     /// Threads that read and decode pages.
     int loaderThreads = 2;
+    TileDecoding decoding = TileDecoding::Auto;
     RemoteData remote;
 };
 
@@ -61,8 +63,8 @@ public:
 
     /// Opens the .eyt and .eym files of `scene`, here or at URLs, in place of the scene before. On
     /// an error the scene before stays open. Errors: InvalidArgument (scene or file), NotFound,
-    /// DataLoss, ResourceExhausted (the limits are too small for it); of URLs Unavailable and
-    /// PermissionDenied, too.
+    /// DataLoss, ResourceExhausted (the limits are too small for it), FailedPrecondition (tiles
+    /// are to be decoded on a GPU that cannot); of URLs Unavailable and PermissionDenied, too.
     absl::StatusOr<fabric::SceneInfo> openScene(const fabric::Scene& scene);
 
     /// Draws one channel. A page of terrain that cannot be read is no error: coarser data stand in

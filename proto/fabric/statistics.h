@@ -29,9 +29,10 @@ struct FrameStatistics {
     std::uint64_t points = 0;
     std::uint64_t nodes = 0;  ///< LOD nodes drawn
     std::uint64_t pagesLoaded = 0;
-    std::uint64_t bytesLoaded = 0;   ///< of these, as stored
-    std::uint64_t pagesMissing = 0;  ///< coarser data stand in for them
-    std::uint64_t pagesFailed = 0;   ///< those of the missing that could not be read
+    std::uint64_t bytesLoaded = 0;        ///< of these, as stored
+    std::uint64_t pagesMissing = 0;       ///< coarser data stand in for them
+    std::uint64_t pagesFailed = 0;        ///< those of the missing that could not be read
+    std::uint64_t tilesDecodedOnGpu = 0;  ///< of terrain, in place of the CPU
     StageMilliseconds milliseconds;
 
     bool operator==(const FrameStatistics&) const = default;
@@ -50,6 +51,7 @@ inline void accumulate(FrameStatistics& sum, const FrameStatistics& part) {
     sum.bytesLoaded += part.bytesLoaded;
     sum.pagesMissing += part.pagesMissing;
     sum.pagesFailed += part.pagesFailed;
+    sum.tilesDecodedOnGpu += part.tilesDecodedOnGpu;
     StageMilliseconds& ms = sum.milliseconds;
     ms.cull = std::max(ms.cull, part.milliseconds.cull);
     ms.draw = std::max(ms.draw, part.milliseconds.draw);

@@ -120,6 +120,7 @@ std::string statisticsJson(const fabric::FrameStatistics& statistics, int width,
   "bytesLoaded": {},
   "pagesMissing": {},
   "pagesFailed": {},
+  "tilesDecodedOnGpu": {},
   "milliseconds": {},
   "renderer": {}
 }}
@@ -127,7 +128,8 @@ std::string statisticsJson(const fabric::FrameStatistics& statistics, int width,
         width, height, number(statistics.tauAskedPixels), number(statistics.tauAchievedPixels),
         statistics.complete, statistics.triangles, statistics.points, statistics.nodes,
         statistics.pagesLoaded, statistics.bytesLoaded, statistics.pagesMissing,
-        statistics.pagesFailed, millisecondsJson(statistics.milliseconds), deviceJson(device));
+        statistics.pagesFailed, statistics.tilesDecodedOnGpu,
+        millisecondsJson(statistics.milliseconds), deviceJson(device));
 }
 
 }  // namespace eyrie::wire

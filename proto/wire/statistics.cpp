@@ -63,6 +63,7 @@ v1::FrameStatistics toMessage(const fabric::FrameStatistics& statistics) {
     message.set_bytes_loaded(statistics.bytesLoaded);
     message.set_pages_missing(statistics.pagesMissing);
     message.set_pages_failed(statistics.pagesFailed);
+    message.set_tiles_decoded_on_gpu(statistics.tilesDecodedOnGpu);
     *message.mutable_milliseconds() = toMessage(statistics.milliseconds);
     return message;
 }
@@ -83,6 +84,7 @@ absl::StatusOr<fabric::FrameStatistics> fromMessage(const v1::FrameStatistics& m
     statistics.bytesLoaded = message.bytes_loaded();
     statistics.pagesMissing = message.pages_missing();
     statistics.pagesFailed = message.pages_failed();
+    statistics.tilesDecodedOnGpu = message.tiles_decoded_on_gpu();
     if (statistics.pagesFailed > statistics.pagesMissing)
         return absl::InvalidArgumentError(
             fmt::format("statistics.pages_failed is {}; it must be at most pages_missing, {}",

@@ -47,6 +47,7 @@ struct Cut {
     std::uint64_t bytesLoaded = 0;   ///< of these, as they lie in their file
     std::uint64_t pagesMissing = 0;  ///< that the wanted cut needs; coarser ones stand in
     std::uint64_t pagesFailed = 0;   ///< those of them that cannot be read now
+    std::uint64_t tilesDecodedOnGpu = 0;
 };
 
 /// What a drawable holds in memory now, besides what it needs to be open.

@@ -229,6 +229,7 @@ Cut TerrainDrawable::selectCut(const CutRequest& request) {
     cut.tauAchievedPixels = drawn.tauAchievedPixels;
     cut.isComplete = result.pagesMissing == 0 && choice.isLowest;
     cut.pagesLoaded = result.loaded.pages;
+    cut.tilesDecodedOnGpu = result.tilesDecodedOnGpu;
     cut.bytesLoaded = result.loaded.bytes;
     cut.pagesMissing = result.pagesMissing;
     cut.pagesFailed = result.pagesFailed;
@@ -356,16 +357,15 @@ absl::Status TerrainDrawable::draw(std::span<const Piece> pieces, const FrameSta
 
 }  // namespace
 
-absl::StatusOr<std::unique_ptr<Drawable>> openTerrain(const fabric::SceneObject& object,
-                                                      TerrainPrograms& programs,
-                                                      const page::SourceOptions& sources,
-                                                      page::Loader& loader,
-                                                      const TerrainMemory& limits,
-                                                      TextureFormat format) {
+absl::StatusOr<std::unique_ptr<Drawable>> openTerrain(
+    const fabric::SceneObject& object, TerrainPrograms& programs,
+    const page::SourceOptions& sources, page::Loader& loader, const TerrainMemory& limits,
+    TextureFormat format, DecodeChoice& decoding) {
     ASSIGN_OR_RETURN(std::shared_ptr<const terrain::EytFile> file,
                      terrain::EytFile::open(object.path, sources));
+    ASSIGN_OR_RETURN(const TileDecoder* decoder, decoding.decoderFor(*file));
     ASSIGN_OR_RETURN(std::unique_ptr<TerrainPaging> paging,
-                     TerrainPaging::open(file, loader, limits, format));
+                     TerrainPaging::open(file, loader, limits, format, decoder));
     return std::make_unique<TerrainDrawable>(object, programs, std::move(file), std::move(paging));
 }
 

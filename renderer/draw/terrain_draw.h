@@ -7,6 +7,7 @@
 
 #include "effects/terrain_effect.h"
 #include "fabric/scene.h"
+#include "renderer/draw/decode_choice.h"
 #include "renderer/draw/drawable.h"
 #include "renderer/draw/terrain_paging.h"
 #include "renderer/effects/effect_variants.h"
@@ -17,13 +18,14 @@ namespace eyrie::draw {
 
 using TerrainPrograms = effects::EffectVariants<effects::TerrainEffect>;
 
-/// Opens `object.path` as a .eyt file. `programs` and `loader` outlive what is returned. Errors:
-/// those of EytFile::open; ResourceExhausted (the limits are too small).
+/// Opens `object.path` as a .eyt file. `programs`, `loader` and `decoding` outlive what is
+/// returned. Errors: those of EytFile::open; ResourceExhausted (the limits are too small); those of
+/// DecodeChoice::decoderFor.
 absl::StatusOr<std::unique_ptr<Drawable>> openTerrain(const fabric::SceneObject& object,
                                                       TerrainPrograms& programs,
                                                       const page::SourceOptions& sources,
                                                       page::Loader& loader,
                                                       const TerrainMemory& limits,
-                                                      TextureFormat format);
+                                                      TextureFormat format, DecodeChoice& decoding);
 
 }  // namespace eyrie::draw

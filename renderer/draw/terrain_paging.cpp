@@ -27,29 +27,34 @@ using terrain::TileId;
 constexpr duration<double, std::milli> kUploadTime{3};
 constexpr std::uint32_t kLowestRank = std::numeric_limits<std::uint32_t>::max() - 1;
 
-page::Loader::Load loadFrom(std::shared_ptr<const terrain::EytFile> file,
-                            const TerrainItems& names) {
-    return [file = std::move(file), names](std::uint32_t page) -> absl::StatusOr<page::Loaded> {
-        if (names.isTexture(page)) {
-            ASSIGN_OR_RETURN(const auto read, file->readTexture(names.textureOf(page)));
-            return page::Loaded{std::make_shared<const TextureImage>(*read, names.format()),
-                                names.greatestPageBytes(page)};
-        }
-        ASSIGN_OR_RETURN(std::shared_ptr<const terrain::Page> read, file->readPage(page));
-        const std::uint64_t bytes = read->sizeBytes();
-        return page::Loaded{std::move(read), bytes};
-    };
+page::Loader::Load loadFrom(std::shared_ptr<const terrain::EytFile> file, const TerrainItems& names,
+                            terrain::PageForm form) {
+    return
+        [file = std::move(file), names, form](std::uint32_t page) -> absl::StatusOr<page::Loaded> {
+            if (names.isTexture(page)) {
+                ASSIGN_OR_RETURN(const auto read, file->readTexture(names.textureOf(page)));
+                return page::Loaded{std::make_shared<const TextureImage>(*read, names.format()),
+                                    names.greatestPageBytes(page)};
+            }
+            ASSIGN_OR_RETURN(std::shared_ptr<const terrain::Page> read, file->readPage(page, form));
+            const std::uint64_t bytes = read->sizeBytes();
+            return page::Loaded{std::move(read), bytes};
+        };
+}
+
+terrain::PageForm formFor(const TileDecoder* decoder) {
+    return decoder == nullptr ? terrain::PageForm::Drawable : terrain::PageForm::Outlines;
 }
 
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<TerrainPaging>> TerrainPaging::open(
     std::shared_ptr<const terrain::EytFile> file, page::Loader& loader, const TerrainMemory& limits,
-    TextureFormat format) {
+    TextureFormat format, const TileDecoder* decoder) {
     const terrain::EytIndex& index = file->index();
     const TileId top = index.quadtree.top();
     ASSIGN_OR_RETURN(const std::shared_ptr<const terrain::Page> page,
-                     file->readPage(index.quadtree.pageIndex(top)));
+                     file->readPage(index.quadtree.pageIndex(top), formFor(decoder)));
     const terrain::TileGeometry& geometry = page->tile(Quadtree::placeInPage(top));
     const TerrainItems names(index, format);
     std::uint64_t topBytes = terrain::tileBytes(geometry);
@@ -69,23 +74,25 @@ absl::StatusOr<std::unique_ptr<TerrainPaging>> TerrainPaging::open(
             file->path(), limits.deviceBytes, limits.hostBytes, topBytes, least));
     // Pages that are being loaded or wait to be taken get a quarter of the host's share.
     std::unique_ptr<TerrainPaging> paging(
-        new TerrainPaging(std::move(file), loader, limits, format, topBytes,
+        new TerrainPaging(std::move(file), loader, limits, format, decoder, topBytes,
                           std::max(limits.hostBytes / 4, greatestPage)));
-    paging->top_ = std::make_unique<DeviceTile>(geometry);
+    paging->top_ = std::make_unique<DeviceTile>(geometry, decoder);
     paging->topTexture_ = std::move(topTexture);
     return paging;
 }
 
 TerrainPaging::TerrainPaging(std::shared_ptr<const terrain::EytFile> file, page::Loader& loader,
                              const TerrainMemory& limits, TextureFormat format,
-                             std::uint64_t topBytes, std::uint64_t loaderBytes)
+                             const TileDecoder* decoder, std::uint64_t topBytes,
+                             std::uint64_t loaderBytes)
     : file_(std::move(file)),
       index_(file_->index()),
       names_(index_, format),
+      decoder_(decoder),
       items_(limits.deviceBytes - topBytes),
       pages_(limits.hostBytes - loaderBytes),
       topBytes_(topBytes),
-      source_(loader.open(loadFrom(file_, names_), loaderBytes)) {}
+      source_(loader.open(loadFrom(file_, names_, formFor(decoder)), loaderBytes)) {}
 
 MemoryUse TerrainPaging::memory() const {
     return {topBytes_ + items_.bytes(), pages_.bytes() + source_->bytes()};
@@ -238,7 +245,8 @@ bool TerrainPaging::upload(const RankedItem& ranked, const std::shared_ptr<const
     const std::uint64_t bytes = terrain::tileBytes(geometry);
     if (!items_.makeRoom(bytes, rank))
         return false;
-    items_.insert(item.key, DeviceTile(geometry), bytes, rank);
+    items_.insert(item.key, DeviceTile(geometry, decoder_), bytes, rank);
+    tilesDecodedOnGpu_ += geometry.outline.empty() ? 0 : 1;
     return true;
 }
 
@@ -314,7 +322,7 @@ TerrainPaging::Result TerrainPaging::resultOf(Refinement drawn, const NeededTile
     for (const TextureId& texture : textures)
         if (!isResident(texture))
             missing.insert(names_.of(texture).page);
-    Result result{std::move(drawn), {}, missing.size(), 0};
+    Result result{std::move(drawn), {}, missing.size(), 0, tilesDecodedOnGpu_};
     for (const std::uint32_t page : missing)
         result.pagesFailed += isSourceDown_ || failures_.contains(page) ? 1 : 0;
     return result;
@@ -325,6 +333,7 @@ TerrainPaging::Result TerrainPaging::approach(const Refinement& wanted, const Ne
                                               const lod::ObjectView& view,
                                               const Prefetch& prefetch) {
     beginFrame();
+    tilesDecodedOnGpu_ = 0;
     Refinement drawn = drawable(wanted, needed);
     // What is drawn stays, with the normals it is drawn with; then comes what lies below it, then,
     // against the day when the camera draws back, what lies above.
@@ -372,6 +381,7 @@ TerrainPaging::Result TerrainPaging::reach(const Refinement& wanted, const Neede
                                            const lod::ObjectView& view) {
     const auto start = Clock::now();
     Loads loaded;
+    tilesDecodedOnGpu_ = 0;
     while (true) {
         beginFrame();
         Refinement readable = wanted;

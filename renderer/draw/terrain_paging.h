@@ -40,11 +40,11 @@ struct TerrainMemory {
 class TerrainPaging {
 public:
     /// Reads the top tile and texture tile, which stay on the device: they stand in for everything.
-    /// `loader` outlives this. Errors: of reading its page; ResourceExhausted when the limits hold
-    /// no page of `file`.
+    /// `decoder` makes the tiles; null: the CPU does. It and `loader` outlive this. Errors: of
+    /// reading its page; ResourceExhausted when the limits hold no page of `file`.
     static absl::StatusOr<std::unique_ptr<TerrainPaging>> open(
         std::shared_ptr<const terrain::EytFile> file, page::Loader& loader,
-        const TerrainMemory& limits, TextureFormat format);
+        const TerrainMemory& limits, TextureFormat format, const TileDecoder* decoder);
 
     using Prefetch = std::function<std::vector<terrain::TileId>()>;
 
@@ -60,6 +60,7 @@ public:
         Loads loaded;
         std::uint64_t pagesMissing = 0;  ///< pages of wanted needed tiles that are not there
         std::uint64_t pagesFailed = 0;   ///< of them; all, while their source is unavailable
+        std::uint64_t tilesDecodedOnGpu = 0;
     };
 
     /// Goes towards `wanted` as far as it can without waiting: takes what the loader has, brings
@@ -102,8 +103,8 @@ private:
     using Clock = std::chrono::steady_clock;
 
     TerrainPaging(std::shared_ptr<const terrain::EytFile> file, page::Loader& loader,
-                  const TerrainMemory& limits, TextureFormat format, std::uint64_t topBytes,
-                  std::uint64_t loaderBytes);
+                  const TerrainMemory& limits, TextureFormat format, const TileDecoder* decoder,
+                  std::uint64_t topBytes, std::uint64_t loaderBytes);
 
     struct RankedItem {
         TerrainItem item;
@@ -162,6 +163,7 @@ private:
     const std::shared_ptr<const terrain::EytFile> file_;
     const terrain::EytIndex& index_;
     const TerrainItems names_;
+    const TileDecoder* const decoder_;
     std::unique_ptr<DeviceTile> top_;
     std::unique_ptr<DeviceTexture> topTexture_;  ///< null: it has none
     page::ResidentSet<std::uint32_t, std::variant<DeviceTile, DeviceTexture>> items_;  // by key
@@ -176,6 +178,7 @@ private:
     };
     std::vector<RankedPage> rankedPages_;  // of this frame, distinct, ascending
     std::unordered_map<std::uint32_t, std::uint32_t> rankOfPage_;
+    std::uint64_t tilesDecodedOnGpu_ = 0;  // of this frame
 
     std::unordered_map<std::uint32_t, std::uint64_t> knownPageBytes_;
     std::unordered_map<std::uint32_t, Failure> failures_;

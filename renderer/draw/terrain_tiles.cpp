@@ -53,16 +53,20 @@ std::size_t partError(const terrain::EytIndex& index, const terrain::TileId& id,
 
 }  // namespace
 
-DeviceTile::DeviceTile(const terrain::TileGeometry& geometry)
-    : indexOffset(static_cast<GLintptr>(geometry.words.size_bytes())),
+DeviceTile::DeviceTile(const terrain::TileGeometry& geometry, const TileDecoder* decoder)
+    : indexOffset(static_cast<GLintptr>(geometry.wordBytes())),
       vertexStride(4 * geometry.wordsPerVertex),
       parts(geometry.parts),
       baseHeight(geometry.baseHeight),
       heightMultiplier(geometry.heightMultiplier) {
-    const auto words = static_cast<GLsizeiptr>(geometry.words.size_bytes());
-    const auto indices = static_cast<GLsizeiptr>(geometry.indices.size_bytes());
-    if (!geometry.isEmpty()) {
-        glNamedBufferStorage(buffer.id(), words + indices, nullptr, GL_DYNAMIC_STORAGE_BIT);
+    const auto words = static_cast<GLsizeiptr>(geometry.wordBytes());
+    const auto indices = static_cast<GLsizeiptr>(geometry.indexBytes());
+    if (!geometry.isEmpty())
+        glNamedBufferStorage(buffer.id(), words + (indices + 3) / 4 * 4, nullptr,
+                             GL_DYNAMIC_STORAGE_BIT);
+    if (!geometry.outline.empty()) {
+        decoder->decode(geometry.outline, buffer);
+    } else if (!geometry.isEmpty()) {
         glNamedBufferSubData(buffer.id(), 0, words, geometry.words.data());
         glNamedBufferSubData(buffer.id(), words, indices, geometry.indices.data());
     }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "renderer/draw/tile_decoder.h"
 #include "renderer/gl/object.h"
 #include "renderer/terrain/eyt_format.h"
 #include "renderer/terrain/terrain_cut.h"
@@ -16,8 +17,9 @@ namespace eyrie::draw {
 /// its normal map. Either may be empty: without triangles there is nothing in the buffer, and tiles
 /// below Quadtree::normalLevel() are drawn with an ancestor's map. GL thread.
 struct DeviceTile {
-    /// Copies `geometry`.
-    explicit DeviceTile(const terrain::TileGeometry& geometry);
+    /// Copies `geometry`, or has `decoder` make it from its outline. Precondition: one of the two.
+    explicit DeviceTile(const terrain::TileGeometry& geometry,
+                        const TileDecoder* decoder = nullptr);
 
     gl::Buffer buffer;
     std::optional<gl::Texture2D> normalMap;

@@ -7,6 +7,21 @@
 #include "renderer/effects/language/shader_log.h"
 
 namespace eyrie::effects {
+namespace {
+
+/// `of` names the variant in messages.
+absl::StatusOr<gl::Program> link(const EffectSource& source, const std::string& preamble,
+                                 const std::string& of) {
+    const auto nameOf = [&](const char* stage) {
+        return fmt::format("{}, {} stage{}", source.name, stage, of);
+    };
+    if (!source.compute.empty())
+        return gl::Program::create({nameOf("compute"), preamble + source.compute});
+    return gl::Program::create({nameOf("vertex"), preamble + source.vertex},
+                               {nameOf("fragment"), preamble + source.fragment});
+}
+
+}  // namespace
 
 absl::StatusOr<gl::Program> compile(const EffectSource& source,
                                     std::span<const VariantValue> variant) {
@@ -20,12 +35,7 @@ absl::StatusOr<gl::Program> compile(const EffectSource& source,
     }
     const std::string preamble = stagePreamble(values);
     const std::string of = values.empty() ? "" : " with " + describe(values);
-    const std::string vertexName = fmt::format("{}, vertex stage{}", source.name, of);
-    const std::string fragmentName = fmt::format("{}, fragment stage{}", source.name, of);
-    const std::string vertexText = preamble + source.vertex;
-    const std::string fragmentText = preamble + source.fragment;
-    absl::StatusOr<gl::Program> program =
-        gl::Program::create({vertexName, vertexText}, {fragmentName, fragmentText});
+    absl::StatusOr<gl::Program> program = link(source, preamble, of);
     if (program.ok())
         return program;
     const auto message = program.status().message();

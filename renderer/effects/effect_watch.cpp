@@ -84,8 +84,17 @@ absl::StatusOr<EffectSource> EffectWatch::load() {
     };
     ASSIGN_OR_RETURN(const Effect effect, loadEffect(builtIn_.name, stampAndRead));
     RETURN_IF_ERROR(checkUnchanged(builtIn_, declarations(effect)));
-    return EffectSource{builtIn_.name, sourceFiles(effect), builtIn_.declarations,
-                        stageText(effect, true), stageText(effect, false)};
+    if (effect.has(StageKind::Compute) == builtIn_.compute.empty())
+        return absl::InvalidArgumentError(fmt::format(
+            "{}: its stages are not those that Eyrie was built with; put them back, or build Eyrie "
+            "anew",
+            builtIn_.name));
+    return EffectSource{builtIn_.name,
+                        sourceFiles(effect),
+                        builtIn_.declarations,
+                        stageText(effect, StageKind::Vertex),
+                        stageText(effect, StageKind::Fragment),
+                        stageText(effect, StageKind::Compute)};
 }
 
 void reportReload(const EffectSource& builtIn, const absl::Status& status) {

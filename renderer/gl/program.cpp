@@ -45,6 +45,21 @@ absl::Status compile(const Shader& shader, const ShaderSource& source) {
     return absl::InternalError(fmt::format("{}:\n{}", source.name, log));
 }
 
+/// A shader as long as it is part of a program.
+class Attached {
+public:
+    Attached(GLuint program, GLuint shader) : program_(program), shader_(shader) {
+        glAttachShader(program, shader);
+    }
+    ~Attached() { glDetachShader(program_, shader_); }
+    Attached(const Attached&) = delete;
+    Attached& operator=(const Attached&) = delete;
+
+private:
+    GLuint program_;
+    GLuint shader_;
+};
+
 }  // namespace
 
 absl::StatusOr<Program> Program::create(const ShaderSource& vertex, const ShaderSource& fragment) {
@@ -53,20 +68,32 @@ absl::StatusOr<Program> Program::create(const ShaderSource& vertex, const Shader
     RETURN_IF_ERROR(compile(vertexShader, vertex));
     RETURN_IF_ERROR(compile(fragmentShader, fragment));
     Program program;
-    glAttachShader(program.id(), vertexShader.id());
-    glAttachShader(program.id(), fragmentShader.id());
-    glLinkProgram(program.id());
-    glDetachShader(program.id(), vertexShader.id());
-    glDetachShader(program.id(), fragmentShader.id());
+    const Attached vertexStage(program.id(), vertexShader.id());
+    const Attached fragmentStage(program.id(), fragmentShader.id());
+    RETURN_IF_ERROR(program.link(fmt::format("{} + {}", vertex.name, fragment.name)));
+    return program;
+}
+
+absl::StatusOr<Program> Program::create(const ShaderSource& compute) {
+    const Shader shader(GL_COMPUTE_SHADER);
+    RETURN_IF_ERROR(compile(shader, compute));
+    Program program;
+    const Attached stage(program.id(), shader.id());
+    RETURN_IF_ERROR(program.link(compute.name));
+    return program;
+}
+
+absl::Status Program::link(const std::string& name) const {
+    glLinkProgram(id());
     GLint ok = GL_FALSE;
-    glGetProgramiv(program.id(), GL_LINK_STATUS, &ok);
+    glGetProgramiv(id(), GL_LINK_STATUS, &ok);
     if (ok == GL_TRUE)
-        return program;
+        return absl::OkStatus();
     std::string log(4096, '\0');
     GLsizei written = 0;
-    glGetProgramInfoLog(program.id(), static_cast<GLsizei>(log.size()), &written, log.data());
+    glGetProgramInfoLog(id(), static_cast<GLsizei>(log.size()), &written, log.data());
     log.resize(static_cast<std::size_t>(written));
-    return absl::InternalError(fmt::format("{} + {}:\n{}", vertex.name, fragment.name, log));
+    return absl::InternalError(fmt::format("{}:\n{}", name, log));
 }
 
 void setUniform(GLuint program, GLint location, std::span<const float> values) {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <span>
-#include <string_view>
+#include <string>
 
 #include <absl/status/statusor.h>
 #include <glm/fwd.hpp>
@@ -13,16 +13,17 @@ namespace eyrie::gl {
 
 /// One GLSL source, with the name that compile errors report.
 struct ShaderSource {
-    std::string_view name;
-    std::string_view text;
+    std::string name;
+    std::string text;
 };
 
-/// A linked program of a vertex and a fragment shader.
+/// A linked program of a vertex and a fragment shader, or of a compute shader.
 class Program {
 public:
     /// Internal, with the driver's log, when the shaders do not compile or link: they are part of
     /// the program, so it is a bug or a driver's.
     static absl::StatusOr<Program> create(const ShaderSource& vertex, const ShaderSource& fragment);
+    static absl::StatusOr<Program> create(const ShaderSource& compute);
 
     GLuint id() const { return object_.id(); }
     /// Location of a uniform; -1 (which GL ignores) when the compiler removed it.
@@ -31,6 +32,7 @@ public:
 
 private:
     Program() = default;
+    absl::Status link(const std::string& name) const;
     ProgramObject object_;
 };
 

@@ -248,15 +248,21 @@ absl::StatusOr<std::shared_ptr<const EytFile>> EytFile::open(const std::string& 
     return file;
 }
 
-absl::StatusOr<std::shared_ptr<const Page>> EytFile::readPage(std::uint32_t page) const {
+absl::StatusOr<std::vector<std::uint32_t>> EytFile::readPageBytes(std::uint32_t page) const {
     const PageRecord& record = index_.pages[page];
-    const std::string name = fmt::format("page {}", page);
     std::vector<std::uint32_t> bytes(record.bytes / 4);
     if (record.bytes != 0)
         RETURN_IF_ERROR(source_->read({record.offset, record.bytes, record.checksum},
-                                      std::as_writable_bytes(std::span(bytes)), name));
-    const std::string place = fmt::format("{}: {}", path(), name);
-    ASSIGN_OR_RETURN(Page decoded, Page::decode(bytes, place));
+                                      std::as_writable_bytes(std::span(bytes)),
+                                      fmt::format("page {}", page)));
+    return bytes;
+}
+
+absl::StatusOr<std::shared_ptr<const Page>> EytFile::readPage(std::uint32_t page,
+                                                              PageForm form) const {
+    ASSIGN_OR_RETURN(const std::vector<std::uint32_t> bytes, readPageBytes(page));
+    const std::string place = fmt::format("{}: page {}", path(), page);
+    ASSIGN_OR_RETURN(Page decoded, Page::decode(bytes, place, form));
     RETURN_IF_ERROR(checkAgainstIndex(decoded, page, index_, place));
     return std::make_shared<const Page>(std::move(decoded));
 }

@@ -118,6 +118,9 @@ struct EytIndex {
 ///   i = min(tile.x * Quadtree::side(level) + (x << Quadtree::spacingShift(level) >> 1), columns -
 ///   1), j alike with y and rows, q = baseHeight + height * heightMultiplier.
 /// Triangles are counter-clockwise seen from above.
+///
+/// Of a page read as outlines, words and indices are empty, and `outline` is what they are made
+/// from: codec/tile_outline.h.
 struct TileGeometry {
     std::span<const std::uint32_t> words;
     int wordsPerVertex = 1;
@@ -130,11 +133,23 @@ struct TileGeometry {
     /// (cells + 1) squared, row by row from the tile's first post, one per sample of the level.
     /// Empty below Quadtree::normalLevel(); there without geometry where finer tiles need them.
     std::span<const std::int8_t> normals;
+    std::span<const std::uint32_t> outline;
+    std::uint32_t vertices = 0;  ///< of words, there or still to be made
 
-    bool isEmpty() const { return indices.empty(); }
-    std::size_t vertexCount() const {
-        return words.size() / static_cast<std::size_t>(wordsPerVertex);
+    bool isEmpty() const { return indexCount() == 0; }
+    std::size_t vertexCount() const { return vertices; }
+    std::size_t indexCount() const { return parts.back().first + parts.back().count; }
+    /// Of words and indices, there or still to be made.
+    std::size_t wordBytes() const {
+        return vertices * static_cast<std::size_t>(wordsPerVertex) * sizeof(std::uint32_t);
     }
+    std::size_t indexBytes() const { return indexCount() * sizeof(std::uint16_t); }
+};
+
+/// How far a page's tiles are decoded.
+enum class PageForm {
+    Drawable,  ///< to vertices and indices
+    Outlines,  ///< to what a device makes the same vertices and indices from
 };
 
 /// One page of tiles, decoded and checked. Owns its arrays; immutable, so shared freely between
@@ -148,7 +163,7 @@ public:
     /// bytes are, nothing leads out of bounds, and time and memory are bounded by what 16 full
     /// tiles take (6 MB). Errors: DataLoss. `name` is used in messages only.
     static absl::StatusOr<Page> decode(std::span<const std::uint32_t> bytes,
-                                       const std::string& name);
+                                       const std::string& name, PageForm form = PageForm::Drawable);
 
     /// By Quadtree::placeInPage; its geometry is empty where there are no triangles.
     const TileGeometry& tile(int place) const { return tiles_[static_cast<std::size_t>(place)]; }
@@ -182,7 +197,12 @@ public:
     /// Errors: DataLoss (checksum, or contents that contradict themselves or the index, or the
     /// file has changed on its server), Unavailable (read error), others of PageSource::read.
     /// Precondition: page < index().pages.size().
-    absl::StatusOr<std::shared_ptr<const Page>> readPage(std::uint32_t page) const;
+    absl::StatusOr<std::shared_ptr<const Page>> readPage(std::uint32_t page,
+                                                         PageForm form = PageForm::Drawable) const;
+
+    /// Its bytes as they lie in the file, for Page::decode; none of a page without triangles.
+    /// Errors: those of PageSource::read. Same precondition.
+    absl::StatusOr<std::vector<std::uint32_t>> readPageBytes(std::uint32_t page) const;
 
     /// The same of a texture tile. Precondition: index().imagery, which has the tile.
     absl::StatusOr<std::shared_ptr<const TexturePage>> readTexture(const TextureId& tile) const;

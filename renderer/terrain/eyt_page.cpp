@@ -9,6 +9,7 @@
 #include "fabric/status.h"
 #include "renderer/terrain/codec/geometry_decoder.h"
 #include "renderer/terrain/codec/normal_codec.h"
+#include "renderer/terrain/codec/tile_outline.h"
 #include "renderer/terrain/eyt_format.h"
 #include "renderer/terrain/eyt_layout.h"
 
@@ -62,8 +63,9 @@ const char* impossibleField(const TileHeader& tile, std::int32_t cells) {
 class PageReader {
 public:
     /// `bytes` begin with a header, which was checked: they hold what it says.
-    PageReader(const std::uint8_t* bytes, const PageHeader& header)
+    PageReader(const std::uint8_t* bytes, const PageHeader& header, PageForm form)
         : header_(header),
+          form_(form),
           geometry_({reinterpret_cast<const std::uint16_t*>(bytes + sizeof header),
                      header.wordBytes / sizeof(std::uint16_t)},
                     {bytes + sizeof header + header.wordBytes, header.rawBytes}) {
@@ -83,7 +85,7 @@ public:
     /// Words of one tile in the array.
     std::size_t wordsOf(std::size_t place) const {
         const TileHeader& tile = header_.tiles[place];
-        return vertexWords(tile) + indexWords(tile) + (hasNormals(place) ? normalWords() : 0);
+        return geometryWords(tile) + (hasNormals(place) ? normalWords() : 0);
     }
 
     /// Decodes the next tile to `out`, wordsOf(place) words. What is wrong, or null.
@@ -94,9 +96,8 @@ public:
                 return wrong;
         if (!hasNormals(place))
             return nullptr;
-        const std::span normals(
-            reinterpret_cast<std::int8_t*>(out + vertexWords(header) + indexWords(header)),
-            2 * samplesOf(header_.cells));
+        const std::span normals(reinterpret_cast<std::int8_t*>(out + geometryWords(header)),
+                                2 * samplesOf(header_.cells));
         if (!normals_->decode(normals))
             return "length of the normals' bits";
         tile.cells = header_.cells;
@@ -115,16 +116,24 @@ private:
     bool hasNormals(std::size_t place) const { return (header_.normalTiles >> place & 1) != 0; }
 
     const char* decodeGeometry(const TileHeader& header, std::uint32_t* out, TileGeometry& tile) {
-        const std::span<std::uint32_t> words(out, vertexWords(header));
-        const std::span indices(reinterpret_cast<std::uint16_t*>(out + words.size()),
-                                3 * std::size_t{header.triangles});
         const TileShape shape{header_.cells, header_.finerStep, header.limitX, header.limitY,
                               header.finerEdges};
-        if (const char* wrong = geometry_.decode(header, shape, words, indices, tile.parts))
-            return wrong;
-        tile.words = words;
+        if (form_ == PageForm::Outlines) {
+            const std::span<std::uint32_t> outline(out, geometryWords(header));
+            if (const char* wrong = geometry_.decodeOutline(header, shape, outline, tile.parts))
+                return wrong;
+            tile.outline = outline;
+        } else {
+            const std::span<std::uint32_t> words(out, vertexWords(header));
+            const std::span indices(reinterpret_cast<std::uint16_t*>(out + words.size()),
+                                    3 * std::size_t{header.triangles});
+            if (const char* wrong = geometry_.decode(header, shape, words, indices, tile.parts))
+                return wrong;
+            tile.words = words;
+            tile.indices = indices;
+        }
+        tile.vertices = header.vertices;
         tile.wordsPerVertex = header.wordsPerVertex;
-        tile.indices = indices;
         tile.baseHeight = header.baseHeight;
         tile.heightMultiplier = 1 << header.heightShift;
         tile.cells = header_.cells;
@@ -137,9 +146,16 @@ private:
     static std::size_t indexWords(const TileHeader& tile) {
         return (3 * std::size_t{tile.triangles} + 1) / 2;
     }
+    std::size_t geometryWords(const TileHeader& tile) const {
+        if (isEmpty(tile))
+            return 0;
+        return form_ == PageForm::Outlines ? outlineWords(tile, header_.cells)
+                                           : vertexWords(tile) + indexWords(tile);
+    }
     std::size_t normalWords() const { return (2 * samplesOf(header_.cells) + 3) / 4; }
 
     const PageHeader& header_;
+    PageForm form_;
     GeometryDecoder geometry_;
     std::optional<NormalDecoder> normals_;  ///< empty: no tile has any
 };
@@ -174,12 +190,13 @@ absl::StatusOr<PageHeader> readHeader(std::span<const std::uint32_t> page,
 
 }  // namespace
 
-absl::StatusOr<Page> Page::decode(std::span<const std::uint32_t> bytes, const std::string& name) {
+absl::StatusOr<Page> Page::decode(std::span<const std::uint32_t> bytes, const std::string& name,
+                                  PageForm form) {
     Page page;
     if (bytes.empty())
         return page;
     ASSIGN_OR_RETURN(const PageHeader header, readHeader(bytes, name));
-    PageReader reader(reinterpret_cast<const std::uint8_t*>(bytes.data()), header);
+    PageReader reader(reinterpret_cast<const std::uint8_t*>(bytes.data()), header, form);
     if (const char* wrong = reader.begin())
         return corrupt(name, fmt::format("impossible {}", wrong));
     std::size_t words = 0;

@@ -8,8 +8,9 @@
 /// What tiles take in memory, known and foretold.
 namespace eyrie::terrain {
 
+/// On the device.
 inline std::uint64_t tileBytes(const TileGeometry& geometry) {
-    return geometry.words.size_bytes() + geometry.indices.size_bytes() +
+    return geometry.wordBytes() + (geometry.indexBytes() + 3) / 4 * 4 +
            geometry.normals.size_bytes();
 }
 

@@ -169,10 +169,12 @@ std::string builtIn(const Effect& effect) {
         "        static const EffectSource source{{\n"
         "            .name = {},\n            .files = {{{}}},\n            .declarations = "
         "{{{}}},\n"
-        "            .vertex ={},\n            .fragment ={}}};\n        return source;\n    }}\n",
+        "            .vertex ={},\n            .fragment ={},\n            .compute ={}}};\n"
+        "        return source;\n    }}\n",
         literal(effect.main().name), files, list,
-        literalLines(stageText(effect, true), "                "),
-        literalLines(stageText(effect, false), "                "));
+        literalLines(stageText(effect, StageKind::Vertex), "                "),
+        literalLines(stageText(effect, StageKind::Fragment), "                "),
+        literalLines(stageText(effect, StageKind::Compute), "                "));
 }
 
 std::string opening(std::string_view file, std::string_view includes) {

@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <sys/wait.h>
@@ -16,6 +18,11 @@
 
 namespace eyrie::effects {
 namespace {
+
+constexpr std::array<std::pair<StageKind, const char*>, 3> kStageFiles = {
+    {{StageKind::Vertex, "stage.vert"},
+     {StageKind::Fragment, "stage.frag"},
+     {StageKind::Compute, "stage.comp"}}};
 
 /// A folder for the stages' files that goes with the object.
 class WorkFolder {
@@ -43,7 +50,7 @@ private:
     std::filesystem::path path_;
 };
 
-std::string quoted(const std::string& argument) {
+std::string shellWord(const std::string& argument) {
     std::string text = "'";
     for (const char c : argument) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
     return text + "'";
@@ -81,22 +88,23 @@ absl::StatusOr<Outcome> runProgram(const std::string& command) {
 
 absl::Status validateGlsl(const Effect& effect, const std::string& validator) {
     const WorkFolder folder;
-    const std::string vertexText = stageText(effect, true);
-    const std::string fragmentText = stageText(effect, false);
     for (const ParameterValues& values : allVariants(effect)) {
-        const std::string preamble = stagePreamble(values);
-        const std::string vertex = folder.write("stage.vert", preamble + vertexText);
-        const std::string fragment = folder.write("stage.frag", preamble + fragmentText);
-        if (vertex.empty() || fragment.empty())
-            return absl::FailedPreconditionError("cannot write GLSL to a temporary folder");
-        ASSIGN_OR_RETURN(const Outcome outcome,
-                         runProgram(fmt::format("{} -l {} {} 2>&1", quoted(validator),
-                                                quoted(vertex), quoted(fragment))));
+        std::vector<std::string> files;
+        std::string command = fmt::format("{} -l", shellWord(validator));
+        for (const auto& [kind, name] : kStageFiles) {
+            if (!effect.has(kind))
+                continue;
+            files.push_back(folder.write(name, stagePreamble(values) + stageText(effect, kind)));
+            if (files.back().empty())
+                return absl::FailedPreconditionError("cannot write GLSL to a temporary folder");
+            command += fmt::format(" {}", shellWord(files.back()));
+        }
+        ASSIGN_OR_RETURN(const Outcome outcome, runProgram(command + " 2>&1"));
         if (!outcome.succeeded)
-            return absl::InvalidArgumentError(fmt::format(
-                "{}\n{}: the GLSL above is refused{}",
-                namedLog(without(outcome.output, {vertex, fragment}), sourceFiles(effect)),
-                effect.main().name, values.empty() ? "" : " with " + describe(values)));
+            return absl::InvalidArgumentError(
+                fmt::format("{}\n{}: the GLSL above is refused{}",
+                            namedLog(without(outcome.output, files), sourceFiles(effect)),
+                            effect.main().name, values.empty() ? "" : " with " + describe(values)));
     }
     return absl::OkStatus();
 }

@@ -93,6 +93,12 @@ absl::Status checkPass(const Pass& pass) {
     return check(polygonModes(), "polygon", pass.polygon);
 }
 
+const char* nameOf(StageKind kind) {
+    return kind == StageKind::Vertex     ? "vertex"
+           : kind == StageKind::Fragment ? "fragment"
+                                         : "compute";
+}
+
 /// What holds in each file by itself.
 absl::Status checkFile(const EffectFile& file) {
     for (const Parameter& parameter : file.parameters) RETURN_IF_ERROR(checkParameter(parameter));
@@ -101,11 +107,10 @@ absl::Status checkFile(const EffectFile& file) {
     for (const Pass& pass : file.passes) RETURN_IF_ERROR(checkPass(pass));
     for (std::size_t i = 0; i < file.stages.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
-            if (file.stages[i].isVertex == file.stages[j].isVertex)
+            if (file.stages[i].kind == file.stages[j].kind)
                 return errorAt(file.stages[i].place,
                                fmt::format("a second {} stage; the first is in line {}",
-                                           file.stages[i].isVertex ? "vertex" : "fragment",
-                                           file.stages[j].place.line));
+                                           nameOf(file.stages[i].kind), file.stages[j].place.line));
     return absl::OkStatus();
 }
 
@@ -189,7 +194,30 @@ absl::Status checkTogether(const std::vector<EffectFile>& files) {
     return checkVariants(parameters);
 }
 
+/// An effect with a compute stage draws nothing: it has nothing else that drawing needs.
+absl::Status checkComputes(const Effect& effect) {
+    for (const Stage& stage : effect.main().stages)
+        if (stage.kind != StageKind::Compute)
+            return errorAt(stage.place, fmt::format("a {} stage beside a compute stage; an effect "
+                                                    "draws or computes",
+                                                    nameOf(stage.kind)));
+    for (const Input& input : effect.main().inputs)
+        return errorAt(input.place, fmt::format("{} is an input of an effect that computes; its "
+                                                "GLSL reads buffers instead",
+                                                input.name));
+    for (const Pass& pass : effect.main().passes)
+        return errorAt(
+            pass.place,
+            fmt::format("pass {} is of an effect that computes and draws nothing", pass.name));
+    return absl::OkStatus();
+}
+
 }  // namespace
+
+bool Effect::has(StageKind kind) const {
+    return std::any_of(main().stages.begin(), main().stages.end(),
+                       [&](const Stage& stage) { return stage.kind == kind; });
+}
 
 bool isEffectFileName(std::string_view name) {
     const std::size_t dot = name.find('.');
@@ -214,13 +242,12 @@ absl::Status checkEffect(const Effect& effect) {
     for (std::size_t i = 0; i + 1 < effect.files.size(); ++i)
         RETURN_IF_ERROR(checkBlock(effect.files[i]));
     RETURN_IF_ERROR(checkTogether(effect.files));
-    for (const bool isVertex : {true, false}) {
-        const auto& stages = effect.main().stages;
-        if (std::none_of(stages.begin(), stages.end(),
-                         [&](const Stage& stage) { return stage.isVertex == isVertex; }))
-            return errorAt({effect.main().name}, fmt::format("the effect has no {} stage",
-                                                             isVertex ? "vertex" : "fragment"));
-    }
+    if (effect.has(StageKind::Compute))
+        return checkComputes(effect);
+    for (const StageKind kind : {StageKind::Vertex, StageKind::Fragment})
+        if (!effect.has(kind))
+            return errorAt({effect.main().name},
+                           fmt::format("the effect has no {} stage", nameOf(kind)));
     return absl::OkStatus();
 }
 

@@ -66,8 +66,17 @@ EYRIE_SET(Location, input.location, number(in))
 EYRIE_SET(SourceCount, input.sources.back(), number(in))
 EYRIE_SET(PassName, pass.name, in.string())
 EYRIE_SET(StateName, stateName, in.string())
-EYRIE_SET(VertexWord, stage.isVertex, in.size() > 0)
 #undef EYRIE_SET
+
+#define EYRIE_STAGE(KIND)                                                        \
+    template <>                                                                  \
+    struct Action<rules::KIND##Word> {                                           \
+        static void apply0(Draft& draft) { draft.stage.kind = StageKind::KIND; } \
+    };
+EYRIE_STAGE(Vertex)
+EYRIE_STAGE(Fragment)
+EYRIE_STAGE(Compute)
+#undef EYRIE_STAGE
 
 template <>
 struct Action<rules::SourceType> {

@@ -62,9 +62,11 @@ struct Pass {
     Place place;
 };
 
+enum class StageKind { Vertex, Fragment, Compute };
+
 /// `stage vertex { GLSL }`.
 struct Stage {
-    bool isVertex = false;
+    StageKind kind = StageKind::Fragment;
     std::string body;
     Place place;      ///< of the statement
     Place bodyPlace;  ///< of the first byte of the body
@@ -94,6 +96,8 @@ struct Effect {
     std::vector<EffectFile> files;
 
     const EffectFile& main() const { return files.back(); }
+    /// Whether the effect itself has that stage. It has vertex and fragment, or compute alone.
+    bool has(StageKind kind) const;
 };
 
 }  // namespace eyrie::effects

@@ -157,10 +157,11 @@ struct Body {
     }
 };
 
-// stage vertex { GLSL }
+// stage vertex { GLSL }  stage compute { GLSL }
 struct VertexWord : Word<'v', 'e', 'r', 't', 'e', 'x'> {};
 struct FragmentWord : Word<'f', 'r', 'a', 'g', 'm', 'e', 'n', 't'> {};
-struct StageKind : peg::sor<VertexWord, FragmentWord> {};
+struct ComputeWord : Word<'c', 'o', 'm', 'p', 'u', 't', 'e'> {};
+struct StageKind : peg::sor<VertexWord, FragmentWord, ComputeWord> {};
 struct Stage : peg::seq<StageWord, Blank, StageKind, Blank, OpenBrace, Body, CloseBrace> {};
 
 struct Statement : peg::sor<Include, Variant, Uniform, Input, Pass, Stage> {};
@@ -227,7 +228,8 @@ inline constexpr const char* Expected::message<PassName> =
 template <>
 inline constexpr const char* Expected::message<StateValue> = "expected the state's value";
 template <>
-inline constexpr const char* Expected::message<StageKind> = "expected 'vertex' or 'fragment'";
+inline constexpr const char* Expected::message<StageKind> =
+    "expected 'vertex', 'fragment' or 'compute'";
 template <>
 inline constexpr const char* Expected::message<End> =
     "expected include, variant, uniform, input, pass or stage";

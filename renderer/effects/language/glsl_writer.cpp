@@ -93,11 +93,13 @@ std::string stagePreamble(const ParameterValues& values) {
     return text;
 }
 
-std::string stageText(const Effect& effect, bool isVertex) {
+std::string stageText(const Effect& effect, StageKind kind) {
     std::string text;
+    if (!effect.has(kind))
+        return text;
     for (std::size_t i = 0; i < effect.files.size(); ++i) {
         const EffectFile& file = effect.files[i];
-        if (isVertex)
+        if (kind == StageKind::Vertex)
             for (const Input& input : file.inputs)
                 text += lineDirective(input.place.line, i) +
                         fmt::format("layout(location = {}) in {} {};\n", input.location, input.type,
@@ -105,7 +107,7 @@ std::string stageText(const Effect& effect, bool isVertex) {
         for (const Uniform& uniform : file.uniforms)
             text += lineDirective(uniform.place.line, i) + glslOf(uniform);
         for (const Stage& stage : file.stages)
-            if (stage.isVertex == isVertex)
+            if (stage.kind == kind)
                 text += lineDirective(stage.bodyPlace.line, i) + stage.body + "\n";
     }
     return text;

@@ -43,7 +43,8 @@ inline constexpr std::size_t kLinesPerFile = 2'000'000;
 static_assert(kLinesPerFile > kMaxEffectBytes);
 
 /// One stage without its preamble: each file's declarations, then its GLSL, with #line directives.
-std::string stageText(const Effect& effect, bool isVertex);
+/// Empty where the effect has no such stage.
+std::string stageText(const Effect& effect, StageKind kind);
 
 /// File names in the order in which #line numbers them.
 std::vector<std::string> sourceFiles(const Effect& effect);

@@ -2,10 +2,26 @@
 #include "renderer/terrain/codec/geometry_decoder.h"
 
 #include <algorithm>
+#include <cstring>
 
+#include "renderer/terrain/codec/tile_outline.h"
 #include "renderer/terrain/vertex_packing.h"
 
 namespace eyrie::terrain {
+namespace {
+
+/// Adds the samples that a walk found to be split points.
+void markSplit(std::span<const std::uint16_t> slots, std::span<std::uint32_t> split) {
+    for (std::size_t first = 0; first < slots.size(); first += 32) {
+        std::uint32_t bits = 0;
+        const std::size_t count = std::min<std::size_t>(32, slots.size() - first);
+        for (std::size_t k = 0; k < count; ++k)
+            bits |= (slots[first + k] <= kAbsentPoint ? 1U : 0U) << k;
+        split[first / 32] |= bits;
+    }
+}
+
+}  // namespace
 
 const char* GeometryDecoder::begin() {
     for (std::array<std::uint32_t, kAllShares>& slots : symbols_) {
@@ -17,7 +33,7 @@ const char* GeometryDecoder::begin() {
     return nullptr;
 }
 
-inline bool GeometryDecoder::flag(int context) {
+[[gnu::always_inline]] inline bool GeometryDecoder::flag(int context) {
     AdaptiveFlag& model = flags_[static_cast<std::size_t>(context)];
     const bool value = rans_.slot(0, AdaptiveFlag::kBits) < model.ones();
     rans_.take(0, model.share(value), AdaptiveFlag::kBits);
@@ -25,7 +41,8 @@ inline bool GeometryDecoder::flag(int context) {
     return value;
 }
 
-inline std::uint32_t GeometryDecoder::height(int context, std::uint32_t foreseen) {
+[[gnu::always_inline]] inline std::uint32_t GeometryDecoder::height(int context,
+                                                                    std::uint32_t foreseen) {
     const SlotEntry entry{symbols_[static_cast<std::size_t>(context)][rans_.slot(1, kSymbolBits)]};
     rans_.take(1, entry, kSymbolBits);
     Residual residual{entry.symbol(), Residual::rawBitsOf(entry.symbol()), 0};
@@ -52,13 +69,64 @@ const char* GeometryDecoder::decode(const TileHeader& header, const TileShape& s
     TileModel<GeometryDecoder> model(*this, header.isSparse != 0, scratch_->positions.data(),
                                      scratch_->heights.data());
     TileTriangulation<TileModel<GeometryDecoder>>(shape, slots_, model).walk();
-    if (rans_.isPastEnd() || raw_.isPastEnd())
-        return "length of the geometry's bits";
-    if (model.vertices() != header.vertices)
-        return "number of vertices";
+    if (const char* wrong = checkWalk(header, model.vertices()))
+        return wrong;
     if (const char* wrong = copyIndices(indices, parts))
         return wrong;
-    return copyVertices(header, vertices);
+    if (const char* wrong = checkHeights(header))
+        return wrong;
+    packVertices({scratch_->positions.data(), header.vertices},
+                 {scratch_->heights.data(), header.vertices}, header.wordsPerVertex, vertices);
+    return nullptr;
+}
+
+const char* GeometryDecoder::decodeOutline(const TileHeader& header, const TileShape& shape,
+                                           std::span<std::uint32_t> outline,
+                                           std::array<IndexRange, kTileParts>& parts) {
+    const auto cells = static_cast<std::size_t>(shape.cells);
+    const std::size_t setWords = pointSetWords(cells);
+    const std::span split = outline.subspan(kOutlineHeaderWords, setWords);
+    const std::span absent =
+        outline.subspan(kOutlineHeaderWords + setWords, header.isSparse != 0 ? setWords : 0);
+    std::fill(split.begin(), split.end(), 0U);
+    std::fill(absent.begin(), absent.end(), 0U);
+
+    Outlining outlining{*this};
+    TileModel<Outlining> model(outlining, header.isSparse != 0, scratch_->positions.data(),
+                               scratch_->heights.data());
+    OutlineModel<Outlining> source(model, cells, split, absent);
+    TileTriangulation<OutlineModel<Outlining>>(shape, slots_, source).walk();
+    if (const char* wrong = checkWalk(header, model.vertices()))
+        return wrong;
+    OutlineHeader head{static_cast<std::uint32_t>(shape.cells),
+                       static_cast<std::uint32_t>(shape.limitX),
+                       static_cast<std::uint32_t>(shape.limitY),
+                       shape.finerEdges,
+                       header.isSparse,
+                       header.vertices,
+                       header.wordsPerVertex,
+                       {}};
+    std::uint32_t first = 0;
+    for (std::size_t part = 0; part < kTileParts; ++part) {
+        head.firstTriangles[part] = first;
+        parts[part] = {3 * first, 3 * outlining.triangles[part]};
+        first += outlining.triangles[part];
+    }
+    if (first != header.triangles)
+        return "number of triangles";
+    if (const char* wrong = checkHeights(header))
+        return wrong;
+    std::memcpy(outline.data(), &head, sizeof head);
+    markSplit(slots_, split);
+    copyHeights(header, outline.subspan(kOutlineHeaderWords + split.size() + absent.size()));
+    return nullptr;
+}
+
+/// Of the walk that has just ended.
+const char* GeometryDecoder::checkWalk(const TileHeader& header, std::uint16_t vertices) const {
+    if (rans_.isPastEnd() || raw_.isPastEnd())
+        return "length of the geometry's bits";
+    return vertices == header.vertices ? nullptr : "number of vertices";
 }
 
 const char* GeometryDecoder::copyIndices(std::span<std::uint16_t> out,
@@ -77,18 +145,26 @@ const char* GeometryDecoder::copyIndices(std::span<std::uint16_t> out,
     return count == out.size() ? nullptr : "number of triangles";
 }
 
-const char* GeometryDecoder::copyVertices(const TileHeader& header,
-                                          std::span<std::uint32_t> out) const {
+const char* GeometryDecoder::checkHeights(const TileHeader& header) const {
     const std::span heights(scratch_->heights.data(), header.vertices);
     const std::uint32_t highest = *std::max_element(heights.begin(), heights.end());
     const std::int64_t top = header.baseHeight + (std::int64_t{highest} << header.heightShift);
     if (top > kMaxHeightSteps)
         return "vertex height";
-    if ((highest <= kMaxShortHeight) != (header.wordsPerVertex == 1))
-        return "wordsPerVertex";
-    packVertices({scratch_->positions.data(), header.vertices}, heights, header.wordsPerVertex,
-                 out);
-    return nullptr;
+    return (highest <= kMaxShortHeight) == (header.wordsPerVertex == 1) ? nullptr
+                                                                        : "wordsPerVertex";
+}
+
+void GeometryDecoder::copyHeights(const TileHeader& header, std::span<std::uint32_t> out) const {
+    const std::uint32_t* heights = scratch_->heights.data();
+    if (header.wordsPerVertex != 1) {
+        std::copy_n(heights, header.vertices, out.data());
+        return;
+    }
+    for (std::size_t k = 0; k < out.size(); ++k) {
+        const bool hasSecond = 2 * k + 1 < header.vertices;
+        out[k] = heights[2 * k] | (hasSecond ? heights[2 * k + 1] << 16 : 0);
+    }
 }
 
 const char* GeometryDecoder::finish() const {

@@ -31,6 +31,12 @@ public:
                        std::span<std::uint32_t> vertices, std::span<std::uint16_t> indices,
                        std::array<IndexRange, kTileParts>& parts);
 
+    /// The same as `outline`, outlineWords(header, shape.cells) words of codec/tile_outline.h.
+    /// Finds the same wrong.
+    const char* decodeOutline(const TileHeader& header, const TileShape& shape,
+                              std::span<std::uint32_t> outline,
+                              std::array<IndexRange, kTileParts>& parts);
+
     /// Checks that all bits were used, after the last tile. What is wrong, or null.
     const char* finish() const;
 
@@ -45,13 +51,30 @@ private:
         std::array<std::array<std::uint16_t, 3 * kMaxBorderTriangles>, kTileParts> borders;
     };
 
+    /// Counts triangles in place of writing them down.
+    struct Outlining {
+        GeometryDecoder& decoder;
+        std::array<std::uint32_t, kTileParts> triangles{};
+
+        bool isVertex(int context) { return decoder.flag(context); }
+        bool isPresent(int context) { return decoder.flag(context); }
+        std::uint32_t height(int context, std::uint32_t foreseen) {
+            return decoder.height(context, foreseen);
+        }
+        void triangle(int part, std::uint16_t, std::uint16_t, std::uint16_t) {
+            ++triangles[static_cast<std::size_t>(part)];
+        }
+    };
+
     bool isVertex(int context) { return flag(context); }
     bool isPresent(int context) { return flag(context); }
     bool flag(int context);
     std::uint32_t height(int context, std::uint32_t foreseen);
     void triangle(int part, std::uint16_t a, std::uint16_t b, std::uint16_t c);
 
-    const char* copyVertices(const TileHeader& header, std::span<std::uint32_t> out) const;
+    const char* checkWalk(const TileHeader& header, std::uint16_t vertices) const;
+    const char* checkHeights(const TileHeader& header) const;
+    void copyHeights(const TileHeader& header, std::span<std::uint32_t> out) const;
     const char* copyIndices(std::span<std::uint16_t> out,
                             std::array<IndexRange, kTileParts>& parts) const;
 

@@ -89,6 +89,7 @@ TEST(StatisticsJson, HasTheDesignsFieldsAsPlainNumbers) {
     statistics.triangles = 1'234'567'890'123;
     statistics.pagesMissing = 3;
     statistics.pagesFailed = 2;
+    statistics.tilesDecodedOnGpu = 9;
     statistics.milliseconds = {0.5, 20, 1, 0, 21.5};
     const auto json = parsed(statisticsJson(
         statistics, 1280, 720, {"Mesa \"x\"", "llvmpipe", "4.5", "surfaceless", true}));
@@ -104,6 +105,7 @@ TEST(StatisticsJson, HasTheDesignsFieldsAsPlainNumbers) {
     EXPECT_EQ(number("bytesLoaded"), 0);
     EXPECT_EQ(number("pagesMissing"), 3);
     EXPECT_EQ(number("pagesFailed"), 2);
+    EXPECT_EQ(number("tilesDecodedOnGpu"), 9);
     EXPECT_TRUE(json.fields().at("complete").bool_value());
     const auto& milliseconds = json.fields().at("milliseconds").struct_value().fields();
     EXPECT_EQ(milliseconds.at("draw").number_value(), 20);

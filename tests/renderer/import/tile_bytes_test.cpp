@@ -23,6 +23,9 @@ Sums check(const EytFile& file) {
         const auto page = file.readPage(number);
         EXPECT_TRUE(page.ok()) << page.status();
         EXPECT_LE((*page)->sizeBytes(), greatestPageBytes(index, number));
+        const auto outlines = file.readPage(number, PageForm::Outlines);
+        EXPECT_TRUE(outlines.ok()) << outlines.status();
+        EXPECT_LE((*outlines)->sizeBytes(), greatestPageBytes(index, number));
         const TileId first = index.quadtree.firstTileOfPage(number);
         for (int place = 0; place < kPageTiles * kPageTiles; ++place) {
             const TileId tile{first.level, first.x + place % kPageTiles,

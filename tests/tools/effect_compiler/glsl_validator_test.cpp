@@ -69,6 +69,17 @@ TEST(GlslValidator, RefusesStagesThatDoNotFitTogether) {
     EXPECT_NE(messageOf(status).find("passed"), std::string::npos) << status;
 }
 
+TEST(GlslValidator, JudgesAComputeStage) {
+    const std::string head = "uniform int n;\nstage compute {\nlayout(local_size_x = 4) in;\n";
+    EXPECT_EQ(validate(head + "layout(std430, binding = 0) buffer B { int b[]; };\n"
+                              "void main() { b[gl_LocalInvocationIndex] = n; }\n}\n"),
+              absl::OkStatus());
+    const absl::Status status = validate(head + "void main() { b[0] = n; }\n}\n");
+    EXPECT_NE(messageOf(status).find("a.effect:4: error: 'b' : undeclared identifier"),
+              std::string::npos)
+        << status;
+}
+
 TEST(GlslValidator, SaysWhenItCannotBeRun) {
     const absl::Status status =
         validate("stage vertex {void main() {}}\nstage fragment {void main() {}}", "/no/such/tool");

@@ -72,10 +72,10 @@ stage fragment {}
     EXPECT_EQ(file->passes[0].polygon, "fill");
     EXPECT_EQ(file->passes[0].comment, "opaque");
     ASSERT_EQ(file->stages.size(), 2U);
-    EXPECT_TRUE(file->stages[0].isVertex);
+    EXPECT_EQ(file->stages[0].kind, StageKind::Vertex);
     EXPECT_EQ(file->stages[0].body, " void main() { if (true) { } // }\n  /* } */ } ");
     EXPECT_EQ(file->stages[0].bodyPlace.line, 9U);
-    EXPECT_FALSE(file->stages[1].isVertex);
+    EXPECT_EQ(file->stages[1].kind, StageKind::Fragment);
     EXPECT_EQ(file->stages[1].body, "");
 }
 
@@ -143,7 +143,7 @@ TEST(EffectGrammar, ErrorsNameLineAndColumnAndWhatWasExpected) {
          "found the end of the file"},
         {"pass a { blend on; }", "1:16: a pass sets depth, cull and polygon, not 'blend'"},
         {"pass a { cull none;\n cull back; }", "2:7: cull is set a second time in this pass"},
-        {"stage geometry {}", "1:7: expected 'vertex' or 'fragment', found 'geometry'"},
+        {"stage geometry {}", "1:7: expected 'vertex', 'fragment' or 'compute', found 'geometry'"},
         {"stage vertex;", "1:13: expected '{', found ';'"},
         {"stage vertex { {}", "1:15: the stage that begins here has no '}' that ends it"},
         {"stage vertex {\n\n /* }", "3:2: the comment that begins here has no '*/' that ends it"},

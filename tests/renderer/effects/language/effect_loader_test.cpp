@@ -45,7 +45,7 @@ TEST(EffectLoader, PutsBlocksBeforeTheEffectThatIncludesThem) {
     EXPECT_EQ(describe(variants[0]), "N=1 BLUE=0");
     EXPECT_EQ(describe(variants[5]), "N=3 BLUE=1");
     EXPECT_EQ(stagePreamble(variants[5]), "#version 450 core\n#define N 3\n#define BLUE 1\n");
-    EXPECT_EQ(stageText(*effect, true),
+    EXPECT_EQ(stageText(*effect, StageKind::Vertex),
               "#line 2 0\nuniform float a;\n#line 2000002 0\nuniform float b;\n"
               "#line 4000003 0\nuniform vec3 c[N];\n#line 4000004 0\n\n");
 }
@@ -144,11 +144,27 @@ TEST(EffectLoader, IncludesAreBounded) {
     EXPECT_EQ(errorOf(files), "a.effect:19:10: an effect includes at most 16 blocks");
 }
 
-TEST(EffectLoader, AnEffectHasBothStages) {
+TEST(EffectLoader, AnEffectDrawsOrComputes) {
     EXPECT_EQ(errorOf({{"a.effect", "stage fragment {}"}}),
               "a.effect:1:1: the effect has no vertex stage");
     EXPECT_EQ(errorOf({{"a.effect", "stage vertex {}"}}),
               "a.effect:1:1: the effect has no fragment stage");
+    const std::string compute = "stage compute {}\n";
+    EXPECT_EQ(errorOf({{"a.effect", compute + "stage vertex {}"}}),
+              "a.effect:2:1: a vertex stage beside a compute stage; an effect draws or computes");
+    EXPECT_EQ(errorOf({{"a.effect", compute + compute}}),
+              "a.effect:2:1: a second compute stage; the first is in line 1");
+    EXPECT_EQ(errorOf({{"a.effect", compute + "input uint a at 0 from uint32;"}}),
+              "a.effect:2:1: a is an input of an effect that computes; its GLSL reads buffers "
+              "instead");
+    EXPECT_EQ(errorOf({{"a.effect", compute + "pass p { depth less; cull none; polygon fill; }"}}),
+              "a.effect:2:1: pass p is of an effect that computes and draws nothing");
+    const Files files{{"a.effect", "uniform int n;\nstage compute { void main() {} }"}};
+    const auto effect = loadEffect("a.effect", from(files));
+    ASSERT_TRUE(effect.ok()) << effect.status();
+    EXPECT_EQ(stageText(*effect, StageKind::Compute),
+              "#line 1 0\nuniform int n;\n#line 2 0\n void main() {} \n");
+    EXPECT_EQ(stageText(*effect, StageKind::Vertex), "");
 }
 
 TEST(EffectLoader, RefusesNamesThatWouldLeaveTheFolder) {
