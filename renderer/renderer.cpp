@@ -310,7 +310,9 @@ absl::StatusOr<fabric::ChannelResult> Renderer::Impl::render(const fabric::Frame
     const auto readStart = Clock::now();
     result.image = framebuffer_.read(selection.covered, task.wantsDepth);
     statistics.milliseconds.readback = millisecondsSince(readStart);
+    const auto errorStart = Clock::now();
     statistics.tauAchievedPixels = errorPixels(view, frameData, task, selection.covered);
+    statistics.milliseconds.cull += millisecondsSince(errorStart);
     for (const OpenObject& object : objects_) object.drawable->trim();
     statistics.milliseconds.total = millisecondsSince(start);
     return result;

@@ -45,6 +45,8 @@ double TerrainError::pixels(const terrain::TerrainCut& cut) {
     ground.narrower = [this](const terrain::TileChoice& tile, double pixels, double enough) {
         return ofTriangles(tile, pixels, enough);
     };
+    if (!isEyeOverGround())
+        hidden_ = nullptr;
     if (hidden_ != nullptr)
         ground.isHidden = [this](const Box& bounds, double pixels) {
             return isHidden(bounds, [&] { return hidden_->hides(bounds, pixels); });
@@ -86,14 +88,26 @@ bool TerrainError::isHidden(const Box& bounds, Covers covers) {
         return false;
     if (index_.nodataPosts == 0)
         return true;
-    const Vec3 eye(request_.view.objectFromView()[3]);
     const fabric::Mat4 latticeFromObject = glm::inverse(index_.objectFromLattice);
     Box posts;
     for (const double x : {bounds.min.x, bounds.max.x})
         for (const double y : {bounds.min.y, bounds.max.y})
             posts.grow(Vec3(latticeFromObject * fabric::Vec4(x, y, 0, 1)));
-    posts.grow(Vec3(latticeFromObject * fabric::Vec4(eye.x, eye.y, 0, 1)));
+    posts.grow(eyePost());
     return hasNoHole(index_.quadtree.top(), posts);
+}
+
+/// Whether the eye is above or below a cell of the terrain.
+bool TerrainError::isEyeOverGround() const {
+    const Vec3 post = eyePost();
+    return post.x >= 0 && post.y >= 0 && post.x < index_.quadtree.columns() - 1 &&
+           post.y < index_.quadtree.rows() - 1;
+}
+
+/// The eye in the lattice; its height does not count.
+Vec3 TerrainError::eyePost() const {
+    const Vec3 eye(request_.view.objectFromView()[3]);
+    return Vec3(glm::inverse(index_.objectFromLattice) * fabric::Vec4(eye.x, eye.y, 0, 1));
 }
 
 bool TerrainError::isEyeAboveGround() {
@@ -102,15 +116,12 @@ bool TerrainError::isEyeAboveGround() {
     return *isEyeAboveGround_;
 }
 
-/// Whether the eye is over the terrain, not over a hole, and above the source. That is no higher
-/// than any tile's box, nor than what any tile draws plus its error.
+/// Whether the eye is above the source, and not over a hole. That is no higher than any tile's box,
+/// nor than what any tile draws plus its error.
 bool TerrainError::findEyeAboveGround() {
     const Vec3 eye(request_.view.objectFromView()[3]);
-    const Vec3 post(glm::inverse(index_.objectFromLattice) * fabric::Vec4(eye.x, eye.y, 0, 1));
+    const Vec3 post = eyePost();
     const Quadtree& quadtree = index_.quadtree;
-    if (!(post.x >= 0 && post.y >= 0 && post.x < quadtree.columns() - 1 &&
-          post.y < quadtree.rows() - 1))
-        return false;
     for (int level = 0; level < quadtree.levels(); ++level) {
         const terrain::TileId id{level, static_cast<std::int32_t>(post.x) / Quadtree::side(level),
                                  static_cast<std::int32_t>(post.y) / Quadtree::side(level)};

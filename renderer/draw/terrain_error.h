@@ -28,6 +28,8 @@ private:
     double ofTriangles(const terrain::TileChoice& tile, double pixels, double enough);
     template <typename Covers>
     bool isHidden(const fabric::Box& bounds, Covers covers);
+    fabric::Vec3 eyePost() const;
+    bool isEyeOverGround() const;
     bool isEyeAboveGround();
     bool findEyeAboveGround();
     bool hasNoHole(const terrain::TileId& tile, const fabric::Box& posts) const;

@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "fabric/frustum.h"
+#include "fabric/simd_clones.h"
 #include "renderer/lod/frustum_clip.h"
 
 namespace eyrie::occlusion {
@@ -23,7 +24,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kRasterisationMargin = 1.0 / 512;
 /// Around what is asked about: the pixels on both sides of a point, and what rasterisation moves.
 constexpr double kPixelMargin = 1;
-constexpr int kReadAhead = 16;  ///< pixels around a rectangle that are read with it
+/// At the edge of the picture, what the source alone would show does not count.
+constexpr double kEdgePixels = 1;
+constexpr std::int64_t kLargePixels = 4096;
 
 double distanceToSegment(const Vec2& p, const Vec2& a, const Vec2& b) {
     const Vec2 side = b - a;
@@ -48,6 +51,26 @@ double distanceToTriangle(const Vec2& p, std::span<const Vec3, 3> corners) {
                      distanceToSegment(p, Vec2(corners[2]), Vec2(corners[0]))});
 }
 
+/// Where a row of pixels looks: object x and y per metre of depth, of its first and from each to
+/// the next.
+struct Row {
+    double x, y, perPixelX, perPixelY;
+};
+
+/// Whether all pixels of a row show what is horizontally less than `reach` times the reciprocal of
+/// their depth away. Squares are compared.
+EYRIE_SIMD_CLONES bool isRowNearer(const float* __restrict depth, int count, const Row& row,
+                                   double reach) {
+    int farther = 0;
+    for (int i = 0; i < count; ++i) {
+        const double x = row.x + i * row.perPixelX;
+        const double y = row.y + i * row.perPixelY;
+        const double limit = reach * static_cast<double>(depth[i]);
+        farther += x * x + y * y < limit * limit ? 0 : 1;
+    }
+    return farther == 0;
+}
+
 }  // namespace
 
 void HiddenGround::Rect::add(const Vec2& p) {
@@ -56,11 +79,7 @@ void HiddenGround::Rect::add(const Vec2& p) {
 }
 
 HiddenGround::HiddenGround(const lod::ObjectView& view, const PixelViewport& drawn, ReadDepth read)
-    : view_(view),
-      drawn_(drawn),
-      read_(std::move(read)),
-      eye_(view.objectFromView()[3]),
-      pixelsLeft_(std::int64_t{view.view().width} * view.view().height) {
+    : view_(view), drawn_(drawn), read_(std::move(read)), eye_(view.objectFromView()[3]) {
     const Vec3 up(view.viewFromObject()[2]);
     up_ = {up.x, up.y, -up.z};
     const auto horizontal = [&](const Vec3& direction) {
@@ -104,6 +123,8 @@ bool HiddenGround::project(const Vec3& point, Rect& rect) const {
 /// Adds what lies up to `pixels` higher in the object. False where that is not to the same side,
 /// within a half turn, all over the rectangle: around the zenith, or the nadir.
 bool HiddenGround::raise(Rect& rect, double pixels) const {
+    if (!(pixels < kInfinity))
+        return false;
     const fabric::Frustum& f = view_.view().frustum;
     Vec2 least(kInfinity);
     Vec2 most(-kInfinity);
@@ -122,59 +143,67 @@ bool HiddenGround::raise(Rect& rect, double pixels) const {
     return true;
 }
 
-/// Whether all pixels of a rectangle, and of `pixels` above, show ground at a horizontal distance
-/// of less than `nearest`.
-bool HiddenGround::isCovered(Rect rect, double pixels, double nearest) {
-    const lod::View& view = view_.view();
-    // What is seen is seen at pixels' centres.
-    rect.low = glm::max(rect.low, Vec2(0.5));
-    rect.high = glm::min(rect.high, Vec2(view.width - 0.5, view.height - 0.5));
-    if (!(rect.low.x <= rect.high.x && rect.low.y <= rect.high.y))
+/// Whether all pixels of a rectangle show ground at a horizontal distance of less than `nearest`;
+/// and those up to `pixels` above, but for what lies at the very edge of the picture.
+bool HiddenGround::isCovered(const Rect& rect, double pixels, double nearest) {
+    // What is drawn is seen at pixels' centres.
+    Rect covered = clipped(rect, 0.5);
+    if (covered.isEmpty())
         return true;
-    if (!(pixels < kInfinity) || !raise(rect, pixels) || rect.low.x < 0 ||
-        rect.high.x > view.width || rect.high.y > view.height)
-        return false;
+    Rect ofSource = clipped(rect, kEdgePixels);
+    if (!ofSource.isEmpty()) {
+        if (!raise(ofSource, pixels) || clipped(ofSource, 0) != ofSource)
+            return false;
+        covered.add(ofSource.low);
+        covered.add(ofSource.high);
+    }
+    const lod::View& view = view_.view();
     const auto pixel = [](double at, double margin, int side) {
         return static_cast<std::int32_t>(
             std::clamp(std::floor(at + margin), 0.0, static_cast<double>(side)));
     };
-    const std::int32_t left = pixel(rect.low.x, -kPixelMargin, view.width);
-    const std::int32_t bottom = pixel(rect.low.y, -kPixelMargin, view.height);
-    const PixelViewport part{left, bottom, pixel(rect.high.x, 1 + kPixelMargin, view.width) - left,
-                             pixel(rect.high.y, 1 + kPixelMargin, view.height) - bottom};
-    return drawn_.contains(part) && look(part) && allNearer(part, nearest);
-}
-
-/// Makes sure that the depths of `part` are here. False when enough has been read.
-bool HiddenGround::look(const PixelViewport& part) {
-    if (seen_.contains(part))
-        return true;
-    const PixelViewport wide =
-        intersection({part.x - kReadAhead, part.y - kReadAhead, part.width + 2 * kReadAhead,
-                      part.height + 2 * kReadAhead},
-                     drawn_);
-    if (wide.area() > pixelsLeft_)
+    const std::int32_t left = pixel(covered.low.x, -kPixelMargin, view.width);
+    const std::int32_t bottom = pixel(covered.low.y, -kPixelMargin, view.height);
+    const std::int32_t right = pixel(covered.high.x, 1 + kPixelMargin, view.width);
+    const std::int32_t top = pixel(covered.high.y, 1 + kPixelMargin, view.height);
+    const PixelViewport part{left, bottom, right - left, top - bottom};
+    if (!drawn_.contains(part))
         return false;
-    pixelsLeft_ -= wide.area();
-    read_(wide, depth_);
-    seen_ = wide;
-    return true;
+    // Most of what is seen, and is large, shows in its top row.
+    const PixelViewport topRow{part.x, part.y + part.height - 1, part.width, 1};
+    if (part.area() > kLargePixels && !seen_.contains(part)) {
+        look(topRow);
+        if (!allNearer(topRow, nearest))
+            return false;
+    }
+    look(part);
+    return allNearer(part, nearest);
 }
 
-bool HiddenGround::allNearer(const PixelViewport& part, double nearest) const {
-    const double scale = fabric::kNearMetres * (1 + kRasterisationMargin);
+/// The part of a rectangle that is `inside` pixels or more from the edge of the picture.
+HiddenGround::Rect HiddenGround::clipped(const Rect& rect, double inside) const {
+    const Vec2 size(view_.view().width, view_.view().height);
+    return {glm::max(rect.low, Vec2(inside)), glm::min(rect.high, size - inside)};
+}
+
+/// Makes sure that the depths of `part` are here. One who asks for much gets all of the picture, so
+/// that no more is read than that and a quarter.
+void HiddenGround::look(const PixelViewport& part) {
+    if (seen_.contains(part))
+        return;
+    pixelsRead_ += part.area();
+    seen_ = pixelsRead_ > drawn_.area() / 4 ? drawn_ : part;
+    read_(seen_, depth_);
+}
+
+bool HiddenGround::allNearer(const PixelViewport& part, double nearest) {
     for (std::int32_t y = part.y; y < part.y + part.height; ++y) {
-        const Vec2 row = lowerLeft_ + (y + 0.5) * perRow_;
         const float* depth =
             depth_.data() + std::ptrdiff_t{y - seen_.y} * seen_.width + (part.x - seen_.x);
-        for (std::int32_t x = part.x; x < part.x + part.width; ++x) {
-            // Squares of the distance of what the pixel shows and of `nearest`, times its depth's
-            // reciprocal.
-            const Vec2 across = scale * (row + (x + 0.5) * perColumn_);
-            const double reach = nearest * static_cast<double>(depth[x - part.x]);
-            if (!(glm::dot(across, across) < reach * reach))
-                return false;
-        }
+        const Vec2 first = lowerLeft_ + (part.x + 0.5) * perColumn_ + (y + 0.5) * perRow_;
+        if (!isRowNearer(depth, part.width, {first.x, first.y, perColumn_.x, perColumn_.y},
+                         nearest / (fabric::kNearMetres * (1 + kRasterisationMargin))))
+            return false;
     }
     return true;
 }

@@ -45,13 +45,16 @@ private:
         fabric::Vec2 high;
 
         void add(const fabric::Vec2& p);
+        bool isEmpty() const { return !(low.x <= high.x && low.y <= high.y); }
+        bool operator==(const Rect&) const = default;
     };
 
     bool project(const fabric::Vec3& point, Rect& rect) const;
     bool raise(Rect& rect, double pixels) const;
-    bool isCovered(Rect rect, double pixels, double nearest);
-    bool allNearer(const fabric::PixelViewport& part, double nearest) const;
-    bool look(const fabric::PixelViewport& part);
+    Rect clipped(const Rect& rect, double inside) const;
+    bool isCovered(const Rect& rect, double pixels, double nearest);
+    bool allNearer(const fabric::PixelViewport& part, double nearest);
+    void look(const fabric::PixelViewport& part);
 
     const lod::ObjectView& view_;
     const fabric::PixelViewport drawn_;
@@ -61,7 +64,7 @@ private:
     fabric::Vec2 lowerLeft_;  ///< of the view: object x and y per metre of depth
     fabric::Vec2 perColumn_;  ///< the same from pixel to pixel
     fabric::Vec2 perRow_;
-    std::int64_t pixelsLeft_;     ///< that may still be read
+    std::int64_t pixelsRead_ = 0;
     fabric::PixelViewport seen_;  ///< whose depths are here
     std::vector<float> depth_;
 };
