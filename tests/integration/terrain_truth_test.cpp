@@ -67,7 +67,8 @@ protected:
             found.worstX, found.worstY, found.compared, found.holes, found.falseHits,
             found.misplaced, found.suspects, kept->statistics.triangles);
         EXPECT_TRUE(std::isfinite(kept->promisedPixels)) << name << ": the eye is above ground";
-        EXPECT_LE(found.maxPixels, kept->promisedPixels + TerrainPromise::kRasterPixels) << name;
+        EXPECT_LE(kept->measuredPixels, kept->promisedPixels + TerrainPromise::kRasterPixels)
+            << name;
         EXPECT_EQ(found.holes, 0U) << name;
         EXPECT_EQ(found.falseHits, 0U) << name;
         EXPECT_EQ(found.misplaced, 0U) << name;
