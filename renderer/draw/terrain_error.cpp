@@ -144,18 +144,24 @@ bool TerrainError::findEyeAboveGround() {
     return false;
 }
 
-/// Whether no tile of the finest level that `posts` (of the lattice) touches mixes data and nodata.
-/// Tiles share the posts of their borders, so from data one cannot get to nodata otherwise.
+/// Whether data nowhere meet nodata in the tiles that `posts` (of the lattice) touches. Two posts
+/// side by side lie in one triangle of any level that leaves out posts, so the finest of those
+/// tell.
 bool TerrainError::hasNoHole(const terrain::TileId& tile, const Box& posts) const {
     const double side = Quadtree::side(tile.level);
     const bool isAside = posts.max.x < tile.x * side || posts.min.x > (tile.x + 1) * side ||
                          posts.max.y < tile.y * side || posts.min.y > (tile.y + 1) * side;
-    if (isAside || !index_.quadtree.contains(tile) || !index_.tile(tile).mixesNodata)
+    if (isAside || !index_.quadtree.contains(tile))
         return true;
-    for (int i = 0; tile.level > 0 && i < 4; ++i)
-        if (!hasNoHole(Quadtree::child(tile, i), posts))
+    if (tile.level < terrain::kFullResolutionLevels)
+        return false;
+    if (!index_.tile(tile).mixesNodata)
+        return true;
+    for (int i = 0; i < 4; ++i)
+        if (tile.level == terrain::kFullResolutionLevels ||
+            !hasNoHole(Quadtree::child(tile, i), posts))
             return false;
-    return tile.level > 0;
+    return true;
 }
 
 }  // namespace eyrie::draw
