@@ -50,10 +50,10 @@ struct Row {
     truth::PromiseKept kept;
 
     bool hasRatio() const {
-        return kept.promisedPixels >= kLeastPixels && kept.measured.maxPixels > 0 &&
+        return kept.promisedPixels >= kLeastPixels && kept.measuredPixels > 0 &&
                std::isfinite(kept.promisedPixels);
     }
-    double ratio() const { return kept.promisedPixels / kept.measured.maxPixels; }
+    double ratio() const { return kept.promisedPixels / kept.measuredPixels; }
 };
 
 absl::StatusOr<truth::HeightGrid> readPosts(const std::string& path) {
@@ -114,19 +114,21 @@ double quantile(std::vector<double> values, double q) {
 }
 
 void printGroup(const std::string& name, const std::vector<Row>& rows) {
-    std::vector<double> ratios, promised, measured, triangles;
+    std::vector<double> ratios, promised, measured, atPixels, triangles;
     double worst = 0;
     std::size_t broken = 0, holes = 0, falseHits = 0, misplaced = 0, suspects = 0;
     for (const Row& row : rows) {
         const truth::DepthComparison& found = row.kept.measured;
-        broken += found.maxPixels > row.kept.promisedPixels + truth::TerrainPromise::kRasterPixels
-                      ? 1
-                      : 0;
+        broken +=
+            row.kept.measuredPixels > row.kept.promisedPixels + truth::TerrainPromise::kRasterPixels
+                ? 1
+                : 0;
         if (row.hasRatio()) {
             ratios.push_back(row.ratio());
             promised.push_back(row.kept.promisedPixels);
-            measured.push_back(found.maxPixels);
-            worst = std::max(worst, found.maxPixels / row.kept.promisedPixels);
+            measured.push_back(row.kept.measuredPixels);
+            atPixels.push_back(found.maxPixels);
+            worst = std::max(worst, row.kept.measuredPixels / row.kept.promisedPixels);
         }
         triangles.push_back(static_cast<double>(row.kept.statistics.triangles));
         holes += found.holes;
@@ -135,19 +137,22 @@ void printGroup(const std::string& name, const std::vector<Row>& rows) {
         suspects += found.suspects;
     }
     fmt::print(
-        "{:<28} {:>4} {:>4}  {:7.3f} {:7.3f}  {:6.3f} {:6.3f} {:6.3f} {:6.3f}  {:6.3f} {:>4} {:>4} "
+        "{:<28} {:>4} {:>4}  {:7.3f} {:7.3f} {:7.3f}  {:6.3f} {:6.3f} {:6.3f} {:6.3f} {:6.3f}  "
+        "{:6.3f} {:>4} {:>4} "
         "{:>4} {:>5} {:>4} {:>8.0f}\n",
-        name, rows.size(), ratios.size(), mean(promised), mean(measured), mean(ratios),
-        quantile(ratios, 0.1), quantile(ratios, 0.5), quantile(ratios, 0.9), worst, broken, holes,
-        falseHits, misplaced, suspects, mean(triangles));
+        name, rows.size(), ratios.size(), mean(promised), mean(measured), mean(atPixels),
+        mean(promised) / mean(measured), mean(ratios), quantile(ratios, 0.1), quantile(ratios, 0.5),
+        quantile(ratios, 0.9), worst, broken, holes, falseHits, misplaced, suspects,
+        mean(triangles));
 }
 
 void printTable(const std::vector<Row>& rows) {
     fmt::print(
-        "{:<28} {:>4} {:>4}  {:>7} {:>7}  {:>6} {:>6} {:>6} {:>6}  {:>6} {:>4} {:>4} {:>4} "
+        "{:<28} {:>4} {:>4}  {:>7} {:>7} {:>7}  {:>6} {:>6} {:>6} {:>6} {:>6}  {:>6} {:>4} {:>4} "
+        "{:>4} "
         "{:>5} {:>4} {:>8}\n",
-        "", "all", "used", "promise", "measure", "ratio", "p10", "p50", "p90", "worst", "over",
-        "hole", "fals", "mispl", "susp", "triang");
+        "", "all", "used", "promise", "measure", "pixels", "means", "ratio", "p10", "p50", "p90",
+        "worst", "over", "hole", "fals", "mispl", "susp", "triang");
     const auto where = [&](auto condition) {
         std::vector<Row> some;
         std::copy_if(rows.begin(), rows.end(), std::back_inserter(some), condition);
@@ -167,15 +172,16 @@ void printTable(const std::vector<Row>& rows) {
 
 void writeCsv(const std::string& path, const std::vector<Row>& rows) {
     std::ofstream file(path);
-    file << "dem,camera,promised_px,measured_px,p99_px,compared,holes,false,misplaced,suspects,"
+    file << "dem,camera,promised_px,measured_px,at_pixels_px,p99_px,compared,holes,false,misplaced,"
+            "suspects,"
             "triangles\n";
     for (const Row& row : rows) {
         const truth::DepthComparison& found = row.kept.measured;
-        file << fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", row.dem,
+        file << fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", row.dem,
                             TerrainCameras::kNames[static_cast<std::size_t>(row.kind)],
-                            row.kept.promisedPixels, found.maxPixels, found.p99Pixels,
-                            found.compared, found.holes, found.falseHits, found.misplaced,
-                            found.suspects, row.kept.statistics.triangles);
+                            row.kept.promisedPixels, row.kept.measuredPixels, found.maxPixels,
+                            found.p99Pixels, found.compared, found.holes, found.falseHits,
+                            found.misplaced, found.suspects, row.kept.statistics.triangles);
     }
 }
 

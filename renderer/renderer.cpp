@@ -78,7 +78,6 @@ struct Selection {
 };
 
 void addTo(fabric::FrameStatistics& statistics, const draw::Cut& cut) {
-    statistics.tauAchievedPixels = std::max(statistics.tauAchievedPixels, cut.tauAchievedPixels);
     statistics.complete = statistics.complete && cut.isComplete;
     statistics.pagesLoaded += cut.pagesLoaded;
     statistics.bytesLoaded += cut.bytesLoaded;
@@ -143,6 +142,8 @@ private:
     }
     Selection selectPieces(const lod::View& view, const fabric::FrameData& frameData,
                            const fabric::ChannelTask& task, fabric::FrameStatistics& statistics);
+    double errorPixels(const lod::View& view, const fabric::FrameData& frameData,
+                       const fabric::ChannelTask& task, const fabric::PixelViewport& covered);
     absl::Status drawPieces(const std::vector<OrderedPiece>& pieces, const draw::FrameState& frame,
                             fabric::FrameStatistics& statistics);
 
@@ -238,9 +239,35 @@ Selection Renderer::Impl::selectPieces(const lod::View& view, const fabric::Fram
         return a.piece.rangePosition < b.piece.rangePosition;
     });
     selection.covered = intersection(selection.covered, task.pixelViewport);
-    if (look.cutCamera)
-        statistics.tauAchievedPixels = std::numeric_limits<double>::infinity();
     return selection;
+}
+
+/// What the finished picture promises. A frozen cut was chosen for another view. Hills hide what is
+/// behind them where nothing is in the picture but one terrain, all of it opaque.
+double Renderer::Impl::errorPixels(const lod::View& view, const fabric::FrameData& frameData,
+                                   const fabric::ChannelTask& task,
+                                   const fabric::PixelViewport& covered) {
+    const fabric::Look& look = frameData.look;
+    if (look.cutCamera)
+        return std::numeric_limits<double>::infinity();
+    const bool isGroundAlone = objects_.size() == 1 && !look.transfer && !look.tileBounds &&
+                               !look.pageBounds &&
+                               frameData.shading != fabric::Shading::Wireframe &&
+                               objects_[0].object.kind == fabric::ObjectKind::Terrain;
+    const fabric::Frustum channel = lod::subFrustum(view, reach(frameData, task.pixelViewport));
+    double worst = 0;
+    for (const OpenObject& open : objects_) {
+        const lod::ObjectView objectView(view, drawnWorldFromObject(open.object, look));
+        occlusion::HiddenGround hidden(objectView, covered, [this](const auto& part, auto& depth) {
+            framebuffer_.readDepth(part, depth);
+        });
+        const double pixels =
+            open.drawable->errorPixels({objectView, channel, task.range, frameData.tauPixels,
+                                        task.completeness, look.exaggeration, look.pageBounds},
+                                       isGroundAlone ? &hidden : nullptr);
+        worst = std::max(worst, pixels);
+    }
+    return worst;
 }
 
 absl::Status Renderer::Impl::drawPieces(const std::vector<OrderedPiece>& pieces,
@@ -287,6 +314,9 @@ absl::StatusOr<fabric::ChannelResult> Renderer::Impl::render(const fabric::Frame
     const auto readStart = Clock::now();
     result.image = framebuffer_.read(selection.covered, task.wantsDepth);
     statistics.milliseconds.readback = millisecondsSince(readStart);
+    const auto errorStart = Clock::now();
+    statistics.tauAchievedPixels = errorPixels(view, frameData, task, selection.covered);
+    statistics.milliseconds.cull += millisecondsSince(errorStart);
     for (const OpenObject& object : objects_) object.drawable->trim();
     statistics.milliseconds.total = millisecondsSince(start);
     return result;

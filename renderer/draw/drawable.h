@@ -16,6 +16,7 @@
 #include "fabric/scene.h"
 #include "fabric/statistics.h"
 #include "renderer/lod/view.h"
+#include "renderer/occlusion/hidden_ground.h"
 
 namespace eyrie::draw {
 
@@ -40,9 +41,8 @@ struct CutRequest {
 
 /// What a drawable shows of itself in one channel.
 struct Cut {
-    std::vector<Piece> pieces;     ///< ascending by rangePosition
-    double tauAchievedPixels = 0;  ///< bound over all pieces of the view
-    bool isComplete = true;        ///< false when data that would lower the error are to come
+    std::vector<Piece> pieces;  ///< ascending by rangePosition
+    bool isComplete = true;     ///< false when data that would lower the error are to come
     std::uint64_t pagesLoaded = 0;
     std::uint64_t bytesLoaded = 0;   ///< of these, as they lie in their file
     std::uint64_t pagesMissing = 0;  ///< that the wanted cut needs; coarser ones stand in
@@ -83,6 +83,11 @@ public:
     /// pages that are loaded only now, in `statistics`.
     virtual absl::Status draw(std::span<const Piece> pieces, const FrameState& frame,
                               fabric::FrameStatistics& statistics) = 0;
+
+    /// Screen-space error, in pixels, of the last cut, once it is drawn: a bound over all that is
+    /// seen of it in the view. `request` is what the cut was asked for by. `hidden` tells of the
+    /// finished picture what hills hide; null where it shows something else, too.
+    virtual double errorPixels(const CutRequest& request, occlusion::HiddenGround* hidden) = 0;
 
     /// Ends a frame: what has not been drawn longest leaves the device when memory is short.
     virtual void trim() {}

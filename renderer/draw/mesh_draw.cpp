@@ -81,6 +81,9 @@ public:
     std::uint64_t bytes() const override { return file_.fileBytes(); }
 
     Cut selectCut(const CutRequest& request) override;
+    double errorPixels(const CutRequest&, occlusion::HiddenGround*) override {
+        return errorPixels_;
+    }
     absl::Status draw(std::span<const Piece> pieces, const FrameState& frame,
                       fabric::FrameStatistics& statistics) override;
     void trim() override { resident_.trim(); }
@@ -89,7 +92,7 @@ public:
 private:
     void defineVertexFormat();
     void visit(std::uint32_t index, bool errorKnown, const lod::ObjectView& view, double tauPixels,
-               Cut& cut) const;
+               Cut& cut);
     absl::StatusOr<const DeviceNode*> residentNode(std::uint32_t index,
                                                    fabric::FrameStatistics& statistics);
     void setFaces(const FrameState& frame) const;
@@ -101,6 +104,7 @@ private:
     std::uint32_t uniformColour_;
     bool singleSided_;
     mesh::EymFile file_;
+    double errorPixels_ = 0;  ///< of the last cut
     gl::VertexArray vertexArray_;
     page::LruCache<std::uint32_t, DeviceNode> resident_;
 };
@@ -113,6 +117,7 @@ void MeshDrawable::defineVertexFormat() {
 
 Cut MeshDrawable::selectCut(const CutRequest& request) {
     Cut cut;
+    errorPixels_ = 0;
     visit(0, false, request.view, request.tauPixels, cut);
     return cut;
 }
@@ -120,7 +125,7 @@ Cut MeshDrawable::selectCut(const CutRequest& request) {
 /// Depth first, so pieces come in the order of the range. A node's error bound covers its whole
 /// subtree: below a node that keeps tau it is not computed again.
 void MeshDrawable::visit(std::uint32_t index, bool errorKnown, const lod::ObjectView& view,
-                         double tauPixels, Cut& cut) const {
+                         double tauPixels, Cut& cut) {
     const mesh::Node& node = file_.nodes()[index];
     const fabric::Box box = file_.bounds(index);
     if (!view.isVisible(box))
@@ -130,7 +135,7 @@ void MeshDrawable::visit(std::uint32_t index, bool errorKnown, const lod::Object
         const double error = view.screenSpaceErrorPixels(node.errorMetres, box);
         errorKnown = isLeaf || error <= tauPixels;
         if (errorKnown)
-            cut.tauAchievedPixels = std::max(cut.tauAchievedPixels, error);
+            errorPixels_ = std::max(errorPixels_, error);
     }
     if (isLeaf) {
         const auto total = static_cast<double>(file_.triangleCount());

@@ -12,13 +12,13 @@
 #include "renderer/draw/needed_tiles.h"
 #include "renderer/draw/object_program.h"
 #include "renderer/draw/page_bounds.h"
+#include "renderer/draw/terrain_error.h"
 #include "renderer/draw/terrain_ground.h"
 #include "renderer/draw/terrain_look.h"
 #include "renderer/draw/terrain_prefetch.h"
 #include "renderer/draw/terrain_tiles.h"
 #include "renderer/draw/tile_imagery.h"
 #include "renderer/gl/object.h"
-#include "renderer/lod/vertical_error.h"
 #include "renderer/page/tau_ladder.h"
 #include "renderer/terrain/eyt_format.h"
 #include "renderer/terrain/terrain_cut.h"
@@ -34,8 +34,6 @@ constexpr double kElevationBands = 5;               ///< of effects/terrain.effe
 
 /// Where memory is short, texels grow as tau does.
 double texelPixels(int step) { return terrain::kTexelPixels * page::TauLadder::factor(step); }
-/// Tiles of a cut that keep tau whose triangles are looked at, to promise less.
-constexpr int kMostLookedAt = 16;
 
 /// What decides which step of the ladder fits.
 struct SettledView {
@@ -83,6 +81,9 @@ public:
     std::uint64_t bytes() const override { return file_->sizeBytes(); }
 
     Cut selectCut(const CutRequest& request) override;
+    double errorPixels(const CutRequest& request, occlusion::HiddenGround* hidden) override {
+        return TerrainError(index(), *paging_, needed_, request, hidden).pixels(drawn_);
+    }
     absl::Status draw(std::span<const Piece> pieces, const FrameState& frame,
                       fabric::FrameStatistics& statistics) override;
     MemoryUse memory() const override { return paging_->memory(); }
@@ -103,7 +104,6 @@ private:
     };
     std::uint64_t bytesOf(const lod::ObjectView& view, const terrain::TerrainCut& cut,
                           double texelPixels);
-    double narrowerError(const CutRequest& request, const terrain::TileChoice& tile, double pixels);
     const Wanted& wantedAt(int step, const CutRequest& request);
     page::TauLadder::Choice chooseStep(const CutRequest& request);
     /// By variant; null: not used in the frame so far.
@@ -131,10 +131,9 @@ private:
     TileImagery imagery_;
     page::TauLadder ladder_;
     std::optional<SettledView> last_;
-    std::optional<SettledView> settled_;        ///< whose lowest step the ladder is at
-    std::map<int, Wanted> wanted_;              ///< of this view and tau, by step
-    std::vector<terrain::TileChoice> choices_;  ///< of the last cut; pieces index it
-    int lookedAt_ = 0;                          ///< tiles whose triangles were, of the last cut
+    std::optional<SettledView> settled_;  ///< whose lowest step the ladder is at
+    std::map<int, Wanted> wanted_;        ///< of this view and tau, by step
+    terrain::TerrainCut drawn_;           ///< the last cut; pieces index its tiles
 };
 
 std::uint64_t TerrainDrawable::bytesOf(const lod::ObjectView& view, const terrain::TerrainCut& cut,
@@ -181,29 +180,6 @@ page::TauLadder::Choice TerrainDrawable::chooseStep(const CutRequest& request) {
     return ladder_.settle(need, paging_->roomBytes());
 }
 
-/// Judges a tile by the triangles that are drawn of it: one of the finest level that does not keep
-/// tau, about which nothing can be done (the eye may well be inside its box), and a few others that
-/// would decide what is promised. The channels that draw a tile that does not keep tau judge it.
-double TerrainDrawable::narrowerError(const CutRequest& request, const terrain::TileChoice& tile,
-                                      double pixels) {
-    const terrain::TileRecord& record = index().tile(tile.id);
-    const bool isLimit = tile.id.level == 0 && pixels > request.tauPixels;
-    if (record.mixesNodata || (!isLimit && lookedAt_ == kMostLookedAt))
-        return pixels;
-    if (!needed_.contains(tile.id) || record.triangles == 0)
-        return isLimit ? 0 : pixels;
-    lookedAt_ += isLimit ? 0 : 1;
-    const CornersByError corners = drawnCorners(index(), tile, *paging_->tile(tile.id));
-    double worst = 0;
-    for (std::size_t share = 1; share < corners.size(); ++share) {
-        const double errorMetres = static_cast<double>(record.errorMetres) *
-                                   static_cast<double>(share) / terrain::kFullPartError;
-        worst =
-            std::max(worst, lod::VerticalError(request.view, errorMetres).pixels(corners[share]));
-    }
-    return std::min(pixels, worst);
-}
-
 Cut TerrainDrawable::selectCut(const CutRequest& request) {
     wanted_.clear();
     const page::TauLadder::Choice choice = chooseStep(request);
@@ -220,25 +196,18 @@ Cut TerrainDrawable::selectCut(const CutRequest& request) {
             : paging_->approach(wanted.refinement, needed_, textures, request.view,
                                 [&] { return prefetch_.tiles(tauPixels, paging_->latency()); });
 
-    lookedAt_ = 0;
-    terrain::TerrainCut drawn = terrain::cutOf(index(), request.view, result.drawn,
-                                               [&](const terrain::TileChoice& tile, double pixels) {
-                                                   return narrowerError(request, tile, pixels);
-                                               });
     Cut cut;
-    cut.tauAchievedPixels = drawn.tauAchievedPixels;
     cut.isComplete = result.pagesMissing == 0 && choice.isLowest;
     cut.pagesLoaded = result.loaded.pages;
     cut.tilesDecodedOnGpu = result.tilesDecodedOnGpu;
     cut.bytesLoaded = result.loaded.bytes;
     cut.pagesMissing = result.pagesMissing;
     cut.pagesFailed = result.pagesFailed;
-    choices_ = std::move(drawn.tiles);
-    for (std::uint32_t i = 0; i < choices_.size(); ++i)
-        if (needed_.contains(choices_[i].id))
-            cut.pieces.push_back(
-                {i, needed_.position(choices_[i].id), index().bounds(choices_[i].id)});
-    imagery_.choose(choices_, cut.pieces, request.view, texelPixels(choice.step));
+    drawn_ = terrain::cutOf(index(), request.view, result.drawn);
+    for (std::uint32_t i = 0; i < drawn_.tiles.size(); ++i)
+        if (const terrain::TileId& id = drawn_.tiles[i].id; needed_.contains(id))
+            cut.pieces.push_back({i, needed_.position(id), index().bounds(id)});
+    imagery_.choose(drawn_.tiles, cut.pieces, request.view, texelPixels(choice.step));
     if (request.wantsPageBounds)
         addPageBounds(wanted.cut, cut.pieces);
     return cut;
@@ -339,7 +308,7 @@ absl::Status TerrainDrawable::draw(std::span<const Piece> pieces, const FrameSta
             boxLines_.draw(piece.bounds, kPageColour);
             continue;
         }
-        const terrain::TileChoice& choice = choices_[piece.index];
+        const terrain::TileChoice& choice = drawn_.tiles[piece.index];
         for (const terrain::ImageryPart& part : imagery_.partsOf(choice.id)) {
             ASSIGN_OR_RETURN(const TerrainEffect* program, programFor(part, frame, programs));
             if (frame.look.levelTint)

@@ -60,12 +60,18 @@ fabric::Image Framebuffer::read(const fabric::PixelViewport& part, bool withDept
     image.colour.resize(static_cast<std::size_t>(part.area()));
     glReadPixels(part.x, part.y, part.width, part.height, GL_RGBA, GL_UNSIGNED_BYTE,
                  image.colour.data());
-    if (!withDepth)
-        return image;
-    image.depth.resize(static_cast<std::size_t>(part.area()));
-    glReadPixels(part.x, part.y, part.width, part.height, GL_DEPTH_COMPONENT, GL_FLOAT,
-                 image.depth.data());
+    if (withDepth)
+        readDepth(part, image.depth);
     return image;
+}
+
+void Framebuffer::readDepth(const fabric::PixelViewport& part, std::vector<float>& depth) {
+    depth.resize(static_cast<std::size_t>(part.area()));
+    if (part.isEmpty())
+        return;
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_.id());
+    glReadPixels(part.x, part.y, part.width, part.height, GL_DEPTH_COMPONENT, GL_FLOAT,
+                 depth.data());
 }
 
 }  // namespace eyrie::gl

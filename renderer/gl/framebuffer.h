@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <vector>
+
 #include <absl/status/status.h>
 
 #include "fabric/image.h"
@@ -25,6 +27,9 @@ public:
 
     /// Reads `part` back, depth only where asked for; waits for drawing to finish.
     fabric::Image read(const fabric::PixelViewport& part, bool withDepth);
+
+    /// The depth of `part` so far, as fabric::Image has it; waits for drawing. Drawing may go on.
+    void readDepth(const fabric::PixelViewport& part, std::vector<float>& depth);
 
 private:
     FramebufferObject framebuffer_;

@@ -12,8 +12,9 @@ namespace {
 /// The error of one tile as one view sees it.
 class TileError {
 public:
-    TileError(const EytIndex& index, const lod::ObjectView& view, const TileId& tile)
-        : index_(index), view_(view), tile_(tile), record_(index.tile(tile)) {}
+    TileError(const EytIndex& index, const lod::ObjectView& view, const TileId& tile,
+              const DrawnGround& ground = kNothingKnown)
+        : index_(index), view_(view), tile_(tile), record_(index.tile(tile)), ground_(ground) {}
 
     /// By the box of the whole tile: quick.
     double atMost() const { return over(tile_); }
@@ -26,20 +27,34 @@ public:
     }
 
 private:
+    static inline const DrawnGround kNothingKnown;
     static constexpr int kLevelsDown = 2;
     static_assert(1 << kLevelsDown == kTilePartsPerSide);
 
     int levelsDown() const { return record_.mixesNodata ? 0 : std::min(kLevelsDown, tile_.level); }
 
+    double errorMetres(const TileId& part) const {
+        const int down = tile_.level - part.level;
+        const int count = kTilePartsPerSide >> down;
+        return record_.errorMetresOf((part.x - (tile_.x << down)) * count,
+                                     (part.y - (tile_.y << down)) * count, count);
+    }
+
     double over(const TileId& part) const {
         const fabric::Box bounds = index_.bounds(part);
         if (record_.mixesNodata)
             return view_.screenSpaceErrorPixels(record_.errorMetres, bounds);
-        const int down = tile_.level - part.level;
-        const int count = kTilePartsPerSide >> down;
-        const double errorMetres = record_.errorMetresOf(
-            (part.x - (tile_.x << down)) * count, (part.y - (tile_.y << down)) * count, count);
-        return lod::VerticalError(view_, errorMetres).pixels(bounds);
+        return lod::VerticalError(view_, errorMetres(part)).pixels(bounds);
+    }
+
+    /// Of all that is drawn and of the source in a part. An outline is off to any side: it counts.
+    bool isHidden(const TileId& part, double pixels) const {
+        if (record_.mixesNodata || !ground_.isHidden)
+            return false;
+        fabric::Box bounds = index_.bounds(part);
+        bounds.min.z -= errorMetres(part);
+        bounds.max.z += errorMetres(part);
+        return ground_.isHidden(bounds, pixels);
     }
 
     template <typename Visit>
@@ -63,7 +78,11 @@ private:
 
     /// `own` is over(part).
     double worstOver(const TileId& part, double own, int levelsDown, double enough) const {
-        if (levelsDown == 0 || own <= enough)
+        if (own <= enough)
+            return own;
+        if (isHidden(part, own))
+            return enough;
+        if (levelsDown == 0)
             return own;
         double worst = enough;
         forEachChild(part, [&](const TileId& child) {
@@ -77,6 +96,7 @@ private:
     const lod::ObjectView& view_;
     const TileId tile_;
     const TileRecord& record_;
+    const DrawnGround& ground_;
 };
 
 void refine(const EytIndex& index, const lod::ObjectView& view, double tauPixels,
@@ -98,27 +118,6 @@ std::uint8_t finerEdges(const Refinement& refinement, const TileId& tile) {
     return static_cast<std::uint8_t>(edges);
 }
 
-/// The greatest error of the tiles: worst first by their quick bound, so that few are looked at
-/// more closely.
-double worstError(const EytIndex& index, const lod::ObjectView& view,
-                  const std::vector<TileChoice>& tiles, const NarrowerError& narrower) {
-    std::vector<std::pair<double, const TileChoice*>> order;
-    for (const TileChoice& choice : tiles)
-        if (choice.isVisible)
-            order.emplace_back(TileError(index, view, choice.id).atMost(), &choice);
-    std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) {
-        return a.first != b.first ? a.first > b.first : a.second < b.second;
-    });
-    double worst = 0;
-    for (const auto& [atMost, choice] : order) {
-        if (atMost <= worst)
-            break;
-        const double pixels = TileError(index, view, choice->id).pixels(worst);
-        worst = std::max(worst, narrower && pixels > worst ? narrower(*choice, pixels) : pixels);
-    }
-    return worst;
-}
-
 }  // namespace
 
 double screenSpaceErrorPixels(const EytIndex& index, const lod::ObjectView& view,
@@ -133,16 +132,37 @@ Refinement refineForError(const EytIndex& index, const lod::ObjectView& view, do
     return refinement;
 }
 
-TerrainCut cutOf(const EytIndex& index, const lod::ObjectView& view, const Refinement& refinement,
-                 const NarrowerError& narrower) {
+/// Worst first by their quick bound, so that few tiles are looked at more closely.
+double screenSpaceErrorPixels(const EytIndex& index, const lod::ObjectView& view,
+                              const TerrainCut& cut, const DrawnGround& ground) {
+    std::vector<std::pair<double, const TileChoice*>> order;
+    for (const auto* tiles : {&cut.tiles, &cut.holes})
+        for (const TileChoice& choice : *tiles)
+            if (choice.isVisible)
+                order.emplace_back(TileError(index, view, choice.id).atMost(), &choice);
+    std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) {
+        return a.first != b.first ? a.first > b.first : a.second < b.second;
+    });
+    double worst = 0;
+    for (const auto& [atMost, choice] : order) {
+        if (atMost <= worst)
+            break;
+        double pixels = TileError(index, view, choice->id, ground).pixels(worst);
+        if (ground.narrower && pixels > worst)
+            pixels = ground.narrower(*choice, pixels, worst);
+        worst = std::max(worst, pixels);
+    }
+    return worst;
+}
+
+TerrainCut cutOf(const EytIndex& index, const lod::ObjectView& view, const Refinement& refinement) {
     TerrainCut cut;
     refinement.forEachLeaf([&](const TileId& tile) {
-        cut.tiles.push_back(
-            {tile, finerEdges(refinement, tile), view.isVisible(index.bounds(tile))});
-    });
-    cut.tauAchievedPixels = worstError(index, view, cut.tiles, narrower);
-    std::erase_if(cut.tiles, [&](const TileChoice& choice) {
-        return index.tile(choice.id).triangles == 0;  // a hole; its outline's error does count
+        const bool isVisible = view.isVisible(index.bounds(tile));
+        if (index.tile(tile).triangles > 0)
+            cut.tiles.push_back({tile, finerEdges(refinement, tile), isVisible});
+        else if (isVisible)
+            cut.holes.push_back({tile, 0, true});
     });
     return cut;
 }

@@ -27,7 +27,7 @@ struct TerrainCut {
     /// Covers the terrain once, seen or not, less tiles without triangles. Depth-first order:
     /// a parent's children by ascending Quadtree::child, so a share of it is a compact region.
     std::vector<TileChoice> tiles;
-    double tauAchievedPixels = 0;  ///< bound over all visible tiles
+    std::vector<TileChoice> holes;  ///< the visible tiles without triangles: they have an outline
 };
 
 /// Screen-space error of a tile, in pixels: a bound as lod::VerticalError's, over the boxes of the
@@ -37,17 +37,27 @@ struct TerrainCut {
 double screenSpaceErrorPixels(const EytIndex& index, const lod::ObjectView& view,
                               const TileId& tile);
 
-/// A bound on the error of a tile that is narrower than `pixels`, where somebody knows one.
-using NarrowerError = std::function<double(const TileChoice& tile, double pixels)>;
+/// What is known of a cut beyond the index. Either may be empty.
+struct DrawnGround {
+    /// A bound on the error of a tile that is narrower than `pixels`, where there is one; anything
+    /// up to `enough` when it is no more than that.
+    std::function<double(const TileChoice& tile, double pixels, double enough)> narrower;
+    /// Whether nobody sees what lies in `bounds`, drawn or of the source, in a picture that
+    /// promises `pixels`.
+    std::function<bool(const fabric::Box& bounds, double pixels)> isHidden;
+};
 
 /// The coarsest restricted refinement whose visible tiles keep `tauPixels`, as far as the data go.
 /// Depends on the view alone, so all channels of a frame, on whatever node, choose the same.
 Refinement refineForError(const EytIndex& index, const lod::ObjectView& view, double tauPixels);
 
-/// The leaves of a restricted refinement, and how they are drawn. `narrower` is asked of the tiles
-/// that would decide tauAchievedPixels, worst first.
-TerrainCut cutOf(const EytIndex& index, const lod::ObjectView& view, const Refinement& refinement,
-                 const NarrowerError& narrower = {});
+/// The leaves of a restricted refinement, and how they are drawn.
+TerrainCut cutOf(const EytIndex& index, const lod::ObjectView& view, const Refinement& refinement);
+
+/// Screen-space error of all that is seen of a cut, in pixels: a bound. `ground` is asked of the
+/// tiles that would decide it, worst first.
+double screenSpaceErrorPixels(const EytIndex& index, const lod::ObjectView& view,
+                              const TerrainCut& cut, const DrawnGround& ground = {});
 
 /// cutOf(refineForError()).
 TerrainCut selectCut(const EytIndex& index, const lod::ObjectView& view, double tauPixels);

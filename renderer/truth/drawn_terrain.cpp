@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 #include "fabric/status.h"
 #include "renderer/terrain/terrain_cut.h"
@@ -60,6 +61,36 @@ Vec3 nearestWeights(const std::array<Vec2, 3>& corners, const Vec2& point) {
     return best;
 }
 
+/// Visits the points of a triangle whose columns are posts or halfway between them; of a triangle
+/// wider than kMostPosts every second of them, and so on.
+template <typename Visit>
+void forEachHalfPost(const Triangle& triangle, const fabric::Mat4& postsFromObject, Visit visit) {
+    constexpr double kOnEdge = 1e-6;
+    constexpr double kMostPosts = 256;
+    std::array<Vec2, 3> posts;
+    for (std::size_t k = 0; k < 3; ++k)
+        posts[k] = Vec2(postsFromObject * fabric::Vec4(triangle[k], 1));
+    const Vec2 b = posts[1] - posts[0];
+    const Vec2 c = posts[2] - posts[0];
+    const double area = b.x * c.y - b.y * c.x;
+    if (area == 0)
+        return;
+    const Vec2 low = glm::min(posts[0], glm::min(posts[1], posts[2]));
+    const Vec2 high = glm::max(posts[0], glm::max(posts[1], posts[2]));
+    double step = 0.5;
+    while (std::max(high.x - low.x, high.y - low.y) > 2 * kMostPosts * step) step *= 2;
+    for (double y = std::ceil(low.y / step - kOnEdge) * step; y <= high.y + kOnEdge; y += step)
+        for (double x = std::ceil(low.x / step - kOnEdge) * step; x <= high.x + kOnEdge;
+             x += step) {
+            const Vec2 p = Vec2(x, y) - posts[0];
+            const double toB = (p.x * c.y - p.y * c.x) / area;
+            const double toC = (b.x * p.y - b.y * p.x) / area;
+            if (toB >= -kOnEdge && toC >= -kOnEdge && toB + toC <= 1 + kOnEdge)
+                visit(triangle[0] + toB * (triangle[1] - triangle[0]) +
+                      toC * (triangle[2] - triangle[0]));
+        }
+}
+
 }  // namespace
 
 absl::StatusOr<DrawnTerrain> DrawnTerrain::of(const terrain::EytFile& file, const lod::View& view,
@@ -67,6 +98,7 @@ absl::StatusOr<DrawnTerrain> DrawnTerrain::of(const terrain::EytFile& file, cons
     const terrain::EytIndex& index = file.index();
     const lod::ObjectView objectView(view, fabric::Mat4(1.0));
     DrawnTerrain drawn;
+    drawn.postsFromObject_ = glm::inverse(index.objectFromLattice);
     for (const terrain::TileChoice& choice :
          terrain::selectCut(index, objectView, tauPixels).tiles) {
         if (!choice.isVisible)
@@ -122,6 +154,34 @@ std::optional<DrawnTerrain::Shown> DrawnTerrain::shownAt(const Pinhole& camera, 
                 atCentre};
     }
     return best;
+}
+
+double DrawnTerrain::farthestSeen(const Pinhole& camera, const TerrainRayCaster& source,
+                                  double atLeast) const {
+    struct Candidate {
+        double pixels;
+        Vec3 source;
+    };
+    std::vector<Candidate> candidates;
+    for (const Triangle& triangle : triangles_)
+        forEachHalfPost(triangle, postsFromObject_, [&](const Vec3& drawn) {
+            const auto other = source.counterpart(drawn);
+            const auto p = camera.project(drawn);
+            const auto q = other ? camera.project(*other) : std::nullopt;
+            if (!p || !q || q->x < 0 || q->y < 0 || q->x > camera.width() || q->y > camera.height())
+                return;
+            if (const double pixels = glm::distance(*p, *q); pixels > atLeast)
+                candidates.push_back({pixels, *other});
+        });
+    std::sort(candidates.begin(), candidates.end(),
+              [](const Candidate& a, const Candidate& b) { return a.pixels > b.pixels; });
+    constexpr double kSamePoint = 1e-9;
+    const auto seen = std::find_if(candidates.begin(), candidates.end(), [&](const Candidate& c) {
+        const auto at = camera.project(c.source);
+        return source.hitRange(camera.rayThrough(at->x, at->y)).first >=
+               camera.depth(c.source) * (1 - kSamePoint);
+    });
+    return seen == candidates.end() ? atLeast : seen->pixels;
 }
 
 }  // namespace eyrie::truth

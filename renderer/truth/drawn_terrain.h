@@ -10,6 +10,7 @@
 #include "renderer/lod/view.h"
 #include "renderer/terrain/eyt_format.h"
 #include "renderer/truth/pinhole.h"
+#include "renderer/truth/terrain_ray_caster.h"
 #include "renderer/truth/triangle.h"
 
 namespace eyrie::truth {
@@ -33,8 +34,17 @@ public:
     std::optional<Shown> shownAt(const Pinhole& camera, double x, double y, double depth,
                                  double reachPixels) const;
 
+    /// The farthest, in pixels, that a drawn point is from the source's point of its column, where
+    /// that is seen in a picture of the source; `atLeast` when none is farther. Looks at the posts
+    /// and halfway between them, since where they are denser than pixels, pixels' centres miss the
+    /// worst of them. Where the source can be read in several ways, the nearest counts, and what
+    /// all of them show.
+    double farthestSeen(const Pinhole& camera, const TerrainRayCaster& source,
+                        double atLeast) const;
+
 private:
     std::vector<Triangle> triangles_;
+    fabric::Mat4 postsFromObject_{1.0};
 };
 
 }  // namespace eyrie::truth

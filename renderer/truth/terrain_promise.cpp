@@ -38,27 +38,20 @@ absl::StatusOr<PromiseKept> TerrainPromise::hold(const fabric::Camera& camera, d
     task.pixelViewport = {0, 0, width, height};
     task.wantsDepth = true;
     ASSIGN_OR_RETURN(const fabric::ChannelResult drawn, renderer_.render(frame, task));
-    PromiseKept kept{drawn.statistics.tauAchievedPixels, {}, drawn.statistics};
+    PromiseKept kept{drawn.statistics.tauAchievedPixels, {}, 0, drawn.statistics};
 
     const Pinhole pinhole(camera, width, height);
-    absl::Status status;
-    std::optional<DrawnTerrain> triangles;  // only where it takes them
+    ASSIGN_OR_RETURN(const DrawnTerrain triangles,
+                     DrawnTerrain::of(*file_, lod::View(camera, width, height), tauPixels));
     const ShownPoint shown = [&](double x, double y, double depth) -> std::optional<fabric::Vec3> {
-        if (!triangles && status.ok()) {
-            auto read = DrawnTerrain::of(*file_, lod::View(camera, width, height), tauPixels);
-            status = read.status();
-            if (read.ok())
-                triangles = *std::move(read);
-        }
-        const auto found =
-            triangles ? triangles->shownAt(pinhole, x, y, depth, kReachPixels) : std::nullopt;
+        const auto found = triangles.shownAt(pinhole, x, y, depth, kReachPixels);
         return found ? std::optional(found->point) : std::nullopt;
     };
     // An outline may have moved by as much as everything else.
     const int edgePixels = static_cast<int>(std::clamp(std::ceil(kept.promisedPixels), 1.0, 8.0));
     kept.measured = compareDepth(pinhole, depthMetres(drawn.image, width, height), ground_,
                                  edgePixels, {kept.promisedPixels + kRasterPixels, shown});
-    RETURN_IF_ERROR(status);
+    kept.measuredPixels = triangles.farthestSeen(pinhole, ground_, kept.measured.maxPixels);
     return kept;
 }
 

@@ -18,6 +18,9 @@ namespace eyrie::truth {
 struct PromiseKept {
     double promisedPixels = 0;
     DepthComparison measured;
+    /// The greatest displacement found: of what the pixels show, and of every post that a picture
+    /// of the source shows and halfway between posts (DrawnTerrain::farthestSeen).
+    double measuredPixels = 0;
     fabric::FrameStatistics statistics;
 };
 

@@ -104,7 +104,7 @@ public:
             return {};
         EXPECT_TRUE(kept->statistics.complete) << name;
         EXPECT_FALSE(std::isnan(kept->promisedPixels)) << name;
-        EXPECT_LE(kept->measured.maxPixels, kept->promisedPixels + TerrainPromise::kRasterPixels)
+        EXPECT_LE(kept->measuredPixels, kept->promisedPixels + TerrainPromise::kRasterPixels)
             << name << " at " << kept->measured.worstX << ", " << kept->measured.worstY;
         EXPECT_EQ(kept->measured.holes, 0U) << name;
         EXPECT_EQ(kept->measured.falseHits, 0U) << name;

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "renderer/draw/drawable.h"
+#include "renderer/draw/needed_tiles.h"
+#include "renderer/draw/terrain_paging.h"
+#include "renderer/terrain/terrain_cut.h"
+
+namespace eyrie::draw {
+
+/// What a drawn picture promises of one terrain: the greatest error of what is seen of a cut.
+///
+/// Beyond what the index tells, it looks at the triangles that are drawn of a few tiles, read back
+/// from the device, and at the picture itself for what hills hide. One object a picture; GL thread.
+class TerrainError {
+public:
+    /// All are referred to; the tiles of the cut that are `needed` are on the device. `hidden` may
+    /// be null: then nothing counts as hidden.
+    TerrainError(const terrain::EytIndex& index, TerrainPaging& paging, const NeededTiles& needed,
+                 const CutRequest& request, occlusion::HiddenGround* hidden)
+        : index_(index), paging_(paging), needed_(needed), request_(request), hidden_(hidden) {}
+
+    double pixels(const terrain::TerrainCut& cut);
+
+private:
+    double ofTriangles(const terrain::TileChoice& tile, double pixels, double enough);
+    template <typename Covers>
+    bool isHidden(const fabric::Box& bounds, Covers covers);
+    fabric::Vec3 eyePost() const;
+    bool isEyeOverGround() const;
+    bool isEyeAboveGround();
+    bool findEyeAboveGround();
+    bool hasNoHole(const terrain::TileId& tile, const fabric::Box& posts) const;
+
+    const terrain::EytIndex& index_;
+    TerrainPaging& paging_;
+    const NeededTiles& needed_;
+    const CutRequest& request_;
+    occlusion::HiddenGround* hidden_;
+    int lookedAt_ = 0;  ///< tiles that keep tau whose triangles were
+    std::optional<bool> isEyeAboveGround_;
+};
+
+}  // namespace eyrie::draw

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "fabric/box.h"
+#include "fabric/viewport.h"
+#include "renderer/lod/view.h"
+
+namespace eyrie::occlusion {
+
+/// Reads the reversed depths (fabric::Frustum) of a rectangle of a finished picture: rows from the
+/// bottom up.
+using ReadDepth = std::function<void(const fabric::PixelViewport& part, std::vector<float>& depth)>;
+
+/// Which ground nobody sees, neither in a picture of a terrain nor in one of its source, because
+/// nearer ground is in front of it in both.
+///
+/// What is drawn in front is off by its own error, up or down the vertical plane through the eye in
+/// which it is seen. So it has to stand higher, by as many pixels as the picture promises, than
+/// what it is to hide: then the source's ground at the same place is in front as well. Tells so for
+/// the depths at pixels' centres; a gap between them is narrower than a pixel.
+/// Proof: docs/errors.md#ground-that-hills-hide.
+///
+/// Preconditions: the picture shows one height field, nothing else, and the eye is above it and its
+/// source; from beneath the eye to what is asked about, neither has a hole. Horizontal distance is
+/// that of the object's x and y, so its vertical may stand anyhow in the world.
+class HiddenGround {
+public:
+    /// `drawn` is the part of the view that the picture shows. Keeps a reference to `view`.
+    HiddenGround(const lod::ObjectView& view, const fabric::PixelViewport& drawn, ReadDepth read);
+
+    /// True only if nothing within `bounds` (object space) is seen, of either, in a picture that
+    /// promises `pixels` or less.
+    bool hides(const fabric::Box& bounds, double pixels);
+    /// The same of a triangle and all that lies up to `pixels` from it in the picture.
+    bool hidesTriangle(std::span<const fabric::Vec3, 3> corners, double pixels);
+
+private:
+    /// A rectangle of the picture in pixels, corner to corner.
+    struct Rect {
+        fabric::Vec2 low;
+        fabric::Vec2 high;
+
+        void add(const fabric::Vec2& p);
+        bool isEmpty() const { return !(low.x <= high.x && low.y <= high.y); }
+        bool operator==(const Rect&) const = default;
+    };
+
+    bool project(const fabric::Vec3& point, Rect& rect) const;
+    bool raise(Rect& rect, double pixels) const;
+    Rect clipped(const Rect& rect, double inside) const;
+    bool isCovered(const Rect& rect, double pixels, double nearest);
+    bool allNearer(const fabric::PixelViewport& part, double nearest);
+    void look(const fabric::PixelViewport& part);
+
+    const lod::ObjectView& view_;
+    const fabric::PixelViewport drawn_;
+    const ReadDepth read_;
+    fabric::Vec2 eye_;        ///< object space
+    fabric::Vec3 up_;         ///< the object's z axis in the view, (x, y, depth)
+    fabric::Vec2 lowerLeft_;  ///< of the view: object x and y per metre of depth
+    fabric::Vec2 perColumn_;  ///< the same from pixel to pixel
+    fabric::Vec2 perRow_;
+    std::int64_t pixelsRead_ = 0;
+    fabric::PixelViewport seen_;  ///< whose depths are here
+    std::vector<float> depth_;
+};
+
+}  // namespace eyrie::occlusion
