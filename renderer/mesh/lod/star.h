@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <span>
+
+#include <glm/vec3.hpp>
+
+namespace eyrie::mesh {
+
+/// Triangles around a vertex that may have any.
+inline constexpr std::size_t kMaxStar = 24;
+
+/// The triangles around an inner vertex of a surface, seen along their mean normal, and what
+/// becomes of them when the vertex is moved onto one of its neighbours.
+///
+/// If all of them, before and after, face the viewer, both surfaces are graphs over the same
+/// polygon: each point of the one has its partner right above or below it on the other. The
+/// distance of partners is piecewise linear, so it is largest at the vertex, or where an old and a
+/// new edge cross. J. Cohen, D. Manocha, M. Olano, "Simplifying Polygonal Models Using Successive
+/// Mappings", 1997.
+class Star {
+public:
+    static constexpr double kImpossible = std::numeric_limits<double>::infinity();
+
+    /// `ring`: the vertex's neighbours in turn, counter-clockwise seen from outside; 3 to kMaxStar.
+    Star(const glm::dvec3& centre, std::span<const glm::dvec3> ring);
+
+    /// Whether it is a graph.
+    bool isGraph() const { return isGraph_; }
+
+    /// Largest distance of partners when the centre goes to ring[target]; kImpossible when what
+    /// becomes of the star is no graph, or the distance is above `limit`. Precondition: isGraph().
+    double distanceTo(std::size_t target, double limit = kImpossible) const;
+
+private:
+    struct Point {
+        double x = 0;
+        double y = 0;
+        double height = 0;
+    };
+
+    static double cross(const Point& a, const Point& b, const Point& c);
+    bool goesAroundOnce() const;
+    double heightOverCentre(std::size_t target) const;
+    double heightAtCrossing(std::size_t target, std::size_t diagonal, std::size_t spoke) const;
+
+    std::array<Point, kMaxStar> ring_;
+    std::size_t count_;
+    double least_;  ///< twice the area below which a triangle does not count as facing the viewer
+    bool isGraph_ = false;
+};
+
+}  // namespace eyrie::mesh
