@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/mesh/lod/star.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+namespace eyrie::mesh {
+namespace {
+
+using Triangle = std::array<glm::dvec3, 3>;
+
+double number(double low, double high) {
+    return low + (high - low) * *rc::gen::inRange(0, 1000) / 1000.0;
+}
+
+/// A random wheel about the origin, tilted any way.
+std::vector<glm::dvec3> randomRing() {
+    const std::size_t count = *rc::gen::inRange<std::size_t>(3, 9);
+    const glm::dvec3 z = glm::normalize(glm::dvec3(number(-1, 1), number(-1, 1), 1.001));
+    const glm::dvec3 x = glm::normalize(glm::cross(glm::dvec3(0, 1, 0.1), z));
+    const glm::dvec3 y = glm::cross(z, x);
+    std::vector<glm::dvec3> ring;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double angle =
+            2 * M_PI * (static_cast<double>(i) + number(-0.4, 0.4)) / static_cast<double>(count);
+        const double radius = number(20, 100);
+        ring.push_back(x * (radius * std::cos(angle)) + y * (radius * std::sin(angle)) +
+                       z * number(-40, 40));
+    }
+    return ring;
+}
+
+std::vector<Triangle> before(const std::vector<glm::dvec3>& ring) {
+    std::vector<Triangle> triangles;
+    for (std::size_t i = 0; i < ring.size(); ++i)
+        triangles.push_back({glm::dvec3(0.0), ring[i], ring[(i + 1) % ring.size()]});
+    return triangles;
+}
+
+std::vector<Triangle> after(const std::vector<glm::dvec3>& ring, std::size_t target) {
+    std::vector<Triangle> triangles;
+    for (std::size_t i = 1; i + 1 < ring.size(); ++i)
+        triangles.push_back(
+            {ring[target], ring[(target + i) % ring.size()], ring[(target + i + 1) % ring.size()]});
+    return triangles;
+}
+
+/// By halving: slow, and nothing of the code under test.
+double distance(const glm::dvec3& point, const Triangle& triangle) {
+    double best = 1e300;
+    double u = 0.5, v = 0.5, step = 0.5;
+    const auto at = [&](double s, double t) {
+        s = std::clamp(s, 0.0, 1.0);
+        t = std::clamp(t, 0.0, 1 - s);
+        return glm::length(triangle[0] + s * (triangle[1] - triangle[0]) +
+                           t * (triangle[2] - triangle[0]) - point);
+    };
+    for (int round = 0; round < 60; ++round) {
+        double bestU = u, bestV = v;
+        for (const double du : {-step, 0.0, step})
+            for (const double dv : {-step, 0.0, step})
+                if (const double d = at(u + du, v + dv); d < best) {
+                    best = d;
+                    bestU = std::clamp(u + du, 0.0, 1.0);
+                    bestV = std::clamp(v + dv, 0.0, 1 - bestU);
+                }
+        if (bestU == u && bestV == v)
+            step /= 2;
+        u = bestU;
+        v = bestV;
+    }
+    return best;
+}
+
+double farthest(const std::vector<Triangle>& from, const std::vector<Triangle>& to) {
+    double worst = 0;
+    constexpr int kSteps = 4;
+    for (const Triangle& triangle : from)
+        for (int i = 0; i <= kSteps; ++i)
+            for (int j = 0; i + j <= kSteps; ++j) {
+                const glm::dvec3 point = triangle[0] +
+                                         double(i) / kSteps * (triangle[1] - triangle[0]) +
+                                         double(j) / kSteps * (triangle[2] - triangle[0]);
+                double nearest = 1e300;
+                for (const Triangle& other : to)
+                    nearest = std::min(nearest, distance(point, other));
+                worst = std::max(worst, nearest);
+            }
+    return worst;
+}
+
+RC_GTEST_PROP(Star, ItsDistanceBoundsWhatSamplingFindsEitherWay, ()) {
+    const std::vector<glm::dvec3> ring = randomRing();
+    const Star star(glm::dvec3(0.0), ring);
+    if (!star.isGraph())
+        return;
+    for (std::size_t target = 0; target < ring.size(); ++target) {
+        const double bound = star.distanceTo(target);
+        if (bound == Star::kImpossible)
+            continue;
+        RC_ASSERT(farthest(before(ring), after(ring, target)) <= bound + 1e-6);
+        RC_ASSERT(farthest(after(ring, target), before(ring)) <= bound + 1e-6);
+    }
+}
+
+TEST(Star, OfAPlaneLosesNothing) {
+    const std::vector<glm::dvec3> ring = {{10, 0, 0}, {0, 10, 0}, {-10, 0, 0}, {0, -10, 0}};
+    const Star star(glm::dvec3(0.0), ring);
+    ASSERT_TRUE(star.isGraph());
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(star.distanceTo(i), 0, 1e-12);
+}
+
+TEST(Star, OfAPyramidLosesItsHeight) {
+    const std::vector<glm::dvec3> ring = {{10, 0, -5}, {0, 10, -5}, {-10, 0, -5}, {0, -10, -5}};
+    const Star star(glm::dvec3(0.0), ring);
+    ASSERT_TRUE(star.isGraph());
+    EXPECT_NEAR(star.distanceTo(0), 5, 1e-12);
+    EXPECT_EQ(star.distanceTo(0, 4.9), Star::kImpossible);
+}
+
+TEST(Star, ThatOverhangsIsNoGraph) {
+    // The ring turns back on itself: seen along the mean normal one face looks away.
+    const std::vector<glm::dvec3> ring = {{10, 0, 0},  {0, 10, 0},   {-10, 0, 0},
+                                          {-8, -9, 0}, {-9, 9, -30}, {0, -10, 0}};
+    EXPECT_FALSE(Star(glm::dvec3(0.0), ring).isGraph());
+}
+
+TEST(Star, ThatGoesAroundTwiceIsNoGraph) {
+    std::vector<glm::dvec3> ring;
+    for (int i = 0; i < 10; ++i)
+        ring.emplace_back(10 * std::cos(0.4 * M_PI * i), 10 * std::sin(0.4 * M_PI * i), i);
+    EXPECT_FALSE(Star(glm::dvec3(0.0), ring).isGraph());
+}
+
+}  // namespace
+}  // namespace eyrie::mesh
