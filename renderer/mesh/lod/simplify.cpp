@@ -35,9 +35,8 @@ float roundedUp(double value) {
 
 /// A neighbour that a vertex may be moved onto, and what comes of it.
 struct Collapse {
-    std::uint32_t target = kNone;
-    double bound = Star::kImpossible;
-    double cost = Star::kImpossible;
+    std::uint32_t target = kNone;  ///< a point
+    double cost = std::numeric_limits<double>::infinity();
 };
 
 class Simplifier {
@@ -77,7 +76,9 @@ private:
     bool sortRing();
     bool isSimple(std::size_t target);
     Collapse bestCollapse(std::uint32_t point);
-    void collapse(std::uint32_t point, std::uint32_t target, float bound);
+    Star star(std::uint32_t point) const;
+    double boundOf(const Star::Replaced& replaced) const;
+    void collapse(std::uint32_t point, std::uint32_t target);
     template <typename Visit>
     void forCorners(std::uint32_t point, const Visit& visit);
 
@@ -208,49 +209,68 @@ bool Simplifier::isSimple(std::size_t target) {
     return isSimple;
 }
 
+/// The star of the point whose ring_ this is.
+Star Simplifier::star(std::uint32_t point) const {
+    std::array<glm::dvec3, kMaxStar> ring;
+    for (std::size_t i = 0; i < ring_.size(); ++i) ring[i] = points_[ring_[i].point];
+    return {points_[point], std::span(ring).first(ring_.size())};
+}
+
+/// Of a triangle that is left: the largest of those it replaces, and the way to them.
+double Simplifier::boundOf(const Star::Replaced& replaced) const {
+    double before = 0;
+    for (std::size_t i = 0; i < ring_.size(); ++i)
+        if ((replaced.triangles >> i & 1) != 0)
+            before = std::max(before, double{faces_[ring_[i].face].bound});
+    return before + replaced.distance * (1 + kRounding) + kRounding;
+}
+
 Collapse Simplifier::bestCollapse(std::uint32_t point) {
     Collapse best;
     if (!gatherRing(point))
         return best;
-    std::array<glm::dvec3, kMaxStar> ring;
-    double before = 0;
-    for (std::size_t i = 0; i < ring_.size(); ++i) {
-        ring[i] = points_[ring_[i].point];
-        before = std::max(before, double{faces_[ring_[i].face].bound});
-    }
-    const Star star(points_[point], std::span(ring).first(ring_.size()));
+    const Star star = this->star(point);
     if (!star.isGraph())
         return best;
-    for (std::size_t i = 0; i < ring_.size(); ++i) {
-        const double length = kLengthWeight * glm::length(ring[i] - points_[point]);
-        const double distance = star.distanceTo(i, best.cost - before - length);
-        const double bound = before + distance * (1 + kRounding) + kRounding;
-        if (bound + length < best.cost && isSimple(i))
-            best = {ring_[i].point, bound, bound + length};
+    for (std::size_t target = 0; target < ring_.size(); ++target) {
+        const auto outcome = star.movedTo(target);
+        if (!outcome)
+            continue;
+        double cost = 0;
+        for (std::size_t i = 0; i < ring_.size(); ++i)
+            if ((*outcome)[i].triangles != 0)
+                cost = std::max(cost, boundOf((*outcome)[i]));
+        cost += kLengthWeight * glm::length(points_[ring_[target].point] - points_[point]);
+        if (cost < best.cost && isSimple(target))
+            best = {ring_[target].point, cost};
     }
     return best;
 }
 
 /// ring_ is the point's.
-void Simplifier::collapse(std::uint32_t point, std::uint32_t target, float bound) {
-    const Neighbour to = *std::find_if(ring_.begin(), ring_.end(),
-                                       [target](const Neighbour& n) { return n.point == target; });
-    forCorners(point, [&](std::uint32_t index, std::uint32_t) {
-        Face& face = faces_[index];
-        face.bound = bound;
-        for (const Corner& corner : face.corners) face.isThere &= corner.point != to.point;
+void Simplifier::collapse(std::uint32_t point, std::uint32_t target) {
+    const auto to = std::find_if(ring_.begin(), ring_.end(), [target](const Neighbour& neighbour) {
+        return neighbour.point == target;
     });
+    const auto outcome = star(point).movedTo(static_cast<std::size_t>(to - ring_.begin()));
+    std::array<float, kMaxStar> bounds;
+    for (std::size_t i = 0; i < ring_.size(); ++i) bounds[i] = roundedUp(boundOf((*outcome)[i]));
+    for (std::size_t i = 0; i < ring_.size(); ++i) {
+        Face& face = faces_[ring_[i].face];
+        face.bound = bounds[i];
+        face.isThere = (*outcome)[i].triangles != 0;
+        isStale_[ring_[i].point] = true;
+    }
     std::uint32_t at = first_[point];
     while (at != kNone) {
         Corner& corner = faces_[at / 3].corners[at % 3];
         const std::uint32_t next = corner.next;
-        corner.point = to.point;
-        corner.vertex = to.vertex;
-        corner.next = std::exchange(first_[to.point], at);
+        corner.point = to->point;
+        corner.vertex = to->vertex;
+        corner.next = std::exchange(first_[to->point], at);
         at = next;
     }
     first_[point] = kNone;
-    for (const Neighbour& neighbour : ring_) isStale_[neighbour.point] = true;
     left_ -= 2;
 }
 
@@ -269,7 +289,7 @@ Patch Simplifier::run(std::size_t target) {
         if (isStale_[point])
             look(point);
         else if (gatherRing(point))
-            collapse(point, best_[point].target, roundedUp(best_[point].bound));
+            collapse(point, best_[point].target);
     }
     Patch result;
     for (const Face& face : faces_) {
