@@ -43,36 +43,28 @@ Triangle after(const std::vector<glm::dvec3>& ring, std::size_t target, std::siz
     return {ring[target], ring[i], ring[(i + 1) % ring.size()]};
 }
 
-/// By halving: slow, and nothing of the code under test.
-double distance(const glm::dvec3& point, const Triangle& triangle) {
-    double best = 1e300;
-    double u = 0.5, v = 0.5, step = 0.5;
-    const auto at = [&](double s, double t) {
-        s = std::clamp(s, 0.0, 1.0);
-        t = std::clamp(t, 0.0, 1 - s);
-        return glm::length(triangle[0] + s * (triangle[1] - triangle[0]) +
-                           t * (triangle[2] - triangle[0]) - point);
-    };
-    for (int round = 0; round < 60; ++round) {
-        double bestU = u, bestV = v;
-        for (const double du : {-step, 0.0, step})
-            for (const double dv : {-step, 0.0, step})
-                if (const double d = at(u + du, v + dv); d < best) {
-                    best = d;
-                    bestU = std::clamp(u + du, 0.0, 1.0);
-                    bestV = std::clamp(v + dv, 0.0, 1 - bestU);
-                }
-        if (bestU == u && bestV == v)
-            step /= 2;
-        u = bestU;
-        v = bestV;
+double distance(const glm::dvec3& point, const glm::dvec3& a, const glm::dvec3& b) {
+    const double along = glm::dot(point - a, b - a) / glm::dot(b - a, b - a);
+    return glm::length(a + std::clamp(along, 0.0, 1.0) * (b - a) - point);
+}
+
+/// To the plane, where the foot is inside, or to the nearest side.
+double distance(const glm::dvec3& point, const Triangle& t) {
+    const glm::dvec3 normal = glm::normalize(glm::cross(t[1] - t[0], t[2] - t[0]));
+    bool isInside = true;
+    double nearest = 1e300;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const glm::dvec3& a = t[i];
+        const glm::dvec3& b = t[(i + 1) % 3];
+        isInside = isInside && glm::dot(normal, glm::cross(b - a, point - a)) >= 0;
+        nearest = std::min(nearest, distance(point, a, b));
     }
-    return best;
+    return isInside ? std::abs(glm::dot(normal, point - t[0])) : nearest;
 }
 
 double farthest(const std::vector<Triangle>& from, const std::vector<Triangle>& to) {
     double worst = 0;
-    constexpr int kSteps = 4;
+    constexpr int kSteps = 8;
     for (const Triangle& triangle : from)
         for (int i = 0; i <= kSteps; ++i)
             for (int j = 0; i + j <= kSteps; ++j) {
