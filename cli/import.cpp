@@ -177,6 +177,17 @@ absl::Status importShard(const TerrainOptions& options) {
     return absl::OkStatus();
 }
 
+std::vector<JsonObject> levelsJson(const import::MeshImportReport& made) {
+    std::vector<JsonObject> levels;
+    for (const mesh::LodLevel& level : made.levels)
+        levels.push_back(JsonObject()
+                             .count("nodes", level.nodes)
+                             .count("triangles", level.trianglesAfter)
+                             .number("errorMetres", level.largestErrorMetres)
+                             .number("borderShare", level.borderShare));
+    return levels;
+}
+
 absl::Status importMesh(const Options& options) {
     StopSignal stop;
     RETURN_IF_ERROR(checkEnding(options, ".eym"));
@@ -198,6 +209,7 @@ absl::Status importMesh(const Options& options) {
                                .count("nodes", made->nodes)
                                .count("bytes", made->bytes)
                                .number("errorMetres", made->errorMetres)
+                               .objects("simplified", levelsJson(*made))
                                .number("seconds", made->seconds.total)
                                .str());
         return absl::OkStatus();
@@ -208,9 +220,9 @@ absl::Status importMesh(const Options& options) {
         fmt::print(stderr,
                    "{}: left out {} faces of fewer than three corners, {} triangles without area\n",
                    options.title(), made->droppedFaces, made->counts.degenerateTriangles);
-    fmt::print(stderr, "{}: {} triangles, {} vertices, {:.1f} MB, {:.2f} s\n", options.out,
-               made->triangles, made->vertices, static_cast<double>(made->bytes) / 1e6,
-               made->seconds.total);
+    fmt::print(stderr, "{}: {} triangles, {} vertices, {} simpler levels, {:.1f} MB, {:.2f} s\n",
+               options.out, made->triangles, made->vertices, made->levels.size(),
+               static_cast<double>(made->bytes) / 1e6, made->seconds.total);
     return absl::OkStatus();
 }
 

@@ -123,21 +123,21 @@ Cut MeshDrawable::selectCut(const CutRequest& request) {
 }
 
 /// Depth first, so pieces come in the order of the range. A node's error bound covers its whole
-/// subtree: below a node that keeps tau it is not computed again.
+/// subtree: below a node that keeps tau and has nothing to be drawn itself it is not computed
+/// again.
 void MeshDrawable::visit(std::uint32_t index, bool errorKnown, const lod::ObjectView& view,
                          double tauPixels, Cut& cut) {
     const mesh::Node& node = file_.nodes()[index];
     const fabric::Box box = file_.bounds(index);
     if (!view.isVisible(box))
         return;
-    const bool isLeaf = node.isLeaf();
     if (!errorKnown) {
         const double error = view.screenSpaceErrorPixels(node.errorMetres, box);
-        errorKnown = isLeaf || error <= tauPixels;
+        errorKnown = node.isLeaf() || error <= tauPixels;
         if (errorKnown)
             errorPixels_ = std::max(errorPixels_, error);
     }
-    if (isLeaf) {
+    if (errorKnown && node.indexCount > 0) {
         const auto total = static_cast<double>(file_.triangleCount());
         cut.pieces.push_back({index, static_cast<double>(node.triangleBegin) / total, box});
         return;

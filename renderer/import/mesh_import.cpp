@@ -78,8 +78,18 @@ absl::StatusOr<MeshImportReport> build(TriangleMesh source, mesh::OutputFile& ou
     control.report("tree", 1);
     report.seconds.tree = watch.lap();
 
+    control.report("levels", 0);
+    ASSIGN_OR_RETURN(
+        const mesh::LodTree lod,
+        mesh::buildLodTree(
+            packed, tree, {}, [&control](double share) { control.report("levels", share); },
+            control.stop));
+    control.report("levels", 1);
+    report.seconds.levels = watch.lap();
+    report.levels = lod.levels;
+
     control.report("writing", 0);
-    RETURN_IF_ERROR(mesh::writeEym(packed, tree, sourceHash, out, control.stop));
+    RETURN_IF_ERROR(mesh::writeEym(packed, tree, lod, sourceHash, out, control.stop));
     RETURN_IF_ERROR(control.check());
     RETURN_IF_ERROR(out.commit());
     control.report("writing", 1);
@@ -90,6 +100,7 @@ absl::StatusOr<MeshImportReport> build(TriangleMesh source, mesh::OutputFile& ou
     report.nodes = tree.nodes.size();
     report.bytes = out.size();
     report.errorMetres = packed.lattice.errorMetres();
+    report.coarsestErrorMetres = lod.errorMetres.front();
     report.seconds.total = watch.total();
     return report;
 }

@@ -3,12 +3,14 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include <absl/status/statusor.h>
 
 #include "renderer/import/pack_mesh.h"
 #include "renderer/import/progress.h"
 #include "renderer/import/triangle_mesh.h"
+#include "renderer/mesh/lod/lod_tree.h"
 
 namespace eyrie::import {
 
@@ -21,7 +23,8 @@ struct MeshImportSeconds {
     double read = 0;
     double pack = 0;  ///< lattice, weld and normals
     double tree = 0;
-    double write = 0;  ///< flushed to the disk
+    double levels = 0;  ///< simplified, and measured
+    double write = 0;   ///< flushed to the disk
     double total = 0;
 };
 
@@ -32,13 +35,16 @@ struct MeshImportReport {
     PackCounts counts;
     std::uint64_t nodes = 0;
     std::uint64_t sourceBytes = 0;
-    std::uint64_t bytes = 0;  ///< of the .eym file
-    double errorMetres = 0;   ///< bound on what rounding to the lattice moved
+    std::uint64_t bytes = 0;             ///< of the .eym file
+    double errorMetres = 0;              ///< bound on what rounding to the lattice moved
+    double coarsestErrorMetres = 0;      ///< of the root
+    std::vector<mesh::LodLevel> levels;  ///< of detail, from the finest
     MeshImportSeconds seconds;
 };
 
 /// Imports a mesh file into `outPath`, an .eym file that appears only when it is complete.
-/// Reads .ply. Stages reported: "reading", "welding", "normals", "tree", "writing".
+/// Reads .ply. Stages reported: "reading", "welding", "normals", "tree", "levels",
+/// "writing".
 /// Errors, all with nothing left behind: those of readPly; InvalidArgument (another format, nothing
 /// to draw), NotFound, PermissionDenied, Cancelled, ResourceExhausted (memory, disk), Unavailable.
 absl::StatusOr<MeshImportReport> importMesh(const std::string& sourcePath,

@@ -27,7 +27,8 @@
 ///   uint32      [vertexCount]       colours, only with kHasColours
 ///   uint16      [indexCount]        each node's from a multiple of four on, zeros between
 /// A node's geometry is self-contained: 16-bit indices count from its own first vertex. Leaves have
-/// geometry; inner nodes may (their share of the arrays is empty where they have none).
+/// geometry; inner nodes may: a simplification of their subtree (their share of the arrays is empty
+/// where they have none).
 namespace eyrie::mesh {
 
 static_assert(std::endian::native == std::endian::little, ".eym files are mapped as they are");

@@ -11,7 +11,7 @@
 
 #include "fabric/status.h"
 #include "renderer/mesh/eym_format.h"
-#include "renderer/mesh/leaf_geometry.h"
+#include "renderer/mesh/node_geometry.h"
 
 namespace eyrie::mesh {
 namespace {
@@ -29,21 +29,28 @@ float roundedUp(double value) {
                             : std::nextafter(nearest, std::numeric_limits<float>::infinity());
 }
 
-std::vector<LeafGeometry> gatherLeaves(const PackedMesh& mesh, const KdTree& tree,
-                                       const std::stop_token& stop) {
-    std::vector<LeafGeometry> leaves(tree.nodes.size());
-    oneapi::tbb::parallel_for(std::size_t{0}, tree.nodes.size(), [&](std::size_t i) {
-        const KdNode& node = tree.nodes[i];
-        if (node.isLeaf() && !stop.stop_requested())
-            leaves[i] = gatherLeaf(
-                mesh, std::span(tree.order)
-                          .subspan(node.triangleBegin, node.triangleEnd - node.triangleBegin));
-    });
-    return leaves;
+std::vector<Triangle> trianglesOf(const PackedMesh& mesh, const KdTree& tree, const KdNode& leaf) {
+    std::vector<Triangle> triangles;
+    triangles.reserve(leaf.triangleEnd - leaf.triangleBegin);
+    for (std::uint64_t i = leaf.triangleBegin; i < leaf.triangleEnd; ++i)
+        triangles.push_back(mesh.triangles[tree.order[i]]);
+    return triangles;
 }
 
-std::vector<Node> layOutNodes(const PackedMesh& mesh, const KdTree& tree,
-                              const std::vector<LeafGeometry>& leaves) {
+std::vector<PackedNode> gatherNodes(const PackedMesh& mesh, const KdTree& tree, const LodTree& lod,
+                                    const std::stop_token& stop) {
+    std::vector<PackedNode> nodes(tree.nodes.size());
+    oneapi::tbb::parallel_for(std::size_t{0}, tree.nodes.size(), [&](std::size_t i) {
+        const KdNode& node = tree.nodes[i];
+        if (!stop.stop_requested())
+            nodes[i] =
+                gatherNode(mesh, node.isLeaf() ? trianglesOf(mesh, tree, node) : lod.geometry[i]);
+    });
+    return nodes;
+}
+
+std::vector<Node> layOutNodes(const KdTree& tree, const LodTree& lod,
+                              const std::vector<PackedNode>& packed) {
     std::vector<Node> nodes(tree.nodes.size());
     std::uint64_t vertices = 0;
     std::uint64_t indices = 0;
@@ -58,11 +65,11 @@ std::vector<Node> layOutNodes(const PackedMesh& mesh, const KdTree& tree,
         node.triangleEnd = from.triangleEnd;
         node.firstVertex = vertices;
         node.firstIndex = indices;
-        node.vertexCount = static_cast<std::uint32_t>(leaves[i].positions.size());
-        node.indexCount = static_cast<std::uint32_t>(leaves[i].indices.size());
-        node.errorMetres = roundedUp(mesh.lattice.errorMetres());
+        node.vertexCount = static_cast<std::uint32_t>(packed[i].positions.size());
+        node.indexCount = static_cast<std::uint32_t>(packed[i].indices.size());
+        node.errorMetres = roundedUp(lod.errorMetres[i]);
         node.checksum = geometryChecksum(
-            {leaves[i].positions, leaves[i].normals, leaves[i].colours, leaves[i].indices});
+            {packed[i].positions, packed[i].normals, packed[i].colours, packed[i].indices});
         vertices += node.vertexCount;
         indices = aligned(indices + node.indexCount, kIndexAlignment);
     }
@@ -106,15 +113,14 @@ EymHeader makeHeader(const PackedMesh& mesh, const std::vector<Node>& nodes,
     return header;
 }
 
-/// One array of every leaf, in order, each padded to `alignment` bytes and the whole to 8.
+/// One array of every node, in order, each padded to `alignment` bytes and the whole to 8.
 template <typename T>
-absl::Status writeSection(std::vector<T> LeafGeometry::*array,
-                          const std::vector<LeafGeometry>& leaves, std::uint64_t alignment,
-                          OutputFile& out, const std::stop_token& stop) {
-    for (const LeafGeometry& leaf : leaves) {
+absl::Status writeSection(std::vector<T> PackedNode::*array, const std::vector<PackedNode>& nodes,
+                          std::uint64_t alignment, OutputFile& out, const std::stop_token& stop) {
+    for (const PackedNode& node : nodes) {
         if (stop.stop_requested())
             return absl::CancelledError("writing was cancelled");
-        RETURN_IF_ERROR(out.write(std::as_bytes(std::span(leaf.*array))));
+        RETURN_IF_ERROR(out.write(std::as_bytes(std::span(node.*array))));
         if (alignment > 1)
             RETURN_IF_ERROR(out.padTo(alignment));
     }
@@ -123,17 +129,17 @@ absl::Status writeSection(std::vector<T> LeafGeometry::*array,
 
 }  // namespace
 
-absl::Status writeEym(const PackedMesh& mesh, const KdTree& tree, std::uint64_t sourceHash,
-                      OutputFile& out, const std::stop_token& stop) {
-    const std::vector<LeafGeometry> leaves = gatherLeaves(mesh, tree, stop);
-    const std::vector<Node> nodes = layOutNodes(mesh, tree, leaves);
+absl::Status writeEym(const PackedMesh& mesh, const KdTree& tree, const LodTree& lod,
+                      std::uint64_t sourceHash, OutputFile& out, const std::stop_token& stop) {
+    const std::vector<PackedNode> packed = gatherNodes(mesh, tree, lod, stop);
+    const std::vector<Node> nodes = layOutNodes(tree, lod, packed);
     const EymHeader header = makeHeader(mesh, nodes, sourceHash);
     RETURN_IF_ERROR(out.write(std::as_bytes(std::span(&header, 1))));
     RETURN_IF_ERROR(out.write(std::as_bytes(std::span(nodes))));
-    RETURN_IF_ERROR(writeSection(&LeafGeometry::positions, leaves, 1, out, stop));
-    RETURN_IF_ERROR(writeSection(&LeafGeometry::normals, leaves, 1, out, stop));
-    RETURN_IF_ERROR(writeSection(&LeafGeometry::colours, leaves, 1, out, stop));
-    return writeSection(&LeafGeometry::indices, leaves, kIndexAlignment * 2, out, stop);
+    RETURN_IF_ERROR(writeSection(&PackedNode::positions, packed, 1, out, stop));
+    RETURN_IF_ERROR(writeSection(&PackedNode::normals, packed, 1, out, stop));
+    RETURN_IF_ERROR(writeSection(&PackedNode::colours, packed, 1, out, stop));
+    return writeSection(&PackedNode::indices, packed, kIndexAlignment * 2, out, stop);
 }
 
 }  // namespace eyrie::mesh

@@ -68,7 +68,7 @@ TEST(MeshImport, ReportsItsStagesInOrder) {
                                 },
                                 {}};
     ASSERT_TRUE(importMesh(folder.file("m.ply"), folder.file("m.eym"), {}, control).ok());
-    EXPECT_THAT(stages, ElementsAre("reading", "welding", "normals", "tree", "writing"));
+    EXPECT_THAT(stages, ElementsAre("reading", "welding", "normals", "tree", "levels", "writing"));
 }
 
 class MeshImportStopped : public testing::TestWithParam<const char*> {};
@@ -90,7 +90,8 @@ TEST_P(MeshImportStopped, LeavesNothingBehindAndTheOldFileAsItWas) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Stages, MeshImportStopped,
-                         testing::Values("reading", "welding", "normals", "tree", "writing"));
+                         testing::Values("reading", "welding", "normals", "tree", "levels",
+                                         "writing"));
 
 TEST(MeshImport, LeavesNothingBehindWhenTheSourceIsBad) {
     const test::TemporaryFolder folder;

@@ -25,7 +25,9 @@ std::string makeSmallFile() {
     auto tree = buildKdTree(mesh.positions, mesh.triangles, {10});
     auto out = OutputFile::create(folder.file("m.eym"));
     EXPECT_TRUE(tree.ok() && out.ok());
-    EXPECT_TRUE(writeEym(mesh, *tree, 0, *out).ok());
+    auto lod = buildLodTree(mesh, *tree);
+    EXPECT_TRUE(lod.ok());
+    EXPECT_TRUE(writeEym(mesh, *tree, *lod, 0, *out).ok());
     EXPECT_TRUE(out->commit().ok());
     return test::readFile(folder.file("m.eym"));
 }

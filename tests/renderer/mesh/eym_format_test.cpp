@@ -26,7 +26,9 @@ absl::Status write(const PackedMesh& mesh, std::uint32_t leafTriangles, const st
     auto tree = buildKdTree(mesh.positions, mesh.triangles, {leafTriangles});
     auto out = OutputFile::create(path);
     EXPECT_TRUE(tree.ok() && out.ok());
-    const absl::Status written = writeEym(mesh, *tree, 0x1234, *out);
+    auto lod = buildLodTree(mesh, *tree, {.nodeTriangles = 64});
+    EXPECT_TRUE(lod.ok());
+    const absl::Status written = writeEym(mesh, *tree, *lod, 0x1234, *out);
     return written.ok() ? out->commit() : written;
 }
 

@@ -9,19 +9,19 @@
 
 namespace eyrie::mesh {
 
-/// A leaf's own copy of its triangles, as it is stored and drawn: 16-bit indices into arrays that
+/// A node's own copy of its triangles, as it is stored and drawn: 16-bit indices into arrays that
 /// hold nothing else. `colours` is empty where the mesh has none.
-struct LeafGeometry {
+struct PackedNode {
     std::vector<std::uint64_t> positions;
     std::vector<std::uint32_t> normals;
     std::vector<std::uint32_t> colours;
     std::vector<std::uint16_t> indices;
 };
 
-/// Gathers `triangles` (indices into mesh.triangles) along a Morton curve through their centroids,
+/// Gathers `triangles`, of the mesh's vertices, along a Morton curve through their centroids,
 /// vertices in the order of first use: neighbours in space lie close in memory.
 /// Precondition: at most kMaxLeafVertices unique vertices.
 /// G. M. Morton, "A Computer Oriented Geodetic Data Base", 1966.
-LeafGeometry gatherLeaf(const PackedMesh& mesh, std::span<const std::uint32_t> triangles);
+PackedNode gatherNode(const PackedMesh& mesh, std::span<const Triangle> triangles);
 
 }  // namespace eyrie::mesh

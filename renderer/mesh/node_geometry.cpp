@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "renderer/mesh/leaf_geometry.h"
+#include "renderer/mesh/node_geometry.h"
 
 #include <algorithm>
 #include <bit>
@@ -30,16 +30,16 @@ std::uint64_t mortonKey(const PackedMesh& mesh, const Triangle& corners) {
     return spread(centroid.x) | spread(centroid.y) << 1 | spread(centroid.z) << 2;
 }
 
-std::vector<std::uint32_t> alongMortonCurve(const PackedMesh& mesh,
-                                            std::span<const std::uint32_t> triangles) {
+std::vector<Triangle> alongMortonCurve(const PackedMesh& mesh,
+                                       std::span<const Triangle> triangles) {
     std::vector<std::pair<std::uint64_t, std::uint32_t>> keys;
     keys.reserve(triangles.size());
-    for (const std::uint32_t triangle : triangles)
-        keys.emplace_back(mortonKey(mesh, mesh.triangles[triangle]), triangle);
+    for (const Triangle& triangle : triangles)
+        keys.emplace_back(mortonKey(mesh, triangle), static_cast<std::uint32_t>(keys.size()));
     std::sort(keys.begin(), keys.end());
-    std::vector<std::uint32_t> order;
+    std::vector<Triangle> order;
     order.reserve(keys.size());
-    for (const auto& [key, triangle] : keys) order.push_back(triangle);
+    for (const auto& [key, triangle] : keys) order.push_back(triangles[triangle]);
     return order;
 }
 
@@ -72,23 +72,23 @@ private:
 
 }  // namespace
 
-LeafGeometry gatherLeaf(const PackedMesh& mesh, std::span<const std::uint32_t> triangles) {
-    LeafGeometry leaf;
-    leaf.indices.reserve(triangles.size() * 3);
+PackedNode gatherNode(const PackedMesh& mesh, std::span<const Triangle> triangles) {
+    PackedNode node;
+    node.indices.reserve(triangles.size() * 3);
     LocalIndices local(triangles.size() * 3);
-    for (const std::uint32_t triangle : alongMortonCurve(mesh, triangles)) {
-        for (const std::uint32_t vertex : mesh.triangles[triangle]) {
+    for (const Triangle& triangle : alongMortonCurve(mesh, triangles)) {
+        for (const std::uint32_t vertex : triangle) {
             const auto [index, isNew] = local.number(vertex);
-            leaf.indices.push_back(index);
+            node.indices.push_back(index);
             if (!isNew)
                 continue;
-            leaf.positions.push_back(mesh.positions[vertex]);
-            leaf.normals.push_back(mesh.normals[vertex]);
+            node.positions.push_back(mesh.positions[vertex]);
+            node.normals.push_back(mesh.normals[vertex]);
             if (!mesh.colours.empty())
-                leaf.colours.push_back(mesh.colours[vertex]);
+                node.colours.push_back(mesh.colours[vertex]);
         }
     }
-    return leaf;
+    return node;
 }
 
 }  // namespace eyrie::mesh

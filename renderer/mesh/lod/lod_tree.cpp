@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/mesh/lod/lod_tree.h"
+
+#include <algorithm>
+#include <mutex>
+#include <utility>
+
+#include <absl/status/status.h>
+#include <oneapi/tbb/parallel_invoke.h>
+
+#include "renderer/mesh/lod/simplify.h"
+
+namespace eyrie::mesh {
+namespace {
+
+/// What a node is drawn by has to be this much less than what its children are drawn by.
+constexpr double kWorthwhile = 0.8;
+/// Children's triangles, in those a node is drawn by, above which a surface that does not get
+/// simpler is left as it is.
+constexpr std::size_t kMostUnsimplified = 4;
+
+/// A node's surface on its way up.
+struct Part {
+    Patch patch;
+    std::size_t height = 0;  ///< of the tree of simplifications under it
+};
+
+template <typename T>
+void append(std::vector<T>& to, const std::vector<T>& from) {
+    to.insert(to.end(), from.begin(), from.end());
+}
+
+class Builder {
+public:
+    Builder(const PackedMesh& mesh, const KdTree& tree, const LodOptions& options,
+            const std::function<void(double)>& progress, const std::stop_token& stop)
+        : mesh_(mesh), tree_(tree), options_(options), progress_(progress), stop_(stop) {
+        lod_.geometry.resize(tree.nodes.size());
+        errorSteps_.resize(tree.nodes.size());
+    }
+
+    LodTree build();
+
+private:
+    Part visit(std::size_t index);
+    Part finest(std::size_t index) const;
+    void simplifyPart(Part& part, std::size_t index);
+    void record(const Part& part, std::size_t before, double borderShare);
+
+    const PackedMesh& mesh_;
+    const KdTree& tree_;
+    const LodOptions& options_;
+    const std::function<void(double)>& progress_;
+    const std::stop_token& stop_;
+    LodTree lod_;
+    std::vector<double> errorSteps_;
+    std::mutex mutex_;  ///< of lod_.levels and done_
+    std::uint64_t done_ = 0;
+};
+
+Part Builder::finest(std::size_t index) const {
+    const KdNode& node = tree_.nodes[index];
+    Part part;
+    part.patch.triangles.reserve(node.triangleEnd - node.triangleBegin);
+    for (std::uint64_t i = node.triangleBegin; i < node.triangleEnd; ++i)
+        part.patch.triangles.push_back(mesh_.triangles[tree_.order[i]]);
+    part.patch.bounds.resize(part.patch.triangles.size(), 0);
+    return part;
+}
+
+Part Builder::visit(std::size_t index) {
+    const KdNode& node = tree_.nodes[index];
+    if (stop_.stop_requested())
+        return {};
+    if (node.isLeaf() || node.triangleEnd - node.triangleBegin <= options_.nodeTriangles)
+        return finest(index);
+    Part left, right;
+    oneapi::tbb::parallel_invoke([&] { left = visit(static_cast<std::size_t>(node.left)); },
+                                 [&] { right = visit(static_cast<std::size_t>(node.right)); });
+    if (stop_.stop_requested())
+        return {};
+    append(left.patch.triangles, right.patch.triangles);
+    append(left.patch.bounds, right.patch.bounds);
+    left.height = std::max(left.height, right.height);
+    simplifyPart(left, index);
+    errorSteps_[index] =
+        double{*std::max_element(left.patch.bounds.begin(), left.patch.bounds.end())};
+    return left;
+}
+
+/// Leaves the part as it is where that does not pay: the node is then drawn by its children.
+void Builder::simplifyPart(Part& part, std::size_t index) {
+    const std::size_t before = part.patch.triangles.size();
+    if (before > kMostUnsimplified * options_.nodeTriangles)
+        return;
+    const double share = borderShare(mesh_, part.patch);
+    Patch simplified =
+        simplify(mesh_, part.patch, std::min<std::size_t>(before / 2, options_.nodeTriangles));
+    if (simplified.triangles.size() > kMaxLeafVertices ||
+        static_cast<double>(simplified.triangles.size()) >
+            kWorthwhile * static_cast<double>(before))
+        return;
+    part.patch = std::move(simplified);
+    ++part.height;
+    lod_.geometry[index] = part.patch.triangles;
+    record(part, before, share);
+}
+
+void Builder::record(const Part& part, std::size_t before, double borderShare) {
+    const std::lock_guard lock(mutex_);
+    if (lod_.levels.size() < part.height)
+        lod_.levels.resize(part.height);
+    LodLevel& level = lod_.levels[part.height - 1];
+    ++level.nodes;
+    level.trianglesBefore += before;
+    level.trianglesAfter += part.patch.triangles.size();
+    const double errorSteps =
+        double{*std::max_element(part.patch.bounds.begin(), part.patch.bounds.end())};
+    level.largestErrorMetres =
+        std::max(level.largestErrorMetres, errorSteps * mesh_.lattice.stepMetres);
+    level.borderShare += borderShare;
+    done_ += before;
+    // Each level has about half the triangles of the one below: two thirds of a mesh's in all.
+    if (progress_)
+        progress_(std::min(
+            1.0, static_cast<double>(done_) / (2.0 * static_cast<double>(mesh_.triangles.size()))));
+}
+
+LodTree Builder::build() {
+    if (!tree_.nodes.empty())
+        visit(0);
+    for (LodLevel& level : lod_.levels)
+        level.borderShare /= static_cast<double>(std::max<std::uint64_t>(level.nodes, 1));
+    lod_.errorMetres.reserve(errorSteps_.size());
+    for (const double steps : errorSteps_)
+        lod_.errorMetres.push_back(mesh_.lattice.errorMetres() + steps * mesh_.lattice.stepMetres);
+    return std::move(lod_);
+}
+
+}  // namespace
+
+absl::StatusOr<LodTree> buildLodTree(const PackedMesh& mesh, const KdTree& tree,
+                                     const LodOptions& options,
+                                     const std::function<void(double)>& progress,
+                                     const std::stop_token& stop) {
+    LodTree lod = Builder(mesh, tree, options, progress, stop).build();
+    if (stop.stop_requested())
+        return absl::CancelledError("simplifying the mesh was cancelled");
+    return lod;
+}
+
+}  // namespace eyrie::mesh

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <stop_token>
+#include <vector>
+
+#include <absl/status/statusor.h>
+
+#include "renderer/mesh/kd_tree.h"
+#include "renderer/mesh/packed_mesh.h"
+
+namespace eyrie::mesh {
+
+struct LodOptions {
+    /// A node with more triangles than this is drawn by about as many; one with fewer, by its
+    /// leaves.
+    std::uint32_t nodeTriangles = 32768;
+};
+
+/// What was simplified at one distance from the leaves.
+struct LodLevel {
+    std::uint64_t nodes = 0;
+    std::uint64_t trianglesBefore = 0;
+    std::uint64_t trianglesAfter = 0;
+    double largestErrorMetres = 0;
+    double borderShare = 0;  ///< mean over its nodes: vertices that had to stay
+};
+
+/// What stands for the nodes of a kd-tree when they are drawn coarser, node by node.
+struct LodTree {
+    /// Triangles of the mesh's own vertices; empty for leaves, and for nodes that are drawn by
+    /// their children.
+    std::vector<std::vector<Triangle>> geometry;
+    /// Bound on the distance of any point of the source's surface under the node to what stands for
+    /// it, and of any point of that to the source; what the lattice rounds included. Measured,
+    /// never below the children's.
+    std::vector<double> errorMetres;
+    std::vector<LodLevel> levels;  ///< from the finest
+};
+
+/// Simplifies bottom-up: a node's surface is made of its children's, with the vertices on the
+/// node's border left alone until the node that has both sides. Any cut through the tree is
+/// therefore without cracks. The result depends on the mesh alone. Errors: Cancelled.
+absl::StatusOr<LodTree> buildLodTree(const PackedMesh& mesh, const KdTree& tree,
+                                     const LodOptions& options = {},
+                                     const std::function<void(double)>& progress = {},
+                                     const std::stop_token& stop = {});
+
+}  // namespace eyrie::mesh

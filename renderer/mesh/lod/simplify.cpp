@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/mesh/lod/simplify.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <queue>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include "renderer/mesh/lod/star.h"
+#include "renderer/mesh/vertex_packing.h"
+
+namespace eyrie::mesh {
+namespace {
+
+constexpr std::uint32_t kNone = 0xFFFFFFFF;
+/// More than rounding can add to a step of the map, relative and in lattice steps.
+constexpr double kRounding = 1e-6;
+/// Of an edge's length, added to what is compared: of equally good collapses the shortest is best.
+constexpr double kLengthWeight = 1e-3;
+
+float roundedUp(double value) {
+    const auto nearest = static_cast<float>(value);
+    return nearest >= value ? nearest
+                            : std::nextafter(nearest, std::numeric_limits<float>::infinity());
+}
+
+/// A neighbour that a vertex may be moved onto, and what comes of it.
+struct Collapse {
+    std::uint32_t target = kNone;  ///< a point
+    double cost = std::numeric_limits<double>::infinity();
+};
+
+class Simplifier {
+public:
+    Simplifier(const PackedMesh& mesh, const Patch& patch);
+
+    Patch run(std::size_t target);
+
+private:
+    /// A corner of a face; those at one point are in a list.
+    struct Corner {
+        std::uint32_t vertex;  ///< the mesh's own
+        std::uint32_t point;
+        std::uint32_t next = kNone;
+    };
+    struct Face {
+        std::array<Corner, 3> corners;
+        float bound;
+        bool isThere = true;
+    };
+    struct Neighbour {
+        std::uint32_t point;
+        std::uint32_t face;    ///< between it and the next neighbour
+        std::uint32_t vertex;  ///< its own in that face
+    };
+    struct Candidate {
+        double cost;
+        std::uint32_t point;
+        /// Ties go by the point: the result is the same everywhere.
+        bool operator<(const Candidate& other) const {
+            return cost != other.cost ? cost > other.cost : point > other.point;
+        }
+    };
+
+    void link(const PackedMesh& mesh);
+    bool gatherRing(std::uint32_t point);
+    bool sortRing();
+    bool isSimple(std::size_t target);
+    Collapse bestCollapse(std::uint32_t point);
+    Star star(std::uint32_t point) const;
+    double boundOf(const Star::Replaced& replaced) const;
+    void collapse(std::uint32_t point, std::uint32_t target);
+    template <typename Visit>
+    void forCorners(std::uint32_t point, const Visit& visit);
+
+    std::vector<Face> faces_;
+    std::vector<glm::dvec3> points_;
+    std::vector<std::uint32_t> first_;  ///< of a point's corners: 3 * face + corner
+    std::vector<Collapse> best_;        ///< of a point
+    std::vector<bool> isStale_;         ///< whether something changed around it since
+    std::vector<std::uint32_t> mark_;
+    std::uint32_t marking_ = 0;
+    std::vector<Neighbour> ring_;  ///< of the point looked at
+    std::uint32_t ownVertex_ = kNone;
+    std::size_t left_;
+};
+
+Simplifier::Simplifier(const PackedMesh& mesh, const Patch& patch) : left_(patch.triangles.size()) {
+    faces_.reserve(left_);
+    for (std::size_t i = 0; i < left_; ++i) {
+        Face face;
+        for (std::size_t corner = 0; corner < 3; ++corner)
+            face.corners[corner] = {patch.triangles[i][corner], kNone};
+        face.bound = patch.bounds[i];
+        faces_.push_back(face);
+    }
+    link(mesh);
+}
+
+/// Vertices at one position are one point of the surface.
+void Simplifier::link(const PackedMesh& mesh) {
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> corners;
+    corners.reserve(faces_.size() * 3);
+    for (std::uint32_t face = 0; face < faces_.size(); ++face)
+        for (std::uint32_t corner = 0; corner < 3; ++corner)
+            corners.emplace_back(mesh.positions[faces_[face].corners[corner].vertex],
+                                 3 * face + corner);
+    std::sort(corners.begin(), corners.end());
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const auto [position, at] = corners[i];
+        if (i == 0 || position != corners[i - 1].first) {
+            points_.emplace_back(unpackPosition(position));
+            first_.push_back(kNone);
+        }
+        Corner& corner = faces_[at / 3].corners[at % 3];
+        corner.point = static_cast<std::uint32_t>(points_.size() - 1);
+        corner.next = std::exchange(first_.back(), at);
+    }
+    best_.resize(points_.size());
+    isStale_.resize(points_.size(), false);
+    mark_.resize(points_.size(), 0);
+}
+
+template <typename Visit>
+void Simplifier::forCorners(std::uint32_t point, const Visit& visit) {
+    std::uint32_t* at = &first_[point];
+    while (*at != kNone) {
+        Face& face = faces_[*at / 3];
+        Corner& corner = face.corners[*at % 3];
+        if (!face.isThere) {
+            *at = corner.next;  // forgotten now
+            continue;
+        }
+        visit(*at / 3, *at % 3);
+        at = &corner.next;
+    }
+}
+
+/// Fills ring_; false when the point has to stay.
+bool Simplifier::gatherRing(std::uint32_t point) {
+    ring_.clear();
+    ownVertex_ = kNone;
+    bool isWhole = true;
+    forCorners(point, [&](std::uint32_t index, std::uint32_t corner) {
+        const Face& face = faces_[index];
+        const std::uint32_t own = face.corners[corner].vertex;
+        isWhole = isWhole && (ownVertex_ == kNone || ownVertex_ == own);
+        ownVertex_ = own;
+        const Corner& next = face.corners[(corner + 1) % 3];
+        ring_.push_back({next.point, index, next.vertex});
+    });
+    return isWhole && ring_.size() >= 3 && ring_.size() <= kMaxStar && sortRing();
+}
+
+/// Brings the neighbours in turn; false when they are no closed ring.
+bool Simplifier::sortRing() {
+    const auto after = [this](const Neighbour& neighbour, std::uint32_t own) {
+        const Face& face = faces_[neighbour.face];
+        for (std::size_t i = 0; i < 3; ++i)
+            if (face.corners[i].vertex == own)
+                return face.corners[(i + 2) % 3].point;
+        return kNone;
+    };
+    for (std::size_t i = 0; i + 1 < ring_.size(); ++i) {
+        const std::uint32_t wanted = after(ring_[i], ownVertex_);
+        const auto found = std::find_if(
+            ring_.begin() + static_cast<std::ptrdiff_t>(i) + 1, ring_.end(),
+            [wanted](const Neighbour& neighbour) { return neighbour.point == wanted; });
+        if (found == ring_.end())
+            return false;
+        std::swap(ring_[i + 1], *found);
+    }
+    if (after(ring_.back(), ownVertex_) != ring_.front().point)
+        return false;
+    ++marking_;
+    for (const Neighbour& neighbour : ring_)
+        if (std::exchange(mark_[neighbour.point], marking_) == marking_)
+            return false;  // the ring meets itself
+    return true;
+}
+
+/// Whether the point and ring_[target] have but two neighbours in common, so that no two faces fall
+/// onto each other, and the target looks the same from both sides of the edge between them.
+bool Simplifier::isSimple(std::size_t target) {
+    const std::size_t count = ring_.size();
+    const Neighbour& neighbour = ring_[target];
+    const Face& before = faces_[ring_[(target + count - 1) % count].face];
+    for (const Corner& corner : before.corners)
+        if (corner.point == neighbour.point && corner.vertex != neighbour.vertex)
+            return false;
+    const std::uint32_t left = ring_[(target + count - 1) % count].point;
+    const std::uint32_t right = ring_[(target + 1) % count].point;
+    bool isSimple = true;
+    forCorners(neighbour.point, [&](std::uint32_t index, std::uint32_t) {
+        for (const Corner& corner : faces_[index].corners)
+            if (mark_[corner.point] == marking_ && corner.point != neighbour.point &&
+                corner.point != left && corner.point != right)
+                isSimple = false;
+    });
+    return isSimple;
+}
+
+/// The star of the point whose ring_ this is.
+Star Simplifier::star(std::uint32_t point) const {
+    std::array<glm::dvec3, kMaxStar> ring;
+    for (std::size_t i = 0; i < ring_.size(); ++i) ring[i] = points_[ring_[i].point];
+    return {points_[point], std::span(ring).first(ring_.size())};
+}
+
+/// Of a triangle that is left: the largest of those it replaces, and the way to them.
+double Simplifier::boundOf(const Star::Replaced& replaced) const {
+    double before = 0;
+    for (std::size_t i = 0; i < ring_.size(); ++i)
+        if ((replaced.triangles >> i & 1) != 0)
+            before = std::max(before, double{faces_[ring_[i].face].bound});
+    return before + replaced.distance * (1 + kRounding) + kRounding;
+}
+
+Collapse Simplifier::bestCollapse(std::uint32_t point) {
+    Collapse best;
+    if (!gatherRing(point))
+        return best;
+    const Star star = this->star(point);
+    if (!star.isGraph())
+        return best;
+    for (std::size_t target = 0; target < ring_.size(); ++target) {
+        const auto outcome = star.movedTo(target);
+        if (!outcome)
+            continue;
+        double cost = 0;
+        for (std::size_t i = 0; i < ring_.size(); ++i)
+            if ((*outcome)[i].triangles != 0)
+                cost = std::max(cost, boundOf((*outcome)[i]));
+        cost += kLengthWeight * glm::length(points_[ring_[target].point] - points_[point]);
+        if (cost < best.cost && isSimple(target))
+            best = {ring_[target].point, cost};
+    }
+    return best;
+}
+
+/// ring_ is the point's.
+void Simplifier::collapse(std::uint32_t point, std::uint32_t target) {
+    const auto to = std::find_if(ring_.begin(), ring_.end(), [target](const Neighbour& neighbour) {
+        return neighbour.point == target;
+    });
+    const auto outcome = star(point).movedTo(static_cast<std::size_t>(to - ring_.begin()));
+    std::array<float, kMaxStar> bounds;
+    for (std::size_t i = 0; i < ring_.size(); ++i) bounds[i] = roundedUp(boundOf((*outcome)[i]));
+    for (std::size_t i = 0; i < ring_.size(); ++i) {
+        Face& face = faces_[ring_[i].face];
+        face.bound = bounds[i];
+        face.isThere = (*outcome)[i].triangles != 0;
+        isStale_[ring_[i].point] = true;
+    }
+    std::uint32_t at = first_[point];
+    while (at != kNone) {
+        Corner& corner = faces_[at / 3].corners[at % 3];
+        const std::uint32_t next = corner.next;
+        corner.point = to->point;
+        corner.vertex = to->vertex;
+        corner.next = std::exchange(first_[to->point], at);
+        at = next;
+    }
+    first_[point] = kNone;
+    left_ -= 2;
+}
+
+Patch Simplifier::run(std::size_t target) {
+    std::priority_queue<Candidate> queue;
+    const auto look = [&](std::uint32_t point) {
+        best_[point] = bestCollapse(point);
+        isStale_[point] = false;
+        if (best_[point].target != kNone)
+            queue.push({best_[point].cost, point});
+    };
+    for (std::uint32_t point = 0; point < points_.size(); ++point) look(point);
+    while (left_ > target && !queue.empty()) {
+        const std::uint32_t point = queue.top().point;
+        queue.pop();
+        if (isStale_[point])
+            look(point);
+        else if (gatherRing(point))
+            collapse(point, best_[point].target);
+    }
+    Patch result;
+    for (const Face& face : faces_) {
+        if (!face.isThere)
+            continue;
+        result.triangles.push_back(
+            {face.corners[0].vertex, face.corners[1].vertex, face.corners[2].vertex});
+        result.bounds.push_back(face.bound);
+    }
+    return result;
+}
+
+}  // namespace
+
+Patch simplify(const PackedMesh& mesh, const Patch& patch, std::size_t target) {
+    return Simplifier(mesh, patch).run(target);
+}
+
+double borderShare(const PackedMesh& mesh, const Patch& patch) {
+    std::vector<std::pair<std::uint64_t, std::uint64_t>> edges;
+    edges.reserve(patch.triangles.size() * 3);
+    for (const Triangle& triangle : patch.triangles)
+        for (std::size_t i = 0; i < 3; ++i)
+            edges.push_back(
+                std::minmax(mesh.positions[triangle[i]], mesh.positions[triangle[(i + 1) % 3]]));
+    std::sort(edges.begin(), edges.end());
+    std::size_t border = 0;
+    std::size_t all = 0;
+    for (std::size_t i = 0; i < edges.size(); ++all) {
+        std::size_t end = i + 1;
+        while (end < edges.size() && edges[end] == edges[i]) ++end;
+        border += end - i == 1 ? 1 : 0;
+        i = end;
+    }
+    // A border has as many vertices as edges, a surface a third as many.
+    return all == 0 ? 0
+                    : std::min(1.0, 3.0 * static_cast<double>(border) / static_cast<double>(all));
+}
+
+}  // namespace eyrie::mesh

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// The mesh promise: at every pixel the picture's surface is, on the screen, no farther from the
+// source's than the frame says. The judge casts double-precision rays at the triangles of the
+// source.
+#include <cmath>
+#include <memory>
+#include <random>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "fabric/frustum.h"
+#include "renderer/import/mesh_import.h"
+#include "renderer/import/mesh_synth.h"
+#include "renderer/import/ply_reader.h"
+#include "renderer/renderer.h"
+#include "renderer/truth/depth_comparison.h"
+#include "renderer/truth/mesh_ray_caster.h"
+#include "renderer/truth/pinhole.h"
+#include "tests/support/temporary_folder.h"
+
+namespace eyrie {
+namespace {
+
+constexpr int kWidth = 480;
+constexpr int kHeight = 270;
+/// What rasterisation may add to what is promised: corners are rounded to 1/256 pixel.
+constexpr double kRasterPixels = 1.0 / 256;
+
+class MeshTruth : public testing::Test {
+protected:
+    void open(import::TriangleMesh mesh) {
+        source_ = std::make_unique<truth::MeshRayCaster>(
+            truth::TriangleMesh{mesh.positions, mesh.triangles});
+        const std::string path = folder_.path("mesh.eym");
+        const auto report = import::importMesh(std::move(mesh), path);
+        ASSERT_TRUE(report.ok()) << report.status();
+        ASSERT_GE(report->levels.size(), 2U);
+        auto renderer = Renderer::create({});
+        ASSERT_TRUE(renderer.ok()) << renderer.status();
+        renderer_ = *std::move(renderer);
+        fabric::Scene scene;
+        scene.objects.push_back({.name = "mesh", .kind = fabric::ObjectKind::Mesh, .path = path});
+        auto info = renderer_->openScene(scene);
+        ASSERT_TRUE(info.ok()) << info.status();
+        bounds_ = info->bounds;
+    }
+
+    /// From a random side, so far away that the mesh is about `share` of the picture high.
+    fabric::Camera camera(std::mt19937& engine, double share) const {
+        std::normal_distribution<double> normal;
+        const fabric::Vec3 side =
+            glm::normalize(fabric::Vec3(normal(engine), normal(engine), normal(engine)));
+        fabric::Camera camera;
+        camera.target = bounds_.centre();
+        camera.up = std::abs(side.z) < 0.9 ? fabric::Vec3(0, 0, 1) : fabric::Vec3(1, 0, 0);
+        camera.fovYDegrees = 40;
+        const double distance = glm::length(bounds_.size()) / 2 / std::tan(M_PI / 9) / share;
+        camera.eye = camera.target + distance * side;
+        return camera;
+    }
+
+    void check(const fabric::Camera& camera, double tauPixels) {
+        const fabric::FrameData frame{.version = 1, .camera = camera, .tauPixels = tauPixels};
+        fabric::ChannelTask task;
+        task.frameDataVersion = 1;
+        task.viewWidth = kWidth;
+        task.viewHeight = kHeight;
+        task.pixelViewport = {0, 0, kWidth, kHeight};
+        task.wantsDepth = true;
+        const auto drawn = renderer_->render(frame, task);
+        ASSERT_TRUE(drawn.ok()) << drawn.status();
+        fabric::Image whole = fabric::makeImage({0, 0, kWidth, kHeight}, {}, true);
+        fabric::paste(drawn->image, whole);
+        std::vector<float> metres;
+        for (const float reversed : whole.depth)
+            metres.push_back(
+                static_cast<float>(fabric::viewDepthMetres(reversed, fabric::kNearMetres)));
+        const double promised = drawn->statistics.tauAchievedPixels;
+        const auto found = truth::compareDepth(truth::Pinhole(camera, kWidth, kHeight), metres,
+                                               *source_, static_cast<int>(std::ceil(promised)) + 1);
+        fmt::print(
+            "tau {:.1f}: promised {:.3f} px, measured {:.3f}, {} triangles; {} pixels, {} "
+            "holes, {} false, {} misplaced\n",
+            tauPixels, promised, found.maxPixels, drawn->statistics.triangles, found.compared,
+            found.holes, found.falseHits, found.misplaced);
+        EXPECT_LE(promised, tauPixels);
+        EXPECT_LE(found.maxPixels, promised + kRasterPixels);
+        EXPECT_EQ(found.holes, 0U);
+        EXPECT_EQ(found.falseHits, 0U);
+        EXPECT_EQ(found.misplaced, 0U);
+        EXPECT_GT(found.compared, 50U);
+    }
+
+    void checkCameras() {
+        std::mt19937 engine(7);
+        for (const double share : {0.1, 0.4, 1.0, 2.0})
+            for (const double tau : {0.5, 1.0, 2.0, 8.0}) check(camera(engine, share), tau);
+    }
+
+    test::TemporaryFolder folder_;
+    std::unique_ptr<Renderer> renderer_;
+    std::unique_ptr<truth::MeshRayCaster> source_;
+    fabric::Box bounds_;
+};
+
+TEST_F(MeshTruth, HoldsOnABumpyBall) {
+    ASSERT_NO_FATAL_FAILURE(open(import::synthesizeMesh(300000, 2)));
+    checkCameras();
+}
+
+TEST_F(MeshTruth, HoldsOnAScan) {
+    auto mesh = import::readPly(EYRIE_SOURCE_DIR "/demo/rocker_arm.ply");
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    ASSERT_NO_FATAL_FAILURE(open(*std::move(mesh)));
+    checkCameras();
+}
+
+}  // namespace
+}  // namespace eyrie

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/mesh/lod/lod_tree.h"
+
+#include <algorithm>
+#include <map>
+#include <random>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "renderer/import/mesh_synth.h"
+#include "renderer/import/pack_mesh.h"
+#include "renderer/mesh/vertex_packing.h"
+#include "renderer/truth/mesh_ray_caster.h"
+#include "tests/renderer/mesh/sample_meshes.h"
+
+namespace eyrie::mesh {
+namespace {
+
+constexpr std::uint32_t kNodeTriangles = 512;
+
+struct Levels {
+    PackedMesh mesh;
+    KdTree tree;
+    LodTree lod;
+};
+
+Levels levelsOf(PackedMesh mesh, std::uint32_t nodeTriangles = kNodeTriangles) {
+    auto tree = buildKdTree(mesh.positions, mesh.triangles, {nodeTriangles / 4});
+    EXPECT_TRUE(tree.ok());
+    auto lod = buildLodTree(mesh, *tree, {.nodeTriangles = nodeTriangles});
+    EXPECT_TRUE(lod.ok());
+    return {std::move(mesh), *std::move(tree), *std::move(lod)};
+}
+
+const Levels& bumpyBall() {
+    static const Levels levels = [] {
+        import::PackCounts counts;
+        auto mesh = import::packMesh(import::synthesizeMesh(20000, 5), counts);
+        EXPECT_TRUE(mesh.ok());
+        return levelsOf(*std::move(mesh));
+    }();
+    return levels;
+}
+
+std::vector<Triangle> sourceOf(const Levels& levels, const KdNode& node) {
+    std::vector<Triangle> triangles;
+    for (std::uint64_t i = node.triangleBegin; i < node.triangleEnd; ++i)
+        triangles.push_back(levels.mesh.triangles[levels.tree.order[i]]);
+    return triangles;
+}
+
+truth::MeshRayCaster surface(const PackedMesh& mesh, const std::vector<Triangle>& triangles) {
+    truth::TriangleMesh plain;
+    for (const std::uint64_t position : mesh.positions)
+        plain.positions.push_back(mesh.lattice.metres(unpackPosition(position)));
+    plain.triangles.assign(triangles.begin(), triangles.end());
+    return truth::MeshRayCaster(std::move(plain));
+}
+
+/// Largest distance found from points all over the triangles to the surface.
+double farthest(const PackedMesh& mesh, const std::vector<Triangle>& triangles,
+                const truth::MeshRayCaster& to) {
+    double worst = 0;
+    for (const Triangle& triangle : triangles) {
+        std::array<fabric::Vec3, 3> p;
+        for (std::size_t i = 0; i < 3; ++i)
+            p[i] = mesh.lattice.metres(unpackPosition(mesh.positions[triangle[i]]));
+        for (int i = 0; i <= 4; ++i)
+            for (int j = 0; i + j <= 4; ++j) {
+                const fabric::Vec3 at =
+                    p[0] + (i / 4.0) * (p[1] - p[0]) + (j / 4.0) * (p[2] - p[0]);
+                worst = std::max(worst, glm::length(*to.counterpart(at) - at));
+            }
+    }
+    return worst;
+}
+
+TEST(LodTree, NoPointOfEitherSurfaceIsFartherThanPromised) {
+    const Levels& levels = bumpyBall();
+    double ratios = 0;
+    int nodes = 0;
+    for (std::size_t i = 0; i < levels.tree.nodes.size(); ++i) {
+        if (levels.lod.geometry[i].empty())
+            continue;
+        const std::vector<Triangle> source = sourceOf(levels, levels.tree.nodes[i]);
+        const auto& drawn = levels.lod.geometry[i];
+        const double measured =
+            std::max(farthest(levels.mesh, source, surface(levels.mesh, drawn)),
+                     farthest(levels.mesh, drawn, surface(levels.mesh, source)));
+        EXPECT_LE(measured, levels.lod.errorMetres[i]) << "node " << i;
+        ratios += levels.lod.errorMetres[i] / measured;
+        ++nodes;
+    }
+    ASSERT_GT(nodes, 20);
+    fmt::print("promised over measured: {:.2f} on average of {} nodes\n", ratios / nodes, nodes);
+    EXPECT_LT(ratios / nodes, 2.5);
+}
+
+TEST(LodTree, HalvesTheTrianglesFromLevelToLevel) {
+    const Levels& levels = bumpyBall();
+    ASSERT_GE(levels.lod.levels.size(), 5U);
+    for (const LodLevel& level : levels.lod.levels)
+        EXPECT_NEAR(static_cast<double>(level.trianglesAfter),
+                    static_cast<double>(level.trianglesBefore) / 2,
+                    0.05 * static_cast<double>(level.trianglesBefore));
+    EXPECT_LE(levels.lod.geometry[0].size(), kNodeTriangles);
+}
+
+TEST(LodTree, ErrorsAreNeverBelowTheChildrens) {
+    const Levels& levels = bumpyBall();
+    for (std::size_t i = 0; i < levels.tree.nodes.size(); ++i) {
+        const KdNode& node = levels.tree.nodes[i];
+        if (node.isLeaf())
+            continue;
+        EXPECT_GE(levels.lod.errorMetres[i], levels.lod.errorMetres[std::size_t(node.left)]);
+        EXPECT_GE(levels.lod.errorMetres[i], levels.lod.errorMetres[std::size_t(node.right)]);
+    }
+}
+
+using Edge = std::pair<std::uint64_t, std::uint64_t>;
+
+void addEdges(const PackedMesh& mesh, const std::vector<Triangle>& triangles,
+              std::map<Edge, int>& edges) {
+    for (const Triangle& triangle : triangles)
+        for (std::size_t i = 0; i < 3; ++i)
+            ++edges[{mesh.positions[triangle[i]], mesh.positions[triangle[(i + 1) % 3]]}];
+}
+
+/// A random cut through the tree.
+void addCut(const Levels& levels, std::size_t index, std::mt19937& engine,
+            std::map<Edge, int>& edges) {
+    const KdNode& node = levels.tree.nodes[index];
+    if (node.isLeaf())
+        return addEdges(levels.mesh, sourceOf(levels, node), edges);
+    if (!levels.lod.geometry[index].empty() && engine() % 4 == 0)
+        return addEdges(levels.mesh, levels.lod.geometry[index], edges);
+    addCut(levels, static_cast<std::size_t>(node.left), engine, edges);
+    addCut(levels, static_cast<std::size_t>(node.right), engine, edges);
+}
+
+TEST(LodTree, AnyCutThroughAClosedMeshIsClosed) {
+    std::mt19937 engine(1);
+    for (int round = 0; round < 50; ++round) {
+        std::map<Edge, int> edges;
+        addCut(bumpyBall(), 0, engine, edges);
+        for (const auto& [edge, count] : edges) {
+            const auto back = edges.find({edge.second, edge.first});
+            ASSERT_TRUE(back != edges.end() && back->second == count) << "round " << round;
+        }
+    }
+}
+
+TEST(LodTree, LeavesASoupToItsLeaves) {
+    const Levels levels = levelsOf(test::separateTriangles(2000), 64);
+    for (const auto& geometry : levels.lod.geometry) EXPECT_TRUE(geometry.empty());
+    for (const double error : levels.lod.errorMetres)
+        EXPECT_EQ(error, levels.mesh.lattice.errorMetres());
+}
+
+TEST(LodTree, SurvivesRandomTriangles) {
+    for (std::uint32_t seed = 0; seed < 20; ++seed) {
+        const Levels levels = levelsOf(test::randomSoup(3000, 300, 40, seed), 128);
+        for (const auto& geometry : levels.lod.geometry)
+            for (const Triangle& triangle : geometry)
+                for (const std::uint32_t vertex : triangle)
+                    ASSERT_LT(vertex, levels.mesh.positions.size());
+    }
+}
+
+TEST(LodTree, DependsOnTheMeshAlone) {
+    const Levels again = levelsOf(bumpyBall().mesh);
+    EXPECT_EQ(again.lod.geometry, bumpyBall().lod.geometry);
+    EXPECT_EQ(again.lod.errorMetres, bumpyBall().lod.errorMetres);
+}
+
+TEST(LodTree, StopsWhenAsked) {
+    std::stop_source stop;
+    stop.request_stop();
+    const Levels& levels = bumpyBall();
+    EXPECT_EQ(buildLodTree(levels.mesh, levels.tree, {}, {}, stop.get_token()).status().code(),
+              absl::StatusCode::kCancelled);
+}
+
+}  // namespace
+}  // namespace eyrie::mesh
