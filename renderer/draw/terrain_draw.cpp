@@ -235,8 +235,9 @@ Cut TerrainDrawable::selectCut(const CutRequest& request) {
     choices_ = std::move(drawn.tiles);
     for (std::uint32_t i = 0; i < choices_.size(); ++i)
         if (needed_.contains(choices_[i].id))
-            cut.pieces.push_back(
-                {i, needed_.position(choices_[i].id), index().bounds(choices_[i].id)});
+            cut.pieces.push_back({i, needed_.position(choices_[i].id),
+                                  index().bounds(choices_[i].id), true,
+                                  index().tile(choices_[i].id).triangles});
     imagery_.choose(choices_, cut.pieces, request.view, texelPixels(choice.step));
     if (request.wantsPageBounds)
         addPageBounds(wanted.cut, cut.pieces);
