@@ -269,8 +269,12 @@ absl::Status Renderer::Impl::drawSelection(const Selection& selection, const lod
     RETURN_IF_ERROR(framebuffer_.resize(task.viewWidth, task.viewHeight));
     const draw::FrameState frame{view, *scene_, frameData.shading, frameData.look};
     RETURN_IF_ERROR(occludedDraw_.draw(
-        {view, selection.worldFromObject, task.pixelViewport, selection.covered, task.range,
-         scene_->background, passState(frameData.shading), framebuffer_},
+        {view, selection.worldFromObject,
+         [&](const draw::OrderedPiece& one) {
+             return objects_[one.object].drawable->partBounds(one.piece);
+         },
+         task.pixelViewport, selection.covered, task.range, scene_->background,
+         passState(frameData.shading), framebuffer_},
         selection.pieces, hasLines(frameData) ? fabric::Occlusion::Off : frameData.occlusion,
         [&](const draw::OccludedDraw::Pieces& pieces, fabric::FrameStatistics& drawn) {
             return drawPieces(pieces, frame, drawn);

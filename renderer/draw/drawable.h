@@ -80,6 +80,10 @@ public:
     /// to be loaded. Interactive ones take what is there.
     virtual Cut selectCut(const CutRequest& request) = 0;
 
+    /// Boxes (object space, metres) that together hold a piece of the last cut, where they are
+    /// smaller than its own.
+    virtual std::vector<fabric::Box> partBounds(const Piece& /*piece*/) const { return {}; }
+
     /// Draws pieces of the last cut, in order, into the bound framebuffer. Counts triangles, and
     /// pages that are loaded only now, in `statistics`.
     virtual absl::Status draw(std::span<const Piece> pieces, const FrameState& frame,

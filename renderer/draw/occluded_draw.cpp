@@ -37,16 +37,28 @@ std::vector<lod::ObjectView> objectViews(const lod::View& view, const ChannelDra
     return views;
 }
 
+/// Whether something holds of a piece's box or, if not, of the boxes of its parts.
+template <typename Test>
+bool holds(const ChannelDraw& channel, const OrderedPiece& one, const Test& test) {
+    if (test(std::span(&one.piece.bounds, 1)))
+        return true;
+    const std::vector<fabric::Box> parts = channel.partBounds(one);
+    return !parts.empty() && test(std::span(parts));
+}
+
 /// The pieces that probably are seen, and those that probably are not.
 std::pair<OccludedDraw::Pieces, OccludedDraw::Pieces> expected(
     const ChannelDraw& channel, std::span<const OrderedPiece> pieces,
     const occlusion::ChannelMemory& memory) {
     const std::vector<lod::ObjectView> lastViews = objectViews(memory.view, channel);
     std::pair<OccludedDraw::Pieces, OccludedDraw::Pieces> parts;
-    for (const OrderedPiece& one : pieces)
-        (memory.expectsHidden(lastViews[one.object], one.piece.bounds, channel.part) ? parts.second
-                                                                                     : parts.first)
-            .push_back(&one);
+    for (const OrderedPiece& one : pieces) {
+        const bool isHidden =
+            memory.isFresh && holds(channel, one, [&](std::span<const fabric::Box> boxes) {
+                return memory.expectsHidden(lastViews[one.object], boxes, channel.part);
+            });
+        (isHidden ? parts.second : parts.first).push_back(&one);
+    }
     return parts;
 }
 
@@ -85,8 +97,11 @@ absl::Status OccludedDraw::drawLooking(const ChannelDraw& channel,
     remember(channel, memory);
     const std::vector<lod::ObjectView> views = objectViews(channel.view, channel);
     const auto isHidden = [&](const OrderedPiece* one) {
-        const bool hidden =
-            occlusion::isHidden(memory.pyramid, views[one->object], one->piece.bounds);
+        const bool hidden = holds(channel, *one, [&](std::span<const fabric::Box> boxes) {
+            return std::all_of(boxes.begin(), boxes.end(), [&](const fabric::Box& box) {
+                return occlusion::isHidden(memory.pyramid, views[one->object], box);
+            });
+        });
         look.hidden += hidden ? one->piece.triangles : 0;
         return hidden;
     };

@@ -29,8 +29,10 @@ struct OrderedPiece {
 struct ChannelDraw {
     const lod::View& view;
     std::span<const fabric::Mat4> worldFromObject;  ///< of each object, as drawn
-    fabric::PixelViewport part;                     ///< of the view, that the channel draws
-    fabric::PixelViewport covered;                  ///< what of it the pieces may touch
+    /// Drawable::partBounds of the piece's object.
+    std::function<std::vector<fabric::Box>(const OrderedPiece&)> partBounds;
+    fabric::PixelViewport part;     ///< of the view, that the channel draws
+    fabric::PixelViewport covered;  ///< what of it the pieces may touch
     fabric::Range range;
     fabric::Rgba background;
     const gl::PassState& state;

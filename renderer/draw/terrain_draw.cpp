@@ -21,6 +21,7 @@
 #include "renderer/lod/vertical_error.h"
 #include "renderer/page/tau_ladder.h"
 #include "renderer/terrain/eyt_format.h"
+#include "renderer/terrain/part_bounds.h"
 #include "renderer/terrain/terrain_cut.h"
 #include "renderer/terrain/tile_bytes.h"
 
@@ -83,6 +84,9 @@ public:
     std::uint64_t bytes() const override { return file_->sizeBytes(); }
 
     Cut selectCut(const CutRequest& request) override;
+    std::vector<fabric::Box> partBounds(const Piece& piece) const override {
+        return terrain::partBounds(index(), choices_[piece.index].id);
+    }
     absl::Status draw(std::span<const Piece> pieces, const FrameState& frame,
                       fabric::FrameStatistics& statistics) override;
     MemoryUse memory() const override { return paging_->memory(); }

@@ -35,16 +35,20 @@ fabric::Vec3 direction(const lod::View& view) {
 
 }  // namespace
 
-bool ChannelMemory::expectsHidden(const lod::ObjectView& lastView, const fabric::Box& bounds,
+bool ChannelMemory::expectsHidden(const lod::ObjectView& lastView,
+                                  std::span<const fabric::Box> boxes,
                                   const fabric::PixelViewport& part) const {
-    const fabric::PixelViewport covered = lastView.coveredPixels(bounds);
-    if (!isFresh || covered.isEmpty())
-        return false;
-    const fabric::PixelViewport seen =
-        intersection(grownBy(covered, kSparePixels), intersection(part, pyramid.area()));
-    const fabric::PixelViewport needed = intersection(covered, part);
-    return !needed.isEmpty() && pyramid.area().contains(needed) &&
-           pyramid.hides(seen, nearestReversedDepth(lastView, bounds));
+    bool wasInPicture = false;
+    for (const fabric::Box& bounds : boxes) {
+        const fabric::PixelViewport covered = lastView.coveredPixels(bounds);
+        const fabric::PixelViewport needed = intersection(covered, part);
+        wasInPicture = wasInPicture || !needed.isEmpty();
+        const bool isKnown = needed.isEmpty() || pyramid.area().contains(needed);
+        if (!isKnown || !pyramid.hides(intersection(grownBy(covered, kSparePixels), part),
+                                       nearestReversedDepth(lastView, bounds)))
+            return false;
+    }
+    return isFresh && wasInPicture;
 }
 
 ChannelMemory& ChannelMemories::of(const lod::View& view, const fabric::Range& range,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <list>
+#include <span>
 
 #include "fabric/range.h"
 #include "renderer/lod/view.h"
@@ -21,10 +22,10 @@ struct ChannelMemory {
     bool isFresh = false;  ///< whether they are the last frame's
     Payoff payoff;
 
-    /// Whether `bounds`, of an object seen by `lastView` (in `view`), was hidden in the last frame
-    /// with some pixels to spare. False where it was not, or not all, in the part of the picture
-    /// that is known. `part`: what the channel draws.
-    bool expectsHidden(const lod::ObjectView& lastView, const fabric::Box& bounds,
+    /// Whether all that lies in `boxes`, of an object that `lastView` sees in `view`, was hidden in
+    /// the last frame with some pixels to spare. What was outside the picture counts as hidden, but
+    /// not if all was. `part`: what the channel draws.
+    bool expectsHidden(const lod::ObjectView& lastView, std::span<const fabric::Box> boxes,
                        const fabric::PixelViewport& part) const;
 };
 
