@@ -13,6 +13,7 @@
 #include "cli/cache_options.h"
 #include "cli/commands.h"
 #include "cli/compound_names.h"
+#include "cli/occlusion_option.h"
 #include "cli/picture_source.h"
 #include "cli/progress_bar.h"
 #include "cli/renderer_processes.h"
@@ -31,6 +32,7 @@ struct Options {
     std::string size = "1280x720";
     int frames = 120;
     int repeats = 3;
+    fabric::Occlusion occlusion = fabric::Occlusion::Auto;
     PictureSourceOptions pictures;
     std::string out;
     bool json = false;
@@ -71,6 +73,7 @@ absl::StatusOr<std::vector<bench::BenchRun>> playAll(PictureSource& pictures,
         play.request.tauPixels = tau;
         play.request.width = size.width;
         play.request.height = size.height;
+        play.request.occlusion = options.occlusion;
         int done = 0;
         const auto frameDone = [&] {
             progress(fmt::format("tau {} px", tau), static_cast<double>(++done) / framesOfRun);
@@ -119,6 +122,7 @@ void addMeasuringOptions(CLI::App& command, Options& options) {
     command.add_option("--repeats", options.repeats, "Passes that count; one before them loads")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
+    addOcclusionOption(command, options.occlusion);
     command
         .add_option("--renderers", options.pictures.renderers,
                     "Draw with so many processes instead of in this one")

@@ -28,8 +28,8 @@ public:
         : renderer_(std::move(renderer)), info_(std::move(info)), background_(background) {}
 
     absl::StatusOr<RenderedFrame> draw(const FrameRequest& request) override {
-        const fabric::FrameData frameData{++frames_, request.camera, request.tauPixels,
-                                          request.shading, request.look};
+        const fabric::FrameData frameData{++frames_,       request.camera, request.tauPixels,
+                                          request.shading, request.look,   request.occlusion};
         fabric::ChannelTask task;
         task.frameNumber = frames_;
         task.frameDataVersion = frameData.version;

@@ -14,6 +14,7 @@
 #include "cli/compound_names.h"
 #include "cli/decode_names.h"
 #include "cli/image_files.h"
+#include "cli/occlusion_option.h"
 #include "cli/picture_source.h"
 #include "cli/renderer_processes.h"
 #include "cli/scene_files.h"
@@ -34,6 +35,7 @@ struct Options {
     std::string size = "1280x720";
     double tau = 1;
     fabric::Shading shading = fabric::Shading::Smooth;
+    fabric::Occlusion occlusion = fabric::Occlusion::Auto;
     std::string look;
     std::optional<double> exaggeration;
     PictureSourceOptions pictures;
@@ -70,6 +72,7 @@ absl::StatusOr<coordinator::FrameRequest> requestOf(const Options& options) {
     ASSIGN_OR_RETURN(request.camera, wire::cameraFromJson(text, options.camera));
     request.tauPixels = options.tau;
     request.shading = options.shading;
+    request.occlusion = options.occlusion;
     ASSIGN_OR_RETURN(request.look, lookOf(options));
     request.width = size.width;
     request.height = size.height;
@@ -166,6 +169,7 @@ void addRender(CLI::App& app, Run& run) {
     command->add_option("--tau", options->tau, "Screen-space error allowed, in pixels")
         ->capture_default_str();
     addLookOptions(*command, *options);
+    addOcclusionOption(*command, options->occlusion);
     command
         ->add_option("--renderers", options->pictures.renderers,
                      "Draw with so many processes instead of in this one")

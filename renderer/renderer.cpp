@@ -13,6 +13,7 @@
 #include "fabric/status.h"
 #include "renderer/draw/drawable.h"
 #include "renderer/draw/mesh_draw.h"
+#include "renderer/draw/occluded_draw.h"
 #include "renderer/draw/terrain_draw.h"
 #include "renderer/gl/egl_context.h"
 #include "renderer/gl/framebuffer.h"
@@ -51,29 +52,29 @@ absl::Status validateTask(const fabric::FrameData& frameData, const fabric::Chan
     return absl::OkStatus();
 }
 
+/// Whether not all that is drawn is filled surfaces.
+bool hasLines(const fabric::FrameData& frameData) {
+    return frameData.shading == fabric::Shading::Wireframe || frameData.look.tileBounds ||
+           frameData.look.pageBounds;
+}
+
 /// Pixels that what falls to a channel may touch. A line reaches half a pixel beyond its place, so
 /// the piece it belongs to may lie beside the channel.
 fabric::PixelViewport reach(const fabric::FrameData& frameData, const fabric::PixelViewport& part) {
-    const bool hasLines = frameData.shading == fabric::Shading::Wireframe ||
-                          frameData.look.tileBounds || frameData.look.pageBounds;
-    return hasLines ? fabric::PixelViewport{part.x - 1, part.y - 1, part.width + 2, part.height + 2}
-                    : part;
+    return hasLines(frameData)
+               ? fabric::PixelViewport{part.x - 1, part.y - 1, part.width + 2, part.height + 2}
+               : part;
 }
 
-void setPassState(fabric::Shading shading) {
-    const bool wireframe = shading == fabric::Shading::Wireframe;
-    (wireframe ? effects::ObjectBlock::kWireframe : effects::ObjectBlock::kSolid).apply();
+const gl::PassState& passState(fabric::Shading shading) {
+    return shading == fabric::Shading::Wireframe ? effects::ObjectBlock::kWireframe
+                                                 : effects::ObjectBlock::kSolid;
 }
-
-/// A piece of some object in the order in which a frame draws.
-struct OrderedPiece {
-    std::uint32_t object;
-    draw::Piece piece;
-};
 
 /// What a channel draws, and the pixels outside which none of it falls.
 struct Selection {
-    std::vector<OrderedPiece> pieces;
+    std::vector<draw::OrderedPiece> pieces;
+    std::vector<fabric::Mat4> worldFromObject;  ///< of each object, as drawn
     fabric::PixelViewport covered;
 };
 
@@ -144,13 +145,17 @@ private:
                            const fabric::ChannelTask& task, fabric::FrameStatistics& statistics);
     double errorPixels(const lod::View& view, const fabric::FrameData& frameData,
                        const fabric::ChannelTask& task, const fabric::PixelViewport& covered);
-    absl::Status drawPieces(const std::vector<OrderedPiece>& pieces, const draw::FrameState& frame,
+    absl::Status drawSelection(const Selection& selection, const lod::View& view,
+                               const fabric::FrameData& frameData, const fabric::ChannelTask& task,
+                               fabric::FrameStatistics& statistics);
+    absl::Status drawPieces(const draw::OccludedDraw::Pieces& pieces, const draw::FrameState& frame,
                             fabric::FrameStatistics& statistics);
 
     std::unique_ptr<gl::EglContext> context_;  // first: everything below needs it current
     effects::EffectVariants<effects::TerrainEffect> terrainPrograms_;
     effects::EffectVariants<effects::MeshEffect> meshPrograms_;
     gl::Framebuffer framebuffer_;
+    draw::OccludedDraw occludedDraw_;
     RendererOptions options_;
     draw::DecodeChoice decoding_;
     page::Loader loader_;
@@ -200,6 +205,7 @@ absl::StatusOr<fabric::SceneInfo> Renderer::Impl::openScene(const fabric::Scene&
     info.ground = groundOf(objects);
     scene_ = scene;
     objects_ = std::move(objects);
+    occludedDraw_.forget();
     return info;
 }
 
@@ -210,7 +216,7 @@ Selection Renderer::Impl::selectPieces(const lod::View& view, const fabric::Fram
                                        const fabric::ChannelTask& task,
                                        fabric::FrameStatistics& statistics) {
     Selection selection;
-    std::vector<OrderedPiece>& pieces = selection.pieces;
+    std::vector<draw::OrderedPiece>& pieces = selection.pieces;
     const fabric::Look& look = frameData.look;
     const fabric::Frustum channel = lod::subFrustum(view, reach(frameData, task.pixelViewport));
     // A cut that was frozen is brought whole: this view may see all of it.
@@ -218,7 +224,8 @@ Selection Renderer::Impl::selectPieces(const lod::View& view, const fabric::Fram
         look.cutCamera ? lod::View(*look.cutCamera, task.viewWidth, task.viewHeight) : view;
     const fabric::Frustum& cutChannel = look.cutCamera ? cutView.frustum : channel;
     for (std::uint32_t i = 0; i < objects_.size(); ++i) {
-        const fabric::Mat4 worldFromObject = drawnWorldFromObject(objects_[i].object, look);
+        const fabric::Mat4& worldFromObject =
+            selection.worldFromObject.emplace_back(drawnWorldFromObject(objects_[i].object, look));
         const lod::ObjectView objectView(view, worldFromObject);
         const lod::ObjectView cutObjectView(cutView, worldFromObject);
         const draw::Cut cut = objects_[i].drawable->selectCut(
@@ -270,20 +277,41 @@ double Renderer::Impl::errorPixels(const lod::View& view, const fabric::FrameDat
     return worst;
 }
 
-absl::Status Renderer::Impl::drawPieces(const std::vector<OrderedPiece>& pieces,
+absl::Status Renderer::Impl::drawPieces(const draw::OccludedDraw::Pieces& pieces,
                                         const draw::FrameState& frame,
                                         fabric::FrameStatistics& statistics) {
-    setPassState(frame.shading);
     std::vector<draw::Piece> run;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
-        run.push_back(pieces[i].piece);
-        if (i + 1 < pieces.size() && pieces[i + 1].object == pieces[i].object)
+        run.push_back(pieces[i]->piece);
+        statistics.nodes += pieces[i]->piece.isNode ? 1 : 0;
+        if (i + 1 < pieces.size() && pieces[i + 1]->object == pieces[i]->object)
             continue;
-        RETURN_IF_ERROR(objects_[pieces[i].object].drawable->draw(run, frame, statistics));
+        RETURN_IF_ERROR(objects_[pieces[i]->object].drawable->draw(run, frame, statistics));
         run.clear();
     }
-    statistics.nodes = static_cast<std::uint64_t>(std::count_if(
-        pieces.begin(), pieces.end(), [](const auto& ordered) { return ordered.piece.isNode; }));
+    return absl::OkStatus();
+}
+
+/// Lines hide nothing, and are drawn with the piece they belong to, hidden or not.
+absl::Status Renderer::Impl::drawSelection(const Selection& selection, const lod::View& view,
+                                           const fabric::FrameData& frameData,
+                                           const fabric::ChannelTask& task,
+                                           fabric::FrameStatistics& statistics) {
+    RETURN_IF_ERROR(framebuffer_.resize(task.viewWidth, task.viewHeight));
+    const draw::FrameState frame{view, *scene_, frameData.shading, frameData.look};
+    RETURN_IF_ERROR(occludedDraw_.draw(
+        {view, selection.worldFromObject,
+         [&](const draw::OrderedPiece& one) {
+             return objects_[one.object].drawable->partBounds(one.piece);
+         },
+         task.pixelViewport, selection.covered, task.range, scene_->background,
+         passState(frameData.shading), framebuffer_},
+        selection.pieces, hasLines(frameData) ? fabric::Occlusion::Off : frameData.occlusion,
+        [&](const draw::OccludedDraw::Pieces& pieces, fabric::FrameStatistics& drawn) {
+            return drawPieces(pieces, frame, drawn);
+        },
+        statistics));
+    glFinish();
     return absl::OkStatus();
 }
 
@@ -304,11 +332,7 @@ absl::StatusOr<fabric::ChannelResult> Renderer::Impl::render(const fabric::Frame
     statistics.milliseconds.cull = millisecondsSince(start);
 
     const auto drawStart = Clock::now();
-    RETURN_IF_ERROR(framebuffer_.resize(task.viewWidth, task.viewHeight));
-    framebuffer_.begin(task.viewWidth, task.viewHeight, selection.covered, scene_->background);
-    RETURN_IF_ERROR(drawPieces(selection.pieces, {view, *scene_, frameData.shading, frameData.look},
-                               statistics));
-    glFinish();
+    RETURN_IF_ERROR(drawSelection(selection, view, frameData, task, statistics));
     statistics.milliseconds.draw = millisecondsSince(drawStart);
 
     const auto readStart = Clock::now();

@@ -104,16 +104,18 @@ std::string summaryJson(const BenchFacts& facts, const std::vector<BenchRun>& ru
 
 std::string framesCsv(const std::vector<BenchRun>& runs) {
     std::string csv =
-        "tau,pass,seconds,milliseconds,cull,draw,readback,encode,triangles,nodes,pagesLoaded,"
+        "tau,pass,seconds,milliseconds,cull,draw,readback,encode,triangles,nodes,nodesHidden,"
+        "pagesLoaded,"
         "bytesLoaded,tauAchieved,complete\n";
     for (const BenchRun& run : runs)
         for (const PlayedFrame& frame : run.played.frames) {
             const fabric::FrameStatistics& s = frame.statistics;
             const fabric::StageMilliseconds& ms = s.milliseconds;
-            csv += fmt::format("{},{},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{},{},{},{},{},{:d}\n",
-                               run.tauPixels, frame.pass, frame.seconds, frame.milliseconds,
-                               ms.cull, ms.draw, ms.readback, ms.encode, s.triangles, s.nodes,
-                               s.pagesLoaded, s.bytesLoaded, s.tauAchievedPixels, s.complete);
+            csv +=
+                fmt::format("{},{},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{},{},{},{},{},{},{:d}\n",
+                            run.tauPixels, frame.pass, frame.seconds, frame.milliseconds, ms.cull,
+                            ms.draw, ms.readback, ms.encode, s.triangles, s.nodes, s.nodesHidden,
+                            s.pagesLoaded, s.bytesLoaded, s.tauAchievedPixels, s.complete);
         }
     return csv;
 }

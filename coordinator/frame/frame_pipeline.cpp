@@ -83,7 +83,7 @@ absl::StatusOr<std::vector<Dispatch::Drawn>> FramePipeline::draw(const FrameRequ
 
 const fabric::FrameData& FramePipeline::frameDataFor(const FrameRequest& request) {
     const fabric::FrameData asked{frameData_.version, request.camera, request.tauPixels,
-                                  request.shading, request.look};
+                                  request.shading,    request.look,   request.occlusion};
     if (frameData_.version == 0 || asked != frameData_) {
         frameData_ = asked;
         ++frameData_.version;

@@ -22,6 +22,7 @@ struct FrameRequest {
     double tauPixels = 1;
     fabric::Shading shading = fabric::Shading::Smooth;
     fabric::Look look = {};
+    fabric::Occlusion occlusion = fabric::Occlusion::Auto;
     int width = 1280;  ///< pixels, 1 to fabric::kMaxViewPixels
     int height = 720;
     bool wantsDepth = false;

@@ -11,6 +11,13 @@ namespace eyrie::fabric {
 /// How surfaces are drawn.
 enum class Shading { Smooth, Flat, Wireframe };
 
+/// Whether what is hidden behind something is found and left out. It changes no pixel.
+enum class Occlusion {
+    Auto,  ///< where measurements say that it pays
+    On,
+    Off
+};
+
 /// What changes from frame to frame. Versioned: renderers receive each version once, and channel
 /// tasks name the version they are to be drawn with.
 struct FrameData {
@@ -19,6 +26,7 @@ struct FrameData {
     double tauPixels = 1;  ///< screen-space error asked for; 0.01 to 1000
     Shading shading = Shading::Smooth;
     Look look = {};
+    Occlusion occlusion = Occlusion::Auto;
 
     bool operator==(const FrameData&) const = default;
 };

@@ -27,7 +27,8 @@ struct FrameStatistics {
     bool complete = true;  ///< false when data that the frame needs are not there (yet)
     std::uint64_t triangles = 0;
     std::uint64_t points = 0;
-    std::uint64_t nodes = 0;  ///< LOD nodes drawn
+    std::uint64_t nodes = 0;        ///< LOD nodes drawn
+    std::uint64_t nodesHidden = 0;  ///< left out because others hide them
     std::uint64_t pagesLoaded = 0;
     std::uint64_t bytesLoaded = 0;        ///< of these, as stored
     std::uint64_t pagesMissing = 0;       ///< coarser data stand in for them
@@ -47,6 +48,7 @@ inline void accumulate(FrameStatistics& sum, const FrameStatistics& part) {
     sum.triangles += part.triangles;
     sum.points += part.points;
     sum.nodes += part.nodes;
+    sum.nodesHidden += part.nodesHidden;
     sum.pagesLoaded += part.pagesLoaded;
     sum.bytesLoaded += part.bytesLoaded;
     sum.pagesMissing += part.pagesMissing;

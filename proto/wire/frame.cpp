@@ -40,6 +40,34 @@ absl::StatusOr<fabric::Shading> fromMessage(v1::Shading shading) {
     }
 }
 
+v1::Occlusion toMessage(fabric::Occlusion occlusion) {
+    switch (occlusion) {
+        case fabric::Occlusion::Auto:
+            return v1::OCCLUSION_AUTO;
+        case fabric::Occlusion::On:
+            return v1::OCCLUSION_ON;
+        case fabric::Occlusion::Off:
+            return v1::OCCLUSION_OFF;
+    }
+    return v1::OCCLUSION_UNSPECIFIED;
+}
+
+absl::StatusOr<fabric::Occlusion> fromMessage(v1::Occlusion occlusion) {
+    switch (occlusion) {
+        case v1::OCCLUSION_UNSPECIFIED:
+        case v1::OCCLUSION_AUTO:
+            return fabric::Occlusion::Auto;
+        case v1::OCCLUSION_ON:
+            return fabric::Occlusion::On;
+        case v1::OCCLUSION_OFF:
+            return fabric::Occlusion::Off;
+        default:
+            return absl::InvalidArgumentError(
+                fmt::format("frame_data.occlusion is {}, which this version does not know",
+                            static_cast<int>(occlusion)));
+    }
+}
+
 v1::Completeness toMessage(fabric::Completeness completeness) {
     return completeness == fabric::Completeness::Interactive ? v1::COMPLETENESS_INTERACTIVE
                                                              : v1::COMPLETENESS_COMPLETE;
@@ -75,6 +103,7 @@ v1::FrameData toMessage(const fabric::FrameData& frameData) {
     message.set_tau_pixels(frameData.tauPixels);
     message.set_shading(toMessage(frameData.shading));
     *message.mutable_look() = toMessage(frameData.look);
+    message.set_occlusion(toMessage(frameData.occlusion));
     return message;
 }
 
@@ -92,6 +121,7 @@ absl::StatusOr<fabric::FrameData> fromMessage(const v1::FrameData& message) {
                         frameData.tauPixels, fabric::kMinTauPixels, fabric::kMaxTauPixels));
     ASSIGN_OR_RETURN(frameData.shading, fromMessage(message.shading()));
     ASSIGN_OR_RETURN(frameData.look, fromMessage(message.look()));
+    ASSIGN_OR_RETURN(frameData.occlusion, fromMessage(message.occlusion()));
     return frameData;
 }
 

@@ -116,6 +116,7 @@ std::string statisticsJson(const fabric::FrameStatistics& statistics, int width,
   "triangles": {},
   "points": {},
   "nodes": {},
+  "nodesHidden": {},
   "pagesLoaded": {},
   "bytesLoaded": {},
   "pagesMissing": {},
@@ -127,8 +128,8 @@ std::string statisticsJson(const fabric::FrameStatistics& statistics, int width,
 )",
         width, height, number(statistics.tauAskedPixels), number(statistics.tauAchievedPixels),
         statistics.complete, statistics.triangles, statistics.points, statistics.nodes,
-        statistics.pagesLoaded, statistics.bytesLoaded, statistics.pagesMissing,
-        statistics.pagesFailed, statistics.tilesDecodedOnGpu,
+        statistics.nodesHidden, statistics.pagesLoaded, statistics.bytesLoaded,
+        statistics.pagesMissing, statistics.pagesFailed, statistics.tilesDecodedOnGpu,
         millisecondsJson(statistics.milliseconds), deviceJson(device));
 }
 

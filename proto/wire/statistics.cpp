@@ -59,6 +59,7 @@ v1::FrameStatistics toMessage(const fabric::FrameStatistics& statistics) {
     message.set_triangles(statistics.triangles);
     message.set_points(statistics.points);
     message.set_nodes(statistics.nodes);
+    message.set_nodes_hidden(statistics.nodesHidden);
     message.set_pages_loaded(statistics.pagesLoaded);
     message.set_bytes_loaded(statistics.bytesLoaded);
     message.set_pages_missing(statistics.pagesMissing);
@@ -80,6 +81,7 @@ absl::StatusOr<fabric::FrameStatistics> fromMessage(const v1::FrameStatistics& m
     statistics.triangles = message.triangles();
     statistics.points = message.points();
     statistics.nodes = message.nodes();
+    statistics.nodesHidden = message.nodes_hidden();
     statistics.pagesLoaded = message.pages_loaded();
     statistics.bytesLoaded = message.bytes_loaded();
     statistics.pagesMissing = message.pages_missing();

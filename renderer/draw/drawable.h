@@ -26,6 +26,8 @@ struct Piece {
     double rangePosition = 0;  ///< where it starts in the drawable's share [0, 1) of the data
     fabric::Box bounds;        ///< object space, metres
     bool isNode = true;        ///< false for what is drawn beside the nodes
+    /// About: what leaving it out saves.
+    std::uint64_t triangles = 0;
 };
 
 /// What part of which view a channel draws, and how well.
@@ -78,6 +80,10 @@ public:
     /// same whatever the channel, so the channels of a frame fit together; they wait for what has
     /// to be loaded. Interactive ones take what is there.
     virtual Cut selectCut(const CutRequest& request) = 0;
+
+    /// Boxes (object space, metres) that together hold a piece of the last cut, where they are
+    /// smaller than its own.
+    virtual std::vector<fabric::Box> partBounds(const Piece& /*piece*/) const { return {}; }
 
     /// Draws pieces of the last cut, in order, into the bound framebuffer. Counts triangles, and
     /// pages that are loaded only now, in `statistics`.

@@ -139,7 +139,8 @@ void MeshDrawable::visit(std::uint32_t index, bool errorKnown, const lod::Object
     }
     if (errorKnown && node.indexCount > 0) {
         const auto total = static_cast<double>(file_.triangleCount());
-        cut.pieces.push_back({index, static_cast<double>(node.triangleBegin) / total, box});
+        cut.pieces.push_back({index, static_cast<double>(node.triangleBegin) / total, box, true,
+                              node.indexCount / 3});
         return;
     }
     visit(static_cast<std::uint32_t>(node.left), errorKnown, view, tauPixels, cut);

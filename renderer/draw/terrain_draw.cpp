@@ -21,6 +21,7 @@
 #include "renderer/gl/object.h"
 #include "renderer/page/tau_ladder.h"
 #include "renderer/terrain/eyt_format.h"
+#include "renderer/terrain/part_bounds.h"
 #include "renderer/terrain/terrain_cut.h"
 #include "renderer/terrain/tile_bytes.h"
 
@@ -83,6 +84,9 @@ public:
     Cut selectCut(const CutRequest& request) override;
     double errorPixels(const CutRequest& request, occlusion::HiddenGround* hidden) override {
         return TerrainError(index(), *paging_, needed_, request, hidden).pixels(drawn_);
+    }
+    std::vector<fabric::Box> partBounds(const Piece& piece) const override {
+        return terrain::partBounds(index(), drawn_.tiles[piece.index].id);
     }
     absl::Status draw(std::span<const Piece> pieces, const FrameState& frame,
                       fabric::FrameStatistics& statistics) override;
@@ -206,7 +210,8 @@ Cut TerrainDrawable::selectCut(const CutRequest& request) {
     drawn_ = terrain::cutOf(index(), request.view, result.drawn);
     for (std::uint32_t i = 0; i < drawn_.tiles.size(); ++i)
         if (const terrain::TileId& id = drawn_.tiles[i].id; needed_.contains(id))
-            cut.pieces.push_back({i, needed_.position(id), index().bounds(id)});
+            cut.pieces.push_back(
+                {i, needed_.position(id), index().bounds(id), true, index().tile(id).triangles});
     imagery_.choose(drawn_.tiles, cut.pieces, request.view, texelPixels(choice.step));
     if (request.wantsPageBounds)
         addPageBounds(wanted.cut, cut.pieces);

@@ -60,6 +60,12 @@ inline GLuint createRenderbuffer() {
     return id;
 }
 inline void deleteRenderbuffer(GLuint id) { glDeleteRenderbuffers(1, &id); }
+inline GLuint createAnySampleQuery() {
+    GLuint id = 0;
+    glCreateQueries(GL_ANY_SAMPLES_PASSED, 1, &id);
+    return id;
+}
+inline void deleteQuery(GLuint id) { glDeleteQueries(1, &id); }
 inline GLuint createProgram() { return glCreateProgram(); }
 inline void deleteProgram(GLuint id) { glDeleteProgram(id); }
 }  // namespace detail
@@ -69,6 +75,7 @@ using Texture2D = Object<detail::createTexture2D, detail::deleteTexture>;
 using VertexArray = Object<detail::createVertexArray, detail::deleteVertexArray>;
 using FramebufferObject = Object<detail::createFramebuffer, detail::deleteFramebuffer>;
 using Renderbuffer = Object<detail::createRenderbuffer, detail::deleteRenderbuffer>;
+using AnySampleQuery = Object<detail::createAnySampleQuery, detail::deleteQuery>;
 using ProgramObject = Object<detail::createProgram, detail::deleteProgram>;
 
 }  // namespace eyrie::gl

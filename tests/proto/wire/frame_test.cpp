@@ -43,6 +43,8 @@ RC_GTEST_PROP(WireFrameData, ComesBackAsItWas, ()) {
     frameData.shading = *rc::gen::element(fabric::Shading::Smooth, fabric::Shading::Flat,
                                           fabric::Shading::Wireframe);
     frameData.look.exaggeration = *rc::gen::inRange(-10, 11);
+    frameData.occlusion =
+        *rc::gen::element(fabric::Occlusion::Auto, fabric::Occlusion::On, fabric::Occlusion::Off);
     RC_ASSERT(*fromMessage(toMessage(frameData)) == frameData);
 }
 
@@ -126,6 +128,9 @@ TEST(WireFrameData, ARefusalNamesTheField) {
     v1::FrameData shaded = toMessage(good);
     shaded.set_shading(static_cast<v1::Shading>(99));
     EXPECT_THAT(refusal(shaded), testing::HasSubstr("frame_data.shading"));
+    v1::FrameData occluded = toMessage(good);
+    occluded.set_occlusion(static_cast<v1::Occlusion>(99));
+    EXPECT_THAT(refusal(occluded), testing::HasSubstr("frame_data.occlusion"));
     v1::FrameData blind = toMessage(good);
     blind.clear_camera();
     EXPECT_THAT(refusal(blind), testing::HasSubstr("camera.eye"));

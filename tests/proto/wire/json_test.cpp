@@ -101,6 +101,7 @@ TEST(StatisticsJson, HasTheDesignsFieldsAsPlainNumbers) {
     EXPECT_EQ(number("triangles"), 1'234'567'890'123);
     EXPECT_EQ(number("points"), 0);
     EXPECT_EQ(number("nodes"), 0);
+    EXPECT_EQ(number("nodesHidden"), 0);
     EXPECT_EQ(number("pagesLoaded"), 0);
     EXPECT_EQ(number("bytesLoaded"), 0);
     EXPECT_EQ(number("pagesMissing"), 3);

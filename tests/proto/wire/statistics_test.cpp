@@ -12,7 +12,7 @@ namespace eyrie::wire {
 namespace {
 
 fabric::FrameStatistics sample() {
-    return {1, 2.5, false, 10, 20, 30, 40, 4000, 6, 5, 7, {0.1, 0.2, 0.3, 0.4, 1.5}};
+    return {1, 2.5, false, 10, 20, 30, 8, 40, 4000, 6, 5, 7, {0.1, 0.2, 0.3, 0.4, 1.5}};
 }
 
 TEST(WireStatistics, ComeBackAsTheyWere) {

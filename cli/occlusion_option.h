@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "fabric/frame_data.h"
+
+namespace eyrie::cli {
+
+inline void addOcclusionOption(CLI::App& command, fabric::Occlusion& occlusion) {
+    static const std::map<std::string, fabric::Occlusion> kModes = {
+        {"auto", fabric::Occlusion::Auto},
+        {"on", fabric::Occlusion::On},
+        {"off", fabric::Occlusion::Off}};
+    command
+        .add_option("--occlusion", occlusion,
+                    "Leave out what is hidden; the picture is the same [auto: where it pays]")
+        ->transform(CLI::CheckedTransformer(kModes).description(""))
+        ->type_name("auto|on|off");
+}
+
+}  // namespace eyrie::cli
