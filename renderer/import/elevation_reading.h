@@ -17,8 +17,8 @@ terrain::ElevationModel emptyModel(const terrain::GridFrame& frame, terrain::Scr
 
 /// Tiles of 128 cells that are read into a model, and those whose posts its statistics count.
 struct ReadingShare {
-    terrain::TileChoice needed = {};
-    terrain::TileChoice counted = {};
+    terrain::TileFilter needed = {};
+    terrain::TileFilter counted = {};
 };
 
 /// Reads `source`, all of it or a share, into `model`: heights, statistics, summary. Stage

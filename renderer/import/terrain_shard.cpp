@@ -172,7 +172,7 @@ private:
     ShardPlan plan_;
     PartIdentity identity_;
     std::string path_;
-    const terrain::TileChoice needed_ = [this](std::int32_t x, std::int32_t y) {
+    const terrain::TileFilter needed_ = [this](std::int32_t x, std::int32_t y) {
         return plan_.isNear(shard_.index, x, y);
     };
     terrain::Scratch scratch_;

@@ -20,7 +20,7 @@ inline constexpr std::size_t kRasterTileValues =
     static_cast<std::size_t>(kRasterTilePosts) * kRasterTilePosts;
 
 /// Which tiles of a raster something is about; none: all of them.
-using TileChoice = std::function<bool(std::int32_t x, std::int32_t y)>;
+using TileFilter = std::function<bool(std::int32_t x, std::int32_t y)>;
 
 /// A rectangle of posts.
 struct PostRect {

@@ -56,8 +56,8 @@ public:
     // have the heights, and `finish` up to kTileSpacing then make whatever tiles of up to 128 cells
     // ask for, as long as they and all tiles beside them are needed.
 
-    absl::Status measure(const import::ImportControl& control, const TileChoice& needed = {});
-    absl::Status join(const import::ImportControl& control, const TileChoice& needed = {});
+    absl::Status measure(const import::ImportControl& control, const TileFilter& needed = {});
+    absl::Status join(const import::ImportControl& control, const TileFilter& needed = {});
     absl::Status finish(const import::ImportControl& control,
                         std::int32_t endSpacing = std::numeric_limits<std::int32_t>::max());
     static constexpr std::int32_t kTileSpacing = kRasterTileCells;

@@ -135,7 +135,7 @@ private:
     std::vector<std::uint8_t> counts_;
 };
 
-absl::Status VertexLevels::join(const import::ImportControl& control, const TileChoice& needed) {
+absl::Status VertexLevels::join(const import::ImportControl& control, const TileFilter& needed) {
     const auto isNeeded = [&](std::int32_t groupX, std::int32_t groupY) {
         if (!needed)
             return true;

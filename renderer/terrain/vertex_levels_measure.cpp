@@ -225,7 +225,7 @@ SourceSurface::Inside VertexLevels::TileMeasure::reachOf(const Triangle& triangl
     return found;
 }
 
-absl::Status VertexLevels::measure(const import::ImportControl& control, const TileChoice& needed) {
+absl::Status VertexLevels::measure(const import::ImportControl& control, const TileFilter& needed) {
     return forEachTile(measured_.tilesX(), measured_.tilesY(), "measuring", scratch_, control,
                        [&](std::int32_t x, std::int32_t y) {
                            if (!needed || needed(x, y))
