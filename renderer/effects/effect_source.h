@@ -24,9 +24,9 @@ struct EffectSource {
     std::string name;                ///< "terrain.effect"
     std::vector<std::string> files;  ///< by their number in line numbers: language/glsl_writer.h
     std::vector<BuiltDeclaration> declarations;
-    std::string vertex;  ///< without version and parameters, as are the others
-    std::string fragment;
-    std::string compute;  ///< empty: the effect draws; otherwise the other two are
+    std::string vertex = {};  ///< without version and parameters, as are the others
+    std::string fragment = {};
+    std::string compute = {};  ///< empty: the effect draws; otherwise the other two are
 };
 
 /// The value that a variant gives to a parameter, and the range that the effect file allows.

@@ -27,6 +27,8 @@ struct Golden {
     std::string camera;
     std::string look;  ///< empty for none
     std::vector<std::string> options;
+
+    friend void PrintTo(const Golden& golden, std::ostream* out) { *out << golden.name; }
 };
 
 constexpr const char* kAcrossTheMountain =

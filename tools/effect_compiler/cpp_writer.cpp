@@ -163,18 +163,21 @@ std::string builtIn(const Effect& effect) {
     std::string list;
     for (const Declaration& d : declarations(effect))
         list += fmt::format("\n                {{{}, {}}},", literal(d.name), literal(d.text));
+    std::string stages;
+    for (const auto& [name, kind] : {std::pair("vertex", StageKind::Vertex),
+                                     {"fragment", StageKind::Fragment},
+                                     {"compute", StageKind::Compute}})
+        if (const std::string text = stageText(effect, kind); !text.empty())
+            stages +=
+                fmt::format(",\n            .{} ={}", name, literalLines(text, "                "));
     return fmt::format(
         "    /// The GLSL that was built into the program.\n"
         "    static const EffectSource& builtIn() {{\n"
         "        static const EffectSource source{{\n"
         "            .name = {},\n            .files = {{{}}},\n            .declarations = "
-        "{{{}}},\n"
-        "            .vertex ={},\n            .fragment ={},\n            .compute ={}}};\n"
+        "{{{}}}{}}};\n"
         "        return source;\n    }}\n",
-        literal(effect.main().name), files, list,
-        literalLines(stageText(effect, StageKind::Vertex), "                "),
-        literalLines(stageText(effect, StageKind::Fragment), "                "),
-        literalLines(stageText(effect, StageKind::Compute), "                "));
+        literal(effect.main().name), files, list, stages);
 }
 
 std::string opening(std::string_view file, std::string_view includes) {
