@@ -93,8 +93,7 @@ void Builder::simplifyPart(Part& part, std::size_t index) {
     const std::size_t before = part.patch.triangles.size();
     if (before > kMostUnsimplified * options_.nodeTriangles)
         return;
-    const double share = borderShare(mesh_, part.patch);
-    Patch simplified =
+    auto [simplified, share] =
         simplify(mesh_, part.patch, std::min<std::size_t>(before / 2, options_.nodeTriangles));
     if (simplified.triangles.size() > kMaxLeafVertices ||
         static_cast<double>(simplified.triangles.size()) >

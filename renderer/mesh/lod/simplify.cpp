@@ -43,7 +43,7 @@ class Simplifier {
 public:
     Simplifier(const PackedMesh& mesh, const Patch& patch);
 
-    Patch run(std::size_t target);
+    Simplified run(std::size_t target);
 
 private:
     /// A corner of a face; those at one point are in a list.
@@ -59,6 +59,7 @@ private:
     };
     struct Neighbour {
         std::uint32_t point;
+        std::uint32_t next;    ///< the neighbour after it
         std::uint32_t face;    ///< between it and the next neighbour
         std::uint32_t vertex;  ///< its own in that face
     };
@@ -75,10 +76,12 @@ private:
     bool gatherRing(std::uint32_t point);
     bool sortRing();
     bool isSimple(std::size_t target);
+    std::pair<std::size_t, double> cheapest(std::uint32_t point, const Star& star,
+                                            std::uint32_t excluded) const;
     Collapse bestCollapse(std::uint32_t point);
     Star star(std::uint32_t point) const;
     double boundOf(const Star::Replaced& replaced) const;
-    void collapse(std::uint32_t point, std::uint32_t target);
+    bool collapse(std::uint32_t point, std::uint32_t target);
     template <typename Visit>
     void forCorners(std::uint32_t point, const Visit& visit);
 
@@ -90,7 +93,7 @@ private:
     std::vector<std::uint32_t> mark_;
     std::uint32_t marking_ = 0;
     std::vector<Neighbour> ring_;  ///< of the point looked at
-    std::uint32_t ownVertex_ = kNone;
+    bool isRing_ = false;          ///< whether they are a closed one
     std::size_t left_;
 };
 
@@ -148,38 +151,31 @@ void Simplifier::forCorners(std::uint32_t point, const Visit& visit) {
 /// Fills ring_; false when the point has to stay.
 bool Simplifier::gatherRing(std::uint32_t point) {
     ring_.clear();
-    ownVertex_ = kNone;
+    std::uint32_t only = kNone;
     bool isWhole = true;
     forCorners(point, [&](std::uint32_t index, std::uint32_t corner) {
         const Face& face = faces_[index];
         const std::uint32_t own = face.corners[corner].vertex;
-        isWhole = isWhole && (ownVertex_ == kNone || ownVertex_ == own);
-        ownVertex_ = own;
-        const Corner& next = face.corners[(corner + 1) % 3];
-        ring_.push_back({next.point, index, next.vertex});
+        isWhole = isWhole && (only == kNone || only == own);
+        only = own;
+        const Corner& first = face.corners[(corner + 1) % 3];
+        ring_.push_back({first.point, face.corners[(corner + 2) % 3].point, index, first.vertex});
     });
-    return isWhole && ring_.size() >= 3 && ring_.size() <= kMaxStar && sortRing();
+    isRing_ = ring_.size() >= 3 && ring_.size() <= kMaxStar && sortRing();
+    return isRing_ && isWhole;
 }
 
 /// Brings the neighbours in turn; false when they are no closed ring.
 bool Simplifier::sortRing() {
-    const auto after = [this](const Neighbour& neighbour, std::uint32_t own) {
-        const Face& face = faces_[neighbour.face];
-        for (std::size_t i = 0; i < 3; ++i)
-            if (face.corners[i].vertex == own)
-                return face.corners[(i + 2) % 3].point;
-        return kNone;
-    };
     for (std::size_t i = 0; i + 1 < ring_.size(); ++i) {
-        const std::uint32_t wanted = after(ring_[i], ownVertex_);
         const auto found = std::find_if(
             ring_.begin() + static_cast<std::ptrdiff_t>(i) + 1, ring_.end(),
-            [wanted](const Neighbour& neighbour) { return neighbour.point == wanted; });
+            [&](const Neighbour& neighbour) { return neighbour.point == ring_[i].next; });
         if (found == ring_.end())
             return false;
         std::swap(ring_[i + 1], *found);
     }
-    if (after(ring_.back(), ownVertex_) != ring_.front().point)
+    if (ring_.back().next != ring_.front().point)
         return false;
     ++marking_;
     for (const Neighbour& neighbour : ring_)
@@ -225,40 +221,64 @@ double Simplifier::boundOf(const Star::Replaced& replaced) const {
     return before + replaced.distance * (1 + kRounding) + kRounding;
 }
 
-Collapse Simplifier::bestCollapse(std::uint32_t point) {
-    Collapse best;
-    if (!gatherRing(point))
-        return best;
-    const Star star = this->star(point);
-    if (!star.isGraph())
-        return best;
+/// The ring's place with the least cost that is not in `excluded`; the ring's size if there is
+/// none.
+std::pair<std::size_t, double> Simplifier::cheapest(std::uint32_t point, const Star& star,
+                                                    std::uint32_t excluded) const {
+    double before = 0;
+    for (const Neighbour& neighbour : ring_)
+        before = std::max(before, double{faces_[neighbour.face].bound});
+    std::pair best(ring_.size(), std::numeric_limits<double>::infinity());
+    Star::Outcome outcome;
     for (std::size_t target = 0; target < ring_.size(); ++target) {
-        const auto outcome = star.movedTo(target);
-        if (!outcome)
+        const double length =
+            kLengthWeight * glm::length(points_[ring_[target].point] - points_[point]);
+        if ((excluded >> target & 1) != 0 ||
+            !star.movedTo(target, best.second - before - length, outcome))
             continue;
         double cost = 0;
         for (std::size_t i = 0; i < ring_.size(); ++i)
-            if ((*outcome)[i].triangles != 0)
-                cost = std::max(cost, boundOf((*outcome)[i]));
-        cost += kLengthWeight * glm::length(points_[ring_[target].point] - points_[point]);
-        if (cost < best.cost && isSimple(target))
-            best = {ring_[target].point, cost};
+            cost = std::max(cost, boundOf(outcome[i]) + length);
+        if (cost < best.second)
+            best = {target, cost};
     }
     return best;
 }
 
-/// ring_ is the point's.
-void Simplifier::collapse(std::uint32_t point, std::uint32_t target) {
+Collapse Simplifier::bestCollapse(std::uint32_t point) {
+    if (!gatherRing(point))
+        return {};
+    const Star star = this->star(point);
+    if (!star.isGraph())
+        return {};
+    for (std::uint32_t excluded = 0;;) {
+        const auto [target, cost] = cheapest(point, star, excluded);
+        if (target == ring_.size())
+            return {};
+        if (isSimple(target))
+            return {ring_[target].point, cost};
+        excluded |= 1U << target;
+    }
+}
+
+/// Of a point around which nothing has changed. False, with nothing done, when something has beyond
+/// its ring, so that faces would fall onto each other.
+bool Simplifier::collapse(std::uint32_t point, std::uint32_t target) {
+    gatherRing(point);
     const auto to = std::find_if(ring_.begin(), ring_.end(), [target](const Neighbour& neighbour) {
         return neighbour.point == target;
     });
-    const auto outcome = star(point).movedTo(static_cast<std::size_t>(to - ring_.begin()));
+    const auto place = static_cast<std::size_t>(to - ring_.begin());
+    if (!isSimple(place))
+        return false;
+    Star::Outcome outcome;
+    star(point).movedTo(place, std::numeric_limits<double>::infinity(), outcome);
     std::array<float, kMaxStar> bounds;
-    for (std::size_t i = 0; i < ring_.size(); ++i) bounds[i] = roundedUp(boundOf((*outcome)[i]));
+    for (std::size_t i = 0; i < ring_.size(); ++i) bounds[i] = roundedUp(boundOf(outcome[i]));
     for (std::size_t i = 0; i < ring_.size(); ++i) {
         Face& face = faces_[ring_[i].face];
         face.bound = bounds[i];
-        face.isThere = (*outcome)[i].triangles != 0;
+        face.isThere = outcome[i].triangles != 0;
         isStale_[ring_[i].point] = true;
     }
     std::uint32_t at = first_[point];
@@ -272,9 +292,10 @@ void Simplifier::collapse(std::uint32_t point, std::uint32_t target) {
     }
     first_[point] = kNone;
     left_ -= 2;
+    return true;
 }
 
-Patch Simplifier::run(std::size_t target) {
+Simplified Simplifier::run(std::size_t target) {
     std::priority_queue<Candidate> queue;
     const auto look = [&](std::uint32_t point) {
         best_[point] = bestCollapse(point);
@@ -282,51 +303,33 @@ Patch Simplifier::run(std::size_t target) {
         if (best_[point].target != kNone)
             queue.push({best_[point].cost, point});
     };
-    for (std::uint32_t point = 0; point < points_.size(); ++point) look(point);
+    std::size_t onBorder = 0;
+    for (std::uint32_t point = 0; point < points_.size(); ++point) {
+        look(point);
+        onBorder += isRing_ ? 0 : 1;
+    }
     while (left_ > target && !queue.empty()) {
         const std::uint32_t point = queue.top().point;
         queue.pop();
-        if (isStale_[point])
+        if (isStale_[point] || !collapse(point, best_[point].target))
             look(point);
-        else if (gatherRing(point))
-            collapse(point, best_[point].target);
     }
-    Patch result;
+    Simplified result;
+    result.borderShare = static_cast<double>(onBorder) / static_cast<double>(points_.size());
     for (const Face& face : faces_) {
         if (!face.isThere)
             continue;
-        result.triangles.push_back(
+        result.patch.triangles.push_back(
             {face.corners[0].vertex, face.corners[1].vertex, face.corners[2].vertex});
-        result.bounds.push_back(face.bound);
+        result.patch.bounds.push_back(face.bound);
     }
     return result;
 }
 
 }  // namespace
 
-Patch simplify(const PackedMesh& mesh, const Patch& patch, std::size_t target) {
+Simplified simplify(const PackedMesh& mesh, const Patch& patch, std::size_t target) {
     return Simplifier(mesh, patch).run(target);
-}
-
-double borderShare(const PackedMesh& mesh, const Patch& patch) {
-    std::vector<std::pair<std::uint64_t, std::uint64_t>> edges;
-    edges.reserve(patch.triangles.size() * 3);
-    for (const Triangle& triangle : patch.triangles)
-        for (std::size_t i = 0; i < 3; ++i)
-            edges.push_back(
-                std::minmax(mesh.positions[triangle[i]], mesh.positions[triangle[(i + 1) % 3]]));
-    std::sort(edges.begin(), edges.end());
-    std::size_t border = 0;
-    std::size_t all = 0;
-    for (std::size_t i = 0; i < edges.size(); ++all) {
-        std::size_t end = i + 1;
-        while (end < edges.size() && edges[end] == edges[i]) ++end;
-        border += end - i == 1 ? 1 : 0;
-        i = end;
-    }
-    // A border has as many vertices as edges, a surface a third as many.
-    return all == 0 ? 0
-                    : std::min(1.0, 3.0 * static_cast<double>(border) / static_cast<double>(all));
 }
 
 }  // namespace eyrie::mesh

@@ -7,6 +7,11 @@
 
 namespace eyrie::mesh {
 
+struct Simplified {
+    Patch patch;
+    double borderShare = 0;  ///< of the points before, those on the border or where sheets meet
+};
+
 /// Takes inner vertices of `patch` away, each time the one that makes the least bound, until about
 /// `target` triangles are left or none can go. What is left keeps its promise (patch.h): each step
 /// is a map as described there, and their distances add up.
@@ -15,9 +20,6 @@ namespace eyrie::mesh {
 /// those where more than two sheets meet, or normals or colours are broken; and those whose star is
 /// no graph (star.h).
 /// R. Klein, G. Liebich, W. Straßer, "Mesh Reduction with Error Control", 1996.
-Patch simplify(const PackedMesh& mesh, const Patch& patch, std::size_t target);
-
-/// Of a patch's vertices about those on its border: 0 to 1.
-double borderShare(const PackedMesh& mesh, const Patch& patch);
+Simplified simplify(const PackedMesh& mesh, const Patch& patch, std::size_t target);
 
 }  // namespace eyrie::mesh

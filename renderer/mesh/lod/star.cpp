@@ -63,32 +63,30 @@ std::size_t Star::at(std::size_t target, std::size_t offset) const {
     return index < count_ ? index : index - count_;
 }
 
-std::optional<Star::Outcome> Star::movedTo(std::size_t target) const {
+bool Star::movedTo(std::size_t target, double limit, Outcome& outcome) const {
     const Point& apex = ring_[target];
     const auto bit = [&](std::size_t offset) { return 1U << at(target, offset); };
     std::size_t around = 0;  // the triangle that the centre lies in, or on the border of
     for (std::size_t i = 1; i + 1 < count_; ++i) {
         const Point& next = ring_[at(target, i + 1)];
         if (!(cross(apex, ring_[at(target, i)], next) > least_))
-            return std::nullopt;
+            return false;
         if (around == 0 && cross(apex, next, {}) <= 0)
             around = i;
     }
-    if (around == 0)
-        return std::nullopt;  // by rounding
-    Outcome outcome;
-    for (std::size_t i = 1; i + 1 < count_; ++i) {
-        // What meets at the ring's edge, and at the target on either side of the centre.
-        outcome[at(target, i)].triangles =
-            bit(i) | (i <= around ? bit(0) : 0) | (i >= around ? bit(count_ - 1) : 0);
-    }
-    outcome[at(target, 1)].triangles |= bit(1) | bit(0);
-    outcome[at(target, count_ - 2)].triangles |= bit(count_ - 2) | bit(count_ - 1);
-    Replaced& middle = outcome[at(target, around)];
-    middle.triangles = (1U << count_) - 1;
-    middle.distance = heightAtCentre(target, around);
+    const double moved = around == 0 ? limit : heightAtCentre(target, around);
+    if (!(moved < limit))
+        return false;
+    // What meets at the ring's edge, and at the target on either side of the centre.
+    for (std::size_t i = 1; i + 1 < count_; ++i)
+        outcome[at(target, i)] = {
+            0, bit(i) | (i <= around ? bit(0) : 0) | (i >= around ? bit(count_ - 1) : 0)};
+    outcome[target] = outcome[at(target, count_ - 1)] = {0, 0};
+    outcome[at(target, 1)].triangles |= bit(0);
+    outcome[at(target, count_ - 2)].triangles |= bit(count_ - 1);
+    outcome[at(target, around)] = {moved, (1U << count_) - 1};
     for (std::size_t i = 2; i + 1 < count_; ++i) addDiagonal(target, i, outcome);
-    return outcome;
+    return true;
 }
 
 /// What the new edge from the target to another point of the ring crosses.

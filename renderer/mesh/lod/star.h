@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 
 #include <glm/vec3.hpp>
@@ -35,14 +34,14 @@ public:
 
     /// What a triangle that is left replaces.
     struct Replaced {
-        double distance = 0;          ///< the largest of its points to their partners
-        std::uint32_t triangles = 0;  ///< those of before that hold partners: a bit each
+        double distance;          ///< the largest of its points to their partners
+        std::uint32_t triangles;  ///< those of before that hold partners: a bit each; 0: it is gone
     };
-    using Outcome = std::array<Replaced, kMaxStar>;  ///< by triangle
+    using Outcome = std::array<Replaced, kMaxStar>;  ///< by triangle; as many as there are count
 
-    /// The centre goes to ring[target]. Nothing when what becomes of the star is no graph.
-    /// Precondition: isGraph().
-    std::optional<Outcome> movedTo(std::size_t target) const;
+    /// The centre goes to ring[target]: fills `outcome`. False when what becomes of the star is no
+    /// graph, or the centre is farther than `limit` from its partner. Precondition: isGraph().
+    bool movedTo(std::size_t target, double limit, Outcome& outcome) const;
 
 private:
     struct Point {

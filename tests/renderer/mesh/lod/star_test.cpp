@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -13,6 +14,8 @@ namespace eyrie::mesh {
 namespace {
 
 using Triangle = std::array<glm::dvec3, 3>;
+
+constexpr double kAny = std::numeric_limits<double>::infinity();
 
 double number(double low, double high) {
     return low + (high - low) * *rc::gen::inRange(0, 1000) / 1000.0;
@@ -87,15 +90,15 @@ RC_GTEST_PROP(Star, ItsDistancesBoundWhatSamplingFindsEitherWay, ()) {
     if (!star.isGraph())
         return;
     for (std::size_t target = 0; target < ring.size(); ++target) {
-        const auto outcome = star.movedTo(target);
-        if (!outcome)
+        Star::Outcome outcome;
+        if (!star.movedTo(target, kAny, outcome))
             continue;
         double largest = 0;
         std::vector<Triangle> left;
         std::vector<Triangle> replaced;
         for (std::size_t i = 0; i < ring.size(); ++i) {
             replaced.push_back(before(ring, i));
-            const Star::Replaced& by = (*outcome)[i];
+            const Star::Replaced& by = outcome[i];
             RC_ASSERT((by.triangles == 0) ==
                       (i == target || i == (target + ring.size() - 1) % ring.size()));
             if (by.triangles == 0)
@@ -117,8 +120,9 @@ TEST(Star, OfAPlaneLosesNothing) {
     const Star star(glm::dvec3(0.0), ring);
     ASSERT_TRUE(star.isGraph());
     for (std::size_t target = 0; target < 4; ++target) {
-        const Star::Outcome outcome = star.movedTo(target).value();
-        for (const Star::Replaced& replaced : outcome) EXPECT_NEAR(replaced.distance, 0, 1e-12);
+        Star::Outcome outcome;
+        ASSERT_TRUE(star.movedTo(target, kAny, outcome));
+        for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(outcome[i].distance, 0, 1e-12);
     }
 }
 
@@ -126,10 +130,12 @@ TEST(Star, OfAPyramidLosesItsHeight) {
     const std::vector<glm::dvec3> ring = {{10, 0, -5}, {0, 10, -5}, {-10, 0, -5}, {0, -10, -5}};
     const Star star(glm::dvec3(0.0), ring);
     ASSERT_TRUE(star.isGraph());
-    const Star::Outcome outcome = star.movedTo(0).value();
+    Star::Outcome outcome;
+    ASSERT_TRUE(star.movedTo(0, kAny, outcome));
     EXPECT_NEAR(std::max(outcome[1].distance, outcome[2].distance), 5, 1e-12);
     EXPECT_EQ(outcome[0].triangles, 0U);
     EXPECT_EQ(outcome[3].triangles, 0U);
+    EXPECT_FALSE(star.movedTo(0, 4.9, outcome));
 }
 
 TEST(Star, ThatOverhangsIsNoGraph) {
