@@ -26,7 +26,7 @@ fabric::Mat4 objectFromLattice(const terrain::GridFrame& frame,
 /// Bytes that every import holds in memory, whatever lies on scratch.
 std::uint64_t residentBytes(const terrain::GridFrame& frame, bool hasImagery) {
     // The program with GDAL and PROJ, GDAL's cache, strips and pages under way: measured.
-    constexpr std::uint64_t kProgram = std::uint64_t{144} << 20;
+    constexpr std::uint64_t kProgram = std::uint64_t{160} << 20;
     // Summaries, coarse vertex levels, tile records, and those again while they are written.
     constexpr std::uint64_t kPostsPerByte = 10;
     // What GDAL warps at once, and texture tiles under way.
