@@ -93,7 +93,6 @@ absl::StatusOr<std::unique_ptr<PictureSource>> openHere(const fabric::Scene& sce
 absl::StatusOr<std::unique_ptr<PictureSource>> openInProcesses(fabric::Scene scene,
                                                                const PictureSourceOptions& options,
                                                                const std::stop_token& stop) {
-    spdlog::set_level(spdlog::level::warn);
     ASSIGN_OR_RETURN(auto farm,
                      LocalFarm::start(options.compound, options.cache, options.decoding));
     RETURN_IF_ERROR(farm->coordinator().setScene(std::move(scene)));
@@ -106,6 +105,7 @@ absl::StatusOr<std::unique_ptr<PictureSource>> openInProcesses(fabric::Scene sce
 
 absl::StatusOr<std::unique_ptr<PictureSource>> PictureSource::open(
     const std::string& path, const PictureSourceOptions& options, const std::stop_token& stop) {
+    spdlog::set_level(options.quiet ? spdlog::level::err : spdlog::level::warn);
     ASSIGN_OR_RETURN(fabric::Scene scene, loadScene(path, options, stop));
     return options.renderers == 0 ? openHere(scene, options)
                                   : openInProcesses(std::move(scene), options, stop);

@@ -19,7 +19,7 @@ struct PictureSourceOptions {
     coordinator::Decomposition compound = coordinator::Decomposition::TwoD;
     CacheOptions cache;
     TileDecoding decoding = TileDecoding::Auto;
-    bool quiet = false;  ///< no progress of imports
+    bool quiet = false;  ///< only errors; otherwise progress of imports and warnings, too
 };
 
 /// Draws pictures of one scene, for commands that need no viewer. Belongs to the thread that opened
