@@ -97,16 +97,7 @@ public:
         ASSIGN_OR_RETURN(TerrainStages stages,
                          TerrainStages::open(scratch_, key(), options_.startsOver));
         absl::StatusOr<TerrainImportReport> report = runStages(stages, writer);
-        const bool mayGoOn = !report.ok() && !absl::IsInvalidArgument(report.status());
-        if (!mayGoOn) {
-            stages.remove();
-        } else if (const std::string kept = stages.keptIn(); !kept.empty()) {
-            const auto message = report.status().message();
-            return absl::Status(
-                report.status().code(),
-                fmt::format("{}; what is done is kept in {}: the same command goes on from there",
-                            std::string_view(message.data(), message.size()), kept));
-        }
+        RETURN_IF_ERROR(stages.end(report.status()));
         return report;
     }
 

@@ -61,16 +61,7 @@ public:
         ASSIGN_OR_RETURN(TerrainStages stages,
                          TerrainStages::open(scratch_, key(), options_.startsOver));
         const absl::StatusOr<std::uint64_t> sizeBytes = runStages(stages);
-        if (sizeBytes.ok() || absl::IsInvalidArgument(sizeBytes.status())) {
-            stages.remove();
-        } else if (const std::string kept = stages.keptIn(); !kept.empty()) {
-            const auto message = sizeBytes.status().message();
-            return absl::Status(
-                sizeBytes.status().code(),
-                fmt::format("{}; what is done is kept in {}: the same command goes on from there",
-                            std::string_view(message.data(), message.size()), kept));
-        }
-        RETURN_IF_ERROR(sizeBytes.status());
+        RETURN_IF_ERROR(stages.end(sizeBytes.status()));
         return report(*sizeBytes, false);
     }
 

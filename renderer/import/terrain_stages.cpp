@@ -2,9 +2,11 @@
 #include "renderer/import/terrain_stages.h"
 
 #include <filesystem>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include "fabric/status.h"
@@ -36,6 +38,20 @@ absl::Status TerrainStages::run(const std::function<absl::Status()>& work, const
     RETURN_IF_ERROR(work());
     RETURN_IF_ERROR(scratch_->flush());
     return journal_->add(step, state.save());
+}
+
+absl::Status TerrainStages::end(const absl::Status& outcome) {
+    if (outcome.ok() || absl::IsInvalidArgument(outcome)) {
+        remove();
+        return outcome;
+    }
+    if (!journal_)
+        return outcome;
+    const auto message = outcome.message();
+    return absl::Status(
+        outcome.code(),
+        fmt::format("{}; what is done is kept in {}: the same command goes on from there",
+                    std::string_view(message.data(), message.size()), scratch_->path()));
 }
 
 void TerrainStages::remove() {

@@ -33,14 +33,15 @@ public:
     absl::Status run(const std::function<absl::Status()>& work, const State& state);
     absl::Status run(const std::function<absl::Status()>& work) { return run(work, State{}); }
 
-    /// Deletes scratch file and journal.
-    void remove();
-    /// The file that keeps what is done; "" where there is none.
-    std::string keptIn() const { return journal_ ? scratch_->path() : ""; }
+    /// What came of the job, after its last stage. Scratch file and journal go, unless the same
+    /// command could go on with them: then the error says so.
+    absl::Status end(const absl::Status& outcome);
 
 private:
     TerrainStages(terrain::Scratch& scratch, std::optional<ImportJournal> journal)
         : scratch_(&scratch), journal_(std::move(journal)) {}
+
+    void remove();
 
     terrain::Scratch* scratch_;
     std::optional<ImportJournal> journal_;
