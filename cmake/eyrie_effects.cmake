@@ -1,8 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 # eyrie_effects(TARGET EFFECTS FILES... [BLOCKS FILES...]) compiles effect files to typed C++:
 # mesh.effect to "effects/mesh_effect.h", object.block to "effects/object_block.h", for TARGET and
-# all that link it. Every variant of every effect passes glslangValidator, or the build fails.
+# all that link it. Every variant of every effect passes glslangValidator, or the build fails; only
+# builds with sanitizers leave that to the others.
 find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
+
+set(EYRIE_EFFECT_CHECK ${GLSLANG_VALIDATOR})
+if(EYRIE_SANITIZE)
+    set(EYRIE_EFFECT_CHECK "")
+endif()
 
 function(eyrie_effects TARGET)
     cmake_parse_arguments(ARG "" "" "EFFECTS;BLOCKS" ${ARGN})
@@ -12,7 +18,7 @@ function(eyrie_effects TARGET)
         set(header ${generated}/effects/${name}.h)
         add_custom_command(
             OUTPUT ${header}
-            COMMAND effect_compiler ${CMAKE_CURRENT_SOURCE_DIR}/${file} ${header} ${GLSLANG_VALIDATOR}
+            COMMAND effect_compiler ${CMAKE_CURRENT_SOURCE_DIR}/${file} ${header} ${EYRIE_EFFECT_CHECK}
             DEPENDS effect_compiler ${CMAKE_CURRENT_SOURCE_DIR}/${file}
             DEPFILE ${header}.d
             COMMENT "Compiling effect ${file}"

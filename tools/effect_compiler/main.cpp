@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// effect_compiler FILE.effect|FILE.block HEADER VALIDATOR
+// effect_compiler FILE.effect|FILE.block HEADER [VALIDATOR]
 //
 // Writes the typed C++ header of an effect file, and HEADER.d, the files it depends on, for the
-// build. VALIDATOR is glslangValidator. Exit status: 0 done, 1 cannot write, 2 the effect is wrong.
+// build. VALIDATOR is glslangValidator; without it the GLSL is not looked at. Exit status: 0 done,
+// 1 cannot write, 2 the effect is wrong.
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -33,7 +34,8 @@ absl::StatusOr<Compiled> compileFile(const std::filesystem::path& path,
         return Compiled{blockHeader(block), {name}};
     }
     ASSIGN_OR_RETURN(const Effect effect, loadEffect(name, read));
-    RETURN_IF_ERROR(validateGlsl(effect, validator));
+    if (!validator.empty())
+        RETURN_IF_ERROR(validateGlsl(effect, validator));
     return Compiled{effectHeader(effect), sourceFiles(effect)};
 }
 
@@ -60,13 +62,13 @@ bool write(const std::filesystem::path& path, const std::string& text) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    if (argc != 4) {
-        fmt::print(stderr, "usage: effect_compiler FILE.effect|FILE.block HEADER VALIDATOR\n");
+    if (argc != 3 && argc != 4) {
+        fmt::print(stderr, "usage: effect_compiler FILE.effect|FILE.block HEADER [VALIDATOR]\n");
         return 2;
     }
     const std::filesystem::path path = argv[1];
     const std::string header = argv[2];
-    const absl::StatusOr<Compiled> compiled = compileFile(path, argv[3]);
+    const absl::StatusOr<Compiled> compiled = compileFile(path, argc == 4 ? argv[3] : "");
     if (!compiled.ok()) {
         const auto message = compiled.status().message();
         fmt::print(stderr, "{}\n", std::string_view(message.data(), message.size()));
