@@ -137,11 +137,12 @@ void addOutputOptions(CLI::App& command, Options& options) {
 void addLookOptions(CLI::App& command, Options& options) {
     static const std::map<std::string, fabric::Shading> kShadings = {
         {"smooth", fabric::Shading::Smooth},
+        {"gouraud", fabric::Shading::Gouraud},
         {"flat", fabric::Shading::Flat},
         {"wireframe", fabric::Shading::Wireframe}};
     command.add_option("--shading", options.shading, "How surfaces are drawn [smooth]")
         ->transform(CLI::CheckedTransformer(kShadings).description(""))
-        ->type_name("smooth|flat|wireframe");
+        ->type_name("smooth|gouraud|flat|wireframe");
     command
         .add_option("--look", options.look,
                     R"(JSON: how terrain is shown, such as {"contours":{"intervalMetres":100}})")

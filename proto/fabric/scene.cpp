@@ -28,21 +28,38 @@ absl::Status validateTransform(const SceneObject& object) {
     return absl::OkStatus();
 }
 
-}  // namespace
-
-absl::Status validate(const Scene& scene) {
-    if (scene.lights.size() > kMaxLights)
-        return absl::InvalidArgumentError(fmt::format(
-            "scene.lights has {} lights; at most {} are drawn", scene.lights.size(), kMaxLights));
-    if (!(scene.ambient >= 0 && scene.ambient <= 1))
+absl::Status validateLights(const Scene& scene) {
+    const std::size_t count = scene.lights.size() + scene.pointLights.size();
+    if (count > kMaxLights)
         return absl::InvalidArgumentError(
-            fmt::format("scene.ambient is {}; it must be from 0 to 1", scene.ambient));
+            fmt::format("the scene has {} lights; at most {} are drawn", count, kMaxLights));
     for (const DirectionalLight& light : scene.lights) {
         const double length = glm::length(light.direction);
         if (!(length > 0 && std::isfinite(length)))
             return absl::InvalidArgumentError(
                 "scene.lights.direction must be three finite numbers, not all 0");
     }
+    for (const PointLight& light : scene.pointLights) {
+        if (!(glm::length(light.positionMetres) <= kMaxCoordinateMetres))
+            return absl::InvalidArgumentError(fmt::format(
+                "scene.pointLights.position must be three finite numbers, at most {} metres away",
+                kMaxCoordinateMetres));
+        if (!(light.reachMetres >= 1e-6 && light.reachMetres <= 1e12))
+            return absl::InvalidArgumentError(
+                fmt::format("scene.pointLights.reach is {}; it must be from 1e-6 to 1e12 metres",
+                            light.reachMetres));
+    }
+    return absl::OkStatus();
+}
+
+}  // namespace
+
+absl::Status validate(const Scene& scene) {
+    if (absl::Status status = validateLights(scene); !status.ok())
+        return status;
+    if (!(scene.ambient >= 0 && scene.ambient <= 1))
+        return absl::InvalidArgumentError(
+            fmt::format("scene.ambient is {}; it must be from 0 to 1", scene.ambient));
     for (const SceneObject& object : scene.objects) {
         if (object.name.empty() || object.path.empty())
             return absl::InvalidArgumentError(fmt::format("an object of the scene lacks its {}",

@@ -39,11 +39,23 @@ struct DirectionalLight {
     bool operator==(const DirectionalLight&) const = default;
 };
 
+/// A light at a point of the world, shining all around. At a distance d it is
+/// colour / (1 + (d / reach)^2).
+struct PointLight {
+    Vec3 positionMetres{0, 0, 0};
+    Vec3 colour{1, 1, 1};
+    double reachMetres = 1;  ///< where half of it arrives; 1e-6 to 1e12
+
+    bool operator==(const PointLight&) const = default;
+};
+
 /// Everything that is drawn: the init data of a session.
 struct Scene {
     std::vector<SceneObject> objects;
-    std::vector<DirectionalLight> lights;  ///< at most kMaxLights; none means one at the camera
-    double ambient = 0.25;                 ///< 0 to 1
+    /// At most kMaxLights together; none of either kind means one at the camera.
+    std::vector<DirectionalLight> lights;
+    std::vector<PointLight> pointLights = {};
+    double ambient = 0.25;  ///< 0 to 1
     Rgba background{38, 44, 54, 255};
 
     bool operator==(const Scene&) const = default;

@@ -16,6 +16,8 @@ v1::Shading toMessage(fabric::Shading shading) {
     switch (shading) {
         case fabric::Shading::Smooth:
             return v1::SHADING_SMOOTH;
+        case fabric::Shading::Gouraud:
+            return v1::SHADING_GOURAUD;
         case fabric::Shading::Flat:
             return v1::SHADING_FLAT;
         case fabric::Shading::Wireframe:
@@ -29,6 +31,8 @@ absl::StatusOr<fabric::Shading> fromMessage(v1::Shading shading) {
         case v1::SHADING_UNSPECIFIED:
         case v1::SHADING_SMOOTH:
             return fabric::Shading::Smooth;
+        case v1::SHADING_GOURAUD:
+            return fabric::Shading::Gouraud;
         case v1::SHADING_FLAT:
             return fabric::Shading::Flat;
         case v1::SHADING_WIREFRAME:

@@ -107,16 +107,31 @@ absl::StatusOr<fabric::SceneObject> objectFrom(const v1::SceneObject& message, i
     return object;
 }
 
+/// Of a light, white where it is absent.
+template <typename Numbers>
+absl::StatusOr<fabric::Vec3> lightColour(const Numbers& numbers, const std::string& field) {
+    ASSIGN_OR_RETURN(const fabric::Vec3 colour, threeNumbersOr(numbers, fabric::Vec3(1), field));
+    for (int i = 0; i < 3; ++i)
+        if (colour[i] < 0)
+            return absl::InvalidArgumentError(
+                fmt::format("{}[{}] is {}; it must be 0 or more", field, i, colour[i]));
+    return colour;
+}
+
 absl::StatusOr<fabric::DirectionalLight> lightFrom(const v1::DirectionalLight& message, int index) {
     const std::string field = fmt::format("lights[{}]", index);
     fabric::DirectionalLight light;
     ASSIGN_OR_RETURN(light.direction, threeNumbers(message.direction(), field + ".direction"));
-    ASSIGN_OR_RETURN(light.colour,
-                     threeNumbersOr(message.colour(), light.colour, field + ".colour"));
-    for (int i = 0; i < 3; ++i)
-        if (light.colour[i] < 0)
-            return absl::InvalidArgumentError(fmt::format(
-                "{}.colour[{}] is {}; it must be 0 or more", field, i, light.colour[i]));
+    ASSIGN_OR_RETURN(light.colour, lightColour(message.colour(), field + ".colour"));
+    return light;
+}
+
+absl::StatusOr<fabric::PointLight> lightFrom(const v1::PointLight& message, int index) {
+    const std::string field = fmt::format("pointLights[{}]", index);
+    fabric::PointLight light;
+    ASSIGN_OR_RETURN(light.positionMetres, threeNumbers(message.position(), field + ".position"));
+    ASSIGN_OR_RETURN(light.colour, lightColour(message.colour(), field + ".colour"));
+    light.reachMetres = message.reach();
     return light;
 }
 
@@ -160,6 +175,12 @@ v1::Scene toMessage(const fabric::Scene& scene) {
         setNumbers(light.direction, *lightMessage.mutable_direction());
         setNumbers(light.colour, *lightMessage.mutable_colour());
     }
+    for (const fabric::PointLight& light : scene.pointLights) {
+        v1::PointLight& lightMessage = *message.add_point_lights();
+        setNumbers(light.positionMetres, *lightMessage.mutable_position());
+        setNumbers(light.colour, *lightMessage.mutable_colour());
+        lightMessage.set_reach(light.reachMetres);
+    }
     message.set_ambient(scene.ambient);
     const fabric::Rgba& background = scene.background;
     setNumbers(fabric::Vec3(background.r, background.g, background.b) / 255.0,
@@ -176,6 +197,10 @@ absl::StatusOr<fabric::Scene> fromMessage(const v1::Scene& message) {
     for (int i = 0; i < message.lights_size(); ++i) {
         ASSIGN_OR_RETURN(const fabric::DirectionalLight light, lightFrom(message.lights(i), i));
         scene.lights.push_back(light);
+    }
+    for (int i = 0; i < message.point_lights_size(); ++i) {
+        ASSIGN_OR_RETURN(const fabric::PointLight light, lightFrom(message.point_lights(i), i));
+        scene.pointLights.push_back(light);
     }
     if (message.has_ambient())
         scene.ambient = message.ambient();

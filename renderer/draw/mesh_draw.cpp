@@ -183,7 +183,9 @@ void MeshDrawable::drawNode(const DeviceNode& node) const {
 
 absl::Status MeshDrawable::draw(std::span<const Piece> pieces, const FrameState& frame,
                                 fabric::FrameStatistics& statistics) {
-    ASSIGN_OR_RETURN(const Program* program, programs_.find(variantFor(frame, worldFromObject_)));
+    Program::Variant variant{variantFor(frame, worldFromObject_)};
+    variant.gouraud = frame.shading == fabric::Shading::Gouraud;
+    ASSIGN_OR_RETURN(const Program* program, programs_.find(variant));
     program->use();
     setObject(*program, frame, worldFromObject_, objectFromLattice_);
     setFaces(frame);

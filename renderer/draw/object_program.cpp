@@ -29,25 +29,40 @@ double conformalScale(const fabric::Mat3& map) {
     return glm::determinant(map) > 0 ? scale : 0;
 }
 
-/// `shadingFromWorld` turns directions; see the axes in effects/object.block.
+/// How many lights the shader counts (effects/object.block).
+int countedLights(const fabric::Scene& scene) {
+    if (!scene.pointLights.empty())
+        return fabric::kMaxLights;
+    return std::max(static_cast<int>(scene.lights.size()), 1);
+}
+
+/// `shadingFromWorld` turns directions; `snappedEye` is what the vertices are relative to, world
+/// space. See the axes in effects/object.block.
 void setLights(const effects::ObjectBlock& program, const FrameState& frame,
-               const fabric::Mat3& shadingFromWorld) {
-    std::array<glm::vec3, fabric::kMaxLights> directions{};
+               const fabric::Mat3& shadingFromWorld, const fabric::Vec3& snappedEye) {
+    std::array<glm::vec3, fabric::kMaxLights> places{};
+    std::array<float, fabric::kMaxLights> falloffs{};
     std::array<glm::vec3, fabric::kMaxLights> colours{};
-    int count = 0;
-    const auto add = [&](const fabric::Vec3& towardsLight, const fabric::Vec3& colour) {
-        const auto at = static_cast<std::size_t>(count++);
-        directions[at] = glm::vec3(glm::normalize(shadingFromWorld * towardsLight));
-        colours[at] = glm::vec3(colour);
+    std::size_t count = 0;
+    const auto add = [&](const fabric::Vec3& place, double falloff, const fabric::Vec3& colour) {
+        places[count] = glm::vec3(shadingFromWorld * place);
+        falloffs[count] = static_cast<float>(falloff);
+        colours[count] = glm::vec3(colour);
+        ++count;
     };
     for (const fabric::DirectionalLight& light : frame.scene.lights)
-        add(-light.direction, light.colour);
+        add(glm::normalize(-light.direction), 0, light.colour);
+    for (const fabric::PointLight& light : frame.scene.pointLights)
+        add(light.positionMetres - snappedEye, 1 / (light.reachMetres * light.reachMetres),
+            light.colour);
     if (count == 0)
-        add(glm::transpose(frame.view.viewFromWorldRotation) * fabric::Vec3(-0.3, 0.4, 1),
-            fabric::Vec3(1));
-    const auto used = static_cast<std::size_t>(count);
-    program.lightDirections(std::span(directions).first(used));
-    program.lightColours(std::span(colours).first(used));
+        add(glm::normalize(glm::transpose(frame.view.viewFromWorldRotation) *
+                           fabric::Vec3(-0.3, 0.4, 1)),
+            0, fabric::Vec3(1));
+    const auto counted = static_cast<std::size_t>(countedLights(frame.scene));
+    program.lightPlaces(std::span(places).first(counted));
+    program.lightFalloffs(std::span(falloffs).first(counted));
+    program.lightColours(std::span(colours).first(counted));
     program.ambient(static_cast<float>(frame.scene.ambient));
 }
 
@@ -55,7 +70,7 @@ void setLights(const effects::ObjectBlock& program, const FrameState& frame,
 
 effects::ObjectBlock::Variant variantFor(const FrameState& frame,
                                          const fabric::Mat4& worldFromObject) {
-    return {.lights = std::max(static_cast<int>(frame.scene.lights.size()), 1),
+    return {.lights = countedLights(frame.scene),
             .flat = frame.shading == fabric::Shading::Flat,
             .conformal = conformalScale(fabric::Mat3(worldFromObject)) > 0};
 }
@@ -72,7 +87,7 @@ void setObject(const effects::ObjectBlock& program, const FrameState& frame,
     program.cameraLattice(lattice.cameraLattice);
     program.cameraOffsetMetres(glm::vec3(shadingFromWorld * lattice.cameraOffsetMetres));
     program.worldFromNormal(glm::mat3(glm::inverseTranspose(linear)));
-    setLights(program, frame, shadingFromWorld);
+    setLights(program, frame, shadingFromWorld, frame.view.eye - lattice.cameraOffsetMetres);
 }
 
 }  // namespace eyrie::draw

@@ -96,6 +96,7 @@ absl::Status checkPass(const Pass& pass) {
 const char* nameOf(StageKind kind) {
     return kind == StageKind::Vertex     ? "vertex"
            : kind == StageKind::Fragment ? "fragment"
+           : kind == StageKind::Shared   ? "shared"
                                          : "compute";
 }
 

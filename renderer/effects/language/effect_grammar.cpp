@@ -75,6 +75,7 @@ EYRIE_SET(StateName, stateName, in.string())
     };
 EYRIE_STAGE(Vertex)
 EYRIE_STAGE(Fragment)
+EYRIE_STAGE(Shared)
 EYRIE_STAGE(Compute)
 #undef EYRIE_STAGE
 

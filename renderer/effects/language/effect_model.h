@@ -62,9 +62,9 @@ struct Pass {
     Place place;
 };
 
-enum class StageKind { Vertex, Fragment, Compute };
+enum class StageKind { Vertex, Fragment, Shared, Compute };
 
-/// `stage vertex { GLSL }`.
+/// `stage vertex { GLSL }`. What is shared is part of both the vertex and the fragment stage.
 struct Stage {
     StageKind kind = StageKind::Fragment;
     std::string body;

@@ -160,8 +160,9 @@ struct Body {
 // stage vertex { GLSL }  stage compute { GLSL }
 struct VertexWord : Word<'v', 'e', 'r', 't', 'e', 'x'> {};
 struct FragmentWord : Word<'f', 'r', 'a', 'g', 'm', 'e', 'n', 't'> {};
+struct SharedWord : Word<'s', 'h', 'a', 'r', 'e', 'd'> {};
 struct ComputeWord : Word<'c', 'o', 'm', 'p', 'u', 't', 'e'> {};
-struct StageKind : peg::sor<VertexWord, FragmentWord, ComputeWord> {};
+struct StageKind : peg::sor<VertexWord, FragmentWord, SharedWord, ComputeWord> {};
 struct Stage : peg::seq<StageWord, Blank, StageKind, Blank, OpenBrace, Body, CloseBrace> {};
 
 struct Statement : peg::sor<Include, Variant, Uniform, Input, Pass, Stage> {};
@@ -229,7 +230,7 @@ template <>
 inline constexpr const char* Expected::message<StateValue> = "expected the state's value";
 template <>
 inline constexpr const char* Expected::message<StageKind> =
-    "expected 'vertex', 'fragment' or 'compute'";
+    "expected 'vertex', 'fragment', 'shared' or 'compute'";
 template <>
 inline constexpr const char* Expected::message<End> =
     "expected include, variant, uniform, input, pass or stage";

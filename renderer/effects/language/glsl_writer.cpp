@@ -107,7 +107,8 @@ std::string stageText(const Effect& effect, StageKind kind) {
         for (const Uniform& uniform : file.uniforms)
             text += lineDirective(uniform.place.line, i) + glslOf(uniform);
         for (const Stage& stage : file.stages)
-            if (stage.kind == kind)
+            if (stage.kind == kind ||
+                (stage.kind == StageKind::Shared && kind != StageKind::Compute))
                 text += lineDirective(stage.bodyPlace.line, i) + stage.body + "\n";
     }
     return text;

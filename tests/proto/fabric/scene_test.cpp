@@ -47,7 +47,7 @@ TEST(Scene, AnObjectNeedsANameAndAPath) {
 TEST(Scene, LightsAreFewAndHaveADirection) {
     Scene crowded;
     crowded.lights.resize(kMaxLights + 1);
-    EXPECT_THAT(refusal(crowded), testing::HasSubstr("scene.lights"));
+    EXPECT_THAT(refusal(crowded), testing::HasSubstr("5 lights; at most 4"));
     Scene aimless;
     aimless.lights = {{Vec3(0.0), Vec3(1.0)}};
     EXPECT_THAT(refusal(aimless), testing::HasSubstr("scene.lights.direction"));

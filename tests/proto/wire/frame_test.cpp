@@ -40,8 +40,8 @@ RC_GTEST_PROP(WireFrameData, ComesBackAsItWas, ()) {
     fabric::FrameData frameData;
     frameData.version = *rc::gen::inRange<std::uint64_t>(1, 1U << 30);
     frameData.tauPixels = *rc::gen::inRange(1, 100'001) / 100.0;
-    frameData.shading = *rc::gen::element(fabric::Shading::Smooth, fabric::Shading::Flat,
-                                          fabric::Shading::Wireframe);
+    frameData.shading = *rc::gen::element(fabric::Shading::Smooth, fabric::Shading::Gouraud,
+                                          fabric::Shading::Flat, fabric::Shading::Wireframe);
     frameData.look.exaggeration = *rc::gen::inRange(-10, 11);
     frameData.occlusion =
         *rc::gen::element(fabric::Occlusion::Auto, fabric::Occlusion::On, fabric::Occlusion::Off);

@@ -44,6 +44,10 @@ fabric::Scene anyScene() {
     }
     for (int i = 0; i < *rc::gen::inRange(0, 5); ++i)
         scene.lights.push_back({{number(), number(), 1}, {fraction(), fraction(), fraction()}});
+    for (int i = 0; i < *rc::gen::inRange(0, 3); ++i)
+        scene.pointLights.push_back({{number(), number(), number()},
+                                     {fraction(), fraction(), fraction()},
+                                     fraction() + 0.5});
     scene.ambient = fraction();
     scene.background.g = *rc::gen::arbitrary<std::uint8_t>();
     return scene;
@@ -121,6 +125,10 @@ TEST(WireScene, ARefusalNamesTheObjectAndField) {
                 testing::HasSubstr("lights[0].direction"));
     EXPECT_THAT(refusal(R"({"lights":[{"direction":[0,0,1],"colour":[1,-1,1]}]})"),
                 testing::HasSubstr("lights[0].colour[1]"));
+    EXPECT_THAT(refusal(R"({"pointLights":[{"reach":1}]})"),
+                testing::HasSubstr("pointLights[0].position"));
+    EXPECT_THAT(refusal(R"({"pointLights":[{"position":[0,0,1]}]})"),
+                testing::HasSubstr("pointLights.reach is 0"));
 }
 
 TEST(WireSceneInfo, ComesBackAsItWas) {

@@ -104,10 +104,12 @@ TEST_F(EffectVariantsTest, EveryBuiltInVariantCompilesAndSetsWhatTheDriverKept) 
                     terrain->worldFromNormal(glm::mat3(1.0F));
                     terrain->lineWidth(1.0F);
                 }
-                const auto mesh = MeshEffect::create(object);
-                ASSERT_TRUE(mesh.ok()) << mesh.status();
-                mesh->worldFromNormal(glm::mat3(1.0F));
-                mesh->lightColours(std::vector<glm::vec3>(Variant::kMaxLights));
+                for (const bool gouraud : {false, true}) {
+                    const auto mesh = MeshEffect::create({object, gouraud});
+                    ASSERT_TRUE(mesh.ok()) << mesh.status();
+                    mesh->worldFromNormal(glm::mat3(1.0F));
+                    mesh->lightColours(std::vector<glm::vec3>(Variant::kMaxLights));
+                }
             }
 }
 

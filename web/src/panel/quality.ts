@@ -12,6 +12,7 @@ const stepLog = 0.25;
 
 const shadings: readonly (readonly [Shading, string])[] = [
   [Shading.SMOOTH, "Smooth"],
+  [Shading.GOURAUD, "Gouraud"],
   [Shading.FLAT, "Flat"],
   [Shading.WIREFRAME, "Wireframe"],
 ];

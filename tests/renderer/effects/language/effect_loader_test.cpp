@@ -150,6 +150,8 @@ TEST(EffectLoader, AnEffectDrawsOrComputes) {
     EXPECT_EQ(errorOf({{"a.effect", "stage vertex {}"}}),
               "a.effect:1:1: the effect has no fragment stage");
     const std::string compute = "stage compute {}\n";
+    EXPECT_EQ(errorOf({{"a.effect", compute + "stage shared {}"}}),
+              "a.effect:2:1: a shared stage beside a compute stage; an effect draws or computes");
     EXPECT_EQ(errorOf({{"a.effect", compute + "stage vertex {}"}}),
               "a.effect:2:1: a vertex stage beside a compute stage; an effect draws or computes");
     EXPECT_EQ(errorOf({{"a.effect", compute + compute}}),
