@@ -38,17 +38,24 @@ public:
         task.pixelViewport = {0, 0, request.width, request.height};
         task.wantsDepth = request.wantsDepth;
         task.completeness = request.completeness;
-        ASSIGN_OR_RETURN(const fabric::ChannelResult result, renderer_->render(frameData, task));
-        RenderedFrame frame{fabric::makeImage(task.pixelViewport, background_, request.wantsDepth),
-                            result.statistics, renderer_->device()};
-        if (!result.image.area.isEmpty())
-            fabric::paste(result.image, frame.image);
-        return frame;
+        ASSIGN_OR_RETURN(fabric::ChannelResult result, renderer_->render(frameData, task));
+        return RenderedFrame{whole(std::move(result.image), task), result.statistics,
+                             renderer_->device()};
     }
 
     fabric::SceneInfo sceneInfo() const override { return info_; }
 
 private:
+    /// What a channel drew, with the background around it.
+    fabric::Image whole(fabric::Image drawn, const fabric::ChannelTask& task) const {
+        if (drawn.area == task.pixelViewport)
+            return drawn;
+        fabric::Image image = fabric::makeImage(task.pixelViewport, background_, task.wantsDepth);
+        if (!drawn.area.isEmpty())
+            fabric::paste(drawn, image);
+        return image;
+    }
+
     const std::unique_ptr<Renderer> renderer_;
     const fabric::SceneInfo info_;
     const fabric::Rgba background_;

@@ -26,6 +26,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+/// What is drawn so far is handed over, so that llvmpipe fills pixels on other cores while this
+/// thread prepares more triangles: it waits for a frame's end, or megabytes of them, by itself.
+constexpr std::uint64_t kTrianglesABatch = 8192;
+
 double millisecondsSince(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
@@ -281,13 +285,20 @@ absl::Status Renderer::Impl::drawPieces(const draw::OccludedDraw::Pieces& pieces
                                         const draw::FrameState& frame,
                                         fabric::FrameStatistics& statistics) {
     std::vector<draw::Piece> run;
+    std::uint64_t triangles = 0;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         run.push_back(pieces[i]->piece);
-        statistics.nodes += pieces[i]->piece.isNode ? 1 : 0;
-        if (i + 1 < pieces.size() && pieces[i + 1]->object == pieces[i]->object)
+        triangles += run.back().triangles;
+        statistics.nodes += run.back().isNode ? 1 : 0;
+        const bool isBatch = triangles >= kTrianglesABatch;
+        if (!isBatch && i + 1 < pieces.size() && pieces[i + 1]->object == pieces[i]->object)
             continue;
         RETURN_IF_ERROR(objects_[pieces[i]->object].drawable->draw(run, frame, statistics));
         run.clear();
+        if (isBatch) {
+            glFlush();
+            triangles = 0;
+        }
     }
     return absl::OkStatus();
 }

@@ -138,8 +138,8 @@ private:
         RETURN_IF_ERROR(stages.run([&] { return joinLevels(); },
                                    {[&] { return vertexLevels_.state(); },
                                     [&](const auto& s) { return vertexLevels_.restore(s); }}));
-        RETURN_IF_ERROR(stages.run([&] { return heights_.make(control_); }));
-        RETURN_IF_ERROR(stages.run([&] { return normals_.make(control_); }));
+        RETURN_IF_ERROR(stages.runQuick([&] { return heights_.make(control_); }));
+        RETURN_IF_ERROR(stages.runQuick([&] { return normals_.make(control_); }));
         terrain::EytIndex index = emptyIndex(model_, lattice, source_.crsWkt, source_.hash);
         RETURN_IF_ERROR(writePages({model_, heights_, vertexLevels_, normals_, lattice, parts_},
                                    scratch_, control_, index, writer));

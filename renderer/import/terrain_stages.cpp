@@ -36,8 +36,33 @@ absl::Status TerrainStages::run(const std::function<absl::Status()>& work, const
         return absl::OkStatus();
     }
     RETURN_IF_ERROR(work());
+    RETURN_IF_ERROR(kept());
+    keeping_ = std::async(std::launch::async, [this, step, bytes = state.save()] {
+        absl::Status status = scratch_->flush();
+        return status.ok() ? journal_->add(step, bytes) : status;
+    });
+    return absl::OkStatus();
+}
+
+/// What became of keeping the last stage; waits for it.
+absl::Status TerrainStages::kept() { return keeping_.valid() ? keeping_.get() : absl::OkStatus(); }
+
+absl::Status TerrainStages::runQuick(const std::function<absl::Status()>& work) {
+    const std::uint32_t step = next_++;
+    if (journal_ && journal_->find(step) != nullptr)
+        return absl::OkStatus();
+    RETURN_IF_ERROR(work());
+    quick_.push_back(step);
+    return absl::OkStatus();
+}
+
+absl::Status TerrainStages::keepQuick() {
+    RETURN_IF_ERROR(kept());
+    if (quick_.empty())
+        return absl::OkStatus();
     RETURN_IF_ERROR(scratch_->flush());
-    return journal_->add(step, state.save());
+    for (const std::uint32_t step : quick_) RETURN_IF_ERROR(journal_->add(step, {}));
+    return absl::OkStatus();
 }
 
 absl::Status TerrainStages::end(const absl::Status& outcome) {
@@ -47,6 +72,8 @@ absl::Status TerrainStages::end(const absl::Status& outcome) {
     }
     if (!journal_)
         return outcome;
+    // Where it cannot be kept it is done again.
+    static_cast<void>(keepQuick());
     const auto message = outcome.message();
     return absl::Status(
         outcome.code(),
@@ -57,6 +84,7 @@ absl::Status TerrainStages::end(const absl::Status& outcome) {
 void TerrainStages::remove() {
     if (!journal_)
         return;
+    static_cast<void>(kept());  // the pages are written: nothing needs it any more
     unlink(scratch_->path().c_str());
     journal_->remove();
 }

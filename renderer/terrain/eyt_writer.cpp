@@ -125,7 +125,8 @@ EytWriter::EytWriter(EytWriter&& other) noexcept
     : path_(std::move(other.path_)),
       partialPath_(std::move(other.partialPath_)),
       fd_(std::exchange(other.fd_, -1)),
-      size_(other.size_) {}
+      size_(other.size_),
+      started_(other.started_) {}
 
 EytWriter::~EytWriter() {
     if (fd_ < 0)
@@ -167,11 +168,20 @@ absl::StatusOr<PageRecord> EytWriter::addPage(std::span<const std::byte> page) {
     const std::size_t bytes = page.size();
     const PageRecord record{size_, bytes, XXH64(page.data(), bytes, 0)};
     RETURN_IF_ERROR(writeAt(page.data(), bytes, size_));
-    // Starts the disk early, so that the flush at the end has little left to wait for.
-    sync_file_range(fd_, static_cast<off_t>(size_), static_cast<off_t>(bytes),
-                    SYNC_FILE_RANGE_WRITE);
     size_ += bytes;
+    startDisk();
     return record;
+}
+
+/// Early, so that the flush at the end has little left to wait for; but not for each page, which
+/// takes as long as writing it.
+void EytWriter::startDisk() {
+    constexpr std::uint64_t kAtOnce = 4 << 20;
+    if (size_ < started_ + kAtOnce)
+        return;
+    sync_file_range(fd_, static_cast<off_t>(started_), static_cast<off_t>(size_ - started_),
+                    SYNC_FILE_RANGE_WRITE);
+    started_ = size_;
 }
 
 absl::StatusOr<std::uint64_t> EytWriter::commit(const EytIndex& index) {

@@ -63,11 +63,13 @@ private:
     EytWriter(std::string path, std::string partialPath, int fd);
 
     absl::Status writeAt(const void* data, std::size_t bytes, std::uint64_t offset);
+    void startDisk();
 
     std::string path_;
     std::string partialPath_;
     int fd_;
     std::uint64_t size_;
+    std::uint64_t started_ = 0;  ///< of size_, what the disk was told to write
 };
 
 }  // namespace eyrie::terrain

@@ -107,7 +107,8 @@ absl::Status NormalMaps::make(const import::ImportControl& control) {
         TiledRaster<float>& coarser = smoothed_[k];
         RETURN_IF_ERROR(forEachTile(
             coarser.tilesX(), coarser.tilesY(), "smoothing", scratch_, quiet,
-            [&](std::int32_t x, std::int32_t y) { coarser.write(x, y, smoothed(finer, x, y)); }));
+            [&](std::int32_t x, std::int32_t y) { coarser.write(x, y, smoothed(finer, x, y)); },
+            Sweep::FromLastRow));
         control.report("smoothing",
                        static_cast<double>(k + 1) / static_cast<double>(smoothed_.size()));
     }

@@ -226,11 +226,13 @@ SourceSurface::Inside VertexLevels::TileMeasure::reachOf(const Triangle& triangl
 }
 
 absl::Status VertexLevels::measure(const import::ImportControl& control, const TileFilter& needed) {
-    return forEachTile(measured_.tilesX(), measured_.tilesY(), "measuring", scratch_, control,
-                       [&](std::int32_t x, std::int32_t y) {
-                           if (!needed || needed(x, y))
-                               measured_.write(x, y, TileMeasure(*this, x, y).run());
-                       });
+    return forEachTile(
+        measured_.tilesX(), measured_.tilesY(), "measuring", scratch_, control,
+        [&](std::int32_t x, std::int32_t y) {
+            if (!needed || needed(x, y))
+                measured_.write(x, y, TileMeasure(*this, x, y).run());
+        },
+        Sweep::FromLastRow);
 }
 
 }  // namespace eyrie::terrain
