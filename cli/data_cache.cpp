@@ -26,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Raise either when an importer makes something else of the same source.
-constexpr int kMeshImporterVersion = 2;
+constexpr int kMeshImporterVersion = 3;
 constexpr int kTerrainImporterVersion = 4;
 
 /// Files beside a raster that say where it lies: a change of one is a change of the source.
@@ -146,15 +146,7 @@ absl::StatusOr<std::string> DataCache::dataFor(const std::string& path, fabric::
 absl::Status DataCache::reach(const std::string& url, fabric::ObjectKind kind) {
     if (kind == fabric::ObjectKind::Terrain)
         return terrain::EytFile::open(url, sources_).status();
-    ProgressBar bar(fs::path(page::withoutQuery(url)).filename().string(), 0, "", progress_);
-    const auto show = bar.callback();
-    return mesh::EymFile::open(url, sources_,
-                               [&](double fraction) {
-                                   show("copying", fraction);
-                                   return stop_.stop_requested() ? absl::CancelledError("stopped")
-                                                                 : absl::OkStatus();
-                               })
-        .status();
+    return mesh::EymFile::open(url, sources_).status();
 }
 
 absl::StatusOr<std::string> DataCache::imported(const std::string& source, fabric::ObjectKind kind,

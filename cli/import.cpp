@@ -49,6 +49,10 @@ struct TerrainOptions : Options {
     bool merges = false;
 };
 
+struct MeshOptions : Options {
+    import::MeshImportOptions how;
+};
+
 double sourceMegabytes(const Options& options) {
     double megabytes = 0;
     for (const std::string& source : options.sources) {
@@ -188,14 +192,14 @@ std::vector<JsonObject> levelsJson(const import::MeshImportReport& made) {
     return levels;
 }
 
-absl::Status importMesh(const Options& options) {
+absl::Status importMesh(const MeshOptions& options) {
     StopSignal stop;
     RETURN_IF_ERROR(checkEnding(options, ".eym"));
     absl::StatusOr<import::MeshImportReport> made;
     {
         ProgressBar bar(options.title(), sourceMegabytes(options), "MB",
                         ProgressBar::styleFor(options.quiet));
-        made = import::importMesh(options.sources.front(), options.out, {},
+        made = import::importMesh(options.sources.front(), options.out, options.how,
                                   {bar.callback(), stop.token()});
     }
     RETURN_IF_ERROR(made.status());
@@ -208,6 +212,7 @@ absl::Status importMesh(const Options& options) {
                                .count("degenerateTriangles", made->counts.degenerateTriangles)
                                .count("nodes", made->nodes)
                                .count("bytes", made->bytes)
+                               .number("stepMetres", made->stepMetres)
                                .number("errorMetres", made->errorMetres)
                                .objects("simplified", levelsJson(*made))
                                .number("seconds", made->seconds.total)
@@ -233,14 +238,29 @@ void addCommon(CLI::App& command, Options& options) {
 }
 
 void addMesh(CLI::App& parent, Run& run) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<MeshOptions>();
     CLI::App* command = parent.add_subcommand("mesh", "A polygon mesh to .eym");
     command->add_option("source", options->sources, "A .ply file")
         ->type_name("FILE")
         ->required()
         ->expected(1);
     addCommon(*command, *options);
-    command->footer("Example:\n  eyrie import mesh scan.ply -o scan.eym");
+    command
+        ->add_option("--bits", options->how.latticeBits,
+                     "Bits of a coordinate: positions are rounded to a power of two, of which the "
+                     "longest side has 2^(bits-1) or more. Fewer make a smaller file; what they "
+                     "round is in the error that is promised")
+        ->check(CLI::Range(mesh::kMinLatticeBits, mesh::kLatticeBits))
+        ->capture_default_str();
+    command->add_flag("--raw", options->how.isRaw,
+                      "Leave pages uncoded, to be mapped: the file is three times as large, and "
+                      "nothing is decoded");
+    command->add_flag("--lossless", options->how.keepsExact,
+                      "Keep the source's own positions, bit for bit, beside those that are drawn");
+    command->footer(
+        "Examples:\n"
+        "  eyrie import mesh scan.ply -o scan.eym\n"
+        "  eyrie import mesh scan.ply --bits 17 -o small.eym");
     command->callback([options, &run] { run = [options] { return importMesh(*options); }; });
 }
 

@@ -10,47 +10,15 @@
 #include <glm/matrix.hpp>
 
 #include "fabric/status.h"
+#include "renderer/draw/mesh_paging.h"
 #include "renderer/draw/object_program.h"
 #include "renderer/gl/object.h"
 #include "renderer/mesh/eym_format.h"
-#include "renderer/page/lru_cache.h"
 
 namespace eyrie::draw {
 namespace {
 
 using Program = effects::MeshEffect;
-
-/// A node's geometry on the device: one buffer, sections one after another.
-struct DeviceNode {
-    gl::Buffer buffer;
-    GLintptr normalOffset = 0;
-    GLintptr colourOffset = 0;
-    GLintptr indexOffset = 0;
-    GLsizei indexCount = 0;
-};
-
-template <typename T>
-GLintptr append(std::vector<std::byte>& bytes, std::span<const T> values) {
-    const auto offset = static_cast<GLintptr>(bytes.size());
-    const auto source = std::as_bytes(values);
-    bytes.insert(bytes.end(), source.begin(), source.end());
-    return offset;
-}
-
-DeviceNode upload(const mesh::NodeGeometry& geometry, std::uint64_t& bytesUsed) {
-    DeviceNode node;
-    std::vector<std::byte> bytes;
-    bytes.reserve(geometry.positions.size_bytes() + geometry.normals.size_bytes() +
-                  geometry.colours.size_bytes() + geometry.indices.size_bytes());
-    append(bytes, geometry.positions);
-    node.normalOffset = append(bytes, geometry.normals);
-    node.colourOffset = append(bytes, geometry.colours);
-    node.indexOffset = append(bytes, geometry.indices);
-    node.indexCount = static_cast<GLsizei>(geometry.indices.size());
-    glNamedBufferStorage(node.buffer.id(), static_cast<GLsizeiptr>(bytes.size()), bytes.data(), 0);
-    bytesUsed = bytes.size();
-    return node;
-}
 
 std::uint32_t packedSrgb(const fabric::Vec3& linear) {
     const auto byte = [](double value) {
@@ -69,7 +37,7 @@ public:
           uniformColour_(packedSrgb(object.colour)),
           singleSided_(object.singleSided),
           file_(std::move(file)),
-          resident_(memoryBytes) {
+          paging_(file_, memoryBytes) {
         const mesh::Lattice& lattice = file_.lattice();
         objectFromLattice_ = glm::scale(glm::translate(fabric::Mat4(1.0), lattice.originMetres),
                                         fabric::Vec3(lattice.stepMetres));
@@ -86,15 +54,13 @@ public:
     }
     absl::Status draw(std::span<const Piece> pieces, const FrameState& frame,
                       fabric::FrameStatistics& statistics) override;
-    void trim() override { resident_.trim(); }
-    MemoryUse memory() const override { return {resident_.bytes(), 0}; }
+    void trim() override { paging_.trim(); }
+    MemoryUse memory() const override { return {paging_.bytes(), 0}; }
 
 private:
     void defineVertexFormat();
     void visit(std::uint32_t index, bool errorKnown, const lod::ObjectView& view, double tauPixels,
                Cut& cut);
-    absl::StatusOr<const DeviceNode*> residentNode(std::uint32_t index,
-                                                   fabric::FrameStatistics& statistics);
     void setFaces(const FrameState& frame) const;
     void drawNode(const DeviceNode& node) const;
 
@@ -106,7 +72,7 @@ private:
     mesh::EymFile file_;
     double errorPixels_ = 0;  ///< of the last cut
     gl::VertexArray vertexArray_;
-    page::LruCache<std::uint32_t, DeviceNode> resident_;
+    MeshPaging paging_;
 };
 
 void MeshDrawable::defineVertexFormat() {
@@ -147,18 +113,6 @@ void MeshDrawable::visit(std::uint32_t index, bool errorKnown, const lod::Object
     visit(static_cast<std::uint32_t>(node.right), errorKnown, view, tauPixels, cut);
 }
 
-absl::StatusOr<const DeviceNode*> MeshDrawable::residentNode(std::uint32_t index,
-                                                             fabric::FrameStatistics& statistics) {
-    if (const DeviceNode* node = resident_.find(index); node != nullptr)
-        return node;
-    ASSIGN_OR_RETURN(const mesh::NodeGeometry geometry, file_.geometry(index));
-    std::uint64_t bytes = 0;
-    DeviceNode node = upload(geometry, bytes);
-    ++statistics.pagesLoaded;
-    statistics.bytesLoaded += bytes;
-    return &resident_.insert(index, std::move(node), bytes);
-}
-
 /// From inside its bounds a surface may well be seen from behind, and lines have no sides.
 void MeshDrawable::setFaces(const FrameState& frame) const {
     const fabric::Vec3 eye(glm::inverse(worldFromObject_) * fabric::Vec4(frame.view.eye, 1.0));
@@ -192,7 +146,7 @@ absl::Status MeshDrawable::draw(std::span<const Piece> pieces, const FrameState&
     glBindVertexArray(vertexArray_.id());
     glVertexAttribI4ui(Program::kPackedColour.location, uniformColour_, 0, 0, 0);
     for (const Piece& piece : pieces) {
-        ASSIGN_OR_RETURN(const DeviceNode* node, residentNode(piece.index, statistics));
+        ASSIGN_OR_RETURN(const DeviceNode* node, paging_.node(piece.index, statistics));
         drawNode(*node);
         statistics.triangles += static_cast<std::uint64_t>(node->indexCount) / 3;
     }

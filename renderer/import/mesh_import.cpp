@@ -58,6 +58,10 @@ absl::Status checkOptions(const MeshImportOptions& options) {
         return absl::InvalidArgumentError(fmt::format("leafTriangles: found {}, expected 1 to {}",
                                                       options.leafTriangles,
                                                       mesh::kMaxLeafVertices));
+    if (options.latticeBits < mesh::kMinLatticeBits || options.latticeBits > mesh::kLatticeBits)
+        return absl::InvalidArgumentError(fmt::format("latticeBits: found {}, expected {} to {}",
+                                                      options.latticeBits, mesh::kMinLatticeBits,
+                                                      mesh::kLatticeBits));
     return absl::OkStatus();
 }
 
@@ -68,7 +72,8 @@ absl::StatusOr<MeshImportReport> build(TriangleMesh source, mesh::OutputFile& ou
     Stopwatch watch;
     report.droppedFaces = source.droppedFaces;
     ASSIGN_OR_RETURN(const mesh::PackedMesh packed,
-                     packMesh(std::move(source), report.counts, control));
+                     packMesh(std::move(source), report.counts, control,
+                              {options.latticeBits, options.keepsExact}));
     report.seconds.pack = watch.lap();
 
     control.report("tree", 0);
@@ -89,7 +94,9 @@ absl::StatusOr<MeshImportReport> build(TriangleMesh source, mesh::OutputFile& ou
     report.levels = lod.levels;
 
     control.report("writing", 0);
-    RETURN_IF_ERROR(mesh::writeEym(packed, tree, lod, sourceHash, out, control.stop));
+    RETURN_IF_ERROR(mesh::writeEym(packed, tree, lod,
+                                   {.isCoded = !options.isRaw, .sourceHash = sourceHash}, out,
+                                   control.stop));
     RETURN_IF_ERROR(control.check());
     RETURN_IF_ERROR(out.commit());
     control.report("writing", 1);
@@ -99,6 +106,7 @@ absl::StatusOr<MeshImportReport> build(TriangleMesh source, mesh::OutputFile& ou
     report.vertices = packed.positions.size();
     report.nodes = tree.nodes.size();
     report.bytes = out.size();
+    report.stepMetres = packed.lattice.stepMetres;
     report.errorMetres = packed.lattice.errorMetres();
     report.coarsestErrorMetres = lod.errorMetres.front();
     report.seconds.total = watch.total();

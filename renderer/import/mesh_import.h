@@ -16,6 +16,10 @@ namespace eyrie::import {
 
 struct MeshImportOptions {
     std::uint32_t leafTriangles = 8192;  ///< triangles a leaf may have; 1 to 65,535
+    /// Of a coordinate, 8 to 21: the longest side has 2^(bits-1) steps of the lattice or more.
+    int latticeBits = mesh::kLatticeBits;
+    bool isRaw = false;       ///< pages are not coded, but mapped as they are
+    bool keepsExact = false;  ///< source positions bit for bit, beside those that are drawn
 };
 
 /// Wall-clock seconds of the stages.
@@ -36,6 +40,7 @@ struct MeshImportReport {
     std::uint64_t nodes = 0;
     std::uint64_t sourceBytes = 0;
     std::uint64_t bytes = 0;             ///< of the .eym file
+    double stepMetres = 0;               ///< of the lattice
     double errorMetres = 0;              ///< bound on what rounding to the lattice moved
     double coarsestErrorMetres = 0;      ///< of the root
     std::vector<mesh::LodLevel> levels;  ///< of detail, from the finest

@@ -2,7 +2,10 @@
 #include "renderer/import/pack_mesh.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
@@ -132,6 +135,24 @@ mesh::PackedMesh gather(const Weld& welded, const std::vector<VertexKey>& keys, 
     return packed;
 }
 
+/// Equal positions, to the bit, have equal numbers.
+void numberPositions(const std::vector<fabric::Vec3>& positions, std::vector<VertexKey>& keys) {
+    using Bits = std::array<std::uint64_t, 3>;
+    const auto bitsOf = [&](std::uint32_t i) {
+        return std::bit_cast<Bits>(std::array{positions[i].x, positions[i].y, positions[i].z});
+    };
+    std::vector<std::uint32_t> order(positions.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::sort(order.begin(), order.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return bitsOf(a) < bitsOf(b); });
+    std::uint32_t number = 0;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        if (i > 0 && bitsOf(order[i]) != bitsOf(order[i - 1]))
+            ++number;
+        keys[order[i]].exact = number;
+    }
+}
+
 absl::Status dropDegenerate(TriangleMesh& source, const std::vector<VertexKey>& keys,
                             PackCounts& counts) {
     const auto total = source.triangles.size();
@@ -149,11 +170,13 @@ absl::Status dropDegenerate(TriangleMesh& source, const std::vector<VertexKey>& 
 }  // namespace
 
 absl::StatusOr<mesh::PackedMesh> packMesh(TriangleMesh source, PackCounts& counts,
-                                          const ImportControl& control) {
+                                          const ImportControl& control,
+                                          const PackOptions& options) {
     counts = {};
     control.report("welding", 0);
     const std::vector<std::uint8_t> used = findUsed(source);
-    ASSIGN_OR_RETURN(const mesh::Lattice lattice, mesh::fitLattice(boundsOf(source, used)));
+    ASSIGN_OR_RETURN(const mesh::Lattice lattice,
+                     mesh::fitLattice(boundsOf(source, used), options.latticeBits));
     std::vector<VertexKey> keys = latticeKeys(source, used, lattice);
     RETURN_IF_ERROR(dropDegenerate(source, keys, counts));
     RETURN_IF_ERROR(control.check());
@@ -166,13 +189,20 @@ absl::StatusOr<mesh::PackedMesh> packMesh(TriangleMesh source, PackCounts& count
     control.report("normals", 0);
     fillNormals(source, welded, keys, counts);
     control.report("normals", 1);
-    if (!source.normals.empty() || !source.colours.empty()) {
+    if (options.keepsExact)
+        numberPositions(source.positions, keys);
+    if (!source.normals.empty() || !source.colours.empty() || options.keepsExact) {
         for (std::size_t i = 0; i < source.colours.size(); ++i)
             keys[i].colour = mesh::packColour(source.colours[i]);
         welded = weld(keys, source.triangles);
     }
     counts.weldedVertices = keys.size() - counts.isolatedVertices - welded.vertexCount();
-    return gather(welded, keys, !source.colours.empty(), lattice, std::move(source.triangles));
+    mesh::PackedMesh packed =
+        gather(welded, keys, !source.colours.empty(), lattice, std::move(source.triangles));
+    if (options.keepsExact)
+        for (const std::uint32_t key : welded.firstKey)
+            packed.exact.push_back(source.positions[key]);
+    return packed;
 }
 
 }  // namespace eyrie::import

@@ -11,6 +11,11 @@
 
 namespace eyrie::import {
 
+struct PackOptions {
+    int latticeBits = mesh::kLatticeBits;  ///< of a coordinate: mesh::fitLattice
+    bool keepsExact = false;               ///< the source's positions, too: PackedMesh::exact
+};
+
 /// What packing left out and put together.
 struct PackCounts {
     std::uint64_t isolatedVertices = 0;     ///< used by no triangle
@@ -22,12 +27,14 @@ struct PackCounts {
 };
 
 /// Puts a mesh on the lattice that fits it: rounds positions, drops triangles without area, welds
-/// vertices that have become equal (position, and the source's normal and colour), and gives smooth
+/// vertices that have become equal (position, and the source's normal and colour; if it keeps
+/// exact positions, those, too), and gives smooth
 /// normals to vertices whose source normal is missing, zero or not finite.
 ///
 /// Depends on the mesh alone. Every remaining vertex lies within lattice.errorMetres() of its
 /// source. Errors: Cancelled, InvalidArgument (coordinates too large, or nothing has any area).
 absl::StatusOr<mesh::PackedMesh> packMesh(TriangleMesh source, PackCounts& counts,
-                                          const ImportControl& control = {});
+                                          const ImportControl& control = {},
+                                          const PackOptions& options = {});
 
 }  // namespace eyrie::import

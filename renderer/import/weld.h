@@ -14,6 +14,7 @@ struct VertexKey {
     std::uint64_t position = 0;
     std::uint32_t normal = 0;
     std::uint32_t colour = 0;
+    std::uint32_t exact = 0;  ///< number of its source position; 0 where that does not matter
 
     bool operator==(const VertexKey&) const = default;
 };

@@ -26,45 +26,20 @@ absl::Status damaged(std::string_view field, const Found& found, const Expected&
                     field, found, expected));
 }
 
-/// Where the sections of a file with these counts lie. Counts are small enough not to overflow.
-absl::Status checkSections(const EymHeader& header) {
-    const auto aligned = [](std::uint64_t offset) { return (offset + 7) / 8 * 8; };
-    std::uint64_t offset = sizeof(EymHeader);
-    if (header.nodesOffset != offset)
-        return damaged("header.nodesOffset", header.nodesOffset, offset);
-    offset += header.nodeCount * sizeof(Node);
-    if (header.positionsOffset != offset)
-        return damaged("header.positionsOffset", header.positionsOffset, offset);
-    offset += header.vertexCount * sizeof(std::uint64_t);
-    if (header.normalsOffset != offset)
-        return damaged("header.normalsOffset", header.normalsOffset, offset);
-    offset = aligned(offset + header.vertexCount * sizeof(std::uint32_t));
-    const bool hasColours = (header.flags & kHasColours) != 0;
-    if (header.coloursOffset != (hasColours ? offset : 0))
-        return damaged("header.coloursOffset", header.coloursOffset, hasColours ? offset : 0);
-    if (hasColours)
-        offset = aligned(offset + header.vertexCount * sizeof(std::uint32_t));
-    if (header.indicesOffset != offset)
-        return damaged("header.indicesOffset", header.indicesOffset, offset);
-    offset = aligned(offset + header.indexCount * sizeof(std::uint16_t));
-    if (header.fileBytes != offset)
-        return damaged("header.fileBytes", header.fileBytes, offset);
-    return absl::OkStatus();
+std::uint64_t endOfTables(const EymHeader& header) {
+    return sizeof(EymHeader) + std::uint64_t{header.nodeCount} * sizeof(Node);
 }
 
-/// No count can exceed the file's bytes, which also keeps the offsets' arithmetic from wrapping.
 absl::Status checkCounts(const EymHeader& header) {
-    const auto limit = header.fileBytes;
-    if (header.nodeCount == 0 || header.nodeCount > limit / sizeof(Node) ||
-        header.nodeCount > 2 * kMaxTriangles)
+    if (header.nodeCount == 0 || header.nodeCount > 2 * kMaxTriangles ||
+        endOfTables(header) > header.fileBytes)
         return damaged("header.nodeCount", header.nodeCount, "at least 1, and room for them");
-    if (header.vertexCount > limit / sizeof(std::uint64_t))
-        return damaged("header.vertexCount", header.vertexCount, "room for them");
-    if (header.indexCount > limit / sizeof(std::uint16_t))
-        return damaged("header.indexCount", header.indexCount, "room for them");
     if (header.triangleCount == 0 || header.triangleCount > kMaxTriangles)
         return damaged("header.triangleCount", header.triangleCount,
                        fmt::format("1 to {}", kMaxTriangles));
+    constexpr std::uint32_t kKnown = kHasColours | kIsCoded | kHasExact | kExactIsFloat64;
+    if ((header.flags & ~kKnown) != 0)
+        return damaged("header.flags", header.flags, fmt::format("bits of {}", kKnown));
     return absl::OkStatus();
 }
 
@@ -111,7 +86,9 @@ private:
 
     absl::Status checkNode(std::uint32_t index) const;
     absl::Status checkBox(std::uint32_t index) const;
-    absl::Status checkArrays(std::uint32_t index) const;
+    absl::Status checkPage(std::uint32_t index, std::string_view field, std::uint64_t offset,
+                           std::uint64_t bytes) const;
+    absl::Status checkGeometry(std::uint32_t index) const;
     absl::Status checkChildren(std::uint32_t index) const;
     absl::Status checkInside(std::uint32_t childIndex, const Node& parent) const;
 
@@ -134,26 +111,42 @@ absl::Status NodeCheck::checkBox(std::uint32_t index) const {
     return absl::OkStatus();
 }
 
-absl::Status NodeCheck::checkArrays(std::uint32_t index) const {
-    const Node& node = nodes_[index];
-    if (node.vertexCount > kMaxLeafVertices || node.vertexCount > header_.vertexCount ||
-        node.firstVertex > header_.vertexCount - node.vertexCount)
+absl::Status NodeCheck::checkPage(std::uint32_t index, std::string_view field, std::uint64_t offset,
+                                  std::uint64_t bytes) const {
+    if (offset < endOfTables(header_) || offset > header_.fileBytes ||
+        bytes > header_.fileBytes - offset)
         return damaged(
-            fmt::format("node {}: firstVertex and vertexCount", index),
-            fmt::format("{} and {}", node.firstVertex, node.vertexCount),
-            fmt::format("at most {}, inside the file's {}", kMaxLeafVertices, header_.vertexCount));
-    if (node.indexCount % 3 != 0 || node.firstIndex % 4 != 0 ||
-        node.indexCount > header_.indexCount ||
-        node.firstIndex > header_.indexCount - node.indexCount)
-        return damaged(
-            fmt::format("node {}: firstIndex and indexCount", index),
-            fmt::format("{} and {}", node.firstIndex, node.indexCount),
-            fmt::format("multiples of 4 and 3, inside the file's {}", header_.indexCount));
-    if (node.isLeaf() && node.indexCount != 3 * (node.triangleEnd - node.triangleBegin))
-        return damaged(fmt::format("node {}: indexCount", index), node.indexCount,
-                       fmt::format("three for each of its {} triangles",
-                                   node.triangleEnd - node.triangleBegin));
+            fmt::format("node {}: {}", index, field), fmt::format("{} bytes at {}", bytes, offset),
+            fmt::format("a part of the file's {} to {}", endOfTables(header_), header_.fileBytes));
     return absl::OkStatus();
+}
+
+absl::Status NodeCheck::checkGeometry(std::uint32_t index) const {
+    const Node& node = nodes_[index];
+    const auto triangles = node.triangleEnd - node.triangleBegin;
+    if (node.isLeaf() ? node.indexCount != 3 * triangles
+                      : node.indexCount % 3 != 0 || node.indexCount > 3 * triangles)
+        return damaged(fmt::format("node {}: indexCount", index), node.indexCount,
+                       fmt::format("three for each of {} triangles{}", triangles,
+                                   node.isLeaf() ? "" : ", or of fewer"));
+    if (node.vertexCount > kMaxLeafVertices || node.indexCount > 3 * kMaxNodeTriangles ||
+        (node.vertexCount == 0) != (node.indexCount == 0) || node.vertexCount > node.indexCount)
+        return damaged(fmt::format("node {}: vertexCount and indexCount", index),
+                       fmt::format("{} and {}", node.vertexCount, node.indexCount),
+                       fmt::format("at most {} and {}, each vertex used", kMaxLeafVertices,
+                                   3 * kMaxNodeTriangles));
+    if (node.indexCount == 0)
+        return absl::OkStatus();
+    RETURN_IF_ERROR(checkPage(index, "page", node.pageOffset, node.pageBytes));
+    const std::uint64_t block =
+        blockBytes({node.vertexCount, node.indexCount, (header_.flags & kHasColours) != 0});
+    if ((header_.flags & kIsCoded) == 0 && (node.pageBytes != block || node.pageOffset % 8 != 0))
+        return damaged(fmt::format("node {}: page", index),
+                       fmt::format("{} bytes at {}", node.pageBytes, node.pageOffset),
+                       fmt::format("{} at a multiple of 8", block));
+    return node.isLeaf() && (header_.flags & kHasExact) != 0
+               ? checkPage(index, "exact", node.exactOffset, node.exactBytes)
+               : absl::OkStatus();
 }
 
 absl::Status NodeCheck::checkNode(std::uint32_t index) const {
@@ -163,7 +156,7 @@ absl::Status NodeCheck::checkNode(std::uint32_t index) const {
                        fmt::format("{} and {}", node.triangleBegin, node.triangleEnd),
                        fmt::format("ascending, within {}", header_.triangleCount));
     RETURN_IF_ERROR(checkBox(index));
-    RETURN_IF_ERROR(checkArrays(index));
+    RETURN_IF_ERROR(checkGeometry(index));
     return node.isLeaf() ? absl::OkStatus() : checkChildren(index);
 }
 
@@ -244,8 +237,10 @@ absl::Status checkHeader(std::span<const std::byte> beginning, std::uint64_t fil
     if (header.fileBytes != fileBytes)
         return damaged("header.fileBytes", header.fileBytes,
                        fmt::format("the file's {}", fileBytes));
+    if (headerChecksum(header) != header.checksum)
+        return absl::DataLossError(
+            "the checksum of the header does not match; import the mesh again");
     RETURN_IF_ERROR(checkCounts(header));
-    RETURN_IF_ERROR(checkSections(header));
     return checkErrors(header);
 }
 

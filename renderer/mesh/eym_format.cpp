@@ -2,35 +2,29 @@
 #include "renderer/mesh/eym_format.h"
 
 #include <algorithm>
+#include <cstring>
+#include <utility>
 
 #include <absl/status/status.h>
 #include <fmt/format.h>
 #include <xxhash.h>
 
 #include "fabric/status.h"
+#include "renderer/mesh/codec/page_codec.h"
 #include "renderer/mesh/eym_check.h"
+#include "renderer/mesh/vertex_packing.h"
 #include "renderer/page/remote_name.h"
 
 namespace eyrie::mesh {
-namespace {
 
-template <typename T>
-std::uint64_t hash(std::span<const T> values, std::uint64_t seed) {
-    return XXH64(values.data(), values.size_bytes(), seed);
-}
-
-}  // namespace
-
-std::uint64_t tableChecksum(const EymHeader& header, std::span<const Node> nodes) {
+std::uint64_t headerChecksum(const EymHeader& header) {
     EymHeader zeroed = header;
     zeroed.checksum = 0;
-    return hash(nodes, XXH64(&zeroed, sizeof zeroed, 0));
+    return contentHash(std::as_bytes(std::span(&zeroed, 1)));
 }
 
-std::uint64_t geometryChecksum(const NodeGeometry& geometry) {
-    const std::uint64_t vertices =
-        hash(geometry.colours, hash(geometry.normals, hash(geometry.positions, 0)));
-    return hash(geometry.indices, vertices);
+std::uint64_t contentHash(std::span<const std::byte> bytes) {
+    return XXH64(bytes.data(), bytes.size(), 0);
 }
 
 absl::StatusOr<std::uint64_t> contentHash(const std::string& path) {
@@ -38,89 +32,95 @@ absl::StatusOr<std::uint64_t> contentHash(const std::string& path) {
     return contentHash(file.bytes());
 }
 
-std::uint64_t contentHash(std::span<const std::byte> bytes) { return hash(bytes, 0); }
-
-absl::StatusOr<EymFile> EymFile::open(const std::string& path, const page::SourceOptions& options,
-                                      const page::PageSource::Progress& progress) {
-    if (page::isRemote(path))
-        return openCopied(path, options, progress);
-    ASSIGN_OR_RETURN(MappedFile mapped, MappedFile::open(path));
-    return openMapped(path, std::move(mapped));
-}
-
-absl::StatusOr<EymFile> EymFile::openCopied(const std::string& url,
-                                            const page::SourceOptions& options,
-                                            const page::PageSource::Progress& progress) {
-    ASSIGN_OR_RETURN(const std::unique_ptr<page::PageSource> source,
-                     page::PageSource::open(url, sizeof(EymHeader), options));
-    RETURN_IF_ERROR(fabric::withContext(checkHeader(source->head(), source->sizeBytes()), url));
-    absl::StatusOr<EymFile> file = absl::DataLossError(url);
-    for (int attempt = 0; attempt < 2 && absl::IsDataLoss(file.status()); ++attempt) {
-        if (attempt > 0)  // the copy may be damaged, and the file sound
-            source->forget();
-        ASSIGN_OR_RETURN(const std::string copy, source->wholeFile(progress));
-        ASSIGN_OR_RETURN(MappedFile mapped, MappedFile::open(copy));
-        file = openMapped(url, std::move(mapped));
+absl::StatusOr<EymFile> EymFile::open(const std::string& path, const page::SourceOptions& options) {
+    ASSIGN_OR_RETURN(std::unique_ptr<page::PageSource> source,
+                     page::PageSource::open(path, sizeof(EymHeader), options));
+    EymFile file(std::move(source));
+    RETURN_IF_ERROR(file.readTables());
+    if (!file.isCoded() && !page::isRemote(path)) {
+        ASSIGN_OR_RETURN(file.mapped_, MappedFile::open(path));
+        if (file.mapped_->bytes().size() != file.fileBytes())
+            return absl::UnavailableError(
+                fmt::format("{}: changed while it was being opened; try again", path));
     }
     return file;
 }
 
-absl::StatusOr<EymFile> EymFile::openMapped(const std::string& path, MappedFile mapped) {
-    RETURN_IF_ERROR(fabric::withContext(checkHeader(mapped.bytes(), mapped.bytes().size()), path));
-    EymFile file(path, std::move(mapped));
-    const EymHeader& header = file.header();
-    file.lattice_ = {{header.originMetres[0], header.originMetres[1], header.originMetres[2]},
-                     header.stepMetres};
-    file.nodes_ = file.section<Node>(header.nodesOffset, 0, header.nodeCount);
-    if (tableChecksum(header, file.nodes_) != header.checksum)
-        return absl::DataLossError(fmt::format(
-            "{}: the checksum of header and node table does not match; import the mesh again",
-            path));
-    auto levels = checkNodes(header, file.nodes_);
+absl::Status EymFile::readTables() {
+    RETURN_IF_ERROR(
+        fabric::withContext(checkHeader(source_->head(), source_->sizeBytes()), path()));
+    std::memcpy(&header_, source_->head().data(), sizeof header_);
+    lattice_ = {{header_.originMetres[0], header_.originMetres[1], header_.originMetres[2]},
+                header_.stepMetres};
+    nodes_.resize(header_.nodeCount);
+    const auto bytes = std::as_writable_bytes(std::span(nodes_));
+    RETURN_IF_ERROR(source_->read({sizeof(EymHeader), bytes.size(), header_.nodesChecksum}, bytes,
+                                  "the node table"));
+    const absl::StatusOr<int> levels = checkNodes(header_, nodes_);
     if (!levels.ok())
-        return fabric::withContext(levels.status(), path);
-    file.levels_ = *levels;
-    file.verified_ = std::make_unique<std::atomic<bool>[]>(header.nodeCount);
-    return file;
-}
-
-template <typename T>
-std::span<const T> EymFile::section(std::uint64_t offset, std::uint64_t first,
-                                    std::uint64_t count) const {
-    const std::byte* start = file_.bytes().data() + offset + first * sizeof(T);
-    return {reinterpret_cast<const T*>(start), count};
+        return fabric::withContext(levels.status(), path());
+    levels_ = *levels;
+    return absl::OkStatus();
 }
 
 fabric::Box EymFile::bounds(std::uint32_t node) const {
     return {lattice_.metres(nodes_[node].boxMin), lattice_.metres(nodes_[node].boxMax)};
 }
 
-absl::StatusOr<NodeGeometry> EymFile::geometry(std::uint32_t index) const {
+absl::Status EymFile::inNode(std::uint32_t node, const absl::Status& status) const {
+    return fabric::withContext(status, fmt::format("{}: node {}", path(), node));
+}
+
+/// The block of a node, decoded but not looked into.
+absl::StatusOr<NodeGeometry> EymFile::readBlock(std::uint32_t index) const {
     const Node& node = nodes_[index];
-    const EymHeader& h = header();
-    NodeGeometry geometry;
-    geometry.positions =
-        section<std::uint64_t>(h.positionsOffset, node.firstVertex, node.vertexCount);
-    geometry.normals = section<std::uint32_t>(h.normalsOffset, node.firstVertex, node.vertexCount);
-    if (hasColours())
-        geometry.colours =
-            section<std::uint32_t>(h.coloursOffset, node.firstVertex, node.vertexCount);
-    geometry.indices = section<std::uint16_t>(h.indicesOffset, node.firstIndex, node.indexCount);
-    if (verified_[index].load(std::memory_order_relaxed))
-        return geometry;
-    if (geometryChecksum(geometry) != node.checksum)
-        return absl::DataLossError(fmt::format(
-            "{}: node {}: the checksum of its vertices and indices does not match; import the mesh "
-            "again",
-            path_, index));
+    const NodeShape shape = this->shape(index);
+    if (node.indexCount == 0)
+        return NodeGeometry{};
+    if (mapped_)
+        return geometryIn(mapped_->bytes().subspan(node.pageOffset, node.pageBytes), shape,
+                          nullptr);
+    auto block = std::make_shared<std::vector<std::uint64_t>>(blockBytes(shape) / 8);
+    const auto blockSpan = std::as_writable_bytes(std::span(*block));
+    const page::Block page{node.pageOffset, node.pageBytes, node.pageChecksum};
+    const std::string what = fmt::format("node {}", index);
+    if (isCoded()) {
+        std::vector<std::byte> bytes(node.pageBytes);
+        RETURN_IF_ERROR(source_->read(page, bytes, what));
+        RETURN_IF_ERROR(inNode(index, decodePage(bytes, NodeArrays(shape, *block))));
+    } else {
+        RETURN_IF_ERROR(source_->read(page, blockSpan, what));
+    }
+    return geometryIn(blockSpan, shape, block);
+}
+
+absl::StatusOr<NodeGeometry> EymFile::geometry(std::uint32_t index) const {
+    ASSIGN_OR_RETURN(NodeGeometry geometry, readBlock(index));
+    const Node& node = nodes_[index];
+    if (node.indexCount > 0 && contentHash(geometry.block) != node.blockChecksum)
+        return inNode(index, absl::DataLossError("the checksum of its vertices and indices does "
+                                                 "not match; import the mesh again"));
     const auto largest = std::max_element(geometry.indices.begin(), geometry.indices.end());
     if (largest != geometry.indices.end() && *largest >= node.vertexCount)
-        return absl::DataLossError(
-            fmt::format("{}: node {}: found index {}, expected less than its {} vertices; import "
-                        "the mesh again",
-                        path_, index, *largest, node.vertexCount));
-    verified_[index].store(true, std::memory_order_relaxed);
+        return inNode(index, absl::DataLossError(fmt::format(
+                                 "found index {}, expected less than its {} vertices; import the "
+                                 "mesh again",
+                                 *largest, node.vertexCount)));
     return geometry;
+}
+
+absl::StatusOr<std::vector<fabric::Vec3>> EymFile::exactPositions(std::uint32_t index) const {
+    const Node& node = nodes_[index];
+    ASSIGN_OR_RETURN(const NodeGeometry geometry, this->geometry(index));
+    std::vector<std::byte> bytes(node.exactBytes);
+    RETURN_IF_ERROR(source_->read({node.exactOffset, node.exactBytes, node.exactChecksum}, bytes,
+                                  fmt::format("source positions of node {}", index)));
+    auto exact = decodeExact(
+        bytes, geometry.positions, lattice_,
+        (header_.flags & kExactIsFloat64) != 0 ? ExactForm::Float64 : ExactForm::Float32);
+    if (!exact.ok())
+        return inNode(index, exact.status());
+    return exact;
 }
 
 }  // namespace eyrie::mesh

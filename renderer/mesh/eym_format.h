@@ -2,40 +2,48 @@
 #pragma once
 
 #include <array>
-#include <atomic>
 #include <bit>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include <absl/status/statusor.h>
 #include <glm/vec3.hpp>
 
 #include "fabric/box.h"
+#include "renderer/mesh/codec/exact_codec.h"
 #include "renderer/mesh/lattice.h"
 #include "renderer/mesh/mapped_file.h"
+#include "renderer/mesh/node_block.h"
 #include "renderer/page/page_source.h"
 
-/// The .eym file, version 1: a mesh as a kd-tree of LOD nodes, read in place through a mapping.
+/// The .eym file, version 2: a mesh as a kd-tree of LOD nodes, each with pages of its own.
 ///
-/// Little-endian, every section on a multiple of 8 bytes, in this order:
+/// Little-endian:
 ///   EymHeader                       256 bytes
 ///   Node        [nodeCount]         depth first
-///   uint64      [vertexCount]       positions (vertex_packing.h), node after node
-///   uint32      [vertexCount]       normals
-///   uint32      [vertexCount]       colours, only with kHasColours
-///   uint16      [indexCount]        each node's from a multiple of four on, zeros between
+///   pages                           of the nodes that have geometry, in their order: that of what
+///                                   is drawn, and then, where kept, that of source positions
+/// A node's page, uncoded, is the block of node_block.h, ready to be mapped; it then begins on a
+/// multiple of 8 bytes. Coded (kIsCoded) it is that of codec/page_codec.h, and gives the same block
+/// to the bit. Source positions are always coded (codec/exact_codec.h); only leaves have them.
 /// A node's geometry is self-contained: 16-bit indices count from its own first vertex. Leaves have
-/// geometry; inner nodes may: a simplification of their subtree (their share of the arrays is empty
-/// where they have none).
+/// geometry; inner nodes may: a simplification of their subtree.
 namespace eyrie::mesh {
 
 static_assert(std::endian::native == std::endian::little, ".eym files are mapped as they are");
 
 inline constexpr std::array<char, 8> kEymMagic = {'E', 'Y', 'M', 'E', 'S', 'H', '\0', '\x01'};
-inline constexpr std::uint32_t kEymVersion = 1;
-inline constexpr std::uint32_t kHasColours = 1;  ///< in EymHeader::flags
+inline constexpr std::uint32_t kEymVersion = 2;
+
+/// In EymHeader::flags.
+inline constexpr std::uint32_t kHasColours = 1;
+inline constexpr std::uint32_t kIsCoded = 2;         ///< pages are; otherwise they are mapped
+inline constexpr std::uint32_t kHasExact = 4;        ///< leaves have source positions ...
+inline constexpr std::uint32_t kExactIsFloat64 = 8;  ///< ... in double precision
 
 /// Levels a tree may have, so that a walk may recurse: the median split of 2^30 triangles makes 31.
 inline constexpr int kMaxTreeDepth = 64;
@@ -45,24 +53,18 @@ struct EymHeader {
     std::uint32_t version = kEymVersion;
     std::uint32_t headerBytes = 256;
     std::uint64_t fileBytes = 0;
-    std::uint64_t checksum = 0;    ///< xxh64 of header and node table, this field being 0
-    std::uint64_t sourceHash = 0;  ///< xxh64 of the source file's bytes
+    std::uint64_t checksum = 0;       ///< xxh64 of the header, this field being 0
+    std::uint64_t nodesChecksum = 0;  ///< xxh64 of the node table
+    std::uint64_t sourceHash = 0;     ///< xxh64 of the source file's bytes
     std::uint64_t triangleCount = 0;
     std::uint64_t sourceVertexCount = 0;  ///< vertices of the mesh, each counted once
-    std::uint64_t vertexCount = 0;        ///< stored vertices: one on a border is in several nodes
-    std::uint64_t indexCount = 0;         ///< stored indices, those between nodes included
     std::uint32_t nodeCount = 0;
     std::uint32_t flags = 0;
     std::array<double, 3> originMetres{};  ///< of the lattice
     double stepMetres = 1;
     double coarsestErrorMetres = 0;  ///< of the root
     double finestErrorMetres = 0;    ///< of the leaves
-    std::uint64_t nodesOffset = 0;   ///< offsets count from the file's start
-    std::uint64_t positionsOffset = 0;
-    std::uint64_t normalsOffset = 0;
-    std::uint64_t coloursOffset = 0;  ///< 0 without colours
-    std::uint64_t indicesOffset = 0;
-    std::array<std::uint64_t, 11> reserved{};
+    std::array<std::uint64_t, 17> reserved{};
 };
 static_assert(sizeof(EymHeader) == 256);
 
@@ -76,95 +78,93 @@ struct Node {
     /// file's triangleCount is its position in the range [0, 1).
     std::uint64_t triangleBegin = 0;
     std::uint64_t triangleEnd = 0;
-    std::uint64_t firstVertex = 0;
-    std::uint64_t firstIndex = 0;
+    std::uint64_t pageOffset = 0;    ///< from the file's start; of what is drawn
+    std::uint64_t pageChecksum = 0;  ///< xxh64 of its bytes
+    /// xxh64 of the uncoded page: whatever decodes one gets what the encoder meant.
+    std::uint64_t blockChecksum = 0;
+    std::uint64_t exactOffset = 0;  ///< of the page of source positions
+    std::uint64_t exactChecksum = 0;
+    std::uint32_t pageBytes = 0;
+    std::uint32_t exactBytes = 0;
     std::uint32_t vertexCount = 0;  ///< at most 65,535
     std::uint32_t indexCount = 0;   ///< three a triangle; 0 without geometry
     /// Upper bound on the distance between the source surface and what is drawn for this node: its
     /// own geometry or, where it has none, its children. Never below its children's.
     float errorMetres = 0;
     std::uint32_t reserved = 0;
-    std::uint64_t checksum = 0;  ///< xxh64 of its positions, normals, colours, indices in turn
 
     bool isLeaf() const { return left < 0; }
     bool operator==(const Node&) const = default;
 };
-static_assert(sizeof(Node) == 88);
+static_assert(sizeof(Node) == 112);
 
-/// A node's arrays, inside the mapped file: valid while the EymFile lives.
-struct NodeGeometry {
-    std::span<const std::uint64_t> positions;
-    std::span<const std::uint32_t> normals;
-    std::span<const std::uint32_t> colours;  ///< empty in a mesh without colours
-    std::span<const std::uint16_t> indices;  ///< each below positions.size()
-};
-
-/// An open .eym file. Immutable: any thread may call any function.
+/// An open .eym file. Any thread may call any function.
 ///
-/// open() checks the header and every node, geometry() the node's arrays when they are first asked
-/// for, so no file, however damaged, makes a reader leave its mapping.
+/// open() checks the header and every node; geometry() and exactPositions() check what they read.
+/// So no file, however damaged, makes a reader leave its mapping or take more memory than a node
+/// has.
 class EymFile {
 public:
-    /// `path` may be an address (page/remote_name.h): the file is then copied whole, into the
-    /// cache of `options`, before it is mapped. Errors: NotFound, PermissionDenied, InvalidArgument
-    /// (not an .eym file, another version), DataLoss (truncated, or its tables are damaged); of an
-    /// address those of page::PageSource::wholeFile, too.
+    /// `path` may be an address (page/remote_name.h): pages are then read one by one, through the
+    /// cache of `options`. Errors: NotFound, PermissionDenied, InvalidArgument (not an .eym file,
+    /// another version), DataLoss (truncated, or its tables are damaged); of an address those of
+    /// page::PageSource, too.
     static absl::StatusOr<EymFile> open(const std::string& path,
-                                        const page::SourceOptions& options = {},
-                                        const page::PageSource::Progress& progress = {});
+                                        const page::SourceOptions& options = {});
 
+    const std::string& path() const { return source_->name(); }
     const Lattice& lattice() const { return lattice_; }
     std::span<const Node> nodes() const { return nodes_; }  ///< never empty; [0] is the root
-    bool hasColours() const { return (header().flags & kHasColours) != 0; }
-    std::uint64_t triangleCount() const { return header().triangleCount; }
-    std::uint64_t vertexCount() const { return header().sourceVertexCount; }
-    std::uint64_t sourceHash() const { return header().sourceHash; }
-    std::uint64_t fileBytes() const { return header().fileBytes; }
-    double coarsestErrorMetres() const { return header().coarsestErrorMetres; }
-    double finestErrorMetres() const { return header().finestErrorMetres; }
+    bool hasColours() const { return (header_.flags & kHasColours) != 0; }
+    bool isCoded() const { return (header_.flags & kIsCoded) != 0; }
+    bool hasExactPositions() const { return (header_.flags & kHasExact) != 0; }
+    std::uint64_t triangleCount() const { return header_.triangleCount; }
+    std::uint64_t vertexCount() const { return header_.sourceVertexCount; }
+    std::uint64_t sourceHash() const { return header_.sourceHash; }
+    std::uint64_t fileBytes() const { return header_.fileBytes; }
+    double coarsestErrorMetres() const { return header_.coarsestErrorMetres; }
+    double finestErrorMetres() const { return header_.finestErrorMetres; }
     int levels() const { return levels_; }  ///< nodes on the longest way from root to leaf
 
     fabric::Box bounds() const { return bounds(0); }  ///< object space, metres
     fabric::Box bounds(std::uint32_t node) const;
+    NodeShape shape(std::uint32_t node) const {
+        return {nodes_[node].vertexCount, nodes_[node].indexCount, hasColours()};
+    }
 
-    /// Precondition: node < nodes().size(). DataLoss, naming file and node, when the node's bytes
-    /// are damaged.
+    /// Reads and decodes a node's page; one that is uncoded and lies in a file of this machine
+    /// stays where it is mapped, and is valid while this lives. Precondition: node <
+    /// nodes().size(). Errors: DataLoss, naming file and node, when it is damaged; those of
+    /// page::PageSource::read.
     absl::StatusOr<NodeGeometry> geometry(std::uint32_t node) const;
 
+    /// The source's own position of each vertex of a leaf, as geometry() numbers them.
+    /// Preconditions: hasExactPositions(), nodes()[node].isLeaf(). Errors: those of geometry().
+    absl::StatusOr<std::vector<fabric::Vec3>> exactPositions(std::uint32_t node) const;
+
 private:
-    static absl::StatusOr<EymFile> openCopied(const std::string& url,
-                                              const page::SourceOptions& options,
-                                              const page::PageSource::Progress& progress);
-    static absl::StatusOr<EymFile> openMapped(const std::string& name, MappedFile mapped);
-    EymFile(std::string path, MappedFile file) : path_(std::move(path)), file_(std::move(file)) {}
+    explicit EymFile(std::unique_ptr<page::PageSource> source) : source_(std::move(source)) {}
 
-    const EymHeader& header() const {
-        return *reinterpret_cast<const EymHeader*>(file_.bytes().data());
-    }
-    template <typename T>
-    std::span<const T> section(std::uint64_t offset, std::uint64_t first,
-                               std::uint64_t count) const;
+    absl::Status readTables();
+    absl::StatusOr<NodeGeometry> readBlock(std::uint32_t node) const;
+    absl::Status inNode(std::uint32_t node, const absl::Status& status) const;
 
-    std::string path_;
-    MappedFile file_;
+    std::unique_ptr<page::PageSource> source_;
+    std::optional<MappedFile> mapped_;  ///< of uncoded files of this machine
+    EymHeader header_;
     Lattice lattice_;
-    std::span<const Node> nodes_;
+    std::vector<Node> nodes_;
     int levels_ = 0;
-    /// Per node, whether its geometry was found sound.
-    std::unique_ptr<std::atomic<bool>[]> verified_;
 };
 
-/// Checksum of a header and its node table. `header.checksum` does not enter.
-std::uint64_t tableChecksum(const EymHeader& header, std::span<const Node> nodes);
+/// Checksum of a header. `header.checksum` does not enter.
+std::uint64_t headerChecksum(const EymHeader& header);
 
-/// Checksum of a node's arrays.
-std::uint64_t geometryChecksum(const NodeGeometry& geometry);
+/// xxh64 of bytes, as all checksums of the file are.
+std::uint64_t contentHash(std::span<const std::byte> bytes);
 
 /// xxh64 of a file's bytes: what `EymFile::sourceHash` is compared with to see whether an import is
 /// up to date. Errors: those of MappedFile::open.
 absl::StatusOr<std::uint64_t> contentHash(const std::string& path);
-
-/// The same of bytes in memory.
-std::uint64_t contentHash(std::span<const std::byte> bytes);
 
 }  // namespace eyrie::mesh

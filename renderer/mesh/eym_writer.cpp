@@ -10,17 +10,14 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "fabric/status.h"
+#include "renderer/mesh/codec/page_codec.h"
 #include "renderer/mesh/eym_format.h"
 #include "renderer/mesh/node_geometry.h"
 
 namespace eyrie::mesh {
 namespace {
 
-constexpr std::uint64_t kIndexAlignment = 4;  // four 16-bit indices: 8 bytes
-
-std::uint64_t aligned(std::uint64_t value, std::uint64_t alignment) {
-    return (value + alignment - 1) / alignment * alignment;
-}
+constexpr std::uint64_t kAlignment = 8;  ///< of uncoded pages
 
 /// The least float that is not below `value`: an upper bound stays one.
 float roundedUp(double value) {
@@ -37,23 +34,94 @@ std::vector<Triangle> trianglesOf(const PackedMesh& mesh, const KdTree& tree, co
     return triangles;
 }
 
-std::vector<PackedNode> gatherNodes(const PackedMesh& mesh, const KdTree& tree, const LodTree& lod,
-                                    const std::stop_token& stop) {
-    std::vector<PackedNode> nodes(tree.nodes.size());
-    oneapi::tbb::parallel_for(std::size_t{0}, tree.nodes.size(), [&](std::size_t i) {
-        const KdNode& node = tree.nodes[i];
-        if (!stop.stop_requested())
-            nodes[i] =
-                gatherNode(mesh, node.isLeaf() ? trianglesOf(mesh, tree, node) : lod.geometry[i]);
-    });
-    return nodes;
+/// What a node has in the file.
+struct Pages {
+    NodeShape shape;
+    std::vector<std::byte> page;
+    std::vector<std::byte> exact;
+    std::uint64_t blockChecksum = 0;
+};
+
+NodeShape shapeOf(const PackedNode& node) {
+    return {static_cast<std::uint32_t>(node.positions.size()),
+            static_cast<std::uint32_t>(node.indices.size()), !node.colours.empty()};
 }
 
+/// As node_block.h has it.
+std::vector<std::byte> blockOf(const PackedNode& node) {
+    std::vector<std::uint64_t> block(blockBytes(shapeOf(node)) / 8);
+    const NodeArrays arrays(shapeOf(node), block);
+    std::copy(node.positions.begin(), node.positions.end(), arrays.positions.begin());
+    std::copy(node.normals.begin(), node.normals.end(), arrays.normals.begin());
+    std::copy(node.colours.begin(), node.colours.end(), arrays.colours.begin());
+    std::copy(node.indices.begin(), node.indices.end(), arrays.indices.begin());
+    const auto bytes = std::as_bytes(std::span(block));
+    return {bytes.begin(), bytes.end()};
+}
+
+class PageMaker {
+public:
+    PageMaker(const PackedMesh& mesh, const KdTree& tree, const LodTree& lod, bool isCoded)
+        : mesh_(mesh),
+          tree_(tree),
+          lod_(lod),
+          isCoded_(isCoded),
+          exactForm_(exactFormOf(mesh.exact)) {}
+
+    ExactForm exactForm() const { return exactForm_; }
+
+    Pages make(std::size_t index) const {
+        const KdNode& node = tree_.nodes[index];
+        const PackedNode packed = gatherNode(
+            mesh_, node.isLeaf() ? trianglesOf(mesh_, tree_, node) : lod_.geometry[index]);
+        Pages pages;
+        pages.shape = shapeOf(packed);
+        if (packed.indices.empty())
+            return pages;
+        pages.page = blockOf(packed);
+        pages.blockChecksum = contentHash(pages.page);
+        if (isCoded_)
+            pages.page = encodePage(
+                {packed.positions, packed.normals, packed.colours, packed.indices, {}, nullptr});
+        if (node.isLeaf() && !packed.exact.empty())
+            pages.exact = encodeExact(packed.exact, packed.positions, mesh_.lattice, exactForm_);
+        return pages;
+    }
+
+private:
+    const PackedMesh& mesh_;
+    const KdTree& tree_;
+    const LodTree& lod_;
+    bool isCoded_;
+    ExactForm exactForm_;
+};
+
+std::vector<Pages> makePages(const KdTree& tree, const PageMaker& maker,
+                             const std::stop_token& stop) {
+    std::vector<Pages> pages(tree.nodes.size());
+    oneapi::tbb::parallel_for(std::size_t{0}, pages.size(), [&](std::size_t i) {
+        if (!stop.stop_requested())
+            pages[i] = maker.make(i);
+    });
+    return pages;
+}
+
+std::uint64_t aligned(std::uint64_t value) {
+    return (value + kAlignment - 1) / kAlignment * kAlignment;
+}
+
+/// `end` becomes that of the file.
 std::vector<Node> layOutNodes(const KdTree& tree, const LodTree& lod,
-                              const std::vector<PackedNode>& packed) {
+                              const std::vector<Pages>& pages, std::uint64_t& end) {
     std::vector<Node> nodes(tree.nodes.size());
-    std::uint64_t vertices = 0;
-    std::uint64_t indices = 0;
+    end = sizeof(EymHeader) + nodes.size() * sizeof(Node);
+    const auto place = [&end](const std::vector<std::byte>& page, std::uint64_t& offset,
+                              std::uint32_t& bytes, std::uint64_t& checksum) {
+        offset = end;
+        bytes = static_cast<std::uint32_t>(page.size());
+        checksum = contentHash(page);
+        end = aligned(end + bytes);
+    };
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         const KdNode& from = tree.nodes[i];
         Node& node = nodes[i];
@@ -63,15 +131,15 @@ std::vector<Node> layOutNodes(const KdTree& tree, const LodTree& lod,
         node.right = from.right;
         node.triangleBegin = from.triangleBegin;
         node.triangleEnd = from.triangleEnd;
-        node.firstVertex = vertices;
-        node.firstIndex = indices;
-        node.vertexCount = static_cast<std::uint32_t>(packed[i].positions.size());
-        node.indexCount = static_cast<std::uint32_t>(packed[i].indices.size());
+        node.vertexCount = pages[i].shape.vertexCount;
+        node.indexCount = pages[i].shape.indexCount;
         node.errorMetres = roundedUp(lod.errorMetres[i]);
-        node.checksum = geometryChecksum(
-            {packed[i].positions, packed[i].normals, packed[i].colours, packed[i].indices});
-        vertices += node.vertexCount;
-        indices = aligned(indices + node.indexCount, kIndexAlignment);
+        if (node.indexCount == 0)
+            continue;
+        place(pages[i].page, node.pageOffset, node.pageBytes, node.pageChecksum);
+        node.blockChecksum = pages[i].blockChecksum;
+        if (!pages[i].exact.empty())
+            place(pages[i].exact, node.exactOffset, node.exactBytes, node.exactChecksum);
     }
     return nodes;
 }
@@ -83,63 +151,55 @@ std::uint64_t countUsedVertices(const PackedMesh& mesh) {
     return static_cast<std::uint64_t>(std::count(used.begin(), used.end(), true));
 }
 
-EymHeader makeHeader(const PackedMesh& mesh, const std::vector<Node>& nodes,
-                     std::uint64_t sourceHash) {
+std::uint32_t flagsOf(const PackedMesh& mesh, const EymOptions& options, ExactForm exactForm) {
+    return (mesh.colours.empty() ? 0 : kHasColours) | (options.isCoded ? kIsCoded : 0) |
+           (mesh.exact.empty() ? 0 : kHasExact) |
+           (exactForm == ExactForm::Float64 ? kExactIsFloat64 : 0);
+}
+
+EymHeader makeHeader(const PackedMesh& mesh, const std::vector<Node>& nodes) {
     EymHeader header;
-    header.sourceHash = sourceHash;
+    header.nodesChecksum = contentHash(std::as_bytes(std::span(nodes)));
     header.triangleCount = mesh.triangles.size();
     header.sourceVertexCount = countUsedVertices(mesh);
-    header.vertexCount = nodes.back().firstVertex + nodes.back().vertexCount;
-    header.indexCount = aligned(nodes.back().firstIndex + nodes.back().indexCount, kIndexAlignment);
     header.nodeCount = static_cast<std::uint32_t>(nodes.size());
     header.originMetres = {mesh.lattice.originMetres.x, mesh.lattice.originMetres.y,
                            mesh.lattice.originMetres.z};
     header.stepMetres = mesh.lattice.stepMetres;
     header.coarsestErrorMetres = nodes.front().errorMetres;
     header.finestErrorMetres = nodes.back().errorMetres;
-    header.nodesOffset = sizeof(EymHeader);
-    header.positionsOffset = header.nodesOffset + nodes.size() * sizeof(Node);
-    header.normalsOffset = header.positionsOffset + header.vertexCount * sizeof(std::uint64_t);
-    std::uint64_t end =
-        aligned(header.normalsOffset + header.vertexCount * sizeof(std::uint32_t), 8);
-    if (!mesh.colours.empty()) {
-        header.flags |= kHasColours;
-        header.coloursOffset = end;
-        end = aligned(end + header.vertexCount * sizeof(std::uint32_t), 8);
-    }
-    header.indicesOffset = end;
-    header.fileBytes = end + header.indexCount * sizeof(std::uint16_t);
-    header.checksum = tableChecksum(header, nodes);
     return header;
 }
 
-/// One array of every node, in order, each padded to `alignment` bytes and the whole to 8.
-template <typename T>
-absl::Status writeSection(std::vector<T> PackedNode::*array, const std::vector<PackedNode>& nodes,
-                          std::uint64_t alignment, OutputFile& out, const std::stop_token& stop) {
-    for (const PackedNode& node : nodes) {
+absl::Status writePages(const std::vector<Pages>& pages, OutputFile& out,
+                        const std::stop_token& stop) {
+    for (const Pages& node : pages) {
         if (stop.stop_requested())
             return absl::CancelledError("writing was cancelled");
-        RETURN_IF_ERROR(out.write(std::as_bytes(std::span(node.*array))));
-        if (alignment > 1)
-            RETURN_IF_ERROR(out.padTo(alignment));
+        for (const auto* page : {&node.page, &node.exact}) {
+            RETURN_IF_ERROR(out.write(*page));
+            RETURN_IF_ERROR(out.padTo(kAlignment));
+        }
     }
-    return out.padTo(8);
+    return absl::OkStatus();
 }
 
 }  // namespace
 
 absl::Status writeEym(const PackedMesh& mesh, const KdTree& tree, const LodTree& lod,
-                      std::uint64_t sourceHash, OutputFile& out, const std::stop_token& stop) {
-    const std::vector<PackedNode> packed = gatherNodes(mesh, tree, lod, stop);
-    const std::vector<Node> nodes = layOutNodes(tree, lod, packed);
-    const EymHeader header = makeHeader(mesh, nodes, sourceHash);
+                      const EymOptions& options, OutputFile& out, const std::stop_token& stop) {
+    const PageMaker maker(mesh, tree, lod, options.isCoded);
+    const std::vector<Pages> pages = makePages(tree, maker, stop);
+    std::uint64_t end = 0;
+    const std::vector<Node> nodes = layOutNodes(tree, lod, pages, end);
+    EymHeader header = makeHeader(mesh, nodes);
+    header.flags = flagsOf(mesh, options, maker.exactForm());
+    header.sourceHash = options.sourceHash;
+    header.fileBytes = end;
+    header.checksum = headerChecksum(header);
     RETURN_IF_ERROR(out.write(std::as_bytes(std::span(&header, 1))));
     RETURN_IF_ERROR(out.write(std::as_bytes(std::span(nodes))));
-    RETURN_IF_ERROR(writeSection(&PackedNode::positions, packed, 1, out, stop));
-    RETURN_IF_ERROR(writeSection(&PackedNode::normals, packed, 1, out, stop));
-    RETURN_IF_ERROR(writeSection(&PackedNode::colours, packed, 1, out, stop));
-    return writeSection(&PackedNode::indices, packed, kIndexAlignment * 2, out, stop);
+    return writePages(pages, out, stop);
 }
 
 }  // namespace eyrie::mesh

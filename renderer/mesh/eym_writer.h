@@ -13,11 +13,19 @@
 
 namespace eyrie::mesh {
 
+struct EymOptions {
+    /// Pages are coded; otherwise they lie in the file as they are drawn, to be mapped.
+    bool isCoded = true;
+    std::uint64_t sourceHash = 0;  ///< kept in the file (EymFile::sourceHash)
+};
+
 /// Appends `mesh`, cut into the leaves of `tree` and with the coarser nodes of `lod`, to the empty
-/// `out` as an .eym file (eym_format.h); the caller commits it. The same mesh, tree and
-/// `sourceHash` give the same bytes. Errors: Cancelled, ResourceExhausted, Unavailable.
-/// Precondition: at least one triangle.
+/// `out` as an .eym file (eym_format.h); the caller commits it. Where the
+/// mesh has exact positions they are kept. The same mesh, tree and
+/// options give the same bytes. Errors: Cancelled, ResourceExhausted, Unavailable.
+/// Preconditions: at least one triangle; no node
+/// with more than kMaxNodeTriangles.
 absl::Status writeEym(const PackedMesh& mesh, const KdTree& tree, const LodTree& lod,
-                      std::uint64_t sourceHash, OutputFile& out, const std::stop_token& stop = {});
+                      const EymOptions& options, OutputFile& out, const std::stop_token& stop = {});
 
 }  // namespace eyrie::mesh

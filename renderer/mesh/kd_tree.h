@@ -16,6 +16,9 @@ namespace eyrie::mesh {
 /// Unique vertices a leaf may have: 16-bit indices, without 65,535 (primitive restart).
 inline constexpr std::uint32_t kMaxLeafVertices = 65535;
 
+/// Triangles that a leaf, or what stands for an inner node, may have.
+inline constexpr std::uint32_t kMaxNodeTriangles = 65535;
+
 /// Triangles of one tree: even with one a leaf its nodes have 31-bit indices.
 inline constexpr std::uint64_t kMaxTriangles = std::uint64_t{1} << 30;
 

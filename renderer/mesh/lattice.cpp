@@ -27,10 +27,9 @@ bool isWithinLimit(const fabric::Box& box) {
 /// Dividing by a power of two is exact, so the only rounding is the one to the nearest point.
 double nearestStep(double metres, double step) { return std::nearbyint(metres / step); }
 
-bool fits(const fabric::Box& box, double step) {
+bool fits(const fabric::Box& box, double step, int bits) {
     for (int axis = 0; axis < 3; ++axis)
-        if (nearestStep(box.max[axis], step) - nearestStep(box.min[axis], step) >
-            kMaxLatticeCoordinate)
+        if (nearestStep(box.max[axis], step) - nearestStep(box.min[axis], step) > (1U << bits) - 1)
             return false;
     return true;
 }
@@ -47,7 +46,7 @@ glm::uvec3 Lattice::nearest(const fabric::Vec3& position) const {
 
 double Lattice::errorMetres() const { return stepMetres * (std::sqrt(3.0) / 2.0); }
 
-absl::StatusOr<Lattice> fitLattice(const fabric::Box& bounds) {
+absl::StatusOr<Lattice> fitLattice(const fabric::Box& bounds, int bits) {
     if (!isWithinLimit(bounds))
         return absl::InvalidArgumentError(fmt::format(
             "the vertices span x {} to {}, y {} to {}, z {} to {} m; expected finite coordinates "
@@ -60,8 +59,8 @@ absl::StatusOr<Lattice> fitLattice(const fabric::Box& bounds) {
     if (magnitude > 0)
         exponent = std::max(exponent, std::ilogb(magnitude) + 1 - kMaxStepBits);
     if (extent > 0)
-        exponent = std::max(exponent, std::ilogb(extent) - kLatticeBits);
-    while (!fits(bounds, std::ldexp(1.0, exponent))) ++exponent;
+        exponent = std::max(exponent, std::ilogb(extent) - bits);
+    while (!fits(bounds, std::ldexp(1.0, exponent), bits)) ++exponent;
     Lattice lattice;
     lattice.stepMetres = std::ldexp(1.0, exponent);
     for (int axis = 0; axis < 3; ++axis)  // + 0.0 turns a negative zero into zero

@@ -43,9 +43,13 @@ struct Lattice {
     bool operator==(const Lattice&) const = default;
 };
 
-/// The finest lattice on which every point of `bounds` rounds to coordinates of 21 bits.
+/// Fewest bits of a coordinate that a lattice is fitted for.
+inline constexpr int kMinLatticeBits = 8;
+
+/// The finest lattice on which every point of `bounds` rounds to coordinates of `bits` bits, from
+/// kMinLatticeBits to kLatticeBits: the longest side has 2^(bits-1) steps or more.
 /// InvalidArgument when `bounds` is empty, not finite or beyond kMaxCoordinateMetres.
-absl::StatusOr<Lattice> fitLattice(const fabric::Box& bounds);
+absl::StatusOr<Lattice> fitLattice(const fabric::Box& bounds, int bits = kLatticeBits);
 
 /// Whether a lattice read from a file keeps the rules above.
 bool isValid(const Lattice& lattice);

@@ -7,6 +7,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "renderer/mesh/codec/open_edges.h"
 #include "renderer/mesh/vertex_packing.h"
 
 namespace eyrie::mesh {
@@ -70,6 +71,27 @@ private:
     std::uint32_t count_ = 0;
 };
 
+/// So that a page need not say where they begin. Vertices keep their order of first use: on a
+/// shared edge both are known.
+void turnToSharedEdges(std::vector<std::uint16_t>& indices) {
+    OpenEdges edges;
+    std::uint32_t seen = 0;
+    for (std::size_t i = 0; i < indices.size(); i += 3) {
+        const std::span<std::uint16_t, 3> corners(indices.data() + i, 3);
+        std::uint32_t turn = 0;
+        const std::uint32_t age = edges.find(corners, turn);
+        std::rotate(corners.begin(), corners.begin() + turn, corners.end());
+        if (age == OpenEdges::kNone) {
+            edges.openAll(corners);
+        } else {
+            const OpenEdge edge = edges.at(age);
+            edges.close(age);
+            edges.join(edge, corners[2], corners[2] == seen);
+        }
+        for (const std::uint16_t corner : corners) seen += corner == seen ? 1 : 0;
+    }
+}
+
 }  // namespace
 
 PackedNode gatherNode(const PackedMesh& mesh, std::span<const Triangle> triangles) {
@@ -86,8 +108,11 @@ PackedNode gatherNode(const PackedMesh& mesh, std::span<const Triangle> triangle
             node.normals.push_back(mesh.normals[vertex]);
             if (!mesh.colours.empty())
                 node.colours.push_back(mesh.colours[vertex]);
+            if (!mesh.exact.empty())
+                node.exact.push_back(mesh.exact[vertex]);
         }
     }
+    turnToSharedEdges(node.indices);
     return node;
 }
 

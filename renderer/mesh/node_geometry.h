@@ -10,12 +10,13 @@
 namespace eyrie::mesh {
 
 /// A node's own copy of its triangles, as it is stored and drawn: 16-bit indices into arrays that
-/// hold nothing else. `colours` is empty where the mesh has none.
+/// hold nothing else. `colours` and `exact` are empty where the mesh has none.
 struct PackedNode {
     std::vector<std::uint64_t> positions;
     std::vector<std::uint32_t> normals;
     std::vector<std::uint32_t> colours;
     std::vector<std::uint16_t> indices;
+    std::vector<fabric::Vec3> exact;
 };
 
 /// Gathers `triangles`, of the mesh's vertices, along a Morton curve through their centroids,

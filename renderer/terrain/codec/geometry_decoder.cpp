@@ -24,8 +24,8 @@ void markSplit(std::span<const std::uint16_t> slots, std::span<std::uint32_t> sp
 }  // namespace
 
 const char* GeometryDecoder::begin() {
-    for (std::array<std::uint32_t, kAllShares>& slots : symbols_) {
-        SymbolShares shares;
+    for (std::array<std::uint32_t, codec::kAllShares>& slots : symbols_) {
+        codec::SymbolShares shares;
         if (!shares.read(raw_, Residual::kSymbols))
             return "shares of height symbols";
         shares.fillSlots(slots);
@@ -34,17 +34,18 @@ const char* GeometryDecoder::begin() {
 }
 
 [[gnu::always_inline]] inline bool GeometryDecoder::flag(int context) {
-    AdaptiveFlag& model = flags_[static_cast<std::size_t>(context)];
-    const bool value = rans_.slot(0, AdaptiveFlag::kBits) < model.ones();
-    rans_.take(0, model.share(value), AdaptiveFlag::kBits);
+    codec::AdaptiveFlag& model = flags_[static_cast<std::size_t>(context)];
+    const bool value = rans_.slot(0, codec::AdaptiveFlag::kBits) < model.ones();
+    rans_.take(0, model.share(value), codec::AdaptiveFlag::kBits);
     model.learn(value);
     return value;
 }
 
 [[gnu::always_inline]] inline std::uint32_t GeometryDecoder::height(int context,
                                                                     std::uint32_t foreseen) {
-    const SlotEntry entry{symbols_[static_cast<std::size_t>(context)][rans_.slot(1, kSymbolBits)]};
-    rans_.take(1, entry, kSymbolBits);
+    const codec::SlotEntry entry{
+        symbols_[static_cast<std::size_t>(context)][rans_.slot(1, codec::kSymbolBits)]};
+    rans_.take(1, entry, codec::kSymbolBits);
     Residual residual{entry.symbol(), Residual::rawBitsOf(entry.symbol()), 0};
     if (residual.rawBits != 0)
         residual.raw = raw_.get(static_cast<int>(residual.rawBits));

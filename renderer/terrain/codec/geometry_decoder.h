@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "renderer/terrain/codec/symbol_shares.h"
+#include "renderer/codec/symbol_shares.h"
 #include "renderer/terrain/codec/tile_model.h"
 #include "renderer/terrain/eyt_format.h"
 #include "renderer/terrain/eyt_layout.h"
@@ -78,10 +78,10 @@ private:
     const char* copyIndices(std::span<std::uint16_t> out,
                             std::array<IndexRange, kTileParts>& parts) const;
 
-    RansDecoder<2> rans_;
-    BitReader raw_;
-    std::array<AdaptiveFlag, kFlagContexts> flags_;
-    std::array<std::array<std::uint32_t, kAllShares>, kHeightContexts> symbols_;
+    codec::RansDecoder<2> rans_;
+    codec::BitReader raw_;
+    std::array<codec::AdaptiveFlag, kFlagContexts> flags_;
+    std::array<std::array<std::uint32_t, codec::kAllShares>, kHeightContexts> symbols_;
     std::vector<std::uint16_t> slots_;
     std::unique_ptr<Scratch> scratch_ = std::make_unique_for_overwrite<Scratch>();
     std::array<std::uint16_t*, kTileParts> ends_{};  ///< of the parts in `scratch_`

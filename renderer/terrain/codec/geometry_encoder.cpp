@@ -27,8 +27,8 @@ void GeometryEncoder::add(const TileMesh& mesh, std::int32_t baseHeight, int hei
 }
 
 bool GeometryEncoder::flag(int context, bool value) {
-    AdaptiveFlag& model = flags_[static_cast<std::size_t>(context)];
-    const Share share = model.share(value);
+    codec::AdaptiveFlag& model = flags_[static_cast<std::size_t>(context)];
+    const codec::Share share = model.share(value);
     model.learn(value);
     events_.push_back(
         {static_cast<std::uint16_t>(share.start), static_cast<std::uint16_t>(share.size)});
@@ -52,22 +52,23 @@ std::uint32_t GeometryEncoder::height(int context, std::uint32_t foreseen) {
 }
 
 GeometryBits GeometryEncoder::finish() {
-    BitWriter raw;
-    std::array<ReadyShare<kSymbolBits>, kHeightContexts << 8> ofHeights;
+    codec::BitWriter raw;
+    std::array<codec::ReadyShare<codec::kSymbolBits>, kHeightContexts << 8> ofHeights;
     for (std::size_t context = 0; context < kHeightContexts; ++context) {
-        const SymbolShares shares(counts_[context]);
+        const codec::SymbolShares shares(counts_[context]);
         shares.write(raw);
         for (std::uint32_t symbol = 0; symbol < Residual::kSymbols; ++symbol)
             if (counts_[context][symbol] > 0)
-                ofHeights[context << 8 | symbol] = ReadyShare<kSymbolBits>(shares.of(symbol));
+                ofHeights[context << 8 | symbol] =
+                    codec::ReadyShare<codec::kSymbolBits>(shares.of(symbol));
     }
     for (const RawBits& bits : raws_) raw.put(bits.value, static_cast<int>(bits.count));
 
-    RansEncoder<2> rans;
+    codec::RansEncoder<2> rans;
     for (std::size_t k = events_.size(); k-- > 0;) {
         const auto [start, size] = events_[k];
         if (size != 0)
-            rans.put(0, {start, size}, AdaptiveFlag::kBits);
+            rans.put(0, {start, size}, codec::AdaptiveFlag::kBits);
         else
             rans.put(1, ofHeights[start]);
     }

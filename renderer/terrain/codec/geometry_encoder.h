@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "renderer/terrain/codec/symbol_shares.h"
+#include "renderer/codec/symbol_shares.h"
 #include "renderer/terrain/codec/tile_model.h"
 #include "renderer/terrain/tile_mesh.h"
 
@@ -50,7 +50,7 @@ private:
     bool flag(int context, bool value);
 
     std::vector<Event> events_;
-    std::array<AdaptiveFlag, kFlagContexts> flags_;
+    std::array<codec::AdaptiveFlag, kFlagContexts> flags_;
     std::vector<RawBits> raws_;
     std::array<std::array<std::uint32_t, Residual::kSymbols>, kHeightContexts> counts_{};
 

@@ -154,16 +154,16 @@ void NormalEncoder::addPlane(std::size_t firstContext) {
 std::vector<std::uint8_t> NormalEncoder::finish() {
     std::array<std::array<std::uint32_t, 256>, 2 * kNormalContexts> counts{};
     for (std::size_t k = 0; k < symbols_.size(); ++k) ++counts[contexts_[k]][symbols_[k]];
-    std::array<ReadyShare<kSymbolBits>, 2 * kNormalContexts << 8> ready;
-    BitWriter writer;
+    std::array<codec::ReadyShare<codec::kSymbolBits>, 2 * kNormalContexts << 8> ready;
+    codec::BitWriter writer;
     for (std::size_t k = 0; k < counts.size(); ++k) {
-        const SymbolShares shares(counts[k]);
+        const codec::SymbolShares shares(counts[k]);
         shares.write(writer);
         for (std::uint32_t symbol = 0; symbol < counts[k].size(); ++symbol)
             if (counts[k][symbol] > 0)
-                ready[k << 8 | symbol] = ReadyShare<kSymbolBits>(shares.of(symbol));
+                ready[k << 8 | symbol] = codec::ReadyShare<codec::kSymbolBits>(shares.of(symbol));
     }
-    RansEncoder<4> rans;
+    codec::RansEncoder<4> rans;
     for (std::size_t row = symbols_.size(); row > 0;) {
         row -= samples_;
         for (std::size_t i = samples_; i-- > 0;)
@@ -183,36 +183,36 @@ NormalDecoder::NormalDecoder(std::span<const std::uint8_t> bytes, std::int32_t c
     : samples_(static_cast<std::size_t>(cells) + 1),
       bytes_(bytes),
       rans_({}),
-      slots_(2 * kNormalContexts * kAllShares),
+      slots_(2 * kNormalContexts * codec::kAllShares),
       left_(samples_ * samples_),
       x_(samples_ * samples_),
       y_(samples_ * samples_) {}
 
 bool NormalDecoder::begin() {
-    BitReader reader(bytes_);
+    codec::BitReader reader(bytes_);
     for (std::size_t k = 0; k < 2 * kNormalContexts; ++k) {
-        SymbolShares shares;
+        codec::SymbolShares shares;
         if (!shares.read(reader, 256))
             return false;
-        shares.fillSlots(std::span<std::uint32_t, kAllShares>(slots_.data() + k * kAllShares,
-                                                              std::size_t{kAllShares}));
+        shares.fillSlots(std::span<std::uint32_t, codec::kAllShares>(
+            slots_.data() + k * codec::kAllShares, std::size_t{codec::kAllShares}));
     }
     const std::size_t first = reader.bytesRead() + reader.bytesRead() % 2;
     if (first > bytes_.size() || bytes_.size() % 2 != 0)
         return false;
-    rans_ = RansDecoder<4>({reinterpret_cast<const std::uint16_t*>(bytes_.data() + first),
-                            (bytes_.size() - first) / sizeof(std::uint16_t)});
+    rans_ = codec::RansDecoder<4>({reinterpret_cast<const std::uint16_t*>(bytes_.data() + first),
+                                   (bytes_.size() - first) / sizeof(std::uint16_t)});
     return true;
 }
 
 void NormalDecoder::decodePlane(std::size_t firstContext, std::uint8_t* left) {
     std::array<std::uint8_t, kPaddedRow> contexts;
     contexts.fill(kFirstRowContext);
-    const std::uint32_t* slots = slots_.data() + firstContext * kAllShares;
+    const std::uint32_t* slots = slots_.data() + firstContext * codec::kAllShares;
     for (std::size_t j = 0; j < samples_; ++j, left += samples_) {
         if (j > 0)
             rowContexts(left - samples_, samples_, contexts.data());
-        rans_.takeRow<kSymbolBits>(slots, contexts.data(), samples_, left);
+        rans_.takeRow<codec::kSymbolBits>(slots, contexts.data(), samples_, left);
     }
 }
 

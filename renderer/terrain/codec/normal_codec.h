@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "renderer/terrain/codec/symbol_shares.h"
+#include "renderer/codec/symbol_shares.h"
 #include "renderer/terrain/quadtree.h"
 
 /// Lossless coding of a page's normals.
@@ -62,7 +62,7 @@ private:
 
     std::size_t samples_;
     std::span<const std::uint8_t> bytes_;
-    RansDecoder<4> rans_;
+    codec::RansDecoder<4> rans_;
     std::vector<std::uint32_t> slots_;  ///< of each context of x and y in turn
     std::vector<std::uint8_t> left_;    ///< one plane of residuals
     std::vector<std::int8_t> x_;

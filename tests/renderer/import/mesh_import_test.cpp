@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/import/mesh_import.h"
 
+#include <array>
+#include <bit>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -125,6 +128,52 @@ TEST(MeshImport, StoresTinyDetailsBesideHugeDistancesWithinTheStatedError) {
     ASSERT_TRUE(report.ok()) << report.status();
     EXPECT_NEAR(mesh::EymFile::open(folder.file("m.eym"))->bounds().max.x, 1e12,
                 report->errorMetres);
+}
+
+TEST(MeshImport, WithFewerBitsMakesASmallerFileWithWhatItRoundsInTheBound) {
+    const test::TemporaryFolder folder;
+    const TriangleMesh source = synthesizeMesh(20000, 3);
+    const auto fine = importMesh(source, folder.file("fine.eym"));
+    const auto coarse = importMesh(source, folder.file("coarse.eym"), {.latticeBits = 12});
+    ASSERT_TRUE(fine.ok() && coarse.ok()) << fine.status() << coarse.status();
+    EXPECT_LT(coarse->bytes, fine->bytes * 3 / 4);
+    EXPECT_EQ(coarse->stepMetres, fine->stepMetres * 512);
+    const auto file = mesh::EymFile::open(folder.file("coarse.eym"));
+    ASSERT_TRUE(file.ok()) << file.status();
+    EXPECT_EQ(file->lattice().stepMetres, coarse->stepMetres);
+    for (const mesh::Node& node : file->nodes())
+        EXPECT_GE(static_cast<double>(node.errorMetres), file->lattice().errorMetres());
+    EXPECT_EQ(importMesh(source, folder.file("none.eym"), {.latticeBits = 22}).status().code(),
+              absl::StatusCode::kInvalidArgument);
+}
+
+TEST(MeshImport, LosslessKeepsEverySourcePositionOfAFloatFileToTheBit) {
+    const test::TemporaryFolder folder;
+    TriangleMesh source = synthesizeMesh(20000, 3);
+    for (fabric::Vec3& p : source.positions)
+        for (int axis = 0; axis < 3; ++axis)
+            p[axis] = static_cast<double>(static_cast<float>(p[axis]));
+    const auto rounded = importMesh(source, folder.file("m.eym"));
+    const auto report = importMesh(source, folder.file("m.eym"), {.keepsExact = true});
+    ASSERT_TRUE(rounded.ok() && report.ok()) << report.status();
+    EXPECT_LT(report->bytes, rounded->bytes + 6 * report->vertices);  // half of three floats
+    const auto file = mesh::EymFile::open(folder.file("m.eym"));
+    ASSERT_TRUE(file.ok() && file->hasExactPositions()) << file.status();
+    using Bits = std::array<std::uint64_t, 3>;
+    const auto bits = [](const fabric::Vec3& p) {
+        return std::bit_cast<Bits>(std::array{p.x, p.y, p.z});
+    };
+    std::set<Bits> expected, found;
+    for (const auto& triangle : source.triangles)
+        for (const std::uint32_t corner : triangle) expected.insert(bits(source.positions[corner]));
+    for (std::uint32_t node = 0; node < file->nodes().size(); ++node) {
+        if (!file->nodes()[node].isLeaf())
+            continue;
+        const auto exact = file->exactPositions(node);
+        ASSERT_TRUE(exact.ok()) << exact.status();
+        for (const fabric::Vec3& p : *exact) found.insert(bits(p));
+    }
+    EXPECT_EQ(found, expected);
 }
 
 TEST(MeshImport, SaysWhichFormatsItReads) {

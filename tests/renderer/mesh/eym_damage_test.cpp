@@ -19,22 +19,25 @@
 namespace eyrie::mesh {
 namespace {
 
-std::string makeSmallFile() {
+std::string makeSmallFile(bool isCoded) {
     const test::TemporaryFolder folder;
-    const PackedMesh mesh = test::randomSoup(60, 40, 1000, 1, true);
+    PackedMesh mesh = test::randomSoup(60, 40, 1000, 1, true);
+    for (const std::uint64_t position : mesh.positions)
+        mesh.exact.push_back(mesh.lattice.metres(unpackPosition(position)) + 0.01);
     auto tree = buildKdTree(mesh.positions, mesh.triangles, {10});
     auto out = OutputFile::create(folder.file("m.eym"));
     EXPECT_TRUE(tree.ok() && out.ok());
     auto lod = buildLodTree(mesh, *tree);
     EXPECT_TRUE(lod.ok());
-    EXPECT_TRUE(writeEym(mesh, *tree, *lod, 0, *out).ok());
+    EXPECT_TRUE(writeEym(mesh, *tree, *lod, {.isCoded = isCoded}, *out).ok());
     EXPECT_TRUE(out->commit().ok());
     return test::readFile(folder.file("m.eym"));
 }
 
-const std::string& smallFile() {
-    static const std::string bytes = makeSmallFile();
-    return bytes;
+const std::string& smallFile(bool isCoded = true) {
+    static const std::string coded = makeSmallFile(true);
+    static const std::string raw = makeSmallFile(false);
+    return isCoded ? coded : raw;
 }
 
 /// The first error of opening the file and taking all its geometry, as drawing would.
@@ -50,6 +53,10 @@ absl::Status readAll(const std::string& path) {
         for (const std::uint16_t index : geometry->indices)
             sum += geometry->positions[index] + geometry->normals[index] + geometry->colours[index];
         EXPECT_NE(sum, std::numeric_limits<std::uint64_t>::max());  // keeps the reads
+        if (!file->nodes()[node].isLeaf())
+            continue;
+        if (const auto exact = file->exactPositions(node); !exact.ok())
+            return exact.status();
     }
     return absl::OkStatus();
 }
@@ -62,7 +69,8 @@ struct Tables {
         std::memcpy(nodes.data(), bytes.data() + sizeof header, nodes.size() * sizeof(Node));
     }
     std::string sealedInto(std::string bytes) {
-        header.checksum = tableChecksum(header, nodes);
+        header.nodesChecksum = contentHash(std::as_bytes(std::span(nodes)));
+        header.checksum = headerChecksum(header);
         std::memcpy(bytes.data(), &header, sizeof header);
         std::memcpy(bytes.data() + sizeof header, nodes.data(), nodes.size() * sizeof(Node));
         return bytes;
@@ -82,9 +90,11 @@ TEST(EymDamage, OfTheLengthIsAlwaysNoticed) {
     EXPECT_FALSE(readAll(folder.file("m.eym")).ok());
 }
 
-TEST(EymDamage, OfAnyBitThatMattersIsNoticed) {
+class EymDamageByForm : public testing::TestWithParam<bool> {};
+
+TEST_P(EymDamageByForm, OfAnyBitThatMattersIsNoticed) {
     const test::TemporaryFolder folder;
-    const std::string& bytes = smallFile();
+    const std::string& bytes = smallFile(GetParam());
     const Tables tables(bytes);
     std::size_t unnoticed = 0;
     for (std::size_t i = 0; i < bytes.size(); ++i) {
@@ -93,11 +103,13 @@ TEST(EymDamage, OfAnyBitThatMattersIsNoticed) {
         test::writeFile(folder.file("m.eym"), flipped);
         unnoticed += readAll(folder.file("m.eym")).ok() ? 1 : 0;
     }
-    // Only padding between sections and between the nodes' indices carries nothing.
+    // Only padding between pages carries nothing.
     std::uint64_t carried = sizeof(EymHeader) + tables.nodes.size() * sizeof(Node);
-    for (const Node& node : tables.nodes) carried += node.vertexCount * 16 + node.indexCount * 2;
+    for (const Node& node : tables.nodes) carried += node.pageBytes + node.exactBytes;
     EXPECT_EQ(unnoticed, bytes.size() - carried);
 }
+
+INSTANTIATE_TEST_SUITE_P(CodedAndRaw, EymDamageByForm, testing::Bool());
 
 TEST(EymDamage, WithARightChecksumIsStillRefused) {
     struct Case {
@@ -111,12 +123,20 @@ TEST(EymDamage, WithARightChecksumIsStillRefused) {
         {"child beyond the table", [](Tables& t) { t.nodes[0].right = 1 << 30; }},
         {"negative child", [](Tables& t) { t.nodes[0].right = -5; }},
         {"right child is the left", [](Tables& t) { t.nodes[0].right = t.nodes[0].left; }},
-        {"vertices beyond the section", [](Tables& t) { t.nodes.back().firstVertex += 1; }},
-        {"vertices far away", [huge](Tables& t) { t.nodes.back().firstVertex = huge - 2; }},
+        {"page beyond the file", [](Tables& t) { t.nodes.back().pageOffset += 1 << 20; }},
+        {"page far away", [huge](Tables& t) { t.nodes.back().pageOffset = huge - 7; }},
+        {"page in the tables", [](Tables& t) { t.nodes.back().pageOffset = 256; }},
+        {"page too long", [](Tables& t) { t.nodes.back().pageBytes = 1U << 31; }},
+        {"source positions beyond the file", [](Tables& t) { t.nodes.back().exactBytes += 64; }},
         {"too many vertices", [](Tables& t) { t.nodes.back().vertexCount = 65536; }},
-        {"indices beyond the section", [](Tables& t) { t.nodes.back().firstIndex += 4; }},
-        {"indices far away", [huge](Tables& t) { t.nodes.back().firstIndex = huge - 3; }},
-        {"indices not aligned", [](Tables& t) { t.nodes.back().firstIndex -= 1; }},
+        {"vertices that none uses",
+         [](Tables& t) { t.nodes.back().vertexCount = t.nodes.back().indexCount + 1; }},
+        {"vertices without triangles", [](Tables& t) { t.nodes[0].vertexCount = 3; }},
+        {"more triangles than a node stands for",
+         [](Tables& t) {
+             t.nodes[0].indexCount = 3 * (kMaxNodeTriangles + 1);
+             t.nodes[0].vertexCount = 3;
+         }},
         {"fewer indices than triangles", [](Tables& t) { t.nodes.back().indexCount -= 3; }},
         {"box upside down", [](Tables& t) { t.nodes[0].boxMin.x = t.nodes[0].boxMax.x + 1; }},
         {"box off the lattice", [](Tables& t) { t.nodes[0].boxMax.y = 1U << 21; }},
@@ -129,10 +149,7 @@ TEST(EymDamage, WithARightChecksumIsStillRefused) {
         {"other triangle count", [](Tables& t) { t.header.triangleCount += 1; }},
         {"no nodes", [](Tables& t) { t.header.nodeCount = 0; }},
         {"many nodes", [](Tables& t) { t.header.nodeCount = 0xFFFFFFFF; }},
-        {"many vertices", [huge](Tables& t) { t.header.vertexCount = huge; }},
-        {"many indices", [huge](Tables& t) { t.header.indexCount = huge / 2 + 1; }},
-        {"section elsewhere", [](Tables& t) { t.header.positionsOffset = 0; }},
-        {"colours elsewhere", [](Tables& t) { t.header.coloursOffset = 1 << 20; }},
+        {"unknown flag", [](Tables& t) { t.header.flags |= 1U << 7; }},
         {"step no power of two", [](Tables& t) { t.header.stepMetres = 0.3; }},
         {"error of the file", [](Tables& t) { t.header.coarsestErrorMetres = -1; }},
     };
@@ -148,30 +165,54 @@ TEST(EymDamage, WithARightChecksumIsStillRefused) {
     }
 }
 
+TEST(EymDamage, OfAPageThatIsMappedIsRefusedByItsShape) {
+    const test::TemporaryFolder folder;
+    const std::string& bytes = smallFile(false);
+    for (const auto& damage :
+         {+[](Node& node) { node.pageBytes += 8; }, +[](Node& node) { node.pageOffset -= 4; }}) {
+        Tables tables(bytes);
+        damage(tables.nodes.back());
+        test::writeFile(folder.file("m.eym"), tables.sealedInto(bytes));
+        EXPECT_EQ(readAll(folder.file("m.eym")).code(), absl::StatusCode::kDataLoss);
+    }
+}
+
 TEST(EymDamage, AnIndexBeyondItsVerticesIsRefusedWithARightChecksum) {
     const test::TemporaryFolder folder;
-    std::string bytes = smallFile();
+    std::string bytes = smallFile(false);
     Tables tables(bytes);
     Node& leaf = tables.nodes.back();
     const auto vertices = static_cast<std::uint16_t>(leaf.vertexCount);
-    std::memcpy(bytes.data() + tables.header.indicesOffset + leaf.firstIndex * 2, &vertices, 2);
-    const auto section = [&](std::uint64_t offset, std::uint64_t bytesEach) {
-        return bytes.data() + offset + leaf.firstVertex * bytesEach;
-    };
-    leaf.checksum = geometryChecksum(
-        {{reinterpret_cast<const std::uint64_t*>(section(tables.header.positionsOffset, 8)),
-          leaf.vertexCount},
-         {reinterpret_cast<const std::uint32_t*>(section(tables.header.normalsOffset, 4)),
-          leaf.vertexCount},
-         {reinterpret_cast<const std::uint32_t*>(section(tables.header.coloursOffset, 4)),
-          leaf.vertexCount},
-         {reinterpret_cast<const std::uint16_t*>(bytes.data() + tables.header.indicesOffset +
-                                                 leaf.firstIndex * 2),
-          leaf.indexCount}});
+    std::memcpy(bytes.data() + leaf.pageOffset + leaf.vertexCount * 16, &vertices, 2);
+    leaf.blockChecksum =
+        contentHash(std::as_bytes(std::span(bytes).subspan(leaf.pageOffset, leaf.pageBytes)));
     test::writeFile(folder.file("m.eym"), tables.sealedInto(bytes));
     const absl::Status status = readAll(folder.file("m.eym"));
     EXPECT_EQ(status.code(), absl::StatusCode::kDataLoss);
     EXPECT_NE(status.message().find("found index"), std::string::npos) << status;
+}
+
+/// What a page decodes to is held against what was encoded, whatever the page's own checksum says.
+TEST(EymDamage, OfACodedPageIsNoticedWithARightChecksum) {
+    const test::TemporaryFolder folder;
+    const std::string& whole = smallFile();
+    const Tables tables(whole);
+    const Node& node = tables.nodes.back();
+    int unheeded = 0;
+    for (std::uint32_t at = 0; at < node.pageBytes; ++at) {
+        std::string bytes = whole;
+        bytes[node.pageOffset + at] = static_cast<char>(bytes[node.pageOffset + at] ^ 1 << at % 8);
+        Tables damaged(bytes);
+        damaged.nodes.back().pageChecksum =
+            contentHash(std::as_bytes(std::span(bytes).subspan(node.pageOffset, node.pageBytes)));
+        test::writeFile(folder.file("m.eym"), damaged.sealedInto(bytes));
+        const absl::Status status = readAll(folder.file("m.eym"));
+        // A padding bit behind the last one of the bits is no one's.
+        EXPECT_TRUE(status.ok() || absl::IsDataLoss(status)) << at << ": " << status;
+        if (status.ok()) {
+            EXPECT_LE(++unheeded, 2) << at;
+        }
+    }
 }
 
 RC_GTEST_PROP(EymDamage, OfTheTablesWithARightChecksumNeverLeavesTheFile, ()) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -22,14 +23,24 @@ namespace {
 using Vertex = std::tuple<std::uint64_t, std::uint32_t, std::uint32_t>;
 using Face = std::array<Vertex, 3>;
 
-absl::Status write(const PackedMesh& mesh, std::uint32_t leafTriangles, const std::string& path) {
+absl::Status write(const PackedMesh& mesh, std::uint32_t leafTriangles, const std::string& path,
+                   bool isCoded = true) {
     auto tree = buildKdTree(mesh.positions, mesh.triangles, {leafTriangles});
     auto out = OutputFile::create(path);
     EXPECT_TRUE(tree.ok() && out.ok());
     auto lod = buildLodTree(mesh, *tree, {.nodeTriangles = 64});
     EXPECT_TRUE(lod.ok());
-    const absl::Status written = writeEym(mesh, *tree, *lod, 0x1234, *out);
+    const absl::Status written =
+        writeEym(mesh, *tree, *lod, {.isCoded = isCoded, .sourceHash = 0x1234}, *out);
     return written.ok() ? out->commit() : written;
+}
+
+/// Sorted, each beginning with its least corner: triangles are turned as they are stored.
+std::vector<Face> ordered(std::vector<Face> faces) {
+    for (Face& face : faces)
+        std::rotate(face.begin(), std::min_element(face.begin(), face.end()), face.end());
+    std::sort(faces.begin(), faces.end());
+    return faces;
 }
 
 std::vector<Face> facesOf(const PackedMesh& mesh) {
@@ -41,8 +52,7 @@ std::vector<Face> facesOf(const PackedMesh& mesh) {
                        mesh.colours.empty() ? 0 : mesh.colours[triangle[i]]};
         faces.push_back(face);
     }
-    std::sort(faces.begin(), faces.end());
-    return faces;
+    return ordered(std::move(faces));
 }
 
 std::vector<Face> facesOf(const EymFile& file) {
@@ -58,26 +68,75 @@ std::vector<Face> facesOf(const EymFile& file) {
                                    geometry->colours.empty() ? 0 : geometry->colours[v]};
         }
     }
-    std::sort(faces.begin(), faces.end());
-    return faces;
+    return ordered(std::move(faces));
 }
 
-class EymFormat : public testing::TestWithParam<bool> {};
+struct Form {
+    bool hasColours;
+    bool isCoded;
+};
+class EymFormat : public testing::TestWithParam<Form> {};
 
 TEST_P(EymFormat, GivesEveryTriangleBackOnce) {
     const test::TemporaryFolder folder;
-    const PackedMesh mesh = test::randomSoup(5000, 1500, 3000, 1, GetParam());
-    ASSERT_TRUE(write(mesh, 100, folder.file("m.eym")).ok());
+    const PackedMesh mesh = test::randomSoup(5000, 1500, 3000, 1, GetParam().hasColours);
+    ASSERT_TRUE(write(mesh, 100, folder.file("m.eym"), GetParam().isCoded).ok());
     const auto file = EymFile::open(folder.file("m.eym"));
     ASSERT_TRUE(file.ok()) << file.status();
-    EXPECT_EQ(file->hasColours(), GetParam());
+    EXPECT_EQ(file->hasColours(), GetParam().hasColours);
+    EXPECT_EQ(file->isCoded(), GetParam().isCoded);
     EXPECT_EQ(file->triangleCount(), 5000U);
     EXPECT_EQ(file->lattice(), mesh.lattice);
     EXPECT_EQ(file->sourceHash(), 0x1234U);
     EXPECT_EQ(facesOf(*file), facesOf(mesh));
 }
 
-INSTANTIATE_TEST_SUITE_P(WithAndWithoutColours, EymFormat, testing::Bool());
+INSTANTIATE_TEST_SUITE_P(WithAndWithoutColours, EymFormat,
+                         testing::Values(Form{false, false}, Form{false, true}, Form{true, false},
+                                         Form{true, true}));
+
+/// What is sent to the device is the same bytes, so pictures are.
+TEST(EymFile, GivesTheSameBlocksCodedAndRaw) {
+    const test::TemporaryFolder folder;
+    const PackedMesh mesh = test::randomSoup(9000, 3000, 3000, 4, true);
+    ASSERT_TRUE(write(mesh, 700, folder.file("coded.eym"), true).ok());
+    ASSERT_TRUE(write(mesh, 700, folder.file("raw.eym"), false).ok());
+    const auto coded = EymFile::open(folder.file("coded.eym"));
+    const auto raw = EymFile::open(folder.file("raw.eym"));
+    ASSERT_TRUE(coded.ok() && raw.ok()) << coded.status() << raw.status();
+    EXPECT_LT(coded->fileBytes(), raw->fileBytes());
+    ASSERT_EQ(coded->nodes().size(), raw->nodes().size());
+    for (std::uint32_t node = 0; node < coded->nodes().size(); ++node) {
+        const auto a = coded->geometry(node);
+        const auto b = raw->geometry(node);
+        ASSERT_TRUE(a.ok() && b.ok()) << a.status() << b.status();
+        EXPECT_TRUE(std::ranges::equal(a->block, b->block)) << node;
+    }
+}
+
+TEST(EymFile, KeepsSourcePositionsToTheBit) {
+    const test::TemporaryFolder folder;
+    PackedMesh mesh = test::randomSoup(3000, 1000, 3000, 5);
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        const fabric::Vec3 near = mesh.lattice.metres(unpackPosition(mesh.positions[v]));
+        mesh.exact.push_back(near + 1e-3 * static_cast<double>(v % 50) / 7);
+    }
+    ASSERT_TRUE(write(mesh, 100, folder.file("m.eym")).ok());
+    const auto file = EymFile::open(folder.file("m.eym"));
+    ASSERT_TRUE(file.ok() && file->hasExactPositions()) << file.status();
+    std::set<std::tuple<double, double, double>> found, expected;
+    for (std::uint32_t node = 0; node < file->nodes().size(); ++node) {
+        if (!file->nodes()[node].isLeaf())
+            continue;
+        const auto exact = file->exactPositions(node);
+        ASSERT_TRUE(exact.ok()) << exact.status();
+        for (const fabric::Vec3& p : *exact) found.insert({p.x, p.y, p.z});
+    }
+    for (const Triangle& triangle : mesh.triangles)
+        for (const std::uint32_t v : triangle)
+            expected.insert({mesh.exact[v].x, mesh.exact[v].y, mesh.exact[v].z});
+    EXPECT_EQ(found, expected);
+}
 
 TEST(EymFile, TellsBoundsInMetresAndErrorsNotBelowTheLattices) {
     const test::TemporaryFolder folder;
@@ -140,11 +199,11 @@ TEST(EymFile, NamesTheVersionItCannotRead) {
     const test::TemporaryFolder folder;
     ASSERT_TRUE(write(test::separateTriangles(4), 10, folder.file("m.eym")).ok());
     std::string bytes = test::readFile(folder.file("m.eym"));
-    bytes[8] = 2;
+    bytes[8] = 1;
     test::writeFile(folder.file("m.eym"), bytes);
     const absl::Status status = EymFile::open(folder.file("m.eym")).status();
     EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
-    EXPECT_THAT(std::string(status.message()), testing::HasSubstr("header.version is 2"));
+    EXPECT_THAT(std::string(status.message()), testing::HasSubstr("header.version is 1"));
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "renderer/terrain/codec/symbol_shares.h"
+#include "renderer/codec/symbol_shares.h"
 #include "tests/renderer/terrain/sample_pages.h"
 
 namespace eyrie {
@@ -31,8 +31,8 @@ std::string differences(const SampleTerrain& terrain) {
 }
 
 RC_GTEST_PROP(PageCodec, DividesByASharesSizeExactly, ()) {
-    const auto size = *rc::gen::inRange<std::uint32_t>(1, terrain::kAllShares + 1);
-    const terrain::ReadyShare<terrain::kSymbolBits> share({0, size});
+    const auto size = *rc::gen::inRange<std::uint32_t>(1, codec::kAllShares + 1);
+    const codec::ReadyShare<codec::kSymbolBits> share({0, size});
     const std::uint64_t last = std::min<std::uint64_t>(share.limit, 1ULL << 32) - 1;
     const std::uint64_t multiple = *rc::gen::inRange<std::uint64_t>(0, last / size + 1) * size;
     for (const std::uint64_t x : {multiple, multiple - std::min<std::uint64_t>(multiple, 1), last})

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "renderer/terrain/codec/symbol_shares.h"
+#include "renderer/codec/symbol_shares.h"
 
 #include <algorithm>
 #include <numeric>
 
-namespace eyrie::terrain {
+namespace eyrie::codec {
 
 SymbolShares::SymbolShares(std::span<const std::uint32_t> counts) {
     const std::uint64_t total = std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
@@ -73,4 +73,4 @@ void SymbolShares::fillSlots(std::span<std::uint32_t, kAllShares> slots) const {
     }
 }
 
-}  // namespace eyrie::terrain
+}  // namespace eyrie::codec

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace eyrie::terrain {
+namespace eyrie::codec {
 
 /// Appends numbers of 0 to 32 bits, lowest bit first.
 class BitWriter {
@@ -80,4 +80,4 @@ private:
     std::size_t position_ = 0;  ///< in bits
 };
 
-}  // namespace eyrie::terrain
+}  // namespace eyrie::codec

@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "renderer/terrain/codec/bits.h"
-#include "renderer/terrain/codec/rans.h"
+#include "renderer/codec/bits.h"
+#include "renderer/codec/rans.h"
 
-namespace eyrie::terrain {
+namespace eyrie::codec {
 
 inline constexpr int kSymbolBits = 11;
 inline constexpr std::uint32_t kAllShares = 1U << kSymbolBits;
@@ -35,4 +35,4 @@ private:
     std::vector<Share> shares_;  // by symbol; empty: no symbol ever comes
 };
 
-}  // namespace eyrie::terrain
+}  // namespace eyrie::codec

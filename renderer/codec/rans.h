@@ -10,7 +10,7 @@
 /// Range asymmetric numeral systems (J. Duda, "Asymmetric numeral systems", 2013; the interleaving
 /// of states in one stream: F. Giesen, "Interleaved entropy coders", 2014): 32-bit states, renewed
 /// by 16 bits at a time.
-namespace eyrie::terrain {
+namespace eyrie::codec {
 
 inline constexpr std::uint32_t kRansLow = 1U << 16;
 
@@ -202,4 +202,4 @@ private:
     std::uint16_t ones_ = 1U << (kBits - 1);
 };
 
-}  // namespace eyrie::terrain
+}  // namespace eyrie::codec

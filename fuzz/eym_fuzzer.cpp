@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// libFuzzer target of .eym files, whose pages and tables are untrusted once their checksums are
+// right:
+//
+//   cmake --preset fuzz && cmake --build --preset fuzz --target eym_fuzzer
+//   build/fuzz/fuzz/eym_fuzzer -max_len=4096 -max_total_time=600
+//
+// An input's first byte picks a real page of a node, and each four bytes after it put the fourth at
+// the offset that the first three name: so inputs reach the decoder past its checks of lengths and
+// of symbol shares. 254 takes the rest of the input for a page of source positions, and 255 for a
+// file's header and nodes, with the checksum that then is right.
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <vector>
+
+#include "renderer/mesh/codec/exact_codec.h"
+#include "renderer/mesh/codec/page_codec.h"
+#include "renderer/mesh/eym_check.h"
+#include "renderer/mesh/node_geometry.h"
+#include "tests/renderer/mesh/sample_meshes.h"
+
+namespace {
+
+using namespace eyrie;
+
+struct Sample {
+    mesh::NodeShape shape;
+    std::vector<std::byte> page;
+};
+
+std::vector<Sample> realPages() {
+    std::vector<Sample> samples;
+    for (const bool hasColours : {false, true})
+        for (const std::uint32_t extent : {2U, 3000U, 1U << mesh::kLatticeBits}) {
+            const mesh::PackedMesh soup = test::randomSoup(120, 70, extent, extent, hasColours);
+            const mesh::PackedNode node = mesh::gatherNode(soup, soup.triangles);
+            samples.push_back(
+                {{static_cast<std::uint32_t>(node.positions.size()),
+                  static_cast<std::uint32_t>(node.indices.size()), hasColours},
+                 mesh::encodePage(
+                     {node.positions, node.normals, node.colours, node.indices, {}, nullptr})});
+        }
+    return samples;
+}
+
+void decodePage(const std::uint8_t* data, std::size_t size) {
+    static const std::vector<Sample> kSamples = realPages();
+    Sample sample = kSamples[data[0] % kSamples.size()];
+    for (std::size_t k = 1; k + 4 <= size; k += 4) {
+        const std::size_t offset =
+            data[k] | std::size_t{data[k + 1]} << 8 | std::size_t{data[k + 2]} << 16;
+        sample.page[offset % sample.page.size()] = std::byte{data[k + 3]};
+    }
+    std::vector<std::uint64_t> block(mesh::blockBytes(sample.shape) / 8);
+    const mesh::NodeArrays arrays(sample.shape, block);
+    const absl::Status status = mesh::decodePage(sample.page, arrays);
+    const bool isWithin = std::all_of(arrays.indices.begin(), arrays.indices.end(),
+                                      [&](auto i) { return i < sample.shape.vertexCount; });
+    if (status.ok() ? !isWithin : status.code() != absl::StatusCode::kDataLoss)
+        std::abort();
+}
+
+void decodeExact(const std::uint8_t* data, std::size_t size) {
+    const std::vector<std::uint64_t> onLattice(40, 12345);
+    const auto form = size % 2 == 0 ? mesh::ExactForm::Float32 : mesh::ExactForm::Float64;
+    const auto exact = mesh::decodeExact(std::as_bytes(std::span(data + 1, size - 1)), onLattice,
+                                         {{-2, 0, 16}, 0.125}, form);
+    if (!exact.ok() && exact.status().code() != absl::StatusCode::kDataLoss)
+        std::abort();
+}
+
+void checkTables(const std::uint8_t* data, std::size_t size) {
+    std::vector<std::byte> file(size - 1);
+    std::memcpy(file.data(), data + 1, file.size());
+    mesh::EymHeader header;
+    if (file.size() < sizeof header)
+        return;
+    std::memcpy(&header, file.data(), sizeof header);
+    header.magic = mesh::kEymMagic;
+    header.version = mesh::kEymVersion;
+    header.headerBytes = sizeof header;
+    header.fileBytes = file.size();
+    header.checksum = mesh::headerChecksum(header);
+    std::memcpy(file.data(), &header, sizeof header);
+    if (!mesh::checkHeader(file, file.size()).ok())
+        return;
+    std::vector<mesh::Node> nodes(header.nodeCount);
+    std::memcpy(nodes.data(), file.data() + sizeof header, nodes.size() * sizeof(mesh::Node));
+    const auto levels = mesh::checkNodes(header, nodes);
+    if (levels.ok() && (*levels < 1 || *levels > mesh::kMaxTreeDepth))
+        std::abort();
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    if (size == 0)
+        return 0;
+    if (data[0] == 255)
+        checkTables(data, size);
+    else if (data[0] == 254)
+        decodeExact(data, size);
+    else
+        decodePage(data, size);
+    return 0;
+}

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <absl/status/status.h>
+
+#include "renderer/mesh/node_block.h"
+
+/// Lossless coding of a node's geometry.
+///
+/// Triangles: one meets the edge, open since a recent triangle, that it goes along; told by the
+/// edge's age. Its third corner is new, or the far end of an open edge next to that one, or,
+/// seldom, elsewhere. After S. Gumhold, W. Strasser, "Real Time Compression of Triangle Mesh
+/// Connectivity", 1998, but for triangles in the order they come in.
+///
+/// Vertices, in the order of first use: what is left of a position after the parallelogram with the
+/// triangle across the edge (C. Touma, C. Gotsman, "Triangle Mesh Compression", 1998), of a normal
+/// after the one that the node's own triangles give (normal_forecast.h), and of a colour after
+/// the mean of the edge's ends. Each number is an entropy-coded size and plain bits (page_model.h).
+///
+/// A page, little-endian: uint32 bytes of the bits, even; uint32 words of the triangles' symbols;
+/// the bits (shares of all contexts, then plain bits in order of use); the triangles' symbols, then
+/// the vertices', as 16-bit words (codec/rans.h).
+namespace eyrie::mesh {
+
+/// Precondition: vertices come in the order in which the indices first use them, all used; indices
+/// come in threes.
+std::vector<std::byte> encodePage(const NodeGeometry& geometry);
+
+/// Fills `arrays`, which has the node's shape. Safe on any bytes: DataLoss where these are no page
+/// of that shape.
+absl::Status decodePage(std::span<const std::byte> page, const NodeArrays& arrays);
+
+}  // namespace eyrie::mesh
