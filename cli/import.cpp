@@ -18,6 +18,7 @@
 #include "cli/values.h"
 #include "fabric/status.h"
 #include "renderer/import/mesh_import.h"
+#include "renderer/import/mesh_reader.h"
 #include "renderer/import/terrain_import.h"
 #include "renderer/import/terrain_shard.h"
 
@@ -195,8 +196,7 @@ absl::Status importMesh(const Options& options) {
     {
         ProgressBar bar(options.title(), sourceMegabytes(options), "MB",
                         ProgressBar::styleFor(options.quiet));
-        made = import::importMesh(options.sources.front(), options.out, {},
-                                  {bar.callback(), stop.token()});
+        made = import::importMesh(options.sources, options.out, {}, {bar.callback(), stop.token()});
     }
     RETURN_IF_ERROR(made.status());
     if (options.json) {
@@ -216,6 +216,8 @@ absl::Status importMesh(const Options& options) {
     }
     if (options.quiet)
         return absl::OkStatus();
+    for (const std::string& note : made->notes)
+        fmt::print(stderr, "{}: {}\n", options.title(), note);
     if (made->droppedFaces + made->counts.degenerateTriangles > 0)
         fmt::print(stderr,
                    "{}: left out {} faces of fewer than three corners, {} triangles without area\n",
@@ -235,12 +237,18 @@ void addCommon(CLI::App& command, Options& options) {
 void addMesh(CLI::App& parent, Run& run) {
     auto options = std::make_shared<Options>();
     CLI::App* command = parent.add_subcommand("mesh", "A polygon mesh to .eym");
-    command->add_option("source", options->sources, "A .ply file")
+    command
+        ->add_option(
+            "sources", options->sources,
+            fmt::format("Mesh files, as many as you like: they become one mesh. Read are {}",
+                        import::meshSourceEndings()))
         ->type_name("FILE")
-        ->required()
-        ->expected(1);
+        ->required();
     addCommon(*command, *options);
-    command->footer("Example:\n  eyrie import mesh scan.ply -o scan.eym");
+    command->footer(
+        "Examples:\n"
+        "  eyrie import mesh scan.ply -o scan.eym\n"
+        "  eyrie import mesh house.obj garden.glb -o place.eym");
     command->callback([options, &run] { run = [options] { return importMesh(*options); }; });
 }
 

@@ -31,10 +31,11 @@ struct MeshImportSeconds {
 struct MeshImportReport {
     std::uint64_t triangles = 0;     ///< stored
     std::uint64_t vertices = 0;      ///< each counted once
-    std::uint64_t droppedFaces = 0;  ///< of the source, with fewer than three corners
+    std::uint64_t droppedFaces = 0;  ///< of the sources, with fewer than three corners
     PackCounts counts;
     std::uint64_t nodes = 0;
-    std::uint64_t sourceBytes = 0;
+    std::uint64_t sourceBytes = 0;       ///< of the files named
+    std::vector<std::string> notes;      ///< what was odd in the sources; a line each
     std::uint64_t bytes = 0;             ///< of the .eym file
     double errorMetres = 0;              ///< bound on what rounding to the lattice moved
     double coarsestErrorMetres = 0;      ///< of the root
@@ -42,12 +43,11 @@ struct MeshImportReport {
     MeshImportSeconds seconds;
 };
 
-/// Imports a mesh file into `outPath`, an .eym file that appears only when it is complete.
-/// Reads .ply. Stages reported: "reading", "welding", "normals", "tree", "levels",
-/// "writing".
-/// Errors, all with nothing left behind: those of readPly; InvalidArgument (another format, nothing
-/// to draw), NotFound, PermissionDenied, Cancelled, ResourceExhausted (memory, disk), Unavailable.
-absl::StatusOr<MeshImportReport> importMesh(const std::string& sourcePath,
+/// Imports mesh files (readMeshes) as one mesh into `outPath`, an .eym file that appears only when
+/// it is complete. Stages reported: "reading", "welding", "normals", "tree", "levels", "writing".
+/// Errors, all with nothing left behind: those of readMeshes; InvalidArgument (nothing to draw),
+/// NotFound, PermissionDenied, Cancelled, ResourceExhausted (memory, disk), Unavailable.
+absl::StatusOr<MeshImportReport> importMesh(const std::vector<std::string>& sourcePaths,
                                             const std::string& outPath,
                                             const MeshImportOptions& options = {},
                                             const ImportControl& control = {});

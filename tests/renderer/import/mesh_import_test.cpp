@@ -24,7 +24,7 @@ using testing::HasSubstr;
 TEST(MeshImport, WritesTheMeshThatTheReportTellsOf) {
     const test::TemporaryFolder folder;
     ASSERT_TRUE(writePly(synthesizeMesh(30000, 1), folder.file("m.ply")).ok());
-    const auto report = importMesh(folder.file("m.ply"), folder.file("m.eym"));
+    const auto report = importMesh({folder.file("m.ply")}, folder.file("m.eym"));
     ASSERT_TRUE(report.ok()) << report.status();
     const auto file = mesh::EymFile::open(folder.file("m.eym"));
     ASSERT_TRUE(file.ok()) << file.status();
@@ -44,7 +44,7 @@ TEST(MeshImport, GivesTheSameBytesForAnyNumberOfThreadsAndEitherWay) {
     const test::TemporaryFolder folder;
     const TriangleMesh source = synthesizeMesh(100000, 2);
     ASSERT_TRUE(writePly(source, folder.file("m.ply")).ok());
-    ASSERT_TRUE(importMesh(folder.file("m.ply"), folder.file("a.eym")).ok());
+    ASSERT_TRUE(importMesh({folder.file("m.ply")}, folder.file("a.eym")).ok());
     const oneapi::tbb::global_control one(oneapi::tbb::global_control::max_allowed_parallelism, 1);
     ASSERT_TRUE(
         importMesh(source, folder.file("b.eym"), {}, {}, *mesh::contentHash(folder.file("m.ply")))
@@ -67,7 +67,7 @@ TEST(MeshImport, ReportsItsStagesInOrder) {
                                     last = fraction;
                                 },
                                 {}};
-    ASSERT_TRUE(importMesh(folder.file("m.ply"), folder.file("m.eym"), {}, control).ok());
+    ASSERT_TRUE(importMesh({folder.file("m.ply")}, folder.file("m.eym"), {}, control).ok());
     EXPECT_THAT(stages, ElementsAre("reading", "welding", "normals", "tree", "levels", "writing"));
 }
 
@@ -83,7 +83,7 @@ TEST_P(MeshImportStopped, LeavesNothingBehindAndTheOldFileAsItWas) {
                                         stop.request_stop();
                                 },
                                 stop.get_token()};
-    const auto report = importMesh(folder.file("m.ply"), folder.file("m.eym"), {}, control);
+    const auto report = importMesh({folder.file("m.ply")}, folder.file("m.eym"), {}, control);
     EXPECT_EQ(report.status().code(), absl::StatusCode::kCancelled);
     EXPECT_EQ(test::readFile(folder.file("m.eym")), "old");
     EXPECT_THAT(folder.names(), testing::UnorderedElementsAre("m.ply", "m.eym"));
@@ -98,7 +98,7 @@ TEST(MeshImport, LeavesNothingBehindWhenTheSourceIsBad) {
     const std::string whole = test::plyOf(test::tetrahedron(), test::Encoding::LittleEndian);
     for (const std::string& text : {std::string(), whole.substr(0, whole.size() - 2)}) {
         test::writeFile(folder.file("m.ply"), text);
-        const auto report = importMesh(folder.file("m.ply"), folder.file("m.eym"));
+        const auto report = importMesh({folder.file("m.ply")}, folder.file("m.eym"));
         EXPECT_EQ(report.status().code(), absl::StatusCode::kInvalidArgument);
         EXPECT_THAT(std::string(report.status().message()), HasSubstr(folder.file("m.ply")));
         EXPECT_THAT(folder.names(), ElementsAre("m.ply"));
@@ -110,7 +110,7 @@ TEST(MeshImport, NamesTheFileWhoseMeshCannotBeStored) {
     TriangleMesh source = test::tetrahedron();
     source.positions[3].z = 1e20;
     ASSERT_TRUE(writePly(source, folder.file("m.ply")).ok());
-    const auto report = importMesh(folder.file("m.ply"), folder.file("m.eym"));
+    const auto report = importMesh({folder.file("m.ply")}, folder.file("m.eym"));
     EXPECT_EQ(report.status().code(), absl::StatusCode::kInvalidArgument);
     EXPECT_THAT(std::string(report.status().message()),
                 testing::AllOf(HasSubstr("m.ply"), HasSubstr("z 0 to"), HasSubstr("units")));
@@ -129,23 +129,24 @@ TEST(MeshImport, StoresTinyDetailsBesideHugeDistancesWithinTheStatedError) {
 
 TEST(MeshImport, SaysWhichFormatsItReads) {
     const test::TemporaryFolder folder;
-    const auto report = importMesh(folder.file("bunny.obj"), folder.file("m.eym"));
+    const auto report = importMesh({folder.file("bunny.max")}, folder.file("m.eym"));
     EXPECT_EQ(report.status().code(), absl::StatusCode::kInvalidArgument);
     EXPECT_THAT(std::string(report.status().message()),
-                testing::AllOf(HasSubstr("bunny.obj"), HasSubstr("'.obj'"), HasSubstr(".ply")));
+                testing::AllOf(HasSubstr("bunny.max"), HasSubstr("'.max'"), HasSubstr(".ply"),
+                               HasSubstr(".obj")));
 }
 
 TEST(MeshImport, RefusesToReplaceItsOwnSource) {
     const test::TemporaryFolder folder;
     ASSERT_TRUE(writePly(test::tetrahedron(), folder.file("m.ply")).ok());
-    EXPECT_EQ(importMesh(folder.file("m.ply"), folder.file("m.ply")).status().code(),
+    EXPECT_EQ(importMesh({folder.file("m.ply")}, folder.file("m.ply")).status().code(),
               absl::StatusCode::kInvalidArgument);
     EXPECT_GT(test::readFile(folder.file("m.ply")).size(), 100U);
 }
 
 TEST(MeshImport, TellsMissingSourcesAndFoldersApart) {
     const test::TemporaryFolder folder;
-    EXPECT_EQ(importMesh(folder.file("no.ply"), folder.file("m.eym")).status().code(),
+    EXPECT_EQ(importMesh({folder.file("no.ply")}, folder.file("m.eym")).status().code(),
               absl::StatusCode::kNotFound);
     EXPECT_THAT(folder.names(), testing::IsEmpty());
     const auto report = importMesh(test::tetrahedron(), folder.file("none/m.eym"));
