@@ -210,6 +210,18 @@ absl::StatusOr<TriangleMesh> SceneMeshes::gather() {
     return std::move(result_);
 }
 
+/// What Assimp is known to get wrong in a file, for TriangleMesh::notes.
+std::vector<std::string> caveats(std::span<const std::byte> bytes, const AssimpFormat& format) {
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const bool isPlaced = text.find("\nloc ") != std::string_view::npos ||
+                          text.find("\nrot ") != std::string_view::npos;
+    if (!format.extension.starts_with(".ac") || !isPlaced)
+        return {};
+    return {
+        "objects are put where their own 'loc' says; that of groups around them, and 'rot' "
+        "beside 'loc', are not taken right: export it in another format if parts are misplaced"};
+}
+
 absl::StatusOr<TriangleMesh> read(const std::string& path, const AssimpFormat& format) {
     try {
         Assimp::Importer importer;
@@ -248,14 +260,17 @@ const AssimpFormat* findAssimpFormat(const std::string& path) {
 absl::StatusOr<TriangleMesh> readWithAssimp(const std::string& path, const ReadingLimits& limits,
                                             const ImportControl& control) {
     // Says what is wrong with the path better than the library does.
-    RETURN_IF_ERROR(mesh::MappedFile::open(path).status());
+    ASSIGN_OR_RETURN(const mesh::MappedFile file, mesh::MappedFile::open(path));
     const AssimpFormat* format = findAssimpFormat(path);
     if (format == nullptr)
         return absl::InvalidArgumentError(fmt::format("{}: is of no format known here", path));
     control.report("reading", 0);
     auto result = readInOwnProcess([&] { return read(path, *format); }, limits, control);
     control.report("reading", 1);
-    return result.ok() ? std::move(result) : fabric::withContext(result.status(), path);
+    if (!result.ok())
+        return fabric::withContext(result.status(), path);
+    result->notes = caveats(file.bytes(), *format);
+    return result;
 }
 
 absl::StatusOr<TriangleMesh> readWithAssimp(const std::string& path, const ImportControl& control) {
