@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <charconv>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -21,6 +24,7 @@
 #include "renderer/import/mesh_reader.h"
 #include "renderer/import/terrain_import.h"
 #include "renderer/import/terrain_shard.h"
+#include "renderer/mesh/eym_format.h"
 
 namespace eyrie::cli {
 namespace {
@@ -48,6 +52,12 @@ struct TerrainOptions : Options {
     bool fresh = false;
     std::string shard;
     bool merges = false;
+};
+
+struct MeshOptions : Options {
+    std::string normals = "smooth";
+    bool orients = false;
+    std::uint32_t leafTriangles = import::MeshImportOptions{}.leafTriangles;
 };
 
 double sourceMegabytes(const Options& options) {
@@ -189,14 +199,43 @@ std::vector<JsonObject> levelsJson(const import::MeshImportReport& made) {
     return levels;
 }
 
-absl::Status importMesh(const Options& options) {
+absl::StatusOr<import::MeshImportOptions> importOptions(const MeshOptions& options) {
+    constexpr std::string_view kCrease = "crease=";
+    import::MeshImportOptions result;
+    result.leafTriangles = options.leafTriangles;
+    result.pack.orients = options.orients;
+    if (options.normals == "smooth")
+        return result;
+    if (options.normals == "file") {
+        result.pack.normals = import::NormalSource::File;
+        return result;
+    }
+    const std::string_view degrees(options.normals);
+    const char* const end = degrees.data() + degrees.size();
+    result.pack.normals = import::NormalSource::Crease;
+    if (degrees.starts_with(kCrease)) {
+        const auto [rest, error] =
+            std::from_chars(degrees.data() + kCrease.size(), end, result.pack.creaseDegrees);
+        if (error == std::errc() && rest == end && result.pack.creaseDegrees >= 0 &&
+            result.pack.creaseDegrees <= 180)
+            return result;
+    }
+    return absl::InvalidArgumentError(
+        fmt::format("--normals is '{}'; give smooth, file, or crease= and degrees from 0 to 180, "
+                    "such as crease=40",
+                    options.normals));
+}
+
+absl::Status importMesh(const MeshOptions& options) {
     StopSignal stop;
     RETURN_IF_ERROR(checkEnding(options, ".eym"));
+    ASSIGN_OR_RETURN(const import::MeshImportOptions how, importOptions(options));
     absl::StatusOr<import::MeshImportReport> made;
     {
         ProgressBar bar(options.title(), sourceMegabytes(options), "MB",
                         ProgressBar::styleFor(options.quiet));
-        made = import::importMesh(options.sources, options.out, {}, {bar.callback(), stop.token()});
+        made =
+            import::importMesh(options.sources, options.out, how, {bar.callback(), stop.token()});
     }
     RETURN_IF_ERROR(made.status());
     if (options.json) {
@@ -206,6 +245,8 @@ absl::Status importMesh(const Options& options) {
                                .count("vertices", made->vertices)
                                .count("droppedFaces", made->droppedFaces)
                                .count("degenerateTriangles", made->counts.degenerateTriangles)
+                               .count("duplicateTriangles", made->counts.duplicateTriangles)
+                               .count("turnedTriangles", made->counts.orient.turnedTriangles)
                                .count("nodes", made->nodes)
                                .count("bytes", made->bytes)
                                .number("errorMetres", made->errorMetres)
@@ -218,10 +259,17 @@ absl::Status importMesh(const Options& options) {
         return absl::OkStatus();
     for (const std::string& note : made->notes)
         fmt::print(stderr, "{}: {}\n", options.title(), note);
-    if (made->droppedFaces + made->counts.degenerateTriangles > 0)
+    const import::PackCounts& counts = made->counts;
+    if (made->droppedFaces + counts.degenerateTriangles + counts.duplicateTriangles > 0)
         fmt::print(stderr,
-                   "{}: left out {} faces of fewer than three corners, {} triangles without area\n",
-                   options.title(), made->droppedFaces, made->counts.degenerateTriangles);
+                   "{}: left out {} faces of fewer than three corners, {} triangles without area, "
+                   "{} that were there already\n",
+                   options.title(), made->droppedFaces, counts.degenerateTriangles,
+                   counts.duplicateTriangles);
+    if (options.orients)
+        fmt::print(stderr, "{}: turned {} triangles of {} surfaces, {} of which are closed\n",
+                   options.title(), counts.orient.turnedTriangles, counts.orient.components,
+                   counts.orient.closedComponents);
     fmt::print(stderr, "{}: {} triangles, {} vertices, {} simpler levels, {:.1f} MB, {:.2f} s\n",
                options.out, made->triangles, made->vertices, made->levels.size(),
                static_cast<double>(made->bytes) / 1e6, made->seconds.total);
@@ -235,7 +283,7 @@ void addCommon(CLI::App& command, Options& options) {
 }
 
 void addMesh(CLI::App& parent, Run& run) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<MeshOptions>();
     CLI::App* command = parent.add_subcommand("mesh", "A polygon mesh to .eym");
     command
         ->add_option(
@@ -244,11 +292,24 @@ void addMesh(CLI::App& parent, Run& run) {
                         import::meshSourceEndings()))
         ->type_name("FILE")
         ->required();
+    command
+        ->add_option("--normals", options->normals,
+                     "smooth: means around vertices; crease=DEGREES: sharper edges stay sharp; "
+                     "file: the source's own, smooth where it has none")
+        ->type_name("WHICH")
+        ->capture_default_str();
+    command->add_flag("--orient", options->orients,
+                      "Turn faces so that neighbours wind the same way, closed surfaces outward");
+    command
+        ->add_option("--leaf", options->leafTriangles,
+                     "Triangles that are drawn, or left out as hidden, at once at most")
+        ->check(CLI::Range(std::uint32_t{1}, mesh::kMaxLeafVertices))
+        ->capture_default_str();
     addCommon(*command, *options);
     command->footer(
         "Examples:\n"
         "  eyrie import mesh scan.ply -o scan.eym\n"
-        "  eyrie import mesh house.obj garden.glb -o place.eym");
+        "  eyrie import mesh house.obj garden.glb -o place.eym --orient --normals crease=40");
     command->callback([options, &run] { run = [options] { return importMesh(*options); }; });
 }
 

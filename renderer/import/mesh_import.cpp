@@ -51,6 +51,9 @@ absl::Status checkOptions(const MeshImportOptions& options) {
         return absl::InvalidArgumentError(fmt::format("leafTriangles: found {}, expected 1 to {}",
                                                       options.leafTriangles,
                                                       mesh::kMaxLeafVertices));
+    if (!(options.pack.creaseDegrees >= 0 && options.pack.creaseDegrees <= 180))
+        return absl::InvalidArgumentError(
+            fmt::format("creaseDegrees: found {}, expected 0 to 180", options.pack.creaseDegrees));
     return absl::OkStatus();
 }
 
@@ -62,7 +65,7 @@ absl::StatusOr<MeshImportReport> build(TriangleMesh source, mesh::OutputFile& ou
     report.droppedFaces = source.droppedFaces;
     report.notes = std::move(source.notes);
     ASSIGN_OR_RETURN(const mesh::PackedMesh packed,
-                     packMesh(std::move(source), report.counts, control));
+                     packMesh(std::move(source), report.counts, options.pack, control));
     report.seconds.pack = watch.lap();
 
     control.report("tree", 0);

@@ -16,6 +16,7 @@ namespace eyrie::import {
 
 struct MeshImportOptions {
     std::uint32_t leafTriangles = 8192;  ///< triangles a leaf may have; 1 to 65,535
+    PackOptions pack = {};               ///< normals and winding
 };
 
 /// Wall-clock seconds of the stages.

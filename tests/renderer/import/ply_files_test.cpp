@@ -95,7 +95,7 @@ TEST_P(PlyFiles, GiveTheirTrianglesOrAReason) {
     ASSERT_TRUE(mesh.ok()) << mesh.status();
     EXPECT_EQ(mesh->triangles.size(), GetParam().triangles);
     PackCounts counts;
-    const auto packed = packMesh(*std::move(mesh), counts);
+    const auto packed = packMesh(*std::move(mesh), counts, {.normals = NormalSource::File});
     ASSERT_TRUE(packed.ok()) << packed.status();
     EXPECT_EQ(packed->triangles.size(), GetParam().triangles);
     EXPECT_EQ(packed->positions.size(), GetParam().vertices);
