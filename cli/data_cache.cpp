@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
+#include <span>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -15,6 +16,7 @@
 
 #include "fabric/status.h"
 #include "renderer/import/mesh_import.h"
+#include "renderer/import/mesh_reader.h"
 #include "renderer/import/terrain_import.h"
 #include "renderer/mesh/eym_format.h"
 #include "renderer/page/remote_name.h"
@@ -58,7 +60,7 @@ absl::StatusOr<std::uint64_t> rasterHash(const std::string& source) {
 absl::StatusOr<std::string> importName(const std::string& source, fabric::ObjectKind kind,
                                        const std::vector<std::string>& imagery) {
     if (kind == fabric::ObjectKind::Mesh) {
-        ASSIGN_OR_RETURN(const std::uint64_t hash, mesh::contentHash(source));
+        ASSIGN_OR_RETURN(const std::uint64_t hash, import::meshSourceHash(std::span(&source, 1)));
         return fmt::format("{:016x}-{}.eym", hash, kMeshImporterVersion);
     }
     ASSIGN_OR_RETURN(std::uint64_t hash, rasterHash(source));
@@ -100,7 +102,8 @@ DataFile dataFileOf(const std::string& path) {
         return DataFile::Terrain;
     if (ending == ".eym")
         return DataFile::Mesh;
-    return ending == ".ply" ? DataFile::MeshSource : DataFile::TerrainSource;
+    return import::isMeshSource(page::withoutQuery(path)) ? DataFile::MeshSource
+                                                          : DataFile::TerrainSource;
 }
 
 DataCache::DataCache(fs::path folder, ProgressBar::Style progress, std::stop_token stop,
@@ -174,7 +177,7 @@ absl::Status DataCache::import(const std::string& source, const std::string& tar
     ProgressBar bar(fs::path(source).filename().string(), megabytes, "MB", progress_);
     const import::ImportControl control{bar.callback(), stop_};
     if (kind == fabric::ObjectKind::Mesh)
-        return import::importMesh(source, target, {}, control).status();
+        return import::importMesh({source}, target, {}, control).status();
     return import::importTerrain({source}, target, {.imagery = imagery}, control).status();
 }
 

@@ -19,7 +19,7 @@ enum class DataFile {
     Scene,          ///< .json
     Terrain,        ///< .eyt
     Mesh,           ///< .eym
-    MeshSource,     ///< .ply
+    MeshSource,     ///< .ply, .obj and others: import::isMeshSource
     TerrainSource,  ///< anything else: GDAL decides
 };
 DataFile dataFileOf(const std::string& path);

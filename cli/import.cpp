@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <charconv>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -18,8 +21,10 @@
 #include "cli/values.h"
 #include "fabric/status.h"
 #include "renderer/import/mesh_import.h"
+#include "renderer/import/mesh_reader.h"
 #include "renderer/import/terrain_import.h"
 #include "renderer/import/terrain_shard.h"
+#include "renderer/mesh/eym_format.h"
 
 namespace eyrie::cli {
 namespace {
@@ -51,6 +56,7 @@ struct TerrainOptions : Options {
 
 struct MeshOptions : Options {
     import::MeshImportOptions how;
+    std::string normals = "smooth";
 };
 
 double sourceMegabytes(const Options& options) {
@@ -192,15 +198,41 @@ std::vector<JsonObject> levelsJson(const import::MeshImportReport& made) {
     return levels;
 }
 
+absl::StatusOr<import::MeshImportOptions> importOptions(const MeshOptions& options) {
+    constexpr std::string_view kCrease = "crease=";
+    import::MeshImportOptions result = options.how;
+    if (options.normals == "smooth")
+        return result;
+    if (options.normals == "file") {
+        result.pack.normals = import::NormalSource::File;
+        return result;
+    }
+    const std::string_view degrees(options.normals);
+    const char* const end = degrees.data() + degrees.size();
+    result.pack.normals = import::NormalSource::Crease;
+    if (degrees.starts_with(kCrease)) {
+        const auto [rest, error] =
+            std::from_chars(degrees.data() + kCrease.size(), end, result.pack.creaseDegrees);
+        if (error == std::errc() && rest == end && result.pack.creaseDegrees >= 0 &&
+            result.pack.creaseDegrees <= 180)
+            return result;
+    }
+    return absl::InvalidArgumentError(
+        fmt::format("--normals is '{}'; give smooth, file, or crease= and degrees from 0 to 180, "
+                    "such as crease=40",
+                    options.normals));
+}
+
 absl::Status importMesh(const MeshOptions& options) {
     StopSignal stop;
     RETURN_IF_ERROR(checkEnding(options, ".eym"));
+    ASSIGN_OR_RETURN(const import::MeshImportOptions how, importOptions(options));
     absl::StatusOr<import::MeshImportReport> made;
     {
         ProgressBar bar(options.title(), sourceMegabytes(options), "MB",
                         ProgressBar::styleFor(options.quiet));
-        made = import::importMesh(options.sources.front(), options.out, options.how,
-                                  {bar.callback(), stop.token()});
+        made =
+            import::importMesh(options.sources, options.out, how, {bar.callback(), stop.token()});
     }
     RETURN_IF_ERROR(made.status());
     if (options.json) {
@@ -210,6 +242,8 @@ absl::Status importMesh(const MeshOptions& options) {
                                .count("vertices", made->vertices)
                                .count("droppedFaces", made->droppedFaces)
                                .count("degenerateTriangles", made->counts.degenerateTriangles)
+                               .count("duplicateTriangles", made->counts.duplicateTriangles)
+                               .count("turnedTriangles", made->counts.orient.turnedTriangles)
                                .count("nodes", made->nodes)
                                .count("bytes", made->bytes)
                                .number("stepMetres", made->stepMetres)
@@ -221,10 +255,19 @@ absl::Status importMesh(const MeshOptions& options) {
     }
     if (options.quiet)
         return absl::OkStatus();
-    if (made->droppedFaces + made->counts.degenerateTriangles > 0)
+    for (const std::string& note : made->notes)
+        fmt::print(stderr, "{}: {}\n", options.title(), note);
+    const import::PackCounts& counts = made->counts;
+    if (made->droppedFaces + counts.degenerateTriangles + counts.duplicateTriangles > 0)
         fmt::print(stderr,
-                   "{}: left out {} faces of fewer than three corners, {} triangles without area\n",
-                   options.title(), made->droppedFaces, made->counts.degenerateTriangles);
+                   "{}: left out {} faces of fewer than three corners, {} triangles without area, "
+                   "{} that were there already\n",
+                   options.title(), made->droppedFaces, counts.degenerateTriangles,
+                   counts.duplicateTriangles);
+    if (options.orients)
+        fmt::print(stderr, "{}: turned {} triangles of {} surfaces, {} of which are closed\n",
+                   options.title(), counts.orient.turnedTriangles, counts.orient.components,
+                   counts.orient.closedComponents);
     fmt::print(stderr, "{}: {} triangles, {} vertices, {} simpler levels, {:.1f} MB, {:.2f} s\n",
                options.out, made->triangles, made->vertices, made->levels.size(),
                static_cast<double>(made->bytes) / 1e6, made->seconds.total);
@@ -240,13 +283,29 @@ void addCommon(CLI::App& command, Options& options) {
 void addMesh(CLI::App& parent, Run& run) {
     auto options = std::make_shared<MeshOptions>();
     CLI::App* command = parent.add_subcommand("mesh", "A polygon mesh to .eym");
-    command->add_option("source", options->sources, "A .ply file")
+    command
+        ->add_option(
+            "sources", options->sources,
+            fmt::format("Mesh files, as many as you like: they become one mesh. Read are {}",
+                        import::meshSourceEndings()))
         ->type_name("FILE")
-        ->required()
-        ->expected(1);
+        ->required();
+    command
+        ->add_option("--normals", options->normals,
+                     "smooth: means around vertices; crease=DEGREES: sharper edges stay sharp; "
+                     "file: the source's own, smooth where it has none")
+        ->type_name("WHICH")
+        ->capture_default_str();
+    command->add_flag("--orient", options->how.pack.orients,
+                      "Turn faces so that neighbours wind the same way, closed surfaces outward");
+    command
+        ->add_option("--leaf", options->how.leafTriangles,
+                     "Triangles that are drawn, or left out as hidden, at once at most")
+        ->check(CLI::Range(std::uint32_t{1}, mesh::kMaxLeafVertices))
+        ->capture_default_str();
     addCommon(*command, *options);
     command
-        ->add_option("--bits", options->how.latticeBits,
+        ->add_option("--bits", options->how.pack.latticeBits,
                      "Bits of a coordinate: positions are rounded to a power of two, of which the "
                      "longest side has 2^(bits-1) or more. Fewer make a smaller file; what they "
                      "round is in the error that is promised")
@@ -255,12 +314,13 @@ void addMesh(CLI::App& parent, Run& run) {
     command->add_flag("--raw", options->how.isRaw,
                       "Leave pages uncoded, to be mapped: the file is three times as large, and "
                       "nothing is decoded");
-    command->add_flag("--lossless", options->how.keepsExact,
+    command->add_flag("--lossless", options->how.pack.keepsExact,
                       "Keep the source's own positions, bit for bit, beside those that are drawn");
     command->footer(
         "Examples:\n"
         "  eyrie import mesh scan.ply -o scan.eym\n"
-        "  eyrie import mesh scan.ply --bits 17 -o small.eym");
+        "  eyrie import mesh scan.ply --bits 17 -o small.eym\n"
+        "  eyrie import mesh house.obj garden.glb -o place.eym --orient --normals crease=40");
     command->callback([options, &run] { run = [options] { return importMesh(*options); }; });
 }
 

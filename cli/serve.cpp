@@ -102,8 +102,9 @@ void addServe(CLI::App& app, Run& run) {
     command
         ->add_option(
             "data", options->data,
-            "Scenes (.json), imported data (.eyt, .eym), or sources: .ply meshes and "
-            "any raster that GDAL reads, imported when they are new. Imported data may lie "
+            "Scenes (.json), imported data (.eyt, .eym), or sources: meshes (.ply, .obj, .glb "
+            "and more) and any raster that GDAL reads, imported when they are new. Imported data "
+            "may lie "
             "at URLs: https://…, or GDAL's /vsis3/…, /vsigs/…, /vsiaz/…")
         ->type_name("FILE|URL")
         ->required();

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/import/mesh_import.h"
 
-#include <algorithm>
-#include <cctype>
 #include <chrono>
 #include <filesystem>
 #include <new>
@@ -13,7 +11,7 @@
 #include <fmt/format.h>
 
 #include "fabric/status.h"
-#include "renderer/import/ply_reader.h"
+#include "renderer/import/mesh_reader.h"
 #include "renderer/mesh/eym_format.h"
 #include "renderer/mesh/eym_writer.h"
 #include "renderer/mesh/kd_tree.h"
@@ -37,19 +35,14 @@ private:
     Clock::time_point last_ = start_;
 };
 
-absl::Status checkPaths(const std::string& sourcePath, const std::string& outPath) {
-    std::string extension = std::filesystem::path(sourcePath).extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (extension != ".ply")
-        return absl::InvalidArgumentError(fmt::format(
-            "{}: found the extension '{}', expected .ply, the mesh format that is read; "
-            "convert the file to PLY",
-            sourcePath, extension));
+absl::Status checkPaths(const std::vector<std::string>& sourcePaths, const std::string& outPath) {
+    if (sourcePaths.empty())
+        return absl::InvalidArgumentError("no source is named; name a mesh file");
     std::error_code ignored;
-    if (std::filesystem::equivalent(sourcePath, outPath, ignored))
-        return absl::InvalidArgumentError(
-            fmt::format("{}: is source and output at once; name another output file", outPath));
+    for (const std::string& sourcePath : sourcePaths)
+        if (std::filesystem::equivalent(sourcePath, outPath, ignored))
+            return absl::InvalidArgumentError(
+                fmt::format("{}: is source and output at once; name another output file", outPath));
     return absl::OkStatus();
 }
 
@@ -58,10 +51,14 @@ absl::Status checkOptions(const MeshImportOptions& options) {
         return absl::InvalidArgumentError(fmt::format("leafTriangles: found {}, expected 1 to {}",
                                                       options.leafTriangles,
                                                       mesh::kMaxLeafVertices));
-    if (options.latticeBits < mesh::kMinLatticeBits || options.latticeBits > mesh::kLatticeBits)
+    if (options.pack.latticeBits < mesh::kMinLatticeBits ||
+        options.pack.latticeBits > mesh::kLatticeBits)
         return absl::InvalidArgumentError(fmt::format("latticeBits: found {}, expected {} to {}",
-                                                      options.latticeBits, mesh::kMinLatticeBits,
-                                                      mesh::kLatticeBits));
+                                                      options.pack.latticeBits,
+                                                      mesh::kMinLatticeBits, mesh::kLatticeBits));
+    if (!(options.pack.creaseDegrees >= 0 && options.pack.creaseDegrees <= 180))
+        return absl::InvalidArgumentError(
+            fmt::format("creaseDegrees: found {}, expected 0 to 180", options.pack.creaseDegrees));
     return absl::OkStatus();
 }
 
@@ -71,9 +68,9 @@ absl::StatusOr<MeshImportReport> build(TriangleMesh source, mesh::OutputFile& ou
     MeshImportReport report;
     Stopwatch watch;
     report.droppedFaces = source.droppedFaces;
+    report.notes = std::move(source.notes);
     ASSIGN_OR_RETURN(const mesh::PackedMesh packed,
-                     packMesh(std::move(source), report.counts, control,
-                              {options.latticeBits, options.keepsExact}));
+                     packMesh(std::move(source), report.counts, options.pack, control));
     report.seconds.pack = watch.lap();
 
     control.report("tree", 0);
@@ -125,21 +122,28 @@ absl::StatusOr<MeshImportReport> withinMemory(const std::string& name, const Wor
         fmt::format("{}: memory ran out during the import; free memory or split the mesh", name));
 }
 
-absl::StatusOr<MeshImportReport> importFile(const std::string& sourcePath, mesh::OutputFile& out,
-                                            const MeshImportOptions& options,
-                                            const ImportControl& control) {
+/// Of one, or of the first and how many more.
+std::string nameOf(const std::vector<std::string>& paths) {
+    return paths.size() == 1 ? paths.front()
+                             : fmt::format("{} and {} more", paths.front(), paths.size() - 1);
+}
+
+absl::StatusOr<MeshImportReport> importFiles(const std::vector<std::string>& paths,
+                                             mesh::OutputFile& out,
+                                             const MeshImportOptions& options,
+                                             const ImportControl& control) {
     Stopwatch watch;
-    ASSIGN_OR_RETURN(const mesh::MappedFile file, mesh::MappedFile::open(sourcePath));
-    const auto bytes = file.bytes();
-    ASSIGN_OR_RETURN(
-        TriangleMesh source,
-        parsePly({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, sourcePath, control));
-    const std::uint64_t hash = mesh::contentHash(bytes);
+    ASSIGN_OR_RETURN(TriangleMesh source, readMeshes(paths, control));
+    ASSIGN_OR_RETURN(const std::uint64_t hash, meshSourceHash(paths));
     const double readSeconds = watch.lap();
     auto report = build(std::move(source), out, options, control, hash);
     if (!report.ok())
-        return fabric::withContext(report.status(), sourcePath);
-    report->sourceBytes = bytes.size();
+        return fabric::withContext(report.status(), nameOf(paths));
+    for (const std::string& path : paths) {
+        std::error_code ignored;
+        const std::uintmax_t bytes = std::filesystem::file_size(path, ignored);
+        report->sourceBytes += ignored ? 0 : bytes;
+    }
     report->seconds.read = readSeconds;
     report->seconds.total = watch.total();
     return report;
@@ -147,14 +151,15 @@ absl::StatusOr<MeshImportReport> importFile(const std::string& sourcePath, mesh:
 
 }  // namespace
 
-absl::StatusOr<MeshImportReport> importMesh(const std::string& sourcePath,
+absl::StatusOr<MeshImportReport> importMesh(const std::vector<std::string>& sourcePaths,
                                             const std::string& outPath,
                                             const MeshImportOptions& options,
                                             const ImportControl& control) {
-    RETURN_IF_ERROR(checkPaths(sourcePath, outPath));
+    RETURN_IF_ERROR(checkPaths(sourcePaths, outPath));
     RETURN_IF_ERROR(checkOptions(options));
     ASSIGN_OR_RETURN(mesh::OutputFile out, mesh::OutputFile::create(outPath));
-    return withinMemory(sourcePath, [&] { return importFile(sourcePath, out, options, control); });
+    return withinMemory(nameOf(sourcePaths),
+                        [&] { return importFiles(sourcePaths, out, options, control); });
 }
 
 absl::StatusOr<MeshImportReport> importMesh(TriangleMesh source, const std::string& outPath,

@@ -16,10 +16,8 @@ namespace eyrie::import {
 
 struct MeshImportOptions {
     std::uint32_t leafTriangles = 8192;  ///< triangles a leaf may have; 1 to 65,535
-    /// Of a coordinate, 8 to 21: the longest side has 2^(bits-1) steps of the lattice or more.
-    int latticeBits = mesh::kLatticeBits;
-    bool isRaw = false;       ///< pages are not coded, but mapped as they are
-    bool keepsExact = false;  ///< source positions bit for bit, beside those that are drawn
+    PackOptions pack = {};               ///< lattice, normals and winding
+    bool isRaw = false;                  ///< pages are not coded, but mapped as they are
 };
 
 /// Wall-clock seconds of the stages.
@@ -35,10 +33,11 @@ struct MeshImportSeconds {
 struct MeshImportReport {
     std::uint64_t triangles = 0;     ///< stored
     std::uint64_t vertices = 0;      ///< each counted once
-    std::uint64_t droppedFaces = 0;  ///< of the source, with fewer than three corners
+    std::uint64_t droppedFaces = 0;  ///< of the sources, with fewer than three corners
     PackCounts counts;
     std::uint64_t nodes = 0;
-    std::uint64_t sourceBytes = 0;
+    std::uint64_t sourceBytes = 0;       ///< of the files named
+    std::vector<std::string> notes;      ///< what was odd in the sources; a line each
     std::uint64_t bytes = 0;             ///< of the .eym file
     double stepMetres = 0;               ///< of the lattice
     double errorMetres = 0;              ///< bound on what rounding to the lattice moved
@@ -47,12 +46,11 @@ struct MeshImportReport {
     MeshImportSeconds seconds;
 };
 
-/// Imports a mesh file into `outPath`, an .eym file that appears only when it is complete.
-/// Reads .ply. Stages reported: "reading", "welding", "normals", "tree", "levels",
-/// "writing".
-/// Errors, all with nothing left behind: those of readPly; InvalidArgument (another format, nothing
-/// to draw), NotFound, PermissionDenied, Cancelled, ResourceExhausted (memory, disk), Unavailable.
-absl::StatusOr<MeshImportReport> importMesh(const std::string& sourcePath,
+/// Imports mesh files (readMeshes) as one mesh into `outPath`, an .eym file that appears only when
+/// it is complete. Stages reported: "reading", "welding", "normals", "tree", "levels", "writing".
+/// Errors, all with nothing left behind: those of readMeshes; InvalidArgument (nothing to draw),
+/// NotFound, PermissionDenied, Cancelled, ResourceExhausted (memory, disk), Unavailable.
+absl::StatusOr<MeshImportReport> importMesh(const std::vector<std::string>& sourcePaths,
                                             const std::string& outPath,
                                             const MeshImportOptions& options = {},
                                             const ImportControl& control = {});

@@ -95,6 +95,111 @@ private:
     std::vector<Facet> facets_;
 };
 
+/// Corners of triangles by vertex, those of one in the order of the triangles.
+class CornersByVertex {
+public:
+    CornersByVertex(std::span<const mesh::Triangle> triangles, std::size_t vertices)
+        : end_(vertices + 1, 0), corners_(triangles.size() * 3) {
+        for (const mesh::Triangle& triangle : triangles)
+            for (const std::uint32_t vertex : triangle) ++end_[vertex + 1];
+        for (std::size_t i = 1; i < end_.size(); ++i) end_[i] += end_[i - 1];
+        for (std::uint32_t i = 0; i < triangles.size(); ++i)
+            for (std::uint32_t c = 0; c < 3; ++c) corners_[end_[triangles[i][c]]++] = 3 * i + c;
+    }
+
+    /// 3 * triangle + corner, each.
+    std::span<const std::uint32_t> of(std::size_t vertex) const {
+        const std::size_t begin = vertex == 0 ? 0 : end_[vertex - 1];
+        return std::span(corners_).subspan(begin, end_[vertex] - begin);
+    }
+
+private:
+    std::vector<std::uint32_t> end_;
+    std::vector<std::uint32_t> corners_;
+};
+
+/// Puts the corners around one vertex after the other into groups without creases.
+class CreaseGroups {
+public:
+    CreaseGroups(std::span<const mesh::Triangle> triangles, std::span<const Facet> facets,
+                 double creaseRadians)
+        : triangles_(triangles),
+          facets_(facets),
+          leastCosine_(static_cast<float>(std::cos(creaseRadians))) {}
+
+    /// Per corner, the first one of its group.
+    const std::vector<std::uint32_t>& of(std::span<const std::uint32_t> corners) {
+        leader_.resize(corners.size());
+        spokes_.clear();
+        for (std::uint32_t i = 0; i < corners.size(); ++i) {
+            leader_[i] = i;
+            const mesh::Triangle& triangle = triangles_[corners[i] / 3];
+            spokes_.push_back({triangle[(corners[i] % 3 + 1) % 3], i});
+            spokes_.push_back({triangle[(corners[i] % 3 + 2) % 3], i});
+        }
+        std::sort(spokes_.begin(), spokes_.end());
+        for (std::size_t i = 0; i < spokes_.size(); ++i)
+            for (std::size_t j = i + 1; j < std::min(spokes_.size(), i + kMostAtAnEdge) &&
+                                        spokes_[j].first == spokes_[i].first;
+                 ++j)
+                joinIfSmooth(corners, spokes_[i].second, spokes_[j].second);
+        for (std::uint32_t i = 0; i < corners.size(); ++i) leader_[i] = leaderOf(i);
+        return leader_;
+    }
+
+private:
+    /// Triangles at one edge that are compared with each other; a limit on the work only.
+    static constexpr std::size_t kMostAtAnEdge = 32;
+
+    std::uint32_t leaderOf(std::uint32_t i) {
+        while (leader_[i] != i) i = leader_[i] = leader_[leader_[i]];
+        return i;
+    }
+
+    void joinIfSmooth(std::span<const std::uint32_t> corners, std::uint32_t a, std::uint32_t b) {
+        if (glm::dot(facets_[corners[a] / 3].normal, facets_[corners[b] / 3].normal) < leastCosine_)
+            return;
+        const std::uint32_t first = leaderOf(a);
+        const std::uint32_t second = leaderOf(b);
+        leader_[std::max(first, second)] = std::min(first, second);
+    }
+
+    std::span<const mesh::Triangle> triangles_;
+    std::span<const Facet> facets_;
+    float leastCosine_;
+    std::vector<std::uint32_t> leader_;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> spokes_;  ///< other end, corner
+};
+
+std::vector<Facet> facetsOf(std::span<const std::uint64_t> positions,
+                            std::span<const mesh::Triangle> triangles) {
+    std::vector<Facet> facets(triangles.size());
+    oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, triangles.size(), kGrain),
+                              [&](const auto& part) {
+                                  for (std::size_t i = part.begin(); i != part.end(); ++i)
+                                      facets[i] = facetOf(positions, triangles[i]);
+                              });
+    return facets;
+}
+
+/// The normals of the corners at one vertex, into `normals`.
+void addUpGroups(std::span<const std::uint32_t> corners, const std::vector<std::uint32_t>& leader,
+                 std::span<const Facet> facets, std::vector<glm::vec3>& normals) {
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const Facet& facet = facets[corners[i] / 3];
+        normals[corners[leader[i]]] += facet.normal * facet.angles[corners[i] % 3];
+    }
+    for (std::size_t i = 0; i < corners.size(); ++i) {  // leaders come before those they lead
+        glm::vec3& sum = normals[corners[leader[i]]];
+        if (leader[i] != i)
+            normals[corners[i]] = sum;
+        else if (const float length = glm::length(sum); length > kCancelled)
+            sum /= length;
+        else
+            sum = facets[corners[i] / 3].normal;
+    }
+}
+
 }  // namespace
 
 std::vector<glm::vec3> smoothNormals(std::span<const std::uint64_t> positions,
@@ -103,6 +208,24 @@ std::vector<glm::vec3> smoothNormals(std::span<const std::uint64_t> positions,
     for (std::size_t begin = 0; begin < triangles.size(); begin += kBlockTriangles)
         sums.addBlock(begin, std::min(begin + kBlockTriangles, triangles.size()));
     return std::move(sums).normals();
+}
+
+std::vector<glm::vec3> creasedNormals(std::span<const std::uint64_t> positions,
+                                      std::span<const mesh::Triangle> triangles,
+                                      double creaseRadians) {
+    const std::vector<Facet> facets = facetsOf(positions, triangles);
+    const CornersByVertex byVertex(triangles, positions.size());
+    std::vector<glm::vec3> normals(triangles.size() * 3, glm::vec3(0.0F));
+    oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, positions.size(), kGrain),
+                              [&](const auto& part) {
+                                  CreaseGroups groups(triangles, facets, creaseRadians);
+                                  for (std::size_t vertex = part.begin(); vertex != part.end();
+                                       ++vertex) {
+                                      const auto corners = byVertex.of(vertex);
+                                      addUpGroups(corners, groups.of(corners), facets, normals);
+                                  }
+                              });
+    return normals;
 }
 
 }  // namespace eyrie::import

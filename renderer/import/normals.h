@@ -21,4 +21,11 @@ namespace eyrie::import {
 std::vector<glm::vec3> smoothNormals(std::span<const std::uint64_t> positions,
                                      std::span<const mesh::Triangle> triangles);
 
+/// A unit normal per corner, three a triangle: the mean as above of those triangles around its
+/// vertex that are reached from its own across edges at which neighbours' normals differ by
+/// `creaseRadians` at most. The same for any number of threads. Precondition: as above.
+std::vector<glm::vec3> creasedNormals(std::span<const std::uint64_t> positions,
+                                      std::span<const mesh::Triangle> triangles,
+                                      double creaseRadians);
+
 }  // namespace eyrie::import

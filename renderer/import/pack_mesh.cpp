@@ -13,12 +13,15 @@
 #include <absl/status/status.h>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include "fabric/box.h"
 #include "fabric/status.h"
+#include "renderer/import/duplicate_faces.h"
 #include "renderer/import/normals.h"
+#include "renderer/import/orient.h"
 #include "renderer/import/weld.h"
 #include "renderer/mesh/vertex_packing.h"
 
@@ -80,14 +83,14 @@ std::vector<std::uint64_t> positionsOf(const Weld& welded, const std::vector<Ver
     return positions;
 }
 
-/// Packed normals of vertices that are equal in position: by position they are smooth across a
-/// change of colour too.
-std::vector<std::uint32_t> computeNormals(const std::vector<VertexKey>& keys,
-                                          const Weld& byPosition,
-                                          const std::vector<mesh::Triangle>& triangles) {
-    std::vector<mesh::Triangle> renumbered = triangles;
-    renumber(renumbered, byPosition.vertexOf);
-    const std::vector<glm::vec3> normals = smoothNormals(positionsOf(byPosition, keys), renumbered);
+/// The source's triangles between points: vertices that are equal in position.
+std::vector<mesh::Triangle> surfaceOf(const TriangleMesh& source, const Weld& byPosition) {
+    std::vector<mesh::Triangle> surface = source.triangles;
+    renumber(surface, byPosition.vertexOf);
+    return surface;
+}
+
+std::vector<std::uint32_t> packNormals(std::span<const glm::vec3> normals) {
     std::vector<std::uint32_t> packed(normals.size());
     oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, normals.size(), kGrain),
                               [&](const auto& part) {
@@ -97,26 +100,104 @@ std::vector<std::uint32_t> computeNormals(const std::vector<VertexKey>& keys,
     return packed;
 }
 
-/// Fills the keys' normals: the source's where usable, computed ones elsewhere.
-void fillNormals(const TriangleMesh& source, const Weld& byPosition, std::vector<VertexKey>& keys,
-                 PackCounts& counts) {
-    const auto needsOne = [&](std::size_t i) {
-        return byPosition.vertexOf[i] != kNoVertex &&
-               (source.normals.empty() || !isUsable(source.normals[i]));
+/// A source on its way to the lattice.
+struct Packing {
+    TriangleMesh source;
+    std::vector<VertexKey> keys;      ///< of the source's vertices
+    Weld byPosition;                  ///< points of the surface
+    std::vector<fabric::Vec3> exact;  ///< by VertexKey::exact, where they are kept
+};
+
+/// Numbers the source's positions; those that are equal, to the bit, have equal numbers.
+void numberPositions(Packing& packing) {
+    const std::vector<fabric::Vec3>& positions = packing.source.positions;
+    using Bits = std::array<std::uint64_t, 3>;
+    const auto bitsOf = [&](std::uint32_t i) {
+        return std::bit_cast<Bits>(std::array{positions[i].x, positions[i].y, positions[i].z});
     };
+    std::vector<std::uint32_t> order(positions.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::sort(order.begin(), order.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return bitsOf(a) < bitsOf(b); });
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        if (i == 0 || bitsOf(order[i]) != bitsOf(order[i - 1]))
+            packing.exact.push_back(positions[order[i]]);
+        packing.keys[order[i]].exact = static_cast<std::uint32_t>(packing.exact.size() - 1);
+    }
+}
+
+/// Fills the keys' normals: the source's where they are asked for and usable, smooth ones
+/// elsewhere. By position they are smooth across a change of colour too.
+void fillNormals(Packing& packing, NormalSource from, PackCounts& counts) {
+    const TriangleMesh& source = packing.source;
+    const bool takesOwn = from == NormalSource::File && !source.normals.empty();
     std::vector<std::uint32_t> computed;
-    for (std::size_t i = 0; i < keys.size(); ++i) {
-        if (byPosition.vertexOf[i] == kNoVertex)
+    for (std::size_t i = 0; i < packing.keys.size(); ++i) {
+        const std::uint32_t point = packing.byPosition.vertexOf[i];
+        if (point == kNoVertex)
             continue;
-        if (!needsOne(i)) {
-            keys[i].normal = mesh::packNormal(source.normals[i]);
+        if (takesOwn && isUsable(source.normals[i])) {
+            packing.keys[i].normal = mesh::packNormal(source.normals[i]);
             continue;
         }
         if (computed.empty())
-            computed = computeNormals(keys, byPosition, source.triangles);
-        keys[i].normal = computed[byPosition.vertexOf[i]];
+            computed = packNormals(smoothNormals(positionsOf(packing.byPosition, packing.keys),
+                                                 surfaceOf(source, packing.byPosition)));
+        packing.keys[i].normal = computed[point];
         counts.normalsComputed = true;
     }
+}
+
+/// Gives each corner of each triangle a key of its own, with its own normal.
+void splitAtCreases(Packing& packing, double creaseDegrees, PackCounts& counts) {
+    const std::vector<std::uint32_t> normals = packNormals(
+        creasedNormals(positionsOf(packing.byPosition, packing.keys),
+                       surfaceOf(packing.source, packing.byPosition), glm::radians(creaseDegrees)));
+    std::vector<VertexKey> keys;
+    keys.reserve(normals.size());
+    for (mesh::Triangle& triangle : packing.source.triangles)
+        for (std::uint32_t& corner : triangle) {
+            keys.push_back(packing.keys[corner]);
+            keys.back().normal = normals[keys.size() - 1];
+            corner = static_cast<std::uint32_t>(keys.size() - 1);
+        }
+    packing.keys = std::move(keys);
+    counts.normalsComputed = true;
+}
+
+absl::Status dropDegenerate(TriangleMesh& source, const std::vector<VertexKey>& keys,
+                            PackCounts& counts) {
+    const auto total = source.triangles.size();
+    std::erase_if(source.triangles,
+                  [&keys](const mesh::Triangle& triangle) { return !hasArea(keys, triangle); });
+    counts.degenerateTriangles = total - source.triangles.size();
+    if (source.triangles.empty())
+        return absl::InvalidArgumentError(
+            fmt::format("faces: found {} triangles, none with any area, expected at least one; "
+                        "export the mesh again with its faces",
+                        total));
+    return absl::OkStatus();
+}
+
+void dropDuplicates(Packing& packing, PackCounts& counts) {
+    auto& triangles = packing.source.triangles;
+    const std::vector<bool> isDuplicate = findDuplicates(
+        surfaceOf(packing.source, packing.byPosition), packing.byPosition.vertexCount());
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < triangles.size(); ++i)
+        if (!isDuplicate[i])
+            triangles[kept++] = triangles[i];
+    counts.duplicateTriangles = triangles.size() - kept;
+    triangles.resize(kept);
+}
+
+void orient(Packing& packing, PackCounts& counts) {
+    const std::vector<bool> turned =
+        findTurned(positionsOf(packing.byPosition, packing.keys),
+                   surfaceOf(packing.source, packing.byPosition), counts.orient);
+    for (std::size_t i = 0; i < turned.size(); ++i)
+        if (turned[i])
+            std::swap(packing.source.triangles[i][1], packing.source.triangles[i][2]);
 }
 
 mesh::PackedMesh gather(const Weld& welded, const std::vector<VertexKey>& keys, bool hasColours,
@@ -135,73 +216,53 @@ mesh::PackedMesh gather(const Weld& welded, const std::vector<VertexKey>& keys, 
     return packed;
 }
 
-/// Equal positions, to the bit, have equal numbers.
-void numberPositions(const std::vector<fabric::Vec3>& positions, std::vector<VertexKey>& keys) {
-    using Bits = std::array<std::uint64_t, 3>;
-    const auto bitsOf = [&](std::uint32_t i) {
-        return std::bit_cast<Bits>(std::array{positions[i].x, positions[i].y, positions[i].z});
-    };
-    std::vector<std::uint32_t> order(positions.size());
-    std::iota(order.begin(), order.end(), 0U);
-    std::sort(order.begin(), order.end(),
-              [&](std::uint32_t a, std::uint32_t b) { return bitsOf(a) < bitsOf(b); });
-    std::uint32_t number = 0;
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        if (i > 0 && bitsOf(order[i]) != bitsOf(order[i - 1]))
-            ++number;
-        keys[order[i]].exact = number;
-    }
-}
-
-absl::Status dropDegenerate(TriangleMesh& source, const std::vector<VertexKey>& keys,
-                            PackCounts& counts) {
-    const auto total = source.triangles.size();
-    std::erase_if(source.triangles,
-                  [&keys](const mesh::Triangle& triangle) { return !hasArea(keys, triangle); });
-    counts.degenerateTriangles = total - source.triangles.size();
-    if (source.triangles.empty())
-        return absl::InvalidArgumentError(
-            fmt::format("faces: found {} triangles, none with any area, expected at least one; "
-                        "export the mesh again with its faces",
-                        total));
-    return absl::OkStatus();
-}
-
 }  // namespace
 
 absl::StatusOr<mesh::PackedMesh> packMesh(TriangleMesh source, PackCounts& counts,
-                                          const ImportControl& control,
-                                          const PackOptions& options) {
+                                          const PackOptions& options,
+                                          const ImportControl& control) {
     counts = {};
     control.report("welding", 0);
     const std::vector<std::uint8_t> used = findUsed(source);
     ASSIGN_OR_RETURN(const mesh::Lattice lattice,
                      mesh::fitLattice(boundsOf(source, used), options.latticeBits));
-    std::vector<VertexKey> keys = latticeKeys(source, used, lattice);
-    RETURN_IF_ERROR(dropDegenerate(source, keys, counts));
+    Packing packing{std::move(source), {}, {}, {}};
+    packing.keys = latticeKeys(packing.source, used, lattice);
+    RETURN_IF_ERROR(dropDegenerate(packing.source, packing.keys, counts));
     RETURN_IF_ERROR(control.check());
-    Weld welded = weld(keys, source.triangles);
-    counts.isolatedVertices = static_cast<std::uint64_t>(
-        std::count(welded.vertexOf.begin(), welded.vertexOf.end(), kNoVertex));
+    packing.byPosition = weld(packing.keys, packing.source.triangles);
+    const std::size_t vertices = packing.keys.size();
+    counts.isolatedVertices = static_cast<std::uint64_t>(std::count(
+        packing.byPosition.vertexOf.begin(), packing.byPosition.vertexOf.end(), kNoVertex));
+    dropDuplicates(packing, counts);
+    if (options.orients)
+        orient(packing, counts);
     control.report("welding", 1);
 
     RETURN_IF_ERROR(control.check());
     control.report("normals", 0);
-    fillNormals(source, welded, keys, counts);
-    control.report("normals", 1);
     if (options.keepsExact)
-        numberPositions(source.positions, keys);
-    if (!source.normals.empty() || !source.colours.empty() || options.keepsExact) {
-        for (std::size_t i = 0; i < source.colours.size(); ++i)
-            keys[i].colour = mesh::packColour(source.colours[i]);
-        welded = weld(keys, source.triangles);
-    }
-    counts.weldedVertices = keys.size() - counts.isolatedVertices - welded.vertexCount();
+        numberPositions(packing);
+    const bool hasColours = !packing.source.colours.empty();
+    for (std::size_t i = 0; i < packing.source.colours.size(); ++i)
+        packing.keys[i].colour = mesh::packColour(packing.source.colours[i]);
+    if (options.normals == NormalSource::Crease)
+        splitAtCreases(packing, options.creaseDegrees, counts);
+    else
+        fillNormals(packing, options.normals, counts);
+    control.report("normals", 1);
+    const bool isSplit = hasColours || options.keepsExact ||
+                         options.normals == NormalSource::Crease ||
+                         (options.normals == NormalSource::File && !packing.source.normals.empty());
+    const Weld welded =
+        isSplit ? weld(packing.keys, packing.source.triangles) : std::move(packing.byPosition);
+    const std::size_t left = counts.isolatedVertices + welded.vertexCount();
+    counts.weldedVertices = vertices > left ? vertices - left : 0;  // creases make more
     mesh::PackedMesh packed =
-        gather(welded, keys, !source.colours.empty(), lattice, std::move(source.triangles));
+        gather(welded, packing.keys, hasColours, lattice, std::move(packing.source.triangles));
     if (options.keepsExact)
         for (const std::uint32_t key : welded.firstKey)
-            packed.exact.push_back(source.positions[key]);
+            packed.exact.push_back(packing.exact[packing.keys[key].exact]);
     return packed;
 }
 

@@ -5,36 +5,50 @@
 
 #include <absl/status/statusor.h>
 
+#include "renderer/import/orient.h"
 #include "renderer/import/progress.h"
 #include "renderer/import/triangle_mesh.h"
 #include "renderer/mesh/packed_mesh.h"
 
 namespace eyrie::import {
 
-struct PackOptions {
-    int latticeBits = mesh::kLatticeBits;  ///< of a coordinate: mesh::fitLattice
-    bool keepsExact = false;               ///< the source's positions, too: PackedMesh::exact
+/// Where normals come from.
+enum class NormalSource {
+    Smooth,  ///< the mean around each vertex
+    Crease,  ///< the same within PackOptions::creaseDegrees
+    File,    ///< the source's; smooth where it has none, or one without a length
 };
 
-/// What packing left out and put together.
+struct PackOptions {
+    /// Of a coordinate, 8 to 21: the longest side has 2^(bits-1) steps of the lattice or more.
+    int latticeBits = mesh::kLatticeBits;
+    bool keepsExact = false;  ///< the source's positions bit for bit, too: PackedMesh::exact
+    NormalSource normals = NormalSource::Smooth;
+    double creaseDegrees = 45;  ///< of NormalSource::Crease: edges that are sharper stay sharp
+    bool orients = false;       ///< makes the winding consistent (orient.h)
+};
+
+/// What packing left out, put together and turned.
 struct PackCounts {
     std::uint64_t isolatedVertices = 0;     ///< used by no triangle
     std::uint64_t weldedVertices = 0;       ///< became one with an equal vertex before them
     std::uint64_t degenerateTriangles = 0;  ///< without area on the lattice: they cover no pixel
+    std::uint64_t duplicateTriangles = 0;   ///< of one before them, wound the same way
+    OrientCounts orient;                    ///< where PackOptions::orients
     bool normalsComputed = false;           ///< for all vertices, or for those with unusable ones
 
     bool operator==(const PackCounts&) const = default;
 };
 
-/// Puts a mesh on the lattice that fits it: rounds positions, drops triangles without area, welds
-/// vertices that have become equal (position, and the source's normal and colour; if it keeps
-/// exact positions, those, too), and gives smooth
-/// normals to vertices whose source normal is missing, zero or not finite.
+/// Puts a mesh on the lattice that fits it: rounds positions, drops triangles without area and
+/// duplicates, welds vertices that have become equal (position, normal and colour; if it keeps
+/// exact positions, those, too).
 ///
-/// Depends on the mesh alone. Every remaining vertex lies within lattice.errorMetres() of its
-/// source. Errors: Cancelled, InvalidArgument (coordinates too large, or nothing has any area).
+/// Depends on the mesh and the options alone. Every remaining vertex lies within
+/// lattice.errorMetres() of its source.
+/// Errors: Cancelled, InvalidArgument (coordinates too large, or nothing has any area).
 absl::StatusOr<mesh::PackedMesh> packMesh(TriangleMesh source, PackCounts& counts,
-                                          const ImportControl& control = {},
-                                          const PackOptions& options = {});
+                                          const PackOptions& options = {},
+                                          const ImportControl& control = {});
 
 }  // namespace eyrie::import

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -23,6 +24,7 @@ struct TriangleMesh {
     std::vector<glm::vec3> normals;
     std::vector<fabric::Rgba> colours;
     std::uint64_t droppedFaces = 0;  ///< faces of the source with fewer than three corners
+    std::vector<std::string> notes;  ///< what was odd in the source; a line each
 
     bool operator==(const TriangleMesh&) const = default;
 };

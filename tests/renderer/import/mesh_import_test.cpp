@@ -27,7 +27,7 @@ using testing::HasSubstr;
 TEST(MeshImport, WritesTheMeshThatTheReportTellsOf) {
     const test::TemporaryFolder folder;
     ASSERT_TRUE(writePly(synthesizeMesh(30000, 1), folder.file("m.ply")).ok());
-    const auto report = importMesh(folder.file("m.ply"), folder.file("m.eym"));
+    const auto report = importMesh({folder.file("m.ply")}, folder.file("m.eym"));
     ASSERT_TRUE(report.ok()) << report.status();
     const auto file = mesh::EymFile::open(folder.file("m.eym"));
     ASSERT_TRUE(file.ok()) << file.status();
@@ -47,7 +47,7 @@ TEST(MeshImport, GivesTheSameBytesForAnyNumberOfThreadsAndEitherWay) {
     const test::TemporaryFolder folder;
     const TriangleMesh source = synthesizeMesh(100000, 2);
     ASSERT_TRUE(writePly(source, folder.file("m.ply")).ok());
-    ASSERT_TRUE(importMesh(folder.file("m.ply"), folder.file("a.eym")).ok());
+    ASSERT_TRUE(importMesh({folder.file("m.ply")}, folder.file("a.eym")).ok());
     const oneapi::tbb::global_control one(oneapi::tbb::global_control::max_allowed_parallelism, 1);
     ASSERT_TRUE(
         importMesh(source, folder.file("b.eym"), {}, {}, *mesh::contentHash(folder.file("m.ply")))
@@ -70,7 +70,7 @@ TEST(MeshImport, ReportsItsStagesInOrder) {
                                     last = fraction;
                                 },
                                 {}};
-    ASSERT_TRUE(importMesh(folder.file("m.ply"), folder.file("m.eym"), {}, control).ok());
+    ASSERT_TRUE(importMesh({folder.file("m.ply")}, folder.file("m.eym"), {}, control).ok());
     EXPECT_THAT(stages, ElementsAre("reading", "welding", "normals", "tree", "levels", "writing"));
 }
 
@@ -86,7 +86,7 @@ TEST_P(MeshImportStopped, LeavesNothingBehindAndTheOldFileAsItWas) {
                                         stop.request_stop();
                                 },
                                 stop.get_token()};
-    const auto report = importMesh(folder.file("m.ply"), folder.file("m.eym"), {}, control);
+    const auto report = importMesh({folder.file("m.ply")}, folder.file("m.eym"), {}, control);
     EXPECT_EQ(report.status().code(), absl::StatusCode::kCancelled);
     EXPECT_EQ(test::readFile(folder.file("m.eym")), "old");
     EXPECT_THAT(folder.names(), testing::UnorderedElementsAre("m.ply", "m.eym"));
@@ -101,7 +101,7 @@ TEST(MeshImport, LeavesNothingBehindWhenTheSourceIsBad) {
     const std::string whole = test::plyOf(test::tetrahedron(), test::Encoding::LittleEndian);
     for (const std::string& text : {std::string(), whole.substr(0, whole.size() - 2)}) {
         test::writeFile(folder.file("m.ply"), text);
-        const auto report = importMesh(folder.file("m.ply"), folder.file("m.eym"));
+        const auto report = importMesh({folder.file("m.ply")}, folder.file("m.eym"));
         EXPECT_EQ(report.status().code(), absl::StatusCode::kInvalidArgument);
         EXPECT_THAT(std::string(report.status().message()), HasSubstr(folder.file("m.ply")));
         EXPECT_THAT(folder.names(), ElementsAre("m.ply"));
@@ -113,7 +113,7 @@ TEST(MeshImport, NamesTheFileWhoseMeshCannotBeStored) {
     TriangleMesh source = test::tetrahedron();
     source.positions[3].z = 1e20;
     ASSERT_TRUE(writePly(source, folder.file("m.ply")).ok());
-    const auto report = importMesh(folder.file("m.ply"), folder.file("m.eym"));
+    const auto report = importMesh({folder.file("m.ply")}, folder.file("m.eym"));
     EXPECT_EQ(report.status().code(), absl::StatusCode::kInvalidArgument);
     EXPECT_THAT(std::string(report.status().message()),
                 testing::AllOf(HasSubstr("m.ply"), HasSubstr("z 0 to"), HasSubstr("units")));
@@ -134,7 +134,8 @@ TEST(MeshImport, WithFewerBitsMakesASmallerFileWithWhatItRoundsInTheBound) {
     const test::TemporaryFolder folder;
     const TriangleMesh source = synthesizeMesh(20000, 3);
     const auto fine = importMesh(source, folder.file("fine.eym"));
-    const auto coarse = importMesh(source, folder.file("coarse.eym"), {.latticeBits = 12});
+    const auto coarse =
+        importMesh(source, folder.file("coarse.eym"), {.pack = {.latticeBits = 12}});
     ASSERT_TRUE(fine.ok() && coarse.ok()) << fine.status() << coarse.status();
     EXPECT_LT(coarse->bytes, fine->bytes * 3 / 4);
     EXPECT_EQ(coarse->stepMetres, fine->stepMetres * 512);
@@ -143,8 +144,9 @@ TEST(MeshImport, WithFewerBitsMakesASmallerFileWithWhatItRoundsInTheBound) {
     EXPECT_EQ(file->lattice().stepMetres, coarse->stepMetres);
     for (const mesh::Node& node : file->nodes())
         EXPECT_GE(static_cast<double>(node.errorMetres), file->lattice().errorMetres());
-    EXPECT_EQ(importMesh(source, folder.file("none.eym"), {.latticeBits = 22}).status().code(),
-              absl::StatusCode::kInvalidArgument);
+    EXPECT_EQ(
+        importMesh(source, folder.file("none.eym"), {.pack = {.latticeBits = 22}}).status().code(),
+        absl::StatusCode::kInvalidArgument);
 }
 
 TEST(MeshImport, LosslessKeepsEverySourcePositionOfAFloatFileToTheBit) {
@@ -154,7 +156,7 @@ TEST(MeshImport, LosslessKeepsEverySourcePositionOfAFloatFileToTheBit) {
         for (int axis = 0; axis < 3; ++axis)
             p[axis] = static_cast<double>(static_cast<float>(p[axis]));
     const auto rounded = importMesh(source, folder.file("m.eym"));
-    const auto report = importMesh(source, folder.file("m.eym"), {.keepsExact = true});
+    const auto report = importMesh(source, folder.file("m.eym"), {.pack = {.keepsExact = true}});
     ASSERT_TRUE(rounded.ok() && report.ok()) << report.status();
     EXPECT_LT(report->bytes, rounded->bytes + 6 * report->vertices);  // half of three floats
     const auto file = mesh::EymFile::open(folder.file("m.eym"));
@@ -178,23 +180,24 @@ TEST(MeshImport, LosslessKeepsEverySourcePositionOfAFloatFileToTheBit) {
 
 TEST(MeshImport, SaysWhichFormatsItReads) {
     const test::TemporaryFolder folder;
-    const auto report = importMesh(folder.file("bunny.obj"), folder.file("m.eym"));
+    const auto report = importMesh({folder.file("bunny.max")}, folder.file("m.eym"));
     EXPECT_EQ(report.status().code(), absl::StatusCode::kInvalidArgument);
     EXPECT_THAT(std::string(report.status().message()),
-                testing::AllOf(HasSubstr("bunny.obj"), HasSubstr("'.obj'"), HasSubstr(".ply")));
+                testing::AllOf(HasSubstr("bunny.max"), HasSubstr("'.max'"), HasSubstr(".ply"),
+                               HasSubstr(".obj")));
 }
 
 TEST(MeshImport, RefusesToReplaceItsOwnSource) {
     const test::TemporaryFolder folder;
     ASSERT_TRUE(writePly(test::tetrahedron(), folder.file("m.ply")).ok());
-    EXPECT_EQ(importMesh(folder.file("m.ply"), folder.file("m.ply")).status().code(),
+    EXPECT_EQ(importMesh({folder.file("m.ply")}, folder.file("m.ply")).status().code(),
               absl::StatusCode::kInvalidArgument);
     EXPECT_GT(test::readFile(folder.file("m.ply")).size(), 100U);
 }
 
 TEST(MeshImport, TellsMissingSourcesAndFoldersApart) {
     const test::TemporaryFolder folder;
-    EXPECT_EQ(importMesh(folder.file("no.ply"), folder.file("m.eym")).status().code(),
+    EXPECT_EQ(importMesh({folder.file("no.ply")}, folder.file("m.eym")).status().code(),
               absl::StatusCode::kNotFound);
     EXPECT_THAT(folder.names(), testing::IsEmpty());
     const auto report = importMesh(test::tetrahedron(), folder.file("none/m.eym"));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
@@ -24,9 +25,11 @@ struct Packed {
     PackCounts counts;
 };
 
-Packed pack(const TriangleMesh& source) {
+constexpr PackOptions kFile{.normals = NormalSource::File};
+
+Packed pack(const TriangleMesh& source, const PackOptions& options = {}) {
     Packed result;
-    auto packed = packMesh(source, result.counts);
+    auto packed = packMesh(source, result.counts, options);
     EXPECT_TRUE(packed.ok()) << packed.status();
     if (packed.ok())
         result.mesh = *std::move(packed);
@@ -86,7 +89,8 @@ TEST(PackMesh, KeepsVerticesApartThatDifferInNormalOrColour) {
     EXPECT_EQ(pack(source).mesh.positions.size(), 5U);
     source.normals.assign(6, {0, 0, 1});
     source.normals[4] = {0, 1, 1};
-    const Packed packed = pack(source);
+    EXPECT_EQ(pack(source).mesh.positions.size(), 5U);  // normals are not asked for
+    const Packed packed = pack(source, kFile);
     EXPECT_EQ(packed.mesh.positions.size(), 6U);
     EXPECT_FALSE(packed.counts.normalsComputed);
 }
@@ -156,7 +160,7 @@ TEST(PackMesh, ComputesOnlyTheNormalsThatTheSourceLacks) {
     const glm::vec3 smooth = normalAt(pack(source).mesh, {1, 0, 0});
     const float nan = std::numeric_limits<float>::quiet_NaN();
     source.normals = {{0, 0, 5}, {0, 0, 0}, {nan, 0, 1}, {1, 0, 0}};
-    const Packed packed = pack(source);
+    const Packed packed = pack(source, kFile);
     EXPECT_TRUE(packed.counts.normalsComputed);
     EXPECT_EQ(normalAt(packed.mesh, {0, 0, 0}), glm::vec3(0, 0, 1));
     EXPECT_EQ(normalAt(packed.mesh, {0, 0, 1}), glm::vec3(1, 0, 0));
@@ -165,14 +169,73 @@ TEST(PackMesh, ComputesOnlyTheNormalsThatTheSourceLacks) {
 
 TEST(PackMesh, IsTheSameForAnyNumberOfThreads) {
     const TriangleMesh source = synthesizeMesh(300000, 5);
-    std::vector<mesh::PackedMesh> packed;
-    for (const std::size_t threads : {1U, 2U, 5U}) {
-        const oneapi::tbb::global_control limit(
-            oneapi::tbb::global_control::max_allowed_parallelism, threads);
-        packed.push_back(pack(source).mesh);
+    for (const NormalSource normals : {NormalSource::Smooth, NormalSource::Crease}) {
+        std::vector<mesh::PackedMesh> packed;
+        for (const std::size_t threads : {1U, 2U, 5U}) {
+            const oneapi::tbb::global_control limit(
+                oneapi::tbb::global_control::max_allowed_parallelism, threads);
+            packed.push_back(
+                pack(source, {.normals = normals, .creaseDegrees = 5, .orients = true}).mesh);
+        }
+        EXPECT_TRUE(packed[0] == packed[1]);
+        EXPECT_TRUE(packed[0] == packed[2]);
     }
-    EXPECT_TRUE(packed[0] == packed[1]);
-    EXPECT_TRUE(packed[0] == packed[2]);
+}
+
+TEST(PackMesh, DropsFacesThatAreThereAlreadyButNotTheOtherSide) {
+    TriangleMesh source = test::tetrahedron();
+    const auto [a, b, c] = source.triangles[1];
+    source.positions.push_back(source.positions[a]);  // welded before
+    source.triangles.insert(source.triangles.end(), {{b, c, a}, {c, 4, b}, {4, c, b}});
+    const Packed packed = pack(source);
+    EXPECT_EQ(packed.counts.duplicateTriangles, 2U);
+    EXPECT_EQ(packed.mesh.triangles.size(), 5U);
+}
+
+/// Two squares that meet in the y axis, the second one turned up by `degrees`.
+TriangleMesh roof(double degrees) {
+    const double angle = glm::radians(degrees);
+    TriangleMesh mesh;
+    mesh.positions = {{-1, 0, 0}, {0, 0, 0}, {0, 1, 0}, {-1, 1, 0}};
+    mesh.positions.emplace_back(std::cos(angle), 0, std::sin(angle));
+    mesh.positions.emplace_back(std::cos(angle), 1, std::sin(angle));
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {1, 4, 5}, {1, 5, 2}};
+    return mesh;
+}
+
+TEST(PackMesh, SplitsEdgesThatAreSharperThanTheCrease) {
+    const auto vertices = [](double degrees, double crease) {
+        return pack(roof(degrees), {.normals = NormalSource::Crease, .creaseDegrees = crease})
+            .mesh.positions.size();
+    };
+    EXPECT_EQ(vertices(39, 40), 6U);
+    EXPECT_EQ(vertices(41, 40), 8U);
+    EXPECT_EQ(vertices(170, 180), 6U);
+    EXPECT_EQ(vertices(10, 0), 8U);
+}
+
+TEST(PackMesh, GivesEachSideOfACreaseItsOwnNormal) {
+    const Packed packed = pack(roof(60), {.normals = NormalSource::Crease, .creaseDegrees = 40});
+    for (const mesh::Triangle& triangle : packed.mesh.triangles)
+        for (const std::uint32_t corner : triangle) {
+            const bool isFlat = &triangle - packed.mesh.triangles.data() < 2;
+            const glm::vec3 expected =
+                isFlat ? glm::vec3(0, 0, 1) : glm::vec3(-std::sin(glm::radians(60.0)), 0, 0.5);
+            EXPECT_LT(glm::distance(mesh::unpackNormal(packed.mesh.normals[corner]), expected),
+                      1e-3);
+        }
+}
+
+TEST(PackMesh, IsSmoothRoundACornerAsFarAsNoEdgeIsACrease) {
+    // A fine sphere has no crease, whatever way round a vertex is gone.
+    const TriangleMesh source = synthesizeMesh(20000, 3);
+    const Packed smooth = pack(source);
+    const Packed creased = pack(source, {.normals = NormalSource::Crease, .creaseDegrees = 180});
+    EXPECT_EQ(creased.mesh.positions, smooth.mesh.positions);
+    for (std::size_t i = 0; i < smooth.mesh.normals.size(); ++i)
+        EXPECT_LT(glm::distance(mesh::unpackNormal(creased.mesh.normals[i]),
+                                mesh::unpackNormal(smooth.mesh.normals[i])),
+                  2e-3);
 }
 
 }  // namespace

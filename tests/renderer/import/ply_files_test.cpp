@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Real PLY files of many programs: what each must give. Counts are the files' own.
-#include <array>
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
-#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -14,26 +11,12 @@
 
 #include "renderer/import/pack_mesh.h"
 #include "renderer/import/ply_reader.h"
+#include "tests/renderer/import/mesh_text.h"
 
 namespace eyrie::import {
 namespace {
 
 const std::string kData = EYRIE_SOURCE_DIR "/../shared/data/";
-
-/// The bytes of a file, those of .zst and .gz unpacked by the system's own tools.
-std::string contentOf(const std::string& path) {
-    const std::string tool = path.ends_with(".zst")  ? "zstd -qdc "
-                             : path.ends_with(".gz") ? "gunzip -c "
-                                                     : "cat ";
-    const auto close = [](FILE* pipe) { return pipe != nullptr ? ::pclose(pipe) : 0; };
-    const std::unique_ptr<FILE, decltype(close)> pipe(
-        ::popen((tool + "'" + path + "'").c_str(), "r"), close);
-    std::string content;
-    std::array<char, 65536> buffer;
-    while (const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), pipe.get()))
-        content.append(buffer.data(), count);
-    return content;
-}
 
 struct Sample {
     const char* path;
@@ -103,7 +86,7 @@ class PlyFiles : public testing::TestWithParam<Sample> {};
 TEST_P(PlyFiles, GiveTheirTrianglesOrAReason) {
     const std::string path = kData + GetParam().path;
     ASSERT_TRUE(std::filesystem::exists(path)) << "missing test data: " << path;
-    auto mesh = parsePly(contentOf(path), path);
+    auto mesh = parsePly(test::contentOf(path), path);
     if (GetParam().triangles == 0) {
         ASSERT_EQ(mesh.status().code(), absl::StatusCode::kInvalidArgument);
         EXPECT_THAT(std::string(mesh.status().message()), testing::HasSubstr(GetParam().says));
@@ -112,7 +95,7 @@ TEST_P(PlyFiles, GiveTheirTrianglesOrAReason) {
     ASSERT_TRUE(mesh.ok()) << mesh.status();
     EXPECT_EQ(mesh->triangles.size(), GetParam().triangles);
     PackCounts counts;
-    const auto packed = packMesh(*std::move(mesh), counts);
+    const auto packed = packMesh(*std::move(mesh), counts, {.normals = NormalSource::File});
     ASSERT_TRUE(packed.ok()) << packed.status();
     EXPECT_EQ(packed->triangles.size(), GetParam().triangles);
     EXPECT_EQ(packed->positions.size(), GetParam().vertices);

@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/import/assimp_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <exception>
+#include <filesystem>
+#include <limits>
+#include <new>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <absl/status/status.h>
+#include <assimp/Importer.hpp>
+#include <assimp/config.h>
+#include <assimp/material.h>
+#include <assimp/mesh.h>
+#include <assimp/scene.h>
+#include <fmt/format.h>
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/matrix.hpp>
+
+#include "fabric/status.h"
+#include "renderer/import/polygon.h"
+#include "renderer/mesh/mapped_file.h"
+
+namespace eyrie::import {
+namespace {
+
+constexpr std::array kFormats = {
+    AssimpFormat{".3ds", true, false},  AssimpFormat{".ac", true, false},
+    AssimpFormat{".ac3d", true, false}, AssimpFormat{".acc", true, false},
+    AssimpFormat{".dae", true, false},  AssimpFormat{".fbx", true, false},
+    AssimpFormat{".glb", true, true},   AssimpFormat{".gltf", true, true},
+    AssimpFormat{".ifc", true, false},  AssimpFormat{".obj", false, false},
+    AssimpFormat{".off", false, false}, AssimpFormat{".stl", false, false},
+    AssimpFormat{".x3d", true, false},
+};
+
+/// Of surfaces without a material, where others have one.
+const aiColor4D kPlain{0.8F, 0.8F, 0.8F, 1.0F};
+
+/// x stays, y goes to z, z to -y.
+const glm::dmat4 kZUpFromYUp(1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1);
+
+glm::dmat4 toDouble(const aiMatrix4x4& m) {
+    return {m.a1, m.b1, m.c1, m.d1, m.a2, m.b2, m.c2, m.d2,
+            m.a3, m.b3, m.c3, m.d3, m.a4, m.b4, m.c4, m.d4};
+}
+
+std::uint8_t byteOf(float value, bool isLinear) {
+    double shown = std::isfinite(value) ? std::clamp(double{value}, 0.0, 1.0) : 1.0;
+    if (isLinear)  // IEC 61966-2-1
+        shown = shown <= 0.0031308 ? 12.92 * shown : 1.055 * std::pow(shown, 1 / 2.4) - 0.055;
+    return static_cast<std::uint8_t>(std::lround(255 * shown));
+}
+
+bool hasOwnMaterial(const aiMaterial& material) {
+    aiString name;
+    aiColor4D ignored;
+    return material.Get(AI_MATKEY_COLOR_DIFFUSE, ignored) == AI_SUCCESS &&
+           !(material.Get(AI_MATKEY_NAME, name) == AI_SUCCESS &&
+             std::string_view(name.C_Str()) == AI_DEFAULT_MATERIAL_NAME);
+}
+
+/// Gathers what the nodes of a scene show.
+class SceneMeshes {
+public:
+    SceneMeshes(const aiScene& scene, const AssimpFormat& format) : scene_(scene), format_(format) {
+        for (unsigned int i = 0; i < scene.mNumMeshes; ++i) {
+            const aiMesh& mesh = *scene.mMeshes[i];
+            hasNormals_ = hasNormals_ || mesh.mNormals != nullptr;
+            hasColours_ = hasColours_ || mesh.mColors[0] != nullptr || materialOf(mesh) != nullptr;
+        }
+    }
+
+    absl::StatusOr<TriangleMesh> gather();
+
+private:
+    const aiMaterial* materialOf(const aiMesh& mesh) const;
+    absl::Status add(const aiMesh& mesh, const glm::dmat4& worldFromMesh);
+    absl::Status addVertices(const aiMesh& mesh, const glm::dmat4& worldFromMesh);
+    void addColours(const aiMesh& mesh);
+    absl::Status addFaces(const aiMesh& mesh, std::uint32_t first, bool isMirrored);
+    absl::Status addFace(const aiFace& face, std::uint32_t first);
+
+    const aiScene& scene_;
+    const AssimpFormat& format_;
+    bool hasNormals_ = false;
+    bool hasColours_ = false;
+    TriangleMesh result_;
+    std::vector<std::uint32_t> corners_;  // of the face being added
+};
+
+const aiMaterial* SceneMeshes::materialOf(const aiMesh& mesh) const {
+    if (mesh.mMaterialIndex >= scene_.mNumMaterials)
+        return nullptr;
+    const aiMaterial* material = scene_.mMaterials[mesh.mMaterialIndex];
+    return hasOwnMaterial(*material) ? material : nullptr;
+}
+
+absl::Status SceneMeshes::addVertices(const aiMesh& mesh, const glm::dmat4& worldFromMesh) {
+    const glm::dmat3 worldFromNormal = glm::transpose(glm::inverse(glm::dmat3(worldFromMesh)));
+    for (unsigned int i = 0; i < mesh.mNumVertices; ++i) {
+        const aiVector3D& v = mesh.mVertices[i];
+        const fabric::Vec3 position(worldFromMesh * glm::dvec4(v.x, v.y, v.z, 1));
+        if (!std::isfinite(position.x) || !std::isfinite(position.y) || !std::isfinite(position.z))
+            return absl::InvalidArgumentError(fmt::format(
+                "mesh '{}', vertex {}: found {}, {}, {}, expected finite coordinates; remove or "
+                "repair the vertex",
+                mesh.mName.C_Str(), i, position.x, position.y, position.z));
+        result_.positions.push_back(position);
+        if (!hasNormals_)
+            continue;
+        const aiVector3D n = mesh.mNormals != nullptr ? mesh.mNormals[i] : aiVector3D();
+        result_.normals.emplace_back(worldFromNormal * glm::dvec3(n.x, n.y, n.z));
+    }
+    return absl::OkStatus();
+}
+
+void SceneMeshes::addColours(const aiMesh& mesh) {
+    const aiMaterial* material = materialOf(mesh);
+    aiColor4D diffuse = mesh.mColors[0] != nullptr ? aiColor4D(1, 1, 1, 1) : kPlain;
+    if (material != nullptr)
+        material->Get(AI_MATKEY_COLOR_DIFFUSE, diffuse);
+    for (unsigned int i = 0; i < mesh.mNumVertices; ++i) {
+        const aiColor4D own =
+            mesh.mColors[0] != nullptr ? mesh.mColors[0][i] : aiColor4D(1, 1, 1, 1);
+        const auto shown = [this](float value) { return byteOf(value, format_.hasLinearColours); };
+        result_.colours.push_back(
+            {shown(diffuse.r * own.r), shown(diffuse.g * own.g), shown(diffuse.b * own.b), 255});
+    }
+}
+
+absl::Status SceneMeshes::addFace(const aiFace& face, std::uint32_t first) {
+    if (face.mNumIndices < 3) {
+        ++result_.droppedFaces;
+        return absl::OkStatus();
+    }
+    corners_.clear();
+    for (unsigned int i = 0; i < face.mNumIndices; ++i) {
+        if (face.mIndices[i] >= result_.positions.size() - first)
+            return absl::InvalidArgumentError(fmt::format(
+                "found the corner {}, expected a vertex from 0 to {}; export the mesh again",
+                face.mIndices[i], result_.positions.size() - first));
+        corners_.push_back(first + face.mIndices[i]);
+    }
+    if (corners_.size() == 3)
+        result_.triangles.push_back({corners_[0], corners_[1], corners_[2]});
+    else if (!triangulatePolygon(result_.positions, corners_, result_.triangles))
+        return absl::InvalidArgumentError(fmt::format(
+            "found a concave polygon of {} corners, expected at most {}; triangulate it before "
+            "export",
+            corners_.size(), kMaxConcaveCorners));
+    return absl::OkStatus();
+}
+
+absl::Status SceneMeshes::addFaces(const aiMesh& mesh, std::uint32_t first, bool isMirrored) {
+    const std::size_t firstTriangle = result_.triangles.size();
+    for (unsigned int i = 0; i < mesh.mNumFaces; ++i)
+        if (const absl::Status added = addFace(mesh.mFaces[i], first); !added.ok())
+            return fabric::withContext(added,
+                                       fmt::format("mesh '{}', face {}", mesh.mName.C_Str(), i));
+    if (isMirrored)
+        for (std::size_t i = firstTriangle; i < result_.triangles.size(); ++i)
+            std::swap(result_.triangles[i][1], result_.triangles[i][2]);
+    return absl::OkStatus();
+}
+
+absl::Status SceneMeshes::add(const aiMesh& mesh, const glm::dmat4& worldFromMesh) {
+    const std::size_t first = result_.positions.size();
+    if (first + mesh.mNumVertices >= std::numeric_limits<std::uint32_t>::max())
+        return absl::InvalidArgumentError(
+            "found more than 2^32 vertices, all instances of meshes counted; import it in parts");
+    RETURN_IF_ERROR(addVertices(mesh, worldFromMesh));
+    if (hasColours_)
+        addColours(mesh);
+    return addFaces(mesh, static_cast<std::uint32_t>(first),
+                    glm::determinant(glm::dmat3(worldFromMesh)) < 0);
+}
+
+absl::StatusOr<TriangleMesh> SceneMeshes::gather() {
+    struct Placed {
+        const aiNode* node;
+        glm::dmat4 worldFromNode;
+    };
+    std::vector<Placed> waiting;
+    if (scene_.mRootNode != nullptr)
+        waiting.push_back({scene_.mRootNode, (format_.isYUp ? kZUpFromYUp : glm::dmat4(1)) *
+                                                 toDouble(scene_.mRootNode->mTransformation)});
+    while (!waiting.empty()) {
+        const auto [node, worldFromNode] = waiting.back();
+        waiting.pop_back();
+        for (unsigned int i = 0; i < node->mNumMeshes; ++i)
+            if (node->mMeshes[i] < scene_.mNumMeshes)
+                RETURN_IF_ERROR(add(*scene_.mMeshes[node->mMeshes[i]], worldFromNode));
+        for (unsigned int i = node->mNumChildren; i-- > 0;)
+            waiting.push_back({node->mChildren[i],
+                               worldFromNode * toDouble(node->mChildren[i]->mTransformation)});
+    }
+    if (result_.triangles.empty())
+        return absl::InvalidArgumentError(
+            fmt::format("found no face with three corners or more ({} with fewer), expected at "
+                        "least one; export the mesh again with its faces",
+                        result_.droppedFaces));
+    return std::move(result_);
+}
+
+/// What Assimp is known to get wrong in a file, for TriangleMesh::notes.
+std::vector<std::string> caveats(std::span<const std::byte> bytes, const AssimpFormat& format) {
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const bool isPlaced = text.find("\nloc ") != std::string_view::npos ||
+                          text.find("\nrot ") != std::string_view::npos;
+    if (!format.extension.starts_with(".ac") || !isPlaced)
+        return {};
+    return {
+        "objects are put where their own 'loc' says; that of groups around them, and 'rot' "
+        "beside 'loc', are not taken right: export it in another format if parts are misplaced"};
+}
+
+absl::StatusOr<TriangleMesh> read(const std::string& path, const AssimpFormat& format) {
+    try {
+        Assimp::Importer importer;
+        const aiScene* scene = importer.ReadFile(path, 0);
+        if (scene != nullptr)
+            return SceneMeshes(*scene, format).gather();
+        const std::string why = importer.GetErrorString();
+        if (why.find("bad_alloc") != std::string::npos)
+            throw std::bad_alloc();
+        return absl::InvalidArgumentError(
+            fmt::format("cannot be read as {}: {}; export it again, or in another format",
+                        format.extension.substr(1), why.empty() ? "no reason is given" : why));
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& error) {
+        return absl::InvalidArgumentError(
+            fmt::format("cannot be read as {}: {}; export it again, or in another format",
+                        format.extension.substr(1), error.what()));
+    }
+}
+
+}  // namespace
+
+std::span<const AssimpFormat> assimpFormats() { return kFormats; }
+
+const AssimpFormat* findAssimpFormat(const std::string& path) {
+    std::string extension = std::filesystem::path(path).extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const auto* found =
+        std::find_if(kFormats.begin(), kFormats.end(),
+                     [&](const AssimpFormat& format) { return format.extension == extension; });
+    return found == kFormats.end() ? nullptr : found;
+}
+
+absl::StatusOr<TriangleMesh> readWithAssimp(const std::string& path, const ReadingLimits& limits,
+                                            const ImportControl& control) {
+    // Says what is wrong with the path better than the library does.
+    ASSIGN_OR_RETURN(const mesh::MappedFile file, mesh::MappedFile::open(path));
+    const AssimpFormat* format = findAssimpFormat(path);
+    if (format == nullptr)
+        return absl::InvalidArgumentError(fmt::format("{}: is of no format known here", path));
+    control.report("reading", 0);
+    auto result = readInOwnProcess([&] { return read(path, *format); }, limits, control);
+    control.report("reading", 1);
+    if (!result.ok())
+        return fabric::withContext(result.status(), path);
+    result->notes = caveats(file.bytes(), *format);
+    return result;
+}
+
+absl::StatusOr<TriangleMesh> readWithAssimp(const std::string& path, const ImportControl& control) {
+    std::error_code ignored;
+    const std::uintmax_t bytes = std::filesystem::file_size(path, ignored);
+    return readWithAssimp(path, ReadingLimits::forFile(ignored ? 0 : bytes), control);
+}
+
+}  // namespace eyrie::import

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include <absl/status/statusor.h>
+
+#include "renderer/import/progress.h"
+#include "renderer/import/reading_process.h"
+#include "renderer/import/triangle_mesh.h"
+
+namespace eyrie::import {
+
+/// A format that Assimp reads and this project has tried.
+struct AssimpFormat {
+    std::string_view extension;  ///< lower case, with its dot
+    bool isYUp;             ///< its models stand on the plane y = 0, in Assimp's hands at least
+    bool hasLinearColours;  ///< not as displayed (sRGB)
+};
+std::span<const AssimpFormat> assimpFormats();
+
+/// The format of a file by its name's ending; null when it is none of these.
+const AssimpFormat* findAssimpFormat(const std::string& path);
+
+/// Reads all meshes of a file, each as often as nodes show it, with the nodes' transforms taken in
+/// double precision, in the file's own units; models of formats in which y is up are turned so that
+/// z is. Materials' diffuse colours, times those of vertices, become vertex colours; textures,
+/// transparency, lights, animations and bones are left out. Polygons are cut by triangulatePolygon.
+/// Points and lines count as dropped faces.
+///
+/// Assimp runs in a process of its own (reading_process.h) within `limits`.
+/// Errors, all naming the file: NotFound, PermissionDenied, InvalidArgument (not readable, no
+/// faces, a vertex that is not finite), ResourceExhausted, Cancelled.
+absl::StatusOr<TriangleMesh> readWithAssimp(const std::string& path, const ReadingLimits& limits,
+                                            const ImportControl& control = {});
+absl::StatusOr<TriangleMesh> readWithAssimp(const std::string& path,
+                                            const ImportControl& control = {});
+
+}  // namespace eyrie::import

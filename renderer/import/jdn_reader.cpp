@@ -1,0 +1,348 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/import/jdn_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <map>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <absl/status/status.h>
+#include <fmt/format.h>
+
+#include "fabric/status.h"
+
+namespace eyrie::import {
+namespace {
+
+constexpr std::uint64_t kPollInterval = 65536;  // lines between looks at the stop token
+/// The shortest line of a vertex or a face, `Vert=0 0 0` and its end.
+constexpr std::size_t kLeastElementBytes = 11;
+constexpr fabric::Rgba kPlain{204, 204, 204, 255};
+
+/// Known, and of no use here.
+constexpr std::array<std::string_view, 16> kIgnoredKeys = {
+    "Ambient",      "Specular",      "Shine",         "Shine Strength",
+    "Transparency", "Map Path",      "Pos",           "Direction",
+    "Colour",       "Intensity",     "Fall",          "Type",
+    "Face Normal",  "Textured Vert", "Textured Face", "Num textured vertices"};
+
+bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+
+std::string_view trimmed(std::string_view text) {
+    while (!text.empty() && isBlank(text.front())) text.remove_prefix(1);
+    while (!text.empty() && isBlank(text.back())) text.remove_suffix(1);
+    return text;
+}
+
+/// With single blanks between words.
+std::string plainKey(std::string_view text) {
+    std::string key;
+    for (const char c : trimmed(text))
+        if (!isBlank(c))
+            key += c;
+        else if (key.back() != ' ')
+            key += ' ';
+    return key;
+}
+
+std::string shown(std::string_view text) {
+    std::string result(trimmed(text).substr(0, 40));
+    std::replace_if(
+        result.begin(), result.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+    return result;
+}
+
+/// As many numbers as `values` holds, no more and no less.
+template <typename Number>
+bool parseNumbers(std::string_view text, std::span<Number> values) {
+    for (Number& value : values) {
+        text = trimmed(text);
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        if (error != std::errc())
+            return false;
+        text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+        if (!text.empty() && !isBlank(text.front()))
+            return false;
+    }
+    return trimmed(text).empty();
+}
+
+std::uint8_t byteOf(double value) {
+    return static_cast<std::uint8_t>(
+        std::lround(255 * std::clamp(std::isfinite(value) ? value : 1.0, 0.0, 1.0)));
+}
+
+class JdnParser {
+public:
+    JdnParser(std::string_view text, const ImportControl& control)
+        : text_(text), control_(control) {}
+
+    absl::StatusOr<TriangleMesh> parse();
+
+private:
+    enum class Section { None, Materials, Lights, Objects };
+
+    absl::Status readLine(std::string_view line);
+    absl::Status readValue(const std::string& key, std::string_view value);
+    absl::Status openSection(Section section, std::string_view value, std::uint64_t& count);
+    absl::Status readMaterialId(std::string_view value);
+    absl::Status readDiffuse(std::string_view value);
+    absl::Status readCount(std::string_view value, std::uint64_t& count);
+    absl::Status readVertex(std::string_view value);
+    absl::Status readNormal(std::string_view value);
+    absl::Status readFace(std::string_view value);
+    absl::Status endObject();
+    absl::Status checkCount(std::string_view what, std::uint64_t found,
+                            std::uint64_t expected) const;
+    absl::Status wrong(std::string_view found, std::string_view expected,
+                       std::string_view remedy) const;
+    void addNotes();
+
+    std::string_view text_;
+    const ImportControl& control_;
+    std::uint64_t lineNumber_ = 0;
+    std::size_t bytesRead_ = 0;
+    Section section_ = Section::None;
+    std::string key_;  // being read
+
+    std::uint64_t materials_ = 0;  // named so far, and said to be there
+    std::uint64_t materialsExpected_ = 0;
+    fabric::Rgba diffuse_ = kPlain;  // of the material being read
+    std::map<std::int64_t, fabric::Rgba> colourOf_;
+
+    std::uint64_t lights_ = 0;
+    std::uint64_t objects_ = 0;  // begun
+    std::uint64_t objectsExpected_ = 0;
+    bool isInObject_ = false;
+    fabric::Rgba objectColour_ = kPlain;
+    std::uint64_t vertices_ = 0;  // said to be in the object
+    std::uint64_t faces_ = 0;
+    std::size_t firstPosition_ = 0;  // of the object
+    std::size_t firstTriangle_ = 0;
+    bool hasNormals_ = false;
+
+    std::uint64_t unknownKeys_ = 0;
+    std::string firstUnknown_;
+    std::uint64_t unknownMaterials_ = 0;
+    TriangleMesh mesh_;
+};
+
+absl::Status JdnParser::wrong(std::string_view found, std::string_view expected,
+                              std::string_view remedy) const {
+    return absl::InvalidArgumentError(fmt::format("line {}, {}: found {}, expected {}; {}",
+                                                  lineNumber_, key_, found, expected, remedy));
+}
+
+absl::Status JdnParser::checkCount(std::string_view what, std::uint64_t found,
+                                   std::uint64_t expected) const {
+    if (found == expected)
+        return absl::OkStatus();
+    return absl::InvalidArgumentError(
+        fmt::format("line {}, object {}: found {} lines {}, expected {}; the file is truncated or "
+                    "damaged: copy or export it again",
+                    lineNumber_, objects_ - 1, found, what, expected));
+}
+
+absl::Status JdnParser::readCount(std::string_view value, std::uint64_t& count) {
+    if (!parseNumbers(value, std::span(&count, 1)))
+        return wrong(fmt::format("'{}'", shown(value)), "a count", "repair the line");
+    const std::uint64_t most = (text_.size() - bytesRead_) / kLeastElementBytes + 1;
+    if (count > most)
+        return wrong(fmt::format("{}", count),
+                     fmt::format("at most {}, what the rest of the file may hold", most),
+                     "the file is truncated or damaged: copy or export it again");
+    return absl::OkStatus();
+}
+
+absl::Status JdnParser::openSection(Section section, std::string_view value, std::uint64_t& count) {
+    RETURN_IF_ERROR(endObject());
+    section_ = section;
+    return readCount(value, count);
+}
+
+/// Of the material being read, or of the object that begins.
+absl::Status JdnParser::readMaterialId(std::string_view value) {
+    std::int64_t id = 0;
+    if (!parseNumbers(value, std::span(&id, 1)))
+        return wrong(fmt::format("'{}'", shown(value)), "a whole number", "repair the line");
+    if (section_ != Section::Objects) {
+        colourOf_[id] = diffuse_;
+        return absl::OkStatus();
+    }
+    RETURN_IF_ERROR(endObject());
+    const auto material = colourOf_.find(id);
+    objectColour_ = material == colourOf_.end() ? kPlain : material->second;
+    unknownMaterials_ += material == colourOf_.end() ? 1 : 0;
+    isInObject_ = true;
+    ++objects_;
+    vertices_ = 0;
+    faces_ = 0;
+    firstPosition_ = mesh_.positions.size();
+    firstTriangle_ = mesh_.triangles.size();
+    return absl::OkStatus();
+}
+
+absl::Status JdnParser::readDiffuse(std::string_view value) {
+    std::array<double, 3> rgb{};
+    if (!parseNumbers(value, std::span<double>(rgb)))
+        return wrong(fmt::format("'{}'", shown(value)), "three numbers", "repair the line");
+    diffuse_ = {byteOf(rgb[0]), byteOf(rgb[1]), byteOf(rgb[2]), 255};
+    return absl::OkStatus();
+}
+
+absl::Status JdnParser::readVertex(std::string_view value) {
+    std::array<double, 3> xyz{};
+    if (!parseNumbers(value, std::span<double>(xyz)) || !std::isfinite(xyz[0]) ||
+        !std::isfinite(xyz[1]) || !std::isfinite(xyz[2]))
+        return wrong(fmt::format("'{}'", shown(value)), "three finite numbers",
+                     "repair or remove the vertex");
+    mesh_.positions.emplace_back(xyz[0], xyz[1], xyz[2]);
+    return absl::OkStatus();
+}
+
+absl::Status JdnParser::readNormal(std::string_view value) {
+    std::array<float, 3> xyz{};
+    if (!parseNumbers(value, std::span<float>(xyz)))
+        return wrong(fmt::format("'{}'", shown(value)), "three numbers", "repair the line");
+    if (mesh_.normals.size() < firstPosition_)
+        mesh_.normals.resize(firstPosition_, glm::vec3(0));
+    mesh_.normals.emplace_back(xyz[0], xyz[1], xyz[2]);
+    hasNormals_ = true;
+    return absl::OkStatus();
+}
+
+absl::Status JdnParser::readFace(std::string_view value) {
+    std::array<std::int64_t, 3> corners{};
+    if (!parseNumbers(value, std::span<std::int64_t>(corners)))
+        return wrong(fmt::format("'{}'", shown(value)), "three vertices", "repair the face");
+    std::array<std::uint32_t, 3> triangle{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (corners[i] < 0 || static_cast<std::uint64_t>(corners[i]) >= vertices_)
+            return wrong(fmt::format("{}", corners[i]),
+                         vertices_ == 0 ? "no face before Num Vertices"
+                                        : fmt::format("a vertex from 0 to {}", vertices_ - 1),
+                         "repair the face or export the scene again");
+        triangle[i] =
+            static_cast<std::uint32_t>(firstPosition_ + static_cast<std::uint64_t>(corners[i]));
+    }
+    mesh_.triangles.push_back(triangle);
+    return absl::OkStatus();
+}
+
+absl::Status JdnParser::endObject() {
+    if (!std::exchange(isInObject_, false))
+        return absl::OkStatus();
+    RETURN_IF_ERROR(checkCount("Vert", mesh_.positions.size() - firstPosition_, vertices_));
+    RETURN_IF_ERROR(checkCount("Face", mesh_.triangles.size() - firstTriangle_, faces_));
+    if (mesh_.normals.size() > firstPosition_)
+        RETURN_IF_ERROR(
+            checkCount("Vert Normal", mesh_.normals.size() - firstPosition_, vertices_));
+    mesh_.normals.resize(mesh_.positions.size(), glm::vec3(0));
+    mesh_.colours.resize(mesh_.positions.size(), objectColour_);
+    return absl::OkStatus();
+}
+
+absl::Status JdnParser::readValue(const std::string& key, std::string_view value) {
+    if (key == "Number of Materials")
+        return openSection(Section::Materials, value, materialsExpected_);
+    if (key == "Number of Lights")
+        return openSection(Section::Lights, value, lights_);
+    if (key == "Number of Objects")
+        return openSection(Section::Objects, value, objectsExpected_);
+    if (key == "Material ID" && section_ != Section::Lights)
+        return readMaterialId(value);
+    if (section_ == Section::Materials && key == "Material Name") {
+        ++materials_;
+        diffuse_ = kPlain;
+        return absl::OkStatus();
+    }
+    if (section_ == Section::Materials && key == "Diffuse")
+        return readDiffuse(value);
+    if (isInObject_ && key == "Num Vertices")
+        return readCount(value, vertices_);
+    if (isInObject_ && key == "Num Faces")
+        return readCount(value, faces_);
+    if (isInObject_ && key == "Vert")
+        return readVertex(value);
+    if (isInObject_ && key == "Face")
+        return readFace(value);
+    if (isInObject_ && key == "Vert Normal")
+        return readNormal(value);
+    if (std::find(kIgnoredKeys.begin(), kIgnoredKeys.end(), key) == kIgnoredKeys.end() &&
+        unknownKeys_++ == 0)
+        firstUnknown_ = fmt::format("'{}' in line {}", shown(key), lineNumber_);
+    return absl::OkStatus();
+}
+
+absl::Status JdnParser::readLine(std::string_view line) {
+    if (trimmed(line).empty())
+        return absl::OkStatus();
+    const std::size_t equals = line.find('=');
+    key_ = plainKey(line.substr(0, equals));
+    return readValue(
+        key_, equals == std::string_view::npos ? std::string_view() : line.substr(equals + 1));
+}
+
+void JdnParser::addNotes() {
+    if (unknownKeys_ > 0)
+        mesh_.notes.push_back(fmt::format("skipped {} lines with unknown keys, the first {}",
+                                          unknownKeys_, firstUnknown_));
+    if (unknownMaterials_ > 0)
+        mesh_.notes.push_back(
+            fmt::format("{} objects have a material that the file does not define: they are grey",
+                        unknownMaterials_));
+}
+
+absl::StatusOr<TriangleMesh> JdnParser::parse() {
+    while (bytesRead_ < text_.size()) {
+        if (lineNumber_++ % kPollInterval == 0) {
+            control_.report("reading",
+                            static_cast<double>(bytesRead_) / static_cast<double>(text_.size()));
+            RETURN_IF_ERROR(control_.check());
+        }
+        const std::size_t end = std::min(text_.find('\n', bytesRead_), text_.size());
+        const std::string_view line = text_.substr(bytesRead_, end - bytesRead_);
+        bytesRead_ = std::min(end + 1, text_.size());
+        RETURN_IF_ERROR(readLine(line));
+    }
+    RETURN_IF_ERROR(endObject());
+    key_ = "end of the file";
+    if (objects_ != objectsExpected_ || objects_ == 0)
+        return wrong(fmt::format("{} objects", objects_),
+                     fmt::format("{}", std::max<std::uint64_t>(objectsExpected_, 1)),
+                     "the file is truncated, or no .jdn scene: copy or export it again");
+    if (materials_ != materialsExpected_)
+        return wrong(fmt::format("{} materials", materials_), fmt::format("{}", materialsExpected_),
+                     "export the scene again");
+    if (mesh_.triangles.empty())
+        return wrong("no face", "at least one", "export the scene again with its faces");
+    if (!hasNormals_)
+        mesh_.normals.clear();
+    if (materials_ == 0)
+        mesh_.colours.clear();
+    addNotes();
+    control_.report("reading", 1);
+    return std::move(mesh_);
+}
+
+}  // namespace
+
+absl::StatusOr<TriangleMesh> parseJdn(std::string_view text, const std::string& name,
+                                      const ImportControl& control) {
+    absl::StatusOr<TriangleMesh> mesh = JdnParser(text, control).parse();
+    return mesh.ok() ? std::move(mesh) : fabric::withContext(mesh.status(), name);
+}
+
+bool looksLikeJdn(std::string_view text) {
+    const std::string_view line =
+        trimmed(text.substr(0, std::min<std::size_t>(text.find('\n'), 256)));
+    return plainKey(line.substr(0, line.find('='))) == "Number of Materials";
+}
+
+}  // namespace eyrie::import

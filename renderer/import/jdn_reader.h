@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include <absl/status/statusor.h>
+
+#include "renderer/import/progress.h"
+#include "renderer/import/triangle_mesh.h"
+
+namespace eyrie::import {
+
+/// Reads a scene of the .jdn format, as an exporter of 2002 wrote it: text of lines `Key = values`
+/// with blanks or tabs at will; materials, lights and objects, each section opened by its count.
+///
+/// All objects become one mesh, with the vertices' normals, and the diffuse colours of materials as
+/// vertex colours (as displayed). Textures, transparency and lights are left out. Lines with
+/// unknown keys, and objects without a known material, are counted in TriangleMesh::notes.
+/// `name` is used in messages, which say the line. Errors: InvalidArgument, Cancelled.
+absl::StatusOr<TriangleMesh> parseJdn(std::string_view text, const std::string& name,
+                                      const ImportControl& control = {});
+
+/// Whether a file that starts like this is such a scene.
+bool looksLikeJdn(std::string_view text);
+
+}  // namespace eyrie::import

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/import/mesh_reader.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include <absl/status/status.h>
+#include <fmt/format.h>
+
+#include "fabric/status.h"
+#include "renderer/import/assimp_reader.h"
+#include "renderer/import/jdn_reader.h"
+#include "renderer/import/ply_reader.h"
+#include "renderer/mesh/eym_format.h"
+#include "renderer/mesh/mapped_file.h"
+
+namespace eyrie::import {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr fabric::Rgba kPlain{204, 204, 204, 255};
+
+bool endsWith(const std::string& path, std::string_view ending) {
+    return path.size() >= ending.size() &&
+           std::equal(ending.rbegin(), ending.rend(), path.rbegin(), [](char a, char b) {
+               return a == (b >= 'A' && b <= 'Z' ? b - 'A' + 'a' : b);
+           });
+}
+
+std::string_view textOf(const mesh::MappedFile& file) {
+    const auto bytes = file.bytes();
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+bool looksLikePly(std::string_view text) {
+    return text.starts_with("ply") && text.size() > 3 && (text[3] == '\n' || text[3] == '\r');
+}
+
+/// Adds `part` to `whole`, which has colours and normals as soon as one of them does.
+absl::Status append(TriangleMesh& whole, TriangleMesh part, const std::string& path) {
+    const std::size_t first = whole.positions.size();
+    if (first + part.positions.size() >= std::numeric_limits<std::uint32_t>::max())
+        return absl::InvalidArgumentError(fmt::format(
+            "{}: with it the mesh has more than 2^32 vertices; import the files in parts", path));
+    const std::size_t count = first + part.positions.size();
+    const auto join = [&](auto& to, const auto& from, const auto& otherwise) {
+        if (to.empty() && from.empty())
+            return;
+        to.resize(first, otherwise);
+        to.insert(to.end(), from.begin(), from.end());
+        to.resize(count, otherwise);
+    };
+    join(whole.normals, part.normals, glm::vec3(0));
+    join(whole.colours, part.colours, kPlain);
+    whole.positions.insert(whole.positions.end(), part.positions.begin(), part.positions.end());
+    for (auto triangle : part.triangles) {
+        for (std::uint32_t& corner : triangle) corner += static_cast<std::uint32_t>(first);
+        whole.triangles.push_back(triangle);
+    }
+    whole.droppedFaces += part.droppedFaces;
+    for (const std::string& note : part.notes)
+        whole.notes.push_back(fmt::format("{}: {}", path, note));
+    return absl::OkStatus();
+}
+
+/// Reports a file's progress as a share of that of all.
+ImportControl shareOf(const ImportControl& control, std::size_t file, std::size_t count) {
+    return {[&control, file, count](std::string_view stage, double fraction) {
+                control.report(stage,
+                               (static_cast<double>(file) + fraction) / static_cast<double>(count));
+            },
+            control.stop};
+}
+
+/// Names of files that `text` mentions: the rest of lines that begin with "mtllib", or the values
+/// of "uri" in JSON.
+std::vector<std::string> mentionedFiles(std::string_view text, std::string_view mark,
+                                        std::string_view ends) {
+    std::vector<std::string> names;
+    for (std::size_t at = text.find(mark); at != std::string_view::npos;
+         at = text.find(mark, at + mark.size())) {
+        const std::size_t begin = text.find_first_not_of(" \t:\"", at + mark.size());
+        if (begin == std::string_view::npos)
+            break;
+        const std::size_t end = std::min(text.find_first_of(ends, begin), text.size());
+        if (end - begin < 1024)  // a name, not data
+            names.emplace_back(text.substr(begin, end - begin));
+    }
+    std::sort(names.begin(), names.end());
+    names.erase(std::unique(names.begin(), names.end()), names.end());
+    return names;
+}
+
+absl::StatusOr<std::vector<std::string>> companions(const std::string& path) {
+    const bool isObj = endsWith(path, ".obj");
+    if (!isObj && !endsWith(path, ".gltf"))
+        return std::vector<std::string>();
+    ASSIGN_OR_RETURN(const mesh::MappedFile file, mesh::MappedFile::open(path));
+    std::vector<std::string> found;
+    for (const std::string& name : isObj ? mentionedFiles(textOf(file), "mtllib", "\r\n")
+                                         : mentionedFiles(textOf(file), "\"uri\"", "\"")) {
+        const fs::path companion = fs::path(path).parent_path() / name;
+        std::error_code ignored;
+        if (fs::is_regular_file(companion, ignored))
+            found.push_back(companion.string());
+    }
+    return found;
+}
+
+}  // namespace
+
+bool isMeshSource(const std::string& path) {
+    return endsWith(path, ".ply") || endsWith(path, ".jdn") || findAssimpFormat(path) != nullptr;
+}
+
+std::string meshSourceEndings() {
+    std::string endings = ".ply, .jdn";
+    for (const AssimpFormat& format : assimpFormats())
+        endings += fmt::format(", {}", format.extension);
+    return endings;
+}
+
+absl::StatusOr<TriangleMesh> readMesh(const std::string& path, const ImportControl& control) {
+    if (!isMeshSource(path))
+        return absl::InvalidArgumentError(
+            fmt::format("{}: found the extension '{}', expected one of {}; convert the file", path,
+                        fs::path(path).extension().string(), meshSourceEndings()));
+    ASSIGN_OR_RETURN(const mesh::MappedFile file, mesh::MappedFile::open(path));
+    const std::string_view text = textOf(file);
+    if (looksLikePly(text) || endsWith(path, ".ply"))
+        return parsePly(text, path, control);
+    if (looksLikeJdn(text) || endsWith(path, ".jdn"))
+        return parseJdn(text, path, control);
+    return readWithAssimp(path, control);
+}
+
+absl::StatusOr<TriangleMesh> readMeshes(std::span<const std::string> paths,
+                                        const ImportControl& control) {
+    if (paths.size() == 1)
+        return readMesh(paths.front(), control);
+    TriangleMesh whole;
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        ASSIGN_OR_RETURN(TriangleMesh part, readMesh(paths[i], shareOf(control, i, paths.size())));
+        RETURN_IF_ERROR(append(whole, std::move(part), paths[i]));
+    }
+    return whole;
+}
+
+absl::StatusOr<std::uint64_t> meshSourceHash(std::span<const std::string> paths) {
+    std::uint64_t hash = 0;
+    for (const std::string& path : paths) {
+        ASSIGN_OR_RETURN(const std::uint64_t own, mesh::contentHash(path));
+        hash = hash * 31 + own;
+        ASSIGN_OR_RETURN(const std::vector<std::string> others, companions(path));
+        for (const std::string& other : others) {
+            ASSIGN_OR_RETURN(const std::uint64_t part, mesh::contentHash(other));
+            hash = hash * 31 + part;
+        }
+    }
+    return hash;
+}
+
+}  // namespace eyrie::import

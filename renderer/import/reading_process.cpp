@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/import/reading_process.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstddef>
+#include <cstdlib>
+#include <fstream>
+#include <new>
+#include <span>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <absl/status/status.h>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "fabric/status.h"
+
+namespace eyrie::import {
+namespace {
+
+constexpr std::chrono::milliseconds kLongestPause{32};  // between looks at the stop token
+
+/// A file descriptor that closes itself.
+class Descriptor {
+public:
+    explicit Descriptor(int fd) : fd_(fd) {}
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+    ~Descriptor() {
+        if (fd_ >= 0)
+            close(fd_);
+    }
+    int get() const { return fd_; }
+
+private:
+    int fd_;
+};
+
+// --- What goes from one process to the other: this, then the arrays in the order of the counts.
+// ---
+
+struct ResultHeader {
+    std::int64_t code = 0;  ///< of the status
+    std::uint64_t messageBytes = 0;
+    std::uint64_t noteBytes = 0;  ///< lines
+    std::uint64_t positions = 0;
+    std::uint64_t triangles = 0;
+    std::uint64_t normals = 0;
+    std::uint64_t colours = 0;
+    std::uint64_t droppedFaces = 0;
+};
+
+bool writeAll(int fd, const void* data, std::size_t bytes) {
+    const auto* at = static_cast<const char*>(data);
+    while (bytes > 0) {
+        const ssize_t done = write(fd, at, bytes);
+        if (done < 0 && errno != EINTR)
+            return false;
+        at += done > 0 ? done : 0;
+        bytes -= done > 0 ? static_cast<std::size_t>(done) : 0;
+    }
+    return true;
+}
+
+bool readAll(int fd, void* data, std::size_t bytes) {
+    auto* at = static_cast<char*>(data);
+    while (bytes > 0) {
+        const ssize_t done = read(fd, at, bytes);
+        if (done == 0 || (done < 0 && errno != EINTR))
+            return false;
+        at += done > 0 ? done : 0;
+        bytes -= done > 0 ? static_cast<std::size_t>(done) : 0;
+    }
+    return true;
+}
+
+template <typename Array>
+bool writeArray(int fd, const Array& array) {
+    return writeAll(fd, array.data(), array.size() * sizeof(array[0]));
+}
+
+template <typename Array>
+bool readArray(int fd, Array& array, std::uint64_t count) {
+    array.resize(count);
+    return readAll(fd, array.data(), count * sizeof(array[0]));
+}
+
+bool writeResult(int fd, const absl::StatusOr<TriangleMesh>& result) {
+    ResultHeader header;
+    if (!result.ok()) {
+        const absl::string_view message = result.status().message();
+        header.code = static_cast<int>(result.status().code());
+        header.messageBytes = message.size();
+        return writeAll(fd, &header, sizeof(header)) && writeArray(fd, message);
+    }
+    std::string notes;
+    for (const std::string& note : result->notes) notes += note + '\n';
+    header.noteBytes = notes.size();
+    header.positions = result->positions.size();
+    header.triangles = result->triangles.size();
+    header.normals = result->normals.size();
+    header.colours = result->colours.size();
+    header.droppedFaces = result->droppedFaces;
+    return writeAll(fd, &header, sizeof(header)) && writeArray(fd, notes) &&
+           writeArray(fd, result->positions) && writeArray(fd, result->triangles) &&
+           writeArray(fd, result->normals) && writeArray(fd, result->colours);
+}
+
+/// False when the file is not as long as its header says.
+bool hasItsLength(int fd, const ResultHeader& header) {
+    struct stat status {};
+    __extension__ using Wide = unsigned __int128;
+    const Wide bytes = Wide{sizeof(header)} + header.messageBytes + header.noteBytes +
+                       Wide{header.positions} * sizeof(fabric::Vec3) +
+                       Wide{header.triangles} * sizeof(std::array<std::uint32_t, 3>) +
+                       Wide{header.normals} * sizeof(glm::vec3) +
+                       Wide{header.colours} * sizeof(fabric::Rgba);
+    return fstat(fd, &status) == 0 && bytes == static_cast<Wide>(status.st_size);
+}
+
+/// Nothing where the copy ended without a whole result.
+absl::StatusOr<TriangleMesh> readResult(int fd, bool& isWhole) {
+    ResultHeader header;
+    TriangleMesh mesh;
+    std::string message, notes;
+    isWhole =
+        lseek(fd, 0, SEEK_SET) == 0 && readAll(fd, &header, sizeof(header)) &&
+        hasItsLength(fd, header) && readArray(fd, message, header.messageBytes) &&
+        readArray(fd, notes, header.noteBytes) && readArray(fd, mesh.positions, header.positions) &&
+        readArray(fd, mesh.triangles, header.triangles) &&
+        readArray(fd, mesh.normals, header.normals) && readArray(fd, mesh.colours, header.colours);
+    if (header.code != 0)
+        return absl::Status(static_cast<absl::StatusCode>(header.code), message);
+    mesh.droppedFaces = header.droppedFaces;
+    for (std::size_t begin = 0; begin < notes.size();) {
+        const std::size_t end = notes.find('\n', begin);
+        mesh.notes.push_back(notes.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    return mesh;
+}
+
+// --- The copy ------------------------------------------------------------------------------------
+
+/// Bytes of address space that this process has.
+std::uint64_t addressSpaceBytes() {
+    std::uint64_t pages = 0;
+    std::ifstream("/proc/self/statm") >> pages;
+    return pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+}
+
+void limit(__rlimit_resource resource, std::uint64_t most) {
+    const rlimit both{most, most};
+    setrlimit(resource, &both);
+}
+
+/// Takes on the limits, and lets go of what is this process's.
+void becomeReader(const ReadingLimits& limits) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    for (const int signal : {SIGINT, SIGTERM, SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGXCPU, SIGPIPE})
+        std::signal(signal, SIG_DFL);
+    sigset_t none;
+    sigemptyset(&none);
+    sigprocmask(SIG_SETMASK, &none, nullptr);
+    const Descriptor nowhere(open("/dev/null", O_RDWR | O_CLOEXEC));
+    for (const int fd : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(nowhere.get(), fd);
+    limit(RLIMIT_CORE, 0);
+    limit(RLIMIT_CPU, static_cast<std::uint64_t>(limits.processorTime.count()));
+    limit(RLIMIT_AS, addressSpaceBytes() + limits.memoryBytes);
+}
+
+absl::Status memoryRanOut(const ReadingLimits& limits) {
+    return absl::ResourceExhaustedError(
+        fmt::format("reading takes more than {} MB of memory, far more than a sound file of its "
+                    "size; export it again, or in parts",
+                    limits.memoryBytes >> 20));
+}
+
+[[noreturn]] void runReader(const std::function<absl::StatusOr<TriangleMesh>()>& read,
+                            const ReadingLimits& limits, int result) {
+    becomeReader(limits);
+    bool isWritten = false;
+    try {
+        isWritten = writeResult(result, read());
+    } catch (const std::bad_alloc&) {
+        isWritten = writeResult(result, memoryRanOut(limits));
+    } catch (const std::length_error&) {
+        isWritten = writeResult(result, memoryRanOut(limits));
+    } catch (...) {
+    }
+    _exit(isWritten ? 0 : 1);
+}
+
+// --- The process that waits ----------------------------------------------------------------------
+
+/// Waits for the end of the copy; ends it when a stop is requested. Its wait status.
+int await(pid_t pid, const ImportControl& control) {
+    int status = 0;
+    for (std::chrono::milliseconds pause{1}; waitpid(pid, &status, WNOHANG) != pid;
+         pause = std::min(2 * pause, kLongestPause)) {
+        if (!control.check().ok())
+            kill(pid, SIGKILL);
+        std::this_thread::sleep_for(pause);
+    }
+    return status;
+}
+
+absl::Status whyItEnded(int status, const ReadingLimits& limits) {
+    if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL))
+        return absl::ResourceExhaustedError(
+            fmt::format("reading takes more than {} s, far more than a sound file of its size; "
+                        "export it again, or in parts",
+                        limits.processorTime.count()));
+    return absl::InvalidArgumentError(
+        fmt::format("the library that reads this format failed on it ({}): it is damaged, or has "
+                    "something in it that is not known; export it again, or in another format",
+                    WIFSIGNALED(status) ? fmt::format("signal {}", WTERMSIG(status))
+                                        : fmt::format("exit {}", WEXITSTATUS(status))));
+}
+
+}  // namespace
+
+ReadingLimits ReadingLimits::forFile(std::uint64_t bytes) {
+    constexpr std::uint64_t kMostBytes = 1ULL << 40;
+    ReadingLimits limits;
+    limits.memoryBytes += 64 * std::min(bytes, kMostBytes);
+    limits.processorTime += std::chrono::seconds(std::min(bytes, kMostBytes) / 100'000);
+    return limits;
+}
+
+absl::StatusOr<TriangleMesh> readInOwnProcess(
+    const std::function<absl::StatusOr<TriangleMesh>()>& read, const ReadingLimits& limits,
+    const ImportControl& control) {
+    RETURN_IF_ERROR(control.check());
+    const Descriptor result(memfd_create("eyrie-mesh", MFD_CLOEXEC));
+    if (result.get() < 0)
+        return absl::ResourceExhaustedError("no file in memory can be made; close some files");
+    const pid_t pid = fork();
+    if (pid == 0)
+        runReader(read, limits, result.get());
+    if (pid < 0)
+        return absl::ResourceExhaustedError("no process can be started; end some others");
+    const int status = await(pid, control);
+    RETURN_IF_ERROR(control.check());
+    bool isWhole = false;
+    absl::StatusOr<TriangleMesh> mesh = readResult(result.get(), isWhole);
+    if (!isWhole || !WIFEXITED(status) || WEXITSTATUS(status) != 0)
+        return whyItEnded(status, limits);
+    return mesh;
+}
+
+}  // namespace eyrie::import

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/import/assimp_reader.h"
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <assimp/Exporter.hpp>
+#include <assimp/material.h>
+#include <assimp/mesh.h>
+#include <assimp/scene.h>
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/renderer/import/mesh_text.h"
+#include "tests/renderer/mesh/temporary_folder.h"
+
+namespace eyrie::import {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+/// A tetrahedron with edges of 1, 2 and 3 along x, y and z from (10, 20, 30).
+const std::vector<fabric::Vec3> kCorners = {{10, 20, 30}, {11, 20, 30}, {10, 22, 30}, {10, 20, 33}};
+constexpr unsigned int kFaces[4][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+
+/// The scene that Assimp's own exporters write. It owns all that it points to.
+std::unique_ptr<aiScene> tetrahedron() {
+    auto* mesh = new aiMesh;
+    mesh->mPrimitiveTypes = aiPrimitiveType_TRIANGLE;
+    mesh->mNumVertices = 4;
+    mesh->mVertices = new aiVector3D[4];
+    for (unsigned int i = 0; i < 4; ++i)
+        mesh->mVertices[i] =
+            aiVector3D(static_cast<float>(kCorners[i].x), static_cast<float>(kCorners[i].y),
+                       static_cast<float>(kCorners[i].z));
+    mesh->mNumFaces = 4;
+    mesh->mFaces = new aiFace[4];
+    for (unsigned int i = 0; i < 4; ++i) {
+        mesh->mFaces[i].mNumIndices = 3;
+        mesh->mFaces[i].mIndices = new unsigned int[3];
+        std::copy_n(kFaces[i], 3, mesh->mFaces[i].mIndices);
+    }
+    auto scene = std::make_unique<aiScene>();
+    scene->mMetaData = new aiMetadata;
+    scene->mNumMeshes = 1;
+    scene->mMeshes = new aiMesh* [1] { mesh };
+    scene->mNumMaterials = 1;
+    scene->mMaterials = new aiMaterial* [1] { new aiMaterial };
+    scene->mRootNode = new aiNode("root");
+    scene->mRootNode->mNumMeshes = 1;
+    scene->mRootNode->mMeshes = new unsigned int[1]{0};
+    return scene;
+}
+
+struct Exported {
+    const char* exporter;
+    const char* extension;
+    bool isWrittenAsItIs = false;  ///< not turned for the format's idea of up
+};
+
+class AssimpFormats : public testing::TestWithParam<Exported> {};
+
+TEST_P(AssimpFormats, GiveTheSameSolidUpright) {
+    const test::TemporaryFolder folder;
+    const std::string path = folder.file("t") + GetParam().extension;
+    Assimp::Exporter exporter;
+    ASSERT_EQ(exporter.Export(tetrahedron().get(), GetParam().exporter, path), AI_SUCCESS)
+        << exporter.GetErrorString();
+    const auto mesh = readWithAssimp(path);
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    ASSERT_EQ(mesh->triangles.size(), 4U);
+    const AssimpFormat* format = findAssimpFormat(path);
+    ASSERT_NE(format, nullptr);
+    for (const fabric::Vec3& corner : kCorners) {
+        const fabric::Vec3 upright = format->isYUp && !GetParam().isWrittenAsItIs
+                                         ? fabric::Vec3(corner.x, -corner.z, corner.y)
+                                         : corner;
+        EXPECT_TRUE(
+            std::any_of(mesh->positions.begin(), mesh->positions.end(),
+                        [&](const fabric::Vec3& p) { return glm::distance(p, upright) < 1e-5; }))
+            << corner.x << ' ' << corner.y << ' ' << corner.z;
+    }
+    EXPECT_NEAR(test::signedVolume(*mesh), 1, 1e-4);
+}
+
+INSTANTIATE_TEST_SUITE_P(Exporters, AssimpFormats,
+                         testing::Values(Exported{"obj", ".obj"}, Exported{"stl", ".stl"},
+                                         Exported{"stlb", ".stl"}, Exported{"gltf2", ".gltf"},
+                                         Exported{"glb2", ".glb"}, Exported{"collada", ".dae"},
+                                         Exported{"3ds", ".3ds", true}, Exported{"fbxa", ".fbx"},
+                                         Exported{"x3d", ".x3d"}),
+                         [](const auto& test) { return std::string("As_") + test.param.exporter; });
+
+/// An AC3D file: a red square and a grey triangle at places of their own.
+constexpr const char* kAc3d = R"(AC3Db
+MATERIAL "red" rgb 1 0 0 amb 0 0 0 emis 0 0 0 spec 0 0 0 shi 0 trans 0
+MATERIAL "half" rgb 0.5 0.5 0.5 amb 0 0 0 emis 0 0 0 spec 0 0 0 shi 0 trans 0
+OBJECT world
+kids 2
+OBJECT poly
+loc 1 2 3
+numvert 4
+0 0 0
+1 0 0
+1 0 1
+0 0 1
+numsurf 1
+SURF 0x10
+mat 0
+refs 4
+0 0 0
+1 0 0
+2 0 0
+3 0 0
+kids 0
+OBJECT poly
+loc 10 0 0
+numvert 3
+0 0 0
+1 0 0
+0 1 0
+numsurf 1
+SURF 0x10
+mat 1
+refs 3
+0 0 0
+1 0 0
+2 0 0
+kids 0
+)";
+
+TEST(AssimpReader, PutsObjectsAtTheirPlacesInTheColoursOfTheirMaterials) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.ac"), kAc3d);
+    const auto mesh = readWithAssimp(folder.file("m.ac"));
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    ASSERT_EQ(mesh->triangles.size(), 3U);
+    const std::vector<fabric::Vec3> square = {{1, -3, 2}, {2, -3, 2}, {2, -4, 2}, {1, -4, 2}};
+    const std::vector<fabric::Vec3> triangle = {{10, 0, 0}, {11, 0, 0}, {10, 0, 1}};
+    std::size_t reds = 0;
+    for (std::size_t i = 0; i < mesh->positions.size(); ++i) {
+        const bool isRed = mesh->colours[i] == fabric::Rgba{255, 0, 0, 255};
+        reds += isRed ? 1 : 0;
+        EXPECT_TRUE(isRed || mesh->colours[i] == (fabric::Rgba{128, 128, 128, 255}));
+        EXPECT_THAT(isRed ? square : triangle, testing::Contains(mesh->positions[i]));
+    }
+    EXPECT_EQ(reds, 4U);
+    EXPECT_THAT(mesh->notes, ElementsAre(HasSubstr("'loc'")));
+}
+
+/// Two nodes that show one triangle, the second mirrored and moved; linear red 0.2159 is shown as
+/// 128.
+constexpr const char* kGltf = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],
+"nodes":[{"translation":[1e6,0,0],"children":[1,2]},{"mesh":0},
+{"mesh":0,"scale":[-1,1,1],"translation":[0.25,0,0]}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0},"material":0}]}],
+"materials":[{"pbrMetallicRoughness":{"baseColorFactor":[0.21586,1,0,1]}}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3",
+"min":[0,0,0],"max":[1,1,0]}],"bufferViews":[{"buffer":0,"byteLength":36}],
+"buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,)"
+                              "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}";
+
+TEST(AssimpReader, TakesTransformsInDoublePrecisionAndTurnsMirroredFaces) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.gltf"), kGltf);
+    const auto mesh = readWithAssimp(folder.file("m.gltf"));
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    ASSERT_EQ(mesh->triangles.size(), 2U);
+    for (const auto& [a, b, c] : mesh->triangles) {  // seen from -y, where z of the file points
+        const auto normal = glm::cross(mesh->positions[b] - mesh->positions[a],
+                                       mesh->positions[c] - mesh->positions[a]);
+        EXPECT_EQ(normal, fabric::Vec3(0, -1, 0));
+    }
+    // In float the quarter would be gone: 1e6 has a spacing of 1/16.
+    EXPECT_THAT(mesh->positions, testing::Contains(fabric::Vec3(999999.25, 0, 0)));
+    for (const fabric::Rgba colour : mesh->colours)
+        EXPECT_EQ(colour, (fabric::Rgba{128, 255, 0, 255}));
+}
+
+TEST(AssimpReader, CutsConcavePolygonsWithoutCoveringWhatIsOutside) {
+    const test::TemporaryFolder folder;
+    // An L of area 3 whose fan from the first corner would cover 5.
+    test::writeFile(folder.file("m.obj"),
+                    "v 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nv 0 0 0\nf 1 2 3 4 5 6\n");
+    const auto mesh = readWithAssimp(folder.file("m.obj"));
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    EXPECT_EQ(mesh->triangles.size(), 4U);
+    EXPECT_NEAR(test::area(*mesh), 3, 1e-12);
+}
+
+TEST(AssimpReader, MultipliesVertexColoursAndLeavesBlankOnesOut) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.mtl"), "newmtl half\nKd 0.5 1 1\n");
+    test::writeFile(folder.file("m.obj"),
+                    "mtllib m.mtl\nv 0 0 0 1 0.5 0\nv 1 0 0 1 0.5 0\nv 0 1 0 1 0.5 0\n"
+                    "usemtl half\nf 1 2 3\n");
+    const auto mesh = readWithAssimp(folder.file("m.obj"));
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    ASSERT_FALSE(mesh->colours.empty());
+    EXPECT_EQ(mesh->colours[0], (fabric::Rgba{128, 128, 0, 255}));
+    test::writeFile(folder.file("plain.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    EXPECT_TRUE(readWithAssimp(folder.file("plain.obj"))->colours.empty());
+}
+
+TEST(AssimpReader, TellsMissingFilesFromBadOnes) {
+    const test::TemporaryFolder folder;
+    EXPECT_EQ(readWithAssimp(folder.file("no.obj")).status().code(), absl::StatusCode::kNotFound);
+    test::writeFile(folder.file("m.3ds"), "this is no 3ds file at all");
+    const auto bad = readWithAssimp(folder.file("m.3ds"));
+    EXPECT_EQ(bad.status().code(), absl::StatusCode::kInvalidArgument);
+    EXPECT_THAT(std::string(bad.status().message()), HasSubstr(folder.file("m.3ds")));
+}
+
+}  // namespace
+}  // namespace eyrie::import

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/import/jdn_reader.h"
+
+#include <cmath>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace eyrie::import {
+namespace {
+
+using testing::HasSubstr;
+
+/// Two objects, of which the second has no normals and a material that is not there.
+std::string sample() {
+    return "Number of Materials = 1\n"
+           "Material Name = roof\n"
+           "Ambient = 0.05 0.05 0.06\n"
+           "Diffuse =\t0.6 0.5  1.5\n"
+           "Specular = 0.9 0.9 0.9\n"
+           "Shine = 0.25\nShine Strength = 0.05\nTransparency = 0\n"
+           "Material ID = 7\n"
+           "Map Path = textures\\roof.jpg\n"
+           "Number of Lights = 1\n"
+           "Pos = -54 455 0\nDirection = 0 0 0\nColour = 1 1 1\nIntensity = 1\nFall = 45\nType = "
+           "2\n"
+           "Number of Objects = 2\n"
+           "Material ID = 7\n"
+           "Num   Vertices = 4\r\nNum Faces = 2\nNum textured vertices = 1\n"
+           "Vert = 44.9 92.9 0\nVert = 1 0 0\nVert=0 1 0\nVert = 0 0 1e0\n"
+           "Face = 0 1 2\nFace = 0 2 3\n"
+           "Textured Vert = 0 0 0\nTextured Face = 0 0 0\nTextured Face = 0 0 0\n"
+           "Face Normal = 0 0 1\nFace Normal = 0 0 1\n"
+           "Vert Normal = 0 0 1\nVert Normal = 0 0 1\nVert Normal = 0 0 1\nVert Normal = 0 0 1\n"
+           "Wind = strong\n"
+           "Material ID = 8\n"
+           "Num Vertices = 3\nNum Faces = 1\nNum textured vertices = 0\n"
+           "Vert = 5 0 0\nVert = 6 0 0\nVert = 5 1 0\nFace = 2 1 0\n";
+}
+
+std::string messageOf(const std::string& text) {
+    const auto mesh = parseJdn(text, "s.jdn");
+    EXPECT_EQ(mesh.status().code(), absl::StatusCode::kInvalidArgument);
+    return std::string(mesh.status().message());
+}
+
+std::string with(const std::string& old, const std::string& now) {
+    std::string text = sample();
+    EXPECT_NE(text.find(old), std::string::npos);
+    return text.replace(text.find(old), old.size(), now);
+}
+
+TEST(JdnReader, JoinsObjectsAndGivesThemTheirMaterials) {
+    const auto mesh = parseJdn(sample(), "s.jdn");
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    EXPECT_EQ(mesh->positions.size(), 7U);
+    EXPECT_EQ(mesh->positions[0], fabric::Vec3(44.9, 92.9, 0));
+    const std::array<std::uint32_t, 3> last = {6, 5, 4};
+    ASSERT_EQ(mesh->triangles.size(), 3U);
+    EXPECT_EQ(mesh->triangles[2], last);
+    EXPECT_EQ(mesh->colours[0], (fabric::Rgba{153, 128, 255, 255}));
+    EXPECT_EQ(mesh->colours[4], (fabric::Rgba{204, 204, 204, 255}));
+    EXPECT_EQ(mesh->normals[3], glm::vec3(0, 0, 1));
+    EXPECT_EQ(mesh->normals[4], glm::vec3(0));
+}
+
+TEST(JdnReader, CountsWhatItDoesNotKnow) {
+    const auto mesh = parseJdn(sample(), "s.jdn");
+    ASSERT_TRUE(mesh.ok());
+    EXPECT_THAT(mesh->notes, testing::ElementsAre(HasSubstr("1 lines with unknown keys, the first "
+                                                            "'Wind' in line 38"),
+                                                  HasSubstr("1 objects have a material")));
+}
+
+TEST(JdnReader, KnowsItsKindByTheFirstLine) {
+    EXPECT_TRUE(looksLikeJdn(sample()));
+    EXPECT_TRUE(looksLikeJdn("  Number  of Materials=3"));
+    EXPECT_FALSE(looksLikeJdn("ply\nformat ascii 1.0\n"));
+    EXPECT_FALSE(looksLikeJdn(""));
+}
+
+struct Damage {
+    const char* name;
+    const char* old;
+    const char* now;
+    const char* says;
+};
+
+class JdnDamage : public testing::TestWithParam<Damage> {};
+
+TEST_P(JdnDamage, IsNamedWithItsLine) {
+    EXPECT_THAT(messageOf(with(GetParam().old, GetParam().now)),
+                testing::AllOf(HasSubstr("s.jdn"), HasSubstr(GetParam().says)));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Kinds, JdnDamage,
+    testing::Values(
+        Damage{"NegativeCorner", "Face = 0 1 2", "Face = 0 -1 2", "line 27, Face: found -1"},
+        Damage{"HugeCorner", "Face = 0 1 2", "Face = 0 2147483647 2", "found 2147483647"},
+        Damage{"TwoCorners", "Face = 0 1 2", "Face = 0 1", "three vertices"},
+        Damage{"FourCorners", "Face = 0 1 2", "Face = 0 1 2 3", "three vertices"},
+        Damage{"NotANumber", "Vert = 1 0 0", "Vert = 1 nan 0", "line 24, Vert: found '1 nan 0'"},
+        Damage{"Infinite", "Vert = 1 0 0", "Vert = 1 1e999 0", "finite"},
+        Damage{"Words", "Vert = 1 0 0", "Vert = one 0 0", "'one 0 0'"},
+        Damage{"MissingVertex", "Vert = 1 0 0\n", "", "found 3 lines Vert, expected 4"},
+        Damage{"MissingFace", "Face = 0 2 3\n", "", "found 1 lines Face, expected 2"},
+        Damage{"MissingNormal", "Vert Normal = 0 0 1\n", "", "found 3 lines Vert Normal"},
+        Damage{"ThreeBillionVertices", "Vertices = 4", "Vertices = 3000000000",
+               "found 3000000000, expected at most"},
+        Damage{"NegativeCount", "Vertices = 4", "Vertices = -4", "a count"},
+        Damage{"MissingObject", "Objects = 2", "Objects = 3", "found 2 objects, expected 3"},
+        Damage{"MissingMaterial", "Materials = 1", "Materials = 2", "1 materials, expected 2"},
+        Damage{"FacesBeforeVertices", "Num   Vertices = 4\r\n", "", "before Num Vertices"}),
+    [](const auto& test) { return test.param.name; });
+
+TEST(JdnReader, RefusesWhatHasNoObject) {
+    EXPECT_THAT(messageOf(""), HasSubstr("found 0 objects"));
+    EXPECT_THAT(messageOf("ply\nformat ascii 1.0"), HasSubstr("found 0 objects"));
+    EXPECT_THAT(messageOf("Number of Materials = 0\nNumber of Objects = 1\nMaterial ID = 0\n"
+                          "Num Vertices = 0\nNum Faces = 0\n"),
+                HasSubstr("no face"));
+}
+
+TEST(JdnReader, KeepsItsPromiseWhateverByteIsDamaged) {
+    const std::string text = sample();
+    for (std::size_t i = 0; i < text.size(); ++i)
+        for (const char c : {'\0', '\xFF', '9', '-', '=', '\n', ' '}) {
+            std::string damaged = text;
+            damaged[i] = c;
+            const auto mesh = parseJdn(damaged, "d.jdn");
+            if (!mesh.ok()) {
+                EXPECT_THAT(std::string(mesh.status().message()), HasSubstr("expected")) << i;
+                continue;
+            }
+            EXPECT_TRUE(mesh->normals.empty() || mesh->normals.size() == mesh->positions.size());
+            EXPECT_TRUE(mesh->colours.empty() || mesh->colours.size() == mesh->positions.size());
+            for (const auto& triangle : mesh->triangles)
+                for (const std::uint32_t corner : triangle)
+                    EXPECT_LT(corner, mesh->positions.size()) << i;
+        }
+}
+
+TEST(JdnReader, StopsWhenCalledOff) {
+    std::stop_source stop;
+    stop.request_stop();
+    EXPECT_EQ(parseJdn(sample(), "s.jdn", {{}, stop.get_token()}).status().code(),
+              absl::StatusCode::kCancelled);
+}
+
+}  // namespace
+}  // namespace eyrie::import

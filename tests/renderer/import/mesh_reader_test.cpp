@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/import/mesh_reader.h"
+
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "renderer/mesh/eym_format.h"
+#include "tests/renderer/import/ply_text.h"
+#include "tests/renderer/mesh/temporary_folder.h"
+
+namespace eyrie::import {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr const char* kObj = "mtllib m.mtl\nv 5 0 0\nv 6 0 0\nv 5 1 0\nusemtl red\nf 1 2 3\n";
+constexpr const char* kMtl = "newmtl red\nKd 1 0 0\n";
+constexpr const char* kJdn =
+    "Number of Materials = 0\nNumber of Objects = 1\nMaterial ID = 0\nNum Vertices = 3\n"
+    "Num Faces = 1\nVert = 0 0 0\nVert = 1 0 0\nVert = 0 1 0\nFace = 0 1 2\n";
+
+TEST(MeshReader, JoinsFilesOfDifferentFormatsInTheirOrder) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("a.ply"),
+                    test::plyOf(test::tetrahedron(), test::Encoding::LittleEndian));
+    test::writeFile(folder.file("b.OBJ"), kObj);
+    test::writeFile(folder.file("m.mtl"), kMtl);
+    test::writeFile(folder.file("c.jdn"), kJdn);
+    const std::vector<std::string> paths = {folder.file("a.ply"), folder.file("b.OBJ"),
+                                            folder.file("c.jdn")};
+    const auto mesh = readMeshes(paths);
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    ASSERT_EQ(mesh->triangles.size(), 6U);
+    ASSERT_EQ(mesh->colours.size(), mesh->positions.size());
+    const auto& [a, b, c] = mesh->triangles[4];
+    EXPECT_EQ(mesh->positions[a], fabric::Vec3(5, 0, 0));
+    EXPECT_EQ(mesh->colours[a], (fabric::Rgba{255, 0, 0, 255}));
+    EXPECT_EQ(mesh->colours[0], (fabric::Rgba{204, 204, 204, 255}));
+    EXPECT_EQ(mesh->positions[mesh->triangles[5][1]], fabric::Vec3(1, 0, 0));
+    EXPECT_TRUE(mesh->notes.size() == 1 && mesh->notes[0].starts_with(paths[2]));
+}
+
+TEST(MeshReader, BelievesTheContentMoreThanTheName) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("ply.stl"),
+                    test::plyOf(test::tetrahedron(), test::Encoding::Ascii));
+    test::writeFile(folder.file("jdn.obj"), kJdn);
+    EXPECT_EQ(readMesh(folder.file("ply.stl"))->triangles.size(), 4U);
+    EXPECT_EQ(readMesh(folder.file("jdn.obj"))->triangles.size(), 1U);
+}
+
+TEST(MeshReader, NamesTheFileThatCannotBeRead) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("a.ply"), test::plyOf(test::tetrahedron(), test::Encoding::Ascii));
+    test::writeFile(folder.file("b.obj"), "nothing\n");
+    const std::vector<std::string> paths = {folder.file("a.ply"), folder.file("b.obj")};
+    const auto mesh = readMeshes(paths);
+    EXPECT_EQ(mesh.status().code(), absl::StatusCode::kInvalidArgument);
+    EXPECT_THAT(std::string(mesh.status().message()), HasSubstr("b.obj"));
+}
+
+TEST(MeshReader, ReadsAnObjWithoutItsMaterials) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.obj"), kObj);
+    const auto mesh = readMesh(folder.file("m.obj"));
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    EXPECT_EQ(mesh->triangles.size(), 1U);
+}
+
+TEST(MeshSourceHash, IsThatOfALoneFileAndCountsItsCompany) {
+    const test::TemporaryFolder folder;
+    const std::string path = folder.file("m.obj");
+    test::writeFile(path, kObj);
+    const std::vector<std::string> paths = {path};
+    const auto alone = meshSourceHash(paths);
+    ASSERT_TRUE(alone.ok()) << alone.status();
+    EXPECT_EQ(*alone, *mesh::contentHash(path));
+    test::writeFile(folder.file("m.mtl"), kMtl);
+    const std::uint64_t red = *meshSourceHash(paths);
+    test::writeFile(folder.file("m.mtl"), "newmtl red\nKd 0 1 0\n");
+    const std::uint64_t green = *meshSourceHash(paths);
+    EXPECT_TRUE(red != *alone && green != *alone && red != green);
+}
+
+TEST(MeshSourceHash, CountsBuffersOfGltf) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.gltf"), R"({"buffers": [{"uri" : "m.bin"}]})");
+    const std::vector<std::string> paths = {folder.file("m.gltf")};
+    test::writeFile(folder.file("m.bin"), "a");
+    const std::uint64_t before = *meshSourceHash(paths);
+    test::writeFile(folder.file("m.bin"), "b");
+    EXPECT_NE(before, *meshSourceHash(paths));
+}
+
+TEST(MeshSource, IsToldByItsName) {
+    for (const char* name : {"a.ply", "a.PLY", "a.jdn", "a.Obj", "x/a.glb", "a.acc", "a.IFC"})
+        EXPECT_TRUE(isMeshSource(name)) << name;
+    for (const char* name : {"a.tif", "a", "ply", "a.ply.gz", "a.ter", "a.obj/x"})
+        EXPECT_FALSE(isMeshSource(name)) << name;
+    EXPECT_THAT(meshSourceEndings(), HasSubstr(".glb"));
+}
+
+}  // namespace
+}  // namespace eyrie::import
