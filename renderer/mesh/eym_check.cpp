@@ -149,6 +149,9 @@ absl::Status NodeCheck::checkArrays(std::uint32_t index) const {
             fmt::format("node {}: firstIndex and indexCount", index),
             fmt::format("{} and {}", node.firstIndex, node.indexCount),
             fmt::format("multiples of 4 and 3, inside the file's {}", header_.indexCount));
+    if (node.frontIndexCount % 3 != 0 || node.frontIndexCount > node.indexCount)
+        return damaged(fmt::format("node {}: frontIndexCount", index), node.frontIndexCount,
+                       fmt::format("a multiple of 3, at most {}", node.indexCount));
     if (node.isLeaf() && node.indexCount != 3 * (node.triangleEnd - node.triangleBegin))
         return damaged(fmt::format("node {}: indexCount", index), node.indexCount,
                        fmt::format("three for each of its {} triangles",

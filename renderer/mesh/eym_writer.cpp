@@ -10,6 +10,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "fabric/status.h"
+#include "renderer/mesh/back_faces.h"
 #include "renderer/mesh/eym_format.h"
 #include "renderer/mesh/node_geometry.h"
 
@@ -37,14 +38,26 @@ std::vector<Triangle> trianglesOf(const PackedMesh& mesh, const KdTree& tree, co
     return triangles;
 }
 
+/// Those that show their backs to nobody come first.
+PackedNode gatherNode(const PackedMesh& mesh, std::vector<Triangle> triangles,
+                      const Pockets& pockets, double errorSteps) {
+    const auto others =
+        std::stable_partition(triangles.begin(), triangles.end(), [&](const Triangle& triangle) {
+            return !pockets.reach(boxOf(mesh, triangle), errorSteps);
+        });
+    return gatherNode(mesh, {triangles.begin(), others}, {others, triangles.end()});
+}
+
 std::vector<PackedNode> gatherNodes(const PackedMesh& mesh, const KdTree& tree, const LodTree& lod,
                                     const std::stop_token& stop) {
     std::vector<PackedNode> nodes(tree.nodes.size());
+    const std::vector<Pockets> pockets = findPockets(mesh, tree);
     oneapi::tbb::parallel_for(std::size_t{0}, tree.nodes.size(), [&](std::size_t i) {
         const KdNode& node = tree.nodes[i];
         if (!stop.stop_requested())
             nodes[i] =
-                gatherNode(mesh, node.isLeaf() ? trianglesOf(mesh, tree, node) : lod.geometry[i]);
+                gatherNode(mesh, node.isLeaf() ? trianglesOf(mesh, tree, node) : lod.geometry[i],
+                           pockets[i], lod.errorMetres[i] / mesh.lattice.stepMetres);
     });
     return nodes;
 }
@@ -68,6 +81,7 @@ std::vector<Node> layOutNodes(const KdTree& tree, const LodTree& lod,
         node.vertexCount = static_cast<std::uint32_t>(packed[i].positions.size());
         node.indexCount = static_cast<std::uint32_t>(packed[i].indices.size());
         node.errorMetres = roundedUp(lod.errorMetres[i]);
+        node.frontIndexCount = packed[i].frontIndexCount;
         node.checksum = geometryChecksum(
             {packed[i].positions, packed[i].normals, packed[i].colours, packed[i].indices});
         vertices += node.vertexCount;

@@ -72,22 +72,26 @@ private:
 
 }  // namespace
 
-PackedNode gatherNode(const PackedMesh& mesh, std::span<const Triangle> triangles) {
+PackedNode gatherNode(const PackedMesh& mesh, std::span<const Triangle> fronts,
+                      std::span<const Triangle> others) {
     PackedNode node;
-    node.indices.reserve(triangles.size() * 3);
-    LocalIndices local(triangles.size() * 3);
-    for (const Triangle& triangle : alongMortonCurve(mesh, triangles)) {
-        for (const std::uint32_t vertex : triangle) {
-            const auto [index, isNew] = local.number(vertex);
-            node.indices.push_back(index);
-            if (!isNew)
-                continue;
-            node.positions.push_back(mesh.positions[vertex]);
-            node.normals.push_back(mesh.normals[vertex]);
-            if (!mesh.colours.empty())
-                node.colours.push_back(mesh.colours[vertex]);
-        }
-    }
+    const std::size_t corners = (fronts.size() + others.size()) * 3;
+    node.indices.reserve(corners);
+    node.frontIndexCount = static_cast<std::uint32_t>(fronts.size() * 3);
+    LocalIndices local(corners);
+    const auto add = [&](std::uint32_t vertex) {
+        const auto [index, isNew] = local.number(vertex);
+        node.indices.push_back(index);
+        if (!isNew)
+            return;
+        node.positions.push_back(mesh.positions[vertex]);
+        node.normals.push_back(mesh.normals[vertex]);
+        if (!mesh.colours.empty())
+            node.colours.push_back(mesh.colours[vertex]);
+    };
+    for (const std::span<const Triangle> part : {fronts, others})
+        for (const Triangle& triangle : alongMortonCurve(mesh, part))
+            for (const std::uint32_t vertex : triangle) add(vertex);
     return node;
 }
 
