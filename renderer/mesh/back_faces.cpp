@@ -160,51 +160,61 @@ std::optional<Columns> Columns::sort(const PackedMesh& mesh) {
     return columns;
 }
 
-/// Where the line along z through `at` crosses a triangle.
-struct Crossing {
-    int sign = 0;  ///< 1 upwards out of its front, -1 into it; 0: it does not
-    double z = 0;
+/// A triangle of a column, seen along z.
+struct Standing {
+    explicit Standing(const Corners& its)
+        : corners(its),
+          low(glm::min(glm::min(its[0], its[1]), its[2])),
+          high(glm::max(glm::max(its[0], its[1]), its[2])) {}
+
+    Corners corners;
+    glm::ivec3 low;
+    glm::ivec3 high;
 };
 
-/// `at` counts in thirds of a step. On an edge or a corner the line belongs to one of the triangles
-/// there, so that a closed mesh winds it a whole number of times. Exact but for z.
-Crossing crossing(const Corners& corners, const glm::ivec3& at) {
+/// Whether the line along z through `at`, in thirds of a step, crosses a triangle above `z`: 1
+/// upwards out of its front, -1 into it, 0 if it does not. On an edge or a corner the line belongs
+/// to one of the triangles there, so that a closed mesh winds it a whole number of times. Exact but
+/// for z.
+int crossingAbove(const Standing& triangle, const glm::ivec3& at, double z) {
+    if (at.x < 3 * triangle.low.x || at.x > 3 * triangle.high.x || at.y < 3 * triangle.low.y ||
+        at.y > 3 * triangle.high.y || triangle.high.z <= z)
+        return 0;
     std::array<std::int64_t, 3> x, y;
     for (std::size_t i = 0; i < 3; ++i) {
-        x[i] = std::int64_t{3} * corners[i].x - at.x;
-        y[i] = std::int64_t{3} * corners[i].y - at.y;
+        x[i] = std::int64_t{3} * triangle.corners[i].x - at.x;
+        y[i] = std::int64_t{3} * triangle.corners[i].y - at.y;
     }
-    Crossing result;
+    int sign = 0;
     double sum = 0;
+    double crossing = 0;
     for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t j = (i + 1) % 3;
         const std::int64_t side = x[i] * y[j] - x[j] * y[i];
         if (y[i] <= 0 && y[j] > 0)
-            result.sign += side > 0 ? 1 : 0;
+            sign += side > 0 ? 1 : 0;
         else if (y[j] <= 0 && y[i] > 0)
-            result.sign -= side < 0 ? 1 : 0;
+            sign -= side < 0 ? 1 : 0;
         sum += static_cast<double>(side);
-        result.z += static_cast<double>(side) * corners[(i + 2) % 3].z;
+        crossing += static_cast<double>(side) * triangle.corners[(i + 2) % 3].z;
     }
-    result.z /= sum;
-    return result;
+    return sign != 0 && crossing / sum > z ? sign : 0;
 }
 
 /// Adds those whose middle is in the column.
 void Columns::look(std::size_t column, std::vector<std::uint32_t>& found) const {
-    std::vector<Corners> all;
+    std::vector<Standing> all;
+    all.reserve(first_[column + 1] - first_[column]);
     for (std::uint64_t i = first_[column]; i < first_[column + 1]; ++i)
-        all.push_back(cornersOf(mesh_, mesh_.triangles[triangles_[i]]));
+        all.emplace_back(cornersOf(mesh_, mesh_.triangles[triangles_[i]]));
     for (std::size_t i = 0; i < all.size(); ++i) {
-        const glm::ivec3 middle = all[i][0] + all[i][1] + all[i][2];  // in thirds of a step
+        const Corners& own = all[i].corners;
+        const glm::ivec3 middle = own[0] + own[1] + own[2];  // in thirds of a step
         if (columnOf(middle.x / 3, middle.y / 3) != column)
             continue;
-        const double z = middle.z / 3.0 + (areaAlongZ(all[i]) > 0 ? kBefore : -kBefore);
+        const double z = middle.z / 3.0 + (areaAlongZ(own) > 0 ? kBefore : -kBefore);
         int winding = 0;
-        for (const Corners& other : all) {
-            const Crossing there = crossing(other, middle);
-            winding += there.sign != 0 && there.z > z ? there.sign : 0;
-        }
+        for (const Standing& other : all) winding += crossingAbove(other, middle, z);
         if (winding < 0)
             found.push_back(triangles_[first_[column] + i]);
     }
