@@ -61,8 +61,8 @@ private:
     void defineVertexFormat();
     void visit(std::uint32_t index, bool errorKnown, const lod::ObjectView& view, double tauPixels,
                Cut& cut);
-    void setFaces(const FrameState& frame) const;
-    void drawNode(const DeviceNode& node) const;
+    bool mayHideBacks(const FrameState& frame) const;
+    void drawNode(const DeviceNode& node, GLsizei fronts) const;
 
     MeshPrograms& programs_;
     fabric::Mat4 worldFromObject_;
@@ -113,26 +113,42 @@ void MeshDrawable::visit(std::uint32_t index, bool errorKnown, const lod::Object
     visit(static_cast<std::uint32_t>(node.right), errorKnown, view, tauPixels, cut);
 }
 
-/// From inside its bounds a surface may well be seen from behind, and lines have no sides.
-void MeshDrawable::setFaces(const FrameState& frame) const {
+/// From inside its bounds a surface may well be seen from behind, as may what the near plane cuts
+/// open; and lines have no sides.
+bool MeshDrawable::mayHideBacks(const FrameState& frame) const {
+    if (frame.shading == fabric::Shading::Wireframe)
+        return false;
     const fabric::Vec3 eye(glm::inverse(worldFromObject_) * fabric::Vec4(frame.view.eye, 1.0));
-    const bool isInside = bounds().grownBy(0.01 * glm::length(bounds().size())).contains(eye);
-    if (!singleSided_ || isInside || frame.shading == fabric::Shading::Wireframe) {
-        glDisable(GL_CULL_FACE);
-        return;
-    }
-    glEnable(GL_CULL_FACE);
-    glFrontFace(glm::determinant(fabric::Mat3(worldFromObject_)) < 0 ? GL_CW : GL_CCW);
+    if (bounds().grownBy(0.01 * glm::length(bounds().size())).contains(eye))
+        return false;
+    const fabric::Box box = fabric::transformed(
+        bounds(), lod::ObjectView(frame.view, worldFromObject_).viewFromObject());
+    const fabric::Vec3 nearest = glm::clamp(fabric::Vec3(0.0), box.min, box.max);
+    const fabric::Frustum& frustum = frame.view.frustum;
+    const double x = std::max(std::abs(frustum.left), std::abs(frustum.right));
+    const double y = std::max(std::abs(frustum.bottom), std::abs(frustum.top));
+    return glm::length(nearest) > fabric::kNearMetres * std::sqrt(1 + x * x + y * y);
 }
 
-void MeshDrawable::drawNode(const DeviceNode& node) const {
+/// Without the backs of its first `fronts` indices.
+void MeshDrawable::drawNode(const DeviceNode& node, GLsizei fronts) const {
     Program::kPackedPosition.source(vertexArray_, node.buffer, 0);
     Program::kPackedNormal.source(vertexArray_, node.buffer, node.normalOffset);
     if (file_.hasColours())
         Program::kPackedColour.source(vertexArray_, node.buffer, node.colourOffset);
     glVertexArrayElementBuffer(vertexArray_.id(), node.buffer.id());
-    glDrawElements(GL_TRIANGLES, node.indexCount, GL_UNSIGNED_SHORT,
-                   reinterpret_cast<const void*>(node.indexOffset));
+    const auto draw = [&node](GLsizei first, GLsizei count) {
+        glDrawElements(GL_TRIANGLES, count, GL_UNSIGNED_SHORT,
+                       reinterpret_cast<const void*>(
+                           node.indexOffset + first * static_cast<GLsizei>(sizeof(std::uint16_t))));
+    };
+    if (fronts > 0) {
+        glEnable(GL_CULL_FACE);
+        draw(0, fronts);
+        glDisable(GL_CULL_FACE);
+    }
+    if (fronts < node.indexCount)
+        draw(fronts, node.indexCount - fronts);
 }
 
 absl::Status MeshDrawable::draw(std::span<const Piece> pieces, const FrameState& frame,
@@ -142,15 +158,18 @@ absl::Status MeshDrawable::draw(std::span<const Piece> pieces, const FrameState&
     ASSIGN_OR_RETURN(const Program* program, programs_.find(variant));
     program->use();
     setObject(*program, frame, worldFromObject_, objectFromLattice_);
-    setFaces(frame);
+    const bool mayHideBacks = this->mayHideBacks(frame);
+    glFrontFace(glm::determinant(fabric::Mat3(worldFromObject_)) < 0 ? GL_CW : GL_CCW);
     glBindVertexArray(vertexArray_.id());
     glVertexAttribI4ui(Program::kPackedColour.location, uniformColour_, 0, 0, 0);
     for (const Piece& piece : pieces) {
         ASSIGN_OR_RETURN(const DeviceNode* node, paging_.node(piece.index, statistics));
-        drawNode(*node);
+        const GLsizei fronts =
+            singleSided_ ? node->indexCount
+                         : static_cast<GLsizei>(file_.nodes()[piece.index].frontIndexCount);
+        drawNode(*node, mayHideBacks ? fronts : 0);
         statistics.triangles += static_cast<std::uint64_t>(node->indexCount) / 3;
     }
-    glDisable(GL_CULL_FACE);
     return absl::OkStatus();
 }
 

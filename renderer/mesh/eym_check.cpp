@@ -135,6 +135,9 @@ absl::Status NodeCheck::checkGeometry(std::uint32_t index) const {
                        fmt::format("{} and {}", node.vertexCount, node.indexCount),
                        fmt::format("at most {} and {}, each vertex used", kMaxLeafVertices,
                                    3 * kMaxNodeTriangles));
+    if (node.frontIndexCount % 3 != 0 || node.frontIndexCount > node.indexCount)
+        return damaged(fmt::format("node {}: frontIndexCount", index), node.frontIndexCount,
+                       fmt::format("a multiple of 3, at most {}", node.indexCount));
     if (node.indexCount == 0)
         return absl::OkStatus();
     RETURN_IF_ERROR(checkPage(index, "page", node.pageOffset, node.pageBytes));

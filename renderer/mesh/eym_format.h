@@ -91,7 +91,9 @@ struct Node {
     /// Upper bound on the distance between the source surface and what is drawn for this node: its
     /// own geometry or, where it has none, its children. Never below its children's.
     float errorMetres = 0;
-    std::uint32_t reserved = 0;
+    /// The first indices, three a triangle, of triangles of which an eye outside the mesh's bounds
+    /// sees no backs (back_faces.h): these need not be drawn.
+    std::uint32_t frontIndexCount = 0;
 
     bool isLeaf() const { return left < 0; }
     bool operator==(const Node&) const = default;

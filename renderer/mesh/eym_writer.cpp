@@ -10,6 +10,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "fabric/status.h"
+#include "renderer/mesh/back_faces.h"
 #include "renderer/mesh/codec/page_codec.h"
 #include "renderer/mesh/eym_format.h"
 #include "renderer/mesh/node_geometry.h"
@@ -40,11 +41,22 @@ struct Pages {
     std::vector<std::byte> page;
     std::vector<std::byte> exact;
     std::uint64_t blockChecksum = 0;
+    std::uint32_t frontIndexCount = 0;
 };
 
 NodeShape shapeOf(const PackedNode& node) {
     return {static_cast<std::uint32_t>(node.positions.size()),
             static_cast<std::uint32_t>(node.indices.size()), !node.colours.empty()};
+}
+
+/// Those that show their backs to nobody come first.
+PackedNode gatherNode(const PackedMesh& mesh, std::vector<Triangle> triangles,
+                      const Pockets& pockets, double errorSteps) {
+    const auto others =
+        std::stable_partition(triangles.begin(), triangles.end(), [&](const Triangle& triangle) {
+            return !pockets.reach(boxOf(mesh, triangle), errorSteps);
+        });
+    return gatherNode(mesh, {triangles.begin(), others}, {others, triangles.end()});
 }
 
 /// As node_block.h has it.
@@ -66,6 +78,7 @@ public:
           tree_(tree),
           lod_(lod),
           isCoded_(isCoded),
+          pockets_(findPockets(mesh, tree)),
           exactForm_(exactFormOf(mesh.exact)) {}
 
     ExactForm exactForm() const { return exactForm_; }
@@ -73,9 +86,11 @@ public:
     Pages make(std::size_t index) const {
         const KdNode& node = tree_.nodes[index];
         const PackedNode packed = gatherNode(
-            mesh_, node.isLeaf() ? trianglesOf(mesh_, tree_, node) : lod_.geometry[index]);
+            mesh_, node.isLeaf() ? trianglesOf(mesh_, tree_, node) : lod_.geometry[index],
+            pockets_[index], lod_.errorMetres[index] / mesh_.lattice.stepMetres);
         Pages pages;
         pages.shape = shapeOf(packed);
+        pages.frontIndexCount = packed.frontIndexCount;
         if (packed.indices.empty())
             return pages;
         pages.page = blockOf(packed);
@@ -93,6 +108,7 @@ private:
     const KdTree& tree_;
     const LodTree& lod_;
     bool isCoded_;
+    std::vector<Pockets> pockets_;
     ExactForm exactForm_;
 };
 
@@ -134,6 +150,7 @@ std::vector<Node> layOutNodes(const KdTree& tree, const LodTree& lod,
         node.vertexCount = pages[i].shape.vertexCount;
         node.indexCount = pages[i].shape.indexCount;
         node.errorMetres = roundedUp(lod.errorMetres[i]);
+        node.frontIndexCount = pages[i].frontIndexCount;
         if (node.indexCount == 0)
             continue;
         place(pages[i].page, node.pageOffset, node.pageBytes, node.pageChecksum);

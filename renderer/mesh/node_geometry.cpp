@@ -94,24 +94,28 @@ void turnToSharedEdges(std::vector<std::uint16_t>& indices) {
 
 }  // namespace
 
-PackedNode gatherNode(const PackedMesh& mesh, std::span<const Triangle> triangles) {
+PackedNode gatherNode(const PackedMesh& mesh, std::span<const Triangle> fronts,
+                      std::span<const Triangle> others) {
     PackedNode node;
-    node.indices.reserve(triangles.size() * 3);
-    LocalIndices local(triangles.size() * 3);
-    for (const Triangle& triangle : alongMortonCurve(mesh, triangles)) {
-        for (const std::uint32_t vertex : triangle) {
-            const auto [index, isNew] = local.number(vertex);
-            node.indices.push_back(index);
-            if (!isNew)
-                continue;
-            node.positions.push_back(mesh.positions[vertex]);
-            node.normals.push_back(mesh.normals[vertex]);
-            if (!mesh.colours.empty())
-                node.colours.push_back(mesh.colours[vertex]);
-            if (!mesh.exact.empty())
-                node.exact.push_back(mesh.exact[vertex]);
-        }
-    }
+    const std::size_t corners = (fronts.size() + others.size()) * 3;
+    node.indices.reserve(corners);
+    node.frontIndexCount = static_cast<std::uint32_t>(fronts.size() * 3);
+    LocalIndices local(corners);
+    const auto add = [&](std::uint32_t vertex) {
+        const auto [index, isNew] = local.number(vertex);
+        node.indices.push_back(index);
+        if (!isNew)
+            return;
+        node.positions.push_back(mesh.positions[vertex]);
+        node.normals.push_back(mesh.normals[vertex]);
+        if (!mesh.colours.empty())
+            node.colours.push_back(mesh.colours[vertex]);
+        if (!mesh.exact.empty())
+            node.exact.push_back(mesh.exact[vertex]);
+    };
+    for (const std::span<const Triangle> part : {fronts, others})
+        for (const Triangle& triangle : alongMortonCurve(mesh, part))
+            for (const std::uint32_t vertex : triangle) add(vertex);
     turnToSharedEdges(node.indices);
     return node;
 }

@@ -17,12 +17,15 @@ struct PackedNode {
     std::vector<std::uint32_t> colours;
     std::vector<std::uint16_t> indices;
     std::vector<fabric::Vec3> exact;
+    std::uint32_t frontIndexCount = 0;  ///< those of `fronts`, which come first
 };
 
-/// Gathers `triangles`, of the mesh's vertices, along a Morton curve through their centroids,
-/// vertices in the order of first use: neighbours in space lie close in memory.
+/// Gathers triangles of the mesh's vertices, those of `fronts` before those of `others`, either
+/// along a Morton curve through their centroids, vertices in the order of first use: neighbours in
+/// space lie close in memory.
 /// Precondition: at most kMaxLeafVertices unique vertices.
 /// G. M. Morton, "A Computer Oriented Geodetic Data Base", 1966.
-PackedNode gatherNode(const PackedMesh& mesh, std::span<const Triangle> triangles);
+PackedNode gatherNode(const PackedMesh& mesh, std::span<const Triangle> fronts,
+                      std::span<const Triangle> others = {});
 
 }  // namespace eyrie::mesh

@@ -61,7 +61,7 @@ protected:
         return camera;
     }
 
-    void check(const fabric::Camera& camera, double tauPixels) {
+    absl::StatusOr<fabric::ChannelResult> render(const fabric::Camera& camera, double tauPixels) {
         const fabric::FrameData frame{.version = 1, .camera = camera, .tauPixels = tauPixels};
         fabric::ChannelTask task;
         task.frameDataVersion = 1;
@@ -69,7 +69,11 @@ protected:
         task.viewHeight = kHeight;
         task.pixelViewport = {0, 0, kWidth, kHeight};
         task.wantsDepth = true;
-        const auto drawn = renderer_->render(frame, task);
+        return renderer_->render(frame, task);
+    }
+
+    void check(const fabric::Camera& camera, double tauPixels) {
+        const auto drawn = render(camera, tauPixels);
         ASSERT_TRUE(drawn.ok()) << drawn.status();
         fabric::Image whole = fabric::makeImage({0, 0, kWidth, kHeight}, {}, true);
         fabric::paste(drawn->image, whole);
@@ -115,6 +119,33 @@ TEST_F(MeshTruth, HoldsOnAScan) {
     ASSERT_TRUE(mesh.ok()) << mesh.status();
     ASSERT_NO_FATAL_FAILURE(open(*std::move(mesh)));
     checkCameras();
+}
+
+/// A pocket that is inside out: its backs are what is seen of it.
+TEST_F(MeshTruth, HoldsBesideABallThatIsInsideOut) {
+    import::TriangleMesh mesh = import::synthesizeMesh(150000, 3);
+    const import::TriangleMesh ball = import::synthesizeMesh(5000, 4);
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    for (const fabric::Vec3& position : ball.positions)
+        mesh.positions.push_back(0.2 * position + fabric::Vec3(1.5, 0, 0));
+    for (const auto& [a, b, c] : ball.triangles)
+        mesh.triangles.push_back({first + a, first + c, first + b});
+    mesh.normals.clear();
+    ASSERT_NO_FATAL_FAILURE(open(std::move(mesh)));
+    checkCameras();
+}
+
+TEST_F(MeshTruth, OfASolidItsWallsAreSeenFromInside) {
+    ASSERT_NO_FATAL_FAILURE(open(import::synthesizeMesh(100000, 2)));
+    std::mt19937 engine(3);
+    fabric::Camera inside = camera(engine, 1);
+    inside.eye = bounds_.centre();
+    inside.target = bounds_.max;
+    const auto drawn = render(inside, 1);
+    ASSERT_TRUE(drawn.ok()) << drawn.status();
+    fabric::Image whole = fabric::makeImage({0, 0, kWidth, kHeight}, {}, true);
+    fabric::paste(drawn->image, whole);
+    for (const float depth : whole.depth) ASSERT_GT(depth, 0.0F);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ namespace eyrie::mesh {
 struct LodOptions {
     /// A node with more triangles than this is drawn by about as many; one with fewer, by its
     /// leaves.
-    std::uint32_t nodeTriangles = 32768;
+    std::uint32_t nodeTriangles = 16384;
 };
 
 /// What was simplified at one distance from the leaves.

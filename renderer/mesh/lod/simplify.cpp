@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -109,24 +110,27 @@ Simplifier::Simplifier(const PackedMesh& mesh, const Patch& patch) : left_(patch
     link(mesh);
 }
 
-/// Vertices at one position are one point of the surface.
+/// Vertices at one position are one point of the surface: numbered as they come, with an open hash
+/// table.
 void Simplifier::link(const PackedMesh& mesh) {
-    std::vector<std::pair<std::uint64_t, std::uint32_t>> corners;
-    corners.reserve(faces_.size() * 3);
-    for (std::uint32_t face = 0; face < faces_.size(); ++face)
-        for (std::uint32_t corner = 0; corner < 3; ++corner)
-            corners.emplace_back(mesh.positions[faces_[face].corners[corner].vertex],
-                                 3 * face + corner);
-    std::sort(corners.begin(), corners.end());
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-        const auto [position, at] = corners[i];
-        if (i == 0 || position != corners[i - 1].first) {
+    std::vector<std::uint32_t> slots(std::bit_ceil(faces_.size() * 3 + 2), kNone);
+    std::vector<std::uint64_t> positions;
+    const auto pointAt = [&](std::uint64_t position) {
+        std::size_t slot = (position * 0x9E3779B97F4A7C15ULL >> 32) & (slots.size() - 1);
+        while (slots[slot] != kNone && positions[slots[slot]] != position)
+            slot = (slot + 1) & (slots.size() - 1);
+        if (slots[slot] == kNone) {
+            slots[slot] = static_cast<std::uint32_t>(points_.size());
+            positions.push_back(position);
             points_.emplace_back(unpackPosition(position));
             first_.push_back(kNone);
         }
+        return slots[slot];
+    };
+    for (std::uint32_t at = 0; at < 3 * faces_.size(); ++at) {
         Corner& corner = faces_[at / 3].corners[at % 3];
-        corner.point = static_cast<std::uint32_t>(points_.size() - 1);
-        corner.next = std::exchange(first_.back(), at);
+        corner.point = pointAt(mesh.positions[corner.vertex]);
+        corner.next = std::exchange(first_[corner.point], at);
     }
     best_.resize(points_.size());
     isStale_.resize(points_.size(), false);
