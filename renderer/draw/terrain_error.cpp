@@ -60,7 +60,7 @@ double TerrainError::pixels(const terrain::TerrainCut& cut) {
 double TerrainError::ofTriangles(const terrain::TileChoice& tile, double pixels, double enough) {
     const terrain::TileRecord& record = index_.tile(tile.id);
     const bool isLimit = tile.id.level == 0 && pixels > request_.tauPixels;
-    if (record.mixesNodata || (!isLimit && lookedAt_ == kMostLookedAt))
+    if (record.outlineMetres > 0 || (!isLimit && lookedAt_ == kMostLookedAt))
         return pixels;
     if (!needed_.contains(tile.id) || record.triangles == 0)
         return isLimit ? 0 : pixels;
@@ -126,7 +126,7 @@ bool TerrainError::findEyeAboveGround() {
         const terrain::TileId id{level, static_cast<std::int32_t>(post.x) / Quadtree::side(level),
                                  static_cast<std::int32_t>(post.y) / Quadtree::side(level)};
         const terrain::TileRecord& record = index_.tile(id);
-        if (record.mixesNodata || record.triangles == 0)
+        if (record.outlineMetres > 0 || record.triangles == 0)
             return false;
         if (eye.z > record.maxHeightMetres)
             return true;
@@ -144,24 +144,29 @@ bool TerrainError::findEyeAboveGround() {
     return false;
 }
 
-/// Whether data nowhere meet nodata in the tiles that `posts` (of the lattice) touches. Two posts
-/// side by side lie in one triangle of any level that leaves out posts, so the finest of those
-/// tell.
+/// Whether data nowhere meet nodata in the parts of tiles that `posts` (of the lattice) touches, as
+/// fine as the index tells.
 bool TerrainError::hasNoHole(const terrain::TileId& tile, const Box& posts) const {
+    const auto isAside = [&](double x, double y, double side) {
+        return posts.max.x < x || posts.min.x > x + side || posts.max.y < y ||
+               posts.min.y > y + side;
+    };
     const double side = Quadtree::side(tile.level);
-    const bool isAside = posts.max.x < tile.x * side || posts.min.x > (tile.x + 1) * side ||
-                         posts.max.y < tile.y * side || posts.min.y > (tile.y + 1) * side;
-    if (isAside || !index_.quadtree.contains(tile))
+    if (!index_.quadtree.contains(tile) || isAside(tile.x * side, tile.y * side, side))
         return true;
-    if (tile.level < terrain::kFullResolutionLevels)
-        return false;
-    if (!index_.tile(tile).mixesNodata)
+    const terrain::TileRecord& record = index_.tile(tile);
+    if (record.nodataParts == 0)
         return true;
-    for (int i = 0; i < 4; ++i)
-        if (tile.level == terrain::kFullResolutionLevels ||
-            !hasNoHole(Quadtree::child(tile, i), posts))
-            return false;
-    return true;
+    bool isWhole = true;
+    for (int i = 0; i < 4 && tile.level > 0; ++i)
+        isWhole = isWhole && hasNoHole(Quadtree::child(tile, i), posts);
+    const double part = side / terrain::kTilePartsPerSide;
+    for (int y = 0; y < terrain::kTilePartsPerSide && tile.level == 0; ++y)
+        for (int x = 0; x < terrain::kTilePartsPerSide; ++x)
+            isWhole =
+                isWhole && !(record.hasNodataIn(x, y, 1) &&
+                             !isAside(tile.x * side + x * part, tile.y * side + y * part, part));
+    return isWhole;
 }
 
 }  // namespace eyrie::draw

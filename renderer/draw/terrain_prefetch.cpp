@@ -43,7 +43,7 @@ TerrainPrefetch::Candidate TerrainPrefetch::candidate(const TileId& tile, const 
     const Vec3 toCentre = box.centre() - eye;
     const double distance = glm::length(eye - glm::clamp(eye, box.min, box.max));
     return {tile, glm::dot(forward_, toCentre) / std::max(glm::length(toCentre), 1e-9),
-            tile.level > 0 && index_.tile(tile).errorMetres * focalOverTau > distance};
+            tile.level > 0 && index_.tile(tile).greatestErrorMetres() * focalOverTau > distance};
 }
 
 std::vector<TileId> TerrainPrefetch::tiles(double tauPixels, duration<double> latency) const {

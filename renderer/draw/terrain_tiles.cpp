@@ -44,11 +44,11 @@ std::size_t partError(const terrain::EytIndex& index, const terrain::TileId& id,
     };
     const auto [x0, x1] = extent(a.x, b.x, c.x);
     const auto [y0, y1] = extent(a.y, b.y, c.y);
-    std::uint64_t greatest = 0;
+    int greatest = 0;
     for (std::int32_t y = y0; y <= y1; ++y)
         for (std::int32_t x = x0; x <= x1; ++x)
             greatest = std::max(greatest, index.tile(id).partError(x, y));
-    return greatest;
+    return static_cast<std::size_t>(greatest);
 }
 
 }  // namespace

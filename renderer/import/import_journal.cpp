@@ -17,7 +17,7 @@ namespace {
 
 struct Header {
     std::array<char, 8> magic = {'E', 'Y', 'R', 'I', 'E', 'J', 'N', 'L'};
-    std::uint64_t version = 1;
+    std::uint64_t version = 2;
     std::uint64_t key = 0;
 
     bool operator==(const Header&) const = default;

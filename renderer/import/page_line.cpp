@@ -30,16 +30,16 @@ float roundedUp(double value) {
                : std::nextafter(nearest, std::numeric_limits<float>::infinity());
 }
 
-std::uint64_t partErrors(const terrain::TileMesh& mesh, double errorMetres, double rounding) {
-    std::uint64_t shares = 0;
-    int shift = 0;
-    for (std::int32_t y = 0; y < terrain::kTilePartsPerSide; ++y)
+void setPartErrors(const terrain::TileMesh& mesh, double rounding, terrain::TileRecord& record) {
+    for (std::int32_t y = 0; y < terrain::kTilePartsPerSide; ++y) {
+        int shares = 0;
         for (std::int32_t x = 0; x < terrain::kTilePartsPerSide; ++x) {
             const double error = mesh.errors.metres(x, y);
-            shares |= terrain::partShare(error > 0 ? error + rounding : 0, errorMetres) << shift;
-            shift += 4;
+            shares |= terrain::partShare(error > 0 ? error + rounding : 0, record.errorMetres)
+                      << 4 * x;
         }
-    return shares;
+        record.partErrors[static_cast<std::size_t>(y)] = static_cast<std::uint16_t>(shares);
+    }
 }
 
 /// A tile's record before its children are known; no heights while min > max.
@@ -47,11 +47,12 @@ terrain::TileRecord recordOf(const terrain::TileMesh& mesh, double rounding) {
     terrain::TileRecord record;
     const double error = mesh.errors.greatest();
     record.errorMetres = error > 0 ? roundedUp(error + rounding) : 0;
-    record.partErrors = partErrors(mesh, record.errorMetres, rounding);
+    record.outlineMetres = roundedUp(mesh.outlineMetres);
+    record.nodataParts = mesh.nodataParts;
+    setPartErrors(mesh, rounding, record);
     record.minHeightMetres = -roundedUp(-mesh.minHeightMetres);
     record.maxHeightMetres = roundedUp(mesh.maxHeightMetres);
-    record.triangles = mesh.ownTriangles() & 0x7fffffff;
-    record.mixesNodata = mesh.mixesNodata;
+    record.triangles = static_cast<std::uint16_t>(mesh.ownTriangles());
     return record;
 }
 
@@ -79,7 +80,6 @@ void saturate(terrain::EytIndex& index) {
                         continue;
                     const terrain::TileRecord& finer = index.tile(child);
                     record.coverErrorsOf(i, finer);
-                    record.mixesNodata = record.mixesNodata || finer.mixesNodata;
                     record.minHeightMetres =
                         std::min(record.minHeightMetres, finer.minHeightMetres);
                     record.maxHeightMetres =

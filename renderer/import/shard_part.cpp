@@ -26,7 +26,7 @@ using terrain::PageRecord;
 /// How a part begins; its pieces follow, then the table: a PageRecord for each.
 struct Header {
     std::array<char, 8> magic = {'E', 'Y', 'R', 'I', 'E', 'P', 'R', 'T'};
-    std::uint64_t format = 1;
+    std::uint64_t format = 2;
     PartIdentity identity;
     std::uint64_t shard = 0;
     float minHeight = 0;

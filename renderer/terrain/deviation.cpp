@@ -253,6 +253,21 @@ SourceSurface::Inside SourceSurface::inside(const Triangle& triangle, double flo
     return {countsEdges ? atCentres : atPosts, std::max(atPosts, atCentres)};
 }
 
+bool SourceSurface::mixes(const Triangle& triangle, bool isAligned) {
+    const Contents held = contents(triangle);
+    if (held != Contents::Data || isAligned)
+        return held == Contents::Mixed;
+    if (const HeightPatch* tile = onlyTile(triangle))
+        return scanCrossings(*tile, triangle, 0).meetsNodata;
+    bool meetsNodata = false;
+    forEachBlock(triangle, [&](std::int32_t x, std::int32_t y, auto patch) {
+        meetsNodata =
+            model_.relief.hasNodata(x, y) && scanCrossings(patch(), triangle, 0).meetsNodata;
+        return !meetsNodata;
+    });
+    return meetsNodata;
+}
+
 double SourceSurface::ofGeneral(const Triangle& triangle, const DeviationGoal& goal) {
     if (hasNodata()) {
         const Contents held = contents(triangle);

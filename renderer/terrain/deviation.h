@@ -107,6 +107,9 @@ public:
     const GridFrame& frame() const { return model_.frame; }
     bool hasNodata() const { return model_.hasNodata(); }
     double longestEdgeMetres(const Triangle& triangle) const;
+    /// Whether that is what it counts as: it holds both data and nodata or, not being aligned,
+    /// has an edge that crosses a cell with nodata.
+    bool mixes(const Triangle& triangle, bool isAligned);
     /// 1/2048 of a post, 5 cm at most: far below what any level's threshold resolves.
     double postToleranceMetres() const { return postTolerance_; }
 

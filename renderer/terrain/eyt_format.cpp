@@ -71,12 +71,14 @@ absl::Status checkHeader(const FileHeader& header, std::uint64_t fileBytes,
 
 absl::Status checkTile(const TileRecord& tile, const std::string& path, std::size_t number) {
     if (std::isfinite(tile.errorMetres) && tile.errorMetres >= 0 &&
+        std::isfinite(tile.outlineMetres) && tile.outlineMetres >= 0 &&
         std::isfinite(tile.minHeightMetres) && std::isfinite(tile.maxHeightMetres) &&
         tile.minHeightMetres <= tile.maxHeightMetres)
         return absl::OkStatus();
     return corrupt(path,
-                   fmt::format("tile {}: error {} m or heights {} to {} m are impossible", number,
-                               tile.errorMetres, tile.minHeightMetres, tile.maxHeightMetres));
+                   fmt::format("tile {}: errors {} and {} m or heights {} to {} m are impossible",
+                               number, tile.errorMetres, tile.outlineMetres, tile.minHeightMetres,
+                               tile.maxHeightMetres));
 }
 
 /// CRS, tiles and pages out of the index's bytes.
@@ -142,32 +144,43 @@ absl::Status checkAgainstIndex(const Page& page, std::uint32_t number, const Eyt
 }  // namespace
 
 double TileRecord::errorMetresOf(int x, int y, int count) const {
-    std::uint64_t greatest = 0;
+    int greatest = 0;
     for (int v = y; v < y + count; ++v)
         for (int u = x; u < x + count; ++u) greatest = std::max(greatest, partError(u, v));
-    return static_cast<double>(errorMetres) * static_cast<double>(greatest) / kFullPartError;
+    return static_cast<double>(errorMetres) * greatest / kFullPartError;
+}
+
+bool TileRecord::hasNodataIn(int x, int y, int count) const {
+    const int row = (1 << count) - 1;
+    int square = 0;
+    for (int v = y; v < y + count; ++v) square |= row << (kTilePartsPerSide * v + x);
+    return (nodataParts & square) != 0;
 }
 
 void TileRecord::coverErrorsOf(int child, const TileRecord& record) {
     const TileRecord own = *this;
     errorMetres = std::max(errorMetres, record.errorMetres);
-    if (errorMetres == 0)
-        return;
-    partErrors = 0;
-    for (int y = 0; y < kTilePartsPerSide; ++y)
+    outlineMetres = std::max(outlineMetres, record.outlineMetres);
+    for (int y = 0; y < kTilePartsPerSide; ++y) {
+        int shares = 0;
         for (int x = 0; x < kTilePartsPerSide; ++x) {
             double error = own.errorMetresOf(x, y, 1);
-            if (x / 2 == (child & 1) && y / 2 == child >> 1)
+            if (x / 2 == (child & 1) && y / 2 == child >> 1) {
                 error = std::max(error, record.errorMetresOf(x % 2 * 2, y % 2 * 2, 2));
-            partErrors |= partShare(error, errorMetres) << 4 * (4 * y + x);
+                if (record.hasNodataIn(x % 2 * 2, y % 2 * 2, 2))
+                    nodataParts =
+                        static_cast<std::uint16_t>(nodataParts | 1 << (kTilePartsPerSide * y + x));
+            }
+            shares |= partShare(error, errorMetres) << 4 * x;
         }
+        partErrors[static_cast<std::size_t>(y)] = static_cast<std::uint16_t>(shares);
+    }
 }
 
-std::uint64_t partShare(double partMetres, double errorMetres) {
+int partShare(double partMetres, double errorMetres) {
     const double share = partMetres > 0 ? kFullPartError * (partMetres / errorMetres) : 0;
     // Rounded up, but for what computing a share of a share has added.
-    return static_cast<std::uint64_t>(
-        std::min(std::ceil(share * (1 - 1e-12)), double{kFullPartError}));
+    return static_cast<int>(std::min(std::ceil(share * (1 - 1e-12)), double{kFullPartError}));
 }
 
 bool EytIndex::hasNormals(const TileId& id) const {
@@ -206,7 +219,7 @@ double EytIndex::finestErrorMetres() const {
     float worst = 0;
     const auto count =
         static_cast<std::size_t>(quadtree.tilesX(0)) * static_cast<std::size_t>(quadtree.tilesY(0));
-    for (std::size_t k = 0; k < count; ++k) worst = std::max(worst, tiles[k].errorMetres);
+    for (std::size_t k = 0; k < count; ++k) worst = std::max(worst, tiles[k].greatestErrorMetres());
     return worst;
 }
 

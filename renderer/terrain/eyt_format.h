@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -53,35 +54,48 @@ inline constexpr int kTilePartsPerSide = 4;  ///< of TileRecord::partErrors
 inline constexpr int kFullPartError = 15;
 
 /// A part's error as fifteenths of its tile's, rounded up.
-std::uint64_t partShare(double partMetres, double errorMetres);
+int partShare(double partMetres, double errorMetres);
 
 /// What is resident of every tile.
 struct TileRecord {
     /// Vertical distance, at most, between what any form of the tile draws and the source: both
-    /// diagonals of every cell and so the bilinear surface too, quantisation included. Where data
-    /// and nodata mix it is the longest edge they mix on. Not below that of any tile under it.
+    /// diagonals of every cell and so the bilinear surface too, quantisation included. Of triangles
+    /// without nodata. Not below that of any tile under it.
     float errorMetres = 0;
+    /// How far the outline of a hole may be off, to any side: the longest edge on which triangles,
+    /// drawn or left out, mix data and nodata. 0 where each post decides for itself, as at the
+    /// levels that draw every post. Not below that of any tile under it either.
+    float outlineMetres = 0;
     float minHeightMetres = 0;  ///< of what is drawn and of the source
     float maxHeightMetres = 0;
-    std::uint32_t triangles : 31 = 0;  ///< of interior and own borders; 0: nothing to draw
-    /// Whether a triangle of it, or of a tile under it, covers data and nodata. If not, its error
-    /// is vertical and nothing else.
-    bool mixesNodata : 1 = false;
-
-    /// The same of each of the tile's 4 x 4 parts: four bits each, fifteenths of errorMetres, row
-    /// by row from the lowest.
-    std::uint64_t partErrors = ~std::uint64_t{0};
+    std::uint16_t triangles = 0;  ///< of interior and own borders; 0: nothing to draw
+    /// Bit 4 * y + x of each of the tile's 4 x 4 parts in which data and nodata meet, however exact
+    /// the outline. The source's posts in any other part are either all data or all nodata.
+    std::uint16_t nodataParts = 0;
+    /// errorMetres of each part in fifteenths of the tile's: a row of parts, from the lowest, four
+    /// bits each.
+    std::array<std::uint16_t, kTilePartsPerSide> partErrors = {0xffff, 0xffff, 0xffff, 0xffff};
 
     /// Of one part, in fifteenths.
-    std::uint64_t partError(int x, int y) const { return partErrors >> 4 * (4 * y + x) & 15; }
-    /// Over a square of parts, from (x, y) on, `count` a side.
+    int partError(int x, int y) const {
+        return partErrors[static_cast<std::size_t>(y)] >> 4 * x & 15;
+    }
+    // Over a square of parts, from (x, y) on, `count` a side:
     double errorMetresOf(int x, int y, int count) const;
-    /// Raises the errors to those of child 0 to 3.
+    bool hasNodataIn(int x, int y, int count) const;
+    /// Whether the outline of a hole there may be off. If not, the error is vertical and nothing
+    /// else.
+    bool blursOutlineIn(int x, int y, int count) const {
+        return outlineMetres > 0 && hasNodataIn(x, y, count);
+    }
+    /// To any side.
+    float greatestErrorMetres() const { return std::max(errorMetres, outlineMetres); }
+    /// Raises the errors to those of child 0 to 3, and marks its parts.
     void coverErrorsOf(int child, const TileRecord& record);
 
     bool operator==(const TileRecord&) const = default;
 };
-static_assert(sizeof(TileRecord) == 24);
+static_assert(sizeof(TileRecord) == 28);
 
 /// All of an .eyt file but its pages; always resident.
 struct EytIndex {
@@ -104,7 +118,7 @@ struct EytIndex {
     fabric::Box bounds(const TileId& id) const;
     fabric::Box bounds() const { return bounds(quadtree.top()); }
     /// Error of the coarsest tile, and the largest of level 0.
-    double coarsestErrorMetres() const { return tile(quadtree.top()).errorMetres; }
+    double coarsestErrorMetres() const { return tile(quadtree.top()).greatestErrorMetres(); }
     double finestErrorMetres() const;
     /// Of level 0.
     std::uint64_t triangles() const;

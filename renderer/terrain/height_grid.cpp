@@ -28,15 +28,27 @@ void HeightStatistics::add(const HeightStatistics& other) {
     allIntegers = allIntegers && other.allIntegers;
 }
 
+namespace {
+
+double latticeStepFor(double postMetres) {
+    constexpr double kStepsPerPost = 256;
+    // From 2 m above ground half of it is half a pixel of 360 lines.
+    constexpr double kFineEnough = 1.0 / 64;
+    constexpr double kMostStepsPerPost = 4096;
+    constexpr double kCoarsest = 0.25;
+    const double step =
+        std::min(postMetres / kStepsPerPost,
+                 std::clamp(postMetres / kMostStepsPerPost, kFineEnough, kCoarsest));
+    return std::exp2(std::floor(std::log2(step)));
+}
+
+}  // namespace
+
 HeightLattice chooseHeightLattice(const HeightStatistics& statistics, double postMetres) {
     constexpr double kMaxSteps = (1 << 23) - 1;
-    constexpr double kStepsPerPost = 256;
-    constexpr double kCoarsestStep = 0.25;
     HeightLattice lattice;
     if (!statistics.allIntegers)
-        lattice = {
-            std::min(std::exp2(std::floor(std::log2(postMetres / kStepsPerPost))), kCoarsestStep),
-            false};
+        lattice = {latticeStepFor(postMetres), false};
     const double highest = statistics.highestMagnitude();
     while (highest / lattice.stepMetres > kMaxSteps) lattice = {lattice.stepMetres * 2, false};
     return lattice;

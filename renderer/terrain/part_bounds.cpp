@@ -13,8 +13,6 @@ static_assert(1 << kLevelsDown == kTilePartsPerSide);
 
 std::vector<fabric::Box> partBounds(const EytIndex& index, const TileId& tile) {
     const TileRecord& record = index.tile(tile);
-    if (record.mixesNodata)
-        return {index.bounds(tile)};
     const int down = std::min(kLevelsDown, tile.level);
     const int side = 1 << down;
     const int count = kTilePartsPerSide / side;
@@ -24,9 +22,13 @@ std::vector<fabric::Box> partBounds(const EytIndex& index, const TileId& tile) {
             const TileId part{tile.level - down, (tile.x << down) + x, (tile.y << down) + y};
             if (!index.quadtree.contains(part))
                 continue;
+            fabric::Box box = index.bounds(part);
+            if (record.blursOutlineIn(x * count, y * count, count)) {
+                box.min.z = record.minHeightMetres;
+                box.max.z = record.maxHeightMetres;
+            }
             const fabric::Vec3 error(0, 0, record.errorMetresOf(x * count, y * count, count));
-            const fabric::Box source = index.bounds(part);
-            boxes.push_back({source.min - error, source.max + error});
+            boxes.push_back({box.min - error, box.max + error});
         }
     return boxes;
 }

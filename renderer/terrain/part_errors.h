@@ -44,6 +44,15 @@ public:
             for (std::int32_t x = parts.x0; x <= parts.x1; ++x) raiseOne(x, y, deviationMetres);
     }
 
+    /// Bits, as TileRecord::nodataParts has them, of the parts of which the rectangle covers some.
+    std::uint16_t mask(const Rectangle& covered) const {
+        const Span parts = over(covered);
+        const int row = (2 << parts.x1) - (1 << parts.x0);
+        int mask = 0;
+        for (std::int32_t y = parts.y0; y <= parts.y1; ++y) mask |= row << kTilePartsPerSide * y;
+        return static_cast<std::uint16_t>(mask);
+    }
+
     double metres(std::int32_t x, std::int32_t y) const { return at(x, y); }
     double greatest() const { return *std::max_element(metres_.begin(), metres_.end()); }
 

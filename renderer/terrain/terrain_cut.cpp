@@ -31,25 +31,39 @@ private:
     static constexpr int kLevelsDown = 2;
     static_assert(1 << kLevelsDown == kTilePartsPerSide);
 
-    int levelsDown() const { return record_.mixesNodata ? 0 : std::min(kLevelsDown, tile_.level); }
+    int levelsDown() const { return std::min(kLevelsDown, tile_.level); }
 
-    double errorMetres(const TileId& part) const {
+    /// `part` as a square of the tile's parts.
+    struct Square {
+        int x, y, count;
+    };
+    Square squareOf(const TileId& part) const {
         const int down = tile_.level - part.level;
         const int count = kTilePartsPerSide >> down;
-        return record_.errorMetresOf((part.x - (tile_.x << down)) * count,
-                                     (part.y - (tile_.y << down)) * count, count);
+        return {(part.x - (tile_.x << down)) * count, (part.y - (tile_.y << down)) * count, count};
+    }
+    double errorMetres(const TileId& part) const {
+        const auto [x, y, count] = squareOf(part);
+        return record_.errorMetresOf(x, y, count);
+    }
+    bool blursOutline(const TileId& part) const {
+        const auto [x, y, count] = squareOf(part);
+        return record_.blursOutlineIn(x, y, count);
     }
 
     double over(const TileId& part) const {
-        const fabric::Box bounds = index_.bounds(part);
-        if (record_.mixesNodata)
-            return view_.screenSpaceErrorPixels(record_.errorMetres, bounds);
-        return lod::VerticalError(view_, errorMetres(part)).pixels(bounds);
+        fabric::Box bounds = index_.bounds(part);
+        if (!blursOutline(part))
+            return lod::VerticalError(view_, errorMetres(part)).pixels(bounds);
+        // What is drawn over a hole is as high as corners that may lie in any part.
+        bounds.min.z = record_.minHeightMetres;
+        bounds.max.z = record_.maxHeightMetres;
+        return view_.screenSpaceErrorPixels(record_.greatestErrorMetres(), bounds);
     }
 
     /// Of all that is drawn and of the source in a part. An outline is off to any side: it counts.
     bool isHidden(const TileId& part, double pixels) const {
-        if (record_.mixesNodata || !ground_.isHidden)
+        if (blursOutline(part) || !ground_.isHidden)
             return false;
         fabric::Box bounds = index_.bounds(part);
         bounds.min.z -= errorMetres(part);
@@ -101,7 +115,7 @@ private:
 
 void refine(const EytIndex& index, const lod::ObjectView& view, double tauPixels,
             const TileId& tile, Refinement& refinement) {
-    if (tile.level == 0 || index.tile(tile).errorMetres == 0 ||
+    if (tile.level == 0 || index.tile(tile).greatestErrorMetres() == 0 ||
         !view.isVisible(index.bounds(tile)) || !TileError(index, view, tile).exceeds(tauPixels))
         return;
     refinement.split(tile);

@@ -31,9 +31,8 @@ struct TerrainCut {
 };
 
 /// Screen-space error of a tile, in pixels: a bound as lod::VerticalError's, over the boxes of the
-/// tile's parts two levels down, which lie closer to the ground than its own. Where the tile mixes
-/// data and nodata, the outline of which may be off to any side, ObjectView::screenSpaceErrorPixels
-/// of its own box.
+/// tile's parts two levels down, which lie closer to the ground than its own. Of parts where the
+/// outline of a hole may be off, to any side, ObjectView::screenSpaceErrorPixels.
 double screenSpaceErrorPixels(const EytIndex& index, const lod::ObjectView& view,
                               const TileId& tile);
 

@@ -30,7 +30,8 @@ void TileMesh::clear() {
     indices.clear();
     walk.clear();
     isSparse = false;
-    mixesNodata = false;
+    outlineMetres = 0;
+    nodataParts = 0;
     minHeightMetres = std::numeric_limits<double>::infinity();
     maxHeightMetres = -std::numeric_limits<double>::infinity();
 }
@@ -209,20 +210,33 @@ void TileMesher::measure(const PartErrors::Rectangle& covered, TilePoint a, Tile
     };
     const DeviationGoal goal{mesh_.errors.least(covered)};
     double deviation = 0;
-    if (mayBeAligned && (!isCut_ || (isUnmoved(a) && isUnmoved(b) && isUnmoved(c))))
+    const bool isAligned =
+        mayBeAligned && (!isCut_ || (isUnmoved(a) && isUnmoved(b) && isUnmoved(c)));
+    if (isAligned)
         deviation = surface_.ofAligned(triangle, goal);
     else if (std::int64_t{triangle[1].i - triangle[0].i} * (triangle[2].j - triangle[0].j) !=
              std::int64_t{triangle[2].i - triangle[0].i} * (triangle[1].j - triangle[0].j))
         deviation = surface_.ofGeneral(triangle, goal);
-    // A mixed triangle deviates by its longest edge.
-    mesh_.mixesNodata = mesh_.mixesNodata ||
-                        (surface_.hasNodata() && deviation >= surface_.longestEdgeMetres(triangle));
+    // A mixed triangle counts as its longest edge.
+    if (const double edge = surface_.hasNodata() ? surface_.longestEdgeMetres(triangle) : 0;
+        surface_.hasNodata() && deviation >= edge && surface_.mixes(triangle, isAligned)) {
+        mesh_.outlineMetres = std::max(mesh_.outlineMetres, edge);
+        markNodata(covered);
+        return;
+    }
     mesh_.errors.raise(covered, deviation);
 }
 
+void TileMesher::markNodata(const PartErrors::Rectangle& covered) {
+    mesh_.nodataParts = static_cast<std::uint16_t>(mesh_.nodataParts | mesh_.errors.mask(covered));
+}
+
 void TileMesher::addTriangle(int part, TilePoint a, TilePoint b, TilePoint c) {
-    if (a.isAbsent() || b.isAbsent() || c.isAbsent())
+    if (a.isAbsent() || b.isAbsent() || c.isAbsent()) {
+        if (!a.isAbsent() || !b.isAbsent() || !c.isAbsent())
+            markNodata(extent(a, b, c));
         return;
+    }
     std::uint16_t* out = partIndices_[static_cast<std::size_t>(part)].grow(3);
     out[0] = a.number;
     out[1] = b.number;

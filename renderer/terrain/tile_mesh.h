@@ -48,10 +48,11 @@ struct TileMesh {
     TileShape shape;
     BoundedList<WalkStep> walk{2 * kMaxTileVertices};  ///< as many flags as points, at most
     bool isSparse = false;                             ///< some point of the walk is no vertex
-    /// Greatest deviations of any triangle of any part from the source, nodata included.
+    /// Greatest vertical deviations of any triangle of any part from the source, nodata left out.
     PartErrors errors;
-    /// Whether a triangle of any part, dropped or not, may cover both data and nodata.
-    bool mixesNodata = false;
+    /// Of triangles, dropped or not, that are split no further and cover both data and nodata.
+    double outlineMetres = 0;
+    std::uint16_t nodataParts = 0;  ///< where data and nodata meet, see TileRecord
     double minHeightMetres = std::numeric_limits<double>::infinity();  ///< of the vertices
     double maxHeightMetres = -std::numeric_limits<double>::infinity();
 
@@ -105,6 +106,7 @@ private:
     void measure(const PartErrors::Rectangle& covered, TilePoint a, TilePoint b, TilePoint c,
                  bool mayBeAligned);
     float sourceHeight(TilePoint p) const;
+    void markNodata(const PartErrors::Rectangle& covered);
     void countVertex(const TileVertex& vertex, double movedMetres);
     std::vector<std::uint16_t> dropUnused();
     void measureVertices(const std::vector<std::uint16_t>& numbers);

@@ -185,6 +185,14 @@ TEST_F(TerrainBehindARidge, CountsWhereItIsSeenThroughAHole) {
     EXPECT_EQ(promised(), promisedOfAll());
 }
 
+TEST_F(TerrainBehindARidge, IsNotPromisedForBecauseOfAHoleElsewhere) {
+    ASSERT_NO_FATAL_FAILURE(open([](std::vector<float>& heights) {
+        for (int j = 20; j < 30; ++j) std::fill_n(heights.begin() + j * 513 + 20, 10, std::nanf(""));
+    }));
+    EXPECT_LT(promised(), 0.5 * promisedOfAll());
+    checkCamera("ridge and hole", camera_, 640, 360);
+}
+
 TEST_F(TerrainBehindARidge, CountsFromUnderground) {
     ASSERT_NO_FATAL_FAILURE(open([](auto&) {}));
     camera_.eye.z = camera_.target.z = -40;

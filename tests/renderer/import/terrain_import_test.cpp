@@ -143,7 +143,10 @@ TEST(HeightLattice, IsOfWholeMetresForWholeMetresAndFineEnoughOtherwise) {
     };
     EXPECT_EQ(latticeOf(-11034, 8849, true, 90).stepMetres, 1);
     EXPECT_TRUE(latticeOf(-11034, 8849, true, 90).isLossless);
-    EXPECT_EQ(latticeOf(0, 100, false, 30).stepMetres, 0.0625);
+    EXPECT_EQ(latticeOf(0, 100, false, 30).stepMetres, 1.0 / 64);
+    EXPECT_EQ(latticeOf(0, 100, false, 90).stepMetres, 1.0 / 64);
+    EXPECT_EQ(latticeOf(0, 100, false, 1000).stepMetres, 1.0 / 8);
+    EXPECT_EQ(latticeOf(0, 100, false, 1e5).stepMetres, 1.0 / 4);
     EXPECT_EQ(latticeOf(0, 100, false, 1).stepMetres, 1.0 / 256);
     EXPECT_LT(9.0e6 / latticeOf(0, 9.0e6F, true, 90).stepMetres, 1 << 23);
     EXPECT_LT(9000 / latticeOf(0, 9000, false, 0.01).stepMetres, 1 << 23);

@@ -29,7 +29,11 @@ EytIndex randomIndex(std::uint32_t columns, std::uint32_t rows, Random& random) 
                 tile.errorMetres =
                     level == 0 ? 0 : static_cast<float>(random.unit() * (4 << level));
                 tile.maxHeightMetres = 1000;
-                tile.partErrors = random.next() | 15;
+                tile.outlineMetres =
+                    level > 2 ? static_cast<float>(random.unit() * (8 << level)) : 0;
+                tile.nodataParts = static_cast<std::uint16_t>(random.next() & random.next());
+                for (std::uint16_t& row : tile.partErrors)
+                    row = static_cast<std::uint16_t>(random.next() | 15);
                 for (int i = 0; i < 4 && level > 0; ++i)
                     if (const TileId child = Quadtree::child(id, i); index.quadtree.contains(child))
                         tile.coverErrorsOf(i, index.tile(child));
