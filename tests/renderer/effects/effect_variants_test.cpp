@@ -184,7 +184,7 @@ TEST_F(EffectVariantsTest, AGoodEditReplacesProgramsOnceAndABadOneReplacesNone) 
 
 TEST_F(EffectVariantsTest, LooksAtTheFilesOnceASecond) {
     reload();
-    edit("object.block", "vec3(share)", "vec3(0.5)");
+    edit("object.block", "vec3(ambient)", "vec3(0.5)");
     log_.str("");
     programs_->reloadChanged(now_ + milliseconds(999));
     EXPECT_EQ(log_.str(), "");
