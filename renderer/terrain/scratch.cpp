@@ -41,8 +41,8 @@ public:
                 return piece;
             }
         }
-        void* const fresh =
-            mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+        void* const fresh = mmap(nullptr, bytes, PROT_READ | PROT_WRITE,
+                                 MAP_PRIVATE | MAP_ANONYMOUS | MAP_POPULATE, -1, 0);
         if (fresh == MAP_FAILED)
             throw std::bad_alloc();
         return static_cast<std::byte*>(fresh);
