@@ -192,7 +192,8 @@ absl::StatusOr<std::unique_ptr<draw::Drawable>> Renderer::Impl::openObject(
             object, terrainPrograms_, sources_, loaderFor(object),
             {options_.memoryBytes / objects, options_.hostMemoryBytes / objects}, textureFormat(),
             decoding_);
-    return draw::openMesh(object, meshPrograms_, sources_, options_.memoryBytes / objects);
+    return draw::openMesh(object, meshPrograms_, sources_, loaderFor(object),
+                          {options_.memoryBytes / objects, options_.hostMemoryBytes / objects});
 }
 
 absl::StatusOr<fabric::SceneInfo> Renderer::Impl::openScene(const fabric::Scene& scene) {
@@ -352,7 +353,6 @@ absl::StatusOr<fabric::ChannelResult> Renderer::Impl::render(const fabric::Frame
     const auto errorStart = Clock::now();
     statistics.tauAchievedPixels = errorPixels(view, frameData, task, selection.covered);
     statistics.milliseconds.cull += millisecondsSince(errorStart);
-    for (const OpenObject& object : objects_) object.drawable->trim();
     statistics.milliseconds.total = millisecondsSince(start);
     return result;
 }

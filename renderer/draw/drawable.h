@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -19,6 +20,9 @@
 #include "renderer/occlusion/hidden_ground.h"
 
 namespace eyrie::draw {
+
+/// Share of an interactive frame that may go into copying what has come to the device.
+inline constexpr std::chrono::duration<double, std::milli> kUploadTime{3};
 
 /// One LOD node of a frame's cut.
 struct Piece {
@@ -94,9 +98,6 @@ public:
     /// seen of it in the view. `request` is what the cut was asked for by. `hidden` tells of the
     /// finished picture what hills hide; null where it shows something else, too.
     virtual double errorPixels(const CutRequest& request, occlusion::HiddenGround* hidden) = 0;
-
-    /// Ends a frame: what has not been drawn longest leaves the device when memory is short.
-    virtual void trim() {}
 
     virtual MemoryUse memory() const { return {}; }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -10,8 +11,10 @@
 #include <glm/matrix.hpp>
 
 #include "fabric/status.h"
+#include "renderer/draw/mesh_cut.h"
 #include "renderer/draw/mesh_paging.h"
 #include "renderer/draw/object_program.h"
+#include "renderer/draw/tau_choice.h"
 #include "renderer/gl/object.h"
 #include "renderer/mesh/eym_format.h"
 
@@ -30,23 +33,23 @@ std::uint32_t packedSrgb(const fabric::Vec3& linear) {
 
 class MeshDrawable : public Drawable {
 public:
-    MeshDrawable(const fabric::SceneObject& object, MeshPrograms& programs, mesh::EymFile file,
-                 std::uint64_t memoryBytes)
+    MeshDrawable(const fabric::SceneObject& object, MeshPrograms& programs,
+                 std::shared_ptr<const mesh::EymFile> file, std::unique_ptr<MeshPaging> paging)
         : programs_(programs),
           worldFromObject_(object.worldFromObject),
           uniformColour_(packedSrgb(object.colour)),
           singleSided_(object.singleSided),
           file_(std::move(file)),
-          paging_(file_, memoryBytes) {
-        const mesh::Lattice& lattice = file_.lattice();
+          paging_(std::move(paging)) {
+        const mesh::Lattice& lattice = file_->lattice();
         objectFromLattice_ = glm::scale(glm::translate(fabric::Mat4(1.0), lattice.originMetres),
                                         fabric::Vec3(lattice.stepMetres));
         defineVertexFormat();
     }
 
-    fabric::Box bounds() const override { return file_.bounds(); }
-    std::uint64_t triangles() const override { return file_.triangleCount(); }
-    std::uint64_t bytes() const override { return file_.fileBytes(); }
+    fabric::Box bounds() const override { return file_->bounds(); }
+    std::uint64_t triangles() const override { return file_->triangleCount(); }
+    std::uint64_t bytes() const override { return file_->fileBytes(); }
 
     Cut selectCut(const CutRequest& request) override;
     double errorPixels(const CutRequest&, occlusion::HiddenGround*) override {
@@ -54,13 +57,14 @@ public:
     }
     absl::Status draw(std::span<const Piece> pieces, const FrameState& frame,
                       fabric::FrameStatistics& statistics) override;
-    void trim() override { paging_.trim(); }
-    MemoryUse memory() const override { return {paging_.bytes(), 0}; }
+    MemoryUse memory() const override { return paging_->memory(); }
 
 private:
     void defineVertexFormat();
-    void visit(std::uint32_t index, bool errorKnown, const lod::ObjectView& view, double tauPixels,
-               Cut& cut);
+    const MeshCut& cutAt(int step, const CutRequest& request);
+    std::uint64_t bytesOf(const MeshCut& cut) const;
+    std::uint64_t countMissing(const MeshCut& cut) const;
+    page::HostPages::Loads reach(const CutRequest& request, double tauPixels);
     bool mayHideBacks(const FrameState& frame) const;
     void drawNode(const DeviceNode& node, GLsizei fronts) const;
 
@@ -69,48 +73,98 @@ private:
     fabric::Mat4 objectFromLattice_;
     std::uint32_t uniformColour_;
     bool singleSided_;
-    mesh::EymFile file_;
+    std::shared_ptr<const mesh::EymFile> file_;
     double errorPixels_ = 0;  ///< of the last cut
     gl::VertexArray vertexArray_;
-    MeshPaging paging_;
+    std::unique_ptr<MeshPaging> paging_;
+    TauChoice tau_;
+    std::map<int, MeshCut> cuts_;  ///< of this view and tau, by step
 };
 
 void MeshDrawable::defineVertexFormat() {
     Program::kPackedPosition.define(vertexArray_);
     Program::kPackedNormal.define(vertexArray_);
-    Program::kPackedColour.define(vertexArray_, file_.hasColours());
+    Program::kPackedColour.define(vertexArray_, file_->hasColours());
+}
+
+const MeshCut& MeshDrawable::cutAt(int step, const CutRequest& request) {
+    const auto known = cuts_.find(step);
+    if (known != cuts_.end())
+        return known->second;
+    return cuts_
+        .emplace(step,
+                 cutOf(*file_, request.view, request.tauPixels * page::TauLadder::factor(step),
+                       [this](std::uint32_t node) { return paging_->isResident(node); }))
+        .first->second;
+}
+
+/// With what may stand in.
+std::uint64_t MeshDrawable::bytesOf(const MeshCut& cut) const {
+    std::uint64_t bytes = 0;
+    for (const auto* nodes : {&cut.wanted, &cut.between, &cut.above})
+        for (const CutNode& node : *nodes) bytes += paging_->bytesOf(node.node);
+    return bytes;
+}
+
+std::uint64_t MeshDrawable::countMissing(const MeshCut& cut) const {
+    return static_cast<std::uint64_t>(std::ranges::count_if(
+        cut.wanted, [this](const CutNode& node) { return !paging_->isResident(node.node); }));
+}
+
+/// Waits for every page that can be read; what stands in for one that cannot is waited for, too.
+page::HostPages::Loads MeshDrawable::reach(const CutRequest& request, double tauPixels) {
+    const auto start = page::HostPages::Clock::now();
+    const auto readable = [&] {
+        return cutOf(*file_, request.view, tauPixels,
+                     [&](std::uint32_t node) { return paging_->mayCome(node, start); })
+            .drawn;
+    };
+    page::HostPages::Loads loaded;
+    page::HostPages::Loads round;
+    std::vector<CutNode> needed = readable();
+    while (paging_->reach(needed, round)) {
+        loaded.add(round);
+        if (round.hasFailed)
+            needed = readable();
+        round = {};
+    }
+    loaded.add(round);
+    return loaded;
 }
 
 Cut MeshDrawable::selectCut(const CutRequest& request) {
-    Cut cut;
-    errorPixels_ = 0;
-    visit(0, false, request.view, request.tauPixels, cut);
-    return cut;
-}
+    cuts_.clear();
+    const page::TauLadder::Choice choice = tau_.choose(
+        request, [&](int step) { return bytesOf(cutAt(step, request)); }, paging_->roomBytes());
+    MeshPaging::Progress progress;
+    if (request.completeness == fabric::Completeness::Complete) {
+        progress.hasUploaded = countMissing(cutAt(choice.step, request)) > 0;
+        progress.loaded = reach(request, request.tauPixels * page::TauLadder::factor(choice.step));
+    } else {
+        progress = paging_->approach(cutAt(choice.step, request));
+    }
+    if (progress.hasUploaded)
+        cuts_.erase(choice.step);
+    const MeshCut& drawn = cutAt(choice.step, request);
 
-/// Depth first, so pieces come in the order of the range. A node's error bound covers its whole
-/// subtree: below a node that keeps tau and has nothing to be drawn itself it is not computed
-/// again.
-void MeshDrawable::visit(std::uint32_t index, bool errorKnown, const lod::ObjectView& view,
-                         double tauPixels, Cut& cut) {
-    const mesh::Node& node = file_.nodes()[index];
-    const fabric::Box box = file_.bounds(index);
-    if (!view.isVisible(box))
-        return;
-    if (!errorKnown) {
-        const double error = view.screenSpaceErrorPixels(node.errorMetres, box);
-        errorKnown = node.isLeaf() || error <= tauPixels;
-        if (errorKnown)
-            errorPixels_ = std::max(errorPixels_, error);
+    Cut cut;
+    cut.pagesLoaded = progress.loaded.pages;
+    cut.bytesLoaded = progress.loaded.bytes;
+    cut.pagesMissing = countMissing(drawn);
+    if (cut.pagesMissing > 0)
+        cut.pagesFailed = static_cast<std::uint64_t>(
+            std::ranges::count_if(drawn.wanted, [this](const CutNode& node) {
+                return !paging_->isResident(node.node) && paging_->isFailing(node.node);
+            }));
+    cut.isComplete = cut.pagesMissing == 0 && choice.isLowest;
+    errorPixels_ = drawn.errorPixels();
+    const auto total = static_cast<double>(file_->triangleCount());
+    for (const CutNode& one : drawn.drawn) {
+        const mesh::Node& node = file_->nodes()[one.node];
+        cut.pieces.push_back({one.node, static_cast<double>(node.triangleBegin) / total,
+                              file_->bounds(one.node), true, node.indexCount / 3});
     }
-    if (errorKnown && node.indexCount > 0) {
-        const auto total = static_cast<double>(file_.triangleCount());
-        cut.pieces.push_back({index, static_cast<double>(node.triangleBegin) / total, box, true,
-                              node.indexCount / 3});
-        return;
-    }
-    visit(static_cast<std::uint32_t>(node.left), errorKnown, view, tauPixels, cut);
-    visit(static_cast<std::uint32_t>(node.right), errorKnown, view, tauPixels, cut);
+    return cut;
 }
 
 /// From inside its bounds a surface may well be seen from behind, as may what the near plane cuts
@@ -134,7 +188,7 @@ bool MeshDrawable::mayHideBacks(const FrameState& frame) const {
 void MeshDrawable::drawNode(const DeviceNode& node, GLsizei fronts) const {
     Program::kPackedPosition.source(vertexArray_, node.buffer, 0);
     Program::kPackedNormal.source(vertexArray_, node.buffer, node.normalOffset);
-    if (file_.hasColours())
+    if (file_->hasColours())
         Program::kPackedColour.source(vertexArray_, node.buffer, node.colourOffset);
     glVertexArrayElementBuffer(vertexArray_.id(), node.buffer.id());
     const auto draw = [&node](GLsizei first, GLsizei count) {
@@ -163,10 +217,10 @@ absl::Status MeshDrawable::draw(std::span<const Piece> pieces, const FrameState&
     glBindVertexArray(vertexArray_.id());
     glVertexAttribI4ui(Program::kPackedColour.location, uniformColour_, 0, 0, 0);
     for (const Piece& piece : pieces) {
-        ASSIGN_OR_RETURN(const DeviceNode* node, paging_.node(piece.index, statistics));
+        const DeviceNode* node = paging_->node(piece.index);
         const GLsizei fronts =
             singleSided_ ? node->indexCount
-                         : static_cast<GLsizei>(file_.nodes()[piece.index].frontIndexCount);
+                         : static_cast<GLsizei>(file_->nodes()[piece.index].frontIndexCount);
         drawNode(*node, mayHideBacks ? fronts : 0);
         statistics.triangles += static_cast<std::uint64_t>(node->indexCount) / 3;
     }
@@ -178,9 +232,11 @@ absl::Status MeshDrawable::draw(std::span<const Piece> pieces, const FrameState&
 absl::StatusOr<std::unique_ptr<Drawable>> openMesh(const fabric::SceneObject& object,
                                                    MeshPrograms& programs,
                                                    const page::SourceOptions& sources,
-                                                   std::uint64_t memoryBytes) {
-    ASSIGN_OR_RETURN(mesh::EymFile file, mesh::EymFile::open(object.path, sources));
-    return std::make_unique<MeshDrawable>(object, programs, std::move(file), memoryBytes);
+                                                   page::Loader& loader, const MeshMemory& memory) {
+    ASSIGN_OR_RETURN(mesh::EymFile opened, mesh::EymFile::open(object.path, sources));
+    auto file = std::make_shared<const mesh::EymFile>(std::move(opened));
+    ASSIGN_OR_RETURN(auto paging, MeshPaging::open(file, loader, memory));
+    return std::make_unique<MeshDrawable>(object, programs, std::move(file), std::move(paging));
 }
 
 }  // namespace eyrie::draw

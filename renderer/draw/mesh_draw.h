@@ -8,6 +8,7 @@
 #include "effects/mesh_effect.h"
 #include "fabric/scene.h"
 #include "renderer/draw/drawable.h"
+#include "renderer/draw/mesh_paging.h"
 #include "renderer/effects/effect_variants.h"
 #include "renderer/page/page_source.h"
 
@@ -15,11 +16,11 @@ namespace eyrie::draw {
 
 using MeshPrograms = effects::EffectVariants<effects::MeshEffect>;
 
-/// Opens `object.path` as a .eym file. `programs` outlives what is returned. Errors: those
-/// of EymFile::open.
+/// Opens `object.path` as a .eym file. `programs` and `loader` outlive what is
+/// returned. Errors: those of EymFile::open and of MeshPaging::open.
 absl::StatusOr<std::unique_ptr<Drawable>> openMesh(const fabric::SceneObject& object,
                                                    MeshPrograms& programs,
                                                    const page::SourceOptions& sources,
-                                                   std::uint64_t memoryBytes);
+                                                   page::Loader& loader, const MeshMemory& memory);
 
 }  // namespace eyrie::draw

@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/draw/mesh_paging.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include "fabric/status.h"
+#include "renderer/page/remote_name.h"
 
 namespace eyrie::draw {
 namespace {
@@ -23,16 +30,149 @@ DeviceNode upload(const mesh::NodeGeometry& geometry) {
     return node;
 }
 
+/// What a node's page takes in memory. Mapped ones are the system's.
+std::uint64_t hostBytes(const mesh::EymFile& file, std::uint32_t node) {
+    return file.isMapped() ? 0 : mesh::blockBytes(file.shape(node));
+}
+
+page::Loader::Load loadFrom(std::shared_ptr<const mesh::EymFile> file) {
+    return [file = std::move(file)](std::uint32_t node) -> absl::StatusOr<page::Loaded> {
+        ASSIGN_OR_RETURN(mesh::NodeGeometry geometry, file->geometry(node));
+        return page::Loaded{std::make_shared<const mesh::NodeGeometry>(std::move(geometry)),
+                            hostBytes(*file, node)};
+    };
+}
+
+page::PageFacts factsOf(const std::shared_ptr<const mesh::EymFile>& file) {
+    return {file->path(), [file](std::uint32_t node) { return hostBytes(*file, node); },
+            [file](std::uint32_t node) { return file->nodes()[node].pageBytes; }};
+}
+
+std::unique_ptr<DeviceNode> uploadRoot(const mesh::EymFile& file) {
+    if (file.nodes()[0].indexCount == 0)
+        return nullptr;
+    const absl::StatusOr<mesh::NodeGeometry> geometry = file.geometry(0);
+    if (geometry.ok())
+        return std::make_unique<DeviceNode>(upload(*geometry));
+    const std::string_view message(geometry.status().message().data(),
+                                   geometry.status().message().size());
+    spdlog::warn("{}; finer data stand in for it", message);
+    return nullptr;
+}
+
 }  // namespace
 
-absl::StatusOr<const DeviceNode*> MeshPaging::node(std::uint32_t index,
-                                                   fabric::FrameStatistics& statistics) {
-    if (const DeviceNode* node = resident_.find(index); node != nullptr)
-        return node;
-    ASSIGN_OR_RETURN(const mesh::NodeGeometry geometry, file_.geometry(index));
-    ++statistics.pagesLoaded;
-    statistics.bytesLoaded += file_.nodes()[index].pageBytes;
-    return &resident_.insert(index, upload(geometry), geometry.block.size());
+absl::StatusOr<std::unique_ptr<MeshPaging>> MeshPaging::open(
+    std::shared_ptr<const mesh::EymFile> file, page::Loader& loader, const MeshMemory& limits) {
+    std::uint64_t greatestBlock = 0;
+    std::uint64_t greatestPage = 0;
+    for (std::uint32_t node = 0; node < file->nodes().size(); ++node) {
+        greatestBlock = std::max<std::uint64_t>(greatestBlock, mesh::blockBytes(file->shape(node)));
+        greatestPage = std::max(greatestPage, hostBytes(*file, node));
+    }
+    const std::uint64_t least =
+        mesh::blockBytes(file->shape(0)) + (file->nodes().size() > 1 ? greatestBlock : 0);
+    if (limits.hostBytes < 2 * greatestPage || limits.deviceBytes < least)
+        return absl::ResourceExhaustedError(fmt::format(
+            "{}: this mesh's share of memory is {} bytes on the device and {} on the host; its "
+            "nodes need {} and {} at least; raise the limits, or open fewer objects",
+            file->path(), limits.deviceBytes, limits.hostBytes, least, 2 * greatestPage));
+    std::unique_ptr<DeviceNode> root = uploadRoot(*file);
+    return std::unique_ptr<MeshPaging>(
+        new MeshPaging(std::move(file), loader, limits, std::move(root), greatestPage));
+}
+
+MeshPaging::MeshPaging(std::shared_ptr<const mesh::EymFile> file, page::Loader& loader,
+                       const MeshMemory& limits, std::unique_ptr<DeviceNode> root,
+                       std::uint64_t greatestPage)
+    : file_(std::move(file)),
+      root_(std::move(root)),
+      rootBytes_(root_ ? mesh::blockBytes(file_->shape(0)) : 0),
+      items_(limits.deviceBytes - rootBytes_),
+      pages_(loader, loadFrom(file_), factsOf(file_), limits.hostBytes, greatestPage) {}
+
+void MeshPaging::beginFrame() {
+    items_.beginFrame();
+    pages_.beginFrame();
+    missing_.clear();
+    ranked_.clear();
+    rankedBytes_ = 0;
+}
+
+/// Coarse nodes first, and of a level the worst: gives what is on the device its rank, and lists
+/// what is missing as far as it will fit.
+void MeshPaging::rank(std::vector<CutNode> nodes) {
+    std::sort(nodes.begin(), nodes.end(), [](const CutNode& a, const CutNode& b) {
+        return a.level != b.level               ? a.level < b.level
+               : a.errorPixels != b.errorPixels ? a.errorPixels > b.errorPixels
+                                                : a.node < b.node;
+    });
+    for (const CutNode& node : nodes) {
+        if ((node.node == 0 && root_) || !ranked_.insert(node.node).second)
+            continue;
+        rankedBytes_ += bytesOf(node.node);
+        if (rankedBytes_ > items_.limitBytes())
+            return;
+        const auto rank = static_cast<std::uint32_t>(ranked_.size());
+        items_.rank(node.node, rank);
+        if (!items_.contains(node.node)) {
+            missing_.push_back({node.node, rank});
+            pages_.want(node.node);
+        }
+    }
+}
+
+bool MeshPaging::upload(std::chrono::duration<double> time) {
+    const auto end = page::HostPages::Clock::now() + time;
+    bool hasUploaded = false;
+    std::erase_if(missing_, [&](const Missing& missing) {
+        if (hasUploaded && page::HostPages::Clock::now() >= end)
+            return false;
+        const auto* page = pages_.find(missing.node);
+        const std::uint64_t bytes = bytesOf(missing.node);
+        if (page == nullptr || !items_.makeRoom(bytes, missing.rank))
+            return false;
+        items_.insert(missing.node,
+                      draw::upload(*static_cast<const mesh::NodeGeometry*>(page->get())), bytes,
+                      missing.rank);
+        hasUploaded = true;
+        return true;
+    });
+    return hasUploaded;
+}
+
+MeshPaging::Progress MeshPaging::approach(const MeshCut& cut) {
+    beginFrame();
+    for (const CutNode& node : cut.drawn) {
+        items_.rank(node.node, 0);
+        ranked_.insert(node.node);
+        rankedBytes_ += bytesOf(node.node);
+    }
+    std::vector<CutNode> below = cut.wanted;
+    below.insert(below.end(), cut.between.begin(), cut.between.end());
+    rank(std::move(below));
+    rank(cut.above);
+    if (missing_.empty() && !hasWishes_)
+        return {};
+    Progress progress;
+    progress.loaded = pages_.tryTake();
+    progress.hasUploaded = upload(kUploadTime);
+    pages_.tryWish();
+    hasWishes_ = !missing_.empty();
+    return progress;
+}
+
+bool MeshPaging::reach(const std::vector<CutNode>& needed, page::HostPages::Loads& loaded) {
+    beginFrame();
+    rank(needed);
+    if (missing_.empty())
+        return false;
+    const page::HostPages::Loads arrived = pages_.take();
+    loaded.add(arrived);
+    const bool hasUploaded = upload(std::chrono::hours(1));
+    pages_.wish();
+    hasWishes_ = true;
+    return !missing_.empty() && (hasUploaded || arrived.hasFailed || pages_.wait());
 }
 
 }  // namespace eyrie::draw

@@ -2,13 +2,18 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <unordered_set>
+#include <vector>
 
 #include <absl/status/statusor.h>
 
-#include "fabric/statistics.h"
+#include "renderer/draw/drawable.h"
+#include "renderer/draw/mesh_cut.h"
 #include "renderer/gl/object.h"
 #include "renderer/mesh/eym_format.h"
-#include "renderer/page/lru_cache.h"
+#include "renderer/page/host_pages.h"
+#include "renderer/page/resident_set.h"
 
 namespace eyrie::draw {
 
@@ -21,22 +26,80 @@ struct DeviceNode {
     GLsizei indexCount = 0;
 };
 
-/// Which nodes of one mesh are on the device. GL thread.
+/// Limits in bytes of what one mesh holds; they hold at all times.
+struct MeshMemory {
+    std::uint64_t deviceBytes = 0;
+    std::uint64_t hostBytes = 0;  ///< decoded pages in memory or being loaded; mapped ones are not
+};
+
+/// Which nodes of one mesh are on the device, and the pages on their way there. GL thread.
+///
+/// What a view needs comes coarse nodes first. Whatever is missing, something that is there is
+/// drawn for it: any cut through the tree is without cracks (docs/errors.md). A page that
+/// cannot be read is logged once, and tried again by the loader.
 class MeshPaging {
 public:
-    /// `file` outlives this.
-    MeshPaging(const mesh::EymFile& file, std::uint64_t memoryBytes)
-        : file_(file), resident_(memoryBytes) {}
+    /// Reads the root's page, if it has one, to stay on the device: it stands in for everything.
+    /// `loader` outlives this. Errors: ResourceExhausted when the limits hold no page of `file`.
+    /// A root that cannot be read is logged; its children are drawn.
+    static absl::StatusOr<std::unique_ptr<MeshPaging>> open(
+        std::shared_ptr<const mesh::EymFile> file, page::Loader& loader, const MeshMemory& limits);
 
-    /// The node, brought to the device if need be. Stays valid until trim.
-    absl::StatusOr<const DeviceNode*> node(std::uint32_t index,
-                                           fabric::FrameStatistics& statistics);
-    void trim() { resident_.trim(); }
-    std::uint64_t bytes() const { return resident_.bytes(); }
+    struct Progress {
+        page::HostPages::Loads loaded;
+        bool hasUploaded = false;
+    };
+
+    /// Brings what is there to the device for a few milliseconds and wishes for the rest, without
+    /// waiting. What is drawn stays; then comes what lies below it, then, against the day when the
+    /// camera draws back, what lies above.
+    Progress approach(const MeshCut& cut);
+
+    /// One round of waiting for `needed`: false when nothing is left that may come.
+    bool reach(const std::vector<CutNode>& needed, page::HostPages::Loads& loaded);
+
+    /// Null when it is not on the device. Valid until the next approach() or reach().
+    const DeviceNode* node(std::uint32_t index) {
+        return index == 0 && root_ ? root_.get() : items_.find(index);
+    }
+    bool isResident(std::uint32_t index) const {
+        return (index == 0 && root_ != nullptr) || items_.contains(index);
+    }
+    /// Whether it is there, or nothing says that it will not come before `time` and after.
+    bool mayCome(std::uint32_t index, page::HostPages::Clock::time_point time) const {
+        return isResident(index) || !pages_.isGivenUp(index, time);
+    }
+    bool isFailing(std::uint32_t index) const { return pages_.isFailing(index); }
+
+    /// What a node takes on the device, beside the root.
+    std::uint64_t bytesOf(std::uint32_t index) const {
+        return index == 0 && root_ ? 0 : mesh::blockBytes(file_->shape(index));
+    }
+    std::uint64_t roomBytes() const { return items_.limitBytes(); }
+    MemoryUse memory() const { return {rootBytes_ + items_.bytes(), pages_.bytes()}; }
 
 private:
-    const mesh::EymFile& file_;
-    page::LruCache<std::uint32_t, DeviceNode> resident_;
+    MeshPaging(std::shared_ptr<const mesh::EymFile> file, page::Loader& loader,
+               const MeshMemory& limits, std::unique_ptr<DeviceNode> root,
+               std::uint64_t greatestPage);
+
+    void beginFrame();
+    void rank(std::vector<CutNode> nodes);
+    bool upload(std::chrono::duration<double> time);
+
+    const std::shared_ptr<const mesh::EymFile> file_;
+    std::unique_ptr<DeviceNode> root_;  ///< null: it has no geometry, or none that can be read
+    std::uint64_t rootBytes_;
+    page::ResidentSet<std::uint32_t, DeviceNode> items_;
+    struct Missing {
+        std::uint32_t node;
+        std::uint32_t rank;
+    };
+    std::vector<Missing> missing_;  ///< of this frame, in the order in which they are to come
+    std::unordered_set<std::uint32_t> ranked_;  ///< of this frame
+    std::uint64_t rankedBytes_ = 0;
+    bool hasWishes_ = false;  ///< the loader may hold something for this
+    page::HostPages pages_;   ///< mesh::NodeGeometry; last: its loads use the file
 };
 
 }  // namespace eyrie::draw

@@ -12,6 +12,7 @@
 #include "renderer/draw/needed_tiles.h"
 #include "renderer/draw/object_program.h"
 #include "renderer/draw/page_bounds.h"
+#include "renderer/draw/tau_choice.h"
 #include "renderer/draw/terrain_error.h"
 #include "renderer/draw/terrain_ground.h"
 #include "renderer/draw/terrain_look.h"
@@ -19,7 +20,6 @@
 #include "renderer/draw/terrain_tiles.h"
 #include "renderer/draw/tile_imagery.h"
 #include "renderer/gl/object.h"
-#include "renderer/page/tau_ladder.h"
 #include "renderer/terrain/eyt_format.h"
 #include "renderer/terrain/part_bounds.h"
 #include "renderer/terrain/terrain_cut.h"
@@ -35,28 +35,6 @@ constexpr double kElevationBands = 5;               ///< of effects/terrain.effe
 
 /// Where memory is short, texels grow as tau does.
 double texelPixels(int step) { return terrain::kTexelPixels * page::TauLadder::factor(step); }
-
-/// What decides which step of the ladder fits.
-struct SettledView {
-    SettledView(const lod::View& view, double tau, double shareOfRange, double timesHeight)
-        : eye(view.eye),
-          rotation(view.viewFromWorldRotation),
-          frustum(view.frustum),
-          height(view.height),
-          tauPixels(tau),
-          share(shareOfRange),
-          exaggeration(timesHeight) {}
-
-    fabric::Vec3 eye;
-    fabric::Mat3 rotation;
-    fabric::Frustum frustum;
-    int height;
-    double tauPixels;
-    double share;
-    double exaggeration;
-
-    bool operator==(const SettledView&) const = default;
-};
 
 class TerrainDrawable : public Drawable {
 public:
@@ -109,7 +87,6 @@ private:
     std::uint64_t bytesOf(const lod::ObjectView& view, const terrain::TerrainCut& cut,
                           double texelPixels);
     const Wanted& wantedAt(int step, const CutRequest& request);
-    page::TauLadder::Choice chooseStep(const CutRequest& request);
     /// By variant; null: not used in the frame so far.
     using PicturePrograms =
         std::array<const TerrainEffect*, TerrainEffect::Variant::kMaxImagery + 1>;
@@ -133,11 +110,9 @@ private:
     BoxLines boxLines_;
     std::unique_ptr<TerrainPaging> paging_;
     TileImagery imagery_;
-    page::TauLadder ladder_;
-    std::optional<SettledView> last_;
-    std::optional<SettledView> settled_;  ///< whose lowest step the ladder is at
-    std::map<int, Wanted> wanted_;        ///< of this view and tau, by step
-    terrain::TerrainCut drawn_;           ///< the last cut; pieces index its tiles
+    TauChoice tau_;
+    std::map<int, Wanted> wanted_;  ///< of this view and tau, by step
+    terrain::TerrainCut drawn_;     ///< the last cut; pieces index its tiles
 };
 
 std::uint64_t TerrainDrawable::bytesOf(const lod::ObjectView& view, const terrain::TerrainCut& cut,
@@ -163,30 +138,10 @@ const TerrainDrawable::Wanted& TerrainDrawable::wantedAt(int step, const CutRequ
         .first->second;
 }
 
-/// What a channel needs is judged by its share of the whole view, so that the channels of a frame
-/// choose the same step. A view that is drawn once more, or waited for, gets the lowest that fits.
-page::TauLadder::Choice TerrainDrawable::chooseStep(const CutRequest& request) {
-    const double share = request.range.end - request.range.begin;
-    const auto need = [&](int step) {
-        return static_cast<std::uint64_t>(share *
-                                          static_cast<double>(wantedAt(step, request).bytes));
-    };
-    const SettledView view(request.view.view(), request.tauPixels, share, request.exaggeration);
-    if (settled_ == view)
-        return {ladder_.step(), true};
-    const bool isRepeated = last_ == view;
-    last_ = view;
-    if (!isRepeated && request.completeness == fabric::Completeness::Interactive) {
-        settled_.reset();
-        return ladder_.follow(need, paging_->roomBytes());
-    }
-    settled_ = view;
-    return ladder_.settle(need, paging_->roomBytes());
-}
-
 Cut TerrainDrawable::selectCut(const CutRequest& request) {
     wanted_.clear();
-    const page::TauLadder::Choice choice = chooseStep(request);
+    const page::TauLadder::Choice choice = tau_.choose(
+        request, [&](int step) { return wantedAt(step, request).bytes; }, paging_->roomBytes());
     const Wanted& wanted = wantedAt(choice.step, request);
     needed_.assign(wanted.cut, request);
     prefetch_.follow(request.view.view(),

@@ -2,14 +2,11 @@
 #include "renderer/draw/terrain_paging.h"
 
 #include <algorithm>
-#include <limits>
-#include <string_view>
 #include <unordered_set>
 #include <utility>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
-#include <spdlog/spdlog.h>
 
 #include "fabric/status.h"
 #include "renderer/terrain/tile_bytes.h"
@@ -22,10 +19,6 @@ using terrain::Quadtree;
 using terrain::Refinement;
 using terrain::TextureId;
 using terrain::TileId;
-
-/// Share of an interactive frame that may go into copying tiles to the device.
-constexpr duration<double, std::milli> kUploadTime{3};
-constexpr std::uint32_t kLowestRank = std::numeric_limits<std::uint32_t>::max() - 1;
 
 page::Loader::Load loadFrom(std::shared_ptr<const terrain::EytFile> file, const TerrainItems& names,
                             terrain::PageForm form) {
@@ -72,10 +65,8 @@ absl::StatusOr<std::unique_ptr<TerrainPaging>> TerrainPaging::open(
             "{}: this terrain's share of memory is {} bytes on the device and {} on the host; its "
             "pages need {} and {} at least; raise the limits, or open fewer objects",
             file->path(), limits.deviceBytes, limits.hostBytes, topBytes, least));
-    // Pages that are being loaded or wait to be taken get a quarter of the host's share.
     std::unique_ptr<TerrainPaging> paging(
-        new TerrainPaging(std::move(file), loader, limits, format, decoder, topBytes,
-                          std::max(limits.hostBytes / 4, greatestPage)));
+        new TerrainPaging(std::move(file), loader, limits, format, decoder, topBytes));
     paging->top_ = std::make_unique<DeviceTile>(geometry, decoder);
     paging->topTexture_ = std::move(topTexture);
     return paging;
@@ -83,31 +74,19 @@ absl::StatusOr<std::unique_ptr<TerrainPaging>> TerrainPaging::open(
 
 TerrainPaging::TerrainPaging(std::shared_ptr<const terrain::EytFile> file, page::Loader& loader,
                              const TerrainMemory& limits, TextureFormat format,
-                             const TileDecoder* decoder, std::uint64_t topBytes,
-                             std::uint64_t loaderBytes)
+                             const TileDecoder* decoder, std::uint64_t topBytes)
     : file_(std::move(file)),
       index_(file_->index()),
       names_(index_, format),
       decoder_(decoder),
       items_(limits.deviceBytes - topBytes),
-      pages_(limits.hostBytes - loaderBytes),
       topBytes_(topBytes),
-      source_(loader.open(loadFrom(file_, names_, formFor(decoder)), loaderBytes)) {}
+      pages_(loader, loadFrom(file_, names_, formFor(decoder)),
+             {file_->path(), [this](std::uint32_t page) { return names_.greatestPageBytes(page); },
+              [this](std::uint32_t page) { return names_.bytesOnDisk(page); }},
+             limits.hostBytes, names_.greatestOfAllPages()) {}
 
-MemoryUse TerrainPaging::memory() const {
-    return {topBytes_ + items_.bytes(), pages_.bytes() + source_->bytes()};
-}
-
-bool TerrainPaging::isGivenUp(std::uint32_t page, Clock::time_point time) const {
-    const auto failure = failures_.find(page);
-    return failure != failures_.end() && failure->second.isGivenUp &&
-           time < failure->second.retryAt;
-}
-
-std::uint64_t TerrainPaging::pageBytes(std::uint32_t page) const {
-    const auto known = knownPageBytes_.find(page);
-    return known != knownPageBytes_.end() ? known->second : names_.greatestPageBytes(page);
-}
+MemoryUse TerrainPaging::memory() const { return {topBytes_ + items_.bytes(), pages_.bytes()}; }
 
 Refinement TerrainPaging::drawable(const Refinement& wanted, const NeededTiles& needed) const {
     Refinement drawn = wanted;
@@ -119,8 +98,6 @@ void TerrainPaging::beginFrame() {
     items_.beginFrame();
     pages_.beginFrame();
     missing_.clear();
-    rankedPages_.clear();
-    rankOfPage_.clear();
 }
 
 std::vector<TextureId> TerrainPaging::chainOf(TextureId texture) const {
@@ -173,61 +150,10 @@ void TerrainPaging::rankItems(const std::vector<TerrainItem>& order, std::uint64
 
 /// Pages of missing tiles, then those to prefetch, as far as they fit.
 void TerrainPaging::rankPages(const std::vector<TileId>& prefetch) {
-    std::uint64_t bytes = 0;
-    const auto add = [&](std::uint32_t page) {
-        if (rankOfPage_.contains(page) || names_.bytesOnDisk(page) == 0)
-            return;
-        bytes += pageBytes(page);
-        if (bytes > pages_.limitBytes())
-            return;
-        const auto rank = static_cast<std::uint32_t>(rankedPages_.size());
-        rankedPages_.push_back({page, rank});
-        rankOfPage_.emplace(page, rank);
-        pages_.rank(page, rank);
-    };
-    for (const RankedItem& ranked : missing_) add(ranked.item.page);
+    for (const RankedItem& ranked : missing_) pages_.want(ranked.item.page);
     for (const TileId& tile : prefetch)
         if (!isResident(tile))
-            add(index_.quadtree.pageIndex(tile));
-}
-
-TerrainPaging::Loads TerrainPaging::keep(std::vector<page::Arrival> arrivals) {
-    Loads loaded;
-    for (page::Arrival& arrival : arrivals) {
-        if (!arrival.result.ok()) {
-            noteFailure(arrival);
-            continue;
-        }
-        ++loaded.pages;
-        loaded.bytes += names_.bytesOnDisk(arrival.page);
-        isSourceDown_ = false;
-        if (failures_.erase(arrival.page) != 0)
-            spdlog::info("{}: page {} can be read again", file_->path(), arrival.page);
-        if (const auto since = wishedSince_.find(arrival.page); since != wishedSince_.end()) {
-            latency_ += 0.1 * (duration<double>(Clock::now() - since->second) - latency_);
-            wishedSince_.erase(since);
-        }
-        const std::uint64_t bytes = arrival.result->bytes;
-        knownPageBytes_[arrival.page] = bytes;
-        const auto found = rankOfPage_.find(arrival.page);
-        const std::uint32_t rank = found == rankOfPage_.end() ? kLowestRank : found->second;
-        if (!pages_.contains(arrival.page) && pages_.makeRoom(bytes, rank))
-            pages_.insert(arrival.page, arrival.result->value, bytes, rank);
-    }
-    return loaded;
-}
-
-void TerrainPaging::noteFailure(const page::Arrival& arrival) {
-    const absl::Status& status = arrival.result.status();
-    std::string message(status.message().data(), status.message().size());
-    isSourceDown_ = absl::IsUnavailable(status);
-    Failure& failure = failures_[arrival.page];
-    failure.retryAt = arrival.retryAt;
-    failure.isGivenUp = arrival.isGivenUp;
-    if (failure.message == message)
-        return;
-    spdlog::warn("{}; coarser data stand in for it", message);
-    failure.message = std::move(message);
+            pages_.want(index_.quadtree.pageIndex(tile));
 }
 
 bool TerrainPaging::upload(const RankedItem& ranked, const std::shared_ptr<const void>& page) {
@@ -265,20 +191,6 @@ bool TerrainPaging::upload(duration<double> time) {
     return hasUploaded;
 }
 
-std::vector<page::Wish> TerrainPaging::missingPages() {
-    std::vector<page::Wish> wishes;
-    std::unordered_map<std::uint32_t, Clock::time_point> since;
-    for (const RankedPage& ranked : rankedPages_) {
-        if (pages_.contains(ranked.page))
-            continue;
-        wishes.push_back({ranked.page, -static_cast<double>(ranked.rank), pageBytes(ranked.page)});
-        const auto known = wishedSince_.find(ranked.page);
-        since.emplace(ranked.page, known == wishedSince_.end() ? Clock::now() : known->second);
-    }
-    wishedSince_ = std::move(since);
-    return wishes;
-}
-
 /// Each, or in its place the nearest above that may still come.
 std::vector<TextureId> TerrainPaging::readableOf(const std::vector<TextureId>& textures,
                                                  Clock::time_point start) const {
@@ -288,7 +200,7 @@ std::vector<TextureId> TerrainPaging::readableOf(const std::vector<TextureId>& t
         for (const TextureId& one : chainOf(texture)) {
             const TerrainItem item = names_.of(one);
             if (names_.bytesOnDisk(item.page) == 0 ||
-                (!items_.contains(item.key) && isGivenUp(item.page, start)))
+                (!items_.contains(item.key) && pages_.isGivenUp(item.page, start)))
                 continue;
             if (known.insert(item.key).second)
                 readable.push_back(one);
@@ -323,8 +235,7 @@ TerrainPaging::Result TerrainPaging::resultOf(Refinement drawn, const NeededTile
         if (!isResident(texture))
             missing.insert(names_.of(texture).page);
     Result result{std::move(drawn), {}, missing.size(), 0, tilesDecodedOnGpu_};
-    for (const std::uint32_t page : missing)
-        result.pagesFailed += isSourceDown_ || failures_.contains(page) ? 1 : 0;
+    for (const std::uint32_t page : missing) result.pagesFailed += pages_.isFailing(page) ? 1 : 0;
     return result;
 }
 
@@ -367,10 +278,10 @@ TerrainPaging::Result TerrainPaging::approach(const Refinement& wanted, const Ne
     order.insert(order.end(), last.begin(), last.end());
     rankItems(order, drawnBytes);
     rankPages(isUrgent ? std::vector<TileId>{} : prefetch());
-    const Loads loaded = keep(source_->tryTake());
+    const page::HostPages::Loads loaded = pages_.tryTake();
     if (upload(kUploadTime))
         drawn = drawable(wanted, needed);
-    source_->tryWish(missingPages());
+    pages_.tryWish();
     Result result = resultOf(std::move(drawn), needed, textures);
     result.loaded = loaded;
     return result;
@@ -380,13 +291,13 @@ TerrainPaging::Result TerrainPaging::reach(const Refinement& wanted, const Neede
                                            const std::vector<TextureId>& textures,
                                            const lod::ObjectView& view) {
     const auto start = Clock::now();
-    Loads loaded;
+    page::HostPages::Loads loaded;
     tilesDecodedOnGpu_ = 0;
     while (true) {
         beginFrame();
         Refinement readable = wanted;
         const auto mayCome = [&](const TileId& tile) {
-            return isResident(tile) || !isGivenUp(index_.quadtree.pageIndex(tile), start);
+            return isResident(tile) || !pages_.isGivenUp(index_.quadtree.pageIndex(tile), start);
         };
         readable.coarsen([&](const TileId& tile) {
             return !needed.contains(tile) || isEmpty(tile) ||
@@ -396,16 +307,12 @@ TerrainPaging::Result TerrainPaging::reach(const Refinement& wanted, const Neede
         if (missing_.empty())
             break;
         rankPages({});
-        std::vector<page::Arrival> arrivals = source_->take();
-        // What could not be read is replaced by what lies above it: that is still to be wished for.
-        const bool hasFailed =
-            std::any_of(arrivals.begin(), arrivals.end(),
-                        [](const page::Arrival& arrival) { return !arrival.result.ok(); });
-        const Loads arrived = keep(std::move(arrivals));
-        loaded = {loaded.pages + arrived.pages, loaded.bytes + arrived.bytes};
+        const page::HostPages::Loads arrived = pages_.take();
+        loaded.add(arrived);
         const bool hasUploaded = upload(std::chrono::hours(1));
-        source_->wish(missingPages());
-        if (missing_.empty() || (!hasUploaded && !hasFailed && !source_->wait()))
+        pages_.wish();
+        // What could not be read is replaced by what lies above it: that is still to be wished for.
+        if (missing_.empty() || (!hasUploaded && !arrived.hasFailed && !pages_.wait()))
             break;
     }
     Result result = resultOf(drawable(wanted, needed), needed, textures);

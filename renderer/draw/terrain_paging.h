@@ -5,8 +5,6 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <string>
-#include <unordered_map>
 #include <variant>
 #include <vector>
 
@@ -16,6 +14,7 @@
 #include "renderer/draw/needed_tiles.h"
 #include "renderer/draw/terrain_items.h"
 #include "renderer/draw/terrain_tiles.h"
+#include "renderer/page/host_pages.h"
 #include "renderer/page/loader.h"
 #include "renderer/page/resident_set.h"
 #include "renderer/terrain/eyt_format.h"
@@ -48,16 +47,10 @@ public:
 
     using Prefetch = std::function<std::vector<terrain::TileId>()>;
 
-    /// What was read of the file.
-    struct Loads {
-        std::uint64_t pages = 0;
-        std::uint64_t bytes = 0;  ///< as they lie in the file
-    };
-
     /// What there is to draw.
     struct Result {
         terrain::Refinement drawn;  ///< all needed tiles of this cut are on the device
-        Loads loaded;
+        page::HostPages::Loads loaded;
         std::uint64_t pagesMissing = 0;  ///< pages of wanted needed tiles that are not there
         std::uint64_t pagesFailed = 0;   ///< of them; all, while their source is unavailable
         std::uint64_t tilesDecodedOnGpu = 0;
@@ -97,23 +90,18 @@ public:
     std::uint64_t roomBytes() const { return items_.limitBytes(); }
     const TerrainItems& items() const { return names_; }
     /// From a page's first wish to its arrival, averaged over the last ones.
-    std::chrono::duration<double> latency() const { return latency_; }
+    std::chrono::duration<double> latency() const { return pages_.latency(); }
 
 private:
     using Clock = std::chrono::steady_clock;
 
     TerrainPaging(std::shared_ptr<const terrain::EytFile> file, page::Loader& loader,
                   const TerrainMemory& limits, TextureFormat format, const TileDecoder* decoder,
-                  std::uint64_t topBytes, std::uint64_t loaderBytes);
+                  std::uint64_t topBytes);
 
     struct RankedItem {
         TerrainItem item;
         std::uint32_t rank;
-    };
-    struct Failure {
-        std::string message;
-        Clock::time_point retryAt;
-        bool isGivenUp = false;
     };
 
     bool isEmpty(const terrain::TileId& tile) const { return index_.tile(tile).triangles == 0; }
@@ -128,11 +116,8 @@ private:
     bool isDrawable(const terrain::TileId& tile) const {
         return isEmpty(tile) || (isResident(tile) && isResident(index_.quadtree.normalTile(tile)));
     }
-    /// Whether it has failed for good, for now, and the next attempt comes after `time`.
-    bool isGivenUp(std::uint32_t page, Clock::time_point time) const;
     terrain::Refinement drawable(const terrain::Refinement& wanted,
                                  const NeededTiles& needed) const;
-    std::uint64_t pageBytes(std::uint32_t page) const;
 
     void beginFrame();
     /// A texture tile and those above it, up to below the top.
@@ -144,14 +129,10 @@ private:
                                std::vector<terrain::TextureId>& above);
     void rankItems(const std::vector<TerrainItem>& order, std::uint64_t reservedBytes);
     void rankPages(const std::vector<terrain::TileId>& prefetch);
-    /// Returns how many pages have come.
-    Loads keep(std::vector<page::Arrival> arrivals);
-    void noteFailure(const page::Arrival& arrival);
     /// Returns whether it brought any.
     bool upload(std::chrono::duration<double> time);
     /// One item of a page that is in memory; false when there is no room.
     bool upload(const RankedItem& ranked, const std::shared_ptr<const void>& page);
-    std::vector<page::Wish> missingPages();
     std::vector<terrain::TextureId> readableOf(const std::vector<terrain::TextureId>& textures,
                                                Clock::time_point start) const;
     /// The leaves of `cut` that are needed, and the tiles that have their normals.
@@ -167,25 +148,12 @@ private:
     std::unique_ptr<DeviceTile> top_;
     std::unique_ptr<DeviceTexture> topTexture_;  ///< null: it has none
     page::ResidentSet<std::uint32_t, std::variant<DeviceTile, DeviceTexture>> items_;  // by key
-    /// By page: terrain::Page, or TextureImage.
-    page::ResidentSet<std::uint32_t, std::shared_ptr<const void>> pages_;
     std::uint64_t topBytes_;
 
-    std::vector<RankedItem> missing_;  // of this frame, in the order in which they are to come
-    struct RankedPage {
-        std::uint32_t page;
-        std::uint32_t rank;
-    };
-    std::vector<RankedPage> rankedPages_;  // of this frame, distinct, ascending
-    std::unordered_map<std::uint32_t, std::uint32_t> rankOfPage_;
+    std::vector<RankedItem> missing_;      // of this frame, in the order in which they are to come
     std::uint64_t tilesDecodedOnGpu_ = 0;  // of this frame
 
-    std::unordered_map<std::uint32_t, std::uint64_t> knownPageBytes_;
-    std::unordered_map<std::uint32_t, Failure> failures_;
-    bool isSourceDown_ = false;  ///< says the last attempt
-    std::unordered_map<std::uint32_t, Clock::time_point> wishedSince_;
-    std::chrono::duration<double> latency_{0.1};
-    std::unique_ptr<page::Loader::Source> source_;  // last: its loads use the file
+    page::HostPages pages_;  // terrain::Page or TextureImage; last: its loads use the file
 };
 
 }  // namespace eyrie::draw

@@ -119,6 +119,8 @@ public:
     std::span<const Node> nodes() const { return nodes_; }  ///< never empty; [0] is the root
     bool hasColours() const { return (header_.flags & kHasColours) != 0; }
     bool isCoded() const { return (header_.flags & kIsCoded) != 0; }
+    /// Whether geometry() of it is not copied, and belongs to the system.
+    bool isMapped() const { return mapped_.has_value(); }
     bool hasExactPositions() const { return (header_.flags & kHasExact) != 0; }
     std::uint64_t triangleCount() const { return header_.triangleCount; }
     std::uint64_t vertexCount() const { return header_.sourceVertexCount; }

@@ -153,12 +153,15 @@ TEST(MeshImport, LosslessKeepsEverySourcePositionOfAFloatFileToTheBit) {
     const test::TemporaryFolder folder;
     TriangleMesh source = synthesizeMesh(20000, 3);
     for (fabric::Vec3& p : source.positions)
-        for (int axis = 0; axis < 3; ++axis)
-            p[axis] = static_cast<double>(static_cast<float>(p[axis]));
-    const auto rounded = importMesh(source, folder.file("m.eym"));
+        for (int axis = 0; axis < 3; ++axis) {
+            // g++ 12 leaves out rounding to float and back where it vectorises it.
+            const volatile float rounded = static_cast<float>(p[axis]);
+            p[axis] = static_cast<double>(rounded);
+        }
+    const auto without = importMesh(source, folder.file("m.eym"));
     const auto report = importMesh(source, folder.file("m.eym"), {.pack = {.keepsExact = true}});
-    ASSERT_TRUE(rounded.ok() && report.ok()) << report.status();
-    EXPECT_LT(report->bytes, rounded->bytes + 6 * report->vertices);  // half of three floats
+    ASSERT_TRUE(without.ok() && report.ok()) << report.status();
+    EXPECT_LT(report->bytes, without->bytes + 6 * report->vertices);  // half of three floats
     const auto file = mesh::EymFile::open(folder.file("m.eym"));
     ASSERT_TRUE(file.ok() && file->hasExactPositions()) << file.status();
     using Bits = std::array<std::uint64_t, 3>;

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "renderer/lod/view.h"
+#include "renderer/mesh/eym_format.h"
+
+namespace eyrie::draw {
+
+/// A node in a view.
+struct CutNode {
+    std::uint32_t node = 0;
+    int level = 0;           ///< 0: the root
+    double errorPixels = 0;  ///< bound on what drawing it moves in the picture
+};
+
+/// What a view wants of a mesh, and what of it can be drawn with the nodes that are there.
+struct MeshCut {
+    std::vector<CutNode> wanted;   ///< the coarsest nodes that keep tau, or leaves, depth first
+    std::vector<CutNode> drawn;    ///< what stands for them, depth first
+    std::vector<CutNode> between;  ///< above wanted ones and below drawn ones, with geometry
+    std::vector<CutNode> above;    ///< above drawn ones, with geometry
+    /// Whether something is drawn for all that is seen.
+    bool isWhole = true;
+
+    /// The largest of the drawn nodes'; infinite where nothing is drawn for something seen.
+    double errorPixels() const;
+};
+
+/// For a wanted node that is not there its children stand in if they are there, or theirs; else
+/// the nearest node above that is. Without one, whatever there is of the children is drawn.
+MeshCut cutOf(const mesh::EymFile& file, const lod::ObjectView& view, double tauPixels,
+              const std::function<bool(std::uint32_t)>& isThere);
+
+}  // namespace eyrie::draw

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+// Meshes whose pages come late, never, or do not all fit into memory.
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "renderer/gl/debug_output.h"
+#include "renderer/import/mesh_import.h"
+#include "renderer/import/mesh_synth.h"
+#include "renderer/mesh/eym_format.h"
+#include "renderer/renderer.h"
+#include "tests/support/temporary_folder.h"
+
+namespace eyrie {
+namespace {
+
+using fabric::ChannelResult;
+using fabric::Completeness;
+
+constexpr int kWidth = 640;
+constexpr int kHeight = 360;
+constexpr auto kPatience = std::chrono::seconds(30);
+
+/// A closed ball of 150,000 triangles in three levels, coded and raw, made once.
+class MeshPaging : public testing::Test {
+protected:
+    static void SetUpTestSuite() {
+        folder_ = std::make_unique<test::TemporaryFolder>();
+        const auto mesh = import::synthesizeMesh(150000, 4);
+        ASSERT_TRUE(import::importMesh(mesh, path("coded.eym")).ok());
+        ASSERT_TRUE(import::importMesh(mesh, path("raw.eym"), {.isRaw = true}).ok());
+    }
+    static void TearDownTestSuite() { folder_.reset(); }
+    void SetUp() override { gl::setOnGlError(gl::OnGlError::Abort); }
+
+    static std::string path(const std::string& name) { return folder_->path(name); }
+
+    /// A copy of the coded file with damaged pages of some nodes.
+    static std::string damaged(const std::set<std::uint32_t>& nodes) {
+        const std::string copy = path("damaged.eym");
+        std::filesystem::copy_file(path("coded.eym"), copy,
+                                   std::filesystem::copy_options::overwrite_existing);
+        const auto file = mesh::EymFile::open(copy);
+        EXPECT_TRUE(file.ok()) << file.status();
+        std::fstream bytes(copy, std::ios::in | std::ios::out | std::ios::binary);
+        for (const std::uint32_t node : nodes) {
+            const auto at = static_cast<std::streamoff>(file->nodes()[node].pageOffset + 40);
+            bytes.seekg(at);
+            const char byte = static_cast<char>(~bytes.get());
+            bytes.seekp(at);
+            bytes.put(byte);
+        }
+        return copy;
+    }
+
+    static std::unique_ptr<Renderer> open(const std::string& mesh,
+                                          const RendererOptions& options = {}) {
+        auto renderer = Renderer::create(options);
+        EXPECT_TRUE(renderer.ok()) << renderer.status();
+        fabric::Scene scene;
+        scene.objects.push_back({.name = "ball", .kind = fabric::ObjectKind::Mesh, .path = mesh});
+        const auto info = (*renderer)->openScene(scene);
+        EXPECT_TRUE(info.ok()) << info.status();
+        return *std::move(renderer);
+    }
+
+    /// Of a renderer that lives alone on this thread. From `distance` radii away along x, which
+    /// fill the picture at about 2.
+    static ChannelResult render(Renderer& renderer, double distance, double tauPixels,
+                                Completeness completeness, bool wantsDepth = true) {
+        const fabric::Box box = mesh::EymFile::open(path("coded.eym"))->bounds();
+        fabric::FrameData frame;
+        frame.camera.eye =
+            box.centre() + fabric::Vec3(0.5 * glm::length(box.size()) * distance, 0, 0);
+        frame.camera.target = box.centre();
+        frame.tauPixels = tauPixels;
+        fabric::ChannelTask task;
+        task.viewWidth = kWidth;
+        task.viewHeight = kHeight;
+        task.pixelViewport = {0, 0, kWidth, kHeight};
+        task.completeness = completeness;
+        task.wantsDepth = wantsDepth;
+        const auto result = renderer.render(frame, task);
+        EXPECT_TRUE(result.ok()) << result.status();
+        return result.ok() ? *result : ChannelResult{};
+    }
+
+    /// Pixels that one of the pictures covers and the other does not.
+    static std::uint64_t differing(const ChannelResult& a, const ChannelResult& b) {
+        const auto depthOf = [](const ChannelResult& result) {
+            fabric::Image whole = fabric::makeImage({0, 0, kWidth, kHeight}, {}, true);
+            fabric::paste(result.image, whole);
+            return whole.depth;
+        };
+        const std::vector<float> first = depthOf(a);
+        const std::vector<float> second = depthOf(b);
+        std::uint64_t count = 0;
+        for (std::size_t i = 0; i < first.size(); ++i)
+            count += (first[i] > 0) != (second[i] > 0) ? 1 : 0;
+        return count;
+    }
+
+    static std::unique_ptr<test::TemporaryFolder> folder_;
+};
+
+std::unique_ptr<test::TemporaryFolder> MeshPaging::folder_;
+
+TEST_F(MeshPaging, PicturesAreTheSameToTheBitCodedAndRaw) {
+    const auto picturesOf = [](const std::string& mesh) {
+        const auto renderer = open(mesh);
+        std::vector<fabric::Image> images;
+        for (const double tau : {0.5, 2.0, 20.0}) {
+            const ChannelResult result = render(*renderer, 2.2, tau, Completeness::Complete);
+            EXPECT_TRUE(result.statistics.complete);
+            EXPECT_LE(result.statistics.tauAchievedPixels, tau);
+            EXPECT_GT(result.statistics.triangles, 0U);
+            images.push_back(result.image);
+        }
+        return images;
+    };
+    const std::vector<fabric::Image> coded = picturesOf(path("coded.eym"));
+    EXPECT_TRUE(coded == picturesOf(path("raw.eym")));
+    EXPECT_FALSE(coded[0] == coded[2]);
+}
+
+TEST_F(MeshPaging, AnInteractiveFrameIsDrawnAtOnceAndBecomesTheCompleteOne) {
+    const ChannelResult complete =
+        render(*open(path("coded.eym")), 2.2, 0.5, Completeness::Complete);
+    EXPECT_LE(complete.statistics.tauAchievedPixels, 0.5);
+    const auto renderer = open(path("coded.eym"));
+    ChannelResult now = render(*renderer, 2.2, 0.5, Completeness::Interactive);
+    EXPECT_FALSE(now.statistics.complete);
+    EXPECT_GT(now.statistics.pagesMissing, 0U);
+    EXPECT_GT(now.statistics.tauAchievedPixels, 0.5);
+    EXPECT_TRUE(std::isfinite(now.statistics.tauAchievedPixels));
+    EXPECT_LT(differing(now, complete), kWidth);  // no hole: the outline alone may differ
+    const auto end = std::chrono::steady_clock::now() + kPatience;
+    while (!now.statistics.complete && std::chrono::steady_clock::now() < end) {
+        const double last = now.statistics.tauAchievedPixels;
+        now = render(*renderer, 2.2, 0.5, Completeness::Interactive);
+        EXPECT_LE(now.statistics.tauAchievedPixels, last);  // it never gets worse
+        EXPECT_LT(differing(now, complete), kWidth);
+    }
+    EXPECT_EQ(now.statistics.pagesMissing, 0U);
+    EXPECT_EQ(now.statistics.nodes, complete.statistics.nodes);
+    EXPECT_TRUE(now.image == complete.image);
+}
+
+TEST_F(MeshPaging, ADamagedNodeIsStoodInForAndReported) {
+    const auto file = mesh::EymFile::open(path("coded.eym"));
+    ASSERT_TRUE(file.ok());
+    const auto whole = render(*open(path("coded.eym")), 2.2, 0.5, Completeness::Complete);
+    std::uint32_t leaf = 0;
+    while (!file->nodes()[leaf].isLeaf()) ++leaf;
+    std::set<std::uint32_t> leaves;
+    for (std::uint32_t node = leaf; node < file->nodes().size(); ++node)
+        if (file->nodes()[node].isLeaf())
+            leaves.insert(node);
+    // All leaves: their parents are drawn, and what they are off by is told.
+    const auto coarse = render(*open(damaged(leaves)), 2.2, 0.01, Completeness::Complete);
+    EXPECT_FALSE(coarse.statistics.complete);
+    EXPECT_GT(coarse.statistics.pagesFailed, 0U);
+    EXPECT_TRUE(std::isfinite(coarse.statistics.tauAchievedPixels));
+    EXPECT_GT(coarse.statistics.tauAchievedPixels, whole.statistics.tauAchievedPixels);
+    EXPECT_LT(differing(coarse, whole), kWidth);  // no hole: the outline alone may differ
+}
+
+TEST_F(MeshPaging, ADamagedRootIsDrawnByItsChildren) {
+    const auto sound = render(*open(path("coded.eym")), 8, 1000, Completeness::Complete);
+    const auto finer = render(*open(damaged({0})), 8, 1000, Completeness::Complete);
+    EXPECT_EQ(finer.statistics.pagesFailed, 1U);
+    EXPECT_FALSE(finer.statistics.complete);
+    EXPECT_TRUE(std::isfinite(finer.statistics.tauAchievedPixels));
+    EXPECT_GT(finer.statistics.triangles, sound.statistics.triangles);
+    EXPECT_LT(differing(finer, sound), kWidth);
+}
+
+TEST_F(MeshPaging, WithoutAnythingThatCanBeReadNothingIsPromised) {
+    const auto file = mesh::EymFile::open(path("coded.eym"));
+    std::set<std::uint32_t> all;
+    for (std::uint32_t node = 0; node < file->nodes().size(); ++node)
+        if (file->nodes()[node].indexCount > 0)
+            all.insert(node);
+    const auto result = render(*open(damaged(all)), 2.2, 1, Completeness::Complete);
+    EXPECT_FALSE(result.statistics.complete);
+    EXPECT_EQ(result.statistics.triangles, 0U);
+    EXPECT_TRUE(std::isinf(result.statistics.tauAchievedPixels));
+}
+
+TEST_F(MeshPaging, AQuarterOfTheMemoryRaisesTauAndIsKept) {
+    ChannelResult all;
+    RendererOptions options;
+    {
+        const auto plenty = open(path("coded.eym"));
+        all = render(*plenty, 2.2, 0.05, Completeness::Complete);
+        options.memoryBytes = plenty->memory().deviceBytes / 4;
+    }
+    options.hostMemoryBytes = 4 << 20;
+    const auto renderer = open(path("coded.eym"), options);
+    for (const Completeness completeness : {Completeness::Complete, Completeness::Interactive}) {
+        const auto result = render(*renderer, 2.2, 0.05, completeness);
+        EXPECT_GT(result.statistics.tauAchievedPixels, all.statistics.tauAchievedPixels);
+        EXPECT_TRUE(std::isfinite(result.statistics.tauAchievedPixels));
+        EXPECT_EQ(result.statistics.pagesMissing, 0U);
+        EXPECT_LE(renderer->memory().deviceBytes, options.memoryBytes);
+        EXPECT_LE(renderer->memory().hostBytes, options.hostMemoryBytes);
+        EXPECT_LT(differing(result, all), kWidth);
+    }
+    const auto again = render(*renderer, 2.2, 0.05, Completeness::Complete);
+    EXPECT_EQ(again.statistics.pagesLoaded, 0U);  // it has come to rest
+}
+
+TEST_F(MeshPaging, SaysThatMemoryHoldsNoNode) {
+    RendererOptions options;
+    options.memoryBytes = 1 << 16;
+    auto renderer = Renderer::create(options);
+    ASSERT_TRUE(renderer.ok());
+    fabric::Scene scene;
+    scene.objects.push_back(
+        {.name = "ball", .kind = fabric::ObjectKind::Mesh, .path = path("coded.eym")});
+    const absl::Status status = (*renderer)->openScene(scene).status();
+    EXPECT_EQ(status.code(), absl::StatusCode::kResourceExhausted) << status;
+}
+
+}  // namespace
+}  // namespace eyrie
