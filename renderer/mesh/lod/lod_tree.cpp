@@ -115,7 +115,7 @@ Simplified Builder::simplified(const Patch& patch, const KdNode& node, std::size
         kSmallPiece * glm::length(glm::dvec3(node.boxMax) - glm::dvec3(node.boxMin));
     Simplified plain = simplify(mesh_, patch, target);
     const double error = largest(plain.patch.bounds);
-    if (plain.patch.triangles.size() <= target && error <= small)
+    if ((plain.patch.triangles.size() <= target && error <= small) || components().count() == 1)
         return plain;
     Patch fewer = patch;
     dropComponents(mesh_, components(), node, target, small, fewer);
