@@ -2,6 +2,7 @@
 #include "renderer/import/duplicate_faces.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace eyrie::import {
 namespace {
@@ -33,8 +34,8 @@ std::vector<bool> findDuplicates(std::span<const mesh::Triangle> triangles, std:
         const std::span group(order.data() + begin, end[point] - begin);
         if (group.size() < 2)
             continue;
-        std::stable_sort(group.begin(), group.end(), [&](std::uint32_t a, std::uint32_t b) {
-            return fromLeast(triangles[a]) < fromLeast(triangles[b]);
+        std::sort(group.begin(), group.end(), [&](std::uint32_t a, std::uint32_t b) {
+            return std::pair(fromLeast(triangles[a]), a) < std::pair(fromLeast(triangles[b]), b);
         });
         for (std::size_t i = 1; i < group.size(); ++i)
             isDuplicate[group[i]] =

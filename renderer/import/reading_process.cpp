@@ -31,6 +31,7 @@ namespace eyrie::import {
 namespace {
 
 constexpr std::chrono::milliseconds kLongestPause{32};  // between looks at the stop token
+constexpr int kLongestWait = 20;  // in times the processor time: others may want the processor too
 
 /// A file descriptor that closes itself.
 class Descriptor {
@@ -205,12 +206,14 @@ absl::Status memoryRanOut(const ReadingLimits& limits) {
 
 // --- The process that waits ----------------------------------------------------------------------
 
-/// Waits for the end of the copy; ends it when a stop is requested. Its wait status.
-int await(pid_t pid, const ImportControl& control) {
+/// Waits for the end of the copy; ends it when a stop is requested, or when it seems to wait for
+/// something that never comes, which takes no processor time. Its wait status.
+int await(pid_t pid, const ReadingLimits& limits, const ImportControl& control) {
+    const auto deadline = std::chrono::steady_clock::now() + kLongestWait * limits.processorTime;
     int status = 0;
     for (std::chrono::milliseconds pause{1}; waitpid(pid, &status, WNOHANG) != pid;
          pause = std::min(2 * pause, kLongestPause)) {
-        if (!control.check().ok())
+        if (!control.check().ok() || std::chrono::steady_clock::now() > deadline)
             kill(pid, SIGKILL);
         std::this_thread::sleep_for(pause);
     }
@@ -252,7 +255,7 @@ absl::StatusOr<TriangleMesh> readInOwnProcess(
         runReader(read, limits, result.get());
     if (pid < 0)
         return absl::ResourceExhaustedError("no process can be started; end some others");
-    const int status = await(pid, control);
+    const int status = await(pid, limits, control);
     RETURN_IF_ERROR(control.check());
     bool isWhole = false;
     absl::StatusOr<TriangleMesh> mesh = readResult(result.get(), isWhole);

@@ -70,7 +70,19 @@ TEST(DataFileOf, TellsFilesByTheirEndingInAnyCase) {
     EXPECT_EQ(dataFileOf("b.eyt"), DataFile::Terrain);
     EXPECT_EQ(dataFileOf("b.eym"), DataFile::Mesh);
     EXPECT_EQ(dataFileOf("B.PLY"), DataFile::MeshSource);
+    EXPECT_EQ(dataFileOf("b.Obj"), DataFile::MeshSource);
     EXPECT_EQ(dataFileOf("b.tif.gz"), DataFile::TerrainSource);
+}
+
+TEST_F(SceneFiles, AnObjIsImportedAgainWhenItsMaterialsChange) {
+    const std::string obj = folder_.path("m.obj");
+    std::ofstream(obj) << "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n";
+    std::ofstream(folder_.path("m.mtl")) << "newmtl a\nKd 1 0 0\n";
+    const auto red = cache_.dataFor(obj, fabric::ObjectKind::Mesh);
+    ASSERT_TRUE(red.ok()) << red.status();
+    EXPECT_EQ(*cache_.dataFor(obj, fabric::ObjectKind::Mesh), *red);
+    std::ofstream(folder_.path("m.mtl")) << "newmtl a\nKd 0 1 0\n";
+    EXPECT_NE(*cache_.dataFor(obj, fabric::ObjectKind::Mesh), *red);
 }
 
 TEST_F(SceneFiles, ASourceIsImportedOnceForTheSameContent) {

@@ -2,12 +2,16 @@
 #include "renderer/mesh/lod/lod_tree.h"
 
 #include <algorithm>
+#include <limits>
 #include <mutex>
+#include <optional>
 #include <utility>
 
 #include <absl/status/status.h>
+#include <glm/geometric.hpp>
 #include <oneapi/tbb/parallel_invoke.h>
 
+#include "renderer/mesh/lod/components.h"
 #include "renderer/mesh/lod/simplify.h"
 
 namespace eyrie::mesh {
@@ -18,12 +22,19 @@ constexpr double kWorthwhile = 0.8;
 /// Children's triangles, in those a node is drawn by, above which a surface that does not get
 /// simpler is left as it is.
 constexpr std::size_t kMostUnsimplified = 4;
+/// Of the diagonal of a node's box: pieces whose loss makes no larger an error go before surfaces
+/// are simplified. A node that is drawn as large as the picture shows it as some pixels.
+constexpr double kSmallPiece = 1.0 / 256;
 
 /// A node's surface on its way up.
 struct Part {
     Patch patch;
     std::size_t height = 0;  ///< of the tree of simplifications under it
 };
+
+double largest(const std::vector<float>& bounds) {
+    return bounds.empty() ? 0 : double{*std::max_element(bounds.begin(), bounds.end())};
+}
 
 template <typename T>
 void append(std::vector<T>& to, const std::vector<T>& from) {
@@ -44,6 +55,8 @@ public:
 private:
     Part visit(std::size_t index);
     Part finest(std::size_t index) const;
+    const Components& components();
+    Simplified simplified(const Patch& patch, const KdNode& node, std::size_t target);
     void simplifyPart(Part& part, std::size_t index);
     void record(const Part& part, std::size_t before, double borderShare);
 
@@ -54,6 +67,8 @@ private:
     const std::stop_token& stop_;
     LodTree lod_;
     std::vector<double> errorSteps_;
+    std::once_flag componentsMade_;
+    std::optional<Components> components_;
     std::mutex mutex_;  ///< of lod_.levels and done_
     std::uint64_t done_ = 0;
 };
@@ -83,9 +98,37 @@ Part Builder::visit(std::size_t index) {
     append(left.patch.bounds, right.patch.bounds);
     left.height = std::max(left.height, right.height);
     simplifyPart(left, index);
-    errorSteps_[index] =
-        double{*std::max_element(left.patch.bounds.begin(), left.patch.bounds.end())};
+    errorSteps_[index] = largest(left.patch.bounds);
     return left;
+}
+
+/// Only what surfaces of one piece do not need.
+const Components& Builder::components() {
+    std::call_once(componentsMade_, [this] { components_.emplace(mesh_, tree_); });
+    return *components_;
+}
+
+/// The node's surface with about `target` triangles: simplified, or, where that leaves too many or
+/// goes too far, without its smallest pieces first.
+Simplified Builder::simplified(const Patch& patch, const KdNode& node, std::size_t target) {
+    const double small =
+        kSmallPiece * glm::length(glm::dvec3(node.boxMax) - glm::dvec3(node.boxMin));
+    Simplified plain = simplify(mesh_, patch, target);
+    const double error = largest(plain.patch.bounds);
+    if ((plain.patch.triangles.size() <= target && error <= small) || components().count() == 1)
+        return plain;
+    Patch fewer = patch;
+    dropComponents(mesh_, components(), node, target, small, fewer);
+    Simplified sparse = simplify(mesh_, fewer, target);
+    dropComponents(mesh_, components(), node, target, std::numeric_limits<double>::infinity(),
+                   sparse.patch);
+    const bool areBothDone =
+        plain.patch.triangles.size() <= target && sparse.patch.triangles.size() <= target;
+    const bool isSparseBetter = areBothDone
+                                    ? largest(sparse.patch.bounds) < error
+                                    : sparse.patch.triangles.size() < plain.patch.triangles.size();
+    sparse.borderShare = plain.borderShare;
+    return isSparseBetter ? sparse : plain;
 }
 
 /// Leaves the part as it is where that does not pay: the node is then drawn by its children.
@@ -93,13 +136,12 @@ void Builder::simplifyPart(Part& part, std::size_t index) {
     const std::size_t before = part.patch.triangles.size();
     if (before > kMostUnsimplified * options_.nodeTriangles)
         return;
-    auto [simplified, share] =
-        simplify(mesh_, part.patch, std::min<std::size_t>(before / 2, options_.nodeTriangles));
-    if (simplified.triangles.size() > kMaxLeafVertices ||
-        static_cast<double>(simplified.triangles.size()) >
-            kWorthwhile * static_cast<double>(before))
+    auto [patch, share] = simplified(part.patch, tree_.nodes[index],
+                                     std::min<std::size_t>(before / 2, options_.nodeTriangles));
+    if (patch.triangles.size() > kMaxLeafVertices ||
+        static_cast<double>(patch.triangles.size()) > kWorthwhile * static_cast<double>(before))
         return;
-    part.patch = std::move(simplified);
+    part.patch = std::move(patch);
     ++part.height;
     lod_.geometry[index] = part.patch.triangles;
     record(part, before, share);
@@ -113,8 +155,7 @@ void Builder::record(const Part& part, std::size_t before, double borderShare) {
     ++level.nodes;
     level.trianglesBefore += before;
     level.trianglesAfter += part.patch.triangles.size();
-    const double errorSteps =
-        double{*std::max_element(part.patch.bounds.begin(), part.patch.bounds.end())};
+    const double errorSteps = largest(part.patch.bounds);
     level.largestErrorMetres =
         std::max(level.largestErrorMetres, errorSteps * mesh_.lattice.stepMetres);
     level.borderShare += borderShare;

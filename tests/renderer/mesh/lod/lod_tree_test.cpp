@@ -98,6 +98,54 @@ TEST(LodTree, NoPointOfEitherSurfaceIsFartherThanPromised) {
     EXPECT_LT(ratios / nodes, 2);
 }
 
+/// A bumpy ball with a crowd of small solids on it and some afar.
+const Levels& soup() {
+    static const Levels levels = [] {
+        import::TriangleMesh source = import::synthesizeMesh(6000, 5);
+        const import::TriangleMesh ball = source;
+        std::mt19937 engine(7);
+        std::uniform_real_distribution<double> random(0, 1);
+        for (int i = 0; i < 4000; ++i) {
+            const auto first = static_cast<std::uint32_t>(source.positions.size());
+            const double size = 0.002 + 0.02 * random(engine) * random(engine);
+            const fabric::Vec3 foot = ball.positions[engine() % ball.positions.size()] *
+                                      (i % 50 == 0 ? 1.5 : 1.0 + 0.1 * random(engine) * size);
+            for (const fabric::Vec3 corner : {fabric::Vec3(0), fabric::Vec3(1, 0, 0),
+                                              fabric::Vec3(0, 1, 0), fabric::Vec3(0, 0, 1)})
+                source.positions.push_back(foot + size * corner * glm::length(foot));
+            for (const Triangle& face : {Triangle{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}})
+                source.triangles.push_back({first + face[0], first + face[1], first + face[2]});
+        }
+        import::PackCounts counts;
+        auto mesh = import::packMesh(std::move(source), counts);
+        EXPECT_TRUE(mesh.ok());
+        return levelsOf(*std::move(mesh));
+    }();
+    return levels;
+}
+
+TEST(LodTree, OfASoupLosesPiecesAndStillKeepsItsPromise) {
+    const Levels& levels = soup();
+    std::size_t nodes = 0;
+    for (std::size_t i = 0; i < levels.tree.nodes.size(); ++i) {
+        if (levels.lod.geometry[i].empty())
+            continue;
+        const std::vector<Triangle> source = sourceOf(levels, levels.tree.nodes[i]);
+        const auto& drawn = levels.lod.geometry[i];
+        EXPECT_LE(farthest(levels.mesh, source, surface(levels.mesh, drawn)),
+                  levels.lod.errorMetres[i])
+            << "node " << i;
+        EXPECT_LE(farthest(levels.mesh, drawn, surface(levels.mesh, source)),
+                  levels.lod.errorMetres[i])
+            << "node " << i;
+        ++nodes;
+    }
+    EXPECT_GT(nodes, 20U);
+    // Without its pieces' going the root has no simpler form: none of them can be simplified.
+    EXPECT_LE(levels.lod.geometry[0].size(), kNodeTriangles);
+    EXPECT_FALSE(levels.lod.geometry[0].empty());
+}
+
 TEST(LodTree, HalvesTheTrianglesFromLevelToLevel) {
     const Levels& levels = bumpyBall();
     ASSERT_GE(levels.lod.levels.size(), 5U);
@@ -152,8 +200,15 @@ TEST(LodTree, AnyCutThroughAClosedMeshIsClosed) {
     }
 }
 
-TEST(LodTree, LeavesASoupToItsLeaves) {
-    const Levels levels = levelsOf(test::separateTriangles(2000), 64);
+TEST(LodTree, LeavesSurfacesThatAreAllBorderToTheirLeaves) {
+    PackedMesh flag;  // one strip: every vertex lies on its border, and it is one piece
+    for (std::uint32_t i = 0; i < 2002; ++i)
+        flag.positions.push_back(packPosition({i / 2, i % 2 * 10, i % 7}));
+    flag.normals.assign(flag.positions.size(), packNormal({0, 0, 1}));
+    for (std::uint32_t i = 0; i < 2000; ++i)
+        flag.triangles.push_back(i % 2 == 0 ? Triangle{i, i + 2, i + 1}
+                                            : Triangle{i, i + 1, i + 2});
+    const Levels levels = levelsOf(std::move(flag), 64);
     for (const auto& geometry : levels.lod.geometry) EXPECT_TRUE(geometry.empty());
     for (const double error : levels.lod.errorMetres)
         EXPECT_EQ(error, levels.mesh.lattice.errorMetres());

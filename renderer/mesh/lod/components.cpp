@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/mesh/lod/components.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <queue>
+#include <utility>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "renderer/mesh/vertex_packing.h"
+
+namespace eyrie::mesh {
+namespace {
+
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Cells along the longest axis of the grid in which neighbours are looked for, and how many of
+/// them to each side: what has no neighbour that near stays.
+constexpr int kCells = 128;
+constexpr int kReach = 8;
+
+class DisjointSets {
+public:
+    explicit DisjointSets(std::size_t count) : parent_(count) {
+        std::iota(parent_.begin(), parent_.end(), 0U);
+    }
+    std::uint32_t find(std::uint32_t i) {
+        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+        return i;
+    }
+    void join(std::uint32_t a, std::uint32_t b) {
+        a = find(a);
+        b = find(b);
+        parent_[std::max(a, b)] = std::min(a, b);
+    }
+
+private:
+    std::vector<std::uint32_t> parent_;
+};
+
+/// A vertex of a patch.
+struct Point {
+    glm::dvec3 position;
+    std::uint32_t piece;
+    std::uint32_t triangle;  ///< one that it is a corner of
+};
+
+/// Points in cells of a grid.
+class Grid {
+public:
+    explicit Grid(std::vector<Point> points) : points_(std::move(points)) {
+        glm::dvec3 high(-kInfinity);
+        low_ = glm::dvec3(kInfinity);
+        for (const Point& point : points_) {
+            low_ = glm::min(low_, point.position);
+            high = glm::max(high, point.position);
+        }
+        const glm::dvec3 size = high - low_;
+        cell_ = std::max(1.0, std::max({size.x, size.y, size.z}) / kCells);
+        counts_ = glm::ivec3(size / cell_) + 1;
+        const auto cells = static_cast<std::size_t>(counts_.x) *
+                           static_cast<std::size_t>(counts_.y) *
+                           static_cast<std::size_t>(counts_.z);
+        end_.assign(cells + 1, 0);
+        for (const Point& point : points_) ++end_[indexOf(cellOf(point.position)) + 1];
+        std::partial_sum(end_.begin(), end_.end(), end_.begin());
+        order_.resize(points_.size());
+        for (std::uint32_t i = 0; i < points_.size(); ++i)
+            order_[end_[indexOf(cellOf(points_[i].position))]++] = i;
+    }
+
+    /// The nearest point to `at` of a piece that is `isThere` and not `own`; null where there is
+    /// none within reach.
+    const Point* nearest(const glm::dvec3& at, std::uint32_t own,
+                         const std::vector<bool>& isThere) const {
+        const glm::ivec3 middle = cellOf(at);
+        const Point* best = nullptr;
+        double distance = kInfinity;
+        for (int reach = 0; reach <= kReach && (reach - 1) * cell_ <= distance; ++reach) {
+            const glm::ivec3 from = glm::max(middle - reach, glm::ivec3(0));
+            const glm::ivec3 to = glm::min(middle + reach, counts_ - 1);
+            for (int z = from.z; z <= to.z; ++z)
+                for (int y = from.y; y <= to.y; ++y)
+                    for (int x = from.x; x <= to.x; ++x) {
+                        const glm::ivec3 away = glm::abs(glm::ivec3(x, y, z) - middle);
+                        if (std::max({away.x, away.y, away.z}) == reach)
+                            lookIn(indexOf({x, y, z}), at, own, isThere, best, distance);
+                    }
+        }
+        return best;
+    }
+
+private:
+    void lookIn(std::size_t cell, const glm::dvec3& at, std::uint32_t own,
+                const std::vector<bool>& isThere, const Point*& best, double& distance) const {
+        for (std::size_t i = cell == 0 ? 0 : end_[cell - 1]; i < end_[cell]; ++i) {
+            const Point& point = points_[order_[i]];
+            if (point.piece == own || !isThere[point.piece])
+                continue;
+            if (const double far = glm::distance(point.position, at); far < distance) {
+                distance = far;
+                best = &point;
+            }
+        }
+    }
+    glm::ivec3 cellOf(const glm::dvec3& at) const {
+        return glm::clamp(glm::ivec3((at - low_) / cell_), glm::ivec3(0), counts_ - 1);
+    }
+    std::size_t indexOf(const glm::ivec3& cell) const {
+        return (static_cast<std::size_t>(cell.z) * static_cast<std::size_t>(counts_.y) +
+                static_cast<std::size_t>(cell.y)) *
+                   static_cast<std::size_t>(counts_.x) +
+               static_cast<std::size_t>(cell.x);
+    }
+
+    std::vector<Point> points_;
+    glm::dvec3 low_;
+    double cell_ = 1;
+    glm::ivec3 counts_;
+    std::vector<std::uint32_t> end_;
+    std::vector<std::uint32_t> order_;
+};
+
+/// A patch taken apart, from which pieces go.
+class Dropper {
+public:
+    Dropper(const PackedMesh& mesh, const Components& components, const KdNode& node, Patch& patch)
+        : mesh_(mesh), patch_(patch) {
+        gather(components, node);
+        grid_.emplace(points());
+    }
+
+    void run(std::size_t target, double limitSteps);
+
+private:
+    struct Piece {
+        std::vector<std::uint32_t> triangles;
+        bool mayGo = false;
+    };
+    struct Way {
+        double bound = kInfinity;
+        std::uint32_t piece = kNone;
+        std::uint32_t receiver = kNone;  ///< a triangle
+        /// Ties go by the piece: the result is the same everywhere.
+        bool operator<(const Way& other) const {
+            return bound != other.bound ? bound > other.bound : piece > other.piece;
+        }
+    };
+
+    void gather(const Components& components, const KdNode& node);
+    std::vector<Point> points() const;
+    Way wayOf(std::uint32_t piece) const;
+    glm::dvec3 position(std::uint32_t vertex) const {
+        return glm::dvec3(unpackPosition(mesh_.positions[vertex]));
+    }
+
+    const PackedMesh& mesh_;
+    Patch& patch_;
+    std::vector<Piece> pieces_;
+    std::vector<std::uint32_t> pieceOf_;  ///< of a triangle
+    std::vector<bool> isThere_;           ///< of a piece
+    std::optional<Grid> grid_;
+};
+
+void Dropper::gather(const Components& components, const KdNode& node) {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> byComponent;
+    for (std::uint32_t i = 0; i < patch_.triangles.size(); ++i)
+        byComponent.emplace_back(components.of(patch_.triangles[i][0]), i);
+    std::sort(byComponent.begin(), byComponent.end());
+    pieceOf_.resize(byComponent.size());
+    for (std::size_t i = 0; i < byComponent.size(); ++i) {
+        const auto [component, triangle] = byComponent[i];
+        if (i == 0 || component != byComponent[i - 1].first)
+            pieces_.push_back({{}, components.isWholeIn(component, node)});
+        pieces_.back().triangles.push_back(triangle);
+        pieceOf_[triangle] = static_cast<std::uint32_t>(pieces_.size() - 1);
+    }
+    isThere_.assign(pieces_.size(), true);
+}
+
+/// Each vertex once.
+std::vector<Point> Dropper::points() const {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> corners;
+    for (std::uint32_t i = 0; i < patch_.triangles.size(); ++i)
+        for (const std::uint32_t vertex : patch_.triangles[i]) corners.emplace_back(vertex, i);
+    std::sort(corners.begin(), corners.end());
+    std::vector<Point> result;
+    for (std::size_t i = 0; i < corners.size(); ++i)
+        if (i == 0 || corners[i].first != corners[i - 1].first)
+            result.push_back(
+                {position(corners[i].first), pieceOf_[corners[i].second], corners[i].second});
+    return result;
+}
+
+Dropper::Way Dropper::wayOf(std::uint32_t index) const {
+    const Piece& piece = pieces_[index];
+    glm::dvec3 sum(0.0);
+    double before = 0;
+    for (const std::uint32_t triangle : piece.triangles) {
+        for (const std::uint32_t vertex : patch_.triangles[triangle]) sum += position(vertex);
+        before = std::max(before, double{patch_.bounds[triangle]});
+    }
+    const Point* to =
+        grid_->nearest(sum / (3.0 * static_cast<double>(piece.triangles.size())), index, isThere_);
+    if (to == nullptr)
+        return {};
+    double farthest = 0;  // of a triangle's points a corner is the farthest
+    for (const std::uint32_t triangle : piece.triangles)
+        for (const std::uint32_t vertex : patch_.triangles[triangle])
+            farthest = std::max(farthest, glm::distance(position(vertex), to->position));
+    return {before + farthest, index, to->triangle};
+}
+
+void Dropper::run(std::size_t target, double limitSteps) {
+    std::priority_queue<Way> queue;
+    const auto look = [&](std::uint32_t piece) {
+        if (const Way way = wayOf(piece); way.piece != kNone && way.bound <= limitSteps)
+            queue.push(way);
+    };
+    for (std::uint32_t i = 0; i < pieces_.size(); ++i)
+        if (pieces_[i].mayGo)
+            look(i);
+    std::size_t left = patch_.triangles.size();
+    while (left > target && !queue.empty()) {
+        const Way way = queue.top();
+        queue.pop();
+        const Way now = wayOf(way.piece);
+        if (now.bound != way.bound || now.receiver != way.receiver) {
+            if (now.piece != kNone && now.bound <= limitSteps)
+                queue.push(now);
+            continue;
+        }
+        isThere_[way.piece] = false;
+        left -= pieces_[way.piece].triangles.size();
+        float& bound = patch_.bounds[way.receiver];
+        bound = std::max(bound, std::nextafter(static_cast<float>(way.bound),
+                                               std::numeric_limits<float>::infinity()));
+    }
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < patch_.triangles.size(); ++i) {
+        if (!isThere_[pieceOf_[i]])
+            continue;
+        patch_.triangles[kept] = patch_.triangles[i];
+        patch_.bounds[kept++] = patch_.bounds[i];
+    }
+    patch_.triangles.resize(kept);
+    patch_.bounds.resize(kept);
+}
+
+}  // namespace
+
+Components::Components(const PackedMesh& mesh, const KdTree& tree) {
+    DisjointSets sets(mesh.positions.size());
+    std::vector<std::uint32_t> byPosition(mesh.positions.size());
+    std::iota(byPosition.begin(), byPosition.end(), 0U);
+    // By one thread: one that helped others meanwhile could come to wait for what it makes here.
+    std::sort(byPosition.begin(), byPosition.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return std::pair(mesh.positions[a], a) < std::pair(mesh.positions[b], b);
+    });
+    for (std::size_t i = 1; i < byPosition.size(); ++i)
+        if (mesh.positions[byPosition[i]] == mesh.positions[byPosition[i - 1]])
+            sets.join(byPosition[i], byPosition[i - 1]);
+    for (const Triangle& triangle : mesh.triangles) {
+        sets.join(triangle[0], triangle[1]);
+        sets.join(triangle[0], triangle[2]);
+    }
+    ofVertex_.resize(mesh.positions.size());
+    for (std::uint32_t i = 0; i < ofVertex_.size(); ++i) {
+        const std::uint32_t root = sets.find(i);  // never after i, so it has its number
+        if (root == i) {
+            ofVertex_[i] = static_cast<std::uint32_t>(first_.size());
+            first_.push_back(std::numeric_limits<std::uint64_t>::max());
+        } else {
+            ofVertex_[i] = ofVertex_[root];
+        }
+    }
+    last_.assign(first_.size(), 0);
+    for (std::uint64_t i = 0; i < tree.order.size(); ++i) {
+        const std::uint32_t component = of(mesh.triangles[tree.order[i]][0]);
+        first_[component] = std::min(first_[component], i);
+        last_[component] = i;
+    }
+}
+
+void dropComponents(const PackedMesh& mesh, const Components& components, const KdNode& node,
+                    std::size_t target, double limitSteps, Patch& patch) {
+    if (patch.triangles.size() > target && components.count() > 1)
+        Dropper(mesh, components, node, patch).run(target, limitSteps);
+}
+
+}  // namespace eyrie::mesh
