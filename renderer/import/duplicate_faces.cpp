@@ -7,40 +7,64 @@
 namespace eyrie::import {
 namespace {
 
-/// Turned so that its least point is the first.
-mesh::Triangle fromLeast(const mesh::Triangle& corners) {
+/// Triangles at a point above which they are sorted, not compared each with each.
+constexpr std::size_t kFew = 8;
+
+/// The corners after the least one, in their turn, in one word.
+std::uint64_t turnFromLeast(const mesh::Triangle& corners) {
     const auto [a, b, c] = corners;
+    const auto word = [](std::uint64_t first, std::uint64_t second) {
+        return first << 32 | second;
+    };
     if (a < b && a < c)
-        return corners;
-    return b < c ? mesh::Triangle{b, c, a} : mesh::Triangle{c, a, b};
+        return word(b, c);
+    return b < c ? word(c, a) : word(a, b);
+}
+
+/// A triangle at the point that is its least.
+struct Entry {
+    std::uint64_t turn;
+    std::uint32_t triangle;
+
+    bool operator<(const Entry& other) const {
+        return std::pair(turn, triangle) < std::pair(other.turn, other.triangle);
+    }
+};
+
+/// Marks those of one point, given in their order.
+void markDuplicates(std::span<Entry> entries, std::vector<bool>& isDuplicate) {
+    if (entries.size() > kFew) {
+        std::sort(entries.begin(), entries.end());
+        for (std::size_t i = 1; i < entries.size(); ++i)
+            if (entries[i].turn == entries[i - 1].turn)
+                isDuplicate[entries[i].triangle] = true;
+        return;
+    }
+    for (std::size_t i = 1; i < entries.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            if (entries[i].turn == entries[j].turn)
+                isDuplicate[entries[i].triangle] = true;
 }
 
 }  // namespace
 
 std::vector<bool> findDuplicates(std::span<const mesh::Triangle> triangles, std::size_t points) {
-    // By their least points, in order: one pass, where sorting all of them took three times as
-    // long.
+    // By their least points: a few passes, where sorting all would take the logarithm of their
+    // number.
     std::vector<std::uint32_t> end(points + 1, 0);
     for (const mesh::Triangle& triangle : triangles)
         ++end[std::min({triangle[0], triangle[1], triangle[2]}) + 1];
     for (std::size_t i = 1; i < end.size(); ++i) end[i] += end[i - 1];
-    std::vector<std::uint32_t> order(triangles.size());
-    for (std::uint32_t i = 0; i < triangles.size(); ++i)
-        order[end[std::min({triangles[i][0], triangles[i][1], triangles[i][2]})]++] = i;
-
+    std::vector<Entry> entries(triangles.size());
+    for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+        const mesh::Triangle& triangle = triangles[i];
+        entries[end[std::min({triangle[0], triangle[1], triangle[2]})]++] = {
+            turnFromLeast(triangle), i};
+    }
     std::vector<bool> isDuplicate(triangles.size(), false);
     std::size_t begin = 0;
-    for (std::size_t point = 0; point < points; begin = end[point++]) {
-        const std::span group(order.data() + begin, end[point] - begin);
-        if (group.size() < 2)
-            continue;
-        std::sort(group.begin(), group.end(), [&](std::uint32_t a, std::uint32_t b) {
-            return std::pair(fromLeast(triangles[a]), a) < std::pair(fromLeast(triangles[b]), b);
-        });
-        for (std::size_t i = 1; i < group.size(); ++i)
-            isDuplicate[group[i]] =
-                fromLeast(triangles[group[i]]) == fromLeast(triangles[group[i - 1]]);
-    }
+    for (std::size_t point = 0; point < points; begin = end[point++])
+        markDuplicates(std::span(entries).subspan(begin, end[point] - begin), isDuplicate);
     return isDuplicate;
 }
 

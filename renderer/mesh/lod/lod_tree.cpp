@@ -25,6 +25,8 @@ constexpr std::size_t kMostUnsimplified = 4;
 /// Of the diagonal of a node's box: pieces whose loss makes no larger an error go before surfaces
 /// are simplified. A node that is drawn as large as the picture shows it as some pixels.
 constexpr double kSmallPiece = 1.0 / 256;
+/// Of the same: a larger error shows that what had to give way should not have.
+constexpr double kTooFar = 1.0 / 32;
 
 /// A node's surface on its way up.
 struct Part {
@@ -111,14 +113,14 @@ const Components& Builder::components() {
 /// The node's surface with about `target` triangles: simplified, or, where that leaves too many or
 /// goes too far, without its smallest pieces first.
 Simplified Builder::simplified(const Patch& patch, const KdNode& node, std::size_t target) {
-    const double small =
-        kSmallPiece * glm::length(glm::dvec3(node.boxMax) - glm::dvec3(node.boxMin));
+    const double diagonal = glm::length(glm::dvec3(node.boxMax) - glm::dvec3(node.boxMin));
     Simplified plain = simplify(mesh_, patch, target);
     const double error = largest(plain.patch.bounds);
-    if ((plain.patch.triangles.size() <= target && error <= small) || components().count() == 1)
+    if ((plain.patch.triangles.size() <= target && error <= kTooFar * diagonal) ||
+        components().count() == 1)
         return plain;
     Patch fewer = patch;
-    dropComponents(mesh_, components(), node, target, small, fewer);
+    dropComponents(mesh_, components(), node, target, kSmallPiece * diagonal, fewer);
     Simplified sparse = simplify(mesh_, fewer, target);
     dropComponents(mesh_, components(), node, target, std::numeric_limits<double>::infinity(),
                    sparse.patch);
