@@ -10,11 +10,13 @@
 
 #include "renderer/draw/terrain_tiles.h"
 #include "renderer/lod/vertical_error.h"
+#include "renderer/terrain/holes.h"
 
 namespace eyrie::draw {
 namespace {
 
 using fabric::Box;
+using fabric::Vec2;
 using fabric::Vec3;
 using terrain::Quadtree;
 
@@ -36,6 +38,12 @@ std::optional<double> heightAt(std::span<const Vec3, 3> t, double x, double y) {
     if (!(area > 0) || weights.x < 0 || weights.y < 0 || weights.z < 0)
         return std::nullopt;
     return (weights.x * t[0].z + weights.y * t[1].z + weights.z * t[2].z) / area;
+}
+
+Box boundsOf(std::span<const Vec3, 3> triangle) {
+    Box bounds;
+    for (const Vec3& corner : triangle) bounds.grow(corner);
+    return bounds;
 }
 
 }  // namespace
@@ -72,7 +80,7 @@ double TerrainError::ofTriangles(const terrain::TileChoice& tile, double pixels,
         for (std::size_t k = 0; k + 2 < corners[share].size(); k += 3) {
             const std::span<const Vec3, 3> triangle(corners[share].data() + k, 3);
             const double own = error.pixels(triangle);
-            if (own > worst && !(hidden_ != nullptr && isHidden(index_.bounds(tile.id), [&] {
+            if (own > worst && !(hidden_ != nullptr && isHidden(boundsOf(triangle), [&] {
                                      return hidden_->hidesTriangle(triangle, own);
                                  })))
                 worst = own;
@@ -86,15 +94,7 @@ template <typename Covers>
 bool TerrainError::isHidden(const Box& bounds, Covers covers) {
     if (!covers() || !isEyeAboveGround())
         return false;
-    if (index_.nodataPosts == 0)
-        return true;
-    const fabric::Mat4 latticeFromObject = glm::inverse(index_.objectFromLattice);
-    Box posts;
-    for (const double x : {bounds.min.x, bounds.max.x})
-        for (const double y : {bounds.min.y, bounds.max.y})
-            posts.grow(Vec3(latticeFromObject * fabric::Vec4(x, y, 0, 1)));
-    posts.grow(eyePost());
-    return hasNoHole(index_.quadtree.top(), posts);
+    return !terrain::hasHoleBefore(index_, Vec2(request_.view.objectFromView()[3]), bounds);
 }
 
 /// Whether the eye is above or below a cell of the terrain.
@@ -142,31 +142,6 @@ bool TerrainError::findEyeAboveGround() {
         return false;
     }
     return false;
-}
-
-/// Whether data nowhere meet nodata in the parts of tiles that `posts` (of the lattice) touches, as
-/// fine as the index tells.
-bool TerrainError::hasNoHole(const terrain::TileId& tile, const Box& posts) const {
-    const auto isAside = [&](double x, double y, double side) {
-        return posts.max.x < x || posts.min.x > x + side || posts.max.y < y ||
-               posts.min.y > y + side;
-    };
-    const double side = Quadtree::side(tile.level);
-    if (!index_.quadtree.contains(tile) || isAside(tile.x * side, tile.y * side, side))
-        return true;
-    const terrain::TileRecord& record = index_.tile(tile);
-    if (record.nodataParts == 0)
-        return true;
-    bool isWhole = true;
-    for (int i = 0; i < 4 && tile.level > 0; ++i)
-        isWhole = isWhole && hasNoHole(Quadtree::child(tile, i), posts);
-    const double part = side / terrain::kTilePartsPerSide;
-    for (int y = 0; y < terrain::kTilePartsPerSide && tile.level == 0; ++y)
-        for (int x = 0; x < terrain::kTilePartsPerSide; ++x)
-            isWhole =
-                isWhole && !(record.hasNodataIn(x, y, 1) &&
-                             !isAside(tile.x * side + x * part, tile.y * side + y * part, part));
-    return isWhole;
 }
 
 }  // namespace eyrie::draw

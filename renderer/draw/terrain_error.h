@@ -32,7 +32,6 @@ private:
     bool isEyeOverGround() const;
     bool isEyeAboveGround();
     bool findEyeAboveGround();
-    bool hasNoHole(const terrain::TileId& tile, const fabric::Box& posts) const;
 
     const terrain::EytIndex& index_;
     TerrainPaging& paging_;

@@ -88,7 +88,7 @@ void saturate(terrain::EytIndex& index) {
             }
     for (terrain::TileRecord& record : index.tiles)
         if (record.minHeightMetres > record.maxHeightMetres)
-            record = {};  // no triangle here in any level
+            record = {.nodataParts = record.nodataParts};  // no triangle here in any level
 }
 
 /// Builds pages in parallel and writes them in order.

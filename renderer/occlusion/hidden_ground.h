@@ -25,8 +25,9 @@ using ReadDepth = std::function<void(const fabric::PixelViewport& part, std::vec
 /// Proof: docs/errors.md#ground-that-hills-hide.
 ///
 /// Preconditions: the picture shows one height field, nothing else, and the eye is above it and its
-/// source; from beneath the eye to what is asked about, neither has a hole. Horizontal distance is
-/// that of the object's x and y, so its vertical may stand anyhow in the world.
+/// source; between the eye and what is asked about, nearer than all of it, neither has a hole.
+/// Horizontal distance is that of the object's x and y, so its vertical may stand anyhow in the
+/// world.
 class HiddenGround {
 public:
     /// `drawn` is the part of the view that the picture shows. Keeps a reference to `view`.

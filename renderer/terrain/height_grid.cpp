@@ -34,7 +34,7 @@ double latticeStepFor(double postMetres) {
     constexpr double kStepsPerPost = 256;
     // From 2 m above ground half of it is half a pixel of 360 lines.
     constexpr double kFineEnough = 1.0 / 64;
-    constexpr double kMostStepsPerPost = 4096;
+    constexpr double kMostStepsPerPost = 8192;
     constexpr double kCoarsest = 0.25;
     const double step =
         std::min(postMetres / kStepsPerPost,

@@ -145,7 +145,7 @@ TEST(HeightLattice, IsOfWholeMetresForWholeMetresAndFineEnoughOtherwise) {
     EXPECT_TRUE(latticeOf(-11034, 8849, true, 90).isLossless);
     EXPECT_EQ(latticeOf(0, 100, false, 30).stepMetres, 1.0 / 64);
     EXPECT_EQ(latticeOf(0, 100, false, 90).stepMetres, 1.0 / 64);
-    EXPECT_EQ(latticeOf(0, 100, false, 1000).stepMetres, 1.0 / 8);
+    EXPECT_EQ(latticeOf(0, 100, false, 1000).stepMetres, 1.0 / 16);
     EXPECT_EQ(latticeOf(0, 100, false, 1e5).stepMetres, 1.0 / 4);
     EXPECT_EQ(latticeOf(0, 100, false, 1).stepMetres, 1.0 / 256);
     EXPECT_LT(9.0e6 / latticeOf(0, 9.0e6F, true, 90).stepMetres, 1 << 23);
