@@ -264,7 +264,7 @@ absl::Status importMesh(const MeshOptions& options) {
                    "{} that were there already\n",
                    options.title(), made->droppedFaces, counts.degenerateTriangles,
                    counts.duplicateTriangles);
-    if (options.orients)
+    if (options.how.pack.orients)
         fmt::print(stderr, "{}: turned {} triangles of {} surfaces, {} of which are closed\n",
                    options.title(), counts.orient.turnedTriangles, counts.orient.components,
                    counts.orient.closedComponents);
