@@ -35,7 +35,7 @@ double latticeStepFor(double postMetres) {
     // From 2 m above ground half of it is half a pixel of 360 lines.
     constexpr double kFineEnough = 1.0 / 64;
     constexpr double kMostStepsPerPost = 8192;
-    constexpr double kCoarsest = 0.25;
+    constexpr double kCoarsest = 1.0 / 16;
     const double step =
         std::min(postMetres / kStepsPerPost,
                  std::clamp(postMetres / kMostStepsPerPost, kFineEnough, kCoarsest));

@@ -82,7 +82,7 @@ struct HeightLattice {
 };
 
 /// 1 m for whole metres. Otherwise 1/64 m, less where posts are nearer than 4 m (at most 1/256 of
-/// a post) and more where they are 256 m or more apart (1/8192 of a post, 1/4 m at most). Coarser
+/// a post) and more where they are 256 m or more apart (1/8192 of a post, 1/16 m at most). Coarser
 /// only where heights would not stay below 2^23 steps.
 HeightLattice chooseHeightLattice(const HeightStatistics& statistics, double postMetres);
 

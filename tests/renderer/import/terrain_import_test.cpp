@@ -146,7 +146,7 @@ TEST(HeightLattice, IsOfWholeMetresForWholeMetresAndFineEnoughOtherwise) {
     EXPECT_EQ(latticeOf(0, 100, false, 30).stepMetres, 1.0 / 64);
     EXPECT_EQ(latticeOf(0, 100, false, 90).stepMetres, 1.0 / 64);
     EXPECT_EQ(latticeOf(0, 100, false, 1000).stepMetres, 1.0 / 16);
-    EXPECT_EQ(latticeOf(0, 100, false, 1e5).stepMetres, 1.0 / 4);
+    EXPECT_EQ(latticeOf(0, 100, false, 1e5).stepMetres, 1.0 / 16);
     EXPECT_EQ(latticeOf(0, 100, false, 1).stepMetres, 1.0 / 256);
     EXPECT_LT(9.0e6 / latticeOf(0, 9.0e6F, true, 90).stepMetres, 1 << 23);
     EXPECT_LT(9000 / latticeOf(0, 9000, false, 0.01).stepMetres, 1 << 23);
