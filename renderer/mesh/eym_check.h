@@ -13,14 +13,14 @@
 /// field but not the file.
 namespace eyrie::mesh {
 
-/// Magic, version, lattice, and that every section lies where the format puts it, inside a file of
-/// `fileBytes` that begins with `beginning` (its header, or more). Errors: InvalidArgument (another
+/// Magic, version, checksum, lattice, and that the node table lies inside a file of `fileBytes`
+/// that begins with `beginning` (its header, or more). Errors: InvalidArgument (another
 /// kind of file, another version), DataLoss.
 absl::Status checkHeader(std::span<const std::byte> beginning, std::uint64_t fileBytes);
 
 /// That the nodes form one binary tree, depth first and no deeper than kMaxTreeDepth, with boxes
-/// and triangle ranges nested, and that their arrays lie inside the sections. Returns the levels.
-/// Errors: DataLoss. Precondition: checkHeader is ok.
+/// and triangle ranges nested, and that their pages lie inside the file and hold no more than a
+/// node may have. Returns the levels. Errors: DataLoss. Precondition: checkHeader is ok.
 absl::StatusOr<int> checkNodes(const EymHeader& header, std::span<const Node> nodes);
 
 }  // namespace eyrie::mesh

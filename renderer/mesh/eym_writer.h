@@ -20,11 +20,10 @@ struct EymOptions {
 };
 
 /// Appends `mesh`, cut into the leaves of `tree` and with the coarser nodes of `lod`, to the empty
-/// `out` as an .eym file (eym_format.h); the caller commits it. Where the
-/// mesh has exact positions they are kept. The same mesh, tree and
-/// options give the same bytes. Errors: Cancelled, ResourceExhausted, Unavailable.
-/// Preconditions: at least one triangle; no node
-/// with more than kMaxNodeTriangles.
+/// `out` as an .eym file (eym_format.h); the caller commits it. Where the mesh has exact positions
+/// they are kept. The same mesh, tree and options give the same bytes. Errors: Cancelled,
+/// ResourceExhausted, Unavailable. Preconditions: at least one triangle; no node with more than
+/// kMaxNodeTriangles.
 absl::Status writeEym(const PackedMesh& mesh, const KdTree& tree, const LodTree& lod,
                       const EymOptions& options, OutputFile& out, const std::stop_token& stop = {});
 

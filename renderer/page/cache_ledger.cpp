@@ -22,7 +22,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* kLock = "lock";
 constexpr std::string_view kPartial = "partial";
-constexpr std::string_view kCopy = "copy-";
 
 struct Part {
     fs::path path;
@@ -30,16 +29,11 @@ struct Part {
     fs::file_time_type used;
 };
 
-/// Of all groups, and copies that are being made (these stay).
+/// Of all groups.
 struct Parts {
     std::vector<Part> parts;
     std::uint64_t bytes = 0;
 };
-
-bool isBeingMade(const fs::path& copy) {
-    const Descriptor file(open(copy.c_str(), O_RDONLY | O_CLOEXEC));
-    return file.get() >= 0 && flock(file.get(), LOCK_EX | LOCK_NB) != 0;
-}
 
 void addGroup(const fs::path& group, Parts& parts) {
     std::error_code error;
@@ -63,10 +57,8 @@ Parts partsIn(const fs::path& folder) {
         const std::string name = entry.path().filename().string();
         if (entry.is_directory(error))
             addGroup(entry.path(), parts);
-        else if (name == kPartial || (name.starts_with(kCopy) && !isBeingMade(entry.path())))
+        else if (name == kPartial)
             fs::remove(entry.path(), error);
-        else if (name.starts_with(kCopy))
-            parts.bytes += entry.file_size(error);
     }
     return parts;
 }
@@ -147,9 +139,5 @@ void CacheLedger::write() const {
 }
 
 fs::path partialPath(const fs::path& folder) { return folder / kPartial; }
-
-fs::path copyPath(const fs::path& folder, const std::string& name) {
-    return folder / (std::string(kCopy) + name);
-}
 
 }  // namespace eyrie::page

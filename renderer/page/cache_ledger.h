@@ -49,6 +49,5 @@ private:
 
 /// Name of what is being written: beside the parts, so that a rename puts it in its place.
 std::filesystem::path partialPath(const std::filesystem::path& folder);
-std::filesystem::path copyPath(const std::filesystem::path& folder, const std::string& name);
 
 }  // namespace eyrie::page

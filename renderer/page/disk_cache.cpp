@@ -59,24 +59,6 @@ absl::Status moveTo(const fs::path& from, const fs::path& to) {
                  : absl::OkStatus();
 }
 
-/// A file that several processes may want to make, held by this one. Whoever comes second waits
-/// until the first is done with it: it is then gone, and made anew here if need be.
-absl::StatusOr<Descriptor> holdAlone(const fs::path& path) {
-    while (true) {
-        Descriptor file(open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
-        if (file.get() < 0)
-            return fabric::writeError(path.string(), "cannot create it", errno);
-        while (flock(file.get(), LOCK_EX) != 0)
-            if (errno != EINTR)
-                return fabric::writeError(path.string(), "cannot lock it", errno);
-        struct stat held {};
-        struct stat named {};
-        if (fstat(file.get(), &held) == 0 && stat(path.c_str(), &named) == 0 &&
-            held.st_ino == named.st_ino)
-            return file;
-    }
-}
-
 }  // namespace
 
 DiskCache::DiskCache(fs::path folder, std::uint64_t limitBytes)
@@ -135,50 +117,6 @@ void DiskCache::dropGroup(const std::string& group) {
     std::error_code ignored;
     fs::remove_all(folder_ / group, ignored);
     ledger->count();
-}
-
-absl::StatusOr<fs::path> DiskCache::make(const CacheKey& key, std::uint64_t bytes,
-                                         const Fill& fill) {
-    const fs::path target = pathOf(key);
-    std::error_code ignored;
-    if (sizeOf(key) == bytes) {
-        fs::last_write_time(target, fs::file_time_type::clock::now(), ignored);
-        return target;
-    }
-    fs::create_directories(folder_, ignored);
-    const fs::path copy = copyPath(folder_, key.group + "-" + key.part);
-    ASSIGN_OR_RETURN(const Descriptor file, holdAlone(copy));
-    if (sizeOf(key) == bytes) {
-        fs::remove(copy, ignored);
-        return target;
-    }
-    absl::Status status;
-    {
-        ASSIGN_OR_RETURN(CacheLedger ledger, CacheLedger::lock(folder_));
-        ledger.remove(target);
-        ledger.count();
-        if (!ledger.makeRoom(bytes, limitBytes_))
-            status = absl::ResourceExhaustedError(
-                fmt::format("{}: {} bytes do not fit the limit of {} for what is kept here; raise "
-                            "--cache-size",
-                            folder_.string(), bytes, limitBytes_));
-        // All of its size at once, so that others count it and a full disk shows now.
-        else if (const int error = posix_fallocate(file.get(), 0, static_cast<off_t>(bytes)))
-            status = fabric::writeError(copy.string(), "cannot reserve its size", error);
-        else
-            ledger.add(bytes);
-    }
-    if (status.ok())
-        status = fill(file.get());
-    // The books stay right: a copy counts as much as the part that becomes of it.
-    if (status.ok())
-        status = moveTo(copy, target);
-    if (status.ok())
-        return target;
-    fs::remove(copy, ignored);
-    if (absl::StatusOr<CacheLedger> ledger = CacheLedger::lock(folder_); ledger.ok())
-        ledger->count();
-    return status;
 }
 
 }  // namespace eyrie::page

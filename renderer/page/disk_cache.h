@@ -44,15 +44,6 @@ public:
     void drop(const CacheKey& key);
     void dropGroup(const std::string& group);
 
-    /// Writes a part bit by bit; Cancelled and whatever else it says ends it.
-    using Fill = std::function<absl::Status(int file)>;
-
-    /// The path of a part that may be large: made by `fill` when it is not there. While one
-    /// process makes it others wait for it. Errors: those of `fill`; ResourceExhausted (the limit
-    /// or the disk is too small) and whatever else keeps it from being written.
-    absl::StatusOr<std::filesystem::path> make(const CacheKey& key, std::uint64_t bytes,
-                                               const Fill& fill);
-
     std::uint64_t limitBytes() const { return limitBytes_; }
 
 private:

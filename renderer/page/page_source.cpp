@@ -18,8 +18,6 @@
 namespace eyrie::page {
 namespace {
 
-constexpr std::size_t kCopyPieceBytes = std::size_t{1} << 20;
-
 std::string hexHash(std::span<const std::byte> bytes) {
     const XXH128_hash_t hash = XXH3_128bits(bytes.data(), bytes.size());
     return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
@@ -174,40 +172,6 @@ void PageSource::forget() const {
         return;
     cache_->drop(headKey(name_));
     cache_->dropGroup(group_);
-}
-
-absl::Status PageSource::copyTo(int file, const Progress& progress) const {
-    std::vector<std::byte> piece;
-    for (std::uint64_t at = 0; at < sizeBytes(); at += piece.size()) {
-        piece.resize(
-            static_cast<std::size_t>(std::min<std::uint64_t>(kCopyPieceBytes, sizeBytes() - at)));
-        RETURN_IF_ERROR(bytes_->read(at, piece));
-        for (std::size_t put = 0; put < piece.size();) {
-            const ssize_t now =
-                pwrite(file, piece.data() + put, piece.size() - put, static_cast<off_t>(at + put));
-            if (now < 0 && errno != EINTR)
-                return fabric::writeError(name_, "cannot keep a copy", errno);
-            put += static_cast<std::size_t>(std::max<ssize_t>(now, 0));
-        }
-        if (progress)
-            RETURN_IF_ERROR(progress(static_cast<double>(at + piece.size()) /
-                                     static_cast<double>(sizeBytes())));
-    }
-    return checkHead();
-}
-
-absl::StatusOr<std::string> PageSource::wholeFile(const Progress& progress) const {
-    if (!isRemote(name_))
-        return name_;
-    if (!cache_)
-        return absl::FailedPreconditionError(fmt::format(
-            "{}: a mesh is copied whole before it is drawn, and there is no folder for that; name "
-            "one with --cache FOLDER",
-            name_));
-    ASSIGN_OR_RETURN(const std::filesystem::path path,
-                     cache_->make({group_, "whole"}, sizeBytes(),
-                                  [&](int file) { return copyTo(file, progress); }));
-    return path.string();
 }
 
 }  // namespace eyrie::page

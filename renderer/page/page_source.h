@@ -53,17 +53,6 @@ public:
     /// ByteSource::read; DataLoss (its checksum is wrong, or the file has changed on the server).
     absl::Status read(const Block& block, std::span<std::byte> into, const std::string& what) const;
 
-    /// Told how much of a copy there is, 0 to 1; what it returns, if not OK, ends the copy.
-    using Progress = std::function<absl::Status(double fraction)>;
-
-    /// A path of this machine with the whole file, for what has to be mapped: the file itself, or
-    /// a copy in the cache, made if need be. Errors: those of ByteSource::read, of `progress` and
-    /// of DiskCache::make; FailedPrecondition without a cache; DataLoss (changed meanwhile).
-    absl::StatusOr<std::string> wholeFile(const Progress& progress) const;
-
-    /// Forgets what is kept of the file: it has turned out to be damaged.
-    void forget() const;
-
 private:
     PageSource(std::string name, std::unique_ptr<ByteSource> bytes, std::vector<std::byte> head,
                std::shared_ptr<DiskCache> cache);
@@ -73,7 +62,7 @@ private:
                                                                   const SourceOptions& options);
     absl::Status naming(const std::string& what, const absl::Status& status) const;
     absl::Status checkHead() const;
-    absl::Status copyTo(int file, const Progress& progress) const;
+    void forget() const;
 
     const std::string name_;
     const std::unique_ptr<ByteSource> bytes_;

@@ -157,7 +157,6 @@ TEST_F(DiskCacheTest, HoldsItsLimitForAllProcessesTogetherAndLosesNoPart) {
 TEST_F(DiskCacheTest, RemovesWhatAKilledWriterLeft) {
     DiskCache(folder(), 1 << 20).store(key(1), part(1));
     std::ofstream(folder() / "partial") << "half a pa";
-    std::ofstream(folder() / "copy-of-something") << "half a mesh";
     DiskCache cache(folder(), 1 << 20);
     cache.store(key(2), part(2));
     EXPECT_EQ(bytesIn(folder()), 2 * kPart);
@@ -201,44 +200,11 @@ TEST_F(DiskCacheTest, AFullDiskIsNoErrorAndLeavesNoHalfOfAPart) {
         const Log log;
         DiskCache cache(folder(), 1 << 20);
         for (int i = 0; i < 5; ++i) cache.store(key(i), part(i));
-        const auto made = cache.make(key(9), kPart, [](int) { return absl::OkStatus(); });
-        _exit(!made.ok() && log.lines() == 1 && bytesIn(folder()) == 0 ? 0 : 1);
+        _exit(log.lines() == 1 && bytesIn(folder()) == 0 ? 0 : 1);
     }
     int status = -1;
     ASSERT_EQ(waitpid(child, &status, 0), child);
     EXPECT_EQ(status, 0);
-}
-
-TEST_F(DiskCacheTest, MakesALargePartOnceWhoeverElseWantsIt) {
-    std::atomic<int> made{0};
-    const auto fill = [&](int file) {
-        ++made;
-        std::this_thread::sleep_for(std::chrono::milliseconds(50));
-        const auto bytes = part(7);
-        return pwrite(file, bytes.data(), bytes.size(), 0) == static_cast<ssize_t>(kPart)
-                   ? absl::OkStatus()
-                   : absl::InternalError("write");
-    };
-    std::vector<std::thread> threads;
-    for (int i = 0; i < 4; ++i)
-        threads.emplace_back([&] {
-            DiskCache cache(folder(), 1 << 20);
-            EXPECT_TRUE(cache.make(key(7), kPart, fill).ok());
-        });
-    for (std::thread& thread : threads) thread.join();
-    EXPECT_EQ(made, 1);
-    EXPECT_TRUE(has(DiskCache(folder(), 1 << 20), 7));
-    EXPECT_EQ(bytesIn(folder()), kPart);
-}
-
-TEST_F(DiskCacheTest, KeepsNothingOfALargePartThatCouldNotBeMade) {
-    DiskCache cache(folder(), 10 * kPart);
-    const auto fails = [](int) { return absl::UnavailableError("the server is down"); };
-    EXPECT_TRUE(absl::IsUnavailable(cache.make(key(1), 5 * kPart, fails).status()));
-    EXPECT_EQ(bytesIn(folder()), 0U);
-    EXPECT_TRUE(absl::IsResourceExhausted(cache.make(key(1), 11 * kPart, fails).status()));
-    for (int i = 0; i < 10; ++i) cache.store(key(i), part(i));
-    EXPECT_TRUE(has(cache, 0)) << "the books say that all ten fit";
 }
 
 }  // namespace

@@ -203,38 +203,5 @@ TEST_F(RemotePages, DamagedInTheCacheAreReadAgain) {
     EXPECT_EQ(server_.gets(), before + 1) << "and kept again";
 }
 
-std::string textOf(const std::string& path) {
-    std::ostringstream text;
-    text << std::ifstream(path, std::ios::binary).rdbuf();
-    return text.str();
-}
-
-TEST_F(RemotePages, MayBeCopiedWhole) {
-    const auto copy = open(cached())->wholeFile({});
-    ASSERT_TRUE(copy.ok()) << copy.status();
-    EXPECT_TRUE(textOf(*copy) == content_);
-    const int before = server_.gets();
-    EXPECT_EQ(*open(cached())->wholeFile({}), *copy);
-    EXPECT_EQ(server_.gets(), before + 1) << "the head alone";
-    server_.set(Mood::HangsUp);
-    EXPECT_EQ(*open(cached())->wholeFile({}), *copy);
-}
-
-TEST_F(RemotePages, AreNotCopiedWithoutACacheNorAgainstTheWish) {
-    EXPECT_TRUE(absl::IsFailedPrecondition(open()->wholeFile({}).status()));
-    const auto stop = [](double) { return absl::CancelledError("stopped"); };
-    EXPECT_TRUE(absl::IsCancelled(open(cached())->wholeFile(stop).status()));
-    EXPECT_TRUE(open(cached())->wholeFile({}).ok());
-}
-
-TEST(LocalPages, AreNeverCopied) {
-    const test::TemporaryFolder folder;
-    const std::string path = folder.write("a.eyt", contentOf(3, 5000));
-    const auto source = PageSource::open(path, kHead, sourceOptions(folder.path() / "cache", 1000));
-    ASSERT_TRUE(source.ok());
-    EXPECT_EQ(*(*source)->wholeFile({}), path);
-    EXPECT_FALSE(std::filesystem::exists(folder.path() / "cache"));
-}
-
 }  // namespace
 }  // namespace eyrie::page
