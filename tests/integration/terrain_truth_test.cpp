@@ -187,7 +187,8 @@ TEST_F(TerrainBehindARidge, CountsWhereItIsSeenThroughAHole) {
 
 TEST_F(TerrainBehindARidge, IsNotPromisedForBecauseOfAHoleElsewhere) {
     ASSERT_NO_FATAL_FAILURE(open([](std::vector<float>& heights) {
-        for (int j = 20; j < 30; ++j) std::fill_n(heights.begin() + j * 513 + 20, 10, std::nanf(""));
+        for (int j = 20; j < 30; ++j)
+            std::fill_n(heights.begin() + j * 513 + 20, 10, std::nanf(""));
     }));
     EXPECT_LT(promised(), 0.5 * promisedOfAll());
     checkCamera("ridge and hole", camera_, 640, 360);

@@ -85,7 +85,8 @@ protected:
 TEST_F(EffectReload, AGoodEditShowsAndABadOneLeavesThePictureAsItWas) {
     const auto first = picture();
     EXPECT_EQ(picture(), first);
-    edit("colour = display(lit);", "colour = vec4(1.0, 0.0, 1.0, 1.0);");
+    edit("colour = display(litFrom(normal, relativeMetres, albedo));",
+         "colour = vec4(1.0, 0.0, 1.0, 1.0);");
     ASSERT_TRUE(drawUntilLogged("mesh.effect: taken from EYRIE_EFFECTS")) << log_.str();
     const auto magenta = picture();
     EXPECT_NE(magenta, first);
@@ -93,7 +94,7 @@ TEST_F(EffectReload, AGoodEditShowsAndABadOneLeavesThePictureAsItWas) {
     edit("colour = vec4(1.0, 0.0, 1.0, 1.0);", "colour = vec5(1.0);");
     ASSERT_TRUE(drawUntilLogged("mesh.effect stays as it was")) << log_.str();
     EXPECT_EQ(picture(), magenta);
-    edit("colour = vec5(1.0);", "colour = display(lit);");
+    edit("colour = vec5(1.0);", "colour = display(litFrom(normal, relativeMetres, albedo));");
     ASSERT_TRUE(drawUntilLogged("mesh.effect: taken from EYRIE_EFFECTS")) << log_.str();
     EXPECT_EQ(picture(), first);
 }
