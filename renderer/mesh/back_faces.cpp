@@ -12,6 +12,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
+#include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include "fabric/box.h"
@@ -23,12 +24,13 @@ namespace {
 using fabric::Box;
 
 /// Triangles a column has about, were they spread evenly.
-constexpr std::size_t kTrianglesPerColumn = 4;
+constexpr std::size_t kTrianglesPerColumn = 2;
 /// Columns that a triangle may stand in, on average, and triangles it may be compared with.
 constexpr std::size_t kMostColumns = 32;
 constexpr std::size_t kMostComparisons = 512;
 /// In front of a triangle, in steps: rounding may have pushed thin walls through each other.
 constexpr double kBefore = 2;
+constexpr std::size_t kGrain = 1024;  // columns
 /// Pockets of a node that are told apart.
 constexpr std::size_t kMostPockets = 64;
 
@@ -71,6 +73,18 @@ std::int64_t areaAlongZ(const Corners& c) {
            std::int64_t{c[1].y - c[0].y} * (c[2].x - c[0].x);
 }
 
+/// A triangle of a column, seen along z.
+struct Standing {
+    explicit Standing(const Corners& its)
+        : corners(its),
+          low(glm::min(glm::min(its[0], its[1]), its[2])),
+          high(glm::max(glm::max(its[0], its[1]), its[2])) {}
+
+    Corners corners;
+    glm::ivec3 low;
+    glm::ivec3 high;
+};
+
 /// The triangles by the columns along z that they reach into.
 class Columns {
 public:
@@ -84,7 +98,8 @@ private:
     template <typename Visit>
     void forColumns(const Corners& corners, const Visit& visit) const;
     std::size_t columnOf(int x, int y) const;
-    void look(std::size_t column, std::vector<std::uint32_t>& found) const;
+    void look(std::size_t column, std::vector<Standing>& all,
+              std::vector<std::uint32_t>& found) const;
 
     const PackedMesh& mesh_;
     glm::ivec3 low_{0};
@@ -160,18 +175,6 @@ std::optional<Columns> Columns::sort(const PackedMesh& mesh) {
     return columns;
 }
 
-/// A triangle of a column, seen along z.
-struct Standing {
-    explicit Standing(const Corners& its)
-        : corners(its),
-          low(glm::min(glm::min(its[0], its[1]), its[2])),
-          high(glm::max(glm::max(its[0], its[1]), its[2])) {}
-
-    Corners corners;
-    glm::ivec3 low;
-    glm::ivec3 high;
-};
-
 /// Whether the line along z through `at`, in thirds of a step, crosses a triangle above `z`: 1
 /// upwards out of its front, -1 into it, 0 if it does not. On an edge or a corner the line belongs
 /// to one of the triangles there, so that a closed mesh winds it a whole number of times. Exact but
@@ -201,16 +204,20 @@ int crossingAbove(const Standing& triangle, const glm::ivec3& at, double z) {
     return sign != 0 && crossing / sum > z ? sign : 0;
 }
 
-/// Adds those whose middle is in the column.
-void Columns::look(std::size_t column, std::vector<std::uint32_t>& found) const {
-    std::vector<Standing> all;
-    all.reserve(first_[column + 1] - first_[column]);
+/// Adds those whose middle is in the column. `all` is memory to work in.
+void Columns::look(std::size_t column, std::vector<Standing>& all,
+                   std::vector<std::uint32_t>& found) const {
+    all.clear();
     for (std::uint64_t i = first_[column]; i < first_[column + 1]; ++i)
         all.emplace_back(cornersOf(mesh_, mesh_.triangles[triangles_[i]]));
+    // In thirds of a step, as the middles.
+    const auto place = static_cast<std::int64_t>(column);
+    const std::int64_t x = 3 * (low_.x + place % columnsX_ * side_);
+    const std::int64_t y = 3 * (low_.y + place / columnsX_ * side_);
     for (std::size_t i = 0; i < all.size(); ++i) {
         const Corners& own = all[i].corners;
-        const glm::ivec3 middle = own[0] + own[1] + own[2];  // in thirds of a step
-        if (columnOf(middle.x / 3, middle.y / 3) != column)
+        const glm::ivec3 middle = own[0] + own[1] + own[2];
+        if (middle.x < x || middle.x >= x + 3 * side_ || middle.y < y || middle.y >= y + 3 * side_)
             continue;
         const double z = middle.z / 3.0 + (areaAlongZ(own) > 0 ? kBefore : -kBefore);
         int winding = 0;
@@ -223,14 +230,16 @@ void Columns::look(std::size_t column, std::vector<std::uint32_t>& found) const 
 std::vector<std::uint32_t> Columns::seenFromBehind() const {
     std::vector<std::uint32_t> all;
     std::mutex mutex;  // of all
-    oneapi::tbb::parallel_for(std::size_t{0}, first_.size() - 1, [&](std::size_t column) {
-        std::vector<std::uint32_t> found;
-        look(column, found);
-        if (found.empty())
-            return;
-        const std::lock_guard lock(mutex);
-        all.insert(all.end(), found.begin(), found.end());
-    });
+    oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, first_.size() - 1, kGrain),
+                              [&](const auto& part) {
+                                  std::vector<Standing> standing;
+                                  std::vector<std::uint32_t> found;
+                                  for (std::size_t column = part.begin(); column != part.end();
+                                       ++column)
+                                      look(column, standing, found);
+                                  const std::lock_guard lock(mutex);
+                                  all.insert(all.end(), found.begin(), found.end());
+                              });
     std::sort(all.begin(), all.end());
     return all;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -38,11 +39,14 @@ public:
     /// Youngest edge that one of a triangle's goes along, or kNone; `turn` is the corner it goes
     /// from.
     std::uint32_t find(std::span<const std::uint16_t, 3> corners, std::uint32_t& turn) const {
+        const std::array sides{sideOf(corners[0], corners[1]), sideOf(corners[1], corners[2]),
+                               sideOf(corners[2], corners[0])};
         for (std::uint32_t age = 0; age < count(); ++age) {
-            const OpenEdge& edge = at(age);
-            for (turn = 0; turn < 3; ++turn)
-                if (corners[turn] == edge.from && corners[(turn + 1) % 3] == edge.to)
-                    return age;
+            const std::uint32_t side = sideOf(at(age).from, at(age).to);
+            if (side != sides[0] && side != sides[1] && side != sides[2])
+                continue;
+            turn = side == sides[0] ? 0 : side == sides[1] ? 1 : 2;
+            return age;
         }
         turn = 0;
         return kNone;
@@ -107,6 +111,9 @@ public:
     }
 
 private:
+    static std::uint32_t sideOf(std::uint16_t from, std::uint16_t to) {
+        return std::bit_cast<std::uint32_t>(std::array{from, to});
+    }
     std::uint32_t near() const { return count() < kNearReach ? count() : kNearReach; }
 
     std::array<OpenEdge, 1024> edges_;

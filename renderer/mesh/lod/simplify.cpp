@@ -79,7 +79,7 @@ private:
     bool isSimple(std::size_t target);
     std::pair<std::size_t, double> cheapest(std::uint32_t point, const Star& star,
                                             std::uint32_t excluded) const;
-    Collapse bestCollapse(std::uint32_t point);
+    Collapse bestCollapse(std::uint32_t point, bool mustBeSimple);
     Star star(std::uint32_t point) const;
     double boundOf(const Star::Replaced& replaced) const;
     bool collapse(std::uint32_t point, std::uint32_t target);
@@ -249,7 +249,8 @@ std::pair<std::size_t, double> Simplifier::cheapest(std::uint32_t point, const S
     return best;
 }
 
-Collapse Simplifier::bestCollapse(std::uint32_t point) {
+/// Few collapses are not simple, so most are asked only once it is their turn.
+Collapse Simplifier::bestCollapse(std::uint32_t point, bool mustBeSimple) {
     if (!gatherRing(point))
         return {};
     const Star star = this->star(point);
@@ -259,14 +260,14 @@ Collapse Simplifier::bestCollapse(std::uint32_t point) {
         const auto [target, cost] = cheapest(point, star, excluded);
         if (target == ring_.size())
             return {};
-        if (isSimple(target))
+        if (!mustBeSimple || isSimple(target))
             return {ring_[target].point, cost};
         excluded |= 1U << target;
     }
 }
 
-/// Of a point around which nothing has changed. False, with nothing done, when something has beyond
-/// its ring, so that faces would fall onto each other.
+/// Of a point around which nothing has changed. False, with nothing done, when faces would fall
+/// onto each other.
 bool Simplifier::collapse(std::uint32_t point, std::uint32_t target) {
     gatherRing(point);
     const auto to = std::find_if(ring_.begin(), ring_.end(), [target](const Neighbour& neighbour) {
@@ -301,8 +302,8 @@ bool Simplifier::collapse(std::uint32_t point, std::uint32_t target) {
 
 Simplified Simplifier::run(std::size_t target) {
     std::priority_queue<Candidate> queue;
-    const auto look = [&](std::uint32_t point) {
-        best_[point] = bestCollapse(point);
+    const auto look = [&](std::uint32_t point, bool mustBeSimple = false) {
+        best_[point] = bestCollapse(point, mustBeSimple);
         isStale_[point] = false;
         if (best_[point].target != kNone)
             queue.push({best_[point].cost, point});
@@ -315,8 +316,10 @@ Simplified Simplifier::run(std::size_t target) {
     while (left_ > target && !queue.empty()) {
         const std::uint32_t point = queue.top().point;
         queue.pop();
-        if (isStale_[point] || !collapse(point, best_[point].target))
+        if (isStale_[point])
             look(point);
+        else if (!collapse(point, best_[point].target))
+            look(point, true);
     }
     Simplified result;
     result.borderShare = static_cast<double>(onBorder) / static_cast<double>(points_.size());

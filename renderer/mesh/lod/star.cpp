@@ -35,14 +35,25 @@ Star::Star(const glm::dvec3& centre, std::span<const glm::dvec3> ring) : count_(
         ring_[i] = {glm::dot(spoke, x), glm::dot(spoke, y), glm::dot(spoke, normal)};
     }
     least_ = kLeastArea * extent;
+    measureWedges();
     isGraph_ = goesAroundOnce();
     for (std::size_t i = 0; i < count_ && isGraph_; ++i)
-        isGraph_ = cross({}, ring_[i], ring_[(i + 1) % count_]) > least_;
+        isGraph_ = wedge(i, (i + 1) % count_) > least_;
 }
 
-/// Twice the signed area.
-double Star::cross(const Point& a, const Point& b, const Point& c) {
-    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+void Star::measureWedges() {
+    for (std::size_t i = 0; i < count_; ++i) {
+        wedges_[i][i] = 0;
+        for (std::size_t j = i + 1; j < count_; ++j) {
+            wedges_[i][j] = ring_[i].x * ring_[j].y - ring_[j].x * ring_[i].y;
+            wedges_[j][i] = -wedges_[i][j];
+        }
+    }
+}
+
+/// Twice the signed area of a triangle between points of the ring.
+double Star::area(std::size_t i, std::size_t j, std::size_t k) const {
+    return wedge(i, j) + wedge(j, k) + wedge(k, i);
 }
 
 /// With triangles that all face the viewer, the ring could still go around twice.
@@ -64,14 +75,13 @@ std::size_t Star::at(std::size_t target, std::size_t offset) const {
 }
 
 bool Star::movedTo(std::size_t target, double limit, Outcome& outcome) const {
-    const Point& apex = ring_[target];
     const auto bit = [&](std::size_t offset) { return 1U << at(target, offset); };
     std::size_t around = 0;  // the triangle that the centre lies in, or on the border of
     for (std::size_t i = 1; i + 1 < count_; ++i) {
-        const Point& next = ring_[at(target, i + 1)];
-        if (!(cross(apex, ring_[at(target, i)], next) > least_))
+        const std::size_t next = at(target, i + 1);
+        if (!(area(target, at(target, i), next) > least_))
             return false;
-        if (around == 0 && cross(apex, next, {}) <= 0)
+        if (around == 0 && wedge(target, next) <= 0)
             around = i;
     }
     const double moved = around == 0 ? limit : heightAtCentre(target, around);
@@ -95,7 +105,7 @@ void Star::addDiagonal(std::size_t target, std::size_t diagonal, Outcome& outcom
     Replaced& right = outcome[at(target, diagonal - 1)];
     Replaced& left = outcome[at(target, diagonal)];
     // The old edge to the same point lies on the centre's side.
-    const bool isLeft = cross(ring_[target], ring_[at(target, diagonal)], {}) > 0;
+    const bool isLeft = wedge(target, at(target, diagonal)) > 0;
     (isLeft ? left : right).triangles |= bit(diagonal - 1) | bit(diagonal);
     for (std::size_t spoke = 1; spoke < count_; ++spoke) {
         if (spoke == diagonal)
@@ -112,32 +122,31 @@ void Star::addDiagonal(std::size_t target, std::size_t diagonal, Outcome& outcom
 
 /// Of the new triangle that the centre lies in.
 double Star::heightAtCentre(std::size_t target, std::size_t triangle) const {
-    const Point& a = ring_[target];
-    const Point& b = ring_[at(target, triangle)];
-    const Point& c = ring_[at(target, triangle + 1)];
-    const double ofA = cross({}, b, c);
-    const double ofB = cross({}, c, a);
-    const double ofC = cross({}, a, b);
-    return std::abs(ofA * a.height + ofB * b.height + ofC * c.height) / (ofA + ofB + ofC);
+    const std::size_t b = at(target, triangle);
+    const std::size_t c = at(target, triangle + 1);
+    const double ofA = wedge(b, c);
+    const double ofB = wedge(c, target);
+    const double ofC = wedge(target, b);
+    return std::abs(ofA * ring_[target].height + ofB * ring_[b].height + ofC * ring_[c].height) /
+           (ofA + ofB + ofC);
 }
 
 /// Between the new edge from ring[target] to ring[diagonal] and the old one from the centre to
 /// ring[spoke], where they cross; below 0 where they do not.
 double Star::heightAtCrossing(std::size_t target, std::size_t diagonal, std::size_t spoke) const {
-    const Point& a = ring_[target];
-    const Point& b = ring_[diagonal];
-    const Point& c = ring_[spoke];
-    const double centreSide = cross(a, b, {});
-    const double ringSide = cross(a, b, c);
+    const double centreSide = wedge(target, diagonal);
+    const double ringSide = area(target, diagonal, spoke);
     if ((centreSide > 0) == (ringSide > 0))
         return -1;
-    const double aSide = cross({}, c, a);
-    const double bSide = cross({}, c, b);
+    const double aSide = wedge(spoke, target);
+    const double bSide = wedge(spoke, diagonal);
     if ((aSide > 0) == (bSide > 0))
         return -1;
     const double alongSpoke = centreSide / (centreSide - ringSide);
     const double alongDiagonal = aSide / (aSide - bSide);
-    return std::abs(alongSpoke * c.height - (a.height + alongDiagonal * (b.height - a.height)));
+    const double from = ring_[target].height;
+    return std::abs(alongSpoke * ring_[spoke].height -
+                    (from + alongDiagonal * (ring_[diagonal].height - from)));
 }
 
 }  // namespace eyrie::mesh

@@ -45,12 +45,14 @@ public:
 
 private:
     struct Point {
-        double x = 0;
-        double y = 0;
-        double height = 0;
+        double x;
+        double y;
+        double height;
     };
 
-    static double cross(const Point& a, const Point& b, const Point& c);
+    double wedge(std::size_t i, std::size_t j) const { return wedges_[i][j]; }
+    double area(std::size_t i, std::size_t j, std::size_t k) const;
+    void measureWedges();
     bool goesAroundOnce() const;
     std::size_t at(std::size_t target, std::size_t offset) const;
     double heightAtCentre(std::size_t target, std::size_t triangle) const;
@@ -58,6 +60,8 @@ private:
     void addDiagonal(std::size_t target, std::size_t diagonal, Outcome& outcome) const;
 
     std::array<Point, kMaxStar> ring_;
+    /// Twice the signed area of the triangle from the centre to two points of the ring.
+    std::array<std::array<double, kMaxStar>, kMaxStar> wedges_;
     std::size_t count_;
     double least_;  ///< twice the area below which a triangle does not count as facing the viewer
     bool isGraph_ = false;
