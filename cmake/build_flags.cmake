@@ -27,9 +27,10 @@ if(EYRIE_SANITIZE)
         target_compile_options(eyrie_build_flags INTERFACE -Wno-maybe-uninitialized)
     endif()
     target_link_options(eyrie_build_flags INTERFACE -fsanitize=${EYRIE_SANITIZE})
-    # The address sanitizer stops where these would have complained, and they are a fifth of the time
-    # that compiling takes.
-    if(EYRIE_SANITIZE MATCHES address AND EYRIE_SANITIZE MATCHES undefined)
-        target_compile_options(eyrie_build_flags INTERFACE -fno-sanitize=null,object-size,vptr)
+    # Where tests run, the address sanitizer stops for what the first three would have told, and x86
+    # does not mind alignment: together they are two fifths of the time that compiling takes. Fuzz
+    # targets, which read bytes as they come, have them all.
+    if(EYRIE_SANITIZE MATCHES "^address,undefined$")
+        target_compile_options(eyrie_build_flags INTERFACE -fno-sanitize=null,object-size,vptr,alignment)
     endif()
 endif()

@@ -23,7 +23,7 @@ function(eyrie_test NAME)
     target_link_libraries(${NAME} PRIVATE ${ARG_LINK} eyrie::build_flags eyrie::rapidcheck
                                           GTest::gmock GTest::gtest GTest::gtest_main)
     # A test's own source is compiled for longer than it runs.
-    target_compile_options(${NAME} PRIVATE $<$<CONFIG:Release>:-O1>)
+    target_compile_options(${NAME} PRIVATE $<$<CONFIG:Release>:-O1> $<$<CONFIG:RelWithDebInfo>:-O0>)
     target_compile_definitions(${NAME} PRIVATE EYRIE_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
                                                EYRIE_BINARY="${CMAKE_BINARY_DIR}/bin/eyrie")
     set_target_properties(${NAME} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)

@@ -5,10 +5,6 @@ add_library(eyrie_http http/http_session.cpp http/origin.cpp http/router.cpp
 add_library(eyrie::http ALIAS eyrie_http)
 target_link_libraries(eyrie_http PUBLIC eyrie::fabric absl::statusor
                                  PRIVATE eyrie::stream Boost::headers Threads::Threads fmt::fmt)
-# Beast's templates take half as long again with a check at every access.
-if(EYRIE_SANITIZE MATCHES undefined)
-    target_compile_options(eyrie_http PRIVATE -fno-sanitize=alignment)
-endif()
 # The thread sanitizer does not know the fences in Asio and says so; the locks beside them order the
 # same accesses.
 if(EYRIE_SANITIZE MATCHES thread)
