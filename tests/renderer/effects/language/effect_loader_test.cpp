@@ -50,6 +50,18 @@ TEST(EffectLoader, PutsBlocksBeforeTheEffectThatIncludesThem) {
               "#line 4000003 0\nuniform vec3 c[N];\n#line 4000004 0\n\n");
 }
 
+TEST(EffectLoader, PutsWhatIsSharedIntoBothStages) {
+    const Files files{
+        {"a.effect", "include \"b.block\";\nstage vertex { v }\nstage fragment { f }"},
+        {"b.block", "stage shared { s }\nstage fragment { g }"}};
+    const auto effect = loadEffect("a.effect", from(files));
+    ASSERT_TRUE(effect.ok()) << effect.status();
+    EXPECT_EQ(stageText(*effect, StageKind::Vertex), "#line 1 0\n s \n#line 2000002 0\n v \n");
+    EXPECT_EQ(stageText(*effect, StageKind::Fragment),
+              "#line 1 0\n s \n#line 2 0\n g \n#line 2000003 0\n f \n");
+    EXPECT_EQ(stageText(*effect, StageKind::Compute), "");
+}
+
 struct Wrong {
     std::string_view text;  ///< before two stages, in a.effect
     std::string_view message;
