@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <future>
+#include <random>
 #include <thread>
 #include <vector>
 
@@ -23,10 +25,13 @@ protected:
     static constexpr int kWidth = 41;
     static constexpr int kHeight = 23;
 
-    static FramePipelineOptions options(Decomposition decomposition) {
+    explicit FramePipelineTest(milliseconds patience = milliseconds(100))
+        : pipeline_(registry_, options(GetParam(), patience)) {}
+
+    static FramePipelineOptions options(Decomposition decomposition, milliseconds patience) {
         FramePipelineOptions options;
         options.decomposition = decomposition;
-        options.patience = {milliseconds(100), milliseconds(100), 3};
+        options.patience = {patience, patience, 3};
         options.callTimeout = seconds(60);
         return options;
     }
@@ -79,7 +84,7 @@ protected:
 
     std::shared_ptr<const LayeredScene> layers_ = std::make_shared<LayeredScene>(4711);
     Registry registry_;
-    FramePipeline pipeline_{registry_, options(GetParam())};
+    FramePipeline pipeline_;
     std::vector<std::string> ids_;
     int added_ = 0;
 };
@@ -257,6 +262,53 @@ TEST_P(FramePipelineTest, FramesFromSeveralThreadsAreAllWhole) {
             });
     }
     EXPECT_EQ(whole, 100);
+}
+
+/// Depths of LayeredScene tie all over. No part is taken for lost and drawn by another.
+class HardCase13 : public FramePipelineTest {
+protected:
+    HardCase13() : FramePipelineTest(seconds(50)) {}
+
+    /// Draws a frame, the parts of which come in the order of `renderers`.
+    absl::StatusOr<RenderedFrame> framePartByPart(
+        const std::vector<std::shared_ptr<FakeRenderer>>& renderers) {
+        int begun = 0;
+        for (const auto& renderer : renderers) {
+            renderer->hang(true);
+            begun += renderer->begun;
+        }
+        auto frame =
+            std::async(std::launch::async, [this] { return pipeline_.renderFrame(request()); });
+        EXPECT_TRUE(eventually([&] {
+            int now = 0;
+            for (const auto& renderer : renderers) now += renderer->begun;
+            return now == begun + static_cast<int>(renderers.size());
+        }));
+        for (const auto& renderer : renderers) {
+            const int drawn = renderer->drawn;
+            renderer->hang(false);
+            EXPECT_TRUE(eventually([&] { return renderer->drawn == drawn + 1; }));
+        }
+        return frame.get();
+    }
+};
+
+INSTANTIATE_TEST_SUITE_P(Of, HardCase13, testing::Values(Decomposition::Db),
+                         [](const auto&) { return "Db"; });
+
+TEST_P(HardCase13, PicturesAreTheSameInWhateverOrderTiedPartsArrive) {
+    std::mt19937 random(13);
+    std::vector<std::shared_ptr<FakeRenderer>> renderers;
+    for (const std::size_t count : {2U, 3U, 5U, 8U}) {
+        const auto added = openWith(static_cast<int>(count - renderers.size()));
+        renderers.insert(renderers.end(), added.begin(), added.end());
+        for (int i = 0; i < 25; ++i) {
+            std::ranges::shuffle(renderers, random);
+            const auto frame = framePartByPart(renderers);
+            ASSERT_TRUE(frame.ok()) << frame.status();
+            ASSERT_TRUE(frame->image == layers_->whole(kWidth, kHeight)) << count << ", " << i;
+        }
+    }
 }
 
 }  // namespace
