@@ -27,6 +27,7 @@ namespace {
 
 using fabric::Image;
 using fabric::Vec3;
+using Mesh = import::TriangleMesh;
 
 constexpr int kSide = 64;
 constexpr fabric::PixelViewport kView{0, 0, kSide, kSide};
@@ -39,26 +40,27 @@ constexpr double kInside = 0.85;
 
 /// A closed cube of `n` x `n` squares a side: flat faces are simplified to a few large triangles,
 /// which meet the many small ones of the faces' finest level.
-import::TriangleMesh cube(std::uint32_t n){import::TriangleMesh mesh;
-for (int face = 0; face < 6; ++face) {
-    const double sign = face % 2 == 0 ? 1 : -1;
-    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-    for (std::uint32_t j = 0; j <= n; ++j)
-        for (std::uint32_t i = 0; i <= n; ++i) {
-            Vec3 p(0.0);
-            p[face / 2] = sign;
-            p[(face / 2 + 1) % 3] = sign * (2.0 * i / n - 1);
-            p[(face / 2 + 2) % 3] = 2.0 * j / n - 1;
-            mesh.positions.push_back(p);
-        }
-    for (std::uint32_t j = 0; j < n; ++j)
-        for (std::uint32_t i = 0; i < n; ++i) {
-            const std::uint32_t a = first + j * (n + 1) + i, b = a + 1, c = a + n + 1;
-            mesh.triangles.push_back({a, b, c});
-            mesh.triangles.push_back({b, c + 1, c});
-        }
-}
-return mesh;
+Mesh cube(std::uint32_t n) {
+    Mesh mesh;
+    for (int face = 0; face < 6; ++face) {
+        const double sign = face % 2 == 0 ? 1 : -1;
+        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+        for (std::uint32_t j = 0; j <= n; ++j)
+            for (std::uint32_t i = 0; i <= n; ++i) {
+                Vec3 p(0.0);
+                p[face / 2] = sign;
+                p[(face / 2 + 1) % 3] = sign * (2.0 * i / n - 1);
+                p[(face / 2 + 2) % 3] = 2.0 * j / n - 1;
+                mesh.positions.push_back(p);
+            }
+        for (std::uint32_t j = 0; j < n; ++j)
+            for (std::uint32_t i = 0; i < n; ++i) {
+                const std::uint32_t a = first + j * (n + 1) + i, b = a + 1, c = a + n + 1;
+                mesh.triangles.push_back({a, b, c});
+                mesh.triangles.push_back({b, c + 1, c});
+            }
+    }
+    return mesh;
 }  // namespace
 
 /// Whether every ray of a picture passes so near to the origin that it has to hit the model's
@@ -86,7 +88,7 @@ protected:
 
     /// Pixels that show no front, over views of random cuts of `mesh`, which is star-shaped around
     /// the origin.
-    void look(import::TriangleMesh mesh, std::uint64_t seed) {
+    void look(Mesh mesh, std::uint64_t seed) {
         inner_ = outer_ = glm::length(mesh.positions[0]);
         for (const Vec3& position : mesh.positions) {
             inner_ = std::min(inner_, std::min(glm::length(position), 1.0));
@@ -202,5 +204,5 @@ TEST_F(HardCase14, NothingIsSeenThroughABumpyBall) { look(import::synthesizeMesh
 
 TEST_F(HardCase14, NothingIsSeenThroughACube) { look(cube(60), 15); }
 
-}  // namespace eyrie
+}  // namespace
 }  // namespace eyrie

@@ -9,6 +9,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
+#include "fabric/status.h"
 #include "renderer/gl/debug_output.h"
 #include "renderer/import/mesh_import.h"
 #include "renderer/renderer.h"
@@ -259,6 +260,78 @@ TEST(OcclusionOrder, TheFirstWinsWhereDepthsTieThoughItComesLate) {
     }
     EXPECT_GT(counts[0], 200) << "red is seen, for it is the first";
     EXPECT_GT(counts[1], 200);
+}
+
+/// A wall with a doorway narrower than the 8 pixels that the pyramid looks at as one, boards behind
+/// it, and one board in the eye's face.
+absl::StatusOr<fabric::Scene> doorway(const test::TemporaryFolder& folder) {
+    fabric::Scene scene;
+    scene.lights.push_back({});
+    const auto add = [&](const std::vector<Rectangle>& all, const Vec3& colour) {
+        const std::string name = std::to_string(scene.objects.size()) + ".eym";
+        ASSIGN_OR_RETURN(const fabric::SceneObject object,
+                         rectangles(all, folder.path(name), colour));
+        scene.objects.push_back(object);
+        return absl::OkStatus();
+    };
+    RETURN_IF_ERROR(add({{10, -40, -6, 0, 6}}, {0, 1, 0}));
+    RETURN_IF_ERROR(add({{10, 0.13, -6, 40, 6}}, {0, 1, 0}));
+    for (int i = 0; i < 12; ++i)
+        RETURN_IF_ERROR(
+            add({{12.0 + 2 * i, -9.0 + 1.5 * i, -1, -8.6 + 1.5 * i, 1}}, {1, 0, 0.08 * i}));
+    RETURN_IF_ERROR(add({{0.001, -0.0004, -0.0004, 0.0002, 0.0004}}, {0, 0, 1}));
+    return scene;
+}
+
+TEST(HardCase20, ThroughADoorwayNarrowerThanABlockOfPixelsAllIsSeen) {
+    const test::TemporaryFolder folder;
+    const auto scene = doorway(folder);
+    ASSERT_TRUE(scene.ok()) << scene.status();
+    const auto renderer = openRenderer();
+    ASSERT_NE(renderer, nullptr);
+    ASSERT_TRUE(renderer->openScene(*scene).ok());
+    std::mt19937 random(kSeed);
+    const auto in = [&](double low, double high) {
+        return std::uniform_real_distribution<double>(low, high)(random);
+    };
+    FrameData frame;
+    frame.camera.fovYDegrees = 40;
+    std::uint64_t hidden = 0;
+    for (int i = 0; i < 500; ++i) {
+        if (i % 50 == 0)  // a hard cut
+            frame.camera.eye = {in(-3, 0), in(-4, 4), in(-0.5, 0.5)};
+        frame.camera.eye.y += 0.01;
+        frame.camera.target = frame.camera.eye + Vec3(1, -0.1 * frame.camera.eye.y, 0);
+        if (i % 100 >= 90)  // half a turn, and back
+            frame.camera.target = frame.camera.eye + Vec3(std::cos(M_PI / 5 * (i % 100 - 90)),
+                                                          std::sin(M_PI / 5 * (i % 100 - 90)), 0);
+        hidden += hiddenIn(*renderer, frame, wholeView(), "frame " + std::to_string(i));
+    }
+    EXPECT_GT(hidden, 2000U);
+}
+
+TEST(HardCase20, WhatEntersAtTheFrustumsEdgeOrTouchesTheNearPlaneIsSeen) {
+    const test::TemporaryFolder folder;
+    const auto scene = doorway(folder);
+    ASSERT_TRUE(scene.ok()) << scene.status();
+    const auto renderer = openRenderer();
+    ASSERT_NE(renderer, nullptr);
+    ASSERT_TRUE(renderer->openScene(*scene).ok());
+    FrameData frame;
+    frame.camera.fovYDegrees = 90;  // the frustum's top is at z = x, its sides at y = 16 / 9 x
+    const double side = 16.0 / 9;
+    for (int i = -50; i < 50; ++i) {
+        // The second board of the row, at x = 14, ends at y = -7.1: from outside to inside of the
+        // picture's right edge, exactly on it in the middle, and a thousandth of a pixel at a time.
+        const double pixel = 2 * side * 14 / kWidth;
+        frame.camera.eye = {0, -7.1 + side * 14 + (i < 0 ? 0.001 : 0.05) * i * pixel, 0};
+        frame.camera.target = frame.camera.eye + Vec3(1, 0, 0);
+        hiddenIn(*renderer, frame, wholeView(), "edge " + std::to_string(i));
+        // The board in the eye's face, about 1 mm away: before, on and behind the near plane.
+        frame.camera.eye = {1e-7 * i, 0, 0};
+        frame.camera.target = {1, 0, 0};
+        hiddenIn(*renderer, frame, wholeView(), "near " + std::to_string(i));
+    }
 }
 
 /// Of a vertex, in object space.

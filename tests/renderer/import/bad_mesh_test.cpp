@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstring>
 #include <functional>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,21 @@ std::string polygon(int corners, bool isConcave) {
     return text + face + "\n";
 }
 
+/// The same as a PLY, with faces of no, one and two corners after it.
+std::string plyPolygon(int corners, bool isConcave, const std::string& count = "int") {
+    std::string text, face = fmt::format("{}", corners);
+    std::istringstream lines(polygon(corners, isConcave));
+    for (std::string line; std::getline(lines, line) && line[0] == 'v';)
+        text += line.substr(2) + "\n";
+    for (int i = 0; i < corners; ++i) face += fmt::format(" {}", i);
+    return fmt::format(
+               "ply\nformat ascii 1.0\nelement vertex {}\nproperty double x\nproperty double y\n"
+               "property double z\nelement face 4\nproperty list {} int vertex_indices\n"
+               "end_header\n",
+               corners, count) +
+           text + face + "\n0\n1 0\n2 0 1\n";
+}
+
 std::string square(const std::string& faces) { return kSquare + faces; }
 
 std::string binaryStl(std::uint32_t declared) {
@@ -63,6 +79,24 @@ std::string gltf(const std::string& nodes, const std::string& count, const std::
            R"(}],"buffers":[{"byteLength":)" + bytes +
            R"(,"uri":"data:application/octet-stream;base64,)"
            R"(AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
+}
+
+/// Three corners of a triangle and, where there are any, indices: `bytes` in base 64.
+std::string indexedGltf(const std::string& bytes) {
+    return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],)"
+           R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],"accessors":[)"
+           R"({"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},)"
+           R"({"bufferView":1,"componentType":5125,"count":3,"type":"SCALAR"}],"bufferViews":[)"
+           R"({"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":12}],)"
+           R"("buffers":[{"byteLength":48,"uri":"data:application/octet-stream;base64,)" +
+           bytes + R"("}]})";
+}
+
+/// A header that goes on and on.
+std::string plyHeader(const std::string& line, int times) {
+    std::string text = "ply\nformat ascii 1.0\nelement vertex 3\n";
+    for (int i = 0; i < times; ++i) text += fmt::format("{}{}\n", line, i);
+    return text + "end_header\n";
 }
 
 std::string glb() {
@@ -82,6 +116,15 @@ const std::vector<Case> kCases = {
     {"TenThousandCorners", "m.obj", polygon(10000, false), 9998},
     {"TenThousandCornersConcave", "m.obj", polygon(10000, true), 9998},
     {"TwentyThousandCornersConcave", "m.obj", polygon(20000, true), 0},
+    {"PlyOfTenThousandCornersAndOfFewerThanThree", "m.ply", plyPolygon(10000, false), 9998, 3},
+    {"PlyOfTenThousandCornersConcave", "m.ply", plyPolygon(10000, true), 9998, 3},
+    {"PlyOfMoreCornersThanACountOfItsTypeHolds", "m.ply", plyPolygon(300, false, "uchar"), 298, 3},
+    {"GltfIndexBeyondTheLast", "m.gltf",
+     indexedGltf("AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAEAAAADAAAA"), 0},
+    {"GltfHugeIndex", "m.gltf",
+     indexedGltf("AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAEAAAD/////"), 0},
+    {"GltfNotANumber", "m.gltf",
+     indexedGltf("AADAfwAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAEAAAACAAAA"), 0},
     {"RelativeCorners", "m.obj", square("f -4 -3 -2\n"), 1},
     {"RelativeCornersBeforeTheFirst", "m.obj", square("f -4 -3 -5\n"), 0},
     {"CornerZero", "m.obj", square("f 0 1 2\n"), 0},
@@ -121,6 +164,17 @@ const std::vector<Case> kCases = {
      "ply\nformat ascii 1.0\nelement vertex 3000000000\nproperty float x\nproperty float y\n"
      "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0",
      0},
+    {"ThreeGigabytesOfBinaryPly", "m.ply",
+     "ply\nformat binary_little_endian 1.0\nelement vertex 250000000\nproperty float x\n"
+     "property float y\nproperty float z\nelement face 1\nproperty list uchar int "
+     "vertex_indices\nend_header\n" +
+         std::string(800, 'x'),
+     0},
+    {"PlyOfAHundredThousandProperties", "m.ply", plyHeader("property float a", 100000), 0},
+    {"PlyOfAHundredThousandElements", "m.ply", plyHeader("element e 1000000000000000000", 100000),
+     0},
+    {"PlyOfOneLongLine", "m.ply", "ply\nformat ascii 1.0\ncomment " + std::string(1 << 22, 'x'), 0},
+    {"PlyOfTwoFormats", "m.ply", "ply\nformat ascii 1.0\nformat ascii 1.0\nply\nend_header\n", 0},
     {"ThreeBillionOffVertices", "m.off", "OFF\n3000000000 1 0\n0 0 0\n", 0},
     {"ThreeBillionAcVertices", "m.ac",
      "AC3Db\nOBJECT world\nkids 1\nOBJECT poly\nnumvert 3000000000\n0 0 0\n", 0},
@@ -223,6 +277,30 @@ TEST(HardCase17, LeavesOf65535VerticesAndMore) {
     }
 }
 
+/// A strip of triangles over `vertices` points.
+TriangleMesh strip(std::uint32_t vertices) {
+    TriangleMesh mesh;
+    for (std::uint32_t i = 0; i < vertices; ++i)
+        mesh.positions.emplace_back(i / 2, i % 2, std::sin(i / 100.0));
+    for (std::uint32_t i = 0; i + 2 < vertices; ++i)
+        mesh.triangles.push_back({i, i + 1 + i % 2, i + 2 - i % 2});
+    return mesh;
+}
+
+TEST(HardCase17, ALeafOfExactly65535VerticesIsOneAndOfOneMoreIsNone) {
+    const test::TemporaryFolder folder;
+    for (const std::uint32_t vertices : {65535U, 65536U}) {
+        const auto report =
+            importMesh(strip(vertices), folder.file("m.eym"), {.leafTriangles = 65535});
+        ASSERT_TRUE(report.ok()) << report.status();
+        EXPECT_EQ(report->triangles, vertices - 2);
+        const auto file = mesh::EymFile::open(folder.file("m.eym"));
+        ASSERT_TRUE(file.ok()) << file.status();
+        EXPECT_EQ(file->nodes().size(), vertices == 65535 ? 1U : 3U);
+        EXPECT_TRUE(file->geometry(static_cast<std::uint32_t>(file->nodes().size() - 1)).ok());
+    }
+}
+
 TEST(HardCase17, AThousandTrianglesOnOneEdge) {
     const test::TemporaryFolder folder;
     TriangleMesh fan;
@@ -279,6 +357,26 @@ TEST(HardCase19, MicrometresBesideATerametreAreStoredWithinTheStatedError) {
     EXPECT_LE(report->errorMetres, 1e12 / (1 << 20));
     EXPECT_NEAR(mesh::EymFile::open(folder.file("m.eym"))->bounds().max.x, 1e12,
                 report->errorMetres + 1e12 / (1 << 23));  // OBJ is read in single precision
+}
+
+TEST(HardCase19, MicrometresBesideATerametreInDoublePrecisionAreWithinTheStatedError) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.ply"),
+                    "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\n"
+                    "property double y\nproperty double z\nelement face 1\n"
+                    "property list uchar int vertex_indices\nend_header\n"
+                    "1e-6 0 0\n999999999999 0 0\n0 1e12 1e-6\n3 0 1 2\n");
+    const auto report =
+        importMesh({folder.file("m.ply")}, folder.file("m.eym"), {.pack = {.keepsExact = true}});
+    ASSERT_TRUE(report.ok()) << report.status();
+    const auto file = mesh::EymFile::open(folder.file("m.eym"));
+    ASSERT_TRUE(file.ok()) << file.status();
+    EXPECT_NEAR(file->bounds().max.x, 999999999999, report->errorMetres);
+    const auto exact = file->exactPositions(0);
+    ASSERT_TRUE(exact.ok()) << exact.status();
+    EXPECT_THAT(*exact, testing::UnorderedElementsAre(fabric::Vec3(1e-6, 0, 0),
+                                                      fabric::Vec3(999999999999, 0, 0),
+                                                      fabric::Vec3(0, 1e12, 1e-6)));
 }
 
 TEST(HardCase19, DenormalsAreZeroBesideAnythingElse) {
