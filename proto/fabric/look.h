@@ -18,7 +18,8 @@ struct ContourLines {
     bool operator==(const ContourLines&) const = default;
 };
 
-/// How terrain is shown, beside its shading. A default one changes nothing and costs nothing.
+/// How objects, terrain above all, are shown beside their shading. A default one changes nothing
+/// and costs nothing.
 struct Look {
     /// Heights are drawn times this, about height 0 of the object; -1000 to 1000.
     double exaggeration = 1;
@@ -26,9 +27,12 @@ struct Look {
     double slopeShading = 1;                        ///< how far steep ground shows rock, 0 to 1
     std::optional<ContourLines> contours = {};
     double saturation = 1;    ///< 0 (grey) to 2
-    bool tileBounds = false;  ///< boxes around the tiles that are drawn
+    bool tileBounds = false;  ///< boxes around the tiles and nodes that are drawn
     bool pageBounds = false;  ///< boxes around the pages whose tiles the view needs
-    bool levelTint = false;   ///< each level of the quadtree has a colour
+    bool levelTint = false;   ///< each level of the quadtree, or of a mesh's tree, has a colour
+    /// Each range of the data that a channel draws has a colour, unless levels have: the one part
+    /// of a look that pictures of different decompositions differ by.
+    bool rangeTint = false;
     /// What is drawn is chosen for this camera, and seen from the frame's: no error is promised.
     std::optional<Camera> cutCamera = {};
 

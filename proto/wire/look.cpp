@@ -103,6 +103,7 @@ v1::Look toMessage(const fabric::Look& look) {
     message.set_tile_bounds(look.tileBounds);
     message.set_page_bounds(look.pageBounds);
     message.set_level_tint(look.levelTint);
+    message.set_range_tint(look.rangeTint);
     if (look.cutCamera)
         *message.mutable_cut_camera() = toMessage(*look.cutCamera);
     return message;
@@ -128,6 +129,7 @@ absl::StatusOr<fabric::Look> fromMessage(const v1::Look& message) {
     look.tileBounds = message.tile_bounds();
     look.pageBounds = message.page_bounds();
     look.levelTint = message.level_tint();
+    look.rangeTint = message.range_tint();
     if (message.has_cut_camera()) {
         absl::StatusOr<fabric::Camera> camera = fromMessage(message.cut_camera());
         if (!camera.ok())

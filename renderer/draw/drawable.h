@@ -68,6 +68,7 @@ struct FrameState {
     const fabric::Scene& scene;
     fabric::Shading shading;
     const fabric::Look& look;
+    const fabric::Range& range;  ///< of the channel
 };
 
 /// One object of the scene, on the GL thread.

@@ -11,10 +11,12 @@
 #include <glm/matrix.hpp>
 
 #include "fabric/status.h"
+#include "renderer/draw/box_lines.h"
 #include "renderer/draw/mesh_cut.h"
 #include "renderer/draw/mesh_paging.h"
 #include "renderer/draw/object_program.h"
 #include "renderer/draw/tau_choice.h"
+#include "renderer/draw/tint.h"
 #include "renderer/gl/object.h"
 #include "renderer/mesh/eym_format.h"
 
@@ -30,6 +32,8 @@ std::uint32_t packedSrgb(const fabric::Vec3& linear) {
     };
     return byte(linear.x) | byte(linear.y) << 8 | byte(linear.z) << 16 | 0xFF000000U;
 }
+
+bool isTinted(const fabric::Look& look) { return look.levelTint || look.rangeTint; }
 
 class MeshDrawable : public Drawable {
 public:
@@ -67,6 +71,10 @@ private:
     page::HostPages::Loads reach(const CutRequest& request, double tauPixels);
     bool mayHideBacks(const FrameState& frame) const;
     void drawNode(const DeviceNode& node, GLsizei fronts) const;
+    void drawPiece(const Piece& piece, const FrameState& frame, bool mayHideBacks) const;
+    void use(const Program& program, const FrameState& frame) const;
+    void colour(const Piece& piece, const FrameState& frame) const;
+    int levelOf(std::uint32_t node) const;
 
     MeshPrograms& programs_;
     fabric::Mat4 worldFromObject_;
@@ -76,6 +84,7 @@ private:
     std::shared_ptr<const mesh::EymFile> file_;
     double errorPixels_ = 0;  ///< of the last cut
     gl::VertexArray vertexArray_;
+    BoxLines boxLines_;
     std::unique_ptr<MeshPaging> paging_;
     TauChoice tau_;
     std::map<int, MeshCut> cuts_;  ///< of this view and tau, by step
@@ -205,24 +214,64 @@ void MeshDrawable::drawNode(const DeviceNode& node, GLsizei fronts) const {
         draw(fronts, node.indexCount - fronts);
 }
 
+/// Demonstration colours stand in for the mesh's own, which an array that is not enabled lets them.
+void MeshDrawable::use(const Program& program, const FrameState& frame) const {
+    program.use();
+    glFrontFace(glm::determinant(fabric::Mat3(worldFromObject_)) < 0 ? GL_CW : GL_CCW);
+    glBindVertexArray(vertexArray_.id());
+    if (file_->hasColours() && !isTinted(frame.look))
+        glEnableVertexArrayAttrib(vertexArray_.id(), Program::kPackedColour.location);
+    else
+        glDisableVertexArrayAttrib(vertexArray_.id(), Program::kPackedColour.location);
+}
+
+/// From the root down.
+int MeshDrawable::levelOf(std::uint32_t node) const {
+    int level = 0;
+    const std::span<const mesh::Node> nodes = file_->nodes();
+    for (std::uint32_t at = 0; at != node; ++level) {
+        const auto right = static_cast<std::uint32_t>(nodes[at].right);
+        at = node < right ? at + 1 : right;
+    }
+    return level;
+}
+
+void MeshDrawable::colour(const Piece& piece, const FrameState& frame) const {
+    std::uint32_t colour = uniformColour_;
+    if (frame.look.levelTint)
+        colour = packedSrgb(fabric::Vec3(levelColour(levelOf(piece.index))));
+    else if (frame.look.rangeTint)
+        colour = packedSrgb(fabric::Vec3(rangeColour(frame.range)));
+    glVertexAttribI4ui(Program::kPackedColour.location, colour, 0, 0, 0);
+}
+
+void MeshDrawable::drawPiece(const Piece& piece, const FrameState& frame, bool mayHideBacks) const {
+    const DeviceNode* node = paging_->node(piece.index);
+    const GLsizei fronts = singleSided_
+                               ? node->indexCount
+                               : static_cast<GLsizei>(file_->nodes()[piece.index].frontIndexCount);
+    colour(piece, frame);
+    drawNode(*node, mayHideBacks ? fronts : 0);
+}
+
 absl::Status MeshDrawable::draw(std::span<const Piece> pieces, const FrameState& frame,
                                 fabric::FrameStatistics& statistics) {
     Program::Variant variant{variantFor(frame, worldFromObject_)};
     variant.gouraud = frame.shading == fabric::Shading::Gouraud;
     ASSIGN_OR_RETURN(const Program* program, programs_.find(variant));
-    program->use();
+    if (frame.look.tileBounds)
+        RETURN_IF_ERROR(boxLines_.begin(frame.view, worldFromObject_));
+    use(*program, frame);
     setObject(*program, frame, worldFromObject_, objectFromLattice_);
     const bool mayHideBacks = this->mayHideBacks(frame);
-    glFrontFace(glm::determinant(fabric::Mat3(worldFromObject_)) < 0 ? GL_CW : GL_CCW);
-    glBindVertexArray(vertexArray_.id());
-    glVertexAttribI4ui(Program::kPackedColour.location, uniformColour_, 0, 0, 0);
     for (const Piece& piece : pieces) {
-        const DeviceNode* node = paging_->node(piece.index);
-        const GLsizei fronts =
-            singleSided_ ? node->indexCount
-                         : static_cast<GLsizei>(file_->nodes()[piece.index].frontIndexCount);
-        drawNode(*node, mayHideBacks ? fronts : 0);
-        statistics.triangles += static_cast<std::uint64_t>(node->indexCount) / 3;
+        drawPiece(piece, frame, mayHideBacks);
+        statistics.triangles += piece.triangles;
+        if (frame.look.tileBounds) {
+            // At once, so that where depths tie the lower range wins as in compositing.
+            boxLines_.draw(piece.bounds, levelColour(levelOf(piece.index)));
+            use(*program, frame);
+        }
     }
     return absl::OkStatus();
 }

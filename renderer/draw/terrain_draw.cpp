@@ -19,6 +19,7 @@
 #include "renderer/draw/terrain_prefetch.h"
 #include "renderer/draw/terrain_tiles.h"
 #include "renderer/draw/tile_imagery.h"
+#include "renderer/draw/tint.h"
 #include "renderer/gl/object.h"
 #include "renderer/terrain/eyt_format.h"
 #include "renderer/terrain/part_bounds.h"
@@ -271,8 +272,9 @@ absl::Status TerrainDrawable::draw(std::span<const Piece> pieces, const FrameSta
         const terrain::TileChoice& choice = drawn_.tiles[piece.index];
         for (const terrain::ImageryPart& part : imagery_.partsOf(choice.id)) {
             ASSIGN_OR_RETURN(const TerrainEffect* program, programFor(part, frame, programs));
-            if (frame.look.levelTint)
-                program->levelColour(levelColour(choice.id.level));
+            if (frame.look.levelTint || frame.look.rangeTint)
+                program->levelColour(frame.look.levelTint ? levelColour(choice.id.level)
+                                                          : rangeColour(frame.range));
             useNormals(*program, choice.id);
             imagery_.use(*program, choice.id, part);
             statistics.triangles += drawTile(*program, choice, *paging_->tile(choice.id));

@@ -18,17 +18,6 @@ constexpr int kLinesPerStrongOne = 5;
 
 }  // namespace
 
-glm::vec3 levelColour(int level) {
-    // Hues a golden section of the circle apart, as three cosines; squared for linear light.
-    constexpr float kGolden = 2.39996323F;
-    const float hue = kGolden * static_cast<float>(level);
-    const auto channel = [&](float phase) {
-        const float displayed = 0.55F + 0.4F * std::cos(hue + phase);
-        return displayed * displayed;
-    };
-    return {channel(0), channel(2.0943951F), channel(4.1887902F)};
-}
-
 TerrainLook::TerrainLook(const terrain::EytIndex& index)
     : index_(index),
       lowestMetres_(index.bounds().min.z),
@@ -42,7 +31,8 @@ effects::TerrainEffect::Variant TerrainLook::variantFor(const FrameState& frame,
         draw::variantFor(frame, fabric::exaggerated(worldFromObject, look.exaggeration));
     variant.transfer = look.transfer.has_value();
     variant.contours = look.contours.has_value();
-    variant.adjusted = look.slopeShading != 1 || look.saturation != 1 || look.levelTint;
+    variant.adjusted =
+        look.slopeShading != 1 || look.saturation != 1 || look.levelTint || look.rangeTint;
     return variant;
 }
 
@@ -54,7 +44,7 @@ void TerrainLook::use(const effects::TerrainEffect& program, const fabric::Mat4&
             fabric::Mat3(fabric::exaggerated(worldFromObject, look.exaggeration)))));
     program.slopeShading(static_cast<float>(look.slopeShading));
     program.saturation(static_cast<float>(look.saturation));
-    program.levelShare(look.levelTint ? 0.6F : 0.0F);
+    program.levelShare(look.levelTint || look.rangeTint ? 0.6F : 0.0F);
     if (look.contours)
         setContours(program, *look.contours);
     if (look.transfer)

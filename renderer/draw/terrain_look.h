@@ -10,9 +10,6 @@
 
 namespace eyrie::draw {
 
-/// Colours of the quadtree's levels, linear; 0 is the finest. Neighbours differ clearly.
-glm::vec3 levelColour(int level);
-
 /// Takes a frame's look to the terrain effect: which variant draws it, and its uniforms. Of one
 /// terrain; GL thread.
 class TerrainLook {

@@ -83,6 +83,7 @@ describe("the message", () => {
       contourMetres: 25,
       frozen,
       pageBounds: true,
+      rangeTint: true,
     });
     expect(message.transfer?.unit).toBe(HeightUnit.RELATIVE);
     expect(message.transfer?.primitives[0]).toMatchObject({
@@ -95,6 +96,7 @@ describe("the message", () => {
     expect(message.contours?.intervalMetres).toBe(25);
     expect(message.cutCamera?.eye).toEqual([1, 2, 3]);
     expect([message.pageBounds, message.tileBounds]).toEqual([true, false]);
+    expect([message.rangeTint, message.levelTint]).toEqual([true, false]);
     expect(lookMessage({ ...defaultLook, colouring: "bare" }).transfer?.primitives).toEqual([]);
   });
 });

@@ -28,6 +28,7 @@ export interface Look {
   tileBounds: boolean;
   pageBounds: boolean;
   levelTint: boolean;
+  rangeTint: boolean;
   /** The camera whose cut is held; null while it follows the view. */
   frozen: Camera | null;
   underground: boolean;
@@ -62,6 +63,7 @@ export const defaultLook: Look = {
   tileBounds: false,
   pageBounds: false,
   levelTint: false,
+  rangeTint: false,
   frozen: null,
   underground: false,
 };

@@ -40,6 +40,7 @@ fabric::Look anyLook() {
     look.tileBounds = coin();
     look.pageBounds = coin();
     look.levelTint = coin();
+    look.rangeTint = coin();
     if (coin())
         look.cutCamera = fabric::Camera{.eye = {share(), 2, 3}, .target = {4, 5, 6}};
     return look;

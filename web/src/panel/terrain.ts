@@ -170,8 +170,8 @@ export function showTerrain(state: State, viewer: Viewer): void {
     toggles(state, "What the engine did", [
       {
         id: "tile-bounds",
-        name: "Tiles",
-        title: "Boxes around the tiles that are drawn",
+        name: "Boxes",
+        title: "Boxes around the tiles of terrain and the nodes of meshes that are drawn",
         isOn: (look) => look.tileBounds,
         set: (tileBounds) => change(state, { tileBounds }),
       },
@@ -188,6 +188,13 @@ export function showTerrain(state: State, viewer: Viewer): void {
         title: "A colour for each level of detail",
         isOn: (look) => look.levelTint,
         set: (levelTint) => change(state, { levelTint }),
+      },
+      {
+        id: "range-tint",
+        name: "Ranges",
+        title: "A colour for each renderer's range of the data, where a frame is cut by data (DB)",
+        isOn: (look) => look.rangeTint,
+        set: (rangeTint) => change(state, { rangeTint }),
       },
       {
         id: "frozen",

@@ -77,6 +77,7 @@ export function lookMessage(look: Look): LookMessage {
     tileBounds: look.tileBounds,
     pageBounds: look.pageBounds,
     levelTint: look.levelTint,
+    rangeTint: look.rangeTint,
     ...(look.frozen === null ? {} : { cutCamera: cameraMessage(look.frozen) }),
   });
 }

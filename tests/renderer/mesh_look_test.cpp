@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+// Looks of meshes: boxes, and colours that tell what the engine did.
+#include <array>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "fabric/depth_merge.h"
+#include "renderer/gl/debug_output.h"
+#include "renderer/import/mesh_import.h"
+#include "renderer/import/mesh_synth.h"
+#include "renderer/renderer.h"
+#include "tests/support/temporary_folder.h"
+
+namespace eyrie {
+namespace {
+
+constexpr int kWidth = 320;
+constexpr int kHeight = 240;
+
+/// A ball, plain or with a colour of its own at each vertex.
+class MeshLook : public testing::TestWithParam<bool> {
+protected:
+    void SetUp() override {
+        gl::setOnGlError(gl::OnGlError::Abort);
+        auto renderer = Renderer::create({});
+        ASSERT_TRUE(renderer.ok()) << renderer.status();
+        renderer_ = *std::move(renderer);
+        import::TriangleMesh ball = import::synthesizeMesh(20000, 5);
+        if (GetParam())
+            for (std::size_t i = 0; i < ball.positions.size(); ++i)
+                ball.colours.push_back({static_cast<std::uint8_t>(i % 256), 90, 30, 255});
+        const auto report =
+            import::importMesh(std::move(ball), folder_.path("ball.eym"), {.leafTriangles = 2048});
+        ASSERT_TRUE(report.ok()) << report.status();
+        fabric::Scene scene;
+        scene.ambient = 1;
+        scene.objects.push_back({.name = "ball", .path = folder_.path("ball.eym")});
+        ASSERT_TRUE(renderer_->openScene(scene).ok());
+    }
+
+    fabric::ChannelResult draw(const fabric::Look& look, const fabric::Range& range = {},
+                               fabric::Shading shading = fabric::Shading::Smooth) {
+        fabric::FrameData frame;
+        frame.camera = {.eye = {1.9, 1.2, 0.8}, .target = {0, 0.2, 0}};
+        frame.tauPixels = 0.5;
+        frame.look = look;
+        frame.shading = shading;
+        fabric::ChannelTask task;
+        task.viewWidth = kWidth;
+        task.viewHeight = kHeight;
+        task.pixelViewport = {0, 0, kWidth, kHeight};
+        task.range = range;
+        task.wantsDepth = true;
+        auto result = renderer_->render(frame, task);
+        EXPECT_TRUE(result.ok()) << result.status();
+        fabric::Image whole = fabric::makeImage(task.pixelViewport, {255, 255, 255, 255}, true);
+        fabric::paste(result->image, whole);
+        result->image = std::move(whole);
+        return *std::move(result);
+    }
+
+    /// Which of red, green and blue lead, by how many pixels.
+    static std::array<int, 3> leads(const fabric::Image& image) {
+        std::array<int, 3> counts{};
+        for (std::size_t i = 0; i < image.colour.size(); ++i) {
+            const fabric::Rgba& c = image.colour[i];
+            if (image.depth[i] > 0)
+                ++counts[c.r > c.g && c.r > c.b ? 0 : c.g > c.b ? 1 : 2];
+        }
+        return counts;
+    }
+
+    static int covered(const fabric::Image& image) {
+        const auto [r, g, b] = leads(image);
+        return r + g + b;
+    }
+
+    test::TemporaryFolder folder_;
+    std::unique_ptr<Renderer> renderer_;
+};
+
+INSTANTIATE_TEST_SUITE_P(Balls, MeshLook, testing::Bool(), [](const auto& coloured) {
+    return coloured.param ? "WithColours" : "Plain";
+});
+
+TEST_P(MeshLook, BoundsAreLinesOverThePictureAndCountAsNothing) {
+    const fabric::ChannelResult plain = draw({});
+    const fabric::ChannelResult lined = draw({.tileBounds = true});
+    ASSERT_GT(plain.statistics.nodes, 3U);
+    int lines = 0;
+    for (std::size_t i = 0; i < plain.image.colour.size(); ++i)
+        lines += lined.image.colour[i] != plain.image.colour[i] ? 1 : 0;
+    EXPECT_GT(lines, 500);
+    EXPECT_LT(lines, kWidth * kHeight / 4);
+    EXPECT_GT(covered(lined.image), covered(plain.image)) << "boxes reach beyond the surface";
+    EXPECT_EQ(lined.statistics.nodes, plain.statistics.nodes);
+    EXPECT_EQ(lined.statistics.triangles, plain.statistics.triangles);
+    EXPECT_TRUE(draw({}).image == plain.image) << "nothing of a look stays behind";
+}
+
+TEST_P(MeshLook, TintsChangeColoursAlone) {
+    const fabric::ChannelResult plain = draw({});
+    for (const fabric::Look& look :
+         {fabric::Look{.levelTint = true}, fabric::Look{.rangeTint = true}}) {
+        const fabric::ChannelResult tinted = draw(look);
+        EXPECT_TRUE(tinted.image.depth == plain.image.depth);
+        EXPECT_FALSE(tinted.image.colour == plain.image.colour);
+    }
+    EXPECT_TRUE(draw({}).image == plain.image) << "nothing of a look stays behind";
+}
+
+TEST_P(MeshLook, EachRangeHasAColourOfItsOwn) {
+    fabric::Image composed = fabric::makeImage({0, 0, kWidth, kHeight}, {255, 255, 255, 255}, true);
+    for (const fabric::Range& range : fabric::split(fabric::Range{}, fabric::equalCuts(3))) {
+        const fabric::Image part = draw({.rangeTint = true}, range).image;
+        const auto counts = leads(part);
+        EXPECT_GT(covered(part), 0);
+        EXPECT_EQ(*std::max_element(counts.begin(), counts.end()), covered(part))
+            << "one colour leads all over a range";
+        fabric::mergeDepth(part, composed);
+    }
+    EXPECT_TRUE(composed.depth == draw({}).image.depth);
+    int colours = 0;
+    for (const int count : leads(composed)) colours += count > 500 ? 1 : 0;
+    EXPECT_GE(colours, 2);
+}
+
+TEST_P(MeshLook, AWireframeIsTheEdgesOfTheSameTriangles) {
+    const fabric::ChannelResult filled = draw({});
+    const fabric::ChannelResult wire = draw({}, {}, fabric::Shading::Wireframe);
+    EXPECT_EQ(wire.statistics.triangles, filled.statistics.triangles);
+    EXPECT_GT(covered(wire.image), covered(filled.image) / 4);
+}
+
+}  // namespace
+}  // namespace eyrie
