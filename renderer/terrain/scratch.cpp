@@ -110,12 +110,24 @@ Scratch::Piece Scratch::read(std::uint64_t place, std::size_t bytes) {
 void Scratch::write(std::uint64_t place, Piece data, std::size_t bytes) {
     Shard& shard = shardOf(place);
     const std::lock_guard lock(shard.mutex);
-    if (const auto found = shard.byPlace.find(place); found != shard.byPlace.end()) {
-        shard.bytes -= wholePages(found->second->bytes);
-        shard.byUse.erase(found->second);
-        shard.byPlace.erase(found);
-    }
+    drop(shard, place);
     keep(shard, {place, std::move(data), bytes, true});
+}
+
+void Scratch::forget(std::uint64_t place) {
+    Shard& shard = shardOf(place);
+    const std::lock_guard lock(shard.mutex);
+    drop(shard, place);
+}
+
+/// Precondition: the shard's mutex is held.
+void Scratch::drop(Shard& shard, std::uint64_t place) {
+    const auto found = shard.byPlace.find(place);
+    if (found == shard.byPlace.end())
+        return;
+    shard.bytes -= wholePages(found->second->bytes);
+    shard.byUse.erase(found->second);
+    shard.byPlace.erase(found);
 }
 
 /// Precondition: the shard's mutex is held, and the place is not in it.
@@ -128,7 +140,7 @@ void Scratch::keep(Shard& shard, Entry entry) {
     while (shard.bytes > budget_ / kShards && shard.byUse.size() > 1) {
         const Entry& oldest = shard.byUse.back();
         if (oldest.isDirty)
-            store(oldest);
+            store(oldest.place, oldest.data, oldest.bytes);
         shard.bytes -= wholePages(oldest.bytes);
         shard.byPlace.erase(oldest.place);
         shard.byUse.pop_back();
@@ -145,10 +157,10 @@ int Scratch::file(int flags) {
     return fd_;
 }
 
-void Scratch::store(const Entry& entry) {
-    const std::byte* next = entry.data.get();
-    std::size_t left = entry.bytes;
-    auto offset = static_cast<off_t>(entry.place);
+void Scratch::store(std::uint64_t place, const Piece& data, std::size_t bytes) {
+    const std::byte* next = data.get();
+    std::size_t left = bytes;
+    auto offset = static_cast<off_t>(place);
     while (left > 0) {
         const ssize_t done = pwrite(file(O_CREAT), next, left, offset);
         if (done < 0 && errno == EINTR)
@@ -191,13 +203,39 @@ void Scratch::fail(const char* what) {
                         path_, what, std::strerror(error)));
 }
 
-absl::Status Scratch::flush() {
-    for (Shard& shard : shards_) {
+/// Nobody waits while the disk is written to: the mutex is not held then.
+void Scratch::storeDirty(Shard& shard) {
+    std::vector<std::uint64_t> dirty;
+    {
         const std::lock_guard lock(shard.mutex);
-        for (Entry& entry : shard.byUse)
-            if (std::exchange(entry.isDirty, false))
-                store(entry);
+        for (const Entry& entry : shard.byUse)
+            if (entry.isDirty)
+                dirty.push_back(entry.place);
     }
+    for (const std::uint64_t place : dirty) {
+        Piece data;
+        std::size_t bytes = 0;
+        const auto find = [&] {
+            const auto found = shard.byPlace.find(place);
+            return found == shard.byPlace.end() ? shard.byUse.end() : found->second;
+        };
+        {
+            const std::lock_guard lock(shard.mutex);
+            const auto entry = find();
+            if (entry == shard.byUse.end() || !entry->isDirty)
+                continue;
+            data = entry->data;
+            bytes = entry->bytes;
+        }
+        store(place, data, bytes);
+        const std::lock_guard lock(shard.mutex);
+        if (const auto entry = find(); entry != shard.byUse.end() && entry->data == data)
+            entry->isDirty = false;
+    }
+}
+
+absl::Status Scratch::flush() {
+    for (Shard& shard : shards_) storeDirty(shard);
     if (!hasFailed_ && fdatasync(file(O_CREAT)) != 0)
         fail("scratch file cannot be flushed to disk");
     return status();
