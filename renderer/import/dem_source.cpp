@@ -87,7 +87,7 @@ public:
     std::uint64_t release() override {
         layers_.clear();
         buffer_ = {};
-        malloc_trim(0);  // blocks are small: the heap would keep them
+        malloc_trim(0);          // blocks are small: the heap would keep them
         return kCacheBytes / 2;  // so much less the process holds: measured
     }
 

@@ -126,9 +126,11 @@ private:
         const PageSources sources{model_, heights_, vertexLevels_, normals_, lattice, parts_};
         const int coarse = std::min(levels_, terrain::kFullResolutionLevels);
         RETURN_IF_ERROR(writeLevels(0, coarse, sources, scratch_, control_, index, writer));
-        RETURN_IF_ERROR(heights_.make(control_));
         RETURN_IF_ERROR(normals_.make(control_));
-        RETURN_IF_ERROR(writeLevels(coarse, levels_, sources, scratch_, control_, index, writer));
+        const int thinned = std::min(levels_, coarse + 1);
+        RETURN_IF_ERROR(writeLevels(coarse, thinned, sources, scratch_, control_, index, writer));
+        RETURN_IF_ERROR(heights_.make(control_));
+        RETURN_IF_ERROR(writeLevels(thinned, levels_, sources, scratch_, control_, index, writer));
         saturate(index);
         return absl::OkStatus();
     }
