@@ -26,12 +26,16 @@ struct Share {
 template <int kBits>
 struct ReadyShare {
     ReadyShare() = default;
-    explicit ReadyShare(Share share)
-        : reciprocal(((std::uint64_t{1} << (32 + kBits)) + share.size - 1) / share.size),
+    explicit ReadyShare(Share share) : ReadyShare(share, reciprocalOf(share.size)) {}
+    ReadyShare(Share share, std::uint64_t reciprocalOfSize)
+        : reciprocal(reciprocalOfSize),
           limit(std::uint64_t{share.size} << (32 - kBits)),
           start(share.start),
           others((1U << kBits) - share.size) {}
 
+    static constexpr std::uint64_t reciprocalOf(std::uint32_t size) {
+        return ((std::uint64_t{1} << (32 + kBits)) + size - 1) / size;
+    }
     std::uint32_t quotient(std::uint32_t x) const {
         return static_cast<std::uint32_t>(x * reciprocal >> (32 + kBits));
     }
@@ -41,6 +45,15 @@ struct ReadyShare {
     std::uint32_t start = 0;
     std::uint32_t others = 0;  ///< what the other symbols have
 };
+
+/// Reciprocals of all sizes of shares of 2^kBits, for symbols whose shares keep changing.
+template <int kBits>
+inline constexpr auto kReciprocals = [] {
+    std::array<std::uint64_t, std::size_t{1} << kBits> all{};
+    for (std::uint32_t size = 1; size < all.size(); ++size)
+        all[size] = ReadyShare<kBits>::reciprocalOf(size);
+    return all;
+}();
 
 /// A decoder's slot in 32 bits: bits 0-7 the symbol, 8-19 its share, 20-31 the slot's
 /// place within the share.

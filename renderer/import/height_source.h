@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 
 #include <absl/status/status.h>
 
@@ -21,6 +22,8 @@ public:
     /// The heights of a window of the frame, in metres, row by row; NaN is nodata, and there are no
     /// infinities. Errors: DataLoss.
     virtual absl::Status read(const terrain::PostRect& window, float* out) = 0;
+    /// Gives back what reading holds in memory, for about as many bytes; nothing is read again.
+    virtual std::uint64_t release() { return 0; }
 };
 
 /// A grid in memory, which is referred to.

@@ -66,31 +66,6 @@ void coverPosts(const terrain::TileSamples& samples, terrain::TileRecord& record
     }
 }
 
-/// Makes each record cover its children's, from the finest level up.
-void saturate(terrain::EytIndex& index) {
-    const terrain::Quadtree& quadtree = index.quadtree;
-    for (int level = 1; level < quadtree.levels(); ++level)
-        for (std::int32_t y = 0; y < quadtree.tilesY(level); ++y)
-            for (std::int32_t x = 0; x < quadtree.tilesX(level); ++x) {
-                const TileId tile{level, x, y};
-                terrain::TileRecord& record = index.tiles[quadtree.tileIndex(tile)];
-                for (int i = 0; i < 4; ++i) {
-                    const TileId child = terrain::Quadtree::child(tile, i);
-                    if (!quadtree.contains(child))
-                        continue;
-                    const terrain::TileRecord& finer = index.tile(child);
-                    record.coverErrorsOf(i, finer);
-                    record.minHeightMetres =
-                        std::min(record.minHeightMetres, finer.minHeightMetres);
-                    record.maxHeightMetres =
-                        std::max(record.maxHeightMetres, finer.maxHeightMetres);
-                }
-            }
-    for (terrain::TileRecord& record : index.tiles)
-        if (record.minHeightMetres > record.maxHeightMetres)
-            record = {.nodataParts = record.nodataParts};  // no triangle here in any level
-}
-
 /// Builds pages in parallel and writes them in order.
 class PageLine {
 public:
@@ -232,21 +207,51 @@ absl::Status buildPages(const PageSources& sources, std::span<const std::uint32_
     return scratch.status();
 }
 
-absl::Status writePages(const PageSources& sources, const terrain::Scratch& scratch,
-                        const ImportControl& control, terrain::EytIndex& index,
-                        terrain::EytWriter& writer) {
-    std::vector<std::uint32_t> pages(index.quadtree.pageCount());
-    std::iota(pages.begin(), pages.end(), 0U);
-    RETURN_IF_ERROR(buildPages(sources, pages, scratch, control, index,
-                               [&](std::uint32_t page, std::span<const std::uint32_t> bytes) {
-                                   absl::StatusOr<terrain::PageRecord> record =
-                                       writer.addPage(bytes);
-                                   if (record.ok())
-                                       index.pages[page] = *record;
-                                   return record.status();
-                               }));
-    saturate(index);
-    return absl::OkStatus();
+absl::Status writeLevels(int first, int end, const PageSources& sources,
+                         const terrain::Scratch& scratch, const ImportControl& control,
+                         terrain::EytIndex& index, terrain::EytWriter& writer) {
+    const terrain::Quadtree& quadtree = index.quadtree;
+    const auto firstPage = [&](int level) {
+        return level < quadtree.levels() ? quadtree.pageIndex({level, 0, 0}) : quadtree.pageCount();
+    };
+    std::vector<std::uint32_t> pages(firstPage(end) - firstPage(first));
+    std::iota(pages.begin(), pages.end(), firstPage(first));
+    ImportControl ofAll = control;
+    ofAll.progress = [&](std::string_view stage, double fraction) {
+        control.report(stage, (firstPage(first) + fraction * static_cast<double>(pages.size())) /
+                                  quadtree.pageCount());
+    };
+    return buildPages(sources, pages, scratch, ofAll, index,
+                      [&](std::uint32_t page, std::span<const std::uint32_t> bytes) {
+                          absl::StatusOr<terrain::PageRecord> record = writer.addPage(bytes);
+                          if (record.ok())
+                              index.pages[page] = *record;
+                          return record.status();
+                      });
+}
+
+void saturate(terrain::EytIndex& index) {
+    const terrain::Quadtree& quadtree = index.quadtree;
+    for (int level = 1; level < quadtree.levels(); ++level)
+        for (std::int32_t y = 0; y < quadtree.tilesY(level); ++y)
+            for (std::int32_t x = 0; x < quadtree.tilesX(level); ++x) {
+                const TileId tile{level, x, y};
+                terrain::TileRecord& record = index.tiles[quadtree.tileIndex(tile)];
+                for (int i = 0; i < 4; ++i) {
+                    const TileId child = terrain::Quadtree::child(tile, i);
+                    if (!quadtree.contains(child))
+                        continue;
+                    const terrain::TileRecord& finer = index.tile(child);
+                    record.coverErrorsOf(i, finer);
+                    record.minHeightMetres =
+                        std::min(record.minHeightMetres, finer.minHeightMetres);
+                    record.maxHeightMetres =
+                        std::max(record.maxHeightMetres, finer.maxHeightMetres);
+                }
+            }
+    for (terrain::TileRecord& record : index.tiles)
+        if (record.minHeightMetres > record.maxHeightMetres)
+            record = {.nodataParts = record.nodataParts};  // no triangle here in any level
 }
 
 }  // namespace eyrie::import

@@ -38,11 +38,13 @@ absl::Status buildPages(const PageSources& sources, std::span<const std::uint32_
                         const terrain::Scratch& scratch, const ImportControl& control,
                         terrain::EytIndex& index, const PageSink& sink);
 
-/// The same of all pages, written one after the other; each tile's record then covers those of the
-/// tiles under it.
-absl::Status writePages(const PageSources& sources, const terrain::Scratch& scratch,
-                        const ImportControl& control, terrain::EytIndex& index,
-                        terrain::EytWriter& writer);
+/// The same of the pages of levels `first` to `end`, written one after the other.
+absl::Status writeLevels(int first, int end, const PageSources& sources,
+                         const terrain::Scratch& scratch, const ImportControl& control,
+                         terrain::EytIndex& index, terrain::EytWriter& writer);
+
+/// Makes each tile's record cover those of the tiles under it, once all are built.
+void saturate(terrain::EytIndex& index);
 
 /// Calls visit(tile, place) for each tile that a page has.
 template <typename Visit>

@@ -111,9 +111,28 @@ private:
         return XXH64(text.data(), text.size(), 0);
     }
 
-    absl::Status joinLevels() {
+    absl::Status makeLevels() {
+        RETURN_IF_ERROR(parts_ ? parts_->gatherMeasured(scratch_, control_, vertexLevels_)
+                               : vertexLevels_.measure(control_));
         RETURN_IF_ERROR(vertexLevels_.join(control_));
+        vertexLevels_.forgetMeasured();
         return vertexLevels_.finish(control_);
+    }
+
+    /// Levels with all posts first: what coarser ones are made from would take the memory of what
+    /// three passes over all posts need.
+    absl::Status writePages(const terrain::HeightLattice& lattice, terrain::EytIndex& index,
+                            terrain::EytWriter& writer) {
+        const PageSources sources{model_, heights_, vertexLevels_, normals_, lattice, parts_};
+        const int coarse = std::min(levels_, terrain::kFullResolutionLevels);
+        RETURN_IF_ERROR(writeLevels(0, coarse, sources, scratch_, control_, index, writer));
+        RETURN_IF_ERROR(normals_.make(control_));
+        const int thinned = std::min(levels_, coarse + 1);
+        RETURN_IF_ERROR(writeLevels(coarse, thinned, sources, scratch_, control_, index, writer));
+        RETURN_IF_ERROR(heights_.make(control_));
+        RETURN_IF_ERROR(writeLevels(thinned, levels_, sources, scratch_, control_, index, writer));
+        saturate(index);
+        return absl::OkStatus();
     }
 
     absl::StatusOr<TerrainImportReport> runStages(TerrainStages& stages,
@@ -124,6 +143,8 @@ private:
                               : readElevation(posts_, scratch_, control_, model_);
             },
             {[&] { return model_.state(); }, [&](const auto& s) { return model_.restore(s); }}));
+        if (imagery_ == nullptr)  // which is read through the same cache
+            scratch_.grow(posts_.release());
         if (model_.statistics.min > model_.statistics.max)
             return absl::InvalidArgumentError(
                 fmt::format("{}: all posts are nodata; check the nodata value", source_.name));
@@ -131,18 +152,11 @@ private:
         const terrain::HeightLattice lattice = chooseHeightLattice(model_.statistics, postMetres);
         vertexLevels_.setThresholds(
             levelThresholds(levels_, postMetres, lattice, options_.errorMetres));
-        RETURN_IF_ERROR(stages.run([&] {
-            return parts_ ? parts_->gatherMeasured(scratch_, control_, vertexLevels_)
-                          : vertexLevels_.measure(control_);
-        }));
-        RETURN_IF_ERROR(stages.run([&] { return joinLevels(); },
+        RETURN_IF_ERROR(stages.run([&] { return makeLevels(); },
                                    {[&] { return vertexLevels_.state(); },
                                     [&](const auto& s) { return vertexLevels_.restore(s); }}));
-        RETURN_IF_ERROR(stages.runQuick([&] { return heights_.make(control_); }));
-        RETURN_IF_ERROR(stages.runQuick([&] { return normals_.make(control_); }));
         terrain::EytIndex index = emptyIndex(model_, lattice, source_.crsWkt, source_.hash);
-        RETURN_IF_ERROR(writePages({model_, heights_, vertexLevels_, normals_, lattice, parts_},
-                                   scratch_, control_, index, writer));
+        RETURN_IF_ERROR(writePages(lattice, index, writer));
         if (index.triangles() == 0)
             return absl::InvalidArgumentError(fmt::format(
                 "{}: no three neighbouring posts have data; check the nodata value", source_.name));
@@ -156,7 +170,7 @@ private:
         return reportOf(index, postMetres, sizeBytes);
     }
 
-    static constexpr int kImportVersion = 2;  ///< raise it when scratch or journal change
+    static constexpr int kImportVersion = 3;  ///< raise it when scratch or journal change
 
     HeightSource& posts_;
     ImagerySource* imagery_;

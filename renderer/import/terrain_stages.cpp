@@ -47,24 +47,6 @@ absl::Status TerrainStages::run(const std::function<absl::Status()>& work, const
 /// What became of keeping the last stage; waits for it.
 absl::Status TerrainStages::kept() { return keeping_.valid() ? keeping_.get() : absl::OkStatus(); }
 
-absl::Status TerrainStages::runQuick(const std::function<absl::Status()>& work) {
-    const std::uint32_t step = next_++;
-    if (journal_ && journal_->find(step) != nullptr)
-        return absl::OkStatus();
-    RETURN_IF_ERROR(work());
-    quick_.push_back(step);
-    return absl::OkStatus();
-}
-
-absl::Status TerrainStages::keepQuick() {
-    RETURN_IF_ERROR(kept());
-    if (quick_.empty())
-        return absl::OkStatus();
-    RETURN_IF_ERROR(scratch_->flush());
-    for (const std::uint32_t step : quick_) RETURN_IF_ERROR(journal_->add(step, {}));
-    return absl::OkStatus();
-}
-
 absl::Status TerrainStages::end(const absl::Status& outcome) {
     if (outcome.ok() || absl::IsInvalidArgument(outcome)) {
         remove();
@@ -73,7 +55,7 @@ absl::Status TerrainStages::end(const absl::Status& outcome) {
     if (!journal_)
         return outcome;
     // Where it cannot be kept it is done again.
-    static_cast<void>(keepQuick());
+    static_cast<void>(kept());
     const auto message = outcome.message();
     return absl::Status(
         outcome.code(),

@@ -34,9 +34,6 @@ public:
     /// the next one runs: a job that is killed may have to do two stages again.
     absl::Status run(const std::function<absl::Status()>& work, const State& state);
     absl::Status run(const std::function<absl::Status()>& work) { return run(work, State{}); }
-    /// The same for a stage that leaves nothing in memory and is done again in less time than it
-    /// takes to keep: it is kept only when the job ends before its time.
-    absl::Status runQuick(const std::function<absl::Status()>& work);
 
     /// What came of the job, after its last stage. Scratch file and journal go, unless the same
     /// command could go on with them: then the error says so.
@@ -47,13 +44,11 @@ private:
         : scratch_(&scratch), journal_(std::move(journal)) {}
 
     absl::Status kept();
-    absl::Status keepQuick();
     void remove();
 
     terrain::Scratch* scratch_;
     std::optional<ImportJournal> journal_;
     std::uint32_t next_ = 0;
-    std::vector<std::uint32_t> quick_;  ///< steps done and not kept
     /// Of the last stage. It adds to journal_, whose `find` knows earlier runs' steps only.
     std::future<absl::Status> keeping_;
 };

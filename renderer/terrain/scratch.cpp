@@ -5,6 +5,7 @@
 #include <cstring>
 #include <map>
 #include <new>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -23,47 +24,63 @@ std::size_t wholePages(std::size_t bytes) {
     return (bytes + kPage - 1) / kPage * kPage;
 }
 
-/// Pieces just given back, to be used again without asking the system: a few of each size.
+/// Addresses for pieces. They are asked for many pieces at a time and kept for good, since the
+/// system takes longer to change what is mapped where than to take memory from it. Of the pieces
+/// given back a few of each size keep their memory, too, to be used again at once.
 class SparePieces {
 public:
-    ~SparePieces() {
-        for (auto& [bytes, pieces] : spare_)
-            for (std::byte* const piece : pieces) munmap(piece, bytes);
-    }
-
     std::byte* take(std::size_t bytes) {
-        {
-            const std::lock_guard lock(mutex_);
-            std::vector<std::byte*>& pieces = spare_[bytes];
-            if (!pieces.empty()) {
-                std::byte* const piece = pieces.back();
-                pieces.pop_back();
-                return piece;
-            }
-        }
-        void* const fresh = mmap(nullptr, bytes, PROT_READ | PROT_WRITE,
-                                 MAP_PRIVATE | MAP_ANONYMOUS | MAP_POPULATE, -1, 0);
-        if (fresh == MAP_FAILED)
-            throw std::bad_alloc();
-        return static_cast<std::byte*>(fresh);
+        std::unique_lock lock(mutex_);
+        Spare& spare = spare_[bytes];
+        if (!spare.withMemory.empty())
+            return last(spare.withMemory);
+        if (spare.empty.empty())
+            addTo(spare.empty, bytes);
+        std::byte* const piece = last(spare.empty);
+        lock.unlock();
+        madvise(piece, bytes, MADV_POPULATE_WRITE);  // quicker than page by page, if it is known
+        return piece;
     }
 
     void giveBack(std::byte* piece, std::size_t bytes) {
         constexpr std::size_t kMostSpareBytes = 2 << 20;
-        {
-            const std::lock_guard lock(mutex_);
-            std::vector<std::byte*>& pieces = spare_[bytes];
-            if ((pieces.size() + 1) * bytes <= kMostSpareBytes) {
-                pieces.push_back(piece);
-                return;
-            }
+        std::unique_lock lock(mutex_);
+        Spare& spare = spare_[bytes];
+        if ((spare.withMemory.size() + 1) * bytes <= kMostSpareBytes) {
+            spare.withMemory.push_back(piece);
+            return;
         }
-        munmap(piece, bytes);
+        lock.unlock();
+        madvise(piece, bytes, MADV_DONTNEED);
+        lock.lock();
+        spare.empty.push_back(piece);
     }
 
 private:
-    std::mutex mutex_;                                      ///< guards spare_
-    std::map<std::size_t, std::vector<std::byte*>> spare_;  // by bytes
+    struct Spare {
+        std::vector<std::byte*> withMemory;
+        std::vector<std::byte*> empty;
+    };
+
+    static std::byte* last(std::vector<std::byte*>& pieces) {
+        std::byte* const piece = pieces.back();
+        pieces.pop_back();
+        return piece;
+    }
+
+    static void addTo(std::vector<std::byte*>& pieces, std::size_t bytes) {
+        constexpr std::size_t kPieces = 64;
+        void* const fresh = mmap(nullptr, kPieces * bytes, PROT_READ | PROT_WRITE,
+                                 MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+        if (fresh == MAP_FAILED)
+            throw std::bad_alloc();
+        madvise(fresh, kPieces * bytes, MADV_NOHUGEPAGE);  // a part could not be given back
+        for (std::size_t k = kPieces; k-- > 0;)
+            pieces.push_back(static_cast<std::byte*>(fresh) + k * bytes);
+    }
+
+    std::mutex mutex_;                    ///< guards spare_
+    std::map<std::size_t, Spare> spare_;  // by bytes
 };
 
 SparePieces& sparePieces() {
@@ -82,9 +99,13 @@ std::shared_ptr<std::byte[]> Scratch::newPiece(std::size_t bytes) {
 Scratch::Scratch(std::string path, std::uint64_t budgetBytes)
     : path_(std::move(path)), budget_(budgetBytes) {}
 
+/// Of an unlinked file it is the system that takes its time, as it does for memory given back.
 Scratch::~Scratch() {
-    if (fd_ >= 0)
-        close(fd_);
+    const std::jthread closing([this] {
+        if (fd_ >= 0)
+            close(fd_);
+    });
+    for (Shard& shard : shards_) shard.byUse.clear();
 }
 
 std::uint64_t Scratch::reserve(std::uint64_t bytes) {
@@ -110,12 +131,24 @@ Scratch::Piece Scratch::read(std::uint64_t place, std::size_t bytes) {
 void Scratch::write(std::uint64_t place, Piece data, std::size_t bytes) {
     Shard& shard = shardOf(place);
     const std::lock_guard lock(shard.mutex);
-    if (const auto found = shard.byPlace.find(place); found != shard.byPlace.end()) {
-        shard.bytes -= wholePages(found->second->bytes);
-        shard.byUse.erase(found->second);
-        shard.byPlace.erase(found);
-    }
+    drop(shard, place);
     keep(shard, {place, std::move(data), bytes, true});
+}
+
+void Scratch::forget(std::uint64_t place) {
+    Shard& shard = shardOf(place);
+    const std::lock_guard lock(shard.mutex);
+    drop(shard, place);
+}
+
+/// Precondition: the shard's mutex is held.
+void Scratch::drop(Shard& shard, std::uint64_t place) {
+    const auto found = shard.byPlace.find(place);
+    if (found == shard.byPlace.end())
+        return;
+    shard.bytes -= wholePages(found->second->bytes);
+    shard.byUse.erase(found->second);
+    shard.byPlace.erase(found);
 }
 
 /// Precondition: the shard's mutex is held, and the place is not in it.
@@ -128,7 +161,7 @@ void Scratch::keep(Shard& shard, Entry entry) {
     while (shard.bytes > budget_ / kShards && shard.byUse.size() > 1) {
         const Entry& oldest = shard.byUse.back();
         if (oldest.isDirty)
-            store(oldest);
+            store(oldest.place, oldest.data, oldest.bytes);
         shard.bytes -= wholePages(oldest.bytes);
         shard.byPlace.erase(oldest.place);
         shard.byUse.pop_back();
@@ -145,10 +178,10 @@ int Scratch::file(int flags) {
     return fd_;
 }
 
-void Scratch::store(const Entry& entry) {
-    const std::byte* next = entry.data.get();
-    std::size_t left = entry.bytes;
-    auto offset = static_cast<off_t>(entry.place);
+void Scratch::store(std::uint64_t place, const Piece& data, std::size_t bytes) {
+    const std::byte* next = data.get();
+    std::size_t left = bytes;
+    auto offset = static_cast<off_t>(place);
     while (left > 0) {
         const ssize_t done = pwrite(file(O_CREAT), next, left, offset);
         if (done < 0 && errno == EINTR)
@@ -191,13 +224,39 @@ void Scratch::fail(const char* what) {
                         path_, what, std::strerror(error)));
 }
 
-absl::Status Scratch::flush() {
-    for (Shard& shard : shards_) {
+/// Nobody waits while the disk is written to: the mutex is not held then.
+void Scratch::storeDirty(Shard& shard) {
+    std::vector<std::uint64_t> dirty;
+    {
         const std::lock_guard lock(shard.mutex);
-        for (Entry& entry : shard.byUse)
-            if (std::exchange(entry.isDirty, false))
-                store(entry);
+        for (const Entry& entry : shard.byUse)
+            if (entry.isDirty)
+                dirty.push_back(entry.place);
     }
+    for (const std::uint64_t place : dirty) {
+        Piece data;
+        std::size_t bytes = 0;
+        const auto find = [&] {
+            const auto found = shard.byPlace.find(place);
+            return found == shard.byPlace.end() ? shard.byUse.end() : found->second;
+        };
+        {
+            const std::lock_guard lock(shard.mutex);
+            const auto entry = find();
+            if (entry == shard.byUse.end() || !entry->isDirty)
+                continue;
+            data = entry->data;
+            bytes = entry->bytes;
+        }
+        store(place, data, bytes);
+        const std::lock_guard lock(shard.mutex);
+        if (const auto entry = find(); entry != shard.byUse.end() && entry->data == data)
+            entry->isDirty = false;
+    }
+}
+
+absl::Status Scratch::flush() {
+    for (Shard& shard : shards_) storeDirty(shard);
     if (!hasFailed_ && fdatasync(file(O_CREAT)) != 0)
         fail("scratch file cannot be flushed to disk");
     return status();

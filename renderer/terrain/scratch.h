@@ -37,6 +37,8 @@ public:
     std::uint64_t reserve(std::uint64_t bytes);
     /// All that was reserved fits in memory.
     bool fitsInMemory() const { return reserved_ <= budget_; }
+    /// Adds to the budget. While no other thread reads or writes.
+    void grow(std::uint64_t bytes) { budget_ += bytes; }
 
     /// Memory for a piece to be written. Goes back to the system page by page when nobody holds it:
     /// a heap would keep what pieces of different sizes leave between them.
@@ -44,7 +46,10 @@ public:
 
     Piece read(std::uint64_t place, std::size_t bytes);
     void write(std::uint64_t place, Piece data, std::size_t bytes);
-    /// Brings every piece to the disk, not only the ones that did not fit.
+    /// Leaves out of memory, and of what is still to be stored, a piece that nobody reads again.
+    void forget(std::uint64_t place);
+    /// Brings every piece to the disk, not only the ones that did not fit. Meanwhile other threads
+    /// may read and write others, but write none again that was written before.
     absl::Status flush();
     absl::Status status() const;
 
@@ -66,14 +71,16 @@ private:
     static constexpr std::size_t kShards = 16;
 
     Shard& shardOf(std::uint64_t place) { return shards_[place * 0x9e3779b97f4a7c15 >> 60]; }
+    void drop(Shard& shard, std::uint64_t place);
+    void storeDirty(Shard& shard);
     void keep(Shard& shard, Entry entry);
-    void store(const Entry& entry);
+    void store(std::uint64_t place, const Piece& data, std::size_t bytes);
     void load(std::uint64_t place, std::span<std::byte> out);
     int file(int flags = 0);
     void fail(const char* what);
 
     const std::string path_;
-    const std::uint64_t budget_;
+    std::uint64_t budget_;
     std::uint64_t reserved_ = 0;
     std::array<Shard, kShards> shards_;
     mutable std::mutex fileMutex_;  ///< guards opening, and status_

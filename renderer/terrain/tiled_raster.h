@@ -63,6 +63,11 @@ public:
         const auto* bytes = reinterpret_cast<const std::byte*>(values.get());
         scratch_->write(placeOf(x, y), {std::move(values), bytes}, kTileBytes);
     }
+    /// For a raster that nobody reads again: makes room on the scratch.
+    void forget() {
+        for (std::int32_t y = 0; y < tilesY_; ++y)
+            for (std::int32_t x = 0; x < tilesX_; ++x) scratch_->forget(placeOf(x, y));
+    }
     static std::shared_ptr<T[]> newTile() {
         const std::shared_ptr<std::byte[]> piece = Scratch::newPiece(kTileBytes);
         return {piece, reinterpret_cast<T*>(piece.get())};

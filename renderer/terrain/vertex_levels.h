@@ -69,6 +69,8 @@ public:
     void setMeasured(std::int32_t x, std::int32_t y, std::shared_ptr<std::uint8_t[]> codes) {
         measured_.write(x, y, std::move(codes));
     }
+    /// Once `join` is done and nobody asks for it.
+    void forgetMeasured() { measured_.forget(); }
 
     const DeviationScale& scale() const { return scale_; }
     /// Bytes of `scale`: vertex (i, j) is needed by all levels below the number of thresholds

@@ -68,7 +68,8 @@ GeometryBits GeometryEncoder::finish() {
     for (std::size_t k = events_.size(); k-- > 0;) {
         const auto [start, size] = events_[k];
         if (size != 0)
-            rans.put(0, {start, size}, codec::AdaptiveFlag::kBits);
+            rans.put(0, codec::ReadyShare<codec::AdaptiveFlag::kBits>(
+                            {start, size}, codec::kReciprocals<codec::AdaptiveFlag::kBits>[size]));
         else
             rans.put(1, ofHeights[start]);
     }

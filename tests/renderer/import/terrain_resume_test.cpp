@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,8 +18,10 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr const char* kStages[] = {"reading",  "measuring", "joining",
-                                   "thinning", "smoothing", "building"};
+/// What is reported, and with what an import begins that goes on after an abort there.
+constexpr std::pair<const char*, const char*> kStages[] = {
+    {"reading", "reading"},   {"measuring", "measuring"}, {"joining", "measuring"},
+    {"building", "building"}, {"smoothing", "building"},  {"thinning", "building"}};
 
 /// Too large for the 4 MiB that a scratch has at least.
 const terrain::HeightGrid& largeGrid() {
@@ -56,7 +59,7 @@ protected:
 TEST_F(TerrainResume, GivesTheSameBytesAfterAnAbortInEachStage) {
     const std::string whole = folder_.path("whole.eyt");
     ASSERT_TRUE(import(whole, {}, {}).ok());
-    for (const char* stage : kStages) {
+    for (const auto& [stage, first] : kStages) {
         const std::string out = folder_.path(std::string(stage) + ".eyt");
         const absl::Status aborted = importUntil(stage, out);
         EXPECT_EQ(aborted.code(), absl::StatusCode::kCancelled) << stage << aborted;
@@ -64,7 +67,7 @@ TEST_F(TerrainResume, GivesTheSameBytesAfterAnAbortInEachStage) {
         EXPECT_FALSE(std::filesystem::exists(out)) << stage;
         EXPECT_TRUE(std::filesystem::exists(out + ".scratch.journal")) << stage;
         ASSERT_TRUE(importUntil("never", out).ok()) << stage;
-        EXPECT_EQ(begun_.front(), stage) << "the stages before it were not run again";
+        EXPECT_EQ(begun_.front(), first) << "the stages before it were not run again";
         EXPECT_EQ(test::contents(out), test::contents(whole)) << stage;
         EXPECT_FALSE(std::filesystem::exists(out + ".scratch")) << stage;
         EXPECT_FALSE(std::filesystem::exists(out + ".scratch.journal")) << stage;

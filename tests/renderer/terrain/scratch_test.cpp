@@ -3,6 +3,8 @@
 
 #include <cstring>
 #include <filesystem>
+#include <thread>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -60,6 +62,45 @@ TEST(Scratch, TouchesNoDiskForWhatFits) {
     scratch.write(place, pieceOf(100000, 3), 100000);
     EXPECT_EQ(static_cast<int>(scratch.read(place, 100000)[5]), 3);
     EXPECT_FALSE(std::filesystem::exists(path));
+}
+
+TEST(Scratch, StoresNoPieceThatIsForgotten) {
+    const std::string path = freshPath();
+    Scratch scratch(path, 1 << 20);
+    const std::uint64_t kept = scratch.reserve(5000);
+    const std::uint64_t forgotten = scratch.reserve(5000);
+    for (const std::uint64_t place : {kept, forgotten})
+        scratch.write(place, pieceOf(5000, 3), 5000);
+    scratch.forget(forgotten);
+    ASSERT_TRUE(scratch.flush().ok());
+    EXPECT_EQ(std::filesystem::file_size(path), kept + 5000);
+    EXPECT_EQ(static_cast<int>(scratch.read(forgotten, 5000)[5]), 0);
+    std::filesystem::remove(path);
+}
+
+/// What is flushed may leave memory at the same time, for what is written meanwhile.
+TEST(Scratch, GivesBackWhatIsReadAndWrittenDuringAFlush) {
+    constexpr std::size_t kPlaces = 400;
+    constexpr std::size_t kBytes = 5000;
+    const std::string path = freshPath();
+    Scratch scratch(path, kPlaces * kBytes / 4);
+    std::vector<std::uint64_t> places;
+    for (std::size_t k = 0; k < 2 * kPlaces; ++k) places.push_back(scratch.reserve(kBytes));
+    const auto write = [&](std::size_t k) {
+        scratch.write(places[k], pieceOf(kBytes, static_cast<int>(k % 255 + 1)), kBytes);
+    };
+    const auto isThere = [&](std::size_t k) {
+        return scratch.read(places[k], kBytes)[kBytes - 1] == static_cast<std::byte>(k % 255 + 1);
+    };
+    for (std::size_t k = 0; k < kPlaces; ++k) write(k);
+    std::thread flushing([&] { EXPECT_TRUE(scratch.flush().ok()); });
+    for (std::size_t k = 0; k < kPlaces; ++k) {
+        write(kPlaces + k);
+        EXPECT_TRUE(isThere(k)) << k;
+    }
+    flushing.join();
+    for (std::size_t k = 0; k < 2 * kPlaces; ++k) EXPECT_TRUE(isThere(k)) << k;
+    std::filesystem::remove(path);
 }
 
 TEST(Scratch, SaysThatTheDiskIsFullAndHowToGoOn) {
