@@ -9,9 +9,11 @@
 
 #include <absl/status/status.h>
 #include <fmt/format.h>
+#include <oneapi/tbb/parallel_invoke.h>
 
 #include "fabric/status.h"
 #include "renderer/import/mesh_reader.h"
+#include "renderer/mesh/back_faces.h"
 #include "renderer/mesh/eym_format.h"
 #include "renderer/mesh/eym_writer.h"
 #include "renderer/mesh/kd_tree.h"
@@ -81,17 +83,23 @@ absl::StatusOr<MeshImportReport> build(TriangleMesh source, mesh::OutputFile& ou
     report.seconds.tree = watch.lap();
 
     control.report("levels", 0);
-    ASSIGN_OR_RETURN(
-        const mesh::LodTree lod,
-        mesh::buildLodTree(
-            packed, tree, {}, [&control](double share) { control.report("levels", share); },
-            control.stop));
+    // The two have stretches that keep one core only.
+    absl::StatusOr<mesh::LodTree> lod;
+    std::vector<mesh::Pockets> pockets;
+    oneapi::tbb::parallel_invoke(
+        [&] {
+            lod = mesh::buildLodTree(
+                packed, tree, {}, [&control](double share) { control.report("levels", share); },
+                control.stop);
+        },
+        [&] { pockets = mesh::findPockets(packed, tree); });
+    RETURN_IF_ERROR(lod.status());
     control.report("levels", 1);
     report.seconds.levels = watch.lap();
-    report.levels = lod.levels;
+    report.levels = lod->levels;
 
     control.report("writing", 0);
-    RETURN_IF_ERROR(mesh::writeEym(packed, tree, lod,
+    RETURN_IF_ERROR(mesh::writeEym(packed, tree, *lod, pockets,
                                    {.isCoded = !options.isRaw, .sourceHash = sourceHash}, out,
                                    control.stop));
     RETURN_IF_ERROR(control.check());
@@ -105,7 +113,7 @@ absl::StatusOr<MeshImportReport> build(TriangleMesh source, mesh::OutputFile& ou
     report.bytes = out.size();
     report.stepMetres = packed.lattice.stepMetres;
     report.errorMetres = packed.lattice.errorMetres();
-    report.coarsestErrorMetres = lod.errorMetres.front();
+    report.coarsestErrorMetres = lod->errorMetres.front();
     report.seconds.total = watch.total();
     return report;
 }

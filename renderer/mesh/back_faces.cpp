@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <mutex>
 #include <numeric>
+#include <span>
 #include <utility>
 
 #include <glm/common.hpp>
@@ -16,6 +17,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "fabric/box.h"
+#include "fabric/simd_clones.h"
 #include "renderer/mesh/vertex_packing.h"
 
 namespace eyrie::mesh {
@@ -29,7 +31,7 @@ constexpr std::size_t kTrianglesPerColumn = 2;
 constexpr std::size_t kMostColumns = 32;
 constexpr std::size_t kMostComparisons = 512;
 /// In front of a triangle, in steps: rounding may have pushed thin walls through each other.
-constexpr double kBefore = 2;
+constexpr int kBefore = 2;
 constexpr std::size_t kGrain = 1024;  // columns
 /// Pockets of a node that are told apart.
 constexpr std::size_t kMostPockets = 64;
@@ -73,17 +75,57 @@ std::int64_t areaAlongZ(const Corners& c) {
            std::int64_t{c[1].y - c[0].y} * (c[2].x - c[0].x);
 }
 
-/// A triangle of a column, seen along z.
-struct Standing {
-    explicit Standing(const Corners& its)
-        : corners(its),
-          low(glm::min(glm::min(its[0], its[1]), its[2])),
-          high(glm::max(glm::max(its[0], its[1]), its[2])) {}
+/// The triangles of a column, seen along z, with their bounds apart, in thirds of a step: most of
+/// those that are compared are told from these.
+class Standing {
+public:
+    void clear() {
+        corners_.clear();
+        for (std::vector<int>* bound : {&lowX_, &highX_, &lowY_, &highY_, &highZ_}) bound->clear();
+    }
+    void add(const Corners& corners) {
+        const glm::ivec3 low = 3 * glm::min(glm::min(corners[0], corners[1]), corners[2]);
+        const glm::ivec3 high = 3 * glm::max(glm::max(corners[0], corners[1]), corners[2]);
+        corners_.push_back(corners);
+        lowX_.push_back(low.x);
+        highX_.push_back(high.x);
+        lowY_.push_back(low.y);
+        highY_.push_back(high.y);
+        highZ_.push_back(high.z);
+    }
+    std::span<const Corners> corners() const { return corners_; }
 
-    Corners corners;
-    glm::ivec3 low;
-    glm::ivec3 high;
+    /// Those that may be crossed above `at`, one a byte.
+    std::span<const std::uint8_t> mayCross(const glm::ivec3& at) {
+        mayCross_.resize(corners_.size());
+        compare(lowX_.data(), highX_.data(), lowY_.data(), highY_.data(), highZ_.data(),
+                corners_.size(), at, mayCross_.data());
+        return mayCross_;
+    }
+
+private:
+    EYRIE_SIMD_CLONES static void compare(const int* __restrict lowX, const int* __restrict highX,
+                                          const int* __restrict lowY, const int* __restrict highY,
+                                          const int* __restrict highZ, std::size_t count,
+                                          const glm::ivec3& at, std::uint8_t* __restrict result);
+
+    std::vector<Corners> corners_;
+    std::vector<int> lowX_, highX_, lowY_, highY_, highZ_;
+    std::vector<std::uint8_t> mayCross_;
 };
+
+EYRIE_SIMD_CLONES void Standing::compare(const int* __restrict lowX, const int* __restrict highX,
+                                         const int* __restrict lowY, const int* __restrict highY,
+                                         const int* __restrict highZ, std::size_t count,
+                                         const glm::ivec3& at, std::uint8_t* __restrict result) {
+    const int x = at.x;
+    const int y = at.y;
+    const int z = at.z;
+    for (std::size_t i = 0; i < count; ++i)
+        result[i] =
+            static_cast<std::uint8_t>(int{lowX[i] <= x} & int{x <= highX[i]} & int{lowY[i] <= y} &
+                                      int{y <= highY[i]} & int{highZ[i] > z});
+}
 
 /// The triangles by the columns along z that they reach into.
 class Columns {
@@ -97,9 +139,7 @@ private:
     explicit Columns(const PackedMesh& mesh);
     template <typename Visit>
     void forColumns(const Corners& corners, const Visit& visit) const;
-    std::size_t columnOf(int x, int y) const;
-    void look(std::size_t column, std::vector<Standing>& all,
-              std::vector<std::uint32_t>& found) const;
+    void look(std::size_t column, Standing& all, std::vector<std::uint32_t>& found) const;
 
     const PackedMesh& mesh_;
     glm::ivec3 low_{0};
@@ -128,19 +168,17 @@ Columns::Columns(const PackedMesh& mesh) : mesh_(mesh) {
     columnsY_ = (height + side_ - 1) / side_;
 }
 
-std::size_t Columns::columnOf(int x, int y) const {
-    return static_cast<std::size_t>((y - low_.y) / side_ * columnsX_ + (x - low_.x) / side_);
-}
-
 template <typename Visit>
 void Columns::forColumns(const Corners& corners, const Visit& visit) const {
-    const glm::ivec3 low = glm::min(glm::min(corners[0], corners[1]), corners[2]);
-    const glm::ivec3 high = glm::max(glm::max(corners[0], corners[1]), corners[2]);
-    const std::size_t across = columnOf(high.x, low.y) - columnOf(low.x, low.y);
-    const std::size_t last = columnOf(low.x, high.y);
-    for (std::size_t row = columnOf(low.x, low.y); row <= last;
-         row += static_cast<std::size_t>(columnsX_))
-        for (std::size_t column = row; column <= row + across; ++column) visit(column);
+    // Lattice coordinates, so all of it fits 32 bits, which are quicker to divide.
+    const auto side = static_cast<std::uint32_t>(side_);
+    const glm::uvec3 low(glm::min(glm::min(corners[0], corners[1]), corners[2]) - low_);
+    const glm::uvec3 high(glm::max(glm::max(corners[0], corners[1]), corners[2]) - low_);
+    const std::uint32_t lastX = high.x / side;
+    const std::uint32_t lastY = high.y / side;
+    for (std::uint32_t y = low.y / side; y <= lastY; ++y)
+        for (std::uint32_t x = low.x / side; x <= lastX; ++x)
+            visit(std::size_t{y} * static_cast<std::size_t>(columnsX_) + x);
 }
 
 std::optional<Columns> Columns::sort(const PackedMesh& mesh) {
@@ -179,14 +217,11 @@ std::optional<Columns> Columns::sort(const PackedMesh& mesh) {
 /// upwards out of its front, -1 into it, 0 if it does not. On an edge or a corner the line belongs
 /// to one of the triangles there, so that a closed mesh winds it a whole number of times. Exact but
 /// for z.
-int crossingAbove(const Standing& triangle, const glm::ivec3& at, double z) {
-    if (at.x < 3 * triangle.low.x || at.x > 3 * triangle.high.x || at.y < 3 * triangle.low.y ||
-        at.y > 3 * triangle.high.y || triangle.high.z <= z)
-        return 0;
+int crossingAbove(const Corners& corners, const glm::ivec3& at, double z) {
     std::array<std::int64_t, 3> x, y;
     for (std::size_t i = 0; i < 3; ++i) {
-        x[i] = std::int64_t{3} * triangle.corners[i].x - at.x;
-        y[i] = std::int64_t{3} * triangle.corners[i].y - at.y;
+        x[i] = std::int64_t{3} * corners[i].x - at.x;
+        y[i] = std::int64_t{3} * corners[i].y - at.y;
     }
     int sign = 0;
     double sum = 0;
@@ -199,29 +234,33 @@ int crossingAbove(const Standing& triangle, const glm::ivec3& at, double z) {
         else if (y[j] <= 0 && y[i] > 0)
             sign -= side < 0 ? 1 : 0;
         sum += static_cast<double>(side);
-        crossing += static_cast<double>(side) * triangle.corners[(i + 2) % 3].z;
+        crossing += static_cast<double>(side) * corners[(i + 2) % 3].z;
     }
     return sign != 0 && crossing / sum > z ? sign : 0;
 }
 
 /// Adds those whose middle is in the column. `all` is memory to work in.
-void Columns::look(std::size_t column, std::vector<Standing>& all,
-                   std::vector<std::uint32_t>& found) const {
+void Columns::look(std::size_t column, Standing& all, std::vector<std::uint32_t>& found) const {
     all.clear();
     for (std::uint64_t i = first_[column]; i < first_[column + 1]; ++i)
-        all.emplace_back(cornersOf(mesh_, mesh_.triangles[triangles_[i]]));
+        all.add(cornersOf(mesh_, mesh_.triangles[triangles_[i]]));
     // In thirds of a step, as the middles.
     const auto place = static_cast<std::int64_t>(column);
     const std::int64_t x = 3 * (low_.x + place % columnsX_ * side_);
     const std::int64_t y = 3 * (low_.y + place / columnsX_ * side_);
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        const Corners& own = all[i].corners;
+    const std::span<const Corners> corners = all.corners();
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const Corners& own = corners[i];
         const glm::ivec3 middle = own[0] + own[1] + own[2];
         if (middle.x < x || middle.x >= x + 3 * side_ || middle.y < y || middle.y >= y + 3 * side_)
             continue;
-        const double z = middle.z / 3.0 + (areaAlongZ(own) > 0 ? kBefore : -kBefore);
+        const int before = 3 * (areaAlongZ(own) > 0 ? kBefore : -kBefore);
+        const glm::ivec3 at(middle.x, middle.y, middle.z + before);
+        const std::span<const std::uint8_t> mayCross = all.mayCross(at);
         int winding = 0;
-        for (const Standing& other : all) winding += crossingAbove(other, middle, z);
+        for (std::size_t other = 0; other < corners.size(); ++other)
+            if (mayCross[other] != 0)
+                winding += crossingAbove(corners[other], middle, at.z / 3.0);
         if (winding < 0)
             found.push_back(triangles_[first_[column] + i]);
     }
@@ -232,7 +271,7 @@ std::vector<std::uint32_t> Columns::seenFromBehind() const {
     std::mutex mutex;  // of all
     oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, first_.size() - 1, kGrain),
                               [&](const auto& part) {
-                                  std::vector<Standing> standing;
+                                  Standing standing;
                                   std::vector<std::uint32_t> found;
                                   for (std::size_t column = part.begin(); column != part.end();
                                        ++column)
