@@ -73,13 +73,13 @@ std::vector<std::byte> blockOf(const PackedNode& node) {
 class PageMaker {
 public:
     PageMaker(const PackedMesh& mesh, const KdTree& tree, const LodTree& lod,
-              std::span<const Pockets> pockets, bool isCoded)
+              std::span<const Pockets> pockets, const EymOptions& options)
         : mesh_(mesh),
           tree_(tree),
           lod_(lod),
-          isCoded_(isCoded),
+          isCoded_(options.isCoded),
           pockets_(pockets),
-          exactForm_(exactFormOf(mesh.exact)) {}
+          exactForm_(options.exactForm.value_or(exactFormOf(mesh.exact))) {}
 
     ExactForm exactForm() const { return exactForm_; }
 
@@ -206,7 +206,7 @@ absl::Status writePages(const std::vector<Pages>& pages, OutputFile& out,
 absl::Status writeEym(const PackedMesh& mesh, const KdTree& tree, const LodTree& lod,
                       std::span<const Pockets> pockets, const EymOptions& options, OutputFile& out,
                       const std::stop_token& stop) {
-    const PageMaker maker(mesh, tree, lod, pockets, options.isCoded);
+    const PageMaker maker(mesh, tree, lod, pockets, options);
     const std::vector<Pages> pages = makePages(tree, maker, stop);
     std::uint64_t end = 0;
     const std::vector<Node> nodes = layOutNodes(tree, lod, pages, end);

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <stop_token>
 
 #include <absl/status/status.h>
 
 #include "renderer/mesh/back_faces.h"
+#include "renderer/mesh/codec/exact_codec.h"
 #include "renderer/mesh/kd_tree.h"
 #include "renderer/mesh/lod/lod_tree.h"
 #include "renderer/mesh/output_file.h"
@@ -19,6 +21,8 @@ struct EymOptions {
     /// Pages are coded; otherwise they lie in the file as they are drawn, to be mapped.
     bool isCoded = true;
     std::uint64_t sourceHash = 0;  ///< kept in the file (EymFile::sourceHash)
+    /// Of source positions, where they are kept; else the least that holds them.
+    std::optional<ExactForm> exactForm = {};
 };
 
 /// Appends `mesh`, cut into the leaves of `tree` and with the coarser nodes of `lod`, to the empty
