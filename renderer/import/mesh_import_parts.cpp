@@ -9,6 +9,7 @@
 #include <absl/status/status.h>
 
 #include "fabric/status.h"
+#include "renderer/import/mesh_backs.h"
 #include "renderer/import/mesh_part.h"
 #include "renderer/import/mesh_sharing.h"
 #include "renderer/import/mesh_split.h"
@@ -151,6 +152,8 @@ absl::StatusOr<MeshImportReport> importInParts(std::span<const std::string> path
 
     RETURN_IF_ERROR(
         placeOnLattice(spool, options.pack.latticeBits, atOnce, path, report.counts, control));
+    ASSIGN_OR_RETURN(const std::optional<std::vector<bool>> isBehind,
+                     findBacks(spool, atOnce, path, control));
     report.seconds.pack = watch.lap();
 
     ASSIGN_OR_RETURN(const MeshSplit split, splitMesh(spool, atOnce, path, control));
@@ -161,7 +164,7 @@ absl::StatusOr<MeshImportReport> importInParts(std::span<const std::string> path
     ASSIGN_OR_RETURN(mesh::OutputFile parts, mesh::OutputFile::createUnnamed(path));
     ASSIGN_OR_RETURN(const std::optional<mesh::ExactForm> exactForm,
                      exactFormOf(spool, options.pack));
-    const PartWork work{spool, split, sharing, options, sourceHash, exactForm, parts};
+    const PartWork work{spool, split, sharing, isBehind, options, sourceHash, exactForm, parts};
     PartWalk walk(work, report, control);
     RETURN_IF_ERROR(walk.visit(0).status());
     control.report("levels", 1);

@@ -11,7 +11,7 @@
 #include "renderer/mesh/output_file.h"
 
 /// Import of a mesh that does not fit memory: read to disk, cut into parts there, and built part
-/// by part. The file is that of an import in memory but for Node::frontIndexCount, which is 0.
+/// by part. The file is that of an import in memory, to the byte.
 namespace eyrie::import {
 
 /// About what an import takes in memory, of PLY files or of what was read.
@@ -25,9 +25,9 @@ std::uint64_t trianglesAtOnce(std::uint64_t memoryBytes, std::uint64_t triangles
 
 /// Imports PLY files into the empty `out`, which the caller commits, by parts of `atOnce` triangles
 /// at most (more where a leaf, or a node that is simplified, may have more).
-/// Stages reported: "reading", "welding", "tree", "borders", "levels", "writing". Errors: those of
-/// importMesh; InvalidArgument where a face has more than three corners or winding is to be made
-/// consistent (PackOptions::orients).
+/// Stages reported: "reading", "welding", "backs", "tree", "borders", "levels", "writing". Errors:
+/// those of importMesh; InvalidArgument where a face has more than three corners or winding is to
+/// be made consistent (PackOptions::orients).
 absl::StatusOr<MeshImportReport> importInParts(std::span<const std::string> paths,
                                                mesh::OutputFile& out, std::uint64_t atOnce,
                                                const MeshImportOptions& options,

@@ -5,6 +5,7 @@
 #include <bit>
 #include <limits>
 #include <numeric>
+#include <span>
 #include <unordered_map>
 #include <utility>
 
@@ -13,7 +14,6 @@
 #include <glm/common.hpp>
 
 #include "renderer/import/mesh_reader.h"
-#include "renderer/mesh/back_faces.h"
 #include "renderer/mesh/eym_writer.h"
 #include "renderer/mesh/kd_tree.h"
 
@@ -156,6 +156,7 @@ struct OwnMesh {
     std::vector<std::array<std::uint32_t, 2>> sharedBy;  ///< the same
     std::uint64_t newVertices = 0;                       ///< that are in no part before it
     bool computedNormals = false;
+    std::vector<bool> isBehind;  ///< of its triangles, where that is known
 };
 
 /// Three times the number of the first triangle that uses a vertex, and its corner there; and
@@ -209,8 +210,11 @@ absl::StatusOr<OwnMesh> packOwn(const PartWork& work, std::uint32_t part,
     findFirstUses(all.triangles, gathered, part, firstUse, isOld);
     std::vector<mesh::Triangle> triangles;
     for (std::size_t i = 0; i < all.triangles.size(); ++i)
-        if (gathered.owners[i] == part)
+        if (gathered.owners[i] == part) {
             triangles.push_back(all.triangles[i]);
+            if (work.isBehind)
+                own.isBehind.push_back((*work.isBehind)[gathered.numbers[i]]);
+        }
     const std::vector<std::uint32_t> vertices = compact(all.positions.size(), triangles);
     own.mesh = withVertices(all, vertices);
     own.mesh.triangles = std::move(triangles);
@@ -258,10 +262,8 @@ PartSurface surfaceOf(const OwnMesh& own, mesh::LodPart lod, const mesh::KdNode&
 
 absl::StatusOr<std::uint64_t> appendEym(const PartWork& work, const mesh::PackedMesh& mesh,
                                         const mesh::KdTree& tree, const mesh::LodTree& lod,
+                                        std::span<const mesh::Pockets> pockets,
                                         const std::stop_token& stop) {
-    // Which backs nobody sees is told from the whole of a mesh: here all of them are drawn.
-    std::vector<mesh::Pockets> pockets(tree.nodes.size());
-    for (mesh::Pockets& pocket : pockets) pocket.addAll();
     const std::uint64_t offset = work.out.size();
     RETURN_IF_ERROR(mesh::writeEym(mesh, tree, lod, pockets,
                                    {.isCoded = !work.options.isRaw,
@@ -339,14 +341,18 @@ absl::StatusOr<WrittenPart> writePart(const PartWork& work, std::uint32_t part,
         mesh::buildLodTree(
             own.mesh, tree, options, [&](double share) { control.report("levels", share); },
             control.stop, &parts));
+    const std::vector<mesh::Pockets> pockets =
+        work.isBehind ? mesh::gatherPockets(own.mesh, tree, own.isBehind)
+                      : mesh::pocketsEverywhere(tree);
     WrittenPart written;
-    ASSIGN_OR_RETURN(written.offset, appendEym(work, own.mesh, tree, lod, control.stop));
+    ASSIGN_OR_RETURN(written.offset, appendEym(work, own.mesh, tree, lod, pockets, control.stop));
     written.nodes = tree.nodes.size();
     written.vertices = own.newVertices;
     written.computedNormals = own.computedNormals;
     written.levels = lod.levels;
     written.errorMetres = lod.errorMetres.front();
     written.surface = surfaceOf(own, std::move(parts.root), tree.nodes.front(), options);
+    written.surface.pockets = pockets.front();
     return written;
 }
 
@@ -381,6 +387,8 @@ absl::StatusOr<WrittenPart> writeAbove(const PartWork& work, const SplitNode& no
         written.levels = lod.levels;
         written.surface = surfaceOf(both, std::move(parts.root), tree.nodes[0], options);
     }
+    written.surface.pockets.add(left.pockets);
+    written.surface.pockets.add(right.pockets);
     written.errorMetres = lod.errorMetres[0];
     written.nodes = 1;
     // Of the node alone: its own triangles, as a leaf has them.
@@ -392,7 +400,9 @@ absl::StatusOr<WrittenPart> writeAbove(const PartWork& work, const SplitNode& no
     std::iota(tree.order.begin(), tree.order.end(), 0U);
     lod.geometry = {{}};
     lod.errorMetres.resize(1);
-    ASSIGN_OR_RETURN(written.offset, appendEym(work, both.mesh, tree, lod, control.stop));
+    ASSIGN_OR_RETURN(written.offset,
+                     appendEym(work, both.mesh, tree, lod, std::span(&written.surface.pockets, 1),
+                               control.stop));
     return written;
 }
 

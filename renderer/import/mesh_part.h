@@ -13,6 +13,7 @@
 #include "renderer/import/mesh_sharing.h"
 #include "renderer/import/mesh_split.h"
 #include "renderer/import/mesh_spool.h"
+#include "renderer/mesh/back_faces.h"
 #include "renderer/mesh/codec/exact_codec.h"
 #include "renderer/mesh/lod/lod_tree.h"
 #include "renderer/mesh/output_file.h"
@@ -34,6 +35,7 @@ struct PartSurface {
     double boundSteps = 0;  ///< the largest of lod.patch.bounds
     /// Too many triangles are left for any node above to be simplified: they are not kept.
     bool isEndless = false;
+    mesh::Pockets pockets;
     glm::uvec3 boxMin{0U};
     glm::uvec3 boxMax{0U};
 };
@@ -54,6 +56,7 @@ struct PartWork {
     const MeshSpool& spool;
     const MeshSplit& split;
     const MeshSharing& sharing;
+    const std::optional<std::vector<bool>>& isBehind;  ///< findBacks
     const MeshImportOptions& options;
     std::uint64_t sourceHash = 0;
     std::optional<mesh::ExactForm> exactForm;
