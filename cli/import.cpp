@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -12,6 +14,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "cli/commands.h"
 #include "cli/imagery_facts.h"
@@ -57,6 +60,7 @@ struct TerrainOptions : Options {
 struct MeshOptions : Options {
     import::MeshImportOptions how;
     std::string normals = "smooth";
+    std::string memory;
 };
 
 double sourceMegabytes(const Options& options) {
@@ -198,9 +202,31 @@ std::vector<JsonObject> levelsJson(const import::MeshImportReport& made) {
     return levels;
 }
 
+/// Half of what this machine has, or of what its control group may use.
+std::uint64_t halfOfMemory() {
+    std::uint64_t bytes = static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
+                          static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+    std::uint64_t limit = 0;
+    if (std::ifstream("/sys/fs/cgroup/memory.max") >> limit)  // it says "max" where there is none
+        bytes = std::min(bytes, limit);
+    return std::max(bytes / 2, import::kLeastMeshMemory);
+}
+
+absl::StatusOr<std::uint64_t> memoryOf(const MeshOptions& options) {
+    if (options.memory.empty())
+        return halfOfMemory();
+    ASSIGN_OR_RETURN(const std::uint64_t bytes, parseBytes(options.memory, "--memory"));
+    if (bytes < import::kLeastMeshMemory)
+        return absl::InvalidArgumentError(
+            fmt::format("--memory is {}; the import of a mesh takes at least {}M", options.memory,
+                        import::kLeastMeshMemory >> 20));
+    return bytes;
+}
+
 absl::StatusOr<import::MeshImportOptions> importOptions(const MeshOptions& options) {
     constexpr std::string_view kCrease = "crease=";
     import::MeshImportOptions result = options.how;
+    ASSIGN_OR_RETURN(result.memoryBytes, memoryOf(options));
     if (options.normals == "smooth")
         return result;
     if (options.normals == "file") {
@@ -316,9 +342,19 @@ void addMesh(CLI::App& parent, Run& run) {
                       "nothing is decoded");
     command->add_flag("--lossless", options->how.pack.keepsExact,
                       "Keep the source's own positions, bit for bit, beside those that are drawn");
+    command
+        ->add_option("--memory", options->memory,
+                     "About as much is used; half of what there is otherwise. A PLY mesh that "
+                     "would take more is imported part by part; see below")
+        ->type_name("BYTES");
     command->footer(
+        "By parts, what does not fit --memory goes to files without a name beside the output: up\n"
+        "to 200 bytes a triangle, gone when the import ends or is stopped. Faces must be\n"
+        "triangles then, and --orient needs all of a mesh at once. The file is the same but that\n"
+        "backs which nobody sees are drawn, too. Files other than PLY are read as a whole.\n"
         "Examples:\n"
         "  eyrie import mesh scan.ply -o scan.eym\n"
+        "  eyrie import mesh huge.ply -o huge.eym --memory 2G\n"
         "  eyrie import mesh scan.ply --bits 17 -o small.eym\n"
         "  eyrie import mesh house.obj garden.glb -o place.eym --orient --normals crease=40");
     command->callback([options, &run] { run = [options] { return importMesh(*options); }; });

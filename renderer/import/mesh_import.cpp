@@ -1,17 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/import/mesh_import.h"
 
-#include <chrono>
+#include <algorithm>
 #include <filesystem>
 #include <new>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
 #include <absl/status/status.h>
 #include <fmt/format.h>
+#include <oneapi/tbb/parallel_invoke.h>
 
 #include "fabric/status.h"
+#include "renderer/import/mesh_import_parts.h"
 #include "renderer/import/mesh_reader.h"
+#include "renderer/import/ply_reader.h"
+#include "renderer/import/stopwatch.h"
+#include "renderer/mesh/back_faces.h"
 #include "renderer/mesh/eym_format.h"
 #include "renderer/mesh/eym_writer.h"
 #include "renderer/mesh/kd_tree.h"
@@ -19,21 +25,6 @@
 
 namespace eyrie::import {
 namespace {
-
-/// Time since the stopwatch, or the lap before, began.
-class Stopwatch {
-public:
-    double lap() {
-        const Clock::time_point now = Clock::now();
-        return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
-    }
-    double total() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
-
-private:
-    using Clock = std::chrono::steady_clock;
-    Clock::time_point start_ = Clock::now();
-    Clock::time_point last_ = start_;
-};
 
 absl::Status checkPaths(const std::vector<std::string>& sourcePaths, const std::string& outPath) {
     if (sourcePaths.empty())
@@ -81,32 +72,46 @@ absl::StatusOr<MeshImportReport> build(TriangleMesh source, mesh::OutputFile& ou
     report.seconds.tree = watch.lap();
 
     control.report("levels", 0);
-    ASSIGN_OR_RETURN(
-        const mesh::LodTree lod,
-        mesh::buildLodTree(
-            packed, tree, {}, [&control](double share) { control.report("levels", share); },
-            control.stop));
+    // The two have stretches that keep one core only.
+    absl::StatusOr<mesh::LodTree> lod;
+    std::vector<mesh::Pockets> pockets;
+    oneapi::tbb::parallel_invoke(
+        [&] {
+            lod = mesh::buildLodTree(
+                packed, tree, {}, [&control](double share) { control.report("levels", share); },
+                control.stop);
+        },
+        [&] { pockets = mesh::findPockets(packed, tree); });
+    RETURN_IF_ERROR(lod.status());
     control.report("levels", 1);
     report.seconds.levels = watch.lap();
-    report.levels = lod.levels;
+    report.levels = lod->levels;
 
     control.report("writing", 0);
-    RETURN_IF_ERROR(mesh::writeEym(packed, tree, lod,
+    RETURN_IF_ERROR(mesh::writeEym(packed, tree, *lod, pockets,
                                    {.isCoded = !options.isRaw, .sourceHash = sourceHash}, out,
                                    control.stop));
-    RETURN_IF_ERROR(control.check());
-    RETURN_IF_ERROR(out.commit());
-    control.report("writing", 1);
     report.seconds.write = watch.lap();
-
     report.triangles = packed.triangles.size();
     report.vertices = packed.positions.size();
     report.nodes = tree.nodes.size();
-    report.bytes = out.size();
     report.stepMetres = packed.lattice.stepMetres;
     report.errorMetres = packed.lattice.errorMetres();
-    report.coarsestErrorMetres = lod.errorMetres.front();
-    report.seconds.total = watch.total();
+    report.coarsestErrorMetres = lod->errorMetres.front();
+    return report;
+}
+
+/// Puts the file in place.
+absl::StatusOr<MeshImportReport> finish(absl::StatusOr<MeshImportReport> report,
+                                        mesh::OutputFile& out, Stopwatch watch,
+                                        const ImportControl& control) {
+    RETURN_IF_ERROR(report.status());
+    RETURN_IF_ERROR(control.check());
+    RETURN_IF_ERROR(out.commit());
+    control.report("writing", 1);
+    report->bytes = out.size();
+    report->seconds.write += watch.lap();
+    report->seconds.total = watch.total();
     return report;
 }
 
@@ -128,25 +133,88 @@ std::string nameOf(const std::vector<std::string>& paths) {
                              : fmt::format("{} and {} more", paths.front(), paths.size() - 1);
 }
 
-absl::StatusOr<MeshImportReport> importFiles(const std::vector<std::string>& paths,
+std::uint64_t bytesOf(const std::vector<std::string>& paths) {
+    std::uint64_t sum = 0;
+    for (const std::string& path : paths) {
+        std::error_code ignored;
+        const std::uintmax_t bytes = std::filesystem::file_size(path, ignored);
+        sum += ignored ? 0 : bytes;
+    }
+    return sum;
+}
+
+absl::Status exceedsMemory(const std::string& name, std::uint64_t needed,
+                           const MeshImportOptions& options, const std::string& remedy) {
+    return absl::ResourceExhaustedError(fmt::format(
+        "{}: importing it takes about {} MiB of memory, of which it may use {}; {}, or allow more "
+        "memory",
+        name, (needed >> 20) + 1, options.memoryBytes >> 20, remedy));
+}
+
+/// Of PLY files, as their headers have it.
+absl::StatusOr<PlySize> measureAll(const std::vector<std::string>& paths) {
+    PlySize all;
+    for (const std::string& path : paths) {
+        ASSIGN_OR_RETURN(const PlySize size, measurePly(path));
+        all.vertices += size.vertices;
+        all.faces += size.faces;
+        all.fileBytes += size.fileBytes;
+    }
+    return all;
+}
+
+/// How many triangles of PLY files to import at once; nothing where all of them fit the memory.
+absl::StatusOr<std::optional<std::uint64_t>> partsOf(const std::vector<std::string>& paths,
+                                                     const MeshImportOptions& options) {
+    const bool mayBeParted = std::all_of(paths.begin(), paths.end(), isPly);
+    if (options.memoryBytes == 0 || !mayBeParted)
+        return std::nullopt;
+    ASSIGN_OR_RETURN(const PlySize size, measureAll(paths));
+    const std::uint64_t needed = importBytes(size.faces, size.vertices, size.fileBytes, options);
+    if (needed <= options.memoryBytes)
+        return std::nullopt;
+    if (options.pack.orients)
+        return exceedsMemory(nameOf(paths), needed, options,
+                             "turning faces takes all of a mesh at once: leave that out");
+    const std::uint64_t atOnce =
+        trianglesAtOnce(options.memoryBytes, size.faces, size.vertices, options);
+    if (atOnce == 0)
+        return exceedsMemory(nameOf(paths), needed, options, "split the mesh");
+    return atOnce;
+}
+
+absl::StatusOr<MeshImportReport> importWhole(const std::vector<std::string>& paths,
                                              mesh::OutputFile& out,
                                              const MeshImportOptions& options,
                                              const ImportControl& control) {
+    constexpr const char* kConvert = "convert it to PLY, which is imported part by part";
+    const std::uint64_t bytes = bytesOf(paths);
+    if (options.memoryBytes != 0 && bytes > options.memoryBytes)
+        return exceedsMemory(nameOf(paths), bytes, options, kConvert);
     Stopwatch watch;
     ASSIGN_OR_RETURN(TriangleMesh source, readMeshes(paths, control));
     ASSIGN_OR_RETURN(const std::uint64_t hash, meshSourceHash(paths));
+    const std::uint64_t needed =
+        importBytes(source.triangles.size(), source.positions.size(), 0, options);
+    if (options.memoryBytes != 0 && needed > options.memoryBytes)
+        return exceedsMemory(nameOf(paths), needed, options, kConvert);
     const double readSeconds = watch.lap();
     auto report = build(std::move(source), out, options, control, hash);
     if (!report.ok())
         return fabric::withContext(report.status(), nameOf(paths));
-    for (const std::string& path : paths) {
-        std::error_code ignored;
-        const std::uintmax_t bytes = std::filesystem::file_size(path, ignored);
-        report->sourceBytes += ignored ? 0 : bytes;
-    }
     report->seconds.read = readSeconds;
-    report->seconds.total = watch.total();
     return report;
+}
+
+absl::StatusOr<MeshImportReport> importFiles(const std::vector<std::string>& paths,
+                                             mesh::OutputFile& out,
+                                             const MeshImportOptions& options,
+                                             const ImportControl& control) {
+    ASSIGN_OR_RETURN(const std::optional<std::uint64_t> atOnce, partsOf(paths, options));
+    if (!atOnce)
+        return importWhole(paths, out, options, control);
+    ASSIGN_OR_RETURN(const std::uint64_t hash, meshSourceHash(paths));
+    return importInParts(paths, out, *atOnce, options, control, hash);
 }
 
 }  // namespace
@@ -157,9 +225,15 @@ absl::StatusOr<MeshImportReport> importMesh(const std::vector<std::string>& sour
                                             const ImportControl& control) {
     RETURN_IF_ERROR(checkPaths(sourcePaths, outPath));
     RETURN_IF_ERROR(checkOptions(options));
+    const Stopwatch watch;
     ASSIGN_OR_RETURN(mesh::OutputFile out, mesh::OutputFile::create(outPath));
-    return withinMemory(nameOf(sourcePaths),
-                        [&] { return importFiles(sourcePaths, out, options, control); });
+    auto report =
+        finish(withinMemory(nameOf(sourcePaths),
+                            [&] { return importFiles(sourcePaths, out, options, control); }),
+               out, watch, control);
+    if (report.ok())
+        report->sourceBytes = bytesOf(sourcePaths);
+    return report;
 }
 
 absl::StatusOr<MeshImportReport> importMesh(TriangleMesh source, const std::string& outPath,
@@ -167,9 +241,12 @@ absl::StatusOr<MeshImportReport> importMesh(TriangleMesh source, const std::stri
                                             const ImportControl& control,
                                             std::uint64_t sourceHash) {
     RETURN_IF_ERROR(checkOptions(options));
+    const Stopwatch watch;
     ASSIGN_OR_RETURN(mesh::OutputFile out, mesh::OutputFile::create(outPath));
-    return withinMemory(
-        outPath, [&] { return build(std::move(source), out, options, control, sourceHash); });
+    return finish(
+        withinMemory(outPath,
+                     [&] { return build(std::move(source), out, options, control, sourceHash); }),
+        out, watch, control);
 }
 
 }  // namespace eyrie::import

@@ -18,7 +18,13 @@ struct MeshImportOptions {
     std::uint32_t leafTriangles = 8192;  ///< triangles a leaf may have; 1 to 65,535
     PackOptions pack = {};               ///< lattice, normals and winding
     bool isRaw = false;                  ///< pages are not coded, but mapped as they are
+    /// About as much is used: PLY files of meshes that would take more are imported part by part,
+    /// with what is left on the disk of the output. 0: as much as it takes.
+    std::uint64_t memoryBytes = 0;
 };
+
+/// The least that MeshImportOptions::memoryBytes may be.
+inline constexpr std::uint64_t kLeastMeshMemory = std::uint64_t{256} << 20;
 
 /// Wall-clock seconds of the stages.
 struct MeshImportSeconds {
@@ -47,9 +53,11 @@ struct MeshImportReport {
 };
 
 /// Imports mesh files (readMeshes) as one mesh into `outPath`, an .eym file that appears only when
-/// it is complete. Stages reported: "reading", "welding", "normals", "tree", "levels", "writing".
+/// it is complete. Stages reported: "reading", "welding", "normals", "tree", "levels", "writing";
+/// those of importInParts (mesh_import_parts.h) where it takes more memory than it may.
 /// Errors, all with nothing left behind: those of readMeshes; InvalidArgument (nothing to draw),
-/// NotFound, PermissionDenied, Cancelled, ResourceExhausted (memory, disk), Unavailable.
+/// NotFound, PermissionDenied, Cancelled, ResourceExhausted (memory, disk; a mesh
+/// that would take more than it may, and is no PLY), Unavailable.
 absl::StatusOr<MeshImportReport> importMesh(const std::vector<std::string>& sourcePaths,
                                             const std::string& outPath,
                                             const MeshImportOptions& options = {},

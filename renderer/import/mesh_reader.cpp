@@ -23,8 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr fabric::Rgba kPlain{204, 204, 204, 255};
-
 bool endsWith(const std::string& path, std::string_view ending) {
     return path.size() >= ending.size() &&
            std::equal(ending.rbegin(), ending.rend(), path.rbegin(), [](char a, char b) {
@@ -56,7 +54,7 @@ absl::Status append(TriangleMesh& whole, TriangleMesh part, const std::string& p
         to.resize(count, otherwise);
     };
     join(whole.normals, part.normals, glm::vec3(0));
-    join(whole.colours, part.colours, kPlain);
+    join(whole.colours, part.colours, kPlainColour);
     whole.positions.insert(whole.positions.end(), part.positions.begin(), part.positions.end());
     for (auto triangle : part.triangles) {
         for (std::uint32_t& corner : triangle) corner += static_cast<std::uint32_t>(first);
@@ -66,15 +64,6 @@ absl::Status append(TriangleMesh& whole, TriangleMesh part, const std::string& p
     for (const std::string& note : part.notes)
         whole.notes.push_back(fmt::format("{}: {}", path, note));
     return absl::OkStatus();
-}
-
-/// Reports a file's progress as a share of that of all.
-ImportControl shareOf(const ImportControl& control, std::size_t file, std::size_t count) {
-    return {[&control, file, count](std::string_view stage, double fraction) {
-                control.report(stage,
-                               (static_cast<double>(file) + fraction) / static_cast<double>(count));
-            },
-            control.stop};
 }
 
 /// Names of files that `text` mentions: the rest of lines that begin with "mtllib", or the values
@@ -113,6 +102,19 @@ absl::StatusOr<std::vector<std::string>> companions(const std::string& path) {
 }
 
 }  // namespace
+
+ImportControl shareOf(const ImportControl& control, std::size_t file, std::size_t count) {
+    return {[&control, file, count](std::string_view stage, double fraction) {
+                control.report(stage,
+                               (static_cast<double>(file) + fraction) / static_cast<double>(count));
+            },
+            control.stop};
+}
+
+bool isPly(const std::string& path) {
+    const auto file = mesh::MappedFile::open(path);
+    return file.ok() && (looksLikePly(textOf(*file)) || endsWith(path, ".ply"));
+}
 
 bool isMeshSource(const std::string& path) {
     return endsWith(path, ".ply") || endsWith(path, ".jdn") || findAssimpFormat(path) != nullptr;

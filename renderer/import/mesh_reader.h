@@ -24,11 +24,20 @@ std::string meshSourceEndings();
 /// the file; InvalidArgument (no known format).
 absl::StatusOr<TriangleMesh> readMesh(const std::string& path, const ImportControl& control = {});
 
-/// Reads several into one, in this order. Where only some have colours, the others are light grey.
-/// Notes begin with their file's name. Precondition: there is one.
-/// Errors: those of readMesh; InvalidArgument (more than 2^32 vertices).
+/// Reads several into one, in this order. Where only some have colours, the others are of
+/// kPlainColour. Notes begin with their file's name. Precondition: there is one. Errors: those of
+/// readMesh; InvalidArgument (more than 2^32 vertices).
 absl::StatusOr<TriangleMesh> readMeshes(std::span<const std::string> paths,
                                         const ImportControl& control = {});
+
+/// Whether readMesh takes a file for PLY.
+bool isPly(const std::string& path);
+
+/// What vertices are coloured without colours of their own, beside others that have some.
+inline constexpr fabric::Rgba kPlainColour{204, 204, 204, 255};
+
+/// Reports one file's progress as a share of that of all.
+ImportControl shareOf(const ImportControl& control, std::size_t file, std::size_t count);
 
 /// Of the bytes of all files that a mesh is read from: `paths`, the material files that OBJ files
 /// name and the buffers of glTF files, as far as they exist. One file without such company has the

@@ -225,7 +225,9 @@ absl::StatusOr<mesh::PackedMesh> packMesh(TriangleMesh source, PackCounts& count
     control.report("welding", 0);
     const std::vector<std::uint8_t> used = findUsed(source);
     ASSIGN_OR_RETURN(const mesh::Lattice lattice,
-                     mesh::fitLattice(boundsOf(source, used), options.latticeBits));
+                     options.lattice
+                         ? *options.lattice
+                         : mesh::fitLattice(boundsOf(source, used), options.latticeBits));
     Packing packing{std::move(source), {}, {}, {}};
     packing.keys = latticeKeys(packing.source, used, lattice);
     RETURN_IF_ERROR(dropDegenerate(packing.source, packing.keys, counts));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include <absl/status/statusor.h>
 
@@ -22,6 +23,7 @@ enum class NormalSource {
 struct PackOptions {
     /// Of a coordinate, 8 to 21: the longest side has 2^(bits-1) steps of the lattice or more.
     int latticeBits = mesh::kLatticeBits;
+    std::optional<mesh::Lattice> lattice = {};  ///< that to use, fitted to more than the mesh
     bool keepsExact = false;  ///< the source's positions bit for bit, too: PackedMesh::exact
     NormalSource normals = NormalSource::Smooth;
     double creaseDegrees = 45;  ///< of NormalSource::Crease: edges that are sharper stay sharp

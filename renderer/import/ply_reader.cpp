@@ -25,18 +25,24 @@ namespace {
 using Corners = std::array<std::uint32_t, 3>;
 
 constexpr std::uint64_t kPollInterval = 65536;  // elements between looks at the stop token
+constexpr std::uint64_t kPiece = 65536;  // vertices or triangles that are handed over at once
 constexpr std::string_view kStage = "reading";
 constexpr std::array<std::string_view, 3> kAxisNames = {"x", "y", "z"};
 
-/// Reads a body from text (AsciiValues) or binary (BinaryValues).
+/// Takes a piece that ends so many bytes from the start of the body.
+using TakeUpTo = std::function<absl::Status(TriangleMesh& piece, std::uint64_t offset)>;
+
+/// Reads a body from text (AsciiValues) or binary (BinaryValues); with `take` piece by piece.
 template <typename Values>
 class BodyReader {
 public:
-    BodyReader(const PlyHeader& header, std::string_view body, const ImportControl& control)
+    BodyReader(const PlyHeader& header, std::string_view body, const ImportControl& control,
+               const TakeUpTo& take = {})
         : header_(header),
           values_(body),
           bodyBytes_(body.size()),
           control_(control),
+          take_(take),
           vertexCount_(header.find("vertex")->count) {}
 
     absl::StatusOr<TriangleMesh> read();
@@ -64,6 +70,10 @@ private:
     absl::Status readCount(const PlyProperty& property, std::uint64_t index, std::uint64_t& count);
     absl::Status skip(const PlyProperty& property, std::uint64_t index);
     absl::Status triangulatePolygons();
+    absl::Status handOver();
+    std::uint64_t roomFor(std::uint64_t count) const {
+        return take_ ? std::min(count, 2 * kPiece) : count;
+    }
     absl::Status begin(std::uint64_t index);
     absl::Status poll(std::uint64_t index);
 
@@ -77,10 +87,12 @@ private:
     Values values_;
     std::uint64_t bodyBytes_;
     const ImportControl& control_;
+    const TakeUpTo take_;
     std::uint64_t vertexCount_;
     const PlyElement* element_ = nullptr;  // being read
     std::uint64_t startOffset_ = 0;        // where the one being read starts in the body
     TriangleMesh mesh_;
+    std::uint64_t handedOver_ = 0;  // triangles
     std::vector<Polygon> polygons_;
     std::vector<std::uint32_t> polygonCorners_;
 };
@@ -133,8 +145,24 @@ absl::Status BodyReader<Values>::begin(std::uint64_t index) {
     return poll(index);
 }
 
+/// What was read, to whoever takes it piece by piece.
+template <typename Values>
+absl::Status BodyReader<Values>::handOver() {
+    if (!take_)
+        return absl::OkStatus();
+    handedOver_ += mesh_.triangles.size();
+    RETURN_IF_ERROR(take_(mesh_, values_.offset()));
+    mesh_.positions.clear();
+    mesh_.normals.clear();
+    mesh_.colours.clear();
+    mesh_.triangles.clear();
+    return absl::OkStatus();
+}
+
 template <typename Values>
 absl::Status BodyReader<Values>::poll(std::uint64_t index) {
+    if (index % kPiece == 0)
+        RETURN_IF_ERROR(handOver());
     if (index % kPollInterval != 0)
         return absl::OkStatus();
     if (bodyBytes_ != 0)
@@ -187,9 +215,10 @@ absl::Status BodyReader<Values>::storeVertex(const VertexLayout& layout, const V
 template <typename Values>
 absl::Status BodyReader<Values>::readVertices() {
     const VertexLayout layout(*element_);
-    mesh_.positions.reserve(vertexCount_);
-    mesh_.normals.reserve(layout.hasThree(kNormalX) ? vertexCount_ : 0);
-    mesh_.colours.reserve(layout.hasThree(kRed) ? vertexCount_ : 0);
+    const std::uint64_t room = roomFor(vertexCount_);
+    mesh_.positions.reserve(room);
+    mesh_.normals.reserve(layout.hasThree(kNormalX) ? room : 0);
+    mesh_.colours.reserve(layout.hasThree(kRed) ? room : 0);
     VertexRow row{};
     for (std::uint64_t i = 0; i < element_->count; ++i) {
         RETURN_IF_ERROR(begin(i));
@@ -215,6 +244,10 @@ absl::Status BodyReader<Values>::readFace(const PlyProperty& property, std::uint
                                                   : unreadable(property.name, index);
     }
     Corners triangle{};
+    if (count > 3 && take_)
+        return wrong(fmt::format("count of {}", property.name), index, fmt::format("{}", count),
+                     "triangles of a mesh that does not fit the memory it may have",
+                     "triangulate it before export, or allow more memory");
     if (count > 3)
         polygons_.push_back({index, polygonCorners_.size(), count});
     for (std::uint64_t i = 0; i < count; ++i) {
@@ -281,7 +314,7 @@ absl::Status BodyReader<Values>::readElement(const PlyElement& element) {
     const bool isSurface = element.name == "face" || element.name == "tristrips";
     const PlyProperty* corners = isSurface ? findCorners(element) : nullptr;
     if (element.name == "face")
-        mesh_.triangles.reserve(std::min(element.count, values_.bytesLeft() / 4));
+        mesh_.triangles.reserve(roomFor(std::min(element.count, values_.bytesLeft() / 4)));
     for (std::uint64_t i = 0; i < element.count; ++i) {
         RETURN_IF_ERROR(begin(i));
         for (const PlyProperty& property : element.properties)
@@ -310,7 +343,8 @@ template <typename Values>
 absl::StatusOr<TriangleMesh> BodyReader<Values>::read() {
     for (const PlyElement& element : header_.elements) RETURN_IF_ERROR(readElement(element));
     RETURN_IF_ERROR(triangulatePolygons());
-    if (mesh_.triangles.empty())
+    RETURN_IF_ERROR(handOver());
+    if (mesh_.triangles.empty() && handedOver_ == 0)
         return absl::InvalidArgumentError(
             fmt::format("found no face with three corners or more ({} with fewer), expected at "
                         "least one; export the mesh again with its faces",
@@ -319,19 +353,25 @@ absl::StatusOr<TriangleMesh> BodyReader<Values>::read() {
     return std::move(mesh_);
 }
 
-absl::StatusOr<TriangleMesh> parse(std::string_view file, const ImportControl& control) {
+absl::StatusOr<TriangleMesh> parse(std::string_view file, const ImportControl& control,
+                                   const TakeUpTo& take = {}) {
     ASSIGN_OR_RETURN(const PlyHeader header, parsePlyHeader(file));
     RETURN_IF_ERROR(checkIsMesh(header));
     const std::string_view body = file.substr(header.bodyOffset);
     switch (header.encoding) {
         case PlyEncoding::Ascii:
-            return BodyReader<AsciiValues>(header, body, control).read();
+            return BodyReader<AsciiValues>(header, body, control, take).read();
         case PlyEncoding::LittleEndian:
-            return BodyReader<BinaryValues<false>>(header, body, control).read();
+            return BodyReader<BinaryValues<false>>(header, body, control, take).read();
         case PlyEncoding::BigEndian:
-            return BodyReader<BinaryValues<true>>(header, body, control).read();
+            return BodyReader<BinaryValues<true>>(header, body, control, take).read();
     }
     return absl::InternalError("unknown PLY encoding");
+}
+
+std::string_view textOf(const mesh::MappedFile& file) {
+    const auto bytes = file.bytes();
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
 }  // namespace
@@ -342,10 +382,35 @@ absl::StatusOr<TriangleMesh> parsePly(std::string_view file, const std::string& 
     return mesh.ok() ? std::move(mesh) : fabric::withContext(mesh.status(), name);
 }
 
+absl::Status readPlyPieces(const std::string& path, const TakePiece& take,
+                           const ImportControl& control) {
+    ASSIGN_OR_RETURN(const mesh::MappedFile file, mesh::MappedFile::open(path));
+    const std::string_view text = textOf(file);
+    const auto takeUpTo = [&](TriangleMesh& piece, std::uint64_t offset) {
+        file.forget(offset);  // the header before the body keeps this on the safe side
+        return take(piece);
+    };
+    return fabric::withContext(parse(text, control, takeUpTo).status(), path);
+}
+
+absl::StatusOr<PlySize> measurePly(const std::string& path) {
+    ASSIGN_OR_RETURN(const mesh::MappedFile file, mesh::MappedFile::open(path));
+    const absl::StatusOr<PlyHeader> header = parsePlyHeader(textOf(file));
+    if (!header.ok())
+        return fabric::withContext(header.status(), path);
+    RETURN_IF_ERROR(fabric::withContext(checkIsMesh(*header), path));
+    const PlyElement* const faces = header->find("face");
+    const std::uint64_t bytes = file.bytes().size();
+    // A strip's corner takes two bytes or more, and makes one triangle.
+    return PlySize{header->find("vertex")->count,
+                   (faces != nullptr ? faces->count : 0) +
+                       (header->find("tristrips") != nullptr ? bytes / 2 : 0),
+                   bytes};
+}
+
 absl::StatusOr<TriangleMesh> readPly(const std::string& path, const ImportControl& control) {
     ASSIGN_OR_RETURN(const mesh::MappedFile file, mesh::MappedFile::open(path));
-    const auto bytes = file.bytes();
-    return parsePly({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path, control);
+    return parsePly(textOf(file), path, control);
 }
 
 }  // namespace eyrie::import

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -25,7 +27,26 @@ namespace eyrie::import {
 /// Memory stays within a constant times the file's size, whatever its header says.
 absl::StatusOr<TriangleMesh> readPly(const std::string& path, const ImportControl& control = {});
 
-/// The same from memory. `name` stands for the file in messages.
+/// What reads a mesh piece by piece is given, in turn: vertices and triangles that follow those
+/// before, corners numbered through the whole mesh, which need not have come yet. It may take what
+/// the piece holds.
+using TakePiece = std::function<absl::Status(TriangleMesh& piece)>;
+
+/// The same a few megabytes at a time, and no more in memory; droppedFaces count from the start.
+/// Errors: as above; those of `take`; InvalidArgument where a face has more than three corners.
+absl::Status readPlyPieces(const std::string& path, const TakePiece& take,
+                           const ImportControl& control = {});
+
+/// How much a PLY file declares; what it has no room for is an error.
+struct PlySize {
+    std::uint64_t vertices = 0;
+    std::uint64_t faces = 0;  ///< strips count as many as they may have triangles
+    std::uint64_t fileBytes = 0;
+};
+/// Errors: those of readPly but for what lies in the body.
+absl::StatusOr<PlySize> measurePly(const std::string& path);
+
+/// The same as readPly from memory. `name` stands for the file in messages.
 absl::StatusOr<TriangleMesh> parsePly(std::string_view file, const std::string& name,
                                       const ImportControl& control = {});
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -26,6 +27,10 @@ namespace eyrie::mesh {
 /// mesh passes for a closed one with a probability of 2^-64.
 std::optional<std::vector<std::uint32_t>> seenFromBehind(const PackedMesh& mesh);
 
+/// Of a triangle between these positions, for each edge a number of its own, or less that number
+/// where it is passed the other way. All of them make 0 where the mesh is closed.
+std::uint64_t edgeSum(const std::array<std::uint64_t, 3>& positions);
+
 /// Where the pockets under a node are: boxes around the triangles that are seen from behind, in
 /// lattice steps, those together that are near each other.
 class Pockets {
@@ -42,6 +47,14 @@ private:
     std::vector<fabric::Box> boxes_;
     bool isEverywhere_ = false;
 };
+
+/// For each node of `tree` the pockets under it, where `isBehind` says of each triangle of the mesh
+/// whether it is seen from behind.
+std::vector<Pockets> gatherPockets(const PackedMesh& mesh, const KdTree& tree,
+                                   const std::vector<bool>& isBehind);
+
+/// Where that is not known.
+std::vector<Pockets> pocketsEverywhere(const KdTree& tree);
 
 /// For each node of `tree` the pockets under it: everywhere where seenFromBehind() gives nothing.
 /// What stands for a node shows its back to nobody outside, but to within its error, where no

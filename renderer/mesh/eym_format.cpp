@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <memory>
 #include <utility>
 
 #include <absl/status/status.h>
@@ -28,8 +29,18 @@ std::uint64_t contentHash(std::span<const std::byte> bytes) {
 }
 
 absl::StatusOr<std::uint64_t> contentHash(const std::string& path) {
+    constexpr std::size_t kAtOnce = std::size_t{16} << 20;
     ASSIGN_OR_RETURN(const MappedFile file, MappedFile::open(path));
-    return contentHash(file.bytes());
+    const std::span<const std::byte> bytes = file.bytes();
+    const std::unique_ptr<XXH64_state_t, decltype(&XXH64_freeState)> state(XXH64_createState(),
+                                                                           &XXH64_freeState);
+    XXH64_reset(state.get(), 0);
+    for (std::size_t at = 0; at < bytes.size(); at += kAtOnce) {
+        const auto part = bytes.subspan(at, std::min(kAtOnce, bytes.size() - at));
+        XXH64_update(state.get(), part.data(), part.size());
+        file.forget(at + part.size());
+    }
+    return XXH64_digest(state.get());
 }
 
 absl::StatusOr<EymFile> EymFile::open(const std::string& path, const page::SourceOptions& options) {

@@ -10,7 +10,6 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "fabric/status.h"
-#include "renderer/mesh/back_faces.h"
 #include "renderer/mesh/codec/page_codec.h"
 #include "renderer/mesh/eym_format.h"
 #include "renderer/mesh/node_geometry.h"
@@ -73,13 +72,14 @@ std::vector<std::byte> blockOf(const PackedNode& node) {
 
 class PageMaker {
 public:
-    PageMaker(const PackedMesh& mesh, const KdTree& tree, const LodTree& lod, bool isCoded)
+    PageMaker(const PackedMesh& mesh, const KdTree& tree, const LodTree& lod,
+              std::span<const Pockets> pockets, const EymOptions& options)
         : mesh_(mesh),
           tree_(tree),
           lod_(lod),
-          isCoded_(isCoded),
-          pockets_(findPockets(mesh, tree)),
-          exactForm_(exactFormOf(mesh.exact)) {}
+          isCoded_(options.isCoded),
+          pockets_(pockets),
+          exactForm_(options.exactForm.value_or(exactFormOf(mesh.exact))) {}
 
     ExactForm exactForm() const { return exactForm_; }
 
@@ -108,7 +108,7 @@ private:
     const KdTree& tree_;
     const LodTree& lod_;
     bool isCoded_;
-    std::vector<Pockets> pockets_;
+    std::span<const Pockets> pockets_;
     ExactForm exactForm_;
 };
 
@@ -204,8 +204,9 @@ absl::Status writePages(const std::vector<Pages>& pages, OutputFile& out,
 }  // namespace
 
 absl::Status writeEym(const PackedMesh& mesh, const KdTree& tree, const LodTree& lod,
-                      const EymOptions& options, OutputFile& out, const std::stop_token& stop) {
-    const PageMaker maker(mesh, tree, lod, options.isCoded);
+                      std::span<const Pockets> pockets, const EymOptions& options, OutputFile& out,
+                      const std::stop_token& stop) {
+    const PageMaker maker(mesh, tree, lod, pockets, options);
     const std::vector<Pages> pages = makePages(tree, maker, stop);
     std::uint64_t end = 0;
     const std::vector<Node> nodes = layOutNodes(tree, lod, pages, end);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/mesh/mapped_file.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 
@@ -59,6 +60,12 @@ absl::StatusOr<MappedFile> MappedFile::open(const std::string& path) {
     if (data == MAP_FAILED)
         return systemError(path, "map it", errno);
     return MappedFile(data, size);
+}
+
+void MappedFile::forget(std::size_t end) const {
+    const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+    if (const std::size_t whole = std::min(end, size_) / page * page; whole > 0)
+        ::madvise(data_, whole, MADV_DONTNEED);
 }
 
 MappedFile::~MappedFile() {

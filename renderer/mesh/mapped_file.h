@@ -30,6 +30,10 @@ public:
         return {static_cast<const std::byte*>(data_), size_};
     }
 
+    /// What lies before `end` need not stay in memory: should it be read again, the system fetches
+    /// it again.
+    void forget(std::size_t end) const;
+
 private:
     MappedFile(void* data, std::size_t size) : data_(data), size_(size) {}
 

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/mesh/output_file.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
 #include <vector>
 
 #include <absl/status/status.h>
@@ -22,11 +25,21 @@ absl::StatusOr<OutputFile> OutputFile::create(const std::string& path) {
     return OutputFile(path, std::move(partial), fd);
 }
 
+absl::StatusOr<OutputFile> OutputFile::createUnnamed(const std::string& path) {
+    std::string name = path + ".scratch-XXXXXX";
+    const int fd = ::mkostemp(name.data(), O_CLOEXEC);
+    if (fd < 0)
+        return fabric::writeError(path, "cannot create a scratch file beside it", errno);
+    ::unlink(name.c_str());
+    return OutputFile(path, {}, fd);
+}
+
 OutputFile::~OutputFile() {
     if (fd_ < 0)
         return;
     ::close(fd_);
-    ::unlink(partialPath_.c_str());
+    if (!partialPath_.empty())
+        ::unlink(partialPath_.c_str());
 }
 
 absl::Status OutputFile::write(std::span<const std::byte> bytes) {
@@ -38,6 +51,38 @@ absl::Status OutputFile::write(std::span<const std::byte> bytes) {
             return fabric::writeError(path_, "cannot write it", errno);
         size_ += static_cast<std::uint64_t>(written);
         bytes = bytes.subspan(static_cast<std::size_t>(written));
+    }
+    return absl::OkStatus();
+}
+
+absl::Status OutputFile::writeAt(std::uint64_t offset, std::span<const std::byte> bytes) {
+    while (!bytes.empty()) {
+        const ssize_t written =
+            ::pwrite(fd_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+        if (written < 0 && errno == EINTR)
+            continue;
+        if (written < 0)
+            return fabric::writeError(path_, "cannot write a scratch file beside it", errno);
+        offset += static_cast<std::uint64_t>(written);
+        bytes = bytes.subspan(static_cast<std::size_t>(written));
+    }
+    return absl::OkStatus();
+}
+
+absl::Status OutputFile::readAt(std::uint64_t offset, std::span<std::byte> bytes) const {
+    while (!bytes.empty()) {
+        const ssize_t got = ::pread(fd_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+        if (got < 0 && errno == EINTR)
+            continue;
+        if (got < 0)
+            return absl::UnavailableError(fmt::format(
+                "{}: cannot read the scratch file beside it: {}", path_, std::strerror(errno)));
+        if (got == 0) {
+            std::fill(bytes.begin(), bytes.end(), std::byte{0});
+            return absl::OkStatus();
+        }
+        offset += static_cast<std::uint64_t>(got);
+        bytes = bytes.subspan(static_cast<std::size_t>(got));
     }
     return absl::OkStatus();
 }

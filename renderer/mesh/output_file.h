@@ -18,13 +18,22 @@ class OutputFile {
 public:
     /// Errors: NotFound (no such folder), PermissionDenied, Unavailable.
     static absl::StatusOr<OutputFile> create(const std::string& path);
+    /// One that never gets a name, on the disk of `path`: for what is read back, and gone with the
+    /// object or the process, however that ends. commit() is not for it. Errors: as above.
+    static absl::StatusOr<OutputFile> createUnnamed(const std::string& path);
 
     OutputFile(OutputFile&& other) noexcept
         : path_(std::move(other.path_)),
           partialPath_(std::move(other.partialPath_)),
           fd_(std::exchange(other.fd_, -1)),
           size_(other.size_) {}
-    OutputFile& operator=(OutputFile&&) = delete;
+    OutputFile& operator=(OutputFile&& other) noexcept {
+        std::swap(path_, other.path_);
+        std::swap(partialPath_, other.partialPath_);
+        std::swap(fd_, other.fd_);
+        std::swap(size_, other.size_);
+        return *this;
+    }
     ~OutputFile();
 
     /// Appends. Errors: ResourceExhausted (disk full), Unavailable.
@@ -32,6 +41,12 @@ public:
     /// Appends zeros up to the next multiple of `alignment`.
     absl::Status padTo(std::uint64_t alignment);
     absl::Status commit();
+
+    /// Puts bytes at a place of an unnamed file; what is left out before it reads as zeros. Errors:
+    /// as write().
+    absl::Status writeAt(std::uint64_t offset, std::span<const std::byte> bytes);
+    /// Of an unnamed file; zeros past its end. Any thread may read. Errors: Unavailable.
+    absl::Status readAt(std::uint64_t offset, std::span<std::byte> bytes) const;
 
     std::uint64_t size() const { return size_; }
     const std::string& path() const { return path_; }

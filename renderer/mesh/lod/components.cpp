@@ -255,7 +255,8 @@ void Dropper::run(std::size_t target, double limitSteps) {
 
 }  // namespace
 
-Components::Components(const PackedMesh& mesh, const KdTree& tree) {
+Components::Components(const PackedMesh& mesh, const KdTree& tree,
+                       std::span<const std::uint32_t> goesOnAt) {
     DisjointSets sets(mesh.positions.size());
     std::vector<std::uint32_t> byPosition(mesh.positions.size());
     std::iota(byPosition.begin(), byPosition.end(), 0U);
@@ -286,6 +287,8 @@ Components::Components(const PackedMesh& mesh, const KdTree& tree) {
         first_[component] = std::min(first_[component], i);
         last_[component] = i;
     }
+    for (const std::uint32_t vertex : goesOnAt)
+        last_[of(vertex)] = std::numeric_limits<std::uint64_t>::max();
 }
 
 void dropComponents(const PackedMesh& mesh, const Components& components, const KdNode& node,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "renderer/mesh/kd_tree.h"
@@ -13,7 +14,9 @@ namespace eyrie::mesh {
 /// The pieces of a mesh that share no point, as thousands of objects in one model do.
 class Components {
 public:
-    Components(const PackedMesh& mesh, const KdTree& tree);
+    /// Those that have a vertex of `goesOnAt` lie whole under no node.
+    Components(const PackedMesh& mesh, const KdTree& tree,
+               std::span<const std::uint32_t> goesOnAt = {});
 
     /// Of a vertex; below count(). Vertices at one position are of one component.
     std::uint32_t of(std::uint32_t vertex) const { return ofVertex_[vertex]; }

@@ -19,20 +19,11 @@ namespace {
 
 /// What a node is drawn by has to be this much less than what its children are drawn by.
 constexpr double kWorthwhile = 0.8;
-/// Children's triangles, in those a node is drawn by, above which a surface that does not get
-/// simpler is left as it is.
-constexpr std::size_t kMostUnsimplified = 4;
 /// Of the diagonal of a node's box: pieces whose loss makes no larger an error go before surfaces
 /// are simplified. A node that is drawn as large as the picture shows it as some pixels.
 constexpr double kSmallPiece = 1.0 / 256;
 /// Of the same: a larger error shows that what had to give way should not have.
 constexpr double kTooFar = 1.0 / 32;
-
-/// A node's surface on its way up.
-struct Part {
-    Patch patch;
-    std::size_t height = 0;  ///< of the tree of simplifications under it
-};
 
 double largest(const std::vector<float>& bounds) {
     return bounds.empty() ? 0 : double{*std::max_element(bounds.begin(), bounds.end())};
@@ -46,8 +37,14 @@ void append(std::vector<T>& to, const std::vector<T>& from) {
 class Builder {
 public:
     Builder(const PackedMesh& mesh, const KdTree& tree, const LodOptions& options,
-            const std::function<void(double)>& progress, const std::stop_token& stop)
-        : mesh_(mesh), tree_(tree), options_(options), progress_(progress), stop_(stop) {
+            const std::function<void(double)>& progress, const std::stop_token& stop,
+            LodParts* parts)
+        : mesh_(mesh),
+          tree_(tree),
+          options_(options),
+          progress_(progress),
+          stop_(stop),
+          parts_(parts) {
         lod_.geometry.resize(tree.nodes.size());
         errorSteps_.resize(tree.nodes.size());
     }
@@ -55,18 +52,19 @@ public:
     LodTree build();
 
 private:
-    Part visit(std::size_t index);
-    Part finest(std::size_t index) const;
+    LodPart visit(std::size_t index);
+    LodPart finest(std::size_t index) const;
     const Components& components();
     Simplified simplified(const Patch& patch, const KdNode& node, std::size_t target);
-    void simplifyPart(Part& part, std::size_t index);
-    void record(const Part& part, std::size_t before, double borderShare);
+    void simplifyPart(LodPart& part, std::size_t index);
+    void record(const LodPart& part, std::size_t before, double borderShare);
 
     const PackedMesh& mesh_;
     const KdTree& tree_;
     const LodOptions& options_;
     const std::function<void(double)>& progress_;
     const std::stop_token& stop_;
+    LodParts* parts_;
     LodTree lod_;
     std::vector<double> errorSteps_;
     std::once_flag componentsMade_;
@@ -75,9 +73,9 @@ private:
     std::uint64_t done_ = 0;
 };
 
-Part Builder::finest(std::size_t index) const {
+LodPart Builder::finest(std::size_t index) const {
     const KdNode& node = tree_.nodes[index];
-    Part part;
+    LodPart part;
     part.patch.triangles.reserve(node.triangleEnd - node.triangleBegin);
     for (std::uint64_t i = node.triangleBegin; i < node.triangleEnd; ++i)
         part.patch.triangles.push_back(mesh_.triangles[tree_.order[i]]);
@@ -85,13 +83,15 @@ Part Builder::finest(std::size_t index) const {
     return part;
 }
 
-Part Builder::visit(std::size_t index) {
+LodPart Builder::visit(std::size_t index) {
     const KdNode& node = tree_.nodes[index];
     if (stop_.stop_requested())
         return {};
+    if (node.isLeaf() && parts_ != nullptr && !parts_->leaves.empty())
+        return std::move(parts_->leaves[index]);
     if (node.isLeaf() || node.triangleEnd - node.triangleBegin <= options_.nodeTriangles)
         return finest(index);
-    Part left, right;
+    LodPart left, right;
     oneapi::tbb::parallel_invoke([&] { left = visit(static_cast<std::size_t>(node.left)); },
                                  [&] { right = visit(static_cast<std::size_t>(node.right)); });
     if (stop_.stop_requested())
@@ -106,7 +106,8 @@ Part Builder::visit(std::size_t index) {
 
 /// Only what surfaces of one piece do not need.
 const Components& Builder::components() {
-    std::call_once(componentsMade_, [this] { components_.emplace(mesh_, tree_); });
+    std::call_once(componentsMade_,
+                   [this] { components_.emplace(mesh_, tree_, options_.goesOnAt); });
     return *components_;
 }
 
@@ -134,7 +135,7 @@ Simplified Builder::simplified(const Patch& patch, const KdNode& node, std::size
 }
 
 /// Leaves the part as it is where that does not pay: the node is then drawn by its children.
-void Builder::simplifyPart(Part& part, std::size_t index) {
+void Builder::simplifyPart(LodPart& part, std::size_t index) {
     const std::size_t before = part.patch.triangles.size();
     if (before > kMostUnsimplified * options_.nodeTriangles)
         return;
@@ -149,7 +150,7 @@ void Builder::simplifyPart(Part& part, std::size_t index) {
     record(part, before, share);
 }
 
-void Builder::record(const Part& part, std::size_t before, double borderShare) {
+void Builder::record(const LodPart& part, std::size_t before, double borderShare) {
     const std::lock_guard lock(mutex_);
     if (lod_.levels.size() < part.height)
         lod_.levels.resize(part.height);
@@ -169,8 +170,11 @@ void Builder::record(const Part& part, std::size_t before, double borderShare) {
 }
 
 LodTree Builder::build() {
-    if (!tree_.nodes.empty())
-        visit(0);
+    if (!tree_.nodes.empty()) {
+        LodPart root = visit(0);
+        if (parts_ != nullptr)
+            parts_->root = std::move(root);
+    }
     for (LodLevel& level : lod_.levels)
         level.borderShare /= static_cast<double>(std::max<std::uint64_t>(level.nodes, 1));
     lod_.errorMetres.reserve(errorSteps_.size());
@@ -184,8 +188,8 @@ LodTree Builder::build() {
 absl::StatusOr<LodTree> buildLodTree(const PackedMesh& mesh, const KdTree& tree,
                                      const LodOptions& options,
                                      const std::function<void(double)>& progress,
-                                     const std::stop_token& stop) {
-    LodTree lod = Builder(mesh, tree, options, progress, stop).build();
+                                     const std::stop_token& stop, LodParts* parts) {
+    LodTree lod = Builder(mesh, tree, options, progress, stop, parts).build();
     if (stop.stop_requested())
         return absl::CancelledError("simplifying the mesh was cancelled");
     return lod;

@@ -3,12 +3,14 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <stop_token>
 #include <vector>
 
 #include <absl/status/statusor.h>
 
 #include "renderer/mesh/kd_tree.h"
+#include "renderer/mesh/lod/patch.h"
 #include "renderer/mesh/packed_mesh.h"
 
 namespace eyrie::mesh {
@@ -17,6 +19,22 @@ struct LodOptions {
     /// A node with more triangles than this is drawn by about as many; one with fewer, by its
     /// leaves.
     std::uint32_t nodeTriangles = 16384;
+    /// Vertices where the mesh goes on beyond the tree, of which it is a part: what touches one is
+    /// no component to be left out.
+    std::span<const std::uint32_t> goesOnAt = {};
+};
+
+/// A node's surface on its way up.
+struct LodPart {
+    Patch patch;
+    std::size_t height = 0;  ///< of the tree of simplifications under it
+};
+
+/// How trees of parts of a mesh become one.
+struct LodParts {
+    std::vector<LodPart>
+        leaves;    ///< in: what stands for each leaf, by node, its triangles if empty
+    LodPart root;  ///< out: what stands for the root, or would have been simplified
 };
 
 /// What was simplified at one distance from the leaves.
@@ -40,12 +58,16 @@ struct LodTree {
     std::vector<LodLevel> levels;  ///< from the finest
 };
 
+/// More triangles than this, times LodOptions::nodeTriangles, are not simplified.
+inline constexpr std::size_t kMostUnsimplified = 4;
+
 /// Simplifies bottom-up: a node's surface is made of its children's, with the vertices on the
 /// node's border left alone until the node that has both sides. Any cut through the tree is
-/// therefore without cracks. The result depends on the mesh alone. Errors: Cancelled.
+/// therefore without cracks. The result depends on the mesh alone. With `parts`, a tree under or
+/// over others: all of them together are as one tree would be. Errors: Cancelled.
 absl::StatusOr<LodTree> buildLodTree(const PackedMesh& mesh, const KdTree& tree,
                                      const LodOptions& options = {},
                                      const std::function<void(double)>& progress = {},
-                                     const std::stop_token& stop = {});
+                                     const std::stop_token& stop = {}, LodParts* parts = nullptr);
 
 }  // namespace eyrie::mesh

@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 
+#include "renderer/import/mesh_import_parts.h"
 #include "renderer/import/mesh_synth.h"
 #include "renderer/import/ply_writer.h"
 #include "renderer/mesh/eym_format.h"
@@ -54,6 +55,49 @@ TEST(MeshImport, GivesTheSameBytesForAnyNumberOfThreadsAndEitherWay) {
             .ok());
     EXPECT_EQ(test::readFile(folder.file("a.eym")), test::readFile(folder.file("b.eym")));
 }
+
+/// A ball without some of its triangles: nobody can tell which backs are seen.
+TriangleMesh openBall(std::size_t triangles, std::uint32_t seed) {
+    TriangleMesh ball = synthesizeMesh(triangles, seed);
+    for (std::size_t i = 0; i < ball.triangles.size(); i += 1000) ball.triangles[i][0] = 0;
+    return ball;
+}
+
+absl::StatusOr<MeshImportReport> importByParts(const std::string& source, const std::string& path,
+                                               std::uint64_t atOnce,
+                                               const MeshImportOptions& options = {},
+                                               const ImportControl& control = {}) {
+    auto out = mesh::OutputFile::create(path);
+    if (!out.ok())
+        return out.status();
+    auto report = importInParts(std::vector{source}, *out, atOnce, options, control,
+                                *mesh::contentHash(source));
+    if (report.ok() && !out->commit().ok())
+        return absl::UnavailableError("not committed");
+    return report;
+}
+
+void expectSameByParts(const TriangleMesh& source, const MeshImportOptions& options = {}) {
+    const test::TemporaryFolder folder;
+    const std::string path = folder.file("m.ply");
+    ASSERT_TRUE(writePly(source, path).ok());
+    const auto whole = importMesh({path}, folder.file("whole.eym"), options);
+    const auto parted = importByParts(path, folder.file("parts.eym"), 20000, options);
+    ASSERT_TRUE(whole.ok() && parted.ok()) << whole.status() << parted.status();
+    EXPECT_EQ(parted->counts, whole->counts);
+    EXPECT_EQ(parted->vertices, whole->vertices);
+    EXPECT_EQ(parted->nodes, whole->nodes);
+    EXPECT_EQ(parted->levels.size(), whole->levels.size());
+    EXPECT_EQ(parted->coarsestErrorMetres, whole->coarsestErrorMetres);
+    EXPECT_EQ(test::readFile(folder.file("parts.eym")), test::readFile(folder.file("whole.eym")));
+    EXPECT_THAT(folder.names(), testing::UnorderedElementsAre("m.ply", "whole.eym", "parts.eym"));
+}
+
+TEST(MeshImport, ByPartsGivesTheSameBytesAsAllAtOnce) {
+    expectSameByParts(synthesizeMesh(100000, 3));
+}
+
+TEST(MeshImport, ByPartsGivesTheSameBytesOfAnOpenMesh) { expectSameByParts(openBall(100000, 3)); }
 
 TEST(MeshImport, ReportsItsStagesInOrder) {
     const test::TemporaryFolder folder;

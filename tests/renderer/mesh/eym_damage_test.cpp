@@ -29,7 +29,8 @@ std::string makeSmallFile(bool isCoded) {
     EXPECT_TRUE(tree.ok() && out.ok());
     auto lod = buildLodTree(mesh, *tree);
     EXPECT_TRUE(lod.ok());
-    EXPECT_TRUE(writeEym(mesh, *tree, *lod, {.isCoded = isCoded}, *out).ok());
+    EXPECT_TRUE(
+        writeEym(mesh, *tree, *lod, findPockets(mesh, *tree), {.isCoded = isCoded}, *out).ok());
     EXPECT_TRUE(out->commit().ok());
     return test::readFile(folder.file("m.eym"));
 }
