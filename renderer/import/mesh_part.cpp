@@ -242,8 +242,7 @@ PartSurface surfaceOf(const OwnMesh& own, mesh::LodPart lod, const mesh::KdNode&
     PartSurface surface;
     surface.boxMin = box.boxMin;
     surface.boxMax = box.boxMax;
-    for (const float bound : lod.patch.bounds)
-        surface.boundSteps = std::max(surface.boundSteps, double{bound});
+    surface.boundSteps = lod.patch.error();
     surface.lod.height = lod.height;
     surface.mesh.lattice = own.mesh.lattice;
     surface.isEndless =

@@ -204,7 +204,7 @@ Dropper::Way Dropper::wayOf(std::uint32_t index) const {
     double before = 0;
     for (const std::uint32_t triangle : piece.triangles) {
         for (const std::uint32_t vertex : patch_.triangles[triangle]) sum += position(vertex);
-        before = std::max(before, double{patch_.bounds[triangle]});
+        before = std::max(before, double{patch_.shifts[triangle].longest()});
     }
     const Point* to =
         grid_->nearest(sum / (3.0 * static_cast<double>(piece.triangles.size())), index, isThere_);
@@ -238,19 +238,17 @@ void Dropper::run(std::size_t target, double limitSteps) {
         }
         isThere_[way.piece] = false;
         left -= pieces_[way.piece].triangles.size();
-        float& bound = patch_.bounds[way.receiver];
-        bound = std::max(bound, std::nextafter(static_cast<float>(way.bound),
-                                               std::numeric_limits<float>::infinity()));
+        patch_.shifts[way.receiver].hold(Shifts().andThen(static_cast<float>(way.bound)));
     }
     std::size_t kept = 0;
     for (std::size_t i = 0; i < patch_.triangles.size(); ++i) {
         if (!isThere_[pieceOf_[i]])
             continue;
         patch_.triangles[kept] = patch_.triangles[i];
-        patch_.bounds[kept++] = patch_.bounds[i];
+        patch_.shifts[kept++] = patch_.shifts[i];
     }
     patch_.triangles.resize(kept);
-    patch_.bounds.resize(kept);
+    patch_.shifts.resize(kept);
 }
 
 }  // namespace

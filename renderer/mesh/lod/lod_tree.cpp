@@ -25,10 +25,6 @@ constexpr double kSmallPiece = 1.0 / 256;
 /// Of the same: a larger error shows that what had to give way should not have.
 constexpr double kTooFar = 1.0 / 32;
 
-double largest(const std::vector<float>& bounds) {
-    return bounds.empty() ? 0 : double{*std::max_element(bounds.begin(), bounds.end())};
-}
-
 template <typename T>
 void append(std::vector<T>& to, const std::vector<T>& from) {
     to.insert(to.end(), from.begin(), from.end());
@@ -79,7 +75,7 @@ LodPart Builder::finest(std::size_t index) const {
     part.patch.triangles.reserve(node.triangleEnd - node.triangleBegin);
     for (std::uint64_t i = node.triangleBegin; i < node.triangleEnd; ++i)
         part.patch.triangles.push_back(mesh_.triangles[tree_.order[i]]);
-    part.patch.bounds.resize(part.patch.triangles.size(), 0);
+    part.patch.shifts.resize(part.patch.triangles.size());
     return part;
 }
 
@@ -97,10 +93,10 @@ LodPart Builder::visit(std::size_t index) {
     if (stop_.stop_requested())
         return {};
     append(left.patch.triangles, right.patch.triangles);
-    append(left.patch.bounds, right.patch.bounds);
+    append(left.patch.shifts, right.patch.shifts);
     left.height = std::max(left.height, right.height);
     simplifyPart(left, index);
-    errorSteps_[index] = largest(left.patch.bounds);
+    errorSteps_[index] = left.patch.error();
     return left;
 }
 
@@ -116,7 +112,7 @@ const Components& Builder::components() {
 Simplified Builder::simplified(const Patch& patch, const KdNode& node, std::size_t target) {
     const double diagonal = glm::length(glm::dvec3(node.boxMax) - glm::dvec3(node.boxMin));
     Simplified plain = simplify(mesh_, patch, target);
-    const double error = largest(plain.patch.bounds);
+    const double error = plain.patch.error();
     if ((plain.patch.triangles.size() <= target && error <= kTooFar * diagonal) ||
         components().count() == 1)
         return plain;
@@ -128,7 +124,7 @@ Simplified Builder::simplified(const Patch& patch, const KdNode& node, std::size
     const bool areBothDone =
         plain.patch.triangles.size() <= target && sparse.patch.triangles.size() <= target;
     const bool isSparseBetter = areBothDone
-                                    ? largest(sparse.patch.bounds) < error
+                                    ? sparse.patch.error() < error
                                     : sparse.patch.triangles.size() < plain.patch.triangles.size();
     sparse.borderShare = plain.borderShare;
     return isSparseBetter ? sparse : plain;
@@ -158,7 +154,7 @@ void Builder::record(const LodPart& part, std::size_t before, double borderShare
     ++level.nodes;
     level.trianglesBefore += before;
     level.trianglesAfter += part.patch.triangles.size();
-    const double errorSteps = largest(part.patch.bounds);
+    const double errorSteps = part.patch.error();
     level.largestErrorMetres =
         std::max(level.largestErrorMetres, errorSteps * mesh_.lattice.stepMetres);
     level.borderShare += borderShare;

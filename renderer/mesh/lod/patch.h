@@ -1,21 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
+#include "renderer/mesh/lod/shifts.h"
 #include "renderer/mesh/packed_mesh.h"
 
 namespace eyrie::mesh {
 
 /// A surface that stands for a part of a mesh and uses its vertices.
 ///
-/// Each point of the part's full surface has a partner on this one, and each of this one there; no
-/// two partners, the one here on triangle i, are farther apart than bounds[i] lattice steps: a
-/// bound on the distance of either surface to the other. Where no component was left out partners
-/// are those of a continuous map, one to one.
+/// Each point of the part's full surface has a partner on this one, and each of this one there; the
+/// ways from there to partners here on triangle i are in shifts[i]: their lengths bound the
+/// distance of either surface to the other. Where no component was left out partners are those of a
+/// continuous map, one to one.
 struct Patch {
     std::vector<Triangle> triangles;
-    std::vector<float> bounds;  ///< one a triangle
+    std::vector<Shifts> shifts;  ///< one a triangle
+
+    /// Bound on the distance between partners, in lattice steps.
+    double error() const {
+        double largest = 0;
+        for (const Shifts& one : shifts) largest = std::max(largest, double{one.longest()});
+        return largest;
+    }
 };
 
 }  // namespace eyrie::mesh

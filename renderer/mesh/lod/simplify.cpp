@@ -23,16 +23,8 @@ namespace eyrie::mesh {
 namespace {
 
 constexpr std::uint32_t kNone = 0xFFFFFFFF;
-/// More than rounding can add to a step of the map, relative and in lattice steps.
-constexpr double kRounding = 1e-6;
 /// Of an edge's length, added to what is compared: of equally good collapses the shortest is best.
 constexpr double kLengthWeight = 1e-3;
-
-float roundedUp(double value) {
-    const auto nearest = static_cast<float>(value);
-    return nearest >= value ? nearest
-                            : std::nextafter(nearest, std::numeric_limits<float>::infinity());
-}
 
 /// A neighbour that a vertex may be moved onto, and what comes of it.
 struct Collapse {
@@ -55,7 +47,6 @@ private:
     };
     struct Face {
         std::array<Corner, 3> corners;
-        float bound;
         bool isThere = true;
     };
     struct Neighbour {
@@ -81,16 +72,19 @@ private:
                                             std::uint32_t excluded) const;
     Collapse bestCollapse(std::uint32_t point, bool mustBeSimple);
     Star star(std::uint32_t point) const;
-    double boundOf(const Star::Replaced& replaced) const;
+    Shifts shiftsOf(const Star& star, const Star::Replaced& replaced) const;
     bool collapse(std::uint32_t point, std::uint32_t target);
     template <typename Visit>
     void forCorners(std::uint32_t point, const Visit& visit);
 
     std::vector<Face> faces_;
+    std::vector<Shifts> shifts_;  ///< of a face
     std::vector<glm::dvec3> points_;
     std::vector<std::uint32_t> first_;  ///< of a point's corners: 3 * face + corner
     std::vector<Collapse> best_;        ///< of a point
     std::vector<bool> isStale_;         ///< whether something changed around it since
+    std::vector<bool> isInner_;         ///< whether it had a closed ring at first
+    std::priority_queue<Candidate> queue_;
     std::vector<std::uint32_t> mark_;
     std::uint32_t marking_ = 0;
     std::vector<Neighbour> ring_;  ///< of the point looked at
@@ -98,13 +92,13 @@ private:
     std::size_t left_;
 };
 
-Simplifier::Simplifier(const PackedMesh& mesh, const Patch& patch) : left_(patch.triangles.size()) {
+Simplifier::Simplifier(const PackedMesh& mesh, const Patch& patch)
+    : shifts_(patch.shifts), left_(patch.triangles.size()) {
     faces_.reserve(left_);
     for (std::size_t i = 0; i < left_; ++i) {
         Face face;
         for (std::size_t corner = 0; corner < 3; ++corner)
             face.corners[corner] = {patch.triangles[i][corner], kNone};
-        face.bound = patch.bounds[i];
         faces_.push_back(face);
     }
     link(mesh);
@@ -216,35 +210,63 @@ Star Simplifier::star(std::uint32_t point) const {
     return {points_[point], std::span(ring).first(ring_.size())};
 }
 
-/// Of a triangle that is left: the largest of those it replaces, and the way to them.
-double Simplifier::boundOf(const Star::Replaced& replaced) const {
-    double before = 0;
+Shifts moved(const Shifts& before, const Star& star, const Star::Shift& shift) {
+    const auto least = static_cast<float>(shift.least);
+    const auto most = static_cast<float>(shift.most);
+    return star.isGraph() ? before.andThen(glm::vec3(star.normal()), least, most)
+                          : before.andThen(most);
+}
+
+/// Of a triangle that is left: those of the triangles it replaces, and the way from there.
+Shifts Simplifier::shiftsOf(const Star& star, const Star::Replaced& replaced) const {
+    Shifts before;
     for (std::size_t i = 0; i < ring_.size(); ++i)
         if ((replaced.triangles >> i & 1) != 0)
-            before = std::max(before, double{faces_[ring_[i].face].bound});
-    return before + replaced.distance * (1 + kRounding) + kRounding;
+            before.hold(shifts_[ring_[i].face]);
+    return moved(before, star, replaced.shift);
 }
 
 /// The ring's place with the least cost that is not in `excluded`; the ring's size if there is
 /// none.
 std::pair<std::size_t, double> Simplifier::cheapest(std::uint32_t point, const Star& star,
                                                     std::uint32_t excluded) const {
-    double before = 0;
-    for (const Neighbour& neighbour : ring_)
-        before = std::max(before, double{faces_[neighbour.face].bound});
-    std::pair best(ring_.size(), std::numeric_limits<double>::infinity());
-    Star::Outcome outcome;
+    struct Way {
+        std::size_t target;
+        double length;
+        double least;  ///< that the cost can be
+        Star::Landing landing;
+    };
+    std::array<Way, kMaxStar> ways;
+    std::size_t count = 0;
+    Shifts before;
+    for (const Neighbour& neighbour : ring_) before.hold(shifts_[neighbour.face]);
     for (std::size_t target = 0; target < ring_.size(); ++target) {
+        if ((excluded >> target & 1) != 0)
+            continue;
+        const auto landing = star.landing(target);
+        if (!landing)
+            continue;
         const double length =
             kLengthWeight * glm::length(points_[ring_[target].point] - points_[point]);
-        if ((excluded >> target & 1) != 0 ||
-            !star.movedTo(target, best.second - before - length, outcome))
-            continue;
+        // The triangle that the centre lands in takes the points of all.
+        ways[count++] = {target, length, moved(before, star, landing->shift).longest() + length,
+                         *landing};
+    }
+    std::pair best(ring_.size(), std::numeric_limits<double>::infinity());
+    Star::Outcome outcome;
+    const auto isLess = [](const Way& a, const Way& b) { return a.least < b.least; };
+    for (std::size_t done = 0; done < count; ++done) {
+        Way& way = *std::min_element(&ways[done], &ways[count], isLess);
+        if (way.least >= best.second)
+            break;
+        std::swap(way, ways[done]);
+        star.moveTo(ways[done].target, ways[done].landing, outcome);
         double cost = 0;
-        for (std::size_t i = 0; i < ring_.size(); ++i)
-            cost = std::max(cost, boundOf(outcome[i]) + length);
+        for (std::size_t i = 0; i < ring_.size() && cost < best.second; ++i)
+            if (outcome[i].triangles != 0)
+                cost = std::max(cost, shiftsOf(star, outcome[i]).longest() + ways[done].length);
         if (cost < best.second)
-            best = {target, cost};
+            best = {ways[done].target, cost};
     }
     return best;
 }
@@ -254,7 +276,7 @@ Collapse Simplifier::bestCollapse(std::uint32_t point, bool mustBeSimple) {
     if (!gatherRing(point))
         return {};
     const Star star = this->star(point);
-    if (!star.isGraph())
+    if (!star.isFlat())
         return {};
     for (std::uint32_t excluded = 0;;) {
         const auto [target, cost] = cheapest(point, star, excluded);
@@ -277,14 +299,17 @@ bool Simplifier::collapse(std::uint32_t point, std::uint32_t target) {
     if (!isSimple(place))
         return false;
     Star::Outcome outcome;
-    star(point).movedTo(place, std::numeric_limits<double>::infinity(), outcome);
-    std::array<float, kMaxStar> bounds;
-    for (std::size_t i = 0; i < ring_.size(); ++i) bounds[i] = roundedUp(boundOf(outcome[i]));
+    const Star star = this->star(point);
+    star.moveTo(place, *star.landing(place), outcome);
+    std::array<Shifts, kMaxStar> shifts;
+    for (std::size_t i = 0; i < ring_.size(); ++i) shifts[i] = shiftsOf(star, outcome[i]);
     for (std::size_t i = 0; i < ring_.size(); ++i) {
         Face& face = faces_[ring_[i].face];
-        face.bound = bounds[i];
+        shifts_[ring_[i].face] = shifts[i];
         face.isThere = outcome[i].triangles != 0;
         isStale_[ring_[i].point] = true;
+        if (best_[ring_[i].point].target == kNone && isInner_[ring_[i].point])
+            queue_.push({0, ring_[i].point});  // to be looked at again
     }
     std::uint32_t at = first_[point];
     while (at != kNone) {
@@ -301,34 +326,33 @@ bool Simplifier::collapse(std::uint32_t point, std::uint32_t target) {
 }
 
 Simplified Simplifier::run(std::size_t target) {
-    std::priority_queue<Candidate> queue;
     const auto look = [&](std::uint32_t point, bool mustBeSimple = false) {
         best_[point] = bestCollapse(point, mustBeSimple);
         isStale_[point] = false;
         if (best_[point].target != kNone)
-            queue.push({best_[point].cost, point});
+            queue_.push({best_[point].cost, point});
     };
-    std::size_t onBorder = 0;
     for (std::uint32_t point = 0; point < points_.size(); ++point) {
         look(point);
-        onBorder += isRing_ ? 0 : 1;
+        isInner_.push_back(isRing_);
     }
-    while (left_ > target && !queue.empty()) {
-        const std::uint32_t point = queue.top().point;
-        queue.pop();
+    while (left_ > target && !queue_.empty()) {
+        const std::uint32_t point = queue_.top().point;
+        queue_.pop();
         if (isStale_[point])
             look(point);
         else if (!collapse(point, best_[point].target))
             look(point, true);
     }
     Simplified result;
-    result.borderShare = static_cast<double>(onBorder) / static_cast<double>(points_.size());
-    for (const Face& face : faces_) {
-        if (!face.isThere)
+    result.borderShare = static_cast<double>(std::ranges::count(isInner_, false)) /
+                         static_cast<double>(points_.size());
+    for (std::size_t i = 0; i < faces_.size(); ++i) {
+        const auto& corners = faces_[i].corners;
+        if (!faces_[i].isThere)
             continue;
-        result.patch.triangles.push_back(
-            {face.corners[0].vertex, face.corners[1].vertex, face.corners[2].vertex});
-        result.patch.bounds.push_back(face.bound);
+        result.patch.triangles.push_back({corners[0].vertex, corners[1].vertex, corners[2].vertex});
+        result.patch.shifts.push_back(shifts_[i]);
     }
     return result;
 }

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 namespace eyrie::mesh {
@@ -12,36 +14,63 @@ namespace {
 /// Of the largest extent squared: well above what rounding does to the sign of an area.
 constexpr double kLeastArea = 1e-10;
 
-}  // namespace
-
-/// The centre is at the origin, at height 0.
-Star::Star(const glm::dvec3& centre, std::span<const glm::dvec3> ring) : count_(ring.size()) {
-    glm::dvec3 normal(0.0);
-    double extent = 0;
-    for (std::size_t i = 0; i < count_; ++i) {
-        const glm::dvec3 spoke = ring[i] - centre;
-        normal += glm::cross(spoke, ring[(i + 1) % count_] - centre);
-        extent = std::max(extent, glm::dot(spoke, spoke));
-    }
-    const double length = glm::length(normal);
-    if (!(length > 0))
-        return;
-    normal /= length;
-    const glm::dvec3 aside = std::abs(normal.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-    const glm::dvec3 x = glm::normalize(glm::cross(aside, normal));
-    const glm::dvec3 y = glm::cross(normal, x);
-    for (std::size_t i = 0; i < count_; ++i) {
-        const glm::dvec3 spoke = ring[i] - centre;
-        ring_[i] = {glm::dot(spoke, x), glm::dot(spoke, y), glm::dot(spoke, normal)};
-    }
-    least_ = kLeastArea * extent;
-    measureWedges();
-    isGraph_ = goesAroundOnce();
-    for (std::size_t i = 0; i < count_ && isGraph_; ++i)
-        isGraph_ = wedge(i, (i + 1) % count_) > least_;
+void hold(Star::Shift& all, const Star::Shift& one) {
+    all.least = std::min(all.least, one.least);
+    all.most = std::max(all.most, one.most);
 }
 
-void Star::measureWedges() {
+}  // namespace
+
+Star::Star(const glm::dvec3& centre, std::span<const glm::dvec3> ring) : count_(ring.size()) {
+    double extent = 0;
+    for (std::size_t i = 0; i < count_; ++i) {
+        spokes_[i] = ring[i] - centre;
+        extent = std::max(extent, glm::dot(spokes_[i], spokes_[i]));
+    }
+    least_ = kLeastArea * extent;
+    isGraph_ = project();
+    isFlat_ = isGraph_ || unfold();
+}
+
+/// Along the mean normal.
+bool Star::project() {
+    for (std::size_t i = 0; i < count_; ++i)
+        normal_ += glm::cross(spokes_[i], spokes_[(i + 1) % count_]);
+    const double length = glm::length(normal_);
+    if (!(length > 0))
+        return false;
+    normal_ /= length;
+    const glm::dvec3 aside = std::abs(normal_.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    const glm::dvec3 x = glm::normalize(glm::cross(aside, normal_));
+    const glm::dvec3 y = glm::cross(normal_, x);
+    for (std::size_t i = 0; i < count_; ++i)
+        ring_[i] = {glm::dot(spokes_[i], x), glm::dot(spokes_[i], y),
+                    glm::dot(spokes_[i], normal_)};
+    return liesFlat();
+}
+
+bool Star::unfold() {
+    std::array<double, kMaxStar> angles;
+    double sum = 0;
+    for (std::size_t i = 0; i < count_; ++i) {
+        const glm::dvec3& next = spokes_[(i + 1) % count_];
+        angles[i] =
+            std::atan2(glm::length(glm::cross(spokes_[i], next)), glm::dot(spokes_[i], next));
+        sum += angles[i];
+    }
+    if (!(sum > 0))
+        return false;
+    double angle = 0;
+    for (std::size_t i = 0; i < count_; ++i) {
+        const double radius = glm::length(spokes_[i]);
+        ring_[i] = {radius * std::cos(angle), radius * std::sin(angle), 0};
+        angle += angles[i] / sum * 2 * std::numbers::pi;
+    }
+    return liesFlat();
+}
+
+/// With triangles that all face the viewer, the ring could still go around twice.
+bool Star::liesFlat() {
     for (std::size_t i = 0; i < count_; ++i) {
         wedges_[i][i] = 0;
         for (std::size_t j = i + 1; j < count_; ++j) {
@@ -49,14 +78,12 @@ void Star::measureWedges() {
             wedges_[j][i] = -wedges_[i][j];
         }
     }
+    bool doAllFace = true;
+    for (std::size_t i = 0; i < count_ && doAllFace; ++i)
+        doAllFace = wedge(i, (i + 1) % count_) > least_;
+    return doAllFace && goesAroundOnce();
 }
 
-/// Twice the signed area of a triangle between points of the ring.
-double Star::area(std::size_t i, std::size_t j, std::size_t k) const {
-    return wedge(i, j) + wedge(j, k) + wedge(k, i);
-}
-
-/// With triangles that all face the viewer, the ring could still go around twice.
 bool Star::goesAroundOnce() const {
     int upwards = 0;
     for (std::size_t i = 0; i < count_; ++i) {
@@ -68,35 +95,44 @@ bool Star::goesAroundOnce() const {
     return upwards == 1;
 }
 
+/// Twice the signed area of a triangle between points of the ring.
+double Star::area(std::size_t i, std::size_t j, std::size_t k) const {
+    return wedge(i, j) + wedge(j, k) + wedge(k, i);
+}
+
 /// In the ring, counted from the target.
 std::size_t Star::at(std::size_t target, std::size_t offset) const {
     const std::size_t index = target + offset;
     return index < count_ ? index : index - count_;
 }
 
-bool Star::movedTo(std::size_t target, double limit, Outcome& outcome) const {
-    const auto bit = [&](std::size_t offset) { return 1U << at(target, offset); };
+std::optional<Star::Landing> Star::landing(std::size_t target) const {
     std::size_t around = 0;  // the triangle that the centre lies in, or on the border of
     for (std::size_t i = 1; i + 1 < count_; ++i) {
         const std::size_t next = at(target, i + 1);
         if (!(area(target, at(target, i), next) > least_))
-            return false;
+            return std::nullopt;
         if (around == 0 && wedge(target, next) <= 0)
             around = i;
     }
-    const double moved = around == 0 ? limit : heightAtCentre(target, around);
-    if (!(moved < limit))
-        return false;
+    if (around == 0)
+        return std::nullopt;
+    return Landing{shiftAtCentre(target, around), around};
+}
+
+void Star::moveTo(std::size_t target, const Landing& landing, Outcome& outcome) const {
+    const auto bit = [&](std::size_t offset) { return 1U << at(target, offset); };
+    const std::size_t around = landing.triangle;
     // What meets at the ring's edge, and at the target on either side of the centre.
     for (std::size_t i = 1; i + 1 < count_; ++i)
         outcome[at(target, i)] = {
-            0, bit(i) | (i <= around ? bit(0) : 0) | (i >= around ? bit(count_ - 1) : 0)};
-    outcome[target] = outcome[at(target, count_ - 1)] = {0, 0};
+            {}, bit(i) | (i <= around ? bit(0) : 0) | (i >= around ? bit(count_ - 1) : 0)};
+    outcome[target] = outcome[at(target, count_ - 1)] = {{}, 0};
     outcome[at(target, 1)].triangles |= bit(0);
     outcome[at(target, count_ - 2)].triangles |= bit(count_ - 1);
-    outcome[at(target, around)] = {moved, (1U << count_) - 1};
+    outcome[at(target, around)].triangles = (1U << count_) - 1;
+    hold(outcome[at(target, around)].shift, landing.shift);
     for (std::size_t i = 2; i + 1 < count_; ++i) addDiagonal(target, i, outcome);
-    return true;
 }
 
 /// What the new edge from the target to another point of the ring crosses.
@@ -107,46 +143,57 @@ void Star::addDiagonal(std::size_t target, std::size_t diagonal, Outcome& outcom
     // The old edge to the same point lies on the centre's side.
     const bool isLeft = wedge(target, at(target, diagonal)) > 0;
     (isLeft ? left : right).triangles |= bit(diagonal - 1) | bit(diagonal);
-    for (std::size_t spoke = 1; spoke < count_; ++spoke) {
-        if (spoke == diagonal)
-            continue;
-        const double height = heightAtCrossing(target, at(target, diagonal), at(target, spoke));
-        if (height < 0)
+    // Nor does it cross any on the other side.
+    const std::size_t end = isLeft ? diagonal : count_;
+    for (std::size_t spoke = isLeft ? 1 : diagonal + 1; spoke < end; ++spoke) {
+        const auto shift = shiftAtCrossing(target, at(target, diagonal), at(target, spoke));
+        if (!shift)
             continue;
         for (Replaced* side : {&left, &right}) {
-            side->distance = std::max(side->distance, height);
+            hold(side->shift, *shift);
             side->triangles |= bit(spoke - 1) | bit(spoke);
         }
     }
 }
 
-/// Of the new triangle that the centre lies in.
-double Star::heightAtCentre(std::size_t target, std::size_t triangle) const {
+Star::Shift Star::shiftBy(double height) const {
+    return {std::min(height, 0.0), std::max(height, 0.0)};
+}
+
+/// From it to the new triangle that it lies in.
+Star::Shift Star::shiftAtCentre(std::size_t target, std::size_t triangle) const {
     const std::size_t b = at(target, triangle);
     const std::size_t c = at(target, triangle + 1);
     const double ofA = wedge(b, c);
     const double ofB = wedge(c, target);
     const double ofC = wedge(target, b);
-    return std::abs(ofA * ring_[target].height + ofB * ring_[b].height + ofC * ring_[c].height) /
-           (ofA + ofB + ofC);
+    const double all = ofA + ofB + ofC;
+    if (!isGraph_)
+        return shiftBy(glm::length(ofA * spokes_[target] + ofB * spokes_[b] + ofC * spokes_[c]) /
+                       all);
+    return shiftBy((ofA * ring_[target].height + ofB * ring_[b].height + ofC * ring_[c].height) /
+                   all);
 }
 
-/// Between the new edge from ring[target] to ring[diagonal] and the old one from the centre to
-/// ring[spoke], where they cross; below 0 where they do not.
-double Star::heightAtCrossing(std::size_t target, std::size_t diagonal, std::size_t spoke) const {
+/// From the old edge from the centre to ring[spoke] to the new one from ring[target] to
+/// ring[diagonal], where they cross; nothing where they do not.
+std::optional<Star::Shift> Star::shiftAtCrossing(std::size_t target, std::size_t diagonal,
+                                                 std::size_t spoke) const {
     const double centreSide = wedge(target, diagonal);
     const double ringSide = area(target, diagonal, spoke);
     if ((centreSide > 0) == (ringSide > 0))
-        return -1;
+        return std::nullopt;
     const double aSide = wedge(spoke, target);
     const double bSide = wedge(spoke, diagonal);
     if ((aSide > 0) == (bSide > 0))
-        return -1;
+        return std::nullopt;
     const double alongSpoke = centreSide / (centreSide - ringSide);
     const double alongDiagonal = aSide / (aSide - bSide);
-    const double from = ring_[target].height;
-    return std::abs(alongSpoke * ring_[spoke].height -
-                    (from + alongDiagonal * (ring_[diagonal].height - from)));
+    if (!isGraph_)
+        return shiftBy(glm::length(glm::mix(spokes_[target], spokes_[diagonal], alongDiagonal) -
+                                   alongSpoke * spokes_[spoke]));
+    return shiftBy(glm::mix(ring_[target].height, ring_[diagonal].height, alongDiagonal) -
+                   alongSpoke * ring_[spoke].height);
 }
 
 }  // namespace eyrie::mesh
