@@ -9,6 +9,16 @@ if(EYRIE_BUILD_TESTS)
     add_library(eyrie::rapidcheck ALIAS eyrie_rapidcheck)
     target_include_directories(eyrie_rapidcheck SYSTEM INTERFACE ${RAPIDCHECK_INCLUDE_DIR})
     target_link_libraries(eyrie_rapidcheck INTERFACE ${RAPIDCHECK_LIBRARY})
+
+    add_library(eyrie_test_flags INTERFACE)
+    add_library(eyrie::test_flags ALIAS eyrie_test_flags)
+    target_link_libraries(eyrie_test_flags INTERFACE eyrie::build_flags eyrie::rapidcheck
+                                                     GTest::gmock GTest::gtest)
+    # A test's own source is compiled for longer than it runs.
+    target_compile_options(eyrie_test_flags INTERFACE $<$<CONFIG:Release>:-O1> $<$<CONFIG:RelWithDebInfo>:-O0>)
+
+    eyrie_add_headers(eyrie_test_headers <gmock/gmock.h> <gtest/gtest.h> <rapidcheck/gtest.h>)
+    target_link_libraries(eyrie_test_headers PRIVATE eyrie::test_flags)
 endif()
 
 function(eyrie_test NAME)
@@ -20,10 +30,8 @@ function(eyrie_test NAME)
         set(ARG_TIMEOUT 300)
     endif()
     add_executable(${NAME} ${ARG_SOURCES})
-    target_link_libraries(${NAME} PRIVATE ${ARG_LINK} eyrie::build_flags eyrie::rapidcheck
-                                          GTest::gmock GTest::gtest GTest::gtest_main)
-    # A test's own source is compiled for longer than it runs.
-    target_compile_options(${NAME} PRIVATE $<$<CONFIG:Release>:-O1> $<$<CONFIG:RelWithDebInfo>:-O0>)
+    target_link_libraries(${NAME} PRIVATE ${ARG_LINK} eyrie::test_flags GTest::gtest_main)
+    target_precompile_headers(${NAME} REUSE_FROM eyrie_test_headers)
     target_compile_definitions(${NAME} PRIVATE EYRIE_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
                                                EYRIE_BINARY="${CMAKE_BINARY_DIR}/bin/eyrie")
     set_target_properties(${NAME} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)

@@ -19,4 +19,4 @@ eyrie_test(shard_plan_test LABEL unit LINK eyrie_test_terrain)
 eyrie_test(whole_file_test LABEL unit LINK eyrie_test_terrain)
 eyrie_test(terrain_shard_test LABEL unit LINK eyrie_test_imagery)
 # These measure at every point of whole terrains: slow where they are not optimised.
-set_source_files_properties(terrain_bound_test.cpp terrain_seam_test.cpp PROPERTIES COMPILE_OPTIONS -O1)
+set_source_files_properties(terrain_bound_test.cpp terrain_seam_test.cpp PROPERTIES COMPILE_OPTIONS -O1 SKIP_PRECOMPILE_HEADERS ON)
