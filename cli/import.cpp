@@ -21,6 +21,7 @@
 #include "cli/json_object.h"
 #include "cli/progress_bar.h"
 #include "cli/stop_signal.h"
+#include "cli/tune_mesh.h"
 #include "cli/values.h"
 #include "fabric/status.h"
 #include "renderer/import/mesh_import.h"
@@ -28,6 +29,7 @@
 #include "renderer/import/terrain_import.h"
 #include "renderer/import/terrain_shard.h"
 #include "renderer/mesh/eym_format.h"
+#include "renderer/mesh/output_file.h"
 
 namespace eyrie::cli {
 namespace {
@@ -61,6 +63,7 @@ struct MeshOptions : Options {
     import::MeshImportOptions how;
     std::string normals = "smooth";
     std::string memory;
+    std::string flight;  ///< to tune for; empty: the leaf size is `how`'s
 };
 
 double sourceMegabytes(const Options& options) {
@@ -249,54 +252,102 @@ absl::StatusOr<import::MeshImportOptions> importOptions(const MeshOptions& optio
                     options.normals));
 }
 
-absl::Status importMesh(const MeshOptions& options) {
-    StopSignal stop;
-    RETURN_IF_ERROR(checkEnding(options, ".eym"));
-    ASSIGN_OR_RETURN(const import::MeshImportOptions how, importOptions(options));
-    absl::StatusOr<import::MeshImportReport> made;
-    {
-        ProgressBar bar(options.title(), sourceMegabytes(options), "MB",
-                        ProgressBar::styleFor(options.quiet));
-        made =
-            import::importMesh(options.sources, options.out, how, {bar.callback(), stop.token()});
-    }
-    RETURN_IF_ERROR(made.status());
-    if (options.json) {
-        fmt::print("{}\n", JsonObject()
-                               .text("file", options.out)
-                               .count("triangles", made->triangles)
-                               .count("vertices", made->vertices)
-                               .count("droppedFaces", made->droppedFaces)
-                               .count("degenerateTriangles", made->counts.degenerateTriangles)
-                               .count("duplicateTriangles", made->counts.duplicateTriangles)
-                               .count("turnedTriangles", made->counts.orient.turnedTriangles)
-                               .count("nodes", made->nodes)
-                               .count("bytes", made->bytes)
-                               .number("stepMetres", made->stepMetres)
-                               .number("errorMetres", made->errorMetres)
-                               .objects("simplified", levelsJson(*made))
-                               .number("seconds", made->seconds.total)
-                               .str());
-        return absl::OkStatus();
-    }
-    if (options.quiet)
-        return absl::OkStatus();
-    for (const std::string& note : made->notes)
+absl::StatusOr<import::MeshImportReport> importMeshTo(const std::string& path,
+                                                      const MeshOptions& options,
+                                                      const import::MeshImportOptions& how,
+                                                      const std::stop_token& stop) {
+    ProgressBar bar(options.title(), sourceMegabytes(options), "MB",
+                    ProgressBar::styleFor(options.quiet));
+    return import::importMesh(options.sources, path, how, {bar.callback(), stop});
+}
+
+absl::StatusOr<MeshTuning> importTuned(const MeshOptions& options,
+                                       const import::MeshImportOptions& how,
+                                       const std::stop_token& stop) {
+    RETURN_IF_ERROR(mesh::OutputFile::create(options.out).status());
+    ProgressBar bar(options.out, 0, "", ProgressBar::styleFor(options.quiet));
+    return tuneMesh(
+        options.out, options.flight,
+        [&](std::uint32_t leafTriangles, const std::string& path) {
+            import::MeshImportOptions each = how;
+            each.leafTriangles = leafTriangles;
+            return importMeshTo(path, options, each, stop);
+        },
+        bar.callback(), stop);
+}
+
+std::vector<JsonObject> tuningJson(const MeshTuning& tuning) {
+    std::vector<JsonObject> tried;
+    for (const TriedLeaf& one : tuning.tried)
+        tried.push_back(JsonObject()
+                            .count("leafTriangles", one.leafTriangles)
+                            .number("frameMs", one.medianMs)
+                            .number("trianglesMean", one.trianglesMean)
+                            .number("tauAchievedMax", one.promisedPixels)
+                            .count("bytes", one.report.bytes)
+                            .text("limitingStage", one.limitingStage));
+    return tried;
+}
+
+void printJson(const MeshOptions& options, const import::MeshImportReport& made,
+               const MeshTuning& tuning) {
+    JsonObject json;
+    json.text("file", options.out)
+        .count("triangles", made.triangles)
+        .count("vertices", made.vertices)
+        .count("droppedFaces", made.droppedFaces)
+        .count("degenerateTriangles", made.counts.degenerateTriangles)
+        .count("duplicateTriangles", made.counts.duplicateTriangles)
+        .count("turnedTriangles", made.counts.orient.turnedTriangles)
+        .count("nodes", made.nodes)
+        .count("bytes", made.bytes)
+        .number("stepMetres", made.stepMetres)
+        .number("errorMetres", made.errorMetres)
+        .objects("simplified", levelsJson(made))
+        .number("seconds", made.seconds.total);
+    if (!tuning.tried.empty())
+        json.objects("tuned", tuningJson(tuning));
+    fmt::print("{}\n", json.str());
+}
+
+void printText(const MeshOptions& options, const import::MeshImportReport& made) {
+    for (const std::string& note : made.notes)
         fmt::print(stderr, "{}: {}\n", options.title(), note);
-    const import::PackCounts& counts = made->counts;
-    if (made->droppedFaces + counts.degenerateTriangles + counts.duplicateTriangles > 0)
+    const import::PackCounts& counts = made.counts;
+    if (made.droppedFaces + counts.degenerateTriangles + counts.duplicateTriangles > 0)
         fmt::print(stderr,
                    "{}: left out {} faces of fewer than three corners, {} triangles without area, "
                    "{} that were there already\n",
-                   options.title(), made->droppedFaces, counts.degenerateTriangles,
+                   options.title(), made.droppedFaces, counts.degenerateTriangles,
                    counts.duplicateTriangles);
     if (options.how.pack.orients)
         fmt::print(stderr, "{}: turned {} triangles of {} surfaces, {} of which are closed\n",
                    options.title(), counts.orient.turnedTriangles, counts.orient.components,
                    counts.orient.closedComponents);
     fmt::print(stderr, "{}: {} triangles, {} vertices, {} simpler levels, {:.1f} MB, {:.2f} s\n",
-               options.out, made->triangles, made->vertices, made->levels.size(),
-               static_cast<double>(made->bytes) / 1e6, made->seconds.total);
+               options.out, made.triangles, made.vertices, made.levels.size(),
+               static_cast<double>(made.bytes) / 1e6, made.seconds.total);
+}
+
+absl::Status importMesh(const MeshOptions& options) {
+    StopSignal stop;
+    RETURN_IF_ERROR(checkEnding(options, ".eym"));
+    ASSIGN_OR_RETURN(const import::MeshImportOptions how, importOptions(options));
+    MeshTuning tuning;
+    import::MeshImportReport made;
+    if (options.flight.empty()) {
+        ASSIGN_OR_RETURN(made, importMeshTo(options.out, options, how, stop.token()));
+    } else {
+        ASSIGN_OR_RETURN(tuning, importTuned(options, how, stop.token()));
+        made = tuning.tried[tuning.best].report;
+    }
+    if (options.json) {
+        printJson(options, made, tuning);
+    } else if (!options.quiet) {
+        if (!tuning.tried.empty())
+            fmt::print(stderr, "{}", table(tuning));
+        printText(options, made);
+    }
     return absl::OkStatus();
 }
 
@@ -324,11 +375,19 @@ void addMesh(CLI::App& parent, Run& run) {
         ->capture_default_str();
     command->add_flag("--orient", options->how.pack.orients,
                       "Turn faces so that neighbours wind the same way, closed surfaces outward");
+    CLI::Option* const leaf =
+        command
+            ->add_option("--leaf", options->how.leafTriangles,
+                         "Triangles that are drawn, or left out as hidden, at once at most")
+            ->check(CLI::Range(std::uint32_t{1}, mesh::kMaxLeafVertices))
+            ->capture_default_str();
     command
-        ->add_option("--leaf", options->how.leafTriangles,
-                     "Triangles that are drawn, or left out as hidden, at once at most")
-        ->check(CLI::Range(std::uint32_t{1}, mesh::kMaxLeafVertices))
-        ->capture_default_str();
+        ->add_option("--tune", options->flight,
+                     "Choose --leaf by measuring on this machine: import with 4096, 8192, 16384 "
+                     "and 32768, play a flight (as for `eyrie bench`) over each, keep the fastest. "
+                     "The triangles of a batch are what --leaf makes them")
+        ->type_name("NAME|FILE")
+        ->excludes(leaf);
     addCommon(*command, *options);
     command
         ->add_option("--bits", options->how.pack.latticeBits,
@@ -356,6 +415,7 @@ void addMesh(CLI::App& parent, Run& run) {
         "  eyrie import mesh scan.ply -o scan.eym\n"
         "  eyrie import mesh huge.ply -o huge.eym --memory 2G\n"
         "  eyrie import mesh scan.ply --bits 17 -o small.eym\n"
+        "  eyrie import mesh scan.ply --tune orbit -o scan.eym\n"
         "  eyrie import mesh house.obj garden.glb -o place.eym --orient --normals crease=40");
     command->callback([options, &run] { run = [options] { return importMesh(*options); }; });
 }

@@ -34,6 +34,7 @@ struct Facts {
     std::uint64_t bytes = 0;
     double coarsestErrorMetres = 0;
     double finestErrorMetres = 0;
+    std::uint64_t tunedLeafTriangles = 0;  ///< of meshes; 0: not tuned
     std::optional<terrain::ImagerySummary> imagery;
 };
 
@@ -68,6 +69,7 @@ absl::StatusOr<Facts> meshFacts(const std::string& path, const page::SourceOptio
                  .bytes = file.fileBytes(),
                  .coarsestErrorMetres = file.coarsestErrorMetres(),
                  .finestErrorMetres = file.finestErrorMetres(),
+                 .tunedLeafTriangles = file.tunedLeafTriangles(),
                  .imagery = {}};
 }
 
@@ -97,6 +99,8 @@ JsonObject toJson(const Facts& facts) {
         .object("errorMetres", JsonObject()
                                    .number("coarsest", facts.coarsestErrorMetres)
                                    .number("finest", facts.finestErrorMetres));
+    if (facts.tunedLeafTriangles > 0)
+        json.count("tunedLeafTriangles", facts.tunedLeafTriangles);
     if (facts.imagery)
         json.object("imagery", imageryJson(*facts.imagery));
     return json;
@@ -122,6 +126,9 @@ void printFacts(const std::string& name, const Facts& facts) {
     fmt::print("  bytes       {}\n", facts.bytes);
     fmt::print("  error       {:.3g} m at the coarsest, {:.3g} m at the finest\n",
                facts.coarsestErrorMetres, facts.finestErrorMetres);
+    if (facts.tunedLeafTriangles > 0)
+        fmt::print("  leaves      of at most {} triangles, which was measured to be fastest\n",
+                   facts.tunedLeafTriangles);
     if (facts.imagery)
         fmt::print("  imagery     {}\n", imageryText(*facts.imagery));
 }

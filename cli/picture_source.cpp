@@ -38,6 +38,7 @@ public:
         task.pixelViewport = {0, 0, request.width, request.height};
         task.wantsDepth = request.wantsDepth;
         task.completeness = request.completeness;
+        task.measuresStages = request.measuresStages;
         ASSIGN_OR_RETURN(fabric::ChannelResult result, renderer_->render(frameData, task));
         return RenderedFrame{whole(std::move(result.image), task), result.statistics,
                              renderer_->device()};

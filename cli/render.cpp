@@ -77,6 +77,7 @@ absl::StatusOr<coordinator::FrameRequest> requestOf(const Options& options) {
     request.width = size.width;
     request.height = size.height;
     request.wantsDepth = !options.depth.empty();
+    request.measuresStages = !options.stats.empty() || options.json;
     return request;
 }
 

@@ -154,6 +154,9 @@ private:
                                fabric::FrameStatistics& statistics);
     absl::Status drawPieces(const draw::OccludedDraw::Pieces& pieces, const draw::FrameState& frame,
                             fabric::FrameStatistics& statistics);
+    absl::Status measureStages(const Selection& selection, const lod::View& view,
+                               const fabric::FrameData& frameData, const fabric::ChannelTask& task,
+                               fabric::StageMilliseconds& milliseconds);
 
     std::unique_ptr<gl::EglContext> context_;  // first: everything below needs it current
     effects::EffectVariants<effects::TerrainEffect> terrainPrograms_;
@@ -167,6 +170,8 @@ private:
     /// first scene that needs it.
     std::optional<page::Loader> remoteLoader_;
     page::SourceOptions sources_;
+    /// What the last frame drew, one after the other: some of it more than once.
+    std::vector<draw::OccludedDraw::Pieces> drawn_;
     std::optional<fabric::Scene> scene_;
     std::vector<OpenObject> objects_;
 };
@@ -311,6 +316,7 @@ absl::Status Renderer::Impl::drawSelection(const Selection& selection, const lod
                                            fabric::FrameStatistics& statistics) {
     RETURN_IF_ERROR(framebuffer_.resize(task.viewWidth, task.viewHeight));
     const draw::FrameState frame{view, *scene_, frameData.shading, frameData.look, task.range};
+    drawn_.clear();
     RETURN_IF_ERROR(occludedDraw_.draw(
         {view, selection.worldFromObject,
          [&](const draw::OrderedPiece& one) {
@@ -320,10 +326,33 @@ absl::Status Renderer::Impl::drawSelection(const Selection& selection, const lod
          passState(frameData.shading), framebuffer_},
         selection.pieces, hasLines(frameData) ? fabric::Occlusion::Off : frameData.occlusion,
         [&](const draw::OccludedDraw::Pieces& pieces, fabric::FrameStatistics& drawn) {
+            if (task.measuresStages)
+                drawn_.push_back(pieces);
             return drawPieces(pieces, frame, drawn);
         },
         statistics));
     glFinish();
+    return absl::OkStatus();
+}
+
+/// Draws what the frame drew once more, into a single pixel: a driver may leave out vertices that
+/// it knows to make no pixels at all. The picture is spoilt.
+absl::Status Renderer::Impl::measureStages(const Selection& selection, const lod::View& view,
+                                           const fabric::FrameData& frameData,
+                                           const fabric::ChannelTask& task,
+                                           fabric::StageMilliseconds& milliseconds) {
+    const draw::FrameState frame{view, *scene_, frameData.shading, frameData.look, task.range};
+    framebuffer_.begin(view.width, view.height, {selection.covered.x, selection.covered.y, 1, 1},
+                       scene_->background);
+    passState(frameData.shading).apply();
+    glFinish();
+    const auto start = Clock::now();
+    fabric::FrameStatistics ignored;
+    for (const draw::OccludedDraw::Pieces& pieces : drawn_)
+        RETURN_IF_ERROR(drawPieces(pieces, frame, ignored));
+    glFinish();
+    milliseconds.vertices = std::min(millisecondsSince(start), milliseconds.draw);
+    milliseconds.fill = milliseconds.draw - milliseconds.vertices;
     return absl::OkStatus();
 }
 
@@ -354,6 +383,8 @@ absl::StatusOr<fabric::ChannelResult> Renderer::Impl::render(const fabric::Frame
     statistics.tauAchievedPixels = errorPixels(view, frameData, task, selection.covered);
     statistics.milliseconds.cull += millisecondsSince(errorStart);
     statistics.milliseconds.total = millisecondsSince(start);
+    if (task.measuresStages)
+        RETURN_IF_ERROR(measureStages(selection, view, frameData, task, statistics.milliseconds));
     return result;
 }
 

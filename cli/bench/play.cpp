@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/bench/play.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include <fmt/format.h>
@@ -44,6 +45,13 @@ absl::StatusOr<Played> play(PictureSource& pictures, const fabric::Flight& fligh
         }
     }
     played.peakResidentBytes = peakResidentBytes();
+    request.measuresStages = true;
+    const int measured = std::min(options.frames, kMeasuredFrames);
+    for (int i = 0; i < measured && !stop.stop_requested(); ++i) {
+        request.camera = flight.at(secondsOf(flight, i, measured));
+        ASSIGN_OR_RETURN(const coordinator::RenderedFrame frame, pictures.draw(request));
+        played.stages.push_back(frame.statistics.milliseconds);
+    }
     return played;
 }
 

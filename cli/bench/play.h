@@ -32,10 +32,15 @@ struct Played {
     std::vector<PlayedFrame> frames;      ///< pass by pass
     std::uint64_t peakResidentBytes = 0;  ///< this process and its children, added up
     fabric::DeviceInfo device;
+    /// Drawn after all passes, evenly along the flight, with their stages measured.
+    std::vector<fabric::StageMilliseconds> stages = {};
 };
 
+/// Frames of which the stages are measured, or as many as a pass has.
+inline constexpr int kMeasuredFrames = 24;
+
 /// Plays `flight` 1 + repeats times; every frame waits for its data. `frameDone` is called after
-/// each. Errors: those of PictureSource::draw, naming the second; Cancelled.
+/// each of these. Errors: those of PictureSource::draw, naming the second; Cancelled.
 absl::StatusOr<Played> play(PictureSource& pictures, const fabric::Flight& flight,
                             const PlayOptions& options, const std::function<void()>& frameDone,
                             const std::stop_token& stop);

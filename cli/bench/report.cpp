@@ -32,6 +32,8 @@ JsonObject toJson(const fabric::StageMilliseconds& stages) {
     JsonObject json;
     json.number("cull", stages.cull)
         .number("draw", stages.draw)
+        .number("vertices", stages.vertices)
+        .number("fill", stages.fill)
         .number("readback", stages.readback)
         .number("encode", stages.encode);
     return json;
@@ -45,6 +47,7 @@ JsonObject toJson(const BenchRun& run) {
         .object("frameMs", toJson(summary.frame))
         .object("firstPassMs", toJson(summary.firstPass))
         .object("stagesMs", toJson(summary.stages))
+        .text("limitingStage", std::string(fabric::limitingStage(summary.stages)))
         .number("trianglesMean", summary.trianglesMean)
         .count("pagesLoaded", summary.pagesLoaded)
         .count("bytesLoaded", summary.bytesLoaded)
@@ -131,14 +134,15 @@ std::string reportPage(const BenchFacts& facts, const std::vector<BenchRun>& run
 std::string table(const std::vector<BenchRun>& runs) {
     std::string text =
         "tau px  promised px  frames/s  median ms   p95 ms   p99 ms   triangles   loaded   "
-        "memory\n";
+        "memory  limited by\n";
     for (const BenchRun& run : runs) {
         const RunSummary s = summarize(run.played);
         text += fmt::format(
             "{:>6}  {:>11.3f}  {:>8.1f}  {:>9.1f}  {:>7.1f}  {:>7.1f}  {:>10.0f}  "
-            "{:>4} MiB {:>4} MiB\n",
+            "{:>4} MiB {:>4} MiB  {}\n",
             run.tauPixels, s.tauAchievedMax, s.fpsMedian, s.frame.p50, s.frame.p95, s.frame.p99,
-            s.trianglesMean, s.bytesLoaded >> 20, run.played.peakResidentBytes >> 20);
+            s.trianglesMean, s.bytesLoaded >> 20, run.played.peakResidentBytes >> 20,
+            fabric::limitingStage(s.stages));
     }
     return text;
 }

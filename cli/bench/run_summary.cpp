@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace eyrie::cli::bench {
 namespace {
@@ -20,6 +21,14 @@ std::vector<double> column(const Played& played, bool first, Select select) {
 
 double median(const Played& played, Select select) {
     return quantile(column(played, false, select), 0.5);
+}
+
+/// 0 of none.
+double median(const std::vector<fabric::StageMilliseconds>& frames,
+              double fabric::StageMilliseconds::*stage) {
+    std::vector<double> values;
+    for (const fabric::StageMilliseconds& frame : frames) values.push_back(frame.*stage);
+    return values.empty() ? 0 : quantile(std::move(values), 0.5);
 }
 
 double taken(const PlayedFrame& frame) { return frame.milliseconds; }
@@ -51,6 +60,8 @@ RunSummary summarize(const Played& played) {
     stages.readback = median(played, [](auto& f) { return f.statistics.milliseconds.readback; });
     stages.encode = median(played, [](auto& f) { return f.statistics.milliseconds.encode; });
     stages.total = summary.frame.p50;
+    stages.vertices = median(played.stages, &fabric::StageMilliseconds::vertices);
+    stages.fill = median(played.stages, &fabric::StageMilliseconds::fill);
     for (const PlayedFrame& frame : played.frames) {
         const fabric::FrameStatistics& statistics = frame.statistics;
         summary.pagesLoaded += statistics.pagesLoaded;

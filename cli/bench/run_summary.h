@@ -24,7 +24,7 @@ Percentiles percentiles(const std::vector<double>& values);
 struct RunSummary {
     Percentiles frame;                 ///< of the measured passes
     Percentiles firstPass;             ///< of the pass that loads
-    fabric::StageMilliseconds stages;  ///< medians
+    fabric::StageMilliseconds stages;  ///< medians; fabric::limitingStage names the longest
     double fpsMedian = 0;
     double trianglesMean = 0;
     std::uint64_t pagesLoaded = 0;

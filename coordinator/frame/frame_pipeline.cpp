@@ -67,7 +67,8 @@ absl::StatusOr<std::vector<Dispatch::Drawn>> FramePipeline::draw(const FrameRequ
                                     {0, 0, request.width, request.height},
                                     {},
                                     request.wantsDepth,
-                                    request.completeness};
+                                    request.completeness,
+                                    request.measuresStages};
     auto dispatch = std::make_shared<Dispatch>(Dispatch::Plan{
         frameData, decompose(whole, options_.decomposition, balance_.cuts(freeRenderers(revision))),
         revision, patience_.limit(), options_.callTimeout});

@@ -27,6 +27,7 @@ struct FrameRequest {
     int height = 720;
     bool wantsDepth = false;
     fabric::Completeness completeness = fabric::Completeness::Complete;
+    bool measuresStages = false;  ///< fabric::ChannelTask::measuresStages
 
     bool operator==(const FrameRequest&) const = default;
 };

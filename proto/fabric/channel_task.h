@@ -29,6 +29,9 @@ struct ChannelTask {
     Range range;                  ///< the share of the data to draw
     bool wantsDepth = false;      ///< depth is to come back beside colour
     Completeness completeness = Completeness::Complete;
+    /// Whether, after the picture, its vertices are drawn once more to tell how long they take
+    /// (StageMilliseconds::vertices). The total goes without that.
+    bool measuresStages = false;
 
     bool operator==(const ChannelTask&) const = default;
 };

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
+#include <utility>
 
 namespace eyrie::fabric {
 
@@ -14,9 +17,24 @@ struct StageMilliseconds {
     double readback = 0;
     double encode = 0;
     double total = 0;
+    /// Of draw, only where a task measures stages: how long the same vertices take without pixels,
+    /// and the rest. What of the two goes on at once counts as vertices'.
+    double vertices = 0;
+    double fill = 0;
 
     bool operator==(const StageMilliseconds&) const = default;
 };
+
+/// What of cull, vertices, fill and readback takes longest; empty where stages were not measured.
+inline std::string_view limitingStage(const StageMilliseconds& ms) {
+    if (!(ms.vertices + ms.fill > 0))
+        return "";
+    const std::array<std::pair<double, std::string_view>, 4> stages = {{{ms.cull, "cull"},
+                                                                        {ms.vertices, "vertices"},
+                                                                        {ms.fill, "fill"},
+                                                                        {ms.readback, "readback"}}};
+    return std::max_element(stages.begin(), stages.end())->second;
+}
 
 /// What a channel (or, summed up, a frame) drew and with what error.
 struct FrameStatistics {
@@ -60,6 +78,8 @@ inline void accumulate(FrameStatistics& sum, const FrameStatistics& part) {
     ms.readback = std::max(ms.readback, part.milliseconds.readback);
     ms.encode = std::max(ms.encode, part.milliseconds.encode);
     ms.total = std::max(ms.total, part.milliseconds.total);
+    ms.vertices = std::max(ms.vertices, part.milliseconds.vertices);
+    ms.fill = std::max(ms.fill, part.milliseconds.fill);
 }
 
 /// The graphics device a renderer chose.

@@ -171,6 +171,7 @@ v1::ChannelTask toMessage(const fabric::ChannelTask& task) {
     *message.mutable_range() = toMessage(task.range);
     message.set_wants_depth(task.wantsDepth);
     message.set_completeness(toMessage(task.completeness));
+    message.set_measures_stages(task.measuresStages);
     return message;
 }
 
@@ -195,6 +196,7 @@ absl::StatusOr<fabric::ChannelTask> fromMessage(const v1::ChannelTask& message) 
     }
     task.wantsDepth = message.wants_depth();
     ASSIGN_OR_RETURN(task.completeness, fromMessage(message.completeness()));
+    task.measuresStages = message.measures_stages();
     return task;
 }
 

@@ -57,10 +57,12 @@ std::string deviceJson(const fabric::DeviceInfo& device) {
 }
 
 std::string millisecondsJson(const fabric::StageMilliseconds& milliseconds) {
-    return fmt::format(R"({{"cull": {}, "draw": {}, "readback": {}, "encode": {}, "total": {}}})",
-                       number(milliseconds.cull), number(milliseconds.draw),
-                       number(milliseconds.readback), number(milliseconds.encode),
-                       number(milliseconds.total));
+    return fmt::format(
+        R"({{"cull": {}, "draw": {}, "vertices": {}, "fill": {}, "readback": {}, "encode": {}, )"
+        R"("total": {}}})",
+        number(milliseconds.cull), number(milliseconds.draw), number(milliseconds.vertices),
+        number(milliseconds.fill), number(milliseconds.readback), number(milliseconds.encode),
+        number(milliseconds.total));
 }
 
 }  // namespace
@@ -123,6 +125,7 @@ std::string statisticsJson(const fabric::FrameStatistics& statistics, int width,
   "pagesFailed": {},
   "tilesDecodedOnGpu": {},
   "milliseconds": {},
+  "limitingStage": "{}",
   "renderer": {}
 }}
 )",
@@ -130,7 +133,8 @@ std::string statisticsJson(const fabric::FrameStatistics& statistics, int width,
         statistics.complete, statistics.triangles, statistics.points, statistics.nodes,
         statistics.nodesHidden, statistics.pagesLoaded, statistics.bytesLoaded,
         statistics.pagesMissing, statistics.pagesFailed, statistics.tilesDecodedOnGpu,
-        millisecondsJson(statistics.milliseconds), deviceJson(device));
+        millisecondsJson(statistics.milliseconds), fabric::limitingStage(statistics.milliseconds),
+        deviceJson(device));
 }
 
 }  // namespace eyrie::wire

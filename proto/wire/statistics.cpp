@@ -29,6 +29,8 @@ v1::StageMilliseconds toMessage(const fabric::StageMilliseconds& milliseconds) {
     message.set_readback(milliseconds.readback);
     message.set_encode(milliseconds.encode);
     message.set_total(milliseconds.total);
+    message.set_vertices(milliseconds.vertices);
+    message.set_fill(milliseconds.fill);
     return message;
 }
 
@@ -38,8 +40,11 @@ absl::StatusOr<fabric::StageMilliseconds> fromMessage(const v1::StageMillisecond
     RETURN_IF_ERROR(checkFinite(message.readback(), "milliseconds.readback"));
     RETURN_IF_ERROR(checkFinite(message.encode(), "milliseconds.encode"));
     RETURN_IF_ERROR(checkFinite(message.total(), "milliseconds.total"));
-    return fabric::StageMilliseconds{message.cull(), message.draw(), message.readback(),
-                                     message.encode(), message.total()};
+    RETURN_IF_ERROR(checkFinite(message.vertices(), "milliseconds.vertices"));
+    RETURN_IF_ERROR(checkFinite(message.fill(), "milliseconds.fill"));
+    return fabric::StageMilliseconds{message.cull(),   message.draw(),  message.readback(),
+                                     message.encode(), message.total(), message.vertices(),
+                                     message.fill()};
 }
 
 absl::Status checkText(const std::string& text, std::string_view field) {

@@ -64,7 +64,9 @@ struct EymHeader {
     double stepMetres = 1;
     double coarsestErrorMetres = 0;  ///< of the root
     double finestErrorMetres = 0;    ///< of the leaves
-    std::array<std::uint64_t, 17> reserved{};
+    /// Triangles a leaf may have, where a measurement chose that; otherwise 0.
+    std::uint64_t tunedLeafTriangles = 0;
+    std::array<std::uint64_t, 16> reserved{};
 };
 static_assert(sizeof(EymHeader) == 256);
 
@@ -128,6 +130,8 @@ public:
     std::uint64_t fileBytes() const { return header_.fileBytes; }
     double coarsestErrorMetres() const { return header_.coarsestErrorMetres; }
     double finestErrorMetres() const { return header_.finestErrorMetres; }
+    /// Of a leaf, where measuring frames chose that number; otherwise 0.
+    std::uint64_t tunedLeafTriangles() const { return header_.tunedLeafTriangles; }
     int levels() const { return levels_; }  ///< nodes on the longest way from root to leaf
 
     fabric::Box bounds() const { return bounds(0); }  ///< object space, metres

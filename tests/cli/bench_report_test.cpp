@@ -7,6 +7,7 @@
 
 #include "cli/bench/report.h"
 #include "cli/bench/run_summary.h"
+#include "cli/tune_mesh.h"
 #include "tests/support/json.h"
 
 namespace eyrie::cli::bench {
@@ -58,6 +59,30 @@ TEST(RunSummary, TheErrorIsThatOfTheWorstFrame) {
     Played played{{frame(0, 1), frame(1, 1, 0.9), frame(1, 1, 1.5)}, 0, {}};
     EXPECT_EQ(summarize(played).tauAchievedMax, 1.5);
     EXPECT_EQ(summarize(played).framesBeyond, 1u);
+}
+
+TEST(RunSummary, StagesAreThoseOfTheFramesThatWereMeasured) {
+    Played played = oneRun()[0].played;
+    for (const double fill : {8.0, 30.0, 9.0})
+        played.stages.push_back({.draw = 5 + fill, .vertices = 5, .fill = fill});
+    EXPECT_EQ(summarize(played).stages.vertices, 5);
+    EXPECT_EQ(summarize(played).stages.fill, 9);
+    EXPECT_EQ(fabric::limitingStage(summarize(played).stages), "fill");
+}
+
+TEST(MeshTuning, KeepsTheFastestAndOfEqualOnesTheSmallest) {
+    std::vector<TriedLeaf> tried(3);
+    const double milliseconds[] = {10.2, 12, 10};
+    const std::uint64_t bytes[] = {100, 80, 120};
+    for (std::size_t i = 0; i < 3; ++i) {
+        tried[i].leafTriangles = kTriedLeafTriangles[i];
+        tried[i].medianMs = milliseconds[i];
+        tried[i].report.bytes = bytes[i];
+    }
+    EXPECT_EQ(bestOf(tried), 0U);  // 2 % slower, and smaller
+    tried[0].medianMs = 10.5;
+    EXPECT_EQ(bestOf(tried), 2U);
+    EXPECT_THAT(table({tried, 2}), testing::HasSubstr("16384      10.00"));
 }
 
 TEST(BenchReport, TheSummaryHasTheFieldsOfTheContract) {

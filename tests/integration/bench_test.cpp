@@ -61,6 +61,8 @@ TEST_F(Bench, AReportHasARunForEachTau) {
     EXPECT_GT(number(runs[0], "tauAchievedMax"), 0);
     EXPECT_GT(number(runs[0], "trianglesMean"), number(runs[1], "trianglesMean"));
     EXPECT_GT(number(runs[0], "fpsMedian"), 0);
+    EXPECT_GT(number(runs[0], "stagesMs.vertices"), 0);
+    EXPECT_NE(test::at(runs[0], "limitingStage").string_value(), "");
     EXPECT_GT(number(runs[0], "bytesLoaded"), 0);
     EXPECT_GT(number(runs[0], "peakResidentBytes"), 1e6);
 }
@@ -80,6 +82,25 @@ TEST_F(Bench, OfARecordedFlightKeepsTauForAnyNumberOfProcesses) {
     EXPECT_THAT(errorWith({}, "alone"), keepsTau);
     EXPECT_THAT(errorWith({"--renderers", "2"}, "two"), keepsTau);
     EXPECT_THAT(errorWith({"--renderers", "2", "--compound", "DB"}, "two_db"), keepsTau);
+}
+
+TEST_F(Bench, TunesAMeshAndTheFileSaysSo) {
+    ASSERT_TRUE(succeeded({"synth", "mesh", "--size", "3000", "--seed", "3", "-o", path("m.ply")}));
+    const test::Outcome tuned =
+        eyrie({"import", "mesh", path("m.ply"), "--tune", "orbit", "-o", path("m.eym"), "--json"});
+    ASSERT_EQ(tuned.exit, (test::Exit{0, 0})) << tuned.errors;
+    const auto tried = test::list(test::parseJson(tuned.output), "tuned");
+    ASSERT_EQ(tried.size(), 1U) << "the smallest leaf holds all of it";
+    EXPECT_EQ(number(tried[0], "leafTriangles"), 4096);
+    EXPECT_GT(number(tried[0], "frameMs"), 0);
+    const test::Outcome facts = eyrie({"info", path("m.eym"), "--json"});
+    EXPECT_EQ(number(test::parseJson(facts.output), "tunedLeafTriangles"), 4096);
+    const auto before = test::namesIn(path(""));
+    for (const char* flight : {"missing.json", "loop"})
+        EXPECT_EQ(
+            eyrie({"import", "mesh", path("m.ply"), "--tune", flight, "-o", path("n.eym")}).exit,
+            (test::Exit{2, 0}));
+    EXPECT_EQ(test::namesIn(path("")), before);
 }
 
 TEST_F(Bench, RefusesFlightsThatAreNone) {

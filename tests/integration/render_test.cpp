@@ -205,8 +205,12 @@ TEST_F(Render, StatisticsAreNumbersByTheirAgreedNames) {
     EXPECT_GE(number(facts, "nodes"), 1);
     EXPECT_GE(number(facts, "pagesLoaded"), 1);
     EXPECT_GT(number(facts, "bytesLoaded"), 0);
-    for (const char* stage : {"cull", "draw", "readback", "encode", "total"})
+    for (const char* stage : {"cull", "draw", "vertices", "fill", "readback", "encode", "total"})
         EXPECT_GE(number(facts, fmt::format("milliseconds.{}", stage)), 0);
+    EXPECT_GT(number(facts, "milliseconds.vertices"), 0);
+    EXPECT_NEAR(number(facts, "milliseconds.vertices") + number(facts, "milliseconds.fill"),
+                number(facts, "milliseconds.draw"), 1e-6);
+    EXPECT_NE(at(facts, "limitingStage").string_value(), "");
     EXPECT_NE(at(facts, "renderer.vendor").string_value(), "");
     EXPECT_NE(at(facts, "renderer.device").string_value(), "");
     EXPECT_EQ(at(facts, "renderer.software").kind_case(), JsonValue::kBoolValue);

@@ -136,6 +136,23 @@ TEST_P(DecompositionTest, EveryDecompositionEqualsTheSingleChannelAtTwentyCamera
     EXPECT_GT(covered, 20U * kWidth * kHeight / 10) << "the cameras should see something";
 }
 
+TEST_P(DecompositionTest, MeasuringStagesLeavesThePictureAsItIs) {
+    std::mt19937 random(kSeed);
+    const FrameData frame = randomFrame(random, info_.bounds);
+    const Image expected = single(frame);
+    ChannelTask task = wholeView();
+    task.measuresStages = true;
+    const auto measured = renderer_->render(frame, task);
+    ASSERT_TRUE(measured.ok()) << measured.status();
+    const fabric::StageMilliseconds& ms = measured->statistics.milliseconds;
+    EXPECT_GT(ms.vertices, 0);
+    EXPECT_DOUBLE_EQ(ms.vertices + ms.fill, ms.draw);
+    Image whole = blank();
+    fabric::paste(measured->image, whole);
+    expectEqual(expected, whole, "measured");
+    expectEqual(expected, single(frame), "drawn after it");
+}
+
 struct NamedLook {
     const char* name;
     fabric::Look look;

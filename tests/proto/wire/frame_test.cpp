@@ -26,6 +26,7 @@ fabric::ChannelTask anyTask() {
     const int begin = *rc::gen::inRange(0, 1001);
     task.range = {begin / 1000.0, *rc::gen::inRange(begin, 1001) / 1000.0};
     task.wantsDepth = *rc::gen::arbitrary<bool>();
+    task.measuresStages = *rc::gen::arbitrary<bool>();
     task.completeness =
         *rc::gen::element(fabric::Completeness::Complete, fabric::Completeness::Interactive);
     return task;

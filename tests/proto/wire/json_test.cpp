@@ -90,7 +90,7 @@ TEST(StatisticsJson, HasTheDesignsFieldsAsPlainNumbers) {
     statistics.pagesMissing = 3;
     statistics.pagesFailed = 2;
     statistics.tilesDecodedOnGpu = 9;
-    statistics.milliseconds = {0.5, 20, 1, 0, 21.5};
+    statistics.milliseconds = {0.5, 20, 1, 0, 21.5, 7, 13};
     const auto json = parsed(statisticsJson(
         statistics, 1280, 720, {"Mesa \"x\"", "llvmpipe", "4.5", "surfaceless", true}));
     const auto number = [&](const char* name) { return json.fields().at(name).number_value(); };
@@ -110,6 +110,9 @@ TEST(StatisticsJson, HasTheDesignsFieldsAsPlainNumbers) {
     EXPECT_TRUE(json.fields().at("complete").bool_value());
     const auto& milliseconds = json.fields().at("milliseconds").struct_value().fields();
     EXPECT_EQ(milliseconds.at("draw").number_value(), 20);
+    EXPECT_EQ(milliseconds.at("vertices").number_value(), 7);
+    EXPECT_EQ(milliseconds.at("fill").number_value(), 13);
+    EXPECT_EQ(json.fields().at("limitingStage").string_value(), "fill");
     EXPECT_EQ(milliseconds.at("total").number_value(), 21.5);
     const auto& renderer = json.fields().at("renderer").struct_value().fields();
     EXPECT_EQ(renderer.at("vendor").string_value(), "Mesa \"x\"");

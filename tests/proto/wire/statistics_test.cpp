@@ -12,7 +12,7 @@ namespace eyrie::wire {
 namespace {
 
 fabric::FrameStatistics sample() {
-    return {1, 2.5, false, 10, 20, 30, 8, 40, 4000, 6, 5, 7, {0.1, 0.2, 0.3, 0.4, 1.5}};
+    return {1, 2.5, false, 10, 20, 30, 8, 40, 4000, 6, 5, 7, {0.1, 0.2, 0.3, 0.4, 1.5, 0.15, 0.05}};
 }
 
 TEST(WireStatistics, ComeBackAsTheyWere) {
@@ -38,6 +38,20 @@ TEST(WireStatistics, ARefusalNamesTheField) {
     message.mutable_milliseconds()->set_draw(-1);
     EXPECT_THAT(std::string(fromMessage(message).status().message()),
                 testing::HasSubstr("statistics.milliseconds.draw"));
+}
+
+TEST(LimitingStage, IsTheLongestOfThoseThatWereMeasured) {
+    fabric::StageMilliseconds ms{.cull = 3, .draw = 9, .readback = 2, .total = 14};
+    EXPECT_EQ(fabric::limitingStage(ms), "");
+    ms.vertices = 4;
+    ms.fill = 5;
+    EXPECT_EQ(fabric::limitingStage(ms), "fill");
+    ms.cull = 6;
+    EXPECT_EQ(fabric::limitingStage(ms), "cull");
+    ms.readback = 7;
+    EXPECT_EQ(fabric::limitingStage(ms), "readback");
+    ms.vertices = 8;
+    EXPECT_EQ(fabric::limitingStage(ms), "vertices");
 }
 
 TEST(WireDeviceInfo, ComesBackAsItWas) {

@@ -14,6 +14,7 @@
 
 #include "renderer/mesh/eym_writer.h"
 #include "renderer/mesh/kd_tree.h"
+#include "renderer/mesh/tuned_leaf.h"
 #include "tests/renderer/mesh/sample_meshes.h"
 #include "tests/renderer/mesh/temporary_folder.h"
 
@@ -204,6 +205,21 @@ TEST(EymFile, NamesTheVersionItCannotRead) {
     const absl::Status status = EymFile::open(folder.file("m.eym")).status();
     EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
     EXPECT_THAT(std::string(status.message()), testing::HasSubstr("header.version is 1"));
+}
+
+TEST(EymFile, KeepsThatItsLeavesWereMeasured) {
+    const test::TemporaryFolder folder;
+    const PackedMesh mesh = test::randomSoup(300, 90, 1000, 4);
+    ASSERT_TRUE(write(mesh, 50, folder.file("m.eym")).ok());
+    EXPECT_EQ(EymFile::open(folder.file("m.eym"))->tunedLeafTriangles(), 0U);
+    ASSERT_TRUE(recordTunedLeaf(folder.file("m.eym"), 50).ok());
+    const auto file = EymFile::open(folder.file("m.eym"));
+    ASSERT_TRUE(file.ok()) << file.status();
+    EXPECT_EQ(file->tunedLeafTriangles(), 50U);
+    EXPECT_EQ(facesOf(*file), facesOf(mesh));
+    test::writeFile(folder.file("no.eym"), "no mesh");
+    EXPECT_EQ(recordTunedLeaf(folder.file("no.eym"), 50).code(),
+              absl::StatusCode::kInvalidArgument);
 }
 
 }  // namespace

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/tune_mesh.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "cli/bench/flights.h"
+#include "cli/bench/play.h"
+#include "cli/bench/run_summary.h"
+#include "cli/picture_source.h"
+#include "fabric/status.h"
+#include "renderer/mesh/tuned_leaf.h"
+
+namespace eyrie::cli {
+namespace {
+
+constexpr int kRounds = 3;
+constexpr int kFrames = 40;
+constexpr double kEqual = 1.03;
+
+/// For what is tried, on the disk of the output, so that the best is only renamed.
+class FolderBeside {
+public:
+    static absl::StatusOr<FolderBeside> create(const std::string& outPath) {
+        const std::filesystem::path path = fmt::format("{}.tuning-{}", outPath, getpid());
+        std::error_code error;
+        std::filesystem::create_directory(path, error);
+        if (error)
+            return fabric::writeError(path.string(), "cannot make the folder", error.value());
+        return FolderBeside(path);
+    }
+    FolderBeside(FolderBeside&& other) noexcept : path_(std::exchange(other.path_, {})) {}
+    FolderBeside& operator=(FolderBeside&&) = delete;
+    ~FolderBeside() {
+        std::error_code ignored;
+        if (!path_.empty())
+            std::filesystem::remove_all(path_, ignored);
+    }
+
+    std::string file(std::uint32_t leafTriangles) const {
+        return (path_ / fmt::format("{}.eym", leafTriangles)).string();
+    }
+
+private:
+    explicit FolderBeside(std::filesystem::path path) : path_(std::move(path)) {}
+
+    std::filesystem::path path_;
+};
+
+absl::StatusOr<bench::Played> playOnce(const std::string& path, const std::string& flight,
+                                       const std::stop_token& stop) {
+    PictureSourceOptions quiet;
+    quiet.quiet = true;
+    ASSIGN_OR_RETURN(const auto pictures, PictureSource::open(path, quiet, stop));
+    ASSIGN_OR_RETURN(const fabric::Flight way,
+                     bench::flightNamed(flight, pictures->sceneInfo().bounds));
+    return bench::play(
+        *pictures, way, {{}, kFrames, 1}, [] {}, stop);
+}
+
+/// Puts the frames of another round behind those of the ones before.
+void append(bench::Played& all, bench::Played round) {
+    all.frames.insert(all.frames.end(), round.frames.begin(), round.frames.end());
+    all.stages.insert(all.stages.end(), round.stages.begin(), round.stages.end());
+}
+
+void sumUp(const bench::Played& played, TriedLeaf& tried) {
+    const bench::RunSummary summary = bench::summarize(played);
+    tried.medianMs = summary.frame.p50;
+    tried.trianglesMean = summary.trianglesMean;
+    tried.promisedPixels = summary.tauAchievedMax;
+    tried.limitingStage = fabric::limitingStage(summary.stages);
+}
+
+absl::Status keep(const std::string& from, std::uint32_t leafTriangles, const std::string& to) {
+    RETURN_IF_ERROR(mesh::recordTunedLeaf(from, leafTriangles));
+    std::error_code error;
+    std::filesystem::rename(from, to, error);
+    return error ? fabric::writeError(to, "cannot be put there", error.value()) : absl::OkStatus();
+}
+
+}  // namespace
+
+std::size_t bestOf(const std::vector<TriedLeaf>& tried) {
+    const auto fastest = std::ranges::min_element(tried, {}, &TriedLeaf::medianMs);
+    auto best = fastest;
+    for (auto one = tried.begin(); one != tried.end(); ++one)
+        if (one->medianMs <= kEqual * fastest->medianMs && one->report.bytes < best->report.bytes)
+            best = one;
+    return static_cast<std::size_t>(best - tried.begin());
+}
+
+absl::StatusOr<MeshTuning> tuneMesh(const std::string& outPath, const std::string& flight,
+                                    const ImportLeaf& importLeaf,
+                                    const std::function<void(std::string_view, double)>& done,
+                                    const std::stop_token& stop) {
+    // A flight that is none is told before anything is imported.
+    RETURN_IF_ERROR(bench::flightNamed(flight, {{0, 0, 0}, {1, 1, 1}}).status());
+    ASSIGN_OR_RETURN(const FolderBeside folder, FolderBeside::create(outPath));
+    MeshTuning tuning;
+    for (const std::uint32_t leafTriangles : kTriedLeafTriangles) {
+        TriedLeaf& tried = tuning.tried.emplace_back();
+        tried.leafTriangles = leafTriangles;
+        ASSIGN_OR_RETURN(tried.report, importLeaf(leafTriangles, folder.file(leafTriangles)));
+        if (tried.report.triangles <= leafTriangles)
+            break;
+    }
+    // In turn, so that what else the machine does falls to all alike.
+    std::vector<bench::Played> played(tuning.tried.size());
+    for (int round = 0; round < kRounds; ++round)
+        for (std::size_t i = 0; i < played.size(); ++i) {
+            const std::uint32_t leafTriangles = tuning.tried[i].leafTriangles;
+            done("measuring",
+                 (round + static_cast<double>(i) / static_cast<double>(played.size())) / kRounds);
+            ASSIGN_OR_RETURN(bench::Played once,
+                             playOnce(folder.file(leafTriangles), flight, stop));
+            append(played[i], std::move(once));
+        }
+    done("measuring", 1);
+    for (std::size_t i = 0; i < played.size(); ++i) sumUp(played[i], tuning.tried[i]);
+    tuning.best = bestOf(tuning.tried);
+    const std::uint32_t best = tuning.tried[tuning.best].leafTriangles;
+    RETURN_IF_ERROR(keep(folder.file(best), best, outPath));
+    return tuning;
+}
+
+std::string table(const MeshTuning& tuning) {
+    std::string text = "leaf size  median ms  triangles  file MB  promised px  limited by\n";
+    for (std::size_t i = 0; i < tuning.tried.size(); ++i) {
+        const TriedLeaf& one = tuning.tried[i];
+        text += fmt::format("{:>9}  {:>9.2f}  {:>9.0f}  {:>7.2f}  {:>11.3f}  {:<10}{}\n",
+                            one.leafTriangles, one.medianMs, one.trianglesMean,
+                            static_cast<double>(one.report.bytes) / 1e6, one.promisedPixels,
+                            one.limitingStage, i == tuning.best ? "  kept" : "");
+    }
+    return text;
+}
+
+}  // namespace eyrie::cli
