@@ -21,6 +21,7 @@
 #include "renderer/draw/tile_imagery.h"
 #include "renderer/draw/tint.h"
 #include "renderer/gl/object.h"
+#include "renderer/terrain/backs.h"
 #include "renderer/terrain/eyt_format.h"
 #include "renderer/terrain/part_bounds.h"
 #include "renderer/terrain/terrain_cut.h"
@@ -77,6 +78,7 @@ public:
 private:
     const terrain::EytIndex& index() const { return file_->index(); }
     void use(const TerrainEffect& program, const FrameState& frame);
+    void leaveOutBacks(const FrameState& frame) const;
     void addPageBounds(const terrain::TerrainCut& wanted, std::vector<Piece>& pieces) const;
     /// What a view wants at one step of the ladder.
     struct Wanted {
@@ -196,6 +198,17 @@ void TerrainDrawable::use(const TerrainEffect& program, const FrameState& frame)
     program.bandsPerHeight(static_cast<float>(kElevationBands / heights));
 }
 
+/// Where fronts hide them all; lines have no sides.
+void TerrainDrawable::leaveOutBacks(const FrameState& frame) const {
+    const lod::ObjectView view(frame.view,
+                               fabric::exaggerated(worldFromObject_, frame.look.exaggeration));
+    if (frame.shading == fabric::Shading::Wireframe ||
+        !terrain::hidesItsBacks(index(), drawn_, view))
+        return;
+    glFrontFace(glm::determinant(fabric::Mat3(view.viewFromObject())) < 0 ? GL_CW : GL_CCW);
+    glEnable(GL_CULL_FACE);
+}
+
 void TerrainDrawable::useNormals(const TerrainEffect& program, const terrain::TileId& tile) {
     const terrain::TileId id = index().quadtree.normalTile(tile);
     program.normalOrigin(
@@ -264,6 +277,7 @@ absl::Status TerrainDrawable::draw(std::span<const Piece> pieces, const FrameSta
     if (frame.look.tileBounds || frame.look.pageBounds)
         RETURN_IF_ERROR(boxLines_.begin(
             frame.view, fabric::exaggerated(worldFromObject_, frame.look.exaggeration)));
+    leaveOutBacks(frame);
     for (const Piece& piece : pieces) {
         if (!piece.isNode) {
             boxLines_.draw(piece.bounds, kPageColour);
@@ -283,6 +297,7 @@ absl::Status TerrainDrawable::draw(std::span<const Piece> pieces, const FrameSta
         if (frame.look.tileBounds)
             boxLines_.draw(piece.bounds, levelColour(choice.id.level));
     }
+    glDisable(GL_CULL_FACE);
     return absl::OkStatus();
 }
 

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "renderer/terrain/backs.h"
 #include "tests/renderer/terrain/hard_grids.h"
 
 namespace eyrie::terrain {
@@ -192,6 +193,42 @@ TEST(TerrainCut, LeavesOutTilesWithoutTriangles) {
     };
     EXPECT_FALSE(isAt(hole));
     EXPECT_TRUE(isAt({0, 4, 2}));
+}
+
+TEST(TerrainCut, HidesItsBacksFromAboveATerrainWithoutHolesOnly) {
+    Random random(6);
+    EytIndex index = randomIndex(1000, 700, random);
+    const TileId high{0, 3, 2};
+    index.tiles[index.quadtree.tileIndex(high)].maxHeightMetres = 1500;
+    const double side = 30 * Quadtree::side(0);
+    TerrainCut cut;
+    for (std::int32_t y = 0; y < index.quadtree.tilesY(0); ++y)
+        for (std::int32_t x = 0; x < index.quadtree.tilesX(0); ++x)
+            cut.tiles.push_back({{0, x, y}});
+    const auto hides = [&](const fabric::Vec3& eye, const fabric::Mat4& worldFromObject) {
+        fabric::Camera camera;
+        camera.eye = fabric::Vec3(worldFromObject * fabric::Vec4(eye, 1));
+        camera.target = camera.eye + fabric::Vec3(1, 1, -0.1);
+        return hidesItsBacks(index, cut,
+                             lod::ObjectView(lod::View(camera, 640, 480), worldFromObject));
+    };
+    const fabric::Mat4 here(1.0);
+    EXPECT_TRUE(hides({100, 100, 1001}, here));
+    EXPECT_FALSE(hides({100, 100, 999}, here)) << "perhaps below the ground";
+    EXPECT_FALSE(hides({-1, 100, 1001}, here)) << "beside the terrain";
+    EXPECT_FALSE(hides({100, 30 * 699 + 1, 1001}, here)) << "beside the terrain";
+    EXPECT_FALSE(hides({3.5 * side, 2.5 * side, 1001}, here)) << "the ground is higher there";
+    EXPECT_FALSE(hides({3 * side - 0.0001, 2.5 * side, 1001}, here)) << "the near plane cuts it";
+    EXPECT_TRUE(hides({3 * side - 1, 2.5 * side, 1001}, here));
+    fabric::Mat4 small(1e-3);
+    small[3][3] = 1;
+    EXPECT_FALSE(hides({3 * side - 1, 2.5 * side, 1001}, small)) << "the near plane cuts it";
+    fabric::Mat4 turnedOver(1.0);
+    turnedOver[2][2] = -1;
+    EXPECT_TRUE(hides({100, 100, 1001}, turnedOver));
+    EXPECT_FALSE(hides({100, 100, -1}, turnedOver));
+    index.nodataPosts = 1;
+    EXPECT_FALSE(hides({100, 100, 1001}, here)) << "a hole may show a back";
 }
 
 }  // namespace
