@@ -31,6 +31,20 @@ std::uint32_t packedSrgb(const fabric::Vec3& linear) {
     return byte(linear.x) | byte(linear.y) << 8 | byte(linear.z) << 16 | 0xFF000000U;
 }
 
+std::vector<fabric::PixelViewport> pixelsOf(const std::vector<fabric::Box>& boxes,
+                                            const lod::ObjectView& view) {
+    std::vector<fabric::PixelViewport> pixels;
+    for (const fabric::Box& box : boxes) pixels.push_back(view.coveredPixels(box));
+    return pixels;
+}
+
+/// Where pixels of a piece may show what lies behind a lid it is drawn with its backs.
+bool meet(const std::vector<fabric::PixelViewport>& some, const fabric::PixelViewport& one) {
+    return std::ranges::any_of(some, [&](const fabric::PixelViewport& other) {
+        return !fabric::intersection(one, other).isEmpty();
+    });
+}
+
 class MeshDrawable : public Drawable {
 public:
     MeshDrawable(const fabric::SceneObject& object, MeshPrograms& programs,
@@ -40,6 +54,7 @@ public:
           uniformColour_(packedSrgb(object.colour)),
           singleSided_(object.singleSided),
           file_(std::move(file)),
+          lids_(file_->lids()),
           paging_(std::move(paging)) {
         const mesh::Lattice& lattice = file_->lattice();
         objectFromLattice_ = glm::scale(glm::translate(fabric::Mat4(1.0), lattice.originMetres),
@@ -74,6 +89,7 @@ private:
     std::uint32_t uniformColour_;
     bool singleSided_;
     std::shared_ptr<const mesh::EymFile> file_;
+    std::vector<fabric::Box> lids_;
     double errorPixels_ = 0;  ///< of the last cut
     gl::VertexArray vertexArray_;
     std::unique_ptr<MeshPaging> paging_;
@@ -216,12 +232,16 @@ absl::Status MeshDrawable::draw(std::span<const Piece> pieces, const FrameState&
     glFrontFace(glm::determinant(fabric::Mat3(worldFromObject_)) < 0 ? GL_CW : GL_CCW);
     glBindVertexArray(vertexArray_.id());
     glVertexAttribI4ui(Program::kPackedColour.location, uniformColour_, 0, 0, 0);
+    const lod::ObjectView view(frame.view, worldFromObject_);
+    const std::vector<fabric::PixelViewport> lids = pixelsOf(lids_, view);
     for (const Piece& piece : pieces) {
         const DeviceNode* node = paging_->node(piece.index);
-        const GLsizei fronts =
-            singleSided_ ? node->indexCount
-                         : static_cast<GLsizei>(file_->nodes()[piece.index].frontIndexCount);
-        drawNode(*node, mayHideBacks ? fronts : 0);
+        const auto fronts = singleSided_
+                                ? node->indexCount
+                                : static_cast<GLsizei>(file_->nodes()[piece.index].frontIndexCount);
+        const bool hidesBacks =
+            mayHideBacks && (singleSided_ || !meet(lids, view.coveredPixels(piece.bounds)));
+        drawNode(*node, hidesBacks ? fronts : 0);
         statistics.triangles += static_cast<std::uint64_t>(node->indexCount) / 3;
     }
     return absl::OkStatus();

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <mutex>
 #include <numeric>
+#include <span>
 #include <utility>
 
 #include <glm/common.hpp>
@@ -34,29 +35,15 @@ constexpr std::size_t kGrain = 1024;  // columns
 /// Pockets of a node that are told apart.
 constexpr std::size_t kMostPockets = 64;
 
-/// The finalizer of Austin Appleby's MurmurHash3.
-std::uint64_t mixed(std::uint64_t value) {
-    value = (value ^ value >> 33) * 0xFF51AFD7ED558CCDULL;
-    value = (value ^ value >> 33) * 0xC4CEB9FE1A85EC53ULL;
-    return value ^ value >> 33;
-}
-
-/// Each edge adds a number of its own where it is passed one way, and takes it off where the other.
-bool isClosed(const PackedMesh& mesh) {
-    std::uint64_t sum = 0;
-    for (const Triangle& triangle : mesh.triangles)
-        for (std::size_t i = 0; i < 3; ++i) {
-            const std::uint64_t from = mesh.positions[triangle[i]];
-            const std::uint64_t to = mesh.positions[triangle[(i + 1) % 3]];
-            const std::uint64_t edge = mixed(mixed(std::min(from, to)) + std::max(from, to));
-            sum += from < to ? edge : from > to ? 0 - edge : 0;
-        }
-    return sum == 0;
-}
+/// A mesh's triangles, and its lids after them.
+struct Surface {
+    std::span<const std::uint64_t> positions;
+    std::span<const Triangle> triangles;
+};
 
 using Corners = std::array<glm::ivec3, 3>;
 
-Corners cornersOf(const PackedMesh& mesh, const Triangle& triangle) {
+Corners cornersOf(const Surface& mesh, const Triangle& triangle) {
     Corners corners;
     for (std::size_t i = 0; i < 3; ++i)
         corners[i] = glm::ivec3(unpackPosition(mesh.positions[triangle[i]]));
@@ -89,19 +76,19 @@ struct Standing {
 class Columns {
 public:
     /// Nothing when it would take too long.
-    static std::optional<Columns> sort(const PackedMesh& mesh);
+    static std::optional<Columns> sort(const Surface& mesh);
 
     std::vector<std::uint32_t> seenFromBehind() const;
 
 private:
-    explicit Columns(const PackedMesh& mesh);
+    explicit Columns(const Surface& mesh);
     template <typename Visit>
     void forColumns(const Corners& corners, const Visit& visit) const;
     std::size_t columnOf(int x, int y) const;
     void look(std::size_t column, std::vector<Standing>& all,
               std::vector<std::uint32_t>& found) const;
 
-    const PackedMesh& mesh_;
+    Surface mesh_;
     glm::ivec3 low_{0};
     std::int64_t side_ = 1;  ///< of a column, in steps
     std::int64_t columnsX_ = 1;
@@ -110,7 +97,7 @@ private:
     std::vector<std::uint32_t> triangles_;
 };
 
-Columns::Columns(const PackedMesh& mesh) : mesh_(mesh) {
+Columns::Columns(const Surface& mesh) : mesh_(mesh) {
     glm::ivec3 high(0);
     low_ = glm::ivec3(static_cast<int>(kMaxLatticeCoordinate));
     for (const std::uint64_t position : mesh.positions) {
@@ -143,7 +130,7 @@ void Columns::forColumns(const Corners& corners, const Visit& visit) const {
         for (std::size_t column = row; column <= row + across; ++column) visit(column);
 }
 
-std::optional<Columns> Columns::sort(const PackedMesh& mesh) {
+std::optional<Columns> Columns::sort(const Surface& mesh) {
     Columns columns(mesh);
     columns.first_.resize(static_cast<std::size_t>(columns.columnsX_ * columns.columnsY_) + 1, 0);
     std::uint64_t entries = 0;
@@ -246,11 +233,21 @@ std::vector<std::uint32_t> Columns::seenFromBehind() const {
 
 }  // namespace
 
-std::optional<std::vector<std::uint32_t>> seenFromBehind(const PackedMesh& mesh) {
-    if (mesh.triangles.empty() || !isClosed(mesh))
+std::optional<std::vector<std::uint32_t>> seenFromBehind(const PackedMesh& mesh, const Lids& lids) {
+    if (mesh.triangles.empty())
         return std::nullopt;
-    const std::optional<Columns> columns = Columns::sort(mesh);
-    return columns ? std::optional(columns->seenFromBehind()) : std::nullopt;
+    std::vector<Triangle> both;
+    if (!lids.triangles.empty()) {
+        both = mesh.triangles;
+        both.insert(both.end(), lids.triangles.begin(), lids.triangles.end());
+    }
+    const std::optional<Columns> columns =
+        Columns::sort({mesh.positions, both.empty() ? mesh.triangles : both});
+    if (!columns)
+        return std::nullopt;
+    std::vector<std::uint32_t> found = columns->seenFromBehind();
+    std::erase_if(found, [&](std::uint32_t i) { return i >= mesh.triangles.size(); });
+    return found;
 }
 
 Box boxOf(const PackedMesh& mesh, const Triangle& triangle) {
@@ -294,9 +291,10 @@ bool Pockets::reach(const Box& box, double steps) const {
            });
 }
 
-std::vector<Pockets> findPockets(const PackedMesh& mesh, const KdTree& tree) {
+std::vector<Pockets> findPockets(const PackedMesh& mesh, const std::optional<Lids>& lids,
+                                 const KdTree& tree) {
     std::vector<Pockets> pockets(tree.nodes.size());
-    const auto behind = seenFromBehind(mesh);
+    const auto behind = lids ? seenFromBehind(mesh, *lids) : std::nullopt;
     if (!behind) {
         for (Pockets& node : pockets) node.addAll();
         return pockets;

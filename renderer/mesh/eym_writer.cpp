@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -78,10 +79,19 @@ public:
           tree_(tree),
           lod_(lod),
           isCoded_(isCoded),
-          pockets_(findPockets(mesh, tree)),
+          lids_(findLids(mesh)),
+          pockets_(findPockets(mesh, lids_, tree)),
           exactForm_(exactFormOf(mesh.exact)) {}
 
     ExactForm exactForm() const { return exactForm_; }
+
+    std::vector<Lid> lids() const {
+        std::vector<Lid> lids;
+        if (lids_)
+            for (const fabric::Box& box : lids_->boxes)
+                lids.push_back({glm::uvec3(box.min), glm::uvec3(box.max)});
+        return lids;
+    }
 
     Pages make(std::size_t index) const {
         const KdNode& node = tree_.nodes[index];
@@ -108,6 +118,7 @@ private:
     const KdTree& tree_;
     const LodTree& lod_;
     bool isCoded_;
+    std::optional<Lids> lids_;
     std::vector<Pockets> pockets_;
     ExactForm exactForm_;
 };
@@ -128,9 +139,10 @@ std::uint64_t aligned(std::uint64_t value) {
 
 /// `end` becomes that of the file.
 std::vector<Node> layOutNodes(const KdTree& tree, const LodTree& lod,
-                              const std::vector<Pages>& pages, std::uint64_t& end) {
+                              const std::vector<Pages>& pages, std::size_t lidCount,
+                              std::uint64_t& end) {
     std::vector<Node> nodes(tree.nodes.size());
-    end = sizeof(EymHeader) + nodes.size() * sizeof(Node);
+    end = sizeof(EymHeader) + nodes.size() * sizeof(Node) + lidCount * sizeof(Lid);
     const auto place = [&end](const std::vector<std::byte>& page, std::uint64_t& offset,
                               std::uint32_t& bytes, std::uint64_t& checksum) {
         offset = end;
@@ -174,9 +186,12 @@ std::uint32_t flagsOf(const PackedMesh& mesh, const EymOptions& options, ExactFo
            (exactForm == ExactForm::Float64 ? kExactIsFloat64 : 0);
 }
 
-EymHeader makeHeader(const PackedMesh& mesh, const std::vector<Node>& nodes) {
+EymHeader makeHeader(const PackedMesh& mesh, const std::vector<Node>& nodes,
+                     const std::vector<Lid>& lids) {
     EymHeader header;
     header.nodesChecksum = contentHash(std::as_bytes(std::span(nodes)));
+    header.lidsChecksum = contentHash(std::as_bytes(std::span(lids)));
+    header.lidCount = lids.size();
     header.triangleCount = mesh.triangles.size();
     header.sourceVertexCount = countUsedVertices(mesh);
     header.nodeCount = static_cast<std::uint32_t>(nodes.size());
@@ -208,14 +223,16 @@ absl::Status writeEym(const PackedMesh& mesh, const KdTree& tree, const LodTree&
     const PageMaker maker(mesh, tree, lod, options.isCoded);
     const std::vector<Pages> pages = makePages(tree, maker, stop);
     std::uint64_t end = 0;
-    const std::vector<Node> nodes = layOutNodes(tree, lod, pages, end);
-    EymHeader header = makeHeader(mesh, nodes);
+    const std::vector<Lid> lids = maker.lids();
+    const std::vector<Node> nodes = layOutNodes(tree, lod, pages, lids.size(), end);
+    EymHeader header = makeHeader(mesh, nodes, lids);
     header.flags = flagsOf(mesh, options, maker.exactForm());
     header.sourceHash = options.sourceHash;
     header.fileBytes = end;
     header.checksum = headerChecksum(header);
     RETURN_IF_ERROR(out.write(std::as_bytes(std::span(&header, 1))));
     RETURN_IF_ERROR(out.write(std::as_bytes(std::span(nodes))));
+    RETURN_IF_ERROR(out.write(std::as_bytes(std::span(lids))));
     return writePages(pages, out, stop);
 }
 
