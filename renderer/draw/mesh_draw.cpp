@@ -35,6 +35,20 @@ std::uint32_t packedSrgb(const fabric::Vec3& linear) {
 
 bool isTinted(const fabric::Look& look) { return look.levelTint || look.rangeTint; }
 
+std::vector<fabric::PixelViewport> pixelsOf(const std::vector<fabric::Box>& boxes,
+                                            const lod::ObjectView& view) {
+    std::vector<fabric::PixelViewport> pixels;
+    for (const fabric::Box& box : boxes) pixels.push_back(view.coveredPixels(box));
+    return pixels;
+}
+
+/// Where pixels of a piece may show what lies behind a lid it is drawn with its backs.
+bool meet(const std::vector<fabric::PixelViewport>& some, const fabric::PixelViewport& one) {
+    return std::ranges::any_of(some, [&](const fabric::PixelViewport& other) {
+        return !fabric::intersection(one, other).isEmpty();
+    });
+}
+
 class MeshDrawable : public Drawable {
 public:
     MeshDrawable(const fabric::SceneObject& object, MeshPrograms& programs,
@@ -44,6 +58,7 @@ public:
           uniformColour_(packedSrgb(object.colour)),
           singleSided_(object.singleSided),
           file_(std::move(file)),
+          lids_(file_->lids()),
           paging_(std::move(paging)) {
         const mesh::Lattice& lattice = file_->lattice();
         objectFromLattice_ = glm::scale(glm::translate(fabric::Mat4(1.0), lattice.originMetres),
@@ -71,7 +86,7 @@ private:
     page::HostPages::Loads reach(const CutRequest& request, double tauPixels);
     bool mayHideBacks(const FrameState& frame) const;
     void drawNode(const DeviceNode& node, GLsizei fronts) const;
-    void drawPiece(const Piece& piece, const FrameState& frame, bool mayHideBacks) const;
+    void drawPiece(const Piece& piece, const FrameState& frame, bool hidesBacks) const;
     void use(const Program& program, const FrameState& frame) const;
     void colour(const Piece& piece, const FrameState& frame) const;
     int levelOf(std::uint32_t node) const;
@@ -82,6 +97,7 @@ private:
     std::uint32_t uniformColour_;
     bool singleSided_;
     std::shared_ptr<const mesh::EymFile> file_;
+    std::vector<fabric::Box> lids_;
     double errorPixels_ = 0;  ///< of the last cut
     gl::VertexArray vertexArray_;
     BoxLines boxLines_;
@@ -245,13 +261,13 @@ void MeshDrawable::colour(const Piece& piece, const FrameState& frame) const {
     glVertexAttribI4ui(Program::kPackedColour.location, colour, 0, 0, 0);
 }
 
-void MeshDrawable::drawPiece(const Piece& piece, const FrameState& frame, bool mayHideBacks) const {
+void MeshDrawable::drawPiece(const Piece& piece, const FrameState& frame, bool hidesBacks) const {
     const DeviceNode* node = paging_->node(piece.index);
     const GLsizei fronts = singleSided_
                                ? node->indexCount
                                : static_cast<GLsizei>(file_->nodes()[piece.index].frontIndexCount);
     colour(piece, frame);
-    drawNode(*node, mayHideBacks ? fronts : 0);
+    drawNode(*node, hidesBacks ? fronts : 0);
 }
 
 absl::Status MeshDrawable::draw(std::span<const Piece> pieces, const FrameState& frame,
@@ -264,8 +280,11 @@ absl::Status MeshDrawable::draw(std::span<const Piece> pieces, const FrameState&
     use(*program, frame);
     setObject(*program, frame, worldFromObject_, objectFromLattice_);
     const bool mayHideBacks = this->mayHideBacks(frame);
+    const lod::ObjectView view(frame.view, worldFromObject_);
+    const std::vector<fabric::PixelViewport> lids = pixelsOf(lids_, view);
     for (const Piece& piece : pieces) {
-        drawPiece(piece, frame, mayHideBacks);
+        drawPiece(piece, frame,
+                  mayHideBacks && (singleSided_ || !meet(lids, view.coveredPixels(piece.bounds))));
         statistics.triangles += piece.triangles;
         if (frame.look.tileBounds) {
             // At once, so that where depths tie the lower range wins as in compositing.

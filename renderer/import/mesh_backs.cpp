@@ -7,7 +7,7 @@
 #include <glm/common.hpp>
 
 #include "renderer/mesh/back_columns.h"
-#include "renderer/mesh/back_faces.h"
+#include "renderer/mesh/lids.h"
 
 namespace eyrie::import {
 namespace {
@@ -154,7 +154,9 @@ absl::StatusOr<std::optional<std::vector<bool>>> findBacks(const MeshSpool& spoo
     for (std::size_t strip = 0; strip < strips.size(); ++strip) {
         RETURN_IF_ERROR(control.check());
         ASSIGN_OR_RETURN(const std::vector<SpooledTriangle> rows, grouped.read(strip));
-        const auto found = mesh::seenFromBehind(meshOf(rows), *grid, strips[strip], comparisons);
+        const mesh::PackedMesh part = meshOf(rows);
+        const auto found = mesh::seenFromBehind({part.positions, part.triangles}, *grid,
+                                                strips[strip], comparisons);
         if (!found)
             return std::nullopt;
         for (const std::uint32_t i : *found) isBehind[rows[i].number] = true;

@@ -74,21 +74,21 @@ absl::StatusOr<MeshImportReport> build(TriangleMesh source, mesh::OutputFile& ou
     control.report("levels", 0);
     // The two have stretches that keep one core only.
     absl::StatusOr<mesh::LodTree> lod;
-    std::vector<mesh::Pockets> pockets;
+    mesh::Backs backs;
     oneapi::tbb::parallel_invoke(
         [&] {
             lod = mesh::buildLodTree(
                 packed, tree, {}, [&control](double share) { control.report("levels", share); },
                 control.stop);
         },
-        [&] { pockets = mesh::findPockets(packed, tree); });
+        [&] { backs = mesh::findBacks(packed, tree); });
     RETURN_IF_ERROR(lod.status());
     control.report("levels", 1);
     report.seconds.levels = watch.lap();
     report.levels = lod->levels;
 
     control.report("writing", 0);
-    RETURN_IF_ERROR(mesh::writeEym(packed, tree, *lod, pockets,
+    RETURN_IF_ERROR(mesh::writeEym(packed, tree, *lod, backs,
                                    {.isCoded = !options.isRaw, .sourceHash = sourceHash}, out,
                                    control.stop));
     report.seconds.write = watch.lap();

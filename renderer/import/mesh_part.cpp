@@ -261,10 +261,9 @@ PartSurface surfaceOf(const OwnMesh& own, mesh::LodPart lod, const mesh::KdNode&
 
 absl::StatusOr<std::uint64_t> appendEym(const PartWork& work, const mesh::PackedMesh& mesh,
                                         const mesh::KdTree& tree, const mesh::LodTree& lod,
-                                        std::span<const mesh::Pockets> pockets,
-                                        const std::stop_token& stop) {
+                                        const mesh::Backs& backs, const std::stop_token& stop) {
     const std::uint64_t offset = work.out.size();
-    RETURN_IF_ERROR(mesh::writeEym(mesh, tree, lod, pockets,
+    RETURN_IF_ERROR(mesh::writeEym(mesh, tree, lod, backs,
                                    {.isCoded = !work.options.isRaw,
                                     .sourceHash = work.sourceHash,
                                     .exactForm = work.exactForm},
@@ -340,18 +339,18 @@ absl::StatusOr<WrittenPart> writePart(const PartWork& work, std::uint32_t part,
         mesh::buildLodTree(
             own.mesh, tree, options, [&](double share) { control.report("levels", share); },
             control.stop, &parts));
-    const std::vector<mesh::Pockets> pockets =
-        work.isBehind ? mesh::gatherPockets(own.mesh, tree, own.isBehind)
-                      : mesh::pocketsEverywhere(tree);
+    const mesh::Backs backs{work.isBehind ? mesh::gatherPockets(own.mesh, tree, own.isBehind)
+                                          : mesh::pocketsEverywhere(tree),
+                            {}};
     WrittenPart written;
-    ASSIGN_OR_RETURN(written.offset, appendEym(work, own.mesh, tree, lod, pockets, control.stop));
+    ASSIGN_OR_RETURN(written.offset, appendEym(work, own.mesh, tree, lod, backs, control.stop));
     written.nodes = tree.nodes.size();
     written.vertices = own.newVertices;
     written.computedNormals = own.computedNormals;
     written.levels = lod.levels;
     written.errorMetres = lod.errorMetres.front();
     written.surface = surfaceOf(own, std::move(parts.root), tree.nodes.front(), options);
-    written.surface.pockets = pockets.front();
+    written.surface.pockets = backs.pockets.front();
     return written;
 }
 
@@ -399,9 +398,8 @@ absl::StatusOr<WrittenPart> writeAbove(const PartWork& work, const SplitNode& no
     std::iota(tree.order.begin(), tree.order.end(), 0U);
     lod.geometry = {{}};
     lod.errorMetres.resize(1);
-    ASSIGN_OR_RETURN(written.offset,
-                     appendEym(work, both.mesh, tree, lod, std::span(&written.surface.pockets, 1),
-                               control.stop));
+    ASSIGN_OR_RETURN(written.offset, appendEym(work, both.mesh, tree, lod,
+                                               {{written.surface.pockets}, {}}, control.stop));
     return written;
 }
 

@@ -26,7 +26,7 @@ constexpr std::size_t kMostComparisons = 512;
 constexpr int kBefore = 2;
 constexpr std::size_t kGrain = 1024;  // columns
 
-Corners cornersOf(const PackedMesh& mesh, const Triangle& triangle) {
+Corners cornersOf(const Surface& mesh, const Triangle& triangle) {
     return eyrie::mesh::cornersOf(
         {mesh.positions[triangle[0]], mesh.positions[triangle[1]], mesh.positions[triangle[2]]});
 }
@@ -92,7 +92,7 @@ EYRIE_SIMD_CLONES void Standing::compare(const int* __restrict lowX, const int* 
 /// The triangles of a mesh by the columns of some rows of a grid.
 class Columns {
 public:
-    Columns(const PackedMesh& mesh, const ColumnGrid& grid, const RowRange& rows);
+    Columns(const Surface& mesh, const ColumnGrid& grid, const RowRange& rows);
 
     /// One for each two triangles of a column.
     double comparisons() const;
@@ -103,7 +103,7 @@ private:
     void forColumns(const Corners& corners, const Visit& visit) const;
     void look(std::size_t column, Standing& all, std::vector<std::uint32_t>& found) const;
 
-    const PackedMesh& mesh_;
+    Surface mesh_;
     const ColumnGrid& grid_;
     RowRange rows_;
     std::vector<std::uint64_t> first_;  ///< of a column's in triangles_; one more than columns
@@ -121,7 +121,7 @@ void Columns::forColumns(const Corners& corners, const Visit& visit) const {
             visit(std::size_t{y - rows_.begin} * grid_.columnsX + x);
 }
 
-Columns::Columns(const PackedMesh& mesh, const ColumnGrid& grid, const RowRange& rows)
+Columns::Columns(const Surface& mesh, const ColumnGrid& grid, const RowRange& rows)
     : mesh_(mesh),
       grid_(grid),
       rows_(rows),
@@ -251,7 +251,7 @@ bool ColumnGrid::isTooMuch(std::uint64_t entries, double comparisons) const {
            comparisons > static_cast<double>(kMostComparisons * triangleCount);
 }
 
-std::optional<std::vector<std::uint32_t>> seenFromBehind(const PackedMesh& mesh,
+std::optional<std::vector<std::uint32_t>> seenFromBehind(const Surface& mesh,
                                                          const ColumnGrid& grid,
                                                          const RowRange& rows,
                                                          double& comparisons) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -13,6 +14,12 @@
 /// How often triangles are wound around the points before them, counted along z in the columns of a
 /// grid: what back_faces.h stands on, a part of the grid at a time.
 namespace eyrie::mesh {
+
+/// A mesh's triangles, and its lids after them.
+struct Surface {
+    std::span<const std::uint64_t> positions;  ///< packed
+    std::span<const Triangle> triangles;
+};
 
 /// Of a triangle, on the lattice.
 using Corners = std::array<glm::ivec3, 3>;
@@ -54,7 +61,7 @@ struct RowRange {
 /// The triangles, ascending, whose middle is in the columns of `rows` and which somebody outside
 /// may see from behind (back_faces.h). Adds to `comparisons` what had to be compared; nothing where
 /// that is too much. Precondition: the mesh has all triangles over these columns.
-std::optional<std::vector<std::uint32_t>> seenFromBehind(const PackedMesh& mesh,
+std::optional<std::vector<std::uint32_t>> seenFromBehind(const Surface& mesh,
                                                          const ColumnGrid& grid,
                                                          const RowRange& rows, double& comparisons);
 

@@ -2,6 +2,7 @@
 #include "renderer/mesh/back_faces.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include <glm/common.hpp>
@@ -20,22 +21,15 @@ using fabric::Box;
 /// Pockets of a node that are told apart.
 constexpr std::size_t kMostPockets = 64;
 
-/// The finalizer of Austin Appleby's MurmurHash3.
-std::uint64_t mixed(std::uint64_t value) {
-    value = (value ^ value >> 33) * 0xFF51AFD7ED558CCDULL;
-    value = (value ^ value >> 33) * 0xC4CEB9FE1A85EC53ULL;
-    return value ^ value >> 33;
-}
-
 bool touch(const Box& a, const Box& b) {
     return glm::all(glm::lessThanEqual(a.min, b.max)) && glm::all(glm::lessThanEqual(b.min, a.max));
 }
 
-std::array<std::uint64_t, 3> positionsOf(const PackedMesh& mesh, const Triangle& triangle) {
+std::array<std::uint64_t, 3> positionsOf(const Surface& mesh, const Triangle& triangle) {
     return {mesh.positions[triangle[0]], mesh.positions[triangle[1]], mesh.positions[triangle[2]]};
 }
 
-ColumnGrid gridOf(const PackedMesh& mesh) {
+ColumnGrid gridOf(const Surface& mesh) {
     glm::ivec3 least(static_cast<int>(kMaxLatticeCoordinate));
     glm::ivec3 most(0);
     for (const std::uint64_t position : mesh.positions) {
@@ -47,31 +41,27 @@ ColumnGrid gridOf(const PackedMesh& mesh) {
 
 }  // namespace
 
-std::uint64_t edgeSum(const std::array<std::uint64_t, 3>& positions) {
-    std::uint64_t sum = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const std::uint64_t from = positions[i];
-        const std::uint64_t to = positions[(i + 1) % 3];
-        const std::uint64_t edge = mixed(mixed(std::min(from, to)) + std::max(from, to));
-        sum += from < to ? edge : from > to ? 0 - edge : 0;
-    }
-    return sum;
-}
-
-std::optional<std::vector<std::uint32_t>> seenFromBehind(const PackedMesh& mesh) {
-    std::uint64_t edges = 0;
-    for (const Triangle& triangle : mesh.triangles) edges += edgeSum(positionsOf(mesh, triangle));
-    if (mesh.triangles.empty() || edges != 0)
+std::optional<std::vector<std::uint32_t>> seenFromBehind(const PackedMesh& mesh, const Lids& lids) {
+    if (mesh.triangles.empty())
         return std::nullopt;
-    const ColumnGrid grid = gridOf(mesh);
+    std::vector<Triangle> both;
+    if (!lids.triangles.empty()) {
+        both = mesh.triangles;
+        both.insert(both.end(), lids.triangles.begin(), lids.triangles.end());
+    }
+    const Surface surface{mesh.positions, both.empty() ? mesh.triangles : both};
+    const ColumnGrid grid = gridOf(surface);
     std::uint64_t entries = 0;
-    for (const Triangle& triangle : mesh.triangles)
-        if (const auto reach = grid.reachOf(cornersOf(positionsOf(mesh, triangle))))
+    for (const Triangle& triangle : surface.triangles)
+        if (const auto reach = grid.reachOf(cornersOf(positionsOf(surface, triangle))))
             entries += reach->columns();
     if (grid.isTooMuch(entries, 0))
         return std::nullopt;
     double comparisons = 0;
-    return seenFromBehind(mesh, grid, {0, grid.rows}, comparisons);
+    auto found = seenFromBehind(surface, grid, {0, grid.rows}, comparisons);
+    if (found)
+        std::erase_if(*found, [&](std::uint32_t i) { return i >= mesh.triangles.size(); });
+    return found;
 }
 
 Box boxOf(const PackedMesh& mesh, const Triangle& triangle) {
@@ -138,13 +128,22 @@ std::vector<Pockets> pocketsEverywhere(const KdTree& tree) {
     return pockets;
 }
 
-std::vector<Pockets> findPockets(const PackedMesh& mesh, const KdTree& tree) {
-    const auto behind = seenFromBehind(mesh);
+std::vector<Pockets> findPockets(const PackedMesh& mesh, const std::optional<Lids>& lids,
+                                 const KdTree& tree) {
+    const auto behind = lids ? seenFromBehind(mesh, *lids) : std::nullopt;
     if (!behind)
         return pocketsEverywhere(tree);
     std::vector<bool> isBehind(mesh.triangles.size(), false);
     for (const std::uint32_t triangle : *behind) isBehind[triangle] = true;
     return gatherPockets(mesh, tree, isBehind);
+}
+
+Backs findBacks(const PackedMesh& mesh, const KdTree& tree) {
+    std::optional<Lids> lids = findLids(mesh);
+    Backs backs{findPockets(mesh, lids, tree), {}};
+    if (lids)
+        backs.lids = std::move(lids->boxes);
+    return backs;
 }
 
 }  // namespace eyrie::mesh

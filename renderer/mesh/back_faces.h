@@ -1,35 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "fabric/box.h"
 #include "renderer/mesh/kd_tree.h"
+#include "renderer/mesh/lids.h"
 #include "renderer/mesh/packed_mesh.h"
 
 namespace eyrie::mesh {
 
-/// Triangles, ascending, that an eye outside the mesh's bounds may see from behind; nothing where
-/// all of them may be.
+/// Triangles, ascending, that an eye outside the mesh's bounds may see from behind, other than
+/// through a lid.
 ///
-/// A mesh that passes each edge as often one way as the other (corners at one position being the
-/// same) winds each point of space a whole number of times, and those outside not at all. So
-/// whoever looks at a back from outside looks through points that are wound less than no times, up
-/// to the triangle: such pockets are where the mesh goes through itself, or is inside out. The
-/// number is counted before each triangle's middle, two lattice steps along z (rounding pushes thin
-/// walls through each other). Pockets that reach no triangle's middle escape, and triangles along z
-/// are not asked.
+/// A mesh that with its lids passes each edge as often one way as the other winds each point of
+/// space a whole number of times, and those outside not at all. So whoever looks at a back from
+/// outside, and through no lid, looks through points that are wound less than no times, up to the
+/// triangle: such pockets are where the mesh goes through itself, or is inside out. The number is
+/// counted before each triangle's middle, two lattice steps along z (rounding pushes thin walls
+/// through each other). Pockets that reach no triangle's middle escape, and triangles along z are
+/// not asked.
 ///
-/// Nothing, too, where it would take too long to tell. Edges are added up as 64-bit hashes: an open
-/// mesh passes for a closed one with a probability of 2^-64.
-std::optional<std::vector<std::uint32_t>> seenFromBehind(const PackedMesh& mesh);
-
-/// Of a triangle between these positions, for each edge a number of its own, or less that number
-/// where it is passed the other way. All of them make 0 where the mesh is closed.
-std::uint64_t edgeSum(const std::array<std::uint64_t, 3>& positions);
+/// Nothing where it would take too long to tell.
+std::optional<std::vector<std::uint32_t>> seenFromBehind(const PackedMesh& mesh, const Lids& lids);
 
 /// Where the pockets under a node are: boxes around the triangles that are seen from behind, in
 /// lattice steps, those together that are near each other.
@@ -56,10 +51,19 @@ std::vector<Pockets> gatherPockets(const PackedMesh& mesh, const KdTree& tree,
 /// Where that is not known.
 std::vector<Pockets> pocketsEverywhere(const KdTree& tree);
 
-/// For each node of `tree` the pockets under it: everywhere where seenFromBehind() gives nothing.
-/// What stands for a node shows its back to nobody outside, but to within its error, where no
-/// pocket comes within its error (docs/errors.md#back-faces).
-std::vector<Pockets> findPockets(const PackedMesh& mesh, const KdTree& tree);
+/// For each node of `tree` the pockets under it: everywhere where there are no `lids`, or
+/// seenFromBehind() gives nothing. What stands for a node shows its back to nobody outside who does
+/// not look through a lid, but to within its error, where no pocket comes within its error
+/// (docs/errors.md#back-faces).
+std::vector<Pockets> findPockets(const PackedMesh& mesh, const std::optional<Lids>& lids,
+                                 const KdTree& tree);
+
+/// Where a mesh may be seen from behind.
+struct Backs {
+    std::vector<Pockets> pockets;   ///< by node
+    std::vector<fabric::Box> lids;  ///< in lattice steps
+};
+Backs findBacks(const PackedMesh& mesh, const KdTree& tree);
 
 /// The box of a triangle, in lattice steps.
 fabric::Box boxOf(const PackedMesh& mesh, const Triangle& triangle);

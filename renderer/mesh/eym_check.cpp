@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -14,6 +15,7 @@
 
 #include "fabric/status.h"
 #include "renderer/mesh/kd_tree.h"
+#include "renderer/mesh/lids.h"
 
 namespace eyrie::mesh {
 namespace {
@@ -27,10 +29,12 @@ absl::Status damaged(std::string_view field, const Found& found, const Expected&
 }
 
 std::uint64_t endOfTables(const EymHeader& header) {
-    return sizeof(EymHeader) + std::uint64_t{header.nodeCount} * sizeof(Node);
+    return endOfNodes(header) + header.lidCount * sizeof(Lid);
 }
 
 absl::Status checkCounts(const EymHeader& header) {
+    if (header.lidCount > kMostLids)
+        return damaged("header.lidCount", header.lidCount, fmt::format("at most {}", kMostLids));
     if (header.nodeCount == 0 || header.nodeCount > 2 * kMaxTriangles ||
         endOfTables(header) > header.fileBytes)
         return damaged("header.nodeCount", header.nodeCount, "at least 1, and room for them");
@@ -70,6 +74,19 @@ absl::Status checkKind(std::span<const std::byte> file) {
     return absl::OkStatus();
 }
 
+/// A node's box, or a lid's.
+template <typename Boxed>
+absl::Status checkBoxOf(const std::string& name, const Boxed& boxed) {
+    if (glm::any(glm::greaterThan(boxed.boxMin, boxed.boxMax)) ||
+        glm::any(glm::greaterThan(boxed.boxMax, glm::uvec3(kMaxLatticeCoordinate))))
+        return damaged(
+            name,
+            fmt::format("x {} to {}, y {} to {}, z {} to {}", boxed.boxMin.x, boxed.boxMax.x,
+                        boxed.boxMin.y, boxed.boxMax.y, boxed.boxMin.z, boxed.boxMax.z),
+            fmt::format("ascending and at most {}", kMaxLatticeCoordinate));
+    return absl::OkStatus();
+}
+
 /// Walks the table once, checking each node against itself and its parent.
 class NodeCheck {
 public:
@@ -98,13 +115,7 @@ private:
 
 absl::Status NodeCheck::checkBox(std::uint32_t index) const {
     const Node& node = nodes_[index];
-    if (glm::any(glm::greaterThan(node.boxMin, node.boxMax)) ||
-        glm::any(glm::greaterThan(node.boxMax, glm::uvec3(kMaxLatticeCoordinate))))
-        return damaged(
-            fmt::format("node {}: box", index),
-            fmt::format("x {} to {}, y {} to {}, z {} to {}", node.boxMin.x, node.boxMax.x,
-                        node.boxMin.y, node.boxMax.y, node.boxMin.z, node.boxMax.z),
-            fmt::format("ascending and at most {}", kMaxLatticeCoordinate));
+    RETURN_IF_ERROR(checkBoxOf(fmt::format("node {}: box", index), node));
     if (!(std::isfinite(node.errorMetres) && node.errorMetres >= 0))
         return damaged(fmt::format("node {}: errorMetres", index), node.errorMetres,
                        "a finite length");
@@ -249,6 +260,12 @@ absl::Status checkHeader(std::span<const std::byte> beginning, std::uint64_t fil
 
 absl::StatusOr<int> checkNodes(const EymHeader& header, std::span<const Node> nodes) {
     return NodeCheck(header, nodes).run();
+}
+
+absl::Status checkLids(std::span<const Lid> lids) {
+    for (std::size_t i = 0; i < lids.size(); ++i)
+        RETURN_IF_ERROR(checkBoxOf(fmt::format("lid {}: box", i), lids[i]));
+    return absl::OkStatus();
 }
 
 }  // namespace eyrie::mesh

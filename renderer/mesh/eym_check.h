@@ -13,7 +13,7 @@
 /// field but not the file.
 namespace eyrie::mesh {
 
-/// Magic, version, checksum, lattice, and that the node table lies inside a file of `fileBytes`
+/// Magic, version, checksum, lattice, and that the tables lie inside a file of `fileBytes`
 /// that begins with `beginning` (its header, or more). Errors: InvalidArgument (another
 /// kind of file, another version), DataLoss.
 absl::Status checkHeader(std::span<const std::byte> beginning, std::uint64_t fileBytes);
@@ -22,5 +22,8 @@ absl::Status checkHeader(std::span<const std::byte> beginning, std::uint64_t fil
 /// and triangle ranges nested, and that their pages lie inside the file and hold no more than a
 /// node may have. Returns the levels. Errors: DataLoss. Precondition: checkHeader is ok.
 absl::StatusOr<int> checkNodes(const EymHeader& header, std::span<const Node> nodes);
+
+/// That they have boxes on the lattice. Errors: DataLoss.
+absl::Status checkLids(std::span<const Lid> lids);
 
 }  // namespace eyrie::mesh

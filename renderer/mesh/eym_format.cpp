@@ -71,7 +71,18 @@ absl::Status EymFile::readTables() {
     if (!levels.ok())
         return fabric::withContext(levels.status(), path());
     levels_ = *levels;
-    return absl::OkStatus();
+    lids_.resize(header_.lidCount);
+    const auto lidBytes = std::as_writable_bytes(std::span(lids_));
+    RETURN_IF_ERROR(source_->read({endOfNodes(header_), lidBytes.size(), header_.lidsChecksum},
+                                  lidBytes, "the lids"));
+    return fabric::withContext(checkLids(lids_), path());
+}
+
+std::vector<fabric::Box> EymFile::lids() const {
+    std::vector<fabric::Box> boxes;
+    for (const Lid& lid : lids_)
+        boxes.push_back({lattice_.metres(lid.boxMin), lattice_.metres(lid.boxMax)});
+    return boxes;
 }
 
 fabric::Box EymFile::bounds(std::uint32_t node) const {

@@ -25,6 +25,7 @@
 /// Little-endian:
 ///   EymHeader                       256 bytes
 ///   Node        [nodeCount]         depth first
+///   Lid         [lidCount]
 ///   pages                           of the nodes that have geometry, in their order: that of what
 ///                                   is drawn, and then, where kept, that of source positions
 /// A node's page, uncoded, is the block of node_block.h, ready to be mapped; it then begins on a
@@ -66,7 +67,9 @@ struct EymHeader {
     double finestErrorMetres = 0;    ///< of the leaves
     /// Triangles a leaf may have, where a measurement chose that; otherwise 0.
     std::uint64_t tunedLeafTriangles = 0;
-    std::array<std::uint64_t, 16> reserved{};
+    std::uint64_t lidsChecksum = 0;  ///< xxh64 of the lids
+    std::uint64_t lidCount = 0;
+    std::array<std::uint64_t, 14> reserved{};
 };
 static_assert(sizeof(EymHeader) == 256);
 
@@ -94,13 +97,22 @@ struct Node {
     /// own geometry or, where it has none, its children. Never below its children's.
     float errorMetres = 0;
     /// The first indices, three a triangle, of triangles of which an eye outside the mesh's bounds
-    /// sees no backs (back_faces.h): these need not be drawn.
+    /// sees no backs (back_faces.h) but through a lid: these need not be drawn.
     std::uint32_t frontIndexCount = 0;
 
     bool isLeaf() const { return left < 0; }
     bool operator==(const Node&) const = default;
 };
 static_assert(sizeof(Node) == 112);
+
+/// Holds what closes a hole of the source's surface in thought (lids.h). Lattice, closed.
+struct Lid {
+    glm::uvec3 boxMin{0U};
+    glm::uvec3 boxMax{0U};
+
+    bool operator==(const Lid&) const = default;
+};
+static_assert(sizeof(Lid) == 24);
 
 /// An open .eym file. Any thread may call any function.
 ///
@@ -136,6 +148,9 @@ public:
 
     fabric::Box bounds() const { return bounds(0); }  ///< object space, metres
     fabric::Box bounds(std::uint32_t node) const;
+    /// Through these only an eye outside sees backs of what need not be drawn from behind. Object
+    /// space, metres.
+    std::vector<fabric::Box> lids() const;
     NodeShape shape(std::uint32_t node) const {
         return {nodes_[node].vertexCount, nodes_[node].indexCount, hasColours()};
     }
@@ -162,11 +177,17 @@ private:
     EymHeader header_;
     Lattice lattice_;
     std::vector<Node> nodes_;
+    std::vector<Lid> lids_;
     int levels_ = 0;
 };
 
 /// Checksum of a header. `header.checksum` does not enter.
 std::uint64_t headerChecksum(const EymHeader& header);
+
+/// Where the nodes end and the lids begin.
+inline std::uint64_t endOfNodes(const EymHeader& header) {
+    return sizeof(EymHeader) + std::uint64_t{header.nodeCount} * sizeof(Node);
+}
 
 /// xxh64 of bytes, as all checksums of the file are.
 std::uint64_t contentHash(std::span<const std::byte> bytes);

@@ -112,6 +112,12 @@ private:
     ExactForm exactForm_;
 };
 
+std::vector<Lid> stored(const std::vector<fabric::Box>& boxes) {
+    std::vector<Lid> lids;
+    for (const fabric::Box& box : boxes) lids.push_back({glm::uvec3(box.min), glm::uvec3(box.max)});
+    return lids;
+}
+
 std::vector<Pages> makePages(const KdTree& tree, const PageMaker& maker,
                              const std::stop_token& stop) {
     std::vector<Pages> pages(tree.nodes.size());
@@ -128,9 +134,10 @@ std::uint64_t aligned(std::uint64_t value) {
 
 /// `end` becomes that of the file.
 std::vector<Node> layOutNodes(const KdTree& tree, const LodTree& lod,
-                              const std::vector<Pages>& pages, std::uint64_t& end) {
+                              const std::vector<Pages>& pages, std::size_t lidCount,
+                              std::uint64_t& end) {
     std::vector<Node> nodes(tree.nodes.size());
-    end = sizeof(EymHeader) + nodes.size() * sizeof(Node);
+    end = sizeof(EymHeader) + nodes.size() * sizeof(Node) + lidCount * sizeof(Lid);
     const auto place = [&end](const std::vector<std::byte>& page, std::uint64_t& offset,
                               std::uint32_t& bytes, std::uint64_t& checksum) {
         offset = end;
@@ -174,9 +181,12 @@ std::uint32_t flagsOf(const PackedMesh& mesh, const EymOptions& options, ExactFo
            (exactForm == ExactForm::Float64 ? kExactIsFloat64 : 0);
 }
 
-EymHeader makeHeader(const PackedMesh& mesh, const std::vector<Node>& nodes) {
+EymHeader makeHeader(const PackedMesh& mesh, const std::vector<Node>& nodes,
+                     const std::vector<Lid>& lids) {
     EymHeader header;
     header.nodesChecksum = contentHash(std::as_bytes(std::span(nodes)));
+    header.lidsChecksum = contentHash(std::as_bytes(std::span(lids)));
+    header.lidCount = lids.size();
     header.triangleCount = mesh.triangles.size();
     header.sourceVertexCount = countUsedVertices(mesh);
     header.nodeCount = static_cast<std::uint32_t>(nodes.size());
@@ -204,19 +214,21 @@ absl::Status writePages(const std::vector<Pages>& pages, OutputFile& out,
 }  // namespace
 
 absl::Status writeEym(const PackedMesh& mesh, const KdTree& tree, const LodTree& lod,
-                      std::span<const Pockets> pockets, const EymOptions& options, OutputFile& out,
+                      const Backs& backs, const EymOptions& options, OutputFile& out,
                       const std::stop_token& stop) {
-    const PageMaker maker(mesh, tree, lod, pockets, options);
+    const PageMaker maker(mesh, tree, lod, backs.pockets, options);
     const std::vector<Pages> pages = makePages(tree, maker, stop);
     std::uint64_t end = 0;
-    const std::vector<Node> nodes = layOutNodes(tree, lod, pages, end);
-    EymHeader header = makeHeader(mesh, nodes);
+    const std::vector<Lid> lids = stored(backs.lids);
+    const std::vector<Node> nodes = layOutNodes(tree, lod, pages, lids.size(), end);
+    EymHeader header = makeHeader(mesh, nodes, lids);
     header.flags = flagsOf(mesh, options, maker.exactForm());
     header.sourceHash = options.sourceHash;
     header.fileBytes = end;
     header.checksum = headerChecksum(header);
     RETURN_IF_ERROR(out.write(std::as_bytes(std::span(&header, 1))));
     RETURN_IF_ERROR(out.write(std::as_bytes(std::span(nodes))));
+    RETURN_IF_ERROR(out.write(std::as_bytes(std::span(lids))));
     return writePages(pages, out, stop);
 }
 

@@ -27,12 +27,12 @@ struct EymOptions {
 
 /// Appends `mesh`, cut into the leaves of `tree` and with the coarser nodes of `lod`, to the empty
 /// `out` as an .eym file (eym_format.h); the caller commits it. Where the mesh has exact positions
-/// they are kept. `pockets`: findPockets of mesh and tree.
+/// they are kept. `backs`: findBacks of mesh and tree.
 /// The same mesh, tree and options give the same bytes. Errors: Cancelled,
 /// ResourceExhausted, Unavailable. Preconditions: at least one triangle; no node with more than
 /// kMaxNodeTriangles.
 absl::Status writeEym(const PackedMesh& mesh, const KdTree& tree, const LodTree& lod,
-                      std::span<const Pockets> pockets, const EymOptions& options, OutputFile& out,
+                      const Backs& backs, const EymOptions& options, OutputFile& out,
                       const std::stop_token& stop = {});
 
 }  // namespace eyrie::mesh

@@ -68,7 +68,8 @@ std::vector<fabric::Vec3> ForcedCuts::write(const std::string& path, std::mt1993
     lod.errorMetres.assign(tree_.nodes.size(), 0.0);
     choose(0, random, cut, lod.errorMetres);
     auto out = orThrow(mesh::OutputFile::create(path));
-    orThrow(mesh::writeEym(packed_, tree_, lod, {.isCoded = false}, out));
+    orThrow(mesh::writeEym(packed_, tree_, lod, mesh::findBacks(packed_, tree_), {.isCoded = false},
+                           out));
     orThrow(out.commit());
 
     std::unordered_map<std::uint32_t, int> nodesAt;  // of the cut, by vertex

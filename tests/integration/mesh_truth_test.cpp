@@ -14,6 +14,7 @@
 #include "renderer/import/mesh_import.h"
 #include "renderer/import/mesh_synth.h"
 #include "renderer/import/ply_reader.h"
+#include "renderer/mesh/eym_format.h"
 #include "renderer/renderer.h"
 #include "renderer/truth/depth_comparison.h"
 #include "renderer/truth/mesh_ray_caster.h"
@@ -133,6 +134,22 @@ TEST_F(MeshTruth, HoldsBesideABallThatIsInsideOut) {
     mesh.normals.clear();
     ASSERT_NO_FATAL_FAILURE(open(std::move(mesh)));
     checkCameras();
+}
+
+/// Through wide holes most of the backs are seen, from some sides.
+TEST_F(MeshTruth, HoldsOnAnOpenBall) {
+    import::TriangleMesh mesh = import::synthesizeMesh(100000, 6);
+    std::erase_if(mesh.triangles, [&](const auto& triangle) {
+        const fabric::Vec3 at = glm::normalize(mesh.positions[triangle[0]]);
+        return at.x > 0.9 || at.y < -0.7 || glm::dot(at, fabric::Vec3(-0.6, 0.0, 0.8)) > 0.95;
+    });
+    ASSERT_NO_FATAL_FAILURE(open(std::move(mesh)));
+    const auto file = mesh::EymFile::open(folder_.path("mesh.eym"));
+    ASSERT_TRUE(file.ok()) << file.status();
+    EXPECT_EQ(file->lids().size(), 3U);
+    EXPECT_GT(file->nodes()[0].frontIndexCount, file->nodes()[0].indexCount / 2);
+    std::mt19937 engine(11);
+    for (int i = 0; i < 8; ++i) check(camera(engine, 0.8), 1 + i % 2);
 }
 
 TEST_F(MeshTruth, OfASolidItsWallsAreSeenFromInside) {

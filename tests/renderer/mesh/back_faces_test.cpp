@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/mesh/back_faces.h"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -67,6 +69,29 @@ double winding(const PackedMesh& mesh, const Vec3& at) {
     return sum / (4 * M_PI);
 }
 
+std::optional<std::vector<std::uint32_t>> behind(const PackedMesh& mesh) {
+    const auto lids = findLids(mesh);
+    return lids ? seenFromBehind(mesh, *lids) : std::nullopt;
+}
+
+PackedMesh withLids(PackedMesh mesh, const Lids& lids) {
+    mesh.triangles.insert(mesh.triangles.end(), lids.triangles.begin(), lids.triangles.end());
+    return mesh;
+}
+
+bool isClosed(const PackedMesh& mesh) {
+    std::map<std::pair<std::uint64_t, std::uint64_t>, int> edges;
+    for (const Triangle& triangle : mesh.triangles)
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::uint64_t from = mesh.positions[triangle[i]];
+            const std::uint64_t to = mesh.positions[triangle[(i + 1) % 3]];
+            ++edges[{from, to}];
+            --edges[{to, from}];
+        }
+    return std::ranges::all_of(edges, [](const auto& edge) { return edge.second == 0; });
+}
+
+/// Balls in and through each other, some inside out, with triangles missing or turned.
 RC_GTEST_PROP(BackFaces, AreSeenWhereSolidAnglesInFrontAddUpToLessThanNothing, ()) {
     PackedMesh mesh;
     const int balls = *rc::gen::inRange(1, 5);
@@ -77,7 +102,18 @@ RC_GTEST_PROP(BackFaces, AreSeenWhereSolidAnglesInFrontAddUpToLessThanNothing, (
         addBall(mesh, {number(2000, 5000), number(2000, 5000), number(2000, 5000)},
                 number(100, 2000), *rc::gen::arbitrary<bool>(), 6);
     }
-    const auto found = seenFromBehind(mesh);
+    for (int damaged = *rc::gen::inRange(0, 8); damaged > 0; --damaged) {
+        const auto at = *rc::gen::inRange<std::size_t>(0, mesh.triangles.size());
+        if (*rc::gen::arbitrary<bool>())
+            mesh.triangles.erase(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(at));
+        else
+            std::swap(mesh.triangles[at][0], mesh.triangles[at][1]);
+    }
+    const auto lids = findLids(mesh);
+    RC_ASSERT(lids.has_value());
+    const PackedMesh closed = withLids(mesh, *lids);
+    RC_ASSERT(isClosed(closed));
+    const auto found = seenFromBehind(mesh, *lids);
     RC_ASSERT(found.has_value());
     std::vector<bool> isFound(mesh.triangles.size(), false);
     for (const std::uint32_t triangle : *found) isFound[triangle] = true;
@@ -87,7 +123,7 @@ RC_GTEST_PROP(BackFaces, AreSeenWhereSolidAnglesInFrontAddUpToLessThanNothing, (
         const Vec3 b = corner(mesh, triangle, 1);
         const Vec3 c = corner(mesh, triangle, 2);
         const double up = glm::cross(b - a, c - a).z;
-        const double wound = winding(mesh, (a + b + c) / 3.0 + Vec3(0, 0, up > 0 ? 2 : -2));
+        const double wound = winding(closed, (a + b + c) / 3.0 + Vec3(0, 0, up > 0 ? 2 : -2));
         if (up != 0 && std::abs(wound - std::round(wound)) < 1e-3)
             RC_ASSERT(isFound[i] == (std::round(wound) < 0));
     }
@@ -98,16 +134,78 @@ TEST(BackFaces, OfASolidAreSeenNowhere) {
     addBall(mesh, {5000, 5000, 5000}, 3000);
     addBall(mesh, {5000, 5000, 5000}, 1000, true);  // hollow
     addBall(mesh, {9000, 5000, 5000}, 2000);        // passes through the first
-    EXPECT_EQ(seenFromBehind(mesh), std::vector<std::uint32_t>());
+    EXPECT_EQ(behind(mesh), std::vector<std::uint32_t>());
 }
 
-TEST(BackFaces, OfAnOpenMeshMayBeSeenEverywhere) {
+/// Through the lid they are seen; else they are not.
+TEST(BackFaces, OfAHollowWithAHoleAreSeenNowhereElse) {
     PackedMesh mesh;
     addBall(mesh, {5000, 5000, 5000}, 3000);
-    mesh.triangles.pop_back();
-    EXPECT_EQ(seenFromBehind(mesh), std::nullopt);
-    std::swap(mesh.triangles[0][0], mesh.triangles[0][1]);
-    EXPECT_EQ(seenFromBehind(mesh), std::nullopt);
+    mesh.triangles.erase(mesh.triangles.begin(), mesh.triangles.begin() + 3);
+    EXPECT_EQ(behind(mesh), std::vector<std::uint32_t>());
+    EXPECT_EQ(findLids(mesh)->boxes.size(), 1U);
+}
+
+TEST(Lids, OfMissingTrianglesAreAroundThem) {
+    PackedMesh mesh;
+    addBall(mesh, {5000, 5000, 5000}, 3000);
+    EXPECT_TRUE(findLids(mesh)->triangles.empty());
+    for (const std::size_t gone : {std::size_t{40}, std::size_t{0}}) {
+        const fabric::Box box = boxOf(mesh, mesh.triangles[gone]);
+        mesh.triangles.erase(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(gone));
+        const auto lids = findLids(mesh);
+        ASSERT_TRUE(lids);
+        EXPECT_EQ(std::ranges::count(lids->boxes, box), 1);
+        EXPECT_EQ(lids->triangles.size(), lids->boxes.size());
+    }
+    EXPECT_EQ(findLids(mesh)->boxes.size(), 2U);
+}
+
+TEST(Lids, OfASlitWithoutAreaCloseItWithoutABox) {
+    PackedMesh mesh;
+    addBall(mesh, {5000, 5000, 5000}, 3000);
+    // The first triangle in two halves, which its neighbour along the cut edge does not share.
+    const auto [a, b, c] = mesh.triangles[0];
+    const auto step = [&](std::size_t axis) {
+        return (unpackPosition(mesh.positions[b])[static_cast<int>(axis)] +
+                unpackPosition(mesh.positions[c])[static_cast<int>(axis)]) %
+               2;
+    };
+    glm::uvec3 even = unpackPosition(mesh.positions[b]);
+    even += glm::uvec3(step(0), step(1), step(2));
+    const std::uint64_t before = mesh.positions[b];
+    for (std::uint64_t& position : mesh.positions)
+        if (position == before)
+            position = packPosition(even);
+    const auto middle = static_cast<std::uint32_t>(mesh.positions.size());
+    mesh.positions.push_back(packPosition((even + unpackPosition(mesh.positions[c])) / 2U));
+    mesh.triangles[0] = {a, b, middle};
+    mesh.triangles.push_back({a, middle, c});
+    const auto lids = findLids(mesh);
+    ASSERT_TRUE(lids);
+    EXPECT_EQ(lids->triangles.size(), 1U);
+    EXPECT_TRUE(lids->boxes.empty());
+    EXPECT_TRUE(isClosed(withLids(mesh, *lids)));
+    EXPECT_EQ(behind(mesh), std::vector<std::uint32_t>());
+}
+
+TEST(Lids, OfTooManyHolesAreNone) {
+    PackedMesh mesh;
+    for (int i = 0; i < 65; ++i) {
+        addBall(mesh, {1000.0 * (i + 1), 5000, 5000}, 400);
+        mesh.triangles.pop_back();
+    }
+    EXPECT_FALSE(findLids(mesh));
+}
+
+TEST(Lids, OfASoupAreNone) {
+    PackedMesh mesh;
+    for (std::uint32_t i = 0; i < 20000; ++i) {
+        mesh.positions.push_back(packPosition({i * 7919 % 100003, i * 104729 % 100019, i}));
+        if (i % 3 == 2)
+            mesh.triangles.push_back({i - 2, i - 1, i});
+    }
+    EXPECT_FALSE(findLids(mesh));
 }
 
 TEST(BackFaces, OfTwoVerticesAtOnePlaceAreThoseOfOne) {
@@ -119,7 +217,7 @@ TEST(BackFaces, OfTwoVerticesAtOnePlaceAreThoseOfOne) {
             mesh.normals.push_back(0);
             vertex = static_cast<std::uint32_t>(mesh.positions.size() - 1);
         }
-    EXPECT_EQ(seenFromBehind(mesh), std::vector<std::uint32_t>());
+    EXPECT_EQ(behind(mesh), std::vector<std::uint32_t>());
 }
 
 TEST(Pockets, AreWhereTheMeshIsInsideOut) {
@@ -128,7 +226,7 @@ TEST(Pockets, AreWhereTheMeshIsInsideOut) {
     addBall(mesh, {20000, 5000, 5000}, 100, true);
     const auto tree = buildKdTree(mesh.positions, mesh.triangles, {64});
     ASSERT_TRUE(tree.ok());
-    const std::vector<Pockets> pockets = findPockets(mesh, *tree);
+    const std::vector<Pockets> pockets = findPockets(mesh, findLids(mesh), *tree);
     const fabric::Box farAway{{5000, 5000, 8000}, {5100, 5100, 8100}};
     const fabric::Box pocket{{19950, 4950, 4950}, {20050, 5050, 5050}};
     EXPECT_TRUE(pockets[0].reach(pocket, 0));
@@ -137,13 +235,12 @@ TEST(Pockets, AreWhereTheMeshIsInsideOut) {
     EXPECT_TRUE(pockets[0].reach(farAway, 16000));
 }
 
-TEST(Pockets, OfAnOpenMeshAreEverywhere) {
+TEST(Pockets, OfAMeshThatNoLidsCloseAreEverywhere) {
     PackedMesh mesh;
     addBall(mesh, {5000, 5000, 5000}, 3000);
-    mesh.triangles.pop_back();
     const auto tree = buildKdTree(mesh.positions, mesh.triangles, {64});
     ASSERT_TRUE(tree.ok());
-    for (const Pockets& node : findPockets(mesh, *tree))
+    for (const Pockets& node : findPockets(mesh, std::nullopt, *tree))
         EXPECT_TRUE(node.reach({Vec3(1e6), Vec3(1e6)}, 0));
 }
 
@@ -152,7 +249,7 @@ TEST(Pockets, BeyondAFewDozenAreEverywhere) {
     for (int i = 0; i < 100; ++i) addBall(mesh, {1000.0 * (i + 1), 5000, 5000}, 10, true, 4);
     const auto tree = buildKdTree(mesh.positions, mesh.triangles, {64});
     ASSERT_TRUE(tree.ok());
-    EXPECT_TRUE(findPockets(mesh, *tree)[0].reach({Vec3(1e6), Vec3(1e6)}, 0));
+    EXPECT_TRUE(findPockets(mesh, findLids(mesh), *tree)[0].reach({Vec3(1e6), Vec3(1e6)}, 0));
 }
 
 }  // namespace

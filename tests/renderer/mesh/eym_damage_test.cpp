@@ -30,7 +30,7 @@ std::string makeSmallFile(bool isCoded) {
     auto lod = buildLodTree(mesh, *tree);
     EXPECT_TRUE(lod.ok());
     EXPECT_TRUE(
-        writeEym(mesh, *tree, *lod, findPockets(mesh, *tree), {.isCoded = isCoded}, *out).ok());
+        writeEym(mesh, *tree, *lod, findBacks(mesh, *tree), {.isCoded = isCoded}, *out).ok());
     EXPECT_TRUE(out->commit().ok());
     return test::readFile(folder.file("m.eym"));
 }
@@ -68,16 +68,22 @@ struct Tables {
         std::memcpy(&header, bytes.data(), sizeof header);
         nodes.resize(header.nodeCount);
         std::memcpy(nodes.data(), bytes.data() + sizeof header, nodes.size() * sizeof(Node));
+        lids.resize(header.lidCount);
+        std::memcpy(lids.data(), bytes.data() + endOfNodes(header), lids.size() * sizeof(Lid));
     }
     std::string sealedInto(std::string bytes) {
         header.nodesChecksum = contentHash(std::as_bytes(std::span(nodes)));
+        header.lidsChecksum = contentHash(std::as_bytes(std::span(lids)));
         header.checksum = headerChecksum(header);
         std::memcpy(bytes.data(), &header, sizeof header);
         std::memcpy(bytes.data() + sizeof header, nodes.data(), nodes.size() * sizeof(Node));
+        std::memcpy(bytes.data() + sizeof header + nodes.size() * sizeof(Node), lids.data(),
+                    lids.size() * sizeof(Lid));
         return bytes;
     }
     EymHeader header;
     std::vector<Node> nodes;
+    std::vector<Lid> lids;
 };
 
 TEST(EymDamage, OfTheLengthIsAlwaysNoticed) {
@@ -105,7 +111,7 @@ TEST_P(EymDamageByForm, OfAnyBitThatMattersIsNoticed) {
         unnoticed += readAll(folder.file("m.eym")).ok() ? 1 : 0;
     }
     // Only padding between pages carries nothing.
-    std::uint64_t carried = sizeof(EymHeader) + tables.nodes.size() * sizeof(Node);
+    std::uint64_t carried = endOfNodes(tables.header) + tables.lids.size() * sizeof(Lid);
     for (const Node& node : tables.nodes) carried += node.pageBytes + node.exactBytes;
     EXPECT_EQ(unnoticed, bytes.size() - carried);
 }
@@ -153,6 +159,9 @@ TEST(EymDamage, WithARightChecksumIsStillRefused) {
         {"other triangle count", [](Tables& t) { t.header.triangleCount += 1; }},
         {"no nodes", [](Tables& t) { t.header.nodeCount = 0; }},
         {"many nodes", [](Tables& t) { t.header.nodeCount = 0xFFFFFFFF; }},
+        {"many lids", [huge](Tables& t) { t.header.lidCount = huge; }},
+        {"lid upside down", [](Tables& t) { t.lids[0].boxMin.x = t.lids[0].boxMax.x + 1; }},
+        {"lid off the lattice", [](Tables& t) { t.lids[0].boxMax.y = 1U << 21; }},
         {"unknown flag", [](Tables& t) { t.header.flags |= 1U << 7; }},
         {"step no power of two", [](Tables& t) { t.header.stepMetres = 0.3; }},
         {"error of the file", [](Tables& t) { t.header.coarsestErrorMetres = -1; }},

@@ -31,7 +31,7 @@ absl::Status write(const PackedMesh& mesh, std::uint32_t leafTriangles, const st
     EXPECT_TRUE(tree.ok() && out.ok());
     auto lod = buildLodTree(mesh, *tree, {.nodeTriangles = 64});
     EXPECT_TRUE(lod.ok());
-    const absl::Status written = writeEym(mesh, *tree, *lod, findPockets(mesh, *tree),
+    const absl::Status written = writeEym(mesh, *tree, *lod, findBacks(mesh, *tree),
                                           {.isCoded = isCoded, .sourceHash = 0x1234}, *out);
     return written.ok() ? out->commit() : written;
 }
