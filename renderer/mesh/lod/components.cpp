@@ -142,6 +142,7 @@ private:
     struct Piece {
         std::vector<std::uint32_t> triangles;
         bool mayGo = false;
+        std::uint64_t least = std::numeric_limits<std::uint64_t>::max();  ///< position, as packed
     };
     struct Way {
         double bound = kInfinity;
@@ -168,19 +169,26 @@ private:
     std::optional<Grid> grid_;
 };
 
+/// Pieces by their least positions, which is the same whatever else there is in the mesh.
 void Dropper::gather(const Components& components, const KdNode& node) {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> byComponent;
     for (std::uint32_t i = 0; i < patch_.triangles.size(); ++i)
         byComponent.emplace_back(components.of(patch_.triangles[i][0]), i);
     std::sort(byComponent.begin(), byComponent.end());
-    pieceOf_.resize(byComponent.size());
     for (std::size_t i = 0; i < byComponent.size(); ++i) {
         const auto [component, triangle] = byComponent[i];
         if (i == 0 || component != byComponent[i - 1].first)
-            pieces_.push_back({{}, components.isWholeIn(component, node)});
-        pieces_.back().triangles.push_back(triangle);
-        pieceOf_[triangle] = static_cast<std::uint32_t>(pieces_.size() - 1);
+            pieces_.push_back({.triangles = {}, .mayGo = components.isWholeIn(component, node)});
+        Piece& piece = pieces_.back();
+        piece.triangles.push_back(triangle);
+        for (const std::uint32_t vertex : patch_.triangles[triangle])
+            piece.least = std::min(piece.least, mesh_.positions[vertex]);
     }
+    std::sort(pieces_.begin(), pieces_.end(),
+              [](const Piece& a, const Piece& b) { return a.least < b.least; });
+    pieceOf_.resize(byComponent.size());
+    for (std::uint32_t i = 0; i < pieces_.size(); ++i)
+        for (const std::uint32_t triangle : pieces_[i].triangles) pieceOf_[triangle] = i;
     isThere_.assign(pieces_.size(), true);
 }
 

@@ -3,6 +3,8 @@
 
 #include <array>
 #include <bit>
+#include <filesystem>
+#include <random>
 #include <set>
 #include <string>
 #include <string_view>
@@ -16,6 +18,7 @@
 #include "renderer/import/mesh_synth.h"
 #include "renderer/import/ply_writer.h"
 #include "renderer/mesh/eym_format.h"
+#include "tests/renderer/import/file_size_limit.h"
 #include "tests/renderer/import/ply_text.h"
 #include "tests/renderer/mesh/temporary_folder.h"
 
@@ -99,6 +102,52 @@ TEST(MeshImport, ByPartsGivesTheSameBytesAsAllAtOnce) {
 
 TEST(MeshImport, ByPartsGivesTheSameBytesOfAnOpenMesh) { expectSameByParts(openBall(100000, 3)); }
 
+/// Balls of many sizes through each other, each fifth inside out, with colours and normals, faces
+/// that are there twice and some without an area.
+TriangleMesh soup(std::size_t balls, std::size_t triangles) {
+    std::mt19937 engine(7);
+    const auto random = [&engine] { return static_cast<double>(engine() % 10000) / 10000; };
+    TriangleMesh soup;
+    for (std::size_t i = 0; i < balls; ++i) {
+        const TriangleMesh ball = synthesizeMesh(triangles, i % 3);
+        const auto first = static_cast<std::uint32_t>(soup.positions.size());
+        const fabric::Vec3 middle(40 * random(), 40 * random(), 10 * random());
+        const double size = 0.2 + random();
+        const auto shade = static_cast<std::uint8_t>(i);
+        for (std::size_t v = 0; v < ball.positions.size(); ++v) {
+            const fabric::Vec3& at = ball.positions[v];
+            soup.positions.push_back(middle + size * at);
+            soup.normals.emplace_back(at.x, at.y, v % 7 == 0 ? 0 : at.z);
+            soup.colours.push_back(
+                {shade, static_cast<std::uint8_t>(v % 50 == 0 ? 9 : 0), 80, 255});
+        }
+        for (auto [a, b, c] : ball.triangles) {
+            if (i % 5 == 0)
+                std::swap(b, c);
+            soup.triangles.push_back({first + a, first + b, first + c});
+            if (soup.triangles.size() % 100 == 0)
+                soup.triangles.push_back({first + b, first + c, first + a});
+            if (soup.triangles.size() % 333 == 0)
+                soup.triangles.push_back({first + b, first + b, first + a});
+        }
+    }
+    return soup;
+}
+
+TEST(MeshImport, ByPartsGivesTheSameBytesOfASoup) { expectSameByParts(soup(300, 200)); }
+
+TEST(MeshImport, ByPartsGivesTheSameBytesWithCreasesAndSourcePositions) {
+    expectSameByParts(
+        soup(6, 10000),
+        {.leafTriangles = 1000,
+         .pack = {.keepsExact = true, .normals = NormalSource::Crease, .creaseDegrees = 20}});
+}
+
+TEST(MeshImport, ByPartsGivesTheSameBytesWithTheFilesNormalsAndMappedPages) {
+    expectSameByParts(soup(6, 10000),
+                      {.pack = {.latticeBits = 10, .normals = NormalSource::File}, .isRaw = true});
+}
+
 TEST(MeshImport, ReportsItsStagesInOrder) {
     const test::TemporaryFolder folder;
     ASSERT_TRUE(writePly(test::tetrahedron(), folder.file("m.ply")).ok());
@@ -134,6 +183,67 @@ TEST_P(MeshImportStopped, LeavesNothingBehindAndTheOldFileAsItWas) {
     EXPECT_EQ(report.status().code(), absl::StatusCode::kCancelled);
     EXPECT_EQ(test::readFile(folder.file("m.eym")), "old");
     EXPECT_THAT(folder.names(), testing::UnorderedElementsAre("m.ply", "m.eym"));
+}
+
+class MeshImportByParts : public testing::TestWithParam<const char*> {};
+
+TEST_P(MeshImportByParts, LeavesNothingBehindWhenItIsStopped) {
+    const test::TemporaryFolder folder;
+    ASSERT_TRUE(writePly(synthesizeMesh(40000, 1), folder.file("m.ply")).ok());
+    std::stop_source stop;
+    const ImportControl control{[&](std::string_view stage, double) {
+                                    if (stage == GetParam())
+                                        stop.request_stop();
+                                },
+                                stop.get_token()};
+    const auto report =
+        importByParts(folder.file("m.ply"), folder.file("m.eym"), 20000, {}, control);
+    EXPECT_EQ(report.status().code(), absl::StatusCode::kCancelled);
+    EXPECT_THAT(folder.names(), ElementsAre("m.ply"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Stages, MeshImportByParts,
+                         testing::Values("reading", "welding", "backs", "tree", "borders", "levels",
+                                         "writing"));
+
+TEST(MeshImport, ByPartsSaysThatTheDiskIsFullAndLeavesNothingBehind) {
+    const test::TemporaryFolder folder;
+    ASSERT_TRUE(writePly(synthesizeMesh(40000, 1), folder.file("m.ply")).ok());
+    const test::FileSizeLimit full(std::uint64_t{1} << 20);
+    const auto report = importByParts(folder.file("m.ply"), folder.file("m.eym"), 20000);
+    EXPECT_EQ(report.status().code(), absl::StatusCode::kResourceExhausted);
+    EXPECT_THAT(std::string(report.status().message()),
+                testing::AllOf(HasSubstr(folder.file("m.eym")), HasSubstr("free some space")));
+    EXPECT_THAT(folder.names(), ElementsAre("m.ply"));
+}
+
+TEST(MeshImport, ThatWouldTakeMoreMemoryThanItMayGoesByPartsOrSaysWhatItTakes) {
+    const test::TemporaryFolder folder;
+    // What fits is known from the header. Of its faces one has corners.
+    test::writeFile(folder.file("m.ply"),
+                    "ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty float x\n"
+                    "property float y\nproperty float z\nelement face 4000000\n"
+                    "property list uchar int vertex_indices\nend_header\n" +
+                        std::string(12, '\0') + '\4');
+    std::filesystem::resize_file(folder.file("m.ply"), 4000500);
+    const MeshImportOptions little{.memoryBytes = kLeastMeshMemory};
+    const auto parted = importMesh({folder.file("m.ply")}, folder.file("m.eym"), little);
+    EXPECT_THAT(std::string(parted.status().message()),
+                testing::AllOf(HasSubstr("m.ply"), HasSubstr("found 4"), HasSubstr("triangulate")));
+    MeshImportOptions orienting = little;
+    orienting.pack.orients = true;
+    const auto refused = importMesh({folder.file("m.ply")}, folder.file("m.eym"), orienting);
+    EXPECT_EQ(refused.status().code(), absl::StatusCode::kResourceExhausted);
+    EXPECT_THAT(std::string(refused.status().message()),
+                testing::AllOf(HasSubstr("m.ply"), HasSubstr("309 MiB"), HasSubstr("may use 256"),
+                               HasSubstr("leave that out")));
+    test::writeFile(folder.file("m.obj"), "v 0 0 0\n");
+    std::filesystem::resize_file(folder.file("m.obj"), std::uint64_t{300} << 20);
+    const auto whole = importMesh({folder.file("m.obj")}, folder.file("m.eym"), little);
+    EXPECT_EQ(whole.status().code(), absl::StatusCode::kResourceExhausted);
+    EXPECT_THAT(std::string(whole.status().message()),
+                testing::AllOf(HasSubstr("m.obj"), HasSubstr("301 MiB"), HasSubstr("PLY")));
+    EXPECT_THAT(folder.names(), testing::UnorderedElementsAre("m.ply", "m.obj"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Stages, MeshImportStopped,
