@@ -82,7 +82,7 @@ TEST(MeshTuning, KeepsTheFastestAndOfEqualOnesTheSmallest) {
     EXPECT_EQ(bestOf(tried), 0U);  // 2 % slower, and smaller
     tried[0].medianMs = 10.5;
     EXPECT_EQ(bestOf(tried), 2U);
-    EXPECT_THAT(table({tried, 2}), testing::HasSubstr("16384      10.00"));
+    EXPECT_THAT(table(MeshTuning{tried, 2}), testing::HasSubstr("16384      10.00"));
 }
 
 TEST(BenchReport, TheSummaryHasTheFieldsOfTheContract) {
