@@ -13,6 +13,7 @@
 #include "fabric/status.h"
 #include "renderer/draw/mesh_cut.h"
 #include "renderer/draw/mesh_paging.h"
+#include "renderer/draw/mesh_textures.h"
 #include "renderer/draw/object_program.h"
 #include "renderer/draw/tau_choice.h"
 #include "renderer/gl/object.h"
@@ -31,15 +32,33 @@ std::uint32_t packedSrgb(const fabric::Vec3& linear) {
     return byte(linear.x) | byte(linear.y) << 8 | byte(linear.z) << 16 | 0xFF000000U;
 }
 
+/// `count` indices from `first` on, the first `fronts` of them without the culled side.
+void drawIndices(const DeviceNode& node, GLsizei first, GLsizei count, GLsizei fronts) {
+    const auto draw = [&node](GLsizei from, GLsizei indices) {
+        glDrawElements(GL_TRIANGLES, indices, GL_UNSIGNED_SHORT,
+                       reinterpret_cast<const void*>(
+                           node.indexOffset + from * static_cast<GLsizei>(sizeof(std::uint16_t))));
+    };
+    if (fronts > 0) {
+        glEnable(GL_CULL_FACE);
+        draw(first, fronts);
+        glDisable(GL_CULL_FACE);
+    }
+    if (fronts < count)
+        draw(first + fronts, count - fronts);
+}
+
 class MeshDrawable : public Drawable {
 public:
     MeshDrawable(const fabric::SceneObject& object, MeshPrograms& programs,
-                 std::shared_ptr<const mesh::EymFile> file, std::unique_ptr<MeshPaging> paging)
+                 std::shared_ptr<const mesh::EymFile> file, MeshTextures textures,
+                 std::unique_ptr<MeshPaging> paging)
         : programs_(programs),
           worldFromObject_(object.worldFromObject),
           uniformColour_(packedSrgb(object.colour)),
           singleSided_(object.singleSided),
           file_(std::move(file)),
+          textures_(std::move(textures)),
           paging_(std::move(paging)) {
         const mesh::Lattice& lattice = file_->lattice();
         objectFromLattice_ = glm::scale(glm::translate(fabric::Mat4(1.0), lattice.originMetres),
@@ -57,7 +76,11 @@ public:
     }
     absl::Status draw(std::span<const Piece> pieces, const FrameState& frame,
                       fabric::FrameStatistics& statistics) override;
-    MemoryUse memory() const override { return paging_->memory(); }
+    MemoryUse memory() const override {
+        MemoryUse use = paging_->memory();
+        use.deviceBytes += textures_.bytes();
+        return use;
+    }
 
 private:
     void defineVertexFormat();
@@ -66,7 +89,18 @@ private:
     std::uint64_t countMissing(const MeshCut& cut) const;
     page::HostPages::Loads reach(const CutRequest& request, double tauPixels);
     bool mayHideBacks(const FrameState& frame) const;
-    void drawNode(const DeviceNode& node, GLsizei fronts) const;
+    bool hasBlended(std::uint32_t node) const;
+    void source(const DeviceNode& node) const;
+    absl::Status drawWhole(std::span<const Piece> pieces, const FrameState& frame,
+                           fabric::FrameStatistics& statistics);
+    /// Programs of which the object is set.
+    using Prepared = std::map<Program::Variant, const Program*>;
+    absl::Status prepare(const mesh::Material& material, const FrameState& frame,
+                         Prepared& prepared);
+    absl::Status drawByMaterial(std::span<const Piece> pieces, const FrameState& frame,
+                                fabric::FrameStatistics& statistics);
+    void drawRange(const DeviceNode& node, GLsizei first, const mesh::MaterialRange& range,
+                   bool mayHideBacks) const;
 
     MeshPrograms& programs_;
     fabric::Mat4 worldFromObject_;
@@ -74,6 +108,7 @@ private:
     std::uint32_t uniformColour_;
     bool singleSided_;
     std::shared_ptr<const mesh::EymFile> file_;
+    MeshTextures textures_;
     double errorPixels_ = 0;  ///< of the last cut
     gl::VertexArray vertexArray_;
     std::unique_ptr<MeshPaging> paging_;
@@ -85,6 +120,7 @@ void MeshDrawable::defineVertexFormat() {
     Program::kPackedPosition.define(vertexArray_);
     Program::kPackedNormal.define(vertexArray_);
     Program::kPackedColour.define(vertexArray_, file_->hasColours());
+    Program::kPackedPlace.define(vertexArray_, file_->hasTextures());
 }
 
 const MeshCut& MeshDrawable::cutAt(int step, const CutRequest& request) {
@@ -162,7 +198,8 @@ Cut MeshDrawable::selectCut(const CutRequest& request) {
     for (const CutNode& one : drawn.drawn) {
         const mesh::Node& node = file_->nodes()[one.node];
         cut.pieces.push_back({one.node, static_cast<double>(node.triangleBegin) / total,
-                              file_->bounds(one.node), true, node.indexCount / 3});
+                              file_->bounds(one.node), true, node.indexCount / 3,
+                              hasBlended(one.node)});
     }
     return cut;
 }
@@ -184,47 +221,112 @@ bool MeshDrawable::mayHideBacks(const FrameState& frame) const {
     return glm::length(nearest) > fabric::kNearMetres * std::sqrt(1 + x * x + y * y);
 }
 
-/// Without the backs of its first `fronts` indices.
-void MeshDrawable::drawNode(const DeviceNode& node, GLsizei fronts) const {
+bool MeshDrawable::hasBlended(std::uint32_t node) const {
+    return std::ranges::any_of(file_->ranges(node), [this](const mesh::MaterialRange& range) {
+        return file_->materials()[range.material].isBlended();
+    });
+}
+
+void MeshDrawable::source(const DeviceNode& node) const {
     Program::kPackedPosition.source(vertexArray_, node.buffer, 0);
     Program::kPackedNormal.source(vertexArray_, node.buffer, node.normalOffset);
     if (file_->hasColours())
         Program::kPackedColour.source(vertexArray_, node.buffer, node.colourOffset);
+    if (file_->hasTextures())
+        Program::kPackedPlace.source(vertexArray_, node.buffer, node.placeOffset);
     glVertexArrayElementBuffer(vertexArray_.id(), node.buffer.id());
-    const auto draw = [&node](GLsizei first, GLsizei count) {
-        glDrawElements(GL_TRIANGLES, count, GL_UNSIGNED_SHORT,
-                       reinterpret_cast<const void*>(
-                           node.indexOffset + first * static_cast<GLsizei>(sizeof(std::uint16_t))));
-    };
-    if (fronts > 0) {
-        glEnable(GL_CULL_FACE);
-        draw(0, fronts);
-        glDisable(GL_CULL_FACE);
-    }
-    if (fronts < node.indexCount)
-        draw(fronts, node.indexCount - fronts);
 }
 
-absl::Status MeshDrawable::draw(std::span<const Piece> pieces, const FrameState& frame,
-                                fabric::FrameStatistics& statistics) {
+absl::Status MeshDrawable::drawWhole(std::span<const Piece> pieces, const FrameState& frame,
+                                     fabric::FrameStatistics& statistics) {
     Program::Variant variant{variantFor(frame, worldFromObject_)};
     variant.gouraud = frame.shading == fabric::Shading::Gouraud;
     ASSIGN_OR_RETURN(const Program* program, programs_.find(variant));
     program->use();
     setObject(*program, frame, worldFromObject_, objectFromLattice_);
     const bool mayHideBacks = this->mayHideBacks(frame);
-    glFrontFace(glm::determinant(fabric::Mat3(worldFromObject_)) < 0 ? GL_CW : GL_CCW);
-    glBindVertexArray(vertexArray_.id());
-    glVertexAttribI4ui(Program::kPackedColour.location, uniformColour_, 0, 0, 0);
     for (const Piece& piece : pieces) {
         const DeviceNode* node = paging_->node(piece.index);
         const GLsizei fronts =
             singleSided_ ? node->indexCount
                          : static_cast<GLsizei>(file_->nodes()[piece.index].frontIndexCount);
-        drawNode(*node, mayHideBacks ? fronts : 0);
+        source(*node);
+        drawIndices(*node, 0, node->indexCount, mayHideBacks ? fronts : 0);
         statistics.triangles += static_cast<std::uint64_t>(node->indexCount) / 3;
     }
     return absl::OkStatus();
+}
+
+/// Of what is blended the far sides first: right by itself where a piece is convex.
+void MeshDrawable::drawRange(const DeviceNode& node, GLsizei first,
+                             const mesh::MaterialRange& range, bool mayHideBacks) const {
+    const mesh::Material& material = file_->materials()[range.material];
+    const auto count = static_cast<GLsizei>(range.indexCount);
+    if (material.isBlended() && !material.isOneSided()) {
+        glCullFace(GL_FRONT);
+        drawIndices(node, first, count, count);
+        glCullFace(GL_BACK);
+    }
+    if (material.isBlended() || material.isOneSided()) {
+        drawIndices(node, first, count, count);
+        return;
+    }
+    const bool hasOneSide = singleSided_ && !material.isTwoSided() && !material.isSeeThrough();
+    const GLsizei fronts = hasOneSide ? count : static_cast<GLsizei>(range.frontIndexCount);
+    drawIndices(node, first, count, mayHideBacks ? fronts : 0);
+}
+
+/// Uses the program that draws a material.
+absl::Status MeshDrawable::prepare(const mesh::Material& material, const FrameState& frame,
+                                   Prepared& prepared) {
+    Program::Variant variant{variantFor(frame, worldFromObject_)};
+    variant.gouraud = frame.shading == fabric::Shading::Gouraud;
+    variant.textured = material.hasImage();
+    variant.seeThrough = material.isBlended() ? 2 : material.alphaCutoff > 0 ? 1 : 0;
+    const auto [at, isNew] = prepared.try_emplace(variant, nullptr);
+    const Program*& program = at->second;
+    if (isNew) {
+        ASSIGN_OR_RETURN(program, programs_.find(variant));
+    }
+    program->use();
+    if (isNew)
+        setObject(*program, frame, worldFromObject_, objectFromLattice_);
+    if (material.hasImage())
+        program->picture(textures_.texture(material.image));
+    if (material.alphaCutoff > 0)
+        program->alphaCutoff(material.alphaCutoff);
+    return absl::OkStatus();
+}
+
+absl::Status MeshDrawable::drawByMaterial(std::span<const Piece> pieces, const FrameState& frame,
+                                          fabric::FrameStatistics& statistics) {
+    Prepared prepared;
+    const bool mayHideBacks = this->mayHideBacks(frame);
+    for (const Piece& piece : pieces) {
+        const DeviceNode& node = *paging_->node(piece.index);
+        source(node);
+        GLsizei first = 0;
+        for (const mesh::MaterialRange& range : file_->ranges(piece.index)) {
+            const mesh::Material& material = file_->materials()[range.material];
+            if (material.isBlended() == (frame.layer == Layer::Blended)) {
+                RETURN_IF_ERROR(prepare(material, frame, prepared));
+                drawRange(node, first, range, mayHideBacks);
+                statistics.triangles += range.indexCount / 3;
+            }
+            first += static_cast<GLsizei>(range.indexCount);
+        }
+    }
+    return absl::OkStatus();
+}
+
+absl::Status MeshDrawable::draw(std::span<const Piece> pieces, const FrameState& frame,
+                                fabric::FrameStatistics& statistics) {
+    glFrontFace(glm::determinant(fabric::Mat3(worldFromObject_)) < 0 ? GL_CW : GL_CCW);
+    glBindVertexArray(vertexArray_.id());
+    glVertexAttribI4ui(Program::kPackedColour.location, uniformColour_, 0, 0, 0);
+    return file_->materials().empty() || frame.shading == fabric::Shading::Wireframe
+               ? drawWhole(pieces, frame, statistics)
+               : drawByMaterial(pieces, frame, statistics);
 }
 
 }  // namespace
@@ -232,11 +334,16 @@ absl::Status MeshDrawable::draw(std::span<const Piece> pieces, const FrameState&
 absl::StatusOr<std::unique_ptr<Drawable>> openMesh(const fabric::SceneObject& object,
                                                    MeshPrograms& programs,
                                                    const page::SourceOptions& sources,
-                                                   page::Loader& loader, const MeshMemory& memory) {
+                                                   page::Loader& loader, const MeshMemory& memory,
+                                                   TextureFormat format) {
     ASSIGN_OR_RETURN(mesh::EymFile opened, mesh::EymFile::open(object.path, sources));
     auto file = std::make_shared<const mesh::EymFile>(std::move(opened));
-    ASSIGN_OR_RETURN(auto paging, MeshPaging::open(file, loader, memory));
-    return std::make_unique<MeshDrawable>(object, programs, std::move(file), std::move(paging));
+    MeshTextures textures(*file, memory.deviceBytes / 2, format);
+    ASSIGN_OR_RETURN(auto paging, MeshPaging::open(file, loader,
+                                                   {memory.deviceBytes - textures.bytes(),
+                                                    memory.hostBytes}));
+    return std::make_unique<MeshDrawable>(object, programs, std::move(file), std::move(textures),
+                                          std::move(paging));
 }
 
 }  // namespace eyrie::draw

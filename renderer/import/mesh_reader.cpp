@@ -15,6 +15,7 @@
 #include "renderer/import/assimp_reader.h"
 #include "renderer/import/jdn_reader.h"
 #include "renderer/import/ply_reader.h"
+#include "renderer/import/texture_files.h"
 #include "renderer/mesh/eym_format.h"
 #include "renderer/mesh/mapped_file.h"
 
@@ -41,7 +42,36 @@ bool looksLikePly(std::string_view text) {
     return text.starts_with("ply") && text.size() > 3 && (text[3] == '\n' || text[3] == '\r');
 }
 
-/// Adds `part` to `whole`, which has colours and normals as soon as one of them does.
+/// Adds the materials of `part`; what has none is plain.
+absl::Status appendMaterials(TriangleMesh& whole, TriangleMesh& part, const std::string& path) {
+    if (whole.materials.empty() && part.materials.empty())
+        return absl::OkStatus();
+    if (whole.materials.empty())
+        whole.materials.emplace_back();
+    whole.materialOf.resize(whole.positions.size(), 0);
+    part.materialOf.resize(part.positions.size(), 0);
+    if (part.materials.empty())
+        part.materials.emplace_back();
+    std::vector<std::uint16_t> numberOf;
+    for (mesh::Material material : part.materials) {
+        if (material.hasImage())
+            material.image += static_cast<std::int32_t>(whole.images.size());
+        const auto known = std::find(whole.materials.begin(), whole.materials.end(), material);
+        numberOf.push_back(static_cast<std::uint16_t>(known - whole.materials.begin()));
+        if (known == whole.materials.end())
+            whole.materials.push_back(material);
+    }
+    if (whole.materials.size() > mesh::kMaxMaterials)
+        return absl::InvalidArgumentError(
+            fmt::format("{}: with it the mesh has more than {} materials; import the files in parts",
+                        path, mesh::kMaxMaterials));
+    for (const std::uint16_t material : part.materialOf)
+        whole.materialOf.push_back(numberOf[material]);
+    for (mesh::Image& image : part.images) whole.images.push_back(std::move(image));
+    return absl::OkStatus();
+}
+
+/// Adds `part` to `whole`, which has colours, normals and materials as soon as one of them does.
 absl::Status append(TriangleMesh& whole, TriangleMesh part, const std::string& path) {
     const std::size_t first = whole.positions.size();
     if (first + part.positions.size() >= std::numeric_limits<std::uint32_t>::max())
@@ -57,6 +87,8 @@ absl::Status append(TriangleMesh& whole, TriangleMesh part, const std::string& p
     };
     join(whole.normals, part.normals, glm::vec3(0));
     join(whole.colours, part.colours, kPlain);
+    join(whole.textureCoordinates, part.textureCoordinates, glm::vec2(0));
+    RETURN_IF_ERROR(appendMaterials(whole, part, path));
     whole.positions.insert(whole.positions.end(), part.positions.begin(), part.positions.end());
     for (auto triangle : part.triangles) {
         for (std::uint32_t& corner : triangle) corner += static_cast<std::uint32_t>(first);
@@ -134,9 +166,11 @@ absl::StatusOr<TriangleMesh> readMesh(const std::string& path, const ImportContr
     const std::string_view text = textOf(file);
     if (looksLikePly(text) || endsWith(path, ".ply"))
         return parsePly(text, path, control);
-    if (looksLikeJdn(text) || endsWith(path, ".jdn"))
-        return parseJdn(text, path, control);
-    return readWithAssimp(path, control);
+    const bool isJdn = looksLikeJdn(text) || endsWith(path, ".jdn");
+    ASSIGN_OR_RETURN(TriangleMesh mesh,
+                     isJdn ? parseJdn(text, path, control) : readWithAssimp(path, control));
+    RETURN_IF_ERROR(loadTextures(mesh, path, control));
+    return mesh;
 }
 
 absl::StatusOr<TriangleMesh> readMeshes(std::span<const std::string> paths,

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <mutex>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include <glm/common.hpp>
@@ -296,7 +297,8 @@ bool Pockets::reach(const Box& box, double steps) const {
 
 std::vector<Pockets> findPockets(const PackedMesh& mesh, const KdTree& tree) {
     std::vector<Pockets> pockets(tree.nodes.size());
-    const auto behind = seenFromBehind(mesh);
+    const bool isSeeThrough = std::ranges::any_of(mesh.materials, &Material::isSeeThrough);
+    const auto behind = isSeeThrough ? std::nullopt : seenFromBehind(mesh);
     if (!behind) {
         for (Pockets& node : pockets) node.addAll();
         return pockets;

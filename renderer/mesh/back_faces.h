@@ -43,7 +43,8 @@ private:
     bool isEverywhere_ = false;
 };
 
-/// For each node of `tree` the pockets under it: everywhere where seenFromBehind() gives nothing.
+/// For each node of `tree` the pockets under it: everywhere where seenFromBehind() gives nothing,
+/// or a material lets the eye in.
 /// What stands for a node shows its back to nobody outside, but to within its error, where no
 /// pocket comes within its error (docs/errors.md#back-faces).
 std::vector<Pockets> findPockets(const PackedMesh& mesh, const KdTree& tree);

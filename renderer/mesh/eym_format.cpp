@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <numeric>
 #include <utility>
 
 #include <absl/status/status.h>
@@ -60,7 +61,38 @@ absl::Status EymFile::readTables() {
     if (!levels.ok())
         return fabric::withContext(levels.status(), path());
     levels_ = *levels;
+    return header_.materialCount > 0 ? readMaterials() : absl::OkStatus();
+}
+
+absl::Status EymFile::readMaterials() {
+    std::vector<std::byte> bytes(materialTableBytes(header_));
+    RETURN_IF_ERROR(source_->read({sizeof(EymHeader) + nodes_.size() * sizeof(Node), bytes.size(),
+                                   header_.materialsChecksum},
+                                  bytes, "the tables of materials"));
+    const std::byte* at = bytes.data();
+    const auto take = [&at](auto& table, std::size_t count) {
+        table.resize(count);
+        const auto to = std::as_writable_bytes(std::span(table));
+        std::copy_n(at, to.size(), to.begin());
+        at += to.size();
+    };
+    take(materials_, header_.materialCount);
+    take(images_, header_.imageCount);
+    take(ranges_, header_.rangeCount);
+    RETURN_IF_ERROR(fabric::withContext(
+        checkMaterials(header_, nodes_, {materials_, images_, ranges_}), path()));
+    firstRange_.resize(nodes_.size() + 1);
+    for (const MaterialRange& range : ranges_) ++firstRange_[range.node + 1];
+    std::partial_sum(firstRange_.begin(), firstRange_.end(), firstRange_.begin());
     return absl::OkStatus();
+}
+
+absl::StatusOr<std::vector<std::byte>> EymFile::imageBlocks(std::uint32_t image) const {
+    const ImageRecord& record = images_[image];
+    std::vector<std::byte> blocks(record.bytes);
+    RETURN_IF_ERROR(source_->read({record.offset, record.bytes, record.checksum}, blocks,
+                                  fmt::format("image {}", image)));
+    return blocks;
 }
 
 fabric::Box EymFile::bounds(std::uint32_t node) const {
