@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -35,6 +36,9 @@ struct Facts {
     double coarsestErrorMetres = 0;
     double finestErrorMetres = 0;
     std::optional<terrain::ImagerySummary> imagery;
+    std::uint64_t materials = 0;  ///< of a mesh, that are more than a colour
+    std::uint64_t textures = 0;
+    double textureRmsError = 0;  ///< of the worst of them, of 255
 };
 
 absl::StatusOr<Facts> terrainFacts(const std::string& path, const page::SourceOptions& sources) {
@@ -58,6 +62,9 @@ absl::StatusOr<Facts> terrainFacts(const std::string& path, const page::SourceOp
 
 absl::StatusOr<Facts> meshFacts(const std::string& path, const page::SourceOptions& sources) {
     ASSIGN_OR_RETURN(const mesh::EymFile file, mesh::EymFile::open(path, sources));
+    double worst = 0;
+    for (const mesh::ImageRecord& image : file.images())
+        worst = std::max(worst, double{image.shape.rmsError});
     return Facts{.kind = "mesh",
                  .bounds = file.bounds(),
                  .unit = "triangles",
@@ -68,7 +75,10 @@ absl::StatusOr<Facts> meshFacts(const std::string& path, const page::SourceOptio
                  .bytes = file.fileBytes(),
                  .coarsestErrorMetres = file.coarsestErrorMetres(),
                  .finestErrorMetres = file.finestErrorMetres(),
-                 .imagery = {}};
+                 .imagery = {},
+                 .materials = file.materials().size(),
+                 .textures = file.images().size(),
+                 .textureRmsError = worst};
 }
 
 absl::StatusOr<Facts> dataFacts(const std::string& path, const page::SourceOptions& sources) {
@@ -97,6 +107,10 @@ JsonObject toJson(const Facts& facts) {
         .object("errorMetres", JsonObject()
                                    .number("coarsest", facts.coarsestErrorMetres)
                                    .number("finest", facts.finestErrorMetres));
+    if (facts.materials > 0)
+        json.count("materials", facts.materials)
+            .count("textures", facts.textures)
+            .number("textureRmsError", facts.textureRmsError);
     if (facts.imagery)
         json.object("imagery", imageryJson(*facts.imagery));
     return json;
@@ -122,6 +136,9 @@ void printFacts(const std::string& name, const Facts& facts) {
     fmt::print("  bytes       {}\n", facts.bytes);
     fmt::print("  error       {:.3g} m at the coarsest, {:.3g} m at the finest\n",
                facts.coarsestErrorMetres, facts.finestErrorMetres);
+    if (facts.materials > 0)
+        fmt::print("  materials   {}, {} textures within {:.2g} of 255 (RMS)\n", facts.materials,
+                   facts.textures, facts.textureRmsError);
     if (facts.imagery)
         fmt::print("  imagery     {}\n", imageryText(*facts.imagery));
 }

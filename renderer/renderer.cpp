@@ -225,12 +225,11 @@ void sortBackToFront(std::vector<draw::OrderedPiece>& pieces, const lod::View& v
     std::vector<lod::ObjectView> views;
     for (const fabric::Mat4& one : worldFromObject) views.emplace_back(view, one);
     const auto height = [&](const draw::OrderedPiece& one) {  // the view looks down
-        return (views[one.object].viewFromObject() *
-                fabric::Vec4(one.piece.bounds.centre(), 1.0)).z;
+        return (views[one.object].viewFromObject() * fabric::Vec4(one.piece.bounds.centre(), 1.0))
+            .z;
     };
-    std::stable_sort(pieces.begin(), pieces.end(), [&](const auto& a, const auto& b) {
-        return height(a) < height(b);
-    });
+    std::stable_sort(pieces.begin(), pieces.end(),
+                     [&](const auto& a, const auto& b) { return height(a) < height(b); });
 }
 
 /// The pieces of all objects that fall to the task, in the order of their place in the range.

@@ -339,9 +339,9 @@ absl::StatusOr<std::unique_ptr<Drawable>> openMesh(const fabric::SceneObject& ob
     ASSIGN_OR_RETURN(mesh::EymFile opened, mesh::EymFile::open(object.path, sources));
     auto file = std::make_shared<const mesh::EymFile>(std::move(opened));
     MeshTextures textures(*file, memory.deviceBytes / 2, format);
-    ASSIGN_OR_RETURN(auto paging, MeshPaging::open(file, loader,
-                                                   {memory.deviceBytes - textures.bytes(),
-                                                    memory.hostBytes}));
+    ASSIGN_OR_RETURN(
+        auto paging,
+        MeshPaging::open(file, loader, {memory.deviceBytes - textures.bytes(), memory.hostBytes}));
     return std::make_unique<MeshDrawable>(object, programs, std::move(file), std::move(textures),
                                           std::move(paging));
 }

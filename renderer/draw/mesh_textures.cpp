@@ -35,8 +35,7 @@ std::uint32_t levelsToDrop(std::span<const mesh::ImageRecord> images, std::uint6
     for (std::uint32_t drop = 0;; ++drop) {
         std::uint64_t bytes = 0;
         for (const mesh::ImageRecord& image : images)
-            bytes +=
-                deviceBytes(image.shape, std::min(drop, image.shape.levels() - 1), format);
+            bytes += deviceBytes(image.shape, std::min(drop, image.shape.levels() - 1), format);
         if (bytes <= mostBytes || drop + 1 == mostLevels)
             return drop;
     }
@@ -55,8 +54,7 @@ void setFilter(const gl::Texture2D& texture, const mesh::ImageShape& shape) {
 void uploadTexels(const gl::Texture2D& texture, const mesh::ImageShape& shape,
                   std::span<const std::byte> blocks, std::uint32_t first) {
     const auto levels = static_cast<GLsizei>(shape.levels() - first);
-    glTextureStorage2D(texture.id(), levels, GL_RGBA8,
-                       static_cast<GLsizei>(shape.widthAt(first)),
+    glTextureStorage2D(texture.id(), levels, GL_RGBA8, static_cast<GLsizei>(shape.widthAt(first)),
                        static_cast<GLsizei>(shape.heightAt(first)));
     for (GLint k = 0; k < levels; ++k) {
         const std::uint32_t level = first + static_cast<std::uint32_t>(k);
@@ -72,8 +70,8 @@ void uploadTexels(const gl::Texture2D& texture, const mesh::ImageShape& shape,
 
 void uploadBlocks(const gl::Texture2D& texture, const mesh::ImageShape& shape,
                   std::span<const std::byte> blocks, std::uint32_t first) {
-    const GLenum format = shape.hasAlpha() ? GL_COMPRESSED_RGBA_S3TC_DXT5_EXT
-                                           : GL_COMPRESSED_RGB_S3TC_DXT1_EXT;
+    const GLenum format =
+        shape.hasAlpha() ? GL_COMPRESSED_RGBA_S3TC_DXT5_EXT : GL_COMPRESSED_RGB_S3TC_DXT1_EXT;
     const auto levels = static_cast<GLsizei>(shape.levels() - first);
     glTextureStorage2D(texture.id(), levels, format, static_cast<GLsizei>(shape.widthAt(first)),
                        static_cast<GLsizei>(shape.heightAt(first)));
@@ -95,8 +93,7 @@ void uploadMean(const gl::Texture2D& texture, const mesh::ImageShape& shape) {
 
 }  // namespace
 
-MeshTextures::MeshTextures(const mesh::EymFile& file, std::uint64_t mostBytes,
-                           TextureFormat format)
+MeshTextures::MeshTextures(const mesh::EymFile& file, std::uint64_t mostBytes, TextureFormat format)
     : textures_(file.images().size()) {
     const std::uint32_t drop = levelsToDrop(file.images(), mostBytes, format);
     if (drop > 0)

@@ -44,7 +44,7 @@ AlphaMode alphaModeOf(const aiMaterial& material) {
     if (material.Get(AI_MATKEY_GLTF_ALPHAMODE, mode) != AI_SUCCESS)
         return AlphaMode::Unknown;
     const std::string_view word(mode.C_Str());
-    return word == "BLEND" ? AlphaMode::Blend
+    return word == "BLEND"  ? AlphaMode::Blend
            : word == "MASK" ? AlphaMode::Mask
                             : AlphaMode::Opaque;
 }
@@ -125,10 +125,10 @@ AssimpMaterials::Entry AssimpMaterials::read(const aiMaterial& material) {
         drawn.alphaCutoff = cutoffOf(material);
     if (mode == AlphaMode::Unknown)
         drawn.flags |= kAlphaByImage;
-    entry.number = number(drawn);
     const bool isBlack = entry.colour.r == 0 && entry.colour.g == 0 && entry.colour.b == 0;
     if (texturesReplaceColours_ || isBlack)
-        entry.colour.r = entry.colour.g = entry.colour.b = 1;
+        drawn.flags |= kReplacesColour;
+    entry.number = number(drawn);
     return entry;
 }
 

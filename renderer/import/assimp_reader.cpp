@@ -236,8 +236,8 @@ std::vector<std::string> caveats(std::span<const std::byte> bytes, const AssimpF
         "beside 'loc', are not taken right: export it in another format if parts are misplaced"};
 }
 
-/// An AC3D file without the further textures that a race track's surfaces have (skid marks, shadows):
-/// of several Assimp takes the last.
+/// An AC3D file without the further textures that a race track's surfaces have (skid marks,
+/// shadows): of several Assimp takes the last.
 std::string withFirstTextures(std::span<const std::byte> bytes) {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     std::string kept;
@@ -247,8 +247,8 @@ std::string withFirstTextures(std::span<const std::byte> bytes) {
         at = end;
         const std::string_view use = line.substr(std::min(line.find_last_of("\" "), line.size()));
         const bool isTexture = line.starts_with("texture ");
-        if (!isTexture || !(use.starts_with(" tiled") || use.starts_with(" skids") ||
-                            use.starts_with(" shad")))
+        if (!isTexture ||
+            !(use.starts_with(" tiled") || use.starts_with(" skids") || use.starts_with(" shad")))
             kept += line;
     }
     return kept;

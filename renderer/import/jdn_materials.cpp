@@ -85,9 +85,7 @@ void addJdnMaterial(const JdnMaterial& material, std::size_t firstVertex, std::s
     drawn.flags = material.colour.a < 255 ? mesh::kIsBlended : 0;
     if (!corners.empty() && material.texture >= 0) {
         drawn.image = material.texture;
-        drawn.flags |= kAlphaByImage;
-        for (std::size_t i = firstVertex; i < mesh.colours.size(); ++i)
-            mesh.colours[i] = {255, 255, 255, material.colour.a};
+        drawn.flags |= kAlphaByImage | kReplacesColour;
     }
     mesh.textureCoordinates.resize(mesh.positions.size(), glm::vec2(0));
     if (drawn.hasImage()) {

@@ -126,8 +126,8 @@ private:
     std::size_t firstPosition_ = 0;  // of the object
     std::size_t firstTriangle_ = 0;
     bool hasNormals_ = false;
-    std::uint64_t texturedVertices_ = 0;                   // said to be in the object
-    std::vector<glm::vec2> places_;                        // the object's textured vertices
+    std::uint64_t texturedVertices_ = 0;                  // said to be in the object
+    std::vector<glm::vec2> places_;                       // the object's textured vertices
     std::vector<std::array<std::uint32_t, 3>> placesOf_;  // the corners of its faces
 
     std::uint64_t unknownKeys_ = 0;
@@ -220,8 +220,7 @@ absl::Status JdnParser::readTexturedVertex(std::string_view value) {
 }
 
 absl::Status JdnParser::readTexturedFace(std::string_view value) {
-    return readCorners(value, texturedVertices_, "Num textured vertices",
-                       placesOf_.emplace_back());
+    return readCorners(value, texturedVertices_, "Num textured vertices", placesOf_.emplace_back());
 }
 
 absl::Status JdnParser::readVertex(std::string_view value) {
@@ -370,8 +369,8 @@ absl::StatusOr<TriangleMesh> JdnParser::parse() {
                      fmt::format("{}", std::max<std::uint64_t>(objectsExpected_, 1)),
                      "the file is truncated, or no .jdn scene: copy or export it again");
     if (materials_.count() != materialsExpected_)
-        return wrong(fmt::format("{} materials", materials_.count()), fmt::format("{}", materialsExpected_),
-                     "export the scene again");
+        return wrong(fmt::format("{} materials", materials_.count()),
+                     fmt::format("{}", materialsExpected_), "export the scene again");
     if (mesh_.triangles.empty())
         return wrong("no face", "at least one", "export the scene again with its faces");
     if (!hasNormals_)

@@ -2,7 +2,9 @@
 #include "renderer/import/mesh_reader.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
+#include <iterator>
 #include <limits>
 #include <string_view>
 #include <system_error>
@@ -62,9 +64,9 @@ absl::Status appendMaterials(TriangleMesh& whole, TriangleMesh& part, const std:
             whole.materials.push_back(material);
     }
     if (whole.materials.size() > mesh::kMaxMaterials)
-        return absl::InvalidArgumentError(
-            fmt::format("{}: with it the mesh has more than {} materials; import the files in parts",
-                        path, mesh::kMaxMaterials));
+        return absl::InvalidArgumentError(fmt::format(
+            "{}: with it the mesh has more than {} materials; import the files in parts", path,
+            mesh::kMaxMaterials));
     for (const std::uint16_t material : part.materialOf)
         whole.materialOf.push_back(numberOf[material]);
     for (mesh::Image& image : part.images) whole.images.push_back(std::move(image));
@@ -109,14 +111,13 @@ ImportControl shareOf(const ImportControl& control, std::size_t file, std::size_
             control.stop};
 }
 
-/// Names of files that `text` mentions: the rest of lines that begin with "mtllib", or the values
-/// of "uri" in JSON.
+/// Names of files that `text` mentions: what follows `mark`, up to one of `ends`.
 std::vector<std::string> mentionedFiles(std::string_view text, std::string_view mark,
                                         std::string_view ends) {
     std::vector<std::string> names;
     for (std::size_t at = text.find(mark); at != std::string_view::npos;
          at = text.find(mark, at + mark.size())) {
-        const std::size_t begin = text.find_first_not_of(" \t:\"", at + mark.size());
+        const std::size_t begin = text.find_first_not_of(" \t:=\"", at + mark.size());
         if (begin == std::string_view::npos)
             break;
         const std::size_t end = std::min(text.find_first_of(ends, begin), text.size());
@@ -128,20 +129,47 @@ std::vector<std::string> mentionedFiles(std::string_view text, std::string_view 
     return names;
 }
 
-absl::StatusOr<std::vector<std::string>> companions(const std::string& path) {
-    const bool isObj = endsWith(path, ".obj");
-    if (!isObj && !endsWith(path, ".gltf"))
-        return std::vector<std::string>();
+/// Where a kind of file names others.
+struct Mention {
+    std::string_view ending;
+    std::string_view mark;
+    std::string_view ends;
+};
+constexpr std::array kMentions = {
+    Mention{".obj", "mtllib", "\r\n"},    Mention{".mtl", "map_Kd", "\r\n"},
+    Mention{".gltf", "\"uri\"", "\""},    Mention{".jdn", "Map Path", "\r\n"},
+    Mention{".ac", "\ntexture", "\"\n"},  Mention{".ac3d", "\ntexture", "\"\n"},
+    Mention{".acc", "\ntexture", "\"\n"},
+};
+
+/// Assimp says nothing when the material files of an OBJ are missing.
+void noteMissingMaterials(std::string_view text, const std::string& path, TriangleMesh& mesh) {
+    const std::vector<std::string> names = mentionedFiles(text, "mtllib", "\r\n");
+    std::vector<std::string> missing;
+    std::ranges::copy_if(names, std::back_inserter(missing),
+                         [&](const std::string& name) { return findTexture(name, path).empty(); });
+    if (!missing.empty())
+        mesh.notes.push_back(
+            fmt::format("{} of {} material files are missing, and what they define is plain: '{}'",
+                        missing.size(), names.size(), missing.front()));
+}
+
+/// Adds the files that the one at `path` names, as far as they exist, and what those name.
+absl::Status addCompanions(const std::string& path, std::vector<std::string>& found) {
+    const auto kind = std::ranges::find_if(
+        kMentions, [&](const Mention& mention) { return endsWith(path, mention.ending); });
+    if (kind == kMentions.end())
+        return absl::OkStatus();
     ASSIGN_OR_RETURN(const mesh::MappedFile file, mesh::MappedFile::open(path));
-    std::vector<std::string> found;
-    for (const std::string& name : isObj ? mentionedFiles(textOf(file), "mtllib", "\r\n")
-                                         : mentionedFiles(textOf(file), "\"uri\"", "\"")) {
-        const fs::path companion = fs::path(path).parent_path() / name;
-        std::error_code ignored;
-        if (fs::is_regular_file(companion, ignored))
-            found.push_back(companion.string());
+    for (const std::string& name : mentionedFiles(textOf(file), kind->mark, kind->ends)) {
+        const std::string companion = findTexture(name, path);
+        if (companion.empty() || companion == path || std::ranges::count(found, companion) > 0)
+            continue;
+        found.push_back(companion);
+        if (kind->ending == ".obj")
+            RETURN_IF_ERROR(addCompanions(companion, found));
     }
-    return found;
+    return absl::OkStatus();
 }
 
 }  // namespace
@@ -169,6 +197,8 @@ absl::StatusOr<TriangleMesh> readMesh(const std::string& path, const ImportContr
     const bool isJdn = looksLikeJdn(text) || endsWith(path, ".jdn");
     ASSIGN_OR_RETURN(TriangleMesh mesh,
                      isJdn ? parseJdn(text, path, control) : readWithAssimp(path, control));
+    if (endsWith(path, ".obj"))
+        noteMissingMaterials(text, path, mesh);
     RETURN_IF_ERROR(loadTextures(mesh, path, control));
     return mesh;
 }
@@ -190,7 +220,8 @@ absl::StatusOr<std::uint64_t> meshSourceHash(std::span<const std::string> paths)
     for (const std::string& path : paths) {
         ASSIGN_OR_RETURN(const std::uint64_t own, mesh::contentHash(path));
         hash = hash * 31 + own;
-        ASSIGN_OR_RETURN(const std::vector<std::string> others, companions(path));
+        std::vector<std::string> others;
+        RETURN_IF_ERROR(addCompanions(path, others));
         for (const std::string& other : others) {
             ASSIGN_OR_RETURN(const std::uint64_t part, mesh::contentHash(other));
             hash = hash * 31 + part;

@@ -114,9 +114,9 @@ struct TexturePlace {
 /// A source on its way to the lattice.
 struct Packing {
     TriangleMesh source;
-    std::vector<VertexKey> keys;      ///< of the source's vertices
-    Weld byPosition;                  ///< points of the surface
-    std::vector<fabric::Vec3> exact;  ///< by VertexKey::exact, where they are kept
+    std::vector<VertexKey> keys;         ///< of the source's vertices
+    Weld byPosition;                     ///< points of the surface
+    std::vector<fabric::Vec3> exact;     ///< by VertexKey::exact, where they are kept
     std::vector<TexturePlace> textures;  ///< by VertexKey::texture, where there are materials
 };
 

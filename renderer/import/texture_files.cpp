@@ -124,7 +124,6 @@ void Loading::settleAlpha(std::size_t texture, const AlphaUse& use) {
         if (material.image != static_cast<std::int32_t>(texture))
             continue;
         const bool isAsked = (material.flags & kAlphaByImage) != 0;
-        material.flags &= ~kAlphaByImage;
         if (!use.hasAlpha)
             material.alphaCutoff = 0;
         else if (isAsked && use.isSoft)
@@ -162,18 +161,31 @@ absl::StatusOr<TriangleMesh> Loading::run() {
         if (const absl::Status loaded = load(i); !loaded.ok()) {
             settleAlpha(i, {});
             if (failed++ == 0)
-                first = fmt::format("'{}' {}", mesh_.textures[i].name,
-                                    std::string_view(loaded.message().data(),
-                                                     loaded.message().size()));
+                first =
+                    fmt::format("'{}' {}", mesh_.textures[i].name,
+                                std::string_view(loaded.message().data(), loaded.message().size()));
         }
     for (mesh::Material& material : result_.materials)
-        material.image = material.hasImage() ? imageOf_[static_cast<std::size_t>(material.image)]
-                                             : -1;
+        material.image =
+            material.hasImage() ? imageOf_[static_cast<std::size_t>(material.image)] : -1;
     if (failed > 0)
         result_.notes.push_back(fmt::format(
             "{} of {} textures cannot be read, and their materials have their colour alone: {}",
             failed, mesh_.textures.size(), first));
     return std::move(result_);
+}
+
+/// Has done with what is said until images are there.
+void replaceColours(TriangleMesh& mesh) {
+    const auto isReplaced = [&mesh](std::size_t vertex) {
+        const mesh::Material& material = mesh.materials[mesh.materialOf[vertex]];
+        return material.hasImage() && (material.flags & kReplacesColour) != 0;
+    };
+    for (std::size_t i = 0; i < mesh.colours.size(); ++i)
+        if (isReplaced(i))
+            mesh.colours[i] = {255, 255, 255, mesh.colours[i].a};
+    for (mesh::Material& material : mesh.materials)
+        material.flags &= ~(kAlphaByImage | kReplacesColour);
 }
 
 /// Blended materials of which everything is opaque need not be.
@@ -242,8 +254,7 @@ absl::Status loadTextures(TriangleMesh& mesh, const std::string& path,
         ReadingLimits limits;
         limits.memoryBytes = kMostBytes;
         limits.processorTime += mesh.textures.size() * kTimeEach;
-        auto loaded =
-            readInOwnProcess([&] { return Loading(mesh, path).run(); }, limits, control);
+        auto loaded = readInOwnProcess([&] { return Loading(mesh, path).run(); }, limits, control);
         RETURN_IF_ERROR(control.check());
         if (loaded.ok()) {
             mesh.materials = std::move(loaded->materials);
@@ -252,7 +263,6 @@ absl::Status loadTextures(TriangleMesh& mesh, const std::string& path,
         } else {
             for (mesh::Material& material : mesh.materials) {
                 material.image = -1;
-                material.flags &= ~kAlphaByImage;
                 material.alphaCutoff = 0;
             }
             mesh.notes.push_back(
@@ -264,6 +274,7 @@ absl::Status loadTextures(TriangleMesh& mesh, const std::string& path,
         }
         mesh.textures.clear();
     }
+    replaceColours(mesh);
     dropIdleBlending(mesh);
     mergeMaterials(mesh);
     return absl::OkStatus();

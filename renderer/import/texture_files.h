@@ -17,12 +17,12 @@ namespace eyrie::import {
 /// then without regard to case.
 ///
 /// An image that is missing, damaged or too large is counted in the notes, the first with its name
-/// and the reason; its materials have their colour alone. Alpha is kept where a material uses it.
-/// A material of kAlphaByImage whose image has alpha is blended if more than half of the texels that
-/// are not opaque are not clear either, and has holes otherwise.
-/// Materials that are blended for nothing are opaque; the same materials are one; and where
-/// there is nothing but a plain one there is none.
-/// Errors: Cancelled.
+/// and the reason; its materials have their colour alone. Where a material of kReplacesColour has
+/// its image colours become white. Alpha is kept where a material uses it.
+/// A material of kAlphaByImage whose image has alpha is blended if more than half of the texels
+/// that are not opaque are not clear either, and has holes otherwise. Materials that are blended
+/// for nothing are opaque; the same materials are one; and where there is nothing but a plain one
+/// there is none. Errors: Cancelled.
 absl::Status loadTextures(TriangleMesh& mesh, const std::string& path,
                           const ImportControl& control);
 

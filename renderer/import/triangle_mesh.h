@@ -16,8 +16,10 @@
 namespace eyrie::import {
 
 /// In mesh::Material::flags until textures are loaded: the format does not say whether its image's
-/// alpha makes holes or a veil, so the image does.
+/// alpha makes holes or a veil, so the image does ...
 inline constexpr std::uint32_t kAlphaByImage = 1U << 31;
+/// ... and the image, if there is one, takes the place of the colour, but for the opacity.
+inline constexpr std::uint32_t kReplacesColour = 1U << 30;
 
 /// An image that a source names, or has in it: `bytes` as a file of that name would have.
 struct TextureSource {

@@ -28,10 +28,10 @@ absl::Status checkCounts(const EymHeader& header) {
                        fmt::format("1 to {}", kMaxTriangles));
     if (header.materialCount > kMaxMaterials ||
         (header.materialCount == 0 && (header.imageCount > 0 || header.rangeCount > 0)))
-        return damaged("header.materialCount", header.materialCount,
-                       fmt::format("at most {}, and some where there are images or ranges",
-                                   kMaxMaterials));
-    constexpr std::uint32_t kKnown = 
+        return damaged(
+            "header.materialCount", header.materialCount,
+            fmt::format("at most {}, and some where there are images or ranges", kMaxMaterials));
+    constexpr std::uint32_t kKnown =
         kHasColours | kIsCoded | kHasExact | kExactIsFloat64 | kHasTextures;
     if ((header.flags & ~kKnown) != 0)
         return damaged("header.flags", header.flags, fmt::format("bits of {}", kKnown));

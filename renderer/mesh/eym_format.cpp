@@ -66,9 +66,9 @@ absl::Status EymFile::readTables() {
 
 absl::Status EymFile::readMaterials() {
     std::vector<std::byte> bytes(materialTableBytes(header_));
-    RETURN_IF_ERROR(source_->read({sizeof(EymHeader) + nodes_.size() * sizeof(Node), bytes.size(),
-                                   header_.materialsChecksum},
-                                  bytes, "the tables of materials"));
+    RETURN_IF_ERROR(source_->read(
+        {sizeof(EymHeader) + nodes_.size() * sizeof(Node), bytes.size(), header_.materialsChecksum},
+        bytes, "the tables of materials"));
     const std::byte* at = bytes.data();
     const auto take = [&at](auto& table, std::size_t count) {
         table.resize(count);

@@ -68,8 +68,8 @@ struct EymHeader {
     std::uint32_t flags = 0;
     std::array<double, 3> originMetres{};  ///< of the lattice
     double stepMetres = 1;
-    double coarsestErrorMetres = 0;  ///< of the root
-    double finestErrorMetres = 0;    ///< of the leaves
+    double coarsestErrorMetres = 0;       ///< of the root
+    double finestErrorMetres = 0;         ///< of the leaves
     std::uint64_t materialsChecksum = 0;  ///< xxh64 of the tables from materials to ranges
     std::uint32_t materialCount = 0;
     std::uint32_t imageCount = 0;

@@ -90,7 +90,6 @@ Parts inDrawingOrder(const PackedMesh& mesh, std::vector<Triangle> triangles,
     return result;
 }
 
-
 /// As node_block.h has it.
 std::vector<std::byte> blockOf(const PackedNode& node) {
     std::vector<std::uint64_t> block(blockBytes(shapeOf(node)) / 8);
@@ -134,9 +133,13 @@ public:
         pages.page = blockOf(packed);
         pages.blockChecksum = contentHash(pages.page);
         if (isCoded_)
-            pages.page = encodePage(
-                {packed.positions, packed.normals, packed.colours, packed.textureCoordinates,
-                 packed.indices, {}, nullptr});
+            pages.page = encodePage({packed.positions,
+                                     packed.normals,
+                                     packed.colours,
+                                     packed.textureCoordinates,
+                                     packed.indices,
+                                     {},
+                                     nullptr});
         if (node.isLeaf() && !packed.exact.empty())
             pages.exact = encodeExact(packed.exact, packed.positions, mesh_.lattice, exactForm_);
         return pages;

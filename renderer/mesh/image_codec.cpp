@@ -102,8 +102,8 @@ void encodeBlock(BlockTexels texels, bool hasAlpha, std::vector<std::byte>& bloc
         blocks.insert(blocks.end(), coded.begin(), coded.end());
     }
     for (fabric::Rgba& texel : texels) texel.a = 255;
-    const auto colours = std::bit_cast<std::array<std::byte, sizeof(terrain::Bc1Block)>>(
-        terrain::encodeBc1(texels));
+    const auto colours =
+        std::bit_cast<std::array<std::byte, sizeof(terrain::Bc1Block)>>(terrain::encodeBc1(texels));
     blocks.insert(blocks.end(), colours.begin(), colours.end());
 }
 
@@ -127,8 +127,8 @@ std::array<std::uint8_t, 16> decodeAlphas(const std::byte* block) {
     std::memcpy(&bits, block, kAlphaBytes);
     const auto first = static_cast<unsigned>(bits & 255U);
     const auto second = static_cast<unsigned>(bits >> 8 & 255U);
-    std::array<std::uint8_t, 8> palette{static_cast<std::uint8_t>(first),
-                                        static_cast<std::uint8_t>(second), 0, 0, 0, 0, 0, 255};
+    std::array<std::uint8_t, 8> palette{
+        static_cast<std::uint8_t>(first), static_cast<std::uint8_t>(second), 0, 0, 0, 0, 0, 255};
     const unsigned parts = first > second ? 7 : 5;
     for (unsigned k = 1; k < parts; ++k)
         palette[k + 1] =
@@ -180,8 +180,7 @@ std::vector<fabric::Rgba> decodeLevel(const ImageShape& shape, std::span<const s
     std::vector<terrain::Bc1Block> colours(count);
     Texels texels(count * 16);
     for (std::size_t k = 0; k < count; ++k)
-        std::memcpy(&colours[k],
-                    at + k * shape.blockBytes() + (shape.hasAlpha() ? kAlphaBytes : 0),
+        std::memcpy(&colours[k], at + k * shape.blockBytes() + (shape.hasAlpha() ? kAlphaBytes : 0),
                     sizeof(terrain::Bc1Block));
     terrain::decodeBc1(colours, static_cast<std::int32_t>(blocksX), texels);
     if (!shape.hasAlpha())

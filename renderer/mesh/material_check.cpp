@@ -16,9 +16,9 @@ absl::Status checkMaterial(const EymHeader& header, std::size_t index, const Mat
     if (material.image < -1 ||
         (material.hasImage() && (static_cast<std::uint32_t>(material.image) >= header.imageCount ||
                                  (header.flags & kHasTextures) == 0)))
-        return damaged(fmt::format("material {}: image", index), material.image,
-                       fmt::format("-1, or, with texture coordinates, less than {}",
-                                   header.imageCount));
+        return damaged(
+            fmt::format("material {}: image", index), material.image,
+            fmt::format("-1, or, with texture coordinates, less than {}", header.imageCount));
     constexpr std::uint32_t kKnown = kIsBlended | kIsTwoSided | kIsOneSided;
     if ((material.flags & ~kKnown) != 0 || (material.isOneSided() && material.isTwoSided()))
         return damaged(fmt::format("material {}: flags", index), material.flags,
@@ -78,10 +78,10 @@ absl::Status checkMaterials(const EymHeader& header, std::span<const Node> nodes
             covered += tables.ranges[at].indexCount;
         }
         if (covered != nodes[node].indexCount || nodes[node].frontIndexCount != 0)
-            return damaged(fmt::format("node {}: ranges", node),
-                           fmt::format("{} indices, {} of them fronts", covered,
-                                       nodes[node].frontIndexCount),
-                           fmt::format("{} and 0", nodes[node].indexCount));
+            return damaged(
+                fmt::format("node {}: ranges", node),
+                fmt::format("{} indices, {} of them fronts", covered, nodes[node].frontIndexCount),
+                fmt::format("{} and 0", nodes[node].indexCount));
     }
     if (at != tables.ranges.size())
         return damaged(fmt::format("range {}: node", at), tables.ranges[at].node,

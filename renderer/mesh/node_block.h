@@ -61,11 +61,11 @@ struct NodeArrays {
 struct NodeGeometry {
     std::span<const std::uint64_t> positions;
     std::span<const std::uint32_t> normals;
-    std::span<const std::uint32_t> colours;  ///< empty in a mesh without colours
+    std::span<const std::uint32_t> colours;          ///< empty in a mesh without colours
     std::span<const glm::ivec2> textureCoordinates;  ///< the same
-    std::span<const std::uint16_t> indices;  ///< each below positions.size()
-    std::span<const std::byte> block;        ///< all of them, as above; empty where they lie apart
-    std::shared_ptr<const void> owner;       ///< of the block; null where it is mapped
+    std::span<const std::uint16_t> indices;          ///< each below positions.size()
+    std::span<const std::byte> block;   ///< all of them, as above; empty where they lie apart
+    std::shared_ptr<const void> owner;  ///< of the block; null where it is mapped
 };
 
 /// The arrays that lie in a block. Preconditions: it is aligned to 8 bytes and has

@@ -261,9 +261,8 @@ void PageDecoder::takeColour(std::uint32_t v, const std::uint8_t* symbols) {
 void PageDecoder::takeTextureCoordinates(std::uint32_t v, const std::uint8_t* symbols) {
     const Origin& from = origins_[v];
     const auto places = arrays_.textureCoordinates;
-    glm::uvec2 place = v == 0
-                           ? glm::uvec2(0U)
-                           : foreseen(places[from.a], places[from.b], places[from.opposite]);
+    glm::uvec2 place =
+        v == 0 ? glm::uvec2(0U) : foreseen(places[from.a], places[from.b], places[from.opposite]);
     for (int axis = 0; axis < 2; ++axis) place[axis] += unzigzag(number(symbols[axis]));
     places[v] = glm::ivec2(place);
 }

@@ -163,9 +163,8 @@ void PageEncoder::addColour(std::uint32_t v, std::uint32_t& context) {
 void PageEncoder::addTextureCoordinates(std::uint32_t v, std::uint32_t& context) {
     const Origin& from = origins_[v];
     const auto& places = geometry_.textureCoordinates;
-    const glm::uvec2 guess = v == 0
-                                 ? glm::uvec2(0U)
-                                 : foreseen(places[from.a], places[from.b], places[from.opposite]);
+    const glm::uvec2 guess =
+        v == 0 ? glm::uvec2(0U) : foreseen(places[from.a], places[from.b], places[from.opposite]);
     const glm::uvec2 left = glm::uvec2(places[v]) - guess;
     for (int axis = 0; axis < 2; ++axis)
         putNumber(vertices_, context++, zigzag(wrapped<32>(left[axis])));
