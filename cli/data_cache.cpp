@@ -28,7 +28,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Raise either when an importer makes something else of the same source.
-constexpr int kMeshImporterVersion = 4;
+constexpr int kMeshImporterVersion = 5;
 constexpr int kTerrainImporterVersion = 5;
 
 /// Files beside a raster that say where it lies: a change of one is a change of the source.

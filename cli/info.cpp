@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -36,6 +37,9 @@ struct Facts {
     double finestErrorMetres = 0;
     std::uint64_t tunedLeafTriangles = 0;  ///< of meshes; 0: not tuned
     std::optional<terrain::ImagerySummary> imagery;
+    std::uint64_t materials = 0;  ///< of a mesh, that are more than a colour
+    std::uint64_t textures = 0;
+    double textureRmsError = 0;  ///< of the worst of them, of 255
 };
 
 absl::StatusOr<Facts> terrainFacts(const std::string& path, const page::SourceOptions& sources) {
@@ -59,6 +63,9 @@ absl::StatusOr<Facts> terrainFacts(const std::string& path, const page::SourceOp
 
 absl::StatusOr<Facts> meshFacts(const std::string& path, const page::SourceOptions& sources) {
     ASSIGN_OR_RETURN(const mesh::EymFile file, mesh::EymFile::open(path, sources));
+    double worst = 0;
+    for (const mesh::ImageRecord& image : file.images())
+        worst = std::max(worst, double{image.shape.rmsError});
     return Facts{.kind = "mesh",
                  .bounds = file.bounds(),
                  .unit = "triangles",
@@ -70,7 +77,11 @@ absl::StatusOr<Facts> meshFacts(const std::string& path, const page::SourceOptio
                  .coarsestErrorMetres = file.coarsestErrorMetres(),
                  .finestErrorMetres = file.finestErrorMetres(),
                  .tunedLeafTriangles = file.tunedLeafTriangles(),
-                 .imagery = {}};
+
+                 .imagery = {},
+                 .materials = file.materials().size(),
+                 .textures = file.images().size(),
+                 .textureRmsError = worst};
 }
 
 absl::StatusOr<Facts> dataFacts(const std::string& path, const page::SourceOptions& sources) {
@@ -101,6 +112,10 @@ JsonObject toJson(const Facts& facts) {
                                    .number("finest", facts.finestErrorMetres));
     if (facts.tunedLeafTriangles > 0)
         json.count("tunedLeafTriangles", facts.tunedLeafTriangles);
+    if (facts.materials > 0)
+        json.count("materials", facts.materials)
+            .count("textures", facts.textures)
+            .number("textureRmsError", facts.textureRmsError);
     if (facts.imagery)
         json.object("imagery", imageryJson(*facts.imagery));
     return json;
@@ -129,6 +144,9 @@ void printFacts(const std::string& name, const Facts& facts) {
     if (facts.tunedLeafTriangles > 0)
         fmt::print("  leaves      of at most {} triangles, which was measured to be fastest\n",
                    facts.tunedLeafTriangles);
+    if (facts.materials > 0)
+        fmt::print("  materials   {}, {} textures within {:.2g} of 255 (RMS)\n", facts.materials,
+                   facts.textures, facts.textureRmsError);
     if (facts.imagery)
         fmt::print("  imagery     {}\n", imageryText(*facts.imagery));
 }

@@ -10,6 +10,7 @@
 // of symbol shares. 254 takes the rest of the input for a page of source positions, and 255 for a
 // file's header and nodes, with the checksum that then is right.
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -30,18 +31,29 @@ struct Sample {
     std::vector<std::byte> page;
 };
 
+Sample sampleOf(const mesh::PackedMesh& soup) {
+    const std::array<std::span<const mesh::Triangle>, 1> whole{soup.triangles};
+    const mesh::PackedNode node = mesh::gatherNode(soup, whole);
+    return {{static_cast<std::uint32_t>(node.positions.size()),
+             static_cast<std::uint32_t>(node.indices.size()), !node.colours.empty(),
+             !node.textureCoordinates.empty()},
+            mesh::encodePage({node.positions,
+                              node.normals,
+                              node.colours,
+                              node.textureCoordinates,
+                              node.indices,
+                              {},
+                              nullptr})};
+}
+
 std::vector<Sample> realPages() {
     std::vector<Sample> samples;
     for (const bool hasColours : {false, true})
         for (const std::uint32_t extent : {2U, 3000U, 1U << mesh::kLatticeBits}) {
             const mesh::PackedMesh soup = test::randomSoup(120, 70, extent, extent, hasColours);
-            const mesh::PackedNode node = mesh::gatherNode(soup, soup.triangles);
-            samples.push_back(
-                {{static_cast<std::uint32_t>(node.positions.size()),
-                  static_cast<std::uint32_t>(node.indices.size()), hasColours},
-                 mesh::encodePage(
-                     {node.positions, node.normals, node.colours, node.indices, {}, nullptr})});
+            samples.push_back(sampleOf(soup));
         }
+    samples.push_back(sampleOf(test::texturedSoup(120, 1)));
     return samples;
 }
 
@@ -91,6 +103,19 @@ void checkTables(const std::uint8_t* data, std::size_t size) {
     const auto levels = mesh::checkNodes(header, nodes);
     if (levels.ok() && (*levels < 1 || *levels > mesh::kMaxTreeDepth))
         std::abort();
+    const std::byte* at = file.data() + sizeof header + nodes.size() * sizeof(mesh::Node);
+    const auto tableOf = [&at]<typename Record>(std::vector<Record> table) {
+        std::memcpy(table.data(), at, table.size() * sizeof(Record));
+        at += table.size() * sizeof(Record);
+        return table;
+    };
+    const auto materials = tableOf(std::vector<mesh::Material>(header.materialCount));
+    const auto images = tableOf(std::vector<mesh::ImageRecord>(header.imageCount));
+    const auto ranges = tableOf(std::vector<mesh::MaterialRange>(header.rangeCount));
+    if (levels.ok() && mesh::checkMaterials(header, nodes, {materials, images, ranges}).ok())
+        for (const mesh::ImageRecord& image : images)
+            if (image.offset + image.bytes > file.size())
+                std::abort();
 }
 
 }  // namespace

@@ -78,6 +78,8 @@ const gl::PassState& passState(fabric::Shading shading) {
 /// What a channel draws, and the pixels outside which none of it falls.
 struct Selection {
     std::vector<draw::OrderedPiece> pieces;
+    /// With parts that are blended, of any range, the farthest first.
+    std::vector<draw::OrderedPiece> blended;
     std::vector<fabric::Mat4> worldFromObject;  ///< of each object, as drawn
     fabric::PixelViewport covered;
 };
@@ -157,6 +159,8 @@ private:
     absl::Status measureStages(const Selection& selection, const lod::View& view,
                                const fabric::FrameData& frameData, const fabric::ChannelTask& task,
                                fabric::StageMilliseconds& milliseconds);
+    absl::Status drawBlended(std::span<const draw::OrderedPiece> pieces, draw::FrameState frame,
+                             fabric::FrameStatistics& statistics);
 
     std::unique_ptr<gl::EglContext> context_;  // first: everything below needs it current
     effects::EffectVariants<effects::TerrainEffect> terrainPrograms_;
@@ -198,7 +202,8 @@ absl::StatusOr<std::unique_ptr<draw::Drawable>> Renderer::Impl::openObject(
             {options_.memoryBytes / objects, options_.hostMemoryBytes / objects}, textureFormat(),
             decoding_);
     return draw::openMesh(object, meshPrograms_, sources_, loaderFor(object),
-                          {options_.memoryBytes / objects, options_.hostMemoryBytes / objects});
+                          {options_.memoryBytes / objects, options_.hostMemoryBytes / objects},
+                          textureFormat());
 }
 
 absl::StatusOr<fabric::SceneInfo> Renderer::Impl::openScene(const fabric::Scene& scene) {
@@ -219,15 +224,32 @@ absl::StatusOr<fabric::SceneInfo> Renderer::Impl::openScene(const fabric::Scene&
     return info;
 }
 
+/// The farthest first, by the middles of their boxes.
+void sortBackToFront(std::vector<draw::OrderedPiece>& pieces, const lod::View& view,
+                     const std::vector<fabric::Mat4>& worldFromObject) {
+    std::vector<lod::ObjectView> views;
+    for (const fabric::Mat4& one : worldFromObject) views.emplace_back(view, one);
+    const auto height = [&](const draw::OrderedPiece& one) {  // the view looks down
+        return (views[one.object].viewFromObject() * fabric::Vec4(one.piece.bounds.centre(), 1.0))
+            .z;
+    };
+    std::stable_sort(pieces.begin(), pieces.end(),
+                     [&](const auto& a, const auto& b) { return height(a) < height(b); });
+}
+
 /// The pieces of all objects that fall to the task, in the order of their place in the range.
 /// Every channel of a frame draws in that order, so where depths tie the lower range wins in one
 /// channel as it does in compositing.
+///
+/// What is blended falls to every range: of the channels that are composited, that which has the
+/// nearest opaque surface of a pixel wins, and has to have drawn all that is in front of it.
 Selection Renderer::Impl::selectPieces(const lod::View& view, const fabric::FrameData& frameData,
                                        const fabric::ChannelTask& task,
                                        fabric::FrameStatistics& statistics) {
     Selection selection;
     std::vector<draw::OrderedPiece>& pieces = selection.pieces;
     const fabric::Look& look = frameData.look;
+    const bool hasLayers = frameData.shading != fabric::Shading::Wireframe;
     const fabric::Frustum channel = lod::subFrustum(view, reach(frameData, task.pixelViewport));
     // A cut that was frozen is brought whole: this view may see all of it.
     const lod::View cutView =
@@ -243,10 +265,14 @@ Selection Renderer::Impl::selectPieces(const lod::View& view, const fabric::Fram
              look.exaggeration, look.pageBounds});
         addTo(statistics, cut);
         for (const draw::Piece& piece : cut.pieces) {
-            if (!task.range.contains(piece.rangePosition) ||
-                !objectView.isVisible(piece.bounds, channel))
+            const bool isInRange = task.range.contains(piece.rangePosition);
+            const bool isBlended = piece.hasBlended && hasLayers;
+            if ((!isInRange && !isBlended) || !objectView.isVisible(piece.bounds, channel))
                 continue;
-            pieces.push_back({i, piece});
+            if (isInRange)
+                pieces.push_back({i, piece});
+            if (isBlended)
+                selection.blended.push_back({i, piece});
             if (!selection.covered.contains(task.pixelViewport))
                 selection.covered =
                     enclosing(selection.covered, objectView.coveredPixels(piece.bounds));
@@ -255,6 +281,7 @@ Selection Renderer::Impl::selectPieces(const lod::View& view, const fabric::Fram
     std::stable_sort(pieces.begin(), pieces.end(), [](const auto& a, const auto& b) {
         return a.piece.rangePosition < b.piece.rangePosition;
     });
+    sortBackToFront(selection.blended, view, selection.worldFromObject);
     selection.covered = intersection(selection.covered, task.pixelViewport);
     return selection;
 }
@@ -309,6 +336,24 @@ absl::Status Renderer::Impl::drawPieces(const draw::OccludedDraw::Pieces& pieces
     return absl::OkStatus();
 }
 
+/// Tested against the opaque surfaces' depth, which stays: what is not opaque has none.
+absl::Status Renderer::Impl::drawBlended(std::span<const draw::OrderedPiece> pieces,
+                                         draw::FrameState frame,
+                                         fabric::FrameStatistics& statistics) {
+    if (pieces.empty())
+        return absl::OkStatus();
+    frame.layer = draw::Layer::Blended;
+    glDepthMask(GL_FALSE);
+    glEnable(GL_BLEND);
+    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
+    absl::Status drawn;
+    for (std::size_t i = 0; i < pieces.size() && drawn.ok(); ++i)
+        drawn = objects_[pieces[i].object].drawable->draw(std::span(&pieces[i].piece, 1), frame,
+                                                          statistics);
+    passState(frame.shading).apply();
+    return drawn;
+}
+
 /// Lines hide nothing, and are drawn with the piece they belong to, hidden or not.
 absl::Status Renderer::Impl::drawSelection(const Selection& selection, const lod::View& view,
                                            const fabric::FrameData& frameData,
@@ -331,6 +376,7 @@ absl::Status Renderer::Impl::drawSelection(const Selection& selection, const lod
             return drawPieces(pieces, frame, drawn);
         },
         statistics));
+    RETURN_IF_ERROR(drawBlended(selection.blended, frame, statistics));
     glFinish();
     return absl::OkStatus();
 }

@@ -32,7 +32,11 @@ struct Piece {
     bool isNode = true;        ///< false for what is drawn beside the nodes
     /// About: what leaving it out saves.
     std::uint64_t triangles = 0;
+    bool hasBlended = false;  ///< parts of it belong to Layer::Blended
 };
+
+/// What is drawn at one time: all that hides what is behind it, and then what lets it through.
+enum class Layer { Opaque, Blended };
 
 /// What part of which view a channel draws, and how well.
 struct CutRequest {
@@ -69,6 +73,7 @@ struct FrameState {
     fabric::Shading shading;
     const fabric::Look& look;
     const fabric::Range& range;  ///< of the channel
+    Layer layer = Layer::Opaque;
 };
 
 /// One object of the scene, on the GL thread.
@@ -90,8 +95,9 @@ public:
     /// smaller than its own.
     virtual std::vector<fabric::Box> partBounds(const Piece& /*piece*/) const { return {}; }
 
-    /// Draws pieces of the last cut, in order, into the bound framebuffer. Counts triangles, and
-    /// pages that are loaded only now, in `statistics`.
+    /// Draws what of pieces of the last cut belongs to the frame's layer, in order, into the bound
+    /// framebuffer. As lines all of it is Layer::Opaque. Counts triangles, and pages that are
+    /// loaded only now, in `statistics`.
     virtual absl::Status draw(std::span<const Piece> pieces, const FrameState& frame,
                               fabric::FrameStatistics& statistics) = 0;
 

@@ -14,6 +14,7 @@
 #include "renderer/draw/box_lines.h"
 #include "renderer/draw/mesh_cut.h"
 #include "renderer/draw/mesh_paging.h"
+#include "renderer/draw/mesh_textures.h"
 #include "renderer/draw/object_program.h"
 #include "renderer/draw/tau_choice.h"
 #include "renderer/draw/tint.h"
@@ -35,30 +36,59 @@ std::uint32_t packedSrgb(const fabric::Vec3& linear) {
 
 bool isTinted(const fabric::Look& look) { return look.levelTint || look.rangeTint; }
 
-std::vector<fabric::PixelViewport> pixelsOf(const std::vector<fabric::Box>& boxes,
-                                            const lod::ObjectView& view) {
-    std::vector<fabric::PixelViewport> pixels;
-    for (const fabric::Box& box : boxes) pixels.push_back(view.coveredPixels(box));
-    return pixels;
+/// `count` indices from `first` on, the first `fronts` of them without the culled side.
+void drawIndices(const DeviceNode& node, GLsizei first, GLsizei count, GLsizei fronts) {
+    const auto draw = [&node](GLsizei from, GLsizei indices) {
+        glDrawElements(GL_TRIANGLES, indices, GL_UNSIGNED_SHORT,
+                       reinterpret_cast<const void*>(
+                           node.indexOffset + from * static_cast<GLsizei>(sizeof(std::uint16_t))));
+    };
+    if (fronts > 0) {
+        glEnable(GL_CULL_FACE);
+        draw(first, fronts);
+        glDisable(GL_CULL_FACE);
+    }
+    if (fronts < count)
+        draw(first + fronts, count - fronts);
 }
 
-/// Where pixels of a piece may show what lies behind a lid it is drawn with its backs.
-bool meet(const std::vector<fabric::PixelViewport>& some, const fabric::PixelViewport& one) {
-    return std::ranges::any_of(some, [&](const fabric::PixelViewport& other) {
-        return !fabric::intersection(one, other).isEmpty();
-    });
-}
+/// Which backs of a frame's pieces need not be drawn.
+class HiddenBacks {
+public:
+    HiddenBacks(bool areAny, const std::vector<fabric::Box>& lids, lod::ObjectView view)
+        : areAny_(areAny), view_(std::move(view)) {
+        for (const fabric::Box& lid : lids) lids_.push_back(view_.coveredPixels(lid));
+    }
+
+    /// Where pixels of a piece may show what lies behind a lid it is drawn with its backs.
+    bool hides(const Piece& piece, bool isOneSided) const {
+        return areAny_ && (isOneSided || !meetsLid(view_.coveredPixels(piece.bounds)));
+    }
+
+private:
+    bool meetsLid(const fabric::PixelViewport& pixels) const {
+        return std::ranges::any_of(lids_, [&](const fabric::PixelViewport& lid) {
+            return !fabric::intersection(pixels, lid).isEmpty();
+        });
+    }
+
+    bool areAny_;
+    lod::ObjectView view_;
+    std::vector<fabric::PixelViewport> lids_;
+};
 
 class MeshDrawable : public Drawable {
 public:
     MeshDrawable(const fabric::SceneObject& object, MeshPrograms& programs,
-                 std::shared_ptr<const mesh::EymFile> file, std::unique_ptr<MeshPaging> paging)
+                 std::shared_ptr<const mesh::EymFile> file, MeshTextures textures,
+                 std::unique_ptr<MeshPaging> paging)
         : programs_(programs),
           worldFromObject_(object.worldFromObject),
           uniformColour_(packedSrgb(object.colour)),
           singleSided_(object.singleSided),
           file_(std::move(file)),
           lids_(file_->lids()),
+          textures_(std::move(textures)),
           paging_(std::move(paging)) {
         const mesh::Lattice& lattice = file_->lattice();
         objectFromLattice_ = glm::scale(glm::translate(fabric::Mat4(1.0), lattice.originMetres),
@@ -76,7 +106,11 @@ public:
     }
     absl::Status draw(std::span<const Piece> pieces, const FrameState& frame,
                       fabric::FrameStatistics& statistics) override;
-    MemoryUse memory() const override { return paging_->memory(); }
+    MemoryUse memory() const override {
+        MemoryUse use = paging_->memory();
+        use.deviceBytes += textures_.bytes();
+        return use;
+    }
 
 private:
     void defineVertexFormat();
@@ -85,11 +119,22 @@ private:
     std::uint64_t countMissing(const MeshCut& cut) const;
     page::HostPages::Loads reach(const CutRequest& request, double tauPixels);
     bool mayHideBacks(const FrameState& frame) const;
-    void drawNode(const DeviceNode& node, GLsizei fronts) const;
-    void drawPiece(const Piece& piece, const FrameState& frame, bool hidesBacks) const;
+    bool hasBlended(std::uint32_t node) const;
+    void source(const DeviceNode& node) const;
+    void bind(const FrameState& frame) const;
     void use(const Program& program, const FrameState& frame) const;
     void colour(const Piece& piece, const FrameState& frame) const;
     int levelOf(std::uint32_t node) const;
+    absl::Status drawWhole(std::span<const Piece> pieces, const FrameState& frame,
+                           fabric::FrameStatistics& statistics);
+    /// Programs of which the object is set.
+    using Prepared = std::map<Program::Variant, const Program*>;
+    absl::Status prepare(const mesh::Material& material, const FrameState& frame,
+                         Prepared& prepared);
+    absl::Status drawByMaterial(std::span<const Piece> pieces, const FrameState& frame,
+                                fabric::FrameStatistics& statistics);
+    void drawRange(const DeviceNode& node, GLsizei first, const mesh::MaterialRange& range,
+                   const Piece& piece, const HiddenBacks& backs) const;
 
     MeshPrograms& programs_;
     fabric::Mat4 worldFromObject_;
@@ -98,6 +143,7 @@ private:
     bool singleSided_;
     std::shared_ptr<const mesh::EymFile> file_;
     std::vector<fabric::Box> lids_;
+    MeshTextures textures_;
     double errorPixels_ = 0;  ///< of the last cut
     gl::VertexArray vertexArray_;
     BoxLines boxLines_;
@@ -110,6 +156,7 @@ void MeshDrawable::defineVertexFormat() {
     Program::kPackedPosition.define(vertexArray_);
     Program::kPackedNormal.define(vertexArray_);
     Program::kPackedColour.define(vertexArray_, file_->hasColours());
+    Program::kPackedPlace.define(vertexArray_, file_->hasTextures());
 }
 
 const MeshCut& MeshDrawable::cutAt(int step, const CutRequest& request) {
@@ -187,7 +234,8 @@ Cut MeshDrawable::selectCut(const CutRequest& request) {
     for (const CutNode& one : drawn.drawn) {
         const mesh::Node& node = file_->nodes()[one.node];
         cut.pieces.push_back({one.node, static_cast<double>(node.triangleBegin) / total,
-                              file_->bounds(one.node), true, node.indexCount / 3});
+                              file_->bounds(one.node), true, node.indexCount / 3,
+                              hasBlended(one.node)});
     }
     return cut;
 }
@@ -209,36 +257,35 @@ bool MeshDrawable::mayHideBacks(const FrameState& frame) const {
     return glm::length(nearest) > fabric::kNearMetres * std::sqrt(1 + x * x + y * y);
 }
 
-/// Without the backs of its first `fronts` indices.
-void MeshDrawable::drawNode(const DeviceNode& node, GLsizei fronts) const {
+bool MeshDrawable::hasBlended(std::uint32_t node) const {
+    return std::ranges::any_of(file_->ranges(node), [this](const mesh::MaterialRange& range) {
+        return file_->materials()[range.material].isBlended();
+    });
+}
+
+void MeshDrawable::source(const DeviceNode& node) const {
     Program::kPackedPosition.source(vertexArray_, node.buffer, 0);
     Program::kPackedNormal.source(vertexArray_, node.buffer, node.normalOffset);
     if (file_->hasColours())
         Program::kPackedColour.source(vertexArray_, node.buffer, node.colourOffset);
+    if (file_->hasTextures())
+        Program::kPackedPlace.source(vertexArray_, node.buffer, node.placeOffset);
     glVertexArrayElementBuffer(vertexArray_.id(), node.buffer.id());
-    const auto draw = [&node](GLsizei first, GLsizei count) {
-        glDrawElements(GL_TRIANGLES, count, GL_UNSIGNED_SHORT,
-                       reinterpret_cast<const void*>(
-                           node.indexOffset + first * static_cast<GLsizei>(sizeof(std::uint16_t))));
-    };
-    if (fronts > 0) {
-        glEnable(GL_CULL_FACE);
-        draw(0, fronts);
-        glDisable(GL_CULL_FACE);
-    }
-    if (fronts < node.indexCount)
-        draw(fronts, node.indexCount - fronts);
 }
 
 /// Demonstration colours stand in for the mesh's own, which an array that is not enabled lets them.
-void MeshDrawable::use(const Program& program, const FrameState& frame) const {
-    program.use();
+void MeshDrawable::bind(const FrameState& frame) const {
     glFrontFace(glm::determinant(fabric::Mat3(worldFromObject_)) < 0 ? GL_CW : GL_CCW);
     glBindVertexArray(vertexArray_.id());
     if (file_->hasColours() && !isTinted(frame.look))
         glEnableVertexArrayAttrib(vertexArray_.id(), Program::kPackedColour.location);
     else
         glDisableVertexArrayAttrib(vertexArray_.id(), Program::kPackedColour.location);
+}
+
+void MeshDrawable::use(const Program& program, const FrameState& frame) const {
+    program.use();
+    bind(frame);
 }
 
 /// From the root down.
@@ -261,17 +308,8 @@ void MeshDrawable::colour(const Piece& piece, const FrameState& frame) const {
     glVertexAttribI4ui(Program::kPackedColour.location, colour, 0, 0, 0);
 }
 
-void MeshDrawable::drawPiece(const Piece& piece, const FrameState& frame, bool hidesBacks) const {
-    const DeviceNode* node = paging_->node(piece.index);
-    const GLsizei fronts = singleSided_
-                               ? node->indexCount
-                               : static_cast<GLsizei>(file_->nodes()[piece.index].frontIndexCount);
-    colour(piece, frame);
-    drawNode(*node, hidesBacks ? fronts : 0);
-}
-
-absl::Status MeshDrawable::draw(std::span<const Piece> pieces, const FrameState& frame,
-                                fabric::FrameStatistics& statistics) {
+absl::Status MeshDrawable::drawWhole(std::span<const Piece> pieces, const FrameState& frame,
+                                     fabric::FrameStatistics& statistics) {
     Program::Variant variant{variantFor(frame, worldFromObject_)};
     variant.gouraud = frame.shading == fabric::Shading::Gouraud;
     ASSIGN_OR_RETURN(const Program* program, programs_.find(variant));
@@ -279,12 +317,15 @@ absl::Status MeshDrawable::draw(std::span<const Piece> pieces, const FrameState&
         RETURN_IF_ERROR(boxLines_.begin(frame.view, worldFromObject_));
     use(*program, frame);
     setObject(*program, frame, worldFromObject_, objectFromLattice_);
-    const bool mayHideBacks = this->mayHideBacks(frame);
-    const lod::ObjectView view(frame.view, worldFromObject_);
-    const std::vector<fabric::PixelViewport> lids = pixelsOf(lids_, view);
+    const HiddenBacks backs(mayHideBacks(frame), lids_, {frame.view, worldFromObject_});
     for (const Piece& piece : pieces) {
-        drawPiece(piece, frame,
-                  mayHideBacks && (singleSided_ || !meet(lids, view.coveredPixels(piece.bounds))));
+        const DeviceNode* node = paging_->node(piece.index);
+        const GLsizei fronts =
+            singleSided_ ? node->indexCount
+                         : static_cast<GLsizei>(file_->nodes()[piece.index].frontIndexCount);
+        source(*node);
+        colour(piece, frame);
+        drawIndices(*node, 0, node->indexCount, backs.hides(piece, singleSided_) ? fronts : 0);
         statistics.triangles += piece.triangles;
         if (frame.look.tileBounds) {
             // At once, so that where depths tie the lower range wins as in compositing.
@@ -295,16 +336,102 @@ absl::Status MeshDrawable::draw(std::span<const Piece> pieces, const FrameState&
     return absl::OkStatus();
 }
 
+/// Of what is blended the far sides first: right by itself where a piece is convex.
+void MeshDrawable::drawRange(const DeviceNode& node, GLsizei first,
+                             const mesh::MaterialRange& range, const Piece& piece,
+                             const HiddenBacks& backs) const {
+    const mesh::Material& material = file_->materials()[range.material];
+    const auto count = static_cast<GLsizei>(range.indexCount);
+    if (material.isBlended() && !material.isOneSided()) {
+        glCullFace(GL_FRONT);
+        drawIndices(node, first, count, count);
+        glCullFace(GL_BACK);
+    }
+    if (material.isBlended() || material.isOneSided()) {
+        drawIndices(node, first, count, count);
+        return;
+    }
+    const bool hasOneSide = singleSided_ && !material.isTwoSided() && !material.isSeeThrough();
+    const GLsizei fronts = hasOneSide ? count : static_cast<GLsizei>(range.frontIndexCount);
+    drawIndices(node, first, count, backs.hides(piece, hasOneSide) ? fronts : 0);
+}
+
+/// Uses the program that draws a material.
+absl::Status MeshDrawable::prepare(const mesh::Material& material, const FrameState& frame,
+                                   Prepared& prepared) {
+    Program::Variant variant{variantFor(frame, worldFromObject_)};
+    variant.gouraud = frame.shading == fabric::Shading::Gouraud;
+    variant.textured = material.hasImage();
+    variant.seeThrough = material.isBlended() ? 2 : material.alphaCutoff > 0 ? 1 : 0;
+    const auto [at, isNew] = prepared.try_emplace(variant, nullptr);
+    const Program*& program = at->second;
+    if (isNew) {
+        ASSIGN_OR_RETURN(program, programs_.find(variant));
+    }
+    program->use();
+    if (isNew)
+        setObject(*program, frame, worldFromObject_, objectFromLattice_);
+    if (material.hasImage())
+        program->picture(textures_.texture(material.image));
+    if (material.alphaCutoff > 0)
+        program->alphaCutoff(material.alphaCutoff);
+    return absl::OkStatus();
+}
+
+absl::Status MeshDrawable::drawByMaterial(std::span<const Piece> pieces, const FrameState& frame,
+                                          fabric::FrameStatistics& statistics) {
+    Prepared prepared;
+    const HiddenBacks backs(mayHideBacks(frame), lids_, {frame.view, worldFromObject_});
+    const bool hasBoxes = frame.look.tileBounds && frame.layer == Layer::Opaque;
+    if (hasBoxes)
+        RETURN_IF_ERROR(boxLines_.begin(frame.view, worldFromObject_));
+    bind(frame);
+    glVertexAttribI4ui(Program::kPackedColour.location, uniformColour_, 0, 0, 0);
+    for (const Piece& piece : pieces) {
+        const DeviceNode& node = *paging_->node(piece.index);
+        source(node);
+        GLsizei first = 0;
+        for (const mesh::MaterialRange& range : file_->ranges(piece.index)) {
+            const mesh::Material& material = file_->materials()[range.material];
+            if (material.isBlended() == (frame.layer == Layer::Blended)) {
+                RETURN_IF_ERROR(prepare(material, frame, prepared));
+                drawRange(node, first, range, piece, backs);
+                statistics.triangles += range.indexCount / 3;
+            }
+            first += static_cast<GLsizei>(range.indexCount);
+        }
+        if (hasBoxes) {
+            boxLines_.draw(piece.bounds, levelColour(levelOf(piece.index)));
+            bind(frame);
+        }
+    }
+    return absl::OkStatus();
+}
+
+absl::Status MeshDrawable::draw(std::span<const Piece> pieces, const FrameState& frame,
+                                fabric::FrameStatistics& statistics) {
+    const bool isWhole = file_->materials().empty() ||
+                         frame.shading == fabric::Shading::Wireframe || isTinted(frame.look);
+    if (!isWhole)
+        return drawByMaterial(pieces, frame, statistics);
+    return frame.layer == Layer::Opaque ? drawWhole(pieces, frame, statistics) : absl::OkStatus();
+}
+
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<Drawable>> openMesh(const fabric::SceneObject& object,
                                                    MeshPrograms& programs,
                                                    const page::SourceOptions& sources,
-                                                   page::Loader& loader, const MeshMemory& memory) {
+                                                   page::Loader& loader, const MeshMemory& memory,
+                                                   TextureFormat format) {
     ASSIGN_OR_RETURN(mesh::EymFile opened, mesh::EymFile::open(object.path, sources));
     auto file = std::make_shared<const mesh::EymFile>(std::move(opened));
-    ASSIGN_OR_RETURN(auto paging, MeshPaging::open(file, loader, memory));
-    return std::make_unique<MeshDrawable>(object, programs, std::move(file), std::move(paging));
+    MeshTextures textures(*file, memory.deviceBytes / 2, format);
+    ASSIGN_OR_RETURN(
+        auto paging,
+        MeshPaging::open(file, loader, {memory.deviceBytes - textures.bytes(), memory.hostBytes}));
+    return std::make_unique<MeshDrawable>(object, programs, std::move(file), std::move(textures),
+                                          std::move(paging));
 }
 
 }  // namespace eyrie::draw

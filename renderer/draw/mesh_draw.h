@@ -7,6 +7,7 @@
 
 #include "effects/mesh_effect.h"
 #include "fabric/scene.h"
+#include "renderer/draw/device_texture.h"
 #include "renderer/draw/drawable.h"
 #include "renderer/draw/mesh_paging.h"
 #include "renderer/effects/effect_variants.h"
@@ -16,11 +17,13 @@ namespace eyrie::draw {
 
 using MeshPrograms = effects::EffectVariants<effects::MeshEffect>;
 
-/// Opens `object.path` as a .eym file. `programs` and `loader` outlive what is
-/// returned. Errors: those of EymFile::open and of MeshPaging::open.
+/// Opens `object.path` as a .eym file. Textures may take half of its memory on the device.
+/// `programs` and `loader` outlive what is returned. Errors: those of EymFile::open and of
+/// MeshPaging::open.
 absl::StatusOr<std::unique_ptr<Drawable>> openMesh(const fabric::SceneObject& object,
                                                    MeshPrograms& programs,
                                                    const page::SourceOptions& sources,
-                                                   page::Loader& loader, const MeshMemory& memory);
+                                                   page::Loader& loader, const MeshMemory& memory,
+                                                   TextureFormat format);
 
 }  // namespace eyrie::draw

@@ -23,6 +23,7 @@ DeviceNode upload(const mesh::NodeGeometry& geometry) {
     DeviceNode node;
     node.normalOffset = offsetOf(geometry.normals);
     node.colourOffset = offsetOf(geometry.colours);
+    node.placeOffset = offsetOf(geometry.textureCoordinates);
     node.indexOffset = offsetOf(geometry.indices);
     node.indexCount = static_cast<GLsizei>(geometry.indices.size());
     glNamedBufferStorage(node.buffer.id(), static_cast<GLsizeiptr>(geometry.block.size()),

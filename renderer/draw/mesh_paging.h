@@ -22,6 +22,7 @@ struct DeviceNode {
     gl::Buffer buffer;
     GLintptr normalOffset = 0;
     GLintptr colourOffset = 0;
+    GLintptr placeOffset = 0;  ///< of texture coordinates
     GLintptr indexOffset = 0;
     GLsizei indexCount = 0;
 };

@@ -25,6 +25,7 @@
 #include <glm/matrix.hpp>
 
 #include "fabric/status.h"
+#include "renderer/import/assimp_materials.h"
 #include "renderer/import/polygon.h"
 #include "renderer/mesh/mapped_file.h"
 
@@ -32,13 +33,13 @@ namespace eyrie::import {
 namespace {
 
 constexpr std::array kFormats = {
-    AssimpFormat{".3ds", true, false},  AssimpFormat{".ac", true, false},
-    AssimpFormat{".ac3d", true, false}, AssimpFormat{".acc", true, false},
-    AssimpFormat{".dae", true, false},  AssimpFormat{".fbx", true, false},
-    AssimpFormat{".glb", true, true},   AssimpFormat{".gltf", true, true},
-    AssimpFormat{".ifc", true, false},  AssimpFormat{".obj", false, false},
-    AssimpFormat{".off", false, false}, AssimpFormat{".stl", false, false},
-    AssimpFormat{".x3d", true, false},
+    AssimpFormat{".3ds", true, false, true},   AssimpFormat{".ac", true, false, false},
+    AssimpFormat{".ac3d", true, false, false}, AssimpFormat{".acc", true, false, false},
+    AssimpFormat{".dae", true, false, true},   AssimpFormat{".fbx", true, false, true},
+    AssimpFormat{".glb", true, true, false},   AssimpFormat{".gltf", true, true, false},
+    AssimpFormat{".ifc", true, false, false},  AssimpFormat{".obj", false, false, false},
+    AssimpFormat{".off", false, false, false}, AssimpFormat{".stl", false, false, false},
+    AssimpFormat{".x3d", true, false, true},
 };
 
 /// Of surfaces without a material, where others have one.
@@ -70,7 +71,8 @@ bool hasOwnMaterial(const aiMaterial& material) {
 /// Gathers what the nodes of a scene show.
 class SceneMeshes {
 public:
-    SceneMeshes(const aiScene& scene, const AssimpFormat& format) : scene_(scene), format_(format) {
+    SceneMeshes(const aiScene& scene, const AssimpFormat& format)
+        : scene_(scene), format_(format), materials_(scene, format.texturesReplaceColours) {
         for (unsigned int i = 0; i < scene.mNumMeshes; ++i) {
             const aiMesh& mesh = *scene.mMeshes[i];
             hasNormals_ = hasNormals_ || mesh.mNormals != nullptr;
@@ -85,11 +87,13 @@ private:
     absl::Status add(const aiMesh& mesh, const glm::dmat4& worldFromMesh);
     absl::Status addVertices(const aiMesh& mesh, const glm::dmat4& worldFromMesh);
     void addColours(const aiMesh& mesh);
+    void addTextureCoordinates(const aiMesh& mesh);
     absl::Status addFaces(const aiMesh& mesh, std::uint32_t first, bool isMirrored);
     absl::Status addFace(const aiFace& face, std::uint32_t first);
 
     const aiScene& scene_;
     const AssimpFormat& format_;
+    AssimpMaterials materials_;
     bool hasNormals_ = false;
     bool hasColours_ = false;
     TriangleMesh result_;
@@ -126,14 +130,21 @@ void SceneMeshes::addColours(const aiMesh& mesh) {
     const aiMaterial* material = materialOf(mesh);
     aiColor4D diffuse = mesh.mColors[0] != nullptr ? aiColor4D(1, 1, 1, 1) : kPlain;
     if (material != nullptr)
-        material->Get(AI_MATKEY_COLOR_DIFFUSE, diffuse);
+        diffuse = materials_.colourOf(mesh);
     for (unsigned int i = 0; i < mesh.mNumVertices; ++i) {
         const aiColor4D own =
             mesh.mColors[0] != nullptr ? mesh.mColors[0][i] : aiColor4D(1, 1, 1, 1);
         const auto shown = [this](float value) { return byteOf(value, format_.hasLinearColours); };
         result_.colours.push_back(
-            {shown(diffuse.r * own.r), shown(diffuse.g * own.g), shown(diffuse.b * own.b), 255});
+            {shown(diffuse.r * own.r), shown(diffuse.g * own.g), shown(diffuse.b * own.b),
+             byteOf(materials_.isOpaque(mesh) ? 1.0F : diffuse.a * own.a, false)});
     }
+}
+
+void SceneMeshes::addTextureCoordinates(const aiMesh& mesh) {
+    result_.materialOf.resize(result_.positions.size(), materials_.numberOf(mesh));
+    for (unsigned int i = 0; i < mesh.mNumVertices && materials_.hasTextures(); ++i)
+        result_.textureCoordinates.push_back(materials_.textureCoordinates(mesh, i));
 }
 
 absl::Status SceneMeshes::addFace(const aiFace& face, std::uint32_t first) {
@@ -179,6 +190,8 @@ absl::Status SceneMeshes::add(const aiMesh& mesh, const glm::dmat4& worldFromMes
     RETURN_IF_ERROR(addVertices(mesh, worldFromMesh));
     if (hasColours_)
         addColours(mesh);
+    if (materials_.areAny())
+        addTextureCoordinates(mesh);
     return addFaces(mesh, static_cast<std::uint32_t>(first),
                     glm::determinant(glm::dmat3(worldFromMesh)) < 0);
 }
@@ -207,6 +220,7 @@ absl::StatusOr<TriangleMesh> SceneMeshes::gather() {
             fmt::format("found no face with three corners or more ({} with fewer), expected at "
                         "least one; export the mesh again with its faces",
                         result_.droppedFaces));
+    materials_.moveTo(result_);
     return std::move(result_);
 }
 
@@ -222,10 +236,39 @@ std::vector<std::string> caveats(std::span<const std::byte> bytes, const AssimpF
         "beside 'loc', are not taken right: export it in another format if parts are misplaced"};
 }
 
+/// An AC3D file without the further textures that a race track's surfaces have (skid marks,
+/// shadows): of several Assimp takes the last.
+std::string withFirstTextures(std::span<const std::byte> bytes) {
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    std::string kept;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = std::min(text.find('\n', at), text.size() - 1) + 1;
+        std::string_view line = text.substr(at, end - at);
+        at = end;
+        const std::string_view use = line.substr(std::min(line.find_last_of("\" "), line.size()));
+        const bool isTexture = line.starts_with("texture ");
+        if (!isTexture ||
+            !(use.starts_with(" tiled") || use.starts_with(" skids") || use.starts_with(" shad")))
+            kept += line;
+    }
+    return kept;
+}
+
+const aiScene* parse(Assimp::Importer& importer, const std::string& path,
+                     const AssimpFormat& format) {
+    if (!format.extension.starts_with(".ac"))
+        return importer.ReadFile(path, 0);
+    const absl::StatusOr<mesh::MappedFile> file = mesh::MappedFile::open(path);
+    if (!file.ok())
+        return importer.ReadFile(path, 0);
+    const std::string text = withFirstTextures(file->bytes());
+    return importer.ReadFileFromMemory(text.data(), text.size(), 0, "ac");
+}
+
 absl::StatusOr<TriangleMesh> read(const std::string& path, const AssimpFormat& format) {
     try {
         Assimp::Importer importer;
-        const aiScene* scene = importer.ReadFile(path, 0);
+        const aiScene* scene = parse(importer, path, format);
         if (scene != nullptr)
             return SceneMeshes(*scene, format).gather();
         const std::string why = importer.GetErrorString();

@@ -18,6 +18,8 @@ struct AssimpFormat {
     std::string_view extension;  ///< lower case, with its dot
     bool isYUp;             ///< its models stand on the plane y = 0, in Assimp's hands at least
     bool hasLinearColours;  ///< not as displayed (sRGB)
+    /// Where a material has a texture, it stands for the diffuse colour; otherwise both multiply.
+    bool texturesReplaceColours;
 };
 std::span<const AssimpFormat> assimpFormats();
 
@@ -26,9 +28,11 @@ const AssimpFormat* findAssimpFormat(const std::string& path);
 
 /// Reads all meshes of a file, each as often as nodes show it, with the nodes' transforms taken in
 /// double precision, in the file's own units; models of formats in which y is up are turned so that
-/// z is. Materials' diffuse colours, times those of vertices, become vertex colours; textures,
-/// transparency, lights, animations and bones are left out. Polygons are cut by triangulatePolygon.
-/// Points and lines count as dropped faces.
+/// z is. Materials' diffuse colours, times those of vertices, become vertex colours, with the
+/// opacity as alpha; diffuse textures are named, or given where the file has them in it, for
+/// loadTextures. glTF's alpha modes are kept; in other formats a texture's alpha says what it is
+/// for. Lights, animations and bones are left out. Polygons are cut by triangulatePolygon. Points
+/// and lines count as dropped faces.
 ///
 /// Assimp runs in a process of its own (reading_process.h) within `limits`.
 /// Errors, all naming the file: NotFound, PermissionDenied, InvalidArgument (not readable, no

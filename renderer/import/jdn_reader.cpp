@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
-#include <map>
 #include <span>
 #include <utility>
 #include <vector>
@@ -16,6 +15,7 @@
 #include <fmt/format.h>
 
 #include "fabric/status.h"
+#include "renderer/import/jdn_materials.h"
 
 namespace eyrie::import {
 namespace {
@@ -23,14 +23,11 @@ namespace {
 constexpr std::uint64_t kPollInterval = 65536;  // lines between looks at the stop token
 /// The shortest line of a vertex or a face, `Vert=0 0 0` and its end.
 constexpr std::size_t kLeastElementBytes = 11;
-constexpr fabric::Rgba kPlain{204, 204, 204, 255};
 
 /// Known, and of no use here.
-constexpr std::array<std::string_view, 16> kIgnoredKeys = {
-    "Ambient",      "Specular",      "Shine",         "Shine Strength",
-    "Transparency", "Map Path",      "Pos",           "Direction",
-    "Colour",       "Intensity",     "Fall",          "Type",
-    "Face Normal",  "Textured Vert", "Textured Face", "Num textured vertices"};
+constexpr std::array<std::string_view, 11> kIgnoredKeys = {
+    "Ambient", "Specular", "Shine",     "Shine Strength", "Pos",        "Direction",
+    "Colour",  "Fall",     "Intensity", "Type",           "Face Normal"};
 
 bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
@@ -93,9 +90,14 @@ private:
     absl::Status openSection(Section section, std::string_view value, std::uint64_t& count);
     absl::Status readMaterialId(std::string_view value);
     absl::Status readDiffuse(std::string_view value);
+    absl::Status readTransparency(std::string_view value);
+    absl::Status readTexturedVertex(std::string_view value);
+    absl::Status readTexturedFace(std::string_view value);
     absl::Status readCount(std::string_view value, std::uint64_t& count);
     absl::Status readVertex(std::string_view value);
     absl::Status readNormal(std::string_view value);
+    absl::Status readCorners(std::string_view value, std::uint64_t count, std::string_view what,
+                             std::array<std::uint32_t, 3>& corners) const;
     absl::Status readFace(std::string_view value);
     absl::Status endObject();
     absl::Status checkCount(std::string_view what, std::uint64_t found,
@@ -111,21 +113,22 @@ private:
     Section section_ = Section::None;
     std::string key_;  // being read
 
-    std::uint64_t materials_ = 0;  // named so far, and said to be there
     std::uint64_t materialsExpected_ = 0;
-    fabric::Rgba diffuse_ = kPlain;  // of the material being read
-    std::map<std::int64_t, fabric::Rgba> colourOf_;
+    JdnMaterials materials_;
 
     std::uint64_t lights_ = 0;
     std::uint64_t objects_ = 0;  // begun
     std::uint64_t objectsExpected_ = 0;
     bool isInObject_ = false;
-    fabric::Rgba objectColour_ = kPlain;
+    JdnMaterial objectMaterial_;
     std::uint64_t vertices_ = 0;  // said to be in the object
     std::uint64_t faces_ = 0;
     std::size_t firstPosition_ = 0;  // of the object
     std::size_t firstTriangle_ = 0;
     bool hasNormals_ = false;
+    std::uint64_t texturedVertices_ = 0;                  // said to be in the object
+    std::vector<glm::vec2> places_;                       // the object's textured vertices
+    std::vector<std::array<std::uint32_t, 3>> placesOf_;  // the corners of its faces
 
     std::uint64_t unknownKeys_ = 0;
     std::string firstUnknown_;
@@ -172,17 +175,20 @@ absl::Status JdnParser::readMaterialId(std::string_view value) {
     if (!parseNumbers(value, std::span(&id, 1)))
         return wrong(fmt::format("'{}'", shown(value)), "a whole number", "repair the line");
     if (section_ != Section::Objects) {
-        colourOf_[id] = diffuse_;
+        materials_.setId(id);
         return absl::OkStatus();
     }
     RETURN_IF_ERROR(endObject());
-    const auto material = colourOf_.find(id);
-    objectColour_ = material == colourOf_.end() ? kPlain : material->second;
-    unknownMaterials_ += material == colourOf_.end() ? 1 : 0;
+    const JdnMaterial* material = materials_.find(id);
+    objectMaterial_ = material == nullptr ? JdnMaterial() : *material;
+    unknownMaterials_ += material == nullptr ? 1 : 0;
     isInObject_ = true;
     ++objects_;
     vertices_ = 0;
     faces_ = 0;
+    texturedVertices_ = 0;
+    places_.clear();
+    placesOf_.clear();
     firstPosition_ = mesh_.positions.size();
     firstTriangle_ = mesh_.triangles.size();
     return absl::OkStatus();
@@ -192,8 +198,29 @@ absl::Status JdnParser::readDiffuse(std::string_view value) {
     std::array<double, 3> rgb{};
     if (!parseNumbers(value, std::span<double>(rgb)))
         return wrong(fmt::format("'{}'", shown(value)), "three numbers", "repair the line");
-    diffuse_ = {byteOf(rgb[0]), byteOf(rgb[1]), byteOf(rgb[2]), 255};
+    materials_.setColour({byteOf(rgb[0]), byteOf(rgb[1]), byteOf(rgb[2]), 255});
     return absl::OkStatus();
+}
+
+absl::Status JdnParser::readTransparency(std::string_view value) {
+    double share = 0;
+    if (!parseNumbers(value, std::span(&share, 1)))
+        return wrong(fmt::format("'{}'", shown(value)), "a number", "repair the line");
+    materials_.setOpacity(byteOf(1 - share));
+    return absl::OkStatus();
+}
+
+/// v goes up.
+absl::Status JdnParser::readTexturedVertex(std::string_view value) {
+    std::array<float, 3> uvw{};
+    if (!parseNumbers(value, std::span<float>(uvw)))
+        return wrong(fmt::format("'{}'", shown(value)), "three numbers", "repair the line");
+    places_.emplace_back(uvw[0], 1 - uvw[1]);
+    return absl::OkStatus();
+}
+
+absl::Status JdnParser::readTexturedFace(std::string_view value) {
+    return readCorners(value, texturedVertices_, "Num textured vertices", placesOf_.emplace_back());
 }
 
 absl::Status JdnParser::readVertex(std::string_view value) {
@@ -217,20 +244,28 @@ absl::Status JdnParser::readNormal(std::string_view value) {
     return absl::OkStatus();
 }
 
-absl::Status JdnParser::readFace(std::string_view value) {
-    std::array<std::int64_t, 3> corners{};
-    if (!parseNumbers(value, std::span<std::int64_t>(corners)))
+/// Three numbers below `count`, which the line `counted` says.
+absl::Status JdnParser::readCorners(std::string_view value, std::uint64_t count,
+                                    std::string_view counted,
+                                    std::array<std::uint32_t, 3>& corners) const {
+    std::array<std::int64_t, 3> found{};
+    if (!parseNumbers(value, std::span<std::int64_t>(found)))
         return wrong(fmt::format("'{}'", shown(value)), "three vertices", "repair the face");
-    std::array<std::uint32_t, 3> triangle{};
     for (std::size_t i = 0; i < 3; ++i) {
-        if (corners[i] < 0 || static_cast<std::uint64_t>(corners[i]) >= vertices_)
-            return wrong(fmt::format("{}", corners[i]),
-                         vertices_ == 0 ? "no face before Num Vertices"
-                                        : fmt::format("a vertex from 0 to {}", vertices_ - 1),
+        if (found[i] < 0 || static_cast<std::uint64_t>(found[i]) >= count)
+            return wrong(fmt::format("{}", found[i]),
+                         count == 0 ? fmt::format("no face before {}", counted)
+                                    : fmt::format("a vertex from 0 to {}", count - 1),
                          "repair the face or export the scene again");
-        triangle[i] =
-            static_cast<std::uint32_t>(firstPosition_ + static_cast<std::uint64_t>(corners[i]));
+        corners[i] = static_cast<std::uint32_t>(found[i]);
     }
+    return absl::OkStatus();
+}
+
+absl::Status JdnParser::readFace(std::string_view value) {
+    std::array<std::uint32_t, 3> triangle{};
+    RETURN_IF_ERROR(readCorners(value, vertices_, "Num Vertices", triangle));
+    for (std::uint32_t& corner : triangle) corner += static_cast<std::uint32_t>(firstPosition_);
     mesh_.triangles.push_back(triangle);
     return absl::OkStatus();
 }
@@ -243,8 +278,13 @@ absl::Status JdnParser::endObject() {
     if (mesh_.normals.size() > firstPosition_)
         RETURN_IF_ERROR(
             checkCount("Vert Normal", mesh_.normals.size() - firstPosition_, vertices_));
+    if (!placesOf_.empty()) {
+        RETURN_IF_ERROR(checkCount("Textured Vert", places_.size(), texturedVertices_));
+        RETURN_IF_ERROR(checkCount("Textured Face", placesOf_.size(), faces_));
+    }
     mesh_.normals.resize(mesh_.positions.size(), glm::vec3(0));
-    mesh_.colours.resize(mesh_.positions.size(), objectColour_);
+    mesh_.colours.resize(mesh_.positions.size(), objectMaterial_.colour);
+    addJdnMaterial(objectMaterial_, firstPosition_, firstTriangle_, places_, placesOf_, mesh_);
     return absl::OkStatus();
 }
 
@@ -258,12 +298,23 @@ absl::Status JdnParser::readValue(const std::string& key, std::string_view value
     if (key == "Material ID" && section_ != Section::Lights)
         return readMaterialId(value);
     if (section_ == Section::Materials && key == "Material Name") {
-        ++materials_;
-        diffuse_ = kPlain;
+        materials_.begin();
         return absl::OkStatus();
     }
     if (section_ == Section::Materials && key == "Diffuse")
         return readDiffuse(value);
+    if (section_ == Section::Materials && key == "Transparency")
+        return readTransparency(value);
+    if (section_ == Section::Materials && key == "Map Path") {
+        materials_.setTexture(trimmed(value), mesh_);
+        return absl::OkStatus();
+    }
+    if (isInObject_ && key == "Num textured vertices")
+        return readCount(value, texturedVertices_);
+    if (isInObject_ && key == "Textured Vert")
+        return readTexturedVertex(value);
+    if (isInObject_ && key == "Textured Face")
+        return readTexturedFace(value);
     if (isInObject_ && key == "Num Vertices")
         return readCount(value, vertices_);
     if (isInObject_ && key == "Num Faces")
@@ -317,14 +368,14 @@ absl::StatusOr<TriangleMesh> JdnParser::parse() {
         return wrong(fmt::format("{} objects", objects_),
                      fmt::format("{}", std::max<std::uint64_t>(objectsExpected_, 1)),
                      "the file is truncated, or no .jdn scene: copy or export it again");
-    if (materials_ != materialsExpected_)
-        return wrong(fmt::format("{} materials", materials_), fmt::format("{}", materialsExpected_),
-                     "export the scene again");
+    if (materials_.count() != materialsExpected_)
+        return wrong(fmt::format("{} materials", materials_.count()),
+                     fmt::format("{}", materialsExpected_), "export the scene again");
     if (mesh_.triangles.empty())
         return wrong("no face", "at least one", "export the scene again with its faces");
     if (!hasNormals_)
         mesh_.normals.clear();
-    if (materials_ == 0)
+    if (materials_.count() == 0)
         mesh_.colours.clear();
     addNotes();
     control_.report("reading", 1);

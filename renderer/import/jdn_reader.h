@@ -15,9 +15,10 @@ namespace eyrie::import {
 /// with blanks or tabs at will; materials, lights and objects, each section opened by its count.
 ///
 /// All objects become one mesh, with the vertices' normals, and the diffuse colours of materials as
-/// vertex colours (as displayed). Textures, transparency and lights are left out. Lines with
-/// unknown keys, and objects without a known material, are counted in TriangleMesh::notes.
-/// `name` is used in messages, which say the line. Errors: InvalidArgument, Cancelled.
+/// vertex colours (as displayed), opacity as their alpha. Textures are named, for loadTextures;
+/// where one is, it stands for the diffuse colour. Lights are left out. Lines with unknown keys,
+/// and objects without a known material, are counted in TriangleMesh::notes. `name` is used in
+/// messages, which say the line. Errors: InvalidArgument, Cancelled.
 absl::StatusOr<TriangleMesh> parseJdn(std::string_view text, const std::string& name,
                                       const ImportControl& control = {});
 

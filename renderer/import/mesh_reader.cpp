@@ -2,7 +2,9 @@
 #include "renderer/import/mesh_reader.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
+#include <iterator>
 #include <limits>
 #include <string_view>
 #include <system_error>
@@ -15,6 +17,7 @@
 #include "renderer/import/assimp_reader.h"
 #include "renderer/import/jdn_reader.h"
 #include "renderer/import/ply_reader.h"
+#include "renderer/import/texture_files.h"
 #include "renderer/mesh/eym_format.h"
 #include "renderer/mesh/mapped_file.h"
 
@@ -39,7 +42,36 @@ bool looksLikePly(std::string_view text) {
     return text.starts_with("ply") && text.size() > 3 && (text[3] == '\n' || text[3] == '\r');
 }
 
-/// Adds `part` to `whole`, which has colours and normals as soon as one of them does.
+/// Adds the materials of `part`; what has none is plain.
+absl::Status appendMaterials(TriangleMesh& whole, TriangleMesh& part, const std::string& path) {
+    if (whole.materials.empty() && part.materials.empty())
+        return absl::OkStatus();
+    if (whole.materials.empty())
+        whole.materials.emplace_back();
+    whole.materialOf.resize(whole.positions.size(), 0);
+    part.materialOf.resize(part.positions.size(), 0);
+    if (part.materials.empty())
+        part.materials.emplace_back();
+    std::vector<std::uint16_t> numberOf;
+    for (mesh::Material material : part.materials) {
+        if (material.hasImage())
+            material.image += static_cast<std::int32_t>(whole.images.size());
+        const auto known = std::find(whole.materials.begin(), whole.materials.end(), material);
+        numberOf.push_back(static_cast<std::uint16_t>(known - whole.materials.begin()));
+        if (known == whole.materials.end())
+            whole.materials.push_back(material);
+    }
+    if (whole.materials.size() > mesh::kMaxMaterials)
+        return absl::InvalidArgumentError(fmt::format(
+            "{}: with it the mesh has more than {} materials; import the files in parts", path,
+            mesh::kMaxMaterials));
+    for (const std::uint16_t material : part.materialOf)
+        whole.materialOf.push_back(numberOf[material]);
+    for (mesh::Image& image : part.images) whole.images.push_back(std::move(image));
+    return absl::OkStatus();
+}
+
+/// Adds `part` to `whole`, which has colours, normals and materials as soon as one of them does.
 absl::Status append(TriangleMesh& whole, TriangleMesh part, const std::string& path) {
     const std::size_t first = whole.positions.size();
     if (first + part.positions.size() >= std::numeric_limits<std::uint32_t>::max())
@@ -55,6 +87,8 @@ absl::Status append(TriangleMesh& whole, TriangleMesh part, const std::string& p
     };
     join(whole.normals, part.normals, glm::vec3(0));
     join(whole.colours, part.colours, kPlainColour);
+    join(whole.textureCoordinates, part.textureCoordinates, glm::vec2(0));
+    RETURN_IF_ERROR(appendMaterials(whole, part, path));
     whole.positions.insert(whole.positions.end(), part.positions.begin(), part.positions.end());
     for (auto triangle : part.triangles) {
         for (std::uint32_t& corner : triangle) corner += static_cast<std::uint32_t>(first);
@@ -66,14 +100,13 @@ absl::Status append(TriangleMesh& whole, TriangleMesh part, const std::string& p
     return absl::OkStatus();
 }
 
-/// Names of files that `text` mentions: the rest of lines that begin with "mtllib", or the values
-/// of "uri" in JSON.
+/// Names of files that `text` mentions: what follows `mark`, up to one of `ends`.
 std::vector<std::string> mentionedFiles(std::string_view text, std::string_view mark,
                                         std::string_view ends) {
     std::vector<std::string> names;
     for (std::size_t at = text.find(mark); at != std::string_view::npos;
          at = text.find(mark, at + mark.size())) {
-        const std::size_t begin = text.find_first_not_of(" \t:\"", at + mark.size());
+        const std::size_t begin = text.find_first_not_of(" \t:=\"", at + mark.size());
         if (begin == std::string_view::npos)
             break;
         const std::size_t end = std::min(text.find_first_of(ends, begin), text.size());
@@ -85,20 +118,47 @@ std::vector<std::string> mentionedFiles(std::string_view text, std::string_view 
     return names;
 }
 
-absl::StatusOr<std::vector<std::string>> companions(const std::string& path) {
-    const bool isObj = endsWith(path, ".obj");
-    if (!isObj && !endsWith(path, ".gltf"))
-        return std::vector<std::string>();
+/// Where a kind of file names others.
+struct Mention {
+    std::string_view ending;
+    std::string_view mark;
+    std::string_view ends;
+};
+constexpr std::array kMentions = {
+    Mention{".obj", "mtllib", "\r\n"},    Mention{".mtl", "map_Kd", "\r\n"},
+    Mention{".gltf", "\"uri\"", "\""},    Mention{".jdn", "Map Path", "\r\n"},
+    Mention{".ac", "\ntexture", "\"\n"},  Mention{".ac3d", "\ntexture", "\"\n"},
+    Mention{".acc", "\ntexture", "\"\n"},
+};
+
+/// Assimp says nothing when the material files of an OBJ are missing.
+void noteMissingMaterials(std::string_view text, const std::string& path, TriangleMesh& mesh) {
+    const std::vector<std::string> names = mentionedFiles(text, "mtllib", "\r\n");
+    std::vector<std::string> missing;
+    std::ranges::copy_if(names, std::back_inserter(missing),
+                         [&](const std::string& name) { return findTexture(name, path).empty(); });
+    if (!missing.empty())
+        mesh.notes.push_back(
+            fmt::format("{} of {} material files are missing, and what they define is plain: '{}'",
+                        missing.size(), names.size(), missing.front()));
+}
+
+/// Adds the files that the one at `path` names, as far as they exist, and what those name.
+absl::Status addCompanions(const std::string& path, std::vector<std::string>& found) {
+    const auto kind = std::ranges::find_if(
+        kMentions, [&](const Mention& mention) { return endsWith(path, mention.ending); });
+    if (kind == kMentions.end())
+        return absl::OkStatus();
     ASSIGN_OR_RETURN(const mesh::MappedFile file, mesh::MappedFile::open(path));
-    std::vector<std::string> found;
-    for (const std::string& name : isObj ? mentionedFiles(textOf(file), "mtllib", "\r\n")
-                                         : mentionedFiles(textOf(file), "\"uri\"", "\"")) {
-        const fs::path companion = fs::path(path).parent_path() / name;
-        std::error_code ignored;
-        if (fs::is_regular_file(companion, ignored))
-            found.push_back(companion.string());
+    for (const std::string& name : mentionedFiles(textOf(file), kind->mark, kind->ends)) {
+        const std::string companion = findTexture(name, path);
+        if (companion.empty() || companion == path || std::ranges::count(found, companion) > 0)
+            continue;
+        found.push_back(companion);
+        if (kind->ending == ".obj")
+            RETURN_IF_ERROR(addCompanions(companion, found));
     }
-    return found;
+    return absl::OkStatus();
 }
 
 }  // namespace
@@ -136,9 +196,13 @@ absl::StatusOr<TriangleMesh> readMesh(const std::string& path, const ImportContr
     const std::string_view text = textOf(file);
     if (looksLikePly(text) || endsWith(path, ".ply"))
         return parsePly(text, path, control);
-    if (looksLikeJdn(text) || endsWith(path, ".jdn"))
-        return parseJdn(text, path, control);
-    return readWithAssimp(path, control);
+    const bool isJdn = looksLikeJdn(text) || endsWith(path, ".jdn");
+    ASSIGN_OR_RETURN(TriangleMesh mesh,
+                     isJdn ? parseJdn(text, path, control) : readWithAssimp(path, control));
+    if (endsWith(path, ".obj"))
+        noteMissingMaterials(text, path, mesh);
+    RETURN_IF_ERROR(loadTextures(mesh, path, control));
+    return mesh;
 }
 
 absl::StatusOr<TriangleMesh> readMeshes(std::span<const std::string> paths,
@@ -158,7 +222,8 @@ absl::StatusOr<std::uint64_t> meshSourceHash(std::span<const std::string> paths)
     for (const std::string& path : paths) {
         ASSIGN_OR_RETURN(const std::uint64_t own, mesh::contentHash(path));
         hash = hash * 31 + own;
-        ASSIGN_OR_RETURN(const std::vector<std::string> others, companions(path));
+        std::vector<std::string> others;
+        RETURN_IF_ERROR(addCompanions(path, others));
         for (const std::string& other : others) {
             ASSIGN_OR_RETURN(const std::uint64_t part, mesh::contentHash(other));
             hash = hash * 31 + part;

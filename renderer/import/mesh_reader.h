@@ -19,14 +19,15 @@ bool isMeshSource(const std::string& path);
 /// Their endings, as in ".ply, .jdn, .obj".
 std::string meshSourceEndings();
 
-/// Reads a mesh of any known format: PLY and .jdn told by what the file starts with, or its
-/// name; the others, read by Assimp, by its name. Errors: those of the format's reader, which name
-/// the file; InvalidArgument (no known format).
+/// Reads a mesh of any known format, textures included (texture_files.h): PLY and .jdn told by what
+/// the file starts with, or its name; the others, read by Assimp, by its name. Errors: those of the
+/// format's reader, which name the file; InvalidArgument (no known format).
 absl::StatusOr<TriangleMesh> readMesh(const std::string& path, const ImportControl& control = {});
 
 /// Reads several into one, in this order. Where only some have colours, the others are of
-/// kPlainColour. Notes begin with their file's name. Precondition: there is one. Errors: those of
-/// readMesh; InvalidArgument (more than 2^32 vertices).
+/// kPlainColour; where only some have materials, the others have a plain one. Notes begin with
+/// their file's name. Precondition: there is one. Errors: those of readMesh; InvalidArgument (more
+/// than 2^32 vertices).
 absl::StatusOr<TriangleMesh> readMeshes(std::span<const std::string> paths,
                                         const ImportControl& control = {});
 
@@ -39,10 +40,10 @@ inline constexpr fabric::Rgba kPlainColour{204, 204, 204, 255};
 /// Reports one file's progress as a share of that of all.
 ImportControl shareOf(const ImportControl& control, std::size_t file, std::size_t count);
 
-/// Of the bytes of all files that a mesh is read from: `paths`, the material files that OBJ files
-/// name and the buffers of glTF files, as far as they exist. One file without such company has the
-/// hash of its own bytes (mesh::contentHash).
-/// Errors: NotFound, PermissionDenied, InvalidArgument (a folder), Unavailable.
+/// Of the bytes of all files that a mesh is read from: `paths`, and the buffers, material files and
+/// textures that files of OBJ, glTF, AC3D and .jdn name, as far as they exist. One file without
+/// such company has the hash of its own bytes (mesh::contentHash). Errors: NotFound,
+/// PermissionDenied, InvalidArgument (a folder), Unavailable.
 absl::StatusOr<std::uint64_t> meshSourceHash(std::span<const std::string> paths);
 
 }  // namespace eyrie::import

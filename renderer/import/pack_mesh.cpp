@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -100,13 +101,69 @@ std::vector<std::uint32_t> packNormals(std::span<const glm::vec3> normals) {
     return packed;
 }
 
+/// A vertex's material, and its texture coordinates as they are stored.
+struct TexturePlace {
+    std::uint16_t material = 0;
+    glm::ivec2 coordinates{0};
+
+    std::tuple<std::uint16_t, int, int> order() const {
+        return {material, coordinates.x, coordinates.y};
+    }
+};
+
 /// A source on its way to the lattice.
 struct Packing {
     TriangleMesh source;
-    std::vector<VertexKey> keys;      ///< of the source's vertices
-    Weld byPosition;                  ///< points of the surface
-    std::vector<fabric::Vec3> exact;  ///< by VertexKey::exact, where they are kept
+    std::vector<VertexKey> keys;         ///< of the source's vertices
+    Weld byPosition;                     ///< points of the surface
+    std::vector<fabric::Vec3> exact;     ///< by VertexKey::exact, where they are kept
+    std::vector<TexturePlace> textures;  ///< by VertexKey::texture, where there are materials
 };
+
+/// Nearest to `part` images' sides; 0 where that is no number, and at most 16,384 sides away.
+std::int32_t textureSteps(float part) {
+    constexpr double kMost = 16384;
+    return std::isfinite(part) ? static_cast<std::int32_t>(std::lround(
+                                     std::clamp(double{part}, -kMost, kMost) * mesh::kTextureSteps))
+                               : 0;
+}
+
+/// What has no image has no seams but where the material changes.
+TexturePlace texturePlaceOf(const TriangleMesh& source, std::uint32_t i) {
+    TexturePlace place{source.materialOf[i]};
+    if (source.materials[place.material].hasImage())
+        place.coordinates = {textureSteps(source.textureCoordinates[i].x),
+                             textureSteps(source.textureCoordinates[i].y)};
+    return place;
+}
+
+/// Numbers materials with texture coordinates; those that are equal have equal numbers.
+void numberTextures(Packing& packing) {
+    std::vector<std::uint32_t> order(packing.keys.size());
+    std::iota(order.begin(), order.end(), 0U);
+    const auto placeOf = [&](std::uint32_t i) { return texturePlaceOf(packing.source, i); };
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return placeOf(a).order() < placeOf(b).order();
+    });
+    for (const std::uint32_t i : order) {
+        const TexturePlace place = placeOf(i);
+        if (packing.textures.empty() || packing.textures.back().order() != place.order())
+            packing.textures.push_back(place);
+        packing.keys[i].texture = static_cast<std::uint32_t>(packing.textures.size() - 1);
+    }
+}
+
+void gatherTextures(const Weld& welded, Packing& packing, mesh::PackedMesh& packed) {
+    const bool hasImages = std::ranges::any_of(packing.source.materials, &mesh::Material::hasImage);
+    for (const std::uint32_t key : welded.firstKey) {
+        const TexturePlace& place = packing.textures[packing.keys[key].texture];
+        packed.materialOf.push_back(place.material);
+        if (hasImages)
+            packed.textureCoordinates.push_back(place.coordinates);
+    }
+    packed.materials = std::move(packing.source.materials);
+    packed.images = std::move(packing.source.images);
+}
 
 /// Numbers the source's positions; those that are equal, to the bit, have equal numbers.
 void numberPositions(Packing& packing) {
@@ -228,7 +285,7 @@ absl::StatusOr<mesh::PackedMesh> packMesh(TriangleMesh source, PackCounts& count
                      options.lattice
                          ? *options.lattice
                          : mesh::fitLattice(boundsOf(source, used), options.latticeBits));
-    Packing packing{std::move(source), {}, {}, {}};
+    Packing packing{std::move(source), {}, {}, {}, {}};
     packing.keys = latticeKeys(packing.source, used, lattice);
     RETURN_IF_ERROR(dropDegenerate(packing.source, packing.keys, counts));
     RETURN_IF_ERROR(control.check());
@@ -245,6 +302,9 @@ absl::StatusOr<mesh::PackedMesh> packMesh(TriangleMesh source, PackCounts& count
     control.report("normals", 0);
     if (options.keepsExact)
         numberPositions(packing);
+    const bool hasMaterials = !packing.source.materials.empty();
+    if (hasMaterials)
+        numberTextures(packing);
     const bool hasColours = !packing.source.colours.empty();
     for (std::size_t i = 0; i < packing.source.colours.size(); ++i)
         packing.keys[i].colour = mesh::packColour(packing.source.colours[i]);
@@ -253,7 +313,7 @@ absl::StatusOr<mesh::PackedMesh> packMesh(TriangleMesh source, PackCounts& count
     else
         fillNormals(packing, options.normals, counts);
     control.report("normals", 1);
-    const bool isSplit = hasColours || options.keepsExact ||
+    const bool isSplit = hasColours || hasMaterials || options.keepsExact ||
                          options.normals == NormalSource::Crease ||
                          (options.normals == NormalSource::File && !packing.source.normals.empty());
     const Weld welded =
@@ -262,6 +322,8 @@ absl::StatusOr<mesh::PackedMesh> packMesh(TriangleMesh source, PackCounts& count
     counts.weldedVertices = vertices > left ? vertices - left : 0;  // creases make more
     mesh::PackedMesh packed =
         gather(welded, packing.keys, hasColours, lattice, std::move(packing.source.triangles));
+    if (hasMaterials)
+        gatherTextures(welded, packing, packed);
     if (options.keepsExact)
         for (const std::uint32_t key : welded.firstKey)
             packed.exact.push_back(packing.exact[packing.keys[key].exact]);

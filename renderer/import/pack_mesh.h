@@ -43,11 +43,12 @@ struct PackCounts {
 };
 
 /// Puts a mesh on the lattice that fits it: rounds positions, drops triangles without area and
-/// duplicates, welds vertices that have become equal (position, normal and colour; if it keeps
-/// exact positions, those, too).
+/// duplicates, welds vertices that have become equal (position, normal, colour, material and
+/// texture coordinates; if it keeps exact positions, those, too).
 ///
 /// Depends on the mesh and the options alone. Every remaining vertex lies within
 /// lattice.errorMetres() of its source.
+/// Preconditions: images are loaded (texture_files.h).
 /// Errors: Cancelled, InvalidArgument (coordinates too large, or nothing has any area).
 absl::StatusOr<mesh::PackedMesh> packMesh(TriangleMesh source, PackCounts& counts,
                                           const PackOptions& options = {},

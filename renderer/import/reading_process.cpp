@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstddef>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <new>
 #include <span>
@@ -60,7 +61,21 @@ struct ResultHeader {
     std::uint64_t triangles = 0;
     std::uint64_t normals = 0;
     std::uint64_t colours = 0;
+    std::uint64_t textureCoordinates = 0;
+    std::uint64_t materialOf = 0;
+    std::uint64_t materials = 0;
+    std::uint64_t pictureBytes = 0;  ///< textures and images, one after the other
+    std::uint64_t textures = 0;
+    std::uint64_t images = 0;
     std::uint64_t droppedFaces = 0;
+};
+
+/// Before the name and the bytes of a texture, or the blocks of an image.
+struct PictureHeader {
+    std::uint64_t nameBytes = 0;
+    std::uint64_t bytes = 0;
+    std::uint32_t flags = 0;  ///< of a texture
+    mesh::ImageShape shape;   ///< of an image
 };
 
 bool writeAll(int fd, const void* data, std::size_t bytes) {
@@ -98,6 +113,53 @@ bool readArray(int fd, Array& array, std::uint64_t count) {
     return readAll(fd, array.data(), count * sizeof(array[0]));
 }
 
+/// Textures and images as they cross.
+std::vector<std::byte> packPictures(const TriangleMesh& mesh) {
+    std::vector<std::byte> packed;
+    const auto append = [&packed](const auto& values) {
+        const auto bytes = std::as_bytes(std::span(values));
+        packed.insert(packed.end(), bytes.begin(), bytes.end());
+    };
+    const auto add = [&](const PictureHeader& header, const std::string& name,
+                         const std::vector<std::byte>& bytes) {
+        append(std::span(&header, 1));
+        append(name);
+        append(bytes);
+    };
+    for (const TextureSource& texture : mesh.textures)
+        add({texture.name.size(), texture.bytes.size(), texture.flags, {}}, texture.name,
+            texture.bytes);
+    for (const mesh::Image& image : mesh.images)
+        add({0, image.blocks.size(), 0, image.shape}, {}, image.blocks);
+    return packed;
+}
+
+/// False where they are not whole.
+bool unpackPictures(std::span<const std::byte> packed, const ResultHeader& header,
+                    TriangleMesh& mesh) {
+    for (std::uint64_t i = 0; i < header.textures + header.images; ++i) {
+        PictureHeader picture;
+        if (packed.size() < sizeof picture)
+            return false;
+        std::memcpy(&picture, packed.data(), sizeof picture);
+        packed = packed.subspan(sizeof picture);
+        if (picture.nameBytes > packed.size() || picture.bytes > packed.size() - picture.nameBytes)
+            return false;
+        const auto name = packed.first(picture.nameBytes);
+        const auto bytes = packed.subspan(picture.nameBytes, picture.bytes);
+        packed = packed.subspan(picture.nameBytes + picture.bytes);
+        if (i < header.textures)
+            mesh.textures.push_back({{reinterpret_cast<const char*>(name.data()), name.size()},
+                                     {bytes.begin(), bytes.end()},
+                                     picture.flags});
+        else if (picture.bytes == picture.shape.bytesFrom(0))
+            mesh.images.push_back({picture.shape, {bytes.begin(), bytes.end()}});
+        else
+            return false;
+    }
+    return packed.empty();
+}
+
 bool writeResult(int fd, const absl::StatusOr<TriangleMesh>& result) {
     ResultHeader header;
     if (!result.ok()) {
@@ -113,10 +175,19 @@ bool writeResult(int fd, const absl::StatusOr<TriangleMesh>& result) {
     header.triangles = result->triangles.size();
     header.normals = result->normals.size();
     header.colours = result->colours.size();
+    header.textureCoordinates = result->textureCoordinates.size();
+    header.materialOf = result->materialOf.size();
+    header.materials = result->materials.size();
+    const std::vector<std::byte> pictures = packPictures(*result);
+    header.pictureBytes = pictures.size();
+    header.textures = result->textures.size();
+    header.images = result->images.size();
     header.droppedFaces = result->droppedFaces;
     return writeAll(fd, &header, sizeof(header)) && writeArray(fd, notes) &&
            writeArray(fd, result->positions) && writeArray(fd, result->triangles) &&
-           writeArray(fd, result->normals) && writeArray(fd, result->colours);
+           writeArray(fd, result->normals) && writeArray(fd, result->colours) &&
+           writeArray(fd, result->textureCoordinates) && writeArray(fd, result->materialOf) &&
+           writeArray(fd, result->materials) && writeArray(fd, pictures);
 }
 
 /// False when the file is not as long as its header says.
@@ -127,7 +198,10 @@ bool hasItsLength(int fd, const ResultHeader& header) {
                        Wide{header.positions} * sizeof(fabric::Vec3) +
                        Wide{header.triangles} * sizeof(std::array<std::uint32_t, 3>) +
                        Wide{header.normals} * sizeof(glm::vec3) +
-                       Wide{header.colours} * sizeof(fabric::Rgba);
+                       Wide{header.colours} * sizeof(fabric::Rgba) +
+                       Wide{header.textureCoordinates} * sizeof(glm::vec2) +
+                       Wide{header.materialOf} * sizeof(std::uint16_t) +
+                       Wide{header.materials} * sizeof(mesh::Material) + header.pictureBytes;
     return fstat(fd, &status) == 0 && bytes == static_cast<Wide>(status.st_size);
 }
 
@@ -136,12 +210,18 @@ absl::StatusOr<TriangleMesh> readResult(int fd, bool& isWhole) {
     ResultHeader header;
     TriangleMesh mesh;
     std::string message, notes;
+    std::vector<std::byte> pictures;
     isWhole =
         lseek(fd, 0, SEEK_SET) == 0 && readAll(fd, &header, sizeof(header)) &&
         hasItsLength(fd, header) && readArray(fd, message, header.messageBytes) &&
         readArray(fd, notes, header.noteBytes) && readArray(fd, mesh.positions, header.positions) &&
         readArray(fd, mesh.triangles, header.triangles) &&
-        readArray(fd, mesh.normals, header.normals) && readArray(fd, mesh.colours, header.colours);
+        readArray(fd, mesh.normals, header.normals) &&
+        readArray(fd, mesh.colours, header.colours) &&
+        readArray(fd, mesh.textureCoordinates, header.textureCoordinates) &&
+        readArray(fd, mesh.materialOf, header.materialOf) &&
+        readArray(fd, mesh.materials, header.materials) &&
+        readArray(fd, pictures, header.pictureBytes) && unpackPictures(pictures, header, mesh);
     if (header.code != 0)
         return absl::Status(static_cast<absl::StatusCode>(header.code), message);
     mesh.droppedFaces = header.droppedFaces;

@@ -15,7 +15,7 @@ std::uint64_t mix(std::uint64_t value) {
 
 std::uint64_t hash(const VertexKey& key) {
     const std::uint64_t attributes = std::uint64_t{key.normal} << 32 | key.colour;
-    return mix(key.position + mix(attributes + mix(key.exact)));
+    return mix(key.position + mix(attributes + mix(std::uint64_t{key.texture} << 32 | key.exact)));
 }
 
 }  // namespace

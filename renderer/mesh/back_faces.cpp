@@ -130,7 +130,8 @@ std::vector<Pockets> pocketsEverywhere(const KdTree& tree) {
 
 std::vector<Pockets> findPockets(const PackedMesh& mesh, const std::optional<Lids>& lids,
                                  const KdTree& tree) {
-    const auto behind = lids ? seenFromBehind(mesh, *lids) : std::nullopt;
+    const bool isSeeThrough = std::ranges::any_of(mesh.materials, &Material::isSeeThrough);
+    const auto behind = lids && !isSeeThrough ? seenFromBehind(mesh, *lids) : std::nullopt;
     if (!behind)
         return pocketsEverywhere(tree);
     std::vector<bool> isBehind(mesh.triangles.size(), false);

@@ -51,10 +51,10 @@ std::vector<Pockets> gatherPockets(const PackedMesh& mesh, const KdTree& tree,
 /// Where that is not known.
 std::vector<Pockets> pocketsEverywhere(const KdTree& tree);
 
-/// For each node of `tree` the pockets under it: everywhere where there are no `lids`, or
-/// seenFromBehind() gives nothing. What stands for a node shows its back to nobody outside who does
-/// not look through a lid, but to within its error, where no pocket comes within its error
-/// (docs/errors.md#back-faces).
+/// For each node of `tree` the pockets under it: everywhere where there are no `lids`,
+/// seenFromBehind() gives nothing, or a material lets the eye in. What stands for a node shows its
+/// back to nobody outside who does not look through a lid, but to within its error, where no pocket
+/// comes within its error (docs/errors.md#back-faces).
 std::vector<Pockets> findPockets(const PackedMesh& mesh, const std::optional<Lids>& lids,
                                  const KdTree& tree);
 

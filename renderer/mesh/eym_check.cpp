@@ -14,23 +14,12 @@
 #include <glm/vector_relational.hpp>
 
 #include "fabric/status.h"
+#include "renderer/mesh/damaged.h"
 #include "renderer/mesh/kd_tree.h"
 #include "renderer/mesh/lids.h"
 
 namespace eyrie::mesh {
 namespace {
-
-template <typename Found, typename Expected>
-absl::Status damaged(std::string_view field, const Found& found, const Expected& expected) {
-    return absl::DataLossError(
-        fmt::format("{}: found {}, expected {}; the file is truncated or damaged: import the mesh "
-                    "again",
-                    field, found, expected));
-}
-
-std::uint64_t endOfTables(const EymHeader& header) {
-    return endOfNodes(header) + header.lidCount * sizeof(Lid);
-}
 
 absl::Status checkCounts(const EymHeader& header) {
     if (header.lidCount > kMostLids)
@@ -41,7 +30,13 @@ absl::Status checkCounts(const EymHeader& header) {
     if (header.triangleCount == 0 || header.triangleCount > kMaxTriangles)
         return damaged("header.triangleCount", header.triangleCount,
                        fmt::format("1 to {}", kMaxTriangles));
-    constexpr std::uint32_t kKnown = kHasColours | kIsCoded | kHasExact | kExactIsFloat64;
+    if (header.materialCount > kMaxMaterials ||
+        (header.materialCount == 0 && (header.imageCount > 0 || header.rangeCount > 0)))
+        return damaged(
+            "header.materialCount", header.materialCount,
+            fmt::format("at most {}, and some where there are images or ranges", kMaxMaterials));
+    constexpr std::uint32_t kKnown =
+        kHasColours | kIsCoded | kHasExact | kExactIsFloat64 | kHasTextures;
     if ((header.flags & ~kKnown) != 0)
         return damaged("header.flags", header.flags, fmt::format("bits of {}", kKnown));
     return absl::OkStatus();
@@ -153,7 +148,8 @@ absl::Status NodeCheck::checkGeometry(std::uint32_t index) const {
         return absl::OkStatus();
     RETURN_IF_ERROR(checkPage(index, "page", node.pageOffset, node.pageBytes));
     const std::uint64_t block =
-        blockBytes({node.vertexCount, node.indexCount, (header_.flags & kHasColours) != 0});
+        blockBytes({node.vertexCount, node.indexCount, (header_.flags & kHasColours) != 0,
+                    (header_.flags & kHasTextures) != 0});
     if ((header_.flags & kIsCoded) == 0 && (node.pageBytes != block || node.pageOffset % 8 != 0))
         return damaged(fmt::format("node {}: page", index),
                        fmt::format("{} bytes at {}", node.pageBytes, node.pageOffset),
@@ -236,6 +232,10 @@ absl::StatusOr<int> NodeCheck::run() {
 }
 
 }  // namespace
+
+std::uint64_t endOfTables(const EymHeader& header) {
+    return endOfLids(header) + materialTableBytes(header);
+}
 
 absl::Status checkHeader(std::span<const std::byte> beginning, std::uint64_t fileBytes) {
     RETURN_IF_ERROR(checkKind(beginning));

@@ -18,6 +18,22 @@ namespace eyrie::mesh {
 /// kind of file, another version), DataLoss.
 absl::Status checkHeader(std::span<const std::byte> beginning, std::uint64_t fileBytes);
 
+/// The tables of EymFile that materials have.
+struct MaterialTables {
+    std::span<const Material> materials;
+    std::span<const ImageRecord> images;
+    std::span<const MaterialRange> ranges;
+};
+
+/// That materials name images that there are, that images lie inside the file and have the length
+/// of their shape, and that ranges make up each node that has geometry, and nothing else. Errors:
+/// DataLoss. Preconditions: checkHeader and checkNodes are ok; the tables are as the header counts.
+absl::Status checkMaterials(const EymHeader& header, std::span<const Node> nodes,
+                            const MaterialTables& tables);
+
+/// Bytes from the file's start to its first page.
+std::uint64_t endOfTables(const EymHeader& header);
+
 /// That the nodes form one binary tree, depth first and no deeper than kMaxTreeDepth, with boxes
 /// and triangle ranges nested, and that their pages lie inside the file and hold no more than a
 /// node may have. Returns the levels. Errors: DataLoss. Precondition: checkHeader is ok.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstring>
 #include <memory>
+#include <numeric>
 #include <utility>
 
 #include <absl/status/status.h>
@@ -75,7 +76,30 @@ absl::Status EymFile::readTables() {
     const auto lidBytes = std::as_writable_bytes(std::span(lids_));
     RETURN_IF_ERROR(source_->read({endOfNodes(header_), lidBytes.size(), header_.lidsChecksum},
                                   lidBytes, "the lids"));
-    return fabric::withContext(checkLids(lids_), path());
+    RETURN_IF_ERROR(fabric::withContext(checkLids(lids_), path()));
+    return header_.materialCount > 0 ? readMaterials() : absl::OkStatus();
+}
+
+absl::Status EymFile::readMaterials() {
+    std::vector<std::byte> bytes(materialTableBytes(header_));
+    RETURN_IF_ERROR(source_->read({endOfLids(header_), bytes.size(), header_.materialsChecksum},
+                                  bytes, "the tables of materials"));
+    const std::byte* at = bytes.data();
+    const auto take = [&at](auto& table, std::size_t count) {
+        table.resize(count);
+        const auto to = std::as_writable_bytes(std::span(table));
+        std::copy_n(at, to.size(), to.begin());
+        at += to.size();
+    };
+    take(materials_, header_.materialCount);
+    take(images_, header_.imageCount);
+    take(ranges_, header_.rangeCount);
+    RETURN_IF_ERROR(fabric::withContext(
+        checkMaterials(header_, nodes_, {materials_, images_, ranges_}), path()));
+    firstRange_.resize(nodes_.size() + 1);
+    for (const MaterialRange& range : ranges_) ++firstRange_[range.node + 1];
+    std::partial_sum(firstRange_.begin(), firstRange_.end(), firstRange_.begin());
+    return absl::OkStatus();
 }
 
 std::vector<fabric::Box> EymFile::lids() const {
@@ -83,6 +107,14 @@ std::vector<fabric::Box> EymFile::lids() const {
     for (const Lid& lid : lids_)
         boxes.push_back({lattice_.metres(lid.boxMin), lattice_.metres(lid.boxMax)});
     return boxes;
+}
+
+absl::StatusOr<std::vector<std::byte>> EymFile::imageBlocks(std::uint32_t image) const {
+    const ImageRecord& record = images_[image];
+    std::vector<std::byte> blocks(record.bytes);
+    RETURN_IF_ERROR(source_->read({record.offset, record.bytes, record.checksum}, blocks,
+                                  fmt::format("image {}", image)));
+    return blocks;
 }
 
 fabric::Box EymFile::bounds(std::uint32_t node) const {

@@ -17,17 +17,22 @@
 #include "renderer/mesh/codec/exact_codec.h"
 #include "renderer/mesh/lattice.h"
 #include "renderer/mesh/mapped_file.h"
+#include "renderer/mesh/material.h"
 #include "renderer/mesh/node_block.h"
 #include "renderer/page/page_source.h"
 
-/// The .eym file, version 2: a mesh as a kd-tree of LOD nodes, each with pages of its own.
+/// The .eym file, version 3: a mesh as a kd-tree of LOD nodes, each with pages of its own.
 ///
 /// Little-endian:
 ///   EymHeader                       256 bytes
 ///   Node        [nodeCount]         depth first
 ///   Lid         [lidCount]
+///   Material    [materialCount]     ... where something is textured, see-through or two-sided
+///   ImageRecord [imageCount]
+///   MaterialRange [rangeCount]      of the nodes that have geometry, in their order
 ///   pages                           of the nodes that have geometry, in their order: that of what
 ///                                   is drawn, and then, where kept, that of source positions
+///   images                          (material.h)
 /// A node's page, uncoded, is the block of node_block.h, ready to be mapped; it then begins on a
 /// multiple of 8 bytes. Coded (kIsCoded) it is that of codec/page_codec.h, and gives the same block
 /// to the bit. Source positions are always coded (codec/exact_codec.h); only leaves have them.
@@ -38,13 +43,14 @@ namespace eyrie::mesh {
 static_assert(std::endian::native == std::endian::little, ".eym files are mapped as they are");
 
 inline constexpr std::array<char, 8> kEymMagic = {'E', 'Y', 'M', 'E', 'S', 'H', '\0', '\x01'};
-inline constexpr std::uint32_t kEymVersion = 2;
+inline constexpr std::uint32_t kEymVersion = 3;
 
 /// In EymHeader::flags.
 inline constexpr std::uint32_t kHasColours = 1;
 inline constexpr std::uint32_t kIsCoded = 2;         ///< pages are; otherwise they are mapped
 inline constexpr std::uint32_t kHasExact = 4;        ///< leaves have source positions ...
 inline constexpr std::uint32_t kExactIsFloat64 = 8;  ///< ... in double precision
+inline constexpr std::uint32_t kHasTextures = 16;    ///< vertices have texture coordinates
 
 /// Levels a tree may have, so that a walk may recurse: the median split of 2^30 triangles makes 31.
 inline constexpr int kMaxTreeDepth = 64;
@@ -69,7 +75,12 @@ struct EymHeader {
     std::uint64_t tunedLeafTriangles = 0;
     std::uint64_t lidsChecksum = 0;  ///< xxh64 of the lids
     std::uint64_t lidCount = 0;
-    std::array<std::uint64_t, 14> reserved{};
+    std::uint64_t materialsChecksum = 0;  ///< xxh64 of the tables from materials to ranges
+    std::uint32_t materialCount = 0;
+    std::uint32_t imageCount = 0;
+    std::uint32_t rangeCount = 0;
+    std::uint32_t reserved32 = 0;
+    std::array<std::uint64_t, 11> reserved{};
 };
 static_assert(sizeof(EymHeader) == 256);
 
@@ -97,7 +108,8 @@ struct Node {
     /// own geometry or, where it has none, its children. Never below its children's.
     float errorMetres = 0;
     /// The first indices, three a triangle, of triangles of which an eye outside the mesh's bounds
-    /// sees no backs (back_faces.h) but through a lid: these need not be drawn.
+    /// sees no backs (back_faces.h) but through a lid: these need not be drawn. 0 where the mesh
+    /// has materials: their ranges say it.
     std::uint32_t frontIndexCount = 0;
 
     bool isLeaf() const { return left < 0; }
@@ -152,8 +164,21 @@ public:
     /// space, metres.
     std::vector<fabric::Box> lids() const;
     NodeShape shape(std::uint32_t node) const {
-        return {nodes_[node].vertexCount, nodes_[node].indexCount, hasColours()};
+        return {nodes_[node].vertexCount, nodes_[node].indexCount, hasColours(), hasTextures()};
     }
+
+    bool hasTextures() const { return (header_.flags & kHasTextures) != 0; }
+    std::span<const Material> materials() const { return materials_; }
+    std::span<const ImageRecord> images() const { return images_; }
+    /// That a node's indices make up; none where the mesh has no materials.
+    std::span<const MaterialRange> ranges(std::uint32_t node) const {
+        if (ranges_.empty())
+            return {};
+        return std::span(ranges_).subspan(firstRange_[node],
+                                          firstRange_[node + 1] - firstRange_[node]);
+    }
+    /// Image::blocks of an image. Precondition: image < images().size(). Errors: as of geometry().
+    absl::StatusOr<std::vector<std::byte>> imageBlocks(std::uint32_t image) const;
 
     /// Reads and decodes a node's page; one that is uncoded and lies in a file of this machine
     /// stays where it is mapped, and is valid while this lives. Precondition: node <
@@ -169,6 +194,7 @@ private:
     explicit EymFile(std::unique_ptr<page::PageSource> source) : source_(std::move(source)) {}
 
     absl::Status readTables();
+    absl::Status readMaterials();
     absl::StatusOr<NodeGeometry> readBlock(std::uint32_t node) const;
     absl::Status inNode(std::uint32_t node, const absl::Status& status) const;
 
@@ -178,8 +204,19 @@ private:
     Lattice lattice_;
     std::vector<Node> nodes_;
     std::vector<Lid> lids_;
+    std::vector<Material> materials_;
+    std::vector<ImageRecord> images_;
+    std::vector<MaterialRange> ranges_;
+    std::vector<std::uint32_t> firstRange_;  ///< of each node, and the end
     int levels_ = 0;
 };
+
+/// Bytes of the tables of materials, images and ranges.
+constexpr std::uint64_t materialTableBytes(const EymHeader& header) {
+    return std::uint64_t{header.materialCount} * sizeof(Material) +
+           std::uint64_t{header.imageCount} * sizeof(ImageRecord) +
+           std::uint64_t{header.rangeCount} * sizeof(MaterialRange);
+}
 
 /// Checksum of a header. `header.checksum` does not enter.
 std::uint64_t headerChecksum(const EymHeader& header);
@@ -187,6 +224,11 @@ std::uint64_t headerChecksum(const EymHeader& header);
 /// Where the nodes end and the lids begin.
 inline std::uint64_t endOfNodes(const EymHeader& header) {
     return sizeof(EymHeader) + std::uint64_t{header.nodeCount} * sizeof(Node);
+}
+
+/// Where the lids end and the tables of materials begin.
+inline std::uint64_t endOfLids(const EymHeader& header) {
+    return endOfNodes(header) + header.lidCount * sizeof(Lid);
 }
 
 /// xxh64 of bytes, as all checksums of the file are.

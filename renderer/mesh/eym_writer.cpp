@@ -11,6 +11,7 @@
 
 #include "fabric/status.h"
 #include "renderer/mesh/codec/page_codec.h"
+#include "renderer/mesh/eym_check.h"
 #include "renderer/mesh/eym_format.h"
 #include "renderer/mesh/node_geometry.h"
 
@@ -41,21 +42,52 @@ struct Pages {
     std::vector<std::byte> exact;
     std::uint64_t blockChecksum = 0;
     std::uint32_t frontIndexCount = 0;
+    std::vector<MaterialRange> ranges;  ///< where the mesh has materials
 };
 
 NodeShape shapeOf(const PackedNode& node) {
     return {static_cast<std::uint32_t>(node.positions.size()),
-            static_cast<std::uint32_t>(node.indices.size()), !node.colours.empty()};
+            static_cast<std::uint32_t>(node.indices.size()), !node.colours.empty(),
+            !node.textureCoordinates.empty()};
 }
 
-/// Those that show their backs to nobody come first.
-PackedNode gatherNode(const PackedMesh& mesh, std::vector<Triangle> triangles,
-                      const Pockets& pockets, double errorSteps) {
-    const auto others =
-        std::stable_partition(triangles.begin(), triangles.end(), [&](const Triangle& triangle) {
+/// A node's triangles in the order in which they are drawn, in parts.
+struct Parts {
+    std::vector<Triangle> triangles;
+    std::vector<MaterialRange> ranges;             ///< one, where the mesh has no materials
+    std::vector<std::span<const Triangle>> parts;  ///< two a range
+};
+
+/// By material, those that are blended last, and of each those that show their backs to nobody
+/// first.
+Parts inDrawingOrder(const PackedMesh& mesh, std::vector<Triangle> triangles,
+                     const Pockets& pockets, double errorSteps) {
+    Parts result{std::move(triangles), {}, {}};
+    const auto materialOf = [&mesh](const Triangle& triangle) -> std::uint32_t {
+        return mesh.materials.empty() ? 0 : mesh.materialOf[triangle[0]];
+    };
+    const auto isBefore = [&](const Triangle& a, const Triangle& b) {
+        const std::uint32_t ofA = materialOf(a);
+        const std::uint32_t ofB = materialOf(b);
+        return std::pair(mesh.materials[ofA].isBlended(), ofA) <
+               std::pair(mesh.materials[ofB].isBlended(), ofB);
+    };
+    if (!mesh.materials.empty())
+        std::stable_sort(result.triangles.begin(), result.triangles.end(), isBefore);
+    for (auto at = result.triangles.begin(); at != result.triangles.end();) {
+        const auto end = std::find_if(at, result.triangles.end(), [&](const Triangle& triangle) {
+            return materialOf(triangle) != materialOf(*at);
+        });
+        const auto others = std::stable_partition(at, end, [&](const Triangle& triangle) {
             return !pockets.reach(boxOf(mesh, triangle), errorSteps);
         });
-    return gatherNode(mesh, {triangles.begin(), others}, {others, triangles.end()});
+        result.ranges.push_back({0, materialOf(*at), static_cast<std::uint32_t>(3 * (end - at)),
+                                 static_cast<std::uint32_t>(3 * (others - at))});
+        result.parts.emplace_back(at, others);
+        result.parts.emplace_back(others, end);
+        at = end;
+    }
+    return result;
 }
 
 /// As node_block.h has it.
@@ -65,6 +97,8 @@ std::vector<std::byte> blockOf(const PackedNode& node) {
     std::copy(node.positions.begin(), node.positions.end(), arrays.positions.begin());
     std::copy(node.normals.begin(), node.normals.end(), arrays.normals.begin());
     std::copy(node.colours.begin(), node.colours.end(), arrays.colours.begin());
+    std::copy(node.textureCoordinates.begin(), node.textureCoordinates.end(),
+              arrays.textureCoordinates.begin());
     std::copy(node.indices.begin(), node.indices.end(), arrays.indices.begin());
     const auto bytes = std::as_bytes(std::span(block));
     return {bytes.begin(), bytes.end()};
@@ -85,19 +119,28 @@ public:
 
     Pages make(std::size_t index) const {
         const KdNode& node = tree_.nodes[index];
-        const PackedNode packed = gatherNode(
+        Parts parts = inDrawingOrder(
             mesh_, node.isLeaf() ? trianglesOf(mesh_, tree_, node) : lod_.geometry[index],
             pockets_[index], lod_.errorMetres[index] / mesh_.lattice.stepMetres);
+        const PackedNode packed = gatherNode(mesh_, parts.parts);
         Pages pages;
         pages.shape = shapeOf(packed);
-        pages.frontIndexCount = packed.frontIndexCount;
         if (packed.indices.empty())
             return pages;
+        if (mesh_.materials.empty())
+            pages.frontIndexCount = parts.ranges.front().frontIndexCount;
+        else
+            pages.ranges = std::move(parts.ranges);
         pages.page = blockOf(packed);
         pages.blockChecksum = contentHash(pages.page);
         if (isCoded_)
-            pages.page = encodePage(
-                {packed.positions, packed.normals, packed.colours, packed.indices, {}, nullptr});
+            pages.page = encodePage({packed.positions,
+                                     packed.normals,
+                                     packed.colours,
+                                     packed.textureCoordinates,
+                                     packed.indices,
+                                     {},
+                                     nullptr});
         if (node.isLeaf() && !packed.exact.empty())
             pages.exact = encodeExact(packed.exact, packed.positions, mesh_.lattice, exactForm_);
         return pages;
@@ -132,12 +175,10 @@ std::uint64_t aligned(std::uint64_t value) {
     return (value + kAlignment - 1) / kAlignment * kAlignment;
 }
 
-/// `end` becomes that of the file.
+/// `end`, where pages begin, becomes where they end.
 std::vector<Node> layOutNodes(const KdTree& tree, const LodTree& lod,
-                              const std::vector<Pages>& pages, std::size_t lidCount,
-                              std::uint64_t& end) {
+                              const std::vector<Pages>& pages, std::uint64_t& end) {
     std::vector<Node> nodes(tree.nodes.size());
-    end = sizeof(EymHeader) + nodes.size() * sizeof(Node) + lidCount * sizeof(Lid);
     const auto place = [&end](const std::vector<std::byte>& page, std::uint64_t& offset,
                               std::uint32_t& bytes, std::uint64_t& checksum) {
         offset = end;
@@ -168,6 +209,38 @@ std::vector<Node> layOutNodes(const KdTree& tree, const LodTree& lod,
     return nodes;
 }
 
+std::vector<MaterialRange> rangesOf(const std::vector<Pages>& pages) {
+    std::vector<MaterialRange> ranges;
+    for (std::size_t node = 0; node < pages.size(); ++node)
+        for (MaterialRange range : pages[node].ranges) {
+            range.node = static_cast<std::uint32_t>(node);
+            ranges.push_back(range);
+        }
+    return ranges;
+}
+
+/// `end` becomes that of the images.
+std::vector<ImageRecord> layOutImages(const std::vector<Image>& images, std::uint64_t& end) {
+    std::vector<ImageRecord> records;
+    for (const Image& image : images) {
+        records.push_back({end, contentHash(image.blocks),
+                           static_cast<std::uint32_t>(image.blocks.size()), image.shape});
+        end = aligned(end + image.blocks.size());
+    }
+    return records;
+}
+
+/// The tables of materials, images and ranges as they lie in the file.
+std::vector<std::byte> tableBytes(const std::vector<Material>& materials,
+                                  const std::vector<ImageRecord>& images,
+                                  const std::vector<MaterialRange>& ranges) {
+    std::vector<std::byte> bytes;
+    for (const auto table : {std::as_bytes(std::span(materials)), std::as_bytes(std::span(images)),
+                             std::as_bytes(std::span(ranges))})
+        bytes.insert(bytes.end(), table.begin(), table.end());
+    return bytes;
+}
+
 std::uint64_t countUsedVertices(const PackedMesh& mesh) {
     std::vector<bool> used(mesh.positions.size());
     for (const Triangle& triangle : mesh.triangles)
@@ -178,15 +251,16 @@ std::uint64_t countUsedVertices(const PackedMesh& mesh) {
 std::uint32_t flagsOf(const PackedMesh& mesh, const EymOptions& options, ExactForm exactForm) {
     return (mesh.colours.empty() ? 0 : kHasColours) | (options.isCoded ? kIsCoded : 0) |
            (mesh.exact.empty() ? 0 : kHasExact) |
+           (mesh.textureCoordinates.empty() ? 0 : kHasTextures) |
            (exactForm == ExactForm::Float64 ? kExactIsFloat64 : 0);
 }
 
+/// Of `tables`, which has their sizes.
 EymHeader makeHeader(const PackedMesh& mesh, const std::vector<Node>& nodes,
-                     const std::vector<Lid>& lids) {
-    EymHeader header;
+                     const std::vector<Lid>& lids, const EymHeader& tables) {
+    EymHeader header = tables;
     header.nodesChecksum = contentHash(std::as_bytes(std::span(nodes)));
     header.lidsChecksum = contentHash(std::as_bytes(std::span(lids)));
-    header.lidCount = lids.size();
     header.triangleCount = mesh.triangles.size();
     header.sourceVertexCount = countUsedVertices(mesh);
     header.nodeCount = static_cast<std::uint32_t>(nodes.size());
@@ -198,8 +272,8 @@ EymHeader makeHeader(const PackedMesh& mesh, const std::vector<Node>& nodes,
     return header;
 }
 
-absl::Status writePages(const std::vector<Pages>& pages, OutputFile& out,
-                        const std::stop_token& stop) {
+absl::Status writePages(const std::vector<Pages>& pages, const std::vector<Image>& images,
+                        OutputFile& out, const std::stop_token& stop) {
     for (const Pages& node : pages) {
         if (stop.stop_requested())
             return absl::CancelledError("writing was cancelled");
@@ -207,6 +281,10 @@ absl::Status writePages(const std::vector<Pages>& pages, OutputFile& out,
             RETURN_IF_ERROR(out.write(*page));
             RETURN_IF_ERROR(out.padTo(kAlignment));
         }
+    }
+    for (const Image& image : images) {
+        RETURN_IF_ERROR(out.write(image.blocks));
+        RETURN_IF_ERROR(out.padTo(kAlignment));
     }
     return absl::OkStatus();
 }
@@ -218,10 +296,20 @@ absl::Status writeEym(const PackedMesh& mesh, const KdTree& tree, const LodTree&
                       const std::stop_token& stop) {
     const PageMaker maker(mesh, tree, lod, backs.pockets, options);
     const std::vector<Pages> pages = makePages(tree, maker, stop);
-    std::uint64_t end = 0;
+    const std::vector<MaterialRange> ranges = rangesOf(pages);
     const std::vector<Lid> lids = stored(backs.lids);
-    const std::vector<Node> nodes = layOutNodes(tree, lod, pages, lids.size(), end);
-    EymHeader header = makeHeader(mesh, nodes, lids);
+    EymHeader sizes;
+    sizes.nodeCount = static_cast<std::uint32_t>(tree.nodes.size());
+    sizes.lidCount = lids.size();
+    sizes.materialCount = static_cast<std::uint32_t>(mesh.materials.size());
+    sizes.imageCount = static_cast<std::uint32_t>(mesh.images.size());
+    sizes.rangeCount = static_cast<std::uint32_t>(ranges.size());
+    std::uint64_t end = endOfTables(sizes);
+    const std::vector<Node> nodes = layOutNodes(tree, lod, pages, end);
+    const std::vector<std::byte> tables =
+        tableBytes(mesh.materials, layOutImages(mesh.images, end), ranges);
+    EymHeader header = makeHeader(mesh, nodes, lids, sizes);
+    header.materialsChecksum = contentHash(tables);
     header.flags = flagsOf(mesh, options, maker.exactForm());
     header.sourceHash = options.sourceHash;
     header.fileBytes = end;
@@ -229,7 +317,8 @@ absl::Status writeEym(const PackedMesh& mesh, const KdTree& tree, const LodTree&
     RETURN_IF_ERROR(out.write(std::as_bytes(std::span(&header, 1))));
     RETURN_IF_ERROR(out.write(std::as_bytes(std::span(nodes))));
     RETURN_IF_ERROR(out.write(std::as_bytes(std::span(lids))));
-    return writePages(pages, out, stop);
+    RETURN_IF_ERROR(out.write(tables));
+    return writePages(pages, mesh.images, out, stop);
 }
 
 }  // namespace eyrie::mesh

@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include <glm/vec2.hpp>
+
 namespace eyrie::mesh {
 
 /// How much a node's geometry is of.
@@ -14,6 +16,7 @@ struct NodeShape {
     std::uint32_t vertexCount = 0;
     std::uint32_t indexCount = 0;
     bool hasColours = false;
+    bool hasTextures = false;
 
     bool operator==(const NodeShape&) const = default;
 };
@@ -23,10 +26,12 @@ struct NodeShape {
 ///   uint64 [vertexCount]  positions (vertex_packing.h)
 ///   uint32 [vertexCount]  normals
 ///   uint32 [vertexCount]  colours, only where the mesh has them
+///   int32 [2][vertexCount]  texture coordinates (material.h), only where it has them
 ///   uint16 [indexCount]   triangles
 constexpr std::size_t blockBytes(const NodeShape& shape) {
-    const std::size_t bytes =
-        std::size_t{shape.vertexCount} * (shape.hasColours ? 16 : 12) + shape.indexCount * 2;
+    const std::size_t vertexBytes =
+        12U + (shape.hasColours ? 4U : 0U) + (shape.hasTextures ? 8U : 0U);
+    const std::size_t bytes = shape.vertexCount * vertexBytes + shape.indexCount * 2;
     return (bytes + 7) / 8 * 8;
 }
 
@@ -41,12 +46,14 @@ struct NodeArrays {
         take(positions, shape.vertexCount);
         take(normals, shape.vertexCount);
         take(colours, shape.hasColours ? shape.vertexCount : 0);
+        take(textureCoordinates, shape.hasTextures ? shape.vertexCount : 0);
         take(indices, shape.indexCount);
     }
 
     std::span<std::uint64_t> positions;
     std::span<std::uint32_t> normals;
     std::span<std::uint32_t> colours;
+    std::span<glm::ivec2> textureCoordinates;
     std::span<std::uint16_t> indices;
 };
 
@@ -54,10 +61,11 @@ struct NodeArrays {
 struct NodeGeometry {
     std::span<const std::uint64_t> positions;
     std::span<const std::uint32_t> normals;
-    std::span<const std::uint32_t> colours;  ///< empty in a mesh without colours
-    std::span<const std::uint16_t> indices;  ///< each below positions.size()
-    std::span<const std::byte> block;        ///< all of them, as above; empty where they lie apart
-    std::shared_ptr<const void> owner;       ///< of the block; null where it is mapped
+    std::span<const std::uint32_t> colours;          ///< empty in a mesh without colours
+    std::span<const glm::ivec2> textureCoordinates;  ///< the same
+    std::span<const std::uint16_t> indices;          ///< each below positions.size()
+    std::span<const std::byte> block;   ///< all of them, as above; empty where they lie apart
+    std::shared_ptr<const void> owner;  ///< of the block; null where it is mapped
 };
 
 /// The arrays that lie in a block. Preconditions: it is aligned to 8 bytes and has
@@ -73,6 +81,7 @@ inline NodeGeometry geometryIn(std::span<const std::byte> block, const NodeShape
     take(geometry.positions, shape.vertexCount);
     take(geometry.normals, shape.vertexCount);
     take(geometry.colours, shape.hasColours ? shape.vertexCount : 0);
+    take(geometry.textureCoordinates, shape.hasTextures ? shape.vertexCount : 0);
     take(geometry.indices, shape.indexCount);
     geometry.block = block;
     geometry.owner = std::move(owner);

@@ -94,12 +94,11 @@ void turnToSharedEdges(std::vector<std::uint16_t>& indices) {
 
 }  // namespace
 
-PackedNode gatherNode(const PackedMesh& mesh, std::span<const Triangle> fronts,
-                      std::span<const Triangle> others) {
+PackedNode gatherNode(const PackedMesh& mesh, std::span<const std::span<const Triangle>> parts) {
     PackedNode node;
-    const std::size_t corners = (fronts.size() + others.size()) * 3;
+    std::size_t corners = 0;
+    for (const std::span<const Triangle> part : parts) corners += part.size() * 3;
     node.indices.reserve(corners);
-    node.frontIndexCount = static_cast<std::uint32_t>(fronts.size() * 3);
     LocalIndices local(corners);
     const auto add = [&](std::uint32_t vertex) {
         const auto [index, isNew] = local.number(vertex);
@@ -110,10 +109,12 @@ PackedNode gatherNode(const PackedMesh& mesh, std::span<const Triangle> fronts,
         node.normals.push_back(mesh.normals[vertex]);
         if (!mesh.colours.empty())
             node.colours.push_back(mesh.colours[vertex]);
+        if (!mesh.textureCoordinates.empty())
+            node.textureCoordinates.push_back(mesh.textureCoordinates[vertex]);
         if (!mesh.exact.empty())
             node.exact.push_back(mesh.exact[vertex]);
     };
-    for (const std::span<const Triangle> part : {fronts, others})
+    for (const std::span<const Triangle> part : parts)
         for (const Triangle& triangle : alongMortonCurve(mesh, part))
             for (const std::uint32_t vertex : triangle) add(vertex);
     turnToSharedEdges(node.indices);

@@ -18,8 +18,9 @@
 ///
 /// Vertices, in the order of first use: what is left of a position after the parallelogram with the
 /// triangle across the edge (C. Touma, C. Gotsman, "Triangle Mesh Compression", 1998), of a normal
-/// after the one that the node's own triangles give (normal_forecast.h), and of a colour after
-/// the mean of the edge's ends. Each number is an entropy-coded size and plain bits (page_model.h).
+/// after the one that the node's own triangles give (normal_forecast.h), of a colour after the mean
+/// of the edge's ends, and of texture coordinates after the same parallelogram. Each number is an
+/// entropy-coded size and plain bits (page_model.h).
 ///
 /// A page, little-endian: uint32 bytes of the bits, even; uint32 words of the triangles' symbols;
 /// the bits (shares of all contexts, then plain bits in order of use); the triangles' symbols, then

@@ -92,7 +92,7 @@ class PageDecoder {
 public:
     PageDecoder(const Parts& parts, const NodeArrays& arrays)
         : arrays_(arrays),
-          numbers_(arrays.colours.empty() ? kNumbersWithoutColour : kNumbersWithColour),
+          numbers_(numbersOf(!arrays.colours.empty(), !arrays.textureCoordinates.empty())),
           bits_(parts.bits),
           triangleSlots_(kTriangleContexts),
           vertexSlots_(numbers_),
@@ -114,6 +114,8 @@ private:
     void takeSymbols();
     void takeVertices();
     void takePosition(std::uint32_t v, const std::uint8_t* symbols);
+    void takeColour(std::uint32_t v, const std::uint8_t* symbols);
+    void takeTextureCoordinates(std::uint32_t v, const std::uint8_t* symbols);
     void addForecast();
 
     const NodeArrays& arrays_;
@@ -235,17 +237,34 @@ void PageDecoder::takeVertices() {
         const std::uint32_t low = unzigzag(number(symbols[3]));
         const std::uint32_t high = unzigzag(number(symbols[4]));
         arrays_.normals[v] = (low & 0xFFFFU) | high << 16;
-        if (arrays_.colours.empty())
-            continue;
-        const Origin& from = origins_[v];
-        const std::uint32_t mean =
-            v == 0 ? 0 : meanColour(arrays_.colours[from.a], arrays_.colours[from.b]);
-        std::uint32_t colour = 0;
-        for (int channel = 0; channel < 4; ++channel)
-            colour |= (((mean >> 8 * channel) + unzigzag(number(symbols[5 + channel]))) & 0xFFU)
-                      << 8 * channel;
-        arrays_.colours[v] = colour;
+        symbols += 5;
+        if (!arrays_.colours.empty()) {
+            takeColour(v, symbols);
+            symbols += 4;
+        }
+        if (!arrays_.textureCoordinates.empty())
+            takeTextureCoordinates(v, symbols);
     }
+}
+
+void PageDecoder::takeColour(std::uint32_t v, const std::uint8_t* symbols) {
+    const Origin& from = origins_[v];
+    const std::uint32_t mean =
+        v == 0 ? 0 : meanColour(arrays_.colours[from.a], arrays_.colours[from.b]);
+    std::uint32_t colour = 0;
+    for (int channel = 0; channel < 4; ++channel)
+        colour |= (((mean >> 8 * channel) + unzigzag(number(symbols[channel]))) & 0xFFU)
+                  << 8 * channel;
+    arrays_.colours[v] = colour;
+}
+
+void PageDecoder::takeTextureCoordinates(std::uint32_t v, const std::uint8_t* symbols) {
+    const Origin& from = origins_[v];
+    const auto places = arrays_.textureCoordinates;
+    glm::uvec2 place =
+        v == 0 ? glm::uvec2(0U) : foreseen(places[from.a], places[from.b], places[from.opposite]);
+    for (int axis = 0; axis < 2; ++axis) place[axis] += unzigzag(number(symbols[axis]));
+    places[v] = glm::ivec2(place);
 }
 
 void PageDecoder::addForecast() {

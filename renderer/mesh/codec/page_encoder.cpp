@@ -52,7 +52,7 @@ public:
     explicit PageEncoder(const NodeGeometry& geometry)
         : geometry_(geometry),
           triangles_(kTriangleContexts),
-          vertices_(geometry.colours.empty() ? kNumbersWithoutColour : kNumbersWithColour),
+          vertices_(numbersOf(!geometry.colours.empty(), !geometry.textureCoordinates.empty())),
           origins_(geometry.positions.size()) {}
 
     std::vector<std::byte> run();
@@ -75,6 +75,8 @@ private:
     void addThird(std::uint32_t age, const OpenEdge& edge, std::uint16_t corner);
     void addTriangles();
     void addVertices();
+    void addColour(std::uint32_t v, std::uint32_t& context);
+    void addTextureCoordinates(std::uint32_t v, std::uint32_t& context);
 
     const NodeGeometry& geometry_;
     SymbolList triangles_;
@@ -142,14 +144,30 @@ void PageEncoder::addVertices() {
             putNumber(
                 vertices_, context++,
                 zigzag(wrapped<16>((geometry_.normals[v] >> shift) - (forecast[v] >> shift))));
-        if (geometry_.colours.empty())
-            continue;
-        const std::uint32_t mean =
-            v == 0 ? 0 : meanColour(geometry_.colours[from.a], geometry_.colours[from.b]);
-        for (const int shift : {0, 8, 16, 24})
-            putNumber(vertices_, context++,
-                      zigzag(wrapped<8>((geometry_.colours[v] >> shift) - (mean >> shift))));
+        if (!geometry_.colours.empty())
+            addColour(v, context);
+        if (!geometry_.textureCoordinates.empty())
+            addTextureCoordinates(v, context);
     }
+}
+
+void PageEncoder::addColour(std::uint32_t v, std::uint32_t& context) {
+    const Origin& from = origins_[v];
+    const std::uint32_t mean =
+        v == 0 ? 0 : meanColour(geometry_.colours[from.a], geometry_.colours[from.b]);
+    for (const int shift : {0, 8, 16, 24})
+        putNumber(vertices_, context++,
+                  zigzag(wrapped<8>((geometry_.colours[v] >> shift) - (mean >> shift))));
+}
+
+void PageEncoder::addTextureCoordinates(std::uint32_t v, std::uint32_t& context) {
+    const Origin& from = origins_[v];
+    const auto& places = geometry_.textureCoordinates;
+    const glm::uvec2 guess =
+        v == 0 ? glm::uvec2(0U) : foreseen(places[from.a], places[from.b], places[from.opposite]);
+    const glm::uvec2 left = glm::uvec2(places[v]) - guess;
+    for (int axis = 0; axis < 2; ++axis)
+        putNumber(vertices_, context++, zigzag(wrapped<32>(left[axis])));
 }
 
 std::vector<std::byte> PageEncoder::run() {

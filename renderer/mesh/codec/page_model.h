@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstdint>
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include "renderer/mesh/codec/open_edges.h"
@@ -71,9 +72,11 @@ inline constexpr std::uint32_t symbolsOf(std::uint32_t triangleContext) {
                                              : kThirdSymbols;
 }
 
-/// ... and of a vertex's numbers: x, y, z, the two of the normal, and r, g, b, a.
-inline constexpr std::size_t kNumbersWithoutColour = 5;
-inline constexpr std::size_t kNumbersWithColour = 9;
+/// ... and of a vertex's numbers: x, y, z, the two of the normal, and, where there are some, r, g,
+/// b, a, and u, v.
+constexpr std::size_t numbersOf(bool hasColours, bool hasTextures) {
+    return 5U + (hasColours ? 4U : 0U) + (hasTextures ? 2U : 0U);
+}
 
 /// The vertices from which a new one is foreseen: it makes a parallelogram of the triangle across
 /// the edge from a to b. All three are the same where there is no such triangle.
@@ -103,6 +106,11 @@ void originsOfLoose(std::span<const std::uint16_t, 3> corners, std::uint32_t fir
 /// Modulo 2^21: any three make a lattice point.
 inline glm::uvec3 foreseen(const glm::uvec3& a, const glm::uvec3& b, const glm::uvec3& opposite) {
     return (a + b - opposite) & glm::uvec3(kMaxLatticeCoordinate);
+}
+
+/// Modulo 2^32.
+inline glm::uvec2 foreseen(const glm::ivec2& a, const glm::ivec2& b, const glm::ivec2& opposite) {
+    return glm::uvec2(a) + glm::uvec2(b) - glm::uvec2(opposite);
 }
 
 /// Channel by channel half way between two colours.

@@ -30,6 +30,19 @@ void append(std::vector<T>& to, const std::vector<T>& from) {
     to.insert(to.end(), from.begin(), from.end());
 }
 
+/// Seams give a point several vertices, so a surface may have more of them than triangles.
+bool hasMoreVerticesThan(std::size_t most, const std::vector<Triangle>& triangles) {
+    if (triangles.size() * 3 <= most)
+        return false;
+    std::vector<std::uint32_t> vertices;
+    vertices.reserve(triangles.size() * 3);
+    for (const Triangle& triangle : triangles)
+        vertices.insert(vertices.end(), triangle.begin(), triangle.end());
+    std::sort(vertices.begin(), vertices.end());
+    const auto end = std::unique(vertices.begin(), vertices.end());
+    return static_cast<std::size_t>(end - vertices.begin()) > most;
+}
+
 class Builder {
 public:
     Builder(const PackedMesh& mesh, const KdTree& tree, const LodOptions& options,
@@ -137,7 +150,8 @@ void Builder::simplifyPart(LodPart& part, std::size_t index) {
         return;
     auto [patch, share] = simplified(part.patch, tree_.nodes[index],
                                      std::min<std::size_t>(before / 2, options_.nodeTriangles));
-    if (patch.triangles.size() > kMaxLeafVertices ||
+    if (patch.triangles.size() > kMaxNodeTriangles ||
+        hasMoreVerticesThan(kMaxLeafVertices, patch.triangles) ||
         static_cast<double>(patch.triangles.size()) > kWorthwhile * static_cast<double>(before))
         return;
     part.patch = std::move(patch);

@@ -65,6 +65,40 @@ TEST(JdnReader, JoinsObjectsAndGivesThemTheirMaterials) {
     EXPECT_EQ(mesh->normals[4], glm::vec3(0));
 }
 
+/// A corner with other texture coordinates is another vertex, whatever Assimp's v, with v down.
+TEST(JdnReader, GivesCornersTheirTextureCoordinates) {
+    std::string text = with("Textured Vert = 0 0 0\nTextured Face = 0 0 0\nTextured Face = 0 0 0\n",
+                            "Textured Vert = 0.5 0.25 0\nTextured Vert = 3 1 0\n"
+                            "Textured Face = 0 1 0\nTextured Face = 1 0 1\n");
+    text.replace(text.find("textured vertices = 1"), 21, "textured vertices = 2");
+    text.replace(text.find("Transparency = 0"), 16, "Transparency = 0.4");
+    const auto mesh = parseJdn(text, "s.jdn");
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    ASSERT_EQ(mesh->textures.size(), 1U);
+    EXPECT_EQ(mesh->textures[0].name, "textures\\roof.jpg");
+    ASSERT_EQ(mesh->positions.size(), 8U);  // the first corner is there twice
+    ASSERT_EQ(mesh->materialOf.size(), 8U);
+    const auto placeOf = [&](std::size_t triangle, std::size_t corner) {
+        return mesh->textureCoordinates[mesh->triangles[triangle][corner]];
+    };
+    EXPECT_EQ(placeOf(0, 0), glm::vec2(0.5F, 0.75F));
+    EXPECT_EQ(placeOf(0, 1), glm::vec2(3, 0));
+    EXPECT_EQ(placeOf(1, 0), glm::vec2(3, 0));
+    EXPECT_EQ(mesh->positions[mesh->triangles[1][0]], mesh->positions[mesh->triangles[0][0]]);
+    const mesh::Material& material = mesh->materials[mesh->materialOf[0]];
+    EXPECT_EQ(material.image, 0);
+    EXPECT_TRUE(material.isBlended());
+    EXPECT_EQ(mesh->colours[0], (fabric::Rgba{153, 128, 255, 153}));
+    EXPECT_EQ(mesh->materials[mesh->materialOf[6]], mesh::Material());
+}
+
+TEST(JdnReader, RefusesTextureCoordinatesThatAreNotThere) {
+    EXPECT_THAT(messageOf(with("Textured Face = 0 0 0", "Textured Face = 0 1 0")),
+                HasSubstr("found 1, expected a vertex from 0 to 0"));
+    EXPECT_THAT(messageOf(with("Textured Face = 0 0 0\n", "")),
+                HasSubstr("found 1 lines Textured Face, expected 2"));
+}
+
 TEST(JdnReader, CountsWhatItDoesNotKnow) {
     const auto mesh = parseJdn(sample(), "s.jdn");
     ASSERT_TRUE(mesh.ok());

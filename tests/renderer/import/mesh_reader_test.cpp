@@ -9,6 +9,7 @@
 
 #include "renderer/mesh/eym_format.h"
 #include "tests/renderer/import/ply_text.h"
+#include "tests/renderer/import/tga_text.h"
 #include "tests/renderer/mesh/temporary_folder.h"
 
 namespace eyrie::import {
@@ -70,6 +71,76 @@ TEST(MeshReader, ReadsAnObjWithoutItsMaterials) {
     EXPECT_EQ(mesh->triangles.size(), 1U);
 }
 
+constexpr const char* kTexturedObj =
+    "mtllib m.mtl\nv 5 0 0\nv 6 0 0\nv 5 1 0\nvt 0.25 0\nvt 1 0\nvt 0 1\n"
+    "usemtl tiles\nf 1/1 2/2 3/3\nusemtl lost\nf 1/1 3/3 2/2\nusemtl pane\nf 1 2 3\n"
+    "usemtl broken\nf 1/1 2/2 3/3\n";
+constexpr const char* kTexturedMtl =
+    "newmtl tiles\nKd 0 0 0\nmap_Kd textures\\Tiles.tga\nnewmtl lost\nKd 1 0 0\nmap_Kd lost.png\n"
+    "newmtl pane\nKd 0 0 1\nd 0.4\nnewmtl broken\nKd 0 1 0\nmap_Kd broken.png\n";
+
+TEST(MeshReader, ReadsTexturesAndCountsThoseThatAreMissing) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.obj"), kTexturedObj);
+    test::writeFile(folder.file("m.mtl"), kTexturedMtl);
+    test::writeFile(folder.file("tiles.TGA"), test::tgaOf(2, 1, {{9, 8, 7, 255}, {1, 2, 3, 0}}));
+    test::writeFile(folder.file("broken.png"), "\x89PNG\r\n\x1a\n and no more");
+    const auto mesh = readMesh(folder.file("m.obj"));
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    EXPECT_THAT(mesh->notes, testing::ElementsAre(HasSubstr(
+                                 "2 of 3 textures cannot be read, and their materials have their "
+                                 "colour alone: 'lost.png' is not there")));
+    ASSERT_EQ(mesh->images.size(), 1U);
+    EXPECT_EQ(mesh->images[0].shape.width, 2U);
+    EXPECT_TRUE(mesh->images[0].shape.hasAlpha());
+    ASSERT_EQ(mesh->triangles.size(), 4U);
+    const auto materialOf = [&](std::size_t triangle) {
+        return mesh->materials[mesh->materialOf[mesh->triangles[triangle][0]]];
+    };
+    const auto colourOf = [&](std::size_t triangle) {
+        return mesh->colours[mesh->triangles[triangle][0]];
+    };
+    EXPECT_EQ(materialOf(0), (mesh::Material{.image = 0, .alphaCutoff = 0.5F}));
+    EXPECT_EQ(colourOf(0), (fabric::Rgba{255, 255, 255, 255})) << "not black";
+    EXPECT_EQ(mesh->textureCoordinates[mesh->triangles[0][0]], glm::vec2(0.25F, 1));
+    EXPECT_EQ(materialOf(1), mesh::Material());
+    EXPECT_EQ(colourOf(1), (fabric::Rgba{255, 0, 0, 255}));
+    EXPECT_EQ(materialOf(2), (mesh::Material{.flags = mesh::kIsBlended}));
+    EXPECT_EQ(colourOf(2), (fabric::Rgba{0, 0, 255, 102}));
+    EXPECT_EQ(materialOf(3), mesh::Material());
+    EXPECT_EQ(colourOf(3), (fabric::Rgba{0, 255, 0, 255}));
+}
+
+TEST(MeshReader, NamesMaterialFilesThatAreMissing) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.obj"), kObj);
+    const auto mesh = readMesh(folder.file("m.obj"));
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    EXPECT_TRUE(mesh->materials.empty());
+    EXPECT_THAT(mesh->notes, testing::ElementsAre(HasSubstr("1 of 1 material files are missing, "
+                                                            "and what they define is plain: "
+                                                            "'m.mtl'")));
+}
+
+TEST(MeshReader, JoinsMaterialsOfFiles) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("a.ply"),
+                    test::plyOf(test::tetrahedron(), test::Encoding::LittleEndian));
+    test::writeFile(folder.file("m.obj"), kTexturedObj);
+    test::writeFile(folder.file("m.mtl"), kTexturedMtl);
+    test::writeFile(folder.file("tiles.tga"), test::tgaOf(1, 1, {{9, 8, 7, 255}}));
+    const std::vector<std::string> paths = {folder.file("a.ply"), folder.file("m.obj"),
+                                            folder.file("m.obj")};
+    const auto mesh = readMeshes(paths);
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    ASSERT_EQ(mesh->materialOf.size(), mesh->positions.size());
+    ASSERT_EQ(mesh->textureCoordinates.size(), mesh->positions.size());
+    ASSERT_EQ(mesh->images.size(), 2U);
+    EXPECT_EQ(mesh->materials[mesh->materialOf[0]], mesh::Material());
+    const std::uint32_t last = mesh->triangles[mesh->triangles.size() - 4][0];
+    EXPECT_EQ(mesh->materials[mesh->materialOf[last]], (mesh::Material{.image = 1}));
+}
+
 TEST(MeshSourceHash, IsThatOfALoneFileAndCountsItsCompany) {
     const test::TemporaryFolder folder;
     const std::string path = folder.file("m.obj");
@@ -83,6 +154,10 @@ TEST(MeshSourceHash, IsThatOfALoneFileAndCountsItsCompany) {
     test::writeFile(folder.file("m.mtl"), "newmtl red\nKd 0 1 0\n");
     const std::uint64_t green = *meshSourceHash(paths);
     EXPECT_TRUE(red != *alone && green != *alone && red != green);
+    test::writeFile(folder.file("m.mtl"), "newmtl red\nmap_Kd m.png\n");
+    const std::uint64_t untextured = *meshSourceHash(paths);
+    test::writeFile(folder.file("m.png"), "a");
+    EXPECT_NE(untextured, *meshSourceHash(paths));
 }
 
 TEST(MeshSourceHash, CountsBuffersOfGltf) {

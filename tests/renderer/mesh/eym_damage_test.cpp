@@ -21,7 +21,7 @@ namespace {
 
 std::string makeSmallFile(bool isCoded) {
     const test::TemporaryFolder folder;
-    PackedMesh mesh = test::randomSoup(60, 40, 1000, 1, true);
+    PackedMesh mesh = test::texturedSoup(40, 1);
     for (const std::uint64_t position : mesh.positions)
         mesh.exact.push_back(mesh.lattice.metres(unpackPosition(position)) + 0.01);
     auto tree = buildKdTree(mesh.positions, mesh.triangles, {10});
@@ -52,38 +52,70 @@ absl::Status readAll(const std::string& path) {
             return geometry.status();
         std::uint64_t sum = 0;
         for (const std::uint16_t index : geometry->indices)
-            sum += geometry->positions[index] + geometry->normals[index] + geometry->colours[index];
+            sum += geometry->positions[index] + geometry->normals[index] +
+                   geometry->colours[index] +
+                   static_cast<std::uint32_t>(geometry->textureCoordinates[index].x);
+        for (const MaterialRange& range : file->ranges(node))
+            sum += file->materials()[range.material].flags + range.indexCount;
         EXPECT_NE(sum, std::numeric_limits<std::uint64_t>::max());  // keeps the reads
         if (!file->nodes()[node].isLeaf())
             continue;
         if (const auto exact = file->exactPositions(node); !exact.ok())
             return exact.status();
     }
+    for (std::uint32_t image = 0; image < file->images().size(); ++image)
+        if (const auto blocks = file->imageBlocks(image); !blocks.ok())
+            return blocks.status();
     return absl::OkStatus();
 }
 
-/// A file's header and nodes, to be changed and sealed with the checksum that then is right.
+/// A file's header and tables, to be changed and sealed with the checksum that then is right.
 struct Tables {
     explicit Tables(const std::string& bytes) {
         std::memcpy(&header, bytes.data(), sizeof header);
         nodes.resize(header.nodeCount);
-        std::memcpy(nodes.data(), bytes.data() + sizeof header, nodes.size() * sizeof(Node));
         lids.resize(header.lidCount);
-        std::memcpy(lids.data(), bytes.data() + endOfNodes(header), lids.size() * sizeof(Lid));
+        materials.resize(header.materialCount);
+        images.resize(header.imageCount);
+        ranges.resize(header.rangeCount);
+        const char* at = bytes.data() + sizeof header;
+        forAll([&at](auto table) {
+            std::memcpy(table.data(), at, table.size());
+            at += table.size();
+        });
     }
     std::string sealedInto(std::string bytes) {
         header.nodesChecksum = contentHash(std::as_bytes(std::span(nodes)));
+        char* at = bytes.data() + sizeof header;
         header.lidsChecksum = contentHash(std::as_bytes(std::span(lids)));
+        const char* const materialsAt =
+            at + nodes.size() * sizeof(Node) + lids.size() * sizeof(Lid);
+        forAll([&at](auto table) {
+            std::memcpy(at, table.data(), table.size());
+            at += table.size();
+        });
+        header.materialsChecksum = contentHash(
+            std::as_bytes(std::span(materialsAt, static_cast<std::size_t>(at - materialsAt))));
         header.checksum = headerChecksum(header);
         std::memcpy(bytes.data(), &header, sizeof header);
-        std::memcpy(bytes.data() + sizeof header, nodes.data(), nodes.size() * sizeof(Node));
-        std::memcpy(bytes.data() + sizeof header + nodes.size() * sizeof(Node), lids.data(),
-                    lids.size() * sizeof(Lid));
         return bytes;
     }
+    template <typename Visit>
+    void forAll(const Visit& visit) {
+        visit(std::as_writable_bytes(std::span(nodes)));
+        visit(std::as_writable_bytes(std::span(lids)));
+        visit(std::as_writable_bytes(std::span(materials)));
+        visit(std::as_writable_bytes(std::span(images)));
+        visit(std::as_writable_bytes(std::span(ranges)));
+    }
+    std::size_t endOfTables() const { return endOfLids(header) + materialTableBytes(header); }
+
     EymHeader header;
     std::vector<Node> nodes;
     std::vector<Lid> lids;
+    std::vector<Material> materials;
+    std::vector<ImageRecord> images;
+    std::vector<MaterialRange> ranges;
 };
 
 TEST(EymDamage, OfTheLengthIsAlwaysNoticed) {
@@ -111,8 +143,9 @@ TEST_P(EymDamageByForm, OfAnyBitThatMattersIsNoticed) {
         unnoticed += readAll(folder.file("m.eym")).ok() ? 1 : 0;
     }
     // Only padding between pages carries nothing.
-    std::uint64_t carried = endOfNodes(tables.header) + tables.lids.size() * sizeof(Lid);
+    std::uint64_t carried = tables.endOfTables();
     for (const Node& node : tables.nodes) carried += node.pageBytes + node.exactBytes;
+    for (const ImageRecord& image : tables.images) carried += image.bytes;
     EXPECT_EQ(unnoticed, bytes.size() - carried);
 }
 
@@ -134,7 +167,8 @@ TEST(EymDamage, WithARightChecksumIsStillRefused) {
         {"page far away", [huge](Tables& t) { t.nodes.back().pageOffset = huge - 7; }},
         {"page in the tables", [](Tables& t) { t.nodes.back().pageOffset = 256; }},
         {"page too long", [](Tables& t) { t.nodes.back().pageBytes = 1U << 31; }},
-        {"source positions beyond the file", [](Tables& t) { t.nodes.back().exactBytes += 64; }},
+        {"source positions beyond the file",
+         [](Tables& t) { t.nodes.back().exactBytes += 1U << 20; }},
         {"too many vertices", [](Tables& t) { t.nodes.back().vertexCount = 65536; }},
         {"vertices that none uses",
          [](Tables& t) { t.nodes.back().vertexCount = t.nodes.back().indexCount + 1; }},
@@ -151,6 +185,26 @@ TEST(EymDamage, WithARightChecksumIsStillRefused) {
         {"fronts past the indices",
          [](Tables& t) { t.nodes.back().frontIndexCount = t.nodes.back().indexCount + 3; }},
         {"part of a triangle's front", [](Tables& t) { t.nodes.back().frontIndexCount = 1; }},
+        {"fronts beside those of ranges", [](Tables& t) { t.nodes.back().frontIndexCount = 3; }},
+        {"an image that is not there", [](Tables& t) { t.materials[0].image = 2; }},
+        {"no image at all", [](Tables& t) { t.materials[0].image = -2; }},
+        {"unknown property of a material", [](Tables& t) { t.materials[1].flags = 8; }},
+        {"one side and two", [](Tables& t) { t.materials[1].flags = 6; }},
+        {"cutoff of a material", [](Tables& t) { t.materials[1].alphaCutoff = 2; }},
+        {"image of no size", [](Tables& t) { t.images[0].shape.width = 0; }},
+        {"image of another size", [](Tables& t) { t.images[0].shape.width = 9; }},
+        {"absurd image", [](Tables& t) { t.images[0].shape.height = 1U << 31; }},
+        {"unknown kind of image", [](Tables& t) { t.images[1].shape.flags = 64; }},
+        {"image beyond the file", [](Tables& t) { t.images[1].offset += 8; }},
+        {"image in the tables", [](Tables& t) { t.images[1].offset = 0; }},
+        {"material that is not there", [](Tables& t) { t.ranges[0].material = 3; }},
+        {"range of nothing", [](Tables& t) { t.ranges[0].indexCount = 0; }},
+        {"range of another node", [](Tables& t) { t.ranges.back().node = 1U << 30; }},
+        {"ranges of too few indices", [](Tables& t) { t.ranges[0].indexCount -= 3; }},
+        {"more fronts than indices", [](Tables& t) { t.ranges[0].frontIndexCount = 3000; }},
+        {"images without materials", [](Tables& t) { t.header.materialCount = 0; }},
+        {"texture coordinates that are not there",
+         [](Tables& t) { t.header.flags &= ~kHasTextures; }},
         {"error below the child's", [](Tables& t) { t.nodes[0].errorMetres = 0; }},
         {"error not finite",
          [](Tables& t) { t.nodes[1].errorMetres = std::numeric_limits<float>::quiet_NaN(); }},
@@ -196,7 +250,7 @@ TEST(EymDamage, AnIndexBeyondItsVerticesIsRefusedWithARightChecksum) {
     Tables tables(bytes);
     Node& leaf = tables.nodes.back();
     const auto vertices = static_cast<std::uint16_t>(leaf.vertexCount);
-    std::memcpy(bytes.data() + leaf.pageOffset + leaf.vertexCount * 16, &vertices, 2);
+    std::memcpy(bytes.data() + leaf.pageOffset + leaf.vertexCount * 24, &vertices, 2);
     leaf.blockChecksum =
         contentHash(std::as_bytes(std::span(bytes).subspan(leaf.pageOffset, leaf.pageBytes)));
     test::writeFile(folder.file("m.eym"), tables.sealedInto(bytes));
@@ -232,13 +286,16 @@ RC_GTEST_PROP(EymDamage, OfTheTablesWithARightChecksumNeverLeavesTheFile, ()) {
     const test::TemporaryFolder folder;
     const std::string& bytes = smallFile();
     std::string damaged = bytes;
-    const std::size_t tableBytes = sizeof(EymHeader) + Tables(bytes).nodes.size() * sizeof(Node);
+    const std::size_t tableBytes = Tables(bytes).endOfTables();
     for (int i = *rc::gen::inRange(1, 4); i > 0; --i)
         damaged[*rc::gen::inRange<std::size_t>(16, tableBytes)] = *rc::gen::arbitrary<char>();
     Tables tables(bytes);  // with the count that the bytes have room for
     std::memcpy(&tables.header, damaged.data(), sizeof tables.header);
-    std::memcpy(tables.nodes.data(), damaged.data() + sizeof tables.header,
-                tables.nodes.size() * sizeof(Node));
+    const char* at = damaged.data() + sizeof tables.header;
+    tables.forAll([&at](auto table) {
+        std::memcpy(table.data(), at, table.size());
+        at += table.size();
+    });
     test::writeFile(folder.file("m.eym"), tables.sealedInto(damaged));
     const absl::Status status = readAll(folder.file("m.eym"));
     RC_CLASSIFY(status.ok());

@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -112,6 +113,50 @@ TEST(EymFile, GivesTheSameBlocksCodedAndRaw) {
         const auto b = raw->geometry(node);
         ASSERT_TRUE(a.ok() && b.ok()) << a.status() << b.status();
         EXPECT_TRUE(std::ranges::equal(a->block, b->block)) << node;
+    }
+}
+
+/// Every triangle of the leaves, with the material of its range.
+TEST(EymFile, GivesMaterialsTexturesAndImagesBack) {
+    const test::TemporaryFolder folder;
+    const PackedMesh mesh = test::texturedSoup(700, 8);
+    for (const bool isCoded : {true, false}) {
+        ASSERT_TRUE(write(mesh, 100, folder.file("m.eym"), isCoded).ok());
+        const auto file = EymFile::open(folder.file("m.eym"));
+        ASSERT_TRUE(file.ok()) << file.status();
+        EXPECT_TRUE(std::ranges::equal(file->materials(), mesh.materials));
+        for (std::uint32_t i = 0; i < mesh.images.size(); ++i) {
+            EXPECT_EQ(file->images()[i].shape, mesh.images[i].shape);
+            EXPECT_EQ(*file->imageBlocks(i), mesh.images[i].blocks);
+        }
+        using Corner = std::tuple<std::uint32_t, std::uint64_t, int, int>;
+        std::vector<Corner> expected, found;
+        for (const Triangle& triangle : mesh.triangles)
+            for (const std::uint32_t v : triangle)
+                expected.emplace_back(mesh.materialOf[v], mesh.positions[v],
+                                      mesh.textureCoordinates[v].x, mesh.textureCoordinates[v].y);
+        for (std::uint32_t node = 0; node < file->nodes().size(); ++node) {
+            if (!file->nodes()[node].isLeaf())
+                continue;
+            const auto geometry = file->geometry(node);
+            ASSERT_TRUE(geometry.ok()) << geometry.status();
+            std::size_t at = 0;
+            bool isBlended = false;
+            for (const MaterialRange& range : file->ranges(node)) {
+                const bool wasBlended =
+                    std::exchange(isBlended, mesh.materials[range.material].isBlended());
+                EXPECT_FALSE(wasBlended && !isBlended) << "what is blended comes last";
+                EXPECT_EQ(range.frontIndexCount, 0U) << "what is see-through shows backs";
+                for (const std::size_t end = at + range.indexCount; at < end; ++at) {
+                    const std::uint16_t v = geometry->indices[at];
+                    const glm::ivec2 place = geometry->textureCoordinates[v];
+                    found.emplace_back(range.material, geometry->positions[v], place.x, place.y);
+                }
+            }
+        }
+        std::ranges::sort(expected);
+        std::ranges::sort(found);
+        EXPECT_EQ(found, expected);
     }
 }
 

@@ -2,9 +2,11 @@
 #include "renderer/mesh/codec/page_codec.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -19,15 +21,23 @@
 namespace eyrie::mesh {
 namespace {
 
+PackedNode gathered(const PackedMesh& mesh) {
+    const std::array<std::span<const Triangle>, 1> whole{mesh.triangles};
+    return gatherNode(mesh, whole);
+}
+
 /// Any triangles at all: repeated, without area, flipped, with corners in common.
 PackedNode anyNode() {
+    if (*rc::gen::arbitrary<bool>())
+        return gathered(test::texturedSoup(*rc::gen::inRange<std::uint32_t>(1, 300),
+                                           *rc::gen::arbitrary<std::uint32_t>()));
     const auto seed = *rc::gen::arbitrary<std::uint32_t>();
     const auto triangles = *rc::gen::inRange<std::uint32_t>(1, 400);
     const auto vertices = *rc::gen::inRange<std::uint32_t>(1, 300);
     const auto extent = *rc::gen::element(1U, 5U, 3000U, 1U << kLatticeBits);
     const PackedMesh soup =
         test::randomSoup(triangles, vertices, extent, seed, *rc::gen::arbitrary<bool>());
-    return gatherNode(soup, soup.triangles);
+    return gathered(soup);
 }
 
 /// A hilly square of `side` * `side` vertices.
@@ -46,11 +56,12 @@ PackedNode hills(std::uint32_t side) {
             mesh.triangles.push_back({a, a + 1, a + side});
             mesh.triangles.push_back({a + 1, a + side + 1, a + side});
         }
-    return gatherNode(mesh, mesh.triangles);
+    return gathered(mesh);
 }
 
 NodeGeometry geometryOf(const PackedNode& node) {
-    return {node.positions, node.normals, node.colours, node.indices, {}, nullptr};
+    return {node.positions, node.normals, node.colours, node.textureCoordinates,
+            node.indices,   {},           nullptr};
 }
 
 struct Decoded {
@@ -69,7 +80,8 @@ Decoded decode(std::span<const std::byte> page, const NodeShape& shape) {
 
 NodeShape shapeOf(const PackedNode& node) {
     return {static_cast<std::uint32_t>(node.positions.size()),
-            static_cast<std::uint32_t>(node.indices.size()), !node.colours.empty()};
+            static_cast<std::uint32_t>(node.indices.size()), !node.colours.empty(),
+            !node.textureCoordinates.empty()};
 }
 
 RC_GTEST_PROP(MeshPage, GivesBackWhatItWasMadeOf, ()) {
@@ -79,6 +91,7 @@ RC_GTEST_PROP(MeshPage, GivesBackWhatItWasMadeOf, ()) {
     RC_ASSERT(std::ranges::equal(decoded.geometry.positions, node.positions));
     RC_ASSERT(std::ranges::equal(decoded.geometry.normals, node.normals));
     RC_ASSERT(std::ranges::equal(decoded.geometry.colours, node.colours));
+    RC_ASSERT(std::ranges::equal(decoded.geometry.textureCoordinates, node.textureCoordinates));
     RC_ASSERT(std::ranges::equal(decoded.geometry.indices, node.indices));
 }
 

@@ -36,6 +36,31 @@ inline mesh::PackedMesh randomSoup(std::uint32_t triangles, std::uint32_t vertic
     return soup;
 }
 
+/// Triangles of three materials, each between random vertices of its own, in random order: with a
+/// texture, plain, and blended. Two images, of random blocks.
+inline mesh::PackedMesh texturedSoup(std::uint32_t triangles, std::uint32_t seed) {
+    mesh::PackedMesh soup = randomSoup(triangles, 90, 1000, seed, true);
+    std::mt19937 engine(seed + 1);
+    const auto random = [&engine] { return static_cast<std::uint32_t>(engine()); };
+    soup.materials = {{.image = 1, .flags = mesh::kIsTwoSided, .alphaCutoff = 0.5F},
+                      {},
+                      {.image = 0, .flags = mesh::kIsBlended}};
+    for (std::uint32_t v = 0; v < soup.positions.size(); ++v) {
+        soup.materialOf.push_back(static_cast<std::uint16_t>(v % 3));
+        soup.textureCoordinates.emplace_back(static_cast<int>(random()),
+                                             static_cast<int>(random() % 65536));
+    }
+    for (mesh::Triangle& triangle : soup.triangles)
+        for (std::uint32_t& corner : triangle) corner = corner / 3 * 3 + triangle[0] % 3;
+    for (const mesh::ImageShape& shape :
+         {mesh::ImageShape{5, 8, mesh::kHasAlpha, random(), 1}, {16, 1, mesh::kClampsU, 7, 0}}) {
+        soup.images.push_back({shape, {}});
+        for (std::uint64_t i = 0; i < shape.bytesFrom(0); ++i)
+            soup.images.back().blocks.push_back(static_cast<std::byte>(random()));
+    }
+    return soup;
+}
+
 /// `triangles` triangles that share no vertex, along the x axis.
 inline mesh::PackedMesh separateTriangles(std::uint32_t triangles) {
     mesh::PackedMesh result;

@@ -2,6 +2,7 @@
 #include "renderer/mesh/lod/lod_tree.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <random>
 
@@ -200,6 +201,51 @@ TEST(LodTree, AnyCutThroughAClosedMeshIsClosed) {
     }
 }
 
+/// One half has a texture around it, with a seam; the other is plain.
+import::TriangleMesh texturedBall(){
+    const import::TriangleMesh plain = import::synthesizeMesh(20000, 5);
+import::TriangleMesh ball;
+ball.materials = {{}, {.image = 0}};
+ball.images = {{{1, 1, 0, 0, 0}, std::vector<std::byte>(8)}};
+for (const auto& triangle : plain.triangles) {
+    const bool isTextured = plain.positions[triangle[0]].z > 0;
+    std::array<std::uint32_t, 3> corners;
+    for (std::size_t i = 0; i < 3; ++i) {
+        corners[i] = static_cast<std::uint32_t>(ball.positions.size());
+        const fabric::Vec3& position = ball.positions.emplace_back(plain.positions[triangle[i]]);
+        const bool isPastSeam = position.y > 0;
+        ball.textureCoordinates.emplace_back(position.x + (isPastSeam ? 0.0 : 7.5), position.z);
+        ball.materialOf.push_back(isTextured ? 1 : 0);
+    }
+    ball.triangles.push_back(corners);
+}
+return ball;
+}  // namespace
+
+TEST(LodTree, CutsOfATexturedMeshAreClosedAndKeepMaterialsApart) {
+    import::PackCounts counts;
+    auto mesh = import::packMesh(texturedBall(), counts);
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    const Levels levels = levelsOf(*std::move(mesh));
+    std::size_t simplified = 0;
+    for (const std::vector<Triangle>& geometry : levels.lod.geometry) {
+        simplified += geometry.size();
+        for (const auto& [a, b, c] : geometry)
+            ASSERT_TRUE(levels.mesh.materialOf[a] == levels.mesh.materialOf[b] &&
+                        levels.mesh.materialOf[a] == levels.mesh.materialOf[c]);
+    }
+    EXPECT_GT(simplified, 10000U);
+    std::mt19937 engine(2);
+    for (int round = 0; round < 20; ++round) {
+        std::map<Edge, int> edges;
+        addCut(levels, 0, engine, edges);
+        for (const auto& [edge, count] : edges) {
+            const auto back = edges.find({edge.second, edge.first});
+            ASSERT_TRUE(back != edges.end() && back->second == count) << "round " << round;
+        }
+    }
+}
+
 TEST(LodTree, LeavesSurfacesThatAreAllBorderToTheirLeaves) {
     PackedMesh flag;  // one strip: every vertex lies on its border, and it is one piece
     for (std::uint32_t i = 0; i < 2002; ++i)
@@ -238,5 +284,5 @@ TEST(LodTree, StopsWhenAsked) {
               absl::StatusCode::kCancelled);
 }
 
-}  // namespace
+}  // namespace eyrie::mesh
 }  // namespace eyrie::mesh

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/import/assimp_materials.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include <assimp/GltfMaterial.h>
+#include <assimp/material.h>
+#include <glm/vec3.hpp>
+
+namespace eyrie::import {
+namespace {
+
+/// As Assimp's own step does it (TextureTransform.cpp): scaled, turned and shifted, v upwards.
+glm::dmat3 matrixOf(const aiUVTransform& transform) {
+    const double c = std::cos(double{transform.mRotation});
+    const double s = std::sin(double{transform.mRotation});
+    const glm::dmat3 scale(transform.mScaling.x, 0, 0, 0, transform.mScaling.y, 0, 0, 0, 1);
+    const glm::dmat3 turn(c, s, 0, -s, c, 0, 0, 0, 1);
+    const glm::dmat3 shift(1, 0, 0, 0, 1, 0, transform.mTranslation.x, transform.mTranslation.y, 1);
+    return scale * turn * shift;
+}
+
+/// Texels that are not coded, which none of the formats has in use, are left out.
+TextureSource embedded(const aiTexture& texture, const char* name) {
+    TextureSource source{name, {}, 0};
+    if (texture.mHeight != 0)
+        return source;
+    const auto* bytes = reinterpret_cast<const std::byte*>(texture.pcData);
+    source.bytes.assign(bytes, bytes + texture.mWidth);
+    return source;
+}
+
+enum class AlphaMode { Unknown, Opaque, Mask, Blend };  ///< glTF's, which alone has them
+
+AlphaMode alphaModeOf(const aiMaterial& material) {
+    aiString mode;
+    if (material.Get(AI_MATKEY_GLTF_ALPHAMODE, mode) != AI_SUCCESS)
+        return AlphaMode::Unknown;
+    const std::string_view word(mode.C_Str());
+    return word == "BLEND"  ? AlphaMode::Blend
+           : word == "MASK" ? AlphaMode::Mask
+                            : AlphaMode::Opaque;
+}
+
+/// 0 where a material does not say.
+int sidesOf(const aiMaterial& material) {
+    int isTwoSided = 0;
+    return material.Get(AI_MATKEY_TWOSIDED, isTwoSided) != AI_SUCCESS ? 0 : isTwoSided != 0 ? 2 : 1;
+}
+
+float cutoffOf(const aiMaterial& material) {
+    float cutoff = 0.5F;
+    material.Get(AI_MATKEY_GLTF_ALPHACUTOFF, cutoff);
+    return std::isfinite(cutoff) ? std::clamp(cutoff, 0.0F, 1.0F) : 0.5F;
+}
+
+}  // namespace
+
+AssimpMaterials::AssimpMaterials(const aiScene& scene, bool texturesReplaceColours)
+    : scene_(scene), texturesReplaceColours_(texturesReplaceColours) {
+    const std::span materials(scene.mMaterials, scene.mNumMaterials);
+    hasSides_ = std::ranges::any_of(
+        materials, [](const aiMaterial* material) { return sidesOf(*material) == 2; });
+    for (const aiMaterial* material : materials) entries_.push_back(read(*material));
+}
+
+/// Beyond what can be told apart all are plain.
+std::uint16_t AssimpMaterials::number(const mesh::Material& material) {
+    const auto known = std::find(materials_.begin(), materials_.end(), material);
+    const auto number = static_cast<std::size_t>(known - materials_.begin());
+    if (number == mesh::kMaxMaterials)
+        return 0;
+    if (known == materials_.end())
+        materials_.push_back(material);
+    return static_cast<std::uint16_t>(number);
+}
+
+/// Its number in textures_; -1 where the material has none.
+std::int32_t AssimpMaterials::readTexture(const aiMaterial& material, Entry& entry) {
+    aiString path;
+    aiTextureMapMode modes[2] = {aiTextureMapMode_Wrap, aiTextureMapMode_Wrap};
+    if (material.GetTexture(aiTextureType_DIFFUSE, 0, &path, nullptr, &entry.channel, nullptr,
+                            nullptr, modes) != AI_SUCCESS ||
+        path.length == 0)
+        return -1;
+    aiUVTransform transform;
+    if (material.Get(AI_MATKEY_UVTRANSFORM_DIFFUSE(0), transform) == AI_SUCCESS)
+        entry.placeFromSource = matrixOf(transform);
+    const aiTexture* own = scene_.GetEmbeddedTexture(path.C_Str());
+    TextureSource source =
+        own != nullptr ? embedded(*own, path.C_Str()) : TextureSource{path.C_Str(), {}, 0};
+    source.flags = (modes[0] == aiTextureMapMode_Clamp ? mesh::kClampsU : 0) |
+                   (modes[1] == aiTextureMapMode_Clamp ? mesh::kClampsV : 0);
+    const auto known = std::find(textures_.begin(), textures_.end(), source);
+    const auto number = static_cast<std::int32_t>(known - textures_.begin());
+    if (known == textures_.end())
+        textures_.push_back(std::move(source));
+    return number;
+}
+
+AssimpMaterials::Entry AssimpMaterials::read(const aiMaterial& material) {
+    Entry entry;
+    mesh::Material drawn;
+    material.Get(AI_MATKEY_COLOR_DIFFUSE, entry.colour);
+    material.Get(AI_MATKEY_OPACITY, entry.colour.a);
+    const int sides = hasSides_ ? sidesOf(material) : 0;
+    drawn.flags = sides == 2 ? mesh::kIsTwoSided : sides == 1 ? mesh::kIsOneSided : 0;
+    const AlphaMode mode = alphaModeOf(material);
+    entry.isOpaque = mode == AlphaMode::Opaque;
+    if (mode == AlphaMode::Blend || (mode == AlphaMode::Unknown && entry.colour.a < 1))
+        drawn.flags |= mesh::kIsBlended;
+    entry.withoutImage = number(drawn);
+    entry.number = entry.withoutImage;
+    drawn.image = readTexture(material, entry);
+    if (!drawn.hasImage())
+        return entry;
+    if (mode == AlphaMode::Mask)
+        drawn.alphaCutoff = cutoffOf(material);
+    if (mode == AlphaMode::Unknown)
+        drawn.flags |= kAlphaByImage;
+    const bool isBlack = entry.colour.r == 0 && entry.colour.g == 0 && entry.colour.b == 0;
+    if (texturesReplaceColours_ || isBlack)
+        drawn.flags |= kReplacesColour;
+    entry.number = number(drawn);
+    return entry;
+}
+
+const AssimpMaterials::Entry* AssimpMaterials::find(const aiMesh& mesh) const {
+    return mesh.mMaterialIndex < entries_.size() ? &entries_[mesh.mMaterialIndex] : nullptr;
+}
+
+std::uint16_t AssimpMaterials::numberOf(const aiMesh& mesh) const {
+    const Entry* entry = find(mesh);
+    if (entry == nullptr)
+        return 0;
+    const bool hasPlaces = entry->channel < AI_MAX_NUMBER_OF_TEXTURECOORDS &&
+                           mesh.mTextureCoords[entry->channel] != nullptr;
+    return hasPlaces ? entry->number : entry->withoutImage;
+}
+
+aiColor4D AssimpMaterials::colourOf(const aiMesh& mesh) const {
+    const Entry* entry = find(mesh);
+    return entry != nullptr ? entry->colour : aiColor4D(1, 1, 1, 1);
+}
+
+bool AssimpMaterials::isOpaque(const aiMesh& mesh) const {
+    const Entry* entry = find(mesh);
+    return entry == nullptr || entry->isOpaque;
+}
+
+/// Assimp's v goes up.
+glm::vec2 AssimpMaterials::textureCoordinates(const aiMesh& mesh, unsigned int vertex) const {
+    if (!materials_[numberOf(mesh)].hasImage())
+        return glm::vec2(0);
+    const Entry& entry = *find(mesh);
+    const aiVector3D& source = mesh.mTextureCoords[entry.channel][vertex];
+    const glm::dvec3 place = entry.placeFromSource * glm::dvec3(source.x, source.y, 1);
+    return {static_cast<float>(place.x), static_cast<float>(1 - place.y)};
+}
+
+void AssimpMaterials::moveTo(TriangleMesh& mesh) {
+    if (!areAny())
+        return;
+    mesh.materials = std::move(materials_);
+    mesh.textures = std::move(textures_);
+}
+
+}  // namespace eyrie::import

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <assimp/mesh.h>
+#include <assimp/scene.h>
+#include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
+
+#include "renderer/import/triangle_mesh.h"
+
+namespace eyrie::import {
+
+/// The materials of an Assimp scene as TriangleMesh has them. The scene outlives this.
+class AssimpMaterials {
+public:
+    /// `texturesReplaceColours`: see AssimpFormat.
+    AssimpMaterials(const aiScene& scene, bool texturesReplaceColours);
+
+    /// Whether any mesh has a material that is more than a colour.
+    bool areAny() const { return materials_.size() > 1; }
+    bool hasTextures() const { return !textures_.empty(); }
+
+    /// In TriangleMesh::materials.
+    std::uint16_t numberOf(const aiMesh& mesh) const;
+    /// Diffuse, and as alpha the opacity; not yet as displayed.
+    aiColor4D colourOf(const aiMesh& mesh) const;
+    /// Whether alpha is of no account, whatever it is.
+    bool isOpaque(const aiMesh& mesh) const;
+    glm::vec2 textureCoordinates(const aiMesh& mesh, unsigned int vertex) const;
+
+    /// Hands materials and textures over; nothing else may be asked from then on.
+    void moveTo(TriangleMesh& mesh);
+
+private:
+    /// What an aiMaterial comes to.
+    struct Entry {
+        aiColor4D colour{1, 1, 1, 1};
+        std::uint16_t number = 0;        ///< in materials_
+        std::uint16_t withoutImage = 0;  ///< for meshes without texture coordinates
+        bool isOpaque = true;
+        unsigned int channel = 0;  ///< of texture coordinates
+        glm::dmat3 placeFromSource{1.0};
+    };
+
+    const Entry* find(const aiMesh& mesh) const;
+    Entry read(const aiMaterial& material);
+    std::int32_t readTexture(const aiMaterial& material, Entry& entry);
+    std::uint16_t number(const mesh::Material& material);
+
+    const aiScene& scene_;
+    bool texturesReplaceColours_;
+    /// Where a scene says of some materials that they have two sides, those of which it says that
+    /// they have not are seen from one only: outlines are such hulls, turned inside out. Where it
+    /// says that of all, it means nothing by it.
+    bool hasSides_;
+    std::vector<Entry> entries_;
+    std::vector<mesh::Material> materials_{mesh::Material()};
+    std::vector<TextureSource> textures_;
+};
+
+}  // namespace eyrie::import

@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/import/texture_files.h"
+
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <absl/status/statusor.h>
+#include <fmt/format.h>
+
+#define STB_IMAGE_STATIC
+#define STB_IMAGE_IMPLEMENTATION
+#define STBI_NO_HDR
+#define STBI_NO_LINEAR
+#define STBI_MAX_DIMENSIONS 65536
+#include <stb/stb_image.h>
+
+#include "fabric/status.h"
+#include "renderer/import/reading_process.h"
+#include "renderer/mesh/image_codec.h"
+#include "renderer/mesh/mapped_file.h"
+
+namespace eyrie::import {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kMostBytes = 2ULL << 30;  ///< of all images while they are read
+constexpr std::chrono::seconds kTimeEach{20};
+
+constexpr float kCutoff = 0.5F;  ///< of materials whose source gives none
+/// Alphas between count as half see-through.
+constexpr std::uint8_t kClear = 32;
+constexpr std::uint8_t kOpaque = 224;
+
+std::string lowered(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+bool isFile(const fs::path& path) {
+    std::error_code ignored;
+    return fs::is_regular_file(path, ignored);
+}
+
+absl::StatusOr<std::vector<fabric::Rgba>> decode(std::span<const std::byte> bytes,
+                                                 mesh::ImageShape& shape) {
+    const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
+    const int size = static_cast<int>(std::min<std::size_t>(bytes.size(), 1U << 30));
+    int width = 0, height = 0, channels = 0;
+    if (stbi_info_from_memory(data, size, &width, &height, &channels) == 0)
+        return absl::InvalidArgumentError("is of no format known here");
+    constexpr int kMost = mesh::kMaxImageSide;
+    if (width < 1 || height < 1 || width > kMost || height > kMost)
+        return absl::InvalidArgumentError(
+            fmt::format("has {} x {} texels, more than {} a side", width, height, kMost));
+    const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> texels(
+        stbi_load_from_memory(data, size, &width, &height, &channels, 4), &stbi_image_free);
+    if (!texels)
+        return absl::InvalidArgumentError(fmt::format("is damaged ({})", stbi_failure_reason()));
+    shape.width = static_cast<std::uint32_t>(width);
+    shape.height = static_cast<std::uint32_t>(height);
+    std::vector<fabric::Rgba> result(std::size_t{shape.width} * shape.height);
+    std::memcpy(result.data(), texels.get(), result.size() * sizeof(fabric::Rgba));
+    return result;
+}
+
+/// How much of an image shows, and how.
+struct AlphaUse {
+    bool hasAlpha = false;
+    bool isSoft = false;  ///< half see-through more than it is holes
+};
+
+AlphaUse alphaUseOf(const std::vector<fabric::Rgba>& texels) {
+    std::size_t notOpaque = 0, between = 0;
+    for (const fabric::Rgba& texel : texels) {
+        notOpaque += texel.a < kOpaque ? 1 : 0;
+        between += texel.a < kOpaque && texel.a >= kClear ? 1 : 0;
+    }
+    return {notOpaque > 0, 2 * between > notOpaque};
+}
+
+/// Reads, decodes and codes images; runs in a process of its own.
+class Loading {
+public:
+    Loading(const TriangleMesh& mesh, const std::string& path)
+        : mesh_(mesh), path_(path), imageOf_(mesh.textures.size(), -1) {
+        result_.materials = mesh.materials;
+    }
+
+    absl::StatusOr<TriangleMesh> run();
+
+private:
+    absl::Status load(std::size_t texture);
+    absl::StatusOr<mesh::Image> read(std::size_t texture) const;
+    bool usesAlpha(std::size_t texture) const;
+    void settleAlpha(std::size_t texture, const AlphaUse& use);
+
+    const TriangleMesh& mesh_;
+    const std::string& path_;
+    std::vector<std::int32_t> imageOf_;
+    TriangleMesh result_;  ///< materials, images and notes
+};
+
+bool Loading::usesAlpha(std::size_t texture) const {
+    return std::ranges::any_of(mesh_.materials, [&](const mesh::Material& material) {
+        return material.image == static_cast<std::int32_t>(texture) &&
+               (material.isSeeThrough() || (material.flags & kAlphaByImage) != 0);
+    });
+}
+
+void Loading::settleAlpha(std::size_t texture, const AlphaUse& use) {
+    for (mesh::Material& material : result_.materials) {
+        if (material.image != static_cast<std::int32_t>(texture))
+            continue;
+        const bool isAsked = (material.flags & kAlphaByImage) != 0;
+        if (!use.hasAlpha)
+            material.alphaCutoff = 0;
+        else if (isAsked && use.isSoft)
+            material.flags |= mesh::kIsBlended;
+        else if (isAsked && !material.isBlended())
+            material.alphaCutoff = kCutoff;
+    }
+}
+
+absl::Status Loading::load(std::size_t texture) {
+    const TextureSource& source = mesh_.textures[texture];
+    std::optional<mesh::MappedFile> file;
+    std::span<const std::byte> bytes = source.bytes;
+    if (bytes.empty()) {
+        const std::string found = findTexture(source.name, path_);
+        if (found.empty())
+            return absl::NotFoundError("is not there");
+        ASSIGN_OR_RETURN(file, mesh::MappedFile::open(found));
+        bytes = file->bytes();
+    }
+    mesh::ImageShape shape;
+    ASSIGN_OR_RETURN(std::vector<fabric::Rgba> texels, decode(bytes, shape));
+    const AlphaUse use = usesAlpha(texture) ? alphaUseOf(texels) : AlphaUse();
+    shape.flags = source.flags | (use.hasAlpha ? mesh::kHasAlpha : 0);
+    settleAlpha(texture, use);
+    imageOf_[texture] = static_cast<std::int32_t>(result_.images.size());
+    result_.images.push_back(mesh::encodeImage(shape, std::move(texels)));
+    return absl::OkStatus();
+}
+
+absl::StatusOr<TriangleMesh> Loading::run() {
+    std::size_t failed = 0;
+    std::string first;
+    for (std::size_t i = 0; i < mesh_.textures.size(); ++i)
+        if (const absl::Status loaded = load(i); !loaded.ok()) {
+            settleAlpha(i, {});
+            if (failed++ == 0)
+                first =
+                    fmt::format("'{}' {}", mesh_.textures[i].name,
+                                std::string_view(loaded.message().data(), loaded.message().size()));
+        }
+    for (mesh::Material& material : result_.materials)
+        material.image =
+            material.hasImage() ? imageOf_[static_cast<std::size_t>(material.image)] : -1;
+    if (failed > 0)
+        result_.notes.push_back(fmt::format(
+            "{} of {} textures cannot be read, and their materials have their colour alone: {}",
+            failed, mesh_.textures.size(), first));
+    return std::move(result_);
+}
+
+/// Has done with what is said until images are there.
+void replaceColours(TriangleMesh& mesh) {
+    const auto isReplaced = [&mesh](std::size_t vertex) {
+        const mesh::Material& material = mesh.materials[mesh.materialOf[vertex]];
+        return material.hasImage() && (material.flags & kReplacesColour) != 0;
+    };
+    for (std::size_t i = 0; i < mesh.colours.size(); ++i)
+        if (isReplaced(i))
+            mesh.colours[i] = {255, 255, 255, mesh.colours[i].a};
+    for (mesh::Material& material : mesh.materials)
+        material.flags &= ~(kAlphaByImage | kReplacesColour);
+}
+
+/// Blended materials of which everything is opaque need not be.
+void dropIdleBlending(TriangleMesh& mesh) {
+    std::vector<bool> isClear(mesh.materials.size(), false);
+    for (std::size_t i = 0; i < mesh.materials.size(); ++i) {
+        const std::int32_t image = mesh.materials[i].image;
+        isClear[i] = image >= 0 && mesh.images[static_cast<std::size_t>(image)].shape.hasAlpha();
+    }
+    for (std::size_t i = 0; i < mesh.colours.size(); ++i)
+        if (mesh.colours[i].a < 255)
+            isClear[mesh.materialOf[i]] = true;
+    for (std::size_t i = 0; i < mesh.materials.size(); ++i)
+        if (!isClear[i])
+            mesh.materials[i].flags &= ~mesh::kIsBlended;
+}
+
+/// Numbers materials by what they are, and leaves none where all are plain.
+void mergeMaterials(TriangleMesh& mesh) {
+    std::vector<std::uint16_t> numberOf;
+    std::vector<mesh::Material> merged;
+    for (const mesh::Material& material : mesh.materials) {
+        const auto known = std::find(merged.begin(), merged.end(), material);
+        numberOf.push_back(static_cast<std::uint16_t>(known - merged.begin()));
+        if (known == merged.end())
+            merged.push_back(material);
+    }
+    if (merged == std::vector<mesh::Material>(1)) {
+        mesh.materials.clear();
+        mesh.materialOf.clear();
+        mesh.textureCoordinates.clear();
+        return;
+    }
+    for (std::uint16_t& material : mesh.materialOf) material = numberOf[material];
+    mesh.materials = std::move(merged);
+    if (mesh.images.empty())
+        mesh.textureCoordinates.clear();
+}
+
+}  // namespace
+
+std::string findTexture(const std::string& name, const std::string& path) {
+    std::string plain = name;
+    std::replace(plain.begin(), plain.end(), '\\', '/');
+    const fs::path folder = fs::path(path).parent_path();
+    const fs::path last = fs::path(plain).filename();
+    if (last.empty())
+        return {};
+    for (const fs::path& candidate : {folder / plain, folder / last})
+        if (isFile(candidate))
+            return candidate.string();
+    std::error_code ignored;
+    for (const fs::directory_entry& entry :
+         fs::directory_iterator(folder.empty() ? fs::path(".") : folder, ignored))
+        if (lowered(entry.path().filename().string()) == lowered(last.string()) &&
+            isFile(entry.path()))
+            return entry.path().string();
+    return {};
+}
+
+absl::Status loadTextures(TriangleMesh& mesh, const std::string& path,
+                          const ImportControl& control) {
+    if (mesh.materials.empty())
+        return absl::OkStatus();
+    if (!mesh.textures.empty()) {
+        ReadingLimits limits;
+        limits.memoryBytes = kMostBytes;
+        limits.processorTime += mesh.textures.size() * kTimeEach;
+        auto loaded = readInOwnProcess([&] { return Loading(mesh, path).run(); }, limits, control);
+        RETURN_IF_ERROR(control.check());
+        if (loaded.ok()) {
+            mesh.materials = std::move(loaded->materials);
+            mesh.images = std::move(loaded->images);
+            mesh.notes.insert(mesh.notes.end(), loaded->notes.begin(), loaded->notes.end());
+        } else {
+            for (mesh::Material& material : mesh.materials) {
+                material.image = -1;
+                material.alphaCutoff = 0;
+            }
+            mesh.notes.push_back(
+                fmt::format("none of {} textures can be read, and their materials have their "
+                            "colour alone: {}",
+                            mesh.textures.size(),
+                            std::string_view(loaded.status().message().data(),
+                                             loaded.status().message().size())));
+        }
+        mesh.textures.clear();
+    }
+    replaceColours(mesh);
+    dropIdleBlending(mesh);
+    mergeMaterials(mesh);
+    return absl::OkStatus();
+}
+
+}  // namespace eyrie::import

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include <absl/status/status.h>
+
+#include "renderer/import/progress.h"
+#include "renderer/import/triangle_mesh.h"
+
+namespace eyrie::import {
+
+/// Reads the images that `mesh` names, where a source at `path` would have them, into
+/// TriangleMesh::images, in a process of its own (reading_process.h): PNG, JPEG, TGA, BMP, GIF, PSD
+/// and what else stb_image knows, up to mesh::kMaxImageSide a side. Names may have backslashes;
+/// files that are not where they are named are looked for beside the source by their last part,
+/// then without regard to case.
+///
+/// An image that is missing, damaged or too large is counted in the notes, the first with its name
+/// and the reason; its materials have their colour alone. Where a material of kReplacesColour has
+/// its image colours become white. Alpha is kept where a material uses it.
+/// A material of kAlphaByImage whose image has alpha is blended if more than half of the texels
+/// that are not opaque are not clear either, and has holes otherwise. Materials that are blended
+/// for nothing are opaque; the same materials are one; and where there is nothing but a plain one
+/// there is none. Errors: Cancelled.
+absl::Status loadTextures(TriangleMesh& mesh, const std::string& path,
+                          const ImportControl& control);
+
+/// The file that `name` in a source at `path` means; empty where there is none.
+std::string findTexture(const std::string& name, const std::string& path);
+
+}  // namespace eyrie::import
