@@ -73,7 +73,7 @@ struct TerrainSource {
 /// is the same to the byte.
 ///
 /// Stages reported: checking, reading, measuring (gathering and collecting of parts), joining,
-/// thinning, smoothing, building, imagery.
+/// building, with smoothing and thinning between its levels, imagery.
 /// Errors: those of openMosaic, openImagery, buildImagery and PartSet; NotFound, PermissionDenied,
 /// ResourceExhausted for `out` and the scratch; InvalidArgument when no cell has data on three
 /// corners; Cancelled.
