@@ -19,7 +19,7 @@ namespace eyrie::cli {
 namespace {
 
 constexpr std::size_t kRounds = 3;
-constexpr int kFrames = 40;
+constexpr int kFrames = 24;
 constexpr double kEqual = 1.03;
 
 /// For what is tried, on the disk of the output, so that the best is only renamed.
