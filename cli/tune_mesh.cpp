@@ -18,8 +18,8 @@
 namespace eyrie::cli {
 namespace {
 
-constexpr int kRounds = 3;
-constexpr int kFrames = 40;
+constexpr std::size_t kRounds = 3;
+constexpr int kFrames = 24;
 constexpr double kEqual = 1.03;
 
 /// For what is tried, on the disk of the output, so that the best is only renamed.
@@ -62,14 +62,11 @@ absl::StatusOr<bench::Played> playOnce(const std::string& path, const std::strin
         *pictures, way, {{}, kFrames, 1}, [] {}, stop);
 }
 
-/// Puts the frames of another round behind those of the ones before.
-void append(bench::Played& all, bench::Played round) {
-    all.frames.insert(all.frames.end(), round.frames.begin(), round.frames.end());
-    all.stages.insert(all.stages.end(), round.stages.begin(), round.stages.end());
-}
-
-void sumUp(const bench::Played& played, TriedLeaf& tried) {
-    const bench::RunSummary summary = bench::summarize(played);
+/// What else the machine does only ever adds to frames: of the rounds' medians the least counts.
+void add(const bench::Played& round, TriedLeaf& tried) {
+    const bench::RunSummary summary = bench::summarize(round);
+    if (tried.medianMs > 0 && tried.medianMs <= summary.frame.p50)
+        return;
     tried.medianMs = summary.frame.p50;
     tried.trianglesMean = summary.trianglesMean;
     tried.promisedPixels = summary.tauAchievedMax;
@@ -110,18 +107,15 @@ absl::StatusOr<MeshTuning> tuneMesh(const std::string& outPath, const std::strin
             break;
     }
     // In turn, so that what else the machine does falls to all alike.
-    std::vector<bench::Played> played(tuning.tried.size());
-    for (int round = 0; round < kRounds; ++round)
-        for (std::size_t i = 0; i < played.size(); ++i) {
-            const std::uint32_t leafTriangles = tuning.tried[i].leafTriangles;
-            done("measuring",
-                 (round + static_cast<double>(i) / static_cast<double>(played.size())) / kRounds);
-            ASSIGN_OR_RETURN(bench::Played once,
-                             playOnce(folder.file(leafTriangles), flight, stop));
-            append(played[i], std::move(once));
-        }
+    const std::size_t count = tuning.tried.size();
+    for (std::size_t i = 0; i < kRounds * count; ++i) {
+        TriedLeaf& tried = tuning.tried[i % count];
+        done("measuring", static_cast<double>(i) / static_cast<double>(kRounds * count));
+        ASSIGN_OR_RETURN(const bench::Played round,
+                         playOnce(folder.file(tried.leafTriangles), flight, stop));
+        add(round, tried);
+    }
     done("measuring", 1);
-    for (std::size_t i = 0; i < played.size(); ++i) sumUp(played[i], tuning.tried[i]);
     tuning.best = bestOf(tuning.tried);
     const std::uint32_t best = tuning.tried[tuning.best].leafTriangles;
     RETURN_IF_ERROR(keep(folder.file(best), best, outPath));

@@ -22,7 +22,7 @@ inline constexpr std::array<std::uint32_t, 4> kTriedLeafTriangles = {4096, 8192,
 /// What a flight at tau 1 over a mesh of one leaf size took.
 struct TriedLeaf {
     std::uint32_t leafTriangles = 0;
-    double medianMs = 0;  ///< of a frame
+    double medianMs = 0;  ///< of a frame, in the fastest of the rounds
     double trianglesMean = 0;
     double promisedPixels = 0;  ///< of the worst frame
     std::string limitingStage;  ///< fabric::limitingStage
