@@ -115,7 +115,7 @@ absl::Status Joiner::write(std::uint64_t vertexCount, OutputFile& out,
         node.pageOffset += node.pageBytes > 0 ? pagesBegin : 0;
         node.exactOffset += node.exactBytes > 0 ? pagesBegin : 0;
     }
-    header_.lidsChecksum = contentHash({});
+    header_.lidsChecksum = contentHash(std::span<const std::byte>());
     header_.lidCount = 0;
     header_.nodesChecksum = contentHash(std::as_bytes(std::span(nodes_)));
     header_.triangleCount = triangles_;
