@@ -32,9 +32,11 @@
 namespace eyrie::import {
 namespace {
 
+/// AC3D multiplies, but with emissive and ambient parts that are not drawn here and make up for
+/// what the diffuse colour lacks.
 constexpr std::array kFormats = {
-    AssimpFormat{".3ds", true, false, true},   AssimpFormat{".ac", true, false, false},
-    AssimpFormat{".ac3d", true, false, false}, AssimpFormat{".acc", true, false, false},
+    AssimpFormat{".3ds", true, false, true},   AssimpFormat{".ac", true, false, true},
+    AssimpFormat{".ac3d", true, false, true},  AssimpFormat{".acc", true, false, true},
     AssimpFormat{".dae", true, false, true},   AssimpFormat{".fbx", true, false, true},
     AssimpFormat{".glb", true, true, false},   AssimpFormat{".gltf", true, true, false},
     AssimpFormat{".ifc", true, false, false},  AssimpFormat{".obj", false, false, false},

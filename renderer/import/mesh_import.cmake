@@ -4,7 +4,7 @@ add_library(eyrie_mesh_import assimp_materials.cpp assimp_reader.cpp duplicate_f
                               mesh_sharing.cpp mesh_split.cpp mesh_spool.cpp
                               mesh_synth.cpp normals.cpp orient.cpp pack_mesh.cpp
                               ply_header.cpp ply_layout.cpp ply_reader.cpp ply_values.cpp
-                              ply_writer.cpp polygon.cpp reading_process.cpp texture_files.cpp weld.cpp)
+                              ply_writer.cpp polygon.cpp reading_process.cpp sgi_image.cpp texture_files.cpp weld.cpp)
 add_library(eyrie::mesh_import ALIAS eyrie_mesh_import)
 target_link_libraries(eyrie_mesh_import PUBLIC eyrie::fabric eyrie::mesh
                                         PRIVATE assimp::assimp eyrie::stb fmt::fmt TBB::tbb)

@@ -26,6 +26,7 @@
 
 #include "fabric/status.h"
 #include "renderer/import/reading_process.h"
+#include "renderer/import/sgi_image.h"
 #include "renderer/mesh/image_codec.h"
 #include "renderer/mesh/mapped_file.h"
 
@@ -55,6 +56,8 @@ bool isFile(const fs::path& path) {
 
 absl::StatusOr<std::vector<fabric::Rgba>> decode(std::span<const std::byte> bytes,
                                                  mesh::ImageShape& shape) {
+    if (looksLikeSgi(bytes))
+        return decodeSgi(bytes, shape);
     const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
     const int size = static_cast<int>(std::min<std::size_t>(bytes.size(), 1U << 30));
     int width = 0, height = 0, channels = 0;

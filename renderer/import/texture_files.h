@@ -12,9 +12,9 @@ namespace eyrie::import {
 
 /// Reads the images that `mesh` names, where a source at `path` would have them, into
 /// TriangleMesh::images, in a process of its own (reading_process.h): PNG, JPEG, TGA, BMP, GIF, PSD
-/// and what else stb_image knows, up to mesh::kMaxImageSide a side. Names may have backslashes;
-/// files that are not where they are named are looked for beside the source by their last part,
-/// then without regard to case.
+/// and what else stb_image knows, and SGI's, up to mesh::kMaxImageSide a side. Names may have
+/// backslashes; files that are not where they are named are looked for beside the source by their
+/// last part, then without regard to case.
 ///
 /// An image that is missing, damaged or too large is counted in the notes, the first with its name
 /// and the reason; its materials have their colour alone. Where a material of kReplacesColour has

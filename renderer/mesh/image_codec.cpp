@@ -138,7 +138,7 @@ std::array<std::uint8_t, 16> decodeAlphas(const std::byte* block) {
     return alphas;
 }
 
-/// Root of the mean square difference of the channels that are kept.
+/// Root of the mean square difference of the channels that are kept; colours count where they show.
 float errorOf(const Image& image, const Texels& texels) {
     const Texels coded = decodeLevel(image.shape, image.blocks, 0);
     const std::size_t stride = (image.shape.width + 3) / 4 * 4;
@@ -147,7 +147,8 @@ float errorOf(const Image& image, const Texels& texels) {
     for (std::size_t i = 0; i < texels.size(); ++i) {
         const fabric::Rgba& a = texels[i];
         const fabric::Rgba& b = coded[i / image.shape.width * stride + i % image.shape.width];
-        sum += square(a.r, b.r) + square(a.g, b.g) + square(a.b, b.b);
+        if (a.a > 0)
+            sum += square(a.r, b.r) + square(a.g, b.g) + square(a.b, b.b);
         sum += image.shape.hasAlpha() ? square(a.a, b.a) : 0;
     }
     const double channels = image.shape.hasAlpha() ? 4 : 3;

@@ -216,6 +216,38 @@ TEST_F(MeshMaterials, OneAndTwoSidesAreAsTheMaterialSays) {
     EXPECT_EQ(at(draw(), 0, 0), kRed);
 }
 
+import::TriangleMesh texturedSquare(){import::TriangleMesh mesh;
+mesh.materials = {{}, {.image = 0}};
+mesh.images = {mesh::encodeImage({256, 256, 0}, quarters(256))};
+addSquare(mesh, 8, 0, kWhite, 1);
+return mesh;
+}  // namespace
+
+TEST_F(MeshMaterials, TexturesLeaveTheirFinestLevelsWhereMemoryIsShort) {
+    add(texturedSquare());
+    constexpr std::uint64_t kLimit = 1 << 16;  // a fifth of the image's levels
+    RendererOptions options;
+    options.memoryBytes = kLimit;
+    renderer_.reset();
+    auto small = Renderer::create(options);
+    ASSERT_TRUE(small.ok()) << small.status();
+    renderer_ = *std::move(small);
+    EXPECT_EQ(at(draw(), -2, 2), kRed);
+    EXPECT_EQ(at(draw(), 2, -2), kWhite);
+    EXPECT_GT(renderer_->memory().deviceBytes, kLimit / 8);
+    EXPECT_LE(renderer_->memory().deviceBytes, kLimit);
+}
+
+TEST_F(MeshMaterials, AnImageThatIsDamagedIsDrawnInItsMeanColour) {
+    add(texturedSquare());
+    std::string bytes = test::readFile(scene_.objects[0].path);
+    bytes[bytes.size() - 100] = static_cast<char>(bytes[bytes.size() - 100] ^ 1);
+    test::writeFile(scene_.objects[0].path, bytes);
+    const fabric::Image image = draw();
+    expectNear(at(image, -2, 2), {180, 180, 180, 255}, 1);
+    EXPECT_EQ(at(image, -2, 2), at(image, 2, -2));
+}
+
 /// Squares, opaque, with holes and blended by turns, each a node of its own, turned and stacked.
 import::TriangleMesh stack(){import::TriangleMesh mesh;
 mesh.materials = {{},
@@ -238,7 +270,7 @@ for (int i = 0; i < 40; ++i) {
     }
 }
 return mesh;
-}  // namespace
+}  // namespace eyrie
 
 TEST_F(MeshMaterials, EveryDecompositionGivesTheWholePicture) {
     add(stack(), 2);

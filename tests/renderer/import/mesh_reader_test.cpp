@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/import/mesh_reader.h"
 
+#include <span>
 #include <string>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "renderer/import/sgi_image.h"
 #include "renderer/mesh/eym_format.h"
 #include "tests/renderer/import/ply_text.h"
 #include "tests/renderer/import/tga_text.h"
@@ -109,6 +111,52 @@ TEST(MeshReader, ReadsTexturesAndCountsThoseThatAreMissing) {
     EXPECT_EQ(colourOf(2), (fabric::Rgba{0, 0, 255, 102}));
     EXPECT_EQ(materialOf(3), mesh::Material());
     EXPECT_EQ(colourOf(3), (fabric::Rgba{0, 255, 0, 255}));
+}
+
+TEST(MeshReader, RefusesTexturesOfAbsurdSize) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.obj"), kTexturedObj);
+    test::writeFile(folder.file("m.mtl"), "newmtl tiles\nKd 0 0 1\nmap_Kd a.tga\n");
+    std::string large = test::tgaOf(1, 1, {{9, 8, 7, 255}});
+    large[13] = large[15] = '\x7F';
+    test::writeFile(folder.file("a.tga"), large);
+    const auto mesh = readMesh(folder.file("m.obj"));
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    EXPECT_THAT(mesh->notes, testing::ElementsAre(HasSubstr("'a.tga' has 32513 x 32513 texels, "
+                                                            "more than 8192 a side")));
+    EXPECT_EQ(mesh->colours[0], (fabric::Rgba{0, 0, 255, 255}));
+}
+
+/// An SGI image of 3 x 2 texels with alpha, rows from the bottom, one channel after the other.
+std::string sgiOf(bool isCoded) {
+    std::string file(512, '\0');
+    file[0] = 1, file[1] = '\xDA', file[2] = isCoded ? 1 : 0, file[3] = 1;
+    file[5] = 3, file[7] = 3, file[9] = 2, file[11] = 4;
+    const std::string rows = "abcdefghijklmnopqrstuvwx";
+    if (!isCoded)
+        return file + rows;
+    for (int row = 0; row < 8; ++row) file += {0, 0, 2, static_cast<char>(64 + 4 * row)};
+    file += std::string(32, '\0');  // lengths, which are not needed
+    for (std::size_t row = 0; row < 8; ++row)
+        file += row == 0 ? "\3a" + std::string(2, '\0') : "\x83" + rows.substr(3 * row, 3);
+    return file;
+}
+
+TEST(SgiImage, HasItsRowsFromTheBottom) {
+    for (const bool isCoded : {false, true}) {
+        const std::string file = sgiOf(isCoded);
+        const auto bytes = std::as_bytes(std::span(file));
+        mesh::ImageShape shape;
+        ASSERT_TRUE(looksLikeSgi(bytes));
+        const auto texels = decodeSgi(bytes, shape);
+        ASSERT_TRUE(texels.ok()) << texels.status();
+        ASSERT_EQ(texels->size(), 6U);
+        EXPECT_EQ(shape.width, 3U);
+        EXPECT_EQ((*texels)[0], (fabric::Rgba{'d', 'j', 'p', 'v'}));
+        EXPECT_EQ((*texels)[5], (fabric::Rgba{std::uint8_t(isCoded ? 'a' : 'c'), 'i', 'o', 'u'}));
+        for (std::size_t length = 0; length + 2 < file.size(); ++length)
+            EXPECT_FALSE(decodeSgi(bytes.first(length), shape).ok()) << length;
+    }
 }
 
 TEST(MeshReader, NamesMaterialFilesThatAreMissing) {
