@@ -33,8 +33,6 @@ std::uint32_t packedSrgb(const fabric::Vec3& linear) {
     return byte(linear.x) | byte(linear.y) << 8 | byte(linear.z) << 16 | 0xFF000000U;
 }
 
-bool isTinted(const fabric::Look& look) { return look.levelTint || look.rangeTint; }
-
 class MeshDrawable : public Drawable {
 public:
     MeshDrawable(const fabric::SceneObject& object, MeshPrograms& programs,
@@ -71,10 +69,9 @@ private:
     page::HostPages::Loads reach(const CutRequest& request, double tauPixels);
     bool mayHideBacks(const FrameState& frame) const;
     void drawNode(const DeviceNode& node, GLsizei fronts) const;
-    void drawPiece(const Piece& piece, const FrameState& frame, bool mayHideBacks) const;
-    void use(const Program& program, const FrameState& frame) const;
-    void colour(const Piece& piece, const FrameState& frame) const;
     int levelOf(std::uint32_t node) const;
+    void useColours(const fabric::Look& look) const;
+    void tint(const Piece& piece, const FrameState& frame) const;
 
     MeshPrograms& programs_;
     fabric::Mat4 worldFromObject_;
@@ -84,8 +81,8 @@ private:
     std::shared_ptr<const mesh::EymFile> file_;
     double errorPixels_ = 0;  ///< of the last cut
     gl::VertexArray vertexArray_;
-    BoxLines boxLines_;
     std::unique_ptr<MeshPaging> paging_;
+    BoxLines boxLines_;
     TauChoice tau_;
     std::map<int, MeshCut> cuts_;  ///< of this view and tau, by step
 };
@@ -214,17 +211,6 @@ void MeshDrawable::drawNode(const DeviceNode& node, GLsizei fronts) const {
         draw(fronts, node.indexCount - fronts);
 }
 
-/// Demonstration colours stand in for the mesh's own, which an array that is not enabled lets them.
-void MeshDrawable::use(const Program& program, const FrameState& frame) const {
-    program.use();
-    glFrontFace(glm::determinant(fabric::Mat3(worldFromObject_)) < 0 ? GL_CW : GL_CCW);
-    glBindVertexArray(vertexArray_.id());
-    if (file_->hasColours() && !isTinted(frame.look))
-        glEnableVertexArrayAttrib(vertexArray_.id(), Program::kPackedColour.location);
-    else
-        glDisableVertexArrayAttrib(vertexArray_.id(), Program::kPackedColour.location);
-}
-
 /// From the root down.
 int MeshDrawable::levelOf(std::uint32_t node) const {
     int level = 0;
@@ -236,22 +222,22 @@ int MeshDrawable::levelOf(std::uint32_t node) const {
     return level;
 }
 
-void MeshDrawable::colour(const Piece& piece, const FrameState& frame) const {
-    std::uint32_t colour = uniformColour_;
-    if (frame.look.levelTint)
-        colour = packedSrgb(fabric::Vec3(levelColour(levelOf(piece.index))));
-    else if (frame.look.rangeTint)
-        colour = packedSrgb(fabric::Vec3(rangeColour(frame.range)));
-    glVertexAttribI4ui(Program::kPackedColour.location, colour, 0, 0, 0);
+/// Tints stand in for the mesh's own colours: an array that is not enabled lets them.
+void MeshDrawable::useColours(const fabric::Look& look) const {
+    if (!file_->hasColours())
+        return;
+    if (look.levelTint || look.rangeTint)
+        glDisableVertexArrayAttrib(vertexArray_.id(), Program::kPackedColour.location);
+    else
+        glEnableVertexArrayAttrib(vertexArray_.id(), Program::kPackedColour.location);
 }
 
-void MeshDrawable::drawPiece(const Piece& piece, const FrameState& frame, bool mayHideBacks) const {
-    const DeviceNode* node = paging_->node(piece.index);
-    const GLsizei fronts = singleSided_
-                               ? node->indexCount
-                               : static_cast<GLsizei>(file_->nodes()[piece.index].frontIndexCount);
-    colour(piece, frame);
-    drawNode(*node, mayHideBacks ? fronts : 0);
+void MeshDrawable::tint(const Piece& piece, const FrameState& frame) const {
+    if (!frame.look.levelTint && !frame.look.rangeTint)
+        return;
+    const glm::vec3 colour =
+        frame.look.levelTint ? levelColour(levelOf(piece.index)) : rangeColour(frame.range);
+    glVertexAttribI4ui(Program::kPackedColour.location, packedSrgb(fabric::Vec3(colour)), 0, 0, 0);
 }
 
 absl::Status MeshDrawable::draw(std::span<const Piece> pieces, const FrameState& frame,
@@ -261,16 +247,26 @@ absl::Status MeshDrawable::draw(std::span<const Piece> pieces, const FrameState&
     ASSIGN_OR_RETURN(const Program* program, programs_.find(variant));
     if (frame.look.tileBounds)
         RETURN_IF_ERROR(boxLines_.begin(frame.view, worldFromObject_));
-    use(*program, frame);
+    useColours(frame.look);
+    program->use();
     setObject(*program, frame, worldFromObject_, objectFromLattice_);
     const bool mayHideBacks = this->mayHideBacks(frame);
+    glFrontFace(glm::determinant(fabric::Mat3(worldFromObject_)) < 0 ? GL_CW : GL_CCW);
+    glBindVertexArray(vertexArray_.id());
+    glVertexAttribI4ui(Program::kPackedColour.location, uniformColour_, 0, 0, 0);
     for (const Piece& piece : pieces) {
-        drawPiece(piece, frame, mayHideBacks);
-        statistics.triangles += piece.triangles;
+        tint(piece, frame);
+        const DeviceNode* node = paging_->node(piece.index);
+        const GLsizei fronts =
+            singleSided_ ? node->indexCount
+                         : static_cast<GLsizei>(file_->nodes()[piece.index].frontIndexCount);
+        drawNode(*node, mayHideBacks ? fronts : 0);
+        statistics.triangles += static_cast<std::uint64_t>(node->indexCount) / 3;
         if (frame.look.tileBounds) {
             // At once, so that where depths tie the lower range wins as in compositing.
             boxLines_.draw(piece.bounds, levelColour(levelOf(piece.index)));
-            use(*program, frame);
+            program->use();
+            glBindVertexArray(vertexArray_.id());
         }
     }
     return absl::OkStatus();

@@ -64,9 +64,9 @@ struct EymHeader {
     double stepMetres = 1;
     double coarsestErrorMetres = 0;  ///< of the root
     double finestErrorMetres = 0;    ///< of the leaves
+    std::array<std::uint64_t, 16> reserved{};
     /// Triangles a leaf may have, where a measurement chose that; otherwise 0.
     std::uint64_t tunedLeafTriangles = 0;
-    std::array<std::uint64_t, 16> reserved{};
 };
 static_assert(sizeof(EymHeader) == 256);
 
