@@ -310,7 +310,8 @@ absl::Status Renderer::Impl::drawSelection(const Selection& selection, const lod
                                            const fabric::ChannelTask& task,
                                            fabric::FrameStatistics& statistics) {
     RETURN_IF_ERROR(framebuffer_.resize(task.viewWidth, task.viewHeight));
-    const draw::FrameState frame{view, *scene_, frameData.shading, frameData.look};
+    const draw::FrameState frame{view, *scene_, frameData.shading, frameData.look,
+                                 task.pixelViewport};
     RETURN_IF_ERROR(occludedDraw_.draw(
         {view, selection.worldFromObject,
          [&](const draw::OrderedPiece& one) {

@@ -68,6 +68,7 @@ struct FrameState {
     const fabric::Scene& scene;
     fabric::Shading shading;
     const fabric::Look& look;
+    fabric::PixelViewport part;  ///< of the view's pixels, that may be drawn: the scissor
 };
 
 /// One object of the scene, on the GL thread.
