@@ -360,7 +360,8 @@ absl::Status Renderer::Impl::drawSelection(const Selection& selection, const lod
                                            const fabric::ChannelTask& task,
                                            fabric::FrameStatistics& statistics) {
     RETURN_IF_ERROR(framebuffer_.resize(task.viewWidth, task.viewHeight));
-    const draw::FrameState frame{view, *scene_, frameData.shading, frameData.look, task.range};
+    const draw::FrameState frame{view,           *scene_,    frameData.shading,
+                                 frameData.look, task.range, task.pixelViewport};
     drawn_.clear();
     RETURN_IF_ERROR(occludedDraw_.draw(
         {view, selection.worldFromObject,
@@ -387,9 +388,10 @@ absl::Status Renderer::Impl::measureStages(const Selection& selection, const lod
                                            const fabric::FrameData& frameData,
                                            const fabric::ChannelTask& task,
                                            fabric::StageMilliseconds& milliseconds) {
-    const draw::FrameState frame{view, *scene_, frameData.shading, frameData.look, task.range};
-    framebuffer_.begin(view.width, view.height, {selection.covered.x, selection.covered.y, 1, 1},
-                       scene_->background);
+    const fabric::PixelViewport pixel{selection.covered.x, selection.covered.y, 1, 1};
+    const draw::FrameState frame{view,           *scene_,    frameData.shading,
+                                 frameData.look, task.range, pixel};
+    framebuffer_.begin(view.width, view.height, pixel, scene_->background);
     passState(frameData.shading).apply();
     glFinish();
     const auto start = Clock::now();

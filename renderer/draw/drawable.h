@@ -73,6 +73,7 @@ struct FrameState {
     fabric::Shading shading;
     const fabric::Look& look;
     const fabric::Range& range;  ///< of the channel
+    fabric::PixelViewport part;  ///< of the view's pixels, that may be drawn: the scissor
     Layer layer = Layer::Opaque;
 };
 

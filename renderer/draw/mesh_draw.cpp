@@ -16,6 +16,7 @@
 #include "renderer/draw/mesh_paging.h"
 #include "renderer/draw/mesh_textures.h"
 #include "renderer/draw/object_program.h"
+#include "renderer/draw/seen_lids.h"
 #include "renderer/draw/tau_choice.h"
 #include "renderer/draw/tint.h"
 #include "renderer/gl/object.h"
@@ -52,30 +53,64 @@ void drawIndices(const DeviceNode& node, GLsizei first, GLsizei count, GLsizei f
         draw(first + fronts, count - fronts);
 }
 
-/// Which backs of a frame's pieces need not be drawn.
-class HiddenBacks {
+/// For as long as it lives, only backs are drawn, and only on these pixels.
+class BacksOnly {
 public:
-    HiddenBacks(bool areAny, const std::vector<fabric::Box>& lids, lod::ObjectView view)
-        : areAny_(areAny), view_(std::move(view)) {
-        for (const fabric::Box& lid : lids) lids_.push_back(view_.coveredPixels(lid));
+    BacksOnly(const fabric::PixelViewport& pixels, const fabric::PixelViewport& before)
+        : before_(before) {
+        glEnable(GL_CULL_FACE);
+        glCullFace(GL_FRONT);
+        glScissor(pixels.x, pixels.y, pixels.width, pixels.height);
     }
-
-    /// Where pixels of a piece may show what lies behind a lid it is drawn with its backs.
-    bool hides(const Piece& piece, bool isOneSided) const {
-        return areAny_ && (isOneSided || !meetsLid(view_.coveredPixels(piece.bounds)));
+    BacksOnly(const BacksOnly&) = delete;
+    BacksOnly& operator=(const BacksOnly&) = delete;
+    ~BacksOnly() {
+        glDisable(GL_CULL_FACE);
+        glCullFace(GL_BACK);
+        glScissor(before_.x, before_.y, before_.width, before_.height);
     }
 
 private:
-    bool meetsLid(const fabric::PixelViewport& pixels) const {
-        return std::ranges::any_of(lids_, [&](const fabric::PixelViewport& lid) {
-            return !fabric::intersection(pixels, lid).isEmpty();
-        });
-    }
-
-    bool areAny_;
-    lod::ObjectView view_;
-    std::vector<fabric::PixelViewport> lids_;
+    fabric::PixelViewport before_;
 };
+
+/// Draws without backs that nobody sees.
+class HiddenBacks {
+public:
+    /// `part`: FrameState::part.
+    HiddenBacks(bool areAny, std::span<const fabric::Box> lids, const lod::ObjectView& view,
+                const fabric::PixelViewport& part)
+        : areAny_(areAny), lids_(lids, view), part_(part) {}
+
+    /// `count` indices of the piece from `first` on. The backs of the first `fronts` are seen
+    /// through lids only, or, where `isOneSided`, not even there.
+    void draw(const DeviceNode& node, const Piece& piece, GLsizei first, GLsizei count,
+              GLsizei fronts, bool isOneSided) const;
+
+private:
+    bool areAny_;
+    SeenLids lids_;
+    fabric::PixelViewport part_;
+};
+
+/// Where lids cover much of a piece, all of it is drawn at once: vertices are a quarter of the
+/// time.
+void HiddenBacks::draw(const DeviceNode& node, const Piece& piece, GLsizei first, GLsizei count,
+                       GLsizei fronts, bool isOneSided) const {
+    if (!areAny_)
+        return drawIndices(node, first, count, 0);
+    if (isOneSided)
+        return drawIndices(node, first, count, count);
+    const fabric::PixelViewport pixels = lids_.before(piece.bounds);
+    if (pixels.area() > lids_.pixelsOf(piece.bounds).area() / 2)
+        return drawIndices(node, first, count, 0);
+    drawIndices(node, first, count, fronts);
+    const fabric::PixelViewport seen = fabric::intersection(pixels, part_);
+    if (fronts == 0 || seen.isEmpty())
+        return;
+    const BacksOnly state(seen, part_);
+    drawIndices(node, first, fronts, 0);
+}
 
 class MeshDrawable : public Drawable {
 public:
@@ -317,15 +352,14 @@ absl::Status MeshDrawable::drawWhole(std::span<const Piece> pieces, const FrameS
         RETURN_IF_ERROR(boxLines_.begin(frame.view, worldFromObject_));
     use(*program, frame);
     setObject(*program, frame, worldFromObject_, objectFromLattice_);
-    const HiddenBacks backs(mayHideBacks(frame), lids_, {frame.view, worldFromObject_});
+    const lod::ObjectView view(frame.view, worldFromObject_);
+    const HiddenBacks backs(mayHideBacks(frame), lids_, view, frame.part);
     for (const Piece& piece : pieces) {
         const DeviceNode* node = paging_->node(piece.index);
-        const GLsizei fronts =
-            singleSided_ ? node->indexCount
-                         : static_cast<GLsizei>(file_->nodes()[piece.index].frontIndexCount);
+        const auto fronts = static_cast<GLsizei>(file_->nodes()[piece.index].frontIndexCount);
         source(*node);
         colour(piece, frame);
-        drawIndices(*node, 0, node->indexCount, backs.hides(piece, singleSided_) ? fronts : 0);
+        backs.draw(*node, piece, 0, node->indexCount, fronts, singleSided_);
         statistics.triangles += piece.triangles;
         if (frame.look.tileBounds) {
             // At once, so that where depths tie the lower range wins as in compositing.
@@ -352,8 +386,7 @@ void MeshDrawable::drawRange(const DeviceNode& node, GLsizei first,
         return;
     }
     const bool hasOneSide = singleSided_ && !material.isTwoSided() && !material.isSeeThrough();
-    const GLsizei fronts = hasOneSide ? count : static_cast<GLsizei>(range.frontIndexCount);
-    drawIndices(node, first, count, backs.hides(piece, hasOneSide) ? fronts : 0);
+    backs.draw(node, piece, first, count, static_cast<GLsizei>(range.frontIndexCount), hasOneSide);
 }
 
 /// Uses the program that draws a material.
@@ -381,7 +414,8 @@ absl::Status MeshDrawable::prepare(const mesh::Material& material, const FrameSt
 absl::Status MeshDrawable::drawByMaterial(std::span<const Piece> pieces, const FrameState& frame,
                                           fabric::FrameStatistics& statistics) {
     Prepared prepared;
-    const HiddenBacks backs(mayHideBacks(frame), lids_, {frame.view, worldFromObject_});
+    const lod::ObjectView view(frame.view, worldFromObject_);
+    const HiddenBacks backs(mayHideBacks(frame), lids_, view, frame.part);
     const bool hasBoxes = frame.look.tileBounds && frame.layer == Layer::Opaque;
     if (hasBoxes)
         RETURN_IF_ERROR(boxLines_.begin(frame.view, worldFromObject_));

@@ -72,6 +72,8 @@ absl::Status EymFile::readTables() {
     if (!levels.ok())
         return fabric::withContext(levels.status(), path());
     levels_ = *levels;
+    if (header_.lidCount == 0)
+        return absl::OkStatus();
     lids_.resize(header_.lidCount);
     const auto lidBytes = std::as_writable_bytes(std::span(lids_));
     RETURN_IF_ERROR(source_->read({endOfNodes(header_), lidBytes.size(), header_.lidsChecksum},

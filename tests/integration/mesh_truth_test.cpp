@@ -62,13 +62,15 @@ protected:
         return camera;
     }
 
-    absl::StatusOr<fabric::ChannelResult> render(const fabric::Camera& camera, double tauPixels) {
+    absl::StatusOr<fabric::ChannelResult> render(const fabric::Camera& camera, double tauPixels,
+                                                 const fabric::PixelViewport& part = {0, 0, kWidth,
+                                                                                      kHeight}) {
         const fabric::FrameData frame{.version = 1, .camera = camera, .tauPixels = tauPixels};
         fabric::ChannelTask task;
         task.frameDataVersion = 1;
         task.viewWidth = kWidth;
         task.viewHeight = kHeight;
-        task.pixelViewport = {0, 0, kWidth, kHeight};
+        task.pixelViewport = part;
         task.wantsDepth = true;
         return renderer_->render(frame, task);
     }
@@ -96,6 +98,22 @@ protected:
         EXPECT_EQ(found.falseHits, 0U);
         EXPECT_EQ(found.misplaced, 0U);
         EXPECT_GT(found.compared, 50U);
+    }
+
+    /// A picture put together of two halves is that of one channel, bit by bit.
+    void checkParts(const fabric::Camera& camera) {
+        fabric::Image whole = fabric::makeImage({0, 0, kWidth, kHeight}, {}, true);
+        fabric::Image halves = whole;
+        const auto drawn = render(camera, 1);
+        ASSERT_TRUE(drawn.ok()) << drawn.status();
+        fabric::paste(drawn->image, whole);
+        for (const int x : {0, kWidth / 2}) {
+            const auto half = render(camera, 1, {x, 0, kWidth / 2, kHeight});
+            ASSERT_TRUE(half.ok()) << half.status();
+            fabric::paste(half->image, halves);
+        }
+        EXPECT_EQ(whole.depth, halves.depth);
+        EXPECT_EQ(whole.colour, halves.colour);
     }
 
     void checkCameras() {
@@ -149,7 +167,11 @@ TEST_F(MeshTruth, HoldsOnAnOpenBall) {
     EXPECT_EQ(file->lids().size(), 3U);
     EXPECT_GT(file->nodes()[0].frontIndexCount, file->nodes()[0].indexCount / 2);
     std::mt19937 engine(11);
-    for (int i = 0; i < 8; ++i) check(camera(engine, 0.8), 1 + i % 2);
+    for (int i = 0; i < 8; ++i) {
+        const fabric::Camera from = camera(engine, 0.8);
+        check(from, 1 + i % 2);
+        checkParts(from);
+    }
 }
 
 TEST_F(MeshTruth, OfASolidItsWallsAreSeenFromInside) {
