@@ -105,7 +105,7 @@ MeshTextures::MeshTextures(const mesh::EymFile& file, std::uint64_t mostBytes, T
         const auto blocks = file.imageBlocks(i);
         if (!blocks.ok()) {
             const absl::string_view message = blocks.status().message();
-            spdlog::warn("{}: {}; its mean colour stands for it", file.path(),
+            spdlog::warn("{}; its mean colour stands for it",
                          std::string_view(message.data(), message.size()));
             uploadMean(textures_[i], shape);
             bytes_ += sizeof(fabric::Rgba);

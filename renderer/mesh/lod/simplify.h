@@ -17,8 +17,8 @@ struct Simplified {
 /// is a map as described there, and their distances add up.
 ///
 /// Stay: vertices on the border, so that the patch fits its neighbours whatever is done to them;
-/// those where more than two sheets meet, or normals or colours are broken; and those whose star is
-/// no graph (star.h).
+/// those where more than two sheets meet, or normals, colours, texture coordinates or materials are
+/// broken; and those whose star is no graph (star.h). A vertex that is left keeps all that it has.
 /// R. Klein, G. Liebich, W. Straßer, "Mesh Reduction with Error Control", 1996.
 Simplified simplify(const PackedMesh& mesh, const Patch& patch, std::size_t target);
 

@@ -105,10 +105,14 @@ TEST_F(EffectVariantsTest, EveryBuiltInVariantCompilesAndSetsWhatTheDriverKept) 
                     terrain->lineWidth(1.0F);
                 }
                 for (const bool gouraud : {false, true}) {
-                    const auto mesh = MeshEffect::create({object, gouraud});
-                    ASSERT_TRUE(mesh.ok()) << mesh.status();
-                    mesh->worldFromNormal(glm::mat3(1.0F));
-                    mesh->lightColours(std::vector<glm::vec3>(Variant::kMaxLights));
+                    for (int surface = lights == 1 ? 5 : 0; surface >= 0; --surface) {
+                        const auto mesh =
+                            MeshEffect::create({object, gouraud, surface % 2 == 1, surface / 2});
+                        ASSERT_TRUE(mesh.ok()) << mesh.status();
+                        mesh->worldFromNormal(glm::mat3(1.0F));
+                        mesh->alphaCutoff(0.5F);
+                        mesh->lightColours(std::vector<glm::vec3>(Variant::kMaxLights));
+                    }
                 }
             }
 }

@@ -181,6 +181,63 @@ TEST(AssimpReader, TakesTransformsInDoublePrecisionAndTurnsMirroredFaces) {
         EXPECT_EQ(colour, (fabric::Rgba{128, 255, 0, 255}));
 }
 
+/// Three triangles: of glass with an image, cut out of it, and of neither.
+constexpr const char* kTexturedGltf =
+    R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":1},"material":0},
+{"attributes":{"POSITION":0,"TEXCOORD_0":1},"material":1},
+{"attributes":{"POSITION":0},"material":2}]}],
+"materials":[{"alphaMode":"BLEND","pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.4],
+"baseColorTexture":{"index":0}}},
+{"alphaMode":"MASK","alphaCutoff":0.25,"doubleSided":true,
+"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}},
+{"pbrMetallicRoughness":{"baseColorFactor":[1,0,0,0.1],"baseColorTexture":{"index":0}}}],
+"samplers":[{"wrapS":33071,"wrapT":10497}],"textures":[{"source":0,"sampler":0}],
+"images":[{"uri":"data:image/png;base64,QUJDRA=="}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3",
+"min":[0,0,0],"max":[1,1,0]},{"bufferView":0,"componentType":5126,"count":3,"type":"VEC2"}],
+"bufferViews":[{"buffer":0,"byteLength":36}],
+"buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,)"
+    "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}";
+
+TEST(AssimpReader, TakesMaterialsAndImagesThatAreInTheFile) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.gltf"), kTexturedGltf);
+    const auto mesh = readWithAssimp(folder.file("m.gltf"));
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    ASSERT_EQ(mesh->textures.size(), 1U);
+    EXPECT_THAT(mesh->textures[0].bytes,
+                ElementsAre(std::byte{'A'}, std::byte{'B'}, std::byte{'C'}, std::byte{'D'}));
+    EXPECT_EQ(mesh->textures[0].flags, mesh::kClampsU);
+    ASSERT_EQ(mesh->triangles.size(), 3U);
+    const auto materialOf = [&](std::size_t triangle) {
+        return mesh->materials[mesh->materialOf[mesh->triangles[triangle][0]]];
+    };
+    EXPECT_EQ(materialOf(0),
+              (mesh::Material{.image = 0, .flags = mesh::kIsBlended | mesh::kIsOneSided}));
+    EXPECT_EQ(materialOf(1),
+              (mesh::Material{.image = 0, .flags = mesh::kIsTwoSided, .alphaCutoff = 0.25F}));
+    EXPECT_EQ(materialOf(2), (mesh::Material{.flags = mesh::kIsOneSided}));
+    EXPECT_EQ(mesh->colours[mesh->triangles[0][0]], (fabric::Rgba{255, 255, 255, 102}));
+    EXPECT_EQ(mesh->colours[mesh->triangles[2][0]], (fabric::Rgba{255, 0, 0, 255})) << "opaque";
+    EXPECT_EQ(mesh->textureCoordinates[mesh->triangles[0][1]], glm::vec2(0, 1)) << "v down";
+}
+
+TEST(AssimpReader, TakesTheFirstOfARaceTracksTextures) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.acc"),
+                    "AC3Db\nMATERIAL \"\" rgb 0.4 0.4 0.4 amb 1 1 1 emis 0 0 0 spec 0 0 0 shi 1 "
+                    "trans 0\nOBJECT world\nkids 1\nOBJECT poly\nname \"a\"\n"
+                    "texture \"road.png\" base\ntexture \"skid.png\" skids\n"
+                    "texture empty_texture_no_mapping shad\nnumvert 3\n0 0 0\n1 0 0\n0 0 1\n"
+                    "numsurf 1\nSURF 0x10\nmat 0\nrefs 3\n0 0 0\n1 1 0\n2 0 1\nkids 0\n");
+    const auto mesh = readWithAssimp(folder.file("m.acc"));
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    ASSERT_EQ(mesh->textures.size(), 1U);
+    EXPECT_EQ(mesh->textures[0].name, "road.png");
+    EXPECT_EQ(mesh->colours[0], (fabric::Rgba{102, 102, 102, 255})) << "until it is there";
+}
+
 TEST(AssimpReader, CutsConcavePolygonsWithoutCoveringWhatIsOutside) {
     const test::TemporaryFolder folder;
     // An L of area 3 whose fan from the first corner would cover 5.

@@ -238,5 +238,56 @@ TEST(PackMesh, IsSmoothRoundACornerAsFarAsNoEdgeIsACrease) {
                   2e-3);
 }
 
+/// Two triangles that share an edge; the second has vertices of its own there.
+TriangleMesh texturedPair() {
+    TriangleMesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
+    mesh.textureCoordinates = {{0, 0}, {1, 0}, {0, 1}, {1, 0}, {1, 1}, {0, 1}};
+    mesh.materials = {{}, {.image = 0}};
+    mesh.materialOf.assign(6, 1);
+    mesh.images = {{{1, 1, 0}, std::vector<std::byte>(8)}};
+    return mesh;
+}
+
+TEST(PackMesh, WeldsVerticesOfOneMaterialAndPlaceInTheTexture) {
+    const auto vertices = [](TriangleMesh mesh) {
+        PackCounts counts;
+        const auto packed = packMesh(std::move(mesh), counts);
+        EXPECT_TRUE(packed.ok()) << packed.status();
+        EXPECT_EQ(packed->materialOf.size(), packed->positions.size());
+        return packed->positions.size();
+    };
+    EXPECT_EQ(vertices(texturedPair()), 4U);
+    TriangleMesh seam = texturedPair();
+    seam.textureCoordinates[3].x = 0.5F;
+    EXPECT_EQ(vertices(seam), 5U);
+    TriangleMesh other = texturedPair();
+    for (std::size_t i = 3; i < 6; ++i) other.materialOf[i] = 0;
+    EXPECT_EQ(vertices(other), 6U);
+    TriangleMesh plain = seam;  // what has no image has no places in it
+    plain.materials = {{}, {.flags = mesh::kIsBlended}};
+    plain.images.clear();
+    EXPECT_EQ(vertices(plain), 4U);
+}
+
+TEST(PackMesh, TakesAnyTextureCoordinates) {
+    TriangleMesh mesh = texturedPair();
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    mesh.textureCoordinates = {{std::numeric_limits<float>::quiet_NaN(), kInfinity},
+                               {1e30F, -1e30F},
+                               {-0.25F, 1.0F / 65536},
+                               {3, -kInfinity},
+                               {200.5F, 0},
+                               {0, 1e-9F}};
+    PackCounts counts;
+    const auto packed = packMesh(mesh, counts);
+    ASSERT_TRUE(packed.ok()) << packed.status();
+    constexpr int kMost = 16384 * mesh::kTextureSteps;
+    EXPECT_EQ(packed->textureCoordinates,
+              (std::vector<glm::ivec2>{
+                  {0, 0}, {kMost, -kMost}, {-16384, 1}, {3 * 65536, 0}, {401 * 32768, 0}, {0, 0}}));
+}
+
 }  // namespace
 }  // namespace eyrie::import
