@@ -172,16 +172,18 @@ void printTable(const std::vector<Row>& rows) {
 
 void writeCsv(const std::string& path, const std::vector<Row>& rows) {
     std::ofstream file(path);
-    file << "dem,camera,promised_px,measured_px,at_pixels_px,p99_px,compared,holes,false,misplaced,"
+    file << "dem,camera,promised_px,measured_px,surface_px,at_pixels_px,p99_px,compared,holes,"
+            "false,misplaced,"
             "suspects,"
             "triangles\n";
     for (const Row& row : rows) {
         const truth::DepthComparison& found = row.kept.measured;
-        file << fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", row.dem,
+        file << fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", row.dem,
                             TerrainCameras::kNames[static_cast<std::size_t>(row.kind)],
-                            row.kept.promisedPixels, row.kept.measuredPixels, found.maxPixels,
-                            found.p99Pixels, found.compared, found.holes, found.falseHits,
-                            found.misplaced, found.suspects, row.kept.statistics.triangles);
+                            row.kept.promisedPixels, row.kept.measuredPixels,
+                            row.kept.surfacePixels, found.maxPixels, found.p99Pixels,
+                            found.compared, found.holes, found.falseHits, found.misplaced,
+                            found.suspects, row.kept.statistics.triangles);
     }
 }
 

@@ -118,6 +118,28 @@ double SourceSurface::longestEdgeMetres(const Triangle& triangle) const {
     return longest;
 }
 
+double SourceSurface::outlineMetres(const Triangle& triangle) {
+    const Bounds box(triangle);
+    const bool hasDataCorner = std::any_of(
+        triangle.begin(), triangle.end(),
+        [&](const Corner& corner) { return !std::isnan(heightAt(corner.i, corner.j)); });
+    const std::int32_t around = hasDataCorner ? 1 : std::max(box.i1 - box.i0, box.j1 - box.j0);
+    float lowest = std::numeric_limits<float>::infinity();
+    float highest = -lowest;
+    for (std::int32_t j = std::max(0, box.j0 - around);
+         j <= std::min(model_.frame.rows - 1, box.j1 + around); ++j)
+        for (std::int32_t i = std::max(0, box.i0 - around);
+             i <= std::min(model_.frame.columns - 1, box.i1 + around); ++i) {
+            const float height = heightAt(i, j);
+            lowest = height < lowest ? height : lowest;
+            highest = height > highest ? height : highest;
+        }
+    const double aside = longestEdgeMetres(triangle) * (hasDataCorner ? 1 : 2);
+    return highest > lowest
+               ? std::hypot(aside, static_cast<double>(highest) - static_cast<double>(lowest))
+               : aside;
+}
+
 /// The tile that holds all of a triangle, null if none does.
 const HeightPatch* SourceSurface::onlyTile(const Triangle& t) {
     if (patch_.has(t[0].i, t[0].j) && patch_.has(t[1].i, t[1].j) && patch_.has(t[2].i, t[2].j))

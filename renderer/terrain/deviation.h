@@ -107,6 +107,10 @@ public:
     const GridFrame& frame() const { return model_.frame; }
     bool hasNodata() const { return model_.hasNodata(); }
     double longestEdgeMetres(const Triangle& triangle) const;
+    /// How far a triangle that mixes data and nodata may bring an outline off, about: to a corner
+    /// that has data, as far aside as its longest edge and as far up or down as data in it differ;
+    /// where no corner has data, to a corner of the next triangle.
+    double outlineMetres(const Triangle& triangle);
     /// Whether that is what it counts as: it holds both data and nodata or, not being aligned,
     /// has an edge that crosses a cell with nodata.
     bool mixes(const Triangle& triangle, bool isAligned);

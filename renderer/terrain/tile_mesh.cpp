@@ -220,7 +220,7 @@ void TileMesher::measure(const PartErrors::Rectangle& covered, TilePoint a, Tile
     // A mixed triangle counts as its longest edge.
     if (const double edge = surface_.hasNodata() ? surface_.longestEdgeMetres(triangle) : 0;
         surface_.hasNodata() && deviation >= edge && surface_.mixes(triangle, isAligned)) {
-        mesh_.outlineMetres = std::max(mesh_.outlineMetres, edge);
+        mesh_.outlineMetres = std::max(mesh_.outlineMetres, surface_.outlineMetres(triangle));
         markNodata(covered);
         return;
     }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -62,11 +63,11 @@ Vec3 nearestWeights(const std::array<Vec2, 3>& corners, const Vec2& point) {
 }
 
 /// Visits the points of a triangle whose columns are posts or halfway between them; of a triangle
-/// wider than kMostPosts every second of them, and so on.
+/// wider than `mostPosts` every second of them, and so on.
 template <typename Visit>
-void forEachHalfPost(const Triangle& triangle, const fabric::Mat4& postsFromObject, Visit visit) {
+void forEachHalfPost(const Triangle& triangle, const fabric::Mat4& postsFromObject,
+                     double mostPosts, Visit visit) {
     constexpr double kOnEdge = 1e-6;
-    constexpr double kMostPosts = 256;
     std::array<Vec2, 3> posts;
     for (std::size_t k = 0; k < 3; ++k)
         posts[k] = Vec2(postsFromObject * fabric::Vec4(triangle[k], 1));
@@ -78,7 +79,7 @@ void forEachHalfPost(const Triangle& triangle, const fabric::Mat4& postsFromObje
     const Vec2 low = glm::min(posts[0], glm::min(posts[1], posts[2]));
     const Vec2 high = glm::max(posts[0], glm::max(posts[1], posts[2]));
     double step = 0.5;
-    while (std::max(high.x - low.x, high.y - low.y) > 2 * kMostPosts * step) step *= 2;
+    while (std::max(high.x - low.x, high.y - low.y) > 2 * mostPosts * step) step *= 2;
     for (double y = std::ceil(low.y / step - kOnEdge) * step; y <= high.y + kOnEdge; y += step)
         for (double x = std::ceil(low.x / step - kOnEdge) * step; x <= high.x + kOnEdge;
              x += step) {
@@ -162,9 +163,10 @@ double DrawnTerrain::farthestSeen(const Pinhole& camera, const TerrainRayCaster&
         double pixels;
         Vec3 source;
     };
+    constexpr double kMostPosts = 256;
     std::vector<Candidate> candidates;
     for (const Triangle& triangle : triangles_)
-        forEachHalfPost(triangle, postsFromObject_, [&](const Vec3& drawn) {
+        forEachHalfPost(triangle, postsFromObject_, kMostPosts, [&](const Vec3& drawn) {
             const auto other = source.counterpart(drawn);
             const auto p = camera.project(drawn);
             const auto q = other ? camera.project(*other) : std::nullopt;
@@ -182,6 +184,19 @@ double DrawnTerrain::farthestSeen(const Pinhole& camera, const TerrainRayCaster&
                camera.depth(c.source) * (1 - kSamePoint);
     });
     return seen == candidates.end() ? atLeast : seen->pixels;
+}
+
+std::vector<float> DrawnTerrain::heightsAtHalfPosts(int width, int height) const {
+    const auto columns = static_cast<std::size_t>(width);
+    std::vector<float> heights(columns * static_cast<std::size_t>(height),
+                               std::numeric_limits<float>::quiet_NaN());
+    for (const Triangle& triangle : triangles_)
+        forEachHalfPost(triangle, postsFromObject_, width + height, [&](const Vec3& point) {
+            const Vec2 halves = 2.0 * Vec2(postsFromObject_ * fabric::Vec4(point, 1));
+            heights[static_cast<std::size_t>(std::lround(halves.y)) * columns +
+                    static_cast<std::size_t>(std::lround(halves.x))] = static_cast<float>(point.z);
+        });
+    return heights;
 }
 
 }  // namespace eyrie::truth

@@ -42,6 +42,9 @@ public:
     double farthestSeen(const Pinhole& camera, const TerrainRayCaster& source,
                         double atLeast) const;
 
+    /// Heights above posts and halfway between them, row by row; NaN where nothing is drawn.
+    std::vector<float> heightsAtHalfPosts(int width, int height) const;
+
 private:
     std::vector<Triangle> triangles_;
     fabric::Mat4 postsFromObject_{1.0};

@@ -38,7 +38,7 @@ absl::StatusOr<PromiseKept> TerrainPromise::hold(const fabric::Camera& camera, d
     task.pixelViewport = {0, 0, width, height};
     task.wantsDepth = true;
     ASSIGN_OR_RETURN(const fabric::ChannelResult drawn, renderer_.render(frame, task));
-    PromiseKept kept{drawn.statistics.tauAchievedPixels, {}, 0, drawn.statistics};
+    PromiseKept kept{drawn.statistics.tauAchievedPixels, {}, 0, 0, drawn.statistics};
 
     const Pinhole pinhole(camera, width, height);
     ASSIGN_OR_RETURN(const DrawnTerrain triangles,
@@ -49,9 +49,11 @@ absl::StatusOr<PromiseKept> TerrainPromise::hold(const fabric::Camera& camera, d
     };
     // An outline may have moved by as much as everything else.
     const int edgePixels = static_cast<int>(std::clamp(std::ceil(kept.promisedPixels), 1.0, 8.0));
-    kept.measured = compareDepth(pinhole, depthMetres(drawn.image, width, height), ground_,
-                                 edgePixels, {kept.promisedPixels + kRasterPixels, shown});
-    kept.measuredPixels = triangles.farthestSeen(pinhole, ground_, kept.measured.maxPixels);
+    const std::vector<float> depth = depthMetres(drawn.image, width, height);
+    kept.measured = compareDepth(pinhole, depth, ground_, edgePixels,
+                                 {kept.promisedPixels + kRasterPixels, shown});
+    kept.surfacePixels = triangles.farthestSeen(pinhole, ground_, kept.measured.maxPixels);
+    kept.measuredPixels = outline_.farthestSeen(pinhole, triangles, depth, kept.surfacePixels);
     return kept;
 }
 

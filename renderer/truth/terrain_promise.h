@@ -10,6 +10,7 @@
 #include "renderer/renderer.h"
 #include "renderer/terrain/eyt_format.h"
 #include "renderer/truth/depth_comparison.h"
+#include "renderer/truth/outline_displacement.h"
 #include "renderer/truth/terrain_ray_caster.h"
 
 namespace eyrie::truth {
@@ -19,8 +20,10 @@ struct PromiseKept {
     double promisedPixels = 0;
     DepthComparison measured;
     /// The greatest displacement found: of what the pixels show, and of every post that a picture
-    /// of the source shows and halfway between posts (DrawnTerrain::farthestSeen).
+    /// of the source shows and halfway between posts (DrawnTerrain::farthestSeen), and of outlines
+    /// (OutlineDisplacement).
     double measuredPixels = 0;
+    double surfacePixels = 0;  ///< the same without outlines
     fabric::FrameStatistics statistics;
 };
 
@@ -30,7 +33,10 @@ public:
     /// `renderer` has the terrain of `file` open, alone and where it lies. All are referred to.
     TerrainPromise(Renderer& renderer, const TerrainRayCaster& ground,
                    std::shared_ptr<const terrain::EytFile> file)
-        : renderer_(renderer), ground_(ground), file_(std::move(file)) {}
+        : renderer_(renderer),
+          ground_(ground),
+          file_(std::move(file)),
+          outline_(file_->index().quadtree, file_->index().objectFromLattice, ground_) {}
 
     /// Draws the picture, complete, and measures it. Errors: the renderer's.
     absl::StatusOr<PromiseKept> hold(const fabric::Camera& camera, double tauPixels, int width,
@@ -48,6 +54,7 @@ private:
     Renderer& renderer_;
     const TerrainRayCaster& ground_;
     std::shared_ptr<const terrain::EytFile> file_;
+    OutlineDisplacement outline_;
 };
 
 }  // namespace eyrie::truth
