@@ -14,6 +14,7 @@
 #include "cli/picture_source.h"
 #include "fabric/status.h"
 #include "renderer/mesh/tuned_leaf.h"
+#include "renderer/renderer.h"
 
 namespace eyrie::cli {
 namespace {
@@ -95,7 +96,8 @@ absl::StatusOr<MeshTuning> tuneMesh(const std::string& outPath, const std::strin
                                     const ImportLeaf& importLeaf,
                                     const std::function<void(std::string_view, double)>& done,
                                     const std::stop_token& stop) {
-    // A flight that is none is told before anything is imported.
+    // A flight that is none, or a machine that cannot draw, is told before anything is imported.
+    RETURN_IF_ERROR(Renderer::create({}).status());
     RETURN_IF_ERROR(bench::flightNamed(flight, {{0, 0, 0}, {1, 1, 1}}).status());
     ASSIGN_OR_RETURN(const FolderBeside folder, FolderBeside::create(outPath));
     MeshTuning tuning;

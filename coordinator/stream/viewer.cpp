@@ -32,6 +32,10 @@ bool isSame(const ViewRequest& a, const ViewRequest& b) {
     return a.frame == b.frame && a.isUnderground == b.isUnderground;
 }
 
+/// One frame in so many has its stages measured, which costs its vertices once more: the fourth
+/// first, since shaders are compiled in the ones before.
+constexpr std::uint64_t kFramesToAMeasurement = 32;
+
 /// What must be equal for a picture to be still right.
 struct PictureSource {
     fabric::Scene scene;
@@ -197,7 +201,8 @@ private:
 
     void renderOne(std::unique_lock<std::mutex>& lock) {
         const ViewRequest view = *wanted_;
-        const coordinator::FrameRequest request = requestFor(view);
+        coordinator::FrameRequest request = requestFor(view);
+        request.measuresStages = ++requested_ % kFramesToAMeasurement == 4;
         const Clock::time_point started = Clock::now();
         isRenderNeeded_ = false;
         redrawAt_.reset();
@@ -345,7 +350,8 @@ private:
     const std::function<void()> messageReady_;
     const ViewerOptions options_;
 
-    std::mutex mutex_;  // guards everything below, up to the threads
+    std::uint64_t requested_ = 0;  // of the render thread
+    std::mutex mutex_;             // guards everything below, up to the threads
     std::condition_variable changed_;
     bool isStopping_ = false;
     Pacer pacer_;

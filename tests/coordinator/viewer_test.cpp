@@ -268,6 +268,7 @@ TEST(Viewer, AsksForFramesThatDoNotWait) {
     browser.look(1);
     ASSERT_TRUE(browser.nextFrame().has_value());
     EXPECT_EQ(frames.requests().front().completeness, fabric::Completeness::Interactive);
+    EXPECT_FALSE(frames.requests().front().measuresStages);
 }
 
 TEST(Viewer, DrawsOnWhilePagesAreBeingLoadedAndThenRests) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `eyrie bench` as its users run it.
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 
@@ -86,8 +87,12 @@ TEST_F(Bench, OfARecordedFlightKeepsTauForAnyNumberOfProcesses) {
 
 TEST_F(Bench, TunesAMeshAndTheFileSaysSo) {
     ASSERT_TRUE(succeeded({"synth", "mesh", "--size", "3000", "--seed", "3", "-o", path("m.ply")}));
+    const std::string away = R"("camera":{"eye":[0,-30,0],"target":[0,0,0]}})";
+    const std::string flight =
+        writeFlight("away.json", R"({"seconds":0,)" + away + R"(,{"seconds":1,)" + away);
     const test::Outcome tuned =
-        eyrie({"import", "mesh", path("m.ply"), "--tune", "orbit", "-o", path("m.eym"), "--json"});
+        eyrie({"import", "mesh", path("m.ply"), "--tune", flight, "-o", path("m.eym"), "--json"},
+              {}, std::chrono::minutes(4));
     ASSERT_EQ(tuned.exit, (test::Exit{0, 0})) << tuned.errors;
     const auto tried = test::list(test::parseJson(tuned.output), "tuned");
     ASSERT_EQ(tried.size(), 1U) << "the smallest leaf holds all of it";
@@ -96,9 +101,9 @@ TEST_F(Bench, TunesAMeshAndTheFileSaysSo) {
     const test::Outcome facts = eyrie({"info", path("m.eym"), "--json"});
     EXPECT_EQ(number(test::parseJson(facts.output), "tunedLeafTriangles"), 4096);
     const auto before = test::namesIn(path(""));
-    for (const char* flight : {"missing.json", "loop"})
+    for (const char* none : {"missing.json", "loop"})
         EXPECT_EQ(
-            eyrie({"import", "mesh", path("m.ply"), "--tune", flight, "-o", path("n.eym")}).exit,
+            eyrie({"import", "mesh", path("m.ply"), "--tune", none, "-o", path("n.eym")}).exit,
             (test::Exit{2, 0}));
     EXPECT_EQ(test::namesIn(path("")), before);
 }

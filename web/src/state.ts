@@ -50,6 +50,8 @@ export interface Numbers {
   triangles: number;
   /** Wall-clock time of rendering on the server. */
   renderMilliseconds: number;
+  /** The stage of rendering that took longest when they were last measured; "" before that. */
+  limitedBy: string;
   /** Frames drawn in the last second. */
   fps: number;
   /** From an input to the picture that shows it: median of the last ones; NaN before any. */

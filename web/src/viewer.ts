@@ -10,7 +10,7 @@ import { cameraOf } from "./protocol/messages";
 import { Socket } from "./protocol/socket";
 import type { State } from "./state";
 import { PictureCanvas } from "./view/canvas";
-import { FrameRate, Latency } from "./view/measure";
+import { FrameRate, Latency, limitingStage } from "./view/measure";
 import type { Size } from "./view/size";
 import { pictureSize, softwarePixels } from "./view/size";
 
@@ -217,6 +217,8 @@ export class Viewer implements CameraHolder {
       pagesFailed: Number(statistics?.pagesFailed ?? 0n),
       triangles: Number(statistics?.triangles ?? 0n),
       renderMilliseconds: statistics?.milliseconds?.total ?? 0,
+      limitedBy:
+        limitingStage(statistics?.milliseconds) || (this.state.numbers.value?.limitedBy ?? ""),
       fps: this.rate.perSecond(time),
       inputToDrawnMilliseconds: this.latency.median(),
       frozen: this.state.look.value.frozen !== null,

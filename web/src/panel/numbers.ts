@@ -31,6 +31,13 @@ const rows: readonly Row[] = [
     text: ({ renderMilliseconds }) => milliseconds(renderMilliseconds),
   },
   {
+    name: "Limited by",
+    title:
+      "The renderers' stage that takes longest, measured every 32nd frame: the cut, vertices, " +
+      "pixels or the readback",
+    text: ({ limitedBy }) => limitedBy || "–",
+  },
+  {
     name: "Triangles",
     title: "Drawn, and in the scene at full resolution",
     text: ({ triangles }, total) => triangleText(triangles, total),

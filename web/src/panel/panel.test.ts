@@ -96,6 +96,7 @@ describe("numbers", () => {
     pagesFailed: 0,
     triangles: 1,
     renderMilliseconds: 1,
+    limitedBy: "",
     fps: 1,
     inputToDrawnMilliseconds: 1,
     frozen: false,

@@ -61,3 +61,23 @@ export class Latency {
     for (const sequence of this.waiting.keys()) if (sequence <= upTo) this.waiting.delete(sequence);
   }
 }
+
+/** Milliseconds that stages of rendering took; vertices and fill are 0 where not measured. */
+export interface Stages {
+  cull: number;
+  vertices: number;
+  fill: number;
+  readback: number;
+}
+
+/** What a person calls the stage that took longest; "" where they were not measured. */
+export function limitingStage(stages: Stages | undefined): string {
+  if (stages === undefined || stages.vertices + stages.fill <= 0) return "";
+  const named: readonly (readonly [number, string])[] = [
+    [stages.cull, "the cut"],
+    [stages.vertices, "vertices"],
+    [stages.fill, "pixels"],
+    [stages.readback, "readback"],
+  ];
+  return named.reduce((most, one) => (one[0] > most[0] ? one : most))[1];
+}

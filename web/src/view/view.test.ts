@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
-import { FrameRate, Latency } from "./measure";
+import { FrameRate, Latency, limitingStage } from "./measure";
 import { pictureSize, softwarePixels } from "./size";
 
 describe("pictureSize", () => {
@@ -66,5 +66,15 @@ describe("Latency", () => {
     latency.sent(3, 140);
     latency.reset();
     expect(latency.waitingSince()).toBeUndefined();
+  });
+});
+
+describe("limitingStage", () => {
+  it("is the longest of those that were measured", () => {
+    const stages = { cull: 1, vertices: 2, fill: 5, readback: 3 };
+    expect(limitingStage(stages)).toBe("pixels");
+    expect(limitingStage({ ...stages, readback: 6 })).toBe("readback");
+    expect(limitingStage({ ...stages, vertices: 0, fill: 0 })).toBe("");
+    expect(limitingStage(undefined)).toBe("");
   });
 });
