@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -14,6 +15,7 @@
 #include "fabric/status.h"
 #include "renderer/import/geotiff_writer.h"
 #include "renderer/import/mesh_import.h"
+#include "renderer/import/mesh_reader.h"
 #include "renderer/import/mesh_synth.h"
 #include "renderer/import/ply_writer.h"
 #include "renderer/import/terrain_import.h"
@@ -28,6 +30,9 @@ constexpr int kMaxPosts = 32768;
 struct Options {
     std::uint64_t size = 0;
     std::uint64_t seed = 1;
+    std::string from;
+    int subdivisions = 0;
+    double displacementMetres = 0;
     std::string out;
     bool quiet = false;
     bool json = false;
@@ -71,7 +76,22 @@ absl::Status synthTerrain(const Options& options) {
     return absl::OkStatus();
 }
 
+absl::StatusOr<import::TriangleMesh> makeMesh(const Options& options,
+                                              const import::ImportControl& control) {
+    if (options.from.empty())
+        return import::synthesizeMesh(options.size, options.seed);
+    ASSIGN_OR_RETURN(import::TriangleMesh source, import::readMesh(options.from, control));
+    RETURN_IF_ERROR(control.check());
+    ASSIGN_OR_RETURN(import::TriangleMesh mesh,
+                     import::subdivide(std::move(source), options.subdivisions));
+    if (options.displacementMetres > 0)
+        import::displace(mesh, options.displacementMetres, options.seed);
+    return mesh;
+}
+
 absl::Status synthMesh(const Options& options) {
+    if ((options.size == 0) == options.from.empty())
+        return absl::InvalidArgumentError("expected either --size or --from; name one");
     StopSignal stop;
     const std::string ending = std::filesystem::path(options.out).extension().string();
     if (ending != ".ply" && ending != ".eym")
@@ -80,7 +100,7 @@ absl::Status synthMesh(const Options& options) {
                     ProgressBar::styleFor(options.quiet));
     const import::ImportControl control{bar.callback(), stop.token()};
     control.report("making", 0);
-    import::TriangleMesh mesh = import::synthesizeMesh(options.size, options.seed);
+    ASSIGN_OR_RETURN(import::TriangleMesh mesh, makeMesh(options, control));
     const std::uint64_t triangles = mesh.triangles.size();
     RETURN_IF_ERROR(control.check());
     control.report("writing", 0);
@@ -92,14 +112,17 @@ absl::Status synthMesh(const Options& options) {
     return absl::OkStatus();
 }
 
-CLI::App* addKind(CLI::App& parent, const char* name, const char* description, Run& run,
-                  absl::Status (*make)(const Options&), double least, double most,
-                  const char* sizeHelp) {
+struct Kind {
+    CLI::App* command;
+    std::shared_ptr<Options> options;
+};
+
+Kind addKind(CLI::App& parent, const char* name, const char* description, Run& run,
+             absl::Status (*make)(const Options&), double least, double most,
+             const char* sizeHelp) {
     auto options = std::make_shared<Options>();
     CLI::App* command = parent.add_subcommand(name, description);
-    command->add_option("--size", options->size, sizeHelp)
-        ->check(CLI::Range(least, most))
-        ->required();
+    command->add_option("--size", options->size, sizeHelp)->check(CLI::Range(least, most));
     command->add_option("--seed", options->seed, "The same seed makes the same data")
         ->capture_default_str();
     command->add_option("-o,--output", options->out, "File to write")
@@ -108,7 +131,7 @@ CLI::App* addKind(CLI::App& parent, const char* name, const char* description, R
     command->add_flag("--quiet", options->quiet, "No progress");
     command->add_flag("--json", options->json, "Print what was made as JSON");
     command->callback([options, make, &run] { run = [options, make] { return make(*options); }; });
-    return command;
+    return {command, options};
 }
 
 }  // namespace
@@ -116,12 +139,28 @@ CLI::App* addKind(CLI::App& parent, const char* name, const char* description, R
 void addSynth(CLI::App& app, Run& run) {
     CLI::App* synth = app.add_subcommand("synth", "Make test data of any size");
     synth->require_subcommand(1);
-    addKind(*synth, "terrain", "Mountains and valleys", run, synthTerrain, 2, kMaxPosts,
-            "Posts a side, 30 m apart")
-        ->footer("Example:\n  eyrie synth terrain --size 4096 --seed 1 -o big.tif");
-    addKind(*synth, "mesh", "A closed bumpy ball", run, synthMesh, 8,
-            static_cast<double>(import::kMaxSyntheticTriangles), "Triangles, about")
-        ->footer("Example:\n  eyrie synth mesh --size 1000000 --seed 1 -o big.ply");
+    const Kind terrain = addKind(*synth, "terrain", "Mountains and valleys", run, synthTerrain, 2,
+                                 kMaxPosts, "Posts a side, 30 m apart");
+    terrain.command->get_option("--size")->required();
+    terrain.command->footer("Example:\n  eyrie synth terrain --size 4096 --seed 1 -o big.tif");
+    const Kind mesh = addKind(*synth, "mesh", "A closed bumpy ball, or a mesh made larger", run,
+                              synthMesh, 8, static_cast<double>(import::kMaxSyntheticTriangles),
+                              "Triangles of the ball, about");
+    mesh.command->add_option("--from", mesh.options->from, "Mesh to take instead of the ball")
+        ->type_name("FILE");
+    mesh.command
+        ->add_option("--subdivide", mesh.options->subdivisions,
+                     "Times to cut each of its triangles into four")
+        ->check(CLI::Range(0, 8))
+        ->needs("--from");
+    mesh.command
+        ->add_option("--displace", mesh.options->displacementMetres,
+                     "Noise to add to it, in metres")
+        ->check(CLI::NonNegativeNumber)
+        ->needs("--from");
+    mesh.command->footer(
+        "Examples:\n  eyrie synth mesh --size 1000000 --seed 1 -o big.ply\n  eyrie synth mesh "
+        "--from scan.ply --subdivide 2 --displace 0.00005 -o big.ply");
 }
 
 }  // namespace eyrie::cli

@@ -4,12 +4,20 @@
 #include "renderer/import/mesh_synth.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
+#include <vector>
 
+#include <absl/status/status.h>
+#include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_sort.h>
+
+#include "fabric/box.h"
 
 namespace eyrie::import {
 namespace {
@@ -139,6 +147,36 @@ private:
     std::uint64_t n_;
 };
 
+Vec3 floats(const Vec3& position) { return Vec3(glm::vec3(position)); }
+
+/// Adds the middles of all edges, and returns for each corner that of the edge from it to the next.
+std::vector<std::array<std::uint32_t, 3>> addMiddles(TriangleMesh& mesh) {
+    struct Edge {
+        std::uint64_t ends;  ///< the lower in the upper half
+        std::uint64_t corner;
+        bool operator<(const Edge& other) const { return ends < other.ends; }
+    };
+    std::vector<Edge> edges;
+    edges.reserve(3 * mesh.triangles.size());
+    for (const auto& triangle : mesh.triangles)
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::uint64_t low = std::min(triangle[i], triangle[(i + 1) % 3]);
+            edges.push_back(
+                {low << 32 | std::max(triangle[i], triangle[(i + 1) % 3]), edges.size()});
+        }
+    oneapi::tbb::parallel_sort(edges.begin(), edges.end());
+    std::vector<std::array<std::uint32_t, 3>> middles(mesh.triangles.size());
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        if (i == 0 || edges[i].ends != edges[i - 1].ends)
+            mesh.positions.push_back(floats(
+                (mesh.positions[edges[i].ends >> 32] + mesh.positions[edges[i].ends & 0xFFFFFFFF]) /
+                2.0));
+        middles[edges[i].corner / 3][edges[i].corner % 3] =
+            static_cast<std::uint32_t>(mesh.positions.size() - 1);
+    }
+    return middles;
+}
+
 }  // namespace
 
 TriangleMesh synthesizeMesh(std::uint64_t triangles, std::uint64_t seed) {
@@ -160,6 +198,53 @@ TriangleMesh synthesizeMesh(std::uint64_t triangles, std::uint64_t seed) {
     for (std::uint64_t ring = 0; ring + 1 < sphere.rings(); ++ring)
         sphere.appendBand(ring, mesh.triangles);
     return mesh;
+}
+
+absl::StatusOr<TriangleMesh> subdivide(TriangleMesh mesh, int times) {
+    const std::uint64_t most = kMaxSyntheticTriangles >> 2 * std::clamp(times, 0, 31);
+    if (mesh.triangles.size() > most)
+        return absl::InvalidArgumentError(
+            fmt::format("subdividing: found {} triangles to cut {} times, expected at most {}; cut "
+                        "them fewer times",
+                        mesh.triangles.size(), times, most));
+    mesh.normals.clear();
+    mesh.colours.clear();
+    for (; times > 0; --times) {
+        const auto middles = addMiddles(mesh);
+        std::vector<std::array<std::uint32_t, 3>> finer;
+        finer.reserve(4 * mesh.triangles.size());
+        for (std::size_t i = 0; i < middles.size(); ++i) {
+            const auto& [a, b, c] = mesh.triangles[i];
+            const auto& [ab, bc, ca] = middles[i];
+            finer.push_back({a, ab, ca});
+            finer.push_back({ab, b, bc});
+            finer.push_back({ca, bc, c});
+            finer.push_back({ab, bc, ca});
+        }
+        mesh.triangles = std::move(finer);
+    }
+    return mesh;
+}
+
+void displace(TriangleMesh& mesh, double metres, std::uint64_t seed) {
+    constexpr double kWidest = 1.0 / 64;  // bump, of the diagonal
+    constexpr int kOctaves = 5;
+    fabric::Box box;
+    for (const Vec3& position : mesh.positions) box.grow(position);
+    const double frequency = 1 / (kWidest * glm::length(box.size()));
+    if (!std::isfinite(frequency))
+        return;
+    mesh.normals.clear();
+    oneapi::tbb::parallel_for(std::size_t{0}, mesh.positions.size(), [&](std::size_t i) {
+        Vec3 way(0.0);
+        for (int octave = 0; octave < kOctaves; ++octave)
+            for (int axis = 0; axis < 3; ++axis)
+                way[axis] +=
+                    std::pow(0.5, octave + 1) *
+                    gradientNoise(mesh.positions[i] * frequency * std::exp2(octave),
+                                  scramble(seed + static_cast<std::uint64_t>(3 * octave + axis)));
+        mesh.positions[i] = floats(mesh.positions[i] + metres * way);
+    });
 }
 
 }  // namespace eyrie::import

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include <absl/status/statusor.h>
+
 #include "renderer/import/triangle_mesh.h"
 
 namespace eyrie::import {
@@ -18,5 +20,15 @@ inline constexpr std::uint64_t kMaxSyntheticTriangles = 1'000'000'000;
 /// has the same large shape at every size.
 /// K. Perlin, "An Image Synthesizer", 1985 (gradient noise); "Improving Noise", 2002 (its fade).
 TriangleMesh synthesizeMesh(std::uint64_t triangles, std::uint64_t seed);
+
+/// Cuts each triangle into four at the middles of its edges, `times` times over; what was closed
+/// stays so. Normals and colours go. Coordinates are floats' values. Errors: InvalidArgument when
+/// that would make more than kMaxSyntheticTriangles, or the mesh has more already.
+absl::StatusOr<TriangleMesh> subdivide(TriangleMesh mesh, int times);
+
+/// Moves points by smooth noise, as a scanner's: each coordinate by at most about `metres`, in
+/// bumps from 1/64 of the mesh's diagonal down to 1/1024. Points at one place stay together.
+/// Normals go. Coordinates are floats' values.
+void displace(TriangleMesh& mesh, double metres, std::uint64_t seed);
 
 }  // namespace eyrie::import

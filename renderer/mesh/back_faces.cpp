@@ -88,9 +88,21 @@ void Pockets::add(Box box) {
             i = 0;
         }
     }
-    boxes_.push_back(box);
-    if (boxes_.size() > kMostPockets)
-        addAll();
+    if (boxes_.size() < kMostPockets)
+        boxes_.push_back(box);
+    else
+        nearest(box).grow(box);
+}
+
+/// That which takes the box in and grows least by it.
+Box& Pockets::nearest(const Box& box) {
+    const auto growth = [&](Box pocket) {
+        const double before = glm::length(pocket.size());
+        pocket.grow(box);
+        return glm::length(pocket.size()) - before;
+    };
+    return *std::min_element(boxes_.begin(), boxes_.end(),
+                             [&](const Box& a, const Box& b) { return growth(a) < growth(b); });
 }
 
 void Pockets::add(const Pockets& others) {

@@ -27,7 +27,7 @@ namespace eyrie::mesh {
 std::optional<std::vector<std::uint32_t>> seenFromBehind(const PackedMesh& mesh, const Lids& lids);
 
 /// Where the pockets under a node are: boxes around the triangles that are seen from behind, in
-/// lattice steps, those together that are near each other.
+/// lattice steps, those together that are near each other, in a few dozen boxes at most.
 class Pockets {
 public:
     /// Takes the whole of space for one.
@@ -39,6 +39,8 @@ public:
     bool reach(const fabric::Box& box, double steps) const;
 
 private:
+    fabric::Box& nearest(const fabric::Box& box);
+
     std::vector<fabric::Box> boxes_;
     bool isEverywhere_ = false;
 };

@@ -66,5 +66,51 @@ TEST(MeshSynth, HasBumpsButKeepsItsMiddle) {
     EXPECT_LT(most, 2);
 }
 
+TEST(Subdivide, CutsEachTriangleIntoFourAndKeepsTheSurface) {
+    const TriangleMesh source = synthesizeMesh(200, 7);
+    const auto fine = subdivide(source, 2);
+    ASSERT_TRUE(fine.ok()) << fine.status();
+    EXPECT_EQ(fine->triangles.size(), 16 * source.triangles.size());
+    EXPECT_EQ(fine->positions.size(), 8 * source.triangles.size() + 2);  // closed: Euler
+    const auto area = [](const TriangleMesh& mesh) {
+        fabric::Vec3 sum(0.0);
+        double size = 0;
+        for (const auto& t : mesh.triangles) {
+            const fabric::Vec3 normal = glm::cross(mesh.positions[t[1]] - mesh.positions[t[0]],
+                                                   mesh.positions[t[2]] - mesh.positions[t[0]]);
+            sum += normal;
+            size += glm::length(normal);
+        }
+        EXPECT_LT(glm::length(sum), 1e-6);
+        return size;
+    };
+    EXPECT_NEAR(area(*fine), area(source), 1e-5);
+    EXPECT_EQ(subdivide(source, 0)->triangles, source.triangles);
+}
+
+TEST(Subdivide, RefusesToMakeTooMany) {
+    const auto huge = subdivide(synthesizeMesh(200, 7), 12);
+    EXPECT_EQ(huge.status().code(), absl::StatusCode::kInvalidArgument);
+}
+
+TEST(Displace, MovesPointsButNotFar) {
+    const TriangleMesh source = synthesizeMesh(5000, 7);
+    TriangleMesh moved = source;
+    displace(moved, 0.01, 3);
+    double farthest = 0;
+    for (std::size_t i = 0; i < source.positions.size(); ++i)
+        farthest = std::max(farthest, glm::distance(source.positions[i], moved.positions[i]));
+    EXPECT_LT(farthest, 0.01 * std::sqrt(3));
+    EXPECT_GT(farthest, 0.002);
+    TriangleMesh again = source;
+    displace(again, 0.01, 3);
+    EXPECT_TRUE(again == moved);
+    displace(again = source, 0.01, 4);
+    EXPECT_FALSE(again == moved);
+    TriangleMesh point{{{1, 2, 3}}, {}, {}, {}, 0, {}};
+    displace(point, 1, 3);
+    EXPECT_EQ(point.positions[0], fabric::Vec3(1, 2, 3));
+}
+
 }  // namespace
 }  // namespace eyrie::import

@@ -244,12 +244,17 @@ TEST(Pockets, OfAMeshThatNoLidsCloseAreEverywhere) {
         EXPECT_TRUE(node.reach({Vec3(1e6), Vec3(1e6)}, 0));
 }
 
-TEST(Pockets, BeyondAFewDozenAreEverywhere) {
+TEST(Pockets, BeyondAFewDozenArePutTogether) {
     PackedMesh mesh;
     for (int i = 0; i < 100; ++i) addBall(mesh, {1000.0 * (i + 1), 5000, 5000}, 10, true, 4);
     const auto tree = buildKdTree(mesh.positions, mesh.triangles, {64});
     ASSERT_TRUE(tree.ok());
-    EXPECT_TRUE(findPockets(mesh, findLids(mesh), *tree)[0].reach({Vec3(1e6), Vec3(1e6)}, 0));
+    const Pockets all = findPockets(mesh, findLids(mesh), *tree)[0];
+    for (int i = 0; i < 100; ++i) {
+        const Vec3 at(1000.0 * (i + 1), 5000, 5000);
+        EXPECT_TRUE(all.reach({at - 10.0, at + 10.0}, 0));
+        EXPECT_FALSE(all.reach({at + Vec3(0, 50, 0), at + Vec3(10, 60, 0)}, 0));
+    }
 }
 
 }  // namespace
