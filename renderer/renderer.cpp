@@ -398,6 +398,7 @@ absl::Status Renderer::Impl::measureStages(const Selection& selection, const lod
     fabric::FrameStatistics ignored;
     for (const draw::OccludedDraw::Pieces& pieces : drawn_)
         RETURN_IF_ERROR(drawPieces(pieces, frame, ignored));
+    RETURN_IF_ERROR(drawBlended(selection.blended, frame, ignored));
     glFinish();
     milliseconds.vertices = std::min(millisecondsSince(start), milliseconds.draw);
     milliseconds.fill = milliseconds.draw - milliseconds.vertices;

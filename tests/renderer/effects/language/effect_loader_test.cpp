@@ -30,6 +30,12 @@ std::string errorOf(const Files& files) {
     return {status.message().data(), status.message().size()};
 }
 
+std::string errorIn(std::string effect) {
+    Files files;
+    files.emplace("a.effect", std::move(effect));
+    return errorOf(files);
+}
+
 TEST(EffectLoader, PutsBlocksBeforeTheEffectThatIncludesThem) {
     const Files files{{"a.effect",
                        "include \"one.block\";\ninclude \"two.block\";\n"
@@ -127,7 +133,7 @@ TEST(EffectLoader, ErrorsOfMeaningNameTheStatementsPlace) {
         {"include \"b.block\";", "1:10: include: b.block: cannot be opened"},
     };
     for (const Wrong& wrong : table)
-        EXPECT_EQ(errorOf({{"a.effect", fmt::format("{}\n{}", wrong.text, kStages)}}),
+        EXPECT_EQ(errorIn(fmt::format("{}\n{}", wrong.text, kStages)),
                   fmt::format("a.effect:{}", wrong.message))
             << wrong.text;
 }
@@ -135,13 +141,21 @@ TEST(EffectLoader, ErrorsOfMeaningNameTheStatementsPlace) {
 TEST(EffectLoader, ErrorsOfBlocksNameTheBlock) {
     const std::string include = fmt::format("include \"b.block\";\n{}", kStages);
     EXPECT_EQ(
-        errorOf({{"a.effect", include}, {"b.block", "\n oops"}}),
+        errorIn(include
+}
+, {"b.block", "\n oops"),
         "b.block:2:2: expected include, variant, uniform, input, pass or stage, found 'oops'");
-    EXPECT_EQ(errorOf({{"a.effect", include}, {"b.block", "include \"c.block\";"}}),
+    EXPECT_EQ(errorIn(include
+}
+, {"b.block", "include \"c.block\";"),
               "b.block:1:10: a block includes nothing; only effects do");
-    EXPECT_EQ(errorOf({{"a.effect", include}, {"b.block", "input uint a at 0 from uint32;"}}),
+    EXPECT_EQ(errorIn(include
+}
+, {"b.block", "input uint a at 0 from uint32;"),
               "b.block:1:1: a block has no inputs; each effect has its own");
-    EXPECT_EQ(errorOf({{"a.effect", "include \"b.block\";" + include}, {"b.block", ""}}),
+    EXPECT_EQ(errorIn("include \"b.block\";" + include
+}
+, {"b.block", ""),
               "a.effect:1:28: \"b.block\" is included twice");
 }
 
@@ -157,21 +171,19 @@ TEST(EffectLoader, IncludesAreBounded) {
 }
 
 TEST(EffectLoader, AnEffectDrawsOrComputes) {
-    EXPECT_EQ(errorOf({{"a.effect", "stage fragment {}"}}),
-              "a.effect:1:1: the effect has no vertex stage");
-    EXPECT_EQ(errorOf({{"a.effect", "stage vertex {}"}}),
-              "a.effect:1:1: the effect has no fragment stage");
+    EXPECT_EQ(errorIn("stage fragment {}"), "a.effect:1:1: the effect has no vertex stage");
+    EXPECT_EQ(errorIn("stage vertex {}"), "a.effect:1:1: the effect has no fragment stage");
     const std::string compute = "stage compute {}\n";
-    EXPECT_EQ(errorOf({{"a.effect", compute + "stage shared {}"}}),
+    EXPECT_EQ(errorIn(compute + "stage shared {}"),
               "a.effect:2:1: a shared stage beside a compute stage; an effect draws or computes");
-    EXPECT_EQ(errorOf({{"a.effect", compute + "stage vertex {}"}}),
+    EXPECT_EQ(errorIn(compute + "stage vertex {}"),
               "a.effect:2:1: a vertex stage beside a compute stage; an effect draws or computes");
-    EXPECT_EQ(errorOf({{"a.effect", compute + compute}}),
+    EXPECT_EQ(errorIn(compute + compute),
               "a.effect:2:1: a second compute stage; the first is in line 1");
-    EXPECT_EQ(errorOf({{"a.effect", compute + "input uint a at 0 from uint32;"}}),
+    EXPECT_EQ(errorIn(compute + "input uint a at 0 from uint32;"),
               "a.effect:2:1: a is an input of an effect that computes; its GLSL reads buffers "
               "instead");
-    EXPECT_EQ(errorOf({{"a.effect", compute + "pass p { depth less; cull none; polygon fill; }"}}),
+    EXPECT_EQ(errorIn(compute + "pass p { depth less; cull none; polygon fill; }"),
               "a.effect:2:1: pass p is of an effect that computes and draws nothing");
     const Files files{{"a.effect", "uniform int n;\nstage compute { void main() {} }"}};
     const auto effect = loadEffect("a.effect", from(files));
