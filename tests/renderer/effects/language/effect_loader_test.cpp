@@ -2,6 +2,8 @@
 #include "renderer/effects/language/effect_loader.h"
 
 #include <map>
+#include <string>
+#include <utility>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
