@@ -107,7 +107,8 @@ TEST(Displace, MovesPointsButNotFar) {
     EXPECT_TRUE(again == moved);
     displace(again = source, 0.01, 4);
     EXPECT_FALSE(again == moved);
-    TriangleMesh point{{{1, 2, 3}}, {}, {}, {}, 0, {}};
+    TriangleMesh point;
+    point.positions = {{1, 2, 3}};
     displace(point, 1, 3);
     EXPECT_EQ(point.positions[0], fabric::Vec3(1, 2, 3));
 }

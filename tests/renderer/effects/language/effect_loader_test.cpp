@@ -143,21 +143,13 @@ TEST(EffectLoader, ErrorsOfMeaningNameTheStatementsPlace) {
 TEST(EffectLoader, ErrorsOfBlocksNameTheBlock) {
     const std::string include = fmt::format("include \"b.block\";\n{}", kStages);
     EXPECT_EQ(
-        errorIn(include
-}
-, {"b.block", "\n oops"),
+        errorOf({{"a.effect", include}, {"b.block", "\n oops"}}),
         "b.block:2:2: expected include, variant, uniform, input, pass or stage, found 'oops'");
-    EXPECT_EQ(errorIn(include
-}
-, {"b.block", "include \"c.block\";"),
+    EXPECT_EQ(errorOf({{"a.effect", include}, {"b.block", "include \"c.block\";"}}),
               "b.block:1:10: a block includes nothing; only effects do");
-    EXPECT_EQ(errorIn(include
-}
-, {"b.block", "input uint a at 0 from uint32;"),
+    EXPECT_EQ(errorOf({{"a.effect", include}, {"b.block", "input uint a at 0 from uint32;"}}),
               "b.block:1:1: a block has no inputs; each effect has its own");
-    EXPECT_EQ(errorIn("include \"b.block\";" + include
-}
-, {"b.block", ""),
+    EXPECT_EQ(errorOf({{"a.effect", "include \"b.block\";" + include}, {"b.block", ""}}),
               "a.effect:1:28: \"b.block\" is included twice");
 }
 
