@@ -51,33 +51,29 @@ OutlineDisplacement::OutlineDisplacement(const terrain::Quadtree& quadtree,
       source_(source),
       width_(2 * quadtree.columns() - 1),
       height_(2 * quadtree.rows() - 1) {
-    const auto heightAt = [&](double x, double y, bool byAll) {
-        const Vec3 column(objectFromPosts_ * fabric::Vec4(x / 2, y / 2, 0, 1));
-        double some = kNaN;
-        for (const double height : source_.heightsAt(column.x, column.y)) {
-            if (std::isnan(height) && byAll)
-                return kNaN;
-            some = std::isnan(height) ? some : height;
-        }
-        return some;
-    };
     for (int y = 0; y < height_; ++y)
         for (int x = 0; x < width_; ++x) {
-            double some = kNaN;
-            double all = kNaN;
-            for (const Vec2& aside : kAround) {
-                const double u = x + aside.x;
-                const double v = y + aside.y;
-                if (const double height = heightAt(u, v, false); !std::isnan(height))
-                    some = height;
-                if (const double height = heightAt(u, v, true); !std::isnan(height))
-                    all = height;
-                else if (u >= 0 && v >= 0 && u <= width_ - 1 && v <= height_ - 1)
-                    hasHoles_ = true;
-            }
-            any_.push_back(static_cast<float>(some));
+            const auto [any, all] = heightsAt(x, y);
+            any_.push_back(static_cast<float>(any));
             all_.push_back(static_cast<float>(all));
         }
+}
+
+/// By some reading of some cell that meets there, and by all readings of one.
+std::pair<double, double> OutlineDisplacement::heightsAt(double x, double y) const {
+    double any = kNaN;
+    for (const Vec2& aside : kAround) {
+        const Vec3 column(objectFromPosts_ *
+                          fabric::Vec4((x + aside.x) / 2, (y + aside.y) / 2, 0, 1));
+        bool isWhole = true;
+        for (const double height : source_.heightsAt(column.x, column.y)) {
+            isWhole = isWhole && !std::isnan(height);
+            any = std::isnan(height) ? any : height;
+        }
+        if (isWhole)
+            return {any, any};
+    }
+    return {any, kNaN};
 }
 
 Vec3 OutlineDisplacement::pointAt(int x, int y, const Heights& heights) const {
@@ -120,8 +116,6 @@ void OutlineDisplacement::addMissing(const Pinhole& camera, const Heights& there
 
 double OutlineDisplacement::farthestSeen(const Pinhole& camera, const DrawnTerrain& drawn,
                                          std::span<const float> depth, double atLeast) const {
-    if (!hasHoles_)
-        return atLeast;
     const Heights heights = drawn.heightsAtHalfPosts(width_, height_);
     std::vector<Candidate> overNodata, missing;
     addMissing(camera, heights, any_, atLeast, overNodata);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "renderer/terrain/quadtree.h"
@@ -38,6 +39,7 @@ private:
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
                static_cast<std::size_t>(x);
     }
+    std::pair<double, double> heightsAt(double x, double y) const;
     fabric::Vec3 pointAt(int x, int y, const Heights& heights) const;
     void addMissing(const Pinhole& camera, const Heights& there, const Heights& lacking,
                     double atLeast, std::vector<Candidate>& candidates) const;
@@ -50,7 +52,6 @@ private:
     int height_;
     Heights any_;  ///< the source by some reading of its cells
     Heights all_;  ///< the source where all readings have it
-    bool hasHoles_ = false;
 };
 
 }  // namespace eyrie::truth

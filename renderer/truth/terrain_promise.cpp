@@ -53,7 +53,9 @@ absl::StatusOr<PromiseKept> TerrainPromise::hold(const fabric::Camera& camera, d
     kept.measured = compareDepth(pinhole, depth, ground_, edgePixels,
                                  {kept.promisedPixels + kRasterPixels, shown});
     kept.surfacePixels = triangles.farthestSeen(pinhole, ground_, kept.measured.maxPixels);
-    kept.measuredPixels = outline_.farthestSeen(pinhole, triangles, depth, kept.surfacePixels);
+    kept.measuredPixels =
+        outline_ ? outline_->farthestSeen(pinhole, triangles, depth, kept.surfacePixels)
+                 : kept.surfacePixels;
     return kept;
 }
 

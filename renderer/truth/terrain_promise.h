@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include <absl/status/statusor.h>
 
@@ -33,10 +34,11 @@ public:
     /// `renderer` has the terrain of `file` open, alone and where it lies. All are referred to.
     TerrainPromise(Renderer& renderer, const TerrainRayCaster& ground,
                    std::shared_ptr<const terrain::EytFile> file)
-        : renderer_(renderer),
-          ground_(ground),
-          file_(std::move(file)),
-          outline_(file_->index().quadtree, file_->index().objectFromLattice, ground_) {}
+        : renderer_(renderer), ground_(ground), file_(std::move(file)) {
+        const terrain::EytIndex& index = file_->index();
+        if (index.nodataPosts > 0)
+            outline_.emplace(index.quadtree, index.objectFromLattice, ground_);
+    }
 
     /// Draws the picture, complete, and measures it. Errors: the renderer's.
     absl::StatusOr<PromiseKept> hold(const fabric::Camera& camera, double tauPixels, int width,
@@ -54,7 +56,7 @@ private:
     Renderer& renderer_;
     const TerrainRayCaster& ground_;
     std::shared_ptr<const terrain::EytFile> file_;
-    OutlineDisplacement outline_;
+    std::optional<OutlineDisplacement> outline_;  ///< where there is one but the border
 };
 
 }  // namespace eyrie::truth

@@ -252,6 +252,24 @@ TEST(HardCase8, NodataIsOpenAndNothingElseIs) {
         scene.hold("nodata", camera, 0.25);
 }
 
+/// A plain and a void, or a step of 400 m beside it: outlines alone can be off.
+TEST(HardCase8, OutlinesAreSeenToMoveAndKeepThePromise) {
+    double outlines = 0;
+    for (const double step : {0, 400}) {
+        HeightGrid grid = gridOf(
+            300, 300, [&](std::int32_t i, std::int32_t) { return i > 145 ? 100 + step : 100; });
+        for (std::int32_t j = 0; j < 300; ++j)
+            for (std::int32_t i = 123 + j / 9; i < 137 + j / 9; ++i)
+                grid.row(j)[i] = std::numeric_limits<float>::quiet_NaN();
+        Scene scene(std::move(grid));
+        for (const Camera& camera : camerasAround(scene.index().bounds())) {
+            const truth::PromiseKept kept = scene.hold("outlines", camera, 4);
+            outlines = std::max(outlines, kept.measuredPixels - kept.surfacePixels);
+        }
+    }
+    EXPECT_GT(outlines, 0.1) << "the judge does not look at outlines";
+}
+
 /// Hard case 9: grids as small, as thin and as awkward as they come; posts that are no squares.
 TEST(HardCase9, GridsOfOddSizesAndShapesKeepThePromise) {
     for (const auto& [columns, rows] :
