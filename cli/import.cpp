@@ -209,9 +209,10 @@ std::vector<JsonObject> levelsJson(const import::MeshImportReport& made) {
 std::uint64_t halfOfMemory() {
     std::uint64_t bytes = static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
                           static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
-    std::uint64_t limit = 0;
-    if (std::ifstream("/sys/fs/cgroup/memory.max") >> limit)  // it says "max" where there is none
-        bytes = std::min(bytes, limit);
+    for (const char* const file :
+         {"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"})
+        if (std::uint64_t limit = 0; std::ifstream(file) >> limit)  // no number: no limit
+            bytes = std::min(bytes, limit);
     return std::max(bytes / 2, import::kLeastMeshMemory);
 }
 
@@ -407,10 +408,13 @@ void addMesh(CLI::App& parent, Run& run) {
                      "would take more is imported part by part; see below")
         ->type_name("BYTES");
     command->footer(
-        "By parts, what does not fit --memory goes to files without a name beside the output: up\n"
-        "to 200 bytes a triangle, gone when the import ends or is stopped. Faces must be\n"
-        "triangles then, and --orient needs all of a mesh at once. The file is the same but that\n"
-        "backs which nobody sees are drawn, too. Files other than PLY are read as a whole.\n"
+        "By parts, what does not fit --memory goes to files without a name beside the output: "
+        "about\n"
+        "150 bytes a triangle, gone when the import ends or is stopped. The .eym is the same. "
+        "Faces\n"
+        "must be triangles then, and --orient needs all of a mesh at once. Files other than PLY "
+        "are\n"
+        "read as a whole, and refused where that would take more.\n"
         "Examples:\n"
         "  eyrie import mesh scan.ply -o scan.eym\n"
         "  eyrie import mesh huge.ply -o huge.eym --memory 2G\n"

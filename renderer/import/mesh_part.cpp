@@ -97,6 +97,9 @@ absl::StatusOr<Gathered> gather(const PartWork& work, std::uint32_t part) {
         for (const std::uint32_t vertex : guest.triangle.vertices) chosen.add(vertex);
     chosen.number();
     Gathered gathered;
+    gathered.numbers.reserve(all.size());
+    gathered.owners.reserve(all.size());
+    gathered.mesh.triangles.reserve(all.size());
     for (const Guest& guest : all) {
         gathered.numbers.push_back(guest.triangle.number);
         gathered.owners.push_back(guest.owner);
@@ -209,6 +212,7 @@ absl::StatusOr<OwnMesh> packOwn(const PartWork& work, std::uint32_t part,
     std::vector<bool> isOld(all.positions.size(), false);
     findFirstUses(all.triangles, gathered, part, firstUse, isOld);
     std::vector<mesh::Triangle> triangles;
+    triangles.reserve(all.triangles.size());
     for (std::size_t i = 0; i < all.triangles.size(); ++i)
         if (gathered.owners[i] == part) {
             triangles.push_back(all.triangles[i]);
