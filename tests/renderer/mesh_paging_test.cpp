@@ -155,7 +155,7 @@ TEST_F(MeshPaging, AnInteractiveFrameIsDrawnAtOnceAndBecomesTheCompleteOne) {
 TEST_F(MeshPaging, ADamagedNodeIsStoodInForAndReported) {
     const auto file = mesh::EymFile::open(path("coded.eym"));
     ASSERT_TRUE(file.ok());
-    const auto whole = render(*open(path("coded.eym")), 2.2, 0.5, Completeness::Complete);
+    const auto whole = render(*open(path("coded.eym")), 2.2, 0.01, Completeness::Complete);
     std::uint32_t leaf = 0;
     while (!file->nodes()[leaf].isLeaf()) ++leaf;
     std::set<std::uint32_t> leaves;
