@@ -13,6 +13,7 @@
 #include "renderer/import/mesh_sharing.h"
 #include "renderer/import/mesh_split.h"
 #include "renderer/import/mesh_spool.h"
+#include "renderer/import/part_mesh.h"
 #include "renderer/mesh/back_faces.h"
 #include "renderer/mesh/codec/exact_codec.h"
 #include "renderer/mesh/lod/lod_tree.h"
@@ -49,18 +50,6 @@ struct WrittenPart {
     bool computedNormals = false;
     std::vector<mesh::LodLevel> levels;
     double errorMetres = 0;  ///< of the root
-};
-
-/// What all parts have in common.
-struct PartWork {
-    const MeshSpool& spool;
-    const MeshSplit& split;
-    const MeshSharing& sharing;
-    const std::optional<std::vector<bool>>& isBehind;  ///< findBacks
-    const MeshImportOptions& options;
-    std::uint64_t sourceHash = 0;
-    std::optional<mesh::ExactForm> exactForm;
-    mesh::OutputFile& out;  ///< unnamed
 };
 
 /// Appends a part's .eym file. Errors: those of packMesh, buildKdTree, buildLodTree and writeEym.

@@ -85,7 +85,7 @@ void expectSameByParts(const TriangleMesh& source, const MeshImportOptions& opti
     const std::string path = folder.file("m.ply");
     ASSERT_TRUE(writePly(source, path).ok());
     const auto whole = importMesh({path}, folder.file("whole.eym"), options);
-    const auto parted = importByParts(path, folder.file("parts.eym"), 20000, options);
+    const auto parted = importByParts(path, folder.file("parts.eym"), 16384, options);
     ASSERT_TRUE(whole.ok() && parted.ok()) << whole.status() << parted.status();
     EXPECT_EQ(parted->counts, whole->counts);
     EXPECT_EQ(parted->vertices, whole->vertices);
@@ -97,10 +97,10 @@ void expectSameByParts(const TriangleMesh& source, const MeshImportOptions& opti
 }
 
 TEST(MeshImport, ByPartsGivesTheSameBytesAsAllAtOnce) {
-    expectSameByParts(synthesizeMesh(100000, 3));
+    expectSameByParts(synthesizeMesh(60000, 3));
 }
 
-TEST(MeshImport, ByPartsGivesTheSameBytesOfAnOpenMesh) { expectSameByParts(openBall(100000, 3)); }
+TEST(MeshImport, ByPartsGivesTheSameBytesOfAnOpenMesh) { expectSameByParts(openBall(40000, 3)); }
 
 /// Balls of many sizes through each other, each fifth inside out, with colours and normals, faces
 /// that are there twice and some without an area.
@@ -138,13 +138,13 @@ TEST(MeshImport, ByPartsGivesTheSameBytesOfASoup) { expectSameByParts(soup(300, 
 
 TEST(MeshImport, ByPartsGivesTheSameBytesWithCreasesAndSourcePositions) {
     expectSameByParts(
-        soup(6, 10000),
+        soup(8, 5000),
         {.leafTriangles = 1000,
          .pack = {.keepsExact = true, .normals = NormalSource::Crease, .creaseDegrees = 20}});
 }
 
 TEST(MeshImport, ByPartsGivesTheSameBytesWithTheFilesNormalsAndMappedPages) {
-    expectSameByParts(soup(6, 10000),
+    expectSameByParts(soup(8, 5000),
                       {.pack = {.latticeBits = 10, .normals = NormalSource::File}, .isRaw = true});
 }
 
@@ -189,7 +189,7 @@ class MeshImportByParts : public testing::TestWithParam<const char*> {};
 
 TEST_P(MeshImportByParts, LeavesNothingBehindWhenItIsStopped) {
     const test::TemporaryFolder folder;
-    ASSERT_TRUE(writePly(synthesizeMesh(40000, 1), folder.file("m.ply")).ok());
+    ASSERT_TRUE(writePly(synthesizeMesh(20000, 1), folder.file("m.ply")).ok());
     std::stop_source stop;
     const ImportControl control{[&](std::string_view stage, double) {
                                     if (stage == GetParam())
@@ -197,7 +197,7 @@ TEST_P(MeshImportByParts, LeavesNothingBehindWhenItIsStopped) {
                                 },
                                 stop.get_token()};
     const auto report =
-        importByParts(folder.file("m.ply"), folder.file("m.eym"), 20000, {}, control);
+        importByParts(folder.file("m.ply"), folder.file("m.eym"), 16384, {}, control);
     EXPECT_EQ(report.status().code(), absl::StatusCode::kCancelled);
     EXPECT_THAT(folder.names(), ElementsAre("m.ply"));
 }
@@ -208,9 +208,9 @@ INSTANTIATE_TEST_SUITE_P(Stages, MeshImportByParts,
 
 TEST(MeshImport, ByPartsSaysThatTheDiskIsFullAndLeavesNothingBehind) {
     const test::TemporaryFolder folder;
-    ASSERT_TRUE(writePly(synthesizeMesh(40000, 1), folder.file("m.ply")).ok());
-    const test::FileSizeLimit full(std::uint64_t{1} << 20);
-    const auto report = importByParts(folder.file("m.ply"), folder.file("m.eym"), 20000);
+    ASSERT_TRUE(writePly(synthesizeMesh(20000, 1), folder.file("m.ply")).ok());
+    const test::FileSizeLimit full(std::uint64_t{1} << 18);
+    const auto report = importByParts(folder.file("m.ply"), folder.file("m.eym"), 16384);
     EXPECT_EQ(report.status().code(), absl::StatusCode::kResourceExhausted);
     EXPECT_THAT(std::string(report.status().message()),
                 testing::AllOf(HasSubstr(folder.file("m.eym")), HasSubstr("free some space")));
