@@ -72,14 +72,17 @@ absl::Status EymFile::readTables() {
     if (!levels.ok())
         return fabric::withContext(levels.status(), path());
     levels_ = *levels;
-    if (header_.lidCount == 0)
-        return absl::OkStatus();
-    lids_.resize(header_.lidCount);
-    const auto lidBytes = std::as_writable_bytes(std::span(lids_));
-    RETURN_IF_ERROR(source_->read({endOfNodes(header_), lidBytes.size(), header_.lidsChecksum},
-                                  lidBytes, "the lids"));
-    RETURN_IF_ERROR(fabric::withContext(checkLids(lids_), path()));
+    if (header_.lidCount > 0)
+        RETURN_IF_ERROR(readLids());
     return header_.materialCount > 0 ? readMaterials() : absl::OkStatus();
+}
+
+absl::Status EymFile::readLids() {
+    lids_.resize(header_.lidCount);
+    const auto bytes = std::as_writable_bytes(std::span(lids_));
+    RETURN_IF_ERROR(source_->read({endOfNodes(header_), bytes.size(), header_.lidsChecksum}, bytes,
+                                  "the lids"));
+    return fabric::withContext(checkLids(lids_), path());
 }
 
 absl::Status EymFile::readMaterials() {

@@ -194,6 +194,7 @@ private:
     explicit EymFile(std::unique_ptr<page::PageSource> source) : source_(std::move(source)) {}
 
     absl::Status readTables();
+    absl::Status readLids();
     absl::Status readMaterials();
     absl::StatusOr<NodeGeometry> readBlock(std::uint32_t node) const;
     absl::Status inNode(std::uint32_t node, const absl::Status& status) const;

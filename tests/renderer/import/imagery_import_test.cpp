@@ -409,7 +409,8 @@ TEST_F(ImageryImport, CalledOffLeavesNoFileAndGoesOnLater) {
                },
                {}};
     ASSERT_TRUE(importTerrain({dem}, out, how, control).ok());
-    EXPECT_THAT(stages, testing::ElementsAre("checking", "building", "imagery"));
+    EXPECT_THAT(stages, testing::ElementsAre("checking", "building", "smoothing", "building",
+                                             "thinning", "building", "imagery"));
     EXPECT_TRUE(terrain::EytFile::open(out).ok());
 }
 
