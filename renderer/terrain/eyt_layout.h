@@ -9,7 +9,7 @@
 
 #include "renderer/terrain/quadtree.h"
 
-/// The bytes of an .eyt file, version 5; little-endian throughout.
+/// The bytes of an .eyt file, version 6; little-endian throughout.
 ///
 ///   FileHeader
 ///   pages, each a PageHeader, `words` (uint16) and `raw` bytes of the geometry, the bytes of the
@@ -24,7 +24,7 @@ namespace eyrie::terrain {
 static_assert(std::endian::native == std::endian::little, "pages are used as they lie on disk");
 
 inline constexpr std::array<char, 8> kEytMagic = {'E', 'Y', 'R', 'I', 'E', 'E', 'Y', 'T'};
-inline constexpr std::uint32_t kEytVersion = 5;
+inline constexpr std::uint32_t kEytVersion = 6;
 inline constexpr std::uint64_t kMaxCrsBytes = 1 << 20;
 inline constexpr std::int32_t kMaxHeightSteps = 1 << 23;  ///< of |q|
 

@@ -15,11 +15,11 @@
 
 #include "fabric/depth_merge.h"
 #include "fabric/frustum.h"
-#include "renderer/gl/debug_output.h"
 #include "renderer/import/mesh_synth.h"
 #include "renderer/renderer.h"
 #include "renderer/truth/pinhole.h"
 #include "tests/integration/forced_cut.h"
+#include "tests/support/renderer.h"
 #include "tests/support/temporary_folder.h"
 
 namespace eyrie {
@@ -79,12 +79,7 @@ bool isFilled(const truth::Pinhole& pinhole, double radius) {
 
 class HardCase14 : public testing::Test {
 protected:
-    void SetUp() override {
-        gl::setOnGlError(gl::OnGlError::Abort);
-        auto renderer = Renderer::create({});
-        ASSERT_TRUE(renderer.ok()) << renderer.status();
-        renderer_ = *std::move(renderer);
-    }
+    void SetUp() override { renderer_ = test::makeRenderer(); }
 
     /// Pixels that show no front, over views of random cuts of `mesh`, which is star-shaped around
     /// the origin.

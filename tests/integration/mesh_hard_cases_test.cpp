@@ -14,7 +14,6 @@
 
 #include "fabric/depth_merge.h"
 #include "fabric/frustum.h"
-#include "renderer/gl/debug_output.h"
 #include "renderer/import/mesh_import.h"
 #include "renderer/import/mesh_synth.h"
 #include "renderer/renderer.h"
@@ -22,6 +21,7 @@
 #include "renderer/truth/mesh_ray_caster.h"
 #include "renderer/truth/pinhole.h"
 #include "tests/integration/forced_cut.h"
+#include "tests/support/renderer.h"
 #include "tests/support/temporary_folder.h"
 
 namespace eyrie {
@@ -42,10 +42,7 @@ constexpr double kRasterPixels = 1.0 / 128;
 class MeshHardCase : public testing::Test {
 protected:
     void SetUp() override {
-        gl::setOnGlError(gl::OnGlError::Abort);
-        auto renderer = Renderer::create({});
-        ASSERT_TRUE(renderer.ok()) << renderer.status();
-        renderer_ = *std::move(renderer);
+        renderer_ = test::makeRenderer();
         scene_.background = kBackground;
         scene_.ambient = 1;
     }

@@ -19,6 +19,7 @@
 #include "renderer/truth/depth_comparison.h"
 #include "renderer/truth/mesh_ray_caster.h"
 #include "renderer/truth/pinhole.h"
+#include "tests/support/renderer.h"
 #include "tests/support/temporary_folder.h"
 
 namespace eyrie {
@@ -38,9 +39,7 @@ protected:
         const auto report = import::importMesh(std::move(mesh), path);
         ASSERT_TRUE(report.ok()) << report.status();
         ASSERT_GE(report->levels.size(), 2U);
-        auto renderer = Renderer::create({});
-        ASSERT_TRUE(renderer.ok()) << renderer.status();
-        renderer_ = *std::move(renderer);
+        renderer_ = test::makeRenderer();
         fabric::Scene scene;
         scene.objects.push_back({.name = "mesh", .kind = fabric::ObjectKind::Mesh, .path = path});
         auto info = renderer_->openScene(scene);

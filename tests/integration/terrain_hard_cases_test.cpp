@@ -16,11 +16,11 @@
 #include <gtest/gtest.h>
 
 #include "fabric/frustum.h"
-#include "renderer/gl/debug_output.h"
 #include "renderer/import/terrain_import.h"
 #include "renderer/import/terrain_synth.h"
 #include "renderer/truth/terrain_promise.h"
 #include "tests/renderer/terrain/hard_grids.h"
+#include "tests/support/renderer.h"
 #include "tests/support/temporary_folder.h"
 
 namespace eyrie {
@@ -61,9 +61,7 @@ public:
         const std::string path = folder_.path("terrain.eyt");
         const auto report = import::importTerrain(grid_, {"grid", "", 0}, path, {});
         EXPECT_TRUE(report.ok()) << report.status();
-        auto renderer = Renderer::create({});
-        EXPECT_TRUE(renderer.ok()) << renderer.status();
-        renderer_ = *std::move(renderer);
+        renderer_ = test::makeRenderer();
         fabric::Scene scene;
         scene.objects.push_back({"terrain", fabric::ObjectKind::Terrain, path});
         EXPECT_TRUE(renderer_->openScene(scene).ok());

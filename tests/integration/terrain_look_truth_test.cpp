@@ -17,6 +17,7 @@
 #include "renderer/renderer.h"
 #include "renderer/truth/depth_comparison.h"
 #include "renderer/truth/terrain_ray_caster.h"
+#include "tests/support/renderer.h"
 #include "tests/support/temporary_folder.h"
 
 namespace eyrie {
@@ -35,9 +36,7 @@ protected:
         const std::string file = folder_.path("terrain.eyt");
         const auto report = import::importTerrain(posts, {"synthetic", "", 7}, file, {});
         ASSERT_TRUE(report.ok()) << report.status();
-        auto renderer = Renderer::create({});
-        ASSERT_TRUE(renderer.ok()) << renderer.status();
-        renderer_ = *std::move(renderer);
+        renderer_ = test::makeRenderer();
         fabric::Scene scene;
         scene.objects.push_back(
             {.name = "terrain", .kind = fabric::ObjectKind::Terrain, .path = file});

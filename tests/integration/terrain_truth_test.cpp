@@ -19,6 +19,7 @@
 #include "renderer/truth/terrain_cameras.h"
 #include "renderer/truth/terrain_promise.h"
 #include "tests/integration/dem_posts.h"
+#include "tests/support/renderer.h"
 #include "tests/support/temporary_folder.h"
 
 namespace eyrie {
@@ -33,11 +34,7 @@ constexpr double kTauPixels = 1;
 
 class TerrainTruth : public testing::Test {
 protected:
-    void SetUp() override {
-        auto renderer = Renderer::create({});
-        ASSERT_TRUE(renderer.ok()) << renderer.status();
-        renderer_ = *std::move(renderer);
-    }
+    void SetUp() override { renderer_ = test::makeRenderer(); }
 
     /// `gdalPath` names the same file to GDAL.
     void open(const std::string& dem, const std::string& gdalPath) {

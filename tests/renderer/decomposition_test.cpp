@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 
 #include "fabric/depth_merge.h"
-#include "renderer/gl/debug_output.h"
 #include "renderer/renderer.h"
 #include "tests/renderer/sample_scene.h"
+#include "tests/support/renderer.h"
 
 namespace eyrie {
 namespace {
@@ -58,10 +58,7 @@ ChannelTask wholeView() {
 class DecompositionTest : public testing::TestWithParam<test::SampleKind> {
 protected:
     void SetUp() override {
-        gl::setOnGlError(gl::OnGlError::Abort);
-        auto renderer = Renderer::create({});
-        ASSERT_TRUE(renderer.ok()) << renderer.status();
-        renderer_ = *std::move(renderer);
+        renderer_ = test::makeRenderer();
         auto scene = test::sampleScene(GetParam());
         ASSERT_TRUE(scene.ok()) << scene.status();
         scene_ = *scene;

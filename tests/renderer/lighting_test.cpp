@@ -7,10 +7,10 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
-#include "renderer/gl/debug_output.h"
 #include "renderer/import/mesh_import.h"
 #include "renderer/renderer.h"
 #include "tests/renderer/mesh/temporary_folder.h"
+#include "tests/support/renderer.h"
 
 namespace eyrie {
 namespace {
@@ -37,12 +37,7 @@ return mesh;
 
 class Lighting : public testing::Test {
 protected:
-    void SetUp() override {
-        gl::setOnGlError(gl::OnGlError::Abort);
-        auto renderer = Renderer::create({});
-        ASSERT_TRUE(renderer.ok()) << renderer.status();
-        renderer_ = *std::move(renderer);
-    }
+    void SetUp() override { renderer_ = test::makeRenderer(); }
 
     /// The floor from straight above its middle.
     fabric::Image draw(fabric::Scene scene, double cellMetres, fabric::Shading shading,

@@ -6,10 +6,10 @@
 #include <gtest/gtest.h>
 
 #include "fabric/depth_merge.h"
-#include "renderer/gl/debug_output.h"
 #include "renderer/import/mesh_import.h"
 #include "renderer/import/mesh_synth.h"
 #include "renderer/renderer.h"
+#include "tests/support/renderer.h"
 #include "tests/support/temporary_folder.h"
 
 namespace eyrie {
@@ -22,10 +22,7 @@ constexpr int kHeight = 240;
 class MeshLook : public testing::TestWithParam<bool> {
 protected:
     void SetUp() override {
-        gl::setOnGlError(gl::OnGlError::Abort);
-        auto renderer = Renderer::create({});
-        ASSERT_TRUE(renderer.ok()) << renderer.status();
-        renderer_ = *std::move(renderer);
+        renderer_ = test::makeRenderer();
         import::TriangleMesh ball = import::synthesizeMesh(20000, 5);
         if (GetParam())
             for (std::size_t i = 0; i < ball.positions.size(); ++i)

@@ -11,12 +11,12 @@
 #include <gtest/gtest.h>
 
 #include "fabric/depth_merge.h"
-#include "renderer/gl/debug_output.h"
 #include "renderer/import/mesh_import.h"
 #include "renderer/mesh/image_codec.h"
 #include "renderer/renderer.h"
 #include "tests/renderer/import/tga_text.h"
 #include "tests/renderer/mesh/temporary_folder.h"
+#include "tests/support/renderer.h"
 
 namespace eyrie {
 namespace {
@@ -56,10 +56,7 @@ void addSquare(import::TriangleMesh& mesh, double side, double height, Rgba colo
 class MeshMaterials : public testing::Test {
 protected:
     void SetUp() override {
-        gl::setOnGlError(gl::OnGlError::Abort);
-        auto renderer = Renderer::create({});
-        ASSERT_TRUE(renderer.ok()) << renderer.status();
-        renderer_ = *std::move(renderer);
+        renderer_ = test::makeRenderer();
         scene_.ambient = 1;  // and nothing else
         scene_.lights = {{{0, 0, -1}, {0, 0, 0}}};
         scene_.background = kBackground;

@@ -10,13 +10,13 @@
 #include <gtest/gtest.h>
 
 #include "fabric/status.h"
-#include "renderer/gl/debug_output.h"
 #include "renderer/import/mesh_import.h"
 #include "renderer/renderer.h"
 #include "renderer/terrain/eyt_format.h"
 #include "renderer/terrain/part_bounds.h"
 #include "renderer/terrain/vertex_packing.h"
 #include "tests/renderer/sample_scene.h"
+#include "tests/support/renderer.h"
 #include "tests/support/temporary_folder.h"
 
 namespace eyrie {
@@ -41,13 +41,6 @@ ChannelTask wholeView() {
     task.pixelViewport = {0, 0, kWidth, kHeight};
     task.wantsDepth = true;
     return task;
-}
-
-std::unique_ptr<Renderer> openRenderer() {
-    gl::setOnGlError(gl::OnGlError::Abort);
-    auto renderer = Renderer::create({});
-    EXPECT_TRUE(renderer.ok()) << renderer.status();
-    return renderer.ok() ? *std::move(renderer) : nullptr;
 }
 
 ChannelResult draw(Renderer& renderer, FrameData frame, Occlusion occlusion,
@@ -75,7 +68,7 @@ std::uint64_t hiddenIn(Renderer& renderer, const FrameData& frame, const Channel
 class OcclusionPictures : public testing::TestWithParam<test::SampleKind> {
 protected:
     void SetUp() override {
-        renderer_ = openRenderer();
+        renderer_ = test::makeRenderer();
         ASSERT_NE(renderer_, nullptr);
         auto scene = test::sampleScene(GetParam());
         ASSERT_TRUE(scene.ok()) << scene.status();
@@ -234,7 +227,7 @@ TEST(OcclusionOrder, TheFirstWinsWhereDepthsTieThoughItComesLate) {
     const auto blue = rectangles({shared, {20, 5, 0, 7, 4}}, folder.path("blue.eym"), {0, 0, 1});
     const auto wall = rectangles({{10, -1, -1, 3.9, 4}}, folder.path("wall.eym"), {0, 1, 0});
     ASSERT_TRUE(red.ok() && blue.ok() && wall.ok()) << red.status() << blue.status();
-    const auto renderer = openRenderer();
+    const auto renderer = test::makeRenderer();
     ASSERT_NE(renderer, nullptr);
     fabric::Scene scene;
     scene.ambient = 1;
@@ -287,7 +280,7 @@ TEST(HardCase20, ThroughADoorwayNarrowerThanABlockOfPixelsAllIsSeen) {
     const test::TemporaryFolder folder;
     const auto scene = doorway(folder);
     ASSERT_TRUE(scene.ok()) << scene.status();
-    const auto renderer = openRenderer();
+    const auto renderer = test::makeRenderer();
     ASSERT_NE(renderer, nullptr);
     ASSERT_TRUE(renderer->openScene(*scene).ok());
     std::mt19937 random(kSeed);
@@ -314,7 +307,7 @@ TEST(HardCase20, WhatEntersAtTheFrustumsEdgeOrTouchesTheNearPlaneIsSeen) {
     const test::TemporaryFolder folder;
     const auto scene = doorway(folder);
     ASSERT_TRUE(scene.ok()) << scene.status();
-    const auto renderer = openRenderer();
+    const auto renderer = test::makeRenderer();
     ASSERT_NE(renderer, nullptr);
     ASSERT_TRUE(renderer->openScene(*scene).ok());
     FrameData frame;

@@ -6,9 +6,9 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
-#include "renderer/gl/debug_output.h"
 #include "renderer/renderer.h"
 #include "tests/renderer/sample_scene.h"
+#include "tests/support/renderer.h"
 
 namespace eyrie {
 namespace {
@@ -28,10 +28,7 @@ void expectSameSurface(const fabric::Image& a, const fabric::Image& b) {
 class SingleSided : public testing::Test {
 protected:
     void SetUp() override {
-        gl::setOnGlError(gl::OnGlError::Abort);
-        auto renderer = Renderer::create({});
-        ASSERT_TRUE(renderer.ok()) << renderer.status();
-        renderer_ = *std::move(renderer);
+        renderer_ = test::makeRenderer();
         auto scene = test::sampleScene(test::SampleKind::Mesh);
         ASSERT_TRUE(scene.ok()) << scene.status();
         scene_ = *scene;

@@ -9,9 +9,9 @@
 
 #include "fabric/frustum.h"
 #include "fabric/look.h"
-#include "renderer/gl/debug_output.h"
 #include "renderer/renderer.h"
 #include "tests/renderer/sample_scene.h"
+#include "tests/support/renderer.h"
 
 namespace eyrie {
 namespace {
@@ -22,10 +22,7 @@ constexpr int kHeight = 360;
 class TerrainLookTest : public testing::Test {
 protected:
     void SetUp() override {
-        gl::setOnGlError(gl::OnGlError::Abort);
-        auto renderer = Renderer::create({});
-        ASSERT_TRUE(renderer.ok()) << renderer.status();
-        renderer_ = *std::move(renderer);
+        renderer_ = test::makeRenderer();
         auto scene = test::sampleScene(test::SampleKind::Terrain);
         ASSERT_TRUE(scene.ok()) << scene.status();
         auto info = renderer_->openScene(*scene);
