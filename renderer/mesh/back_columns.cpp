@@ -41,19 +41,23 @@ std::int64_t areaAlongZ(const Corners& c) {
 /// those that are compared are told from these.
 class Standing {
 public:
-    void clear() {
-        corners_.clear();
-        for (std::vector<int>* bound : {&lowX_, &highX_, &lowY_, &highY_, &highZ_}) bound->clear();
-    }
-    void add(const Corners& corners) {
-        const glm::ivec3 low = 3 * glm::min(glm::min(corners[0], corners[1]), corners[2]);
-        const glm::ivec3 high = 3 * glm::max(glm::max(corners[0], corners[1]), corners[2]);
-        corners_.push_back(corners);
-        lowX_.push_back(low.x);
-        highX_.push_back(high.x);
-        lowY_.push_back(low.y);
-        highY_.push_back(high.y);
-        highZ_.push_back(high.z);
+    /// Takes `count` triangles, of which `cornersOf(i)` gives the corners.
+    template <typename CornersOf>
+    void take(std::size_t count, const CornersOf& cornersOf) {
+        corners_.resize(count);
+        for (std::vector<int>* bound : {&lowX_, &highX_, &lowY_, &highY_, &highZ_})
+            bound->resize(count);
+        for (std::size_t i = 0; i < count; ++i) {
+            const Corners corners = cornersOf(i);
+            const glm::ivec3 low = 3 * glm::min(glm::min(corners[0], corners[1]), corners[2]);
+            const glm::ivec3 high = 3 * glm::max(glm::max(corners[0], corners[1]), corners[2]);
+            corners_[i] = corners;
+            lowX_[i] = low.x;
+            highX_[i] = high.x;
+            lowY_[i] = low.y;
+            highY_[i] = high.y;
+            highZ_[i] = high.z;
+        }
     }
     std::span<const Corners> corners() const { return corners_; }
 
@@ -172,9 +176,9 @@ int crossingAbove(const Corners& corners, const glm::ivec3& at, double z) {
 
 /// Adds those whose middle is in the column. `all` is memory to work in.
 void Columns::look(std::size_t column, Standing& all, std::vector<std::uint32_t>& found) const {
-    all.clear();
-    for (std::uint64_t i = first_[column]; i < first_[column + 1]; ++i)
-        all.add(cornersOf(mesh_, mesh_.triangles[triangles_[i]]));
+    const std::uint32_t* here = triangles_.data() + first_[column];
+    all.take(first_[column + 1] - first_[column],
+             [&](std::size_t i) { return cornersOf(mesh_, mesh_.triangles[here[i]]); });
     // In thirds of a step, as the middles.
     const std::int64_t side = grid_.side;
     const std::int64_t x =

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <queue>
@@ -55,14 +56,15 @@ private:
         std::uint32_t face;    ///< between it and the next neighbour
         std::uint32_t vertex;  ///< its own in that face
     };
-    struct Candidate {
-        double cost;
-        std::uint32_t point;
-        /// Ties go by the point: the result is the same everywhere.
-        bool operator<(const Candidate& other) const {
-            return cost != other.cost ? cost > other.cost : point > other.point;
-        }
-    };
+    /// A point in the order of its cost, as a number that is compared at once: positive floats
+    /// order as their bits do. Ties go by the point: the result is the same everywhere.
+    using Candidate = std::uint64_t;
+    static Candidate candidate(double cost, std::uint32_t point) {
+        return Candidate{std::bit_cast<std::uint32_t>(static_cast<float>(cost))} << 32 | point;
+    }
+    static std::uint32_t pointOf(Candidate candidate) {
+        return static_cast<std::uint32_t>(candidate);
+    }
 
     void link(const PackedMesh& mesh);
     bool gatherRing(std::uint32_t point);
@@ -84,7 +86,7 @@ private:
     std::vector<Collapse> best_;        ///< of a point
     std::vector<bool> isStale_;         ///< whether something changed around it since
     std::vector<bool> isInner_;         ///< whether it had a closed ring at first
-    std::priority_queue<Candidate> queue_;
+    std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> queue_;
     std::vector<std::uint32_t> mark_;
     std::uint32_t marking_ = 0;
     std::vector<Neighbour> ring_;  ///< of the point looked at
@@ -185,14 +187,14 @@ bool Simplifier::sortRing() {
 /// Whether the point and ring_[target] have but two neighbours in common, so that no two faces fall
 /// onto each other, and the target looks the same from both sides of the edge between them.
 bool Simplifier::isSimple(std::size_t target) {
-    const std::size_t count = ring_.size();
     const Neighbour& neighbour = ring_[target];
-    const Face& before = faces_[ring_[(target + count - 1) % count].face];
+    const Neighbour& previous = target > 0 ? ring_[target - 1] : ring_.back();
+    const Face& before = faces_[previous.face];
     for (const Corner& corner : before.corners)
         if (corner.point == neighbour.point && corner.vertex != neighbour.vertex)
             return false;
-    const std::uint32_t left = ring_[(target + count - 1) % count].point;
-    const std::uint32_t right = ring_[(target + 1) % count].point;
+    const std::uint32_t left = previous.point;
+    const std::uint32_t right = neighbour.next;
     bool isSimple = true;
     forCorners(neighbour.point, [&](std::uint32_t index, std::uint32_t) {
         for (const Corner& corner : faces_[index].corners)
@@ -220,9 +222,8 @@ Shifts moved(const Shifts& before, const Star& star, const Star::Shift& shift) {
 /// Of a triangle that is left: those of the triangles it replaces, and the way from there.
 Shifts Simplifier::shiftsOf(const Star& star, const Star::Replaced& replaced) const {
     Shifts before;
-    for (std::size_t i = 0; i < ring_.size(); ++i)
-        if ((replaced.triangles >> i & 1) != 0)
-            before.hold(shifts_[ring_[i].face]);
+    for (std::uint32_t left = replaced.triangles; left != 0; left &= left - 1)
+        before.hold(shifts_[ring_[static_cast<std::size_t>(std::countr_zero(left))].face]);
     return moved(before, star, replaced.shift);
 }
 
@@ -309,7 +310,7 @@ bool Simplifier::collapse(std::uint32_t point, std::uint32_t target) {
         face.isThere = outcome[i].triangles != 0;
         isStale_[ring_[i].point] = true;
         if (best_[ring_[i].point].target == kNone && isInner_[ring_[i].point])
-            queue_.push({0, ring_[i].point});  // to be looked at again
+            queue_.push(candidate(0, ring_[i].point));  // to be looked at again
     }
     std::uint32_t at = first_[point];
     while (at != kNone) {
@@ -330,14 +331,14 @@ Simplified Simplifier::run(std::size_t target) {
         best_[point] = bestCollapse(point, mustBeSimple);
         isStale_[point] = false;
         if (best_[point].target != kNone)
-            queue_.push({best_[point].cost, point});
+            queue_.push(candidate(best_[point].cost, point));
     };
     for (std::uint32_t point = 0; point < points_.size(); ++point) {
         look(point);
         isInner_.push_back(isRing_);
     }
     while (left_ > target && !queue_.empty()) {
-        const std::uint32_t point = queue_.top().point;
+        const std::uint32_t point = pointOf(queue_.top());
         queue_.pop();
         if (isStale_[point])
             look(point);

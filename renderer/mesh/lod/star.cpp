@@ -34,8 +34,7 @@ Star::Star(const glm::dvec3& centre, std::span<const glm::dvec3> ring) : count_(
 
 /// Along the mean normal.
 bool Star::project() {
-    for (std::size_t i = 0; i < count_; ++i)
-        normal_ += glm::cross(spokes_[i], spokes_[(i + 1) % count_]);
+    for (std::size_t i = 0; i < count_; ++i) normal_ += glm::cross(spokes_[i], spokes_[after(i)]);
     const double length = glm::length(normal_);
     if (!(length > 0))
         return false;
@@ -53,7 +52,7 @@ bool Star::unfold() {
     std::array<double, kMaxStar> angles;
     double sum = 0;
     for (std::size_t i = 0; i < count_; ++i) {
-        const glm::dvec3& next = spokes_[(i + 1) % count_];
+        const glm::dvec3& next = spokes_[after(i)];
         angles[i] =
             std::atan2(glm::length(glm::cross(spokes_[i], next)), glm::dot(spokes_[i], next));
         sum += angles[i];
@@ -79,8 +78,7 @@ bool Star::liesFlat() {
         }
     }
     bool doAllFace = true;
-    for (std::size_t i = 0; i < count_ && doAllFace; ++i)
-        doAllFace = wedge(i, (i + 1) % count_) > least_;
+    for (std::size_t i = 0; i < count_ && doAllFace; ++i) doAllFace = wedge(i, after(i)) > least_;
     return doAllFace && goesAroundOnce();
 }
 
@@ -88,7 +86,7 @@ bool Star::goesAroundOnce() const {
     int upwards = 0;
     for (std::size_t i = 0; i < count_; ++i) {
         const Point& a = ring_[i];
-        const Point& b = ring_[(i + 1) % count_];
+        const Point& b = ring_[after(i)];
         if (a.y < 0 && b.y >= 0)
             ++upwards;
     }

@@ -72,6 +72,7 @@ private:
         double height;
     };
 
+    std::size_t after(std::size_t i) const { return i + 1 < count_ ? i + 1 : 0; }
     double wedge(std::size_t i, std::size_t j) const { return wedges_[i][j]; }
     double area(std::size_t i, std::size_t j, std::size_t k) const;
     bool project();
