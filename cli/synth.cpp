@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -92,6 +93,10 @@ absl::StatusOr<import::TriangleMesh> makeMesh(const Options& options,
 absl::Status synthMesh(const Options& options) {
     if ((options.size == 0) == options.from.empty())
         return absl::InvalidArgumentError("expected either --size or --from; name one");
+    if (!std::isfinite(options.displacementMetres))
+        return absl::InvalidArgumentError(
+            fmt::format("--displace is {}; expected a length in metres, such as 0.001",
+                        options.displacementMetres));
     StopSignal stop;
     const std::string ending = std::filesystem::path(options.out).extension().string();
     if (ending != ".ply" && ending != ".eym")

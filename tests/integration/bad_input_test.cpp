@@ -280,6 +280,10 @@ TEST_F(BadInput, UnknownCommandsAndOptionsAreRefused) {
     expectRefused({"coordinator", bad("nowhere.eym"), "--listen", "127.0.0.1:0"}, {"nowhere.eym"});
     expectRefused({"synth", "mesh", "--size", "-5", "-o", bad("out.ply")}, {"--size"});
     expectRefused({"synth", "terrain", "--size", "0", "-o", bad("out.tif")}, {"--size"});
+    for (const char* metres : {"nan", "inf", "-1"})
+        expectRefused({"synth", "mesh", "--from", good_->path("ball.ply"), "--displace", metres,
+                       "-o", bad("out.ply")},
+                      {"--displace"});
 }
 
 TEST_F(BadInput, OutputIntoAFolderThatIsMissingIsRefused) {
