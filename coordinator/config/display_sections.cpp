@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "coordinator/config/attribute_table.h"
+#include "coordinator/config/section_readers.h"
+
+namespace eyrie::config {
+namespace {
+
+void optionalVector(const Statement& statement, ValueReader& reader,
+                    std::optional<fabric::Vec3>& target) {
+    fabric::Vec3 vector(0.0);
+    const std::size_t errors = reader.findings().errors();
+    reader.vector(statement, vector);
+    if (reader.findings().errors() == errors)
+        target = vector;
+}
+
+View readView(const Statement& block, const Configuration& before, ValueReader& reader) {
+    View view;
+    view.place = block.place;
+    reader.block(
+        block, "a view",
+        {{"name", [&](const auto& each) { reader.text(each, view.name); }},
+         {"mode",
+          [&](const auto& each) {
+              reader.choice<bool>(each, {{"MONO", false}, {"STEREO", true}}, view.isStereo);
+          }},
+         {"viewport", [&](const auto& each) { reader.fraction(each, view.viewport); }},
+         {"wall", [&](const auto& each) { view.surface = readWall(each, reader); }},
+         {"projection", [&](const auto& each) { view.surface = readProjection(each, reader); }},
+         {"observer",
+          [&](const auto& each) {
+              view.observer = reader.reference(each, before.observers, "observer");
+          }},
+         {"attributes", [&](const auto& each) {
+              readAttributes(each, AttributeScope::View, reader, view.attributes);
+          }}});
+    return view;
+}
+
+Segment readSegment(const Statement& block, const Configuration& before, ValueReader& reader) {
+    Segment segment;
+    segment.place = block.place;
+    reader.block(
+        block, "a segment",
+        {{"name", [&](const auto& each) { reader.text(each, segment.name); }},
+         {"channel",
+          [&](const auto& each) { segment.channel = channelNamed(each, before, reader); }},
+         {"viewport", [&](const auto& each) { reader.fraction(each, segment.viewport); }},
+         {"eye",
+          [&](const auto& each) {
+              reader.flags(each, {{"CYCLOP", &segment.eyes.cyclop},
+                                  {"LEFT", &segment.eyes.left},
+                                  {"RIGHT", &segment.eyes.right}});
+          }},
+         {"wall", [&](const auto& each) { segment.surface = readWall(each, reader); }},
+         {"projection", [&](const auto& each) { segment.surface = readProjection(each, reader); }},
+         {"swapbarrier",
+          [&](const auto& each) { segment.swapBarrier = readSwapBarrier(each, reader); }}});
+    return segment;
+}
+
+void addLayout(const Statement& statement, const Configuration& before, ValueReader& reader,
+               Canvas& canvas) {
+    const Scalar* const value = ValueReader::single(statement);
+    if (value != nullptr && value->isWord("OFF"))
+        canvas.layouts.push_back(std::nullopt);
+    else if (const auto layout = reader.reference(statement, before.layouts, "layout"))
+        canvas.layouts.push_back(layout);
+}
+
+}  // namespace
+
+Surface readWall(const Statement& block, ValueReader& reader) {
+    Wall wall;
+    reader.block(
+        block, "a wall",
+        {{"bottom_left", [&](const auto& each) { reader.vector(each, wall.bottomLeft); }},
+         {"bottom_right", [&](const auto& each) { reader.vector(each, wall.bottomRight); }},
+         {"top_left", [&](const auto& each) { reader.vector(each, wall.topLeft); }},
+         {"type", [&](const auto& each) {
+              reader.choice<bool>(each, {{"fixed", false}, {"HMD", true}}, wall.movesWithHead);
+          }}});
+    const fabric::Vec3 across = wall.bottomRight - wall.bottomLeft;
+    const fabric::Vec3 upward = wall.topLeft - wall.bottomLeft;
+    const double width = glm::length(across);
+    const double height = glm::length(upward);
+    constexpr double kSkew = 1e-3;  // of right angles: corners are written with few digits
+    if (!(width > 0 && height > 0))
+        reader.findings().error(block.place, "the wall's corners are no rectangle's: two are one");
+    else if (std::abs(glm::dot(across, upward)) > kSkew * width * height)
+        reader.findings().error(block.place,
+                                "the wall's corners are no rectangle's: its sides do not meet at a "
+                                "right angle in bottom_left");
+    return wall;
+}
+
+Surface readProjection(const Statement& block, ValueReader& reader) {
+    Projection projection;
+    reader.block(block, "a projection",
+                 {{"origin", [&](const auto& each) { reader.vector(each, projection.origin); }},
+                  {"distance", [&](const auto& each) { reader.number(each, projection.distance); }},
+                  {"fov", [&](const auto& each) { reader.pair(each, projection.fovDegrees); }},
+                  {"hpr", [&](const auto& each) {
+                       reader.vector(each, projection.headingPitchRollDegrees);
+                   }}});
+    if (!(projection.distance > 0))
+        reader.findings().error(block.place, fmt::format("a projection's distance is {}; it must "
+                                                         "be above 0",
+                                                         projection.distance));
+    for (const double fov : {projection.fovDegrees.x, projection.fovDegrees.y})
+        if (!(fov > 0 && fov < 180))
+            reader.findings().error(block.place, fmt::format("a projection's fov is {} degrees; it "
+                                                             "must be between 0 and 180",
+                                                             fov));
+    return projection;
+}
+
+SwapBarrier readSwapBarrier(const Statement& block, ValueReader& reader) {
+    SwapBarrier barrier;
+    const auto setting = [&](const Statement& each) {
+        readAttribute(each, AttributeScope::SwapBarrier, reader, barrier.attributes);
+    };
+    reader.block(block, "a swapbarrier",
+                 {{"name", [&](const auto& each) { reader.text(each, barrier.name); }},
+                  {"NV_group", setting},
+                  {"NV_barrier", setting}});
+    return barrier;
+}
+
+Observer readObserver(const Statement& block, ValueReader& reader) {
+    Observer observer;
+    observer.place = block.place;
+    reader.block(
+        block, "an observer",
+        {{"name", [&](const auto& each) { reader.text(each, observer.name); }},
+         {"eye_base",
+          [&](const auto& each) {
+              double base = 0;
+              const std::size_t errors = reader.findings().errors();
+              reader.number(each, base);
+              if (reader.findings().errors() == errors)
+                  observer.eyeBase = base;
+          }},
+         {"eye_left", [&](const auto& each) { optionalVector(each, reader, observer.eyeLeft); }},
+         {"eye_cyclop",
+          [&](const auto& each) { optionalVector(each, reader, observer.eyeCyclop); }},
+         {"eye_right", [&](const auto& each) { optionalVector(each, reader, observer.eyeRight); }},
+         {"focus_distance", [&](const auto& each) { reader.number(each, observer.focusDistance); }},
+         {"focus_mode",
+          [&](const auto& each) {
+              reader.choice<FocusMode>(each,
+                                       {{"fixed", FocusMode::Fixed},
+                                        {"relative_to_origin", FocusMode::RelativeToOrigin},
+                                        {"relative_to_observer", FocusMode::RelativeToObserver}},
+                                       observer.focusMode);
+          }},
+         {"opencv_camera",
+          [&](const auto& each) {
+              const Scalar* const value = ValueReader::single(each);
+              if (value == nullptr)
+                  return reader.expected(each, "ON, OFF, AUTO or a number");
+              observer.openCvCamera = value->text;
+              reader.findings().onScreen(each.place,
+                                         "cameras that track a head are not read; the "
+                                         "head's position is set by the API");
+          }},
+         {"vrpn_tracker", [&](const auto& each) {
+              reader.text(each, observer.vrpnTracker);
+              reader.findings().onScreen(each.place,
+                                         "VRPN trackers are not read; the head's "
+                                         "position is set by the API");
+          }}});
+    return observer;
+}
+
+Layout readLayout(const Statement& block, const Configuration& before, ValueReader& reader) {
+    Layout layout;
+    layout.place = block.place;
+    reader.block(block, "a layout",
+                 {{"name", [&](const auto& each) { reader.text(each, layout.name); }},
+                  {"view", [&](const auto& each) {
+                       layout.views.push_back(readView(each, before, reader));
+                   }}});
+    return layout;
+}
+
+Canvas readCanvas(const Statement& block, const Configuration& before, ValueReader& reader) {
+    Canvas canvas;
+    canvas.place = block.place;
+    reader.block(
+        block, "a canvas",
+        {{"name", [&](const auto& each) { reader.text(each, canvas.name); }},
+         {"layout", [&](const auto& each) { addLayout(each, before, reader, canvas); }},
+         {"wall", [&](const auto& each) { canvas.surface = readWall(each, reader); }},
+         {"projection", [&](const auto& each) { canvas.surface = readProjection(each, reader); }},
+         {"swapbarrier",
+          [&](const auto& each) { canvas.swapBarrier = readSwapBarrier(each, reader); }},
+         {"segment", [&](const auto& each) {
+              canvas.segments.push_back(readSegment(each, before, reader));
+          }}});
+    return canvas;
+}
+
+std::optional<ChannelIndex> channelNamed(const Statement& statement, const Configuration& before,
+                                         ValueReader& reader) {
+    std::string name;
+    const std::size_t errors = reader.findings().errors();
+    reader.text(statement, name);
+    if (reader.findings().errors() > errors)
+        return std::nullopt;
+    for (std::size_t node = 0; node < before.nodes.size(); ++node) {
+        const std::vector<Pipe>& pipes = before.nodes[node].pipes;
+        for (std::size_t pipe = 0; pipe < pipes.size(); ++pipe) {
+            const std::vector<Window>& windows = pipes[pipe].windows;
+            for (std::size_t window = 0; window < windows.size(); ++window) {
+                const std::vector<Channel>& channels = windows[window].channels;
+                for (std::size_t channel = 0; channel < channels.size(); ++channel)
+                    if (channels[channel].name == name)
+                        return ChannelIndex{node, pipe, window, channel};
+            }
+        }
+    }
+    reader.findings().error(statement.place,
+                            fmt::format("no channel named \"{}\" is defined before this", name));
+    return std::nullopt;
+}
+
+}  // namespace eyrie::config

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/config/eqc_reader.h"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+#include "coordinator/config/attribute_table.h"
+#include "coordinator/config/eqc_grammar.h"
+#include "coordinator/config/section_readers.h"
+
+namespace eyrie::config {
+namespace {
+
+constexpr std::array<std::string_view, 3> kVersions{"1.0", "1.1", "1.2"};
+constexpr std::int64_t kMostLatency = 1000;
+
+void readConfig(const Statement& block, ValueReader& reader, Configuration& configuration) {
+    const auto node = [&](bool isApplication) {
+        return [&, isApplication](const Statement& each) {
+            configuration.nodes.push_back(readNode(each, isApplication, reader));
+        };
+    };
+    reader.block(
+        block, "a config",
+        {{"name", [&](const auto& each) { reader.text(each, configuration.name); }},
+         {"latency",
+          [&](const auto& each) {
+              reader.wholeNumber(each, 0, kMostLatency, configuration.latency);
+          }},
+         {"attributes",
+          [&](const auto& each) {
+              readAttributes(each, AttributeScope::Config, reader, configuration.attributes);
+          }},
+         {"appNode", node(true)},
+         {"node", node(false)},
+         {"observer",
+          [&](const auto& each) { configuration.observers.push_back(readObserver(each, reader)); }},
+         {"layout",
+          [&](const auto& each) {
+              configuration.layouts.push_back(readLayout(each, configuration, reader));
+          }},
+         {"canvas",
+          [&](const auto& each) {
+              configuration.canvases.push_back(readCanvas(each, configuration, reader));
+          }},
+         {"compound", [&](const auto& each) {
+              configuration.compounds.push_back(readCompound(each, configuration, reader));
+          }}});
+}
+
+class FileReader {
+public:
+    FileReader(ValueReader& reader, Configuration& configuration)
+        : reader_(reader), configuration_(configuration) {}
+
+    void read(const std::vector<Statement>& statements) {
+        for (const Statement& statement : statements) {
+            if (statement.keyword == "global")
+                readGlobals(statement);
+            else if (statement.keyword == "server")
+                readServer(statement);
+            else if (statement.keyword == "config")
+                config(statement);
+            else if (!statement.keyword.empty())
+                reader_.findings().error(statement.place,
+                                         fmt::format("'{}' at the top; expected global, server or "
+                                                     "config",
+                                                     statement.keyword));
+        }
+        if (configs_ == 0 && !reader_.findings().hasErrors())
+            reader_.findings().error({1, 1}, "there is no config");
+    }
+
+private:
+    void readGlobals(const Statement& block) {
+        if (block.form != Statement::Form::Block)
+            return reader_.expected(block, "a block { }");
+        for (const Statement& statement : block.statements)
+            readGlobal(statement, reader_, configuration_.globals);
+    }
+    void readServer(const Statement& block) {
+        reader_.block(block, "a server",
+                      {{"connection",
+                        [this](const auto& each) {
+                            configuration_.connections.push_back(readConnection(each, reader_));
+                        }},
+                       {"config", [this](const auto& each) { config(each); }}});
+    }
+    void config(const Statement& block) {
+        if (++configs_ > 1)
+            return reader_.findings().warning(block.place,
+                                              "only the first config of a server is used");
+        readConfig(block, reader_, configuration_);
+    }
+
+    ValueReader& reader_;
+    Configuration& configuration_;
+    int configs_ = 0;
+};
+
+}  // namespace
+
+Configuration readEqc(std::string_view text, Findings& findings) {
+    Configuration configuration;
+    EqcText parsed = parseEqc(text, findings);
+    configuration.version = std::move(parsed.version);
+    if (!configuration.version.empty() &&
+        std::ranges::find(kVersions, configuration.version) == kVersions.end())
+        findings.error({1, 1}, fmt::format("the file is of version {}; 1.0, 1.1 and 1.2 are read",
+                                           configuration.version));
+    ValueReader reader(findings);
+    FileReader(reader, configuration).read(parsed.statements);
+    return configuration;
+}
+
+}  // namespace eyrie::config

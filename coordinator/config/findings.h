@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace eyrie::config {
+
+/// Where something stands in a configuration file, both from 1 on; 0 where there is no file. It is
+/// no part of what a configuration means: all places are equal.
+struct Place {
+    std::size_t line = 0;
+    std::size_t column = 0;
+
+    bool operator==(const Place&) const { return true; }
+};
+
+struct Finding {
+    enum class Kind {
+        Error,    ///< the configuration cannot be used
+        Warning,  ///< something in it has no effect, or not the one that was probably meant
+        OnScreen  ///< makes sense on a screen only: accepted, without effect here
+    };
+    Kind kind = Kind::Error;
+    Place place;
+    std::string message;
+};
+
+/// What is found wrong with a configuration: everything, not the first thing only.
+class Findings {
+public:
+    /// More errors than this say nothing new.
+    static constexpr std::size_t kMost = 200;
+
+    void error(const Place& place, std::string message) {
+        add(Finding::Kind::Error, place, std::move(message));
+    }
+    void warning(const Place& place, std::string message) {
+        add(Finding::Kind::Warning, place, std::move(message));
+    }
+    void onScreen(const Place& place, std::string message) {
+        add(Finding::Kind::OnScreen, place, std::move(message));
+    }
+
+    bool hasErrors() const { return errors_ > 0; }
+    std::size_t errors() const { return errors_; }
+    /// In the order found; of each kind the first kMost.
+    const std::vector<Finding>& all() const { return all_; }
+
+private:
+    void add(Finding::Kind kind, const Place& place, std::string message);
+
+    std::vector<Finding> all_;
+    std::size_t errors_ = 0;
+    std::size_t others_ = 0;
+};
+
+/// "12:5: error: …", a line each, after `name` and a colon.
+std::string describe(const Findings& findings, const std::string& name);
+
+}  // namespace eyrie::config

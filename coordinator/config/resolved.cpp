@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/config/resolved.h"
+
+#include <algorithm>
+#include <numeric>
+#include <span>
+
+#include <fmt/format.h>
+
+#include "coordinator/config/destinations.h"
+#include "coordinator/config/pixels.h"
+
+namespace eyrie::config {
+namespace {
+
+/// Every width-th of what `whole` has: of the columns x, x + w, x + 2w, … these of every rw-th.
+PixelShare part(const PixelShare& whole, const PixelShare& share) {
+    return {whole.x + whole.width * share.x, whole.y + whole.height * share.y,
+            whole.width * share.width, whole.height * share.height};
+}
+
+SubPixelShare part(const SubPixelShare& whole, const SubPixelShare& share) {
+    return {whole.index * share.count + share.index, whole.count * share.count};
+}
+
+Eyes both(const Eyes& a, const Eyes& b) {
+    return {a.cyclop && b.cyclop, a.left && b.left, a.right && b.right};
+}
+
+fabric::Range part(const fabric::Range& whole, const fabric::Range& share) {
+    const double size = whole.end - whole.begin;
+    return {whole.begin + size * share.begin, whole.begin + size * share.end};
+}
+
+/// The columns and rows of a share, side by side.
+fabric::PixelViewport part(const fabric::PixelViewport& whole, const PixelShare& share) {
+    const auto count = [](std::int32_t pixels, std::int64_t first, std::int64_t every) {
+        return static_cast<std::int32_t>(
+            std::max<std::int64_t>(0, (pixels - first + every - 1) / every));
+    };
+    return {whole.x, whole.y, count(whole.width, share.x, share.width),
+            count(whole.height, share.y, share.height)};
+}
+
+fabric::PixelViewport zoomed(const fabric::PixelViewport& whole, const fabric::Vec2& zoom) {
+    const auto scaled = [](std::int32_t pixels, double by) {
+        return static_cast<std::int32_t>(std::clamp(pixels * by + .5, 0.0, 65536.0));
+    };
+    return {whole.x, whole.y, scaled(whole.width, zoom.x), scaled(whole.height, zoom.y)};
+}
+
+class Resolver {
+public:
+    Resolver(const Configuration& configuration, Findings& findings)
+        : configuration_(configuration), findings_(findings) {
+        resolved_.destinations = destinationsOf(configuration, findings);
+        served_.resize(resolved_.destinations.size(), false);
+    }
+
+    ResolvedConfiguration run() {
+        for (const Compound& root : configuration_.compounds) {
+            const std::size_t first = resolved_.compounds.size();
+            visit(root, nullptr);
+            matchFrames(first);
+        }
+        for (std::size_t i = 0; i < served_.size(); ++i)
+            if (!served_[i])
+                addImplicit(i);
+        return std::move(resolved_);
+    }
+
+private:
+    using Inherited = ResolvedCompound;
+    /// Names by which frames are called by default, from the root down.
+    using Path = std::vector<const Compound*>;
+
+    void visit(const Compound& compound, const Inherited* parent) {
+        path_.push_back(&compound);
+        ResolvedCompound own = parent == nullptr ? atRoot() : *parent;
+        own.compound = &compound;
+        own.depth = static_cast<int>(path_.size()) - 1;
+        own.outputFrames.clear();
+        own.inputFrames.clear();
+        own.sights.clear();
+        takeChannel(compound, own);
+        inherit(compound, own, parent != nullptr && parent->destination.has_value());
+        Inherited passedOn = own;
+        finish(compound, own);
+        resolved_.compounds.push_back(own);
+        for (const Compound& child : compound.children) visit(child, &passedOn);
+        path_.pop_back();
+    }
+
+    static ResolvedCompound atRoot() {
+        ResolvedCompound root;
+        root.eyes = {true, true, true};
+        root.buffers = {true, false};
+        return root;
+    }
+
+    void takeChannel(const Compound& compound, ResolvedCompound& own) {
+        if (const auto* source = std::get_if<ChannelIndex>(&compound.channel)) {
+            own.channel = *source;
+            if (!own.destination && own.pixelViewport.isEmpty())
+                own.pixelViewport = pixelsOf(configuration_, *source);
+            return;
+        }
+        const auto* index = std::get_if<DestinationIndex>(&compound.channel);
+        if (index == nullptr)
+            return;
+        const auto found = std::ranges::find(resolved_.destinations, *index, &Destination::index);
+        if (found == resolved_.destinations.end())
+            return findings_.error(compound.place,
+                                   "the channel's view is not shown on its segment: no layout of "
+                                   "the canvas has it, or they do not meet");
+        own.channel = found->channel;
+        if (own.destination)
+            return;  // within the picture of one destination another's channel is a helper
+        own.destination = static_cast<std::size_t>(found - resolved_.destinations.begin());
+        served_[*own.destination] = true;
+        own.pixelViewport = found->pixelViewport;
+        own.eyes = both(own.eyes, found->eyes);
+    }
+
+    void inherit(const Compound& compound, ResolvedCompound& own, bool isPartOfPicture) {
+        if (isPartOfPicture && own.pixelViewport.isEmpty()) {
+            own.viewport = config::part(own.viewport, compound.viewport);
+        } else {
+            const fabric::PixelViewport whole = own.pixelViewport;
+            own.pixelViewport = config::part(whole, compound.viewport);
+            own.viewport =
+                config::part(own.viewport, whole.isEmpty() ? compound.viewport
+                                                           : fractionOf(own.pixelViewport, whole));
+        }
+        own.range = part(own.range, compound.range);
+        own.pixelViewport = part(own.pixelViewport, compound.pixel);
+        own.pixel = part(own.pixel, compound.pixel);
+        own.subpixel = part(own.subpixel, compound.subpixel);
+        if (compound.zoom != fabric::Vec2(1, 1))
+            zoom(compound.zoom, own);
+        own.period = compound.period.value_or(own.period);
+        own.phase = compound.phase.value_or(own.phase);
+        own.buffers = compound.buffers.value_or(own.buffers);
+        if (compound.eyes)
+            own.eyes = both(own.eyes, *compound.eyes);
+        if (own.phase >= own.period)
+            findings_.error(compound.place, fmt::format("phase {} of a period of {} frames: it "
+                                                        "must be less",
+                                                        own.phase, own.period));
+    }
+
+    /// As exactly as whole pixels allow.
+    static void zoom(const fabric::Vec2& by, ResolvedCompound& own) {
+        const fabric::PixelViewport before = own.pixelViewport;
+        own.pixelViewport = zoomed(before, by);
+        if (before.isEmpty())
+            own.zoom *= by;
+        else
+            own.zoom *= fabric::Vec2(static_cast<double>(own.pixelViewport.width) / before.width,
+                                     static_cast<double>(own.pixelViewport.height) / before.height);
+    }
+
+    void finish(const Compound& compound, ResolvedCompound& own) {
+        for (const Frame& frame : compound.outputFrames)
+            own.outputFrames.push_back({nameOf(frame), false, &frame});
+        for (const Frame& frame : compound.inputFrames)
+            own.inputFrames.push_back({nameOf(frame), false, &frame});
+        own.tasks = tasksOf(compound, own);
+        if (own.tasks.draw)
+            addSights(own);
+    }
+
+    std::string nameOf(const Frame& frame) const {
+        if (!frame.name.empty())
+            return frame.name;
+        for (auto compound = path_.rbegin(); compound != path_.rend(); ++compound) {
+            if (!(*compound)->name.empty())
+                return "frame." + (*compound)->name;
+            if (const std::string* const name = channelName(**compound);
+                name != nullptr && !name->empty())
+                return "frame." + *name;
+        }
+        return "frame";
+    }
+
+    const std::string* channelName(const Compound& compound) const {
+        if (const auto* source = std::get_if<ChannelIndex>(&compound.channel))
+            return &configuration_.nodes[source->node]
+                        .pipes[source->pipe]
+                        .windows[source->window]
+                        .channels[source->channel]
+                        .name;
+        if (const auto* index = std::get_if<DestinationIndex>(&compound.channel)) {
+            const auto found =
+                std::ranges::find(resolved_.destinations, *index, &Destination::index);
+            return found == resolved_.destinations.end() ? nullptr : &found->name;
+        }
+        return nullptr;
+    }
+
+    /// What is not said: leaves draw; what begins is cleared, once a channel; what comes in is
+    /// assembled, what goes out read back.
+    Tasks tasksOf(const Compound& compound, const ResolvedCompound& own) const {
+        const bool isLeaf = compound.children.empty();
+        Tasks tasks = compound.tasks.value_or(
+            Tasks{!isLeaf || !isChannelOfAncestor(own), isLeaf, true, true});
+        tasks.assemble = tasks.assemble && !compound.inputFrames.empty();
+        tasks.readback = tasks.readback && !compound.outputFrames.empty();
+        if (!own.channel || own.pixelViewport.isEmpty() || own.range.isEmpty() ||
+            own.eyes.isEmpty())
+            return {};
+        return tasks;
+    }
+
+    bool isChannelOfAncestor(const ResolvedCompound& own) const {
+        for (std::size_t i = 0; i + 1 < path_.size(); ++i) {
+            const Compound& ancestor = *path_[i];
+            const auto* source = std::get_if<ChannelIndex>(&ancestor.channel);
+            if (source != nullptr && *source == own.channel)
+                return true;
+            const auto* index = std::get_if<DestinationIndex>(&ancestor.channel);
+            if (index != nullptr && own.destination &&
+                resolved_.destinations[*own.destination].channel == own.channel)
+                return true;
+        }
+        return false;
+    }
+
+    /// Through the compound's part of the wall.
+    void addSights(ResolvedCompound& own) {
+        if (!own.destination)
+            return;
+        const Destination& destination = resolved_.destinations[*own.destination];
+        std::optional<Wall> wall = destination.wall;
+        for (const Compound* const each : path_)
+            if (const auto other = wallOf(each->surface))
+                wall = other;
+        if (!wall)
+            return;
+        const Wall seen = config::part(*wall, own.viewport);
+        const EyePlaces places = eyePlaces(
+            configuration_,
+            configuration_.layouts[destination.index.layout].views[destination.index.view]);
+        using Eye = EyeSight::Eye;
+        const auto add = [&](bool isShown, Eye eye, const fabric::Vec3& place) {
+            if (!isShown)
+                return;
+            own.sights.push_back({eye, sightThrough(seen, place)});
+            if (!own.sights.back().sight)
+                findings_.error(own.compound != nullptr ? own.compound->place : Place{},
+                                "an eye is not before the wall that it looks through");
+        };
+        add(own.eyes.cyclop, Eye::Cyclop, places.cyclop);
+        add(own.eyes.left, Eye::Left, places.left);
+        add(own.eyes.right, Eye::Right, places.right);
+    }
+
+    /// Names count within one tree; of several output frames with one name at one time, the first.
+    void matchFrames(std::size_t first) {
+        const auto tree = std::span(resolved_.compounds).subspan(first);
+        for (ResolvedCompound& compound : tree)
+            for (ResolvedFrame& frame : compound.outputFrames) addOutput(compound, frame);
+        for (ResolvedCompound& compound : tree)
+            for (ResolvedFrame& frame : compound.inputFrames) {
+                for (const Output& output : outputs_)
+                    if (output.frame->name == frame.name)
+                        frame.isMatched = output.frame->isMatched = true;
+                if (!frame.isMatched)
+                    findings_.warning(frame.frame->place,
+                                      fmt::format("no outputframe of this compound tree is named "
+                                                  "\"{}\"",
+                                                  frame.name));
+            }
+        for (const Output& output : outputs_)
+            if (!output.frame->isMatched)
+                findings_.warning(
+                    output.frame->frame->place,
+                    fmt::format("nobody takes the outputframe \"{}\"", output.frame->name));
+        outputs_.clear();
+    }
+
+    void addOutput(const ResolvedCompound& compound, ResolvedFrame& frame) {
+        const bool isTaken = std::ranges::any_of(outputs_, [&](const Output& other) {
+            return other.frame->name == frame.name && meet(*other.compound, compound);
+        });
+        if (isTaken)
+            findings_.warning(frame.frame->place,
+                              fmt::format("another outputframe is named \"{}\" already; this one "
+                                          "has no effect",
+                                          frame.name));
+        else
+            outputs_.push_back({&compound, &frame});
+    }
+
+    /// Whether two are drawn for one eye in one frame.
+    static bool meet(const ResolvedCompound& a, const ResolvedCompound& b) {
+        const std::int64_t common = std::gcd(a.period, b.period);
+        return a.phase % common == b.phase % common && !both(a.eyes, b.eyes).isEmpty();
+    }
+
+    /// The plain picture of a view that no compound makes.
+    void addImplicit(std::size_t destination) {
+        const Destination& shown = resolved_.destinations[destination];
+        ResolvedCompound plain = atRoot();
+        plain.destination = destination;
+        plain.channel = shown.channel;
+        plain.pixelViewport = shown.pixelViewport;
+        plain.eyes = shown.eyes;
+        if (!plain.eyes.isEmpty() && !plain.pixelViewport.isEmpty())
+            plain.tasks = {true, true, false, false};
+        if (plain.tasks.draw)
+            addSights(plain);
+        resolved_.compounds.push_back(std::move(plain));
+    }
+
+    const Configuration& configuration_;
+    Findings& findings_;
+    ResolvedConfiguration resolved_;
+    struct Output {
+        const ResolvedCompound* compound;
+        ResolvedFrame* frame;
+    };
+
+    std::vector<bool> served_;     ///< destinations that a compound makes
+    std::vector<Output> outputs_;  ///< of the tree being matched
+    Path path_;
+};
+
+}  // namespace
+
+ResolvedConfiguration resolve(const Configuration& configuration, Findings& findings) {
+    return Resolver(configuration, findings).run();
+}
+
+}  // namespace eyrie::config

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include "coordinator/config/attribute_table.h"
+#include "coordinator/config/section_readers.h"
+
+namespace eyrie::config {
+namespace {
+
+constexpr std::int64_t kMostPort = 65535;
+constexpr std::int64_t kMost = 1'000'000'000;
+
+void optionalViewport(const Statement& statement, ValueReader& reader,
+                      std::optional<Viewport>& target) {
+    Viewport viewport;
+    const std::size_t errors = reader.findings().errors();
+    reader.viewport(statement, viewport);
+    if (reader.findings().errors() == errors)
+        target = viewport;
+}
+
+void optionalNumber(const Statement& statement, ValueReader& reader,
+                    std::optional<std::int64_t>& target) {
+    std::int64_t number = 0;
+    const std::size_t errors = reader.findings().errors();
+    reader.wholeNumber(statement, 0, kMost, number);
+    if (reader.findings().errors() == errors)
+        target = number;
+}
+
+Channel readChannel(const Statement& block, ValueReader& reader) {
+    Channel channel;
+    channel.place = block.place;
+    bool colour = false;
+    bool depth = false;
+    bool stencil = false;
+    reader.block(
+        block, "a channel",
+        {{"name", [&](const auto& each) { reader.text(each, channel.name); }},
+         {"viewport", [&](const auto& each) { optionalViewport(each, reader, channel.viewport); }},
+         {"drawable",
+          [&](const auto& each) {
+              reader.flags(
+                  each, {{"FBO_COLOR", &colour}, {"FBO_DEPTH", &depth}, {"FBO_STENCIL", &stencil}});
+          }},
+         {"attributes", [&](const auto& each) {
+              readAttributes(each, AttributeScope::Channel, reader, channel.attributes);
+          }}});
+    if (colour)
+        channel.drawables.push_back("FBO_COLOR");
+    if (depth)
+        channel.drawables.push_back("FBO_DEPTH");
+    if (stencil)
+        channel.drawables.push_back("FBO_STENCIL");
+    return channel;
+}
+
+Window readWindow(const Statement& block, ValueReader& reader) {
+    Window window;
+    window.place = block.place;
+    reader.block(
+        block, "a window",
+        {{"name", [&](const auto& each) { reader.text(each, window.name); }},
+         {"viewport", [&](const auto& each) { optionalViewport(each, reader, window.viewport); }},
+         {"attributes",
+          [&](const auto& each) {
+              readAttributes(each, AttributeScope::Window, reader, window.attributes);
+          }},
+         {"channel",
+          [&](const auto& each) { window.channels.push_back(readChannel(each, reader)); }}});
+    return window;
+}
+
+Pipe readPipe(const Statement& block, ValueReader& reader) {
+    Pipe pipe;
+    pipe.place = block.place;
+    reader.block(
+        block, "a pipe",
+        {{"name", [&](const auto& each) { reader.text(each, pipe.name); }},
+         {"port", [&](const auto& each) { optionalNumber(each, reader, pipe.port); }},
+         {"device", [&](const auto& each) { optionalNumber(each, reader, pipe.device); }},
+         {"viewport", [&](const auto& each) { optionalViewport(each, reader, pipe.viewport); }},
+         {"attributes",
+          [&](const auto& each) {
+              readAttributes(each, AttributeScope::Pipe, reader, pipe.attributes);
+          }},
+         {"window", [&](const auto& each) { pipe.windows.push_back(readWindow(each, reader)); }}});
+    return pipe;
+}
+
+}  // namespace
+
+Connection readConnection(const Statement& block, ValueReader& reader) {
+    Connection connection;
+    const auto port = [&](const Statement& each) {
+        reader.wholeNumber(each, 0, kMostPort, connection.port);
+    };
+    const auto filename = [&](const Statement& each) { reader.text(each, connection.filename); };
+    reader.block(
+        block, "a connection",
+        {{"type",
+          [&](const auto& each) {
+              using Name = std::string;
+              reader.choice<Name>(each,
+                                  {{"TCPIP", "TCPIP"},
+                                   {"PIPE", "PIPE"},
+                                   {"RSP", "RSP"},
+                                   {"RDMA", "RDMA"},
+                                   {"UDT", "UDT"},
+                                   {"SDP", "SDP"},
+                                   {"MCIP_RSP", "RSP"}},
+                                  connection.type);
+              if (!connection.type.empty() && connection.type != "TCPIP")
+                  reader.findings().onScreen(
+                      each.place, fmt::format("connections of type {} are gRPC's, by TCP, here",
+                                              connection.type));
+          }},
+         {"hostname", [&](const auto& each) { reader.text(each, connection.hostname); }},
+         {"interface", [&](const auto& each) { reader.text(each, connection.interfaceName); }},
+         {"port", port},
+         {"TCPIP_port", port},
+         {"bandwidth",
+          [&](const auto& each) { reader.wholeNumber(each, 0, kMost, connection.bandwidth); }},
+         {"filename", filename},
+         {"PIPE_filename", filename}});
+    return connection;
+}
+
+Node readNode(const Statement& block, bool isApplication, ValueReader& reader) {
+    Node node;
+    node.place = block.place;
+    node.isApplication = isApplication;
+    reader.block(
+        block, isApplication ? "an appNode" : "a node",
+        {{"name", [&](const auto& each) { reader.text(each, node.name); }},
+         {"host", [&](const auto& each) { reader.text(each, node.host); }},
+         {"connection",
+          [&](const auto& each) { node.connections.push_back(readConnection(each, reader)); }},
+         {"attributes",
+          [&](const auto& each) {
+              readAttributes(each, AttributeScope::Node, reader, node.attributes);
+          }},
+         {"pipe", [&](const auto& each) { node.pipes.push_back(readPipe(each, reader)); }}});
+    return node;
+}
+
+}  // namespace eyrie::config

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/config/screen.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace eyrie::config {
+namespace {
+
+using fabric::Mat4;
+using fabric::Vec3;
+
+double radians(double degrees) { return degrees * std::numbers::pi / 180; }
+
+}  // namespace
+
+Wall wallOf(const Projection& projection) {
+    const Vec3& hpr = projection.headingPitchRollDegrees;
+    Mat4 turned(1.0);
+    turned = glm::rotate(turned, radians(hpr.x), Vec3(0, 1, 0));  // to the left
+    turned = glm::rotate(turned, radians(hpr.y), Vec3(1, 0, 0));  // up
+    turned = glm::rotate(turned, radians(hpr.z), Vec3(0, 0, 1));  // counter-clockwise
+    const double halfWidth = projection.distance * std::tan(radians(projection.fovDegrees.x) / 2);
+    const double halfHeight = projection.distance * std::tan(radians(projection.fovDegrees.y) / 2);
+    const auto corner = [&](double x, double y) {
+        return projection.origin + Vec3(turned * fabric::Vec4(x, y, -projection.distance, 0));
+    };
+    return {corner(-halfWidth, -halfHeight), corner(halfWidth, -halfHeight),
+            corner(-halfWidth, halfHeight), false};
+}
+
+std::optional<Wall> wallOf(const Surface& surface) {
+    if (const auto* wall = std::get_if<Wall>(&surface))
+        return *wall;
+    if (const auto* projection = std::get_if<Projection>(&surface))
+        return wallOf(*projection);
+    return std::nullopt;
+}
+
+Wall part(const Wall& wall, const Viewport& fraction) {
+    const Vec3 across = wall.bottomRight - wall.bottomLeft;
+    const Vec3 upward = wall.topLeft - wall.bottomLeft;
+    const auto corner = [&](double x, double y) {
+        return wall.bottomLeft + x * across + y * upward;
+    };
+    const double right = fraction.x + fraction.width;
+    const double top = fraction.y + fraction.height;
+    return {corner(fraction.x, fraction.y), corner(right, fraction.y), corner(fraction.x, top),
+            wall.movesWithHead};
+}
+
+std::optional<Sight> sightThrough(const Wall& wall, const Vec3& eye) {
+    const Vec3 across = glm::normalize(wall.bottomRight - wall.bottomLeft);
+    const Vec3 upward = glm::normalize(wall.topLeft - wall.bottomLeft);
+    const Vec3 towardsViewer = glm::cross(across, upward);
+    const Vec3 corner = wall.bottomLeft - eye;
+    const double distance = -glm::dot(corner, towardsViewer);
+    if (!(distance > 0))
+        return std::nullopt;
+    const double left = glm::dot(corner, across) / distance;
+    const double bottom = glm::dot(corner, upward) / distance;
+    Sight sight;
+    sight.frustum = {left, left + glm::length(wall.bottomRight - wall.bottomLeft) / distance,
+                     bottom, bottom + glm::length(wall.topLeft - wall.bottomLeft) / distance};
+    const Mat4 turned(fabric::Vec4(across, 0), fabric::Vec4(upward, 0),
+                      fabric::Vec4(towardsViewer, 0), fabric::Vec4(0, 0, 0, 1));
+    sight.viewFromWorld = glm::translate(glm::transpose(turned), -eye);
+    return sight;
+}
+
+}  // namespace eyrie::config

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "coordinator/config/configuration.h"
+#include "coordinator/config/value_reader.h"
+
+/// The sections of a .eqc file; each reads one block. What they refer to must have been read
+/// before.
+namespace eyrie::config {
+
+Connection readConnection(const Statement& block, ValueReader& reader);
+Node readNode(const Statement& block, bool isApplication, ValueReader& reader);
+
+Surface readWall(const Statement& block, ValueReader& reader);
+Surface readProjection(const Statement& block, ValueReader& reader);
+SwapBarrier readSwapBarrier(const Statement& block, ValueReader& reader);
+
+Observer readObserver(const Statement& block, ValueReader& reader);
+Layout readLayout(const Statement& block, const Configuration& before, ValueReader& reader);
+Canvas readCanvas(const Statement& block, const Configuration& before, ValueReader& reader);
+
+Compound readCompound(const Statement& block, const Configuration& before, ValueReader& reader);
+
+Equalizer readEqualizer(const Statement& block, EqualizerKind kind, ValueReader& reader);
+/// Of the form before 1.0's equalizers: what it balances is its mode. Nothing where that is wrong.
+std::optional<Equalizer> readLoadBalancer(const Statement& block, ValueReader& reader);
+
+/// The channel of that name, which must be on a node; nothing where there is none, an error.
+std::optional<ChannelIndex> channelNamed(const Statement& statement, const Configuration& before,
+                                         ValueReader& reader);
+
+}  // namespace eyrie::config
