@@ -22,6 +22,7 @@ void addImport(CLI::App& app, Run& run);
 void addImportTerrain(CLI::App& app, Run& run);  ///< of `eyrie import`
 void addImportMesh(CLI::App& app, Run& run);     ///< of `eyrie import`
 void addInfo(CLI::App& app, Run& run);
+void addCheck(CLI::App& app, Run& run);
 void addBench(CLI::App& app, Run& run);
 void addRender(CLI::App& app, Run& run);
 void addSynth(CLI::App& app, Run& run);

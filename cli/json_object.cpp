@@ -53,6 +53,18 @@ JsonObject& JsonObject::flag(std::string_view name, bool value) {
     return raw(name, value ? "true" : "false");
 }
 
+JsonObject& JsonObject::numbers(std::string_view name, std::span<const double> values) {
+    std::string list;
+    for (const double value : values) list += (list.empty() ? "" : ", ") + shortest(value);
+    return raw(name, "[" + list + "]");
+}
+
+JsonObject& JsonObject::texts(std::string_view name, const std::vector<std::string>& values) {
+    std::string list;
+    for (const std::string& value : values) list += (list.empty() ? "" : ", ") + quoted(value);
+    return raw(name, "[" + list + "]");
+}
+
 JsonObject& JsonObject::object(std::string_view name, const JsonObject& value) {
     return raw(name, value.str());
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,6 +19,8 @@ public:
     JsonObject& number(std::string_view name, double value);
     JsonObject& count(std::string_view name, std::uint64_t value);
     JsonObject& flag(std::string_view name, bool value);
+    JsonObject& numbers(std::string_view name, std::span<const double> values);
+    JsonObject& texts(std::string_view name, const std::vector<std::string>& values);
     JsonObject& object(std::string_view name, const JsonObject& value);
     JsonObject& objects(std::string_view name, const std::vector<JsonObject>& values);
     /// {"min": [x, y, z], "max": [x, y, z]}

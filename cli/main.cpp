@@ -42,6 +42,7 @@ void declare(CLI::App& app, eyrie::cli::Run& run) {
     eyrie::cli::addServe(app, run);
     eyrie::cli::addImport(app, run);
     eyrie::cli::addInfo(app, run);
+    eyrie::cli::addCheck(app, run);
     eyrie::cli::addRender(app, run);
     eyrie::cli::addBench(app, run);
     eyrie::cli::addSynth(app, run);

@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <random>
+
+#include <glm/geometric.hpp>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "coordinator/config/eqc_reader.h"
+#include "coordinator/config/resolved.h"
+
+namespace eyrie::config {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr const char* kFolder = EYRIE_SOURCE_DIR "/../shared/data/eqc";
+
+std::string contents(const std::filesystem::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    EXPECT_TRUE(in) << path << " is missing";
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+struct Read {
+    explicit Read(const std::string& text)
+        : configuration(readEqc(text, findings)), resolved(resolve(configuration, findings)) {}
+
+    Findings findings;
+    Configuration configuration;
+    ResolvedConfiguration resolved;
+};
+
+Read sample(const std::string& name) {
+    return Read(contents(std::filesystem::path(kFolder) / name));
+}
+
+/// A configuration with one channel of 640 x 480, one view, and these compounds.
+std::string withCompounds(const std::string& compounds) {
+    return "config { appNode { pipe { window { viewport [ 0 0 640 480 ]"
+           " channel { name \"a\" } channel { name \"b\" } } } }"
+           " observer {} layout { view { observer 0 } }"
+           " canvas { layout 0 wall {} segment { channel \"a\" } } " +
+           compounds + " }";
+}
+
+std::string firstError(const std::string& text) {
+    const Read read(text);
+    for (const Finding& finding : read.findings.all())
+        if (finding.kind == Finding::Kind::Error)
+            return std::to_string(finding.place.line) + ":" + std::to_string(finding.place.column) +
+                   " " + finding.message;
+    return "none";
+}
+
+TEST(EqcConformance, EveryFileOfEqualizersIsReadAndResolvedInFull) {
+    std::size_t files = 0;
+    std::size_t nodes = 0;
+    std::size_t layouts = 0;
+    std::size_t roots = 0;
+    std::size_t compounds = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(kFolder)) {
+        if (entry.path().extension() != ".eqc")
+            continue;
+        const Read read(contents(entry.path()));
+        EXPECT_FALSE(read.findings.hasErrors()) << describe(read.findings, entry.path().string());
+        ++files;
+        nodes += read.configuration.nodes.size();
+        layouts += read.configuration.layouts.size();
+        roots += read.configuration.compounds.size();
+        for (const ResolvedCompound& compound : read.resolved.compounds)
+            compounds += compound.compound != nullptr ? 1 : 0;
+    }
+    // The words "node" and "appNode", "layout" and "compound" that open a block in these files,
+    // counted by grep.
+    EXPECT_EQ(files, 51U);
+    EXPECT_EQ(nodes, 108U);
+    EXPECT_EQ(layouts, 87U);
+    EXPECT_EQ(roots, 74U);
+    EXPECT_EQ(compounds, 457U);
+}
+
+TEST(EqcConformance, CutOffAnywhereNoFileCrashesTheReader) {
+    const std::string whole = contents(std::filesystem::path(kFolder) / "4-window.all.eqc");
+    for (std::size_t length = 0; length < whole.size(); length += 97) {
+        const Read read(whole.substr(0, length));
+        EXPECT_TRUE(read.findings.hasErrors()) << length;
+    }
+}
+
+TEST(EqcConformance, WithBytesChangedNoFileCrashesTheReader) {
+    const std::string whole = contents(std::filesystem::path(kFolder) / "test.eqc");
+    std::mt19937 random(7);
+    for (int i = 0; i < 500; ++i) {
+        std::string text = whole;
+        for (int flips = 0; flips < 5; ++flips)
+            text[random() % text.size()] = static_cast<char>(random() % 256);
+        const Read read(text);
+        SUCCEED();
+    }
+}
+
+TEST(EqcErrors, AreAllFoundWithLineAndColumn) {
+    const Read read(
+        "config\n"
+        "{\n"
+        "    latency -1\n"
+        "    appNode { pipe { device x window { channel { name 5 } } } }\n"
+        "    layout { view { observer \"none\" mode SIDE } }\n"
+        "}\n");
+    EXPECT_EQ(describe(read.findings, "f"),
+              "f:3:5: error: 'latency' is -1; expected a whole number from 0 to 1000\n"
+              "f:4:22: error: 'device' is x; expected a whole number from 0 to 1000000000\n"
+              "f:4:50: error: 'name' is 5; expected a text in quotes\n"
+              "f:5:30: error: no observer named \"none\" is defined before this\n"
+              "f:5:37: error: 'mode' is SIDE; expected MONO or STEREO\n");
+}
+
+TEST(EqcErrors, NameWhatIsOpenClosedOrStray) {
+    EXPECT_THAT(firstError("config { appNode {"), HasSubstr("1:18 what opens here"));
+    EXPECT_THAT(firstError("config { } }"), HasSubstr("1:12 '}' closes nothing"));
+    EXPECT_THAT(firstError("config { name \"x\n }"), HasSubstr("1:15 no '\"' ends"));
+    EXPECT_THAT(firstError("config { @ }"), HasSubstr("1:10 the byte 0x40"));
+    EXPECT_THAT(firstError("config { latency }"), HasSubstr("1:10 'latency' has no value"));
+    EXPECT_THAT(firstError("config { { } }"), HasSubstr("'{' belongs to no keyword"));
+    EXPECT_THAT(firstError("config { layout { view { viewport [ 0 0 1 } } }"),
+                HasSubstr("expected [ x y width height ]"));
+    EXPECT_THAT(firstError(""), HasSubstr("there is no config"));
+    EXPECT_THAT(firstError("#Equalizer 2.0 ascii\nconfig {}"), HasSubstr("version 2.0"));
+}
+
+TEST(EqcErrors, AreFoundHoweverDeepBlocksLie) {
+    std::string deep = "config ";
+    for (int i = 0; i < 100'000; ++i) deep += "{ compound ";
+    EXPECT_THAT(firstError(deep), HasSubstr("blocks within each other"));
+}
+
+TEST(EqcErrors, AreImpossibleShares) {
+    for (const auto& [compound, message] : std::vector<std::pair<std::string, std::string>>{
+             {"range [ .5 .2 ]", "0 <= begin <= end <= 1"},
+             {"range [ 0 2 ]", "0 <= begin <= end <= 1"},
+             {"viewport [ 0 0 2 1 ]", "a part of [ 0 0 1 1 ]"},
+             {"viewport [ 0 0 0 1 ]", "a width and a height above 0"},
+             {"pixel [ 2 0 2 1 ]", "x < width"},
+             {"subpixel [ 4 4 ]", "index < count"},
+             {"zoom [ 0 1 ]", "above 0"},
+             {"period 2 phase 2", "phase 2 of a period of 2"},
+             {"channel \"c\"", "no channel named \"c\""},
+             {"channel ( segment 4 )", "no segment 4: 1 are defined"},
+             {"channel ( view \"v\" )", "no view named \"v\""},
+             {"wall { bottom_left [ 0 0 0 ] bottom_right [ 1 0 0 ] top_left [ 1 1 0 ] }",
+              "right angle"},
+             {"projection { distance 0 }", "above 0"},
+             {"load_equalizer { damping 2 }", "from 0 to 1"}})
+        EXPECT_THAT(firstError(withCompounds("compound { " + compound + " }")), HasSubstr(message))
+            << compound;
+}
+
+TEST(EqcErrors, AreEyesThatAreNotBeforeTheirWall) {
+    EXPECT_THAT(firstError("config { appNode { pipe { window { channel { name \"a\" } } } }"
+                           " observer { eye_cyclop [ 0 0 -2 ] } layout { view { observer 0 } }"
+                           " canvas { layout 0 wall {} segment { channel \"a\" } } }"),
+                HasSubstr("not before the wall"));
+}
+
+TEST(EqcWarnings, SayWhatHasNoEffect) {
+    const Read read(withCompounds("nonsense 5 compound { inputframe { name \"x\" } }"));
+    EXPECT_FALSE(read.findings.hasErrors());
+    const std::string text = describe(read.findings, "f");
+    EXPECT_THAT(text, HasSubstr("'nonsense' means nothing in a config"));
+    EXPECT_THAT(text, HasSubstr("no outputframe of this compound tree is named \"x\""));
+    EXPECT_THAT(describe(sample("1-pipe.eqc").findings, "f"),
+                HasSubstr("on screen only: 'EQ_WINDOW_IATTR_HINT_FULLSCREEN'"));
+}
+
+TEST(Resolve, MakesAPlainCompoundOfAViewThatNoneShows) {
+    const Read read(withCompounds(""));
+    ASSERT_EQ(read.resolved.compounds.size(), 1U);
+    const ResolvedCompound& plain = read.resolved.compounds.front();
+    EXPECT_EQ(plain.compound, nullptr);
+    EXPECT_EQ(plain.tasks, (Tasks{true, true, false, false}));
+    EXPECT_EQ(plain.pixelViewport, (fabric::PixelViewport{0, 0, 640, 480}));
+    EXPECT_EQ(plain.eyes, (Eyes{true, false, false}));
+}
+
+TEST(Resolve, MultipliesWhatChildrenInherit) {
+    const Read read(withCompounds(
+        "compound { channel ( segment 0 view 0 ) buffer [ COLOR DEPTH ]"
+        "  compound { viewport [ .5 0 .5 1 ] range [ .5 1 ]"
+        "    compound { channel \"b\" viewport [ 0 .5 1 .5 ] range [ 0 .5 ] pixel [ 1 0 3 1 ]"
+        "               subpixel [ 1 2 ] period 3 phase 1 outputframe {} }"
+        "    inputframe { name \"frame.b\" } } }"));
+    EXPECT_FALSE(read.findings.hasErrors()) << describe(read.findings, "f");
+    ASSERT_EQ(read.resolved.compounds.size(), 3U);
+    const ResolvedCompound& leaf = read.resolved.compounds[2];
+    EXPECT_EQ(leaf.viewport, (Viewport{.5, .5, .5, .5}));
+    // 320 columns from 320 on, of which 1, 4, 7, … 319: 107.
+    EXPECT_EQ(leaf.pixelViewport, (fabric::PixelViewport{320, 240, 107, 240}));
+    EXPECT_EQ(leaf.range, (fabric::Range{.5, .75}));
+    EXPECT_EQ(leaf.pixel, (PixelShare{1, 0, 3, 1}));
+    EXPECT_EQ(leaf.subpixel, (SubPixelShare{1, 2}));
+    EXPECT_EQ(leaf.period, 3);
+    EXPECT_EQ(leaf.phase, 1);
+    EXPECT_EQ(leaf.buffers, (Buffers{true, true}));
+    EXPECT_EQ(leaf.tasks, (Tasks{true, true, false, true}));
+    EXPECT_EQ(leaf.outputFrames.front().name, "frame.b");
+    EXPECT_TRUE(leaf.outputFrames.front().isMatched);
+    const ResolvedCompound& middle = read.resolved.compounds[1];
+    EXPECT_EQ(middle.tasks, (Tasks{true, false, true, false}));
+}
+
+TEST(Resolve, ClearsAChannelOnceAndDropsTasksWithoutFrames) {
+    const Read read = sample("2-window.2D.eqc");
+    const std::vector<ResolvedCompound>& compounds = read.resolved.compounds;
+    ASSERT_GE(compounds.size(), 3U);
+    EXPECT_EQ(compounds[0].tasks, (Tasks{true, false, true, false}));
+    EXPECT_EQ(compounds[1].tasks,
+              (Tasks{false, true, false, false}));  // the destination's own part
+    EXPECT_EQ(compounds[2].tasks, (Tasks{true, true, false, true}));
+}
+
+/// The frustum that the notes on Equalizer's mathematics give, by its own formulas: the wall's
+/// axes, the eye in them, and corners scaled to the plane at distance 1.
+fabric::Frustum byTheBook(const Wall& wall, const fabric::Vec3& eye) {
+    const fabric::Vec3 u = glm::normalize(wall.bottomRight - wall.bottomLeft);
+    const fabric::Vec3 v = glm::normalize(wall.topLeft - wall.bottomLeft);
+    const fabric::Vec3 w = glm::cross(u, v);
+    const fabric::Vec3 c = (wall.bottomRight + wall.topLeft) * .5;
+    const fabric::Vec3 e(glm::dot(u, eye - c), glm::dot(v, eye - c), glm::dot(w, eye - c));
+    const double width = glm::distance(wall.bottomRight, wall.bottomLeft);
+    const double height = glm::distance(wall.topLeft, wall.bottomLeft);
+    return {(-width / 2 - e.x) / e.z, (width / 2 - e.x) / e.z, (-height / 2 - e.y) / e.z,
+            (height / 2 - e.y) / e.z};
+}
+
+void expectNear(const fabric::Frustum& a, const fabric::Frustum& b) {
+    EXPECT_NEAR(a.left, b.left, 1e-12);
+    EXPECT_NEAR(a.right, b.right, 1e-12);
+    EXPECT_NEAR(a.bottom, b.bottom, 1e-12);
+    EXPECT_NEAR(a.top, b.top, 1e-12);
+}
+
+TEST(Screen, OfACaveIsWhatTheFormulasSay) {
+    const Read read = sample("3-channel.cave.eqc");
+    ASSERT_EQ(read.resolved.compounds.size(), 3U);
+    const fabric::Vec3 eye(0, 0, 0);
+    for (const ResolvedCompound& compound : read.resolved.compounds) {
+        ASSERT_EQ(compound.sights.size(), 1U);
+        const Wall& wall = *read.resolved.destinations[*compound.destination].wall;
+        expectNear(compound.sights[0].sight->frustum, byTheBook(wall, eye));
+    }
+    // The left wall: from (-1, -1, 1) to (-1, -1, -1), seen from the middle, is 90 degrees wide.
+    expectNear(read.resolved.compounds[0].sights[0].sight->frustum, {-1, 1, -1, 1});
+}
+
+TEST(Screen, PutsEveryPointOfTheWallWhereTheEyeSeesIt) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> any(-2, 2);
+    for (int i = 0; i < 200; ++i) {
+        const fabric::Vec3 corner(any(random), any(random), any(random));
+        const fabric::Vec3 u = glm::normalize(fabric::Vec3(any(random), any(random), any(random)));
+        const fabric::Vec3 other(any(random), any(random), any(random));
+        const fabric::Vec3 v = glm::normalize(other - glm::dot(other, u) * u);
+        const Wall wall{corner, corner + 3.0 * u, corner + 2.0 * v, false};
+        const fabric::Vec3 eye = corner + any(random) * u + any(random) * v +
+                                 (.1 + std::abs(any(random))) * glm::cross(u, v);
+        const auto sight = sightThrough(wall, eye);
+        ASSERT_TRUE(sight.has_value());
+        expectNear(sight->frustum, byTheBook(wall, eye));
+        const fabric::Vec4 seen = sight->viewFromWorld * fabric::Vec4(wall.topLeft, 1);
+        EXPECT_NEAR(seen.x / -seen.z, sight->frustum.left, 1e-9);
+        EXPECT_NEAR(seen.y / -seen.z, sight->frustum.top, 1e-9);
+        EXPECT_FALSE(sightThrough(wall, eye - 10.0 * glm::cross(u, v)).has_value());
+    }
+}
+
+TEST(Screen, OfAProjectorIsBeforeItWhicheverWayItTurns) {
+    const Wall ahead = wallOf(Projection{{1, 2, 3}, 2, {90, 90}, {0, 0, 0}});
+    EXPECT_NEAR(glm::distance(ahead.bottomLeft, fabric::Vec3(-1, 0, 1)), 0, 1e-12);
+    const Wall left = wallOf(Projection{{0, 0, 0}, 1, {90, 90}, {90, 0, 0}});
+    EXPECT_NEAR(glm::distance(left.bottomLeft, fabric::Vec3(-1, -1, 1)), 0, 1e-12);
+    const Wall up = wallOf(Projection{{0, 0, 0}, 1, {90, 90}, {0, 90, 0}});
+    EXPECT_NEAR(glm::distance(up.bottomLeft, fabric::Vec3(-1, 1, -1)), 0, 1e-12);
+    const Wall rolled = wallOf(Projection{{0, 0, 0}, 1, {90, 90}, {0, 0, 90}});
+    EXPECT_NEAR(glm::distance(rolled.bottomLeft, fabric::Vec3(1, -1, -1)), 0, 1e-12);
+}
+
+TEST(Screen, ShowsEachEyeOfAStereoView) {
+    const Read read = sample("2-window.HMD.eqc");
+    ASSERT_EQ(read.resolved.destinations.size(), 2U);
+    EXPECT_EQ(read.resolved.destinations[0].eyes, (Eyes{false, true, false}));
+    EXPECT_EQ(read.resolved.destinations[1].eyes, (Eyes{false, false, true}));
+    for (const ResolvedCompound& compound : read.resolved.compounds)
+        EXPECT_EQ(compound.sights.size(), 1U);
+}
+
+}  // namespace
+}  // namespace eyrie::config
