@@ -51,8 +51,9 @@ absl::Status checkFile(const Options& options) {
     else
         fmt::print(stderr, "{}", config::describe(checked.findings, options.file));
     if (checked.findings.hasErrors())
-        return absl::InvalidArgumentError(
-            fmt::format("{}: {} errors", options.file, checked.findings.errors()));
+        return absl::InvalidArgumentError(fmt::format("{}: {} error{}", options.file,
+                                                      checked.findings.errors(),
+                                                      checked.findings.errors() == 1 ? "" : "s"));
     if (!options.json && !options.quiet)
         fmt::print("{}", check::text(checked));
     return absl::OkStatus();
