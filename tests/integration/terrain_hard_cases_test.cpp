@@ -166,6 +166,14 @@ TEST(HardCase1, PicturesAreTheSameBits2To31PostsFromTheOrigin) {
     }
 }
 
+/// Hard case 1. Where origin and camera lie between the lattice's points, pictures are what rays
+/// at the posts say, as elsewhere.
+TEST(HardCase1, FarFromTheOriginPicturesDoNotDrift) {
+    HeightGrid grid = gridOf(200, 200, hills);
+    grid.origin = {6378137.3, -6356752.7};
+    holdAround(std::move(grid), "far");
+}
+
 /// Hard case 2, beside TerrainCracks' thousand steep views: level along borders of tiles, where
 /// columns of the picture are vertical planes and nothing below terrain may be open.
 TEST(HardCase2, NoHoleOpensBelowTheHorizonAlongBorders) {
@@ -320,6 +328,21 @@ TEST(HardCase11, CamerasWhereverTheyStandKeepThePromise) {
         const truth::PromiseKept kept = scene.hold(place.name, camera);
         EXPECT_LE(kept.promisedPixels, 1) << place.name;
     }
+}
+
+/// Hard case 15, for lenses as narrow and as wide as there are: expected is what rays say.
+TEST(HardCase15, FromOneDegreeTo170TerrainKeepsThePromise) {
+    Scene scene(gridOf(400, 400, hills));
+    for (const double fov : {1.0, 10.0, 90.0, 130.0, 170.0})
+        for (const double tau : {0.5, 4.0}) {
+            Camera camera;
+            camera.eye = scene.at(150, 170, std::max(60.0, 3000 / fov));
+            camera.target = camera.eye + Vec3(1, 0.4, -0.3);
+            camera.fovYDegrees = fov;
+            const auto kept = scene.hold(fmt::format("{} degrees", fov), camera, tau);
+            EXPECT_LE(kept.promisedPixels, tau) << fov;
+            EXPECT_GT(kept.measured.compared, 1000U) << fov;
+        }
 }
 
 /// The eye on the surface itself: anything may be promised, but there is a picture.

@@ -5,7 +5,9 @@
 #include <condition_variable>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <thread>
+#include <utility>
 
 #include "service/channel_drawer.h"
 
@@ -34,6 +36,9 @@ struct FakeDrawerControl {
         std::unique_lock lock(mutex);
         changed.wait(lock, [this] { return !held; });
     }
+
+    /// What is drawn in place of a gradient, once it is set; not while a call is under way.
+    std::optional<fabric::Image> image;
 
     std::mutex mutex;
     std::condition_variable changed;
@@ -66,7 +71,9 @@ public:
         ++control_->begun;
         control_->waitWhileHeld();
         ++control_->drawn;
-        return picture(frameData, task);
+        fabric::ChannelResult result = picture(frameData, task);
+        result.image = control_->image.value_or(std::move(result.image));
+        return result;
     }
 
     static fabric::ChannelResult picture(const fabric::FrameData& frameData,

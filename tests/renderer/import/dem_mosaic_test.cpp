@@ -275,5 +275,152 @@ TEST_F(DemMosaic, RefusesWhatCannotBeBroughtTogether) {
     EXPECT_FALSE(test::readDems({}).ok());
 }
 
+/// Heights from 9,000 m below the ellipsoid to 1,000 below, by where on the earth a place lies, so
+/// that neither the poles nor the antimeridian are special.
+double deep(double longitude, double latitude) {
+    const double lon = longitude * M_PI / 180, lat = latitude * M_PI / 180;
+    return 2000 * std::sin(8 * std::cos(lat) * std::cos(lon)) +
+           2000 * std::cos(7 * std::cos(lat) * std::sin(lon)) - 5000;
+}
+
+struct Place {
+    double longitude;
+    double latitude;
+};
+
+/// J. P. Snyder, Map Projections: A Working Manual (1987), pages 160 to 162: the ellipsoidal polar
+/// stereographic projection of UPS, backwards.
+Place fromUps(double x, double y, bool isNorth) {
+    constexpr double kA = 6378137, kF = 1 / 298.257223563, kScale = 0.994, kFalse = 2e6;
+    const double e = std::sqrt(kF * (2 - kF));
+    const double dx = x - kFalse, dy = isNorth ? kFalse - y : y - kFalse;
+    const double t = std::hypot(dx, dy) *
+                     std::sqrt(std::pow(1 + e, 1 + e) * std::pow(1 - e, 1 - e)) / (2 * kA * kScale);
+    double latitude = M_PI / 2 - 2 * std::atan(t);
+    for (int i = 0; i < 5; ++i) {
+        const double s = e * std::sin(latitude);
+        latitude = M_PI / 2 - 2 * std::atan(t * std::pow((1 - s) / (1 + s), e / 2));
+    }
+    return {std::atan2(dx, dy) * 180 / M_PI, (isNorth ? latitude : -latitude) * 180 / M_PI};
+}
+
+class HardCase26 : public DemMosaic {
+protected:
+    struct Checked {
+        std::int64_t posts = 0;
+        std::int64_t open = 0;
+        double worst = 0;  ///< metres, away from the raster's rim
+    };
+
+    /// Compares every post with the height of its place where `isInside` says that the raster has
+    /// posts all around it.
+    static Checked check(const test::Dem& dem, const std::function<Place(double, double)>& place,
+                         const std::function<bool(const Place&)>& isInside) {
+        Checked checked;
+        for (std::int32_t j = 0; j < dem.grid.rows; ++j)
+            for (std::int32_t i = 0; i < dem.grid.columns; ++i) {
+                const Place at = place(dem.grid.origin.x + dem.grid.perColumn.x * i,
+                                       dem.grid.origin.y + dem.grid.perRow.y * j);
+                if (!isInside(at))
+                    continue;
+                ++checked.posts;
+                const double height = dem.grid.at(i, j);
+                if (std::isnan(height))
+                    ++checked.open;
+                else
+                    checked.worst =
+                        std::max(checked.worst, std::abs(height - deep(at.longitude, at.latitude)));
+            }
+        return checked;
+    }
+
+    /// By PROJ, which import leaves to GDAL's warper.
+    static std::function<Place(double, double)> fromCrs(const std::string& wkt) {
+        OGRSpatialReference local, degrees;
+        local.importFromWkt(wkt.c_str());
+        local.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+        degrees.importFromEPSG(kDegrees);
+        degrees.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+        const std::shared_ptr<OGRCoordinateTransformation> transformation(
+            OGRCreateCoordinateTransformation(&local, &degrees));
+        return [transformation](double x, double y) {
+            transformation->Transform(1, &x, &y);
+            return Place{x, y};
+        };
+    }
+};
+
+/// A cap of all longitudes, with the pole in its middle and the antimeridian as a seam, where a
+/// raster ends and begins. Pixels of a quarter of a degree, over which the ground falls by 70 m at
+/// most: between them interpolation leaves 0.3 m, and the warper's hundredth of a pixel 0.7.
+TEST_F(HardCase26, PolarCapsHaveEveryPlaceWhereSnydersFormulasHaveIt) {
+    for (const bool isNorth : {true, false}) {
+        const auto dem = test::readDem(write({.epsg = kDegrees,
+                                              .west = -180,
+                                              .north = isNorth ? 90.0 : -84.0,
+                                              .pixel = 0.25,
+                                              .columns = 1440,
+                                              .rows = 24,
+                                              .height = deep}));
+        ASSERT_TRUE(dem.ok()) << dem.status();
+        const auto place = [&](double x, double y) { return fromUps(x, y, isNorth); };
+        const auto within = [&](double from, double to) {
+            return [=](const Place& at) {
+                const double fromPole = 90 - std::abs(at.latitude);
+                return fromPole > from && fromPole < to && std::abs(at.longitude) < 179.7;
+            };
+        };
+        const Checked around = check(*dem, place, within(0.3, 5.7));
+        EXPECT_GT(around.posts, 100000);
+        EXPECT_EQ(around.open, 0);
+        EXPECT_LE(around.worst, 1);
+        // At the pole and at the seam the next pixel's centre is half a pixel away.
+        const Checked all =
+            check(*dem, place, [](const Place& at) { return 90 - std::abs(at.latitude) < 5.7; });
+        EXPECT_EQ(all.open, 0);
+        EXPECT_LE(all.worst, 35);
+        fmt::print("{}: {} posts, {:.2f} m off, {:.2f} at pole and seam\n",
+                   dem->crsWkt.substr(0, 60), all.posts, around.worst, all.worst);
+    }
+}
+
+/// Pixels of a hundredth of a degree, over which the ground falls by 3 m at most.
+TEST_F(HardCase26, AcrossTheAntimeridianEveryPlaceIsWhereProjHasIt) {
+    for (const double west : {178.5, -181.5}) {
+        const auto dem = test::readDem(write({.epsg = kDegrees,
+                                              .west = west,
+                                              .north = -16,
+                                              .pixel = 0.01,
+                                              .columns = 300,
+                                              .rows = 200,
+                                              .height = deep}));
+        ASSERT_TRUE(dem.ok()) << dem.status();
+        const Checked found = check(*dem, fromCrs(dem->crsWkt), [&](const Place& at) {
+            const double east = at.longitude - west - 360 * std::floor((at.longitude - west) / 360);
+            return east > 0.02 && east < 2.98 && at.latitude < -16.02 && at.latitude > -17.98;
+        });
+        EXPECT_GT(found.posts, 50000);
+        EXPECT_EQ(found.open, 0);
+        EXPECT_LE(found.worst, 0.04);
+        fmt::print("{} posts, {:.2f} m off\n", found.posts, found.worst);
+    }
+}
+
+/// Two rasters that meet there, of which one counts from 180 degrees and one from -180.
+TEST_F(HardCase26, RastersOnEitherSideOfTheAntimeridianAreBesideEachOther) {
+    const auto raster = [&](double west) {
+        return write({.epsg = kDegrees,
+                      .west = west,
+                      .north = -16,
+                      .pixel = 0.01,
+                      .columns = 100,
+                      .rows = 100,
+                      .height = deep});
+    };
+    const auto dem = test::readDems({raster(179), raster(-180)});
+    ASSERT_TRUE(dem.ok()) << dem.status();
+    EXPECT_LT(dem->grid.columns, 400);
+}
+
 }  // namespace
 }  // namespace eyrie::import
