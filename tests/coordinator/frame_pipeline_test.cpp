@@ -325,8 +325,12 @@ TEST_P(HardCase13, PicturesAreTheSameInWhateverOrderTiedPartsArrive) {
     }
 }
 
-/// The picture expected is the one that LayeredScene draws by its definition, whole.
-using HardCase27 = FramePipelineTest;
+/// The picture expected is the one that LayeredScene draws by its definition, whole. No part is
+/// taken for late, so each renderer draws its own.
+class HardCase27 : public FramePipelineTest {
+protected:
+    HardCase27() : FramePipelineTest(seconds(50)) {}
+};
 
 INSTANTIATE_TEST_SUITE_P(Of, HardCase27, testing::Values(Decomposition::TwoD, Decomposition::Db),
                          [](const auto& of) {

@@ -26,16 +26,11 @@ using Mesh = import::TriangleMesh;
 
 constexpr int kWidth = 320;
 constexpr int kHeight = 180;
-class MeshHardCase : public test::MeshPictures {
-protected:
-    MeshHardCase() : MeshPictures(kWidth, kHeight) {}
-};
-
-using HardCase12 = MeshHardCase;
-using HardCase13 = MeshHardCase;
-using HardCase15 = MeshHardCase;
-using HardCase16 = MeshHardCase;
-using HardCase18 = MeshHardCase;
+using HardCase12 = test::MeshPictures;
+using HardCase13 = test::MeshPictures;
+using HardCase15 = test::MeshPictures;
+using HardCase16 = test::MeshPictures;
+using HardCase18 = test::MeshPictures;
 
 /// A square of `side` metres across the x axis.
 Mesh square(double x, double side) {
@@ -139,9 +134,10 @@ TEST_F(HardCase15, InTheCornerOfAWideViewThePromiseIsKept) {
                 const auto drawn = draw(camera, tau);
                 const double promised = drawn.statistics.tauAchievedPixels;
                 EXPECT_LE(promised, tau);
-                EXPECT_GT(check(source, camera, drawn, promised,
-                                fmt::format("{} m, tau {}", distance, tau)),
-                          50U);
+                EXPECT_GT(
+                    check(source, camera, drawn, promised,
+                          fmt::format("{} m, tau {}", distance, tau), test::kWideRasterPixels),
+                    50U);
             }
 }
 
@@ -245,8 +241,9 @@ TEST_F(HardCase18, HairThinPipesStayWhereRaysFindThem) {
             fmt::print("{} triangles, {} px: {} pixels of {}\n", mesh.triangles.size(), pixelsWide,
                        drawn, expected);
             EXPECT_GT(expected, 0U);
-            EXPECT_GE(drawn, expected / 2);
-            EXPECT_LE(drawn, expected + expected / 4 + 20);
+            // Measured: up to 3 more or less, of 165 pixels to 17,557.
+            EXPECT_NEAR(static_cast<double>(drawn), static_cast<double>(expected),
+                        0.01 * static_cast<double>(expected) + 4);
         }
     }
 }

@@ -22,8 +22,10 @@
 
 namespace eyrie::test {
 
-/// What rasterisation may add to what is promised: corners are rounded to 1/256 pixel.
+/// What rasterisation may add to what is promised: corners are rounded to 1/256 pixel. Where a wide
+/// view sees a surface edge-on, depth in single precision shows, too.
 inline constexpr double kRasterPixels = 1.0 / 256;
+inline constexpr double kWideRasterPixels = 1.0 / 128;
 
 inline fabric::Vec3 randomDirection(std::mt19937& random) {
     std::normal_distribution<double> normal;
@@ -33,7 +35,7 @@ inline fabric::Vec3 randomDirection(std::mt19937& random) {
 /// Whole pictures, of one size and on white, of meshes that are imported as they are needed.
 class MeshPictures : public testing::Test {
 protected:
-    MeshPictures(int width, int height) : width_(width), height_(height) {}
+    explicit MeshPictures(int width = 320, int height = 180) : width_(width), height_(height) {}
 
     void SetUp() override {
         renderer_ = makeRenderer();
@@ -90,12 +92,12 @@ protected:
     /// What rays at the source say of a picture that promises so many pixels. Returns how many
     /// were looked at.
     std::size_t check(const truth::MeshRayCaster& source, const fabric::Camera& camera,
-                      const fabric::ChannelResult& drawn, double promised,
-                      const std::string& what) const {
+                      const fabric::ChannelResult& drawn, double promised, const std::string& what,
+                      double rasterPixels = kRasterPixels) const {
         const auto found =
             truth::compareDepth(truth::Pinhole(camera, width_, height_), metres(drawn.image),
                                 source, static_cast<int>(std::ceil(promised)) + 1);
-        EXPECT_LE(found.maxPixels, promised + kRasterPixels) << what;
+        EXPECT_LE(found.maxPixels, promised + rasterPixels) << what;
         EXPECT_EQ(found.holes + found.falseHits + found.misplaced, 0U) << what;
         return found.compared;
     }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // From synthetic source to picture by the program alone: synth, import, info, render.
-#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -257,20 +256,6 @@ TEST_F(HardCase28, StillsAreTheSameBytesInEveryRunAndForAnyThreadsAndProcesses) 
     EXPECT_TRUE(still({"--renderers", "1"}, "8") == first);
     EXPECT_TRUE(still({"--renderers", "5"}, "1") == first);
     EXPECT_TRUE(still({"--renderers", "5", "--compound", "DB"}, "1") == first);
-}
-
-TEST_F(HardCase28, ImportsAreTheSameBytesForAnyNumberOfThreads) {
-    for (const auto& [kind, source, ending] :
-         {std::array{"terrain", "dem.tif", ".eyt"}, {"mesh", "ball.ply", ".eym"}}) {
-        const auto imported = [&, kind = kind, source = source,
-                               ending = ending](const std::string& threads) {
-            const std::string out = path("threads" + threads + ending);
-            EXPECT_TRUE(succeeded(
-                {"import", kind, path(source), "-o", out, "--threads", threads, "--quiet"}));
-            return content(out);
-        };
-        EXPECT_TRUE(imported("1") == imported("8")) << kind;
-    }
 }
 
 TEST_F(Render, ASceneFilePlacesItsObjectsRelativeToItself) {

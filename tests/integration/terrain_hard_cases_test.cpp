@@ -332,17 +332,17 @@ TEST(HardCase11, CamerasWhereverTheyStandKeepThePromise) {
 
 /// Hard case 15, for lenses as narrow and as wide as there are: expected is what rays say.
 TEST(HardCase15, FromOneDegreeTo170TerrainKeepsThePromise) {
-    Scene scene(gridOf(400, 400, hills));
-    for (const double fov : {1.0, 10.0, 90.0, 130.0, 170.0})
-        for (const double tau : {0.5, 4.0}) {
-            Camera camera;
-            camera.eye = scene.at(150, 170, std::max(60.0, 3000 / fov));
-            camera.target = camera.eye + Vec3(1, 0.4, -0.3);
-            camera.fovYDegrees = fov;
-            const auto kept = scene.hold(fmt::format("{} degrees", fov), camera, tau);
-            EXPECT_LE(kept.promisedPixels, tau) << fov;
-            EXPECT_GT(kept.measured.compared, 1000U) << fov;
-        }
+    Scene scene(gridOf(300, 300, hills));
+    for (const auto& [fov, tau] :
+         {std::pair{1.0, 0.5}, {10.0, 4.0}, {90.0, 0.5}, {150.0, 4.0}, {170.0, 1.0}}) {
+        Camera camera;
+        camera.eye = scene.at(100, 120, std::max(100.0, 6e4 / (fov * fov)));
+        camera.target = scene.at(130, 140, 0);
+        camera.fovYDegrees = fov;
+        const auto kept = scene.hold(fmt::format("{} degrees", fov), camera, tau);
+        EXPECT_LE(kept.promisedPixels, tau) << fov;
+        EXPECT_GT(kept.measured.compared, 1000U) << fov;
+    }
 }
 
 /// The eye on the surface itself: anything may be promised, but there is a picture.

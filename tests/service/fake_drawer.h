@@ -7,7 +7,6 @@
 #include <mutex>
 #include <optional>
 #include <thread>
-#include <utility>
 
 #include "service/channel_drawer.h"
 
@@ -71,9 +70,8 @@ public:
         ++control_->begun;
         control_->waitWhileHeld();
         ++control_->drawn;
-        fabric::ChannelResult result = picture(frameData, task);
-        result.image = control_->image.value_or(std::move(result.image));
-        return result;
+        return control_->image ? fabric::ChannelResult{*control_->image, {}}
+                               : picture(frameData, task);
     }
 
     static fabric::ChannelResult picture(const fabric::FrameData& frameData,

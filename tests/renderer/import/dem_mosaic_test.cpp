@@ -351,75 +351,69 @@ protected:
 };
 
 /// A cap of all longitudes, with the pole in its middle and the antimeridian as a seam, where a
-/// raster ends and begins. Pixels of a quarter of a degree, over which the ground falls by 70 m at
-/// most: between them interpolation leaves 0.3 m, and the warper's hundredth of a pixel 0.7.
+/// raster ends and begins. Pixels of half a degree, over which the ground falls by 140 m at most:
+/// between them interpolation leaves 1.2 m, and the warper's hundredth of a pixel 1.4. A post
+/// farther on it is 6 m.
 TEST_F(HardCase26, PolarCapsHaveEveryPlaceWhereSnydersFormulasHaveIt) {
     for (const bool isNorth : {true, false}) {
         const auto dem = test::readDem(write({.epsg = kDegrees,
                                               .west = -180,
                                               .north = isNorth ? 90.0 : -84.0,
-                                              .pixel = 0.25,
-                                              .columns = 1440,
-                                              .rows = 24,
+                                              .pixel = 0.5,
+                                              .columns = 720,
+                                              .rows = 12,
                                               .height = deep}));
         ASSERT_TRUE(dem.ok()) << dem.status();
-        const auto place = [&](double x, double y) { return fromUps(x, y, isNorth); };
-        const auto within = [&](double from, double to) {
-            return [=](const Place& at) {
-                const double fromPole = 90 - std::abs(at.latitude);
-                return fromPole > from && fromPole < to && std::abs(at.longitude) < 179.7;
-            };
+        const auto found = [&](double fromPole, double longitude) {
+            return check(
+                *dem, [&](double x, double y) { return fromUps(x, y, isNorth); },
+                [&](const Place& at) {
+                    const double distance = 90 - std::abs(at.latitude);
+                    return distance > fromPole && distance < 5.4 &&
+                           std::abs(at.longitude) < longitude;
+                });
         };
-        const Checked around = check(*dem, place, within(0.3, 5.7));
+        const Checked around = found(0.6, 179.4);
         EXPECT_GT(around.posts, 100000);
         EXPECT_EQ(around.open, 0);
-        EXPECT_LE(around.worst, 1);
+        EXPECT_LE(around.worst, 2.6);
         // At the pole and at the seam the next pixel's centre is half a pixel away.
-        const Checked all =
-            check(*dem, place, [](const Place& at) { return 90 - std::abs(at.latitude) < 5.7; });
+        const Checked all = found(0, 179.9999);
         EXPECT_EQ(all.open, 0);
-        EXPECT_LE(all.worst, 35);
-        fmt::print("{}: {} posts, {:.2f} m off, {:.2f} at pole and seam\n",
-                   dem->crsWkt.substr(0, 60), all.posts, around.worst, all.worst);
+        EXPECT_LE(all.worst, 70);
+        // Of posts on the very seam GDAL takes some for beside the raster.
+        EXPECT_LE(found(0, 181).open, 60);
     }
 }
 
-/// Pixels of a hundredth of a degree, over which the ground falls by 3 m at most.
+/// Pixels of a hundredth of a degree, over which the ground falls by 3 m at most. Rasters that
+/// count to 180 degrees and from -180 are beside each other; half a pixel is to their rim.
 TEST_F(HardCase26, AcrossTheAntimeridianEveryPlaceIsWhereProjHasIt) {
-    for (const double west : {178.5, -181.5}) {
-        const auto dem = test::readDem(write({.epsg = kDegrees,
-                                              .west = west,
-                                              .north = -16,
-                                              .pixel = 0.01,
-                                              .columns = 300,
-                                              .rows = 200,
-                                              .height = deep}));
-        ASSERT_TRUE(dem.ok()) << dem.status();
-        const Checked found = check(*dem, fromCrs(dem->crsWkt), [&](const Place& at) {
-            const double east = at.longitude - west - 360 * std::floor((at.longitude - west) / 360);
-            return east > 0.02 && east < 2.98 && at.latitude < -16.02 && at.latitude > -17.98;
-        });
-        EXPECT_GT(found.posts, 50000);
-        EXPECT_EQ(found.open, 0);
-        EXPECT_LE(found.worst, 0.04);
-        fmt::print("{} posts, {:.2f} m off\n", found.posts, found.worst);
-    }
-}
-
-/// Two rasters that meet there, of which one counts from 180 degrees and one from -180.
-TEST_F(HardCase26, RastersOnEitherSideOfTheAntimeridianAreBesideEachOther) {
-    const auto raster = [&](double west) {
+    const auto raster = [&](double west, int columns) {
         return write({.epsg = kDegrees,
                       .west = west,
                       .north = -16,
                       .pixel = 0.01,
-                      .columns = 100,
-                      .rows = 100,
+                      .columns = columns,
+                      .rows = 200,
                       .height = deep});
     };
-    const auto dem = test::readDems({raster(179), raster(-180)});
-    ASSERT_TRUE(dem.ok()) << dem.status();
-    EXPECT_LT(dem->grid.columns, 400);
+    struct Case {
+        std::vector<std::string> rasters;
+        double metres;
+    };
+    for (const Case& one : {Case{{raster(178.5, 300)}, 0.04}, Case{{raster(-181.5, 300)}, 0.04},
+                            Case{{raster(178.5, 150), raster(-180, 150)}, 1.5}}) {
+        const auto dem = test::readDems(one.rasters);
+        ASSERT_TRUE(dem.ok()) << dem.status();
+        const Checked found = check(*dem, fromCrs(dem->crsWkt), [](const Place& at) {
+            const double east = at.longitude < 0 ? at.longitude + 180 : at.longitude - 180;
+            return east > -1.48 && east < 1.48 && at.latitude < -16.02 && at.latitude > -17.98;
+        });
+        EXPECT_GT(found.posts, 50000);
+        EXPECT_EQ(found.open, 0);
+        EXPECT_LE(found.worst, one.metres);
+    }
 }
 
 }  // namespace
