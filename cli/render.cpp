@@ -195,7 +195,7 @@ void addRender(CLI::App& app, Run& run) {
                      R"(JSON: {"eye":[x,y,z],"target":[x,y,z],"up":[0,0,1],"fovyDegrees":45})")
         ->type_name("FILE")
         ->required();
-    command->add_option("--size", options->size, "Of the picture, in pixels")
+    command->add_option("--size", options->size, "Of the picture, in pixels, up to 16384 a side")
         ->type_name("WIDTHxHEIGHT")
         ->capture_default_str();
     command->add_option("--tau", options->tau, "Screen-space error allowed, in pixels")

@@ -276,6 +276,7 @@ absl::StatusOr<fabric::Scene> doorway(const test::TemporaryFolder& folder) {
     return scene;
 }
 
+/// Expected is the picture drawn without culling.
 class HardCase20 : public testing::Test {
 protected:
     void SetUp() override {
