@@ -8,11 +8,10 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <png.h>
 
+#include "cli/png_file.h"
 #include "fabric/frustum.h"
 #include "fabric/status.h"
-#include "renderer/mesh/output_file.h"
 #include "wire/jpeg.h"
 
 namespace eyrie::cli {
@@ -29,32 +28,35 @@ std::string ending(const std::string& path) {
 
 bool isJpeg(const std::string& path) { return ending(path) == ".jpg" || ending(path) == ".jpeg"; }
 
-absl::StatusOr<std::vector<std::byte>> encodePng(const fabric::Image& image) {
-    std::vector<std::uint8_t> rgb;
-    rgb.reserve(image.colour.size() * 3);
-    for (const fabric::Rgba& pixel : image.colour)
-        rgb.insert(rgb.end(), {pixel.r, pixel.g, pixel.b});
-    png_image png{};
-    png.version = PNG_IMAGE_VERSION;
-    png.width = static_cast<png_uint_32>(image.area.width);
-    png.height = static_cast<png_uint_32>(image.area.height);
-    png.format = PNG_FORMAT_RGB;
-    const auto bottomUp = -image.area.width * 3;  // a negative stride starts at the last row
-    png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
-    std::vector<std::byte> bytes(size);
-    if (png_image_write_to_memory(&png, bytes.data(), &size, 0, rgb.data(), bottomUp, nullptr) == 0)
-        return absl::InternalError(fmt::format("PNG encoder: {}", png.message));
-    bytes.resize(size);
-    return bytes;
-}
-
-}  // namespace
-
 absl::Status writeFile(std::span<const std::byte> bytes, const std::string& path) {
     ASSIGN_OR_RETURN(mesh::OutputFile file, mesh::OutputFile::create(path));
     RETURN_IF_ERROR(file.write(bytes));
     return file.commit();
 }
+
+class JpegFile final : public PictureFile {
+public:
+    JpegFile(mesh::OutputFile file, int width, int height)
+        : file_(std::move(file)), picture_(fabric::makeImage({0, 0, width, height}, {}, false)) {}
+
+    absl::Status append(const fabric::Image& rows) override {
+        fabric::paste(rows, picture_);
+        return absl::OkStatus();
+    }
+
+    absl::Status commit() override {
+        ASSIGN_OR_RETURN(const std::vector<std::byte> bytes,
+                         wire::encodeJpeg(picture_, kJpegQuality, wire::ChromaSubsampling::None));
+        RETURN_IF_ERROR(file_.write(bytes));
+        return file_.commit();
+    }
+
+private:
+    mesh::OutputFile file_;
+    fabric::Image picture_;
+};
+
+}  // namespace
 
 absl::Status writeText(std::string_view text, const std::string& path) {
     return writeFile(std::as_bytes(std::span(text)), path);
@@ -67,28 +69,32 @@ absl::Status checkPictureName(const std::string& path, std::string_view option) 
         fmt::format("{} is '{}'; its name must end in .png, .jpg or .jpeg", option, path));
 }
 
-absl::Status writePicture(const fabric::Image& image, const std::string& path) {
+absl::StatusOr<std::unique_ptr<PictureFile>> PictureFile::create(const std::string& path, int width,
+                                                                 int height) {
     RETURN_IF_ERROR(checkPictureName(path, "picture"));
-    ASSIGN_OR_RETURN(const std::vector<std::byte> bytes,
-                     isJpeg(path)
-                         ? wire::encodeJpeg(image, kJpegQuality, wire::ChromaSubsampling::None)
-                         : encodePng(image));
-    return writeFile(bytes, path);
+    if (!isJpeg(path))
+        return createPng(path, width, height);
+    ASSIGN_OR_RETURN(mesh::OutputFile file, mesh::OutputFile::create(path));
+    return std::make_unique<JpegFile>(std::move(file), width, height);
 }
 
-absl::Status writeDepth(const fabric::Image& image, const std::string& path) {
+absl::StatusOr<DepthFile> DepthFile::create(const std::string& path, int width, int height) {
+    ASSIGN_OR_RETURN(mesh::OutputFile file, mesh::OutputFile::create(path));
+    const std::string header = fmt::format("Pf\n{} {}\n-1.0\n", width, height);
+    RETURN_IF_ERROR(file.write(std::as_bytes(std::span(header))));
+    return DepthFile(std::move(file));
+}
+
+absl::Status DepthFile::put(const fabric::Image& rows) {
     static_assert(std::endian::native == std::endian::little);
     std::vector<float> metres;
-    metres.reserve(image.depth.size());
-    for (const float reversed : image.depth)
+    metres.reserve(rows.depth.size());
+    for (const float reversed : rows.depth)
         metres.push_back(
             static_cast<float>(fabric::viewDepthMetres(reversed, fabric::kNearMetres)));
-    ASSIGN_OR_RETURN(mesh::OutputFile file, mesh::OutputFile::create(path));
-    const std::string header =
-        fmt::format("Pf\n{} {}\n-1.0\n", image.area.width, image.area.height);
-    RETURN_IF_ERROR(file.write(std::as_bytes(std::span(header))));
-    RETURN_IF_ERROR(file.write(std::as_bytes(std::span(metres))));
-    return file.commit();
+    const auto before =
+        static_cast<std::uint64_t>(rows.area.y) * static_cast<std::uint64_t>(rows.area.width);
+    return file_.writeAt(file_.size() + before * sizeof(float), std::as_bytes(std::span(metres)));
 }
 
 }  // namespace eyrie::cli

@@ -35,7 +35,7 @@ public:
         task.frameDataVersion = frameData.version;
         task.viewWidth = request.width;
         task.viewHeight = request.height;
-        task.pixelViewport = {0, 0, request.width, request.height};
+        task.pixelViewport = request.drawnPart();
         task.wantsDepth = request.wantsDepth;
         task.completeness = request.completeness;
         task.measuresStages = request.measuresStages;

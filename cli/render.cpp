@@ -15,6 +15,7 @@
 #include "cli/decode_names.h"
 #include "cli/image_files.h"
 #include "cli/occlusion_option.h"
+#include "cli/picture_bands.h"
 #include "cli/picture_source.h"
 #include "cli/renderer_processes.h"
 #include "cli/scene_files.h"
@@ -81,22 +82,46 @@ absl::StatusOr<coordinator::FrameRequest> requestOf(const Options& options) {
     return request;
 }
 
-absl::Status writeResults(const coordinator::RenderedFrame& frame, const Options& options,
-                          const coordinator::FrameRequest& request) {
+/// The files that a picture is written to while it is being drawn.
+struct Outputs {
+    std::unique_ptr<PictureFile> picture;
+    std::optional<DepthFile> depth;
+
+    absl::Status take(const fabric::Image& rows) {
+        if (depth)
+            RETURN_IF_ERROR(depth->put(rows));
+        return picture->append(rows);
+    }
+};
+
+absl::StatusOr<Outputs> createOutputs(const Options& options,
+                                      const coordinator::FrameRequest& request) {
+    Outputs outputs;
+    ASSIGN_OR_RETURN(outputs.picture,
+                     PictureFile::create(options.out, request.width, request.height));
+    if (!options.depth.empty()) {
+        ASSIGN_OR_RETURN(outputs.depth,
+                         DepthFile::create(options.depth, request.width, request.height));
+    }
+    return outputs;
+}
+
+absl::Status finish(Outputs& outputs, const DrawnBands& drawn, const Options& options,
+                    const coordinator::FrameRequest& request) {
     const std::string statistics =
-        wire::statisticsJson(frame.statistics, request.width, request.height, frame.device);
-    if (!options.depth.empty())
-        RETURN_IF_ERROR(writeDepth(frame.image, options.depth));
+        wire::statisticsJson(drawn.statistics, request.width, request.height, drawn.device);
+    if (outputs.depth)
+        RETURN_IF_ERROR(outputs.depth->commit());
     if (!options.stats.empty())
         RETURN_IF_ERROR(writeText(statistics, options.stats));
-    RETURN_IF_ERROR(writePicture(frame.image, options.out));
+    RETURN_IF_ERROR(outputs.picture->commit());
     if (options.json)
         fmt::print("{}\n", statistics);
     else if (!options.pictures.quiet)
         fmt::print(stderr, "{}: {} triangles, {:.1f} ms, error {:.3g} of {:.3g} pixels asked{}\n",
-                   options.out, frame.statistics.triangles, frame.statistics.milliseconds.total,
-                   frame.statistics.tauAchievedPixels, frame.statistics.tauAskedPixels,
-                   frame.statistics.complete ? "" : ", incomplete");
+                   options.out, drawn.statistics.triangles, drawn.statistics.milliseconds.total,
+                   drawn.statistics.tauAchievedPixels, drawn.statistics.tauAskedPixels,
+                   drawn.statistics.complete ? "" : ", incomplete");
     return absl::OkStatus();
 }
 
@@ -115,10 +140,15 @@ absl::Status render(const Options& options) {
     ASSIGN_OR_RETURN(const coordinator::FrameRequest request, requestOf(options));
     ASSIGN_OR_RETURN(const auto pictures,
                      PictureSource::open(options.scene, options.pictures, stop.token()));
-    ASSIGN_OR_RETURN(const coordinator::RenderedFrame frame, pictures->draw(request));
-    if (stop.token().stop_requested())
-        return absl::CancelledError("stopped; nothing was written");
-    return writeResults(frame, options, request);
+    ASSIGN_OR_RETURN(Outputs outputs, createOutputs(options, request));
+    ASSIGN_OR_RETURN(
+        const DrawnBands drawn,
+        drawInBands(*pictures, request, kBandPixels, [&](const fabric::Image& rows) {
+            if (stop.token().stop_requested())
+                return absl::Status(absl::CancelledError("stopped; nothing was written"));
+            return outputs.take(rows);
+        }));
+    return finish(outputs, drawn, options, request);
 }
 
 void addOutputOptions(CLI::App& command, Options& options) {
@@ -165,7 +195,7 @@ void addRender(CLI::App& app, Run& run) {
                      R"(JSON: {"eye":[x,y,z],"target":[x,y,z],"up":[0,0,1],"fovyDegrees":45})")
         ->type_name("FILE")
         ->required();
-    command->add_option("--size", options->size, "Of the picture, in pixels")
+    command->add_option("--size", options->size, "Of the picture, in pixels, up to 16384 a side")
         ->type_name("WIDTHxHEIGHT")
         ->capture_default_str();
     command->add_option("--tau", options->tau, "Screen-space error allowed, in pixels")

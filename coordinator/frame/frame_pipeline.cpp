@@ -22,6 +22,11 @@ absl::Status check(const FrameRequest& request) {
         return absl::InvalidArgumentError(
             fmt::format("the picture is {}x{} pixels; each side must be from 1 to {}",
                         request.width, request.height, fabric::kMaxViewPixels));
+    const fabric::PixelViewport part = request.drawnPart();
+    if (!fabric::PixelViewport{0, 0, request.width, request.height}.contains(part))
+        return absl::InvalidArgumentError(fmt::format(
+            "the part {}x{}+{}+{} is not inside the picture of {}x{} pixels", part.width,
+            part.height, part.x, part.y, request.width, request.height));
     if (!(request.tauPixels >= fabric::kMinTauPixels && request.tauPixels <= fabric::kMaxTauPixels))
         return absl::InvalidArgumentError(fmt::format("tau is {} pixels; it must be from {} to {}",
                                                       request.tauPixels, fabric::kMinTauPixels,
@@ -64,7 +69,7 @@ absl::StatusOr<std::vector<Dispatch::Drawn>> FramePipeline::draw(const FrameRequ
                                     frameData.version,
                                     request.width,
                                     request.height,
-                                    {0, 0, request.width, request.height},
+                                    request.drawnPart(),
                                     {},
                                     request.wantsDepth,
                                     request.completeness,
@@ -122,7 +127,7 @@ RenderedFrame FramePipeline::compose(const FrameRequest& request, fabric::Rgba b
         fabric::accumulate(frame.statistics, part.result.statistics);
         images.push_back(std::move(part.result.image));
     }
-    const fabric::PixelViewport area{0, 0, request.width, request.height};
+    const fabric::PixelViewport area = request.drawnPart();
     if (images.size() == 1 || options_.decomposition == Decomposition::TwoD) {
         frame.image = assemble2D(area, background, request.wantsDepth, std::move(images));
     } else {

@@ -25,14 +25,20 @@ struct FrameRequest {
     fabric::Occlusion occlusion = fabric::Occlusion::Auto;
     int width = 1280;  ///< pixels, 1 to fabric::kMaxViewPixels
     int height = 720;
+    /// What of the picture is drawn, with the whole picture's level of detail and rasterisation;
+    /// empty: all of it.
+    fabric::PixelViewport part = {};
     bool wantsDepth = false;
     fabric::Completeness completeness = fabric::Completeness::Complete;
     bool measuresStages = false;  ///< fabric::ChannelTask::measuresStages
 
+    fabric::PixelViewport drawnPart() const {
+        return part.isEmpty() ? fabric::PixelViewport{0, 0, width, height} : part;
+    }
     bool operator==(const FrameRequest&) const = default;
 };
 
-/// A whole, composited picture: `image.area` is {0, 0, width, height}.
+/// A composited picture, or the part asked for: `image.area` is its drawnPart().
 struct RenderedFrame {
     fabric::Image image;
     fabric::FrameStatistics statistics;

@@ -26,6 +26,7 @@ struct DemFile {
     std::vector<std::string> notes;
 
     bool isGeographic() const;
+    fabric::Vec2 centre() const;  ///< in units of the CRS
 };
 
 /// Looks at everything but the pixels. Errors: NotFound, InvalidArgument (no raster, not heights,

@@ -38,18 +38,13 @@ double determinant(const Georeference& g) {
     return g.perColumn.x * g.perRow.y - g.perColumn.y * g.perRow.x;
 }
 
-Vec2 centreOf(const DemFile& file) {
-    return file.reference.origin + file.reference.perColumn * (file.columns * 0.5) +
-           file.reference.perRow * (file.rows * 0.5);
-}
-
 /// Side of a pixel, about.
 double pixelMetres(const DemFile& file) {
     constexpr double kMetresPerDegree = 111320;
     const double side = std::sqrt(std::abs(determinant(file.reference)));
     if (file.isGeographic())
         return side * kMetresPerDegree *
-               std::sqrt(std::max(0.01, std::cos(centreOf(file).y * M_PI / 180)));
+               std::sqrt(std::max(0.01, std::cos(file.centre().y * M_PI / 180)));
     return file.crs ? side * OSRGetLinearUnits(file.crs.get(), nullptr) : side;
 }
 
@@ -211,12 +206,16 @@ private:
                 (glm::abs(file.reference.perColumn * static_cast<double>(file.columns)) +
                  glm::abs(file.reference.perRow * static_cast<double>(file.rows))) *
                 0.5;
-            low = glm::min(low, centreOf(file) - reach);
-            high = glm::max(high, centreOf(file) + reach);
+            // The same longitude may be called 180 here and -180 there: the way round is short.
+            Vec2 middle = file.centre();
+            middle.x -= 360 * std::round((middle.x - files_.front().centre().x) / 360);
+            low = glm::min(low, middle - reach);
+            high = glm::max(high, middle + reach);
         }
         const Vec2 span = high - low;
         const Vec2 centre = (low + high) * 0.5;
-        if (std::max(span.x, span.y) > kMaxDegrees || std::abs(centre.y) > 90)
+        const bool isPolar = std::abs(centre.y) > kUtmLimitDegrees;
+        if ((span.x > kMaxDegrees && !isPolar) || span.y > kMaxDegrees || std::abs(centre.y) > 90)
             return invalid(name_,
                            fmt::format("spans {:.1f} x {:.1f} degrees around latitude {:.1f}, too "
                                        "much for one UTM zone (at most {}); reproject it with "

@@ -26,13 +26,14 @@ struct DemSource {
 ///
 /// Posts are pixel centres. One raster in a projected CRS, or none, keeps its grid, rotation
 /// included, with units turned to metres. A geographic one is reprojected to the UTM zone of its
-/// centre (beyond 84 degrees to polar stereographic), bilinearly, at the spacing GDAL suggests.
+/// centre (beyond 84 degrees to polar stereographic, of any longitudes), bilinearly, at the spacing
+/// GDAL suggests. Posts on the very meridian where a raster that goes round begins may be nodata.
 ///
 /// Several are laid over each other: the CRS is that of the finest projected one, or the UTM zone
-/// of all their middle where all are geographic; the grid is that of the finest. Those on that grid
-/// already keep their posts as they are; the others are resampled bilinearly. Where some overlap
-/// the finest with data wins, among equally fine ones the one named last. What none covers is
-/// nodata.
+/// of all their middle where all are geographic, the short way round; the grid is that of the
+/// finest. Those on that grid already keep their posts as they are; the others are resampled
+/// bilinearly. Where some overlap the finest with data wins, among equally fine ones the one named
+/// last. What none covers is nodata.
 ///
 /// Each raster's own scale, offset and foot units are applied. Nodata: the band's tag, its mask,
 /// NaN, infinities, magnitudes from 1e30, and -32768 in 16-bit rasters.

@@ -11,10 +11,18 @@
 namespace eyrie::import {
 namespace {
 
+bool isAroundPole(const DemFile& file) {
+    return file.isGeographic() && std::abs(file.centre().y) > kUtmLimitDegrees;
+}
+
 absl::StatusOr<Dataset> warped(const DemFile& file, const std::string& targetWkt,
                                const std::vector<std::string>& more, QuietGdal& gdal) {
     std::vector<std::string> arguments = {"-of", "VRT", "-r",   "bilinear", "-dstnodata",
                                           "nan", "-et", "0.01", "-wo",      "NUM_THREADS=ALL_CPUS"};
+    // What of the source a block needs GDAL tells by the block's rim, unless it is told to look at
+    // all of it: a pole inside was missed, and posts beside it stayed open.
+    if (isAroundPole(file))
+        arguments.insert(arguments.end(), {"-wo", "SAMPLE_GRID=YES", "-wo", "SAMPLE_STEPS=129"});
     if (!targetWkt.empty())
         arguments.insert(arguments.end(), {"-t_srs", targetWkt});
     arguments.insert(arguments.end(), more.begin(), more.end());
@@ -39,10 +47,9 @@ absl::StatusOr<Dataset> warped(const DemFile& file, const std::string& targetWkt
 absl::StatusOr<SpatialReference> localProjection(const std::string& path,
                                                  OGRSpatialReferenceH geographic, double longitude,
                                                  double latitude) {
-    constexpr double kUtmLimit = 84;
     SpatialReference local(OSRNewSpatialReference(nullptr));
     OGRErr error = OGRERR_NONE;
-    if (std::abs(latitude) > kUtmLimit) {
+    if (std::abs(latitude) > kUtmLimitDegrees) {
         error = OSRImportFromEPSG(local.get(), latitude > 0 ? 32661 : 32761);
     } else {
         const double wrapped = longitude - 360 * std::floor((longitude + 180) / 360);

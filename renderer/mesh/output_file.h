@@ -42,8 +42,8 @@ public:
     absl::Status padTo(std::uint64_t alignment);
     absl::Status commit();
 
-    /// Puts bytes at a place of an unnamed file; what is left out before it reads as zeros. Errors:
-    /// as write().
+    /// Puts bytes at a place, wherever write() is; what is left out before it reads as zeros.
+    /// size() does not count them. Errors: as write().
     absl::Status writeAt(std::uint64_t offset, std::span<const std::byte> bytes);
     /// Of an unnamed file; zeros past its end. Any thread may read. Errors: Unavailable.
     absl::Status readAt(std::uint64_t offset, std::span<std::byte> bytes) const;

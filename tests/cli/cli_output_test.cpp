@@ -10,8 +10,10 @@
 #include <png.h>
 
 #include "cli/image_files.h"
+#include "cli/picture_bands.h"
 #include "cli/progress_bar.h"
 #include "fabric/frustum.h"
+#include "fabric/status.h"
 #include "tests/support/temporary_folder.h"
 #include "wire/jpeg.h"
 
@@ -34,7 +36,27 @@ fabric::Image sample() {
     return image;
 }
 
-TEST(WritePicture, WritesAPngWithTheTopRowFirst) {
+/// Rows `bottom` up to, but not with, `top` of an image.
+fabric::Image rowsOf(const fabric::Image& image, int bottom, int top) {
+    fabric::Image rows;
+    rows.area = {0, bottom, image.area.width, top - bottom};
+    const auto width = static_cast<std::ptrdiff_t>(image.area.width);
+    rows.colour.assign(image.colour.begin() + bottom * width, image.colour.begin() + top * width);
+    if (image.hasDepth())
+        rows.depth.assign(image.depth.begin() + bottom * width, image.depth.begin() + top * width);
+    return rows;
+}
+
+/// The rows of `image` in a picture of its size, `bandRows` at a time.
+absl::Status writePicture(const fabric::Image& image, const std::string& path, int bandRows = 1) {
+    ASSIGN_OR_RETURN(const auto file,
+                     PictureFile::create(path, image.area.width, image.area.height));
+    for (int top = image.area.height; top > 0; top -= bandRows)
+        RETURN_IF_ERROR(file->append(rowsOf(image, std::max(0, top - bandRows), top)));
+    return file->commit();
+}
+
+TEST(PictureFile, WritesAPngWithTheTopRowFirst) {
     const test::TemporaryFolder folder;
     const std::string path = folder.path("a.png");
     ASSERT_TRUE(writePicture(sample(), path).ok());
@@ -50,11 +72,11 @@ TEST(WritePicture, WritesAPngWithTheTopRowFirst) {
                                           255, 0, 0, 0, 255, 0, 0, 0, 255));
 }
 
-TEST(WritePicture, WritesAJpegForEitherEndingInAnyCase) {
+TEST(PictureFile, WritesAJpegForEitherEndingInAnyCase) {
     const test::TemporaryFolder folder;
     const fabric::Image grey = fabric::makeImage({0, 0, 16, 8}, {120, 120, 120, 255}, false);
     for (const char* name : {"a.jpg", "a.JPEG"}) {
-        ASSERT_TRUE(writePicture(grey, folder.path(name)).ok());
+        ASSERT_TRUE(writePicture(grey, folder.path(name), 3).ok());
         const std::string bytes = contents(folder.path(name));
         const auto image = wire::decodeJpeg(std::as_bytes(std::span(bytes)));
         ASSERT_TRUE(image.ok()) << image.status();
@@ -63,17 +85,34 @@ TEST(WritePicture, WritesAJpegForEitherEndingInAnyCase) {
     }
 }
 
-TEST(WritePicture, RefusesOtherEndingsAndWritesNothing) {
+TEST(PictureFile, RefusesOtherEndingsAndWritesNothing) {
     const test::TemporaryFolder folder;
     for (const char* name : {"a.gif", "a", "png"})
         EXPECT_TRUE(absl::IsInvalidArgument(writePicture(sample(), folder.path(name)))) << name;
     EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
-TEST(WriteDepth, WritesALittleEndianPfmOfViewSpaceMetres) {
+/// A picture that is given up, or cannot be written to its end, is no file.
+TEST(PictureFile, AppearsWithItsLastRowOnly) {
+    const test::TemporaryFolder folder;
+    for (const char* name : {"a.png", "a.jpg"}) {
+        const auto file = PictureFile::create(folder.path(name), 3, 2);
+        ASSERT_TRUE(file.ok()) << file.status();
+        ASSERT_TRUE((*file)->append(rowsOf(sample(), 1, 2)).ok());
+        EXPECT_FALSE(std::filesystem::exists(folder.path(name)));
+    }
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+    EXPECT_TRUE(absl::IsNotFound(PictureFile::create("/nowhere/a.png", 3, 2).status()));
+}
+
+TEST(DepthFile, IsALittleEndianPfmOfViewSpaceMetresWhateverOrderRowsComeIn) {
     const test::TemporaryFolder folder;
     const std::string path = folder.path("a.pfm");
-    ASSERT_TRUE(writeDepth(sample(), path).ok());
+    auto file = DepthFile::create(path, 3, 2);
+    ASSERT_TRUE(file.ok()) << file.status();
+    ASSERT_TRUE(file->put(rowsOf(sample(), 1, 2)).ok());
+    ASSERT_TRUE(file->put(rowsOf(sample(), 0, 1)).ok());
+    ASSERT_TRUE(file->commit().ok());
     const std::string bytes = contents(path);
     const std::string header = "Pf\n3 2\n-1.0\n";
     ASSERT_EQ(bytes.size(), header.size() + 6 * sizeof(float));
@@ -86,6 +125,66 @@ TEST(WriteDepth, WritesALittleEndianPfmOfViewSpaceMetres) {
     EXPECT_FLOAT_EQ(metres[2], 4 * near);
     EXPECT_EQ(metres[3], INFINITY);
     EXPECT_FLOAT_EQ(metres[4], 1000);
+}
+
+/// Draws the sample, whatever part of it is asked for, and remembers what was.
+class SamplePictures final : public PictureSource {
+public:
+    absl::StatusOr<coordinator::RenderedFrame> draw(
+        const coordinator::FrameRequest& request) override {
+        parts.push_back(request.part);
+        coordinator::RenderedFrame frame;
+        frame.image = rowsOf(sample(), request.part.y, request.part.y + request.part.height);
+        frame.statistics.triangles = 5;
+        frame.statistics.tauAchievedPixels = request.part.y == 0 ? 0.25 : 0.5;
+        frame.statistics.milliseconds.total = 10;
+        frame.device.vendor = "sample";
+        return frame;
+    }
+    fabric::SceneInfo sceneInfo() const override { return {}; }
+
+    std::vector<fabric::PixelViewport> parts;
+};
+
+coordinator::FrameRequest sampleRequest() {
+    coordinator::FrameRequest request;
+    request.width = 3;
+    request.height = 2;
+    return request;
+}
+
+TEST(DrawInBands, DrawsWholeRowsFromTheTopDownAndAddsUpWhatTheyTook) {
+    for (const int pixels : {1, 3, 5}) {
+        SamplePictures pictures;
+        fabric::Image picture = fabric::makeImage({0, 0, 3, 2}, {}, true);
+        const auto drawn =
+            drawInBands(pictures, sampleRequest(), pixels, [&](const fabric::Image& rows) {
+                fabric::paste(rows, picture);
+                return absl::OkStatus();
+            });
+        ASSERT_TRUE(drawn.ok()) << drawn.status();
+        EXPECT_THAT(pictures.parts, testing::ElementsAre(fabric::PixelViewport{0, 1, 3, 1},
+                                                         fabric::PixelViewport{0, 0, 3, 1}));
+        EXPECT_TRUE(picture == sample());
+        EXPECT_EQ(drawn->statistics.triangles, 10U);
+        EXPECT_EQ(drawn->statistics.tauAchievedPixels, 0.5);
+        EXPECT_EQ(drawn->statistics.milliseconds.total, 20);
+        EXPECT_EQ(drawn->device.vendor, "sample");
+    }
+}
+
+TEST(DrawInBands, DrawsAPictureThatFitsAtOnce) {
+    SamplePictures pictures;
+    const auto take = [](const fabric::Image&) { return absl::OkStatus(); };
+    ASSERT_TRUE(drawInBands(pictures, sampleRequest(), 6, take).ok());
+    EXPECT_THAT(pictures.parts, testing::ElementsAre(fabric::PixelViewport{0, 0, 3, 2}));
+}
+
+TEST(DrawInBands, StopsWhereABandIsRefused) {
+    SamplePictures pictures;
+    const auto take = [](const fabric::Image&) { return absl::CancelledError("stop"); };
+    EXPECT_TRUE(absl::IsCancelled(drawInBands(pictures, sampleRequest(), 3, take).status()));
+    EXPECT_EQ(pictures.parts.size(), 1U);
 }
 
 TEST(WriteFile, SaysThatTheFolderIsMissing) {

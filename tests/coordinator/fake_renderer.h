@@ -44,7 +44,12 @@ public:
         if (!renderStatus_.ok())
             return renderStatus_;
         ++drawn;
-        return scene_->draw(task);
+        share = (task.range.end - task.range.begin) *
+                static_cast<double>(task.pixelViewport.area()) /
+                (static_cast<double>(task.viewWidth) * task.viewHeight);
+        fabric::ChannelResult result = scene_->draw(task);
+        result.statistics.milliseconds.total = share * millisecondsAFrame;
+        return result;
     }
 
     void cancel() override { set(cancelled_, true); }
@@ -57,6 +62,8 @@ public:
     std::vector<std::uint64_t> versions;  ///< of the frame data received
     std::atomic<int> begun{0};
     std::atomic<int> drawn{0};
+    std::atomic<double> share{0};               ///< of the frame, that the last channel was
+    std::atomic<double> millisecondsAFrame{0};  ///< said to be taken for the whole of it
 
 private:
     template <typename T>

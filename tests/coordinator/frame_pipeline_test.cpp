@@ -210,6 +210,20 @@ TEST_P(FramePipelineTest, ARequestOutOfRangeIsRefused) {
         EXPECT_EQ(pipeline_.renderFrame(bad).status().code(), absl::StatusCode::kInvalidArgument);
 }
 
+TEST_P(FramePipelineTest, APartOfThePictureIsTheWholePicturesPart) {
+    openWith(3);
+    FrameRequest part = request();
+    part.part = {7, 3, 20, 11};
+    const auto frame = pipeline_.renderFrame(part);
+    ASSERT_TRUE(frame.ok()) << frame.status();
+    EXPECT_EQ(frame->image.area, part.part);
+    fabric::Image whole = layers_->whole(kWidth, kHeight);
+    fabric::paste(frame->image, whole);
+    EXPECT_TRUE(whole == layers_->whole(kWidth, kHeight));
+    part.part = {30, 3, 20, 11};
+    EXPECT_EQ(pipeline_.renderFrame(part).status().code(), absl::StatusCode::kInvalidArgument);
+}
+
 TEST_P(FramePipelineTest, StatusSaysWhatIsMissing) {
     EXPECT_THAT(pipeline_.status().problem, testing::HasSubstr("scene is empty"));
     pipeline_.setScene(sceneNamed("first"));
@@ -309,6 +323,56 @@ TEST_P(HardCase13, PicturesAreTheSameInWhateverOrderTiedPartsArrive) {
             ASSERT_TRUE(frame->image == layers_->whole(kWidth, kHeight)) << count << ", " << i;
         }
     }
+}
+
+/// The picture expected is the one that LayeredScene draws by its definition, whole. No part is
+/// taken for late, so each renderer draws its own.
+class HardCase27 : public FramePipelineTest {
+protected:
+    HardCase27() : FramePipelineTest(seconds(50)) {}
+};
+
+INSTANTIATE_TEST_SUITE_P(Of, HardCase27, testing::Values(Decomposition::TwoD, Decomposition::Db),
+                         [](const auto& of) {
+                             return of.param == Decomposition::TwoD ? "TwoD" : "Db";
+                         });
+
+TEST_P(HardCase27, AllInOnePixelIsTheSinglePictureOverEightRenderers) {
+    layers_ = std::make_shared<LayeredScene>(27, 1, 1);
+    openWith(8);
+    expectWholePicture();
+}
+
+TEST_P(HardCase27, PartsWithNothingInThemAreBackground) {
+    layers_ = std::make_shared<LayeredScene>(27, 41, 23, 1);
+    openWith(8);
+    expectWholePicture();
+}
+
+TEST_P(HardCase27, ARendererTenTimesSlowerGetsATenthAndPicturesStayWhole) {
+    const auto renderers = openWith(3);
+    for (const auto& renderer : renderers) renderer->millisecondsAFrame = 1000;
+    renderers[1]->millisecondsAFrame = 10000;
+    for (int i = 0; i < 20; ++i) expectWholePicture();
+    // Equal times are shares of 10 : 1 : 10. A column of pixels of 41 is the finest cut in 2D.
+    EXPECT_NEAR(renderers[0]->share, 10.0 / 21, 0.04);
+    EXPECT_NEAR(renderers[1]->share, 1.0 / 21, 0.03);
+    EXPECT_NEAR(renderers[2]->share, 10.0 / 21, 0.04);
+}
+
+TEST_P(HardCase27, AfterOneIsKilledMidFrameTheNextFramesAreRightAndTiesAreWonAsBefore) {
+    const auto renderers = openWith(3);
+    renderers[0]->hang(true);
+    const int begun = renderers[0]->begun;
+    std::jthread killer([&] {
+        EXPECT_TRUE(eventually([&] { return renderers[0]->begun > begun; }));
+        registry_.markDead(ids_[0], "killed", Registry::Clock::now());
+    });
+    for (int i = 0; i < 5; ++i) expectWholePicture();
+    EXPECT_FALSE(isAlive(0));
+    killer.join();
+    openWith(1);
+    for (int i = 0; i < 5; ++i) expectWholePicture();
 }
 
 }  // namespace

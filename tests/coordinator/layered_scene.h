@@ -15,12 +15,12 @@ class LayeredScene {
 public:
     static constexpr fabric::Rgba kBackground{10, 20, 30, 255};
 
-    explicit LayeredScene(std::uint32_t seed, int width = 41, int height = 23) {
+    explicit LayeredScene(std::uint32_t seed, int width = 41, int height = 23, int count = 30) {
         std::mt19937 random(seed);
         const auto below = [&](int bound) {
             return static_cast<int>(random() % static_cast<unsigned>(bound));
         };
-        for (int i = 0; i < 30; ++i)
+        for (int i = 0; i < count; ++i)
             rectangles_.push_back(
                 {{below(width), below(height), 1 + below(width), 1 + below(height)},
                  static_cast<float>(1 + below(4)) / 4,

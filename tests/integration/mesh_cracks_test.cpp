@@ -4,7 +4,6 @@
 // closed surface may be seen.
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <random>
 #include <string>
 #include <vector>
@@ -16,11 +15,8 @@
 #include "fabric/depth_merge.h"
 #include "fabric/frustum.h"
 #include "renderer/import/mesh_synth.h"
-#include "renderer/renderer.h"
-#include "renderer/truth/pinhole.h"
 #include "tests/integration/forced_cut.h"
-#include "tests/support/renderer.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/integration/mesh_pictures.h"
 
 namespace eyrie {
 namespace {
@@ -30,7 +26,6 @@ using fabric::Vec3;
 using Mesh = import::TriangleMesh;
 
 constexpr int kSide = 64;
-constexpr fabric::PixelViewport kView{0, 0, kSide, kSide};
 constexpr int kModels = 2;
 constexpr int kCuts = 20;  ///< of each model
 constexpr int kViewsOfCut = 10000 / kModels / kCuts;
@@ -61,7 +56,7 @@ Mesh cube(std::uint32_t n) {
             }
     }
     return mesh;
-}  // namespace
+}
 
 /// Whether every ray of a picture passes so near to the origin that it has to hit the model's
 /// front before.
@@ -77,9 +72,14 @@ bool isFilled(const truth::Pinhole& pinhole, double radius) {
     return true;
 }
 
-class HardCase14 : public testing::Test {
+class HardCase14 : public test::MeshPictures {
 protected:
-    void SetUp() override { renderer_ = test::makeRenderer(); }
+    HardCase14() : MeshPictures(kSide, kSide) {}
+
+    void SetUp() override {
+        MeshPictures::SetUp();
+        scene_.ambient = fabric::Scene().ambient;  // lit, so that colours tell triangles apart
+    }
 
     /// Pixels that show no front, over views of random cuts of `mesh`, which is star-shaped around
     /// the origin.
@@ -95,11 +95,8 @@ protected:
             const std::string path = folder_.path("cut.eym");
             const std::vector<Vec3> seams = cuts.write(path, random);
             ASSERT_GT(seams.size(), 100U);
-            fabric::Scene scene;
-            scene.background = {255, 255, 255, 255};
-            scene.objects.push_back({.name = "mesh", .path = path});
-            const auto info = renderer_->openScene(scene);
-            ASSERT_TRUE(info.ok()) << info.status();
+            scene_.objects = {{.name = "mesh", .path = path}};
+            ASSERT_NO_FATAL_FAILURE(open());
             for (int view = 0; view < kViewsOfCut; ++view) lookOnce(seams, random);
         }
         EXPECT_EQ(open_, 0U);
@@ -112,14 +109,10 @@ protected:
 private:
     fabric::Camera onSeam(const std::vector<Vec3>& seams, std::mt19937& random) const;
     void lookOnce(const std::vector<Vec3>& seams, std::mt19937& random);
-    Image draw(const fabric::Camera& camera, const fabric::Range& range);
     std::size_t openIn(const Image& picture, const fabric::Camera& camera) const;
 
-    test::TemporaryFolder folder_;
-    std::unique_ptr<Renderer> renderer_;
     double inner_ = 0, outer_ = 0;  ///< radii between which the surface lies
     std::size_t views_ = 0, mixed_ = 0, open_ = 0, differing_ = 0;
-    std::uint64_t nodes_ = 0;  ///< drawn last
 };
 
 /// From any side that sees the point, from a thousandth of the model's size to ten times it away,
@@ -128,39 +121,18 @@ fabric::Camera HardCase14::onSeam(const std::vector<Vec3>& seams, std::mt19937& 
     const auto in = [&](double low, double high) {
         return std::uniform_real_distribution<double>(low, high)(random);
     };
-    const auto direction = [&] {
-        std::normal_distribution<double> normal;
-        return glm::normalize(Vec3(normal(random), normal(random), normal(random)));
-    };
     for (;;) {
         fabric::Camera camera;
         camera.target = seams[random() % seams.size()];
-        const Vec3 side = glm::normalize(glm::normalize(camera.target) + 0.9 * direction());
+        const Vec3 side =
+            glm::normalize(glm::normalize(camera.target) + 0.9 * test::randomDirection(random));
         camera.eye = camera.target + outer_ * std::exp2(in(-10, 3.3)) * side;
-        camera.up = direction();
+        camera.up = test::randomDirection(random);
         camera.fovYDegrees = std::exp2(in(0, 6.3));
         if (glm::length(camera.eye) > 1.001 * outer_ && fabric::validate(camera).ok() &&
             isFilled(truth::Pinhole(camera, kSide, kSide), kInside * inner_))
             return camera;
     }
-}
-
-Image HardCase14::draw(const fabric::Camera& camera, const fabric::Range& range) {
-    fabric::FrameData frame;
-    frame.camera = camera;
-    fabric::ChannelTask task;
-    task.viewWidth = task.viewHeight = kSide;
-    task.pixelViewport = kView;
-    task.range = range;
-    task.wantsDepth = true;
-    auto result = renderer_->render(frame, task);
-    EXPECT_TRUE(result.ok()) << result.status();
-    Image whole = fabric::makeImage(kView, {255, 255, 255, 255}, true);
-    if (result.ok()) {
-        nodes_ = result->statistics.nodes;
-        fabric::paste(result->image, whole);
-    }
-    return whole;
 }
 
 /// Pixels that show the background, or what lies behind the model's middle.
@@ -180,18 +152,19 @@ std::size_t HardCase14::openIn(const Image& picture, const fabric::Camera& camer
 
 void HardCase14::lookOnce(const std::vector<Vec3>& seams, std::mt19937& random) {
     const fabric::Camera camera = onSeam(seams, random);
-    const Image picture = draw(camera, {});
+    const auto drawn = draw(camera);
+    const Image& picture = drawn.image;
     ++views_;
-    mixed_ += nodes_ > 1 ? 1 : 0;
+    mixed_ += drawn.statistics.nodes > 1 ? 1 : 0;
     open_ += openIn(picture, camera);
     if (views_ % 4 != 0)
         return;
-    Image composed = fabric::makeImage(kView, {255, 255, 255, 255}, true);
+    Image composed = blank();
     std::vector<double> at = {0.001 * static_cast<double>(random() % 1000),
                               0.001 * static_cast<double>(random() % 1000)};
     std::ranges::sort(at);
     for (const fabric::Range& range : {fabric::Range{0, at[0]}, {at[0], at[1]}, {at[1], 1}})
-        fabric::mergeDepth(draw(camera, range), composed);
+        fabric::mergeDepth(draw(camera, 1, range).image, composed);
     differing_ += composed == picture ? 0 : 1;
 }
 

@@ -3,7 +3,6 @@
 // bad_mesh_test, occlusion_pictures_test.
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <random>
 #include <string>
 #include <vector>
@@ -13,105 +12,25 @@
 #include <gtest/gtest.h>
 
 #include "fabric/depth_merge.h"
-#include "fabric/frustum.h"
-#include "renderer/import/mesh_import.h"
 #include "renderer/import/mesh_synth.h"
-#include "renderer/renderer.h"
-#include "renderer/truth/depth_comparison.h"
-#include "renderer/truth/mesh_ray_caster.h"
-#include "renderer/truth/pinhole.h"
 #include "tests/integration/forced_cut.h"
-#include "tests/support/renderer.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/integration/mesh_pictures.h"
 
 namespace eyrie {
 namespace {
 
 using fabric::Image;
 using fabric::Vec3;
+using test::randomDirection;
 using Mesh = import::TriangleMesh;
 
 constexpr int kWidth = 320;
 constexpr int kHeight = 180;
-constexpr fabric::PixelViewport kView{0, 0, kWidth, kHeight};
-constexpr fabric::Rgba kBackground{255, 255, 255, 255};
-/// What rasterisation may add to what is promised: corners are rounded to 1/256 pixel, and depth is
-/// interpolated in single precision, which shows where a wide view sees a surface edge-on.
-constexpr double kRasterPixels = 1.0 / 128;
-
-class MeshHardCase : public testing::Test {
-protected:
-    void SetUp() override {
-        renderer_ = test::makeRenderer();
-        scene_.background = kBackground;
-        scene_.ambient = 1;
-    }
-
-    fabric::SceneObject import(Mesh mesh, const std::string& name,
-                               const Vec3& colour = {0.8, 0.8, 0.8}) {
-        const std::string path = folder_.path(name + ".eym");
-        const auto report = import::importMesh(std::move(mesh), path);
-        EXPECT_TRUE(report.ok()) << report.status();
-        return {.name = name, .path = path, .colour = colour};
-    }
-
-    void open() {
-        const auto info = renderer_->openScene(scene_);
-        ASSERT_TRUE(info.ok()) << info.status();
-    }
-
-    fabric::ChannelResult draw(const fabric::Camera& camera, double tauPixels = 1,
-                               const fabric::Range& range = {}) {
-        fabric::FrameData frame;
-        frame.camera = camera;
-        frame.tauPixels = tauPixels;
-        fabric::ChannelTask task;
-        task.viewWidth = kWidth;
-        task.viewHeight = kHeight;
-        task.pixelViewport = kView;
-        task.range = range;
-        task.wantsDepth = true;
-        auto result = renderer_->render(frame, task);
-        EXPECT_TRUE(result.ok()) << result.status();
-        if (!result.ok())
-            return {};
-        Image whole = fabric::makeImage(kView, kBackground, true);
-        fabric::paste(result->image, whole);
-        result->image = std::move(whole);
-        return *std::move(result);
-    }
-
-    /// What rays at the source say of a picture that promises so many pixels. Returns how many
-    /// were looked at.
-    static std::size_t check(const truth::MeshRayCaster& source, const fabric::Camera& camera,
-                             const fabric::ChannelResult& drawn, double promised,
-                             const std::string& what) {
-        std::vector<float> metres;
-        for (const float depth : drawn.image.depth)
-            metres.push_back(
-                static_cast<float>(fabric::viewDepthMetres(depth, fabric::kNearMetres)));
-        const auto found = truth::compareDepth(truth::Pinhole(camera, kWidth, kHeight), metres,
-                                               source, static_cast<int>(std::ceil(promised)) + 1);
-        EXPECT_LE(found.maxPixels, promised + kRasterPixels) << what;
-        EXPECT_EQ(found.holes + found.falseHits + found.misplaced, 0U) << what;
-        return found.compared;
-    }
-
-    test::TemporaryFolder folder_;
-    std::unique_ptr<Renderer> renderer_;
-    fabric::Scene scene_;
-};
-
-using HardCase12 = MeshHardCase;
-using HardCase13 = MeshHardCase;
-using HardCase15 = MeshHardCase;
-using HardCase16 = MeshHardCase;
-using HardCase18 = MeshHardCase;
-
-Vec3 randomDirection(std::mt19937& random) {
-    std::normal_distribution<double> normal;
-    return glm::normalize(Vec3(normal(random), normal(random), normal(random)));
-}
+using HardCase12 = test::MeshPictures;
+using HardCase13 = test::MeshPictures;
+using HardCase15 = test::MeshPictures;
+using HardCase16 = test::MeshPictures;
+using HardCase18 = test::MeshPictures;
 
 /// A square of `side` metres across the x axis.
 Mesh square(double x, double side) {
@@ -190,7 +109,7 @@ TEST_F(HardCase13, ManyCopiesInOnePlaceLookTheSameInAnyNumberOfRanges) {
         camera.eye = 3.0 * randomDirection(random);
         camera.target = {0, 0, 0};
         const Image whole = draw(camera).image;
-        Image composed = fabric::makeImage(kView, kBackground, true);
+        Image composed = blank();
         for (const fabric::Range& range : fabric::split(fabric::Range{}, fabric::equalCuts(ranges)))
             fabric::mergeDepth(draw(camera, 1, range).image, composed);
         EXPECT_TRUE(composed == whole) << ranges;
@@ -215,9 +134,10 @@ TEST_F(HardCase15, InTheCornerOfAWideViewThePromiseIsKept) {
                 const auto drawn = draw(camera, tau);
                 const double promised = drawn.statistics.tauAchievedPixels;
                 EXPECT_LE(promised, tau);
-                EXPECT_GT(check(source, camera, drawn, promised,
-                                fmt::format("{} m, tau {}", distance, tau)),
-                          50U);
+                EXPECT_GT(
+                    check(source, camera, drawn, promised,
+                          fmt::format("{} m, tau {}", distance, tau), test::kWideRasterPixels),
+                    50U);
             }
 }
 
@@ -285,7 +205,7 @@ Mesh pipe(double length, double radius, int pieces) {
         mesh.triangles.push_back({at(pieces, 0), at(pieces, side), at(pieces, side + 1)});
     }
     return mesh;
-}  // namespace eyrie
+}
 
 /// Pixels that rays at the source hit.
 std::size_t covered(const truth::MeshRayCaster& source, const fabric::Camera& camera) {
@@ -321,8 +241,9 @@ TEST_F(HardCase18, HairThinPipesStayWhereRaysFindThem) {
             fmt::print("{} triangles, {} px: {} pixels of {}\n", mesh.triangles.size(), pixelsWide,
                        drawn, expected);
             EXPECT_GT(expected, 0U);
-            EXPECT_GE(drawn, expected / 2);
-            EXPECT_LE(drawn, expected + expected / 4 + 20);
+            // Measured: up to 3 more or less, of 165 pixels to 17,557.
+            EXPECT_NEAR(static_cast<double>(drawn), static_cast<double>(expected),
+                        0.01 * static_cast<double>(expected) + 4);
         }
     }
 }

@@ -224,6 +224,38 @@ TEST_F(Render, AMeshOverSeveralRenderersIsThePictureOfOne) {
     expectDecompositionsEqual("ball.eym", meshCamera());
 }
 
+using HardCase28 = Render;
+
+/// Bytes of the files that `eyrie render` leaves of a mesh on a terrain.
+struct Still {
+    std::string png;
+    std::string pfm;
+
+    bool operator==(const Still&) const = default;
+};
+
+/// Expected are the first run's bytes. llvmpipe's threads are what LP_NUM_THREADS says, and those
+/// of each of five processes one.
+TEST_F(HardCase28, StillsAreTheSameBytesInEveryRunAndForAnyThreadsAndProcesses) {
+    folder_->write("both.json", R"({"objects":[{"terrain":"dem.eyt"},
+        {"mesh":"ball.eym","transform":{"scale":2000,"translation":[507000,5207000,3000]}}]})");
+    const std::string camera = cameraFile(
+        R"({"eye":[503000,5202000,4500],"target":[508000,5208000,2500],"fovyDegrees":50})");
+    const auto still = [&](const std::vector<std::string>& more, const std::string& threads) {
+        std::vector<std::string> arguments = {
+            "render", path("both.json"), "--camera", camera,        "--size", "640x360",
+            "-o",     path("s.png"),     "--depth",  path("s.pfm"), "--quiet"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        EXPECT_EQ(eyrie(arguments, {"LP_NUM_THREADS=" + threads}).exit, (test::Exit{0, 0}));
+        return Still{content(path("s.png")), content(path("s.pfm"))};
+    };
+    const Still first = still({}, "8");
+    EXPECT_TRUE(still({}, "8") == first) << "again";
+    EXPECT_TRUE(still({}, "1") == first);
+    EXPECT_TRUE(still({"--renderers", "5"}, "1") == first);
+    EXPECT_TRUE(still({"--renderers", "5", "--compound", "DB"}, "1") == first);
+}
+
 TEST_F(Render, ASceneFilePlacesItsObjectsRelativeToItself) {
     folder_->write("scene.json", R"({"objects":[
         {"mesh":"ball.eym","transform":{"translation":[-1.5,0,0]}},

@@ -166,6 +166,14 @@ TEST(HardCase1, PicturesAreTheSameBits2To31PostsFromTheOrigin) {
     }
 }
 
+/// Hard case 1. Where origin and camera lie between the lattice's points, pictures are what rays
+/// at the posts say, as elsewhere.
+TEST(HardCase1, FarFromTheOriginPicturesDoNotDrift) {
+    HeightGrid grid = gridOf(200, 200, hills);
+    grid.origin = {6378137.3, -6356752.7};
+    holdAround(std::move(grid), "far");
+}
+
 /// Hard case 2, beside TerrainCracks' thousand steep views: level along borders of tiles, where
 /// columns of the picture are vertical planes and nothing below terrain may be open.
 TEST(HardCase2, NoHoleOpensBelowTheHorizonAlongBorders) {
@@ -319,6 +327,21 @@ TEST(HardCase11, CamerasWhereverTheyStandKeepThePromise) {
         camera.fovYDegrees = glm::length(camera.eye) > 1e6 ? 1 : 50;
         const truth::PromiseKept kept = scene.hold(place.name, camera);
         EXPECT_LE(kept.promisedPixels, 1) << place.name;
+    }
+}
+
+/// Hard case 15, for lenses as narrow and as wide as there are: expected is what rays say.
+TEST(HardCase15, FromOneDegreeTo170TerrainKeepsThePromise) {
+    Scene scene(gridOf(300, 300, hills));
+    for (const auto& [fov, tau] :
+         {std::pair{1.0, 0.5}, {10.0, 4.0}, {90.0, 0.5}, {150.0, 4.0}, {170.0, 1.0}}) {
+        Camera camera;
+        camera.eye = scene.at(100, 120, std::max(100.0, 6e4 / (fov * fov)));
+        camera.target = scene.at(130, 140, 0);
+        camera.fovYDegrees = fov;
+        const auto kept = scene.hold(fmt::format("{} degrees", fov), camera, tau);
+        EXPECT_LE(kept.promisedPixels, tau) << fov;
+        EXPECT_GT(kept.measured.compared, 1000U) << fov;
     }
 }
 

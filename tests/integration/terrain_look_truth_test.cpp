@@ -58,13 +58,15 @@ protected:
         std::vector<float> depth;  ///< metres
     };
 
-    Drawn draw(const fabric::Camera& camera, double tauPixels, const fabric::Look& look) {
-        fabric::FrameData frame{1, camera, tauPixels, fabric::Shading::Smooth, look};
+    Drawn draw(const fabric::Camera& camera, double tauPixels, const fabric::Look& look,
+               fabric::Occlusion occlusion = fabric::Occlusion::Auto,
+               const fabric::PixelViewport& part = {0, 0, kWidth, kHeight}) {
+        fabric::FrameData frame{1, camera, tauPixels, fabric::Shading::Smooth, look, occlusion};
         fabric::ChannelTask task;
         task.frameDataVersion = 1;
         task.viewWidth = kWidth;
         task.viewHeight = kHeight;
-        task.pixelViewport = {0, 0, kWidth, kHeight};
+        task.pixelViewport = part;
         task.wantsDepth = true;
         auto result = renderer_->render(frame, task);
         EXPECT_TRUE(result.ok()) << result.status();
@@ -147,6 +149,28 @@ TEST_F(TerrainLookTruth, ExaggeratedTerrainKeepsItsPromise) {
         const truth::TerrainRayCaster ground = timesHeight(exaggeration);
         check("overview", exaggeration, overview(exaggeration), ground);
         check("close", exaggeration, close(ground, exaggeration), ground);
+    }
+}
+
+using HardCase10 = TerrainLookTruth;
+
+/// What is culled, by the picture's sides or behind hills, is where it is drawn: parts of a picture
+/// are those of the whole one, with and without occlusion culling. That the whole one is right is
+/// said by ExaggeratedTerrainKeepsItsPromise.
+TEST_F(HardCase10, PartsOfPicturesAreThoseOfTheWholeHoweverHeightsAreDrawn) {
+    for (const double exaggeration : {-1.0, 0.0, 1e-3, 1.0, 10.0, 100.0}) {
+        const fabric::Look look{.exaggeration = exaggeration};
+        const fabric::Camera camera = close(timesHeight(exaggeration), exaggeration);
+        const fabric::Image whole = draw(camera, 2, look, fabric::Occlusion::Off).image;
+        EXPECT_GT(std::ranges::count_if(whole.depth, [](float depth) { return depth > 0; }), 2000);
+        fabric::Image parts = fabric::makeImage(whole.area, {}, true);
+        for (int y = 0; y < kHeight; y += 90)
+            for (int x = 0; x < kWidth; x += 80) {
+                const fabric::PixelViewport part{x, y, 80, 90};
+                draw(camera, 2, look, fabric::Occlusion::On, part);  // what hides what is known now
+                fabric::paste(draw(camera, 2, look, fabric::Occlusion::On, part).image, parts);
+            }
+        EXPECT_TRUE(parts == whole) << exaggeration;
     }
 }
 

@@ -190,6 +190,73 @@ TEST_P(DecompositionTest, EveryLookDecomposesAlike) {
     }
 }
 
+/// Tiles are off-axis views: each has its own part of the one frustum. Expected is the picture that
+/// is drawn at once.
+TEST(Poster, InTilesOf512PixelsIsTheOnePictureToTheBit) {
+    constexpr PixelViewport kPoster{0, 0, 2048, 1152};
+    const auto renderer = test::makeRenderer();
+    const auto scene = test::sampleScene(test::SampleKind::Both);
+    ASSERT_TRUE(scene.ok()) << scene.status();
+    const auto info = renderer->openScene(*scene);
+    ASSERT_TRUE(info.ok()) << info.status();
+    std::mt19937 random(kSeed);
+    ChannelTask task = wholeView();
+    task.viewWidth = kPoster.width;
+    task.viewHeight = kPoster.height;
+    const auto drawn = [&](const FrameData& frame, const PixelViewport& part, Image& into) {
+        task.pixelViewport = part;
+        const auto result = renderer->render(frame, task);
+        ASSERT_TRUE(result.ok()) << result.status();
+        fabric::paste(result->image, into);
+    };
+    for (const double fovYDegrees : {1.0, 45.0, 170.0}) {
+        FrameData frame = randomFrame(random, info->bounds);
+        frame.camera.fovYDegrees = fovYDegrees;
+        if (fovYDegrees > 90)  // from among what is drawn
+            frame.camera.eye += 0.9 * (frame.camera.target - frame.camera.eye);
+        Image whole = fabric::makeImage(kPoster, scene->background, true);
+        Image poster = whole;
+        drawn(frame, kPoster, whole);
+        for (int y = 0; y < kPoster.height; y += 512)
+            for (int x = 0; x < kPoster.width; x += 512)
+                drawn(frame, intersection({x, y, 512, 512}, kPoster), poster);
+        std::size_t covered = 0, different = 0;
+        for (std::size_t i = 0; i < whole.depth.size(); ++i) {
+            covered += whole.depth[i] > 0 ? 1 : 0;
+            different +=
+                whole.depth[i] != poster.depth[i] || whole.colour[i] != poster.colour[i] ? 1 : 0;
+        }
+        EXPECT_EQ(different, 0U) << fovYDegrees;
+        EXPECT_GT(covered, whole.depth.size() / 20) << fovYDegrees;
+    }
+}
+
+/// Expected is the same renderer's, and another's, picture.
+TEST(HardCase28, PicturesAreTheSameForAnyNumberOfLoaderThreadsAndAgain) {
+    const auto scene = test::sampleScene(test::SampleKind::Both);
+    ASSERT_TRUE(scene.ok()) << scene.status();
+    std::vector<Image> first;
+    for (const int threads : {1, 8}) {
+        RendererOptions options;
+        options.loaderThreads = threads;
+        auto renderer = Renderer::create(options);
+        ASSERT_TRUE(renderer.ok()) << renderer.status();
+        const auto info = (*renderer)->openScene(*scene);
+        ASSERT_TRUE(info.ok()) << info.status();
+        std::mt19937 random(kSeed);
+        for (std::size_t i = 0; i < 4; ++i) {
+            const FrameData frame = randomFrame(random, info->bounds);
+            for (int again = 0; again < 2; ++again) {
+                const auto result = (*renderer)->render(frame, wholeView());
+                ASSERT_TRUE(result.ok()) << result.status();
+                if (first.size() == i)
+                    first.push_back(result->image);
+                EXPECT_TRUE(result->image == first[i]) << threads << " threads, picture " << i;
+            }
+        }
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Scenes, DecompositionTest,
                          testing::Values(test::SampleKind::Mesh, test::SampleKind::Terrain,
                                          test::SampleKind::Both),

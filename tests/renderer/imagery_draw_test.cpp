@@ -170,6 +170,8 @@ protected:
     double postMetres_ = 1;
 };
 
+using HardCase25 = ImageryDraw;
+
 /// Of filters: 8 bits of weight each way, and the display's square.
 constexpr double kFilterTolerance = 2.5;
 
@@ -297,6 +299,21 @@ TEST_F(ImageryDraw, AnAncestorStandsInForATileThatCannotBeReadAndIsReported) {
     EXPECT_EQ(result.statistics.pagesMissing, 4U);
     EXPECT_EQ(result.statistics.pagesFailed, 4U);
     EXPECT_LT(differenceFromOneImage(result, view, 1), kFilterTolerance);
+}
+
+/// Hard case 25, beside the tests of 64 : 1, 1 : 64 and borders above. A tile's texels need none of
+/// their parents'; what has no texels of its own shows the parents' parents'. Expected is the one
+/// image of a whole level, filtered in double precision.
+TEST_F(HardCase25, TextureWithoutItsParentIsShownAndThatOfTheNextLevelStandsInForTheParent) {
+    import(plain(197, 169, 10), 10, 1.25, pattern);
+    const auto renderer = open(damagedCopy(*file_, 1));
+    const Overhead fine{{kWest + 512 * 1.25, kSouth + 512 * 1.25}, 0.625};
+    EXPECT_LT(differenceFromOneImage(draw(*renderer, fine.camera()), fine, 0), kFilterTolerance);
+    const Overhead coarse{{kWest + 512 * 2.5, kSouth + 512 * 2.5}, 2.0};
+    const ChannelResult result = draw(*renderer, coarse.camera());
+    EXPECT_FALSE(result.statistics.complete);
+    EXPECT_GT(result.statistics.pagesFailed, 0U);
+    EXPECT_LT(differenceFromOneImage(result, coarse, 2), kFilterTolerance);
 }
 
 TEST_F(ImageryDraw, ComesToTheCompletePictureFrameByFrame) {

@@ -276,13 +276,20 @@ absl::StatusOr<fabric::Scene> doorway(const test::TemporaryFolder& folder) {
     return scene;
 }
 
-TEST(HardCase20, ThroughADoorwayNarrowerThanABlockOfPixelsAllIsSeen) {
-    const test::TemporaryFolder folder;
-    const auto scene = doorway(folder);
-    ASSERT_TRUE(scene.ok()) << scene.status();
-    const auto renderer = test::makeRenderer();
-    ASSERT_NE(renderer, nullptr);
-    ASSERT_TRUE(renderer->openScene(*scene).ok());
+/// Expected is the picture drawn without culling.
+class HardCase20 : public testing::Test {
+protected:
+    void SetUp() override {
+        const auto scene = doorway(folder_);
+        ASSERT_TRUE(scene.ok()) << scene.status();
+        ASSERT_TRUE(renderer_->openScene(*scene).ok());
+    }
+
+    test::TemporaryFolder folder_;
+    std::unique_ptr<Renderer> renderer_ = test::makeRenderer();
+};
+
+TEST_F(HardCase20, ThroughADoorwayNarrowerThanABlockOfPixelsAllIsSeen) {
     std::mt19937 random(kSeed);
     const auto in = [&](double low, double high) {
         return std::uniform_real_distribution<double>(low, high)(random);
@@ -298,18 +305,12 @@ TEST(HardCase20, ThroughADoorwayNarrowerThanABlockOfPixelsAllIsSeen) {
         if (i % 100 >= 90)  // half a turn, and back
             frame.camera.target = frame.camera.eye + Vec3(std::cos(M_PI / 5 * (i % 100 - 90)),
                                                           std::sin(M_PI / 5 * (i % 100 - 90)), 0);
-        hidden += hiddenIn(*renderer, frame, wholeView(), "frame " + std::to_string(i));
+        hidden += hiddenIn(*renderer_, frame, wholeView(), "frame " + std::to_string(i));
     }
     EXPECT_GT(hidden, 2000U);
 }
 
-TEST(HardCase20, WhatEntersAtTheFrustumsEdgeOrTouchesTheNearPlaneIsSeen) {
-    const test::TemporaryFolder folder;
-    const auto scene = doorway(folder);
-    ASSERT_TRUE(scene.ok()) << scene.status();
-    const auto renderer = test::makeRenderer();
-    ASSERT_NE(renderer, nullptr);
-    ASSERT_TRUE(renderer->openScene(*scene).ok());
+TEST_F(HardCase20, WhatEntersAtTheFrustumsEdgeOrTouchesTheNearPlaneIsSeen) {
     FrameData frame;
     frame.camera.fovYDegrees = 90;  // the frustum's top is at z = x, its sides at y = 16 / 9 x
     const double side = 16.0 / 9;
@@ -319,11 +320,11 @@ TEST(HardCase20, WhatEntersAtTheFrustumsEdgeOrTouchesTheNearPlaneIsSeen) {
         const double pixel = 2 * side * 14 / kWidth;
         frame.camera.eye = {0, -7.1 + side * 14 + (i < 0 ? 0.001 : 0.05) * i * pixel, 0};
         frame.camera.target = frame.camera.eye + Vec3(1, 0, 0);
-        hiddenIn(*renderer, frame, wholeView(), "edge " + std::to_string(i));
+        hiddenIn(*renderer_, frame, wholeView(), "edge " + std::to_string(i));
         // The board in the eye's face, about 1 mm away: before, on and behind the near plane.
         frame.camera.eye = {1e-7 * i, 0, 0};
         frame.camera.target = {1, 0, 0};
-        hiddenIn(*renderer, frame, wholeView(), "near " + std::to_string(i));
+        hiddenIn(*renderer_, frame, wholeView(), "near " + std::to_string(i));
     }
 }
 

@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 #include "service/channel_drawer.h"
@@ -34,6 +35,9 @@ struct FakeDrawerControl {
         std::unique_lock lock(mutex);
         changed.wait(lock, [this] { return !held; });
     }
+
+    /// What is drawn in place of a gradient, once it is set; not while a call is under way.
+    std::optional<fabric::Image> image;
 
     std::mutex mutex;
     std::condition_variable changed;
@@ -66,7 +70,8 @@ public:
         ++control_->begun;
         control_->waitWhileHeld();
         ++control_->drawn;
-        return picture(frameData, task);
+        return control_->image ? fabric::ChannelResult{*control_->image, {}}
+                               : picture(frameData, task);
     }
 
     static fabric::ChannelResult picture(const fabric::FrameData& frameData,

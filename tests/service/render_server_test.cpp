@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "service/render_server.h"
 
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <random>
+#include <span>
 #include <thread>
 #include <vector>
 
@@ -73,6 +78,60 @@ TEST_F(RenderServerTest, ChunksAreOfOneMebibyteAtMost) {
     }
     EXPECT_EQ(bytes, 1000U * 700 * 8);
     EXPECT_TRUE(reader->Finish().ok());
+}
+
+using HardCase24 = RenderServerTest;
+
+/// Any bits at all, also such that are no number, less than none or next to none.
+fabric::Image noise(const fabric::PixelViewport& area, std::uint32_t seed) {
+    std::mt19937 random(seed);
+    fabric::Image image = fabric::makeImage(area, {}, true);
+    constexpr std::array<std::uint32_t, 6> kOdd = {0x7fc00000, 0xffffffff, 0x80000000,
+                                                   0x00000001, 0x7f800000, 0xff800000};
+    for (std::size_t i = 0; i < image.colour.size(); ++i) {
+        image.colour[i] = std::bit_cast<fabric::Rgba>(static_cast<std::uint32_t>(random()));
+        image.depth[i] = std::bit_cast<float>(i % 3 == 0 ? kOdd[random() % kOdd.size()]
+                                                         : static_cast<std::uint32_t>(random()));
+    }
+    return image;
+}
+
+/// Every other pixel of `image` as nothing that was drawn.
+fabric::Image checkered(fabric::Image image) {
+    for (std::size_t i = 0; i < image.colour.size(); ++i)
+        if ((i % static_cast<std::size_t>(image.area.width) +
+             i / static_cast<std::size_t>(image.area.width)) %
+                2 ==
+            0) {
+            image.colour[i] = {};
+            image.depth[i] = 0;
+        }
+    return image;
+}
+
+/// Expected is what was drawn, to the bit.
+TEST_F(HardCase24, WhateverBitsWereDrawnArriveInPicturesOfAnyShape) {
+    ASSERT_TRUE(renderer_->setFrameData(frameData(), soon()).ok());
+    for (const fabric::Image& drawn :
+         {noise({0, 0, 640, 360}, 1), noise({0, 0, 16384, 1}, 2), noise({7, 0, 1, 16384}, 3),
+          noise({16383, 16383, 1, 1}, 4), checkered(noise({3, 5, 511, 257}, 5)),
+          fabric::makeImage({0, 0, 640, 360}, {9, 8, 7, 6}, true),
+          // A chunk's bytes of colour, and four more.
+          noise({0, 0, 512, 512}, 6), noise({0, 0, 37, 7085}, 7), fabric::Image{}}) {
+        control_->image = drawn;
+        fabric::ChannelTask whole = task(16384, 16384, true);
+        if (!drawn.area.isEmpty())
+            whole.pixelViewport = drawn.area;
+        const auto arrived = renderer_->render(whole, soon());
+        ASSERT_TRUE(arrived.ok()) << arrived.status();
+        const auto isSame = [](const auto& one, const auto& other) {
+            return std::ranges::equal(std::as_bytes(std::span(one)),
+                                      std::as_bytes(std::span(other)));
+        };
+        EXPECT_EQ(arrived->image.area, drawn.area);
+        EXPECT_TRUE(isSame(arrived->image.colour, drawn.colour));
+        EXPECT_TRUE(isSame(arrived->image.depth, drawn.depth));
+    }
 }
 
 TEST_F(RenderServerTest, AnUnknownFrameDataVersionIsAFailedPrecondition) {

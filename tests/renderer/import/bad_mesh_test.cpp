@@ -256,6 +256,8 @@ TriangleMesh apart(std::uint32_t triangles) {
     return mesh;
 }
 
+// Hard cases 17 and 19: expected is what each mesh is made of, counted by hand, and bounds that the
+// report itself states.
 TEST(HardCase17, LeavesOf65535VerticesAndMore) {
     const test::TemporaryFolder folder;
     for (const std::uint32_t triangles : {21845U, 21846U}) {  // 65,535 and 65,538 vertices
@@ -387,7 +389,7 @@ TEST(HardCase19, DenormalsAreZeroBesideAnythingElse) {
     ASSERT_TRUE(packed.ok()) << packed.status();
     EXPECT_EQ(packed->triangles.size(), 4U);
     for (fabric::Vec3& position : mesh.positions) position *= 1e-310;  // nothing but denormals
-    EXPECT_TRUE(packMesh(mesh, counts).ok() || !packMesh(mesh, counts).status().message().empty());
+    EXPECT_TRUE(absl::IsInvalidArgument(packMesh(mesh, counts).status()));
 }
 
 }  // namespace

@@ -275,5 +275,146 @@ TEST_F(DemMosaic, RefusesWhatCannotBeBroughtTogether) {
     EXPECT_FALSE(test::readDems({}).ok());
 }
 
+/// Heights from 9,000 m below the ellipsoid to 1,000 below, by where on the earth a place lies, so
+/// that neither the poles nor the antimeridian are special.
+double deep(double longitude, double latitude) {
+    const double lon = longitude * M_PI / 180, lat = latitude * M_PI / 180;
+    return 2000 * std::sin(8 * std::cos(lat) * std::cos(lon)) +
+           2000 * std::cos(7 * std::cos(lat) * std::sin(lon)) - 5000;
+}
+
+struct Place {
+    double longitude;
+    double latitude;
+};
+
+/// J. P. Snyder, Map Projections: A Working Manual (1987), pages 160 to 162: the ellipsoidal polar
+/// stereographic projection of UPS, backwards.
+Place fromUps(double x, double y, bool isNorth) {
+    constexpr double kA = 6378137, kF = 1 / 298.257223563, kScale = 0.994, kFalse = 2e6;
+    const double e = std::sqrt(kF * (2 - kF));
+    const double dx = x - kFalse, dy = isNorth ? kFalse - y : y - kFalse;
+    const double t = std::hypot(dx, dy) *
+                     std::sqrt(std::pow(1 + e, 1 + e) * std::pow(1 - e, 1 - e)) / (2 * kA * kScale);
+    double latitude = M_PI / 2 - 2 * std::atan(t);
+    for (int i = 0; i < 5; ++i) {
+        const double s = e * std::sin(latitude);
+        latitude = M_PI / 2 - 2 * std::atan(t * std::pow((1 - s) / (1 + s), e / 2));
+    }
+    return {std::atan2(dx, dy) * 180 / M_PI, (isNorth ? latitude : -latitude) * 180 / M_PI};
+}
+
+class HardCase26 : public DemMosaic {
+protected:
+    struct Checked {
+        std::int64_t posts = 0;
+        std::int64_t open = 0;
+        double worst = 0;  ///< metres, away from the raster's rim
+    };
+
+    /// Compares every post with the height of its place where `isInside` says that the raster has
+    /// posts all around it.
+    static Checked check(const test::Dem& dem, const std::function<Place(double, double)>& place,
+                         const std::function<bool(const Place&)>& isInside) {
+        Checked checked;
+        for (std::int32_t j = 0; j < dem.grid.rows; ++j)
+            for (std::int32_t i = 0; i < dem.grid.columns; ++i) {
+                const Place at = place(dem.grid.origin.x + dem.grid.perColumn.x * i,
+                                       dem.grid.origin.y + dem.grid.perRow.y * j);
+                if (!isInside(at))
+                    continue;
+                ++checked.posts;
+                const double height = dem.grid.at(i, j);
+                if (std::isnan(height))
+                    ++checked.open;
+                else
+                    checked.worst =
+                        std::max(checked.worst, std::abs(height - deep(at.longitude, at.latitude)));
+            }
+        return checked;
+    }
+
+    /// By PROJ, which import leaves to GDAL's warper.
+    static std::function<Place(double, double)> fromCrs(const std::string& wkt) {
+        OGRSpatialReference local, degrees;
+        local.importFromWkt(wkt.c_str());
+        local.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+        degrees.importFromEPSG(kDegrees);
+        degrees.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+        const std::shared_ptr<OGRCoordinateTransformation> transformation(
+            OGRCreateCoordinateTransformation(&local, &degrees));
+        return [transformation](double x, double y) {
+            transformation->Transform(1, &x, &y);
+            return Place{x, y};
+        };
+    }
+};
+
+/// A cap of all longitudes, with the pole in its middle and the antimeridian as a seam, where a
+/// raster ends and begins. Pixels of half a degree, over which the ground falls by 140 m at most:
+/// between them interpolation leaves 1.2 m, and the warper's hundredth of a pixel 1.4. A post
+/// farther on it is 6 m.
+TEST_F(HardCase26, PolarCapsHaveEveryPlaceWhereSnydersFormulasHaveIt) {
+    for (const bool isNorth : {true, false}) {
+        const auto dem = test::readDem(write({.epsg = kDegrees,
+                                              .west = -180,
+                                              .north = isNorth ? 90.0 : -84.0,
+                                              .pixel = 0.5,
+                                              .columns = 720,
+                                              .rows = 12,
+                                              .height = deep}));
+        ASSERT_TRUE(dem.ok()) << dem.status();
+        const auto found = [&](double fromPole, double longitude) {
+            return check(
+                *dem, [&](double x, double y) { return fromUps(x, y, isNorth); },
+                [&](const Place& at) {
+                    const double distance = 90 - std::abs(at.latitude);
+                    return distance > fromPole && distance < 5.4 &&
+                           std::abs(at.longitude) < longitude;
+                });
+        };
+        const Checked around = found(0.6, 179.4);
+        EXPECT_GT(around.posts, 100000);
+        EXPECT_EQ(around.open, 0);
+        EXPECT_LE(around.worst, 2.6);
+        // At the pole and at the seam the next pixel's centre is half a pixel away.
+        const Checked all = found(0, 179.9999);
+        EXPECT_EQ(all.open, 0);
+        EXPECT_LE(all.worst, 70);
+        // Of posts on the very seam GDAL takes some for beside the raster.
+        EXPECT_LE(found(0, 181).open, 60);
+    }
+}
+
+/// Pixels of a hundredth of a degree, over which the ground falls by 3 m at most. Rasters that
+/// count to 180 degrees and from -180 are beside each other; half a pixel is to their rim.
+TEST_F(HardCase26, AcrossTheAntimeridianEveryPlaceIsWhereProjHasIt) {
+    const auto raster = [&](double west, int columns) {
+        return write({.epsg = kDegrees,
+                      .west = west,
+                      .north = -16,
+                      .pixel = 0.01,
+                      .columns = columns,
+                      .rows = 200,
+                      .height = deep});
+    };
+    struct Case {
+        std::vector<std::string> rasters;
+        double metres;
+    };
+    for (const Case& one : {Case{{raster(178.5, 300)}, 0.04}, Case{{raster(-181.5, 300)}, 0.04},
+                            Case{{raster(178.5, 150), raster(-180, 150)}, 1.5}}) {
+        const auto dem = test::readDems(one.rasters);
+        ASSERT_TRUE(dem.ok()) << dem.status();
+        const Checked found = check(*dem, fromCrs(dem->crsWkt), [](const Place& at) {
+            const double east = at.longitude < 0 ? at.longitude + 180 : at.longitude - 180;
+            return east > -1.48 && east < 1.48 && at.latitude < -16.02 && at.latitude > -17.98;
+        });
+        EXPECT_GT(found.posts, 50000);
+        EXPECT_EQ(found.open, 0);
+        EXPECT_LE(found.worst, one.metres);
+    }
+}
+
 }  // namespace
 }  // namespace eyrie::import
