@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a line of sight meets of the finest data, held against double-precision rays at the source:
+// the truth's own, which share no code with it.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <memory>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+#include "renderer/import/mesh_import.h"
+#include "renderer/import/mesh_synth.h"
+#include "renderer/import/terrain_import.h"
+#include "renderer/pick/picker.h"
+#include "renderer/truth/mesh_ray_caster.h"
+#include "renderer/truth/terrain_ray_caster.h"
+#include "tests/renderer/terrain/hard_grids.h"
+#include "tests/support/temporary_folder.h"
+
+namespace eyrie {
+namespace {
+
+using fabric::Camera;
+using fabric::PickedPoint;
+using fabric::PickRequest;
+using fabric::Vec2;
+using fabric::Vec3;
+using pick::Picker;
+using test::GridKind;
+
+constexpr int kWidth = 1280;
+constexpr int kHeight = 720;
+
+/// Of one kind of view.
+struct Tally {
+    int picked = 0;
+    int missed = 0;               ///< the source, too
+    int slipped = 0;              ///< though the source is met, and would be within the error
+    int mayBeMissed = 0;          ///< picked, but the source may be missed
+    std::vector<double> spreads;  ///< farthest - nearest, in pixels' widths
+
+    double medianSpread() {
+        std::ranges::sort(spreads);
+        return spreads.empty() ? 0 : spreads[spreads.size() / 2];
+    }
+};
+
+/// An object and its source.
+class Pair {
+public:
+    Pair(std::shared_ptr<const Picker> picker, std::unique_ptr<truth::ReferenceSurface> source,
+         double exaggeration = 1)
+        : picker_(std::move(picker)), source_(std::move(source)), exaggeration_(exaggeration) {}
+
+    absl::StatusOr<fabric::Picked> pick(const Camera& camera, const Vec2& place) const {
+        return picker_->pick({camera, kWidth, kHeight, place, exaggeration_});
+    }
+
+    /// Holds the answer for one place against the truth.
+    void hold(const Camera& camera, const Vec2& place, Tally& tally) const {
+        const auto picked = pick(camera, place);
+        ASSERT_TRUE(picked.ok()) << picked.status();
+        const truth::Ray ray = truth::Pinhole(camera, kWidth, kHeight).rayThrough(place.x, place.y);
+        const auto hits = source_->hitRange(ray);
+        const double metresPerT = glm::length(ray.direction);
+        if (picked->has_value())
+            holdPoint(**picked, hits.first * metresPerT, hits.last * metresPerT, tally);
+        else if (hits.last == truth::kNoHit)
+            ++tally.missed;
+        else
+            ++tally.slipped;
+    }
+
+private:
+    void holdPoint(const PickedPoint& point, double first, double last, Tally& tally) const {
+        ++tally.picked;
+        // What the judge's own arithmetic, which is the same double precision, may be off by.
+        const double rounding = 1e-12 * (point.distanceMetres + glm::length(point.worldMetres));
+        const double spread = point.farthestMetres - point.nearestMetres;
+        const double slack = rounding * (1 + std::min(spread, 1e6) / point.errorMetres);
+        EXPECT_LE(point.nearestMetres, point.distanceMetres + slack);
+        EXPECT_GE(point.farthestMetres, point.distanceMetres - slack);
+        EXPECT_LE(point.nearestMetres, first + slack) << "error " << point.errorMetres;
+        EXPECT_GE(point.farthestMetres, last - slack) << "error " << point.errorMetres;
+        const auto partner = source_->counterpart(point.worldMetres);
+        ASSERT_TRUE(partner.has_value());
+        EXPECT_LE(glm::length(*partner - point.worldMetres), point.errorMetres + rounding);
+        if (std::isinf(point.farthestMetres))
+            ++tally.mayBeMissed;
+        else
+            tally.spreads.push_back(spread / point.pixelMetres);
+    }
+
+    std::shared_ptr<const Picker> picker_;
+    std::unique_ptr<truth::ReferenceSurface> source_;
+    double exaggeration_;
+};
+
+std::shared_ptr<const Picker> open(const fabric::SceneObject& object) {
+    fabric::Scene scene;
+    scene.objects.push_back(object);
+    auto picker = Picker::open(scene, {});
+    EXPECT_TRUE(picker.ok()) << picker.status();
+    return picker.ok() ? *picker : nullptr;
+}
+
+Pair terrainPair(const test::TemporaryFolder& folder, const terrain::HeightGrid& grid,
+                 double exaggeration = 1) {
+    const std::string path = folder.path("terrain.eyt");
+    const auto report = import::importTerrain(grid, {"grid", "", 0}, path, {});
+    EXPECT_TRUE(report.ok()) << report.status();
+    truth::HeightGrid posts{grid.columns, grid.rows,      grid.heights,
+                            grid.origin,  grid.perColumn, grid.perRow};
+    for (float& height : posts.heights) height = static_cast<float>(height * exaggeration);
+    return {open({.name = "terrain", .kind = fabric::ObjectKind::Terrain, .path = path}),
+            std::make_unique<truth::TerrainRayCaster>(std::move(posts)), exaggeration};
+}
+
+Pair meshPair(const test::TemporaryFolder& folder, import::TriangleMesh mesh,
+              const fabric::Mat4& worldFromObject, const import::MeshImportOptions& options = {}) {
+    truth::TriangleMesh source{mesh.positions, mesh.triangles};
+    for (Vec3& p : source.positions) p = Vec3(worldFromObject * fabric::Vec4(p, 1));
+    const std::string path = folder.path("mesh.eym");
+    const auto report = import::importMesh(std::move(mesh), path, options);
+    EXPECT_TRUE(report.ok()) << report.status();
+    return {open({.name = "mesh", .path = path, .worldFromObject = worldFromObject}),
+            std::make_unique<truth::MeshRayCaster>(std::move(source))};
+}
+
+/// Places all over what a sphere covers of the picture.
+std::vector<Vec2> placesAround(const Camera& camera, const Vec3& centre, double radius, int count,
+                               std::mt19937& engine) {
+    const truth::Pinhole pinhole(camera, kWidth, kHeight);
+    const double reach = pinhole.focalPixels() * radius / glm::length(centre - camera.eye);
+    const Vec2 middle = pinhole.project(centre).value_or(Vec2(kWidth / 2.0, kHeight / 2.0));
+    std::uniform_real_distribution<double> unit(-1, 1);
+    std::vector<Vec2> places;
+    while (places.size() < static_cast<std::size_t>(count)) {
+        const Vec2 place =
+            middle + std::min(reach, 1.0 * kWidth) * Vec2(unit(engine), unit(engine));
+        if (place.x >= 0 && place.y >= 0 && place.x <= kWidth && place.y <= kHeight)
+            places.push_back(place);
+    }
+    return places;
+}
+
+struct NamedCamera {
+    std::string name;
+    Camera camera;
+};
+
+/// At 1 m, 1 km and 1,000 km from a point of ground, and almost level over it.
+std::vector<NamedCamera> camerasOver(const Vec3& ground) {
+    const auto from = [&](const Vec3& offset, double fovYDegrees) {
+        return Camera{ground + offset, ground, {0, 0, 1}, fovYDegrees};
+    };
+    return {{"1 m", from({0.6, 0.5, 0.6}, 60)},
+            {"1 km", from({500, -600, 620}, 60)},
+            {"1,000 km", from({3e5, 4e5, 8.6e5}, 1)},
+            {"grazing", from({-900, 700, 2}, 40)}};
+}
+
+TEST(HardCase22, PicksOfTerrainAreWhereRaysMeetTheSource) {
+    const test::TemporaryFolder folder;
+    std::mt19937 engine(22);
+    int picked = 0;
+    for (const GridKind kind : {GridKind::Smooth, GridKind::Noise, GridKind::Cliff,
+                                GridKind::Spikes, GridKind::Checkerboard, GridKind::Plane}) {
+        const terrain::HeightGrid grid = test::hardGrid(kind, 161, 150, 5);
+        const Pair pair = terrainPair(folder, grid);
+        const fabric::Vec2 middle = grid.origin + grid.perColumn * 80.3 + grid.perRow * 70.6;
+        const Vec3 ground(middle.x, middle.y, static_cast<double>(grid.at(80, 70)));
+        for (const auto& [name, camera] : camerasOver(ground)) {
+            Tally tally;
+            for (const Vec2& place : placesAround(camera, ground, 600, 420, engine))
+                pair.hold(camera, place, tally);
+            fmt::print("{} at {}: {} picked, {} missed, {} slipped, {} uncertain, {:.3g} px\n",
+                       test::name(kind), name, tally.picked, tally.missed, tally.slipped,
+                       tally.mayBeMissed, tally.medianSpread());
+            EXPECT_EQ(tally.slipped, 0) << test::name(kind) << " at " << name;
+            picked += tally.picked;
+        }
+    }
+    EXPECT_GT(picked, 5000);
+}
+
+TEST(HardCase22, PicksOfMeshesAreWhereRaysMeetTheSource) {
+    const test::TemporaryFolder folder;
+    std::mt19937 engine(23);
+    const fabric::Mat4 moved = glm::scale(
+        glm::rotate(glm::translate(fabric::Mat4(1), Vec3(5e5, -4.4e6, 120)), 0.7, Vec3(1, 2, 3)),
+        Vec3(300));
+    const Pair pair =
+        meshPair(folder, import::synthesizeMesh(6000, 3), moved, {.leafTriangles = 500});
+    const Vec3 centre(moved[3]);
+    const auto on = pair.pick({centre + Vec3(0, -2000, 0), centre}, {kWidth / 2.0, kHeight / 2.0});
+    ASSERT_TRUE(on.ok() && on->has_value());
+    int picked = 0;
+    for (const auto& [name, camera] : camerasOver((*on)->worldMetres)) {
+        Tally tally;
+        for (const Vec2& place : placesAround(camera, centre, 400, 2500, engine))
+            pair.hold(camera, place, tally);
+        fmt::print("mesh at {}: {} picked, {} missed, {} slipped, {} uncertain, {:.3g} px\n", name,
+                   tally.picked, tally.missed, tally.slipped, tally.mayBeMissed,
+                   tally.medianSpread());
+        EXPECT_EQ(tally.slipped, 0) << name;
+        picked += tally.picked;
+    }
+    EXPECT_GT(picked, 3000);
+}
+
+}  // namespace
+}  // namespace eyrie
