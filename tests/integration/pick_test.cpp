@@ -88,8 +88,8 @@ private:
         const double slack = rounding * (1 + std::min(spread, 1e6) / point.errorMetres);
         EXPECT_LE(point.nearestMetres, point.distanceMetres + slack);
         EXPECT_GE(point.farthestMetres, point.distanceMetres - slack);
-        EXPECT_LE(point.nearestMetres, first + slack) << "error " << point.errorMetres;
-        EXPECT_GE(point.farthestMetres, last - slack) << "error " << point.errorMetres;
+        EXPECT_LE(point.nearestMetres, first + slack) << "error " << point.errorMetres << " beyond by " << point.nearestMetres - first << ", " << last - point.farthestMetres << " spread " << spread << " slack " << slack;
+        EXPECT_GE(point.farthestMetres, last - slack) << "error " << point.errorMetres << " beyond by " << point.nearestMetres - first << ", " << last - point.farthestMetres << " spread " << spread << " slack " << slack;
         const auto partner = source_->counterpart(point.worldMetres);
         ASSERT_TRUE(partner.has_value());
         EXPECT_LE(glm::length(*partner - point.worldMetres), point.errorMetres + rounding);
