@@ -140,10 +140,10 @@ private:
 
     void visitTriangle(std::uint16_t a, std::uint16_t b, std::uint16_t c, const Run& run) {
         const SeenTriangle seen = {seen_[a], seen_[b], seen_[c]};
-        if (!mayPass(seen, frame_.reach(error_)))
+        if (!mayPass(seen, frame_.reach(reach_)))
             return;
         const Passage passage{{points_[a], points_[b], points_[c]}, ray_.direction};
-        const Span near = within(passage, error_, ahead());
+        const Span near = within(passage, reach_, ahead());
         if (!near.isEmpty())
             nearest_ = std::min(nearest_, near.begin);
         const std::optional<double> t = meets(seen);
@@ -180,8 +180,10 @@ private:
     const bool hidesBacks_;
     const CastOptions& options_;
     double rounding_ = 0;
-    double error_ = 0;  ///< of a point of the surface
-    double reach_ = 0;  ///< of triangles beyond their nodes' boxes
+    double error_ = 0;  ///< how far the source is from a point of a triangle
+    /// How far all of the source may be from them: it has triangles that vanish on the lattice, and
+    /// are left out also where the others keep their places.
+    double reach_ = 0;
     std::vector<Vec3> points_;
     std::vector<Vec3> seen_;
     double hit_ = kNowhere;

@@ -188,12 +188,14 @@ public:
           options_(options) {}
 
     absl::StatusOr<Cast> go() {
-        RETURN_IF_ERROR(visit(index_.quadtree.top()));
+        if (!spanIn(index_.quadtree.top()).isEmpty())
+            RETURN_IF_ERROR(visit(index_.quadtree.top()));
         return Cast{hit_, columns_.nearest(), columns_.farthest()};
     }
 
 private:
-    /// Of the ray, in the tile's box; everything that may be met lies in there.
+    /// Of the ray, in the tile's box; everything that may be met lies in there. Once something may
+    /// have been, also above and below it, where the ray is beyond what it met for certain.
     Span spanIn(const TileId& id) const {
         const std::int32_t side = terrain::Quadtree::side(id.level);
         const terrain::TileRecord& record = index_.tile(id);
@@ -205,7 +207,8 @@ private:
         box.grow({std::min(id.x * side + side, index_.quadtree.columns() - 1),
                   std::min(id.y * side + side, index_.quadtree.rows() - 1),
                   steps(record.maxHeightMetres)});
-        const Vec3 beyond = lattice_.rounding + Vec3(1e-9, 1e-9, 1 + errorSteps(id));
+        const double relief = columns_.nearest() < kNowhere ? box.size().z : 0;
+        const Vec3 beyond = lattice_.rounding + Vec3(1e-9, 1e-9, 1 + errorSteps(id) + relief);
         return clip({fabric::kNearMetres, std::min(options_.farthest, columns_.farthest())},
                     lattice_.ray, {box.min - beyond, box.max + beyond});
     }
@@ -217,15 +220,11 @@ private:
     absl::Status visit(const TileId& id) {
         if (id.level == 0)
             return index_.tile(id).triangles == 0 ? absl::OkStatus() : visitTile(id);
-        std::vector<std::pair<double, TileId>> children;
+        // In the order in which the ray passes them.
+        const int nearest = (lattice_.along.x < 0 ? 1 : 0) | (lattice_.along.y < 0 ? 2 : 0);
         for (int i = 0; i < 4; ++i)
-            if (const TileId child = terrain::Quadtree::child(id, i);
-                index_.quadtree.contains(child))
-                if (const Span span = spanIn(child); !span.isEmpty())
-                    children.emplace_back(span.begin, child);
-        std::ranges::sort(children, {}, &std::pair<double, TileId>::first);
-        for (const auto& [begin, child] : children)
-            if (begin <= columns_.farthest())
+            if (const TileId child = terrain::Quadtree::child(id, i ^ nearest);
+                index_.quadtree.contains(child) && !spanIn(child).isEmpty())
                 RETURN_IF_ERROR(visit(child));
         return absl::OkStatus();
     }

@@ -19,6 +19,8 @@
 #include "renderer/import/mesh_import.h"
 #include "renderer/import/mesh_synth.h"
 #include "renderer/import/terrain_import.h"
+#include "renderer/mesh/eym_format.h"
+#include "renderer/mesh/vertex_packing.h"
 #include "renderer/pick/picker.h"
 #include "renderer/truth/mesh_ray_caster.h"
 #include "renderer/truth/terrain_ray_caster.h"
@@ -88,8 +90,12 @@ private:
         const double slack = rounding * (1 + std::min(spread, 1e6) / point.errorMetres);
         EXPECT_LE(point.nearestMetres, point.distanceMetres + slack);
         EXPECT_GE(point.farthestMetres, point.distanceMetres - slack);
-        EXPECT_LE(point.nearestMetres, first + slack) << "error " << point.errorMetres << " beyond by " << point.nearestMetres - first << ", " << last - point.farthestMetres << " spread " << spread << " slack " << slack;
-        EXPECT_GE(point.farthestMetres, last - slack) << "error " << point.errorMetres << " beyond by " << point.nearestMetres - first << ", " << last - point.farthestMetres << " spread " << spread << " slack " << slack;
+        EXPECT_LE(point.nearestMetres, first + slack)
+            << "error " << point.errorMetres << " beyond by " << point.nearestMetres - first << ", "
+            << last - point.farthestMetres << " spread " << spread << " slack " << slack;
+        EXPECT_GE(point.farthestMetres, last - slack)
+            << "error " << point.errorMetres << " beyond by " << point.nearestMetres - first << ", "
+            << last - point.farthestMetres << " spread " << spread << " slack " << slack;
         const auto partner = source_->counterpart(point.worldMetres);
         ASSERT_TRUE(partner.has_value());
         EXPECT_LE(glm::length(*partner - point.worldMetres), point.errorMetres + rounding);
@@ -215,6 +221,213 @@ TEST(HardCase22, PicksOfMeshesAreWhereRaysMeetTheSource) {
         picked += tally.picked;
     }
     EXPECT_GT(picked, 3000);
+}
+
+TEST(HardCase22, PicksOfExaggeratedTerrainAreWhereRaysMeetTheSource) {
+    const test::TemporaryFolder folder;
+    std::mt19937 engine(24);
+    const terrain::HeightGrid grid = test::hardGrid(GridKind::Smooth, 90, 90, 5);
+    const fabric::Vec2 middle = grid.origin + grid.perColumn * 45.0 + grid.perRow * 45.0;
+    for (const double exaggeration : {-1.0, 0.125, 4.0}) {
+        const Pair pair = terrainPair(folder, grid, exaggeration);
+        const Vec3 ground(middle.x, middle.y, static_cast<double>(grid.at(45, 45)) * exaggeration);
+        Tally tally;
+        for (const auto& [name, camera] : camerasOver(ground))
+            for (const Vec2& place : placesAround(camera, ground, 300, 100, engine))
+                pair.hold(camera, place, tally);
+        EXPECT_EQ(tally.slipped, 0);
+        EXPECT_GT(tally.picked, 150);
+        const auto level = pair.pick({ground + Vec3(0, -1, 5000), ground}, {640, 360});
+        ASSERT_TRUE(level.ok() && level->has_value());
+        EXPECT_NEAR(*(*level)->elevationMetres, grid.at(45, 45), 0.1);
+    }
+}
+
+TEST(HardCase22, PicksOfMeshesThatKeepTheirPositionsAreExact) {
+    const test::TemporaryFolder folder;
+    std::mt19937 engine(25);
+    const Pair pair = meshPair(folder, import::synthesizeMesh(4000, 3), fabric::Mat4(1),
+                               {.leafTriangles = 500, .pack = {.keepsExact = true}});
+    const Camera camera{{0, -3, 0}, {0, 0, 0}};
+    Tally tally;
+    for (const Vec2& place : placesAround(camera, {0, 0, 0}, 1, 500, engine)) {
+        pair.hold(camera, place, tally);
+        const auto picked = pair.pick(camera, place);
+        ASSERT_TRUE(picked.ok());
+        if (picked->has_value()) {
+            EXPECT_LT((*picked)->errorMetres, 1e-13);
+        }
+    }
+    EXPECT_EQ(tally.slipped, 0);
+    EXPECT_GT(tally.picked, 200);
+}
+
+/// From inside a closed mesh every line of sight meets it, also through what triangles share.
+TEST(HardCase22, NoPickSlipsThroughAnEdgeOrACornerOfAMesh) {
+    const test::TemporaryFolder folder;
+    const import::TriangleMesh mesh = import::synthesizeMesh(3000, 7);
+    const std::string path = folder.path("ball.eym");
+    ASSERT_TRUE(import::importMesh(mesh, path, {.leafTriangles = 200}).ok());
+    const auto opened = mesh::EymFile::open(path);
+    ASSERT_TRUE(opened.ok());
+    const auto picker = open({.name = "ball", .path = path});
+    const Vec3 eye(0.01, 0.02, 0.03);
+    int picks = 0;
+    const auto meet = [&](const Vec3& target) {
+        const auto picked = picker->pick({{eye, target}, 100, 100, {50, 50}});
+        ASSERT_TRUE(picked.ok()) << picked.status();
+        ASSERT_TRUE(picked->has_value()) << target.x << " " << target.y << " " << target.z;
+        EXPECT_LE((*picked)->nearestMetres, glm::length(target - eye) + 1e-9);
+        ++picks;
+    };
+    for (std::uint32_t node = 0; node < opened->nodes().size(); ++node) {
+        if (!opened->nodes()[node].isLeaf())
+            continue;
+        const auto leaf = opened->geometry(node);
+        ASSERT_TRUE(leaf.ok());
+        const auto at = [&](std::size_t k) {
+            return opened->lattice().metres(
+                mesh::unpackPosition(leaf->positions[leaf->indices[k]]));
+        };
+        for (std::size_t k = 0; k < leaf->indices.size(); k += 3)
+            for (std::size_t c = 0; c < 3; ++c) {
+                meet(at(k + c));
+                meet((at(k + c) + at(k + (c + 1) % 3)) * 0.5);
+            }
+    }
+    EXPECT_GT(picks, 10'000);
+}
+
+TEST(HardCase22, NoPickSlipsThroughAnEdgeOrACornerOfATerrain) {
+    const test::TemporaryFolder folder;
+    for (const GridKind kind : {GridKind::Smooth, GridKind::Noise, GridKind::Flat}) {
+        const terrain::HeightGrid grid = test::hardGrid(kind, 40, 37, 5);
+        const Pair pair = terrainPair(folder, grid);
+        // Half a post on, too; straight down, and aslant so steeply that no slope is in the way.
+        for (int j = 1; j < 2 * 36; ++j)
+            for (int i = 1; i < 2 * 39; ++i) {
+                const fabric::Vec2 at =
+                    grid.origin + grid.perColumn * (i / 2.0) + grid.perRow * (j / 2.0);
+                const Vec3 target(at.x, at.y, 0);
+                const Vec3 aside = (i + j) % 2 == 0 ? Vec3(0) : Vec3(10, -5, 0);
+                const auto picked =
+                    pair.pick({target + aside + Vec3(0, 0, 9000), target, {0, 1, 0}}, {640, 360});
+                ASSERT_TRUE(picked.ok()) << picked.status();
+                ASSERT_TRUE(picked->has_value()) << test::name(kind) << " " << i << " " << j;
+                EXPECT_LT((*picked)->farthestMetres, pick::kNowhere) << test::name(kind);
+            }
+    }
+}
+
+class PickScene : public testing::Test {
+protected:
+    /// A square of two triangles, 2 m a side, around a point, facing up or whichever way.
+    fabric::SceneObject square(const std::string& name, const fabric::Mat4& worldFromObject) {
+        import::TriangleMesh mesh;
+        mesh.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+        mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+        const std::string path = folder_.path(name + ".eym");
+        EXPECT_TRUE(import::importMesh(std::move(mesh), path).ok());
+        return {.name = name, .path = path, .worldFromObject = worldFromObject};
+    }
+
+    absl::StatusOr<fabric::Picked> pick(const fabric::Scene& scene, const Camera& camera,
+                                        const Vec2& place = {320, 240}) {
+        auto picker = Picker::open(scene, {});
+        EXPECT_TRUE(picker.ok()) << picker.status();
+        return (*picker)->pick({camera, 640, 480, place});
+    }
+
+    static fabric::Mat4 movedTo(const Vec3& by) { return glm::translate(fabric::Mat4(1), by); }
+
+    const Camera down_{{0.3, 0.1, 10}, {0.3, 0.1, 0}, {0, 1, 0}};
+    const test::TemporaryFolder folder_;
+};
+
+TEST_F(PickScene, GivesTheNearestOfSeveralObjects) {
+    fabric::Scene scene;
+    scene.objects = {square("low", movedTo({0, 0, 1})), square("high", movedTo({0, 0, 3})),
+                     square("aside", movedTo({5, 0, 6}))};
+    const auto picked = pick(scene, down_);
+    ASSERT_TRUE(picked.ok() && picked->has_value());
+    EXPECT_EQ((*picked)->object, 1);
+    EXPECT_LT(glm::length((*picked)->worldMetres - Vec3(0.3, 0.1, 3)), 1e-9);
+    EXPECT_NEAR((*picked)->distanceMetres, 7, 1e-9);
+    EXPECT_NEAR((*picked)->normal.z, 1, 1e-9);
+    EXPECT_NEAR((*picked)->pixelMetres, 2 * 7 * std::tan(M_PI / 8) / 480, 1e-9);
+    EXPECT_FALSE((*picked)->elevationMetres.has_value());
+}
+
+TEST_F(PickScene, MeetsNothingBesideBehindAndInAnEmptyScene) {
+    fabric::Scene scene;
+    EXPECT_EQ(*pick(scene, down_), fabric::Picked());
+    scene.objects = {square("one", movedTo({0, 0, 0}))};
+    EXPECT_EQ(*pick(scene, down_, {0, 0}), fabric::Picked());
+    EXPECT_EQ(*pick(scene, {{0, 0, 10}, {0, 0, 20}, {0, 1, 0}}), fabric::Picked());
+}
+
+TEST_F(PickScene, LeavesBacksOutWhereThePictureDoes) {
+    const Camera up{{0.3, 0.1, -10}, {0.3, 0.1, 0}, {0, 1, 0}};
+    fabric::Scene scene;
+    scene.objects = {square("one", movedTo({0, 0, 0}))};
+    const auto back = pick(scene, up);
+    ASSERT_TRUE(back.ok() && back->has_value());
+    EXPECT_NEAR((*back)->normal.z, -1, 1e-9);
+    scene.objects[0].singleSided = true;
+    EXPECT_EQ(*pick(scene, up), fabric::Picked());
+    EXPECT_TRUE(pick(scene, down_)->has_value());
+}
+
+TEST_F(PickScene, RefusesPlacesOutsideThePictureAndWhatIsNoCamera) {
+    fabric::Scene scene;
+    scene.objects = {square("one", movedTo({0, 0, 0}))};
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    for (const Vec2& place : {Vec2(-0.01, 5), Vec2(5, 480.01), Vec2(nan, 5), Vec2(5, nan)})
+        EXPECT_TRUE(absl::IsInvalidArgument(pick(scene, down_, place).status()));
+    Camera bad = down_;
+    bad.eye.x = nan;
+    EXPECT_TRUE(absl::IsInvalidArgument(pick(scene, bad).status()));
+    const auto picker = Picker::open(scene, {});
+    EXPECT_TRUE(absl::IsInvalidArgument((*picker)->pick({down_, 0, 480, {0, 0}}).status()));
+    EXPECT_TRUE(absl::IsInvalidArgument((*picker)->pick({down_, 640, 480, {1, 1}, nan}).status()));
+    scene.objects[0].path = folder_.path("absent.eym");
+    EXPECT_TRUE(absl::IsNotFound(Picker::open(scene, {}).status()));
+}
+
+TEST_F(PickScene, EndsWhenItsTimeIsOver) {
+    fabric::Scene scene;
+    scene.objects = {square("one", movedTo({0, 0, 0}))};
+    const auto picker = Picker::open(scene, {});
+    ASSERT_TRUE(picker.ok());
+    EXPECT_TRUE(absl::IsDeadlineExceeded(
+        (*picker)->pick({down_, 640, 480, {320, 240}}, Picker::Clock::now()).status()));
+}
+
+/// Coarser data do not stand in.
+TEST_F(PickScene, NamesThePageThatIsDamaged) {
+    const std::string path = folder_.path("terrain.eyt");
+    const terrain::HeightGrid grid = test::hardGrid(GridKind::Noise, 300, 300, 5);
+    ASSERT_TRUE(import::importTerrain(grid, {"grid", "", 0}, path, {}).ok());
+    const auto size = std::filesystem::file_size(path);
+    std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+    for (std::uintmax_t at = 4096; at < size / 2; at += 4096)
+        file.seekp(static_cast<std::streamoff>(at)).put('\x5a');
+    file.close();
+    fabric::Scene scene;
+    scene.objects.push_back({.name = "t", .kind = fabric::ObjectKind::Terrain, .path = path});
+    int refused = 0;
+    for (int k = 0; k < 9; ++k) {
+        const fabric::Vec2 at = grid.origin + grid.perColumn * (40.0 + 100 * (k % 3)) +
+                                grid.perRow * (40.0 + k / 3 * 100);
+        const auto picked = pick(scene, {{at.x, at.y, 9000}, {at.x, at.y, 0}, {0, 1, 0}});
+        if (picked.ok())
+            continue;
+        ++refused;
+        const std::string message = picked.status().ToString();
+        EXPECT_TRUE(absl::IsDataLoss(picked.status())) << message;
+        EXPECT_NE(message.find(path), std::string::npos) << message;
+    }
+    EXPECT_GT(refused, 0);
 }
 
 }  // namespace
