@@ -46,8 +46,8 @@ fabric::PickedPoint pointOf(const fabric::PickRequest& request, const Ray& ray, 
     point.normal = glm::dot(normal, ray.direction) > 0 ? -normal : normal;
     point.distanceMetres = hit.t * metresPerT;
     point.errorMetres = hit.errorMetres + rounding;
-    point.nearestMetres = source.begin * metresPerT - rounding;
-    point.farthestMetres = source.end * metresPerT + rounding;
+    point.nearestMetres = std::min(source.begin, hit.t) * metresPerT - rounding;
+    point.farthestMetres = std::max(source.end, hit.t) * metresPerT + rounding;
     point.pixelMetres =
         2 * hit.t * std::tan(request.camera.fovYDegrees * M_PI / 360) / request.viewHeight;
     point.elevationMetres = hit.elevationMetres;
