@@ -22,6 +22,7 @@ void addImport(CLI::App& app, Run& run);
 void addInfo(CLI::App& app, Run& run);
 void addBench(CLI::App& app, Run& run);
 void addRender(CLI::App& app, Run& run);
+void addPick(CLI::App& app, Run& run);
 void addSynth(CLI::App& app, Run& run);
 
 }  // namespace eyrie::cli

@@ -66,8 +66,7 @@ fabric::Picked pick(const fabric::PickRequest& request) {
         2 * std::tan(glm::radians(request.camera.fovYDegrees / 2)) / request.viewHeight;
     const fabric::Vec3 inView{(request.place.x - request.viewWidth / 2.0) * pixel,
                               (request.place.y - request.viewHeight / 2.0) * pixel, -1};
-    const fabric::Vec3 ray =
-        glm::transpose(fabric::viewFromWorldRotation(request.camera)) * inView;
+    const fabric::Vec3 ray = glm::transpose(fabric::viewFromWorldRotation(request.camera)) * inView;
     const double t = -request.camera.eye.z / ray.z;
     const fabric::Vec3 hit = request.camera.eye + ray * t;
     if (!(t > 0) || hit.x < 0 || hit.x > 100 || hit.y < 0 || hit.y > 100)

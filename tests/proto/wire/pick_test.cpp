@@ -14,9 +14,7 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-fabric::PickedPoint point() {
-    return {3, {1, 2, 3}, {0, 0, 1}, 17, 0.5, 16, 19, 0.02, 412.5};
-}
+fabric::PickedPoint point() { return {3, {1, 2, 3}, {0, 0, 1}, 17, 0.5, 16, 19, 0.02, 412.5}; }
 
 TEST(WirePick, RequestsComeBackAsTheyWere) {
     const fabric::PickRequest request{{{1, 2, 3}, {4, 5, 6}}, 640, 480, {0.5, 480}, 2.5};
