@@ -19,7 +19,10 @@
 #include "fabric/statistics.h"
 #include "renderer/lod/view.h"
 #include "renderer/occlusion/hidden_ground.h"
-#include "renderer/pick/surface.h"
+
+namespace eyrie::pick {
+class Surface;
+}
 
 namespace eyrie::draw {
 

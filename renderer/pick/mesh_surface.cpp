@@ -16,8 +16,6 @@
 #include "renderer/lod/view.h"
 #include "renderer/mesh/vertex_packing.h"
 #include "renderer/pick/line_triangle.h"
-#include "renderer/pick/picker.h"
-#include "renderer/pick/recent_pages.h"
 
 namespace eyrie::pick {
 namespace {
@@ -62,10 +60,8 @@ std::vector<Run> runsOf(const mesh::EymFile& file, std::uint32_t node, bool hide
 /// One ray's way through a mesh's tree. Everything in object space.
 class Walk {
 public:
-    Walk(const mesh::EymFile& file, RecentPages& pages, const Ray& ray, bool hidesBacks,
-         const CastOptions& options)
+    Walk(const mesh::EymFile& file, const Ray& ray, bool hidesBacks, const CastOptions& options)
         : file_(file),
-          pages_(pages),
           ray_(ray),
           frame_(ray.direction),
           hidesBacks_(hidesBacks),
@@ -162,19 +158,19 @@ private:
     }
 
     absl::StatusOr<std::shared_ptr<const Leaf>> readLeaf(std::uint32_t node) {
-        if (auto known = pages_.find(node))
+        const RecentPages::Key key{options_.object, node};
+        if (auto known = options_.pages.find(key))
             return std::static_pointer_cast<const Leaf>(known);
         auto leaf = std::make_shared<Leaf>();
         ASSIGN_OR_RETURN(leaf->geometry, file_.geometry(node));
         if (file_.hasExactPositions()) {
             ASSIGN_OR_RETURN(leaf->exact, file_.exactPositions(node));
         }
-        pages_.keep(node, leaf, leaf->bytes());
+        options_.pages.keep(key, leaf, leaf->bytes());
         return leaf;
     }
 
     const mesh::EymFile& file_;
-    RecentPages& pages_;
     const Ray ray_;
     const RayFrame frame_;
     const bool hidesBacks_;
@@ -201,7 +197,7 @@ public:
 
     absl::StatusOr<Cast> cast(const Ray& world, const CastOptions& options) const override {
         const Ray ray = inFrame(world, worldFromObject_);
-        Walk walk(*file_, pages_, ray, isSingleSided_ && isOutside(*file_, ray.origin), options);
+        Walk walk(*file_, ray, isSingleSided_ && isOutside(*file_, ray.origin), options);
         RETURN_IF_ERROR(walk.go());
         Cast cast{std::nullopt, walk.nearest(), walk.farthest()};
         if (walk.hit() < kNowhere) {
@@ -216,7 +212,6 @@ private:
     const fabric::Mat4 worldFromObject_;
     const bool isSingleSided_;
     const std::shared_ptr<const mesh::EymFile> file_;
-    mutable RecentPages pages_{kRecentBytes};
 };
 
 }  // namespace

@@ -64,7 +64,7 @@ absl::Status checkDeadline(const CastOptions& options) {
 }
 
 Picker::Picker(std::vector<std::unique_ptr<const Surface>> surfaces)
-    : surfaces_(std::move(surfaces)) {}
+    : surfaces_(std::move(surfaces)), pages_(kRecentBytes) {}
 
 absl::StatusOr<std::shared_ptr<const Picker>> Picker::open(const fabric::Scene& scene,
                                                            const page::SourceOptions& sources) {
@@ -81,11 +81,12 @@ absl::StatusOr<fabric::Picked> Picker::pick(const fabric::PickRequest& request,
                                             Clock::time_point deadline) const {
     RETURN_IF_ERROR(fabric::validate(request));
     const Ray ray = rayThrough(request);
-    CastOptions options{request.exaggeration, kNowhere, deadline};
+    CastOptions options{pages_, 0, request.exaggeration, kNowhere, deadline};
     Hit first;
     std::size_t object = 0;
     double nearest = kNowhere;
     for (std::size_t i = 0; i < surfaces_.size(); ++i) {
+        options.object = static_cast<std::uint32_t>(i);
         ASSIGN_OR_RETURN(const Cast cast, surfaces_[i]->cast(ray, options));
         nearest = std::min(nearest, cast.nearest);
         options.farthest = std::min(options.farthest, cast.farthest);

@@ -14,9 +14,11 @@
 
 namespace eyrie::pick {
 
+inline constexpr std::uint64_t kRecentBytes = std::uint64_t{16} << 20;
+
 /// Finds what a place of a picture shows, in double precision and in the finest data, whatever is
 /// drawn or on the device. Needs no GL and not the renderer's thread: any thread may ask, several
-/// at a time. Memory: kRecentBytes of pages for each object, and the page being looked at.
+/// at a time. Memory: kRecentBytes of pages, and the one being looked at.
 class Picker {
 public:
     using Clock = std::chrono::steady_clock;
@@ -37,8 +39,7 @@ public:
 
 private:
     std::vector<std::unique_ptr<const Surface>> surfaces_;
+    mutable RecentPages pages_;
 };
-
-inline constexpr std::uint64_t kRecentBytes = std::uint64_t{8} << 20;
 
 }  // namespace eyrie::pick

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <limits>
 #include <optional>
 
@@ -9,6 +10,7 @@
 
 #include "fabric/vec.h"
 #include "renderer/pick/ray.h"
+#include "renderer/pick/recent_pages.h"
 
 namespace eyrie::pick {
 
@@ -31,12 +33,14 @@ struct Cast {
 };
 
 struct CastOptions {
+    RecentPages& pages;          ///< where pages are looked for and left ...
+    std::uint32_t object = 0;    ///< ... by this number
     double exaggeration = 1;     ///< of terrain
     double farthest = kNowhere;  ///< nothing beyond is of interest
     std::chrono::steady_clock::time_point deadline = std::chrono::steady_clock::time_point::max();
 };
 
-/// An object's data at their finest. Immutable but for pages that are kept: any thread may ask.
+/// An object's data at their finest. Immutable: any thread may ask.
 class Surface {
 public:
     virtual ~Surface() = default;

@@ -19,8 +19,6 @@
 #include "fabric/status.h"
 #include "renderer/pick/column_walk.h"
 #include "renderer/pick/drawn_posts.h"
-#include "renderer/pick/picker.h"
-#include "renderer/pick/recent_pages.h"
 #include "renderer/terrain/vertex_packing.h"
 
 namespace eyrie::pick {
@@ -37,8 +35,9 @@ struct LatticeRay {
     LatticeRay(const Ray& world, const fabric::Mat4& worldFromLattice)
         : ray(inFrame(world, worldFromLattice)) {
         // A tilt of 1e-20 is beyond any rounding, and leaves every ray a way along the ground.
-        if (ray.direction.x == 0 && ray.direction.y == 0)
-            ray.direction.x = 1e-20 * std::abs(ray.direction.z);
+        const double least = 1e-20 * std::abs(ray.direction.z);
+        if (std::max(std::abs(ray.direction.x), std::abs(ray.direction.y)) < least)
+            ray.direction.x = least;
         along = fabric::Vec2(ray.direction);
         alongSquared = glm::dot(along, along);
         const fabric::Mat3 inverse = glm::inverse(fabric::Mat3(worldFromLattice));
@@ -178,11 +177,10 @@ private:
 /// One ray's way over a terrain.
 class Walk {
 public:
-    Walk(const terrain::EytFile& file, RecentPages& pages, const fabric::Mat4& worldFromLattice,
-         const Ray& ray, const CastOptions& options)
+    Walk(const terrain::EytFile& file, const fabric::Mat4& worldFromLattice, const Ray& ray,
+         const CastOptions& options)
         : file_(file),
           index_(file.index()),
-          pages_(pages),
           worldFromLattice_(worldFromLattice),
           lattice_(ray, worldFromLattice),
           options_(options) {}
@@ -250,16 +248,16 @@ private:
     }
 
     absl::StatusOr<std::shared_ptr<const terrain::Page>> readPage(std::uint32_t number) {
-        if (auto page = pages_.find(number))
+        const RecentPages::Key key{options_.object, number};
+        if (auto page = options_.pages.find(key))
             return std::static_pointer_cast<const terrain::Page>(page);
         ASSIGN_OR_RETURN(auto page, file_.readPage(number));
-        pages_.keep(number, page, page->sizeBytes());
+        options_.pages.keep(key, page, page->sizeBytes());
         return page;
     }
 
     const terrain::EytFile& file_;
     const terrain::EytIndex& index_;
-    RecentPages& pages_;
     const fabric::Mat4 worldFromLattice_;
     const LatticeRay lattice_;
     const CastOptions& options_;
@@ -274,7 +272,7 @@ public:
         : worldFromObject_(object.worldFromObject), file_(std::move(file)) {}
 
     absl::StatusOr<Cast> cast(const Ray& ray, const CastOptions& options) const override {
-        return Walk(*file_, pages_,
+        return Walk(*file_,
                     fabric::exaggerated(worldFromObject_, options.exaggeration) *
                         file_->index().objectFromLattice,
                     ray, options)
@@ -284,7 +282,6 @@ public:
 private:
     const fabric::Mat4 worldFromObject_;
     const std::shared_ptr<const terrain::EytFile> file_;
-    mutable RecentPages pages_{kRecentBytes};
 };
 
 }  // namespace
