@@ -25,6 +25,7 @@ void addInfo(CLI::App& app, Run& run);
 void addCheck(CLI::App& app, Run& run);
 void addBench(CLI::App& app, Run& run);
 void addRender(CLI::App& app, Run& run);
+void addPick(CLI::App& app, Run& run);
 void addSynth(CLI::App& app, Run& run);
 
 }  // namespace eyrie::cli

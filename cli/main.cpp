@@ -44,6 +44,7 @@ void declare(CLI::App& app, eyrie::cli::Run& run) {
     eyrie::cli::addInfo(app, run);
     eyrie::cli::addCheck(app, run);
     eyrie::cli::addRender(app, run);
+    eyrie::cli::addPick(app, run);
     eyrie::cli::addBench(app, run);
     eyrie::cli::addSynth(app, run);
     eyrie::cli::addCoordinator(app, run);

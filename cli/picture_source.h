@@ -22,6 +22,11 @@ struct PictureSourceOptions {
     bool quiet = false;  ///< only errors; otherwise progress of imports and warnings, too
 };
 
+/// The scene that `path` names, as for assembleScene; sources are imported first.
+absl::StatusOr<fabric::Scene> loadScene(const std::string& path,
+                                        const PictureSourceOptions& options,
+                                        const std::stop_token& stop);
+
 /// Draws pictures of one scene, for commands that need no viewer. Belongs to the thread that opened
 /// it.
 class PictureSource {

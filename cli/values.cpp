@@ -59,6 +59,20 @@ absl::StatusOr<PictureSize> parsePictureSize(std::string_view text, std::string_
         fmt::format("WIDTHxHEIGHT, each from 1 to {}, such as 1280x720", fabric::kMaxViewPixels));
 }
 
+absl::StatusOr<PixelPlace> parsePixel(std::string_view text, const PictureSize& size,
+                                      std::string_view option) {
+    const std::size_t comma = text.find(',');
+    if (comma != std::string_view::npos) {
+        const auto x = number<int>(text.substr(0, comma), 0, size.width - 1);
+        const auto y = number<int>(text.substr(comma + 1), 0, size.height - 1);
+        if (x && y)
+            return PixelPlace{*x, *y};
+    }
+    return wrong(
+        option, text,
+        fmt::format("X,Y, a pixel of the picture: 0,0 to {},{}", size.width - 1, size.height - 1));
+}
+
 absl::StatusOr<ShardNumber> parseShard(std::string_view text, std::uint32_t most,
                                        std::string_view option) {
     const std::size_t slash = text.find('/');

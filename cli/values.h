@@ -31,6 +31,17 @@ struct PictureSize {
 /// "WIDTHxHEIGHT", each from 1 to fabric::kMaxViewPixels.
 absl::StatusOr<PictureSize> parsePictureSize(std::string_view text, std::string_view option);
 
+struct PixelPlace {
+    int x = 0;
+    int y = 0;
+
+    bool operator==(const PixelPlace&) const = default;
+};
+
+/// "X,Y", a pixel of a picture of that size: from 0,0 on.
+absl::StatusOr<PixelPlace> parsePixel(std::string_view text, const PictureSize& size,
+                                      std::string_view option);
+
 struct ShardNumber {
     std::uint32_t index = 0;
     std::uint32_t count = 1;

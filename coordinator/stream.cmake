@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-add_library(eyrie_stream stream/home_camera.cpp stream/pacer.cpp stream/viewer.cpp
+add_library(eyrie_stream stream/home_camera.cpp stream/pacer.cpp stream/pick_desk.cpp stream/viewer.cpp
                          stream/viewer_messages.cpp)
 add_library(eyrie::stream ALIAS eyrie_stream)
 target_link_libraries(eyrie_stream PUBLIC eyrie::fabric absl::status

@@ -20,6 +20,7 @@
 #include "renderer/lod/view.h"
 #include "renderer/page/loader.h"
 #include "renderer/page/remote_name.h"
+#include "renderer/pick/picker.h"
 
 namespace eyrie {
 namespace {
@@ -130,6 +131,7 @@ public:
     absl::StatusOr<fabric::SceneInfo> openScene(const fabric::Scene& scene);
     absl::StatusOr<fabric::ChannelResult> render(const fabric::FrameData& frameData,
                                                  const fabric::ChannelTask& task);
+    std::shared_ptr<const pick::Picker> picker() const { return picker_; }
     RendererMemory memory() const;
 
 private:
@@ -178,6 +180,7 @@ private:
     std::vector<draw::OccludedDraw::Pieces> drawn_;
     std::optional<fabric::Scene> scene_;
     std::vector<OpenObject> objects_;
+    std::shared_ptr<const pick::Picker> picker_;
 };
 
 absl::StatusOr<std::unique_ptr<Renderer::Impl>> Renderer::Impl::create(
@@ -209,17 +212,20 @@ absl::StatusOr<std::unique_ptr<draw::Drawable>> Renderer::Impl::openObject(
 absl::StatusOr<fabric::SceneInfo> Renderer::Impl::openScene(const fabric::Scene& scene) {
     RETURN_IF_ERROR(fabric::validate(scene));
     std::vector<OpenObject> objects;
+    std::vector<std::unique_ptr<const pick::Surface>> surfaces;
     fabric::SceneInfo info;
     for (const fabric::SceneObject& object : scene.objects) {
         ASSIGN_OR_RETURN(auto drawable, openObject(object, scene.objects.size()));
         info.bounds.grow(fabric::transformed(drawable->bounds(), object.worldFromObject));
         info.triangles += drawable->triangles();
         info.bytes += drawable->bytes();
+        surfaces.push_back(drawable->surface(object));
         objects.push_back({object, std::move(drawable)});
     }
     info.ground = groundOf(objects);
     scene_ = scene;
     objects_ = std::move(objects);
+    picker_ = std::make_shared<const pick::Picker>(std::move(surfaces));
     occludedDraw_.forget();
     return info;
 }
@@ -465,6 +471,8 @@ absl::StatusOr<fabric::ChannelResult> Renderer::render(const fabric::FrameData& 
                                                        const fabric::ChannelTask& task) {
     return impl_->render(frameData, task);
 }
+
+std::shared_ptr<const pick::Picker> Renderer::picker() const { return impl_->picker(); }
 
 RendererMemory Renderer::memory() const { return impl_->memory(); }
 

@@ -14,6 +14,10 @@
 
 namespace eyrie {
 
+namespace pick {
+class Picker;
+}
+
 /// How data at URLs are read.
 struct RemoteData {
     /// Where what was read is kept; empty: nowhere, and meshes at URLs cannot be opened. Processes
@@ -71,6 +75,10 @@ public:
     /// frame data), FailedPrecondition (no scene open), ResourceExhausted, DataLoss (of a mesh).
     absl::StatusOr<fabric::ChannelResult> render(const fabric::FrameData& frameData,
                                                  const fabric::ChannelTask& task);
+
+    /// Finds what places of the open scene's pictures show (renderer/pick/picker.h), on any thread
+    /// and as long as one likes, whatever becomes of this. Null before a scene is open.
+    std::shared_ptr<const pick::Picker> picker() const;
 
     RendererMemory memory() const;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <memory>
 
@@ -8,10 +9,15 @@
 
 #include "fabric/channel_task.h"
 #include "fabric/frame_data.h"
+#include "fabric/pick.h"
 #include "fabric/scene.h"
 #include "fabric/statistics.h"
 
 namespace eyrie::service {
+
+/// Finds what a place of a picture shows; on any thread, until `deadline`.
+using PickFunction = std::function<absl::StatusOr<fabric::Picked>(
+    const fabric::PickRequest& request, std::chrono::steady_clock::time_point deadline)>;
 
 /// What a renderer process draws with: eyrie::Renderer, or a fake in tests. Created, used and
 /// destroyed on one thread.
@@ -23,6 +29,9 @@ public:
     virtual absl::StatusOr<fabric::SceneInfo> openScene(const fabric::Scene& scene) = 0;
     virtual absl::StatusOr<fabric::ChannelResult> render(const fabric::FrameData& frameData,
                                                          const fabric::ChannelTask& task) = 0;
+
+    /// For the scene that is open; null where none is.
+    virtual PickFunction pickFunction() const = 0;
 };
 
 using DrawerFactory = std::function<absl::StatusOr<std::unique_ptr<ChannelDrawer>>()>;

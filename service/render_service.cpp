@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "service/render_service.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -8,6 +9,7 @@
 #include "fabric/status.h"
 #include "service/reply_stream.h"
 #include "wire/frame.h"
+#include "wire/pick.h"
 #include "wire/scene.h"
 #include "wire/scene_info.h"
 #include "wire/status.h"
@@ -15,9 +17,10 @@
 namespace eyrie::service {
 namespace {
 
-absl::Status openScene(ChannelDrawer& drawer, const fabric::Scene& scene,
+absl::Status openScene(ChannelDrawer& drawer, const fabric::Scene& scene, PickThread& picks,
                        v1::OpenSceneResponse& response) {
     ASSIGN_OR_RETURN(const fabric::SceneInfo info, drawer.openScene(scene));
+    picks.use(drawer.pickFunction());
     response = wire::toMessage(info);
     return absl::OkStatus();
 }
@@ -33,6 +36,15 @@ void draw(ChannelDrawer& drawer, const fabric::FrameData& frameData,
         reply.fail(result.status());
 }
 
+/// A call without a deadline has this one.
+constexpr std::chrono::seconds kPickTime{60};
+
+std::chrono::steady_clock::time_point deadlineOf(const grpc::CallbackServerContext& context) {
+    const auto left = context.deadline() - std::chrono::system_clock::now();
+    return std::chrono::steady_clock::now() +
+           std::min<std::chrono::system_clock::duration>(left, kPickTime);
+}
+
 }  // namespace
 
 grpc::ServerUnaryReactor* RenderService::OpenScene(grpc::CallbackServerContext* context,
@@ -42,9 +54,9 @@ grpc::ServerUnaryReactor* RenderService::OpenScene(grpc::CallbackServerContext* 
     absl::StatusOr<fabric::Scene> scene = wire::fromMessage(request->scene());
     absl::Status status = scene.status();
     if (scene.ok())
-        status =
-            thread_.post([scene = *std::move(scene), response, reactor](ChannelDrawer& drawer) {
-                reactor->Finish(wire::toGrpc(openScene(drawer, scene, *response)));
+        status = thread_.post(
+            [this, scene = *std::move(scene), response, reactor](ChannelDrawer& drawer) {
+                reactor->Finish(wire::toGrpc(openScene(drawer, scene, picks_, *response)));
             });
     if (!status.ok())
         reactor->Finish(wire::toGrpc(status));
@@ -69,6 +81,24 @@ grpc::ServerWriteReactor<v1::RenderChannelResponse>* RenderService::RenderChanne
     if (const absl::Status status = startDrawing(*request, *reply); !status.ok())
         reply->fail(status);
     return reply;
+}
+
+grpc::ServerUnaryReactor* RenderService::Pick(grpc::CallbackServerContext* context,
+                                              const v1::PickRequest* request,
+                                              v1::PickResponse* response) {
+    grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
+    const absl::StatusOr<fabric::PickRequest> asked = wire::fromMessage(*request);
+    if (!asked.ok()) {
+        reactor->Finish(wire::toGrpc(asked.status()));
+        return reactor;
+    }
+    picks_.pick(*asked, deadlineOf(*context),
+                [response, reactor](const absl::StatusOr<fabric::Picked>& picked) {
+                    if (picked.ok() && picked->has_value())
+                        *response->mutable_point() = wire::toMessage(**picked);
+                    reactor->Finish(wire::toGrpc(picked.status()));
+                });
+    return reactor;
 }
 
 absl::Status RenderService::startDrawing(const v1::RenderChannelRequest& request,

@@ -6,10 +6,12 @@
 #include "eyrie/v1/render_service.grpc.pb.h"
 #include "service/frame_data_history.h"
 #include "service/gl_thread.h"
+#include "service/pick_thread.h"
 
 namespace eyrie::service {
 
-/// The RPCs of render_service.proto: each becomes a value and a job for the GL thread.
+/// The RPCs of render_service.proto: each becomes a value and a job for the GL thread, or,
+/// to pick, for a thread of its own.
 class RenderService final : public v1::RenderService::CallbackService {
 public:
     /// Pictures drawn or being sent at once: bounds the memory that slow readers can hold.
@@ -26,11 +28,15 @@ public:
                                            v1::SetFrameDataResponse* response) override;
     grpc::ServerWriteReactor<v1::RenderChannelResponse>* RenderChannel(
         grpc::CallbackServerContext* context, const v1::RenderChannelRequest* request) override;
+    grpc::ServerUnaryReactor* Pick(grpc::CallbackServerContext* context,
+                                   const v1::PickRequest* request,
+                                   v1::PickResponse* response) override;
 
 private:
     absl::Status startDrawing(const v1::RenderChannelRequest& request, class ReplyStream& reply);
 
     GlThread& thread_;
+    PickThread picks_;
     FrameDataHistory frameData_;
     std::atomic<int> replies_{0};
 };

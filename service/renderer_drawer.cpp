@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "fabric/status.h"
+#include "renderer/pick/picker.h"
 
 namespace eyrie::service {
 namespace {
@@ -22,6 +23,15 @@ public:
     absl::StatusOr<fabric::ChannelResult> render(const fabric::FrameData& frameData,
                                                  const fabric::ChannelTask& task) override {
         return renderer_->render(frameData, task);
+    }
+    PickFunction pickFunction() const override {
+        auto picker = renderer_->picker();
+        if (!picker)
+            return nullptr;
+        return [picker](const fabric::PickRequest& request,
+                        std::chrono::steady_clock::time_point deadline) {
+            return picker->pick(request, deadline);
+        };
     }
 
 private:

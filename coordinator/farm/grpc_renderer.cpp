@@ -3,6 +3,7 @@
 
 #include <mutex>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <grpcpp/client_context.h>
@@ -13,6 +14,7 @@
 #include "eyrie/v1/render_service.grpc.pb.h"
 #include "fabric/status.h"
 #include "wire/frame.h"
+#include "wire/pick.h"
 #include "wire/scene.h"
 #include "wire/scene_info.h"
 #include "wire/status.h"
@@ -31,13 +33,13 @@ public:
             context_.set_deadline(std::chrono::system_clock::now() +
                                   (deadline - ChannelRenderer::Clock::now()));
             const std::lock_guard lock(calls_.mutex_);
-            calls_.current_ = &context_;
+            calls_.current_.push_back(&context_);
             if (calls_.cancelled_)
                 context_.TryCancel();
         }
         ~Call() {
             const std::lock_guard lock(calls_.mutex_);
-            calls_.current_ = nullptr;
+            std::erase(calls_.current_, &context_);
         }
         Call(const Call&) = delete;
         Call& operator=(const Call&) = delete;
@@ -52,13 +54,12 @@ public:
     void cancel() {
         const std::lock_guard lock(mutex_);
         cancelled_ = true;
-        if (current_ != nullptr)
-            current_->TryCancel();
+        for (grpc::ClientContext* context : current_) context->TryCancel();
     }
 
 private:
     std::mutex mutex_;  ///< guards current_ and cancelled_
-    grpc::ClientContext* current_ = nullptr;
+    std::vector<grpc::ClientContext*> current_;
     bool cancelled_ = false;
 };
 
@@ -111,6 +112,21 @@ public:
         if (!result.ok())
             return fabric::withContext(result.status(), peer_);
         return result;
+    }
+
+    absl::StatusOr<fabric::Picked> pick(const fabric::PickRequest& request,
+                                        Clock::time_point deadline) override {
+        const v1::PickRequest message = wire::toMessage(request);
+        v1::PickResponse response;
+        Calls::Call call(calls_, deadline);
+        RETURN_IF_ERROR(wire::fromGrpc(stub_->Pick(call.context(), message, &response), peer_));
+        if (!response.has_point())
+            return fabric::Picked();
+        const absl::StatusOr<fabric::PickedPoint> point = wire::fromMessage(response.point());
+        if (!point.ok())
+            return absl::InternalError(
+                fmt::format("{}: Pick answered {}", peer_, point.status().ToString()));
+        return fabric::Picked(*point);
     }
 
     void cancel() override { calls_.cancel(); }

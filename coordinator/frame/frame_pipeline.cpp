@@ -138,6 +138,29 @@ RenderedFrame FramePipeline::compose(const FrameRequest& request, fabric::Rgba b
     return frame;
 }
 
+/// All renderers have all the data: any may answer. That one is slow or cannot read a page is not
+/// held against it; heartbeats find out who is gone.
+absl::StatusOr<fabric::Picked> FramePipeline::pick(const fabric::PickRequest& request) {
+    RETURN_IF_ERROR(fabric::validate(request));
+    const Crew::State state = crew_.state();
+    if (const std::string why = problem(state); !why.empty())
+        return absl::UnavailableError(why);
+    absl::Status last = absl::UnavailableError("no renderer has the scene open; try again");
+    for (const std::shared_ptr<Member>& member : crew_.ready(state.revision)) {
+        absl::StatusOr<fabric::Picked> picked =
+            member->pick(request, state.revision, options_.pickTimeout);
+        if (picked.ok() && picked->has_value() &&
+            static_cast<std::size_t>((*picked)->object) >= state.scene->objects.size())
+            picked = absl::InternalError(fmt::format("{} picked object {}, the scene has {}",
+                                                     member->id(), (*picked)->object,
+                                                     state.scene->objects.size()));
+        if (picked.ok())
+            return picked;
+        last = picked.status();
+    }
+    return last;
+}
+
 std::string FramePipeline::problem(const Crew::State& state) const {
     return problemOf({state.ready, state.opening, state.scene->objects.empty(), state.openError,
                       options_.howToJoin});

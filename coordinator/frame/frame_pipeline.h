@@ -21,6 +21,7 @@ struct FramePipelineOptions {
     std::string howToJoin = "eyrie renderer --coordinator HOST:PORT";
     PatienceOptions patience;
     std::chrono::milliseconds callTimeout{30'000};   ///< a channel that takes longer is given up
+    std::chrono::milliseconds pickTimeout{5'000};    ///< a pick that takes longer goes elsewhere
     std::chrono::milliseconds openTimeout{120'000};  ///< a scene that takes longer to open too
 };
 
@@ -38,6 +39,7 @@ public:
     void setScene(fabric::Scene scene) { crew_.setScene(std::move(scene)); }
 
     absl::StatusOr<RenderedFrame> renderFrame(const FrameRequest& request) override;
+    absl::StatusOr<fabric::Picked> pick(const fabric::PickRequest& request) override;
     Status status() const override;
     int subscribe(std::function<void()> listener) override;
     void unsubscribe(int handle) override;

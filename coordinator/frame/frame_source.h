@@ -11,6 +11,7 @@
 #include "fabric/channel_task.h"
 #include "fabric/frame_data.h"
 #include "fabric/image.h"
+#include "fabric/pick.h"
 #include "fabric/scene.h"
 #include "fabric/statistics.h"
 
@@ -70,6 +71,11 @@ public:
     /// complete frame can be had: InvalidArgument (the request), Unavailable (no renderer, or no
     /// scene), or what the last renderer said.
     virtual absl::StatusOr<RenderedFrame> renderFrame(const FrameRequest& request) = 0;
+
+    /// What a place of a picture shows, asked of one renderer and, should that fail, of the next;
+    /// blocks, but not for frames. Errors: InvalidArgument (the request), Unavailable (no renderer,
+    /// or no scene), or what the last renderer said.
+    virtual absl::StatusOr<fabric::Picked> pick(const fabric::PickRequest& request) = 0;
 
     virtual Status status() const = 0;
 

@@ -83,6 +83,15 @@ void Member::draw(const fabric::FrameData& frameData, const fabric::ChannelTask&
     });
 }
 
+absl::StatusOr<fabric::Picked> Member::pick(const fabric::PickRequest& request,
+                                            std::uint64_t revision,
+                                            std::chrono::milliseconds timeout) {
+    absl::StatusOr<fabric::Picked> picked = renderer_->pick(request, Clock::now() + timeout);
+    if (openRevision_ != revision)
+        return absl::AbortedError(fmt::format("{} has opened another scene meanwhile", id_));
+    return picked;
+}
+
 absl::StatusOr<fabric::ChannelResult> Member::drawNow(const fabric::FrameData& frameData,
                                                       const fabric::ChannelTask& task,
                                                       std::uint64_t revision,

@@ -50,6 +50,11 @@ public:
     void draw(const fabric::FrameData& frameData, const fabric::ChannelTask& task,
               std::uint64_t revision, std::chrono::milliseconds timeout, DrawDone done);
 
+    /// What a place of a picture of the scene known by `revision` shows; Aborted when another one
+    /// is open. Beside the jobs, on the caller's thread.
+    absl::StatusOr<fabric::Picked> pick(const fabric::PickRequest& request, std::uint64_t revision,
+                                        std::chrono::milliseconds timeout);
+
     /// Ends: jobs in progress and in the queue fail soon. Does not wait.
     void retire();
     bool hasEnded() const { return ended_; }

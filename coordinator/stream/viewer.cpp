@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "coordinator/stream/pacer.h"
+#include "coordinator/stream/pick_desk.h"
 #include "coordinator/stream/viewer_messages.h"
 #include "wire/jpeg.h"
 
@@ -62,7 +63,8 @@ public:
         : frames_(frames),
           messageReady_(std::move(messageReady)),
           options_(options),
-          pacer_(options.framesInFlight) {
+          pacer_(options.framesInFlight),
+          picks_(frames_, [this] { messageReady_(); }) {
         subscription_ = frames_.subscribe([this] { statusChanged(); });
         encoder_ = std::thread([this] { encodeLoop(); });
         renderer_ = std::thread([this] { renderLoop(); });
@@ -76,9 +78,13 @@ public:
     }
 
     absl::Status receive(std::span<const std::byte> message) {
-        absl::StatusOr<std::variant<ViewRequest, FrameAck>> request = parseRequest(message);
+        auto request = parseRequest(message);
         if (absl::IsDataLoss(request.status()))
             return request.status();
+        if (request.ok() && std::holds_alternative<ViewerPick>(*request)) {
+            picks_.ask(std::get<ViewerPick>(*std::move(request)));
+            return absl::OkStatus();
+        }
         std::unique_lock lock(mutex_);
         if (!request.ok())
             setProblem(requestProblem_, sanitised(text(request.status())));
@@ -98,6 +104,8 @@ public:
         const std::lock_guard lock(mutex_);
         if (waitingState_.has_value())
             return std::exchange(waitingState_, std::nullopt);
+        if (std::optional<std::string> answer = picks_.takeAnswer())
+            return answer;
         if (!mayTakeFrame())
             return std::nullopt;
         WaitingFrame frame = *std::exchange(waitingFrame_, std::nullopt);
@@ -111,6 +119,7 @@ public:
             isStopping_ = true;
         }
         changed_.notify_all();
+        picks_.stop();
     }
 
 private:
@@ -378,6 +387,7 @@ private:
     std::string lastState_;
     std::optional<std::string> waitingState_;
 
+    PickDesk picks_;
     int subscription_ = 0;
     std::thread encoder_;
     std::thread renderer_;

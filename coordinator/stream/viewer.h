@@ -57,7 +57,8 @@ public:
     /// connection is to be closed. A view that cannot be drawn is no error: the browser is told.
     absl::Status receive(std::span<const std::byte> message);
 
-    /// The next message to send, if any: the newest state, else the newest frame.
+    /// The next message to send, if any: the newest state, else the newest answer to a pick, else
+    /// the newest frame.
     std::optional<std::string> takeMessage();
 
     /// Makes the threads end soon, without waiting for them; the destructor waits.

@@ -10,6 +10,7 @@
 #include "fabric/status.h"
 #include "wire/camera.h"
 #include "wire/frame.h"
+#include "wire/pick.h"
 #include "wire/scene_info.h"
 #include "wire/statistics.h"
 
@@ -61,7 +62,8 @@ std::size_t utf8Length(std::string_view text) {
 
 }  // namespace
 
-absl::StatusOr<std::variant<ViewRequest, FrameAck>> parseRequest(std::span<const std::byte> bytes) {
+absl::StatusOr<std::variant<ViewRequest, FrameAck, ViewerPick>> parseRequest(
+    std::span<const std::byte> bytes) {
     v1::ViewerRequest message;
     if (!message.ParseFromArray(bytes.data(), static_cast<int>(bytes.size())))
         return absl::DataLossError("not an eyrie.v1.ViewerRequest");
@@ -72,6 +74,9 @@ absl::StatusOr<std::variant<ViewRequest, FrameAck>> parseRequest(std::span<const
         }
         case v1::ViewerRequest::kFrameAck:
             return FrameAck{message.frame_ack().frame_number()};
+        case v1::ViewerRequest::kPick:
+            return ViewerPick{message.pick().sequence(),
+                              wire::fromMessage(message.pick().request())};
         case v1::ViewerRequest::REQUEST_NOT_SET:
             break;
     }
@@ -113,6 +118,18 @@ std::string frameMessage(const EncodedFrame& encoded, const coordinator::Rendere
     *frame.mutable_statistics()->mutable_renderer() = wire::toMessage(rendered.device);
     if (encoded.liftedCamera)
         *frame.mutable_lifted_camera() = wire::toMessage(*encoded.liftedCamera);
+    return response.SerializeAsString();
+}
+
+std::string pickedMessage(std::uint64_t sequence, const absl::StatusOr<fabric::Picked>& picked) {
+    v1::ViewerResponse response;
+    v1::ViewerPicked& message = *response.mutable_picked();
+    message.set_sequence(sequence);
+    if (!picked.ok())
+        message.set_problem(
+            sanitised({picked.status().message().data(), picked.status().message().size()}));
+    else if (picked->has_value())
+        *message.mutable_point() = wire::toMessage(**picked);
     return response.SerializeAsString();
 }
 

@@ -27,13 +27,21 @@ struct FrameAck {
     std::uint64_t frameNumber = 0;
 };
 
+/// A question of what a place of a picture shows.
+struct ViewerPick {
+    std::uint64_t sequence = 0;
+    absl::StatusOr<fabric::PickRequest> request;  ///< or what is wrong with it
+};
+
 inline constexpr int kMinPictureSide = 16;
 inline constexpr int kMaxPictureSide = 4096;
 
 /// Sizes are clamped to kMinPictureSide..kMaxPictureSide.
 /// Errors: InvalidArgument (a view that cannot be drawn; the message tells the user why), DataLoss
 /// (not a ViewerRequest: the sender does not speak this protocol).
-absl::StatusOr<std::variant<ViewRequest, FrameAck>> parseRequest(std::span<const std::byte> bytes);
+/// A pick that cannot be made is parsed, with what is wrong: it has an answer of its own.
+absl::StatusOr<std::variant<ViewRequest, FrameAck, ViewerPick>> parseRequest(
+    std::span<const std::byte> bytes);
 
 /// A ViewerResponse with a SessionState. `problem` goes before status.problem.
 std::string stateMessage(const coordinator::Status& status, std::string_view problem);
@@ -48,6 +56,9 @@ struct EncodedFrame {
 
 /// A ViewerResponse with a Frame: `encoded` of what `rendered` shows.
 std::string frameMessage(const EncodedFrame& encoded, const coordinator::RenderedFrame& rendered);
+
+/// A ViewerResponse with a ViewerPicked.
+std::string pickedMessage(std::uint64_t sequence, const absl::StatusOr<fabric::Picked>& picked);
 
 /// `text` fit for a message to a person: valid UTF-8 without control characters, one line of at
 /// most 400 bytes.

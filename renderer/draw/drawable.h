@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -18,6 +19,10 @@
 #include "fabric/statistics.h"
 #include "renderer/lod/view.h"
 #include "renderer/occlusion/hidden_ground.h"
+
+namespace eyrie::pick {
+class Surface;
+}
 
 namespace eyrie::draw {
 
@@ -106,6 +111,10 @@ public:
     /// seen of it in the view. `request` is what the cut was asked for by. `hidden` tells of the
     /// finished picture what hills hide; null where it shows something else, too.
     virtual double errorPixels(const CutRequest& request, occlusion::HiddenGround* hidden) = 0;
+
+    /// The finest data of the files it has open, placed as `object` is; outlives this.
+    virtual std::unique_ptr<const pick::Surface> surface(
+        const fabric::SceneObject& object) const = 0;
 
     virtual MemoryUse memory() const { return {}; }
 

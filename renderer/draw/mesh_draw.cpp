@@ -20,6 +20,7 @@
 #include "renderer/draw/tint.h"
 #include "renderer/gl/object.h"
 #include "renderer/mesh/eym_format.h"
+#include "renderer/pick/mesh_surface.h"
 
 namespace eyrie::draw {
 namespace {
@@ -58,6 +59,10 @@ public:
     fabric::Box bounds() const override { return file_->bounds(); }
     std::uint64_t triangles() const override { return file_->triangleCount(); }
     std::uint64_t bytes() const override { return file_->fileBytes(); }
+
+    std::unique_ptr<const pick::Surface> surface(const fabric::SceneObject& object) const override {
+        return pick::meshSurface(object, file_);
+    }
 
     Cut selectCut(const CutRequest& request) override;
     double errorPixels(const CutRequest&, occlusion::HiddenGround*) override {

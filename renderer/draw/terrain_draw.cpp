@@ -21,6 +21,7 @@
 #include "renderer/draw/tile_imagery.h"
 #include "renderer/draw/tint.h"
 #include "renderer/gl/object.h"
+#include "renderer/pick/terrain_surface.h"
 #include "renderer/terrain/backs.h"
 #include "renderer/terrain/eyt_format.h"
 #include "renderer/terrain/part_bounds.h"
@@ -60,6 +61,10 @@ public:
     fabric::Box bounds() const override { return bounds_; }
     std::uint64_t triangles() const override { return triangles_; }
     std::uint64_t bytes() const override { return file_->sizeBytes(); }
+
+    std::unique_ptr<const pick::Surface> surface(const fabric::SceneObject& object) const override {
+        return pick::terrainSurface(object, file_);
+    }
 
     Cut selectCut(const CutRequest& request) override;
     double errorPixels(const CutRequest& request, occlusion::HiddenGround* hidden) override {

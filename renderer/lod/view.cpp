@@ -50,8 +50,10 @@ Frustum widened(const Frustum& f, double tangent) {
     return {f.left - tangent, f.right + tangent, f.bottom - tangent, f.top + tangent};
 }
 
-/// Largest singular value of a linear map: the root of the largest eigenvalue of mᵀm, by the
-/// trigonometric solution for symmetric 3 x 3 matrices (Smith 1961).
+}  // namespace
+
+/// The root of the largest eigenvalue of mᵀm, by the trigonometric solution for symmetric 3 x 3
+/// matrices (Smith 1961).
 double largestStretch(const Mat3& m) {
     const Mat3 a = glm::transpose(m) * m;
     const double mean = (a[0][0] + a[1][1] + a[2][2]) / 3;
@@ -65,8 +67,6 @@ double largestStretch(const Mat3& m) {
     const double r = std::clamp(glm::determinant(centred / p) / 2, -1.0, 1.0);
     return std::sqrt(mean + 2 * p * std::cos(std::acos(r) / 3));
 }
-
-}  // namespace
 
 View::View(const fabric::Camera& camera, int widthPixels, int heightPixels)
     : eye(camera.eye),

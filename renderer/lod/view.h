@@ -21,6 +21,9 @@ struct View {
     double focalPixels;  ///< height / (2 tan(fovY / 2)): pixels per unit of tangent
 };
 
+/// Largest singular value of a linear map.
+double largestStretch(const fabric::Mat3& m);
+
 /// The part of `view`'s frustum that `part` of its pixels looks through.
 fabric::Frustum subFrustum(const View& view, const fabric::PixelViewport& part);
 

@@ -126,6 +126,14 @@ double hitBilinear(const Cell& cell, const LocalRay& ray, Span span) {
     return first == kNoHit ? linearRoot(span, f0, f1) : first;  // a root lost at the very end
 }
 
+/// What (dx, dy) metres are in columns and rows.
+fabric::Vec2 inCells(const HeightGrid& grid, double dx, double dy) {
+    const fabric::Vec2& c = grid.perColumn;
+    const fabric::Vec2& r = grid.perRow;
+    const double determinant = c.x * r.y - r.x * c.y;
+    return {(dx * r.y - dy * r.x) / determinant, (dy * c.x - dx * c.y) / determinant};
+}
+
 }  // namespace
 
 struct TerrainRayCaster::Traversal {
@@ -192,18 +200,13 @@ void TerrainRayCaster::buildLevels() {
 }
 
 fabric::Vec2 TerrainRayCaster::toGrid(double x, double y) const {
-    const double dx = x - grid_.origin.x;
-    const double dy = y - grid_.origin.y;
-    const fabric::Vec2& c = grid_.perColumn;
-    const fabric::Vec2& r = grid_.perRow;
-    const double determinant = c.x * r.y - r.x * c.y;
-    return {(dx * r.y - dy * r.x) / determinant, (dy * c.x - dx * c.y) / determinant};
+    return inCells(grid_, x - grid_.origin.x, y - grid_.origin.y);
 }
 
+/// The direction without the origin, which would take ten digits of it.
 Ray TerrainRayCaster::toGrid(const Ray& ray) const {
     const fabric::Vec2 origin = toGrid(ray.origin.x, ray.origin.y);
-    const fabric::Vec2 direction =
-        toGrid(grid_.origin.x + ray.direction.x, grid_.origin.y + ray.direction.y);
+    const fabric::Vec2 direction = inCells(grid_, ray.direction.x, ray.direction.y);
     return {{origin.x, origin.y, ray.origin.z}, {direction.x, direction.y, ray.direction.z}};
 }
 

@@ -60,6 +60,28 @@ coordinator::RenderedFrame draw(const coordinator::FrameRequest& request) {
     return frame;
 }
 
+/// The same plain, picked.
+fabric::Picked pick(const fabric::PickRequest& request) {
+    const double pixel =
+        2 * std::tan(glm::radians(request.camera.fovYDegrees / 2)) / request.viewHeight;
+    const fabric::Vec3 inView{(request.place.x - request.viewWidth / 2.0) * pixel,
+                              (request.place.y - request.viewHeight / 2.0) * pixel, -1};
+    const fabric::Vec3 ray = glm::transpose(fabric::viewFromWorldRotation(request.camera)) * inView;
+    const double t = -request.camera.eye.z / ray.z;
+    const fabric::Vec3 hit = request.camera.eye + ray * t;
+    if (!(t > 0) || hit.x < 0 || hit.x > 100 || hit.y < 0 || hit.y > 100)
+        return std::nullopt;
+    fabric::PickedPoint point;
+    point.worldMetres = hit;
+    point.distanceMetres = t * glm::length(ray);
+    point.errorMetres = 0.25;
+    point.nearestMetres = point.distanceMetres - 1.5;
+    point.farthestMetres = point.distanceMetres + 2.5;
+    point.pixelMetres = t * pixel;
+    point.elevationMetres = 1234.56;
+    return point;
+}
+
 coordinator::Status statusWith(bool hasRenderer) {
     coordinator::Status status = coordinator::readyStatus();
     status.renderers[0].device.renderer = "made-up pictures (no renderer)";
@@ -85,6 +107,7 @@ int main(int argc, char** argv) {
     }
     coordinator::FakeFrameSource frames;
     frames.setDraw(draw);
+    frames.setPick(pick);
     frames.setStatus(statusWith(true));
     http::ServerOptions options;
     options.port = argc == 3 ? static_cast<std::uint16_t>(std::stoi(argv[2])) : std::uint16_t{0};

@@ -111,6 +111,33 @@ await run("page_test", async (browser, started) => {
   await browser.settled();
   await page.locator("canvas#view").focus();
 
+  await page.mouse.click(480, 420);
+  await page.locator("#pick", { hasText: "1234.6 m" }).waitFor();
+  const card = await page.locator("#pick").innerText();
+  check(card.includes("hill") && card.includes("250 mm at most"), "a click says what is there");
+  const mark = await page.locator("#pick-mark").boundingBox();
+  const off = Math.hypot(mark.x + mark.width / 2 - 480, mark.y + mark.height / 2 - 420);
+  check(off < 2, `and marks it (${off.toFixed(2)} px off)`);
+  await page.keyboard.press("Escape");
+  check(await page.locator("#pick").isHidden(), "Escape takes that away");
+  check(await page.locator("#pick-mark").isHidden(), "with its mark");
+  await page.mouse.dblclick(480, 420);
+  await page.waitForFunction(() => Math.abs(window.eyrie.camera.target[2]) < 1e-6);
+  await browser.settled();
+  const centred = await page.locator("#pick-mark").boundingBox();
+  check(
+    Math.abs(centred.x + centred.width / 2 - 640) < 2 &&
+      Math.abs(centred.y + centred.height / 2 - 406) < 2,
+    "a double click turns to the point",
+  );
+  await page.keyboard.press("Escape");
+  await page.mouse.click(640, 60);
+  await page.locator("#pick", { hasText: "Nothing there" }).waitFor();
+  check(true, "a click into the sky finds nothing");
+  await page.keyboard.press("Escape");
+  await page.keyboard.press("r");
+  await browser.settled();
+
   await page.keyboard.press("h");
   check(await page.locator("#help").isVisible(), "H opens the sheet of controls");
   await page.keyboard.press("Escape");

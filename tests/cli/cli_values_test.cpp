@@ -45,6 +45,15 @@ TEST(ParsePictureSize, RefusesEverythingElse) {
         EXPECT_TRUE(absl::IsInvalidArgument(parsePictureSize(wrong, "--size").status())) << wrong;
 }
 
+TEST(ParsePixel, TakesThoseOfThePictureOnly) {
+    EXPECT_EQ(*parsePixel("0,0", {640, 480}, "--pixel"), (PixelPlace{0, 0}));
+    EXPECT_EQ(*parsePixel("639,479", {640, 480}, "--pixel"), (PixelPlace{639, 479}));
+    for (const char* wrong :
+         {"", ",", "5", "5,", "640,0", "0,480", "-1,0", "nan,0", "1,2,3", "1.5,2"})
+        EXPECT_TRUE(absl::IsInvalidArgument(parsePixel(wrong, {640, 480}, "--pixel").status()))
+            << wrong;
+}
+
 TEST(ParseShard, CountsFromZero) {
     EXPECT_EQ(*parseShard("0/1", 8, "--shard"), (ShardNumber{0, 1}));
     EXPECT_EQ(*parseShard("7/8", 8, "--shard"), (ShardNumber{7, 8}));

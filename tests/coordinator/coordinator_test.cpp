@@ -29,6 +29,7 @@ public:
         ++drawn_;
         return LayeredScene(4711).draw(task);
     }
+    service::PickFunction pickFunction() const override { return nullptr; }
 
 private:
     std::atomic<int>& drawn_;

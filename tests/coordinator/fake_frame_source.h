@@ -45,6 +45,7 @@ inline Status readyStatus() {
 class FakeFrameSource : public FrameSource {
 public:
     using Draw = std::function<absl::StatusOr<RenderedFrame>(const FrameRequest&)>;
+    using Pick = std::function<absl::StatusOr<fabric::Picked>(const fabric::PickRequest&)>;
 
     FakeFrameSource() : status_(readyStatus()) {
         draw_ = [](const FrameRequest& request) { return plainFrame(request, {90, 120, 60, 255}); };
@@ -58,6 +59,16 @@ public:
         const Draw draw = draw_;
         lock.unlock();
         return draw(request);
+    }
+
+    absl::StatusOr<fabric::Picked> pick(const fabric::PickRequest& request) override {
+        std::unique_lock lock(mutex_);
+        picks_.push_back(request);
+        changed_.notify_all();
+        changed_.wait(lock, [this] { return !arePicksHeld_; });
+        const Pick pick = pick_;
+        lock.unlock();
+        return pick(request);
     }
 
     Status status() const override {
@@ -99,6 +110,25 @@ public:
         changed_.notify_all();
     }
 
+    void setPick(Pick pick) {
+        const std::lock_guard lock(mutex_);
+        pick_ = std::move(pick);
+    }
+
+    /// While held, pick waits.
+    void holdPicks(bool isHeld) {
+        {
+            const std::lock_guard lock(mutex_);
+            arePicksHeld_ = isHeld;
+        }
+        changed_.notify_all();
+    }
+
+    std::vector<fabric::PickRequest> picks() const {
+        const std::lock_guard lock(mutex_);
+        return picks_;
+    }
+
     std::vector<FrameRequest> requests() const {
         const std::lock_guard lock(mutex_);
         return requests_;
@@ -109,6 +139,13 @@ public:
         std::unique_lock lock(mutex_);
         return changed_.wait_for(lock, std::chrono::seconds(10),
                                  [&] { return requests_.size() >= count; });
+    }
+
+    /// The same for pick.
+    bool waitForPicks(std::size_t count) const {
+        std::unique_lock lock(mutex_);
+        return changed_.wait_for(lock, std::chrono::seconds(10),
+                                 [&] { return picks_.size() >= count; });
     }
 
     std::size_t listenerCount() const {
@@ -123,6 +160,9 @@ private:
     Draw draw_;
     bool isHeld_ = false;
     std::vector<FrameRequest> requests_;
+    bool arePicksHeld_ = false;
+    Pick pick_ = [](const fabric::PickRequest&) { return fabric::Picked(); };
+    std::vector<fabric::PickRequest> picks_;
 
     mutable std::mutex listenersMutex_;  // held while listeners run, so that unsubscribe waits
     std::map<int, std::function<void()>> listeners_;

@@ -52,11 +52,24 @@ public:
         return result;
     }
 
+    absl::StatusOr<fabric::Picked> pick(const fabric::PickRequest& request,
+                                        Clock::time_point) override {
+        ++picks;
+        const std::lock_guard lock(mutex_);
+        if (!pickStatus_.ok())
+            return pickStatus_;
+        fabric::PickedPoint point;
+        point.object = pickedObject;
+        point.worldMetres = {request.place, 0};
+        return fabric::Picked(point);
+    }
+
     void cancel() override { set(cancelled_, true); }
 
     void hang(bool hangs) { set(hangs_, hangs); }
     void failToOpen(const absl::Status& status) { set(openStatus_, status); }
     void failToRender(const absl::Status& status) { set(renderStatus_, status); }
+    void failToPick(const absl::Status& status) { set(pickStatus_, status); }
 
     std::vector<std::string> opened;      ///< names of the scenes' first objects
     std::vector<std::uint64_t> versions;  ///< of the frame data received
@@ -64,6 +77,8 @@ public:
     std::atomic<int> drawn{0};
     std::atomic<double> share{0};               ///< of the frame, that the last channel was
     std::atomic<double> millisecondsAFrame{0};  ///< said to be taken for the whole of it
+    std::atomic<int> picks{0};
+    std::atomic<int> pickedObject{0};
 
 private:
     template <typename T>
@@ -82,6 +97,7 @@ private:
     bool cancelled_ = false;
     absl::Status openStatus_;
     absl::Status renderStatus_;
+    absl::Status pickStatus_;
 };
 
 }  // namespace eyrie::coordinator

@@ -375,5 +375,30 @@ TEST_P(HardCase27, AfterOneIsKilledMidFrameTheNextFramesAreRightAndTiesAreWonAsB
     for (int i = 0; i < 5; ++i) expectWholePicture();
 }
 
+TEST_P(FramePipelineTest, PicksAreAskedOfTheNextRendererWhereOneFails) {
+    const auto renderers = openWith(3);
+    const fabric::PickRequest request{{{1, 2, 3}, {4, 5, 6}}, 640, 480, {20, 30}, 1};
+    renderers[0]->failToPick(absl::DeadlineExceededError("its server stalls"));
+    renderers[1]->pickedObject = 7;  // the scene has one
+    const auto picked = pipeline_.pick(request);
+    ASSERT_TRUE(picked.ok() && picked->has_value()) << picked.status();
+    EXPECT_EQ((*picked)->worldMetres, fabric::Vec3(20, 30, 0));
+    for (int i = 0; i < 3; ++i) {
+        EXPECT_EQ(renderers[static_cast<std::size_t>(i)]->picks, 1);
+        EXPECT_TRUE(isAlive(i));
+    }
+    for (const auto& renderer : renderers)
+        renderer->failToPick(absl::DataLossError("page 7 is damaged"));
+    EXPECT_TRUE(absl::IsDataLoss(pipeline_.pick(request).status()));
+    expectWholePicture();
+}
+
+TEST_P(FramePipelineTest, PicksOutsideThePictureOrWithoutASceneAreRefused) {
+    fabric::PickRequest request{{{1, 2, 3}, {4, 5, 6}}, 640, 480, {20, 30}, 1};
+    EXPECT_TRUE(absl::IsUnavailable(pipeline_.pick(request).status()));
+    request.place.x = 641;
+    EXPECT_TRUE(absl::IsInvalidArgument(pipeline_.pick(request).status()));
+}
+
 }  // namespace
 }  // namespace eyrie::coordinator

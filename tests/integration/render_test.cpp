@@ -315,5 +315,30 @@ TEST_F(Render, IsSilentOnStandardOutput) {
     EXPECT_EQ(outcome.errors, "");
 }
 
+/// Pictures count rows from the top, depth from the bottom.
+TEST_F(Render, WhatAPixelShowsIsWhereItsDepthSays) {
+    const std::string camera = terrainCamera();
+    const Rendered rendered = render("dem.eyt", camera);
+    const auto picked = [&](const std::string& pixel) {
+        return eyrie({"pick", path("dem.eyt"), "--camera", camera, "--size", "1280x720", "--pixel",
+                      pixel, "--json"});
+    };
+    for (const auto& [x, y] : {std::pair(640, 400), std::pair(200, 600), std::pair(1100, 700)}) {
+        const test::Outcome outcome = picked(fmt::format("{},{}", x, y));
+        ASSERT_EQ(outcome.exit, (test::Exit{0, 0})) << outcome.errors;
+        const JsonValue point = parseJson(outcome.output);
+        const double focal = 360 / std::tan(25 * M_PI / 180);
+        const double perDepth = std::hypot(1, (x + 0.5 - 640) / focal, (y + 0.5 - 360) / focal);
+        const auto row = static_cast<std::size_t>(719 - y);
+        const auto depth =
+            static_cast<double>(rendered.depth.metres[row * 1280 + static_cast<std::size_t>(x)]);
+        EXPECT_NEAR(number(point, "distanceMetres"), depth * perDepth, depth * 0.02);
+        EXPECT_LE(number(point, "nearestMetres"), number(point, "distanceMetres"));
+        EXPECT_NEAR(number(point, "elevationMetres"), number(at(point, "position"), "z"), 1e-6);
+    }
+    EXPECT_EQ(picked("640,0").output, "{}\n");
+    EXPECT_EQ(picked("1280,0").exit, (test::Exit{2, 0}));
+}
+
 }  // namespace
 }  // namespace eyrie

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <condition_variable>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -72,6 +73,25 @@ public:
         ++control_->drawn;
         return control_->image ? fabric::ChannelResult{*control_->image, {}}
                                : picture(frameData, task);
+    }
+
+    /// Picks what is at the place asked for, as far away as that is from the left.
+    PickFunction pickFunction() const override {
+        return [](const fabric::PickRequest& request,
+                  std::chrono::steady_clock::time_point) -> absl::StatusOr<fabric::Picked> {
+            if (request.place.x == 0)
+                return fabric::Picked();
+            if (request.place.y == 0)
+                return absl::DataLossError("page 7 is damaged");
+            fabric::PickedPoint point;
+            point.worldMetres = {request.place, request.exaggeration};
+            point.distanceMetres = request.place.x;
+            point.nearestMetres = request.place.x - 0.25;
+            point.farthestMetres = std::numeric_limits<double>::infinity();
+            point.errorMetres = 0.125;
+            point.elevationMetres = request.camera.eye.z;
+            return fabric::Picked(point);
+        };
     }
 
     static fabric::ChannelResult picture(const fabric::FrameData& frameData,

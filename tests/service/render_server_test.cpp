@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <random>
 #include <span>
 #include <thread>
@@ -223,6 +224,33 @@ TEST_F(RenderServerTest, CancelEndsTheCallInProgressAndEveryLaterOne) {
     EXPECT_EQ(renderer_->render(task(8, 8, false), soon()).status().code(),
               absl::StatusCode::kCancelled);
     control_->release();
+}
+
+TEST_F(RenderServerTest, PicksAreAnsweredWhileAFrameIsBeingDrawn) {
+    const fabric::PickRequest request{{{1, 2, 3}, {4, 5, 6}}, 640, 480, {20, 30}, 2};
+    EXPECT_TRUE(absl::IsFailedPrecondition(renderer_->pick(request, soon()).status()));
+    ASSERT_TRUE(renderer_->openScene({}, soon()).ok());
+    ASSERT_TRUE(renderer_->setFrameData(frameData(), soon()).ok());
+    control_->hold();
+    std::jthread drawing([&] { EXPECT_TRUE(renderer_->render(task(8, 8, false), soon()).ok()); });
+    EXPECT_TRUE(eventually([&] { return control_->begun == 1; }));
+    const auto picked = renderer_->pick(request, soon());
+    EXPECT_EQ(control_->drawn, 0);
+    control_->release();
+    ASSERT_TRUE(picked.ok() && picked->has_value()) << picked.status();
+    EXPECT_EQ((*picked)->worldMetres, fabric::Vec3(20, 30, 2));
+    EXPECT_EQ((*picked)->elevationMetres, 3);
+    EXPECT_TRUE(std::isinf((*picked)->farthestMetres));
+}
+
+TEST_F(RenderServerTest, PicksOfNothingAndOfDamagedDataSaySo) {
+    ASSERT_TRUE(renderer_->openScene({}, soon()).ok());
+    const auto pickAt = [&](const fabric::Vec2& place) {
+        return renderer_->pick({{{1, 2, 3}, {4, 5, 6}}, 640, 480, place, 1}, soon());
+    };
+    EXPECT_EQ(pickAt({0, 5}).value(), fabric::Picked());
+    EXPECT_TRUE(absl::IsDataLoss(pickAt({5, 0}).status()));
+    EXPECT_TRUE(absl::IsInvalidArgument(pickAt({-5, 0}).status()));
 }
 
 TEST_F(RenderServerTest, StopEndsTheCallInProgress) {

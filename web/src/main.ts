@@ -5,6 +5,7 @@ import { keepDescription } from "./panel/description";
 import { byId } from "./panel/element";
 import { showMessages } from "./panel/message";
 import { showNumbers } from "./panel/numbers";
+import { showPick } from "./panel/pick";
 import { showQuality } from "./panel/quality";
 import { showStatus } from "./panel/status";
 import { showTerrain } from "./panel/terrain";
@@ -36,6 +37,7 @@ function start(): void {
   showQuality(state);
   showTerrain(state, viewer);
   showNumbers(state);
+  showPick(state);
   setUpToolbar(state, viewer);
   keepDescription(state, canvas);
   exposeHooks(state, viewer);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Look } from "./look";
 import { defaultLook } from "./look";
-import type { SessionState } from "./protocol/messages";
+import type { Vec3 } from "./camera/camera";
+import type { SessionState, Shown } from "./protocol/messages";
 import { Shading } from "./protocol/messages";
 
 /** A value that tells its listeners when it becomes another. */
@@ -60,11 +61,40 @@ export interface Numbers {
   frozen: boolean;
 }
 
+/** A point of the scene, in world metres, that was clicked at. */
+export interface PickedPoint {
+  kind: "point";
+  /** Name of the object it is on. */
+  object: string;
+  position: Vec3;
+  /** Of terrain, not exaggerated. */
+  elevation: number | undefined;
+  /** The source's surface is so near to it. */
+  error: number;
+  /** From the eye; and between which distances the line of sight meets the source. */
+  distance: number;
+  nearest: number;
+  farthest: number;
+  /** That terrain was drawn with. */
+  exaggeration: number;
+}
+
+export type Pick =
+  | PickedPoint
+  | { kind: "asking" }
+  | { kind: "nothing" }
+  /** For the user to read. */
+  | { kind: "problem"; text: string };
+
 /** Everything the page shows. The viewer writes it; panels read it. */
 export class State {
   readonly connection = new Value<Connection>({ kind: "connecting" });
   readonly session = new Value<SessionState | null>(null);
   readonly numbers = new Value<Numbers | null>(null);
+  /** What the picture on the canvas shows. */
+  readonly shown = new Value<Shown | null>(null);
+  /** What the last click found. */
+  readonly pick = new Value<Pick | null>(null);
   /** A view has been waiting for its picture for long. */
   readonly stale = new Value(false);
   readonly flying = new Value(false);

@@ -4,8 +4,10 @@ import { fitToAspect, isUsable } from "./camera/camera";
 import { Controls } from "./camera/controls";
 import type { CameraHolder } from "./camera/controls";
 import type { DistanceLimits } from "./camera/orbit";
-import { distanceLimits } from "./camera/orbit";
-import type { Frame, SessionState } from "./protocol/messages";
+import { distanceLimits, lookAt } from "./camera/orbit";
+import type { Point } from "./camera/touch";
+import { pickOf, placeOf } from "./pick";
+import type { Frame, SessionState, Shown, ViewerPicked } from "./protocol/messages";
 import { cameraOf } from "./protocol/messages";
 import { Socket } from "./protocol/socket";
 import type { State } from "./state";
@@ -38,6 +40,11 @@ export class Viewer implements CameraHolder {
 
   private size: Size;
   private sequence = 0;
+  /** Views that were sent and not drawn yet. */
+  private readonly sentViews = new Map<number, Shown>();
+  private pickSequence = 0;
+  /** The pick that the camera is to turn to. */
+  private turnTo = 0;
   /** Of the last view, as text; empty before any on this connection. */
   private sentContent = "";
   /** What the last frame said of the camera of its view. */
@@ -66,6 +73,7 @@ export class Viewer implements CameraHolder {
       lost: () => this.lost(),
       state: (session) => this.sessionChanged(session),
       frame: (frame) => this.frameArrived(frame),
+      picked: (answer) => this.picked(answer),
     });
     state.tau.watch(() => this.requestView(performance.now()));
     state.shading.watch(() => this.requestView(performance.now()));
@@ -137,6 +145,11 @@ export class Viewer implements CameraHolder {
     }
     this.sentContent = content;
     this.sequence += 1;
+    this.sentViews.set(this.sequence, {
+      camera: view.camera,
+      ...this.size,
+      exaggeration: view.look.exaggeration,
+    });
     this.latency.sent(this.sequence, performance.now(), inputTime);
   }
 
@@ -164,6 +177,7 @@ export class Viewer implements CameraHolder {
   private lost(): void {
     this.latency.reset();
     this.frames.clear();
+    if (this.state.pick.value?.kind === "asking") this.state.pick.set(null);
     this.inputTime = undefined;
     this.sentContent = "";
     this.state.connection.set({ kind: "lost", since: performance.now() });
@@ -203,6 +217,7 @@ export class Viewer implements CameraHolder {
     this.latency.drawn(Number(frame.viewSequence), time);
     this.lifted = { camera: cameraOf(frame.liftedCamera), sequence: Number(frame.viewSequence) };
     this.adoptLifted();
+    this.noteShown(frame);
     const { statistics } = frame;
     this.state.numbers.set({
       frameNumber,
@@ -223,6 +238,45 @@ export class Viewer implements CameraHolder {
       inputToDrawnMilliseconds: this.latency.median(),
       frozen: this.state.look.value.frozen !== null,
     });
+  }
+
+  private noteShown(frame: Frame): void {
+    const sequence = Number(frame.viewSequence);
+    const sent = this.sentViews.get(sequence);
+    for (const known of this.sentViews.keys()) if (known < sequence) this.sentViews.delete(known);
+    if (sent === undefined) return;
+    const camera = cameraOf(frame.liftedCamera) ?? sent.camera;
+    this.state.shown.set({ ...sent, camera, width: frame.width, height: frame.height });
+  }
+
+  // ---- Picks
+
+  clicked(at: Point): void {
+    this.pick(at);
+  }
+
+  /** Turns to the point and, from then on, about it. */
+  doubleClicked(at: Point): void {
+    if (this.pick(at)) this.turnTo = this.pickSequence;
+  }
+
+  private pick(at: Point): boolean {
+    const shown = this.state.shown.value;
+    if (shown === null) return false;
+    const place = placeOf(at, this.canvas.size(), shown);
+    if (!this.socket.pick(this.pickSequence + 1, shown, place)) return false;
+    this.pickSequence += 1;
+    this.state.pick.set({ kind: "asking" });
+    return true;
+  }
+
+  private picked(answer: ViewerPicked): void {
+    if (Number(answer.sequence) !== this.pickSequence || this.state.pick.value === null) return;
+    const exaggeration = this.state.shown.value?.exaggeration ?? 1;
+    const pick = pickOf(answer, this.state.session.value?.objectNames ?? [], exaggeration);
+    this.state.pick.set(pick);
+    if (pick.kind === "point" && this.turnTo === this.pickSequence && this.camera !== null)
+      this.move(lookAt(this.camera, pick.position));
   }
 
   dragEnded(): void {

@@ -73,6 +73,22 @@ export function metresPerPixel(camera: Camera, heightPixels: number): number {
   return (2 * distance(camera) * Math.tan(halfFov)) / Math.max(1, heightPixels);
 }
 
+/**
+ * Where a world point appears, as a share of the picture's width and height from its upper left
+ * corner; undefined behind the eye.
+ */
+export function project(camera: Camera, point: Vec3, aspect: number): [number, number] | undefined {
+  const { right, up, forward } = axesOf(camera);
+  const offset = subtract(point, camera.eye);
+  const depth = dot(offset, forward);
+  if (!(depth > 0)) return undefined;
+  const halfHeight = depth * Math.tan((camera.fovyDegrees * Math.PI) / 360);
+  return [
+    0.5 + dot(offset, right) / (2 * halfHeight * aspect),
+    0.5 - dot(offset, up) / (2 * halfHeight),
+  ];
+}
+
 /** Moves eye and target together. */
 export function translate(camera: Camera, by: Vec3): Camera {
   return { ...camera, eye: add(camera.eye, by), target: add(camera.target, by) };

@@ -16,6 +16,9 @@ export interface CameraHolder {
   goHome(inputTime: number): void;
   /** The last pointer was let go. */
   dragEnded(): void;
+  /** A click, or a tap, that dragged nothing; offset from the canvas's upper left corner. */
+  clicked(at: Point): void;
+  doubleClicked(at: Point): void;
   readonly isFlying: boolean;
   setFlying(isFlying: boolean): void;
 }
@@ -29,8 +32,19 @@ const zoomPerWheelPixel = 0.0015;
 const largestWheelStep = 240;
 const pixelsPerLine = 33;
 
+/** A hand that clicks moves the pointer by no more, in CSS pixels. */
+const clickSlack = 4;
+
 interface Pointer extends Point {
   isPan: boolean;
+  /** Where it went down, while it may yet become a click. */
+  downAt: Point | undefined;
+}
+
+/** What of a click is left after the pointer has gone to `to`. */
+export function clickAfter(downAt: Point | undefined, to: Point): Point | undefined {
+  const isNear = downAt && Math.hypot(to.x - downAt.x, to.y - downAt.y) <= clickSlack;
+  return isNear ? downAt : undefined;
 }
 
 const isTyping = (target: EventTarget | null): boolean =>
@@ -55,6 +69,7 @@ export class Controls {
     canvas.addEventListener("pointermove", (event) => this.pointerMove(event), { signal });
     for (const end of ["pointerup", "pointercancel", "lostpointercapture"] as const)
       canvas.addEventListener(end, (event) => this.pointerEnd(event), { signal });
+    canvas.addEventListener("dblclick", (event) => this.doubleClick(event), { signal });
     canvas.addEventListener("wheel", (event) => this.wheel(event), { signal, passive: false });
     canvas.addEventListener("contextmenu", (event) => event.preventDefault(), { signal });
     window.addEventListener("keydown", (event) => this.keyDown(event), { signal });
@@ -77,6 +92,11 @@ export class Controls {
     return { x: point.x - box.left - box.width / 2, y: point.y - box.top - box.height / 2 };
   }
 
+  private onCanvas(point: Point): Point {
+    const box = this.canvas.getBoundingClientRect();
+    return { x: point.x - box.left, y: point.y - box.top };
+  }
+
   private get height(): number {
     return this.canvas.clientHeight;
   }
@@ -88,18 +108,33 @@ export class Controls {
     this.canvas.focus({ preventScroll: true });
     this.canvas.setPointerCapture(event.pointerId);
     const isPan = event.button !== 0 || event.shiftKey;
-    this.pointers.set(event.pointerId, { x: event.clientX, y: event.clientY, isPan });
+    const [x, y] = [event.clientX, event.clientY];
+    const downAt = isPan || this.isDragging ? undefined : { x, y };
+    if (this.isDragging) for (const other of this.pointers.values()) other.downAt = undefined;
+    this.pointers.set(event.pointerId, { x, y, isPan, downAt });
     event.preventDefault();
   }
 
   private pointerEnd(event: PointerEvent): void {
-    if (this.pointers.delete(event.pointerId) && !this.isDragging) this.holder.dragEnded();
+    const pointer = this.pointers.get(event.pointerId);
+    if (pointer === undefined) return;
+    this.pointers.delete(event.pointerId);
+    if (!this.isDragging) this.holder.dragEnded();
+    if (event.type === "pointerup" && pointer.downAt !== undefined)
+      this.holder.clicked(this.onCanvas(pointer.downAt));
+  }
+
+  private doubleClick(event: MouseEvent): void {
+    this.holder.doubleClicked(this.onCanvas({ x: event.clientX, y: event.clientY }));
   }
 
   private pointerMove(event: PointerEvent): void {
     const before = this.pointers.get(event.pointerId);
     if (before === undefined) return;
-    const after = { ...before, x: event.clientX, y: event.clientY };
+    const to = { x: event.clientX, y: event.clientY };
+    // What may be a click leaves the scene where it is; a drag starts from where it went down.
+    if (clickAfter(before.downAt, to) !== undefined) return;
+    const after = { ...before, ...to, downAt: undefined };
     const others = [...this.pointers].filter(([id]) => id !== event.pointerId);
     this.pointers.set(event.pointerId, after);
     const other = others[0]?.[1];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { Camera } from "./camera";
+import type { Camera, Vec3 } from "./camera";
 import {
   add,
   axesOf,
@@ -27,6 +27,11 @@ export function orbit(camera: Camera, azimuth: number, elevation: number): Camer
     elevation: back.elevation + elevation,
   });
   return { ...camera, eye: add(camera.target, scale(direction, distance(camera))) };
+}
+
+/** Looks at a point from where the eye is; what follows turns about it. */
+export function lookAt(camera: Camera, point: Vec3): Camera {
+  return { ...camera, target: point };
 }
 
 /**

@@ -42,6 +42,28 @@ export function metres(value: number): string {
   return value >= 1000 ? `${value / 1000} km` : `${value} m`;
 }
 
+/** Metres in the unit that people would use, to three digits: "2.5 mm", "1.23 km". */
+export function lengthText(value: number, plus = ""): string {
+  const units = [
+    [1000, "km"],
+    [1, "m"],
+    [1e-3, "mm"],
+    [1e-6, "µm"],
+    [1e-9, "nm"],
+  ] as const;
+  const size = Math.abs(value);
+  // 999.6 m is 1 km, not 1.00e+3 m.
+  const [unit, name] = units.find(([one]) => size >= one * 0.9995) ?? ([1e-9, "nm"] as const);
+  const digits = Number((size / unit).toPrecision(3));
+  return `${value < 0 ? "−" : plus}${digits} ${name}`;
+}
+
+/** As many digits after the point as an error leaves, 6 at most. */
+export function coordinate(value: number, error: number): string {
+  const digits = error > 0 ? Math.ceil(-Math.log10(error)) : 6;
+  return value.toFixed(Math.min(6, Math.max(0, digits)));
+}
+
 /** A factor: "× 2.5", "× 10", "true" for 1. */
 export function times(factor: number): string {
   if (Math.abs(factor - 1) < 1e-9) return "true";

@@ -9,6 +9,8 @@ const groups: readonly (readonly [string, readonly (readonly [string, string])[]
       ["Left drag", "Orbit; look around while flying"],
       ["Right, middle or Shift + left drag", "Pan"],
       ["Wheel", "Zoom to the cursor"],
+      ["Click", "What is there: coordinates and their error; Esc closes it"],
+      ["Double click", "Turn to the point, and from then on about it"],
     ],
   ],
   [

@@ -13,16 +13,24 @@ import {
   TransferFunctionSchema,
 } from "./gen/eyrie/v1/look_pb";
 import type { Look as LookMessage } from "./gen/eyrie/v1/look_pb";
+import { PickRequestSchema } from "./gen/eyrie/v1/pick_pb";
 import {
   FrameAckSchema,
+  ViewerPickSchema,
   ViewerRequestSchema,
   ViewerResponseSchema,
   ViewRequestSchema,
 } from "./gen/eyrie/v1/viewer_pb";
-import type { Frame, SessionState, ViewerRequest, ViewerResponse } from "./gen/eyrie/v1/viewer_pb";
+import type {
+  Frame,
+  SessionState,
+  ViewerPicked,
+  ViewerRequest,
+  ViewerResponse,
+} from "./gen/eyrie/v1/viewer_pb";
 
 export { Shading };
-export type { Frame, SessionState, ViewerResponse };
+export type { Frame, SessionState, ViewerPicked, ViewerResponse };
 
 /** What the viewer wants to see. */
 export interface View {
@@ -34,6 +42,15 @@ export interface View {
   tauPixels: number;
   shading: Shading;
   look: Look;
+}
+
+/** What a picture shows a scene with. */
+export interface Shown {
+  camera: Camera;
+  /** In pixels. */
+  width: number;
+  height: number;
+  exaggeration: number;
 }
 
 /** A buffer of its own, as toBinary makes it. */
@@ -99,6 +116,25 @@ export function encodeView(view: View): Uint8Array<ArrayBuffer> {
 export function encodeAck(frameNumber: number): Uint8Array<ArrayBuffer> {
   const value = create(FrameAckSchema, { frameNumber: BigInt(frameNumber) });
   return bytesOf({ case: "frameAck", value });
+}
+
+/** `place`: pixels of the picture from its lower left corner, y upwards. */
+export function encodePick(
+  sequence: number,
+  shown: Shown,
+  place: { x: number; y: number },
+): Uint8Array<ArrayBuffer> {
+  const request = create(PickRequestSchema, {
+    camera: cameraMessage(shown.camera),
+    viewWidth: shown.width,
+    viewHeight: shown.height,
+    ...place,
+    exaggeration: shown.exaggeration,
+  });
+  return bytesOf({
+    case: "pick",
+    value: create(ViewerPickSchema, { sequence: BigInt(sequence), request }),
+  });
 }
 
 /** Throws when `bytes` is no ViewerResponse. */

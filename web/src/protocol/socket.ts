@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { Frame, SessionState, View } from "./messages";
-import { decodeResponse, encodeAck, encodeView } from "./messages";
+import type { Frame, SessionState, Shown, View, ViewerPicked } from "./messages";
+import { decodeResponse, encodeAck, encodePick, encodeView } from "./messages";
 
 export interface SocketEvents {
   opened(): void;
@@ -8,6 +8,7 @@ export interface SocketEvents {
   lost(): void;
   state(state: SessionState): void;
   frame(frame: Frame): void;
+  picked(picked: ViewerPicked): void;
 }
 
 /** How long to wait before attempt number `attempt` (0 is the first after a loss), in ms. */
@@ -44,6 +45,13 @@ export class Socket {
     if (this.isOpen) this.socket?.send(encodeAck(frameNumber));
   }
 
+  /** False when it could not be sent; who clicks may click again. */
+  pick(sequence: number, shown: Shown, place: { x: number; y: number }): boolean {
+    if (!this.canSend()) return false;
+    this.socket?.send(encodePick(sequence, shown, place));
+    return true;
+  }
+
   close(): void {
     clearTimeout(this.timer);
     this.detach();
@@ -73,6 +81,7 @@ export class Socket {
       const { response } = decodeResponse(data);
       if (response.case === "frame") this.events.frame(response.value);
       else if (response.case === "state") this.events.state(response.value);
+      else if (response.case === "picked") this.events.picked(response.value);
     } catch (error) {
       // Another protocol, most likely of a newer server: only loading the page again can help.
       console.error("Eyrie: not understood:", error);

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "cli/commands.h"
+#include "cli/json_object.h"
+#include "cli/picture_source.h"
+#include "cli/scene_files.h"
+#include "cli/stop_signal.h"
+#include "cli/values.h"
+#include "fabric/status.h"
+#include "renderer/pick/picker.h"
+#include "wire/json.h"
+
+namespace eyrie::cli {
+namespace {
+
+struct Options {
+    PictureSourceOptions source;
+    std::string scene;
+    std::string camera;
+    std::string size = "1280x720";
+    std::string pixel;
+    double exaggeration = 1;
+    bool json = false;
+};
+
+absl::StatusOr<fabric::PickRequest> requestOf(const Options& options) {
+    fabric::PickRequest request;
+    ASSIGN_OR_RETURN(const PictureSize size, parsePictureSize(options.size, "--size"));
+    ASSIGN_OR_RETURN(const PixelPlace pixel, parsePixel(options.pixel, size, "--pixel"));
+    ASSIGN_OR_RETURN(const std::string text, readText(options.camera));
+    ASSIGN_OR_RETURN(request.camera, wire::cameraFromJson(text, options.camera));
+    request.viewWidth = size.width;
+    request.viewHeight = size.height;
+    // Pictures count their rows from the top.
+    request.place = {pixel.x + 0.5, size.height - pixel.y - 0.5};
+    request.exaggeration = options.exaggeration;
+    RETURN_IF_ERROR(fabric::validate(request));
+    return request;
+}
+
+JsonObject vectorJson(const fabric::Vec3& v) {
+    return JsonObject().number("x", v.x).number("y", v.y).number("z", v.z);
+}
+
+JsonObject toJson(const fabric::PickedPoint& point, const std::string& object) {
+    JsonObject json;
+    json.text("object", object)
+        .object("position", vectorJson(point.worldMetres))
+        .object("normal", vectorJson(point.normal))
+        .number("distanceMetres", point.distanceMetres)
+        .number("errorMetres", point.errorMetres)
+        .number("nearestMetres", point.nearestMetres)
+        .number("farthestMetres", point.farthestMetres)
+        .number("pixelMetres", point.pixelMetres);
+    if (point.elevationMetres)
+        json.number("elevationMetres", *point.elevationMetres);
+    return json;
+}
+
+void print(const fabric::PickedPoint& point, const std::string& object) {
+    const fabric::Vec3& p = point.worldMetres;
+    fmt::print("{}\n  at          {:.17g} {:.17g} {:.17g}\n", object, p.x, p.y, p.z);
+    if (point.elevationMetres)
+        fmt::print("  elevation   {:.10g} m\n", *point.elevationMetres);
+    fmt::print("  off by      {:.3g} m at most\n", point.errorMetres);
+    fmt::print("  distance    {:.10g} m; the source is met from {:.10g} m on{}\n",
+               point.distanceMetres, point.nearestMetres,
+               std::isinf(point.farthestMetres)
+                   ? ", if at all"
+                   : fmt::format(", by {:.10g} m", point.farthestMetres));
+}
+
+absl::Status pick(const Options& options) {
+    const StopSignal stop;
+    ASSIGN_OR_RETURN(const fabric::PickRequest request, requestOf(options));
+    ASSIGN_OR_RETURN(const fabric::Scene scene,
+                     loadScene(options.scene, options.source, stop.token()));
+    ASSIGN_OR_RETURN(const RemoteData remote, remoteDataOf(options.source.cache));
+    ASSIGN_OR_RETURN(
+        const auto picker,
+        pick::Picker::open(scene, page::sourceOptions(remote.cacheFolder, remote.cacheBytes)));
+    ASSIGN_OR_RETURN(const fabric::Picked picked, picker->pick(request));
+    const std::string object =
+        picked ? scene.objects[static_cast<std::size_t>(picked->object)].name : "";
+    if (options.json)
+        fmt::print("{}\n", (picked ? toJson(*picked, object) : JsonObject()).str());
+    else if (picked)
+        print(*picked, object);
+    else
+        fmt::print("nothing\n");
+    return absl::OkStatus();
+}
+
+}  // namespace
+
+void addPick(CLI::App& app, Run& run) {
+    auto options = std::make_shared<Options>();
+    CLI::App* command =
+        app.add_subcommand("pick", "Say what a pixel of a picture shows, and where");
+    command->add_option("scene", options->scene, "What is drawn, as for `eyrie serve`")
+        ->type_name("FILE|URL")
+        ->required();
+    command->add_option("--camera", options->camera, "JSON, as for `eyrie render`")
+        ->type_name("FILE")
+        ->required();
+    command->add_option("--size", options->size, "Of the picture, in pixels")
+        ->type_name("WIDTHxHEIGHT")
+        ->capture_default_str();
+    command->add_option("--pixel", options->pixel, "From the upper left one, 0,0, on")
+        ->type_name("X,Y")
+        ->required();
+    command->add_option("--exaggeration", options->exaggeration, "Terrain's heights times this")
+        ->capture_default_str();
+    addCacheOptions(*command, options->source.cache);
+    command->add_flag("--quiet", options->source.quiet, "Only errors, beside the answer");
+    command->add_flag("--json", options->json, "Print it as JSON; {} where nothing is");
+    command->footer(
+        "In double precision, in the finest data, with bounds on the error (docs/errors.md).\n"
+        "Example:\n  eyrie pick dem.eyt --camera cam.json --size 1920x1080 --pixel 960,540 --json");
+    command->callback([options, &run] { run = [options] { return pick(*options); }; });
+}
+
+}  // namespace eyrie::cli

@@ -1,0 +1,434 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a line of sight meets of the finest data, held against double-precision rays at the source:
+// the truth's own, which share no code with it.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <memory>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+#include "renderer/import/mesh_import.h"
+#include "renderer/import/mesh_synth.h"
+#include "renderer/import/terrain_import.h"
+#include "renderer/mesh/eym_format.h"
+#include "renderer/mesh/vertex_packing.h"
+#include "renderer/pick/picker.h"
+#include "renderer/truth/mesh_ray_caster.h"
+#include "renderer/truth/terrain_ray_caster.h"
+#include "tests/renderer/terrain/hard_grids.h"
+#include "tests/support/temporary_folder.h"
+
+namespace eyrie {
+namespace {
+
+using fabric::Camera;
+using fabric::PickedPoint;
+using fabric::PickRequest;
+using fabric::Vec2;
+using fabric::Vec3;
+using pick::Picker;
+using test::GridKind;
+
+constexpr int kWidth = 1280;
+constexpr int kHeight = 720;
+
+/// Of one kind of view.
+struct Tally {
+    int picked = 0;
+    int missed = 0;               ///< the source, too
+    int slipped = 0;              ///< though the source is met, and would be within the error
+    int mayBeMissed = 0;          ///< picked, but the source may be missed
+    std::vector<double> spreads;  ///< farthest - nearest, in pixels' widths
+
+    double medianSpread() {
+        std::ranges::sort(spreads);
+        return spreads.empty() ? 0 : spreads[spreads.size() / 2];
+    }
+};
+
+/// An object and its source.
+class Pair {
+public:
+    Pair(std::shared_ptr<const Picker> picker, std::unique_ptr<truth::ReferenceSurface> source,
+         double exaggeration = 1)
+        : picker_(std::move(picker)), source_(std::move(source)), exaggeration_(exaggeration) {}
+
+    absl::StatusOr<fabric::Picked> pick(const Camera& camera, const Vec2& place) const {
+        return picker_->pick({camera, kWidth, kHeight, place, exaggeration_});
+    }
+
+    /// Holds the answer for one place against the truth.
+    void hold(const Camera& camera, const Vec2& place, Tally& tally) const {
+        const auto picked = pick(camera, place);
+        ASSERT_TRUE(picked.ok()) << picked.status();
+        const truth::Ray ray = truth::Pinhole(camera, kWidth, kHeight).rayThrough(place.x, place.y);
+        const auto hits = source_->hitRange(ray);
+        const double metresPerT = glm::length(ray.direction);
+        if (picked->has_value())
+            holdPoint(**picked, hits.first * metresPerT, hits.last * metresPerT, tally);
+        else if (hits.last == truth::kNoHit)
+            ++tally.missed;
+        else
+            ++tally.slipped;
+    }
+
+private:
+    void holdPoint(const PickedPoint& point, double first, double last, Tally& tally) const {
+        ++tally.picked;
+        // What the judge's own arithmetic, which is the same double precision, may be off by.
+        const double rounding = 1e-12 * (point.distanceMetres + glm::length(point.worldMetres));
+        const double spread = point.farthestMetres - point.nearestMetres;
+        const double slack = rounding * (1 + std::min(spread, 1e6) / point.errorMetres);
+        EXPECT_LE(point.nearestMetres, point.distanceMetres + slack);
+        EXPECT_GE(point.farthestMetres, point.distanceMetres - slack);
+        EXPECT_LE(point.nearestMetres, first + slack)
+            << "error " << point.errorMetres << " beyond by " << point.nearestMetres - first << ", "
+            << last - point.farthestMetres << " spread " << spread << " slack " << slack;
+        EXPECT_GE(point.farthestMetres, last - slack)
+            << "error " << point.errorMetres << " beyond by " << point.nearestMetres - first << ", "
+            << last - point.farthestMetres << " spread " << spread << " slack " << slack;
+        const auto partner = source_->counterpart(point.worldMetres);
+        ASSERT_TRUE(partner.has_value());
+        EXPECT_LE(glm::length(*partner - point.worldMetres), point.errorMetres + rounding);
+        if (std::isinf(point.farthestMetres))
+            ++tally.mayBeMissed;
+        else
+            tally.spreads.push_back(spread / point.pixelMetres);
+    }
+
+    std::shared_ptr<const Picker> picker_;
+    std::unique_ptr<truth::ReferenceSurface> source_;
+    double exaggeration_;
+};
+
+std::shared_ptr<const Picker> open(const fabric::SceneObject& object) {
+    fabric::Scene scene;
+    scene.objects.push_back(object);
+    auto picker = Picker::open(scene, {});
+    EXPECT_TRUE(picker.ok()) << picker.status();
+    return picker.ok() ? *picker : nullptr;
+}
+
+Pair terrainPair(const test::TemporaryFolder& folder, const terrain::HeightGrid& grid,
+                 double exaggeration = 1) {
+    const std::string path = folder.path("terrain.eyt");
+    const auto report = import::importTerrain(grid, {"grid", "", 0}, path, {});
+    EXPECT_TRUE(report.ok()) << report.status();
+    truth::HeightGrid posts{grid.columns, grid.rows,      grid.heights,
+                            grid.origin,  grid.perColumn, grid.perRow};
+    for (float& height : posts.heights) height = static_cast<float>(height * exaggeration);
+    return {open({.name = "terrain", .kind = fabric::ObjectKind::Terrain, .path = path}),
+            std::make_unique<truth::TerrainRayCaster>(std::move(posts)), exaggeration};
+}
+
+Pair meshPair(const test::TemporaryFolder& folder, import::TriangleMesh mesh,
+              const fabric::Mat4& worldFromObject, const import::MeshImportOptions& options = {}) {
+    truth::TriangleMesh source{mesh.positions, mesh.triangles};
+    for (Vec3& p : source.positions) p = Vec3(worldFromObject * fabric::Vec4(p, 1));
+    const std::string path = folder.path("mesh.eym");
+    const auto report = import::importMesh(std::move(mesh), path, options);
+    EXPECT_TRUE(report.ok()) << report.status();
+    return {open({.name = "mesh", .path = path, .worldFromObject = worldFromObject}),
+            std::make_unique<truth::MeshRayCaster>(std::move(source))};
+}
+
+/// Places all over what a sphere covers of the picture.
+std::vector<Vec2> placesAround(const Camera& camera, const Vec3& centre, double radius, int count,
+                               std::mt19937& engine) {
+    const truth::Pinhole pinhole(camera, kWidth, kHeight);
+    const double reach = pinhole.focalPixels() * radius / glm::length(centre - camera.eye);
+    const Vec2 middle = pinhole.project(centre).value_or(Vec2(kWidth / 2.0, kHeight / 2.0));
+    std::uniform_real_distribution<double> unit(-1, 1);
+    std::vector<Vec2> places;
+    while (places.size() < static_cast<std::size_t>(count)) {
+        const Vec2 place =
+            middle + std::min(reach, 1.0 * kWidth) * Vec2(unit(engine), unit(engine));
+        if (place.x >= 0 && place.y >= 0 && place.x <= kWidth && place.y <= kHeight)
+            places.push_back(place);
+    }
+    return places;
+}
+
+struct NamedCamera {
+    std::string name;
+    Camera camera;
+};
+
+/// At 1 m, 1 km and 1,000 km from a point of ground, and almost level over it.
+std::vector<NamedCamera> camerasOver(const Vec3& ground) {
+    const auto from = [&](const Vec3& offset, double fovYDegrees) {
+        return Camera{ground + offset, ground, {0, 0, 1}, fovYDegrees};
+    };
+    return {{"1 m", from({0.6, 0.5, 0.6}, 60)},
+            {"1 km", from({500, -600, 620}, 60)},
+            {"1,000 km", from({3e5, 4e5, 8.6e5}, 1)},
+            {"grazing", from({-900, 700, 2}, 40)}};
+}
+
+TEST(HardCase22, PicksOfTerrainAreWhereRaysMeetTheSource) {
+    const test::TemporaryFolder folder;
+    std::mt19937 engine(22);
+    int picked = 0;
+    for (const GridKind kind : {GridKind::Smooth, GridKind::Noise, GridKind::Cliff,
+                                GridKind::Spikes, GridKind::Checkerboard, GridKind::Plane}) {
+        const terrain::HeightGrid grid = test::hardGrid(kind, 161, 150, 5);
+        const Pair pair = terrainPair(folder, grid);
+        const fabric::Vec2 middle = grid.origin + grid.perColumn * 80.3 + grid.perRow * 70.6;
+        const Vec3 ground(middle.x, middle.y, static_cast<double>(grid.at(80, 70)));
+        for (const auto& [name, camera] : camerasOver(ground)) {
+            Tally tally;
+            for (const Vec2& place : placesAround(camera, ground, 600, 420, engine))
+                pair.hold(camera, place, tally);
+            fmt::print("{} at {}: {} picked, {} missed, {} slipped, {} uncertain, {:.3g} px\n",
+                       test::name(kind), name, tally.picked, tally.missed, tally.slipped,
+                       tally.mayBeMissed, tally.medianSpread());
+            EXPECT_EQ(tally.slipped, 0) << test::name(kind) << " at " << name;
+            picked += tally.picked;
+        }
+    }
+    EXPECT_GT(picked, 5000);
+}
+
+TEST(HardCase22, PicksOfMeshesAreWhereRaysMeetTheSource) {
+    const test::TemporaryFolder folder;
+    std::mt19937 engine(23);
+    const fabric::Mat4 moved = glm::scale(
+        glm::rotate(glm::translate(fabric::Mat4(1), Vec3(5e5, -4.4e6, 120)), 0.7, Vec3(1, 2, 3)),
+        Vec3(300));
+    const Pair pair =
+        meshPair(folder, import::synthesizeMesh(6000, 3), moved, {.leafTriangles = 500});
+    const Vec3 centre(moved[3]);
+    const auto on = pair.pick({centre + Vec3(0, -2000, 0), centre}, {kWidth / 2.0, kHeight / 2.0});
+    ASSERT_TRUE(on.ok() && on->has_value());
+    int picked = 0;
+    for (const auto& [name, camera] : camerasOver((*on)->worldMetres)) {
+        Tally tally;
+        for (const Vec2& place : placesAround(camera, centre, 400, 2500, engine))
+            pair.hold(camera, place, tally);
+        fmt::print("mesh at {}: {} picked, {} missed, {} slipped, {} uncertain, {:.3g} px\n", name,
+                   tally.picked, tally.missed, tally.slipped, tally.mayBeMissed,
+                   tally.medianSpread());
+        EXPECT_EQ(tally.slipped, 0) << name;
+        picked += tally.picked;
+    }
+    EXPECT_GT(picked, 3000);
+}
+
+TEST(HardCase22, PicksOfExaggeratedTerrainAreWhereRaysMeetTheSource) {
+    const test::TemporaryFolder folder;
+    std::mt19937 engine(24);
+    const terrain::HeightGrid grid = test::hardGrid(GridKind::Smooth, 90, 90, 5);
+    const fabric::Vec2 middle = grid.origin + grid.perColumn * 45.0 + grid.perRow * 45.0;
+    for (const double exaggeration : {-1.0, 0.125, 4.0}) {
+        const Pair pair = terrainPair(folder, grid, exaggeration);
+        const Vec3 ground(middle.x, middle.y, static_cast<double>(grid.at(45, 45)) * exaggeration);
+        Tally tally;
+        for (const auto& [name, camera] : camerasOver(ground))
+            for (const Vec2& place : placesAround(camera, ground, 300, 100, engine))
+                pair.hold(camera, place, tally);
+        EXPECT_EQ(tally.slipped, 0);
+        EXPECT_GT(tally.picked, 150);
+        const auto level = pair.pick({ground + Vec3(0, -1, 5000), ground}, {640, 360});
+        ASSERT_TRUE(level.ok() && level->has_value());
+        EXPECT_NEAR(*(*level)->elevationMetres, grid.at(45, 45), 0.1);
+    }
+}
+
+TEST(HardCase22, PicksOfMeshesThatKeepTheirPositionsAreExact) {
+    const test::TemporaryFolder folder;
+    std::mt19937 engine(25);
+    const Pair pair = meshPair(folder, import::synthesizeMesh(4000, 3), fabric::Mat4(1),
+                               {.leafTriangles = 500, .pack = {.keepsExact = true}});
+    const Camera camera{{0, -3, 0}, {0, 0, 0}};
+    Tally tally;
+    for (const Vec2& place : placesAround(camera, {0, 0, 0}, 1, 500, engine)) {
+        pair.hold(camera, place, tally);
+        const auto picked = pair.pick(camera, place);
+        ASSERT_TRUE(picked.ok());
+        if (picked->has_value()) {
+            EXPECT_LT((*picked)->errorMetres, 1e-13);
+        }
+    }
+    EXPECT_EQ(tally.slipped, 0);
+    EXPECT_GT(tally.picked, 200);
+}
+
+/// From inside a closed mesh every line of sight meets it, also through what triangles share.
+TEST(HardCase22, NoPickSlipsThroughAnEdgeOrACornerOfAMesh) {
+    const test::TemporaryFolder folder;
+    const import::TriangleMesh mesh = import::synthesizeMesh(3000, 7);
+    const std::string path = folder.path("ball.eym");
+    ASSERT_TRUE(import::importMesh(mesh, path, {.leafTriangles = 200}).ok());
+    const auto opened = mesh::EymFile::open(path);
+    ASSERT_TRUE(opened.ok());
+    const auto picker = open({.name = "ball", .path = path});
+    const Vec3 eye(0.01, 0.02, 0.03);
+    int picks = 0;
+    const auto meet = [&](const Vec3& target) {
+        const auto picked = picker->pick({{eye, target}, 100, 100, {50, 50}});
+        ASSERT_TRUE(picked.ok()) << picked.status();
+        ASSERT_TRUE(picked->has_value()) << target.x << " " << target.y << " " << target.z;
+        EXPECT_LE((*picked)->nearestMetres, glm::length(target - eye) + 1e-9);
+        ++picks;
+    };
+    for (std::uint32_t node = 0; node < opened->nodes().size(); ++node) {
+        if (!opened->nodes()[node].isLeaf())
+            continue;
+        const auto leaf = opened->geometry(node);
+        ASSERT_TRUE(leaf.ok());
+        const auto at = [&](std::size_t k) {
+            return opened->lattice().metres(
+                mesh::unpackPosition(leaf->positions[leaf->indices[k]]));
+        };
+        for (std::size_t k = 0; k < leaf->indices.size(); k += 3)
+            for (std::size_t c = 0; c < 3; ++c) {
+                meet(at(k + c));
+                meet((at(k + c) + at(k + (c + 1) % 3)) * 0.5);
+            }
+    }
+    EXPECT_GT(picks, 10'000);
+}
+
+TEST(HardCase22, NoPickSlipsThroughAnEdgeOrACornerOfATerrain) {
+    const test::TemporaryFolder folder;
+    for (const GridKind kind : {GridKind::Smooth, GridKind::Noise, GridKind::Flat}) {
+        const terrain::HeightGrid grid = test::hardGrid(kind, 40, 37, 5);
+        const Pair pair = terrainPair(folder, grid);
+        // Half a post on, too; straight down, and aslant so steeply that no slope is in the way.
+        for (int j = 1; j < 2 * 36; ++j)
+            for (int i = 1; i < 2 * 39; ++i) {
+                const fabric::Vec2 at =
+                    grid.origin + grid.perColumn * (i / 2.0) + grid.perRow * (j / 2.0);
+                const Vec3 target(at.x, at.y, 0);
+                const Vec3 aside = (i + j) % 2 == 0 ? Vec3(0) : Vec3(10, -5, 0);
+                const auto picked =
+                    pair.pick({target + aside + Vec3(0, 0, 9000), target, {0, 1, 0}}, {640, 360});
+                ASSERT_TRUE(picked.ok()) << picked.status();
+                ASSERT_TRUE(picked->has_value()) << test::name(kind) << " " << i << " " << j;
+                EXPECT_LT((*picked)->farthestMetres, pick::kNowhere) << test::name(kind);
+            }
+    }
+}
+
+class PickScene : public testing::Test {
+protected:
+    /// A square of two triangles, 2 m a side, around a point, facing up or whichever way.
+    fabric::SceneObject square(const std::string& name, const fabric::Mat4& worldFromObject) {
+        import::TriangleMesh mesh;
+        mesh.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+        mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+        const std::string path = folder_.path(name + ".eym");
+        EXPECT_TRUE(import::importMesh(std::move(mesh), path).ok());
+        return {.name = name, .path = path, .worldFromObject = worldFromObject};
+    }
+
+    absl::StatusOr<fabric::Picked> pick(const fabric::Scene& scene, const Camera& camera,
+                                        const Vec2& place = {320, 240}) {
+        auto picker = Picker::open(scene, {});
+        EXPECT_TRUE(picker.ok()) << picker.status();
+        return (*picker)->pick({camera, 640, 480, place});
+    }
+
+    static fabric::Mat4 movedTo(const Vec3& by) { return glm::translate(fabric::Mat4(1), by); }
+
+    const Camera down_{{0.3, 0.1, 10}, {0.3, 0.1, 0}, {0, 1, 0}};
+    const test::TemporaryFolder folder_;
+};
+
+TEST_F(PickScene, GivesTheNearestOfSeveralObjects) {
+    fabric::Scene scene;
+    scene.objects = {square("low", movedTo({0, 0, 1})), square("high", movedTo({0, 0, 3})),
+                     square("aside", movedTo({5, 0, 6}))};
+    const auto picked = pick(scene, down_);
+    ASSERT_TRUE(picked.ok() && picked->has_value());
+    EXPECT_EQ((*picked)->object, 1);
+    EXPECT_LT(glm::length((*picked)->worldMetres - Vec3(0.3, 0.1, 3)), 1e-9);
+    EXPECT_NEAR((*picked)->distanceMetres, 7, 1e-9);
+    EXPECT_NEAR((*picked)->normal.z, 1, 1e-9);
+    EXPECT_NEAR((*picked)->pixelMetres, 2 * 7 * std::tan(M_PI / 8) / 480, 1e-9);
+    EXPECT_FALSE((*picked)->elevationMetres.has_value());
+}
+
+TEST_F(PickScene, MeetsNothingBesideBehindAndInAnEmptyScene) {
+    fabric::Scene scene;
+    EXPECT_EQ(*pick(scene, down_), fabric::Picked());
+    scene.objects = {square("one", movedTo({0, 0, 0}))};
+    EXPECT_EQ(*pick(scene, down_, {0, 0}), fabric::Picked());
+    EXPECT_EQ(*pick(scene, {{0, 0, 10}, {0, 0, 20}, {0, 1, 0}}), fabric::Picked());
+}
+
+TEST_F(PickScene, LeavesBacksOutWhereThePictureDoes) {
+    const Camera up{{0.3, 0.1, -10}, {0.3, 0.1, 0}, {0, 1, 0}};
+    fabric::Scene scene;
+    scene.objects = {square("one", movedTo({0, 0, 0}))};
+    const auto back = pick(scene, up);
+    ASSERT_TRUE(back.ok() && back->has_value());
+    EXPECT_NEAR((*back)->normal.z, -1, 1e-9);
+    scene.objects[0].singleSided = true;
+    EXPECT_EQ(*pick(scene, up), fabric::Picked());
+    EXPECT_TRUE(pick(scene, down_)->has_value());
+}
+
+TEST_F(PickScene, RefusesPlacesOutsideThePictureAndWhatIsNoCamera) {
+    fabric::Scene scene;
+    scene.objects = {square("one", movedTo({0, 0, 0}))};
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    for (const Vec2& place : {Vec2(-0.01, 5), Vec2(5, 480.01), Vec2(nan, 5), Vec2(5, nan)})
+        EXPECT_TRUE(absl::IsInvalidArgument(pick(scene, down_, place).status()));
+    Camera bad = down_;
+    bad.eye.x = nan;
+    EXPECT_TRUE(absl::IsInvalidArgument(pick(scene, bad).status()));
+    const auto picker = Picker::open(scene, {});
+    EXPECT_TRUE(absl::IsInvalidArgument((*picker)->pick({down_, 0, 480, {0, 0}}).status()));
+    EXPECT_TRUE(absl::IsInvalidArgument((*picker)->pick({down_, 640, 480, {1, 1}, nan}).status()));
+    scene.objects[0].path = folder_.path("absent.eym");
+    EXPECT_TRUE(absl::IsNotFound(Picker::open(scene, {}).status()));
+}
+
+TEST_F(PickScene, EndsWhenItsTimeIsOver) {
+    fabric::Scene scene;
+    scene.objects = {square("one", movedTo({0, 0, 0}))};
+    const auto picker = Picker::open(scene, {});
+    ASSERT_TRUE(picker.ok());
+    EXPECT_TRUE(absl::IsDeadlineExceeded(
+        (*picker)->pick({down_, 640, 480, {320, 240}}, Picker::Clock::now()).status()));
+}
+
+/// Coarser data do not stand in.
+TEST_F(PickScene, NamesThePageThatIsDamaged) {
+    const std::string path = folder_.path("terrain.eyt");
+    const terrain::HeightGrid grid = test::hardGrid(GridKind::Noise, 300, 300, 5);
+    ASSERT_TRUE(import::importTerrain(grid, {"grid", "", 0}, path, {}).ok());
+    const auto size = std::filesystem::file_size(path);
+    std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+    for (std::uintmax_t at = 4096; at < size / 2; at += 4096)
+        file.seekp(static_cast<std::streamoff>(at)).put('\x5a');
+    file.close();
+    fabric::Scene scene;
+    scene.objects.push_back({.name = "t", .kind = fabric::ObjectKind::Terrain, .path = path});
+    int refused = 0;
+    for (int k = 0; k < 9; ++k) {
+        const fabric::Vec2 at = grid.origin + grid.perColumn * (40.0 + 100 * (k % 3)) +
+                                grid.perRow * (40.0 + k / 3 * 100);
+        const auto picked = pick(scene, {{at.x, at.y, 9000}, {at.x, at.y, 0}, {0, 1, 0}});
+        if (picked.ok())
+            continue;
+        ++refused;
+        const std::string message = picked.status().ToString();
+        EXPECT_TRUE(absl::IsDataLoss(picked.status())) << message;
+        EXPECT_NE(message.find(path), std::string::npos) << message;
+    }
+    EXPECT_GT(refused, 0);
+}
+
+}  // namespace
+}  // namespace eyrie

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+import { create, fromBinary } from "@bufbuild/protobuf";
+import { describe, expect, it } from "vitest";
+import { add, axesOf, project } from "./camera/camera";
+import type { Camera } from "./camera/camera";
+import { clickAfter } from "./camera/controls";
+import { lookAt } from "./camera/orbit";
+import { coordinate, lengthText } from "./panel/format";
+import { markOf, textOf } from "./panel/pick";
+import { pickOf, placeOf } from "./pick";
+import { ViewerPickedSchema, ViewerRequestSchema } from "./protocol/gen/eyrie/v1/viewer_pb";
+import { encodePick } from "./protocol/messages";
+
+const camera: Camera = { eye: [0, -10, 5], target: [0, 0, 0], up: [0, 0, 1], fovyDegrees: 45 };
+const shown = { camera, width: 640, height: 480, exaggeration: 1 };
+
+const answer = create(ViewerPickedSchema, {
+  sequence: 3n,
+  point: {
+    object: 1,
+    position: { x: 1, y: 2, z: 3 },
+    error: 0.02,
+    distance: 12,
+    nearest: 11.5,
+    farthest: 14,
+    elevation: 1234.567,
+  },
+});
+
+describe("a click", () => {
+  it("ends where the pointer goes farther than a hand shakes", () => {
+    const at = { x: 100, y: 50 };
+    expect(clickAfter(at, { x: 102, y: 52 })).toEqual(at);
+    expect(clickAfter(at, { x: 105, y: 50 })).toBeUndefined();
+    expect(clickAfter(undefined, at)).toBeUndefined();
+  });
+
+  it("is a place of the picture, counted from its lower left corner", () => {
+    const canvas = { width: 320, height: 240 };
+    expect(placeOf({ x: 0, y: 240 }, canvas, shown)).toEqual({ x: 0, y: 0 });
+    expect(placeOf({ x: 80, y: 60 }, canvas, shown)).toEqual({ x: 160, y: 360 });
+    expect(placeOf({ x: 400, y: -5 }, canvas, shown)).toEqual({ x: 640, y: 480 });
+  });
+
+  it("is asked with what the picture shows", () => {
+    const { request } = fromBinary(ViewerRequestSchema, encodePick(7, shown, { x: 5, y: 6 }));
+    if (request.case !== "pick") throw new Error("no pick");
+    expect(request.value.sequence).toBe(7n);
+    expect(request.value.request).toMatchObject({ viewWidth: 640, viewHeight: 480, x: 5, y: 6 });
+    expect(request.value.request?.camera?.eye).toEqual([0, -10, 5]);
+  });
+});
+
+describe("an answer", () => {
+  it("names the object, and gives as many digits as the error leaves", () => {
+    const { title, rows } = textOf(pickOf(answer, ["valley", "hill"], 1));
+    expect(title).toBe("hill");
+    expect(rows.map(([name, value]) => `${name}: ${value}`)).toEqual([
+      "Elevation: 1234.57 m",
+      "x, y, z: 1.00, 2.00, 3.00",
+      "Off by: 20 mm at most",
+      "Distance: 12 m",
+      "Along the view: −500 mm to +2 m",
+    ]);
+  });
+
+  it("says so where the source may be missed, nothing is there, or something went wrong", () => {
+    const grazing = pickOf(answer, [], 1);
+    if (grazing.kind !== "point") throw new Error("no point");
+    const text = textOf({ ...grazing, farthest: Infinity });
+    expect(text.rows.at(-1)?.[1]).toContain("may be missed");
+    expect(textOf(pickOf(create(ViewerPickedSchema, {}), [], 1)).title).toBe("Nothing there");
+    const problem = create(ViewerPickedSchema, { problem: "page 7 is damaged" });
+    expect(textOf(pickOf(problem, [], 1)).title).toBe("page 7 is damaged");
+  });
+
+  it("is marked where it is seen, and nowhere else", () => {
+    const pick = pickOf(answer, [], 1);
+    if (pick.kind !== "point") throw new Error("no point");
+    const [x, y] = markOf({ ...pick, position: [0, 0, 0] }, shown) ?? [];
+    expect(x).toBeCloseTo(0.5, 9);
+    expect(y).toBeCloseTo(0.5, 9);
+    expect(markOf({ ...pick, position: [0, -20, 5] }, shown)).toBeUndefined();
+    expect(markOf({ ...pick, position: [90, 0, 0] }, shown)).toBeUndefined();
+    expect(markOf(pick, { ...shown, exaggeration: 2 })).toBeUndefined();
+    expect(markOf({ kind: "nothing" }, shown)).toBeUndefined();
+  });
+
+  it("that the camera turns to is in the middle", () => {
+    const turned = lookAt(camera, [3, 4, 1]);
+    expect(turned.eye).toEqual(camera.eye);
+    const [x, y] = project(turned, [3, 4, 1], 2) ?? [];
+    expect(x).toBeCloseTo(0.5, 9);
+    expect(y).toBeCloseTo(0.5, 9);
+    const { right } = axesOf(turned);
+    const beside = add(turned.target, right);
+    expect(project(turned, beside, 2)?.[0]).toBeGreaterThan(0.5);
+  });
+});
+
+describe("lengths and coordinates", () => {
+  it("are written as people would", () => {
+    expect(lengthText(0.0025)).toBe("2.5 mm");
+    expect(lengthText(1234)).toBe("1.23 km");
+    expect(lengthText(999.6)).toBe("1 km");
+    expect(lengthText(-3)).toBe("−3 m");
+    expect(lengthText(0)).toBe("0 nm");
+    expect(coordinate(1234.56789, 0.3)).toBe("1234.6");
+    expect(coordinate(1234.56789, 30)).toBe("1235");
+    expect(coordinate(1.23456789, 1e-12)).toBe("1.234568");
+  });
+});

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// From a click to a place of the picture, and from the answer to what the page says of it.
+import type { Point } from "./camera/touch";
+import type { ViewerPicked } from "./protocol/messages";
+import type { Pick } from "./state";
+import type { Size } from "./view/size";
+
+/**
+ * Pixels of a picture, from its lower left corner, y upwards, of a point `at` from the upper left
+ * corner of the canvas that it fills; what lies beside it counts to its edge.
+ */
+export function placeOf(at: Point, canvas: Size, picture: Size): Point {
+  const share = (value: number, whole: number): number =>
+    Math.min(1, Math.max(0, value / Math.max(1, whole)));
+  return {
+    x: share(at.x, canvas.width) * picture.width,
+    y: (1 - share(at.y, canvas.height)) * picture.height,
+  };
+}
+
+export function pickOf(
+  answer: ViewerPicked,
+  objectNames: readonly string[],
+  exaggeration: number,
+): Pick {
+  if (answer.problem !== "") return { kind: "problem", text: answer.problem };
+  const { point } = answer;
+  if (point?.position === undefined) return { kind: "nothing" };
+  const { x, y, z } = point.position;
+  return {
+    kind: "point",
+    object: objectNames[point.object] ?? "",
+    position: [x, y, z],
+    elevation: point.elevation,
+    error: point.error,
+    distance: point.distance,
+    nearest: point.nearest,
+    farthest: point.farthest,
+    exaggeration,
+  };
+}
