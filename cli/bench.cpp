@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "cli/bench/compare_report.h"
 #include "cli/bench/machine.h"
 #include "cli/bench/report.h"
 #include "cli/cache_options.h"
@@ -35,6 +36,8 @@ struct Options {
     PictureSourceOptions pictures;
     std::string out;
     bool json = false;
+    std::vector<std::string> compared;
+    bool force = false;
 };
 
 absl::Status checkTaus(const std::vector<double>& taus) {
@@ -60,7 +63,27 @@ bench::RunPlan planOf(const Options& options, const PictureSize& size) {
     return {options.scene, options.flight, options.taus, options.renderers, play, options.pictures};
 }
 
+absl::Status runCompare(const Options& options) {
+    ASSIGN_OR_RETURN(auto a, bench::readReport(options.compared[0]));
+    ASSIGN_OR_RETURN(auto b, bench::readReport(options.compared[1]));
+    ASSIGN_OR_RETURN(const bench::Comparison comparison,
+                     bench::compare(std::move(a), std::move(b), options.force));
+    if (!options.out.empty())
+        RETURN_IF_ERROR(bench::writeComparison(comparison, options.out));
+    if (options.json)
+        fmt::print("{}", bench::comparisonJson(comparison));
+    else if (!options.pictures.quiet)
+        fmt::print("{}", bench::table(comparison));
+    return absl::OkStatus();
+}
+
 absl::Status runBench(const Options& options) {
+    if (!options.compared.empty())
+        return runCompare(options);
+    if (options.scene.empty() || options.out.empty())
+        return absl::InvalidArgumentError(
+            "bench needs a scene and -o FOLDER, or --compare A B; `eyrie bench --help` explains "
+            "it");
     const StopSignal stop;
     RETURN_IF_ERROR(checkTaus(options.taus));
     ASSIGN_OR_RETURN(const PictureSize size, parsePictureSize(options.size, "--size"));
@@ -107,18 +130,30 @@ void addMeasuringOptions(CLI::App& command, Options& options) {
         ->type_name("2D|DB");
 }
 
+void addCompareOptions(CLI::App& command, Options& options) {
+    command
+        .add_option("--compare", options.compared,
+                    "Two reports, folders or summary.json files, instead of a scene")
+        ->type_name("A B")
+        ->expected(2)
+        ->excludes("scene");
+    command
+        .add_flag("--force", options.force, "Compare though scene, flight, size or frames differ")
+        ->needs("--compare");
+}
+
 }  // namespace
 
 void addBench(CLI::App& app, Run& run) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("bench", "Measure speed against error along a flight");
+    CLI::App* command = app.add_subcommand(
+        "bench", "Measure speed against error along a flight, or compare two such reports");
     command->add_option("scene", options->scene, "What is drawn, as for `eyrie serve`")
-        ->type_name("FILE")
-        ->required();
+        ->type_name("FILE");
     addMeasuringOptions(*command, *options);
-    command->add_option("-o,--output", options->out, "Folder for the report")
-        ->type_name("FOLDER")
-        ->required();
+    command->add_option("-o,--output", options->out, "Folder for the report, or the comparison")
+        ->type_name("FOLDER");
+    addCompareOptions(*command, *options);
     addCacheOptions(*command, options->pictures.cache);
     command->add_flag("--quiet", options->pictures.quiet, "Only errors");
     command->add_flag("--json", options->json, "Print the summary as JSON");
@@ -128,7 +163,8 @@ void addBench(CLI::App& app, Run& run) {
         "as framesBeyondTau.\n\n"
         "Examples:\n"
         "  eyrie bench dem.eyt --flight walkthrough -o report\n"
-        "  eyrie bench scene.json --flight flight.json --tau 1,2 --renderers 0,1,2 -o report");
+        "  eyrie bench scene.json --flight flight.json --tau 1,2 --renderers 0,1,2 -o report\n"
+        "  eyrie bench --compare before after -o comparison");
     command->callback([options, &run] { run = [options] { return runBench(*options); }; });
 }
 

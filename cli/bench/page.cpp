@@ -2,6 +2,11 @@
 #include "cli/bench/page.h"
 
 #include <cstdint>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "fabric/status.h"
 
 namespace eyrie::cli::bench {
 namespace {
@@ -23,6 +28,13 @@ std::string withData(std::string_view page, std::string json) {
     std::string result(page);
     result.replace(result.find(kDataPlace), kDataPlace.size(), forScript(std::move(json)));
     return result;
+}
+
+absl::Status makeFolder(const std::string& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    return error ? fabric::writeError(folder, "cannot make the folder", error.value())
+                 : absl::OkStatus();
 }
 
 std::string base64(std::string_view bytes) {

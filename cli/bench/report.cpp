@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/bench/report.h"
 
-#include <filesystem>
-
 #include <fmt/format.h>
 
 #include "cli/bench/page.h"
@@ -70,18 +68,19 @@ std::vector<JsonObject> worstOf(const MeasuredErrors& measured) {
 }
 
 std::string tableHead() {
-    return "asked    processes  promised px  frames/s  median ms   p95 ms   p99 ms  first pass ms"
+    return "asked    drawn by         promised px  frames/s  median ms   p95 ms   p99 ms  first "
+           "pass ms"
            "   triangles   loaded    memory  overhead  limited by\n";
 }
 
 std::string tableLine(const BenchRun& run, const RunSummary& s) {
     return fmt::format(
-        "{:<8} {:>9}  {:>11.3f}  {:>8.1f}  {:>9.1f}  {:>7.1f}  {:>7.1f}  {:>13.1f}  {:>10.0f}  "
+        "{:<8} {:<15}  {:>11.3f}  {:>8.1f}  {:>9.1f}  {:>7.1f}  {:>7.1f}  {:>13.1f}  {:>10.0f}  "
         "{:>4} MiB  {:>4} MiB  {:>6.2f} %  {}\n",
-        run.label, run.renderers == 0 ? "1" : fmt::format("{} {}", run.renderers, run.compound),
-        s.tauAchievedMax, s.fpsMedian, s.frame.p50, s.frame.p95, s.frame.p99, s.firstPass.p50,
-        s.trianglesMean, s.bytesLoaded >> 20, run.played.peakResidentBytes >> 20,
-        run.played.overheadPercent, fabric::limitingStage(s.stages));
+        run.label, drawnBy(run.renderers, run.compound), s.tauAchievedMax, s.fpsMedian, s.frame.p50,
+        s.frame.p95, s.frame.p99, s.firstPass.p50, s.trianglesMean, s.bytesLoaded >> 20,
+        run.played.peakResidentBytes >> 20, run.played.overheadPercent,
+        fabric::limitingStage(s.stages));
 }
 
 }  // namespace
@@ -126,10 +125,7 @@ std::string table(const std::vector<BenchRun>& runs) {
 }
 
 absl::Status writeReport(const Report& report, const std::string& folder) {
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error)
-        return fabric::writeError(folder, "cannot make the folder", error.value());
+    RETURN_IF_ERROR(makeFolder(folder));
     RETURN_IF_ERROR(writeText(framesCsv(report.runs), folder + "/frames.csv"));
     RETURN_IF_ERROR(writeText(reportPage(report), folder + "/index.html"));
     return writeText(summaryJson(report), folder + "/summary.json");

@@ -35,6 +35,12 @@ absl::StatusOr<Played> playRun(const RunPlan& plan, const BenchRun& run,
 
 }  // namespace
 
+std::string drawnBy(int renderers, const std::string& compound) {
+    if (renderers == 0)
+        return "one process";
+    return renderers == 1 ? "1 renderer" : fmt::format("{} renderers, {}", renderers, compound);
+}
+
 absl::StatusOr<std::vector<BenchRun>> playRuns(const RunPlan& plan, const std::stop_token& stop) {
     const int frames = plan.play.frames * (plan.play.repeats + 1);
     ProgressBar bar("bench", frames, "frames", ProgressBar::styleFor(plan.pictures.quiet));
@@ -44,8 +50,7 @@ absl::StatusOr<std::vector<BenchRun>> playRuns(const RunPlan& plan, const std::s
         for (const double tau : plan.taus) {
             BenchRun run = runOf(tau, renderers, plan.pictures.compound);
             const std::string stage =
-                renderers == 0 ? "tau " + run.label
-                               : fmt::format("tau {}, {} processes", run.label, renderers);
+                fmt::format("tau {}, {}", run.label, drawnBy(renderers, run.compound));
             int done = 0;
             const auto frameDone = [&] { progress(stage, static_cast<double>(++done) / frames); };
             ASSIGN_OR_RETURN(run.played, playRun(plan, run, frameDone, stop));

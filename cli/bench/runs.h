@@ -25,6 +25,9 @@ struct BenchRun {
     std::optional<MeasuredErrors> measured = {};  ///< where a reference was asked for
 };
 
+/// Who drew a run, as a person says it: "one process", "1 renderer", "2 renderers, DB".
+std::string drawnBy(int renderers, const std::string& compound);
+
 struct RunPlan {
     std::string scene;
     std::string flight;  ///< for flightNamed

@@ -161,6 +161,12 @@ TEST_F(Bench, ErrorsAndTrianglesOfTheWorstFlightRepeatExactly) {
     const auto first = runsOf("first");
     const auto second = runsOf("second");
     ASSERT_EQ(first.size(), 2U);
+    const test::Outcome compared =
+        eyrie({"bench", "--compare", path("first"), path("second"), "-o", path("compared")});
+    EXPECT_EQ(compared.exit, (test::Exit{0, 0})) << compared.errors;
+    EXPECT_THAT(compared.output, testing::HasSubstr("2 px, 1 renderer"));
+    EXPECT_EQ(test::namesIn(path("compared")),
+              (std::set<std::string>{"comparison.json", "index.html"}));
     for (std::size_t i = 0; i < first.size(); ++i)
         for (const char* figure : {"tauAchievedMax", "trianglesMean", "framesBeyondTau"})
             EXPECT_EQ(number(first[i], figure), number(second[i], figure)) << figure;
@@ -181,6 +187,19 @@ TEST_F(Bench, RefusesWhatItCannotMeasure) {
     EXPECT_THAT(refusal({"--tau", "nan"}), testing::HasSubstr("--tau"));
     EXPECT_THAT(refusal({"--frames", "0"}), testing::HasSubstr("--frames"));
     EXPECT_THAT(refusal({"--flight", "missing.json"}), testing::HasSubstr("missing.json"));
+    EXPECT_THAT(refusal({"--renderers", "1,65"}), testing::HasSubstr("--renderers"));
+    EXPECT_THAT(refusal({"--compare", "a", "b"}), testing::HasSubstr("--compare"));
+    EXPECT_THAT(refusal({"--force"}), testing::HasSubstr("--force"));
+    const auto said = [](const std::vector<std::string>& arguments) {
+        const test::Outcome outcome = eyrie(arguments);
+        EXPECT_EQ(outcome.exit, (test::Exit{2, 0})) << outcome.output;
+        return outcome.errors;
+    };
+    EXPECT_THAT(said({"bench"}), testing::HasSubstr("bench needs a scene"));
+    EXPECT_THAT(said({"bench", dem()}), testing::HasSubstr("-o FOLDER"));
+    EXPECT_THAT(said({"bench", "--compare", path("no-such"), path("no-such")}),
+                testing::HasSubstr("no-such"));
+    EXPECT_THAT(said({"bench", "--compare", path("")}), testing::HasSubstr("--compare"));
 }
 
 }  // namespace

@@ -49,7 +49,7 @@ function logarithmic([from, to], range) {
 function ticks(most) {
   if (!(most > 0)) return [0];
   const power = 10 ** Math.floor(Math.log10(most / 4));
-  const step = [1, 2, 5, 10].map((m) => m * power).find((s) => most / s <= 5.5);
+  const step = [1, 2, 5, 10].map((m) => m * power).find((s) => most / s <= 6.5);
   return Array.from({ length: Math.floor(most / step) + 1 }, (_, i) => i * step);
 }
 

@@ -1,28 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Frame time against the error promised, and the error measured beside it.
 
-/** The axes: errors in powers of two to the right, milliseconds upwards from zero. */
-function curveAxes(svg, box, errorRange, mostMs) {
-  const x = logarithmic(errorRange, [box.left, box.right]);
-  const y = linear([0, mostMs], [box.bottom, box.top]);
-  for (const ms of ticks(mostMs))
-    svg.append(mark("line", { class: ms === 0 ? "axis" : "grid", x1: box.left, x2: box.right, y1: y(ms), y2: y(ms) }),
-               mark("text", { x: box.left - 10, y: y(ms) + 4, "text-anchor": "end" }, number(ms)));
-  for (const pixels of powers(2, ...errorRange))
-    svg.append(mark("line", { class: "axis", x1: x(pixels), x2: x(pixels), y1: box.bottom, y2: box.bottom + 5 }),
-               mark("text", { x: x(pixels), y: box.bottom + 20, "text-anchor": "middle" }, `${number(pixels)} px`));
-  let free = box.bottom;
-  for (const fps of [240, 120, 60, 30, 15, 5, 2, 1].filter((f) => 1000 / f < mostMs * 0.97)) {
-    if (free - y(1000 / fps) < 16) continue;
-    free = y(1000 / fps);
-    svg.append(mark("line", { class: "guide", x1: box.left, x2: box.right, y1: y(1000 / fps), y2: y(1000 / fps) }),
-               mark("text", { x: box.right + 8, y: y(1000 / fps) + 4 }, `${fps} fps`));
-  }
-  svg.append(mark("text", { x: box.left - 44, y: box.top - 14 }, "milliseconds a frame"),
-             mark("text", { x: box.right, y: box.bottom + 42, "text-anchor": "end" }, "screen-space error  →  coarser"));
-  return { x, y };
-}
-
 /** What is between the worst pixel measured and the promise: error that was not used. */
 function drawMeasured(svg, list, { x, y }) {
   const at = (run, error) => [x(error), y(run.frameMs.p50)];
@@ -37,6 +15,8 @@ function drawMeasured(svg, list, { x, y }) {
     const broken = run.measuredWithinPromise === false;
     svg.append(mark("line", { x1: left, x2: x(run.tauAchievedMax), y1: level, y2: level, stroke: "var(--truth)", opacity: 0.45 }));
     const dot = mark("circle", { cx: x(run.errorPx.max), cy: level, r: 5, fill: broken ? "var(--bad)" : "var(--truth)", stroke: "var(--panel)", "stroke-width": 1.5 });
+    if (!broken)
+      svg.append(mark("text", { x: x(run.errorPx.max) - 2, y: level + 18, "text-anchor": "end", style: "fill: var(--truth)" }, `${number((100 * run.errorPx.max) / run.tauAchievedMax, 2)} %`));
     svg.append(mark("circle", { cx: left, cy: level, r: 3.5, fill: "var(--panel)", stroke: "var(--truth)", "stroke-width": 1.75 }),
                explained(dot, `${run.label}: the worst pixel of ${run.framesMeasured} frames is ${number(run.errorPx.max)} px off,\n` +
                  `99 in 100 of any frame are within ${number(run.errorPx.p99)} px\n` +
@@ -71,12 +51,10 @@ function drawCurve(place) {
     `${run.label}, ${processes(run)}: ${number(run.frameMs.p50)} milliseconds, promised ${number(run.tauAchievedMax)} pixels`).join("; ")}.`);
   const axes = curveAxes(svg, box, [Math.min(...all) / 1.5, Math.max(...all) * 1.35], Math.max(...shown.map((run) => run.frameMs.p95)) * 1.12);
   const groups = series(shown);
-  for (const [, list] of groups) {
-    const own = list.filter((run) => measured.includes(run));
-    if (own.length > 0) drawMeasured(svg, own, axes);
-  }
+  const own = groups.map(([, list]) => list.filter((run) => measured.includes(run))).find((list) => list.length > 0);
+  if (own) drawMeasured(svg, own, axes);
   groups.forEach(([, list], i) => drawSeries(svg, list, seriesColours[i % 4], axes, groups.length === 1));
   const entries = groups.map(([name, list], i) => [`promised for every frame${groups.length > 1 ? `, ${name}` : ""} (median, shaded to p95)`, seriesColours[i % 4]]);
-  if (measured.length > 0) entries.push(["measured: worst pixel (filled) and p99 (hollow)", "var(--truth)"]);
+  if (measured.length > 0) entries.push([`measured${groups.length > 1 ? `, ${processes(own[0])}` : ""}: worst pixel (filled) and p99 (hollow)`, "var(--truth)"]);
   place.append(legend(entries), svg);
 }

@@ -35,7 +35,7 @@ function rowGroups() {
       ["holes, false hits, misplaced, pixels", measured((run) => `${number(run.holes)}, ${number(run.falseHits)}, ${number(run.misplaced)}`)],
       ["PSNR of the worst frame, dB", measured((run) => number(run.psnrDb))], ["SSIM of the worst frame", measured((run) => number(run.ssim, 4))]],
     ["Warm, ms a frame", ["median", warm("p50")], ["p95", warm("p95")], ["p99", warm("p99")], ["longest", warm("max")], ["frames a second, median", (run) => number(run.fpsMedian)],
-      ["medians of the passes", (run) => run.passes.map((pass) => number(pass.p50)).join("  ")]],
+      ["medians of the passes, least to most", (run) => `${number(Math.min(...run.passes.map((pass) => pass.p50)))} – ${number(Math.max(...run.passes.map((pass) => pass.p50)))}`]],
     ["First pass, ms a frame", ["median", first("p50")], ["p95", first("p95")], ["p99", first("p99")], ["longest", first("max")], ["loaded", (run) => mebibytes(run.bytesLoadedFirstPass)]],
     ["Work", ["triangles a frame, mean", (run) => number(run.trianglesMean)], ["times fewer than uniform decimation", (run) => (run.efficiency ? `${number(run.efficiency, 2)}×` : "–")],
       ["loaded in all passes", (run) => mebibytes(run.bytesLoaded)], ["memory, at most", (run) => mebibytes(run.peakResidentBytes)],

@@ -25,7 +25,7 @@ function drawStrip(run, own) {
   const most = Math.max(run.frameMs.p99 * 1.2, Math.min(Math.max(...warm.map((frame) => frame[3])), run.frameMs.p99 * 1.6)) || 1;
   const y = linear([0, most], [base, top]);
   const { bars, width } = placed(own, left, right);
-  const svg = drawing(780, 98, `${run.label}: median ${number(run.frameMs.p50)}, p95 ${number(run.frameMs.p95)}, p99 ${number(run.frameMs.p99)}, longest ${number(run.frameMs.max)} milliseconds`);
+  const svg = drawing(780, 104, `${run.label}: median ${number(run.frameMs.p50)}, p95 ${number(run.frameMs.p95)}, p99 ${number(run.frameMs.p99)}, longest ${number(run.frameMs.max)} milliseconds`);
   const drawn = Math.max(width > 2.5 ? width - 0.75 : width * 0.86, 0.3);
   const shapes = (chosen) => chosen.map((one) => bar(one.x, drawn, base, y(Math.min(one.ms, most)))).join("");
   svg.append(mark("path", { d: shapes(bars.filter((one) => one.pass === 0)), fill: "var(--cold)" }),
@@ -38,7 +38,7 @@ function drawStrip(run, own) {
     svg.append(mark("line", { x1: left, x2: right + 6, y1: y(ms), y2: y(ms), stroke: "var(--ink)", "stroke-width": 0.75, "stroke-dasharray": "3 3", opacity: 0.55 }));
   for (const label of apart(labels, 13))
     svg.append(mark("text", { x: right + 12, y: label.y + 4, class: label.name === "p50" ? "strong" : "" }, `${label.name === "p50" ? "median" : label.name} ${number(label.ms)}`));
-  svg.append(mark("text", { x: left, y: base + 14 }, "first pass"));
+  svg.append(mark("text", { x: left, y: base + 19 }, "first pass"));
   return svg;
 }
 
