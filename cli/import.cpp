@@ -20,6 +20,7 @@
 #include "cli/imagery_facts.h"
 #include "cli/json_object.h"
 #include "cli/progress_bar.h"
+#include "cli/source_record.h"
 #include "cli/stop_signal.h"
 #include "cli/tune_mesh.h"
 #include "cli/values.h"
@@ -126,6 +127,7 @@ absl::Status importTerrain(const TerrainOptions& options) {
                                      {bar.callback(), stop.token()});
     }
     RETURN_IF_ERROR(made.status());
+    RETURN_IF_ERROR(recordSources(options.out, options.sources));
     const auto samples =
         static_cast<std::uint64_t>(made->columns) * static_cast<std::uint64_t>(made->rows);
     if (options.json) {
@@ -342,6 +344,7 @@ absl::Status importMesh(const MeshOptions& options) {
         ASSIGN_OR_RETURN(tuning, importTuned(options, how, stop.token()));
         made = tuning.tried[tuning.best].report;
     }
+    RETURN_IF_ERROR(recordSources(options.out, options.sources));
     if (options.json) {
         printJson(options, made, tuning);
     } else if (!options.quiet) {

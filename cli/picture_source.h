@@ -37,6 +37,8 @@ public:
     virtual absl::StatusOr<coordinator::RenderedFrame> draw(
         const coordinator::FrameRequest& request) = 0;
     virtual fabric::SceneInfo sceneInfo() const = 0;
+    /// What is drawn, with the files that are read for it.
+    virtual const fabric::Scene& scene() const = 0;
 };
 
 }  // namespace eyrie::cli
