@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,7 +12,9 @@
 
 #include "cli/bench/flights.h"
 #include "cli/bench/play.h"
+#include "cli/bench/reference.h"
 #include "cli/bench/report.h"
+#include "cli/bench/uniform_levels.h"
 #include "cli/cache_options.h"
 #include "cli/commands.h"
 #include "cli/compound_names.h"
@@ -34,6 +39,7 @@ struct Options {
     int repeats = 3;
     fabric::Occlusion occlusion = fabric::Occlusion::Auto;
     PictureSourceOptions pictures;
+    bench::ReferenceOptions reference;
     std::string out;
     bool json = false;
 };
@@ -85,21 +91,65 @@ absl::StatusOr<std::vector<bench::BenchRun>> playAll(PictureSource& pictures,
     return runs;
 }
 
+/// Adds what was measured to `runs`, and gives the uniform levels to compare with.
+absl::StatusOr<std::vector<bench::UniformLevel>> measureAll(
+    PictureSource& pictures, bench::FlightJudge& judge, const Options& options,
+    const PictureSize& size, std::vector<bench::BenchRun>& runs, const std::stop_token& stop) {
+    ProgressBar bar("reference", judge.frames(), "frames",
+                    ProgressBar::styleFor(options.pictures.quiet));
+    const import::Progress progress = bar.callback();
+    double untilPixels = 0;
+    for (bench::BenchRun& run : runs) {
+        coordinator::FrameRequest request;
+        request.tauPixels = run.tauPixels;
+        request.width = size.width;
+        request.height = size.height;
+        request.occlusion = options.occlusion;
+        int done = 0;
+        const auto frameDone = [&] {
+            progress(fmt::format("tau {} px", run.tauPixels), ++done / judge.frames());
+        };
+        ASSIGN_OR_RETURN(run.measured, judge.judge(pictures, request, frameDone, stop));
+        for (const bench::FrameError& error : run.measured->frames)
+            untilPixels = std::max(untilPixels, error.p99Pixels);
+    }
+    int done = 0;
+    const auto levelDone = [&] { progress("uniform decimation", 1 - std::ldexp(1.0, -++done)); };
+    return bench::uniformLevels(judge.reference(), judge.cameras(), size.width, size.height,
+                                untilPixels, levelDone, stop);
+}
+
 absl::Status runBench(const Options& options) {
     const StopSignal stop;
     RETURN_IF_ERROR(checkTaus(options.taus));
     ASSIGN_OR_RETURN(const PictureSize size, parsePictureSize(options.size, "--size"));
+    std::optional<bench::ReferencePlan> plan;
+    if (options.reference.isAsked) {
+        ASSIGN_OR_RETURN(plan, bench::planReference(options.scene, options.pictures,
+                                                    options.reference, stop.token()));
+    }
     ASSIGN_OR_RETURN(const auto pictures,
                      PictureSource::open(options.scene, options.pictures, stop.token()));
     ASSIGN_OR_RETURN(const fabric::Flight flight,
                      bench::flightNamed(options.flight, pictures->sceneInfo().bounds));
-    ASSIGN_OR_RETURN(const auto runs, playAll(*pictures, flight, options, size, stop.token()));
+    ASSIGN_OR_RETURN(auto runs, playAll(*pictures, flight, options, size, stop.token()));
+    std::vector<bench::UniformLevel> uniform;
+    if (plan) {
+        ASSIGN_OR_RETURN(
+            bench::FlightJudge judge,
+            bench::judgeFor(*plan, flight,
+                            {size.width, size.height, options.frames, options.reference.frames}));
+        ASSIGN_OR_RETURN(uniform, measureAll(*pictures, judge, options, size, runs, stop.token()));
+    }
     const bench::BenchFacts facts = factsOf(options, size);
     RETURN_IF_ERROR(bench::writeReport(facts, runs, options.out));
     if (options.json)
         fmt::print("{}", bench::summaryJson(facts, runs));
     else if (!options.pictures.quiet)
         fmt::print("{}{}\n", bench::table(runs), options.out + "/index.html shows it");
+    for (const bench::BenchRun& run : runs)
+        if (run.measured)
+            RETURN_IF_ERROR(bench::checkPromise(run.tauPixels, *run.measured));
     return absl::OkStatus();
 }
 
@@ -143,6 +193,7 @@ void addBench(CLI::App& app, Run& run) {
         ->type_name("FILE")
         ->required();
     addMeasuringOptions(*command, *options);
+    bench::addReferenceOptions(*command, options->reference);
     command->add_option("-o,--output", options->out, "Folder for the report")
         ->type_name("FOLDER")
         ->required();
@@ -152,9 +203,12 @@ void addBench(CLI::App& app, Run& run) {
     command->footer(
         "The report is index.html to look at, summary.json and frames.csv to work with. The error\n"
         "in it is the one promised for every frame; frames that promise more than was asked count\n"
-        "as framesBeyondTau.\n\n"
+        "as framesBeyondTau. With --reference errors are measured, too, and a frame that is "
+        "farther\n"
+        "off than it promises is an error (exit status 1, after the report is written).\n\n"
         "Examples:\n"
         "  eyrie bench dem.eyt --flight walkthrough -o report\n"
+        "  eyrie bench scan.eym --tau 1,4 --reference -o report\n"
         "  eyrie bench scene.json --flight flight.json --tau 1,2 --renderers 2 -o report");
     command->callback([options, &run] { run = [options] { return runBench(*options); }; });
 }

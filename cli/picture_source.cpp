@@ -23,8 +23,9 @@ constexpr std::chrono::seconds kRenderersLimit{60};
 
 class InThisProcess final : public PictureSource {
 public:
-    InThisProcess(std::unique_ptr<Renderer> renderer, fabric::SceneInfo info, fabric::Scene scene)
-        : renderer_(std::move(renderer)), info_(std::move(info)), scene_(std::move(scene)) {}
+    InThisProcess(std::unique_ptr<Renderer> renderer, fabric::SceneInfo info,
+                  fabric::Rgba background)
+        : renderer_(std::move(renderer)), info_(std::move(info)), background_(background) {}
 
     absl::StatusOr<RenderedFrame> draw(const FrameRequest& request) override {
         const fabric::FrameData frameData{++frames_,       request.camera, request.tauPixels,
@@ -44,15 +45,13 @@ public:
     }
 
     fabric::SceneInfo sceneInfo() const override { return info_; }
-    const fabric::Scene& scene() const override { return scene_; }
 
 private:
     /// What a channel drew, with the background around it.
     fabric::Image whole(fabric::Image drawn, const fabric::ChannelTask& task) const {
         if (drawn.area == task.pixelViewport)
             return drawn;
-        fabric::Image image =
-            fabric::makeImage(task.pixelViewport, scene_.background, task.wantsDepth);
+        fabric::Image image = fabric::makeImage(task.pixelViewport, background_, task.wantsDepth);
         if (!drawn.area.isEmpty())
             fabric::paste(drawn, image);
         return image;
@@ -60,26 +59,46 @@ private:
 
     const std::unique_ptr<Renderer> renderer_;
     const fabric::SceneInfo info_;
-    const fabric::Scene scene_;
+    const fabric::Rgba background_;
     std::uint64_t frames_ = 0;
 };
 
 class InProcesses final : public PictureSource {
 public:
-    InProcesses(std::unique_ptr<LocalFarm> farm, fabric::Scene scene)
-        : farm_(std::move(farm)), scene_(std::move(scene)) {}
+    explicit InProcesses(std::unique_ptr<LocalFarm> farm) : farm_(std::move(farm)) {}
 
     absl::StatusOr<RenderedFrame> draw(const FrameRequest& request) override {
         return farm_->frames().renderFrame(request);
     }
 
     fabric::SceneInfo sceneInfo() const override { return farm_->frames().status().sceneInfo; }
-    const fabric::Scene& scene() const override { return scene_; }
 
 private:
     const std::unique_ptr<LocalFarm> farm_;
-    const fabric::Scene scene_;
 };
+
+absl::StatusOr<std::unique_ptr<PictureSource>> openHere(const fabric::Scene& scene,
+                                                        const PictureSourceOptions& options) {
+    RendererOptions settings;
+    ASSIGN_OR_RETURN(settings.remote, remoteDataOf(options.cache));
+    settings.decoding = options.decoding;
+    ASSIGN_OR_RETURN(auto renderer, Renderer::create(settings));
+    ASSIGN_OR_RETURN(fabric::SceneInfo info, renderer->openScene(scene));
+    return std::make_unique<InThisProcess>(std::move(renderer), std::move(info), scene.background);
+}
+
+absl::StatusOr<std::unique_ptr<PictureSource>> openInProcesses(fabric::Scene scene,
+                                                               const PictureSourceOptions& options,
+                                                               const std::stop_token& stop) {
+    ASSIGN_OR_RETURN(auto farm,
+                     LocalFarm::start(options.compound, options.cache, options.decoding));
+    RETURN_IF_ERROR(farm->coordinator().setScene(std::move(scene)));
+    farm->startRenderers(options.renderers);
+    RETURN_IF_ERROR(farm->awaitRenderers(options.renderers, kRenderersLimit, stop));
+    return std::make_unique<InProcesses>(std::move(farm));
+}
+
+}  // namespace
 
 absl::StatusOr<fabric::Scene> loadScene(const std::string& path,
                                         const PictureSourceOptions& options,
@@ -92,34 +111,11 @@ absl::StatusOr<fabric::Scene> loadScene(const std::string& path,
     return assembleScene(std::vector<std::string>{path}, cache, notes);
 }
 
-absl::StatusOr<std::unique_ptr<PictureSource>> openHere(fabric::Scene scene,
-                                                        const PictureSourceOptions& options) {
-    RendererOptions settings;
-    ASSIGN_OR_RETURN(settings.remote, remoteDataOf(options.cache));
-    settings.decoding = options.decoding;
-    ASSIGN_OR_RETURN(auto renderer, Renderer::create(settings));
-    ASSIGN_OR_RETURN(fabric::SceneInfo info, renderer->openScene(scene));
-    return std::make_unique<InThisProcess>(std::move(renderer), std::move(info), std::move(scene));
-}
-
-absl::StatusOr<std::unique_ptr<PictureSource>> openInProcesses(fabric::Scene scene,
-                                                               const PictureSourceOptions& options,
-                                                               const std::stop_token& stop) {
-    ASSIGN_OR_RETURN(auto farm,
-                     LocalFarm::start(options.compound, options.cache, options.decoding));
-    RETURN_IF_ERROR(farm->coordinator().setScene(scene));
-    farm->startRenderers(options.renderers);
-    RETURN_IF_ERROR(farm->awaitRenderers(options.renderers, kRenderersLimit, stop));
-    return std::make_unique<InProcesses>(std::move(farm), std::move(scene));
-}
-
-}  // namespace
-
 absl::StatusOr<std::unique_ptr<PictureSource>> PictureSource::open(
     const std::string& path, const PictureSourceOptions& options, const std::stop_token& stop) {
     spdlog::set_level(options.quiet ? spdlog::level::err : spdlog::level::warn);
     ASSIGN_OR_RETURN(fabric::Scene scene, loadScene(path, options, stop));
-    return options.renderers == 0 ? openHere(std::move(scene), options)
+    return options.renderers == 0 ? openHere(scene, options)
                                   : openInProcesses(std::move(scene), options, stop);
 }
 

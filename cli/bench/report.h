@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <absl/status/status.h>
 
+#include "cli/bench/frame_error.h"
 #include "cli/bench/play.h"
 
 /// What a bench leaves: summary.json, frames.csv and index.html, which shows both.
@@ -15,6 +17,7 @@ namespace eyrie::cli::bench {
 struct BenchRun {
     double tauPixels = 0;
     Played played;
+    std::optional<MeasuredErrors> measured = {};  ///< where a reference was asked for
 };
 
 struct BenchFacts {

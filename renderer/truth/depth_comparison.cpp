@@ -13,14 +13,8 @@ namespace {
 
 constexpr double kSnapPixels = 1.0 / 256;
 constexpr int kFineRays = 16;  ///< a pixel's side
-
-/// Of `values`, which are shuffled, the one that so many hundredths of them do not exceed.
-double percentile(std::vector<double>& values, std::size_t hundredths) {
-    const auto at =
-        values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) * hundredths / 100);
-    std::nth_element(values.begin(), at, values.end());
-    return *at;
-}
+/// To explain the pixels of one picture; a few seconds. More are no exceptions.
+constexpr std::size_t kMostRaysAround = 8'000'000;
 
 template <typename Function>
 void forEachRow(int rows, Function function) {
@@ -39,10 +33,9 @@ public:
           edge_(edgePixels),
           suspects_(suspects),
           reference_(view.hits),
-          displacement_(depth.size()) {}
+          displacement_(truth::displacements(camera_, depth, surface_)) {}
 
     DepthComparison run(LookAround lookAround) {
-        forEachRow(camera_.height(), [this](int y) { displaceRow(y); });
         const double above = lookAround == LookAround::All ? kSnapPixels : farthestOnly();
         forEachRow(camera_.height(), [&](int y) { lookAroundRow(y, above); });
         for (int y = 0; y < camera_.height(); ++y)
@@ -63,15 +56,6 @@ private:
     std::size_t index(int x, int y) const {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(camera_.width()) +
                static_cast<std::size_t>(x);
-    }
-
-    void displaceRow(int y) {
-        for (int x = 0; x < camera_.width(); ++x) {
-            const double depth = depth_[index(x, y)];
-            displacement_[index(x, y)] = std::isfinite(depth)
-                                             ? displacementAt(x + 0.5, y + 0.5, depth).pixels
-                                             : std::nan("");
-        }
     }
 
     void lookAroundRow(int y, double above) {
@@ -146,18 +130,6 @@ private:
         return around;
     }
 
-    /// The same by rays through the whole area, for what is too thin for pixels' centres.
-    Surroundings everywhereAround(int x, int y) const {
-        Surroundings around;
-        const int reach = (2 * edge_ + 1) * kFineRays;
-        for (int dy = 0; dy <= reach; ++dy)
-            for (int dx = 0; dx <= reach; ++dx)
-                around.add(surface_.hitRange(
-                    camera_.rayThrough(x - edge_ + static_cast<double>(dx) / kFineRays,
-                                       y - edge_ + static_cast<double>(dy) / kFineRays)));
-        return around;
-    }
-
     std::size_t DepthComparison::*faultOf(double tested, const Surroundings& around) const {
         if (!std::isfinite(tested))
             return around.anyMiss ? nullptr : &DepthComparison::holes;
@@ -174,12 +146,29 @@ private:
         auto fault = faultOf(tested, atCentresAround(x, y));
         if (fault == nullptr)
             return;
-        if (lookedInto_ < Suspects::kMost) {
-            ++lookedInto_;
-            fault = faultOf(tested, everywhereAround(x, y));
-        }
+        if (raysAround_ < kMostRaysAround)
+            fault = faultEverywhereAround(x, y, tested);
         if (fault != nullptr)
             ++(result_.*fault);
+    }
+
+    /// The same by rays through the whole area, for what is too thin for pixels' centres; until
+    /// they explain the pixel.
+    std::size_t DepthComparison::*faultEverywhereAround(int x, int y, double tested) {
+        Surroundings around;
+        std::size_t DepthComparison::*fault = nullptr;
+        const int reach = (2 * edge_ + 1) * kFineRays;
+        for (int dy = 0; dy <= reach; ++dy) {
+            for (int dx = 0; dx <= reach; ++dx)
+                around.add(surface_.hitRange(
+                    camera_.rayThrough(x - edge_ + static_cast<double>(dx) / kFineRays,
+                                       y - edge_ + static_cast<double>(dy) / kFineRays)));
+            raysAround_ += static_cast<std::size_t>(reach) + 1;
+            fault = faultOf(tested, around);
+            if (fault == nullptr)
+                return nullptr;
+        }
+        return fault;
     }
 
     void finishDisplacements() {
@@ -205,11 +194,38 @@ private:
     const Suspects& suspects_;
     const std::vector<ReferenceSurface::HitRange>& reference_;
     std::vector<double> displacement_;  ///< NaN for none
-    std::size_t lookedInto_ = 0;        ///< pixels around which rays were cast everywhere
+    std::size_t raysAround_ = 0;        ///< cast by faultEverywhereAround
     DepthComparison result_;
 };
 
 }  // namespace
+
+double percentile(std::vector<double>& values, std::size_t hundredths) {
+    const auto at =
+        values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) * hundredths / 100);
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
+}
+
+std::vector<double> displacements(const Pinhole& camera, std::span<const float> depth,
+                                  const ReferenceSurface& reference) {
+    std::vector<double> pixels(depth.size(), std::nan(""));
+    forEachRow(camera.height(), [&](int y) {
+        for (int x = 0; x < camera.width(); ++x) {
+            const std::size_t i =
+                static_cast<std::size_t>(y) * static_cast<std::size_t>(camera.width()) +
+                static_cast<std::size_t>(x);
+            if (std::isfinite(depth[i]))
+                pixels[i] =
+                    reference
+                        .displacement(
+                            camera,
+                            camera.rayThrough(x + 0.5, y + 0.5).at(static_cast<double>(depth[i])))
+                        .pixels;
+        }
+    });
+    return pixels;
+}
 
 ReferenceView castView(const Pinhole& camera, const ReferenceSurface& reference) {
     const auto width = static_cast<std::size_t>(camera.width());

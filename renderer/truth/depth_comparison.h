@@ -86,4 +86,13 @@ DepthComparison compareDepth(const ReferenceView& view, std::span<const float> d
                              int edgePixels, const Suspects& suspects, LookAround lookAround,
                              std::vector<float>* displacements = nullptr);
 
+/// Displacements alone, of exact depths at pixels' centres: each pixel's, in pixels; NaN where
+/// nothing is compared. Uses all cores.
+std::vector<double> displacements(const Pinhole& camera, std::span<const float> depth,
+                                  const ReferenceSurface& reference);
+
+/// Of `values`, which are shuffled, the one that so many hundredths of them do not exceed.
+/// Precondition: there is one, and no NaN.
+double percentile(std::vector<double>& values, std::size_t hundredths);
+
 }  // namespace eyrie::truth
