@@ -1,26 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "cli/bench/flights.h"
-#include "cli/bench/play.h"
+#include "cli/bench/machine.h"
 #include "cli/bench/reference.h"
 #include "cli/bench/report.h"
-#include "cli/bench/uniform_levels.h"
 #include "cli/cache_options.h"
 #include "cli/commands.h"
 #include "cli/compound_names.h"
 #include "cli/occlusion_option.h"
-#include "cli/picture_source.h"
-#include "cli/progress_bar.h"
 #include "cli/renderer_processes.h"
 #include "cli/stop_signal.h"
 #include "cli/values.h"
@@ -36,7 +31,8 @@ struct Options {
     std::vector<double> taus{0.5, 1, 2, 4, 8};
     std::string size = "1280x720";
     int frames = 120;
-    int repeats = 3;
+    int repeats = 5;
+    std::vector<int> renderers{0};
     fabric::Occlusion occlusion = fabric::Occlusion::Auto;
     PictureSourceOptions pictures;
     bench::ReferenceOptions reference;
@@ -54,110 +50,47 @@ absl::Status checkTaus(const std::vector<double>& taus) {
 }
 
 bench::BenchFacts factsOf(const Options& options, const PictureSize& size) {
-    const std::filesystem::path flight(options.flight);
-    return {std::filesystem::path(options.scene).filename().string(),
-            flight.filename().string(),
-            size.width,
-            size.height,
-            options.frames,
-            options.repeats,
-            options.pictures.renderers,
-            options.pictures.compound == coordinator::Decomposition::TwoD ? "2D" : "DB"};
+    const auto nameOf = [](const std::filesystem::path& path) { return path.filename().string(); };
+    return {nameOf(options.scene), nameOf(options.flight), size.width,          size.height,
+            options.frames,        options.repeats,        bench::commandLine()};
 }
 
-absl::StatusOr<std::vector<bench::BenchRun>> playAll(PictureSource& pictures,
-                                                     const fabric::Flight& flight,
-                                                     const Options& options,
-                                                     const PictureSize& size,
-                                                     const std::stop_token& stop) {
-    std::vector<bench::BenchRun> runs;
-    const int framesOfRun = options.frames * (options.repeats + 1);
-    ProgressBar bar("bench", framesOfRun, "frames", ProgressBar::styleFor(options.pictures.quiet));
-    const import::Progress progress = bar.callback();
-    for (const double tau : options.taus) {
-        bench::PlayOptions play{{}, options.frames, options.repeats};
-        play.request.tauPixels = tau;
-        play.request.width = size.width;
-        play.request.height = size.height;
-        play.request.occlusion = options.occlusion;
-        int done = 0;
-        const auto frameDone = [&] {
-            progress(fmt::format("tau {} px", tau), static_cast<double>(++done) / framesOfRun);
-        };
-        ASSIGN_OR_RETURN(bench::Played played,
-                         bench::play(pictures, flight, play, frameDone, stop));
-        runs.push_back({tau, std::move(played)});
-    }
-    return runs;
-}
-
-/// Adds what was measured to `runs`, and gives the uniform levels to compare with.
-absl::StatusOr<std::vector<bench::UniformLevel>> measureAll(
-    PictureSource& pictures, bench::FlightJudge& judge, const Options& options,
-    const PictureSize& size, std::vector<bench::BenchRun>& runs, const std::stop_token& stop) {
-    ProgressBar bar("reference", judge.frames(), "frames",
-                    ProgressBar::styleFor(options.pictures.quiet));
-    const import::Progress progress = bar.callback();
-    double untilPixels = 0;
-    for (bench::BenchRun& run : runs) {
-        coordinator::FrameRequest request;
-        request.tauPixels = run.tauPixels;
-        request.width = size.width;
-        request.height = size.height;
-        request.occlusion = options.occlusion;
-        int done = 0;
-        const auto frameDone = [&] {
-            progress(fmt::format("tau {} px", run.tauPixels), ++done / judge.frames());
-        };
-        ASSIGN_OR_RETURN(run.measured, judge.judge(pictures, request, frameDone, stop));
-        for (const bench::FrameError& error : run.measured->frames)
-            untilPixels = std::max(untilPixels, error.p99Pixels);
-    }
-    int done = 0;
-    const auto levelDone = [&] { progress("uniform decimation", 1 - std::ldexp(1.0, -++done)); };
-    return bench::uniformLevels(judge.reference(), judge.cameras(), size.width, size.height,
-                                untilPixels, levelDone, stop);
+bench::RunPlan planOf(const Options& options, const PictureSize& size) {
+    bench::PlayOptions play{{}, options.frames, options.repeats};
+    play.request.width = size.width;
+    play.request.height = size.height;
+    play.request.occlusion = options.occlusion;
+    return {options.scene, options.flight, options.taus, options.renderers, play, options.pictures};
 }
 
 absl::Status runBench(const Options& options) {
     const StopSignal stop;
     RETURN_IF_ERROR(checkTaus(options.taus));
     ASSIGN_OR_RETURN(const PictureSize size, parsePictureSize(options.size, "--size"));
-    std::optional<bench::ReferencePlan> plan;
+    const bench::RunPlan plan = planOf(options, size);
+    std::optional<bench::ReferencePlan> reference;
     if (options.reference.isAsked) {
-        ASSIGN_OR_RETURN(plan, bench::planReference(options.scene, options.pictures,
-                                                    options.reference, stop.token()));
+        ASSIGN_OR_RETURN(reference, bench::planReference(plan, options.reference, stop.token()));
     }
-    ASSIGN_OR_RETURN(const auto pictures,
-                     PictureSource::open(options.scene, options.pictures, stop.token()));
-    ASSIGN_OR_RETURN(const fabric::Flight flight,
-                     bench::flightNamed(options.flight, pictures->sceneInfo().bounds));
-    ASSIGN_OR_RETURN(auto runs, playAll(*pictures, flight, options, size, stop.token()));
+    ASSIGN_OR_RETURN(auto runs, bench::playRuns(plan, stop.token()));
     std::vector<bench::UniformLevel> uniform;
-    if (plan) {
-        ASSIGN_OR_RETURN(
-            bench::FlightJudge judge,
-            bench::judgeFor(*plan, flight,
-                            {size.width, size.height, options.frames, options.reference.frames}));
-        ASSIGN_OR_RETURN(uniform, measureAll(*pictures, judge, options, size, runs, stop.token()));
+    if (reference) {
+        ASSIGN_OR_RETURN(uniform, bench::measureRuns(*reference, plan, runs, stop.token()));
     }
-    const bench::BenchFacts facts = factsOf(options, size);
-    RETURN_IF_ERROR(bench::writeReport(facts, runs, options.out));
+    const bench::Report report{factsOf(options, size), std::move(runs), std::move(uniform)};
+    RETURN_IF_ERROR(bench::writeReport(report, options.out));
     if (options.json)
-        fmt::print("{}", bench::summaryJson(facts, runs));
+        fmt::print("{}", bench::summaryJson(report));
     else if (!options.pictures.quiet)
-        fmt::print("{}{}\n", bench::table(runs), options.out + "/index.html shows it");
-    for (const bench::BenchRun& run : runs)
-        if (run.measured)
-            RETURN_IF_ERROR(bench::checkPromise(run.tauPixels, *run.measured));
-    return absl::OkStatus();
+        fmt::print("{}{}\n", bench::table(report.runs), options.out + "/index.html shows it");
+    return bench::checkPromises(report.runs);
 }
 
 void addMeasuringOptions(CLI::App& command, Options& options) {
     command
         .add_option(
             "--flight", options.flight,
-            R"(orbit, walkthrough, or a JSON file: {"keys":[{"seconds":0,"camera":{...}}]})")
+            R"(orbit, walkthrough, worst, or a JSON file: {"keys":[{"seconds":0,"camera":{...}}]})")
         ->type_name("NAME|FILE")
         ->capture_default_str();
     command.add_option("--tau", options.taus, "Screen-space errors to allow, in pixels")
@@ -174,9 +107,11 @@ void addMeasuringOptions(CLI::App& command, Options& options) {
         ->capture_default_str();
     addOcclusionOption(command, options.occlusion);
     command
-        .add_option("--renderers", options.pictures.renderers,
-                    "Draw with so many processes instead of in this one")
-        ->check(CLI::Range(1, RendererProcesses::kMaxCount));
+        .add_option("--renderers", options.renderers,
+                    "Numbers of processes to draw with; 0: draw in this one")
+        ->delimiter(',')
+        ->check(CLI::Range(0, RendererProcesses::kMaxCount))
+        ->capture_default_str();
     command
         .add_option("--compound", options.pictures.compound,
                     "How these cut the frame: 2D, by pixels, or DB, by data [2D]")
@@ -203,13 +138,14 @@ void addBench(CLI::App& app, Run& run) {
     command->footer(
         "The report is index.html to look at, summary.json and frames.csv to work with. The error\n"
         "in it is the one promised for every frame; frames that promise more than was asked count\n"
-        "as framesBeyondTau. With --reference errors are measured, too, and a frame that is "
-        "farther\n"
-        "off than it promises is an error (exit status 1, after the report is written).\n\n"
+        "as framesBeyondTau. With --reference errors are measured, too (errors.csv has each "
+        "frame's),\n"
+        "and a frame that is farther off than it promises is an error: exit status 1, after the\n"
+        "report is written.\n\n"
         "Examples:\n"
         "  eyrie bench dem.eyt --flight walkthrough -o report\n"
         "  eyrie bench scan.eym --tau 1,4 --reference -o report\n"
-        "  eyrie bench scene.json --flight flight.json --tau 1,2 --renderers 2 -o report");
+        "  eyrie bench scene.json --flight flight.json --tau 1,2 --renderers 0,1,2 -o report");
     command->callback([options, &run] { run = [options] { return runBench(*options); }; });
 }
 

@@ -10,7 +10,7 @@
 
 #include "cli/bench/flight_judge.h"
 #include "cli/bench/reference_sources.h"
-#include "cli/picture_source.h"
+#include "cli/bench/runs.h"
 
 /// `eyrie bench --reference`: holding what was drawn against the full-resolution source.
 namespace eyrie::cli::bench {
@@ -31,21 +31,25 @@ struct ReferencePlan {
     fabric::Scene scene;
     std::vector<FoundSource> sources;
     page::SourceOptions remote;
+    int frames = 0;  ///< to judge of each run
 };
 
-/// Finds the sources, before a flight is played for minutes. Errors: those of loadScene and
-/// findSources; InvalidArgument: --reference-memory, or an option that needs --reference.
-absl::StatusOr<ReferencePlan> planReference(const std::string& scene,
-                                            const PictureSourceOptions& pictures,
-                                            const ReferenceOptions& options,
+/// Finds the sources, before flights are played for minutes. Errors: those of loadScene and
+/// findSources; InvalidArgument: --reference-memory.
+absl::StatusOr<ReferencePlan> planReference(const RunPlan& plan, const ReferenceOptions& options,
                                             const std::stop_token& stop);
 
-/// Reads the sources. Errors: those of readSources.
-absl::StatusOr<FlightJudge> judgeFor(const ReferencePlan& plan, const fabric::Flight& flight,
-                                     const JudgedFrames& frames);
+/// Reads the sources, draws some of the frames of each run again, fills in what is measured of
+/// them, and gives the uniform levels to compare with. After all runs were played: the sources take
+/// memory. Shows progress on standard error. Errors: those of readSources, PictureSource::open and
+/// FlightJudge::judge; FailedPrecondition where no frame shows anything to compare.
+absl::StatusOr<std::vector<UniformLevel>> measureRuns(const ReferencePlan& reference,
+                                                      const RunPlan& plan,
+                                                      std::vector<BenchRun>& runs,
+                                                      const std::stop_token& stop);
 
-/// Internal, naming the worst frame of all, where one is farther off than it promised: the bound
-/// is wrong, or the drawing.
-absl::Status checkPromise(double tauPixels, const MeasuredErrors& measured);
+/// Internal, naming the worst frame of the first such run, where a frame is farther off than it
+/// promised: its bound is wrong, or its drawing.
+absl::Status checkPromises(const std::vector<BenchRun>& runs);
 
 }  // namespace eyrie::cli::bench

@@ -27,12 +27,13 @@ PlayedFrame frame(int pass, double milliseconds, double tauAchieved = 0.5) {
 
 /// Of one pass that loads and one that counts, at tau 1.
 std::vector<BenchRun> oneRun() {
-    BenchRun run{1, {{frame(0, 500), frame(1, 20), frame(1, 10), frame(1, 40)}, 1 << 20, {}}};
-    return {run};
+    const Played played{{frame(0, 500), frame(1, 20), frame(1, 10), frame(1, 40)}, 1 << 20, {}};
+    return {{"1 px", 1, 0, "", played}};
 }
 
-BenchFacts facts(std::string scene = "dem.eyt") {
-    return {std::move(scene), "orbit", 1280, 720, 3, 1, 0, "2D"};
+Report report(std::string scene = "dem.eyt") {
+    return {{std::move(scene), "orbit", 1280, 720, 3, 1, "eyrie bench dem.eyt -o report"},
+            oneRun()};
 }
 
 TEST(Quantile, IsTheNearestRank) {
@@ -68,6 +69,11 @@ TEST(RunSummary, StagesAreThoseOfTheFramesThatWereMeasured) {
     EXPECT_EQ(summarize(played).stages.vertices, 5);
     EXPECT_EQ(summarize(played).stages.fill, 9);
     EXPECT_EQ(fabric::limitingStage(summarize(played).stages), "fill");
+    for (PlayedFrame& one : played.frames) one.statistics.milliseconds.draw = 14;
+    const fabric::StageMilliseconds means = summarize(played).means;
+    EXPECT_DOUBLE_EQ(means.total, (20. + 10 + 40) / 3);
+    EXPECT_DOUBLE_EQ(means.vertices, 14 * 15. / 62);
+    EXPECT_DOUBLE_EQ(means.vertices + means.fill, 14);
 }
 
 TEST(MeshTuning, KeepsTheFastestAndOfEqualOnesTheSmallest) {
@@ -86,7 +92,7 @@ TEST(MeshTuning, KeepsTheFastestAndOfEqualOnesTheSmallest) {
 }
 
 TEST(BenchReport, TheSummaryHasTheFieldsOfTheContract) {
-    const auto summary = parseJson(summaryJson(facts(), oneRun()));
+    const auto summary = parseJson(summaryJson(report()));
     EXPECT_EQ(test::at(summary, "machine.eyrie").kind_case(), test::JsonValue::kStringValue);
     const auto runs = test::list(summary, "runs");
     ASSERT_EQ(runs.size(), 1u);
@@ -103,9 +109,9 @@ TEST(BenchReport, TheSummaryHasTheFieldsOfTheContract) {
 }
 
 TEST(BenchReport, ABoundThatIsNoneIsNullInJson) {
-    auto runs = oneRun();
-    runs[0].played.frames[1] = frame(1, 20, std::numeric_limits<double>::infinity());
-    const auto summary = parseJson(summaryJson(facts(), runs));
+    Report endless = report();
+    endless.runs[0].played.frames[1] = frame(1, 20, std::numeric_limits<double>::infinity());
+    const auto summary = parseJson(summaryJson(endless));
     EXPECT_EQ(test::at(test::list(summary, "runs").at(0), "tauAchievedMax").kind_case(),
               test::JsonValue::kNullValue);
 }
@@ -113,17 +119,17 @@ TEST(BenchReport, ABoundThatIsNoneIsNullInJson) {
 TEST(BenchReport, TheTableOfFramesHasALineAFrame) {
     const std::string csv = framesCsv(oneRun());
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 5);
-    EXPECT_THAT(csv, testing::HasSubstr("1,0,0.25,500.000,"));
+    EXPECT_THAT(csv, testing::HasSubstr("\n1 px,1,0,0,0.25,500.000,"));
 }
 
 TEST(BenchReport, AFilesNameCannotEndThePagesScript) {
-    const std::string page = reportPage(facts("</script><b>.eyt"), oneRun());
-    EXPECT_THAT(page, testing::HasSubstr("<\\/script><b>.eyt"));
+    const std::string page = reportPage(report("</script><b>.eyt"));
+    EXPECT_THAT(page, testing::HasSubstr("\\u003c/script>\\u003cb>.eyt"));
     EXPECT_EQ(page.find("</script>"), page.rfind("</script>"));
 }
 
 TEST(BenchReport, ThePageNeedsNothingElse) {
-    const std::string page = reportPage(facts(), oneRun());
+    const std::string page = reportPage(report());
     EXPECT_THAT(page, testing::Not(testing::HasSubstr("src=")));
     EXPECT_THAT(page, testing::Not(testing::HasSubstr("<link")));
     EXPECT_THAT(page, testing::Not(testing::HasSubstr("REPORT_DATA")));

@@ -123,6 +123,52 @@ TEST_F(Bench, RefusesFlightsThatAreNone) {
                 testing::HasSubstr("keys[0].seconds is not a finite number"));
 }
 
+TEST_F(Bench, AFlightThatNeverSeesTheSceneIsRefused) {
+    const std::string away =
+        writeFlight("away.json", R"({"seconds":0,"camera":{"eye":[0,0,9],"target":[-10,0,9]}})");
+    const test::Outcome outcome = eyrie({"bench", dem(), "--flight", away, "--size", "160x90",
+                                         "--frames", "2", "-o", path("none")});
+    EXPECT_EQ(outcome.exit, (test::Exit{2, 0}));
+    EXPECT_THAT(outcome.errors, testing::HasSubstr("away.json: no frame of the flight shows"));
+    EXPECT_FALSE(std::filesystem::exists(path("none")));
+}
+
+TEST_F(Bench, AStillCameraIsAFlightAndEmptyFramesAreCounted) {
+    const std::string out = R"({"seconds":9,"camera":{"eye":[503840,5194000,2500],)"
+                            R"("target":[503840,5190000,2500]}})";
+    const std::string still = writeFlight("still.json", key(0, 2500));
+    const std::string half = writeFlight("half.json", key(0, 2500) + "," + out);
+    const auto runOf = [&](const std::string& flight, const char* name) {
+        const test::Outcome outcome =
+            eyrie({"bench", dem(), "--flight", flight, "--tau", "4", "--size", "160x90", "--frames",
+                   "2", "--repeats", "1", "-o", path(name)});
+        EXPECT_EQ(outcome.exit, (test::Exit{0, 0})) << outcome.errors;
+        return std::pair(test::list(summaryOf(path(name)), "runs").at(0), outcome.output);
+    };
+    EXPECT_EQ(number(runOf(still, "still").first, "framesEmpty"), 0);
+    const auto [run, said] = runOf(half, "half");
+    EXPECT_EQ(number(run, "framesEmpty"), 2);
+    EXPECT_THAT(said, testing::HasSubstr("2 of 4 frames show nothing of the scene"));
+}
+
+TEST_F(Bench, ErrorsAndTrianglesOfTheWorstFlightRepeatExactly) {
+    const auto runsOf = [&](const char* name) {
+        EXPECT_TRUE(succeeded({"bench", dem(), "--flight", "worst", "--tau", "2", "--size",
+                               "160x90", "--frames", "24", "--repeats", "1", "--renderers", "0,1",
+                               "-o", path(name)}));
+        return test::list(summaryOf(path(name)), "runs");
+    };
+    const auto first = runsOf("first");
+    const auto second = runsOf("second");
+    ASSERT_EQ(first.size(), 2U);
+    for (std::size_t i = 0; i < first.size(); ++i)
+        for (const char* figure : {"tauAchievedMax", "trianglesMean", "framesBeyondTau"})
+            EXPECT_EQ(number(first[i], figure), number(second[i], figure)) << figure;
+    EXPECT_EQ(number(first[0], "trianglesMean"), number(first[1], "trianglesMean"));
+    EXPECT_EQ(number(first[1], "renderers"), 1);
+    EXPECT_GT(number(first[1], "bytesLoadedFirstPass"), 0) << "each run loads for itself";
+}
+
 TEST_F(Bench, RefusesWhatItCannotMeasure) {
     const auto refusal = [&](const std::vector<std::string>& more) {
         std::vector<std::string> arguments{"bench", dem(), "-o", path("none")};
