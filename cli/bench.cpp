@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,6 +11,7 @@
 
 #include "cli/bench/compare_report.h"
 #include "cli/bench/machine.h"
+#include "cli/bench/reference.h"
 #include "cli/bench/report.h"
 #include "cli/cache_options.h"
 #include "cli/commands.h"
@@ -34,6 +36,7 @@ struct Options {
     std::vector<int> renderers{0};
     fabric::Occlusion occlusion = fabric::Occlusion::Auto;
     PictureSourceOptions pictures;
+    bench::ReferenceOptions reference;
     std::string out;
     bool json = false;
     std::vector<std::string> compared;
@@ -87,14 +90,23 @@ absl::Status runBench(const Options& options) {
     const StopSignal stop;
     RETURN_IF_ERROR(checkTaus(options.taus));
     ASSIGN_OR_RETURN(const PictureSize size, parsePictureSize(options.size, "--size"));
-    ASSIGN_OR_RETURN(auto runs, bench::playRuns(planOf(options, size), stop.token()));
-    const bench::Report report{factsOf(options, size), std::move(runs)};
+    const bench::RunPlan plan = planOf(options, size);
+    std::optional<bench::ReferencePlan> reference;
+    if (options.reference.isAsked) {
+        ASSIGN_OR_RETURN(reference, bench::planReference(plan, options.reference, stop.token()));
+    }
+    ASSIGN_OR_RETURN(auto runs, bench::playRuns(plan, stop.token()));
+    std::vector<bench::UniformLevel> uniform;
+    if (reference) {
+        ASSIGN_OR_RETURN(uniform, bench::measureRuns(*reference, plan, runs, stop.token()));
+    }
+    const bench::Report report{factsOf(options, size), std::move(runs), std::move(uniform)};
     RETURN_IF_ERROR(bench::writeReport(report, options.out));
     if (options.json)
         fmt::print("{}", bench::summaryJson(report));
     else if (!options.pictures.quiet)
         fmt::print("{}{}\n", bench::table(report.runs), options.out + "/index.html shows it");
-    return absl::OkStatus();
+    return bench::checkPromises(report.runs);
 }
 
 void addMeasuringOptions(CLI::App& command, Options& options) {
@@ -151,6 +163,7 @@ void addBench(CLI::App& app, Run& run) {
     command->add_option("scene", options->scene, "What is drawn, as for `eyrie serve`")
         ->type_name("FILE");
     addMeasuringOptions(*command, *options);
+    bench::addReferenceOptions(*command, options->reference);
     command->add_option("-o,--output", options->out, "Folder for the report, or the comparison")
         ->type_name("FOLDER");
     addCompareOptions(*command, *options);
@@ -160,9 +173,13 @@ void addBench(CLI::App& app, Run& run) {
     command->footer(
         "The report is index.html to look at, summary.json and frames.csv to work with. The error\n"
         "in it is the one promised for every frame; frames that promise more than was asked count\n"
-        "as framesBeyondTau.\n\n"
+        "as framesBeyondTau. With --reference errors are measured, too (errors.csv has each "
+        "frame's),\n"
+        "and a frame that is farther off than it promises is an error: exit status 1, after the\n"
+        "report is written.\n\n"
         "Examples:\n"
         "  eyrie bench dem.eyt --flight walkthrough -o report\n"
+        "  eyrie bench scan.eym --tau 1,4 --reference -o report\n"
         "  eyrie bench scene.json --flight flight.json --tau 1,2 --renderers 0,1,2 -o report\n"
         "  eyrie bench --compare before after -o comparison");
     command->callback([options, &run] { run = [options] { return runBench(*options); }; });

@@ -19,6 +19,8 @@ void addServe(CLI::App& app, Run& run);
 void addCoordinator(CLI::App& app, Run& run);
 void addRenderer(CLI::App& app, Run& run);
 void addImport(CLI::App& app, Run& run);
+void addImportTerrain(CLI::App& app, Run& run);  ///< of `eyrie import`
+void addImportMesh(CLI::App& app, Run& run);     ///< of `eyrie import`
 void addInfo(CLI::App& app, Run& run);
 void addBench(CLI::App& app, Run& run);
 void addRender(CLI::App& app, Run& run);

@@ -29,6 +29,8 @@ std::string ending(const std::string& path) {
 
 bool isJpeg(const std::string& path) { return ending(path) == ".jpg" || ending(path) == ".jpeg"; }
 
+}  // namespace
+
 absl::StatusOr<std::vector<std::byte>> encodePng(const fabric::Image& image) {
     std::vector<std::uint8_t> rgb;
     rgb.reserve(image.colour.size() * 3);
@@ -47,8 +49,6 @@ absl::StatusOr<std::vector<std::byte>> encodePng(const fabric::Image& image) {
     bytes.resize(size);
     return bytes;
 }
-
-}  // namespace
 
 absl::Status writeFile(std::span<const std::byte> bytes, const std::string& path) {
     ASSIGN_OR_RETURN(mesh::OutputFile file, mesh::OutputFile::create(path));

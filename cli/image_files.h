@@ -1,17 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
-#include <absl/status/status.h>
+#include <absl/status/statusor.h>
 
 #include "fabric/image.h"
 
 /// Pictures on disk. Every file appears under its name only when it is complete.
 /// Errors: those of mesh::OutputFile; InvalidArgument where said.
 namespace eyrie::cli {
+
+/// The colour of `image` as the bytes of an 8-bit RGB PNG file.
+absl::StatusOr<std::vector<std::byte>> encodePng(const fabric::Image& image);
 
 /// The colour of `image`: 8-bit RGB PNG or, for .jpg and .jpeg, JPEG of quality 95 without
 /// subsampling. InvalidArgument for another ending.

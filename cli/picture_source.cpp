@@ -77,17 +77,6 @@ private:
     const std::unique_ptr<LocalFarm> farm_;
 };
 
-absl::StatusOr<fabric::Scene> loadScene(const std::string& path,
-                                        const PictureSourceOptions& options,
-                                        const std::stop_token& stop) {
-    ASSIGN_OR_RETURN(const auto folder, cacheFolder(options.cache.folder));
-    ASSIGN_OR_RETURN(const RemoteData remote, remoteDataOf(options.cache));
-    DataCache cache(folder, ProgressBar::styleFor(options.quiet), stop,
-                    page::sourceOptions(remote.cacheFolder, remote.cacheBytes));
-    std::vector<std::string> notes;
-    return assembleScene(std::vector<std::string>{path}, cache, notes);
-}
-
 absl::StatusOr<std::unique_ptr<PictureSource>> openHere(const fabric::Scene& scene,
                                                         const PictureSourceOptions& options) {
     RendererOptions settings;
@@ -110,6 +99,17 @@ absl::StatusOr<std::unique_ptr<PictureSource>> openInProcesses(fabric::Scene sce
 }
 
 }  // namespace
+
+absl::StatusOr<fabric::Scene> loadScene(const std::string& path,
+                                        const PictureSourceOptions& options,
+                                        const std::stop_token& stop) {
+    ASSIGN_OR_RETURN(const auto folder, cacheFolder(options.cache.folder));
+    ASSIGN_OR_RETURN(const RemoteData remote, remoteDataOf(options.cache));
+    DataCache cache(folder, ProgressBar::styleFor(options.quiet), stop,
+                    page::sourceOptions(remote.cacheFolder, remote.cacheBytes));
+    std::vector<std::string> notes;
+    return assembleScene(std::vector<std::string>{path}, cache, notes);
+}
 
 absl::StatusOr<std::unique_ptr<PictureSource>> PictureSource::open(
     const std::string& path, const PictureSourceOptions& options, const std::stop_token& stop) {

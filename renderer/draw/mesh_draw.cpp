@@ -6,17 +6,16 @@
 #include <map>
 #include <utility>
 
-#include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
 
 #include "fabric/status.h"
 #include "renderer/draw/box_lines.h"
+#include "renderer/draw/hidden_backs.h"
 #include "renderer/draw/mesh_cut.h"
 #include "renderer/draw/mesh_paging.h"
 #include "renderer/draw/mesh_textures.h"
 #include "renderer/draw/object_program.h"
-#include "renderer/draw/seen_lids.h"
 #include "renderer/draw/tau_choice.h"
 #include "renderer/draw/tint.h"
 #include "renderer/gl/object.h"
@@ -36,81 +35,6 @@ std::uint32_t packedSrgb(const fabric::Vec3& linear) {
 }
 
 bool isTinted(const fabric::Look& look) { return look.levelTint || look.rangeTint; }
-
-/// `count` indices from `first` on, the first `fronts` of them without the culled side.
-void drawIndices(const DeviceNode& node, GLsizei first, GLsizei count, GLsizei fronts) {
-    const auto draw = [&node](GLsizei from, GLsizei indices) {
-        glDrawElements(GL_TRIANGLES, indices, GL_UNSIGNED_SHORT,
-                       reinterpret_cast<const void*>(
-                           node.indexOffset + from * static_cast<GLsizei>(sizeof(std::uint16_t))));
-    };
-    if (fronts > 0) {
-        glEnable(GL_CULL_FACE);
-        draw(first, fronts);
-        glDisable(GL_CULL_FACE);
-    }
-    if (fronts < count)
-        draw(first + fronts, count - fronts);
-}
-
-/// For as long as it lives, only backs are drawn, and only on these pixels.
-class BacksOnly {
-public:
-    BacksOnly(const fabric::PixelViewport& pixels, const fabric::PixelViewport& before)
-        : before_(before) {
-        glEnable(GL_CULL_FACE);
-        glCullFace(GL_FRONT);
-        glScissor(pixels.x, pixels.y, pixels.width, pixels.height);
-    }
-    BacksOnly(const BacksOnly&) = delete;
-    BacksOnly& operator=(const BacksOnly&) = delete;
-    ~BacksOnly() {
-        glDisable(GL_CULL_FACE);
-        glCullFace(GL_BACK);
-        glScissor(before_.x, before_.y, before_.width, before_.height);
-    }
-
-private:
-    fabric::PixelViewport before_;
-};
-
-/// Draws without backs that nobody sees.
-class HiddenBacks {
-public:
-    /// `part`: FrameState::part.
-    HiddenBacks(bool areAny, std::span<const fabric::Box> lids, const lod::ObjectView& view,
-                const fabric::PixelViewport& part)
-        : areAny_(areAny), lids_(lids, view), part_(part) {}
-
-    /// `count` indices of the piece from `first` on. The backs of the first `fronts` are seen
-    /// through lids only, or, where `isOneSided`, not even there.
-    void draw(const DeviceNode& node, const Piece& piece, GLsizei first, GLsizei count,
-              GLsizei fronts, bool isOneSided) const;
-
-private:
-    bool areAny_;
-    SeenLids lids_;
-    fabric::PixelViewport part_;
-};
-
-/// Where lids cover much of a piece, all of it is drawn at once: vertices are a quarter of the
-/// time.
-void HiddenBacks::draw(const DeviceNode& node, const Piece& piece, GLsizei first, GLsizei count,
-                       GLsizei fronts, bool isOneSided) const {
-    if (!areAny_)
-        return drawIndices(node, first, count, 0);
-    if (isOneSided)
-        return drawIndices(node, first, count, count);
-    const fabric::PixelViewport pixels = lids_.before(piece.bounds);
-    if (pixels.area() > lids_.pixelsOf(piece.bounds).area() / 2)
-        return drawIndices(node, first, count, 0);
-    drawIndices(node, first, count, fronts);
-    const fabric::PixelViewport seen = fabric::intersection(pixels, part_);
-    if (fronts == 0 || seen.isEmpty())
-        return;
-    const BacksOnly state(seen, part_);
-    drawIndices(node, first, fronts, 0);
-}
 
 class MeshDrawable : public Drawable {
 public:
@@ -153,7 +77,6 @@ private:
     std::uint64_t bytesOf(const MeshCut& cut) const;
     std::uint64_t countMissing(const MeshCut& cut) const;
     page::HostPages::Loads reach(const CutRequest& request, double tauPixels);
-    bool mayHideBacks(const FrameState& frame) const;
     bool hasBlended(std::uint32_t node) const;
     void source(const DeviceNode& node) const;
     void bind(const FrameState& frame) const;
@@ -275,23 +198,6 @@ Cut MeshDrawable::selectCut(const CutRequest& request) {
     return cut;
 }
 
-/// From inside its bounds a surface may well be seen from behind, as may what the near plane cuts
-/// open; and lines have no sides.
-bool MeshDrawable::mayHideBacks(const FrameState& frame) const {
-    if (frame.shading == fabric::Shading::Wireframe)
-        return false;
-    const fabric::Vec3 eye(glm::inverse(worldFromObject_) * fabric::Vec4(frame.view.eye, 1.0));
-    if (bounds().grownBy(0.01 * glm::length(bounds().size())).contains(eye))
-        return false;
-    const fabric::Box box = fabric::transformed(
-        bounds(), lod::ObjectView(frame.view, worldFromObject_).viewFromObject());
-    const fabric::Vec3 nearest = glm::clamp(fabric::Vec3(0.0), box.min, box.max);
-    const fabric::Frustum& frustum = frame.view.frustum;
-    const double x = std::max(std::abs(frustum.left), std::abs(frustum.right));
-    const double y = std::max(std::abs(frustum.bottom), std::abs(frustum.top));
-    return glm::length(nearest) > fabric::kNearMetres * std::sqrt(1 + x * x + y * y);
-}
-
 bool MeshDrawable::hasBlended(std::uint32_t node) const {
     return std::ranges::any_of(file_->ranges(node), [this](const mesh::MaterialRange& range) {
         return file_->materials()[range.material].isBlended();
@@ -353,7 +259,8 @@ absl::Status MeshDrawable::drawWhole(std::span<const Piece> pieces, const FrameS
     use(*program, frame);
     setObject(*program, frame, worldFromObject_, objectFromLattice_);
     const lod::ObjectView view(frame.view, worldFromObject_);
-    const HiddenBacks backs(mayHideBacks(frame), lids_, view, frame.part);
+    const HiddenBacks backs(mayHideBacks(bounds(), frame, worldFromObject_), lids_, view,
+                            frame.part);
     for (const Piece& piece : pieces) {
         const DeviceNode* node = paging_->node(piece.index);
         const auto fronts = static_cast<GLsizei>(file_->nodes()[piece.index].frontIndexCount);
@@ -415,7 +322,8 @@ absl::Status MeshDrawable::drawByMaterial(std::span<const Piece> pieces, const F
                                           fabric::FrameStatistics& statistics) {
     Prepared prepared;
     const lod::ObjectView view(frame.view, worldFromObject_);
-    const HiddenBacks backs(mayHideBacks(frame), lids_, view, frame.part);
+    const HiddenBacks backs(mayHideBacks(bounds(), frame, worldFromObject_), lids_, view,
+                            frame.part);
     const bool hasBoxes = frame.look.tileBounds && frame.layer == Layer::Opaque;
     if (hasBoxes)
         RETURN_IF_ERROR(boxLines_.begin(frame.view, worldFromObject_));

@@ -3,12 +3,11 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <utility>
 
-#include <glm/common.hpp>
 #include <glm/vec3.hpp>
 
+#include "renderer/mesh/lattice_box.h"
 #include "renderer/mesh/vertex_packing.h"
 
 namespace eyrie::import {
@@ -20,16 +19,6 @@ glm::uvec3 centroidOf(const SpooledTriangle& triangle) {
            mesh::unpackPosition(triangle.positions[1]) +
            mesh::unpackPosition(triangle.positions[2]);
 }
-
-struct Bounds {
-    glm::uvec3 min{std::numeric_limits<std::uint32_t>::max()};
-    glm::uvec3 max{0U};
-
-    void grow(const glm::uvec3& point) {
-        min = glm::min(min, point);
-        max = glm::max(max, point);
-    }
-};
 
 class Splitter {
 public:
@@ -83,15 +72,14 @@ absl::Status Splitter::visit(std::size_t index) {
 absl::Status Splitter::halve(std::size_t index) {
     const SplitNode& node = split_.nodes[index];
     const RowFile<SpooledTriangle>& from = split_.triangles[node.file];
-    Bounds bounds;
+    mesh::LatticeBox bounds;
     RETURN_IF_ERROR(
         from.forBlocks(node.begin, node.end, [&](std::span<const SpooledTriangle> block) {
             for (const SpooledTriangle& row : block) bounds.grow(centroidOf(row));
             return control_.check();
         }));
-    const glm::uvec3 size = bounds.max - bounds.min;
-    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    std::vector<std::uint32_t> counts(size[axis] + 1, 0);
+    const int axis = bounds.longestAxis();
+    std::vector<std::uint32_t> counts(bounds.max[axis] - bounds.min[axis] + 1, 0);
     RETURN_IF_ERROR(
         from.forBlocks(node.begin, node.end, [&](std::span<const SpooledTriangle> block) {
             for (const SpooledTriangle& row : block)

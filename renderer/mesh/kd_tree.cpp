@@ -2,16 +2,15 @@
 #include "renderer/mesh/kd_tree.h"
 
 #include <algorithm>
-#include <limits>
 #include <memory>
 
 #include <absl/status/status.h>
 #include <fmt/format.h>
-#include <glm/common.hpp>
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/parallel_invoke.h>
 
+#include "renderer/mesh/lattice_box.h"
 #include "renderer/mesh/vertex_packing.h"
 
 namespace eyrie::mesh {
@@ -26,28 +25,8 @@ struct Item {
     std::uint32_t triangle;
 };
 
-struct Bounds {
-    glm::uvec3 min{std::numeric_limits<std::uint32_t>::max()};
-    glm::uvec3 max{0U};
-
-    void grow(const glm::uvec3& point) {
-        min = glm::min(min, point);
-        max = glm::max(max, point);
-    }
-    void grow(const Bounds& other) {
-        min = glm::min(min, other.min);
-        max = glm::max(max, other.max);
-    }
-    int longestAxis() const {
-        const glm::uvec3 size = max - min;
-        if (size.x >= size.y && size.x >= size.z)
-            return 0;
-        return size.y >= size.z ? 1 : 2;
-    }
-};
-
 struct Subtree {
-    Bounds box;
+    LatticeBox box;
     std::size_t begin = 0;
     std::size_t end = 0;
     std::unique_ptr<Subtree> left;
@@ -72,7 +51,7 @@ private:
     void split(Subtree& node);
     bool fitsLeaf(std::size_t begin, std::size_t end) const;
     std::size_t countVertices(std::size_t begin, std::size_t end) const;
-    Bounds triangleBounds(std::size_t begin, std::size_t end) const;
+    LatticeBox triangleBounds(std::size_t begin, std::size_t end) const;
     std::int32_t flatten(const Subtree& subtree, std::vector<KdNode>& nodes) const;
 
     std::span<const std::uint64_t> positions_;
@@ -114,8 +93,8 @@ bool Builder::fitsLeaf(std::size_t begin, std::size_t end) const {
     return count * 3 <= kMaxLeafVertices || countVertices(begin, end) <= kMaxLeafVertices;
 }
 
-Bounds Builder::triangleBounds(std::size_t begin, std::size_t end) const {
-    Bounds box;
+LatticeBox Builder::triangleBounds(std::size_t begin, std::size_t end) const {
+    LatticeBox box;
     for (std::size_t i = begin; i < end; ++i)
         for (const std::uint32_t corner : triangles_[items_[i].triangle])
             box.grow(unpackPosition(positions_[corner]));
@@ -136,7 +115,7 @@ std::unique_ptr<Subtree> Builder::buildSubtree(std::size_t begin, std::size_t en
 }
 
 void Builder::split(Subtree& node) {
-    Bounds centroids;
+    LatticeBox centroids;
     for (std::size_t i = node.begin; i < node.end; ++i) centroids.grow(items_[i].centroid);
     const int axis = centroids.longestAxis();
     const std::size_t middle = node.begin + (node.end - node.begin) / 2;

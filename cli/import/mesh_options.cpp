@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/import/mesh_options.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdint>
+#include <fstream>
+#include <string_view>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "cli/values.h"
+#include "fabric/status.h"
+
+namespace eyrie::cli {
+namespace {
+
+/// Half of what this machine has, or of what its control group may use.
+std::uint64_t halfOfMemory() {
+    std::uint64_t bytes = static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
+                          static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+    for (const char* const file :
+         {"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"})
+        if (std::uint64_t limit = 0; std::ifstream(file) >> limit)  // no number: no limit
+            bytes = std::min(bytes, limit);
+    return std::max(bytes / 2, import::kLeastMeshMemory);
+}
+
+absl::StatusOr<std::uint64_t> memoryOf(const MeshImportChoices& choices) {
+    if (choices.memory.empty())
+        return halfOfMemory();
+    ASSIGN_OR_RETURN(const std::uint64_t bytes, parseBytes(choices.memory, "--memory"));
+    if (bytes < import::kLeastMeshMemory)
+        return absl::InvalidArgumentError(
+            fmt::format("--memory is {}; the import of a mesh takes at least {}M", choices.memory,
+                        import::kLeastMeshMemory >> 20));
+    return bytes;
+}
+
+}  // namespace
+
+absl::StatusOr<import::MeshImportOptions> importOptions(const MeshImportChoices& choices) {
+    constexpr std::string_view kCrease = "crease=";
+    import::MeshImportOptions result = choices.how;
+    ASSIGN_OR_RETURN(result.memoryBytes, memoryOf(choices));
+    if (choices.normals == "smooth")
+        return result;
+    if (choices.normals == "file") {
+        result.pack.normals = import::NormalSource::File;
+        return result;
+    }
+    const std::string_view degrees(choices.normals);
+    const char* const end = degrees.data() + degrees.size();
+    result.pack.normals = import::NormalSource::Crease;
+    if (degrees.starts_with(kCrease)) {
+        const auto [rest, error] =
+            std::from_chars(degrees.data() + kCrease.size(), end, result.pack.creaseDegrees);
+        if (error == std::errc() && rest == end && result.pack.creaseDegrees >= 0 &&
+            result.pack.creaseDegrees <= 180)
+            return result;
+    }
+    return absl::InvalidArgumentError(
+        fmt::format("--normals is '{}'; give smooth, file, or crease= and degrees from 0 to 180, "
+                    "such as crease=40",
+                    choices.normals));
+}
+
+}  // namespace eyrie::cli

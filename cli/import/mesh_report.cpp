@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/import/mesh_report.h"
+
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "cli/json_object.h"
+
+namespace eyrie::cli {
+namespace {
+
+std::vector<JsonObject> levelsJson(const import::MeshImportReport& made) {
+    std::vector<JsonObject> levels;
+    for (const mesh::LodLevel& level : made.levels)
+        levels.push_back(JsonObject()
+                             .count("nodes", level.nodes)
+                             .count("triangles", level.trianglesAfter)
+                             .number("errorMetres", level.largestErrorMetres)
+                             .number("borderShare", level.borderShare));
+    return levels;
+}
+
+std::vector<JsonObject> tuningJson(const MeshTuning& tuning) {
+    std::vector<JsonObject> tried;
+    for (const TriedLeaf& one : tuning.tried)
+        tried.push_back(JsonObject()
+                            .count("leafTriangles", one.leafTriangles)
+                            .number("frameMs", one.medianMs)
+                            .number("trianglesMean", one.trianglesMean)
+                            .number("tauAchievedMax", one.promisedPixels)
+                            .count("bytes", one.report.bytes)
+                            .text("limitingStage", one.limitingStage));
+    return tried;
+}
+
+}  // namespace
+
+void printJson(const MeshImportChoices& choices, const import::MeshImportReport& made,
+               const MeshTuning& tuning) {
+    JsonObject json;
+    json.text("file", choices.out)
+        .count("triangles", made.triangles)
+        .count("vertices", made.vertices)
+        .count("droppedFaces", made.droppedFaces)
+        .count("degenerateTriangles", made.counts.degenerateTriangles)
+        .count("duplicateTriangles", made.counts.duplicateTriangles)
+        .count("turnedTriangles", made.counts.orient.turnedTriangles)
+        .count("nodes", made.nodes)
+        .count("bytes", made.bytes)
+        .number("stepMetres", made.stepMetres)
+        .number("errorMetres", made.errorMetres)
+        .objects("simplified", levelsJson(made))
+        .number("seconds", made.seconds.total);
+    if (!tuning.tried.empty())
+        json.objects("tuned", tuningJson(tuning));
+    fmt::print("{}\n", json.str());
+}
+
+void printText(const MeshImportChoices& choices, const import::MeshImportReport& made) {
+    for (const std::string& note : made.notes)
+        fmt::print(stderr, "{}: {}\n", choices.title(), note);
+    const import::PackCounts& counts = made.counts;
+    if (made.droppedFaces + counts.degenerateTriangles + counts.duplicateTriangles > 0)
+        fmt::print(stderr,
+                   "{}: left out {} faces of fewer than three corners, {} triangles without area, "
+                   "{} that were there already\n",
+                   choices.title(), made.droppedFaces, counts.degenerateTriangles,
+                   counts.duplicateTriangles);
+    if (choices.how.pack.orients)
+        fmt::print(stderr, "{}: turned {} triangles of {} surfaces, {} of which are closed\n",
+                   choices.title(), counts.orient.turnedTriangles, counts.orient.components,
+                   counts.orient.closedComponents);
+    fmt::print(stderr, "{}: {} triangles, {} vertices, {} simpler levels, {:.1f} MB, {:.2f} s\n",
+               choices.out, made.triangles, made.vertices, made.levels.size(),
+               static_cast<double>(made.bytes) / 1e6, made.seconds.total);
+}
+
+}  // namespace eyrie::cli

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/import/options.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <system_error>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace eyrie::cli {
+
+double sourceMegabytes(const ImportOptions& options) {
+    double megabytes = 0;
+    for (const std::string& source : options.sources) {
+        std::error_code none;
+        const auto bytes = std::filesystem::file_size(source, none);
+        megabytes += none ? 0 : static_cast<double>(bytes) / 1e6;
+    }
+    return megabytes;
+}
+
+absl::Status checkEnding(const ImportOptions& options, std::string_view ending) {
+    if (std::filesystem::path(options.out).extension() == ending)
+        return absl::OkStatus();
+    return absl::InvalidArgumentError(
+        fmt::format("-o is '{}'; its name must end in {}", options.out, ending));
+}
+
+void addCommonOptions(CLI::App& command, ImportOptions& options) {
+    command.add_option("-o,--output", options.out, "File to write")->type_name("FILE")->required();
+    command.add_flag("--quiet", options.quiet, "No progress");
+    command.add_flag("--json", options.json, "Print what was made as JSON");
+}
+
+}  // namespace eyrie::cli

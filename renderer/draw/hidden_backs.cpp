@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/draw/hidden_backs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+namespace eyrie::draw {
+namespace {
+
+/// For as long as it lives, only backs are drawn, and only on these pixels.
+class BacksOnly {
+public:
+    BacksOnly(const fabric::PixelViewport& pixels, const fabric::PixelViewport& before)
+        : before_(before) {
+        glEnable(GL_CULL_FACE);
+        glCullFace(GL_FRONT);
+        glScissor(pixels.x, pixels.y, pixels.width, pixels.height);
+    }
+    BacksOnly(const BacksOnly&) = delete;
+    BacksOnly& operator=(const BacksOnly&) = delete;
+    ~BacksOnly() {
+        glDisable(GL_CULL_FACE);
+        glCullFace(GL_BACK);
+        glScissor(before_.x, before_.y, before_.width, before_.height);
+    }
+
+private:
+    fabric::PixelViewport before_;
+};
+
+}  // namespace
+
+void drawIndices(const DeviceNode& node, GLsizei first, GLsizei count, GLsizei fronts) {
+    const auto draw = [&node](GLsizei from, GLsizei indices) {
+        glDrawElements(GL_TRIANGLES, indices, GL_UNSIGNED_SHORT,
+                       reinterpret_cast<const void*>(
+                           node.indexOffset + from * static_cast<GLsizei>(sizeof(std::uint16_t))));
+    };
+    if (fronts > 0) {
+        glEnable(GL_CULL_FACE);
+        draw(first, fronts);
+        glDisable(GL_CULL_FACE);
+    }
+    if (fronts < count)
+        draw(first + fronts, count - fronts);
+}
+
+bool mayHideBacks(const fabric::Box& bounds, const FrameState& frame,
+                  const fabric::Mat4& worldFromObject) {
+    if (frame.shading == fabric::Shading::Wireframe)
+        return false;
+    const fabric::Vec3 eye(glm::inverse(worldFromObject) * fabric::Vec4(frame.view.eye, 1.0));
+    if (bounds.grownBy(0.01 * glm::length(bounds.size())).contains(eye))
+        return false;
+    const fabric::Box box =
+        fabric::transformed(bounds, lod::ObjectView(frame.view, worldFromObject).viewFromObject());
+    const fabric::Vec3 nearest = glm::clamp(fabric::Vec3(0.0), box.min, box.max);
+    const fabric::Frustum& frustum = frame.view.frustum;
+    const double x = std::max(std::abs(frustum.left), std::abs(frustum.right));
+    const double y = std::max(std::abs(frustum.bottom), std::abs(frustum.top));
+    return glm::length(nearest) > fabric::kNearMetres * std::sqrt(1 + x * x + y * y);
+}
+
+/// Where lids cover much of a piece, all of it is drawn at once: vertices are a quarter of the
+/// time.
+void HiddenBacks::draw(const DeviceNode& node, const Piece& piece, GLsizei first, GLsizei count,
+                       GLsizei fronts, bool isOneSided) const {
+    if (!areAny_)
+        return drawIndices(node, first, count, 0);
+    if (isOneSided)
+        return drawIndices(node, first, count, count);
+    const fabric::PixelViewport pixels = lids_.before(piece.bounds);
+    if (pixels.area() > lids_.pixelsOf(piece.bounds).area() / 2)
+        return drawIndices(node, first, count, 0);
+    drawIndices(node, first, count, fronts);
+    const fabric::PixelViewport seen = fabric::intersection(pixels, part_);
+    if (fronts == 0 || seen.isEmpty())
+        return;
+    const BacksOnly state(seen, part_);
+    drawIndices(node, first, fronts, 0);
+}
+
+}  // namespace eyrie::draw
