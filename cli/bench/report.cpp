@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/bench/flight_judge.h"
 #include "cli/bench/page.h"
 #include "cli/bench/report_page.h"
 #include "cli/bench/run_summary.h"
@@ -34,7 +35,8 @@ JsonObject toJson(const FrameError& error) {
         .number("p99", error.p99Pixels)
         .number("max", error.maxPixels)
         .count("holes", error.holes)
-        .number("silhouette", error.silhouettePixels);
+        .number("silhouette", error.silhouettePixels)
+        .flag("kept", keepsPromise(error));
     return json;
 }
 

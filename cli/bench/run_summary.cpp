@@ -7,6 +7,8 @@
 #include <numeric>
 #include <utility>
 
+#include "cli/bench/flight_judge.h"
+
 namespace eyrie::cli::bench {
 namespace {
 
@@ -140,7 +142,8 @@ ErrorSummary summarize(const MeasuredErrors& measured) {
         summary.silhouettePixels = std::max(summary.silhouettePixels, frame.silhouettePixels);
         summary.psnrDb = std::min(summary.psnrDb, frame.psnrDb);
         summary.ssim = std::min(summary.ssim, frame.ssim);
-        summary.withinPromise = summary.withinPromise && frame.maxPixels <= frame.promisedPixels;
+        summary.flip = std::max(summary.flip, frame.flip);
+        summary.withinPromise = summary.withinPromise && keepsPromise(frame);
     }
     summary.p50Pixels = quantile(std::move(medians), 0.5);
     return summary;

@@ -54,7 +54,8 @@ struct ErrorSummary {
     double silhouettePixels = 0;  ///< of the worst frame
     double psnrDb = 0;            ///< of the worst frame
     double ssim = 1;              ///< of the worst frame
-    bool withinPromise = true;    ///< each frame's maximum is at most what that frame promised
+    double flip = 0;              ///< of the worst frame
+    bool withinPromise = true;    ///< all frames do: keepsPromise
 };
 
 /// Precondition: measured.frames is not empty.

@@ -55,6 +55,7 @@ void addMeasured(const ErrorSummary& errors, std::size_t frames, JsonObject& jso
         .number("silhouettePx", errors.silhouettePixels)
         .number("psnrDb", errors.psnrDb)
         .number("ssim", errors.ssim)
+        .number("flip", errors.flip)
         .flag("measuredWithinPromise", errors.withinPromise)
         .count("framesMeasured", frames);
 }

@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 
+#include "cli/bench/page.h"
 #include "cli/bench/report.h"
 #include "cli/bench/run_summary.h"
 #include "cli/tune_mesh.h"
@@ -108,6 +109,97 @@ TEST(BenchReport, TheSummaryHasTheFieldsOfTheContract) {
     EXPECT_EQ(number(run, "tauAchievedMax"), 0.5);
 }
 
+/// What a reference found: values that are made up, and say so.
+Report madeUpReport() {
+    Report made = report("made-up values");
+    MeasuredErrors measured;
+    for (const double share : {0.3, 0.9, 0.6})
+        measured.frames.push_back({.seconds = 4 * share,
+                                   .promisedPixels = 1,
+                                   .p50Pixels = 0.1 * share,
+                                   .p99Pixels = 0.5 * share,
+                                   .maxPixels = share,
+                                   .compared = 1000,
+                                   .holes = 1,
+                                   .falseHits = 0,
+                                   .misplaced = 2,
+                                   .silhouettePixels = 0.8 * share,
+                                   .psnrDb = 40 - share,
+                                   .ssim = 1 - 0.01 * share,
+                                   .flip = 0.02 * share,
+                                   .triangles = 100});
+    measured.worst.push_back({measured.frames[1], "made-up picture", "made-up heat map"});
+    made.runs[0].measured = measured;
+    made.uniform = {{6400, 0.1125, 0.5}, {1600, 0.225, 1}, {400, 0.9, 4}};
+    return made;
+}
+
+TEST(BenchReport, MeasuredErrorsAreThoseOfTheWorstFrames) {
+    const auto summary = parseJson(summaryJson(madeUpReport()));
+    const test::JsonValue run = test::list(summary, "runs").at(0);
+    EXPECT_DOUBLE_EQ(number(run, "errorPx.p50"), 0.06);
+    EXPECT_DOUBLE_EQ(number(run, "errorPx.p99"), 0.45);
+    EXPECT_DOUBLE_EQ(number(run, "errorPx.max"), 0.9);
+    EXPECT_EQ(number(run, "holes"), 3);
+    EXPECT_EQ(number(run, "misplaced"), 6);
+    EXPECT_DOUBLE_EQ(number(run, "silhouettePx"), 0.72);
+    EXPECT_DOUBLE_EQ(number(run, "psnrDb"), 39.1);
+    EXPECT_DOUBLE_EQ(number(run, "ssim"), 0.991);
+    EXPECT_DOUBLE_EQ(number(run, "flip"), 0.018);
+    EXPECT_EQ(number(run, "framesMeasured"), 3);
+    EXPECT_TRUE(test::at(run, "measuredWithinPromise").bool_value());
+    EXPECT_NEAR(number(run, "efficiency"), 8, 1e-9);  // 800 triangles between 1600 and 400
+    EXPECT_EQ(test::list(summary, "uniform").size(), 3U);
+}
+
+TEST(BenchReport, AFrameFartherOffThanItPromisedBreaksThePromise) {
+    Report made = madeUpReport();
+    made.runs[0].measured->frames[2].promisedPixels = 0.5;
+    const auto run = test::list(parseJson(summaryJson(made)), "runs").at(0);
+    EXPECT_FALSE(test::at(run, "measuredWithinPromise").bool_value());
+    EXPECT_THAT(reportPage(made), testing::HasSubstr("\"kept\": false"));
+    EXPECT_THAT(reportPage(madeUpReport()), testing::Not(testing::HasSubstr("\"kept\": false")));
+}
+
+TEST(BenchReport, WhatWasNotMeasuredIsNotInTheSummary) {
+    const auto summary = parseJson(summaryJson(report()));
+    const auto run = test::list(summary, "runs").at(0);
+    for (const char* field : {"errorPx", "holes", "measuredWithinPromise", "efficiency"})
+        EXPECT_EQ(test::at(run, field).kind_case(), test::JsonValue::KIND_NOT_SET) << field;
+    EXPECT_EQ(test::at(summary, "uniform").kind_case(), test::JsonValue::KIND_NOT_SET);
+}
+
+TEST(Efficiency, IsNotGuessedBeyondWhatWasMeasured) {
+    const std::vector<UniformLevel> levels = madeUpReport().uniform;
+    EXPECT_NEAR(efficiency(levels, 0.1125, 100).value(), 64, 1e-9);
+    EXPECT_NEAR(efficiency(levels, 0.9, 100).value(), 4, 1e-9);
+    EXPECT_EQ(efficiency(levels, 0.1, 100), std::nullopt);
+    EXPECT_EQ(efficiency(levels, 1, 100), std::nullopt);
+    EXPECT_EQ(efficiency(levels, 0.3, 0), std::nullopt);
+    EXPECT_EQ(efficiency({levels[0]}, 0.1125, 100), std::nullopt);
+}
+
+TEST(BenchReport, WorstFramesAreInThePage) {
+    EXPECT_EQ(base64(""), "");
+    EXPECT_EQ(base64("f"), "Zg==");
+    EXPECT_EQ(base64("fo"), "Zm8=");
+    EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
+    EXPECT_EQ(base64("\xff\xfe\x80"), "//6A");
+    const std::string page = reportPage(madeUpReport());
+    EXPECT_THAT(page, testing::HasSubstr(base64("made-up picture")));
+    EXPECT_THAT(page, testing::HasSubstr(base64("made-up heat map")));
+}
+
+TEST(BenchReport, EachPassHasItsOwnMedian) {
+    Played played = oneRun()[0].played;
+    for (const double milliseconds : {3.0, 1.0, 2.0})
+        played.frames.push_back(frame(2, milliseconds));
+    const std::vector<Percentiles> passes = summarize(played).passes;
+    ASSERT_EQ(passes.size(), 2U);
+    EXPECT_EQ(passes[0].p50, 20);
+    EXPECT_EQ(passes[1].p50, 2);
+}
+
 TEST(BenchReport, ABoundThatIsNoneIsNullInJson) {
     Report endless = report();
     endless.runs[0].played.frames[1] = frame(1, 20, std::numeric_limits<double>::infinity());
@@ -132,7 +224,9 @@ TEST(BenchReport, ThePageNeedsNothingElse) {
     const std::string page = reportPage(report());
     EXPECT_THAT(page, testing::Not(testing::HasSubstr("src=")));
     EXPECT_THAT(page, testing::Not(testing::HasSubstr("<link")));
+    EXPECT_THAT(page, testing::Not(testing::HasSubstr("url(")));
     EXPECT_THAT(page, testing::Not(testing::HasSubstr("REPORT_DATA")));
+    EXPECT_THAT(page, testing::Not(testing::HasSubstr("EYRIE_")));
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ function rowGroups() {
     ["Measured against the source", ["median, px", measured((run) => number(run.errorPx.p50))], ["p99 of the worst frame, px", measured((run) => number(run.errorPx.p99))],
       ["worst pixel, px", measured((run) => number(run.errorPx.max))], ["outline, at most, px", measured((run) => number(run.silhouettePx))],
       ["holes, false hits, misplaced, pixels", measured((run) => `${number(run.holes)}, ${number(run.falseHits)}, ${number(run.misplaced)}`)],
-      ["PSNR of the worst frame, dB", measured((run) => number(run.psnrDb))], ["SSIM of the worst frame", measured((run) => number(run.ssim, 4))]],
+      ["PSNR of the worst frame, dB", measured((run) => number(run.psnrDb))], ["SSIM of the worst frame", measured((run) => number(run.ssim, 4))], ["FLIP of the worst frame", measured((run) => number(run.flip, 2))]],
     ["Warm, ms a frame", ["median", warm("p50")], ["p95", warm("p95")], ["p99", warm("p99")], ["longest", warm("max")], ["frames a second, median", (run) => number(run.fpsMedian)],
       ["medians of the passes, least to most", (run) => `${number(Math.min(...run.passes.map((pass) => pass.p50)))} – ${number(Math.max(...run.passes.map((pass) => pass.p50)))}`]],
     ["First pass, ms a frame", ["median", first("p50")], ["p95", first("p95")], ["p99", first("p99")], ["longest", first("max")], ["loaded", (run) => mebibytes(run.bytesLoadedFirstPass)]],
@@ -59,10 +59,11 @@ function fillTable(table) {
 function fillWorst(place) {
   const shown = runs.flatMap((run, i) => worst[i].map((frame) => [run, frame]));
   if (shown.length === 0) return byId("worst-section").remove();
+  place.before(html("p", { class: "ramp" }, html("span", {}, "0 px off"), html("i"), html("span", {}, "tau"), html("b"), html("span", {}, "more than tau")));
   const picture = (bytes, words) => html("img", { alt: words, ["s" + "rc"]: `data:image/png;base64,${bytes}` });
   for (const [run, frame] of shown) {
     const words = `${run.label}, second ${number(frame.seconds)}`;
-    const used = `${number(frame.max)} px of ${number(frame.promised)} px promised, p99 ${number(frame.p99)} px, ${number(frame.holes)} holes`;
+    const used = `${number(frame.max)} px off, ${number(frame.promised)} px promised; p99 ${number(frame.p99)} px, ${number(frame.holes)} holes`;
     place.append(html("figure", {}, html("figcaption", {}, html("strong", {}, words), ` · worst pixel ${used}`),
       html("div", { class: "pair" }, picture(frame.picture, `The picture at ${words}`), picture(frame.heatMap, `Its displacement per pixel: ${used}`))));
   }

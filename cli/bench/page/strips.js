@@ -60,13 +60,13 @@ function drawErrors(run, own) {
   const last = own.length > 1 ? own.at(-1).seconds : 1;
   const x = linear([own[0].seconds, last || 1], [left + 4, right - 4]);
   const y = linear([0, most], [base, top]);
-  const broken = own.filter((one) => one.promised !== null && one.max > one.promised).length;
+  const broken = own.filter((one) => !one.kept).length;
   const svg = drawing(330, 142, `${run.label}: worst pixel of each measured frame under its promise in ${own.length - broken} of ${own.length} frames`);
   for (const pixels of ticks(most))
     svg.append(mark("line", { class: pixels === 0 ? "axis" : "grid", x1: left, x2: right, y1: y(pixels), y2: y(pixels) }),
                mark("text", { x: left - 6, y: y(pixels) + 4, "text-anchor": "end" }, number(pixels)));
   for (const one of own) {
-    const colour = one.promised !== null && one.max > one.promised ? "var(--bad)" : "var(--truth)";
+    const colour = !one.kept ? "var(--bad)" : "var(--truth)";
     svg.append(mark("line", { x1: x(one.seconds), x2: x(one.seconds), y1: y(0), y2: y(one.max), stroke: colour, "stroke-width": Math.min(7, 190 / own.length), opacity: 0.4 }),
                mark("line", { x1: x(one.seconds), x2: x(one.seconds), y1: y(0), y2: y(one.p99), stroke: colour, "stroke-width": Math.min(7, 190 / own.length) }));
   }
