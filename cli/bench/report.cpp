@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/bench/errors_csv.h"
 #include "cli/bench/page.h"
 #include "cli/bench/report_page.h"
 #include "cli/bench/run_summary.h"
@@ -131,6 +132,8 @@ absl::Status writeReport(const Report& report, const std::string& folder) {
     if (error)
         return fabric::writeError(folder, "cannot make the folder", error.value());
     RETURN_IF_ERROR(writeText(framesCsv(report.runs), folder + "/frames.csv"));
+    if (const std::string errors = errorsCsv(report.runs); !errors.empty())
+        RETURN_IF_ERROR(writeText(errors, folder + "/errors.csv"));
     RETURN_IF_ERROR(writeText(reportPage(report), folder + "/index.html"));
     return writeText(summaryJson(report), folder + "/summary.json");
 }
