@@ -2,15 +2,13 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
-#include "cli/bench/frame_error.h"
+#include "cli/bench/runs.h"
 
 namespace eyrie::cli::bench {
 
-/// The first line of errors.csv.
-std::string errorsCsvHead();
-
-/// A line for each frame that was held against the source, beginning with the run's `tauPixels`.
-std::string errorsCsv(double tauPixels, const MeasuredErrors& measured);
+/// A line for each frame that was held against the source; nothing at all where none was.
+std::string errorsCsv(const std::vector<BenchRun>& runs);
 
 }  // namespace eyrie::cli::bench

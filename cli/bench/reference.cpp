@@ -102,7 +102,8 @@ void addReferenceOptions(CLI::App& command, ReferenceOptions& options) {
 
 absl::StatusOr<ReferencePlan> planReference(const RunPlan& plan, const ReferenceOptions& options,
                                             const std::stop_token& stop) {
-    ReferencePlan reference{.frames = options.frames};
+    ReferencePlan reference;
+    reference.frames = options.frames;
     ASSIGN_OR_RETURN(const std::uint64_t memory, memoryOf(options));
     ASSIGN_OR_RETURN(const RemoteData remote, remoteDataOf(plan.pictures.cache));
     reference.remote = page::sourceOptions(remote.cacheFolder, remote.cacheBytes);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/bench/errors_csv.h"
 #include "cli/bench/flight_judge.h"
 #include "cli/bench/page.h"
 #include "cli/bench/report_page.h"
@@ -129,6 +130,8 @@ std::string table(const std::vector<BenchRun>& runs) {
 absl::Status writeReport(const Report& report, const std::string& folder) {
     RETURN_IF_ERROR(makeFolder(folder));
     RETURN_IF_ERROR(writeText(framesCsv(report.runs), folder + "/frames.csv"));
+    if (const std::string errors = errorsCsv(report.runs); !errors.empty())
+        RETURN_IF_ERROR(writeText(errors, folder + "/errors.csv"));
     RETURN_IF_ERROR(writeText(reportPage(report), folder + "/index.html"));
     return writeText(summaryJson(report), folder + "/summary.json");
 }

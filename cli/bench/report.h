@@ -8,7 +8,8 @@
 
 #include "cli/bench/runs.h"
 
-/// What a bench leaves: summary.json, frames.csv and index.html, which shows both.
+/// What a bench leaves: summary.json, frames.csv, errors.csv where a reference was asked for, and
+/// index.html, which shows them.
 namespace eyrie::cli::bench {
 
 struct BenchFacts {
@@ -39,8 +40,8 @@ std::string reportPage(const Report& report);
 /// A line a run, for a terminal.
 std::string table(const std::vector<BenchRun>& runs);
 
-/// Writes all three into `folder`, which is made where there is none. Errors: those of
-/// fabric::writeError.
+/// Writes all three, and errors.csv where something was measured, into `folder`, which is made
+/// where there is none. Errors: those of fabric::writeError.
 absl::Status writeReport(const Report& report, const std::string& folder);
 
 }  // namespace eyrie::cli::bench

@@ -108,6 +108,62 @@ TEST_F(Bench, TunesAMeshAndTheFileSaysSo) {
     EXPECT_EQ(test::namesIn(path("")), before);
 }
 
+/// A terrain and two balls above it, one of them twice as large.
+TEST_F(Bench, MeasuresWhatASceneShowsAgainstItsSources) {
+    ASSERT_TRUE(
+        succeeded({"synth", "terrain", "--size", "129", "--seed", "3", "-o", path("t.tif")}));
+    ASSERT_TRUE(succeeded({"import", "terrain", path("t.tif"), "-o", path("t.eyt")}));
+    ASSERT_TRUE(
+        succeeded({"synth", "mesh", "--size", "20000", "--seed", "3", "-o", path("b.ply")}));
+    folder_->write("scene.json", R"({"objects":[{"terrain":"t.eyt"},
+        {"mesh":"b.ply","transform":{"translation":[501500,5198500,3000],"scale":[400,400,400]}},
+        {"mesh":"b.ply","transform":{"translation":[502900,5198500,3000],"scale":[800,800,800]}}]})");
+    const test::TemporaryFolder cache;
+    const std::string report = path("reference");
+    ASSERT_TRUE(succeeded({"bench", path("scene.json"), "--tau", "1,4", "--size", "320x180",
+                           "--frames", "3", "--repeats", "1", "--reference", "--reference-frames",
+                           "2", "--cache", cache.path("imports"), "-o", report}));
+    EXPECT_THAT(test::namesIn(report), testing::Contains("errors.csv"));
+    const test::JsonValue summary = summaryOf(report);
+    const auto runs = test::list(summary, "runs");
+    ASSERT_EQ(runs.size(), 2U);
+    for (const auto& run : runs) {
+        EXPECT_TRUE(test::at(run, "measuredWithinPromise").bool_value());
+        EXPECT_GT(number(run, "errorPx.max"), 0);
+        EXPECT_LE(number(run, "errorPx.max"), number(run, "tauAchievedMax") + 1.0 / 256);
+        EXPECT_LE(number(run, "errorPx.p99"), number(run, "errorPx.max"));
+        EXPECT_EQ(number(run, "holes") + number(run, "falseHits") + number(run, "misplaced"), 0);
+        EXPECT_GT(number(run, "ssim"), 0.8);
+    }
+    EXPECT_LT(number(runs[0], "errorPx.p99"), number(runs[1], "errorPx.p99"));
+    EXPECT_GE(test::list(summary, "uniform").size(), 2U);
+}
+
+TEST_F(Bench, RefusesAReferenceThatIsNone) {
+    ASSERT_TRUE(succeeded({"synth", "mesh", "--size", "3000", "--seed", "5", "-o", path("r.ply")}));
+    ASSERT_TRUE(succeeded({"import", "mesh", path("r.ply"), "-o", path("r.eym")}));
+    const auto refusal = [&](const std::string& scene, const std::vector<std::string>& more,
+                             int status) {
+        std::vector<std::string> arguments{"bench", scene, "-o", path("none")};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const test::Outcome outcome = eyrie(arguments);
+        EXPECT_EQ(outcome.exit, (test::Exit{status, 0})) << outcome.errors;
+        EXPECT_FALSE(std::filesystem::exists(path("none")));
+        return outcome.errors;
+    };
+    EXPECT_THAT(refusal(dem(), {"--reference"}, 2), testing::HasSubstr("--source"))
+        << "it was made of no file";
+    EXPECT_THAT(refusal(path("r.eym"), {"--reference", "--reference-memory", "64K"}, 1),
+                testing::HasSubstr("--reference-memory"));
+    EXPECT_THAT(refusal(path("r.eym"), {"--source", path("r.ply")}, 2),
+                testing::HasSubstr("--reference"));
+    ASSERT_TRUE(succeeded({"synth", "mesh", "--size", "3000", "--seed", "6", "-o", path("r.ply")}));
+    EXPECT_THAT(refusal(path("r.eym"), {"--reference"}, 2),
+                testing::HasSubstr("is not what " + path("r.eym") + " was imported from"));
+    std::filesystem::remove(path("r.ply"));
+    EXPECT_THAT(refusal(path("r.eym"), {"--reference"}, 2), testing::HasSubstr(path("r.ply")));
+}
+
 TEST_F(Bench, RefusesFlightsThatAreNone) {
     const auto refusal = [&](const std::string& keys) {
         const test::Outcome outcome =
