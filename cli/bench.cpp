@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "cli/bench/flights.h"
-#include "cli/bench/play.h"
+#include "cli/bench/compare_report.h"
+#include "cli/bench/machine.h"
+#include "cli/bench/reference.h"
 #include "cli/bench/report.h"
 #include "cli/cache_options.h"
 #include "cli/commands.h"
 #include "cli/compound_names.h"
 #include "cli/occlusion_option.h"
-#include "cli/picture_source.h"
-#include "cli/progress_bar.h"
 #include "cli/renderer_processes.h"
 #include "cli/stop_signal.h"
 #include "cli/values.h"
@@ -31,11 +32,15 @@ struct Options {
     std::vector<double> taus{0.5, 1, 2, 4, 8};
     std::string size = "1280x720";
     int frames = 120;
-    int repeats = 3;
+    int repeats = 5;
+    std::vector<int> renderers{0};
     fabric::Occlusion occlusion = fabric::Occlusion::Auto;
     PictureSourceOptions pictures;
+    bench::ReferenceOptions reference;
     std::string out;
     bool json = false;
+    std::vector<std::string> compared;
+    bool force = false;
 };
 
 absl::Status checkTaus(const std::vector<double>& taus) {
@@ -48,66 +53,67 @@ absl::Status checkTaus(const std::vector<double>& taus) {
 }
 
 bench::BenchFacts factsOf(const Options& options, const PictureSize& size) {
-    const std::filesystem::path flight(options.flight);
-    return {std::filesystem::path(options.scene).filename().string(),
-            flight.filename().string(),
-            size.width,
-            size.height,
-            options.frames,
-            options.repeats,
-            options.pictures.renderers,
-            options.pictures.compound == coordinator::Decomposition::TwoD ? "2D" : "DB"};
+    const auto nameOf = [](const std::filesystem::path& path) { return path.filename().string(); };
+    return {nameOf(options.scene), nameOf(options.flight), size.width,          size.height,
+            options.frames,        options.repeats,        bench::commandLine()};
 }
 
-absl::StatusOr<std::vector<bench::BenchRun>> playAll(PictureSource& pictures,
-                                                     const fabric::Flight& flight,
-                                                     const Options& options,
-                                                     const PictureSize& size,
-                                                     const std::stop_token& stop) {
-    std::vector<bench::BenchRun> runs;
-    const int framesOfRun = options.frames * (options.repeats + 1);
-    ProgressBar bar("bench", framesOfRun, "frames", ProgressBar::styleFor(options.pictures.quiet));
-    const import::Progress progress = bar.callback();
-    for (const double tau : options.taus) {
-        bench::PlayOptions play{{}, options.frames, options.repeats};
-        play.request.tauPixels = tau;
-        play.request.width = size.width;
-        play.request.height = size.height;
-        play.request.occlusion = options.occlusion;
-        int done = 0;
-        const auto frameDone = [&] {
-            progress(fmt::format("tau {} px", tau), static_cast<double>(++done) / framesOfRun);
-        };
-        ASSIGN_OR_RETURN(bench::Played played,
-                         bench::play(pictures, flight, play, frameDone, stop));
-        runs.push_back({tau, std::move(played)});
-    }
-    return runs;
+bench::RunPlan planOf(const Options& options, const PictureSize& size) {
+    bench::PlayOptions play{{}, options.frames, options.repeats};
+    play.request.width = size.width;
+    play.request.height = size.height;
+    play.request.occlusion = options.occlusion;
+    return {options.scene, options.flight, options.taus, options.renderers, play, options.pictures};
+}
+
+absl::Status runCompare(const Options& options) {
+    ASSIGN_OR_RETURN(auto a, bench::readReport(options.compared[0]));
+    ASSIGN_OR_RETURN(auto b, bench::readReport(options.compared[1]));
+    ASSIGN_OR_RETURN(const bench::Comparison comparison,
+                     bench::compare(std::move(a), std::move(b), options.force));
+    if (!options.out.empty())
+        RETURN_IF_ERROR(bench::writeComparison(comparison, options.out));
+    if (options.json)
+        fmt::print("{}", bench::comparisonJson(comparison));
+    else if (!options.pictures.quiet)
+        fmt::print("{}", bench::table(comparison));
+    return absl::OkStatus();
 }
 
 absl::Status runBench(const Options& options) {
+    if (!options.compared.empty())
+        return runCompare(options);
+    if (options.scene.empty() || options.out.empty())
+        return absl::InvalidArgumentError(
+            "bench needs a scene and -o FOLDER, or --compare A B; `eyrie bench --help` explains "
+            "it");
     const StopSignal stop;
     RETURN_IF_ERROR(checkTaus(options.taus));
     ASSIGN_OR_RETURN(const PictureSize size, parsePictureSize(options.size, "--size"));
-    ASSIGN_OR_RETURN(const auto pictures,
-                     PictureSource::open(options.scene, options.pictures, stop.token()));
-    ASSIGN_OR_RETURN(const fabric::Flight flight,
-                     bench::flightNamed(options.flight, pictures->sceneInfo().bounds));
-    ASSIGN_OR_RETURN(const auto runs, playAll(*pictures, flight, options, size, stop.token()));
-    const bench::BenchFacts facts = factsOf(options, size);
-    RETURN_IF_ERROR(bench::writeReport(facts, runs, options.out));
+    const bench::RunPlan plan = planOf(options, size);
+    std::optional<bench::ReferencePlan> reference;
+    if (options.reference.isAsked) {
+        ASSIGN_OR_RETURN(reference, bench::planReference(plan, options.reference, stop.token()));
+    }
+    ASSIGN_OR_RETURN(auto runs, bench::playRuns(plan, stop.token()));
+    std::vector<bench::UniformLevel> uniform;
+    if (reference) {
+        ASSIGN_OR_RETURN(uniform, bench::measureRuns(*reference, plan, runs, stop.token()));
+    }
+    const bench::Report report{factsOf(options, size), std::move(runs), std::move(uniform)};
+    RETURN_IF_ERROR(bench::writeReport(report, options.out));
     if (options.json)
-        fmt::print("{}", bench::summaryJson(facts, runs));
+        fmt::print("{}", bench::summaryJson(report));
     else if (!options.pictures.quiet)
-        fmt::print("{}{}\n", bench::table(runs), options.out + "/index.html shows it");
-    return absl::OkStatus();
+        fmt::print("{}{}\n", bench::table(report.runs), options.out + "/index.html shows it");
+    return bench::checkPromises(report.runs);
 }
 
 void addMeasuringOptions(CLI::App& command, Options& options) {
     command
         .add_option(
             "--flight", options.flight,
-            R"(orbit, walkthrough, or a JSON file: {"keys":[{"seconds":0,"camera":{...}}]})")
+            R"(orbit, walkthrough, worst, or a JSON file: {"keys":[{"seconds":0,"camera":{...}}]})")
         ->type_name("NAME|FILE")
         ->capture_default_str();
     command.add_option("--tau", options.taus, "Screen-space errors to allow, in pixels")
@@ -124,9 +130,11 @@ void addMeasuringOptions(CLI::App& command, Options& options) {
         ->capture_default_str();
     addOcclusionOption(command, options.occlusion);
     command
-        .add_option("--renderers", options.pictures.renderers,
-                    "Draw with so many processes instead of in this one")
-        ->check(CLI::Range(1, RendererProcesses::kMaxCount));
+        .add_option("--renderers", options.renderers,
+                    "Numbers of processes to draw with; 0: draw in this one")
+        ->delimiter(',')
+        ->check(CLI::Range(0, RendererProcesses::kMaxCount))
+        ->capture_default_str();
     command
         .add_option("--compound", options.pictures.compound,
                     "How these cut the frame: 2D, by pixels, or DB, by data [2D]")
@@ -134,28 +142,46 @@ void addMeasuringOptions(CLI::App& command, Options& options) {
         ->type_name("2D|DB");
 }
 
+void addCompareOptions(CLI::App& command, Options& options) {
+    command
+        .add_option("--compare", options.compared,
+                    "Two reports, folders or summary.json files, instead of a scene")
+        ->type_name("A B")
+        ->expected(2)
+        ->excludes("scene");
+    command
+        .add_flag("--force", options.force, "Compare though scene, flight, size or frames differ")
+        ->needs("--compare");
+}
+
 }  // namespace
 
 void addBench(CLI::App& app, Run& run) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("bench", "Measure speed against error along a flight");
+    CLI::App* command = app.add_subcommand(
+        "bench", "Measure speed against error along a flight, or compare two such reports");
     command->add_option("scene", options->scene, "What is drawn, as for `eyrie serve`")
-        ->type_name("FILE")
-        ->required();
+        ->type_name("FILE");
     addMeasuringOptions(*command, *options);
-    command->add_option("-o,--output", options->out, "Folder for the report")
-        ->type_name("FOLDER")
-        ->required();
+    bench::addReferenceOptions(*command, options->reference);
+    command->add_option("-o,--output", options->out, "Folder for the report, or the comparison")
+        ->type_name("FOLDER");
+    addCompareOptions(*command, *options);
     addCacheOptions(*command, options->pictures.cache);
     command->add_flag("--quiet", options->pictures.quiet, "Only errors");
     command->add_flag("--json", options->json, "Print the summary as JSON");
     command->footer(
         "The report is index.html to look at, summary.json and frames.csv to work with. The error\n"
         "in it is the one promised for every frame; frames that promise more than was asked count\n"
-        "as framesBeyondTau.\n\n"
+        "as framesBeyondTau. With --reference errors are measured, too (errors.csv has each "
+        "frame's),\n"
+        "and a frame that is farther off than it promises is an error: exit status 1, after the\n"
+        "report is written.\n\n"
         "Examples:\n"
         "  eyrie bench dem.eyt --flight walkthrough -o report\n"
-        "  eyrie bench scene.json --flight flight.json --tau 1,2 --renderers 2 -o report");
+        "  eyrie bench scan.eym --tau 1,4 --reference -o report\n"
+        "  eyrie bench scene.json --flight flight.json --tau 1,2 --renderers 0,1,2 -o report\n"
+        "  eyrie bench --compare before after -o comparison");
     command->callback([options, &run] { run = [options] { return runBench(*options); }; });
 }
 

@@ -14,6 +14,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/source_record.h"
 #include "fabric/status.h"
 #include "renderer/import/mesh_import.h"
 #include "renderer/import/mesh_reader.h"
@@ -157,8 +158,11 @@ absl::StatusOr<std::string> DataCache::imported(const std::string& source, fabri
     ASSIGN_OR_RETURN(const std::string name, importName(source, kind, imagery));
     const std::string target = (folder_ / name).string();
     std::error_code error;
-    if (fs::exists(target, error) && opens(target, kind))
+    if (fs::exists(target, error) && opens(target, kind)) {
+        // Of the same bytes, perhaps from elsewhere. A cache that others keep may not be written.
+        recordSources(target, {source}).IgnoreError();
         return target;
+    }
     fs::create_directories(folder_, error);
     if (error)
         return absl::FailedPreconditionError(
@@ -167,6 +171,7 @@ absl::StatusOr<std::string> DataCache::imported(const std::string& source, fabri
                         folder_.string(), error.message()));
     removeLeftovers(folder_);
     RETURN_IF_ERROR(import(source, target, kind, imagery));
+    RETURN_IF_ERROR(recordSources(target, {source}));
     return target;
 }
 

@@ -22,7 +22,8 @@ struct PictureSourceOptions {
     bool quiet = false;  ///< only errors; otherwise progress of imports and warnings, too
 };
 
-/// The scene that `path` names, as for assembleScene; sources are imported first.
+/// The scene that `path` names, as for assembleScene; sources are imported first. Errors: those of
+/// assembleScene; Cancelled.
 absl::StatusOr<fabric::Scene> loadScene(const std::string& path,
                                         const PictureSourceOptions& options,
                                         const std::stop_token& stop);
@@ -31,8 +32,8 @@ absl::StatusOr<fabric::Scene> loadScene(const std::string& path,
 /// it.
 class PictureSource {
 public:
-    /// `path` names what is drawn, as for assembleScene; sources are imported first. Errors: those
-    /// of assembleScene, Renderer::openScene and LocalFarm; Cancelled.
+    /// `path` names what is drawn, as for loadScene. Errors: those of loadScene,
+    /// Renderer::openScene and LocalFarm.
     static absl::StatusOr<std::unique_ptr<PictureSource>> open(const std::string& path,
                                                                const PictureSourceOptions& options,
                                                                const std::stop_token& stop);

@@ -2,6 +2,7 @@
 #include "cli/png_file.h"
 
 #include <csetjmp>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -99,6 +100,25 @@ absl::StatusOr<std::unique_ptr<PictureFile>> createPng(const std::string& path, 
     auto png = std::make_unique<PngFile>(std::move(file), width);
     RETURN_IF_ERROR(png->begin(width, height));
     return png;
+}
+
+absl::StatusOr<std::vector<std::byte>> encodePng(const fabric::Image& image) {
+    std::vector<std::uint8_t> rgb;
+    rgb.reserve(image.colour.size() * 3);
+    for (const fabric::Rgba& pixel : image.colour)
+        rgb.insert(rgb.end(), {pixel.r, pixel.g, pixel.b});
+    png_image png{};
+    png.version = PNG_IMAGE_VERSION;
+    png.width = static_cast<png_uint_32>(image.area.width);
+    png.height = static_cast<png_uint_32>(image.area.height);
+    png.format = PNG_FORMAT_RGB;
+    const auto bottomUp = -image.area.width * 3;  // a negative stride starts at the last row
+    png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
+    std::vector<std::byte> bytes(size);
+    if (png_image_write_to_memory(&png, bytes.data(), &size, 0, rgb.data(), bottomUp, nullptr) == 0)
+        return absl::InternalError(fmt::format("PNG encoder: {}", png.message));
+    bytes.resize(size);
+    return bytes;
 }
 
 }  // namespace eyrie::cli

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/bench/flights.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include <fmt/format.h>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "cli/scene_files.h"
@@ -28,10 +31,16 @@ fabric::Flight sampled(const CameraAt& at) {
     return flight;
 }
 
+/// Of data that are flat in some direction, enough to fly along; of a point, a metre.
+fabric::Vec3 extent(const fabric::Box& bounds) {
+    const double length = glm::length(bounds.size());
+    return glm::max(bounds.size(), fabric::Vec3(length > 0 ? 1e-3 * length : 1));
+}
+
 }  // namespace
 
 fabric::Flight orbit(const fabric::Box& bounds) {
-    const double radius = 0.75 * glm::length(bounds.size());
+    const double radius = 0.75 * glm::length(extent(bounds));
     const double elevation = kTurn / 12;
     return sampled([&](double share) {
         const double azimuth = kTurn * share;
@@ -45,7 +54,7 @@ fabric::Flight orbit(const fabric::Box& bounds) {
 }
 
 fabric::Flight walkthrough(const fabric::Box& bounds) {
-    const fabric::Vec3 size = bounds.size();
+    const fabric::Vec3 size = extent(bounds);
     const auto place = [&](double share) {
         return bounds.min + fabric::Vec3(size.x * (0.1 + 0.8 * share),
                                          size.y * (0.5 + 0.3 * std::sin(kTurn * share)),
@@ -64,8 +73,28 @@ absl::StatusOr<fabric::Flight> flightNamed(const std::string& name, const fabric
         return orbit(bounds);
     if (name == "walkthrough")
         return walkthrough(bounds);
+    if (name == "worst")
+        return worst(bounds);
     ASSIGN_OR_RETURN(const std::string text, readText(name));
     return wire::flightFromJson(text, name);
+}
+
+absl::StatusOr<std::vector<fabric::FlightKey>> framesOf(const fabric::Flight& flight, int count) {
+    std::vector<fabric::FlightKey> frames;
+    for (int i = 0; i < count; ++i) {
+        const double seconds = count == 1 ? 0 : flight.seconds() * i / (count - 1);
+        frames.push_back({seconds, flight.at(seconds)});
+        if (const absl::Status status = fabric::validate(frames.back().camera); !status.ok()) {
+            const auto next =
+                std::ranges::upper_bound(flight.keys, flight.keys.front().seconds + seconds, {},
+                                         &fabric::FlightKey::seconds);
+            const auto key = next - flight.keys.begin();
+            return fabric::withContext(
+                status, fmt::format("second {:.3f} of the flight, between keys[{}] and keys[{}]",
+                                    seconds, key - 1, key));
+        }
+    }
+    return frames;
 }
 
 }  // namespace eyrie::cli::bench

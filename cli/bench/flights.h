@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <absl/status/statusor.h>
 
@@ -17,7 +18,19 @@ fabric::Flight orbit(const fabric::Box& bounds);
 /// ahead and a little down.
 fabric::Flight walkthrough(const fabric::Box& bounds);
 
-/// "orbit", "walkthrough" or a flight file. Errors: those of readText and wire::flightFromJson.
+/// What is hardest on caches and on anything that trusts the last frame, 24 shots of half a second
+/// with a hard cut after each: along the data, turned by 180 degrees at every cut; from one end of
+/// the data to another; and jumps between near and five diagonals away. Cuts last a nanosecond, so
+/// no frame of a pass of fabric::Flight's seconds in up to 100,000 even steps falls into one.
+fabric::Flight worst(const fabric::Box& bounds);
+
+/// "orbit", "walkthrough", "worst" or a flight file. Errors: those of readText and
+/// wire::flightFromJson.
 absl::StatusOr<fabric::Flight> flightNamed(const std::string& name, const fabric::Box& bounds);
+
+/// `count` (at least 1) keys, evenly in time from the flight's first to its last: what is drawn of
+/// it. InvalidArgument, naming the second and the keys around it, where the curve between two good
+/// keys leads through a camera that fabric::validate refuses.
+absl::StatusOr<std::vector<fabric::FlightKey>> framesOf(const fabric::Flight& flight, int count);
 
 }  // namespace eyrie::cli::bench

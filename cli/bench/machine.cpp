@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/bench/machine.h"
 
+#include <algorithm>
+#include <cctype>
 #include <fstream>
 #include <string>
+#include <string_view>
 #include <thread>
 
 #include <fmt/format.h>
@@ -35,6 +38,19 @@ std::string systemName() {
                              : "unknown";
 }
 
+bool isPlain(char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+           std::string_view("-_./,:=+%@").find(c) != std::string_view::npos;
+}
+
+std::string quotedForShell(const std::string& word) {
+    if (!word.empty() && std::ranges::all_of(word, isPlain))
+        return word;
+    std::string quoted = "'";
+    for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return quoted + "'";
+}
+
 }  // namespace
 
 JsonObject machineJson(const fabric::DeviceInfo& device) {
@@ -50,6 +66,16 @@ JsonObject machineJson(const fabric::DeviceInfo& device) {
         .flag("software", device.software)
         .text("eyrie", fabric::kVersion);
     return json;
+}
+
+std::string commandLine() {
+    std::ifstream file("/proc/self/cmdline", std::ios::binary);
+    std::string line;
+    std::string word;
+    if (std::getline(file, word, '\0'))
+        line = "eyrie";
+    while (std::getline(file, word, '\0')) line += fmt::format(" {}", quotedForShell(word));
+    return line;
 }
 
 }  // namespace eyrie::cli::bench

@@ -28,19 +28,28 @@ struct PlayedFrame {
     fabric::FrameStatistics statistics;
 };
 
+/// Whether anything of the scene is in the picture's view.
+inline bool showsSomething(const PlayedFrame& frame) {
+    return frame.statistics.nodes + frame.statistics.nodesHidden > 0;
+}
+
 struct Played {
     std::vector<PlayedFrame> frames;      ///< pass by pass
     std::uint64_t peakResidentBytes = 0;  ///< this process and its children, added up
     fabric::DeviceInfo device;
     /// Drawn after all passes, evenly along the flight, with their stages measured.
     std::vector<fabric::StageMilliseconds> stages = {};
+    /// Time of the measured passes between their frames, in percent of the frames' time: what the
+    /// bench itself takes. It is in no frame's milliseconds.
+    double overheadPercent = 0;
 };
 
 /// Frames of which the stages are measured, or as many as a pass has.
 inline constexpr int kMeasuredFrames = 24;
 
 /// Plays `flight` 1 + repeats times; every frame waits for its data. `frameDone` is called after
-/// each of these. Errors: those of PictureSource::draw, naming the second; Cancelled.
+/// each of these. Errors: those of PictureSource::draw, naming the second; those of framesOf;
+/// InvalidArgument after the first pass when no frame of it showed anything; Cancelled.
 absl::StatusOr<Played> play(PictureSource& pictures, const fabric::Flight& flight,
                             const PlayOptions& options, const std::function<void()>& frameDone,
                             const std::stop_token& stop);

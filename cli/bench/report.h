@@ -6,16 +6,11 @@
 
 #include <absl/status/status.h>
 
-#include "cli/bench/play.h"
+#include "cli/bench/runs.h"
 
-/// What a bench leaves: summary.json, frames.csv and index.html, which shows both.
+/// What a bench leaves: summary.json, frames.csv, errors.csv where a reference was asked for, and
+/// index.html, which shows them.
 namespace eyrie::cli::bench {
-
-/// A flight played at one tau.
-struct BenchRun {
-    double tauPixels = 0;
-    Played played;
-};
 
 struct BenchFacts {
     std::string scene;
@@ -24,25 +19,29 @@ struct BenchFacts {
     int height = 0;
     int frames = 0;
     int repeats = 0;
-    int renderers = 0;     ///< 0: in one process
-    std::string compound;  ///< "2D" or "DB"
+    std::string command;  ///< that does it again
+};
+
+struct Report {
+    BenchFacts facts;
+    std::vector<BenchRun> runs;
+    std::vector<UniformLevel> uniform = {};  ///< of the same flight, where it was measured
 };
 
 /// {"machine": {...}, "bench": {...}, "runs": [...]} in the terms of docs/benchmarks.md.
-std::string summaryJson(const BenchFacts& facts, const std::vector<BenchRun>& runs);
+std::string summaryJson(const Report& report);
 
 /// A line a frame, the first passes' included.
 std::string framesCsv(const std::vector<BenchRun>& runs);
 
 /// A page that needs no other file and no network.
-std::string reportPage(const BenchFacts& facts, const std::vector<BenchRun>& runs);
+std::string reportPage(const Report& report);
 
-/// A line a tau, for a terminal.
+/// A line a run, for a terminal.
 std::string table(const std::vector<BenchRun>& runs);
 
-/// Writes all three into `folder`, which is made where there is none. Errors: those of
-/// fabric::writeError.
-absl::Status writeReport(const BenchFacts& facts, const std::vector<BenchRun>& runs,
-                         const std::string& folder);
+/// Writes all three, and errors.csv where something was measured, into `folder`, which is made
+/// where there is none. Errors: those of fabric::writeError.
+absl::Status writeReport(const Report& report, const std::string& folder);
 
 }  // namespace eyrie::cli::bench

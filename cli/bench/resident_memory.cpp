@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/bench/resident_memory.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -23,6 +25,16 @@ std::vector<int> processes() {
     return ids;
 }
 
+/// What is left of a control group's limit; the largest number where it has none.
+std::uint64_t leftInControlGroup() {
+    std::uint64_t limit = 0;
+    std::uint64_t used = 0;
+    if (std::ifstream("/sys/fs/cgroup/memory.max") >> limit &&
+        std::ifstream("/sys/fs/cgroup/memory.current") >> used)
+        return limit > used ? limit - used : 0;
+    return std::numeric_limits<std::uint64_t>::max();
+}
+
 }  // namespace
 
 std::uint64_t peakResidentBytes() {
@@ -36,6 +48,16 @@ std::uint64_t peakResidentBytes() {
         }
     }
     return sum;
+}
+
+std::uint64_t availableBytes() {
+    std::ifstream meminfo("/proc/meminfo");
+    for (std::string word; meminfo >> word;) {
+        std::uint64_t kibibytes = 0;
+        if (word == "MemAvailable:" && meminfo >> kibibytes)
+            return std::min(kibibytes << 10, leftInControlGroup());
+    }
+    return leftInControlGroup();
 }
 
 void resetPeakResidentBytes() {

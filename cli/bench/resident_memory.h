@@ -3,7 +3,8 @@
 
 #include <cstdint>
 
-/// Memory of this process and its children, as Linux counts it (proc(5), VmHWM).
+/// Memory of this process and its children, and of the machine, as Linux counts it (proc(5): VmHWM,
+/// MemAvailable).
 namespace eyrie::cli::bench {
 
 /// The most that each was resident with, added up: not less than what they took together.
@@ -11,5 +12,8 @@ std::uint64_t peakResidentBytes();
 
 /// Peaks count from now on.
 void resetPeakResidentBytes();
+
+/// What may still be taken without swapping, here or in this control group.
+std::uint64_t availableBytes();
 
 }  // namespace eyrie::cli::bench

@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
+
+#include "cli/bench/flight_judge.h"
 
 namespace eyrie::cli::bench {
 namespace {
@@ -31,7 +34,63 @@ double median(const std::vector<fabric::StageMilliseconds>& frames,
     return values.empty() ? 0 : quantile(std::move(values), 0.5);
 }
 
+double mean(const Played& played, Select select) {
+    const std::vector<double> values = column(played, false, select);
+    return std::accumulate(values.begin(), values.end(), 0.0) /
+           static_cast<double>(std::max<std::size_t>(values.size(), 1));
+}
+
+fabric::StageMilliseconds meansOf(const Played& played) {
+    fabric::StageMilliseconds means;
+    means.cull = mean(played, [](auto& f) { return f.statistics.milliseconds.cull; });
+    means.draw = mean(played, [](auto& f) { return f.statistics.milliseconds.draw; });
+    means.readback = mean(played, [](auto& f) { return f.statistics.milliseconds.readback; });
+    means.encode = mean(played, [](auto& f) { return f.statistics.milliseconds.encode; });
+    means.total = mean(played, [](auto& f) { return f.milliseconds; });
+    double vertices = 0;
+    double both = 0;
+    for (const fabric::StageMilliseconds& stages : played.stages) {
+        vertices += stages.vertices;
+        both += stages.vertices + stages.fill;
+    }
+    means.vertices = both > 0 ? means.draw * vertices / both : 0;
+    means.fill = both > 0 ? means.draw - means.vertices : 0;
+    return means;
+}
+
 double taken(const PlayedFrame& frame) { return frame.milliseconds; }
+
+std::vector<Percentiles> ofEachPass(const Played& played) {
+    std::vector<std::vector<double>> passes;
+    for (const PlayedFrame& frame : played.frames) {
+        if (frame.pass == 0)
+            continue;
+        passes.resize(std::max(passes.size(), static_cast<std::size_t>(frame.pass)));
+        passes[static_cast<std::size_t>(frame.pass) - 1].push_back(frame.milliseconds);
+    }
+    std::vector<Percentiles> result;
+    for (const std::vector<double>& pass : passes) result.push_back(percentiles(pass));
+    return result;
+}
+
+/// Adds what a frame loaded and drew, and with what error.
+void count(const PlayedFrame& frame, RunSummary& summary) {
+    const fabric::FrameStatistics& statistics = frame.statistics;
+    summary.pagesLoaded += statistics.pagesLoaded;
+    summary.bytesLoaded += statistics.bytesLoaded;
+    summary.bytesLoadedFirstPass += frame.pass == 0 ? statistics.bytesLoaded : 0;
+    summary.tauAchievedMax = std::max(summary.tauAchievedMax, statistics.tauAchievedPixels);
+    summary.framesBeyond += statistics.tauAchievedPixels > statistics.tauAskedPixels ? 1 : 0;
+    summary.framesEmpty += showsSomething(frame) ? 0 : 1;
+    summary.trianglesMean += static_cast<double>(statistics.triangles);
+}
+
+/// Of the line through both, logarithms on both axes. Precondition: the errors differ.
+double trianglesBetween(const UniformLevel& a, const UniformLevel& b, double p99Pixels) {
+    const double share = std::log(p99Pixels / a.p99Pixels) / std::log(b.p99Pixels / a.p99Pixels);
+    const auto from = static_cast<double>(a.triangles);
+    return from * std::pow(static_cast<double>(b.triangles) / from, share);
+}
 
 }  // namespace
 
@@ -62,16 +121,44 @@ RunSummary summarize(const Played& played) {
     stages.total = summary.frame.p50;
     stages.vertices = median(played.stages, &fabric::StageMilliseconds::vertices);
     stages.fill = median(played.stages, &fabric::StageMilliseconds::fill);
-    for (const PlayedFrame& frame : played.frames) {
-        const fabric::FrameStatistics& statistics = frame.statistics;
-        summary.pagesLoaded += statistics.pagesLoaded;
-        summary.bytesLoaded += statistics.bytesLoaded;
-        summary.tauAchievedMax = std::max(summary.tauAchievedMax, statistics.tauAchievedPixels);
-        summary.framesBeyond += statistics.tauAchievedPixels > statistics.tauAskedPixels ? 1 : 0;
-        summary.trianglesMean +=
-            static_cast<double>(statistics.triangles) / static_cast<double>(played.frames.size());
-    }
+    summary.means = meansOf(played);
+    summary.passes = ofEachPass(played);
+    for (const PlayedFrame& frame : played.frames) count(frame, summary);
+    summary.trianglesMean /= static_cast<double>(played.frames.size());
     return summary;
+}
+
+ErrorSummary summarize(const MeasuredErrors& measured) {
+    ErrorSummary summary;
+    summary.psnrDb = std::numeric_limits<double>::infinity();
+    std::vector<double> medians;
+    for (const FrameError& frame : measured.frames) {
+        medians.push_back(frame.p50Pixels);
+        summary.p99Pixels = std::max(summary.p99Pixels, frame.p99Pixels);
+        summary.maxPixels = std::max(summary.maxPixels, frame.maxPixels);
+        summary.holes += frame.holes;
+        summary.falseHits += frame.falseHits;
+        summary.misplaced += frame.misplaced;
+        summary.silhouettePixels = std::max(summary.silhouettePixels, frame.silhouettePixels);
+        summary.psnrDb = std::min(summary.psnrDb, frame.psnrDb);
+        summary.ssim = std::min(summary.ssim, frame.ssim);
+        summary.flip = std::max(summary.flip, frame.flip);
+        summary.withinPromise = summary.withinPromise && keepsPromise(frame);
+    }
+    summary.p50Pixels = quantile(std::move(medians), 0.5);
+    return summary;
+}
+
+std::optional<double> efficiency(const std::vector<UniformLevel>& levels, double p99Pixels,
+                                 double triangles) {
+    for (std::size_t i = 1; i < levels.size() && triangles > 0; ++i) {
+        const auto [fine, coarse] = std::minmax(
+            levels[i - 1], levels[i], [](auto& a, auto& b) { return a.p99Pixels < b.p99Pixels; });
+        if (fine.p99Pixels > 0 && fine.p99Pixels < coarse.p99Pixels &&
+            p99Pixels >= fine.p99Pixels && p99Pixels <= coarse.p99Pixels)
+            return trianglesBetween(fine, coarse, p99Pixels) / triangles;
+    }
+    return std::nullopt;
 }
 
 }  // namespace eyrie::cli::bench

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "cli/bench/frame_error.h"
 #include "cli/bench/play.h"
 
 namespace eyrie::cli::bench {
@@ -22,17 +24,47 @@ Percentiles percentiles(const std::vector<double>& values);
 
 /// What is said of a flight played at one tau. Milliseconds.
 struct RunSummary {
-    Percentiles frame;                 ///< of the measured passes
+    Percentiles frame;                 ///< of the measured passes together
+    std::vector<Percentiles> passes;   ///< of each measured pass: their spread is the noise
     Percentiles firstPass;             ///< of the pass that loads
     fabric::StageMilliseconds stages;  ///< medians; fabric::limitingStage names the longest
+    /// Means over the measured passes, which add up where medians do not: draw's parts as the
+    /// frames with measured stages share it, total the frame's.
+    fabric::StageMilliseconds means;
     double fpsMedian = 0;
     double trianglesMean = 0;
     std::uint64_t pagesLoaded = 0;
-    std::uint64_t bytesLoaded = 0;   ///< as stored
-    double tauAchievedMax = 0;       ///< the error promised for every frame, pixels
-    std::uint64_t framesBeyond = 0;  ///< that promise more than was asked, and say so
+    std::uint64_t bytesLoaded = 0;           ///< as stored
+    std::uint64_t bytesLoadedFirstPass = 0;  ///< of these
+    double tauAchievedMax = 0;               ///< the error promised for every frame, pixels
+    std::uint64_t framesBeyond = 0;          ///< that promise more than was asked, and say so
+    std::uint64_t framesEmpty = 0;           ///< that show nothing of the scene
 };
 
 RunSummary summarize(const Played& played);
+
+/// Of all frames of a flight that were held against the source.
+struct ErrorSummary {
+    double p50Pixels = 0;  ///< median of the frames'
+    double p99Pixels = 0;  ///< of the worst frame
+    double maxPixels = 0;  ///< of the worst frame
+    std::uint64_t holes = 0;
+    std::uint64_t falseHits = 0;
+    std::uint64_t misplaced = 0;
+    double silhouettePixels = 0;  ///< of the worst frame
+    double psnrDb = 0;            ///< of the worst frame
+    double ssim = 1;              ///< of the worst frame
+    double flip = 0;              ///< of the worst frame
+    bool withinPromise = true;    ///< all frames do: keepsPromise
+};
+
+/// Precondition: measured.frames is not empty.
+ErrorSummary summarize(const MeasuredErrors& measured);
+
+/// How many times as many triangles as `triangles` a level of uniform decimation has whose pictures
+/// are off by `p99Pixels`: between levels log-log; none beyond their ends, where nothing was
+/// measured.
+std::optional<double> efficiency(const std::vector<UniformLevel>& levels, double p99Pixels,
+                                 double triangles);
 
 }  // namespace eyrie::cli::bench

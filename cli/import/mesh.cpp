@@ -11,6 +11,7 @@
 #include "cli/import/mesh_options.h"
 #include "cli/import/mesh_report.h"
 #include "cli/progress_bar.h"
+#include "cli/source_record.h"
 #include "cli/stop_signal.h"
 #include "cli/tune_mesh.h"
 #include "fabric/status.h"
@@ -58,6 +59,7 @@ absl::Status importMesh(const MeshImportChoices& choices) {
         ASSIGN_OR_RETURN(tuning, importTuned(choices, how, stop.token()));
         made = tuning.tried[tuning.best].report;
     }
+    RETURN_IF_ERROR(recordSources(choices.out, choices.sources));
     if (choices.json) {
         printJson(choices, made, tuning);
     } else if (!choices.quiet) {

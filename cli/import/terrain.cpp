@@ -14,6 +14,7 @@
 #include "cli/import/options.h"
 #include "cli/json_object.h"
 #include "cli/progress_bar.h"
+#include "cli/source_record.h"
 #include "cli/stop_signal.h"
 #include "cli/values.h"
 #include "fabric/status.h"
@@ -77,6 +78,7 @@ absl::Status importTerrain(const TerrainOptions& options) {
                                      {bar.callback(), stop.token()});
     }
     RETURN_IF_ERROR(made.status());
+    RETURN_IF_ERROR(recordSources(options.out, options.sources));
     const auto samples =
         static_cast<std::uint64_t>(made->columns) * static_cast<std::uint64_t>(made->rows);
     if (options.json) {

@@ -3,33 +3,41 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
-#include <glm/geometric.hpp>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 namespace eyrie::truth {
 namespace {
 
-using fabric::Vec3;
-
 constexpr double kSnapPixels = 1.0 / 256;
 constexpr int kFineRays = 16;  ///< a pixel's side
+/// To explain the pixels of one picture; a few seconds. More are no exceptions.
+constexpr std::size_t kMostRaysAround = 2'000'000;
+
+template <typename Function>
+void forEachRow(int rows, Function function) {
+    tbb::parallel_for(tbb::blocked_range<int>(0, rows), [&](const auto& some) {
+        for (int y = some.begin(); y != some.end(); ++y) function(y);
+    });
+}
 
 class Comparison {
 public:
-    Comparison(const Pinhole& camera, std::span<const float> depth,
-               const ReferenceSurface& reference, int edgePixels, const Suspects& suspects)
-        : camera_(camera),
+    Comparison(const ReferenceView& view, std::span<const float> depth, int edgePixels,
+               const Suspects& suspects)
+        : camera_(view.camera),
           depth_(depth),
-          surface_(reference),
+          surface_(*view.surface),
           edge_(edgePixels),
           suspects_(suspects),
-          reference_(depth.size()),
-          displacement_(depth.size()) {}
+          reference_(view.hits),
+          displacement_(truth::displacements(camera_, depth, surface_)) {}
 
-    DepthComparison run() {
-        forEachRow([this](int y) { castRow(y); });
+    DepthComparison run(LookAround lookAround) {
+        const double above = lookAround == LookAround::All ? kSnapPixels : farthestOnly();
+        forEachRow(camera_.height(), [&](int y) { lookAroundRow(y, above); });
         for (int y = 0; y < camera_.height(); ++y)
             for (int x = 0; x < camera_.width(); ++x) {
                 classify(x, y);
@@ -41,45 +49,36 @@ public:
         return result_;
     }
 
+    /// Each pixel's, in pixels; NaN for none.
+    const std::vector<double>& displacements() const { return displacement_; }
+
 private:
     std::size_t index(int x, int y) const {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(camera_.width()) +
                static_cast<std::size_t>(x);
     }
 
-    template <typename Function>
-    void forEachRow(Function function) {
-        tbb::parallel_for(tbb::blocked_range<int>(0, camera_.height()), [&](const auto& rows) {
-            for (int y = rows.begin(); y != rows.end(); ++y) function(y);
-        });
+    void lookAroundRow(int y, double above) {
+        for (int x = 0; x < camera_.width(); ++x)
+            if (double& pixels = displacement_[index(x, y)]; pixels > above)
+                pixels = leastAround(x + 0.5, y + 0.5, depth_[index(x, y)]);
     }
 
-    void castRow(int y) {
-        for (int x = 0; x < camera_.width(); ++x) {
-            reference_[index(x, y)] = surface_.hitRange(camera_.rayThrough(x + 0.5, y + 0.5));
-            displacement_[index(x, y)] = displacement(x + 0.5, y + 0.5, depth_[index(x, y)]);
-        }
+    /// The displacement above which LookAround::Farthest looks.
+    double farthestOnly() const {
+        std::vector<double> known = knownDisplacements();
+        return known.empty() ? 0 : std::min(percentile(known, 98), suspects_.abovePixels);
     }
 
-    /// The displacement of a picture point at a depth.
-    struct Displacement {
-        double pixels = std::nan("");  ///< NaN without a counterpart
-        bool isInColumn = false;       ///< the counterpart is right above or below
-        bool isBelow = false;          ///< the point lies below it
-    };
-
-    Displacement displacementOf(const Vec3& point) const {
-        const auto other = surface_.counterpart(point);
-        const auto p = camera_.project(point);
-        const auto q = other ? camera_.project(*other) : std::nullopt;
-        if (!p || !q)
-            return {};
-        return {glm::distance(*p, *q), fabric::Vec2(point) == fabric::Vec2(*other),
-                point.z < other->z};
+    std::vector<double> knownDisplacements() const {
+        std::vector<double> known;
+        std::copy_if(displacement_.begin(), displacement_.end(), std::back_inserter(known),
+                     [](double pixels) { return !std::isnan(pixels); });
+        return known;
     }
 
     Displacement displacementAt(double x, double y, double depth) const {
-        return displacementOf(camera_.rayThrough(x, y).at(depth));
+        return surface_.displacement(camera_, camera_.rayThrough(x, y).at(depth));
     }
 
     void judgeShown(int x, int y) {
@@ -87,14 +86,12 @@ private:
         ++result_.suspects;
         if (!point)
             return;
-        displacement_[index(x, y)] = displacementOf(*point).pixels;
+        displacement_[index(x, y)] = surface_.displacement(camera_, *point).pixels;
     }
 
-    /// The least around (x, y); none where the surface lies on both sides. NaN without a
-    /// counterpart.
-    double displacement(double x, double y, double depth) const {
-        if (!std::isfinite(depth))
-            return std::nan("");
+    /// The least displacement around a point that has one; none where the surface lies on both
+    /// sides.
+    double leastAround(double x, double y, double depth) const {
         const Displacement centre = displacementAt(x, y, depth);
         double least = centre.pixels;
         for (const double dy : {-kSnapPixels, 0.0, kSnapPixels})
@@ -133,18 +130,6 @@ private:
         return around;
     }
 
-    /// The same by rays through the whole area, for what is too thin for pixels' centres.
-    Surroundings everywhereAround(int x, int y) const {
-        Surroundings around;
-        const int reach = (2 * edge_ + 1) * kFineRays;
-        for (int dy = 0; dy <= reach; ++dy)
-            for (int dx = 0; dx <= reach; ++dx)
-                around.add(surface_.hitRange(
-                    camera_.rayThrough(x - edge_ + static_cast<double>(dx) / kFineRays,
-                                       y - edge_ + static_cast<double>(dy) / kFineRays)));
-        return around;
-    }
-
     std::size_t DepthComparison::*faultOf(double tested, const Surroundings& around) const {
         if (!std::isfinite(tested))
             return around.anyMiss ? nullptr : &DepthComparison::holes;
@@ -161,34 +146,45 @@ private:
         auto fault = faultOf(tested, atCentresAround(x, y));
         if (fault == nullptr)
             return;
-        if (lookedInto_ < Suspects::kMost) {
-            ++lookedInto_;
-            fault = faultOf(tested, everywhereAround(x, y));
-        }
+        if (raysAround_ < kMostRaysAround)
+            fault = faultEverywhereAround(x, y, tested);
         if (fault != nullptr)
             ++(result_.*fault);
     }
 
+    /// The same by rays through the whole area, for what is too thin for pixels' centres; until
+    /// they explain the pixel.
+    std::size_t DepthComparison::*faultEverywhereAround(int x, int y, double tested) {
+        Surroundings around;
+        std::size_t DepthComparison::*fault = nullptr;
+        const int reach = (2 * edge_ + 1) * kFineRays;
+        for (int dy = 0; dy <= reach; ++dy) {
+            for (int dx = 0; dx <= reach; ++dx)
+                around.add(surface_.hitRange(
+                    camera_.rayThrough(x - edge_ + static_cast<double>(dx) / kFineRays,
+                                       y - edge_ + static_cast<double>(dy) / kFineRays)));
+            raysAround_ += static_cast<std::size_t>(reach) + 1;
+            fault = faultOf(tested, around);
+            if (fault == nullptr)
+                return nullptr;
+        }
+        return fault;
+    }
+
     void finishDisplacements() {
-        std::vector<double> known;
         for (int y = 0; y < camera_.height(); ++y)
-            for (int x = 0; x < camera_.width(); ++x) {
-                const double pixels = displacement_[index(x, y)];
-                if (std::isnan(pixels))
-                    continue;
-                known.push_back(pixels);
-                if (pixels > result_.maxPixels) {
+            for (int x = 0; x < camera_.width(); ++x)
+                if (const double pixels = displacement_[index(x, y)]; pixels > result_.maxPixels) {
                     result_.maxPixels = pixels;
                     result_.worstX = x;
                     result_.worstY = y;
                 }
-            }
+        std::vector<double> known = knownDisplacements();
         result_.compared = known.size();
         if (known.empty())
             return;
-        const auto p99 = known.begin() + static_cast<std::ptrdiff_t>((known.size() - 1) * 99 / 100);
-        std::nth_element(known.begin(), p99, known.end());
-        result_.p99Pixels = *p99;
+        result_.p99Pixels = percentile(known, 99);
+        result_.p50Pixels = percentile(known, 50);
     }
 
     const Pinhole& camera_;
@@ -196,18 +192,67 @@ private:
     const ReferenceSurface& surface_;
     int edge_;
     const Suspects& suspects_;
-    std::vector<ReferenceSurface::HitRange> reference_;
+    const std::vector<ReferenceSurface::HitRange>& reference_;
     std::vector<double> displacement_;  ///< NaN for none
-    std::size_t lookedInto_ = 0;        ///< pixels around which rays were cast everywhere
+    std::size_t raysAround_ = 0;        ///< cast by faultEverywhereAround
     DepthComparison result_;
 };
 
 }  // namespace
 
+double percentile(std::vector<double>& values, std::size_t hundredths) {
+    const auto at =
+        values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) * hundredths / 100);
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
+}
+
+std::vector<double> displacements(const Pinhole& camera, std::span<const float> depth,
+                                  const ReferenceSurface& reference) {
+    std::vector<double> pixels(depth.size(), std::nan(""));
+    forEachRow(camera.height(), [&](int y) {
+        for (int x = 0; x < camera.width(); ++x) {
+            const std::size_t i =
+                static_cast<std::size_t>(y) * static_cast<std::size_t>(camera.width()) +
+                static_cast<std::size_t>(x);
+            if (std::isfinite(depth[i]))
+                pixels[i] =
+                    reference
+                        .displacement(
+                            camera,
+                            camera.rayThrough(x + 0.5, y + 0.5).at(static_cast<double>(depth[i])))
+                        .pixels;
+        }
+    });
+    return pixels;
+}
+
+ReferenceView castView(const Pinhole& camera, const ReferenceSurface& reference) {
+    const auto width = static_cast<std::size_t>(camera.width());
+    ReferenceView view{camera, &reference, {}};
+    view.hits.resize(width * static_cast<std::size_t>(camera.height()));
+    forEachRow(camera.height(), [&](int y) {
+        auto hit = view.hits.begin() + static_cast<std::ptrdiff_t>(width) * y;
+        for (int x = 0; x < camera.width(); ++x)
+            *hit++ = reference.hitRange(camera.rayThrough(x + 0.5, y + 0.5));
+    });
+    return view;
+}
+
 DepthComparison compareDepth(const Pinhole& camera, std::span<const float> depth,
                              const ReferenceSurface& reference, int edgePixels,
                              const Suspects& suspects) {
-    return Comparison(camera, depth, reference, edgePixels, suspects).run();
+    return compareDepth(castView(camera, reference), depth, edgePixels, suspects, LookAround::All);
+}
+
+DepthComparison compareDepth(const ReferenceView& view, std::span<const float> depth,
+                             int edgePixels, const Suspects& suspects, LookAround lookAround,
+                             std::vector<float>* displacements) {
+    Comparison comparison(view, depth, edgePixels, suspects);
+    const DepthComparison result = comparison.run(lookAround);
+    if (displacements != nullptr)
+        displacements->assign(comparison.displacements().begin(), comparison.displacements().end());
+    return result;
 }
 
 }  // namespace eyrie::truth

@@ -13,7 +13,8 @@ namespace eyrie::truth {
 struct DepthComparison {
     double maxPixels = 0;  ///< the largest displacement of a drawn pixel's surface point
     double p99Pixels = 0;  ///< not exceeded by 99 of 100 drawn pixels
-    int worstX = 0;        ///< where maxPixels is
+    double p50Pixels = 0;
+    int worstX = 0;  ///< where maxPixels is
     int worstY = 0;
     std::size_t compared = 0;   ///< pixels drawn that have a counterpart on the reference
     std::size_t holes = 0;      ///< nothing drawn where the reference is hit (edges excepted)
@@ -32,6 +33,25 @@ struct Suspects {
     double abovePixels = kNoHit;
     ShownPoint shown;
     static constexpr std::size_t kMost = 512;  ///< of a picture; more are no exceptions
+};
+
+/// What a camera sees of a reference: where the ray through each pixel's centre hits, in rows from
+/// the bottom up. Refers to the reference.
+struct ReferenceView {
+    Pinhole camera;
+    const ReferenceSurface* surface;
+    std::vector<ReferenceSurface::HitRange> hits;
+};
+
+/// Casts the rays, on all cores.
+ReferenceView castView(const Pinhole& camera, const ReferenceSurface& reference);
+
+/// Around which pixels' centres the least displacement is looked for.
+enum class LookAround {
+    All,
+    /// Those displaced by more than what is promised (`suspects.abovePixels`), or farthest of all:
+    /// two in a hundred. The others count as they are at their centres, which is not less.
+    Farthest,
 };
 
 /// How much farther than on the screen a surface may be off in depth: steeply from above one hardly
@@ -59,5 +79,20 @@ inline constexpr double kDepthSlack = 4;
 DepthComparison compareDepth(const Pinhole& camera, std::span<const float> depth,
                              const ReferenceSurface& reference, int edgePixels,
                              const Suspects& suspects = {});
+
+/// The same of a view that is cast already. `displacements`, if given, receives each pixel's, in
+/// pixels; NaN where nothing is compared.
+DepthComparison compareDepth(const ReferenceView& view, std::span<const float> depth,
+                             int edgePixels, const Suspects& suspects, LookAround lookAround,
+                             std::vector<float>* displacements = nullptr);
+
+/// Displacements alone, of exact depths at pixels' centres: each pixel's, in pixels; NaN where
+/// nothing is compared. Uses all cores.
+std::vector<double> displacements(const Pinhole& camera, std::span<const float> depth,
+                                  const ReferenceSurface& reference);
+
+/// Of `values`, which are shuffled, the one that so many hundredths of them do not exceed.
+/// Precondition: there is one, and no NaN.
+double percentile(std::vector<double>& values, std::size_t hundredths);
 
 }  // namespace eyrie::truth

@@ -20,8 +20,8 @@ using fabric::Vec2;
 using fabric::Vec3;
 using terrain::Quadtree;
 
-Vec3 corner(const terrain::EytIndex& index, const terrain::TileId& id,
-            const terrain::TileGeometry& tile, std::uint16_t number) {
+Vec3 corner(const terrain::EytIndex& index, const fabric::Mat4& worldFromPosts,
+            const terrain::TileId& id, const terrain::TileGeometry& tile, std::uint16_t number) {
     const terrain::TileVertex vertex = terrain::unpackVertex(
         tile.words, tile.wordsPerVertex, number, tile.baseHeight, tile.heightMultiplier);
     const auto post = [&](std::int32_t first, std::int32_t halves, std::int32_t posts) {
@@ -29,9 +29,9 @@ Vec3 corner(const terrain::EytIndex& index, const terrain::TileId& id,
             first * Quadtree::side(id.level) + (halves << Quadtree::spacingShift(id.level)) / 2,
             posts - 1);
     };
-    return Vec3(index.objectFromLattice *
-                fabric::Vec4(post(id.x, vertex.x, index.quadtree.columns()),
-                             post(id.y, vertex.y, index.quadtree.rows()), vertex.q, 1));
+    return Vec3(worldFromPosts * fabric::Vec4(post(id.x, vertex.x, index.quadtree.columns()),
+                                              post(id.y, vertex.y, index.quadtree.rows()), vertex.q,
+                                              1));
 }
 
 /// Weights of the point of a plane triangle that is nearest to `point`.
@@ -95,11 +95,13 @@ void forEachHalfPost(const Triangle& triangle, const fabric::Mat4& postsFromObje
 }  // namespace
 
 absl::StatusOr<DrawnTerrain> DrawnTerrain::of(const terrain::EytFile& file, const lod::View& view,
-                                              double tauPixels) {
+                                              double tauPixels,
+                                              const fabric::Mat4& worldFromObject) {
     const terrain::EytIndex& index = file.index();
-    const lod::ObjectView objectView(view, fabric::Mat4(1.0));
+    const lod::ObjectView objectView(view, worldFromObject);
+    const fabric::Mat4 worldFromPosts = worldFromObject * index.objectFromLattice;
     DrawnTerrain drawn;
-    drawn.postsFromObject_ = glm::inverse(index.objectFromLattice);
+    drawn.postsFromWorld_ = glm::inverse(worldFromPosts);
     for (const terrain::TileChoice& choice :
          terrain::selectCut(index, objectView, tauPixels).tiles) {
         if (!choice.isVisible)
@@ -113,9 +115,10 @@ absl::StatusOr<DrawnTerrain> DrawnTerrain::of(const terrain::EytFile& file, cons
                 continue;
             const terrain::IndexRange& range = tile.parts[static_cast<std::size_t>(part)];
             for (std::uint32_t k = range.first; k < range.first + range.count; k += 3)
-                drawn.triangles_.push_back({corner(index, choice.id, tile, tile.indices[k]),
-                                            corner(index, choice.id, tile, tile.indices[k + 1]),
-                                            corner(index, choice.id, tile, tile.indices[k + 2])});
+                drawn.triangles_.push_back(
+                    {corner(index, worldFromPosts, choice.id, tile, tile.indices[k]),
+                     corner(index, worldFromPosts, choice.id, tile, tile.indices[k + 1]),
+                     corner(index, worldFromPosts, choice.id, tile, tile.indices[k + 2])});
         }
     }
     return drawn;
@@ -166,7 +169,7 @@ double DrawnTerrain::farthestSeen(const Pinhole& camera, const TerrainRayCaster&
     constexpr double kMostPosts = 256;
     std::vector<Candidate> candidates;
     for (const Triangle& triangle : triangles_)
-        forEachHalfPost(triangle, postsFromObject_, kMostPosts, [&](const Vec3& drawn) {
+        forEachHalfPost(triangle, postsFromWorld_, kMostPosts, [&](const Vec3& drawn) {
             const auto other = source.counterpart(drawn);
             const auto p = camera.project(drawn);
             const auto q = other ? camera.project(*other) : std::nullopt;
@@ -191,8 +194,8 @@ std::vector<float> DrawnTerrain::heightsAtHalfPosts(int width, int height) const
     std::vector<float> heights(columns * static_cast<std::size_t>(height),
                                std::numeric_limits<float>::quiet_NaN());
     for (const Triangle& triangle : triangles_)
-        forEachHalfPost(triangle, postsFromObject_, width + height, [&](const Vec3& point) {
-            const Vec2 halves = 2.0 * Vec2(postsFromObject_ * fabric::Vec4(point, 1));
+        forEachHalfPost(triangle, postsFromWorld_, width + height, [&](const Vec3& point) {
+            const Vec2 halves = 2.0 * Vec2(postsFromWorld_ * fabric::Vec4(point, 1));
             heights[static_cast<std::size_t>(std::lround(halves.y)) * columns +
                     static_cast<std::size_t>(std::lround(halves.x))] = static_cast<float>(point.z);
         });

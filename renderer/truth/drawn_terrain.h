@@ -19,10 +19,10 @@ namespace eyrie::truth {
 /// depth is the depth of. For the few pixels where the depth at the centre does not tell.
 class DrawnTerrain {
 public:
-    /// The cut of `view` at `tauPixels`, from the file; object space is world space.
-    /// Errors: those of reading pages.
+    /// The cut of `view` at `tauPixels`, from the file. Errors: those of reading pages.
     static absl::StatusOr<DrawnTerrain> of(const terrain::EytFile& file, const lod::View& view,
-                                           double tauPixels);
+                                           double tauPixels,
+                                           const fabric::Mat4& worldFromObject = fabric::Mat4(1.0));
 
     struct Shown {
         fabric::Vec3 point;       ///< of a drawn triangle: the one next to the picture point
@@ -47,7 +47,7 @@ public:
 
 private:
     std::vector<Triangle> triangles_;
-    fabric::Mat4 postsFromObject_{1.0};
+    fabric::Mat4 postsFromWorld_{1.0};
 };
 
 }  // namespace eyrie::truth

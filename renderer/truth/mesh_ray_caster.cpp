@@ -112,8 +112,14 @@ double MeshRayCaster::firstHit(const Ray& ray) const {
 }
 
 std::optional<Vec3> MeshRayCaster::counterpart(const Vec3& point) const {
-    Vec3 best{0};
-    double bestSquared = kNoHit;
+    // Who asks goes on next to where it was: what was found there bounds the distance at once.
+    // Any triangle will do, so it does not matter whose mesh it was of.
+    thread_local std::uint32_t last = 0;
+    last = std::min(last, static_cast<std::uint32_t>(mesh_.triangles.size() - 1));
+    Vec3 best = closestPoint(corners(mesh_, last), point);
+    double bestSquared = glm::dot(best - point, best - point);
+    if (std::isnan(bestSquared))  // a triangle without area
+        bestSquared = kNoHit;
     std::array<std::uint32_t, 64> stack;
     std::size_t depth = 0;
     stack[depth++] = 0;
@@ -135,6 +141,7 @@ std::optional<Vec3> MeshRayCaster::counterpart(const Vec3& point) const {
             if (squared < bestSquared) {
                 bestSquared = squared;
                 best = candidate;
+                last = i;
             }
         }
     }

@@ -32,6 +32,15 @@ public:
     /// The closest point of the mesh.
     std::optional<fabric::Vec3> counterpart(const fabric::Vec3& point) const override;
 
+    /// Its triangles in an order of its own.
+    const TriangleMesh& mesh() const { return mesh_; }
+
+    /// Bytes that `triangles` with `vertices` take here.
+    static constexpr std::uint64_t bytesFor(std::uint64_t vertices, std::uint64_t triangles) {
+        return vertices * sizeof(fabric::Vec3) +
+               triangles * (sizeof(Node) + sizeof(std::array<std::uint32_t, 3>));
+    }
+
 private:
     struct Node {
         fabric::Box bounds;

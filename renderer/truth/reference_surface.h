@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -9,6 +10,13 @@
 namespace eyrie::truth {
 
 inline constexpr double kNoHit = std::numeric_limits<double>::infinity();
+
+/// How far a drawn point is, on the screen, from where the source has it.
+struct Displacement {
+    double pixels = std::nan("");  ///< NaN without a counterpart
+    bool isInColumn = false;       ///< the counterpart is right above or below
+    bool isBelow = false;          ///< the point lies below it
+};
 
 /// A full-resolution source that a picture is compared with. Immutable: any thread may ask.
 class ReferenceSurface {
@@ -27,6 +35,9 @@ public:
     /// The point of the source to hold `point` against: for terrain the one in the same column, for
     /// meshes the closest. Nothing where there is none.
     virtual std::optional<fabric::Vec3> counterpart(const fabric::Vec3& point) const = 0;
+
+    /// Of `point` from its counterpart, seen by `camera`.
+    virtual Displacement displacement(const Pinhole& camera, const fabric::Vec3& point) const;
 };
 
 }  // namespace eyrie::truth

@@ -46,6 +46,13 @@ public:
     /// The point of the same column; of the readings, the nearest.
     std::optional<fabric::Vec3> counterpart(const fabric::Vec3& point) const override;
 
+    const HeightGrid& grid() const { return grid_; }
+
+    /// Bytes that so many posts take here: heights, and the pyramid over them.
+    static constexpr std::uint64_t bytesFor(std::uint64_t posts) {
+        return posts * sizeof(float) + posts / 16 * sizeof(Extent);
+    }
+
 private:
     struct Extent {  ///< of the heights in a block; empty (min > max) without data
         float min;

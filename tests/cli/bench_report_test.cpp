@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 
+#include "cli/bench/page.h"
 #include "cli/bench/report.h"
 #include "cli/bench/run_summary.h"
 #include "cli/tune_mesh.h"
@@ -27,12 +28,13 @@ PlayedFrame frame(int pass, double milliseconds, double tauAchieved = 0.5) {
 
 /// Of one pass that loads and one that counts, at tau 1.
 std::vector<BenchRun> oneRun() {
-    BenchRun run{1, {{frame(0, 500), frame(1, 20), frame(1, 10), frame(1, 40)}, 1 << 20, {}}};
-    return {run};
+    const Played played{{frame(0, 500), frame(1, 20), frame(1, 10), frame(1, 40)}, 1 << 20, {}};
+    return {{"1 px", 1, 0, "", played}};
 }
 
-BenchFacts facts(std::string scene = "dem.eyt") {
-    return {std::move(scene), "orbit", 1280, 720, 3, 1, 0, "2D"};
+Report report(std::string scene = "dem.eyt") {
+    return {{std::move(scene), "orbit", 1280, 720, 3, 1, "eyrie bench dem.eyt -o report"},
+            oneRun()};
 }
 
 TEST(Quantile, IsTheNearestRank) {
@@ -68,6 +70,11 @@ TEST(RunSummary, StagesAreThoseOfTheFramesThatWereMeasured) {
     EXPECT_EQ(summarize(played).stages.vertices, 5);
     EXPECT_EQ(summarize(played).stages.fill, 9);
     EXPECT_EQ(fabric::limitingStage(summarize(played).stages), "fill");
+    for (PlayedFrame& one : played.frames) one.statistics.milliseconds.draw = 14;
+    const fabric::StageMilliseconds means = summarize(played).means;
+    EXPECT_DOUBLE_EQ(means.total, (20. + 10 + 40) / 3);
+    EXPECT_DOUBLE_EQ(means.vertices, 14 * 15. / 62);
+    EXPECT_DOUBLE_EQ(means.vertices + means.fill, 14);
 }
 
 TEST(MeshTuning, KeepsTheFastestAndOfEqualOnesTheSmallest) {
@@ -86,7 +93,7 @@ TEST(MeshTuning, KeepsTheFastestAndOfEqualOnesTheSmallest) {
 }
 
 TEST(BenchReport, TheSummaryHasTheFieldsOfTheContract) {
-    const auto summary = parseJson(summaryJson(facts(), oneRun()));
+    const auto summary = parseJson(summaryJson(report()));
     EXPECT_EQ(test::at(summary, "machine.eyrie").kind_case(), test::JsonValue::kStringValue);
     const auto runs = test::list(summary, "runs");
     ASSERT_EQ(runs.size(), 1u);
@@ -102,10 +109,101 @@ TEST(BenchReport, TheSummaryHasTheFieldsOfTheContract) {
     EXPECT_EQ(number(run, "tauAchievedMax"), 0.5);
 }
 
+/// What a reference found: values that are made up, and say so.
+Report madeUpReport() {
+    Report made = report("made-up values");
+    MeasuredErrors measured;
+    for (const double share : {0.3, 0.9, 0.6})
+        measured.frames.push_back({.seconds = 4 * share,
+                                   .promisedPixels = 1,
+                                   .p50Pixels = 0.1 * share,
+                                   .p99Pixels = 0.5 * share,
+                                   .maxPixels = share,
+                                   .compared = 1000,
+                                   .holes = 1,
+                                   .falseHits = 0,
+                                   .misplaced = 2,
+                                   .silhouettePixels = 0.8 * share,
+                                   .psnrDb = 40 - share,
+                                   .ssim = 1 - 0.01 * share,
+                                   .flip = 0.02 * share,
+                                   .triangles = 100});
+    measured.worst.push_back({measured.frames[1], "made-up picture", "made-up heat map"});
+    made.runs[0].measured = measured;
+    made.uniform = {{6400, 0.1125, 0.5}, {1600, 0.225, 1}, {400, 0.9, 4}};
+    return made;
+}
+
+TEST(BenchReport, MeasuredErrorsAreThoseOfTheWorstFrames) {
+    const auto summary = parseJson(summaryJson(madeUpReport()));
+    const test::JsonValue run = test::list(summary, "runs").at(0);
+    EXPECT_DOUBLE_EQ(number(run, "errorPx.p50"), 0.06);
+    EXPECT_DOUBLE_EQ(number(run, "errorPx.p99"), 0.45);
+    EXPECT_DOUBLE_EQ(number(run, "errorPx.max"), 0.9);
+    EXPECT_EQ(number(run, "holes"), 3);
+    EXPECT_EQ(number(run, "misplaced"), 6);
+    EXPECT_DOUBLE_EQ(number(run, "silhouettePx"), 0.72);
+    EXPECT_DOUBLE_EQ(number(run, "psnrDb"), 39.1);
+    EXPECT_DOUBLE_EQ(number(run, "ssim"), 0.991);
+    EXPECT_DOUBLE_EQ(number(run, "flip"), 0.018);
+    EXPECT_EQ(number(run, "framesMeasured"), 3);
+    EXPECT_TRUE(test::at(run, "measuredWithinPromise").bool_value());
+    EXPECT_NEAR(number(run, "efficiency"), 8, 1e-9);  // 800 triangles between 1600 and 400
+    EXPECT_EQ(test::list(summary, "uniform").size(), 3U);
+}
+
+TEST(BenchReport, AFrameFartherOffThanItPromisedBreaksThePromise) {
+    Report made = madeUpReport();
+    made.runs[0].measured->frames[2].promisedPixels = 0.5;
+    const auto run = test::list(parseJson(summaryJson(made)), "runs").at(0);
+    EXPECT_FALSE(test::at(run, "measuredWithinPromise").bool_value());
+    EXPECT_THAT(reportPage(made), testing::HasSubstr("\"kept\": false"));
+    EXPECT_THAT(reportPage(madeUpReport()), testing::Not(testing::HasSubstr("\"kept\": false")));
+}
+
+TEST(BenchReport, WhatWasNotMeasuredIsNotInTheSummary) {
+    const auto summary = parseJson(summaryJson(report()));
+    const auto run = test::list(summary, "runs").at(0);
+    for (const char* field : {"errorPx", "holes", "measuredWithinPromise", "efficiency"})
+        EXPECT_EQ(test::at(run, field).kind_case(), test::JsonValue::KIND_NOT_SET) << field;
+    EXPECT_EQ(test::at(summary, "uniform").kind_case(), test::JsonValue::KIND_NOT_SET);
+}
+
+TEST(Efficiency, IsNotGuessedBeyondWhatWasMeasured) {
+    const std::vector<UniformLevel> levels = madeUpReport().uniform;
+    EXPECT_NEAR(efficiency(levels, 0.1125, 100).value(), 64, 1e-9);
+    EXPECT_NEAR(efficiency(levels, 0.9, 100).value(), 4, 1e-9);
+    EXPECT_EQ(efficiency(levels, 0.1, 100), std::nullopt);
+    EXPECT_EQ(efficiency(levels, 1, 100), std::nullopt);
+    EXPECT_EQ(efficiency(levels, 0.3, 0), std::nullopt);
+    EXPECT_EQ(efficiency({levels[0]}, 0.1125, 100), std::nullopt);
+}
+
+TEST(BenchReport, WorstFramesAreInThePage) {
+    EXPECT_EQ(base64(""), "");
+    EXPECT_EQ(base64("f"), "Zg==");
+    EXPECT_EQ(base64("fo"), "Zm8=");
+    EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
+    EXPECT_EQ(base64("\xff\xfe\x80"), "//6A");
+    const std::string page = reportPage(madeUpReport());
+    EXPECT_THAT(page, testing::HasSubstr(base64("made-up picture")));
+    EXPECT_THAT(page, testing::HasSubstr(base64("made-up heat map")));
+}
+
+TEST(BenchReport, EachPassHasItsOwnMedian) {
+    Played played = oneRun()[0].played;
+    for (const double milliseconds : {3.0, 1.0, 2.0})
+        played.frames.push_back(frame(2, milliseconds));
+    const std::vector<Percentiles> passes = summarize(played).passes;
+    ASSERT_EQ(passes.size(), 2U);
+    EXPECT_EQ(passes[0].p50, 20);
+    EXPECT_EQ(passes[1].p50, 2);
+}
+
 TEST(BenchReport, ABoundThatIsNoneIsNullInJson) {
-    auto runs = oneRun();
-    runs[0].played.frames[1] = frame(1, 20, std::numeric_limits<double>::infinity());
-    const auto summary = parseJson(summaryJson(facts(), runs));
+    Report endless = report();
+    endless.runs[0].played.frames[1] = frame(1, 20, std::numeric_limits<double>::infinity());
+    const auto summary = parseJson(summaryJson(endless));
     EXPECT_EQ(test::at(test::list(summary, "runs").at(0), "tauAchievedMax").kind_case(),
               test::JsonValue::kNullValue);
 }
@@ -113,20 +211,22 @@ TEST(BenchReport, ABoundThatIsNoneIsNullInJson) {
 TEST(BenchReport, TheTableOfFramesHasALineAFrame) {
     const std::string csv = framesCsv(oneRun());
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 5);
-    EXPECT_THAT(csv, testing::HasSubstr("1,0,0.25,500.000,"));
+    EXPECT_THAT(csv, testing::HasSubstr("\n1 px,1,0,0,0.25,500.000,"));
 }
 
 TEST(BenchReport, AFilesNameCannotEndThePagesScript) {
-    const std::string page = reportPage(facts("</script><b>.eyt"), oneRun());
-    EXPECT_THAT(page, testing::HasSubstr("<\\/script><b>.eyt"));
+    const std::string page = reportPage(report("</script><b>.eyt"));
+    EXPECT_THAT(page, testing::HasSubstr("\\u003c/script>\\u003cb>.eyt"));
     EXPECT_EQ(page.find("</script>"), page.rfind("</script>"));
 }
 
 TEST(BenchReport, ThePageNeedsNothingElse) {
-    const std::string page = reportPage(facts(), oneRun());
+    const std::string page = reportPage(report());
     EXPECT_THAT(page, testing::Not(testing::HasSubstr("src=")));
     EXPECT_THAT(page, testing::Not(testing::HasSubstr("<link")));
+    EXPECT_THAT(page, testing::Not(testing::HasSubstr("url(")));
     EXPECT_THAT(page, testing::Not(testing::HasSubstr("REPORT_DATA")));
+    EXPECT_THAT(page, testing::Not(testing::HasSubstr("EYRIE_")));
 }
 
 }  // namespace

@@ -53,11 +53,14 @@ protected:
     absl::StatusOr<fabric::Scene> assemble(const std::vector<std::string>& paths) {
         return assembleScene(paths, cache_, notes_);
     }
+    /// Each has its record beside it.
     std::size_t importsKept() const {
         const fs::path imports = folder_.path() / "imports";
-        return fs::exists(imports) ? static_cast<std::size_t>(std::distance(
-                                         fs::directory_iterator(imports), fs::directory_iterator()))
-                                   : 0;
+        return fs::exists(imports)
+                   ? static_cast<std::size_t>(std::count_if(
+                         fs::directory_iterator(imports), fs::directory_iterator(),
+                         [](const auto& entry) { return entry.path().extension() != ".source"; }))
+                   : 0;
     }
 
     test::TemporaryFolder folder_;

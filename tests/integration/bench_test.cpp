@@ -108,6 +108,62 @@ TEST_F(Bench, TunesAMeshAndTheFileSaysSo) {
     EXPECT_EQ(test::namesIn(path("")), before);
 }
 
+/// A terrain and two balls above it, one of them twice as large.
+TEST_F(Bench, MeasuresWhatASceneShowsAgainstItsSources) {
+    ASSERT_TRUE(
+        succeeded({"synth", "terrain", "--size", "129", "--seed", "3", "-o", path("t.tif")}));
+    ASSERT_TRUE(succeeded({"import", "terrain", path("t.tif"), "-o", path("t.eyt")}));
+    ASSERT_TRUE(
+        succeeded({"synth", "mesh", "--size", "20000", "--seed", "3", "-o", path("b.ply")}));
+    folder_->write("scene.json", R"({"objects":[{"terrain":"t.eyt"},
+        {"mesh":"b.ply","transform":{"translation":[501500,5198500,3000],"scale":[400,400,400]}},
+        {"mesh":"b.ply","transform":{"translation":[502900,5198500,3000],"scale":[800,800,800]}}]})");
+    const test::TemporaryFolder cache;
+    const std::string report = path("reference");
+    ASSERT_TRUE(succeeded({"bench", path("scene.json"), "--tau", "1,4", "--size", "320x180",
+                           "--frames", "3", "--repeats", "1", "--reference", "--reference-frames",
+                           "2", "--cache", cache.path("imports"), "-o", report}));
+    EXPECT_THAT(test::namesIn(report), testing::Contains("errors.csv"));
+    const test::JsonValue summary = summaryOf(report);
+    const auto runs = test::list(summary, "runs");
+    ASSERT_EQ(runs.size(), 2U);
+    for (const auto& run : runs) {
+        EXPECT_TRUE(test::at(run, "measuredWithinPromise").bool_value());
+        EXPECT_GT(number(run, "errorPx.max"), 0);
+        EXPECT_LE(number(run, "errorPx.max"), number(run, "tauAchievedMax") + 1.0 / 256);
+        EXPECT_LE(number(run, "errorPx.p99"), number(run, "errorPx.max"));
+        EXPECT_EQ(number(run, "holes") + number(run, "falseHits") + number(run, "misplaced"), 0);
+        EXPECT_GT(number(run, "ssim"), 0.8);
+    }
+    EXPECT_LT(number(runs[0], "errorPx.p99"), number(runs[1], "errorPx.p99"));
+    EXPECT_GE(test::list(summary, "uniform").size(), 2U);
+}
+
+TEST_F(Bench, RefusesAReferenceThatIsNone) {
+    ASSERT_TRUE(succeeded({"synth", "mesh", "--size", "3000", "--seed", "5", "-o", path("r.ply")}));
+    ASSERT_TRUE(succeeded({"import", "mesh", path("r.ply"), "-o", path("r.eym")}));
+    const auto refusal = [&](const std::string& scene, const std::vector<std::string>& more,
+                             int status) {
+        std::vector<std::string> arguments{"bench", scene, "-o", path("none")};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const test::Outcome outcome = eyrie(arguments);
+        EXPECT_EQ(outcome.exit, (test::Exit{status, 0})) << outcome.errors;
+        EXPECT_FALSE(std::filesystem::exists(path("none")));
+        return outcome.errors;
+    };
+    EXPECT_THAT(refusal(dem(), {"--reference"}, 2), testing::HasSubstr("--source"))
+        << "it was made of no file";
+    EXPECT_THAT(refusal(path("r.eym"), {"--reference", "--reference-memory", "64K"}, 1),
+                testing::HasSubstr("--reference-memory"));
+    EXPECT_THAT(refusal(path("r.eym"), {"--source", path("r.ply")}, 2),
+                testing::HasSubstr("--reference"));
+    ASSERT_TRUE(succeeded({"synth", "mesh", "--size", "3000", "--seed", "6", "-o", path("r.ply")}));
+    EXPECT_THAT(refusal(path("r.eym"), {"--reference"}, 2),
+                testing::HasSubstr("is not what " + path("r.eym") + " was imported from"));
+    std::filesystem::remove(path("r.ply"));
+    EXPECT_THAT(refusal(path("r.eym"), {"--reference"}, 2), testing::HasSubstr(path("r.ply")));
+}
+
 TEST_F(Bench, RefusesFlightsThatAreNone) {
     const auto refusal = [&](const std::string& keys) {
         const test::Outcome outcome =
@@ -123,6 +179,58 @@ TEST_F(Bench, RefusesFlightsThatAreNone) {
                 testing::HasSubstr("keys[0].seconds is not a finite number"));
 }
 
+TEST_F(Bench, AFlightThatNeverSeesTheSceneIsRefused) {
+    const std::string away =
+        writeFlight("away.json", R"({"seconds":0,"camera":{"eye":[0,0,9],"target":[-10,0,9]}})");
+    const test::Outcome outcome = eyrie({"bench", dem(), "--flight", away, "--size", "160x90",
+                                         "--frames", "2", "-o", path("none")});
+    EXPECT_EQ(outcome.exit, (test::Exit{2, 0}));
+    EXPECT_THAT(outcome.errors, testing::HasSubstr("away.json: no frame of the flight shows"));
+    EXPECT_FALSE(std::filesystem::exists(path("none")));
+}
+
+TEST_F(Bench, AStillCameraIsAFlightAndEmptyFramesAreCounted) {
+    const std::string out = R"({"seconds":9,"camera":{"eye":[503840,5194000,2500],)"
+                            R"("target":[503840,5190000,2500]}})";
+    const std::string still = writeFlight("still.json", key(0, 2500));
+    const std::string half = writeFlight("half.json", key(0, 2500) + "," + out);
+    const auto runOf = [&](const std::string& flight, const char* name) {
+        const test::Outcome outcome =
+            eyrie({"bench", dem(), "--flight", flight, "--tau", "4", "--size", "160x90", "--frames",
+                   "2", "--repeats", "1", "-o", path(name)});
+        EXPECT_EQ(outcome.exit, (test::Exit{0, 0})) << outcome.errors;
+        return std::pair(test::list(summaryOf(path(name)), "runs").at(0), outcome.output);
+    };
+    EXPECT_EQ(number(runOf(still, "still").first, "framesEmpty"), 0);
+    const auto [run, said] = runOf(half, "half");
+    EXPECT_EQ(number(run, "framesEmpty"), 2);
+    EXPECT_THAT(said, testing::HasSubstr("2 of 4 frames show nothing of the scene"));
+}
+
+TEST_F(Bench, ErrorsAndTrianglesOfTheWorstFlightRepeatExactly) {
+    const auto runsOf = [&](const char* name) {
+        EXPECT_TRUE(succeeded({"bench", dem(), "--flight", "worst", "--tau", "2", "--size",
+                               "160x90", "--frames", "24", "--repeats", "1", "--renderers", "0,1",
+                               "-o", path(name)}));
+        return test::list(summaryOf(path(name)), "runs");
+    };
+    const auto first = runsOf("first");
+    const auto second = runsOf("second");
+    ASSERT_EQ(first.size(), 2U);
+    const test::Outcome compared =
+        eyrie({"bench", "--compare", path("first"), path("second"), "-o", path("compared")});
+    EXPECT_EQ(compared.exit, (test::Exit{0, 0})) << compared.errors;
+    EXPECT_THAT(compared.output, testing::HasSubstr("2 px, 1 renderer"));
+    EXPECT_EQ(test::namesIn(path("compared")),
+              (std::set<std::string>{"comparison.json", "index.html"}));
+    for (std::size_t i = 0; i < first.size(); ++i)
+        for (const char* figure : {"tauAchievedMax", "trianglesMean", "framesBeyondTau"})
+            EXPECT_EQ(number(first[i], figure), number(second[i], figure)) << figure;
+    EXPECT_EQ(number(first[0], "trianglesMean"), number(first[1], "trianglesMean"));
+    EXPECT_EQ(number(first[1], "renderers"), 1);
+    EXPECT_GT(number(first[1], "bytesLoadedFirstPass"), 0) << "each run loads for itself";
+}
+
 TEST_F(Bench, RefusesWhatItCannotMeasure) {
     const auto refusal = [&](const std::vector<std::string>& more) {
         std::vector<std::string> arguments{"bench", dem(), "-o", path("none")};
@@ -135,6 +243,19 @@ TEST_F(Bench, RefusesWhatItCannotMeasure) {
     EXPECT_THAT(refusal({"--tau", "nan"}), testing::HasSubstr("--tau"));
     EXPECT_THAT(refusal({"--frames", "0"}), testing::HasSubstr("--frames"));
     EXPECT_THAT(refusal({"--flight", "missing.json"}), testing::HasSubstr("missing.json"));
+    EXPECT_THAT(refusal({"--renderers", "1,65"}), testing::HasSubstr("--renderers"));
+    EXPECT_THAT(refusal({"--compare", "a", "b"}), testing::HasSubstr("--compare"));
+    EXPECT_THAT(refusal({"--force"}), testing::HasSubstr("--force"));
+    const auto said = [](const std::vector<std::string>& arguments) {
+        const test::Outcome outcome = eyrie(arguments);
+        EXPECT_EQ(outcome.exit, (test::Exit{2, 0})) << outcome.output;
+        return outcome.errors;
+    };
+    EXPECT_THAT(said({"bench"}), testing::HasSubstr("bench needs a scene"));
+    EXPECT_THAT(said({"bench", dem()}), testing::HasSubstr("-o FOLDER"));
+    EXPECT_THAT(said({"bench", "--compare", path("no-such"), path("no-such")}),
+                testing::HasSubstr("no-such"));
+    EXPECT_THAT(said({"bench", "--compare", path("")}), testing::HasSubstr("--compare"));
 }
 
 }  // namespace

@@ -268,7 +268,8 @@ TEST_F(Render, ASceneFilePlacesItsObjectsRelativeToItself) {
     };
     EXPECT_TRUE(isHit(-370) && isHit(370)) << "a ball to the left and one to the right";
     EXPECT_FALSE(isHit(0)) << "and a gap between them";
-    EXPECT_EQ(test::namesIn(cache.path("imports")).size(), 1U) << "the source's import is kept";
+    EXPECT_EQ(test::namesIn(cache.path("imports")).size(), 2U)
+        << "the source's import is kept, and where its source lies";
 }
 
 TEST_F(Render, ALookFileAndFlagsChangeHowTerrainIsShown) {

@@ -96,7 +96,8 @@ TEST_F(TerrainImportProcess, GoesOnAfterAKill) {
     EXPECT_EQ(again.errors.find("reading"), std::string::npos) << again.errors;
     EXPECT_EQ(bytesOf("dem.eyt"), bytesOf("whole.eyt"));
     EXPECT_EQ(test::namesIn(folder_.path()),
-              (std::set<std::string>{"dem.eyt", "dem.tif", "whole.eyt"}));
+              (std::set<std::string>{"dem.eyt", "dem.eyt.source", "dem.tif", "whole.eyt",
+                                     "whole.eyt.source"}));
 }
 
 TEST_F(TerrainImportProcess, SaysHowToGoOnWhenInterrupted) {

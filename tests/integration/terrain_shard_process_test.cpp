@@ -60,7 +60,8 @@ TEST_F(TerrainShardProcesses, MakeTheSameFileAllAtOnceOneOfThemTwiceAndOneKilled
     ASSERT_TRUE(test::succeeded(importInto("dem.eyt", {"--merge"})));
     EXPECT_TRUE(bytesOf("dem.eyt") == bytesOf("whole.eyt"));
     EXPECT_EQ(test::namesIn(folder_.path()),
-              (std::set<std::string>{"dem.eyt", "dem.tif", "whole.eyt"}));
+              (std::set<std::string>{"dem.eyt", "dem.eyt.source", "dem.tif", "whole.eyt",
+                                     "whole.eyt.source"}));
 }
 
 TEST_F(TerrainShardProcesses, SayWhatTheyMade) {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/truth/depth_comparison.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -61,6 +64,31 @@ TEST(CompareDepth, MeasuresHowFarASurfaceMovedOnTheScreen) {
     EXPECT_GT(result.maxPixels, nearestPixels / 3);
     EXPECT_LE(result.p99Pixels, result.maxPixels);
     EXPECT_EQ(result.misplaced, 0U);
+}
+
+TEST(CompareDepth, OfTheFarthestOnlyTellsNoLessAndTheSameOfThose) {
+    const TerrainRayCaster reference = ridge(0);
+    const Pinhole camera = southernView();
+    const ReferenceView view = castView(camera, reference);
+    const auto depth = depthOf(ridge(2), camera);
+    std::vector<float> all, few;
+    const DepthComparison exact = compareDepth(view, depth, 2, {}, LookAround::All, &all);
+    const DepthComparison quick = compareDepth(view, depth, 2, {}, LookAround::Farthest, &few);
+    EXPECT_EQ(quick.compared, exact.compared);
+    EXPECT_GE(quick.p50Pixels, exact.p50Pixels);
+    EXPECT_LT(quick.p50Pixels, exact.p50Pixels + 0.02);
+    EXPECT_GE(quick.maxPixels, exact.maxPixels);
+    EXPECT_LT(quick.maxPixels, exact.maxPixels + 0.02);
+    ASSERT_EQ(all.size(), depth.size());
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        EXPECT_EQ(std::isnan(all[i]), std::isinf(depth[i]));
+        EXPECT_FALSE(few[i] < all[i]);
+    }
+    EXPECT_FLOAT_EQ(*std::max_element(few.begin(), few.end(),
+                                      [](float a, float b) {
+                                          return !std::isnan(b) && (std::isnan(a) || a < b);
+                                      }),
+                    static_cast<float>(quick.maxPixels));
 }
 
 TEST(CompareDepth, CountsHoles) {

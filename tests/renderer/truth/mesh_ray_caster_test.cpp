@@ -110,5 +110,15 @@ TEST(ClosestPoint, IsOnTheFaceAnEdgeOrACorner) {
     expectClosest({-1, 9, 0}, {0, 4, 0});
 }
 
+TEST(MeshRayCaster, FindsTheClosestPointBesideTrianglesWithoutArea) {
+    const TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 5, 5}},
+                            {{3, 3, 3}, {0, 1, 2}, {0, 0, 1}}};
+    const MeshRayCaster caster(mesh);
+    for (int again = 0; again < 3; ++again) {
+        EXPECT_EQ(*caster.counterpart({0.25, 0.25, 2}), Vec3(0.25, 0.25, 0));
+        EXPECT_EQ(*caster.counterpart({-1, 0, 0}), Vec3(0, 0, 0));
+    }
+}
+
 }  // namespace
 }  // namespace eyrie::truth

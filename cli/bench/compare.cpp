@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/bench/compare.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "cli/bench/runs.h"
+
+namespace eyrie::cli::bench {
+namespace {
+
+/// Of the rank sum's normal approximation: 1 in 200 on each side.
+constexpr double kOneInTwoHundred = 2.5758;
+
+/// How many of the least, and of the greatest, of n m ratios are left out.
+std::size_t leftOut(double n, double m) {
+    const double spread = std::sqrt(n * m * (n + m + 1) / 12);
+    return static_cast<std::size_t>(
+        std::max(0.0, std::floor(n * m / 2 - kOneInTwoHundred * spread - 0.5)));
+}
+
+/// Orders in which n and m values may come, C(n + m, n).
+double orders(double n, double m) {
+    return std::exp(std::lgamma(n + m + 1) - std::lgamma(n + 1) - std::lgamma(m + 1));
+}
+
+std::vector<double> passesOf(const WrittenRun& run, double Percentiles::*figure) {
+    std::vector<double> values;
+    for (const Percentiles& pass : run.passes) values.push_back(pass.*figure);
+    return values;
+}
+
+Verdict verdictOf(const Ratio& ratio) {
+    if (ratio.confidence < kLeastConfidence)
+        return Verdict::TooFewPasses;
+    if (ratio.low > 1)
+        return Verdict::More;
+    return ratio.high < 1 ? Verdict::Less : Verdict::WithinNoise;
+}
+
+Figure ofPasses(const char* name, double Percentiles::*figure, const WrittenRun& a,
+                const WrittenRun& b) {
+    Figure result{name, "ms", a.frame.*figure, b.frame.*figure, {}, Verdict::TooFewPasses};
+    const std::vector<double> inA = passesOf(a, figure);
+    const std::vector<double> inB = passesOf(b, figure);
+    const auto positive = [](double value) { return value > 0 && std::isfinite(value); };
+    if (inA.empty() || inB.empty() || !std::ranges::all_of(inA, positive) ||
+        !std::ranges::all_of(inB, positive))
+        return result;
+    result.ratio = ratioOf(inA, inB);
+    result.verdict = verdictOf(*result.ratio);
+    return result;
+}
+
+/// What repeats to the bit, so that any difference is one.
+Figure exact(const char* name, const char* unit, double a, double b) {
+    const Verdict verdict = a == b ? Verdict::Equal : a < b ? Verdict::More : Verdict::Less;
+    return {name, unit, a, b, {}, verdict};
+}
+
+Figure once(const char* name, const char* unit, double a, double b) {
+    return {name, unit, a, b, {}, Verdict::NotRepeated};
+}
+
+std::vector<Figure> figuresOf(const WrittenRun& a, const WrittenRun& b) {
+    std::vector<Figure> figures = {
+        ofPasses("frame, median", &Percentiles::p50, a, b),
+        ofPasses("frame, p95", &Percentiles::p95, a, b),
+        ofPasses("frame, p99", &Percentiles::p99, a, b),
+        exact("error promised", "px", a.tauAchievedMax, b.tauAchievedMax),
+        exact("frames over tau", "", a.framesBeyond, b.framesBeyond),
+        exact("triangles, mean", "", a.trianglesMean, b.trianglesMean)};
+    if (a.errorP99 && b.errorP99)
+        figures.push_back(exact("error measured, p99", "px", *a.errorP99, *b.errorP99));
+    if (a.errorMax && b.errorMax)
+        figures.push_back(exact("error measured, worst", "px", *a.errorMax, *b.errorMax));
+    figures.push_back(once("first pass, median", "ms", a.firstPassMedian, b.firstPassMedian));
+    figures.push_back(once("loaded", "MiB", a.bytesLoaded / 0x1p20, b.bytesLoaded / 0x1p20));
+    figures.push_back(
+        once("memory", "MiB", a.peakResidentBytes / 0x1p20, b.peakResidentBytes / 0x1p20));
+    return figures;
+}
+
+bool isSameKind(const WrittenRun& a, const WrittenRun& b) {
+    return a.label == b.label && a.renderers == b.renderers && a.compound == b.compound;
+}
+
+std::string nameOf(const WrittenRun& run) {
+    return fmt::format("{}, {}", run.label, drawnBy(run.renderers, run.compound));
+}
+
+void noteRunsOfOneOnly(const WrittenReport& own, const WrittenReport& other,
+                       std::vector<std::string>& notes) {
+    for (const WrittenRun& run : own.runs)
+        if (std::ranges::none_of(other.runs, [&](auto& one) { return isSameKind(run, one); }))
+            notes.push_back(fmt::format("only {} has {}", own.name, nameOf(run)));
+}
+
+/// What was measured differently, in words; empty where nothing was.
+std::string differenceOf(const WrittenReport& a, const WrittenReport& b) {
+    const auto said = [](const WrittenReport& report) {
+        return fmt::format("{} is of {}, flight {}, {} x {} pixels, {} frames", report.name,
+                           report.scene, report.flight, report.width, report.height, report.frames);
+    };
+    const auto key = [](const WrittenReport& report) {
+        return std::tuple(report.scene, report.flight, report.width, report.height, report.frames);
+    };
+    return key(a) == key(b) ? "" : said(a) + "; " + said(b);
+}
+
+}  // namespace
+
+Ratio ratioOf(const std::vector<double>& a, const std::vector<double>& b) {
+    std::vector<double> ratios;
+    for (const double before : a)
+        for (const double after : b) ratios.push_back(after / before);
+    std::ranges::sort(ratios);
+    const auto n = static_cast<double>(a.size());
+    const auto m = static_cast<double>(b.size());
+    const std::size_t k = leftOut(n, m);
+    const std::size_t last = ratios.size() - 1;
+    return {(ratios[last / 2] + ratios[(last + 1) / 2]) / 2, ratios[k], ratios[last - k],
+            k == 0 ? 1 - 2 / orders(n, m) : 0.99};
+}
+
+absl::StatusOr<Comparison> compare(WrittenReport a, WrittenReport b, bool force) {
+    Comparison comparison;
+    if (const std::string difference = differenceOf(a, b); !difference.empty()) {
+        if (!force)
+            return absl::InvalidArgumentError(difference +
+                                              "; only the same can be compared, or say --force");
+        comparison.notes.push_back(difference);
+    }
+    if (a.processor != b.processor || a.device != b.device)
+        comparison.notes.push_back(fmt::format("machines differ: {}, {}; {}, {}", a.processor,
+                                               a.device, b.processor, b.device));
+    for (const WrittenRun& run : a.runs)
+        for (const WrittenRun& other : b.runs)
+            if (isSameKind(run, other))
+                comparison.runs.push_back({run, other, figuresOf(run, other)});
+    if (comparison.runs.empty())
+        return absl::InvalidArgumentError(
+            fmt::format("{} and {} have no run in common; measure the same --tau and --renderers",
+                        a.name, b.name));
+    noteRunsOfOneOnly(a, b, comparison.notes);
+    noteRunsOfOneOnly(b, a, comparison.notes);
+    comparison.a = std::move(a);
+    comparison.b = std::move(b);
+    return comparison;
+}
+
+int countBeyondNoise(const Comparison& comparison) {
+    int count = 0;
+    for (const RunComparison& run : comparison.runs)
+        count += static_cast<int>(std::ranges::count_if(run.figures, [](const Figure& figure) {
+            return figure.verdict == Verdict::Less || figure.verdict == Verdict::More;
+        }));
+    return count;
+}
+
+}  // namespace eyrie::cli::bench

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <vector>
+
+#include <absl/status/statusor.h>
+
+#include "cli/bench/frame_error.h"
+#include "cli/bench/reference_sources.h"
+#include "cli/picture_source.h"
+#include "fabric/flight.h"
+#include "renderer/page/page_source.h"
+#include "renderer/truth/depth_comparison.h"
+
+namespace eyrie::cli::bench {
+
+struct JudgedFrames {
+    int width = 1280;  ///< of the pictures, pixels
+    int height = 720;
+    int played = 120;  ///< frames of one pass along the flight
+    int judged = 6;    ///< of these, evenly spread; all where there are fewer
+};
+
+/// At which colours are drawn that pictures' are compared with: finer, or as fine, as what is
+/// compared.
+inline constexpr double kFinestTauPixels = 0.125;
+
+/// Holds frames of one flight against the full-resolution source, at any tau. What the source shows
+/// is cast once a frame and kept, 20 bytes a pixel.
+class FlightJudge {
+public:
+    /// `remote`: how the drawn terrain is read again, for pixels of triangles seen edge-on.
+    FlightJudge(ReferenceScene reference, const fabric::Flight& flight, const JudgedFrames& frames,
+                page::SourceOptions remote);
+
+    /// Draws the frames by `pictures` as `request` says, and measures them. `frameDone` is called
+    /// after each. Errors: those of PictureSource::draw, naming the second; Cancelled.
+    absl::StatusOr<MeasuredErrors> judge(PictureSource& pictures, coordinator::FrameRequest request,
+                                         const std::function<void()>& frameDone,
+                                         const std::stop_token& stop);
+
+    const ReferenceScene& reference() const { return reference_; }
+    std::vector<fabric::Camera> cameras() const;
+    double frames() const { return static_cast<double>(frames_.size()); }
+
+private:
+    struct Frame {
+        double seconds = 0;
+        fabric::Camera camera;
+        std::optional<truth::ReferenceView> view;  ///< once it was judged
+        std::optional<fabric::Image> finest;
+    };
+    struct Judged {
+        FrameError error;
+        fabric::Image picture;
+        std::vector<float> displacements;
+    };
+
+    absl::StatusOr<Judged> judge(Frame& frame, PictureSource& pictures,
+                                 coordinator::FrameRequest request) const;
+    absl::Status prepare(Frame& frame, PictureSource& pictures,
+                         coordinator::FrameRequest request) const;
+
+    ReferenceScene reference_;
+    JudgedFrames how_;
+    page::SourceOptions remote_;
+    std::vector<Frame> frames_;
+};
+
+/// Whether a frame's surface is nowhere farther off than it promises, but for the 1/256 pixel that
+/// rasterisation rounds.
+bool keepsPromise(const FrameError& error);
+
+}  // namespace eyrie::cli::bench

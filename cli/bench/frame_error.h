@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+/// What a frame shows, held against the full-resolution source.
+namespace eyrie::cli::bench {
+
+/// One picture's errors. Displacements are of surface points, in pixels on the screen, from where
+/// the source has them: measured by an independent ray caster (renderer/truth).
+struct FrameError {
+    double seconds = 0;         ///< of the flight
+    double promisedPixels = 0;  ///< tauAchieved
+    double p50Pixels = 0;
+    double p99Pixels = 0;
+    double maxPixels = 0;
+    std::size_t compared = 0;     ///< pixels
+    std::size_t holes = 0;        ///< nothing drawn where the source is hit (edges excepted)
+    std::size_t falseHits = 0;    ///< drawn where the source is not hit (edges excepted)
+    std::size_t misplaced = 0;    ///< another surface shown than the front one (edges excepted)
+    double silhouettePixels = 0;  ///< largest distance of a drawn outline from the source's
+    /// Colour, against a picture of the same view drawn at kFinestTauPixels (flight_judge.h).
+    double psnrDb = 0;
+    double ssim = 1;
+    double flip = 0;  ///< mean of FLIP (Andersson et al. 2020), 0 to 1
+    std::size_t triangles = 0;
+};
+
+/// A frame that came closest to its promise, or broke it: worth looking at. PNG files' bytes.
+struct WorstFrame {
+    FrameError error;
+    std::string picturePng;
+    std::string heatMapPng;  ///< displacement per pixel
+};
+
+/// One level of a model decimated uniformly: the same spacing everywhere, whatever the view.
+struct UniformLevel {
+    std::size_t triangles = 0;  ///< of the whole level, all of which is drawn
+    double p99Pixels = 0;       ///< of its pictures along the flight, measured in the same way
+    double maxPixels = 0;
+};
+
+/// Of a flight at one tau.
+struct MeasuredErrors {
+    std::vector<FrameError> frames;
+    std::vector<WorstFrame> worst;
+};
+
+}  // namespace eyrie::cli::bench

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/bench/reference.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "cli/bench/flights.h"
+#include "cli/bench/resident_memory.h"
+#include "cli/bench/uniform_levels.h"
+#include "cli/progress_bar.h"
+#include "cli/values.h"
+#include "fabric/status.h"
+
+namespace eyrie::cli::bench {
+namespace {
+
+absl::StatusOr<std::uint64_t> memoryOf(const ReferenceOptions& options) {
+    if (options.memory.empty())
+        return static_cast<std::uint64_t>(kShareOfMemory * static_cast<double>(availableBytes()));
+    return parseBytes(options.memory, "--reference-memory");
+}
+
+absl::StatusOr<std::unique_ptr<PictureSource>> open(const RunPlan& plan, int renderers,
+                                                    const std::stop_token& stop) {
+    PictureSourceOptions options = plan.pictures;
+    options.renderers = renderers;
+    return PictureSource::open(plan.scene, options, stop);
+}
+
+absl::StatusOr<FlightJudge> judgeFor(const ReferencePlan& reference, const RunPlan& plan,
+                                     const std::stop_token& stop) {
+    ASSIGN_OR_RETURN(const auto pictures, open(plan, 0, stop));
+    ASSIGN_OR_RETURN(const fabric::Flight flight,
+                     flightNamed(plan.flight, pictures->sceneInfo().bounds));
+    ASSIGN_OR_RETURN(ReferenceScene scene, readSources(reference.scene, reference.sources));
+    const coordinator::FrameRequest& request = plan.play.request;
+    return FlightJudge(std::move(scene), flight,
+                       {request.width, request.height, plan.play.frames, reference.frames},
+                       reference.remote);
+}
+
+absl::StatusOr<MeasuredErrors> measureRun(FlightJudge& judge, const RunPlan& plan,
+                                          const BenchRun& run,
+                                          const std::function<void()>& frameDone,
+                                          const std::stop_token& stop) {
+    ASSIGN_OR_RETURN(const auto pictures, open(plan, run.renderers, stop));
+    coordinator::FrameRequest request = plan.play.request;
+    request.tauPixels = run.tauPixels;
+    return judge.judge(*pictures, request, frameDone, stop);
+}
+
+absl::Status checkCompared(const std::vector<BenchRun>& runs) {
+    for (const BenchRun& run : runs)
+        for (const FrameError& error : run.measured->frames)
+            if (error.compared > 0)
+                return absl::OkStatus();
+    return absl::FailedPreconditionError(
+        "nothing was measured: no frame that was held against the source shows any of it; take "
+        "another flight, or more --reference-frames");
+}
+
+double largestP99(const std::vector<BenchRun>& runs) {
+    double largest = 0;
+    for (const BenchRun& run : runs)
+        for (const FrameError& error : run.measured->frames)
+            largest = std::max(largest, error.p99Pixels);
+    return largest;
+}
+
+}  // namespace
+
+void addReferenceOptions(CLI::App& command, ReferenceOptions& options) {
+    CLI::Option* const reference = command.add_flag(
+        "--reference", options.isAsked,
+        "Measure errors, too: hold frames against the full-resolution source by rays in double "
+        "precision, and compare with uniform decimation");
+    command
+        .add_option("--reference-frames", options.frames,
+                    "How many of a flight's frames, evenly spread")
+        ->check(CLI::Range(1, 1000))
+        ->needs(reference)
+        ->capture_default_str();
+    command
+        .add_option("--source", options.sources,
+                    "The source's files, where they are neither where they were imported from nor "
+                    "beside the import")
+        ->needs(reference)
+        ->type_name("FILE");
+    command
+        .add_option("--reference-memory", options.memory,
+                    "What the source may take; 70 % of what is free otherwise")
+        ->needs(reference)
+        ->type_name("BYTES");
+}
+
+absl::StatusOr<ReferencePlan> planReference(const RunPlan& plan, const ReferenceOptions& options,
+                                            const std::stop_token& stop) {
+    ReferencePlan reference;
+    reference.frames = options.frames;
+    ASSIGN_OR_RETURN(const std::uint64_t memory, memoryOf(options));
+    ASSIGN_OR_RETURN(const RemoteData remote, remoteDataOf(plan.pictures.cache));
+    reference.remote = page::sourceOptions(remote.cacheFolder, remote.cacheBytes);
+    ASSIGN_OR_RETURN(reference.scene, loadScene(plan.scene, plan.pictures, stop));
+    ASSIGN_OR_RETURN(reference.sources,
+                     findSources(reference.scene, options.sources, memory, reference.remote));
+    return reference;
+}
+
+absl::StatusOr<std::vector<UniformLevel>> measureRuns(const ReferencePlan& reference,
+                                                      const RunPlan& plan,
+                                                      std::vector<BenchRun>& runs,
+                                                      const std::stop_token& stop) {
+    ProgressBar bar("reference", reference.frames, "frames",
+                    ProgressBar::styleFor(plan.pictures.quiet));
+    const import::Progress progress = bar.callback();
+    ASSIGN_OR_RETURN(FlightJudge judge, judgeFor(reference, plan, stop));
+    for (BenchRun& run : runs) {
+        int done = 0;
+        const auto frameDone = [&] { progress("tau " + run.label, ++done / judge.frames()); };
+        ASSIGN_OR_RETURN(run.measured, measureRun(judge, plan, run, frameDone, stop));
+    }
+    RETURN_IF_ERROR(checkCompared(runs));
+    int done = 0;
+    const auto levelDone = [&] { progress("uniform decimation", 1 - std::ldexp(1.0, -++done)); };
+    return uniformLevels(judge.reference(), judge.cameras(), plan.play.request.width,
+                         plan.play.request.height, largestP99(runs), levelDone, stop);
+}
+
+absl::Status checkPromises(const std::vector<BenchRun>& runs) {
+    const auto beyond = [](const FrameError& error) {
+        return error.maxPixels - error.promisedPixels;
+    };
+    for (const BenchRun& run : runs) {
+        if (!run.measured || run.measured->frames.empty())
+            continue;
+        const FrameError worst = std::ranges::max(run.measured->frames, {}, beyond);
+        if (!keepsPromise(worst))
+            return absl::InternalError(fmt::format(
+                "ERROR: the promise is broken at tau {}, second {:.3f} of the flight: a surface is "
+                "{:.4f} px from where the source has it, and {:.4f} px were promised",
+                run.label, worst.seconds, worst.maxPixels, worst.promisedPixels));
+    }
+    return absl::OkStatus();
+}
+
+}  // namespace eyrie::cli::bench

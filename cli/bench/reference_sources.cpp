@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/bench/reference_sources.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "cli/source_record.h"
+#include "fabric/status.h"
+#include "renderer/mesh/eym_format.h"
+#include "renderer/terrain/eyt_format.h"
+
+namespace eyrie::cli::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Files = std::vector<std::string>;
+
+absl::StatusOr<std::uint64_t> keptHash(const fabric::SceneObject& object,
+                                       const page::SourceOptions& remote) {
+    if (object.kind == fabric::ObjectKind::Mesh) {
+        ASSIGN_OR_RETURN(const mesh::EymFile file, mesh::EymFile::open(object.path, remote));
+        return file.sourceHash();
+    }
+    ASSIGN_OR_RETURN(const auto file, terrain::EytFile::open(object.path, remote));
+    return file->index().sourceHash;
+}
+
+bool areThere(const Files& files) {
+    std::error_code ignored;
+    return !files.empty() && std::ranges::all_of(files, [&](const std::string& file) {
+        return fs::exists(file, ignored);
+    });
+}
+
+/// Those of `given` that are named like the recorded ones, in their order; none unless all are.
+Files namedLike(const Files& recorded, const Files& given) {
+    Files files;
+    for (const std::string& one : recorded) {
+        const auto same = std::ranges::find_if(given, [&](const std::string& path) {
+            return fs::path(path).filename() == fs::path(one).filename();
+        });
+        if (same == given.end())
+            return {};
+        files.push_back(*same);
+    }
+    return files;
+}
+
+Files beside(const std::string& imported, const Files& recorded) {
+    Files files;
+    for (const std::string& one : recorded)
+        files.push_back((fs::path(imported).parent_path() / fs::path(one).filename()).string());
+    return files;
+}
+
+/// Where to look, in this order.
+std::vector<Files> places(const std::string& imported, const std::optional<Files>& recorded,
+                          const Files& given) {
+    if (!recorded)
+        return {given};
+    return {namedLike(*recorded, given), *recorded, beside(imported, *recorded)};
+}
+
+absl::Status isNowhere(const std::string& imported, const std::optional<Files>& recorded) {
+    if (!recorded)
+        return absl::NotFoundError(
+            fmt::format("{}: where its source lies is not known, since {} is not there; name the "
+                        "source's files with --source",
+                        imported, sourceRecordName(imported)));
+    return absl::NotFoundError(
+        fmt::format("{}: its source {} is not there, nor beside it; name the source's files with "
+                    "--source",
+                    imported, fmt::join(*recorded, ", ")));
+}
+
+struct Candidate {
+    FoundSource source;
+    std::uint64_t neededBytes = 0;
+};
+
+absl::StatusOr<Candidate> findSource(const fabric::SceneObject& object, const Files& given,
+                                     const page::SourceOptions& remote) {
+    ASSIGN_OR_RETURN(const std::uint64_t kept, keptHash(object, remote));
+    const std::optional<Files> recorded = recordedSources(object.path);
+    absl::Status refused = isNowhere(object.path, recorded);
+    for (const Files& files : places(object.path, recorded, given)) {
+        if (!areThere(files))
+            continue;
+        ASSIGN_OR_RETURN(const truth::SourceFacts facts, truth::inspectSource(object.kind, files));
+        if (facts.hash == kept)
+            return Candidate{{object.path, object.kind, files}, facts.neededBytes};
+        if (absl::IsNotFound(refused))
+            refused = absl::InvalidArgumentError(
+                fmt::format("{}: is not what {} was imported from: its hash is {:016x}, that of "
+                            "the import's source {:016x}; import it again, or name what it was "
+                            "with --source",
+                            fmt::join(files, ", "), object.path, facts.hash, kept));
+    }
+    return refused;
+}
+
+absl::Status checkSides(const fabric::SceneObject& object) {
+    if (!object.singleSided)
+        return absl::OkStatus();
+    return absl::InvalidArgumentError(
+        fmt::format("{}: is drawn from one side only, and a reference shows both; take "
+                    "singleSided out of the scene to measure it",
+                    object.name));
+}
+
+}  // namespace
+
+absl::StatusOr<std::vector<FoundSource>> findSources(const fabric::Scene& scene, const Files& given,
+                                                     std::uint64_t memoryBytes,
+                                                     const page::SourceOptions& remote) {
+    std::vector<FoundSource> found;
+    std::uint64_t needed = 0;
+    for (const fabric::SceneObject& object : scene.objects) {
+        RETURN_IF_ERROR(checkSides(object));
+        if (std::ranges::find(found, object.path, &FoundSource::imported) != found.end())
+            continue;
+        ASSIGN_OR_RETURN(Candidate one, findSource(object, given, remote));
+        needed += one.neededBytes;
+        found.push_back(std::move(one.source));
+    }
+    if (needed > memoryBytes)
+        return absl::ResourceExhaustedError(fmt::format(
+            "{}: the reference of all that the scene shows takes about {} MiB of memory, of which "
+            "it may use {}; allow more with --reference-memory, or measure a part of the scene",
+            found.front().files.front(), (needed >> 20) + 1, memoryBytes >> 20));
+    return found;
+}
+
+absl::StatusOr<ReferenceScene> readSources(const fabric::Scene& scene,
+                                           const std::vector<FoundSource>& found) {
+    std::map<std::string, truth::SourceSurface> sources;
+    for (const FoundSource& one : found) {
+        ASSIGN_OR_RETURN(sources[one.imported], truth::readSource(one.kind, one.files));
+    }
+    ReferenceScene reference;
+    std::vector<truth::PlacedSurface> placed;
+    for (const fabric::SceneObject& object : scene.objects) {
+        reference.objects.push_back({sources[object.path], object.path, object.worldFromObject});
+        placed.push_back({sources[object.path].surface(), object.worldFromObject});
+    }
+    reference.surface = std::make_shared<truth::PlacedSurfaces>(placed);
+    return reference;
+}
+
+}  // namespace eyrie::cli::bench

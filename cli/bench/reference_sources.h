@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <absl/status/statusor.h>
+
+#include "fabric/scene.h"
+#include "renderer/page/page_source.h"
+#include "renderer/truth/placed_surfaces.h"
+#include "renderer/truth/source_files.h"
+
+/// The full-resolution sources that a scene's pictures are held against.
+namespace eyrie::cli::bench {
+
+/// One import of a scene, and what it was made of.
+struct FoundSource {
+    std::string imported;  ///< the .eyt or .eym
+    fabric::ObjectKind kind = fabric::ObjectKind::Mesh;
+    std::vector<std::string> files;
+};
+
+/// Finds the source files of each of the scene's imports: those of `given` (of the names that the
+/// import's record has, or all of them where it has none), or where the record says, or beside the
+/// import. Their hash must be the one that the import keeps, and all of them together must not need
+/// more than `memoryBytes`. Nothing is read but for the hashes. One for each file, whichever
+/// objects show it.
+///
+/// Errors: NotFound (no file, nor a record), InvalidArgument (another hash; an object of one side,
+/// whose backs the reference would show), ResourceExhausted.
+absl::StatusOr<std::vector<FoundSource>> findSources(const fabric::Scene& scene,
+                                                     const std::vector<std::string>& given,
+                                                     std::uint64_t memoryBytes,
+                                                     const page::SourceOptions& remote);
+
+/// A scene's sources, read.
+struct ReferenceScene {
+    struct Object {
+        truth::SourceSurface source;
+        std::string imported;
+        fabric::Mat4 worldFromObject{1.0};
+    };
+    std::vector<Object> objects;  ///< of the scene
+    std::shared_ptr<const truth::PlacedSurfaces> surface;
+};
+
+/// Errors: those of readSource.
+absl::StatusOr<ReferenceScene> readSources(const fabric::Scene& scene,
+                                           const std::vector<FoundSource>& found);
+
+}  // namespace eyrie::cli::bench

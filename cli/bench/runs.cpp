@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/bench/runs.h"
+
+#include <memory>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "cli/bench/flights.h"
+#include "cli/progress_bar.h"
+#include "fabric/status.h"
+
+namespace eyrie::cli::bench {
+namespace {
+
+/// A run that has not been played.
+BenchRun runOf(double tauPixels, int renderers, coordinator::Decomposition compound) {
+    const char* cut = compound == coordinator::Decomposition::TwoD ? "2D" : "DB";
+    return {fmt::format("{} px", tauPixels), tauPixels, renderers, renderers > 1 ? cut : "", {}};
+}
+
+absl::StatusOr<Played> playRun(const RunPlan& plan, const BenchRun& run,
+                               const std::function<void()>& frameDone,
+                               const std::stop_token& stop) {
+    PictureSourceOptions options = plan.pictures;
+    options.renderers = run.renderers;
+    ASSIGN_OR_RETURN(const auto pictures, PictureSource::open(plan.scene, options, stop));
+    ASSIGN_OR_RETURN(const fabric::Flight flight,
+                     flightNamed(plan.flight, pictures->sceneInfo().bounds));
+    PlayOptions play = plan.play;
+    play.request.tauPixels = run.tauPixels;
+    absl::StatusOr<Played> played = bench::play(*pictures, flight, play, frameDone, stop);
+    return played.ok() ? std::move(played) : fabric::withContext(played.status(), plan.flight);
+}
+
+}  // namespace
+
+std::string drawnBy(int renderers, const std::string& compound) {
+    if (renderers == 0)
+        return "one process";
+    return renderers == 1 ? "1 renderer" : fmt::format("{} renderers, {}", renderers, compound);
+}
+
+absl::StatusOr<std::vector<BenchRun>> playRuns(const RunPlan& plan, const std::stop_token& stop) {
+    const int frames = plan.play.frames * (plan.play.repeats + 1);
+    ProgressBar bar("bench", frames, "frames", ProgressBar::styleFor(plan.pictures.quiet));
+    const import::Progress progress = bar.callback();
+    std::vector<BenchRun> runs;
+    for (const int renderers : plan.renderers)
+        for (const double tau : plan.taus) {
+            BenchRun run = runOf(tau, renderers, plan.pictures.compound);
+            const std::string stage =
+                fmt::format("tau {}, {}", run.label, drawnBy(renderers, run.compound));
+            int done = 0;
+            const auto frameDone = [&] { progress(stage, static_cast<double>(++done) / frames); };
+            ASSIGN_OR_RETURN(run.played, playRun(plan, run, frameDone, stop));
+            runs.push_back(std::move(run));
+        }
+    return runs;
+}
+
+}  // namespace eyrie::cli::bench

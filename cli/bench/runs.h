@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include <absl/status/statusor.h>
+
+#include "cli/bench/frame_error.h"
+#include "cli/bench/play.h"
+#include "cli/picture_source.h"
+
+/// A bench is runs: the same flight at each error, drawn by each number of processes.
+namespace eyrie::cli::bench {
+
+/// A flight played once over.
+struct BenchRun {
+    std::string label;  ///< what was asked for, as a person says it: "1 px"
+    double tauPixels = 0;
+    int renderers = 0;     ///< processes that drew; 0: the bench's own
+    std::string compound;  ///< how they cut the frame, "2D" or "DB"; empty in one process
+    Played played;
+    std::optional<MeasuredErrors> measured = {};  ///< where a reference was asked for
+};
+
+/// Who drew a run, as a person says it: "one process", "1 renderer", "2 renderers, DB".
+std::string drawnBy(int renderers, const std::string& compound);
+
+struct RunPlan {
+    std::string scene;
+    std::string flight;  ///< for flightNamed
+    std::vector<double> taus;
+    std::vector<int> renderers{0};
+    PlayOptions play;  ///< its tau is each run's own
+    PictureSourceOptions pictures;
+};
+
+/// Plays all runs, one after another, each with renderers of its own that have loaded nothing yet:
+/// what a run says does not depend on those before it. Shows progress on standard error. Errors:
+/// those of PictureSource::open, flightNamed and play, these with the flight's name.
+absl::StatusOr<std::vector<BenchRun>> playRuns(const RunPlan& plan, const std::stop_token& stop);
+
+}  // namespace eyrie::cli::bench

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/bench/summary_file.h"
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include <fmt/format.h>
+#include <google/protobuf/struct.pb.h>
+#include <google/protobuf/util/json_util.h>
+
+#include "cli/scene_files.h"
+#include "fabric/status.h"
+
+namespace eyrie::cli::bench {
+namespace {
+
+using google::protobuf::Value;
+
+/// A JSON value, and where it is. The first field that is amiss is kept in `problem`.
+class Field {
+public:
+    Field(const Value& value, std::string path, absl::Status& problem)
+        : value_(&value), path_(std::move(path)), problem_(&problem) {}
+
+    bool has(const std::string& name) const {
+        return value_->struct_value().fields().contains(name);
+    }
+    Field at(const std::string& name) const {
+        const auto& fields = value_->struct_value().fields();
+        const auto found = fields.find(name);
+        const std::string path = path_.empty() ? name : path_ + "." + name;
+        return {found == fields.end() ? none() : found->second, path, *problem_};
+    }
+    std::vector<Field> list() const {
+        expect(Value::kListValue, "a list");
+        std::vector<Field> fields;
+        for (const Value& value : value_->list_value().values())
+            fields.emplace_back(value, fmt::format("{}[{}]", path_, fields.size()), *problem_);
+        return fields;
+    }
+    std::string text() const {
+        expect(Value::kStringValue, "a text");
+        return value_->string_value();
+    }
+    /// At least 0. JSON has no infinity: null stands for it.
+    double number() const {
+        if (value_ != &none() && value_->has_null_value())
+            return std::numeric_limits<double>::infinity();
+        expect(Value::kNumberValue, "a number");
+        if (!(value_->number_value() >= 0))
+            say(fmt::format("{} is {}; expected at least 0", path_, value_->number_value()));
+        return value_->number_value();
+    }
+    int count() const {
+        const double value = number();
+        if (value != std::floor(value) || value > 1e9)
+            say(fmt::format("{} is {}; expected a whole number up to 1e9", path_, value));
+        return problem_->ok() ? static_cast<int>(value) : 0;
+    }
+
+private:
+    static const Value& none() {
+        static const Value kNone;
+        return kNone;
+    }
+    void expect(Value::KindCase kind, const char* what) const {
+        if (value_->kind_case() == Value::KIND_NOT_SET)
+            say(fmt::format("{} is missing; expected {}", path_, what));
+        else if (value_->kind_case() != kind)
+            say(fmt::format("{} is not {}", path_, what));
+    }
+    void say(const std::string& what) const {
+        if (problem_->ok())
+            *problem_ = absl::InvalidArgumentError(what);
+    }
+
+    const Value* value_;
+    std::string path_;
+    absl::Status* problem_;
+};
+
+Percentiles percentilesOf(const Field& field) {
+    return {field.at("p50").number(), field.at("p95").number(), field.at("p99").number(),
+            field.at("max").number()};
+}
+
+WrittenRun runOf(const Field& field) {
+    WrittenRun run;
+    run.label = field.at("label").text();
+    run.renderers = field.at("renderers").count();
+    run.compound = field.at("compound").text();
+    run.frame = percentilesOf(field.at("frameMs"));
+    for (const Field& pass : field.at("passes").list()) run.passes.push_back(percentilesOf(pass));
+    run.firstPassMedian = field.at("firstPassMs").at("p50").number();
+    run.trianglesMean = field.at("trianglesMean").number();
+    run.tauAchievedMax = field.at("tauAchievedMax").number();
+    run.framesBeyond = field.at("framesBeyondTau").number();
+    run.bytesLoaded = field.at("bytesLoaded").number();
+    run.peakResidentBytes = field.at("peakResidentBytes").number();
+    if (field.has("errorPx")) {
+        run.errorP99 = field.at("errorPx").at("p99").number();
+        run.errorMax = field.at("errorPx").at("max").number();
+    }
+    return run;
+}
+
+WrittenReport reportOf(const Field& field) {
+    const Field bench = field.at("bench");
+    WrittenReport report;
+    report.scene = bench.at("scene").text();
+    report.flight = bench.at("flight").text();
+    report.width = bench.at("width").count();
+    report.height = bench.at("height").count();
+    report.frames = bench.at("frames").count();
+    report.command = bench.at("command").text();
+    report.processor = field.at("machine").at("processor").text();
+    report.device = field.at("machine").at("device").text();
+    for (const Field& run : field.at("runs").list()) report.runs.push_back(runOf(run));
+    return report;
+}
+
+}  // namespace
+
+absl::StatusOr<WrittenReport> readReport(const std::string& path) {
+    const std::string file = std::filesystem::is_directory(path) ? path + "/summary.json" : path;
+    ASSIGN_OR_RETURN(const std::string text, readText(file));
+    Value value;
+    const auto parsed = google::protobuf::util::JsonStringToMessage(text, &value);
+    if (!parsed.ok())
+        return absl::InvalidArgumentError(fmt::format("{}: this is no summary of eyrie bench: {}",
+                                                      file, std::string(parsed.message())));
+    absl::Status problem;
+    WrittenReport report = reportOf(Field(value, "", problem));
+    report.name = path;
+    if (!problem.ok())
+        return fabric::withContext(problem, file);
+    return report;
+}
+
+}  // namespace eyrie::cli::bench

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <absl/status/statusor.h>
+
+#include "cli/bench/run_summary.h"
+
+/// A report that was written before, read back.
+namespace eyrie::cli::bench {
+
+/// Of a run, what can be laid beside another's. Bounds may be infinite.
+struct WrittenRun {
+    std::string label;
+    int renderers = 0;
+    std::string compound;
+    Percentiles frame;
+    std::vector<Percentiles> passes;
+    double firstPassMedian = 0;
+    double trianglesMean = 0;
+    double tauAchievedMax = 0;
+    double framesBeyond = 0;
+    double bytesLoaded = 0;
+    double peakResidentBytes = 0;
+    std::optional<double> errorP99;  ///< pixels, where they were measured
+    std::optional<double> errorMax;
+};
+
+struct WrittenReport {
+    std::string name;  ///< as it was asked for
+    std::string scene;
+    std::string flight;
+    int width = 0;
+    int height = 0;
+    int frames = 0;
+    std::string processor;
+    std::string device;
+    std::string command;
+    std::vector<WrittenRun> runs;
+};
+
+/// `path` is a report's folder or its summary.json. Errors: those of readText; InvalidArgument,
+/// naming file and field, where it is no summary, lacks a figure or has one that cannot be.
+absl::StatusOr<WrittenReport> readReport(const std::string& path);
+
+}  // namespace eyrie::cli::bench

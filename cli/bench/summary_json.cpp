@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/bench/summary_json.h"
+
+#include "cli/bench/machine.h"
+#include "cli/bench/run_summary.h"
+
+namespace eyrie::cli::bench {
+namespace {
+
+JsonObject toJson(const Percentiles& values) {
+    JsonObject json;
+    json.number("p50", values.p50)
+        .number("p95", values.p95)
+        .number("p99", values.p99)
+        .number("max", values.max);
+    return json;
+}
+
+JsonObject toJson(const fabric::StageMilliseconds& stages) {
+    JsonObject json;
+    json.number("cull", stages.cull)
+        .number("draw", stages.draw)
+        .number("vertices", stages.vertices)
+        .number("fill", stages.fill)
+        .number("readback", stages.readback)
+        .number("encode", stages.encode)
+        .number("total", stages.total);
+    return json;
+}
+
+JsonObject toJson(const UniformLevel& level) {
+    JsonObject json;
+    json.count("triangles", level.triangles)
+        .number("p99Px", level.p99Pixels)
+        .number("maxPx", level.maxPixels);
+    return json;
+}
+
+template <typename T>
+std::vector<JsonObject> toJson(const std::vector<T>& values) {
+    std::vector<JsonObject> objects;
+    for (const T& value : values) objects.push_back(toJson(value));
+    return objects;
+}
+
+void addMeasured(const ErrorSummary& errors, std::size_t frames, JsonObject& json) {
+    JsonObject pixels;
+    pixels.number("p50", errors.p50Pixels)
+        .number("p99", errors.p99Pixels)
+        .number("max", errors.maxPixels);
+    json.object("errorPx", pixels)
+        .count("holes", errors.holes)
+        .count("falseHits", errors.falseHits)
+        .count("misplaced", errors.misplaced)
+        .number("silhouettePx", errors.silhouettePixels)
+        .number("psnrDb", errors.psnrDb)
+        .number("ssim", errors.ssim)
+        .number("flip", errors.flip)
+        .flag("measuredWithinPromise", errors.withinPromise)
+        .count("framesMeasured", frames);
+}
+
+JsonObject toJson(const BenchRun& run, const std::vector<UniformLevel>& uniform) {
+    const RunSummary summary = summarize(run.played);
+    JsonObject json;
+    json.text("label", run.label)
+        .number("tau", run.tauPixels)
+        .count("renderers", static_cast<std::uint64_t>(run.renderers))
+        .text("compound", run.compound)
+        .number("fpsMedian", summary.fpsMedian)
+        .object("frameMs", toJson(summary.frame))
+        .objects("passes", toJson(summary.passes))
+        .object("firstPassMs", toJson(summary.firstPass))
+        .object("stagesMs", toJson(summary.stages))
+        .object("stageMeansMs", toJson(summary.means))
+        .text("limitingStage", std::string(fabric::limitingStage(summary.stages)))
+        .number("overheadPercent", run.played.overheadPercent)
+        .number("trianglesMean", summary.trianglesMean)
+        .count("pagesLoaded", summary.pagesLoaded)
+        .count("bytesLoaded", summary.bytesLoaded)
+        .count("bytesLoadedFirstPass", summary.bytesLoadedFirstPass)
+        .count("peakResidentBytes", run.played.peakResidentBytes)
+        .number("tauAchievedMax", summary.tauAchievedMax)
+        .count("framesBeyondTau", summary.framesBeyond)
+        .count("framesEmpty", summary.framesEmpty);
+    if (!run.measured || run.measured->frames.empty())
+        return json;
+    const ErrorSummary errors = summarize(*run.measured);
+    addMeasured(errors, run.measured->frames.size(), json);
+    if (const auto factor = efficiency(uniform, errors.p99Pixels, summary.trianglesMean))
+        json.number("efficiency", *factor);
+    return json;
+}
+
+JsonObject toJson(const BenchFacts& facts) {
+    JsonObject json;
+    json.text("scene", facts.scene)
+        .text("flight", facts.flight)
+        .count("width", static_cast<std::uint64_t>(facts.width))
+        .count("height", static_cast<std::uint64_t>(facts.height))
+        .count("frames", static_cast<std::uint64_t>(facts.frames))
+        .count("repeats", static_cast<std::uint64_t>(facts.repeats))
+        .text("command", facts.command);
+    return json;
+}
+
+}  // namespace
+
+JsonObject summaryOf(const Report& report) {
+    std::vector<JsonObject> runs;
+    for (const BenchRun& run : report.runs) runs.push_back(toJson(run, report.uniform));
+    const fabric::DeviceInfo device =
+        report.runs.empty() ? fabric::DeviceInfo{} : report.runs.front().played.device;
+    JsonObject json;
+    json.object("machine", machineJson(device))
+        .object("bench", toJson(report.facts))
+        .objects("runs", runs);
+    if (!report.uniform.empty())
+        json.objects("uniform", toJson(report.uniform));
+    return json;
+}
+
+}  // namespace eyrie::cli::bench

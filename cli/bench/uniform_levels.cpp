@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/bench/uniform_levels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "renderer/truth/depth_comparison.h"
+#include "renderer/truth/uniform_decimation.h"
+
+namespace eyrie::cli::bench {
+namespace {
+
+constexpr std::size_t kFewestTriangles = 32;
+constexpr int kMostLevels = 24;
+
+/// A regular grid as it is drawn: one triangle on each side of the main diagonal.
+class DrawnGrid final : public truth::ReferenceSurface {
+public:
+    explicit DrawnGrid(truth::HeightGrid grid) : caster_(std::move(grid)) {}
+
+    HitRange hitRange(const truth::Ray& ray) const override {
+        const double hit =
+            caster_.firstHits(ray)[static_cast<std::size_t>(truth::CellSurface::MainDiagonal)];
+        return {hit, hit};
+    }
+    std::optional<fabric::Vec3> counterpart(const fabric::Vec3& point) const override {
+        return caster_.counterpart(point);
+    }
+
+private:
+    truth::TerrainRayCaster caster_;
+};
+
+struct Decimated {
+    std::shared_ptr<const truth::ReferenceSurface> surface;  ///< null: nothing is left
+    std::size_t triangles = 0;
+};
+
+Decimated decimated(const truth::TerrainRayCaster& terrain, double share) {
+    const int stride = static_cast<int>(std::lround(std::sqrt(1 / share)));
+    const truth::HeightGrid& grid = terrain.grid();
+    if ((std::min(grid.columns, grid.rows) - 1) / stride < 1)
+        return {};
+    truth::HeightGrid coarse = truth::everyPost(grid, stride);
+    const std::size_t triangles = truth::trianglesOf(coarse);
+    if (triangles == 0)
+        return {};
+    return {std::make_shared<DrawnGrid>(std::move(coarse)), triangles};
+}
+
+Decimated decimated(const truth::MeshRayCaster& mesh, double share) {
+    const double wanted = share * static_cast<double>(mesh.mesh().triangles.size());
+    truth::TriangleMesh coarse = truth::clustered(mesh.mesh(), static_cast<std::size_t>(wanted));
+    const std::size_t triangles = coarse.triangles.size();
+    if (triangles == 0)
+        return {};
+    return {std::make_shared<truth::MeshRayCaster>(std::move(coarse)), triangles};
+}
+
+struct Level {
+    std::vector<truth::PlacedSurface> surfaces;
+    std::size_t triangles = 0;
+};
+
+/// Sources that several objects show are decimated once, and count for each.
+Level levelOf(const ReferenceScene& reference, double share) {
+    std::map<const truth::ReferenceSurface*, Decimated> known;
+    Level level;
+    for (const ReferenceScene::Object& object : reference.objects) {
+        const auto [place, isNew] = known.try_emplace(object.source.surface().get());
+        if (isNew)
+            place->second = object.source.terrain ? decimated(*object.source.terrain, share)
+                                                  : decimated(*object.source.mesh, share);
+        if (!place->second.surface)
+            continue;
+        level.surfaces.push_back({place->second.surface, object.worldFromObject});
+        level.triangles += place->second.triangles;
+    }
+    return level;
+}
+
+/// Displacements of one picture, in its own pixels.
+std::vector<double> displacementsOf(const ReferenceScene& reference,
+                                    const truth::PlacedSurfaces& level,
+                                    const truth::Pinhole& camera) {
+    std::vector<float> depth;
+    for (const auto& hit : truth::castView(camera, level).hits)
+        depth.push_back(static_cast<float>(hit.first));
+    std::vector<double> pixels = truth::displacements(camera, depth, *reference.surface);
+    std::erase_if(pixels, [](double value) { return std::isnan(value); });
+    return pixels;
+}
+
+UniformLevel measured(const ReferenceScene& reference, const Level& level,
+                      std::span<const fabric::Camera> cameras, int width, int height) {
+    const truth::PlacedSurfaces surfaces(level.surfaces);
+    const int smallHeight = std::min(kUniformHeight, height);
+    const double scale = static_cast<double>(height) / smallHeight;
+    const int smallWidth = std::max(1, static_cast<int>(std::lround(width / scale)));
+    UniformLevel result{level.triangles};
+    for (const fabric::Camera& camera : cameras) {
+        std::vector<double> pixels =
+            displacementsOf(reference, surfaces, truth::Pinhole(camera, smallWidth, smallHeight));
+        if (pixels.empty())
+            continue;
+        result.p99Pixels = std::max(result.p99Pixels, scale * truth::percentile(pixels, 99));
+        result.maxPixels = std::max(result.maxPixels, scale * *std::ranges::max_element(pixels));
+    }
+    return result;
+}
+
+}  // namespace
+
+absl::StatusOr<std::vector<UniformLevel>> uniformLevels(const ReferenceScene& reference,
+                                                        std::span<const fabric::Camera> cameras,
+                                                        int width, int height, double untilPixels,
+                                                        const std::function<void()>& levelDone,
+                                                        const std::stop_token& stop) {
+    /// Float depth moves points by a little, which is no error of a level.
+    constexpr double kNoError = 1e-3;
+    std::vector<UniformLevel> levels;
+    for (int halvings = 1; halvings <= kMostLevels; ++halvings) {
+        if (stop.stop_requested())
+            return absl::CancelledError("stopped; nothing was written");
+        const Level level = levelOf(reference, std::ldexp(1.0, -halvings));
+        if (level.triangles < kFewestTriangles)
+            break;
+        const UniformLevel one = measured(reference, level, cameras, width, height);
+        levelDone();
+        if (one.p99Pixels > kNoError)
+            levels.push_back(one);
+        if (one.p99Pixels > untilPixels)
+            break;
+    }
+    return levels;
+}
+
+}  // namespace eyrie::cli::bench

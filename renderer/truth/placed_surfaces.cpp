@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/truth/placed_surfaces.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+namespace eyrie::truth {
+namespace {
+
+using fabric::Mat4;
+using fabric::Vec3;
+using fabric::Vec4;
+
+Vec3 transformed(const Mat4& matrix, const Vec3& point) {
+    return Vec3(matrix * Vec4(point, 1));
+}
+
+}  // namespace
+
+PlacedSurfaces::PlacedSurfaces(const std::vector<PlacedSurface>& surfaces) {
+    for (const PlacedSurface& one : surfaces)
+        placed_.push_back({one.surface, one.worldFromObject == Mat4(1.0), one.worldFromObject,
+                           glm::inverse(one.worldFromObject)});
+}
+
+ReferenceSurface::HitRange PlacedSurfaces::hitRange(const Ray& ray) const {
+    HitRange nearest;
+    for (const Placed& placed : placed_) {
+        // Parameters are the same in either space.
+        const Ray inObject{transformed(placed.objectFromWorld, ray.origin),
+                           Vec3(placed.objectFromWorld * Vec4(ray.direction, 0))};
+        const HitRange hit = placed.surface->hitRange(placed.isWhereItIs ? ray : inObject);
+        nearest.first = std::min(nearest.first, hit.first);
+        nearest.last = std::min(nearest.last, hit.last);
+    }
+    return nearest;
+}
+
+std::optional<Vec3> PlacedSurfaces::counterpart(const Vec3& point) const {
+    std::optional<Vec3> closest;
+    for (const Placed& placed : placed_) {
+        const auto inObject = placed.surface->counterpart(
+            placed.isWhereItIs ? point : transformed(placed.objectFromWorld, point));
+        if (!inObject)
+            continue;
+        const Vec3 other =
+            placed.isWhereItIs ? *inObject : transformed(placed.worldFromObject, *inObject);
+        if (!closest || glm::distance(other, point) < glm::distance(*closest, point))
+            closest = other;
+    }
+    return closest;
+}
+
+Displacement PlacedSurfaces::displacement(const Placed& placed, const Pinhole& camera,
+                                          const Vec3& point) {
+    if (placed.isWhereItIs)
+        return placed.surface->displacement(camera, point);
+    const Vec3 inObject = transformed(placed.objectFromWorld, point);
+    const auto other = placed.surface->counterpart(inObject);
+    const auto p = camera.project(point);
+    const auto q =
+        other ? camera.project(transformed(placed.worldFromObject, *other)) : std::nullopt;
+    if (!p || !q)
+        return {};
+    return {glm::distance(*p, *q), fabric::Vec2(inObject) == fabric::Vec2(*other),
+            inObject.z < other->z};
+}
+
+Displacement PlacedSurfaces::displacement(const Pinhole& camera, const Vec3& point) const {
+    Displacement least;
+    for (const Placed& placed : placed_) {
+        const Displacement one = displacement(placed, camera, point);
+        if (one.pixels < least.pixels || std::isnan(least.pixels))
+            least = one;
+    }
+    return least;
+}
+
+}  // namespace eyrie::truth

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "fabric/vec.h"
+#include "renderer/truth/reference_surface.h"
+
+namespace eyrie::truth {
+
+/// One source, and where a scene has it.
+struct PlacedSurface {
+    std::shared_ptr<const ReferenceSurface> surface;  ///< in its own space; may stand in several
+    fabric::Mat4 worldFromObject{1.0};                ///< affine, not singular
+};
+
+/// Several sources in one world: the nearest is seen. A drawn point is held against each source's
+/// counterpart in that source's own space, and the least displacement counts: that the point
+/// belongs to another source does not show in it, but in its depth (DepthComparison::misplaced).
+class PlacedSurfaces final : public ReferenceSurface {
+public:
+    /// Precondition: there is one.
+    explicit PlacedSurfaces(const std::vector<PlacedSurface>& surfaces);
+
+    HitRange hitRange(const Ray& ray) const override;
+    /// In world space the closest of the sources' counterparts.
+    std::optional<fabric::Vec3> counterpart(const fabric::Vec3& point) const override;
+    Displacement displacement(const Pinhole& camera, const fabric::Vec3& point) const override;
+
+private:
+    struct Placed {
+        std::shared_ptr<const ReferenceSurface> surface;
+        bool isWhereItIs = true;  ///< the transform is none
+        fabric::Mat4 worldFromObject{1.0};
+        fabric::Mat4 objectFromWorld{1.0};
+    };
+
+    static Displacement displacement(const Placed& placed, const Pinhole& camera,
+                                     const fabric::Vec3& point);
+
+    std::vector<Placed> placed_;
+};
+
+}  // namespace eyrie::truth

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/truth/source_files.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "fabric/status.h"
+#include "renderer/import/dem_source.h"
+#include "renderer/import/mesh_reader.h"
+#include "renderer/import/ply_reader.h"
+
+namespace eyrie::truth {
+namespace {
+
+constexpr std::uint64_t kBytesOfFileByte = 8;
+/// A vertex while it is read: position, normal, colour, texture coordinates.
+constexpr std::uint64_t kBytesOfReadVertex = 48;
+constexpr std::uint64_t kBytesOfReadTriangle = 12;
+
+std::uint64_t posts(const terrain::GridFrame& frame) {
+    return static_cast<std::uint64_t>(frame.columns) * static_cast<std::uint64_t>(frame.rows);
+}
+
+absl::StatusOr<std::uint64_t> bytesOfMeshFile(const std::string& path) {
+    if (import::isPly(path)) {
+        ASSIGN_OR_RETURN(const import::PlySize size, import::measurePly(path));
+        return std::max(
+            size.fileBytes + size.vertices * kBytesOfReadVertex + size.faces * kBytesOfReadTriangle,
+            MeshRayCaster::bytesFor(size.vertices, size.faces));
+    }
+    std::error_code ignored;
+    const std::uintmax_t bytes = std::filesystem::file_size(path, ignored);
+    return ignored ? 0 : kBytesOfFileByte * bytes;
+}
+
+absl::StatusOr<SourceFacts> inspectTerrain(const std::vector<std::string>& paths) {
+    ASSIGN_OR_RETURN(const import::DemSource source, import::openDems(paths, {}));
+    return SourceFacts{source.hash, TerrainRayCaster::bytesFor(posts(source.posts->frame()))};
+}
+
+absl::StatusOr<SourceFacts> inspectMesh(const std::vector<std::string>& paths) {
+    SourceFacts facts;
+    ASSIGN_OR_RETURN(facts.hash, import::meshSourceHash(paths));
+    for (const std::string& path : paths) {
+        ASSIGN_OR_RETURN(const std::uint64_t bytes, bytesOfMeshFile(path));
+        facts.neededBytes += bytes;
+    }
+    return facts;
+}
+
+absl::StatusOr<SourceSurface> readTerrain(const std::vector<std::string>& paths) {
+    ASSIGN_OR_RETURN(const import::DemSource source, import::openDems(paths, {}));
+    const terrain::GridFrame& frame = source.posts->frame();
+    HeightGrid grid{.columns = frame.columns,
+                    .rows = frame.rows,
+                    .heights = std::vector<float>(posts(frame)),
+                    .origin = frame.origin,
+                    .perColumn = frame.perColumn,
+                    .perRow = frame.perRow};
+    RETURN_IF_ERROR(source.posts->read({0, 0, frame.columns, frame.rows}, grid.heights.data()));
+    if (std::ranges::all_of(grid.heights, [](float height) { return std::isnan(height); }))
+        return absl::InvalidArgumentError(fmt::format("{}: has no data at any of its {} x {} posts",
+                                                      paths.front(), grid.columns, grid.rows));
+    return SourceSurface{std::make_shared<TerrainRayCaster>(std::move(grid)), nullptr};
+}
+
+absl::StatusOr<SourceSurface> readMesh(const std::vector<std::string>& paths) {
+    ASSIGN_OR_RETURN(import::TriangleMesh mesh, import::readMeshes(paths));
+    if (mesh.triangles.empty())
+        return absl::InvalidArgumentError(fmt::format("{}: has no triangles", paths.front()));
+    TriangleMesh triangles{std::move(mesh.positions), std::move(mesh.triangles)};
+    mesh = {};
+    return SourceSurface{nullptr, std::make_shared<MeshRayCaster>(std::move(triangles))};
+}
+
+}  // namespace
+
+absl::StatusOr<SourceFacts> inspectSource(fabric::ObjectKind kind,
+                                          const std::vector<std::string>& paths) {
+    return kind == fabric::ObjectKind::Mesh ? inspectMesh(paths) : inspectTerrain(paths);
+}
+
+absl::StatusOr<SourceSurface> readSource(fabric::ObjectKind kind,
+                                         const std::vector<std::string>& paths) {
+    return kind == fabric::ObjectKind::Mesh ? readMesh(paths) : readTerrain(paths);
+}
+
+}  // namespace eyrie::truth

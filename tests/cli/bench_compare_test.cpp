@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <random>
+
+#include <gmock/gmock.h>
+
+#include "cli/bench/compare.h"
+#include "cli/bench/compare_report.h"
+#include "cli/bench/report.h"
+#include "tests/support/json.h"
+#include "tests/support/temporary_folder.h"
+
+namespace eyrie::cli::bench {
+namespace {
+
+using testing::HasSubstr;
+
+/// Of `passes` passes whose frames take `milliseconds` more or less, at two errors.
+Report reportTaking(double milliseconds, int passes = 5, std::string scene = "dem.eyt") {
+    Report report{{std::move(scene), "orbit", 640, 360, 8, passes, "eyrie bench"}, {}};
+    for (const double tau : {1.0, 4.0}) {
+        BenchRun run{tau == 1 ? "1 px" : "4 px", tau, 0, "", {}};
+        for (int pass = 0; pass <= passes; ++pass)
+            for (int i = 0; i < 8; ++i) {
+                PlayedFrame frame{pass, i * 0.1, milliseconds * (1 + 0.01 * pass + 0.1 * i), {}};
+                frame.statistics.tauAskedPixels = tau;
+                frame.statistics.tauAchievedPixels = 0.9 * tau;
+                frame.statistics.triangles = 1000;
+                frame.statistics.nodes = 3;
+                run.played.frames.push_back(frame);
+            }
+        report.runs.push_back(run);
+    }
+    return report;
+}
+
+class CompareReports : public testing::Test {
+protected:
+    absl::StatusOr<WrittenReport> written(const Report& report, const char* name) const {
+        const std::string path = folder_.write(name, summaryJson(report));
+        return readReport(path);
+    }
+    absl::StatusOr<Comparison> compared(const Report& a, const Report& b,
+                                        bool force = false) const {
+        return compare(written(a, "a.json").value(), written(b, "b.json").value(), force);
+    }
+    std::string refusal(const std::string& summary) const {
+        const auto report = readReport(folder_.write("damaged.json", summary));
+        EXPECT_EQ(report.status().code(), absl::StatusCode::kInvalidArgument) << summary;
+        return std::string(report.status().message());
+    }
+
+    const test::TemporaryFolder folder_;
+};
+
+Verdict verdictOf(const Comparison& comparison, const std::string& name) {
+    for (const Figure& figure : comparison.runs.at(0).figures)
+        if (figure.name == name)
+            return figure.verdict;
+    ADD_FAILURE() << name << " is not compared";
+    return Verdict::Equal;
+}
+
+TEST_F(CompareReports, TheSameReportTwiceHasNothingBeyondNoise) {
+    for (const int passes : {1, 3, 4, 5, 20}) {
+        const auto same = compared(reportTaking(20, passes), reportTaking(20, passes));
+        ASSERT_TRUE(same.ok()) << same.status();
+        EXPECT_EQ(countBeyondNoise(*same), 0);
+        EXPECT_THAT(table(*same), HasSubstr("nothing is beyond noise"));
+        EXPECT_THAT(same->notes, testing::IsEmpty());
+    }
+}
+
+TEST_F(CompareReports, ATenthMoreIsBeyondPassesThatSpreadByATwentieth) {
+    const auto slower = compared(reportTaking(20), reportTaking(22));
+    ASSERT_TRUE(slower.ok()) << slower.status();
+    ASSERT_EQ(slower->runs.size(), 2U);
+    EXPECT_EQ(verdictOf(*slower, "frame, median"), Verdict::More);
+    const Ratio& ratio = *slower->runs[0].figures[0].ratio;
+    EXPECT_NEAR(ratio.estimate, 1.1, 1e-9);
+    EXPECT_NEAR(ratio.low, 1.1 * 1.31 / 1.35, 1e-9);
+    EXPECT_NEAR(ratio.high, 1.1 * 1.35 / 1.31, 1e-9);
+    EXPECT_NEAR(ratio.confidence, 1 - 2. / 252, 1e-9);
+    EXPECT_THAT(table(*slower), HasSubstr("slower"));
+    EXPECT_EQ(verdictOf(compared(reportTaking(22), reportTaking(20)).value(), "frame, median"),
+              Verdict::Less);
+    EXPECT_EQ(verdictOf(compared(reportTaking(20), reportTaking(20.5)).value(), "frame, median"),
+              Verdict::WithinNoise);
+    EXPECT_EQ(
+        verdictOf(compared(reportTaking(20, 3), reportTaking(40, 3)).value(), "frame, median"),
+        Verdict::TooFewPasses);
+}
+
+TEST_F(CompareReports, ExactFiguresDifferByAnyDifference) {
+    Report other = reportTaking(20);
+    other.runs[0].played.frames[3].statistics.triangles = 1001;
+    other.runs[0].played.frames[3].statistics.tauAchievedPixels = 0.9000001;
+    const auto comparison = compared(reportTaking(20), other);
+    ASSERT_TRUE(comparison.ok());
+    EXPECT_EQ(verdictOf(*comparison, "triangles, mean"), Verdict::More);
+    EXPECT_EQ(verdictOf(*comparison, "error promised"), Verdict::More);
+    EXPECT_EQ(countBeyondNoise(*comparison), 2);
+}
+
+TEST(PassRatio, OfTheSameThingIsBeyondNoiseAsSeldomAsItSays) {
+    std::mt19937 random(7);
+    std::normal_distribution<double> noise(0, 0.05);
+    const auto passes = [&](int count, double level) {
+        std::vector<double> values;
+        for (int i = 0; i < count; ++i) values.push_back(level * std::exp(noise(random)));
+        return values;
+    };
+    constexpr int kTries = 4000;
+    for (const int count : {4, 5, 8, 20}) {
+        int missed = 0;
+        for (int i = 0; i < kTries; ++i) {
+            const Ratio ratio = ratioOf(passes(count, 30), passes(count, 30));
+            missed += ratio.low > 1 || ratio.high < 1 ? 1 : 0;
+        }
+        EXPECT_LT(missed, kTries * (count == 4 ? 0.04 : 0.015)) << count;
+    }
+    int seen = 0;
+    for (int i = 0; i < 200; ++i) seen += ratioOf(passes(8, 30), passes(8, 36)).low > 1 ? 1 : 0;
+    EXPECT_GT(seen, 190) << "a difference of four spreads is seen";
+}
+
+TEST_F(CompareReports, OnlyTheSameFlightOverTheSameSceneIsCompared) {
+    Report other = reportTaking(20, 5, "another.eyt");
+    const auto refused = compared(reportTaking(20), other);
+    EXPECT_EQ(refused.status().code(), absl::StatusCode::kInvalidArgument);
+    EXPECT_THAT(
+        std::string(refused.status().message()),
+        testing::AllOf(HasSubstr("dem.eyt"), HasSubstr("another.eyt"), HasSubstr("--force")));
+    const auto forced = compared(reportTaking(20), other, true);
+    ASSERT_TRUE(forced.ok());
+    EXPECT_THAT(forced->notes, testing::ElementsAre(HasSubstr("another.eyt")));
+    other = reportTaking(20);
+    other.facts.width = 320;
+    EXPECT_FALSE(compared(reportTaking(20), other).ok());
+}
+
+TEST_F(CompareReports, RunsOfOneReportOnlyAreSaid) {
+    Report other = reportTaking(20);
+    other.runs.pop_back();
+    EXPECT_THAT(compared(reportTaking(20), other)->notes,
+                testing::ElementsAre(testing::ContainsRegex("only .*a.json has 4 px")));
+    other.runs[0].renderers = 2;
+    EXPECT_THAT(std::string(compared(reportTaking(20), other).status().message()),
+                HasSubstr("no run in common"));
+}
+
+TEST_F(CompareReports, DamagedReportsAreRefusedWithTheField) {
+    const std::string good = summaryJson(reportTaking(20));
+    const auto with = [&](const std::string& from, const std::string& to) {
+        std::string damaged = good;
+        damaged.replace(damaged.find(from), from.size(), to);
+        return refusal(damaged);
+    };
+    EXPECT_EQ(readReport(folder_.path("none")).status().code(), absl::StatusCode::kNotFound);
+    EXPECT_THAT(refusal(""), HasSubstr("damaged.json: this is no summary of eyrie bench"));
+    EXPECT_THAT(refusal(good.substr(0, good.size() / 2)), HasSubstr("damaged.json"));
+    EXPECT_THAT(refusal("[1]"), HasSubstr("damaged.json: bench.scene is missing"));
+    EXPECT_THAT(with("\"trianglesMean\"", "\"triangles\""),
+                HasSubstr("damaged.json: runs[0].trianglesMean is missing; expected a number"));
+    EXPECT_THAT(with("\"renderers\": 0", "\"renderers\": 0.5"),
+                HasSubstr("runs[0].renderers is 0.5"));
+    EXPECT_THAT(with("\"renderers\": 0", "\"renderers\": -1"), HasSubstr("is -1"));
+    EXPECT_THAT(with("\"renderers\": 0", "\"renderers\": \"one\""), HasSubstr("is not a number"));
+    EXPECT_THAT(with("\"width\": 640", "\"width\": 1e300"), HasSubstr("bench.width is 1e+300"));
+}
+
+TEST_F(CompareReports, ThePageAndTheJsonSayTheSame) {
+    const auto comparison =
+        compared(reportTaking(20, 5, "</script>.eyt"), reportTaking(22, 5, "</script>.eyt"));
+    ASSERT_TRUE(comparison.ok()) << comparison.status();
+    const auto json = test::parseJson(comparisonJson(*comparison));
+    const auto runs = test::list(json, "runs");
+    ASSERT_EQ(runs.size(), 2U);
+    const auto median = test::list(runs[0], "figures").at(0);
+    EXPECT_EQ(test::at(median, "verdict").string_value(), "slower");
+    EXPECT_TRUE(test::at(median, "beyondNoise").bool_value());
+    EXPECT_NEAR(test::number(median, "ratio"), 1.1, 1e-9);
+    EXPECT_EQ(test::number(json, "beyondNoise"), 6);
+    ASSERT_TRUE(writeComparison(*comparison, folder_.path("out")).ok());
+    const std::string page = comparisonPage(*comparison);
+    EXPECT_THAT(page, HasSubstr("\"verdict\": \"slower\""));
+    EXPECT_EQ(page.find("</script>"), page.rfind("</script>"));
+    EXPECT_THAT(page, testing::Not(HasSubstr("EYRIE_")));
+}
+
+}  // namespace
+}  // namespace eyrie::cli::bench

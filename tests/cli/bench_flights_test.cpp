@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <gmock/gmock.h>
+
+#include "cli/bench/flights.h"
+#include "tests/support/temporary_folder.h"
+
+namespace eyrie::cli::bench {
+namespace {
+
+using fabric::Vec3;
+
+const fabric::Box kTerrain{{500'000, 5'200'000, 300}, {540'000, 5'240'000, 2'900}};
+const fabric::Box kMesh{{-0.1, -0.05, 0.05}, {0.1, 0.04, 0.2}};
+const fabric::Box kPlane{{0, 0, 7}, {100, 50, 7}};
+const fabric::Box kNeedle{{3, 3, 0}, {3, 3, 10}};
+const fabric::Box kPoint{{1, 2, 3}, {1, 2, 3}};
+
+Vec3 direction(const fabric::FlightKey& key) {
+    return glm::normalize(key.camera.target - key.camera.eye);
+}
+
+TEST(BuiltInFlight, HasAPictureInEveryFrameOfAnyDataAndCount) {
+    for (const fabric::Box& bounds : {kTerrain, kMesh, kPlane, kNeedle, kPoint})
+        for (const char* name : {"orbit", "walkthrough", "worst"})
+            for (const int count : {1, 2, 25, 120, 121, 4801}) {
+                const auto flight = flightNamed(name, bounds);
+                ASSERT_TRUE(flight.ok()) << flight.status();
+                ASSERT_TRUE(fabric::validate(*flight).ok()) << fabric::validate(*flight);
+                const auto frames = framesOf(*flight, count);
+                EXPECT_TRUE(frames.ok()) << name << ", " << count << ": " << frames.status();
+            }
+}
+
+/// Between two frames: by how much the view turns, and how far the eye goes, in diagonals.
+struct Step {
+    double degrees = 0;
+    double diagonals = 0;
+};
+
+std::vector<Step> stepsOf(const fabric::Box& bounds, int count) {
+    const auto frames = framesOf(worst(bounds), count);
+    std::vector<Step> steps;
+    for (std::size_t i = 1; i < frames->size(); ++i) {
+        const fabric::FlightKey& before = (*frames)[i - 1];
+        const fabric::FlightKey& after = (*frames)[i];
+        const double cosine = std::clamp(glm::dot(direction(before), direction(after)), -1., 1.);
+        steps.push_back(
+            {std::acos(cosine) * 180 / std::numbers::pi,
+             glm::distance(before.camera.eye, after.camera.eye) / glm::length(bounds.size())});
+    }
+    return steps;
+}
+
+TEST(WorstFlight, TurnsAroundCutsAndJumpsWithinAFrame) {
+    for (const fabric::Box& bounds : {kTerrain, kMesh})
+        for (const int count : {120, 121, 997}) {
+            int turns = 0, cuts = 0, jumps = 0, steady = 0;
+            for (const Step& step : stepsOf(bounds, count)) {
+                turns += step.degrees > 160 && step.diagonals < 0.2 ? 1 : 0;
+                cuts += step.diagonals > 0.25 && step.diagonals < 2 ? 1 : 0;
+                jumps += step.diagonals > 3 ? 1 : 0;
+                steady += step.degrees < 10 && step.diagonals < 0.15 ? 1 : 0;
+            }
+            EXPECT_GE(turns, 7) << count;
+            EXPECT_GE(cuts, 7) << count;
+            EXPECT_GE(jumps, 7) << count;
+            EXPECT_GE(steady, count - 25) << count << ": shots are straight";
+        }
+}
+
+TEST(FlightFile, ThatLeadsThroughNoPictureIsRefusedWithItsSecond) {
+    fabric::Flight flight;  // the eye passes through its target half way
+    flight.keys = {{0, {{0, 0, 0}, {0, 10, 0}}}, {2, {{0, 20, 0}, {0, 10, 0}}}};
+    const auto frames = framesOf(flight, 3);
+    EXPECT_THAT(std::string(frames.status().message()),
+                testing::HasSubstr("second 1.000 of the flight, between keys[0] and keys[1]: "));
+    EXPECT_TRUE(framesOf(flight, 2).ok());
+}
+
+TEST(FlightFile, OfOneKeyIsACameraThatStands) {
+    const test::TemporaryFolder folder;
+    const auto flight = flightNamed(
+        folder.write("still.json",
+                     R"({"keys":[{"seconds":4,"camera":{"eye":[0,0,9],"target":[1,0,0]}}]})"),
+        kTerrain);
+    ASSERT_TRUE(flight.ok()) << flight.status();
+    const auto frames = framesOf(*flight, 7);
+    ASSERT_TRUE(frames.ok());
+    ASSERT_EQ(frames->size(), 7U);
+    for (const fabric::FlightKey& frame : *frames)
+        EXPECT_EQ(frame, (fabric::FlightKey{0, flight->keys[0].camera}));
+}
+
+TEST(FlightFile, RefusalsNameFileKeyAndField) {
+    const test::TemporaryFolder folder;
+    const auto refusal = [&](const std::string& keys) {
+        const auto flight = flightNamed(folder.write("f.json", "{\"keys\":[" + keys + "]}"), kMesh);
+        EXPECT_EQ(flight.status().code(), absl::StatusCode::kInvalidArgument);
+        return std::string(flight.status().message());
+    };
+    const auto key = [](const char* seconds, const char* eye, const char* more = "") {
+        return std::string(R"({"seconds":)") + seconds + R"(,"camera":{"eye":)" + eye +
+               R"(,"target":[1,0,0])" + more + "}}";
+    };
+    using testing::AllOf;
+    using testing::HasSubstr;
+    const std::string good = key("0", "[0,0,9]") + ",";
+    EXPECT_THAT(refusal(""), AllOf(HasSubstr("f.json"), HasSubstr("no keys")));
+    EXPECT_THAT(refusal(good + key("-1", "[0,0,9]")),
+                HasSubstr("f.json: keys[1].seconds is -1, not after the 0"));
+    EXPECT_THAT(refusal(good + key("0", "[0,0,9]")), HasSubstr("f.json: keys[1].seconds is 0"));
+    EXPECT_THAT(refusal(good + key("\"Infinity\"", "[0,0,9]")),
+                HasSubstr("f.json: keys[1].seconds is not a finite number"));
+    EXPECT_THAT(refusal(good + key("1", "[0,\"NaN\",9]")),
+                AllOf(HasSubstr("f.json: keys[1]"), HasSubstr("camera.eye")));
+    EXPECT_THAT(refusal(good + key("1", "[1,0,0]")), HasSubstr("f.json: keys[1]"));
+    EXPECT_THAT(refusal(good + key("1", "[0,0,9]", R"(,"fovyDegrees":"NaN")")),
+                AllOf(HasSubstr("f.json: keys[1]"), HasSubstr("fovyDegrees")));
+}
+
+}  // namespace
+}  // namespace eyrie::cli::bench

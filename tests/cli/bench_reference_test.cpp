@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+// What `eyrie bench --reference` holds pictures against.
+#include <filesystem>
+#include <fstream>
+
+#include <glm/ext/matrix_transform.hpp>
+#include <gmock/gmock.h>
+
+#include "cli/bench/errors_csv.h"
+#include "cli/bench/reference.h"
+#include "cli/bench/uniform_levels.h"
+#include "cli/source_record.h"
+#include "renderer/import/mesh_import.h"
+#include "renderer/import/mesh_synth.h"
+#include "renderer/import/ply_writer.h"
+#include "tests/support/temporary_folder.h"
+
+namespace eyrie::cli::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kPlenty = std::uint64_t{1} << 30;
+
+class ReferenceSources : public testing::Test {
+protected:
+    void SetUp() override {
+        fs::create_directory(folder_.path("from"));
+        source_ = writeBall("from/ball.ply", 1);
+        imported_ = folder_.path("ball.eym");
+        ASSERT_TRUE(import::importMesh({source_}, imported_, {}, {}).ok());
+        ASSERT_TRUE(recordSources(imported_, {source_}).ok());
+        scene_.objects.push_back({.name = "ball", .path = imported_});
+    }
+
+    std::string writeBall(const std::string& name, std::uint64_t seed) const {
+        EXPECT_TRUE(import::writePly(import::synthesizeMesh(2000, seed), folder_.path(name)).ok());
+        return folder_.path(name);
+    }
+
+    absl::StatusOr<std::vector<FoundSource>> find(const std::vector<std::string>& given = {},
+                                                  std::uint64_t memory = kPlenty) const {
+        return findSources(scene_, given, memory, {});
+    }
+    std::string foundFile(const std::vector<std::string>& given = {}) const {
+        const auto found = find(given);
+        return found.ok() ? found->at(0).files.at(0) : found.status().ToString();
+    }
+
+    test::TemporaryFolder folder_;
+    std::string source_;
+    std::string imported_;
+    fabric::Scene scene_;
+};
+
+TEST_F(ReferenceSources, AreWhereTheyWereImportedFromOrBesideOrWhereOneSays) {
+    EXPECT_EQ(foundFile(), source_);
+    fs::rename(source_, folder_.path("ball.ply"));
+    EXPECT_EQ(foundFile(), folder_.path("ball.ply"));
+    fs::create_directory(folder_.path("elsewhere"));
+    fs::rename(folder_.path("ball.ply"), folder_.path("elsewhere/ball.ply"));
+    EXPECT_EQ(foundFile({folder_.path("elsewhere/ball.ply")}), folder_.path("elsewhere/ball.ply"));
+    fs::remove(sourceRecordName(imported_));
+    EXPECT_EQ(foundFile({folder_.path("elsewhere/ball.ply")}), folder_.path("elsewhere/ball.ply"));
+}
+
+TEST_F(ReferenceSources, ThatAreNowhereAreNamed) {
+    fs::remove(source_);
+    const absl::Status gone = find().status();
+    EXPECT_TRUE(absl::IsNotFound(gone)) << gone;
+    EXPECT_THAT(gone.ToString(), testing::HasSubstr(source_));
+    fs::remove(sourceRecordName(imported_));
+    const absl::Status unknown = find().status();
+    EXPECT_TRUE(absl::IsNotFound(unknown)) << unknown;
+    EXPECT_THAT(unknown.ToString(), testing::HasSubstr("--source"));
+}
+
+TEST_F(ReferenceSources, ThatHaveChangedAreRefusedWithBothHashes) {
+    const auto before = truth::inspectSource(fabric::ObjectKind::Mesh, {source_});
+    writeBall("from/ball.ply", 2);
+    const auto after = truth::inspectSource(fabric::ObjectKind::Mesh, {source_});
+    ASSERT_TRUE(before.ok() && after.ok());
+    const absl::Status refused = find().status();
+    EXPECT_TRUE(absl::IsInvalidArgument(refused)) << refused;
+    EXPECT_THAT(refused.ToString(), testing::HasSubstr(fmt::format("{:016x}", before->hash)));
+    EXPECT_THAT(refused.ToString(), testing::HasSubstr(fmt::format("{:016x}", after->hash)));
+    writeBall("ball.ply", 1);
+    EXPECT_EQ(foundFile(), folder_.path("ball.ply")) << "what it was lies beside the import";
+}
+
+TEST_F(ReferenceSources, ThatMemoryCannotHoldAreRefusedWithWhatTheyTake) {
+    const absl::Status refused = find({}, 100 << 10).status();
+    EXPECT_TRUE(absl::IsResourceExhausted(refused)) << refused;
+    EXPECT_THAT(refused.ToString(), testing::HasSubstr("--reference-memory"));
+    const auto facts = truth::inspectSource(fabric::ObjectKind::Mesh, {source_});
+    ASSERT_TRUE(facts.ok());
+    EXPECT_GT(facts->neededBytes, fs::file_size(source_));
+    EXPECT_TRUE(find({}, facts->neededBytes).ok());
+    EXPECT_FALSE(find({}, facts->neededBytes - 1).ok());
+    scene_.objects.push_back(scene_.objects[0]);
+    EXPECT_TRUE(find({}, facts->neededBytes).ok()) << "two of the same are read once";
+}
+
+TEST_F(ReferenceSources, OfAnObjectOfOneSideAreRefused) {
+    scene_.objects[0].singleSided = true;
+    EXPECT_TRUE(absl::IsInvalidArgument(find().status()));
+}
+
+TEST_F(ReferenceSources, StandWhereTheSceneHasThem) {
+    scene_.objects.push_back(scene_.objects[0]);
+    scene_.objects[1].worldFromObject = glm::translate(fabric::Mat4(1), fabric::Vec3(10, 0, 0));
+    const auto found = find();
+    ASSERT_TRUE(found.ok()) << found.status();
+    const auto reference = readSources(scene_, *found);
+    ASSERT_TRUE(reference.ok()) << reference.status();
+    EXPECT_EQ(reference->objects[0].source.mesh, reference->objects[1].source.mesh);
+    const auto hitAt = [&](double x) {
+        return reference->surface->hitRange({{x, 0, 100}, {0, 0, -1}}).first;
+    };
+    EXPECT_LT(hitAt(0), 100);
+    EXPECT_NEAR(hitAt(10), hitAt(0), 1e-9);
+    EXPECT_EQ(hitAt(5), truth::kNoHit);
+}
+
+TEST_F(ReferenceSources, DecimatedUniformlyAreWorseTheFewerTrianglesTheyHave) {
+    const auto reference = readSources(scene_, *find());
+    ASSERT_TRUE(reference.ok()) << reference.status();
+    const std::vector<fabric::Camera> cameras{
+        {.eye = {4, 0, 0}, .target = {0, 0, 0}, .fovYDegrees = 40},
+        {.eye = {0, -4, 1}, .target = {0, 0, 0}, .fovYDegrees = 40}};
+    int done = 0;
+    const auto levels = uniformLevels(*reference, cameras, 640, 360, 1e9, [&] { ++done; }, {});
+    ASSERT_TRUE(levels.ok()) << levels.status();
+    ASSERT_GE(levels->size(), 4U);
+    EXPECT_EQ(done, static_cast<int>(levels->size()));
+    EXPECT_LE(levels->front().triangles, 1000U);
+    EXPECT_GE(levels->front().triangles, 500U);
+    for (std::size_t i = 1; i < levels->size(); ++i)
+        EXPECT_LT((*levels)[i].triangles, (*levels)[i - 1].triangles);
+    EXPECT_GT(levels->front().p99Pixels, 0.1);
+    EXPECT_GT(levels->back().p99Pixels, 3 * levels->front().p99Pixels);
+    for (const UniformLevel& level : *levels) EXPECT_GE(level.maxPixels, level.p99Pixels);
+    // Twice the picture's height is twice the pixels.
+    const auto large = uniformLevels(*reference, cameras, 1280, 720, 1e9, [] {}, {});
+    ASSERT_TRUE(large.ok());
+    EXPECT_NEAR(large->front().p99Pixels, 2 * levels->front().p99Pixels, 1e-9);
+    const auto until =
+        uniformLevels(*reference, cameras, 640, 360, (*levels)[1].p99Pixels * 0.99, [] {}, {});
+    ASSERT_TRUE(until.ok());
+    EXPECT_EQ(until->size(), 2U) << "the last is the first beyond";
+}
+
+TEST(UniformLevels, OfAPlaneHaveNoError) {
+    const auto plane = std::make_shared<truth::TerrainRayCaster>(
+        truth::HeightGrid{.columns = 65, .rows = 65, .heights = std::vector<float>(65 * 65, 7)});
+    ReferenceScene scene{{{{plane, nullptr}, "plane.eyt"}},
+                         std::make_shared<truth::PlacedSurfaces>(
+                             std::vector<truth::PlacedSurface>{{plane, fabric::Mat4(1)}})};
+    const std::vector<fabric::Camera> cameras{
+        {.eye = {32, -100, 60}, .target = {32, -32, 0}, .fovYDegrees = 40}};
+    const auto levels = uniformLevels(scene, cameras, 320, 180, 1, [] {}, {});
+    ASSERT_TRUE(levels.ok());
+    EXPECT_TRUE(levels->empty());
+}
+
+std::vector<BenchRun> runWith(double maxPixels, double promisedPixels) {
+    BenchRun run;
+    run.label = "2 px";
+    run.tauPixels = 2;
+    run.measured.emplace();
+    run.measured->frames.push_back({.promisedPixels = 1, .maxPixels = 0.25});
+    run.measured->frames.push_back(
+        {.seconds = 7, .promisedPixels = promisedPixels, .maxPixels = maxPixels});
+    return {run};
+}
+
+TEST(CheckPromises, NamesTheFrameThatBreaksItsOwn) {
+    EXPECT_TRUE(checkPromises(runWith(1.5, 1.5)).ok());
+    EXPECT_TRUE(checkPromises(runWith(90, std::numeric_limits<double>::infinity())).ok());
+    const absl::Status broken = checkPromises(runWith(1.6, 1.5));
+    EXPECT_EQ(broken.code(), absl::StatusCode::kInternal);
+    EXPECT_THAT(broken.ToString(), testing::HasSubstr("second 7.000"));
+    EXPECT_THAT(broken.ToString(), testing::HasSubstr("tau 2 px"));
+}
+
+TEST(ErrorsCsv, HasALineAFrameAndIsNothingWithoutAReference) {
+    EXPECT_EQ(errorsCsv({BenchRun{}}), "");
+    const std::string csv = errorsCsv(runWith(1.25, 1.5));
+    EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 3);
+    EXPECT_THAT(csv, testing::HasSubstr("\n2,0,7.000,1.5,0,0,1.25,"));
+}
+
+}  // namespace
+}  // namespace eyrie::cli::bench
