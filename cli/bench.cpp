@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -29,16 +30,21 @@ struct Options {
     std::string scene;
     std::string flight = "orbit";
     std::vector<double> taus{0.5, 1, 2, 4, 8};
+    std::vector<double> budgets;  ///< milliseconds
     std::string size = "1280x720";
     int frames = 120;
     int repeats = 3;
     fabric::Occlusion occlusion = fabric::Occlusion::Auto;
     PictureSourceOptions pictures;
     std::string out;
+    bool hasTaus = false;  ///< were given
     bool json = false;
 };
 
-absl::Status checkTaus(const std::vector<double>& taus) {
+absl::Status checkTaus(const std::vector<double>& taus, const std::vector<double>& budgets) {
+    for (const double budget : budgets)
+        RETURN_IF_ERROR(
+            fabric::withContext(fabric::validateBudgetMilliseconds(budget), "--budget-ms"));
     for (const double tau : taus)
         if (!(tau >= fabric::kMinTauPixels && tau <= fabric::kMaxTauPixels))
             return absl::InvalidArgumentError(fmt::format("--tau has {}; expected {} to {} pixels",
@@ -59,6 +65,21 @@ bench::BenchFacts factsOf(const Options& options, const PictureSize& size) {
             options.pictures.compound == coordinator::Decomposition::TwoD ? "2D" : "DB"};
 }
 
+/// What each run asks of its frames, beside size and the like: a tau, or a frame time, at which the
+/// finest of the taus is asked for.
+std::vector<coordinator::FrameRequest> requestsOf(const Options& options) {
+    std::vector<coordinator::FrameRequest> requests;
+    if (options.budgets.empty() || options.hasTaus)
+        for (const double tau : options.taus) requests.emplace_back().tauPixels = tau;
+    for (const double budget : options.budgets) {
+        coordinator::FrameRequest& request = requests.emplace_back();
+        request.tauPixels = *std::min_element(options.taus.begin(), options.taus.end());
+        request.budgetMilliseconds = budget;
+        request.completeness = fabric::Completeness::Interactive;
+    }
+    return requests;
+}
+
 absl::StatusOr<std::vector<bench::BenchRun>> playAll(PictureSource& pictures,
                                                      const fabric::Flight& flight,
                                                      const Options& options,
@@ -68,26 +89,28 @@ absl::StatusOr<std::vector<bench::BenchRun>> playAll(PictureSource& pictures,
     const int framesOfRun = options.frames * (options.repeats + 1);
     ProgressBar bar("bench", framesOfRun, "frames", ProgressBar::styleFor(options.pictures.quiet));
     const import::Progress progress = bar.callback();
-    for (const double tau : options.taus) {
-        bench::PlayOptions play{{}, options.frames, options.repeats};
-        play.request.tauPixels = tau;
+    for (const coordinator::FrameRequest& request : requestsOf(options)) {
+        bench::PlayOptions play{request, options.frames, options.repeats};
         play.request.width = size.width;
         play.request.height = size.height;
         play.request.occlusion = options.occlusion;
         int done = 0;
         const auto frameDone = [&] {
-            progress(fmt::format("tau {} px", tau), static_cast<double>(++done) / framesOfRun);
+            progress(request.budgetMilliseconds ? fmt::format("{} ms", *request.budgetMilliseconds)
+                                                : fmt::format("tau {} px", request.tauPixels),
+                     static_cast<double>(++done) / framesOfRun);
         };
         ASSIGN_OR_RETURN(bench::Played played,
                          bench::play(pictures, flight, play, frameDone, stop));
-        runs.push_back({tau, std::move(played)});
+        runs.push_back(
+            {request.tauPixels, std::move(played), request.budgetMilliseconds.value_or(0)});
     }
     return runs;
 }
 
 absl::Status runBench(const Options& options) {
     const StopSignal stop;
-    RETURN_IF_ERROR(checkTaus(options.taus));
+    RETURN_IF_ERROR(checkTaus(options.taus, options.budgets));
     ASSIGN_OR_RETURN(const PictureSize size, parsePictureSize(options.size, "--size"));
     ASSIGN_OR_RETURN(const auto pictures,
                      PictureSource::open(options.scene, options.pictures, stop.token()));
@@ -113,6 +136,11 @@ void addMeasuringOptions(CLI::App& command, Options& options) {
     command.add_option("--tau", options.taus, "Screen-space errors to allow, in pixels")
         ->delimiter(',')
         ->capture_default_str();
+    command
+        .add_option("--budget-ms", options.budgets,
+                    "Frame times to hold, in ms, by drawing coarser than the least --tau as needed;"
+                    " then taus only where they are given")
+        ->delimiter(',');
     command.add_option("--size", options.size, "Of the picture, in pixels")
         ->type_name("WIDTHxHEIGHT")
         ->capture_default_str();
@@ -152,11 +180,15 @@ void addBench(CLI::App& app, Run& run) {
     command->footer(
         "The report is index.html to look at, summary.json and frames.csv to work with. The error\n"
         "in it is the one promised for every frame; frames that promise more than was asked count\n"
-        "as framesBeyondTau.\n\n"
+        "as framesBeyondTau. At a frame time to hold, frames do not wait for data.\n\n"
         "Examples:\n"
         "  eyrie bench dem.eyt --flight walkthrough -o report\n"
-        "  eyrie bench scene.json --flight flight.json --tau 1,2 --renderers 2 -o report");
-    command->callback([options, &run] { run = [options] { return runBench(*options); }; });
+        "  eyrie bench scene.json --flight flight.json --tau 1,2 --renderers 2 -o report\n"
+        "  eyrie bench dem.eyt --flight walkthrough --budget-ms 33,50 -o report");
+    command->callback([options, command, &run] {
+        options->hasTaus = command->count("--tau") > 0;
+        run = [options] { return runBench(*options); };
+    });
 }
 
 }  // namespace eyrie::cli

@@ -39,7 +39,10 @@ absl::StatusOr<Played> play(PictureSource& pictures, const fabric::Flight& fligh
             if (!frame.ok())
                 return fabric::withContext(frame.status(),
                                            fmt::format("second {:.3f} of the flight", seconds));
-            played.frames.push_back({pass, seconds, taken.count(), frame->statistics});
+            fabric::FrameStatistics statistics = frame->statistics;
+            statistics.tauAchievedPixels *=
+                static_cast<double>(request.width) / frame->image.area.width;
+            played.frames.push_back({pass, seconds, taken.count(), statistics});
             played.device = frame->device;
             frameDone();
         }

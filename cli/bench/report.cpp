@@ -3,6 +3,7 @@
 
 #include <cerrno>
 #include <filesystem>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -54,6 +55,10 @@ JsonObject toJson(const BenchRun& run) {
         .count("peakResidentBytes", run.played.peakResidentBytes)
         .number("tauAchievedMax", summary.tauAchievedMax)
         .count("framesBeyondTau", summary.framesBeyond);
+    if (run.budgetMilliseconds > 0)
+        json.number("budgetMs", run.budgetMilliseconds)
+            .number("withinBudget", summary.withinBudget)
+            .object("tauAchieved", toJson(summary.tauAchieved));
     return json;
 }
 
@@ -92,6 +97,23 @@ std::string frameTimes(const std::vector<BenchRun>& runs) {
     return "[" + json + "]";
 }
 
+/// Empty where there was no frame time to hold.
+std::string budgetColumns(const std::optional<fabric::BudgetUse>& budget) {
+    return budget ? fmt::format("{},{:.3f},{}", budget->milliseconds, budget->predictedMilliseconds,
+                                budget->tauPixels)
+                  : ",,";
+}
+
+/// What became of the frame time of a run, for a terminal.
+std::string budgetLine(const BenchRun& run) {
+    const RunSummary s = summarize(run.played);
+    return fmt::format(
+        "{} ms to hold: {:.1f} % of frames within {:.0f} ms after the first second; promised px "
+        "p50 {:.2f}, p95 {:.2f}\n",
+        run.budgetMilliseconds, 100 * s.withinBudget, 1.2 * run.budgetMilliseconds,
+        s.tauAchieved.p50, s.tauAchieved.p95);
+}
+
 /// "</script>" in a file's name must not end the script that holds it.
 std::string forScript(std::string json) {
     for (std::size_t at = 0; (at = json.find("</", at)) != std::string::npos; at += 3)
@@ -109,16 +131,16 @@ std::string framesCsv(const std::vector<BenchRun>& runs) {
     std::string csv =
         "tau,pass,seconds,milliseconds,cull,draw,readback,encode,triangles,nodes,nodesHidden,"
         "pagesLoaded,"
-        "bytesLoaded,tauAchieved,complete\n";
+        "bytesLoaded,tauAchieved,complete,budgetMs,predictedMs,budgetTau\n";
     for (const BenchRun& run : runs)
         for (const PlayedFrame& frame : run.played.frames) {
             const fabric::FrameStatistics& s = frame.statistics;
             const fabric::StageMilliseconds& ms = s.milliseconds;
-            csv +=
-                fmt::format("{},{},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{},{},{},{},{},{},{:d}\n",
-                            run.tauPixels, frame.pass, frame.seconds, frame.milliseconds, ms.cull,
-                            ms.draw, ms.readback, ms.encode, s.triangles, s.nodes, s.nodesHidden,
-                            s.pagesLoaded, s.bytesLoaded, s.tauAchievedPixels, s.complete);
+            csv += fmt::format(
+                "{},{},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{},{},{},{},{},{},{:d},{}\n",
+                run.tauPixels, frame.pass, frame.seconds, frame.milliseconds, ms.cull, ms.draw,
+                ms.readback, ms.encode, s.triangles, s.nodes, s.nodesHidden, s.pagesLoaded,
+                s.bytesLoaded, s.tauAchievedPixels, s.complete, budgetColumns(s.budget));
         }
     return csv;
 }
@@ -144,6 +166,9 @@ std::string table(const std::vector<BenchRun>& runs) {
             s.trianglesMean, s.bytesLoaded >> 20, run.played.peakResidentBytes >> 20,
             fabric::limitingStage(s.stages));
     }
+    for (const BenchRun& run : runs)
+        if (run.budgetMilliseconds > 0)
+            text += budgetLine(run);
     return text;
 }
 

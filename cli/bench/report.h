@@ -11,10 +11,11 @@
 /// What a bench leaves: summary.json, frames.csv and index.html, which shows both.
 namespace eyrie::cli::bench {
 
-/// A flight played at one tau.
+/// A flight played at one tau, or at one frame time.
 struct BenchRun {
     double tauPixels = 0;
     Played played;
+    double budgetMilliseconds = 0;  ///< 0: tau was kept
 };
 
 struct BenchFacts {

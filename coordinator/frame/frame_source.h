@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,11 +29,15 @@ struct FrameRequest {
     bool wantsDepth = false;
     fabric::Completeness completeness = fabric::Completeness::Complete;
     bool measuresStages = false;  ///< fabric::ChannelTask::measuresStages
+    /// A time to hold, 1 to 10,000 ms. Tau may rise, and where that is not enough the picture gets
+    /// smaller than asked for; the statistics say what came of it.
+    std::optional<double> budgetMilliseconds = {};
 
     bool operator==(const FrameRequest&) const = default;
 };
 
-/// A whole, composited picture: `image.area` is {0, 0, width, height}.
+/// A whole, composited picture: `image.area` is {0, 0, width, height}, those asked for, or of the
+/// same shape and smaller where a budget is to be kept.
 struct RenderedFrame {
     fabric::Image image;
     fabric::FrameStatistics statistics;

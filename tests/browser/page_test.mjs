@@ -75,6 +75,18 @@ await run("page_test", async (browser, started) => {
   await page.locator(".hint", { hasText: "finest data drawn" }).waitFor();
   check(true, "an error that cannot be met is said so");
 
+  await browser.setTau(0);
+  await page.getByText("Fixed frame time").click();
+  await page.locator("#budget").fill("10");
+  const inTime = browser.until(() => window.eyrie.budgetMilliseconds === 10);
+  await browser.drag(80, 0);
+  await inTime;
+  check(true, "a moving view is drawn for the frame time asked for");
+  await page.waitForFunction(() => window.eyrie.still && window.eyrie.budgetMilliseconds === 0);
+  check(true, "and at rest for the error");
+  await page.getByText("Fixed error").click();
+  await browser.setTau(-2);
+
   await page.locator("#saturation").fill("0");
   await browser.settled();
   await page.waitForFunction(() => window.eyrie.still);
