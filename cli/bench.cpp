@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -30,6 +31,7 @@ struct Options {
     std::string scene;
     std::string flight = "orbit";
     std::vector<double> taus{0.5, 1, 2, 4, 8};
+    std::vector<double> budgets;  ///< milliseconds
     std::string size = "1280x720";
     int frames = 120;
     int repeats = 5;
@@ -38,12 +40,16 @@ struct Options {
     PictureSourceOptions pictures;
     bench::ReferenceOptions reference;
     std::string out;
+    bool hasTaus = false;  ///< were given
     bool json = false;
     std::vector<std::string> compared;
     bool force = false;
 };
 
-absl::Status checkTaus(const std::vector<double>& taus) {
+absl::Status checkTaus(const std::vector<double>& taus, const std::vector<double>& budgets) {
+    for (const double budget : budgets)
+        RETURN_IF_ERROR(
+            fabric::withContext(fabric::validateBudgetMilliseconds(budget), "--budget-ms"));
     for (const double tau : taus)
         if (!(tau >= fabric::kMinTauPixels && tau <= fabric::kMaxTauPixels))
             return absl::InvalidArgumentError(fmt::format("--tau has {}; expected {} to {} pixels",
@@ -58,12 +64,24 @@ bench::BenchFacts factsOf(const Options& options, const PictureSize& size) {
             options.frames,        options.repeats,        bench::commandLine()};
 }
 
+/// What each run asks of its frames: a tau, or a frame time, at which the finest of the taus is
+/// asked for.
+std::vector<bench::Asked> askedOf(const Options& options) {
+    std::vector<bench::Asked> asked;
+    if (options.budgets.empty() || options.hasTaus)
+        for (const double tau : options.taus) asked.push_back({tau});
+    for (const double budget : options.budgets)
+        asked.push_back({*std::ranges::min_element(options.taus), budget});
+    return asked;
+}
+
 bench::RunPlan planOf(const Options& options, const PictureSize& size) {
     bench::PlayOptions play{{}, options.frames, options.repeats};
     play.request.width = size.width;
     play.request.height = size.height;
     play.request.occlusion = options.occlusion;
-    return {options.scene, options.flight, options.taus, options.renderers, play, options.pictures};
+    return {options.scene,     options.flight, askedOf(options),
+            options.renderers, play,           options.pictures};
 }
 
 absl::Status runCompare(const Options& options) {
@@ -88,7 +106,12 @@ absl::Status runBench(const Options& options) {
             "bench needs a scene and -o FOLDER, or --compare A B; `eyrie bench --help` explains "
             "it");
     const StopSignal stop;
-    RETURN_IF_ERROR(checkTaus(options.taus));
+    RETURN_IF_ERROR(checkTaus(options.taus, options.budgets));
+    if (options.reference.isAsked && !options.budgets.empty())
+        return absl::InvalidArgumentError(
+            "--reference holds frames against the source at the errors asked for; leave "
+            "--budget-ms "
+            "out, or take the errors that it came to as --tau");
     ASSIGN_OR_RETURN(const PictureSize size, parsePictureSize(options.size, "--size"));
     const bench::RunPlan plan = planOf(options, size);
     std::optional<bench::ReferencePlan> reference;
@@ -119,6 +142,11 @@ void addMeasuringOptions(CLI::App& command, Options& options) {
     command.add_option("--tau", options.taus, "Screen-space errors to allow, in pixels")
         ->delimiter(',')
         ->capture_default_str();
+    command
+        .add_option("--budget-ms", options.budgets,
+                    "Frame times to hold, in ms, by drawing coarser than the least --tau as needed;"
+                    " then taus only where they are given")
+        ->delimiter(',');
     command.add_option("--size", options.size, "Of the picture, in pixels")
         ->type_name("WIDTHxHEIGHT")
         ->capture_default_str();
@@ -173,7 +201,8 @@ void addBench(CLI::App& app, Run& run) {
     command->footer(
         "The report is index.html to look at, summary.json and frames.csv to work with. The error\n"
         "in it is the one promised for every frame; frames that promise more than was asked count\n"
-        "as framesBeyondTau. With --reference errors are measured, too (errors.csv has each "
+        "as framesBeyondTau. At a frame time to hold (--budget-ms), frames do not wait for data.\n"
+        "With --reference errors are measured, too (errors.csv has each "
         "frame's),\n"
         "and a frame that is farther off than it promises is an error: exit status 1, after the\n"
         "report is written.\n\n"
@@ -181,8 +210,12 @@ void addBench(CLI::App& app, Run& run) {
         "  eyrie bench dem.eyt --flight walkthrough -o report\n"
         "  eyrie bench scan.eym --tau 1,4 --reference -o report\n"
         "  eyrie bench scene.json --flight flight.json --tau 1,2 --renderers 0,1,2 -o report\n"
+        "  eyrie bench dem.eyt --flight walkthrough --budget-ms 33,50 -o report\n"
         "  eyrie bench --compare before after -o comparison");
-    command->callback([options, &run] { run = [options] { return runBench(*options); }; });
+    command->callback([options, command, &run] {
+        options->hasTaus = command->count("--tau") > 0;
+        run = [options] { return runBench(*options); };
+    });
 }
 
 }  // namespace eyrie::cli

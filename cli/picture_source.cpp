@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/picture_source.h"
 
+#include <chrono>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -10,6 +12,7 @@
 #include "cli/local_farm.h"
 #include "cli/progress_bar.h"
 #include "cli/scene_files.h"
+#include "coordinator/frame/budget_keeper.h"
 #include "fabric/status.h"
 #include "renderer/renderer.h"
 
@@ -28,8 +31,30 @@ public:
         : renderer_(std::move(renderer)), info_(std::move(info)), background_(background) {}
 
     absl::StatusOr<RenderedFrame> draw(const FrameRequest& request) override {
+        if (!request.budgetMilliseconds)
+            return draw(request, std::nullopt);
+        RETURN_IF_ERROR(fabric::validateBudgetMilliseconds(*request.budgetMilliseconds));
+        const auto start = std::chrono::steady_clock::now();
+        coordinator::BudgetKeeper& keeper = keepers_.of(request);
+        const coordinator::BudgetPlan plan = keeper.plan(request);
+        FrameRequest planned = request;
+        planned.width = plan.width;
+        planned.height = plan.height;
+        ASSIGN_OR_RETURN(RenderedFrame frame, draw(planned, plan.budget));
+        const std::chrono::duration<double, std::milli> taken =
+            std::chrono::steady_clock::now() - start;
+        keeper.record(request, frame.statistics, taken.count());
+        return frame;
+    }
+
+    fabric::SceneInfo sceneInfo() const override { return info_; }
+
+private:
+    absl::StatusOr<RenderedFrame> draw(const FrameRequest& request,
+                                       const std::optional<fabric::FrameBudget>& budget) {
         const fabric::FrameData frameData{++frames_,       request.camera, request.tauPixels,
-                                          request.shading, request.look,   request.occlusion};
+                                          request.shading, request.look,   request.occlusion,
+                                          budget};
         fabric::ChannelTask task;
         task.frameNumber = frames_;
         task.frameDataVersion = frameData.version;
@@ -44,9 +69,6 @@ public:
                              renderer_->device()};
     }
 
-    fabric::SceneInfo sceneInfo() const override { return info_; }
-
-private:
     /// What a channel drew, with the background around it.
     fabric::Image whole(fabric::Image drawn, const fabric::ChannelTask& task) const {
         if (drawn.area == task.pixelViewport)
@@ -61,6 +83,7 @@ private:
     const fabric::SceneInfo info_;
     const fabric::Rgba background_;
     std::uint64_t frames_ = 0;
+    coordinator::BudgetKeepers keepers_;
 };
 
 class InProcesses final : public PictureSource {

@@ -43,6 +43,8 @@ absl::Status validateTask(const fabric::FrameData& frameData, const fabric::Chan
         return absl::InvalidArgumentError(fmt::format("tau is {} pixels; it must be from {} to {}",
                                                       frameData.tauPixels, fabric::kMinTauPixels,
                                                       fabric::kMaxTauPixels));
+    if (frameData.budget)
+        RETURN_IF_ERROR(fabric::validate(*frameData.budget));
     const auto inLimits = [](int side) { return side >= 1 && side <= fabric::kMaxViewPixels; };
     if (!inLimits(task.viewWidth) || !inLimits(task.viewHeight))
         return absl::InvalidArgumentError(
@@ -129,7 +131,7 @@ public:
 
     const fabric::DeviceInfo& device() const { return context_->device(); }
     absl::StatusOr<fabric::SceneInfo> openScene(const fabric::Scene& scene);
-    absl::StatusOr<fabric::ChannelResult> render(const fabric::FrameData& frameData,
+    absl::StatusOr<fabric::ChannelResult> render(const fabric::FrameData& asked,
                                                  const fabric::ChannelTask& task);
     std::shared_ptr<const pick::Picker> picker() const { return picker_; }
     RendererMemory memory() const;
@@ -149,6 +151,12 @@ private:
         return GLEW_EXT_texture_compression_s3tc && !device().software ? draw::TextureFormat::Bc1
                                                                        : draw::TextureFormat::Rgba8;
     }
+    std::uint64_t viewTriangles(const lod::View& view, const fabric::FrameData& frameData,
+                                const fabric::ChannelTask& task, double tauPixels);
+    double coveredShare(const lod::View& view, const fabric::FrameData& frameData) const;
+    fabric::FrameData withinBudget(const lod::View& view, const fabric::FrameData& frameData,
+                                   const fabric::ChannelTask& task,
+                                   fabric::FrameStatistics& statistics);
     Selection selectPieces(const lod::View& view, const fabric::FrameData& frameData,
                            const fabric::ChannelTask& task, fabric::FrameStatistics& statistics);
     double errorPixels(const lod::View& view, const fabric::FrameData& frameData,
@@ -241,6 +249,54 @@ void sortBackToFront(std::vector<draw::OrderedPiece>& pieces, const lod::View& v
     };
     std::stable_sort(pieces.begin(), pieces.end(),
                      [&](const auto& a, const auto& b) { return height(a) < height(b); });
+}
+
+/// Of all objects, in the whole view's cut.
+std::uint64_t Renderer::Impl::viewTriangles(const lod::View& view,
+                                            const fabric::FrameData& frameData,
+                                            const fabric::ChannelTask& task, double tauPixels) {
+    const fabric::Look& look = frameData.look;
+    const lod::View cutView =
+        look.cutCamera ? lod::View(*look.cutCamera, task.viewWidth, task.viewHeight) : view;
+    std::uint64_t triangles = 0;
+    for (const OpenObject& open : objects_) {
+        const lod::ObjectView objectView(cutView, drawnWorldFromObject(open.object, look));
+        triangles += open.drawable->viewTriangles({objectView,
+                                                   cutView.frustum,
+                                                   {},
+                                                   tauPixels,
+                                                   task.completeness,
+                                                   look.exaggeration,
+                                                   false});
+    }
+    return triangles;
+}
+
+/// Of the view's pixels, those in a rectangle around all objects.
+double Renderer::Impl::coveredShare(const lod::View& view,
+                                    const fabric::FrameData& frameData) const {
+    fabric::PixelViewport covered{};
+    for (const OpenObject& open : objects_) {
+        const lod::ObjectView objectView(view, drawnWorldFromObject(open.object, frameData.look));
+        covered = enclosing(covered, objectView.coveredPixels(open.drawable->bounds()));
+    }
+    const fabric::PixelViewport all{0, 0, view.width, view.height};
+    return static_cast<double>(intersection(covered, all).area()) / static_cast<double>(all.area());
+}
+
+/// The frame data with the tau that is drawn at.
+fabric::FrameData Renderer::Impl::withinBudget(const lod::View& view,
+                                               const fabric::FrameData& frameData,
+                                               const fabric::ChannelTask& task,
+                                               fabric::FrameStatistics& statistics) {
+    fabric::FrameData drawn = frameData;
+    if (!frameData.budget)
+        return drawn;
+    statistics.budget = fabric::tauForBudget(
+        frameData.tauPixels, *frameData.budget, coveredShare(view, frameData),
+        [&](double tauPixels) { return viewTriangles(view, frameData, task, tauPixels); });
+    drawn.tauPixels = statistics.budget->tauPixels;
+    return drawn;
 }
 
 /// The pieces of all objects that fall to the task, in the order of their place in the range.
@@ -411,19 +467,20 @@ absl::Status Renderer::Impl::measureStages(const Selection& selection, const lod
     return absl::OkStatus();
 }
 
-absl::StatusOr<fabric::ChannelResult> Renderer::Impl::render(const fabric::FrameData& frameData,
+absl::StatusOr<fabric::ChannelResult> Renderer::Impl::render(const fabric::FrameData& asked,
                                                              const fabric::ChannelTask& task) {
     if (!scene_)
         return absl::FailedPreconditionError("no scene is open; open one before rendering");
-    RETURN_IF_ERROR(validateTask(frameData, task));
+    RETURN_IF_ERROR(validateTask(asked, task));
     fabric::ChannelResult result;
     fabric::FrameStatistics& statistics = result.statistics;
-    statistics.tauAskedPixels = frameData.tauPixels;
+    statistics.tauAskedPixels = asked.tauPixels;
     const auto start = Clock::now();
     terrainPrograms_.reloadChanged(start);
     meshPrograms_.reloadChanged(start);
 
-    const lod::View view(frameData.camera, task.viewWidth, task.viewHeight);
+    const lod::View view(asked.camera, task.viewWidth, task.viewHeight);
+    const fabric::FrameData frameData = withinBudget(view, asked, task, statistics);
     const Selection selection = selectPieces(view, frameData, task, statistics);
     statistics.milliseconds.cull = millisecondsSince(start);
 

@@ -44,7 +44,10 @@ public:
             if (!frame.ok())
                 return fabric::withContext(frame.status(),
                                            fmt::format("second {:.3f} of the flight", key.seconds));
-            played_.frames.push_back({pass, key.seconds, taken.count(), frame->statistics});
+            fabric::FrameStatistics statistics = frame->statistics;
+            statistics.tauAchievedPixels *=
+                static_cast<double>(request.width) / frame->image.area.width;
+            played_.frames.push_back({pass, key.seconds, taken.count(), std::move(statistics)});
             played_.device = frame->device;
             drawing += taken.count();
             frameDone_();

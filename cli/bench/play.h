@@ -25,6 +25,7 @@ struct PlayedFrame {
     int pass = 0;             ///< 0: the first one, which loads; measured passes from 1
     double seconds = 0;       ///< of the flight
     double milliseconds = 0;  ///< from asking for the picture to having all of it
+    /// Errors in pixels of the size asked for, even where a smaller picture was drawn.
     fabric::FrameStatistics statistics;
 };
 
@@ -47,9 +48,10 @@ struct Played {
 /// Frames of which the stages are measured, or as many as a pass has.
 inline constexpr int kMeasuredFrames = 24;
 
-/// Plays `flight` 1 + repeats times; every frame waits for its data. `frameDone` is called after
-/// each of these. Errors: those of PictureSource::draw, naming the second; those of framesOf;
-/// InvalidArgument after the first pass when no frame of it showed anything; Cancelled.
+/// Plays `flight` 1 + repeats times; every frame waits for its data, unless the request says not.
+/// `frameDone` is called after each of these. Errors: those of PictureSource::draw, naming the
+/// second; those of framesOf; InvalidArgument after the first pass when no frame of it showed
+/// anything; Cancelled.
 absl::StatusOr<Played> play(PictureSource& pictures, const fabric::Flight& flight,
                             const PlayOptions& options, const std::function<void()>& frameDone,
                             const std::stop_token& stop);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/bench/report.h"
 
+#include <optional>
+
 #include <fmt/format.h>
 
 #include "cli/bench/errors_csv.h"
@@ -26,6 +28,23 @@ std::string frameTimes(const std::vector<BenchRun>& runs) {
                                 s.tauAchievedPixels > s.tauAskedPixels);
         }
     return "[" + json + "]";
+}
+
+/// Empty where there was no frame time to hold.
+std::string budgetColumns(const std::optional<fabric::BudgetUse>& budget) {
+    return budget ? fmt::format("{},{:.3f},{}", budget->milliseconds, budget->predictedMilliseconds,
+                                budget->tauPixels)
+                  : ",,";
+}
+
+/// What became of the frame time of a run, for a terminal.
+std::string budgetLine(const BenchRun& run) {
+    const RunSummary s = summarize(run.played);
+    return fmt::format(
+        "{} ms to hold: {:.1f} % of frames within {:.0f} ms after the first second; promised px "
+        "p50 {:.2f}, p95 {:.2f}\n",
+        run.budgetMilliseconds, 100 * s.withinBudget, 1.2 * run.budgetMilliseconds,
+        s.tauAchieved.p50, s.tauAchieved.p95);
 }
 
 JsonObject toJson(const FrameError& error) {
@@ -93,16 +112,17 @@ std::string summaryJson(const Report& report) { return summaryOf(report).str() +
 std::string framesCsv(const std::vector<BenchRun>& runs) {
     std::string csv =
         "asked,tau,renderers,pass,seconds,milliseconds,cull,draw,readback,encode,triangles,nodes,"
-        "nodesHidden,pagesLoaded,bytesLoaded,tauAchieved,complete\n";
+        "nodesHidden,pagesLoaded,bytesLoaded,tauAchieved,complete,budgetMs,predictedMs,budgetTau\n";
     for (const BenchRun& run : runs)
         for (const PlayedFrame& frame : run.played.frames) {
             const fabric::FrameStatistics& s = frame.statistics;
             const fabric::StageMilliseconds& ms = s.milliseconds;
             csv += fmt::format(
-                "{},{},{},{},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{},{},{},{},{},{},{:d}\n",
+                "{},{},{},{},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{},{},{},{},{},{},{:d},{}\n",
                 run.label, run.tauPixels, run.renderers, frame.pass, frame.seconds,
                 frame.milliseconds, ms.cull, ms.draw, ms.readback, ms.encode, s.triangles, s.nodes,
-                s.nodesHidden, s.pagesLoaded, s.bytesLoaded, s.tauAchievedPixels, s.complete);
+                s.nodesHidden, s.pagesLoaded, s.bytesLoaded, s.tauAchievedPixels, s.complete,
+                budgetColumns(s.budget));
         }
     return csv;
 }
@@ -124,6 +144,9 @@ std::string table(const std::vector<BenchRun>& runs) {
             notes = fmt::format("{} of {} frames show nothing of the scene\n", summary.framesEmpty,
                                 run.played.frames.size());
     }
+    for (const BenchRun& run : runs)
+        if (run.budgetMilliseconds > 0)
+            text += budgetLine(run);
     return text + notes;
 }
 

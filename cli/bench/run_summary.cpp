@@ -60,6 +60,25 @@ fabric::StageMilliseconds meansOf(const Played& played) {
 
 double taken(const PlayedFrame& frame) { return frame.milliseconds; }
 
+constexpr double kLearningMilliseconds = 1000;
+constexpr double kBudgetSlack = 1.2;
+
+double shareWithinBudget(const Played& played) {
+    double elapsed = 0;
+    double frames = 0;
+    double within = 0;
+    for (const PlayedFrame& frame : played.frames) {
+        const bool isLearning = elapsed < kLearningMilliseconds;
+        elapsed += frame.milliseconds;
+        if (isLearning || !frame.statistics.budget)
+            continue;
+        ++frames;
+        within +=
+            frame.milliseconds <= kBudgetSlack * frame.statistics.budget->milliseconds ? 1 : 0;
+    }
+    return frames == 0 ? std::numeric_limits<double>::quiet_NaN() : within / frames;
+}
+
 std::vector<Percentiles> ofEachPass(const Played& played) {
     std::vector<std::vector<double>> passes;
     for (const PlayedFrame& frame : played.frames) {
@@ -113,6 +132,9 @@ RunSummary summarize(const Played& played) {
     summary.frame = percentiles(column(played, false, taken));
     summary.firstPass = percentiles(column(played, true, taken));
     summary.fpsMedian = 1000 / summary.frame.p50;
+    summary.tauAchieved = percentiles(
+        column(played, false, [](const PlayedFrame& f) { return f.statistics.tauAchievedPixels; }));
+    summary.withinBudget = shareWithinBudget(played);
     fabric::StageMilliseconds& stages = summary.stages;
     stages.cull = median(played, [](auto& f) { return f.statistics.milliseconds.cull; });
     stages.draw = median(played, [](auto& f) { return f.statistics.milliseconds.draw; });

@@ -14,9 +14,16 @@ namespace eyrie::cli::bench {
 namespace {
 
 /// A run that has not been played.
-BenchRun runOf(double tauPixels, int renderers, coordinator::Decomposition compound) {
-    const char* cut = compound == coordinator::Decomposition::TwoD ? "2D" : "DB";
-    return {fmt::format("{} px", tauPixels), tauPixels, renderers, renderers > 1 ? cut : "", {}};
+BenchRun runOf(const Asked& asked, int renderers, coordinator::Decomposition compound) {
+    BenchRun run;
+    run.label = asked.budgetMilliseconds > 0 ? fmt::format("{} ms", asked.budgetMilliseconds)
+                                             : fmt::format("{} px", asked.tauPixels);
+    run.tauPixels = asked.tauPixels;
+    run.budgetMilliseconds = asked.budgetMilliseconds;
+    run.renderers = renderers;
+    if (renderers > 1)
+        run.compound = compound == coordinator::Decomposition::TwoD ? "2D" : "DB";
+    return run;
 }
 
 absl::StatusOr<Played> playRun(const RunPlan& plan, const BenchRun& run,
@@ -29,6 +36,10 @@ absl::StatusOr<Played> playRun(const RunPlan& plan, const BenchRun& run,
                      flightNamed(plan.flight, pictures->sceneInfo().bounds));
     PlayOptions play = plan.play;
     play.request.tauPixels = run.tauPixels;
+    if (run.budgetMilliseconds > 0) {
+        play.request.budgetMilliseconds = run.budgetMilliseconds;
+        play.request.completeness = fabric::Completeness::Interactive;
+    }
     absl::StatusOr<Played> played = bench::play(*pictures, flight, play, frameDone, stop);
     return played.ok() ? std::move(played) : fabric::withContext(played.status(), plan.flight);
 }
@@ -47,10 +58,10 @@ absl::StatusOr<std::vector<BenchRun>> playRuns(const RunPlan& plan, const std::s
     const import::Progress progress = bar.callback();
     std::vector<BenchRun> runs;
     for (const int renderers : plan.renderers)
-        for (const double tau : plan.taus) {
-            BenchRun run = runOf(tau, renderers, plan.pictures.compound);
+        for (const Asked& asked : plan.asked) {
+            BenchRun run = runOf(asked, renderers, plan.pictures.compound);
             const std::string stage =
-                fmt::format("tau {}, {}", run.label, drawnBy(renderers, run.compound));
+                fmt::format("{}, {}", run.label, drawnBy(renderers, run.compound));
             int done = 0;
             const auto frameDone = [&] { progress(stage, static_cast<double>(++done) / frames); };
             ASSIGN_OR_RETURN(run.played, playRun(plan, run, frameDone, stop));

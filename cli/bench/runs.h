@@ -23,17 +23,24 @@ struct BenchRun {
     std::string compound;  ///< how they cut the frame, "2D" or "DB"; empty in one process
     Played played;
     std::optional<MeasuredErrors> measured = {};  ///< where a reference was asked for
+    double budgetMilliseconds = 0;                ///< a frame time to hold; 0: tau was kept
 };
 
 /// Who drew a run, as a person says it: "one process", "1 renderer", "2 renderers, DB".
 std::string drawnBy(int renderers, const std::string& compound);
 
+/// Of all frames of a run.
+struct Asked {
+    double tauPixels = 1;
+    double budgetMilliseconds = 0;  ///< a frame time to hold, for which tau may rise; 0: none
+};
+
 struct RunPlan {
     std::string scene;
     std::string flight;  ///< for flightNamed
-    std::vector<double> taus;
+    std::vector<Asked> asked;
     std::vector<int> renderers{0};
-    PlayOptions play;  ///< its tau is each run's own
+    PlayOptions play;  ///< tau and budget are each run's own
     PictureSourceOptions pictures;
 };
 

@@ -83,6 +83,10 @@ JsonObject toJson(const BenchRun& run, const std::vector<UniformLevel>& uniform)
         .number("tauAchievedMax", summary.tauAchievedMax)
         .count("framesBeyondTau", summary.framesBeyond)
         .count("framesEmpty", summary.framesEmpty);
+    if (run.budgetMilliseconds > 0)
+        json.number("budgetMs", run.budgetMilliseconds)
+            .number("withinBudget", summary.withinBudget)
+            .object("tauAchieved", toJson(summary.tauAchieved));
     if (!run.measured || run.measured->frames.empty())
         return json;
     const ErrorSummary errors = summarize(*run.measured);

@@ -31,7 +31,9 @@ absl::Status check(const FrameRequest& request) {
         return absl::InvalidArgumentError(fmt::format("tau is {} pixels; it must be from {} to {}",
                                                       request.tauPixels, fabric::kMinTauPixels,
                                                       fabric::kMaxTauPixels));
-    return absl::OkStatus();
+    return request.budgetMilliseconds
+               ? fabric::validateBudgetMilliseconds(*request.budgetMilliseconds)
+               : absl::OkStatus();
 }
 
 }  // namespace
@@ -50,15 +52,32 @@ absl::StatusOr<RenderedFrame> FramePipeline::renderFrame(const FrameRequest& req
         const Crew::State state = crew_.state();
         if (const std::string why = problem(state); !why.empty())
             return absl::UnavailableError(why);
-        absl::StatusOr<std::vector<Dispatch::Drawn>> drawn = draw(request, state.revision);
-        if (!drawn.ok() && crew_.state().revision != state.revision)
+        absl::StatusOr<RenderedFrame> frame = renderOfScene(request, state);
+        if (!frame.ok() && crew_.state().revision != state.revision)
             continue;  // the scene was replaced meanwhile: draw that one
-        RETURN_IF_ERROR(drawn.status());
-        RenderedFrame frame = compose(request, state.scene->background, *std::move(drawn));
-        frame.statistics.milliseconds.total =
-            std::chrono::duration<double, std::milli>(Registry::Clock::now() - start).count();
+        RETURN_IF_ERROR(frame.status());
+        double& total = frame->statistics.milliseconds.total;
+        total = std::chrono::duration<double, std::milli>(Registry::Clock::now() - start).count();
+        if (request.budgetMilliseconds)
+            keepers_.of(request).record(request, frame->statistics, total);
         return frame;
     }
+}
+
+absl::StatusOr<RenderedFrame> FramePipeline::renderOfScene(const FrameRequest& asked,
+                                                           const Crew::State& state) {
+    if (state.revision != lastRevision_)
+        keepers_.forget();
+    FrameRequest request = asked;
+    budget_.reset();
+    if (asked.budgetMilliseconds) {
+        const BudgetPlan plan = keepers_.of(asked).plan(asked);
+        budget_ = plan.budget;
+        request.width = plan.width;
+        request.height = plan.height;
+    }
+    ASSIGN_OR_RETURN(std::vector<Dispatch::Drawn> drawn, draw(request, state.revision));
+    return compose(request, state.scene->background, std::move(drawn));
 }
 
 absl::StatusOr<std::vector<Dispatch::Drawn>> FramePipeline::draw(const FrameRequest& request,
@@ -88,8 +107,9 @@ absl::StatusOr<std::vector<Dispatch::Drawn>> FramePipeline::draw(const FrameRequ
 }
 
 const fabric::FrameData& FramePipeline::frameDataFor(const FrameRequest& request) {
-    const fabric::FrameData asked{frameData_.version, request.camera, request.tauPixels,
-                                  request.shading,    request.look,   request.occlusion};
+    const fabric::FrameData asked{
+        frameData_.version, request.camera, request.tauPixels, request.shading, request.look,
+        request.occlusion,  budget_};
     if (frameData_.version == 0 || asked != frameData_) {
         frameData_ = asked;
         ++frameData_.version;
@@ -97,10 +117,14 @@ const fabric::FrameData& FramePipeline::frameDataFor(const FrameRequest& request
     return frameData_;
 }
 
-/// What earlier frames took tells of frames that differ in nothing but the camera.
+/// What earlier frames took tells of frames that differ in nothing but the camera. Where their load
+/// lies is the same whatever time they are to keep.
 void FramePipeline::forgetOtherKinds(const FrameRequest& request, std::uint64_t revision) {
     FrameRequest likeLast = request;
     likeLast.camera = lastRequest_.camera;
+    if (request.budgetMilliseconds != lastRequest_.budgetMilliseconds)
+        patience_.forget();
+    likeLast.budgetMilliseconds = lastRequest_.budgetMilliseconds;
     if (likeLast != lastRequest_ || revision != lastRevision_) {
         patience_.forget();
         balance_.forget();

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "coordinator/compound/decompose.h"
 #include "coordinator/compound/load_balance.h"
 #include "coordinator/farm/listeners.h"
 #include "coordinator/farm/registry.h"
+#include "coordinator/frame/budget_keeper.h"
 #include "coordinator/frame/crew.h"
 #include "coordinator/frame/dispatch.h"
 #include "coordinator/frame/frame_source.h"
@@ -45,6 +47,8 @@ public:
     void unsubscribe(int handle) override;
 
 private:
+    absl::StatusOr<RenderedFrame> renderOfScene(const FrameRequest& asked,
+                                                const Crew::State& state);
     const fabric::FrameData& frameDataFor(const FrameRequest& request);
     void forgetOtherKinds(const FrameRequest& request, std::uint64_t revision);
     int freeRenderers(std::uint64_t revision) const;
@@ -61,6 +65,8 @@ private:
     Turn turn_;  ///< guards what follows: one frame at a time
     std::uint64_t frameNumber_ = 0;
     fabric::FrameData frameData_;
+    std::optional<fabric::FrameBudget> budget_;  ///< of the frame that is being drawn
+    BudgetKeepers keepers_;
     Patience patience_;
     LoadBalance balance_;
     FrameRequest lastRequest_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,9 @@ struct FrameRequest {
     bool wantsDepth = false;
     fabric::Completeness completeness = fabric::Completeness::Complete;
     bool measuresStages = false;  ///< fabric::ChannelTask::measuresStages
+    /// A time to hold, 1 to 10,000 ms. Tau may rise, and where that is not enough the picture gets
+    /// smaller than asked for; the statistics say what came of it.
+    std::optional<double> budgetMilliseconds = {};
 
     fabric::PixelViewport drawnPart() const {
         return part.isEmpty() ? fabric::PixelViewport{0, 0, width, height} : part;
@@ -39,7 +43,8 @@ struct FrameRequest {
     bool operator==(const FrameRequest&) const = default;
 };
 
-/// A composited picture, or the part asked for: `image.area` is its drawnPart().
+/// A composited picture, or the part asked for: `image.area` is its drawnPart(), or of the same
+/// shape and smaller where a budget is to be kept.
 struct RenderedFrame {
     fabric::Image image;
     fabric::FrameStatistics statistics;

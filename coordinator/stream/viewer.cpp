@@ -29,6 +29,15 @@ struct Picture {
     std::optional<fabric::Camera> liftedCamera;  ///< shown where the view's would be under ground
 };
 
+/// Coarser or smaller than what was asked for, to keep a frame time.
+bool isBelowAsked(const Picture& picture) {
+    const fabric::FrameStatistics& statistics = picture.frame->statistics;
+    const fabric::PixelViewport& area = picture.frame->image.area;
+    return statistics.budget &&
+           (statistics.budget->tauPixels > statistics.tauAskedPixels ||
+            area.width != picture.view.frame.width || area.height != picture.view.frame.height);
+}
+
 bool isSame(const ViewRequest& a, const ViewRequest& b) {
     return a.frame == b.frame && a.isUnderground == b.isUnderground;
 }
@@ -168,17 +177,23 @@ private:
     bool isRedrawDue() const { return redrawAt_.has_value() && Clock::now() >= *redrawAt_; }
 
     bool mayRender() const {
-        return (isRenderNeeded_ || isRedrawDue()) && wanted_.has_value() &&
-               !rendered_.has_value() && hasRoom() && !isWaitingToRetry();
+        return (isRenderNeeded_ || isRedrawDue() || (needsFull() && hasRested())) &&
+               wanted_.has_value() && !rendered_.has_value() && hasRoom() && !isWaitingToRetry();
     }
 
     bool hasRested() const { return Clock::now() >= wantedSince_ + options_.restDelay; }
 
-    /// The last picture shows the view that is wanted, and was sent as a moving one.
-    bool needsStill() const {
-        return last_.has_value() && !isLastStill_ && !isRenderNeeded_ && !isLoading_ &&
-               !isRendering_ && !rendered_.has_value() && isSame(last_->view, *wanted_);
+    /// The last picture shows the view that is wanted.
+    bool isShown() const {
+        return last_.has_value() && !isRenderNeeded_ && !isLoading_ && !isRendering_ &&
+               !rendered_.has_value() && isSame(last_->view, *wanted_);
     }
+
+    /// It was drawn in a limited time: at rest the view is drawn once more, without limit.
+    bool needsFull() const { return isShown() && isBelowAsked(*last_); }
+
+    /// It was sent as a moving one.
+    bool needsStill() const { return isShown() && !isLastStill_ && !isBelowAsked(*last_); }
 
     /// Waits for a change, or until `deadline` if there is one.
     void waitForChange(std::unique_lock<std::mutex>& lock,
@@ -205,13 +220,19 @@ private:
     std::optional<Clock::time_point> nextAttempt() const {
         if (isWaitingToRetry())
             return retryAt_;
+        if (needsFull() && !hasRested())
+            return wantedSince_ + options_.restDelay;
         return isRedrawDue() ? std::nullopt : redrawAt_;
     }
 
     void renderOne(std::unique_lock<std::mutex>& lock) {
         const ViewRequest view = *wanted_;
         coordinator::FrameRequest request = requestFor(view);
-        request.measuresStages = ++requested_ % kFramesToAMeasurement == 4;
+        if (hasRested())
+            request.budgetMilliseconds.reset();
+        // Measuring has no place in a limited time.
+        request.measuresStages =
+            !request.budgetMilliseconds && ++requested_ % kFramesToAMeasurement == 4;
         const Clock::time_point started = Clock::now();
         isRenderNeeded_ = false;
         redrawAt_.reset();
@@ -280,8 +301,8 @@ private:
     }
 
     void encode(std::unique_lock<std::mutex>& lock, Picture picture) {
-        const bool isStill =
-            hasRested() && isSame(picture.view, *wanted_) && !isRenderNeeded_ && !isLoading_;
+        const bool isStill = hasRested() && isSame(picture.view, *wanted_) && !isRenderNeeded_ &&
+                             !isLoading_ && !isBelowAsked(picture);
         // The same view may have come again meanwhile: this is the answer to that, too.
         if (isSame(picture.view, *wanted_))
             picture.view.sequence = wanted_->sequence;

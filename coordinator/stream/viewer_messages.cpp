@@ -34,6 +34,10 @@ absl::StatusOr<ViewRequest> viewFromMessage(const v1::ViewRequest& message) {
     view.frame.shading = frameData.shading;
     view.frame.look = frameData.look;
     view.isUnderground = message.underground();
+    if (message.has_budget_milliseconds()) {
+        RETURN_IF_ERROR(fabric::validateBudgetMilliseconds(message.budget_milliseconds()));
+        view.frame.budgetMilliseconds = message.budget_milliseconds();
+    }
     view.frame.completeness = fabric::Completeness::Interactive;
     view.frame.width = std::clamp(message.width(), kMinPictureSide, kMaxPictureSide);
     view.frame.height = std::clamp(message.height(), kMinPictureSide, kMaxPictureSide);

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "fabric/camera.h"
+#include "fabric/frame_budget.h"
 #include "fabric/look.h"
 
 namespace eyrie::fabric {
@@ -32,6 +34,8 @@ struct FrameData {
     Shading shading = Shading::Smooth;
     Look look = {};
     Occlusion occlusion = Occlusion::Auto;
+    /// A time to hold by drawing at a larger tau: by fabric::tauForBudget, for all objects alike.
+    std::optional<FrameBudget> budget = {};
 
     bool operator==(const FrameData&) const = default;
 };

@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
+
+#include "fabric/frame_budget.h"
 
 namespace eyrie::fabric {
 
@@ -53,6 +56,7 @@ struct FrameStatistics {
     std::uint64_t pagesFailed = 0;        ///< those of the missing that could not be read
     std::uint64_t tilesDecodedOnGpu = 0;  ///< of terrain, in place of the CPU
     StageMilliseconds milliseconds;
+    std::optional<BudgetUse> budget = {};  ///< where a frame had one to keep
 
     bool operator==(const FrameStatistics&) const = default;
 };
@@ -80,6 +84,10 @@ inline void accumulate(FrameStatistics& sum, const FrameStatistics& part) {
     ms.total = std::max(ms.total, part.milliseconds.total);
     ms.vertices = std::max(ms.vertices, part.milliseconds.vertices);
     ms.fill = std::max(ms.fill, part.milliseconds.fill);
+    // All channels foresee the same, of the whole view.
+    if (part.budget &&
+        (!sum.budget || sum.budget->predictedMilliseconds < part.budget->predictedMilliseconds))
+        sum.budget = part.budget;
 }
 
 /// The graphics device a renderer chose.

@@ -108,6 +108,13 @@ v1::FrameData toMessage(const fabric::FrameData& frameData) {
     message.set_shading(toMessage(frameData.shading));
     *message.mutable_look() = toMessage(frameData.look);
     message.set_occlusion(toMessage(frameData.occlusion));
+    if (frameData.budget) {
+        v1::FrameBudget& budget = *message.mutable_budget();
+        budget.set_milliseconds(frameData.budget->milliseconds);
+        budget.set_fixed_milliseconds(frameData.budget->fixedMilliseconds);
+        budget.set_milliseconds_a_triangle(frameData.budget->millisecondsATriangle);
+        budget.set_last_tau_pixels(frameData.budget->lastTauPixels);
+    }
     return message;
 }
 
@@ -126,6 +133,12 @@ absl::StatusOr<fabric::FrameData> fromMessage(const v1::FrameData& message) {
     ASSIGN_OR_RETURN(frameData.shading, fromMessage(message.shading()));
     ASSIGN_OR_RETURN(frameData.look, fromMessage(message.look()));
     ASSIGN_OR_RETURN(frameData.occlusion, fromMessage(message.occlusion()));
+    if (message.has_budget()) {
+        const v1::FrameBudget& budget = message.budget();
+        frameData.budget = {budget.milliseconds(), budget.fixed_milliseconds(),
+                            budget.milliseconds_a_triangle(), budget.last_tau_pixels()};
+        RETURN_IF_ERROR(fabric::withContext(fabric::validate(*frameData.budget), "frame_data"));
+    }
     return frameData;
 }
 

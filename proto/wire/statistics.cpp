@@ -47,6 +47,17 @@ absl::StatusOr<fabric::StageMilliseconds> fromMessage(const v1::StageMillisecond
                                      message.fill()};
 }
 
+absl::StatusOr<fabric::BudgetUse> fromMessage(const v1::BudgetUse& message) {
+    RETURN_IF_ERROR(checkFinite(message.milliseconds(), "budget.milliseconds"));
+    RETURN_IF_ERROR(checkFinite(message.predicted_milliseconds(), "budget.predicted_milliseconds"));
+    RETURN_IF_ERROR(checkFinite(message.tau_pixels(), "budget.tau_pixels"));
+    if (!(message.covered() >= 0 && message.covered() <= 1))
+        return absl::InvalidArgumentError(fmt::format(
+            "statistics.budget.covered is {}; it must be from 0 to 1", message.covered()));
+    return fabric::BudgetUse{message.milliseconds(), message.predicted_milliseconds(),
+                             message.tau_pixels(), message.triangles(), message.covered()};
+}
+
 absl::Status checkText(const std::string& text, std::string_view field) {
     if (text.size() <= kMaxTextBytes)
         return absl::OkStatus();
@@ -71,6 +82,14 @@ v1::FrameStatistics toMessage(const fabric::FrameStatistics& statistics) {
     message.set_pages_failed(statistics.pagesFailed);
     message.set_tiles_decoded_on_gpu(statistics.tilesDecodedOnGpu);
     *message.mutable_milliseconds() = toMessage(statistics.milliseconds);
+    if (statistics.budget) {
+        v1::BudgetUse& budget = *message.mutable_budget();
+        budget.set_milliseconds(statistics.budget->milliseconds);
+        budget.set_predicted_milliseconds(statistics.budget->predictedMilliseconds);
+        budget.set_tau_pixels(statistics.budget->tauPixels);
+        budget.set_triangles(statistics.budget->triangles);
+        budget.set_covered(statistics.budget->covered);
+    }
     return message;
 }
 
@@ -97,6 +116,9 @@ absl::StatusOr<fabric::FrameStatistics> fromMessage(const v1::FrameStatistics& m
             fmt::format("statistics.pages_failed is {}; it must be at most pages_missing, {}",
                         statistics.pagesFailed, statistics.pagesMissing));
     ASSIGN_OR_RETURN(statistics.milliseconds, fromMessage(message.milliseconds()));
+    if (message.has_budget()) {
+        ASSIGN_OR_RETURN(statistics.budget, fromMessage(message.budget()));
+    }
     return statistics;
 }
 

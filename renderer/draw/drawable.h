@@ -92,6 +92,11 @@ public:
     virtual std::uint64_t triangles() const = 0;
     virtual std::uint64_t bytes() const = 0;
 
+    /// How many triangles of the object the whole view sees at `request.tauPixels`, when all data
+    /// are there. About: what it decides is only how well to draw. Followed by selectCut() for the
+    /// same view.
+    virtual std::uint64_t viewTriangles(const CutRequest& request) = 0;
+
     /// Chooses what stands for the object in a channel. Complete cuts of one view and range are the
     /// same whatever the channel, so the channels of a frame fit together; they wait for what has
     /// to be loaded. Interactive ones take what is there.

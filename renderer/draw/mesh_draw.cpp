@@ -64,6 +64,7 @@ public:
         return pick::meshSurface(object, file_);
     }
 
+    std::uint64_t viewTriangles(const CutRequest& request) override;
     Cut selectCut(const CutRequest& request) override;
     double errorPixels(const CutRequest&, occlusion::HiddenGround*) override {
         return errorPixels_;
@@ -165,6 +166,14 @@ page::HostPages::Loads MeshDrawable::reach(const CutRequest& request, double tau
     }
     loaded.add(round);
     return loaded;
+}
+
+std::uint64_t MeshDrawable::viewTriangles(const CutRequest& request) {
+    std::uint64_t triangles = 0;
+    const MeshCut cut =
+        cutOf(*file_, request.view, request.tauPixels, [](std::uint32_t) { return true; });
+    for (const CutNode& node : cut.wanted) triangles += file_->nodes()[node.node].indexCount / 3;
+    return triangles;
 }
 
 Cut MeshDrawable::selectCut(const CutRequest& request) {

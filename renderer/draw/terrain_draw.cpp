@@ -66,6 +66,7 @@ public:
         return pick::terrainSurface(object, file_);
     }
 
+    std::uint64_t viewTriangles(const CutRequest& request) override;
     Cut selectCut(const CutRequest& request) override;
     double errorPixels(const CutRequest& request, occlusion::HiddenGround* hidden) override {
         return TerrainError(index(), *paging_, needed_, request, hidden).pixels(drawn_);
@@ -85,16 +86,17 @@ private:
     void use(const TerrainEffect& program, const FrameState& frame);
     void leaveOutBacks(const FrameState& frame) const;
     void addPageBounds(const terrain::TerrainCut& wanted, std::vector<Piece>& pieces) const;
-    /// What a view wants at one step of the ladder.
+    /// What a view wants at one tau.
     struct Wanted {
         terrain::Refinement refinement;
         terrain::TerrainCut cut;
         /// Of its visible tiles and texture tiles, and all above, which may stand in.
-        std::uint64_t bytes = 0;
+        std::optional<std::uint64_t> bytes;
     };
     std::uint64_t bytesOf(const lod::ObjectView& view, const terrain::TerrainCut& cut,
                           double texelPixels);
-    const Wanted& wantedAt(int step, const CutRequest& request);
+    Wanted& wantedAt(double tauPixels, const lod::ObjectView& view);
+    std::uint64_t wantedBytes(int step, const CutRequest& request);
     /// By variant; null: not used in the frame so far.
     using PicturePrograms =
         std::array<const TerrainEffect*, TerrainEffect::Variant::kMaxImagery + 1>;
@@ -119,8 +121,8 @@ private:
     std::unique_ptr<TerrainPaging> paging_;
     TileImagery imagery_;
     TauChoice tau_;
-    std::map<int, Wanted> wanted_;  ///< of this view and tau, by step
-    terrain::TerrainCut drawn_;     ///< the last cut; pieces index its tiles
+    std::map<double, Wanted> wanted_;  ///< of the view that is about to be drawn, by tau
+    terrain::TerrainCut drawn_;        ///< the last cut; pieces index its tiles
 };
 
 std::uint64_t TerrainDrawable::bytesOf(const lod::ObjectView& view, const terrain::TerrainCut& cut,
@@ -134,27 +136,39 @@ std::uint64_t TerrainDrawable::bytesOf(const lod::ObjectView& view, const terrai
     return bytes + imagery_.bytesOf(needed_.leaves(), view, texelPixels);
 }
 
-const TerrainDrawable::Wanted& TerrainDrawable::wantedAt(int step, const CutRequest& request) {
-    const auto known = wanted_.find(step);
+TerrainDrawable::Wanted& TerrainDrawable::wantedAt(double tauPixels, const lod::ObjectView& view) {
+    const auto known = wanted_.find(tauPixels);
     if (known != wanted_.end())
         return known->second;
-    terrain::Refinement refinement = terrain::refineForError(
-        index(), request.view, request.tauPixels * page::TauLadder::factor(step));
-    terrain::TerrainCut cut = terrain::cutOf(index(), request.view, refinement);
-    const std::uint64_t bytes = bytesOf(request.view, cut, texelPixels(step));
-    return wanted_.emplace(step, Wanted{std::move(refinement), std::move(cut), bytes})
+    terrain::Refinement refinement = terrain::refineForError(index(), view, tauPixels);
+    terrain::TerrainCut cut = terrain::cutOf(index(), view, refinement);
+    return wanted_.emplace(tauPixels, Wanted{std::move(refinement), std::move(cut), {}})
         .first->second;
 }
 
+std::uint64_t TerrainDrawable::wantedBytes(int step, const CutRequest& request) {
+    Wanted& wanted = wantedAt(request.tauPixels * page::TauLadder::factor(step), request.view);
+    if (!wanted.bytes)
+        wanted.bytes = bytesOf(request.view, wanted.cut, texelPixels(step));
+    return *wanted.bytes;
+}
+
+std::uint64_t TerrainDrawable::viewTriangles(const CutRequest& request) {
+    std::uint64_t triangles = 0;
+    for (const terrain::TileChoice& tile : wantedAt(request.tauPixels, request.view).cut.tiles)
+        if (tile.isVisible)
+            triangles += index().tile(tile.id).triangles;
+    return triangles;
+}
+
 Cut TerrainDrawable::selectCut(const CutRequest& request) {
-    wanted_.clear();
     const page::TauLadder::Choice choice = tau_.choose(
-        request, [&](int step) { return wantedAt(step, request).bytes; }, paging_->roomBytes());
-    const Wanted& wanted = wantedAt(choice.step, request);
+        request, [&](int step) { return wantedBytes(step, request); }, paging_->roomBytes());
+    const double tauPixels = request.tauPixels * page::TauLadder::factor(choice.step);
+    const Wanted& wanted = wantedAt(tauPixels, request.view);
     needed_.assign(wanted.cut, request);
     prefetch_.follow(request.view.view(),
                      fabric::exaggerated(worldFromObject_, request.exaggeration));
-    const double tauPixels = request.tauPixels * page::TauLadder::factor(choice.step);
     const std::vector<terrain::TextureId> textures =
         imagery_.texturesOf(needed_.leaves(), request.view, texelPixels(choice.step));
     const TerrainPaging::Result result =
@@ -178,6 +192,7 @@ Cut TerrainDrawable::selectCut(const CutRequest& request) {
     imagery_.choose(drawn_.tiles, cut.pieces, request.view, texelPixels(choice.step));
     if (request.wantsPageBounds)
         addPageBounds(wanted.cut, cut.pieces);
+    wanted_.clear();
     return cut;
 }
 

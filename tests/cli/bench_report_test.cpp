@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -61,6 +62,35 @@ TEST(RunSummary, TheErrorIsThatOfTheWorstFrame) {
     Played played{{frame(0, 1), frame(1, 1, 0.9), frame(1, 1, 1.5)}, 0, {}};
     EXPECT_EQ(summarize(played).tauAchievedMax, 1.5);
     EXPECT_EQ(summarize(played).framesBeyond, 1u);
+}
+
+/// The second frame ends the first second.
+TEST(RunSummary, FramesAreInTimeUpToAFifthLongerThanAskedForOnceASecondHasPassed) {
+    Played played{
+        {frame(0, 900), frame(0, 150), frame(0, 39), frame(1, 39.6), frame(1, 41), frame(1, 20)},
+        0,
+        {}};
+    EXPECT_TRUE(std::isnan(summarize(played).withinBudget));
+    for (PlayedFrame& one : played.frames)
+        one.statistics.budget = fabric::BudgetUse{33, 30, 0.5, 100, 1};
+    EXPECT_EQ(summarize(played).withinBudget, 0.75);
+    EXPECT_EQ(summarize(played).tauAchieved.p95, 0.5);
+}
+
+TEST(BenchReport, ARunAtAFrameTimeSaysHowItWasHeld) {
+    Report held = report();
+    held.runs[0].budgetMilliseconds = 33;
+    for (PlayedFrame& one : held.runs[0].played.frames) {
+        one.milliseconds += 1000;
+        one.statistics.budget = fabric::BudgetUse{33, 30, 0.5, 100, 1};
+    }
+    const test::JsonValue run = test::list(parseJson(summaryJson(held)), "runs").at(0);
+    EXPECT_EQ(number(run, "budgetMs"), 33);
+    EXPECT_EQ(number(run, "withinBudget"), 0);
+    EXPECT_EQ(number(run, "tauAchieved.p95"), 0.5);
+    EXPECT_THAT(table(held.runs),
+                testing::HasSubstr("33 ms to hold: 0.0 % of frames within 40 ms"));
+    EXPECT_THAT(framesCsv(held.runs), testing::HasSubstr(",33,30.000,0.5\n"));
 }
 
 TEST(RunSummary, StagesAreThoseOfTheFramesThatWereMeasured) {

@@ -108,6 +108,32 @@ TEST_P(FramePipelineTest, AllReadyRenderersTakePart) {
     for (const auto& renderer : renderers) EXPECT_EQ(renderer->drawn, 2);
 }
 
+TEST_P(FramePipelineTest, PicturesGetSmallerWhereNoErrorKeepsTheirTime) {
+    openWith(2);
+    FrameRequest timed = request();
+    timed.budgetMilliseconds = 1;
+    const auto first = pipeline_.renderFrame(timed);
+    ASSERT_TRUE(first.ok()) << first.status();
+    ASSERT_TRUE(first->statistics.budget.has_value());
+    EXPECT_EQ(first->statistics.budget->milliseconds, 1);
+    EXPECT_EQ(first->statistics.budget->tauPixels, fabric::kBudgetTauPixels);
+    for (int i = 0; i < 3; ++i) (void)pipeline_.renderFrame(timed);
+    const auto later = pipeline_.renderFrame(timed);
+    ASSERT_TRUE(later.ok()) << later.status();
+    EXPECT_FALSE(later->statistics.budget->isMet());
+    const fabric::PixelViewport area = later->image.area;
+    EXPECT_LT(area.width, kWidth);
+    EXPECT_TRUE(later->image == layers_->whole(area.width, area.height));
+    expectWholePicture();  // without a time to keep
+}
+
+TEST_P(FramePipelineTest, ATimeThatIsNoneIsRefused) {
+    openWith(1);
+    FrameRequest timed = request();
+    timed.budgetMilliseconds = 0;
+    EXPECT_TRUE(absl::IsInvalidArgument(pipeline_.renderFrame(timed).status()));
+}
+
 TEST_P(FramePipelineTest, AFailedPartIsDrawnByAnother) {
     const auto renderers = openWith(3);
     renderers[1]->failToRender(absl::UnavailableError("connection reset"));

@@ -133,6 +133,43 @@ TEST_P(DecompositionTest, EveryDecompositionEqualsTheSingleChannelAtTwentyCamera
     EXPECT_GT(covered, 20U * kWidth * kHeight / 10) << "the cameras should see something";
 }
 
+/// Half of what the view takes as asked for: every channel comes to the same tau.
+TEST_P(DecompositionTest, ABudgetGivesThePictureOfTheTauThatItReports) {
+    std::mt19937 random(kSeed);
+    int raised = 0;
+    for (int camera = 0; camera < 4; ++camera) {
+        FrameData frame = randomFrame(random, info_.bounds);
+        frame.tauPixels = 0.5;
+        frame.budget = fabric::FrameBudget{33, 3, 0, 0};
+        const auto unlimited = renderer_->render(frame, wholeView());
+        ASSERT_TRUE(unlimited.ok()) << unlimited.status();
+        ASSERT_EQ(unlimited->statistics.budget->tauPixels, 0.5);
+        const auto triangles = static_cast<double>(unlimited->statistics.budget->triangles);
+        ASSERT_GE(triangles, static_cast<double>(unlimited->statistics.triangles) / 2);
+        frame.budget->millisecondsATriangle = 60 / triangles;
+        const auto limited = renderer_->render(frame, wholeView());
+        ASSERT_TRUE(limited.ok()) << limited.status();
+        const fabric::FrameStatistics& statistics = limited->statistics;
+        EXPECT_EQ(statistics.tauAskedPixels, 0.5);
+        EXPECT_EQ(statistics.budget->milliseconds, 33);
+        raised += statistics.budget->tauPixels > 0.5 && statistics.budget->isMet() ? 1 : 0;
+
+        const std::string name = "camera " + std::to_string(camera) + ", ";
+        const Image asOne = single(frame);
+        FrameData atTau = frame;
+        atTau.budget.reset();
+        atTau.tauPixels = statistics.budget->tauPixels;
+        const auto told = renderer_->render(atTau, wholeView());
+        ASSERT_TRUE(told.ok()) << told.status();
+        EXPECT_EQ(statistics.tauAchievedPixels, told->statistics.tauAchievedPixels) << name;
+        EXPECT_EQ(statistics.triangles, told->statistics.triangles) << name;
+        expectEqual(single(atTau), asOne, name + "that tau");
+        expectEqual(asOne, sortFirst(frame, 3), name + "2D over 3");
+        expectEqual(asOne, sortLast(frame, 3), name + "DB over 3");
+    }
+    EXPECT_GE(raised, 2);
+}
+
 TEST_P(DecompositionTest, MeasuringStagesLeavesThePictureAsItIs) {
     std::mt19937 random(kSeed);
     const FrameData frame = randomFrame(random, info_.bounds);

@@ -11,6 +11,8 @@ export interface Hooks {
   readonly viewSequence: number;
   readonly triangles: number;
   readonly tauAchieved: number;
+  /** The frame time that it was to hold; 0: none, or the view is at rest. */
+  readonly budgetMilliseconds: number;
   /** It is at its best: nothing more comes until something changes. */
   readonly still: boolean;
   readonly fps: number;
@@ -40,6 +42,9 @@ export function exposeHooks(state: State, viewer: Viewer): void {
     },
     get tauAchieved() {
       return numbers()?.tauAchieved ?? 0;
+    },
+    get budgetMilliseconds() {
+      return numbers()?.budgetMilliseconds ?? 0;
     },
     get still() {
       return numbers()?.still ?? false;

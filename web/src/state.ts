@@ -43,6 +43,11 @@ export interface Numbers {
   height: number;
   still: boolean;
   tauAsked: number;
+  /** The frame time that was to be held, and what was foreseen for this frame; 0: none was. */
+  budgetMilliseconds: number;
+  predictedMilliseconds: number;
+  /** The tau that it was given for that. */
+  budgetTau: number;
   tauAchieved: number;
   complete: boolean;
   /** Pages that coarser data stand in for, and those of them that could not be read. */
@@ -99,6 +104,8 @@ export class State {
   readonly stale = new Value(false);
   readonly flying = new Value(false);
   readonly tau = new Value(1);
+  /** Milliseconds a frame may take while the view moves; null: tau is kept. */
+  readonly budget = new Value<number | null>(null);
   readonly shading = new Value<Shading>(Shading.SMOOTH);
   readonly look = new Value<Look>(defaultLook);
 }

@@ -76,6 +76,7 @@ export class Viewer implements CameraHolder {
       picked: (answer) => this.picked(answer),
     });
     state.tau.watch(() => this.requestView(performance.now()));
+    state.budget.watch(() => this.requestView(performance.now()));
     state.shading.watch(() => this.requestView(performance.now()));
     state.look.watch(() => this.requestView(performance.now()));
     this.ticker = window.setInterval(() => this.tick(), 250);
@@ -131,6 +132,7 @@ export class Viewer implements CameraHolder {
       camera: this.camera,
       ...this.size,
       tauPixels: this.state.tau.value,
+      budgetMilliseconds: this.state.budget.value,
       shading: this.state.shading.value,
       look: this.state.look.value,
     };
@@ -226,6 +228,9 @@ export class Viewer implements CameraHolder {
       height: frame.height,
       still: frame.still,
       tauAsked: statistics?.tauAsked ?? 0,
+      budgetMilliseconds: statistics?.budget?.milliseconds ?? 0,
+      predictedMilliseconds: statistics?.budget?.predictedMilliseconds ?? 0,
+      budgetTau: statistics?.budget?.tauPixels ?? 0,
       tauAchieved: statistics?.tauAchieved ?? 0,
       complete: statistics?.complete ?? true,
       pagesMissing: Number(statistics?.pagesMissing ?? 0n),

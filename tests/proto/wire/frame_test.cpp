@@ -46,6 +46,9 @@ RC_GTEST_PROP(WireFrameData, ComesBackAsItWas, ()) {
     frameData.look.exaggeration = *rc::gen::inRange(-10, 11);
     frameData.occlusion =
         *rc::gen::element(fabric::Occlusion::Auto, fabric::Occlusion::On, fabric::Occlusion::Off);
+    if (*rc::gen::arbitrary<bool>())
+        frameData.budget = {*rc::gen::inRange(1, 10'001) * 1.0, *rc::gen::inRange(0, 1000) / 7.0,
+                            *rc::gen::inRange(0, 1000) / 1e6, *rc::gen::inRange(0, 1000) / 9.0};
     RC_ASSERT(*fromMessage(toMessage(frameData)) == frameData);
 }
 
@@ -132,6 +135,15 @@ TEST(WireFrameData, ARefusalNamesTheField) {
     v1::FrameData occluded = toMessage(good);
     occluded.set_occlusion(static_cast<v1::Occlusion>(99));
     EXPECT_THAT(refusal(occluded), testing::HasSubstr("frame_data.occlusion"));
+    for (const double budget : {0.0, -33.0, 1e9, kNan}) {
+        v1::FrameData timed = toMessage(good);
+        timed.mutable_budget()->set_milliseconds(budget);
+        EXPECT_THAT(refusal(timed), testing::HasSubstr("frame_data: the frame time"));
+    }
+    v1::FrameData slow = toMessage(good);
+    slow.mutable_budget()->set_milliseconds(33);
+    slow.mutable_budget()->set_milliseconds_a_triangle(kNan);
+    EXPECT_THAT(refusal(slow), testing::HasSubstr("budget.milliseconds_a_triangle"));
     v1::FrameData blind = toMessage(good);
     blind.clear_camera();
     EXPECT_THAT(refusal(blind), testing::HasSubstr("camera.eye"));

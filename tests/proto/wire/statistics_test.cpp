@@ -19,6 +19,20 @@ TEST(WireStatistics, ComeBackAsTheyWere) {
     EXPECT_EQ(fromMessage(toMessage(sample())).value(), sample());
 }
 
+TEST(WireStatistics, TellWhatBecameOfABudget) {
+    fabric::FrameStatistics statistics = sample();
+    statistics.budget = fabric::BudgetUse{33, 30.5, 4, 200'000, 0.25};
+    EXPECT_EQ(fromMessage(toMessage(statistics)).value(), statistics);
+    v1::FrameStatistics message = toMessage(statistics);
+    message.mutable_budget()->set_tau_pixels(std::numeric_limits<double>::infinity());
+    EXPECT_THAT(std::string(fromMessage(message).status().message()),
+                testing::HasSubstr("statistics.budget.tau_pixels"));
+    message = toMessage(statistics);
+    message.mutable_budget()->set_covered(1.5);
+    EXPECT_THAT(std::string(fromMessage(message).status().message()),
+                testing::HasSubstr("statistics.budget.covered"));
+}
+
 TEST(WireStatistics, TheErrorAchievedMayBeInfinite) {
     fabric::FrameStatistics boundless = sample();
     boundless.tauAchievedPixels = std::numeric_limits<double>::infinity();

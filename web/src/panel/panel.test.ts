@@ -7,7 +7,7 @@ import type { Connection, Numbers } from "../state";
 import { count, deviceName, milliseconds, pixels } from "./format";
 import { bannerFor, lossText, messageFor } from "./message";
 import { triangleText } from "./numbers";
-import { tauHint } from "./quality";
+import { budgetHint, tauHint } from "./quality";
 import { missingText, statusOf } from "./status";
 
 const connected: Connection = { kind: "connected" };
@@ -90,6 +90,9 @@ describe("numbers", () => {
     height: 1,
     still: false,
     tauAsked: 1,
+    budgetMilliseconds: 0,
+    predictedMilliseconds: 0,
+    budgetTau: 0,
     tauAchieved: 1,
     complete: true,
     pagesMissing: 0,
@@ -109,6 +112,15 @@ describe("numbers", () => {
     const loading = { ...numbers, tauAchieved: 9, complete: false, pagesMissing: 3 };
     expect(tauHint(loading)).toContain("refining");
     expect(tauHint({ ...numbers, frozen: true })).toContain("nothing is promised");
+  });
+
+  it("say what a frame time costs, and whether it can be held", () => {
+    const timed = { ...numbers, budgetMilliseconds: 33, predictedMilliseconds: 30 };
+    expect(tauHint({ ...timed, budgetTau: 4, tauAchieved: 3.9 })).toContain("in time");
+    expect(tauHint({ ...timed, budgetTau: 1, tauAchieved: 1.5 })).toContain("finest data drawn");
+    expect(budgetHint(numbers)).toBe("");
+    expect(budgetHint(timed)).toBe("");
+    expect(budgetHint({ ...timed, predictedMilliseconds: 50 })).toContain("takes longer");
   });
 
   it("say what is being loaded and what cannot be read", () => {

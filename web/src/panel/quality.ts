@@ -3,7 +3,7 @@
 import { Shading } from "../protocol/messages";
 import type { Numbers, State } from "../state";
 import { byId, make, setText } from "./element";
-import { pixels } from "./format";
+import { milliseconds, pixels } from "./format";
 
 /** The slider holds log2(tau): from a quarter of a pixel to sixteen. */
 const minLog = -2;
@@ -16,6 +16,78 @@ const shadings: readonly (readonly [Shading, string])[] = [
   [Shading.FLAT, "Flat"],
   [Shading.WIREFRAME, "Wireframe"],
 ];
+
+/** Milliseconds of a frame that may be asked for here, and what is asked for first. */
+const minBudget = 10;
+const maxBudget = 200;
+const firstBudget = 33;
+
+/** Whether the error is to be held or the frame time. */
+function choiceOfMode(state: State): HTMLElement {
+  const choice = make("fieldset", "segments", make("legend", "label", "What is held"));
+  for (const [budget, name, title] of [
+    [null, "Fixed error", "Every picture keeps the error, however long it takes"],
+    [firstBudget, "Fixed frame time", "Coarser while the view moves, so that frames come in time"],
+  ] as const) {
+    const input = make("input", "");
+    input.type = "radio";
+    input.name = "held";
+    input.checked = state.budget.value === budget;
+    input.addEventListener("change", () => state.budget.set(budget));
+    const segment = make("label", "segment", input, make("span", "", name));
+    segment.title = title;
+    choice.append(segment);
+  }
+  return choice;
+}
+
+function budgetSlider(state: State): HTMLElement {
+  const label = make("label", "label", "Frame time");
+  label.title = "How long a picture may take to make while the view moves";
+  const output = make("output", "value");
+  const slider = make("input", "slider");
+  slider.type = "range";
+  slider.id = "budget";
+  slider.min = String(minBudget);
+  slider.max = String(maxBudget);
+  slider.value = String(firstBudget);
+  label.htmlFor = output.htmlFor.value = slider.id;
+  slider.addEventListener("input", () => state.budget.set(Number(slider.value)));
+  const ends = make("div", "ends", make("span", "", "faster"), make("span", "", "finer"));
+  const field = make("div", "field", make("div", "row", label, output), slider, ends);
+  state.budget.watch((budget) => {
+    field.hidden = budget === null;
+    if (budget === null) return;
+    slider.value = String(budget);
+    setText(output, milliseconds(budget));
+    slider.setAttribute("aria-valuetext", `${budget} milliseconds`);
+  });
+  return field;
+}
+
+/** Why a frame time is not held, or "". */
+export function budgetHint(numbers: Numbers): string {
+  if (numbers.predictedMilliseconds <= numbers.budgetMilliseconds) return "";
+  return "takes longer even at its coarsest and smallest";
+}
+
+/** How long the last picture took, of what it was given; at rest there is no limit. */
+function timeAchieved(state: State): HTMLElement {
+  const label = make("span", "label", "Time taken");
+  label.title = "By the last picture of the moving view, and what was foreseen for it";
+  const value = make("span", "value", "–");
+  const hint = make("p", "hint");
+  const field = make("div", "field", make("div", "row", label, value), hint);
+  state.budget.watch((budget) => (field.hidden = budget === null));
+  state.numbers.watch((numbers) => {
+    if (numbers === null || numbers.budgetMilliseconds === 0) return;
+    const taken = milliseconds(numbers.renderMilliseconds);
+    setText(value, `${taken} (foreseen: ${milliseconds(numbers.predictedMilliseconds)})`);
+    setText(hint, budgetHint(numbers));
+    hint.hidden = hint.textContent === "";
+  });
+  return field;
+}
 
 function tauSlider(state: State): HTMLElement {
   const label = make("label", "label", "Error allowed");
@@ -30,6 +102,9 @@ function tauSlider(state: State): HTMLElement {
   label.htmlFor = output.htmlFor.value = slider.id;
   label.title = "Tau: how far, in pixels, anything may be from where it belongs on the screen";
   slider.addEventListener("input", () => state.tau.set(2 ** Number(slider.value)));
+  state.budget.watch((budget) =>
+    setText(label, budget === null ? "Error allowed" : "Error at rest"),
+  );
   state.tau.watch((tau) => {
     setText(output, pixels(tau));
     slider.setAttribute("aria-valuetext", `${tau.toFixed(2)} pixels`);
@@ -45,6 +120,8 @@ const tolerance = 1 + 1e-6;
 export function tauHint(numbers: Numbers): string {
   if (numbers.frozen) return "the cut is frozen: nothing is promised";
   if (numbers.tauAchieved <= numbers.tauAsked * tolerance) return "";
+  if (numbers.complete && numbers.budgetTau > numbers.tauAsked)
+    return "coarser, to be in time; finer at rest";
   if (numbers.complete) return "finest data drawn, or all that memory holds";
   return numbers.pagesMissing > numbers.pagesFailed
     ? "refining while data are loaded"
@@ -83,6 +160,9 @@ function shadingChoice(state: State): HTMLElement {
 export function showQuality(state: State): void {
   byId("quality", HTMLElement).append(
     make("h2", "heading", "Quality"),
+    choiceOfMode(state),
+    budgetSlider(state),
+    timeAchieved(state),
     tauSlider(state),
     tauAchieved(state),
     shadingChoice(state),

@@ -40,6 +40,8 @@ export interface View {
   width: number;
   height: number;
   tauPixels: number;
+  /** A frame time to hold while the view moves; null: tau is kept. */
+  budgetMilliseconds: number | null;
   shading: Shading;
   look: Look;
 }
@@ -106,6 +108,7 @@ export function encodeView(view: View): Uint8Array<ArrayBuffer> {
     width: view.width,
     height: view.height,
     tauPixels: view.tauPixels,
+    ...(view.budgetMilliseconds === null ? {} : { budgetMilliseconds: view.budgetMilliseconds }),
     shading: view.shading,
     look: lookMessage(view.look),
     underground: view.look.underground,

@@ -20,6 +20,7 @@ describe("messages", () => {
       width: 640,
       height: 480,
       tauPixels: 2,
+      budgetMilliseconds: 33,
       shading: Shading.FLAT,
       look: { ...defaultLook, underground: true },
     });
@@ -28,6 +29,8 @@ describe("messages", () => {
     if (request.case !== "view") return;
     expect(request.value.sequence).toBe(7n);
     expect(request.value.camera?.eye).toEqual([1, 2, 3]);
+    expect(request.value.tauPixels).toBe(2);
+    expect(request.value.budgetMilliseconds).toBe(33);
     expect(request.value.shading).toBe(Shading.FLAT);
     expect(request.value.underground).toBe(true);
     expect(request.value.look?.exaggeration).toBe(1);
