@@ -81,6 +81,13 @@ public:
             ++tally.slipped;
     }
 
+    /// Of those readings that there are, one is within the error.
+    void holdNearest(const PickedPoint& point) const {
+        const auto partner = source_->counterpart(point.worldMetres);
+        ASSERT_TRUE(partner.has_value());
+        EXPECT_LE(glm::length(*partner - point.worldMetres), point.errorMetres + 1e-9);
+    }
+
 private:
     void holdPoint(const PickedPoint& point, double first, double last, Tally& tally) const {
         ++tally.picked;
@@ -362,6 +369,40 @@ TEST(HardCase22, NoPickSlipsThroughAnEdgeOrACornerOfATerrain) {
                 EXPECT_LT((*picked)->farthestMetres, pick::kNowhere) << test::name(kind);
             }
     }
+}
+
+/// Straight down at the middle of each cell, and a little beside it: a hole is where no post of the
+/// cell is data, ground is where all are; between the two each triangle decides.
+TEST(HardCase22, PicksFallThroughHolesOfATerrainAndNothingElse) {
+    const test::TemporaryFolder folder;
+    terrain::HeightGrid grid = test::hardGrid(GridKind::Smooth, 40, 37, 5);
+    std::mt19937 engine(27);
+    for (float& height : grid.heights)
+        if (engine() % 6 == 0)
+            height = terrain::kNodata;
+    for (int j = 20; j < 30; ++j)
+        for (int i = 25; i < 36; ++i) grid.row(j)[i] = terrain::kNodata;
+    const Pair pair = terrainPair(folder, grid);
+    int fallen = 0;
+    for (int j = 0; j < 36; ++j)
+        for (int i = 0; i < 39; ++i) {
+            int data = 0;
+            for (const int corner : {0, 1, 2, 3})
+                data += std::isnan(grid.at(i + corner % 2, j + corner / 2)) ? 0 : 1;
+            const fabric::Vec2 at =
+                grid.origin + grid.perColumn * (i + 0.55) + grid.perRow * (j + 0.52);
+            const Vec3 target(at.x, at.y, 0);
+            const auto picked =
+                pair.pick({target + Vec3(0, 0, 900), target, {0, 1, 0}}, {640, 360});
+            ASSERT_TRUE(picked.ok()) << picked.status();
+            fallen += picked->has_value() ? 0 : 1;
+            if (data == 0 || data == 4) {
+                EXPECT_EQ(picked->has_value(), data == 4) << i << " " << j;
+            }
+            if (picked->has_value())
+                pair.holdNearest(**picked);
+        }
+    EXPECT_GT(fallen, 100);
 }
 
 class PickScene : public testing::Test {
