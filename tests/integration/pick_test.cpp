@@ -32,7 +32,6 @@ namespace {
 
 using fabric::Camera;
 using fabric::PickedPoint;
-using fabric::PickRequest;
 using fabric::Vec2;
 using fabric::Vec3;
 using pick::Picker;
@@ -503,8 +502,10 @@ TEST_F(PickScene, NamesThePageThatIsDamaged) {
     scene.objects.push_back({.name = "t", .kind = fabric::ObjectKind::Terrain, .path = path});
     int refused = 0;
     for (int k = 0; k < 9; ++k) {
-        const fabric::Vec2 at = grid.origin + grid.perColumn * (40.0 + 100 * (k % 3)) +
-                                grid.perRow * (40.0 + k / 3 * 100);
+        const int column = 40 + 100 * (k % 3);
+        const int row = 40 + 100 * (k / 3);
+        const fabric::Vec2 at =
+            grid.origin + grid.perColumn * (1.0 * column) + grid.perRow * (1.0 * row);
         const auto picked = pick(scene, {{at.x, at.y, 9000}, {at.x, at.y, 0}, {0, 1, 0}});
         if (picked.ok())
             continue;
