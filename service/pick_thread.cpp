@@ -25,7 +25,7 @@ void PickThread::use(PickFunction pick) {
 }
 
 void PickThread::pick(const fabric::PickRequest& request,
-                      std::chrono::steady_clock::time_point deadline, Done done) {
+                      std::chrono::steady_clock::time_point deadline, const Done& done) {
     if (const absl::Status status = post(request, deadline, done); !status.ok())
         done(status);
 }

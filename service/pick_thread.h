@@ -32,7 +32,7 @@ public:
     /// Calls `done` once, mostly on the thread. FailedPrecondition without a scene,
     /// ResourceExhausted when too many wait, DeadlineExceeded, what the function says.
     void pick(const fabric::PickRequest& request, std::chrono::steady_clock::time_point deadline,
-              Done done);
+              const Done& done);
 
 private:
     struct Job {
