@@ -149,6 +149,8 @@ absl::StatusOr<Dataset> warpedTo(const ColourFile& file, const TexelGrid& grid, 
     options->papszWarpOptions =
         CSLSetNameValue(options->papszWarpOptions, "NUM_THREADS", "ALL_CPUS");
     options->papszWarpOptions = CSLSetNameValue(options->papszWarpOptions, "INIT_DEST", "0");
+    for (const std::string& option : polarWarpOptions(file.dataset.get()))
+        options->papszWarpOptions = CSLAddString(options->papszWarpOptions, option.c_str());
     options->pfnTransformer = GDALApproxTransform;
     options->pTransformerArg = transformer.release();  // of the result from here on
     Dataset result(

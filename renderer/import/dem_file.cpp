@@ -243,11 +243,6 @@ absl::StatusOr<std::uint64_t> hashFiles(const std::string& path, GDALDatasetH da
 
 bool DemFile::isGeographic() const { return crs && OSRIsGeographic(crs.get()) != 0; }
 
-fabric::Vec2 DemFile::centre() const {
-    return reference.origin + reference.perColumn * (columns * 0.5) +
-           reference.perRow * (rows * 0.5);
-}
-
 absl::StatusOr<DemFile> openDemFile(const std::string& path, QuietGdal& gdal) {
     DemFile file;
     file.path = path;

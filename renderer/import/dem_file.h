@@ -26,7 +26,6 @@ struct DemFile {
     std::vector<std::string> notes;
 
     bool isGeographic() const;
-    fabric::Vec2 centre() const;  ///< in units of the CRS
 };
 
 /// Looks at everything but the pixels. Errors: NotFound, InvalidArgument (no raster, not heights,

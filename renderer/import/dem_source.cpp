@@ -38,13 +38,18 @@ double determinant(const Georeference& g) {
     return g.perColumn.x * g.perRow.y - g.perColumn.y * g.perRow.x;
 }
 
+Vec2 centreOf(const DemFile& file) {
+    return file.reference.origin + file.reference.perColumn * (file.columns * 0.5) +
+           file.reference.perRow * (file.rows * 0.5);
+}
+
 /// Side of a pixel, about.
 double pixelMetres(const DemFile& file) {
     constexpr double kMetresPerDegree = 111320;
     const double side = std::sqrt(std::abs(determinant(file.reference)));
     if (file.isGeographic())
         return side * kMetresPerDegree *
-               std::sqrt(std::max(0.01, std::cos(file.centre().y * M_PI / 180)));
+               std::sqrt(std::max(0.01, std::cos(centreOf(file).y * M_PI / 180)));
     return file.crs ? side * OSRGetLinearUnits(file.crs.get(), nullptr) : side;
 }
 
@@ -207,8 +212,8 @@ private:
                  glm::abs(file.reference.perRow * static_cast<double>(file.rows))) *
                 0.5;
             // The same longitude may be called 180 here and -180 there: the way round is short.
-            Vec2 middle = file.centre();
-            middle.x -= 360 * std::round((middle.x - files_.front().centre().x) / 360);
+            Vec2 middle = centreOf(file);
+            middle.x -= 360 * std::round((middle.x - centreOf(files_.front()).x) / 360);
             low = glm::min(low, middle - reach);
             high = glm::max(high, middle + reach);
         }

@@ -27,7 +27,7 @@ struct DemSource {
 /// Posts are pixel centres. One raster in a projected CRS, or none, keeps its grid, rotation
 /// included, with units turned to metres. A geographic one is reprojected to the UTM zone of its
 /// centre (beyond 84 degrees to polar stereographic, of any longitudes), bilinearly, at the spacing
-/// GDAL suggests. Posts on the very meridian where a raster that goes round begins may be nodata.
+/// GDAL suggests.
 ///
 /// Several are laid over each other: the CRS is that of the finest projected one, or the UTM zone
 /// of all their middle where all are geographic, the short way round; the grid is that of the

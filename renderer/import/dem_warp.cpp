@@ -11,18 +11,12 @@
 namespace eyrie::import {
 namespace {
 
-bool isAroundPole(const DemFile& file) {
-    return file.isGeographic() && std::abs(file.centre().y) > kUtmLimitDegrees;
-}
-
 absl::StatusOr<Dataset> warped(const DemFile& file, const std::string& targetWkt,
                                const std::vector<std::string>& more, QuietGdal& gdal) {
     std::vector<std::string> arguments = {"-of", "VRT", "-r",   "bilinear", "-dstnodata",
                                           "nan", "-et", "0.01", "-wo",      "NUM_THREADS=ALL_CPUS"};
-    // What of the source a block needs GDAL tells by the block's rim, unless it is told to look at
-    // all of it: a pole inside was missed, and posts beside it stayed open.
-    if (isAroundPole(file))
-        arguments.insert(arguments.end(), {"-wo", "SAMPLE_GRID=YES", "-wo", "SAMPLE_STEPS=129"});
+    for (const std::string& option : polarWarpOptions(file.dataset.get()))
+        arguments.insert(arguments.end(), {"-wo", option});
     if (!targetWkt.empty())
         arguments.insert(arguments.end(), {"-t_srs", targetWkt});
     arguments.insert(arguments.end(), more.begin(), more.end());

@@ -10,9 +10,6 @@
 
 namespace eyrie::import {
 
-/// Latitude beyond which UTM ends and polar stereographic, for all longitudes, begins.
-inline constexpr double kUtmLimitDegrees = 84;
-
 /// The projected CRS for data around a longitude and latitude of `geographic`.
 absl::StatusOr<SpatialReference> localProjection(const std::string& path,
                                                  OGRSpatialReferenceH geographic, double longitude,

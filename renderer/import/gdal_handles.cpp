@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/import/gdal_handles.h"
 
+#include <algorithm>
+#include <cmath>
 #include <mutex>
 
 #include <cpl_conv.h>
@@ -38,6 +40,18 @@ std::string wktOf(OGRSpatialReferenceH reference) {
     std::string wkt = text == nullptr ? "" : text;
     CPLFree(text);
     return wkt;
+}
+
+std::vector<std::string> polarWarpOptions(GDALDatasetH raster) {
+    const OGRSpatialReferenceH crs = GDALGetSpatialRef(raster);
+    std::array<double, 6> t{};
+    if (crs == nullptr || OSRIsGeographic(crs) == 0 ||
+        GDALGetGeoTransform(raster, t.data()) != CE_None)
+        return {};
+    const double last = t[3] + t[5] * GDALGetRasterYSize(raster);
+    if (std::max(std::abs(t[3]), std::abs(last)) <= kUtmLimitDegrees)
+        return {};
+    return {"SAMPLE_GRID=YES", "SAMPLE_STEPS=129"};  // every row of a block of 128
 }
 
 absl::Status invalid(const std::string& path, const std::string& what) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include <absl/status/status.h>
 #include <cpl_error.h>
@@ -57,6 +58,14 @@ struct Georeference {
 std::array<double, 6> geoTransform(const Georeference& reference);
 
 std::string wktOf(OGRSpatialReferenceH reference);
+
+/// Latitude beyond which UTM ends and polar stereographic, for all longitudes, begins.
+inline constexpr double kUtmLimitDegrees = 84;
+
+/// Options, "NAME=VALUE", for GDAL's warper of a raster in degrees that reaches beyond that
+/// latitude. What of it a block needs GDAL tells by the block's rim: where a pole was inside,
+/// pixels beside it were missed and stayed open. With these it looks at the block's inside.
+std::vector<std::string> polarWarpOptions(GDALDatasetH raster);
 
 /// InvalidArgument "path: what".
 absl::Status invalid(const std::string& path, const std::string& what);

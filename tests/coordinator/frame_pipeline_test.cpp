@@ -61,14 +61,17 @@ protected:
         pipeline_.setScene(sceneNamed("first"));
         std::vector<std::shared_ptr<FakeRenderer>> result;
         for (int i = 0; i < renderers; ++i) result.push_back(addRenderer());
-        // All are ready once a frame has used all.
+        awaitReady(result);
+        return result;
+    }
+    /// All are ready once a frame has used all.
+    void awaitReady(const std::vector<std::shared_ptr<FakeRenderer>>& renderers) {
         EXPECT_TRUE(eventually([&] {
-            for (const auto& renderer : result) renderer->drawn = 0;
+            for (const auto& renderer : renderers) renderer->drawn = 0;
             return pipeline_.renderFrame(request()).ok() &&
-                   std::all_of(result.begin(), result.end(),
+                   std::all_of(renderers.begin(), renderers.end(),
                                [](const auto& renderer) { return renderer->drawn == 1; });
         }));
-        return result;
     }
     void expectWholePicture() {
         const absl::StatusOr<RenderedFrame> frame = pipeline_.renderFrame(request());
@@ -280,7 +283,7 @@ TEST_P(FramePipelineTest, ListenersHearThatThePictureIsThere) {
 TEST_P(FramePipelineTest, ANewSceneIsOpenedByAll) {
     const auto renderers = openWith(2);
     pipeline_.setScene(sceneNamed("second"));
-    EXPECT_TRUE(eventually([&] { return pipeline_.status().problem.empty(); }));
+    awaitReady(renderers);
     expectWholePicture();
     EXPECT_EQ(pipeline_.status().scene.objects[0].name, "second");
     EXPECT_EQ(renderers[0]->opened, (std::vector<std::string>{"first", "second"}));

@@ -23,8 +23,6 @@ using test::succeeded;
 constexpr int kWidth = 1280;
 constexpr int kHeight = 720;
 constexpr std::size_t kPixels = std::size_t{kWidth} * kHeight;
-/// Of kPixels, between one channel and any decomposition; the aim is none.
-constexpr std::size_t kMaxDifferentPixels = 50;
 
 std::string content(const std::string& path) {
     const auto text = test::readFile(path);
@@ -124,7 +122,7 @@ protected:
                                  : 1;
             fmt::print("{} over {} renderers, {}: {} pixels of {} differ\n", compound, count, data,
                        different, kPixels);
-            EXPECT_LE(different, kMaxDifferentPixels);
+            EXPECT_EQ(different, 0U);
         }
     }
 

@@ -102,6 +102,8 @@ protected:
     test::TemporaryFolder folder_;
 };
 
+using HardCase26 = ImageryImport;
+
 TEST_F(ImageryImport, LaysEachPixelWhereItStands) {
     const auto file = imported(test::slope(90, 70, 10), {write(over(890, 690, 10, waves(1200)))});
     ASSERT_NE(file, nullptr);
@@ -213,6 +215,66 @@ TEST_F(ImageryImport, BringsPicturesOfAnotherCrsToTheTerrains) {
     const auto file = imported(test::slope(90, 70, 10), {write(picture)});
     ASSERT_NE(file, nullptr);
     expectColours(*file, 10, waves(1200));
+}
+
+/// Hard case 26: a picture of all longitudes over a terrain with the pole in it. Expected is the
+/// colour of the place that PROJ says.
+TEST_F(HardCase26, APictureAroundThePoleCoversEveryTexel) {
+    const auto colour = [](double longitude, double latitude) {
+        const double x = std::cos(latitude * M_PI / 180) * std::cos(longitude * M_PI / 180);
+        const double y = std::cos(latitude * M_PI / 180) * std::sin(longitude * M_PI / 180);
+        const auto wave = [](double t) {
+            return static_cast<std::uint8_t>(128 + 90 * std::sin(t));
+        };
+        return Rgba{wave(40 * x), wave(40 * y), wave(30 * (x + y)), 255};
+    };
+    constexpr int kPosts = 200;
+    constexpr double kPost = 3000;
+    const fabric::Vec2 first(2e6 - 90.5 * kPost, 2e6 - 110.5 * kPost);  // of the southern row
+    GDALAllRegister();
+    OGRSpatialReference ups, degrees;
+    ups.importFromEPSG(32661);
+    ups.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    degrees.importFromEPSG(4326);
+    degrees.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    {
+        const GDALDatasetUniquePtr dem(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
+            folder_.path("pole.tif").c_str(), kPosts, kPosts, 1, GDT_Float32, nullptr));
+        std::array<double, 6> transform{
+            first.x - kPost / 2, kPost, 0, first.y + (kPosts - 0.5) * kPost, 0, -kPost};
+        dem->SetGeoTransform(transform.data());
+        dem->SetSpatialRef(&ups);
+        dem->GetRasterBand(1)->Fill(100);
+    }
+    import::TerrainImportOptions options;
+    options.imagery = {write({.epsg = 4326,
+                              .west = -180,
+                              .north = 90,
+                              .pixel = 0.05,
+                              .columns = 7200,
+                              .rows = 100,
+                              .colour = colour})};
+    const std::string out = folder_.path("pole.eyt");
+    const auto report = import::importTerrain({folder_.path("pole.tif")}, out, options, {});
+    ASSERT_TRUE(report.ok()) << report.status();
+    const auto file = *terrain::EytFile::open(out);
+    const test::TexelImage image = test::wholeLevel(*file, 0);
+    const double texel = kPost * file->index().imagery->pyramid.texelPosts(0);
+    const std::unique_ptr<OGRCoordinateTransformation> place(
+        OGRCreateCoordinateTransformation(&ups, &degrees));
+    int open = 0, wrong = 0;
+    for (std::int64_t j = 0; j < image.height; ++j)
+        for (std::int64_t i = 0; i < image.width; ++i) {
+            double x = first.x + (static_cast<double>(i) + 0.5) * texel;
+            double y = first.y + (static_cast<double>(j) + 0.5) * texel;
+            if (x > first.x + (kPosts - 1) * kPost || y > first.y + (kPosts - 1) * kPost)
+                continue;
+            place->Transform(1, &x, &y);
+            open += image.at(i, j).a == 0 ? 1 : 0;
+            wrong += difference(image.at(i, j), colour(x, y)) > 2 * kTolerance ? 1 : 0;
+        }
+    EXPECT_EQ(open, 0) << "of " << image.texels.size();
+    EXPECT_EQ(wrong, 0) << "of " << image.texels.size();
 }
 
 TEST_F(ImageryImport, StretchesAPictureWithoutAPlaceOverTheWholeTerrain) {
