@@ -24,9 +24,9 @@ absl::Status check(const FrameRequest& request) {
                         request.width, request.height, fabric::kMaxViewPixels));
     const fabric::PixelViewport part = request.drawnPart();
     if (!fabric::PixelViewport{0, 0, request.width, request.height}.contains(part))
-        return absl::InvalidArgumentError(fmt::format(
-            "the part {}x{}+{}+{} is not inside the picture of {}x{} pixels", part.width,
-            part.height, part.x, part.y, request.width, request.height));
+        return absl::InvalidArgumentError(
+            fmt::format("the part {}x{}+{}+{} is not inside the picture of {}x{} pixels",
+                        part.width, part.height, part.x, part.y, request.width, request.height));
     if (!(request.tauPixels >= fabric::kMinTauPixels && request.tauPixels <= fabric::kMaxTauPixels))
         return absl::InvalidArgumentError(fmt::format("tau is {} pixels; it must be from {} to {}",
                                                       request.tauPixels, fabric::kMinTauPixels,
@@ -84,15 +84,10 @@ absl::StatusOr<std::vector<Dispatch::Drawn>> FramePipeline::draw(const FrameRequ
                                                                  std::uint64_t revision) {
     forgetOtherKinds(request, revision);
     const fabric::FrameData& frameData = frameDataFor(request);
-    const fabric::ChannelTask whole{++frameNumber_,
-                                    frameData.version,
-                                    request.width,
-                                    request.height,
-                                    request.drawnPart(),
-                                    {},
-                                    request.wantsDepth,
-                                    request.completeness,
-                                    request.measuresStages};
+    const fabric::ChannelTask whole{
+        ++frameNumber_,     frameData.version,    request.width,
+        request.height,     request.drawnPart(),  {},
+        request.wantsDepth, request.completeness, request.measuresStages};
     auto dispatch = std::make_shared<Dispatch>(Dispatch::Plan{
         frameData, decompose(whole, options_.decomposition, balance_.cuts(freeRenderers(revision))),
         revision, patience_.limit(), options_.callTimeout});

@@ -62,10 +62,10 @@ absl::Status OutputFile::writeAt(std::uint64_t offset, std::span<const std::byte
         if (written < 0 && errno == EINTR)
             continue;
         if (written < 0)
-            return fabric::writeError(path_,
-                                      partialPath_.empty() ? "cannot write a scratch file beside it"
-                                                           : "cannot write it",
-                                      errno);
+            return fabric::writeError(
+                path_,
+                partialPath_.empty() ? "cannot write a scratch file beside it" : "cannot write it",
+                errno);
         offset += static_cast<std::uint64_t>(written);
         bytes = bytes.subspan(static_cast<std::size_t>(written));
     }
