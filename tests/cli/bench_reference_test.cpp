@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What `eyrie bench --reference` holds pictures against.
+#include <algorithm>
 #include <filesystem>
-#include <fstream>
+#include <limits>
+#include <memory>
 
+#include <fmt/format.h>
 #include <glm/ext/matrix_transform.hpp>
 #include <gmock/gmock.h>
 
