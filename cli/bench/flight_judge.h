@@ -71,8 +71,4 @@ private:
     std::vector<Frame> frames_;
 };
 
-/// Whether a frame's surface is nowhere farther off than it promises, but for the 1/256 pixel that
-/// rasterisation rounds.
-bool keepsPromise(const FrameError& error);
-
 }  // namespace eyrie::cli::bench

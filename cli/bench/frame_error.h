@@ -28,6 +28,10 @@ struct FrameError {
     std::size_t triangles = 0;
 };
 
+/// Whether a frame's surface is nowhere farther off than it promises, but for the 1/256 pixel that
+/// rasterisation rounds.
+bool keepsPromise(const FrameError& error);
+
 /// A frame that came closest to its promise, or broke it: worth looking at. PNG files' bytes.
 struct WorstFrame {
     FrameError error;

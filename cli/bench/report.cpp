@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "cli/bench/errors_csv.h"
-#include "cli/bench/flight_judge.h"
 #include "cli/bench/page.h"
 #include "cli/bench/report_page.h"
 #include "cli/bench/run_summary.h"

@@ -7,8 +7,6 @@
 #include <numeric>
 #include <utility>
 
-#include "cli/bench/flight_judge.h"
-
 namespace eyrie::cli::bench {
 namespace {
 

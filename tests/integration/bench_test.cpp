@@ -116,8 +116,8 @@ TEST_F(Bench, MeasuresWhatASceneShowsAgainstItsSources) {
     ASSERT_TRUE(
         succeeded({"synth", "mesh", "--size", "20000", "--seed", "3", "-o", path("b.ply")}));
     folder_->write("scene.json", R"({"objects":[{"terrain":"t.eyt"},
-        {"mesh":"b.ply","transform":{"translation":[501500,5198500,3000],"scale":[400,400,400]}},
-        {"mesh":"b.ply","transform":{"translation":[502900,5198500,3000],"scale":[800,800,800]}}]})");
+        {"mesh":"b.ply","transform":{"translation":[501500,5198500,3000],"scale":400}},
+        {"mesh":"b.ply","transform":{"translation":[502900,5198500,3000],"scale":800}}]})");
     const test::TemporaryFolder cache;
     const std::string report = path("reference");
     ASSERT_TRUE(succeeded({"bench", path("scene.json"), "--tau", "1,4", "--size", "320x180",

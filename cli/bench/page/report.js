@@ -72,7 +72,7 @@ function fillWorst(place) {
 function sayWhatIsSeen() {
   const run = headline();
   const measured = runs.filter((one) => one.errorPx);
-  say(byId("what"), `**${bench.scene}**, flight **${bench.flight}**, ${bench.width} × ${bench.height} pixels, ${bench.frames} frames × ${bench.repeats} passes after one that loads`);
+  say(byId("what"), `**${bench.scene}**, flight **${bench.flight}**, ${bench.width} × ${bench.height} pixels, ${bench.frames} frames × ${bench.repeats} ${bench.repeats === 1 ? "pass" : "passes"} after one that loads`);
   if (!run) return;
   say(byId("curve-says"), `At ${run.label} half of all frames take **${number(run.frameMs.p50)} ms** or less and 95 % at most **${number(run.frameMs.p95)} ms**` +
     (run.errorPx ? `, and the worst pixel is **${number(run.errorPx.max)} px** from where the source has it. The shaded gap is error that was promised for but not made.` : ". Every frame keeps the error it promises."));
