@@ -151,6 +151,7 @@ private:
     }
     std::uint64_t viewTriangles(const lod::View& view, const fabric::FrameData& frameData,
                                 const fabric::ChannelTask& task, double tauPixels);
+    double coveredShare(const lod::View& view, const fabric::FrameData& frameData) const;
     fabric::FrameData withinBudget(const lod::View& view, const fabric::FrameData& frameData,
                                    const fabric::ChannelTask& task,
                                    fabric::FrameStatistics& statistics);
@@ -265,6 +266,18 @@ std::uint64_t Renderer::Impl::viewTriangles(const lod::View& view,
     return triangles;
 }
 
+/// Of the view's pixels, those in a rectangle around all objects.
+double Renderer::Impl::coveredShare(const lod::View& view,
+                                    const fabric::FrameData& frameData) const {
+    fabric::PixelViewport covered{};
+    for (const OpenObject& open : objects_) {
+        const lod::ObjectView objectView(view, drawnWorldFromObject(open.object, frameData.look));
+        covered = enclosing(covered, objectView.coveredPixels(open.drawable->bounds()));
+    }
+    const fabric::PixelViewport all{0, 0, view.width, view.height};
+    return static_cast<double>(intersection(covered, all).area()) / static_cast<double>(all.area());
+}
+
 /// The frame data with the tau that is drawn at.
 fabric::FrameData Renderer::Impl::withinBudget(const lod::View& view,
                                                const fabric::FrameData& frameData,
@@ -274,7 +287,7 @@ fabric::FrameData Renderer::Impl::withinBudget(const lod::View& view,
     if (!frameData.budget)
         return drawn;
     statistics.budget = fabric::tauForBudget(
-        frameData.tauPixels, *frameData.budget,
+        frameData.tauPixels, *frameData.budget, coveredShare(view, frameData),
         [&](double tauPixels) { return viewTriangles(view, frameData, task, tauPixels); });
     drawn.tauPixels = statistics.budget->tauPixels;
     return drawn;

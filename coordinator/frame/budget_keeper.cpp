@@ -19,10 +19,12 @@ int scaled(int side, int halvings) {
 }  // namespace
 
 BudgetPlan BudgetKeeper::plan(const FrameRequest& request) const {
-    return {{*request.budgetMilliseconds, cost_.fixedMilliseconds(), cost_.millisecondsATriangle(),
-             lastTauPixels_},
-            scaled(request.width, halvings_),
-            scaled(request.height, halvings_)};
+    return {budgetOf(request), scaled(request.width, halvings_), scaled(request.height, halvings_)};
+}
+
+fabric::FrameBudget BudgetKeeper::budgetOf(const FrameRequest& request) const {
+    return {*request.budgetMilliseconds, cost_.fixedMilliseconds(), cost_.millisecondsATriangle(),
+            lastTauPixels_};
 }
 
 void BudgetKeeper::record(const FrameRequest& request, const fabric::FrameStatistics& statistics,
@@ -38,9 +40,8 @@ void BudgetKeeper::record(const FrameRequest& request, const fabric::FrameStatis
     // Until its data are there a frame is drawn with others, mostly fewer, triangles.
     const double triangles = static_cast<double>(
         statistics.complete ? use.triangles : std::min(use.triangles, statistics.triangles));
-    cost_.record(triangles, milliseconds);
-    use.predictedMilliseconds = cost_.fixedMilliseconds() +
-                                cost_.millisecondsATriangle() * static_cast<double>(use.triangles);
+    cost_.record(fabric::FrameBudget::fixedShare(use.covered), triangles, milliseconds);
+    use.predictedMilliseconds = budgetOf(request).predict(use.covered, use.triangles);
     resize(use, std::max(statistics.tauAskedPixels, fabric::kBudgetTauPixels));
 }
 
@@ -52,12 +53,13 @@ void BudgetKeeper::resize(const fabric::BudgetUse& use, double coarsestTau) {
         halvings_ += static_cast<int>(std::ceil(std::log2(std::min(over, 1e3))));
         halvings_ = std::min(halvings_, kHalvings);
     } else {
-        const double drawing = use.predictedMilliseconds - cost_.fixedMilliseconds();
+        const double fixed =
+            cost_.fixedMilliseconds() * fabric::FrameBudget::fixedShare(use.covered);
+        const double drawing = use.predictedMilliseconds - fixed;
         const auto mayBe = [&](int halvings) {
             const double pixels = pixelsAfter(halvings - before);
             return use.tauPixels * std::sqrt(pixels) <= kClearOfCoarsest * coarsestTau &&
-                   cost_.fixedMilliseconds() * pixels + drawing <=
-                       fabric::kBudgetAim * use.milliseconds;
+                   fixed * pixels + drawing <= fabric::kBudgetAim * use.milliseconds;
         };
         while (halvings_ > 0 && mayBe(halvings_ - 1)) --halvings_;
     }

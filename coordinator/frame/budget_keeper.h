@@ -38,6 +38,7 @@ public:
                 double milliseconds);
 
 private:
+    fabric::FrameBudget budgetOf(const FrameRequest& request) const;
     void resize(const fabric::BudgetUse& use, double coarsestTau);
 
     CostModel cost_;

@@ -21,12 +21,12 @@ double square(double value) { return value * value; }
 
 }  // namespace
 
-void CostModel::record(double triangles, double milliseconds) {
+void CostModel::record(double fixedShare, double triangles, double milliseconds) {
     const bool isTime = milliseconds > 0 && milliseconds < kLongest;
     if (!isTime || !(triangles >= 0 && std::isfinite(triangles)))
         return;
     const double x = triangles / kTriangles;
-    const double ratio = milliseconds / predict(x);
+    const double ratio = milliseconds / predict(fixedShare, x);
     double factor = 1;
     if (++frames_ <= kFirstFrames)
         factor = ratio;
@@ -37,7 +37,7 @@ void CostModel::record(double triangles, double milliseconds) {
     set(fixed_ * factor, slope_ * factor);
     scaleCovariance(factor, factor);
     lastRatio_ = ratio / factor;
-    follow(x, milliseconds);
+    follow(fixedShare, x, milliseconds);
 }
 
 void CostModel::resized(double factor) {
@@ -45,7 +45,9 @@ void CostModel::resized(double factor) {
     lastRatio_ = 1;
 }
 
-double CostModel::predict(double x) const { return std::max(fixed_ + slope_ * x, 100 * kLeast); }
+double CostModel::predict(double share, double x) const {
+    return std::max(fixed_ * share + slope_ * x, 100 * kLeast);
+}
 
 void CostModel::set(double fixed, double slope) {
     fixed_ = std::clamp(fixed, 0.0, kMost);
@@ -60,23 +62,23 @@ void CostModel::scaleCovariance(double fixed, double slope) {
 }
 
 /// One step of the filter, with what was measured brought within kOutlier of what was foreseen.
-void CostModel::follow(double x, double milliseconds) {
-    const double foreseen = predict(x);
+void CostModel::follow(double share, double x, double milliseconds) {
+    const double foreseen = predict(share, x);
     const double error =
         std::clamp(milliseconds, foreseen / kOutlier, foreseen * kOutlier) - foreseen;
-    ff_ += square(kFixedDrift * foreseen);
+    ff_ += square(kFixedDrift * std::max(foreseen, fixed_));
     ss_ += square(kSlopeDrift * slope_);
     const double most = kMostUncertain * foreseen;
-    scaleCovariance(std::min(1.0, most / std::sqrt(ff_)),
+    scaleCovariance(std::min(1.0, std::max(most / share, kMostUncertain * fixed_) / std::sqrt(ff_)),
                     std::min(1.0, std::max(most / std::max(x, kLeast), slope_) / std::sqrt(ss_)));
 
-    const double ofFixed = ff_ + x * fs_;
-    const double ofSlope = fs_ + x * ss_;
-    const double variance = ofFixed + x * ofSlope + square(kNoise * foreseen);
+    const double ofFixed = share * ff_ + x * fs_;
+    const double ofSlope = share * fs_ + x * ss_;
+    const double variance = share * ofFixed + x * ofSlope + square(kNoise * foreseen);
     double fixed = fixed_ + ofFixed / variance * error;
     double slope = slope_ + ofSlope / variance * error;
     if (fixed < 0 && x > 0) {  // there is no such thing: it is the triangles'
-        slope += fixed / x;
+        slope += fixed * share / x;
         fixed = 0;
     }
     set(fixed, slope);

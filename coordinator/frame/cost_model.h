@@ -3,7 +3,8 @@
 
 namespace eyrie::coordinator {
 
-/// How long frames take, learned from those before: fixed + slope x triangles of the view's cut.
+/// How long frames take, learned from those before: a share of `fixed`, which depends on how many
+/// pixels are covered (fabric::FrameBudget::fixedShare), and `slope` x triangles of the view's cut.
 ///
 /// A Kalman filter (R. E. Kalman, "A New Approach to Linear Filtering and Prediction Problems",
 /// 1960) of the two, both of which drift. While the camera rests nothing is learned of how they
@@ -19,9 +20,9 @@ public:
     double fixedMilliseconds() const { return fixed_; }
     double millisecondsATriangle() const { return slope_ / kTriangles; }
 
-    /// A frame whose cut had `triangles` took so long. What is not positive and finite, and not
-    /// less than an hour, is left out.
-    void record(double triangles, double milliseconds);
+    /// A frame with `fixedShare` (above 0, at most 1) whose cut had `triangles` took so long. A
+    /// time that is not positive and less than an hour is left out.
+    void record(double fixedShare, double triangles, double milliseconds);
 
     /// The picture has `factor` times the pixels from now on. What does not depend on triangles is
     /// taken to grow with them by as much, and to fall by half as much: rather too long than too
@@ -31,10 +32,10 @@ public:
 private:
     static constexpr double kTriangles = 100'000;  ///< the unit of slope_, for even numbers
 
-    double predict(double x) const;
+    double predict(double share, double x) const;
     void set(double fixed, double slope);
     void scaleCovariance(double fixed, double slope);
-    void follow(double x, double milliseconds);
+    void follow(double share, double x, double milliseconds);
 
     double fixed_ = 4;
     double slope_ = 10;

@@ -39,8 +39,9 @@ private:
 /// Looks for the lowest step that fits, from that of the frame before.
 class Search {
 public:
-    Search(double tauAsked, const FrameBudget& budget, const CutTriangles& triangles)
-        : ladder_(tauAsked), budget_(budget), triangles_(triangles) {}
+    Search(double tauAsked, const FrameBudget& budget, double covered,
+           const CutTriangles& triangles)
+        : ladder_(tauAsked), budget_(budget), covered_(covered), triangles_(triangles) {}
 
     BudgetUse run() {
         at_ = budget_.lastTauPixels > 0 ? ladder_.nearest(budget_.lastTauPixels) : ladder_.last();
@@ -61,14 +62,16 @@ private:
     BudgetUse at(int step) const {
         const double tau = ladder_.tau(step);
         const std::uint64_t triangles = triangles_(tau);
-        return {budget_.milliseconds, budget_.predict(triangles), tau, triangles};
+        return {budget_.milliseconds, budget_.predict(covered_, triangles), tau, triangles,
+                covered_};
     }
 
     /// Where the step that fits is thought to be. Triangles fall at least as tau rises and at most
     /// as its square: either way the guess is rather too coarse, whose cut is quickly made.
     int guess() const {
-        const double room = kBudgetAim * budget_.milliseconds - budget_.fixedMilliseconds;
-        const double cost = tried_.predictedMilliseconds - budget_.fixedMilliseconds;
+        const double fixed = budget_.predict(covered_, 0);
+        const double room = kBudgetAim * budget_.milliseconds - fixed;
+        const double cost = tried_.predictedMilliseconds - fixed;
         if (!(room > 0))
             return ladder_.last();
         if (!(cost > 0))
@@ -93,6 +96,7 @@ private:
 
     const Ladder ladder_;
     const FrameBudget& budget_;
+    const double covered_;
     const CutTriangles& triangles_;
     int at_ = 0;       ///< the step of tried_
     BudgetUse tried_;  ///< last
@@ -125,9 +129,9 @@ absl::Status validate(const FrameBudget& budget) {
     return checkNotNegative(budget.lastTauPixels, "last_tau_pixels");
 }
 
-BudgetUse tauForBudget(double tauAskedPixels, const FrameBudget& budget,
+BudgetUse tauForBudget(double tauAskedPixels, const FrameBudget& budget, double covered,
                        const CutTriangles& triangles) {
-    return Search(tauAskedPixels, budget, triangles).run();
+    return Search(tauAskedPixels, budget, covered, triangles).run();
 }
 
 }  // namespace eyrie::fabric

@@ -26,15 +26,20 @@ inline constexpr double kBudgetAim = 0.85;
 /// How long a frame may take, and what is known of how long it would.
 struct FrameBudget {
     double milliseconds = 0;           ///< kMinBudgetMilliseconds to kMaxBudgetMilliseconds
-    double fixedMilliseconds = 0;      ///< what a frame takes without any triangle; 0 or more
+    double fixedMilliseconds = 0;      ///< of a picture that is covered all over; 0 or more
     double millisecondsATriangle = 0;  ///< of the whole view's cut, whoever draws it; 0 or more
     double lastTauPixels = 0;          ///< what the frame before was drawn at; 0: there was none
 
     bool operator==(const FrameBudget&) const = default;
 
-    double predict(std::uint64_t triangles) const {
-        return fixedMilliseconds + millisecondsATriangle * static_cast<double>(triangles);
+    double predict(double covered, std::uint64_t triangles) const {
+        return fixedMilliseconds * fixedShare(covered) +
+               millisecondsATriangle * static_cast<double>(triangles);
     }
+
+    /// How much of fixedMilliseconds a frame takes of which `covered`, 0 to 1, of the pixels are
+    /// covered: mostly that is shading and reading these back; some is there whatever is seen.
+    static double fixedShare(double covered) { return 0.1 + 0.9 * covered; }
 };
 
 /// InvalidArgument unless `milliseconds` is a time that may be asked for.
@@ -49,6 +54,7 @@ struct BudgetUse {
     double predictedMilliseconds = 0;  ///< of the frame, before it was drawn
     double tauPixels = 0;              ///< chosen; at least what was asked for
     std::uint64_t triangles = 0;       ///< of the whole view's cut at that tau
+    double covered = 1;                ///< share of the view's pixels where something may be
 
     /// False where even the coarsest tau was foreseen to take longer.
     bool isMet() const { return predictedMilliseconds <= milliseconds; }
@@ -62,8 +68,9 @@ using CutTriangles = std::function<std::uint64_t(double tauPixels)>;
 /// The smallest tau of a ladder (`tauAskedPixels` times powers of 2^(1/4), up to kBudgetTauPixels)
 /// whose cut is foreseen to fit, or the ladder's last. Depends on its arguments alone. `triangles`
 /// is called once where nothing changes, and about three times where something does: the search
-/// goes from the frame before, by how much too large or small its cut is.
-BudgetUse tauForBudget(double tauAskedPixels, const FrameBudget& budget,
+/// goes from the frame before, by how much too large or small its cut is. `covered`:
+/// BudgetUse::covered.
+BudgetUse tauForBudget(double tauAskedPixels, const FrameBudget& budget, double covered,
                        const CutTriangles& triangles);
 
 }  // namespace eyrie::fabric

@@ -51,8 +51,11 @@ absl::StatusOr<fabric::BudgetUse> fromMessage(const v1::BudgetUse& message) {
     RETURN_IF_ERROR(checkFinite(message.milliseconds(), "budget.milliseconds"));
     RETURN_IF_ERROR(checkFinite(message.predicted_milliseconds(), "budget.predicted_milliseconds"));
     RETURN_IF_ERROR(checkFinite(message.tau_pixels(), "budget.tau_pixels"));
+    if (!(message.covered() >= 0 && message.covered() <= 1))
+        return absl::InvalidArgumentError(fmt::format(
+            "statistics.budget.covered is {}; it must be from 0 to 1", message.covered()));
     return fabric::BudgetUse{message.milliseconds(), message.predicted_milliseconds(),
-                             message.tau_pixels(), message.triangles()};
+                             message.tau_pixels(), message.triangles(), message.covered()};
 }
 
 absl::Status checkText(const std::string& text, std::string_view field) {
@@ -85,6 +88,7 @@ v1::FrameStatistics toMessage(const fabric::FrameStatistics& statistics) {
         budget.set_predicted_milliseconds(statistics.budget->predictedMilliseconds);
         budget.set_tau_pixels(statistics.budget->tauPixels);
         budget.set_triangles(statistics.budget->triangles);
+        budget.set_covered(statistics.budget->covered);
     }
     return message;
 }

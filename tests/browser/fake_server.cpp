@@ -60,6 +60,22 @@ coordinator::RenderedFrame draw(const coordinator::FrameRequest& request) {
     return frame;
 }
 
+/// To be in time a picture is half as wide and high, and its error larger.
+coordinator::RenderedFrame drawInTime(const coordinator::FrameRequest& request) {
+    if (!request.budgetMilliseconds)
+        return draw(request);
+    coordinator::FrameRequest made = request;
+    made.width /= 2;
+    made.height /= 2;
+    made.tauPixels = std::max(4.0, request.tauPixels);
+    coordinator::RenderedFrame frame = draw(made);
+    frame.statistics.tauAskedPixels = request.tauPixels;
+    frame.statistics.budget =
+        fabric::BudgetUse{*request.budgetMilliseconds, 0.9 * *request.budgetMilliseconds,
+                          made.tauPixels, frame.statistics.triangles, 1};
+    return frame;
+}
+
 coordinator::Status statusWith(bool hasRenderer) {
     coordinator::Status status = coordinator::readyStatus();
     status.renderers[0].device.renderer = "made-up pictures (no renderer)";
@@ -84,7 +100,7 @@ int main(int argc, char** argv) {
         return 2;
     }
     coordinator::FakeFrameSource frames;
-    frames.setDraw(draw);
+    frames.setDraw(drawInTime);
     frames.setStatus(statusWith(true));
     http::ServerOptions options;
     options.port = argc == 3 ? static_cast<std::uint16_t>(std::stoi(argv[2])) : std::uint16_t{0};
@@ -103,7 +119,7 @@ int main(int argc, char** argv) {
                                  -> absl::StatusOr<coordinator::RenderedFrame> {
                                  return absl::UnavailableError("No renderer has registered.");
                              }
-                           : coordinator::FakeFrameSource::Draw(draw));
+                           : coordinator::FakeFrameSource::Draw(drawInTime));
     }
     (*server)->stop();
     return 0;

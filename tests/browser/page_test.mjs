@@ -76,15 +76,17 @@ await run("page_test", async (browser, started) => {
   check(true, "an error that cannot be met is said so");
 
   await browser.setTau(0);
-  await page.getByText("Fixed frame time").click();
+  await page.getByLabel("Fixed frame time").check();
   await page.locator("#budget").fill("10");
   const inTime = browser.until(() => window.eyrie.budgetMilliseconds === 10);
   await browser.drag(80, 0);
   await inTime;
   check(true, "a moving view is drawn for the frame time asked for");
+  await page.getByText("12 ms (foreseen: 9.0 ms)").waitFor();
+  check(true, "which is shown beside the time foreseen and taken");
   await page.waitForFunction(() => window.eyrie.still && window.eyrie.budgetMilliseconds === 0);
   check(true, "and at rest for the error");
-  await page.getByText("Fixed error").click();
+  await page.getByLabel("Fixed error").check();
   await browser.setTau(-2);
 
   await page.locator("#saturation").fill("0");

@@ -70,7 +70,7 @@ TEST(RunSummary, FramesAreInTimeUpToAFifthLongerThanAskedForOnceASecondHasPassed
         {}};
     EXPECT_TRUE(std::isnan(summarize(played).withinBudget));
     for (PlayedFrame& one : played.frames)
-        one.statistics.budget = fabric::BudgetUse{33, 30, 0.5, 100};
+        one.statistics.budget = fabric::BudgetUse{33, 30, 0.5, 100, 1};
     EXPECT_EQ(summarize(played).withinBudget, 0.75);
     EXPECT_EQ(summarize(played).tauAchieved.p95, 0.5);
 }
@@ -80,7 +80,7 @@ TEST(BenchReport, ARunAtAFrameTimeSaysHowItWasHeld) {
     runs[0].budgetMilliseconds = 33;
     for (PlayedFrame& one : runs[0].played.frames) {
         one.milliseconds += 1000;
-        one.statistics.budget = fabric::BudgetUse{33, 30, 0.5, 100};
+        one.statistics.budget = fabric::BudgetUse{33, 30, 0.5, 100, 1};
     }
     const test::JsonValue run = test::list(parseJson(summaryJson(facts(), runs)), "runs").at(0);
     EXPECT_EQ(number(run, "budgetMs"), 33);

@@ -21,7 +21,8 @@ constexpr double kBudget = 33;
 struct SimulatedScene {
     double trianglesAtOnePixel = 400'000;  ///< of tau, in a picture of full size
     double slope = 1.5;                    ///< triangles fall with this power of tau
-    double perPixel = 6;                   ///< milliseconds of a picture of full size
+    double perPixel = 6;                   ///< milliseconds of a covered picture of full size
+    double covered = 1;                    ///< share of its pixels
     double overhead = 3;
     double perTriangle = 2e-4;
 
@@ -29,7 +30,8 @@ struct SimulatedScene {
         return static_cast<std::uint64_t>(trianglesAtOnePixel * std::pow(side / tau, slope));
     }
     double milliseconds(std::uint64_t triangles, double side) const {
-        return overhead + perPixel * side * side + perTriangle * static_cast<double>(triangles);
+        return overhead + perPixel * covered * side * side +
+               perTriangle * static_cast<double>(triangles);
     }
 };
 
@@ -54,9 +56,9 @@ public:
         const double side = static_cast<double>(plan.width) / request_.width;
         fabric::FrameStatistics statistics;
         statistics.tauAskedPixels = request_.tauPixels;
-        statistics.budget = fabric::tauForBudget(request_.tauPixels, plan.budget, [&](double tau) {
-            return scene.triangles(tau, side);
-        });
+        statistics.budget =
+            fabric::tauForBudget(request_.tauPixels, plan.budget, scene.covered,
+                                 [&](double tau) { return scene.triangles(tau, side); });
         const double taken = noise * scene.milliseconds(statistics.budget->triangles, side);
         keeper_.record(request_, statistics, taken);
         return {*statistics.budget, plan.width, taken};
@@ -145,6 +147,21 @@ TEST(BudgetKeeper, AStepInComplexityIsForeseen) {
     }
 }
 
+/// A model far away takes hardly a pixel: what pixels cost is not forgotten there.
+TEST(BudgetKeeper, ComingCloseIsForeseen) {
+    Simulation simulation;
+    simulation.scene.perPixel = 15;
+    simulation.settled();
+    const SimulatedScene near = simulation.scene;
+    for (int time = 0; time < 5; ++time) {
+        simulation.scene.covered = 0.01;
+        simulation.scene.trianglesAtOnePixel = 10'000;
+        simulation.settled();
+        simulation.scene = near;
+        for (int i = 0; i < 10; ++i) EXPECT_LE(simulation.frame().milliseconds, 1.2 * kBudget) << i;
+    }
+}
+
 /// A step in what a triangle costs can be known only once it has been seen, twice.
 TEST(BudgetKeeper, AStepInCostIsFollowedInThreeFrames) {
     for (const double step : {3.0, 1 / 3.0}) {
@@ -196,7 +213,7 @@ TEST(BudgetKeeper, LearnsNothingFromFramesThatWaitedForData) {
     BudgetKeeper keeper;
     const fabric::FrameBudget before = keeper.plan(request).budget;
     fabric::FrameStatistics statistics;
-    statistics.budget = fabric::BudgetUse{kBudget, 20, 2, 1000};
+    statistics.budget = fabric::BudgetUse{kBudget, 20, 2, 1000, 1};
     statistics.pagesLoaded = 3;
     keeper.record(request, statistics, 5000);
     fabric::FrameBudget after = keeper.plan(request).budget;
@@ -210,7 +227,7 @@ TEST(BudgetKeepers, KeepKindsOfFramesApart) {
     FrameRequest request;
     request.budgetMilliseconds = kBudget;
     fabric::FrameStatistics statistics;
-    statistics.budget = fabric::BudgetUse{kBudget, 20, 2, 1000};
+    statistics.budget = fabric::BudgetUse{kBudget, 20, 2, 1000, 1};
     keepers.of(request).record(request, statistics, 20);
     FrameRequest other = request;
     other.width /= 2;
@@ -288,7 +305,8 @@ RC_GTEST_PROP(BudgetKeeper, PlansAreSentWhateverWasMeasured, ()) {
         statistics.tauAskedPixels = 1;
         const BudgetPlan plan = keeper.plan(request);
         const auto triangles = *rc::gen::arbitrary<std::uint64_t>();
-        statistics.budget = fabric::tauForBudget(1, plan.budget, [&](double) { return triangles; });
+        statistics.budget =
+            fabric::tauForBudget(1, plan.budget, 1, [&](double) { return triangles; });
         const double any[] = {0,
                               -1,
                               1e-30,
@@ -311,7 +329,7 @@ TEST(TauForBudget, IsTheSmallestOfTheLadderThatFits) {
     };
     for (const double last : {0.0, 1.0, 3.0, 16.0, 1000.0}) {
         const fabric::BudgetUse use =
-            fabric::tauForBudget(0.5, {kBudget, 3, 1e-4, last}, triangles);
+            fabric::tauForBudget(0.5, {kBudget, 3, 1e-4, last}, 1, triangles);
         EXPECT_LE(use.predictedMilliseconds, kBudget) << last;
         EXPECT_EQ(use.triangles, triangles(use.tauPixels));
         // From a tau where more than was aimed at is foreseen, less than all, it does not move.
@@ -323,11 +341,11 @@ TEST(TauForBudget, IsTheSmallestOfTheLadderThatFits) {
 TEST(TauForBudget, NeverGoesBelowWhatIsAskedForNorAboveTheCoarsest) {
     const fabric::CutTriangles none = [](double) { return std::uint64_t{0}; };
     const fabric::CutTriangles many = [](double) { return std::uint64_t{1} << 60; };
-    EXPECT_EQ(fabric::tauForBudget(0.7, {kBudget, 3, 1e-4, 4}, none).tauPixels, 0.7);
-    EXPECT_EQ(fabric::tauForBudget(0.7, {kBudget, 3, 1e-4, 4}, many).tauPixels, 16);
-    EXPECT_EQ(fabric::tauForBudget(100, {kBudget, 3, 1e-4, 4}, many).tauPixels, 100);
-    EXPECT_FALSE(fabric::tauForBudget(0.7, {kBudget, 3, 1e-4, 4}, many).isMet());
-    EXPECT_FALSE(fabric::tauForBudget(0.7, {kBudget, 100, 0, 4}, none).isMet());
+    EXPECT_EQ(fabric::tauForBudget(0.7, {kBudget, 3, 1e-4, 4}, 1, none).tauPixels, 0.7);
+    EXPECT_EQ(fabric::tauForBudget(0.7, {kBudget, 3, 1e-4, 4}, 1, many).tauPixels, 16);
+    EXPECT_EQ(fabric::tauForBudget(100, {kBudget, 3, 1e-4, 4}, 1, many).tauPixels, 100);
+    EXPECT_FALSE(fabric::tauForBudget(0.7, {kBudget, 3, 1e-4, 4}, 1, many).isMet());
+    EXPECT_FALSE(fabric::tauForBudget(0.7, {kBudget, 100, 0, 4}, 1, none).isMet());
 }
 
 /// A cut takes time to be made: once where the last tau serves.
@@ -338,14 +356,14 @@ TEST(TauForBudget, MakesFewCuts) {
         return static_cast<std::uint64_t>(1e6 / std::pow(tau, 1.5));
     };
     fabric::FrameBudget budget{kBudget, 3, 1e-4, 0};
-    budget.lastTauPixels = fabric::tauForBudget(0.5, budget, triangles).tauPixels;
+    budget.lastTauPixels = fabric::tauForBudget(0.5, budget, 1, triangles).tauPixels;
     EXPECT_LE(cuts, 6);
     cuts = 0;
-    fabric::tauForBudget(0.5, budget, triangles);
+    fabric::tauForBudget(0.5, budget, 1, triangles);
     EXPECT_LE(cuts, 2);
     budget.lastTauPixels *= 4;
     cuts = 0;
-    fabric::tauForBudget(0.5, budget, triangles);
+    fabric::tauForBudget(0.5, budget, 1, triangles);
     EXPECT_LE(cuts, 4);
 }
 

@@ -52,7 +52,7 @@ public:
         // It takes longer than any tau could help.
         if (budget_) {
             result.statistics.budget = fabric::tauForBudget(
-                1, *budget_, [](double) { return std::uint64_t{1'000'000}; });
+                1, *budget_, 1, [](double) { return std::uint64_t{1'000'000}; });
             std::this_thread::sleep_for(std::chrono::milliseconds(3));
         }
         return result;

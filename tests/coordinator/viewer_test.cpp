@@ -442,7 +442,8 @@ FakeFrameSource::Draw drawnAt(double tau) {
         coordinator::RenderedFrame frame = coordinator::plainFrame(made, {90, 120, 60, 255});
         if (request.budgetMilliseconds) {
             frame.statistics.tauAchievedPixels = tau;
-            frame.statistics.budget = fabric::BudgetUse{*request.budgetMilliseconds, 30, tau, 1000};
+            frame.statistics.budget =
+                fabric::BudgetUse{*request.budgetMilliseconds, 30, tau, 1000, 1};
         }
         return frame;
     };
@@ -479,7 +480,7 @@ TEST(Viewer, DrawsOnceWhatFitsItsTimeAsAskedFor) {
     FakeFrameSource frames;
     frames.setDraw([](const FrameRequest& request) {
         coordinator::RenderedFrame frame = coordinator::plainFrame(request, {90, 120, 60, 255});
-        frame.statistics.budget = fabric::BudgetUse{33, 5, request.tauPixels, 1000};
+        frame.statistics.budget = fabric::BudgetUse{33, 5, request.tauPixels, 1000, 1};
         return frame;
     });
     Browser browser(frames, resting());

@@ -21,12 +21,16 @@ TEST(WireStatistics, ComeBackAsTheyWere) {
 
 TEST(WireStatistics, TellWhatBecameOfABudget) {
     fabric::FrameStatistics statistics = sample();
-    statistics.budget = fabric::BudgetUse{33, 30.5, 4, 200'000};
+    statistics.budget = fabric::BudgetUse{33, 30.5, 4, 200'000, 0.25};
     EXPECT_EQ(fromMessage(toMessage(statistics)).value(), statistics);
     v1::FrameStatistics message = toMessage(statistics);
     message.mutable_budget()->set_tau_pixels(std::numeric_limits<double>::infinity());
     EXPECT_THAT(std::string(fromMessage(message).status().message()),
                 testing::HasSubstr("statistics.budget.tau_pixels"));
+    message = toMessage(statistics);
+    message.mutable_budget()->set_covered(1.5);
+    EXPECT_THAT(std::string(fromMessage(message).status().message()),
+                testing::HasSubstr("statistics.budget.covered"));
 }
 
 TEST(WireStatistics, TheErrorAchievedMayBeInfinite) {
