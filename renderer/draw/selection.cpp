@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/draw/selection.h"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace eyrie::draw {
+namespace {
+
+void addTo(fabric::FrameStatistics& statistics, const Cut& cut) {
+    statistics.complete = statistics.complete && cut.isComplete;
+    statistics.pagesLoaded += cut.pagesLoaded;
+    statistics.bytesLoaded += cut.bytesLoaded;
+    statistics.pagesMissing += cut.pagesMissing;
+    statistics.pagesFailed += cut.pagesFailed;
+    statistics.tilesDecodedOnGpu += cut.tilesDecodedOnGpu;
+}
+
+/// The farthest first, by the middles of their boxes.
+void sortBackToFront(std::vector<OrderedPiece>& pieces, const lod::View& view,
+                     const std::vector<fabric::Mat4>& worldFromObject) {
+    std::vector<lod::ObjectView> views;
+    for (const fabric::Mat4& one : worldFromObject) views.emplace_back(view, one);
+    const auto height = [&](const OrderedPiece& one) {  // the view looks down
+        return (views[one.object].viewFromObject() * fabric::Vec4(one.piece.bounds.centre(), 1.0))
+            .z;
+    };
+    std::stable_sort(pieces.begin(), pieces.end(),
+                     [&](const auto& a, const auto& b) { return height(a) < height(b); });
+}
+
+}  // namespace
+
+bool hasLines(const fabric::FrameData& frameData) {
+    return frameData.shading == fabric::Shading::Wireframe || frameData.look.tileBounds ||
+           frameData.look.pageBounds;
+}
+
+fabric::PixelViewport reach(const fabric::FrameData& frameData, const fabric::PixelViewport& part) {
+    return hasLines(frameData)
+               ? fabric::PixelViewport{part.x - 1, part.y - 1, part.width + 2, part.height + 2}
+               : part;
+}
+
+Selection selectPieces(std::span<const OpenObject> objects, const lod::View& view,
+                       const fabric::FrameData& frameData, const fabric::ChannelTask& task,
+                       fabric::FrameStatistics& statistics) {
+    Selection selection;
+    std::vector<OrderedPiece>& pieces = selection.pieces;
+    const fabric::Look& look = frameData.look;
+    const bool hasLayers = frameData.shading != fabric::Shading::Wireframe;
+    const fabric::Frustum channel = lod::subFrustum(view, reach(frameData, task.pixelViewport));
+    // A cut that was frozen is brought whole: this view may see all of it.
+    const lod::View cutView =
+        look.cutCamera ? lod::View(*look.cutCamera, task.viewWidth, task.viewHeight) : view;
+    const fabric::Frustum& cutChannel = look.cutCamera ? cutView.frustum : channel;
+    for (std::uint32_t i = 0; i < objects.size(); ++i) {
+        const fabric::Mat4& worldFromObject =
+            selection.worldFromObject.emplace_back(drawnWorldFromObject(objects[i].object, look));
+        const lod::ObjectView objectView(view, worldFromObject);
+        const lod::ObjectView cutObjectView(cutView, worldFromObject);
+        const Cut cut = objects[i].drawable->selectCut({cutObjectView, cutChannel, task.range,
+                                                        frameData.tauPixels, task.completeness,
+                                                        look.exaggeration, look.pageBounds});
+        addTo(statistics, cut);
+        for (const Piece& piece : cut.pieces) {
+            const bool isInRange = task.range.contains(piece.rangePosition);
+            const bool isBlended = piece.hasBlended && hasLayers;
+            if ((!isInRange && !isBlended) || !objectView.isVisible(piece.bounds, channel))
+                continue;
+            if (isInRange)
+                pieces.push_back({i, piece});
+            if (isBlended)
+                selection.blended.push_back({i, piece});
+            if (!selection.covered.contains(task.pixelViewport))
+                selection.covered =
+                    enclosing(selection.covered, objectView.coveredPixels(piece.bounds));
+        }
+    }
+    std::stable_sort(pieces.begin(), pieces.end(), [](const auto& a, const auto& b) {
+        return a.piece.rangePosition < b.piece.rangePosition;
+    });
+    sortBackToFront(selection.blended, view, selection.worldFromObject);
+    selection.covered = intersection(selection.covered, task.pixelViewport);
+    return selection;
+}
+
+}  // namespace eyrie::draw

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/stream/home_camera.h"
+
+#include <cmath>
+
+#include <glm/trigonometric.hpp>
+#include <gtest/gtest.h>
+
+namespace eyrie::stream {
+namespace {
+
+TEST(HomeCamera, SeesEveryCornerOfTheSceneInA4By3Picture) {
+    const fabric::Box boxes[] = {{{0, 0, 0}, {1, 1, 1}},
+                                 {{-5000, -3000, 200}, {5000, 3000, 1400}},
+                                 {{4e6, 5e6, 0}, {4e6 + 10, 5e6 + 1000, 1}},
+                                 {{7, 7, 7}, {7, 7, 7}},
+                                 {{0, 0, -1000}, {1, 1, 1000}}};
+    for (const fabric::Box& box : boxes) {
+        const fabric::Camera camera = homeCamera(box);
+        ASSERT_TRUE(fabric::validate(camera).ok()) << fabric::validate(camera);
+        EXPECT_LT(camera.eye.x, box.centre().x);  // from the west
+        EXPECT_LT(camera.eye.y, box.centre().y);  // and south
+        EXPECT_GT(camera.eye.z, box.centre().z);
+        const double tan = std::tan(glm::radians(camera.fovYDegrees / 2));
+        for (int i = 0; i < 8; ++i) {
+            const fabric::Vec3 p =
+                fabric::viewFromWorldRotation(camera) * (box.corner(i) - camera.eye);
+            EXPECT_LE(std::abs(p.y), -p.z * tan);
+            EXPECT_LE(std::abs(p.x), -p.z * tan * 4 / 3);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace eyrie::stream

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "coordinator/stream/pacer.h"
+#include "coordinator/stream/viewer.h"
+#include "eyrie/v1/viewer.pb.h"
+#include "tests/coordinator/fake_frame_source.h"
+
+namespace eyrie::stream {
+
+inline std::span<const std::byte> bytesOf(const std::string& text) {
+    return std::as_bytes(std::span(text));
+}
+
+inline v1::ViewerRequest viewMessage(std::uint64_t sequence, double eyeX) {
+    v1::ViewerRequest request;
+    v1::ViewRequest& view = *request.mutable_view();
+    view.set_sequence(sequence);
+    view.set_width(64);
+    view.set_height(48);
+    view.set_tau_pixels(1);
+    for (const double value : {eyeX, -10.0, 3.0}) view.mutable_camera()->add_eye(value);
+    for (int i = 0; i < 3; ++i) view.mutable_camera()->add_target(0);
+    return request;
+}
+
+/// The browser's end of a viewer.
+class Browser {
+public:
+    explicit Browser(coordinator::FakeFrameSource& frames, const ViewerOptions& options = {})
+        : viewer_(
+              frames, [this] { ready(); }, options) {}
+
+    void send(const v1::ViewerRequest& request) {
+        ASSERT_TRUE(viewer_.receive(bytesOf(request.SerializeAsString())).ok());
+    }
+
+    void look(std::uint64_t sequence) {
+        send(viewMessage(sequence, static_cast<double>(sequence)));
+    }
+
+    void acknowledge(std::uint64_t frameNumber) {
+        v1::ViewerRequest request;
+        request.mutable_frame_ack()->set_frame_number(frameNumber);
+        send(request);
+    }
+
+    /// The next message within `patience`.
+    std::optional<v1::ViewerResponse> next(
+        std::chrono::milliseconds patience = std::chrono::milliseconds(10'000)) {
+        const auto deadline = Clock::now() + patience;
+        for (;;) {
+            if (std::optional<std::string> bytes = viewer_.takeMessage(); bytes.has_value()) {
+                v1::ViewerResponse response;
+                EXPECT_TRUE(response.ParseFromString(*bytes));
+                return response;
+            }
+            std::unique_lock lock(mutex_);
+            if (!changed_.wait_until(lock, deadline, [this] { return isReady_; }))
+                return std::nullopt;
+            isReady_ = false;
+        }
+    }
+
+    std::optional<v1::Frame> nextFrame(
+        std::chrono::milliseconds patience = std::chrono::milliseconds(10'000)) {
+        for (;;) {
+            const std::optional<v1::ViewerResponse> response = next(patience);
+            if (!response.has_value())
+                return std::nullopt;
+            if (response->has_frame())
+                return response->frame();
+        }
+    }
+
+    /// The next state for which `isWanted`; none after ten seconds.
+    template <typename Predicate>
+    std::optional<v1::SessionState> stateWhere(Predicate isWanted) {
+        for (;;) {
+            const std::optional<v1::ViewerResponse> response = next();
+            if (!response.has_value())
+                return std::nullopt;
+            if (response->has_state() && isWanted(response->state()))
+                return response->state();
+        }
+    }
+
+    Viewer& viewer() { return viewer_; }
+
+private:
+    void ready() {
+        {
+            const std::lock_guard lock(mutex_);
+            isReady_ = true;
+        }
+        changed_.notify_all();
+    }
+
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    bool isReady_ = false;
+    Viewer viewer_;  // last: it calls ready() until it is gone
+};
+
+/// Never comes to rest, so that every frame is a moving one.
+inline ViewerOptions moving(int framesInFlight) {
+    ViewerOptions options;
+    options.framesInFlight = framesInFlight;
+    options.restDelay = std::chrono::hours(1);
+    return options;
+}
+
+inline ViewerOptions resting() {
+    ViewerOptions options;
+    options.framesInFlight = 2;
+    options.restDelay = std::chrono::milliseconds(50);
+    return options;
+}
+
+}  // namespace eyrie::stream

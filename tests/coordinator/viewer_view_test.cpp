@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+// Views that are drawn otherwise than they were asked for.
+
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "eyrie/v1/look.pb.h"
+#include "eyrie/v1/viewer.pb.h"
+#include "tests/coordinator/fake_frame_source.h"
+#include "tests/coordinator/viewer_browser.h"
+
+namespace eyrie::stream {
+namespace {
+
+using coordinator::FakeFrameSource;
+using coordinator::FrameRequest;
+using testing::HasSubstr;
+
+/// A plateau of 100 m around the origin, under the cameras that viewMessage makes.
+coordinator::Status plateauStatus() {
+    fabric::GroundGrid plateau;
+    plateau.worldFromGrid[0] = {200, 0, 0, 0};
+    plateau.worldFromGrid[1] = {0, 200, 0, 0};
+    plateau.worldFromGrid[3] = {-100, -100, 0, 1};
+    plateau.columns = plateau.rows = 1;
+    plateau.highest = {100};
+    coordinator::Status status = coordinator::readyStatus();
+    status.sceneInfo.ground = std::make_shared<const std::vector<fabric::GroundGrid>>(1, plateau);
+    return status;
+}
+
+TEST(Viewer, LiftsACameraOutOfTheGroundAndSaysSo) {
+    FakeFrameSource frames;
+    frames.setStatus(plateauStatus());
+    Browser browser(frames, moving(2));
+    ASSERT_TRUE(browser.stateWhere([](const auto&) { return true; }));
+    browser.look(1);
+    const auto frame = browser.nextFrame();
+    ASSERT_TRUE(frame.has_value());
+    EXPECT_EQ(frames.requests().back().camera.eye.z, 102);
+    EXPECT_EQ(frames.requests().back().camera.eye.x, 1);
+    ASSERT_TRUE(frame->has_lifted_camera());
+    EXPECT_EQ(frame->lifted_camera().eye(2), 102);
+}
+
+TEST(Viewer, LetsACameraUnderGroundThatIsMeantToBeThere) {
+    FakeFrameSource frames;
+    frames.setStatus(plateauStatus());
+    Browser browser(frames, moving(2));
+    ASSERT_TRUE(browser.stateWhere([](const auto&) { return true; }));
+    v1::ViewerRequest request = viewMessage(1, 1);
+    request.mutable_view()->set_underground(true);
+    browser.send(request);
+    const auto frame = browser.nextFrame();
+    ASSERT_TRUE(frame.has_value());
+    EXPECT_FALSE(frame->has_lifted_camera());
+    EXPECT_EQ(frames.requests().back().camera.eye.z, 3);
+    browser.acknowledge(frame->frame_number());
+    request.mutable_view()->set_underground(false);
+    browser.send(request);
+    EXPECT_TRUE(browser.nextFrame()->has_lifted_camera()) << "the same view, above ground again";
+}
+
+TEST(Viewer, LeavesACameraAboveGroundAsItIs) {
+    FakeFrameSource frames;
+    frames.setStatus(plateauStatus());
+    Browser browser(frames, moving(2));
+    ASSERT_TRUE(browser.stateWhere([](const auto&) { return true; }));
+    v1::ViewerRequest request = viewMessage(1, 1);
+    request.mutable_view()->mutable_camera()->set_eye(2, 103);
+    request.mutable_view()->mutable_look()->set_exaggeration(-2);
+    browser.send(request);
+    EXPECT_FALSE(browser.nextFrame()->has_lifted_camera());
+    EXPECT_EQ(frames.requests().back().look.exaggeration, -2);
+}
+
+v1::ViewerRequest viewIn(double time) {
+    v1::ViewerRequest request = viewMessage(1, 1);
+    request.mutable_view()->set_budget_milliseconds(time);
+    return request;
+}
+
+/// As renderers do that keep a time by drawing at `tau`, half as wide and high.
+FakeFrameSource::Draw drawnAt(double tau) {
+    return [tau](const FrameRequest& request) {
+        FrameRequest made = request;
+        if (request.budgetMilliseconds) {
+            made.width /= 2;
+            made.height /= 2;
+        }
+        coordinator::RenderedFrame frame = coordinator::plainFrame(made, {90, 120, 60, 255});
+        if (request.budgetMilliseconds) {
+            frame.statistics.tauAchievedPixels = tau;
+            frame.statistics.budget =
+                fabric::BudgetUse{*request.budgetMilliseconds, 30, tau, 1000, 1};
+        }
+        return frame;
+    };
+}
+
+TEST(Viewer, KeepsAFrameTimeUntilTheViewRestsAndThenDrawsWhatWasAskedFor) {
+    FakeFrameSource frames;
+    frames.setDraw(drawnAt(4));
+    Browser browser(frames, resting());
+    browser.send(viewIn(33));
+    const auto fast = browser.nextFrame();
+    ASSERT_TRUE(fast.has_value());
+    EXPECT_FALSE(fast->still());
+    EXPECT_EQ(fast->width(), 32);
+    EXPECT_EQ(fast->statistics().tau_asked(), 1);
+    EXPECT_EQ(fast->statistics().tau_achieved(), 4);
+    EXPECT_EQ(fast->statistics().budget().milliseconds(), 33);
+    EXPECT_EQ(fast->statistics().budget().predicted_milliseconds(), 30);
+    browser.acknowledge(fast->frame_number());
+    const auto still = browser.nextFrame();
+    ASSERT_TRUE(still.has_value());
+    EXPECT_TRUE(still->still());
+    EXPECT_EQ(still->width(), 64);
+    EXPECT_EQ(still->statistics().tau_achieved(), 1);
+    EXPECT_FALSE(still->statistics().has_budget());
+    browser.acknowledge(still->frame_number());
+    EXPECT_FALSE(browser.nextFrame(milliseconds(100)).has_value());
+    ASSERT_EQ(frames.requests().size(), 2u);
+    EXPECT_EQ(frames.requests()[0].budgetMilliseconds, 33);
+    EXPECT_FALSE(frames.requests()[1].budgetMilliseconds.has_value());
+}
+
+TEST(Viewer, DrawsOnceWhatFitsItsTimeAsAskedFor) {
+    FakeFrameSource frames;
+    frames.setDraw([](const FrameRequest& request) {
+        coordinator::RenderedFrame frame = coordinator::plainFrame(request, {90, 120, 60, 255});
+        frame.statistics.budget = fabric::BudgetUse{33, 5, request.tauPixels, 1000, 1};
+        return frame;
+    });
+    Browser browser(frames, resting());
+    browser.send(viewIn(33));
+    for (;;) {
+        const auto frame = browser.nextFrame();
+        ASSERT_TRUE(frame.has_value());
+        browser.acknowledge(frame->frame_number());
+        if (frame->still())
+            break;
+    }
+    EXPECT_EQ(frames.requests().size(), 1u);
+}
+
+TEST(Viewer, RefusesATimeThatIsNone) {
+    FakeFrameSource frames;
+    Browser browser(frames, moving(2));
+    for (const double wrong : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
+        browser.send(viewIn(wrong));
+        EXPECT_TRUE(browser.stateWhere([](const v1::SessionState& state) {
+            return state.problem().find("frame time") != std::string::npos;
+        })) << wrong;
+        browser.look(2);  // which takes the problem away
+        EXPECT_TRUE(browser.stateWhere([](const auto& state) { return state.problem().empty(); }));
+    }
+    for (const FrameRequest& request : frames.requests())
+        EXPECT_FALSE(request.budgetMilliseconds.has_value());
+}
+
+}  // namespace
+}  // namespace eyrie::stream
