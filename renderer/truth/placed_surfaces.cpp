@@ -14,9 +14,7 @@ using fabric::Mat4;
 using fabric::Vec3;
 using fabric::Vec4;
 
-Vec3 transformed(const Mat4& matrix, const Vec3& point) {
-    return Vec3(matrix * Vec4(point, 1));
-}
+Vec3 transformed(const Mat4& matrix, const Vec3& point) { return Vec3(matrix * Vec4(point, 1)); }
 
 }  // namespace
 
