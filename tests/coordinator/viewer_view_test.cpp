@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Views that are drawn otherwise than they were asked for.
 
+#include <chrono>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -18,6 +19,7 @@ namespace {
 
 using coordinator::FakeFrameSource;
 using coordinator::FrameRequest;
+using std::chrono::milliseconds;
 using testing::HasSubstr;
 
 /// A plateau of 100 m around the origin, under the cameras that viewMessage makes.
