@@ -82,7 +82,7 @@ await run("page_test", async (browser, started) => {
   await browser.drag(80, 0);
   await inTime;
   check(true, "a moving view is drawn for the frame time asked for");
-  await page.getByText("12 ms (foreseen: 9.0 ms)").waitFor();
+  await page.getByText("12 ms, foreseen 9.0 ms").waitFor();
   check(true, "which is shown beside the time foreseen and taken");
   await page.waitForFunction(() => window.eyrie.still && window.eyrie.budgetMilliseconds === 0);
   check(true, "and at rest for the error");

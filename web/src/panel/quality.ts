@@ -73,7 +73,7 @@ export function budgetHint(numbers: Numbers): string {
 
 /** How long the last picture took, of what it was given; at rest there is no limit. */
 function timeAchieved(state: State): HTMLElement {
-  const label = make("span", "label", "Time taken");
+  const label = make("span", "label", "Taken");
   label.title = "By the last picture of the moving view, and what was foreseen for it";
   const value = make("span", "value", "–");
   const hint = make("p", "hint");
@@ -82,7 +82,7 @@ function timeAchieved(state: State): HTMLElement {
   state.numbers.watch((numbers) => {
     if (numbers === null || numbers.budgetMilliseconds === 0) return;
     const taken = milliseconds(numbers.renderMilliseconds);
-    setText(value, `${taken} (foreseen: ${milliseconds(numbers.predictedMilliseconds)})`);
+    setText(value, `${taken}, foreseen ${milliseconds(numbers.predictedMilliseconds)}`);
     setText(hint, budgetHint(numbers));
     hint.hidden = hint.textContent === "";
   });
