@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/bench/shown_terrain.h"
+#include "cli/bench/shown_triangles.h"
 #include "cli/png_file.h"
 #include "fabric/frustum.h"
 #include "fabric/status.h"
@@ -90,14 +90,14 @@ absl::StatusOr<FlightJudge::Judged> FlightJudge::judge(Frame& frame, PictureSour
     ASSIGN_OR_RETURN(coordinator::RenderedFrame drawn, pictures.draw(request));
     const double promised = drawn.statistics.tauAchievedPixels;
     const std::vector<float> depth = depthMetres(drawn.image);
-    ShownTerrain terrain(reference_, frame.view->camera,
+    ShownTriangles shown(reference_, frame.view->camera,
                          lod::View(frame.camera, how_.width, how_.height), request.tauPixels,
                          remote_);
     Judged result;
     const truth::DepthComparison found = truth::compareDepth(
         *frame.view, depth, edgePixels(promised),
         {promised + kRasterPixels,
-         [&](double x, double y, double metres) { return terrain.at(x, y, metres); }},
+         [&](double x, double y, double metres) { return shown.at(x, y, metres); }},
         truth::LookAround::Farthest, &result.displacements);
     result.error = {.seconds = frame.seconds,
                     .promisedPixels = promised,

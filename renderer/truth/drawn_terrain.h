@@ -2,7 +2,7 @@
 #pragma once
 
 #include <memory>
-#include <optional>
+#include <span>
 #include <vector>
 
 #include <absl/status/status.h>
@@ -24,15 +24,8 @@ public:
                                            double tauPixels,
                                            const fabric::Mat4& worldFromObject = fabric::Mat4(1.0));
 
-    struct Shown {
-        fabric::Vec3 point;       ///< of a drawn triangle: the one next to the picture point
-        double depthAtPoint = 0;  ///< of the triangle's plane at the picture point itself
-    };
-
-    /// What lies within `reachPixels` of picture point (x, y) on the screen, and has its plane at
-    /// the point nearest to `depth`. Nothing where there is none.
-    std::optional<Shown> shownAt(const Pinhole& camera, double x, double y, double depth,
-                                 double reachPixels) const;
+    /// In world space.
+    std::span<const Triangle> triangles() const { return triangles_; }
 
     /// The farthest, in pixels, that a drawn point is from the source's point of its column, where
     /// that is seen in a picture of the source; `atLeast` when none is farther. Looks at the posts

@@ -10,6 +10,7 @@
 #include "fabric/image.h"
 #include "fabric/status.h"
 #include "renderer/truth/drawn_terrain.h"
+#include "renderer/truth/drawn_triangles.h"
 
 namespace eyrie::truth {
 namespace {
@@ -44,7 +45,7 @@ absl::StatusOr<PromiseKept> TerrainPromise::hold(const fabric::Camera& camera, d
     ASSIGN_OR_RETURN(const DrawnTerrain triangles,
                      DrawnTerrain::of(*file_, lod::View(camera, width, height), tauPixels));
     const ShownPoint shown = [&](double x, double y, double depth) -> std::optional<fabric::Vec3> {
-        const auto found = triangles.shownAt(pinhole, x, y, depth, kReachPixels);
+        const auto found = shownAt(triangles.triangles(), pinhole, x, y, depth, kReachPixels);
         return found ? std::optional(found->point) : std::nullopt;
     };
     // An outline may have moved by as much as everything else.
