@@ -9,14 +9,11 @@ namespace {
 
 constexpr std::int64_t kMostPeriod = 1'000'000;
 
-/// The statement's number into an optional one.
-void optionalNumber(const Statement& statement, ValueReader& reader, std::int64_t low,
-                    std::optional<std::int64_t>& target) {
-    std::int64_t number = 0;
-    const std::size_t errors = reader.findings().errors();
-    reader.wholeNumber(statement, low, kMostPeriod, number);
-    if (reader.findings().errors() == errors)
-        target = number;
+void number(const Statement& statement, ValueReader& reader, std::int64_t low,
+            std::optional<std::int64_t>& target) {
+    reader.optional(target, [&](std::int64_t& value) {
+        reader.wholeNumber(statement, low, kMostPeriod, value);
+    });
 }
 
 std::optional<Buffers> readBuffers(const Statement& statement, ValueReader& reader) {
@@ -226,9 +223,8 @@ public:
              buffers("buffers", compound),
              {"viewport", [&](const auto& each) { reader_.fraction(each, compound.viewport); }},
              {"range", [&](const auto& each) { readRange(each, reader_, compound.range); }},
-             {"period",
-              [&](const auto& each) { optionalNumber(each, reader_, 1, compound.period); }},
-             {"phase", [&](const auto& each) { optionalNumber(each, reader_, 0, compound.phase); }},
+             {"period", [&](const auto& each) { number(each, reader_, 1, compound.period); }},
+             {"phase", [&](const auto& each) { number(each, reader_, 0, compound.phase); }},
              {"pixel", [&](const auto& each) { readPixel(each, reader_, compound.pixel); }},
              {"subpixel",
               [&](const auto& each) { readSubPixel(each, reader_, compound.subpixel); }},

@@ -10,13 +10,8 @@
 namespace eyrie::config {
 namespace {
 
-void optionalVector(const Statement& statement, ValueReader& reader,
-                    std::optional<fabric::Vec3>& target) {
-    fabric::Vec3 vector(0.0);
-    const std::size_t errors = reader.findings().errors();
-    reader.vector(statement, vector);
-    if (reader.findings().errors() == errors)
-        target = vector;
+void vector(const Statement& statement, ValueReader& reader, std::optional<fabric::Vec3>& target) {
+    reader.optional(target, [&](fabric::Vec3& value) { reader.vector(statement, value); });
 }
 
 View readView(const Statement& block, const Configuration& before, ValueReader& reader) {
@@ -140,16 +135,11 @@ Observer readObserver(const Statement& block, ValueReader& reader) {
         {{"name", [&](const auto& each) { reader.text(each, observer.name); }},
          {"eye_base",
           [&](const auto& each) {
-              double base = 0;
-              const std::size_t errors = reader.findings().errors();
-              reader.number(each, base);
-              if (reader.findings().errors() == errors)
-                  observer.eyeBase = base;
+              reader.optional(observer.eyeBase, [&](double& value) { reader.number(each, value); });
           }},
-         {"eye_left", [&](const auto& each) { optionalVector(each, reader, observer.eyeLeft); }},
-         {"eye_cyclop",
-          [&](const auto& each) { optionalVector(each, reader, observer.eyeCyclop); }},
-         {"eye_right", [&](const auto& each) { optionalVector(each, reader, observer.eyeRight); }},
+         {"eye_left", [&](const auto& each) { vector(each, reader, observer.eyeLeft); }},
+         {"eye_cyclop", [&](const auto& each) { vector(each, reader, observer.eyeCyclop); }},
+         {"eye_right", [&](const auto& each) { vector(each, reader, observer.eyeRight); }},
          {"focus_distance", [&](const auto& each) { reader.number(each, observer.focusDistance); }},
          {"focus_mode",
           [&](const auto& each) {

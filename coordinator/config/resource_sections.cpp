@@ -10,22 +10,13 @@ namespace {
 constexpr std::int64_t kMostPort = 65535;
 constexpr std::int64_t kMost = 1'000'000'000;
 
-void optionalViewport(const Statement& statement, ValueReader& reader,
-                      std::optional<Viewport>& target) {
-    Viewport viewport;
-    const std::size_t errors = reader.findings().errors();
-    reader.viewport(statement, viewport);
-    if (reader.findings().errors() == errors)
-        target = viewport;
+void viewport(const Statement& statement, ValueReader& reader, std::optional<Viewport>& target) {
+    reader.optional(target, [&](Viewport& value) { reader.viewport(statement, value); });
 }
 
-void optionalNumber(const Statement& statement, ValueReader& reader,
-                    std::optional<std::int64_t>& target) {
-    std::int64_t number = 0;
-    const std::size_t errors = reader.findings().errors();
-    reader.wholeNumber(statement, 0, kMost, number);
-    if (reader.findings().errors() == errors)
-        target = number;
+void number(const Statement& statement, ValueReader& reader, std::optional<std::int64_t>& target) {
+    reader.optional(target,
+                    [&](std::int64_t& value) { reader.wholeNumber(statement, 0, kMost, value); });
 }
 
 Channel readChannel(const Statement& block, ValueReader& reader) {
@@ -37,7 +28,7 @@ Channel readChannel(const Statement& block, ValueReader& reader) {
     reader.block(
         block, "a channel",
         {{"name", [&](const auto& each) { reader.text(each, channel.name); }},
-         {"viewport", [&](const auto& each) { optionalViewport(each, reader, channel.viewport); }},
+         {"viewport", [&](const auto& each) { viewport(each, reader, channel.viewport); }},
          {"drawable",
           [&](const auto& each) {
               reader.flags(
@@ -58,16 +49,16 @@ Channel readChannel(const Statement& block, ValueReader& reader) {
 Window readWindow(const Statement& block, ValueReader& reader) {
     Window window;
     window.place = block.place;
-    reader.block(
-        block, "a window",
-        {{"name", [&](const auto& each) { reader.text(each, window.name); }},
-         {"viewport", [&](const auto& each) { optionalViewport(each, reader, window.viewport); }},
-         {"attributes",
-          [&](const auto& each) {
-              readAttributes(each, AttributeScope::Window, reader, window.attributes);
-          }},
-         {"channel",
-          [&](const auto& each) { window.channels.push_back(readChannel(each, reader)); }}});
+    reader.block(block, "a window",
+                 {{"name", [&](const auto& each) { reader.text(each, window.name); }},
+                  {"viewport", [&](const auto& each) { viewport(each, reader, window.viewport); }},
+                  {"attributes",
+                   [&](const auto& each) {
+                       readAttributes(each, AttributeScope::Window, reader, window.attributes);
+                   }},
+                  {"channel", [&](const auto& each) {
+                       window.channels.push_back(readChannel(each, reader));
+                   }}});
     return window;
 }
 
@@ -77,9 +68,9 @@ Pipe readPipe(const Statement& block, ValueReader& reader) {
     reader.block(
         block, "a pipe",
         {{"name", [&](const auto& each) { reader.text(each, pipe.name); }},
-         {"port", [&](const auto& each) { optionalNumber(each, reader, pipe.port); }},
-         {"device", [&](const auto& each) { optionalNumber(each, reader, pipe.device); }},
-         {"viewport", [&](const auto& each) { optionalViewport(each, reader, pipe.viewport); }},
+         {"port", [&](const auto& each) { number(each, reader, pipe.port); }},
+         {"device", [&](const auto& each) { number(each, reader, pipe.device); }},
+         {"viewport", [&](const auto& each) { viewport(each, reader, pipe.viewport); }},
          {"attributes",
           [&](const auto& each) {
               readAttributes(each, AttributeScope::Pipe, reader, pipe.attributes);

@@ -52,6 +52,16 @@ public:
     void flags(const Statement& statement,
                std::initializer_list<std::pair<std::string_view, bool*>> flags);
 
+    /// Has `read` fill a value, and sets `target` to it where nothing was wrong.
+    template <typename T, typename Read>
+    void optional(std::optional<T>& target, const Read& read) {
+        T value{};
+        const std::size_t errors = findings_.errors();
+        read(value);
+        if (findings_.errors() == errors)
+            target = value;
+    }
+
     /// One of these words.
     template <typename T>
     void choice(const Statement& statement,
