@@ -46,21 +46,28 @@ WholeFile::~WholeFile() {
     close(fd_);
 }
 
+/// Between its making and its lock another writer may take a file for abandoned and remove it: then
+/// one of another name is made.
 absl::StatusOr<WholeFile> WholeFile::create(const std::string& path) {
+    constexpr int kTries = 16;
     removeAbandoned(path);
     std::random_device random;
-    const std::uint64_t number = std::uint64_t{random()} << 32 | random();
-    std::string partialPath = fmt::format("{}{}{:016x}", path, kMark, number);
-    const int fd = open(partialPath.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
-    if (fd < 0)
-        return fabric::writeError(path, "cannot be written", errno);
-    WholeFile file(path, std::move(partialPath), fd);
-    // Where a file system has no locks, nobody can take it for abandoned either.
-    if (!lock(fd) && errno != ENOLCK && errno != EOPNOTSUPP)
-        return absl::UnavailableError(
-            fmt::format("{}: cannot be locked, another process took it; run the same command again",
-                        file.partialPath_));
-    return file;
+    for (int i = 0; i < kTries; ++i) {
+        const std::uint64_t number = std::uint64_t{random()} << 32 | random();
+        std::string partialPath = fmt::format("{}{}{:016x}", path, kMark, number);
+        const int fd = open(partialPath.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+        if (fd < 0)
+            return fabric::writeError(path, "cannot be written", errno);
+        WholeFile file(path, std::move(partialPath), fd);
+        errno = 0;
+        // Where a file system has no locks, nobody can take it for abandoned either.
+        if (lock(fd) || errno == ENOLCK || errno == EOPNOTSUPP)
+            return file;
+    }
+    return absl::UnavailableError(fmt::format(
+        "{}: other processes take its partial files for abandoned; run the same command "
+        "again",
+        path));
 }
 
 absl::Status WholeFile::append(std::span<const std::byte> bytes) {

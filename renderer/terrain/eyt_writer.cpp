@@ -103,7 +103,8 @@ std::vector<std::uint32_t> PageBuilder::finish() {
     std::vector<std::uint32_t> page(roundUp(bytes, sizeof(std::uint32_t)) / sizeof(std::uint32_t));
     char* next = reinterpret_cast<char*>(page.data());
     const auto append = [&](const void* data, std::size_t size) {
-        std::memcpy(next, data, size);
+        if (size > 0)  // an empty array has no place
+            std::memcpy(next, data, size);
         next += size;
     };
     append(&header_, sizeof header_);

@@ -13,6 +13,7 @@
 #include "renderer/import/geotiff_writer.h"
 #include "renderer/import/shard_part.h"
 #include "renderer/import/terrain_synth.h"
+#include "renderer/import/whole_file.h"
 #include "tests/renderer/import/file_size_limit.h"
 #include "tests/renderer/import/imagery_fixture.h"
 #include "tests/renderer/import/terrain_fixture.h"
@@ -235,6 +236,19 @@ TEST_F(TerrainShards, MayBeDoneTwiceAtTheSameTime) {
     ASSERT_TRUE(merge(posts).ok());
     EXPECT_TRUE(contents(out()) == expected);
     EXPECT_EQ(folder_.files(), (std::vector<std::string>{"out.eyt", "whole.eyt"}));
+}
+
+/// Each looks for what killed writers have left, and must not be stopped by another that does.
+TEST_F(TerrainShards, FilesOfSeveralWritersAreMadeAtTheSameTime) {
+    std::vector<std::thread> threads;
+    std::array<int, 4> failures{};
+    for (int& failed : failures)
+        threads.emplace_back([&] {
+            for (int i = 0; i < 300; ++i) failed += WholeFile::create(out()).ok() ? 0 : 1;
+        });
+    for (std::thread& thread : threads) thread.join();
+    EXPECT_THAT(failures, testing::Each(0));
+    EXPECT_EQ(folder_.files(), std::vector<std::string>{});
 }
 
 /// Of facts, unlike of parts, a new one costs little: no file of facts is an error.
