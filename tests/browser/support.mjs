@@ -121,8 +121,15 @@ export class Browser {
   }
 
   /** Waits until nothing more will be drawn. */
-  settled() {
-    return this.until(() => window.eyrie?.still === true);
+  async settled() {
+    for (;;) {
+      await this.until(() => window.eyrie?.still === true);
+      // The picture before a change is at rest, too, until the first one after it comes.
+      const before = await this.page.evaluate(() => window.eyrie.frameNumber);
+      await this.page.waitForTimeout(250);
+      const after = await this.page.evaluate(() => window.eyrie.still && window.eyrie.frameNumber);
+      if (after === before) return;
+    }
   }
 
   /** Every eighth pixel of the picture's middle, clear of the panel, as r, g, b, a one by one. */
