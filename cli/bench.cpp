@@ -16,7 +16,6 @@
 #include "cli/bench/report.h"
 #include "cli/cache_options.h"
 #include "cli/commands.h"
-#include "cli/compound_names.h"
 #include "cli/occlusion_option.h"
 #include "cli/renderer_processes.h"
 #include "cli/stop_signal.h"
@@ -60,8 +59,14 @@ absl::Status checkTaus(const std::vector<double>& taus, const std::vector<double
 
 bench::BenchFacts factsOf(const Options& options, const PictureSize& size) {
     const auto nameOf = [](const std::filesystem::path& path) { return path.filename().string(); };
-    return {nameOf(options.scene), nameOf(options.flight), size.width,          size.height,
-            options.frames,        options.repeats,        bench::commandLine()};
+    return {nameOf(options.scene),
+            nameOf(options.flight),
+            size.width,
+            size.height,
+            options.frames,
+            options.repeats,
+            bench::commandLine(),
+            cli::nameOf(options.occlusion)};
 }
 
 /// What each run asks of its frames: a tau, or a frame time, at which the finest of the taus is
@@ -76,10 +81,13 @@ std::vector<bench::Asked> askedOf(const Options& options) {
 }
 
 bench::RunPlan planOf(const Options& options, const PictureSize& size) {
-    bench::PlayOptions play{{}, options.frames, options.repeats};
+    bench::PlayOptions play;
+    play.frames = options.frames;
+    play.repeats = options.repeats;
     play.request.width = size.width;
     play.request.height = size.height;
     play.request.occlusion = options.occlusion;
+    play.request.shown = {options.pictures.config.shown};
     return {options.scene,     options.flight, askedOf(options),
             options.renderers, play,           options.pictures};
 }
@@ -98,6 +106,21 @@ absl::Status runCompare(const Options& options) {
     return absl::OkStatus();
 }
 
+/// As asked for or, with a configuration, as many as it uses.
+absl::StatusOr<std::vector<int>> renderersFor(const Options& options) {
+    const ConfigOptions& config = options.pictures.config;
+    if (config.file.empty())
+        return options.renderers;
+    if (options.reference.isAsked)
+        return absl::InvalidArgumentError(
+            "--reference judges what the camera itself sees, which a configuration's walls may "
+            "not; leave --config out, or name a --compound");
+    ASSIGN_OR_RETURN(const auto configuration, configurationOf(config, true));
+    std::vector<int> renderers = options.renderers;
+    std::ranges::replace(renderers, 0, renderersOf(*configuration));
+    return renderers;
+}
+
 absl::Status runBench(const Options& options) {
     if (!options.compared.empty())
         return runCompare(options);
@@ -113,7 +136,8 @@ absl::Status runBench(const Options& options) {
             "--budget-ms "
             "out, or take the errors that it came to as --tau");
     ASSIGN_OR_RETURN(const PictureSize size, parsePictureSize(options.size, "--size"));
-    const bench::RunPlan plan = planOf(options, size);
+    bench::RunPlan plan = planOf(options, size);
+    ASSIGN_OR_RETURN(plan.renderers, renderersFor(options));
     std::optional<bench::ReferencePlan> reference;
     if (options.reference.isAsked) {
         ASSIGN_OR_RETURN(reference, bench::planReference(plan, options.reference, stop.token()));
@@ -163,11 +187,8 @@ void addMeasuringOptions(CLI::App& command, Options& options) {
         ->delimiter(',')
         ->check(CLI::Range(0, RendererProcesses::kMaxCount))
         ->capture_default_str();
-    command
-        .add_option("--compound", options.pictures.compound,
-                    "How these cut the frame: 2D, by pixels, or DB, by data [2D]")
-        ->transform(CLI::CheckedTransformer(compoundNames()).description(""))
-        ->type_name("2D|DB");
+    addConfigOptions(command, options.pictures.config);
+    addShownOptions(command, options.pictures.config);
 }
 
 void addCompareOptions(CLI::App& command, Options& options) {

@@ -1,8 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <string>
 
@@ -11,8 +7,10 @@
 
 #include "cli/check/report.h"
 #include "cli/commands.h"
-#include "coordinator/config/eqc_grammar.h"
-#include "coordinator/config/eqc_reader.h"
+#include "cli/configuration_file.h"
+#include "cli/image_files.h"
+#include "coordinator/config/configuration_message.h"
+#include "coordinator/config/eqc_writer.h"
 #include "fabric/status.h"
 
 namespace eyrie::cli {
@@ -20,30 +18,28 @@ namespace {
 
 struct Options {
     std::string file;
+    std::string convert;
     bool json = false;
     bool quiet = false;
 };
 
-/// A byte more than can be read, so that what is too long is seen to be.
-absl::StatusOr<std::string> readText(const std::string& path) {
-    std::ifstream in(path, std::ios::binary);
-    std::string text;
-    if (in) {
-        text.resize(config::kLongestText + 1);
-        in.read(text.data(), static_cast<std::streamsize>(text.size()));
-        text.resize(static_cast<std::size_t>(in.gcount()));
-    }
-    if (!in && !in.eof())
-        return absl::NotFoundError(
-            fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
-    return text;
+absl::Status checkNames(const Options& options) {
+    if (options.convert.empty() || isJson(options.convert) || options.convert.ends_with(".eqc"))
+        return absl::OkStatus();
+    return absl::InvalidArgumentError(
+        fmt::format("--convert is '{}'; its name must end in .eqc or .json", options.convert));
+}
+
+absl::Status convert(const config::Configuration& configuration, const std::string& path) {
+    return writeText(
+        isJson(path) ? config::writeJson(configuration) : config::writeEqc(configuration), path);
 }
 
 absl::Status checkFile(const Options& options) {
+    RETURN_IF_ERROR(checkNames(options));
     check::Checked checked;
     checked.file = options.file;
-    ASSIGN_OR_RETURN(const std::string text, readText(options.file));
-    checked.configuration = config::readEqc(text, checked.findings);
+    ASSIGN_OR_RETURN(checked.configuration, readConfiguration(options.file, checked.findings));
     if (!checked.findings.hasErrors())
         checked.resolved = config::resolve(checked.configuration, checked.findings);
     if (options.json)
@@ -54,7 +50,9 @@ absl::Status checkFile(const Options& options) {
         return absl::InvalidArgumentError(fmt::format("{}: {} error{}", options.file,
                                                       checked.findings.errors(),
                                                       checked.findings.errors() == 1 ? "" : "s"));
-    if (!options.json && !options.quiet)
+    if (!options.convert.empty())
+        RETURN_IF_ERROR(convert(checked.configuration, options.convert));
+    if (!options.json && !options.quiet && options.convert.empty())
         fmt::print("{}", check::text(checked));
     return absl::OkStatus();
 }
@@ -65,17 +63,25 @@ void addCheck(CLI::App& app, Run& run) {
     auto options = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand(
         "check", "Say what a configuration file is, and all that is wrong in it");
-    command->add_option("config", options->file, "An .eqc file of Equalizer, 1.0 to 1.2")
+    command
+        ->add_option("config", options->file,
+                     "An .eqc file of Equalizer, 1.0 to 1.2, or a .json file of the same")
         ->type_name("FILE")
         ->required();
     command->add_flag("--json", options->json, "Print it as JSON");
+    command
+        ->add_option("--convert", options->convert,
+                     "Write it in the other form, whole or not at all: a name that ends in .eqc or "
+                     ".json")
+        ->type_name("FILE");
     command->add_flag("--quiet", options->quiet, "Only errors and warnings");
     command->footer(
         "Prints resources, destination channels, and each compound with all that it inherits: its\n"
         "tasks, its share of the picture, and what its eyes see. Errors and warnings come with "
         "line\n"
-        "and column; with an error the exit status is 2.\n\n"
-        "Example:\n  eyrie check cave.eqc\n  eyrie check cave.eqc --json");
+        "and column or, of JSON, with the field; with an error the exit status is 2.\n\n"
+        "Example:\n  eyrie check cave.eqc\n  eyrie check cave.eqc --json\n"
+        "  eyrie check cave.eqc --convert cave.json");
     command->callback([options, &run] { run = [options] { return checkFile(*options); }; });
 }
 

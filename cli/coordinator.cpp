@@ -13,6 +13,7 @@
 #include "cli/cache_options.h"
 #include "cli/commands.h"
 #include "cli/compound_names.h"
+#include "cli/config_options.h"
 #include "cli/data_cache.h"
 #include "cli/scene_files.h"
 #include "cli/stop_signal.h"
@@ -28,7 +29,7 @@ struct Options {
     std::string listen = "127.0.0.1:8080";
     std::string grpc = "127.0.0.1:9090";
     CacheOptions cache;
-    coordinator::Decomposition compound = coordinator::Decomposition::TwoD;
+    ConfigOptions config;
     bool quiet = false;
 };
 
@@ -48,7 +49,8 @@ absl::Status coordinate(const Options& options) {
     RETURN_IF_ERROR(fabric::withContext(wire::checkAddress(options.grpc), "--grpc"));
     coordinator::CoordinatorOptions settings;
     settings.grpcAddresses = {options.grpc};
-    settings.decomposition = options.compound;
+    ASSIGN_OR_RETURN(settings.configuration, configurationOf(options.config, options.quiet));
+    settings.layout = compoundNames().at(options.config.compound);
     ASSIGN_OR_RETURN(settings.scene, loadScene(options, stop.token()));
     auto coordinator = coordinator::Coordinator::start(settings);
     if (absl::IsUnavailable(coordinator.status()))  // a port in use: the caller can choose another
@@ -80,11 +82,7 @@ void addCoordinator(CLI::App& app, Run& run) {
     command->add_option("--grpc", options->grpc, "Where renderers register; port 0: any free one")
         ->type_name("HOST:PORT|unix:/PATH")
         ->capture_default_str();
-    command
-        ->add_option("--compound", options->compound,
-                     "How a frame is cut: 2D, by pixels, or DB, by data [2D]")
-        ->transform(CLI::CheckedTransformer(compoundNames()).description(""))
-        ->type_name("2D|DB");
+    addConfigOptions(*command, options->config);
     addCacheOptions(*command, options->cache);
     command->add_flag("--quiet", options->quiet, "No progress, only warnings and errors");
     command->footer(

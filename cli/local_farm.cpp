@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/compound_names.h"
 #include "cli/hardware_devices.h"
 #include "fabric/status.h"
 
@@ -18,11 +19,13 @@ constexpr std::chrono::milliseconds kPollInterval{10};
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<LocalFarm>> LocalFarm::start(
-    coordinator::Decomposition decomposition, const CacheOptions& cache, TileDecoding decoding) {
+    std::optional<config::Configuration> configuration, const std::string& compound,
+    const CacheOptions& cache, TileDecoding decoding) {
     ASSIGN_OR_RETURN(TemporaryFolder folder, TemporaryFolder::create());
     coordinator::CoordinatorOptions options;
     options.grpcAddresses = {folder.socket("coordinator")};
-    options.decomposition = decomposition;
+    options.configuration = std::move(configuration);
+    options.layout = compoundNames().at(compound);
     ASSIGN_OR_RETURN(auto coordinator, coordinator::Coordinator::start(options));
     return std::unique_ptr<LocalFarm>(
         new LocalFarm(std::move(folder), std::move(coordinator), cache, decoding));
@@ -56,7 +59,7 @@ absl::Status LocalFarm::awaitRenderers(int count, std::chrono::milliseconds limi
         RETURN_IF_ERROR(check());
         const coordinator::Status status = frames().status();
         const auto alive =
-            std::ranges::count_if(status.renderers, [](const auto& one) { return one.alive; });
+            std::ranges::count_if(status.renderers, [](const auto& one) { return one.isAlive(); });
         if (alive >= count && status.problem.empty())
             return absl::OkStatus();
         if (stop.stop_requested())

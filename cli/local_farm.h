@@ -3,7 +3,9 @@
 
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <stop_token>
+#include <string>
 
 #include <absl/status/statusor.h>
 
@@ -21,7 +23,8 @@ public:
     /// Without renderers yet, and without a scene. `cache` and `decoding` are the renderers'.
     /// Errors: Unavailable.
     static absl::StatusOr<std::unique_ptr<LocalFarm>> start(
-        coordinator::Decomposition decomposition, const CacheOptions& cache, TileDecoding decoding);
+        std::optional<config::Configuration> configuration, const std::string& compound,
+        const CacheOptions& cache, TileDecoding decoding);
 
     coordinator::Coordinator& coordinator() { return *coordinator_; }
     coordinator::FrameSource& frames() { return coordinator_->frames(); }

@@ -10,15 +10,26 @@
 
 namespace eyrie::cli {
 
-inline void addOcclusionOption(CLI::App& command, fabric::Occlusion& occlusion) {
+inline const std::map<std::string, fabric::Occlusion>& occlusionModes() {
     static const std::map<std::string, fabric::Occlusion> kModes = {
         {"auto", fabric::Occlusion::Auto},
         {"on", fabric::Occlusion::On},
         {"off", fabric::Occlusion::Off}};
+    return kModes;
+}
+
+inline std::string nameOf(fabric::Occlusion occlusion) {
+    for (const auto& [name, mode] : occlusionModes())
+        if (mode == occlusion)
+            return name;
+    return "auto";
+}
+
+inline void addOcclusionOption(CLI::App& command, fabric::Occlusion& occlusion) {
     command
         .add_option("--occlusion", occlusion,
                     "Leave out what is hidden; the picture is the same [auto: where it pays]")
-        ->transform(CLI::CheckedTransformer(kModes).description(""))
+        ->transform(CLI::CheckedTransformer(occlusionModes()).description(""))
         ->type_name("auto|on|off");
 }
 

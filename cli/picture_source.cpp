@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/picture_source.h"
 
+#include <algorithm>
 #include <chrono>
 #include <optional>
 #include <utility>
@@ -110,14 +111,17 @@ absl::StatusOr<std::unique_ptr<PictureSource>> openHere(const fabric::Scene& sce
     return std::make_unique<InThisProcess>(std::move(renderer), std::move(info), scene.background);
 }
 
-absl::StatusOr<std::unique_ptr<PictureSource>> openInProcesses(fabric::Scene scene,
-                                                               const PictureSourceOptions& options,
-                                                               const std::stop_token& stop) {
-    ASSIGN_OR_RETURN(auto farm,
-                     LocalFarm::start(options.compound, options.cache, options.decoding));
+absl::StatusOr<std::unique_ptr<PictureSource>> openInProcesses(
+    fabric::Scene scene, std::optional<config::Configuration> configuration,
+    const PictureSourceOptions& options, const std::stop_token& stop) {
+    const int used = configuration ? renderersOf(*configuration) : 1;
+    const int renderers =
+        options.renderers > 0 ? options.renderers : std::min(used, RendererProcesses::kMaxCount);
+    ASSIGN_OR_RETURN(auto farm, LocalFarm::start(std::move(configuration), options.config.compound,
+                                                 options.cache, options.decoding));
     RETURN_IF_ERROR(farm->coordinator().setScene(std::move(scene)));
-    farm->startRenderers(options.renderers);
-    RETURN_IF_ERROR(farm->awaitRenderers(options.renderers, kRenderersLimit, stop));
+    farm->startRenderers(renderers);
+    RETURN_IF_ERROR(farm->awaitRenderers(renderers, kRenderersLimit, stop));
     return std::make_unique<InProcesses>(std::move(farm));
 }
 
@@ -137,9 +141,13 @@ absl::StatusOr<fabric::Scene> loadScene(const std::string& path,
 absl::StatusOr<std::unique_ptr<PictureSource>> PictureSource::open(
     const std::string& path, const PictureSourceOptions& options, const std::stop_token& stop) {
     spdlog::set_level(options.quiet ? spdlog::level::err : spdlog::level::warn);
+    ASSIGN_OR_RETURN(auto configuration, configurationOf(options.config, options.quiet));
     ASSIGN_OR_RETURN(fabric::Scene scene, loadScene(path, options, stop));
-    return options.renderers == 0 ? openHere(scene, options)
-                                  : openInProcesses(std::move(scene), options, stop);
+    // An eye beside the camera, or a canvas, is what only a configuration has.
+    const bool isPlain = options.config.shown == coordinator::Shown{};
+    if (options.renderers == 0 && !configuration && isPlain)
+        return openHere(scene, options);
+    return openInProcesses(std::move(scene), std::move(configuration), options, stop);
 }
 
 }  // namespace eyrie::cli

@@ -8,15 +8,16 @@
 #include <absl/status/statusor.h>
 
 #include "cli/cache_options.h"
-#include "coordinator/compound/decompose.h"
+#include "cli/config_options.h"
 #include "coordinator/frame/frame_source.h"
 #include "fabric/scene.h"
 
 namespace eyrie::cli {
 
 struct PictureSourceOptions {
-    int renderers = 0;  ///< processes that draw; 0: draw in this one
-    coordinator::Decomposition compound = coordinator::Decomposition::TwoD;
+    /// Processes that draw; 0: draw in this one, or, with a configuration, with as many as it uses.
+    int renderers = 0;
+    ConfigOptions config;
     CacheOptions cache;
     TileDecoding decoding = TileDecoding::Auto;
     bool quiet = false;  ///< only errors; otherwise progress of imports and warnings, too

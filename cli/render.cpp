@@ -11,7 +11,7 @@
 
 #include "cli/cache_options.h"
 #include "cli/commands.h"
-#include "cli/compound_names.h"
+#include "cli/config_options.h"
 #include "cli/decode_names.h"
 #include "cli/image_files.h"
 #include "cli/occlusion_option.h"
@@ -78,6 +78,7 @@ absl::StatusOr<coordinator::FrameRequest> requestOf(const Options& options) {
     request.width = size.width;
     request.height = size.height;
     request.wantsDepth = !options.depth.empty();
+    request.shown = {options.pictures.config.shown};
     request.measuresStages = !options.stats.empty() || options.json;
     return request;
 }
@@ -204,13 +205,11 @@ void addRender(CLI::App& app, Run& run) {
     addOcclusionOption(*command, options->occlusion);
     command
         ->add_option("--renderers", options->pictures.renderers,
-                     "Draw with so many processes instead of in this one")
+                     "Draw with so many processes instead of in this one [as many as --config "
+                     "uses]")
         ->check(CLI::Range(1, RendererProcesses::kMaxCount));
-    command
-        ->add_option("--compound", options->pictures.compound,
-                     "How these cut the frame: 2D, by pixels, or DB, by data [2D]")
-        ->transform(CLI::CheckedTransformer(compoundNames()).description(""))
-        ->type_name("2D|DB");
+    addConfigOptions(*command, options->pictures.config);
+    addShownOptions(*command, options->pictures.config);
     addDecodeOption(*command, options->pictures.decoding);
     addCacheOptions(*command, options->pictures.cache);
     addOutputOptions(*command, *options);

@@ -81,7 +81,7 @@ private:
             failed_ = true;
             return true;
         }
-        nextStart_ = policy_.ended(now);
+        nextStart_ = policy_.ended(started_, now);
         const auto pause = std::chrono::duration_cast<std::chrono::milliseconds>(nextStart_ - now);
         spdlog::warn("renderer {} ended ({}); it starts again in {:.2f} s", number_ + 1, end.text(),
                      static_cast<double>(pause.count()) / 1000);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -12,7 +14,7 @@
 
 #include "cli/cache_options.h"
 #include "cli/commands.h"
-#include "cli/compound_names.h"
+#include "cli/config_options.h"
 #include "cli/data_cache.h"
 #include "cli/decode_names.h"
 #include "cli/hardware_devices.h"
@@ -34,7 +36,7 @@ struct Options {
     std::string listen = "127.0.0.1:8080";
     CacheOptions cache;
     TileDecoding decoding = TileDecoding::Auto;
-    coordinator::Decomposition compound = coordinator::Decomposition::TwoD;
+    ConfigOptions config;
     int renderers = 0;  ///< 0: as many as suit this machine
     bool quiet = false;
 };
@@ -70,18 +72,28 @@ absl::Status serveUntilStopped(const LocalFarm& farm, const std::stop_token& sto
     return absl::OkStatus();
 }
 
+/// As asked for; as many as the configuration uses; as many as suit this machine.
+int rendererCount(const Options& options,
+                  const std::optional<config::Configuration>& configuration) {
+    if (options.renderers > 0)
+        return options.renderers;
+    return configuration ? std::min(renderersOf(*configuration), RendererProcesses::kMaxCount)
+                         : RendererProcesses::suitableCount(hardwareDevices());
+}
+
 absl::Status serve(const Options& options) {
     const StopSignal stop;
     if (options.quiet)
         spdlog::set_level(spdlog::level::warn);
+    ASSIGN_OR_RETURN(auto configuration, configurationOf(options.config, options.quiet));
+    const int renderers = rendererCount(options, configuration);
     ASSIGN_OR_RETURN(const auto farm,
-                     LocalFarm::start(options.compound, options.cache, options.decoding));
+                     LocalFarm::start(std::move(configuration), options.config.compound,
+                                      options.cache, options.decoding));
     ASSIGN_OR_RETURN(const auto door, openWebDoor(options.listen, farm->frames()));
     ASSIGN_OR_RETURN(fabric::Scene scene, loadScene(options, stop.token()));
     RETURN_IF_ERROR(farm->coordinator().setScene(std::move(scene)));
-    farm->startRenderers(options.renderers > 0
-                             ? options.renderers
-                             : RendererProcesses::suitableCount(hardwareDevices()));
+    farm->startRenderers(renderers);
     const absl::Status ready = farm->awaitRenderers(1, kFirstRendererLimit, stop.token());
     RETURN_IF_ERROR(farm->check());
     if (absl::IsDeadlineExceeded(ready))
@@ -113,13 +125,9 @@ void addServe(CLI::App& app, Run& run) {
         ->capture_default_str();
     command
         ->add_option("--renderers", options->renderers,
-                     "Renderer processes [one a GPU; without, two]")
+                     "Renderer processes [as many as --config uses; one a GPU; without, two]")
         ->check(CLI::Range(1, RendererProcesses::kMaxCount));
-    command
-        ->add_option("--compound", options->compound,
-                     "How a frame is cut: 2D, by pixels, or DB, by data [2D]")
-        ->transform(CLI::CheckedTransformer(compoundNames()).description(""))
-        ->type_name("2D|DB");
+    addConfigOptions(*command, options->config);
     addDecodeOption(*command, options->decoding);
     addCacheOptions(*command, options->cache);
     command->add_flag("--quiet", options->quiet, "No progress, only warnings and errors");
@@ -128,6 +136,7 @@ void addServe(CLI::App& app, Run& run) {
         "  eyrie serve dem.tif scan.ply\n"
         "  eyrie serve https://data.example/dem.eyt\n"
         "  eyrie serve scene.json --listen 0.0.0.0:8080 --renderers 4\n"
+        "  eyrie serve scan.ply --config powerwall.eqc\n"
         "Ctrl-C ends it.");
     command->callback([options, &run] { run = [options] { return serve(*options); }; });
 }

@@ -59,8 +59,11 @@ absl::StatusOr<bench::Played> playOnce(const std::string& path, const std::strin
     ASSIGN_OR_RETURN(const auto pictures, PictureSource::open(path, quiet, stop));
     ASSIGN_OR_RETURN(const fabric::Flight way,
                      bench::flightNamed(flight, pictures->sceneInfo().bounds));
+    bench::PlayOptions once;
+    once.frames = kFrames;
+    once.repeats = 1;
     return bench::play(
-        *pictures, way, {{}, kFrames, 1}, [] {}, stop);
+        *pictures, way, once, [] {}, stop);
 }
 
 /// What else the machine does only ever adds to frames: of the rounds' medians the least counts.

@@ -9,6 +9,7 @@ find_package(gRPC CONFIG REQUIRED)
 find_package(GDAL CONFIG REQUIRED)
 find_package(TBB CONFIG REQUIRED)
 find_package(PNG REQUIRED)
+find_package(ZLIB REQUIRED)
 find_package(assimp CONFIG REQUIRED)
 find_package(meshoptimizer CONFIG REQUIRED)  # what bench/page_codec compares with, as zstd
 find_package(Boost REQUIRED)

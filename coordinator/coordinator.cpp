@@ -49,7 +49,8 @@ private:
     static FramePipelineOptions pipelineOptions(const CoordinatorOptions& options,
                                                 const GrpcService& door) {
         FramePipelineOptions pipeline;
-        pipeline.decomposition = options.decomposition;
+        pipeline.configuration = options.configuration;
+        pipeline.layout = options.layout;
         pipeline.howToJoin =
             fmt::format("eyrie renderer --coordinator {}", door.addresses().back());
         return pipeline;

@@ -2,12 +2,13 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <absl/status/statusor.h>
 
-#include "coordinator/compound/decompose.h"
+#include "coordinator/config/configuration.h"
 #include "coordinator/frame/frame_source.h"
 #include "fabric/scene.h"
 
@@ -16,8 +17,10 @@ namespace eyrie::coordinator {
 struct CoordinatorOptions {
     /// Where renderers register: "host:port" (port 0: the system chooses) or "unix:/path".
     std::vector<std::string> grpcAddresses{"127.0.0.1:0"};
-    Decomposition decomposition = Decomposition::TwoD;
-    fabric::Scene scene;  ///< of .eyt and .eym files that the renderers can read
+    /// How frames are made; nothing: by a configuration of the renderers there are.
+    std::optional<config::Configuration> configuration = {};
+    std::string layout = {};   ///< of that, at first; empty: 2D (config::defaultConfiguration)
+    fabric::Scene scene = {};  ///< of .eyt and .eym files that the renderers can read
 };
 
 /// A coordinator without its doors for browsers: renderers register with it, and it makes frames

@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-add_library(eyrie_stream stream/home_camera.cpp stream/pacer.cpp stream/pick_desk.cpp stream/viewer.cpp
-                         stream/viewer_messages.cpp)
+add_library(eyrie_stream
+    stream/drawing.cpp stream/home_camera.cpp stream/link_estimate.cpp stream/outbox.cpp
+    stream/pacer.cpp stream/pick_desk.cpp stream/picture_encoder.cpp stream/profile.cpp
+    stream/progress.cpp stream/quality.cpp stream/viewer.cpp stream/viewer_messages.cpp)
 add_library(eyrie::stream ALIAS eyrie_stream)
 target_link_libraries(eyrie_stream PUBLIC eyrie::fabric absl::status
-                                   PRIVATE eyrie::jpeg eyrie::wire eyrie::proto Threads::Threads fmt::fmt)
+                                   PRIVATE eyrie::jpeg eyrie::png eyrie::wire eyrie::proto
+                                           Threads::Threads fmt::fmt)

@@ -85,7 +85,7 @@ private:
         return GLEW_EXT_texture_compression_s3tc && !device().software ? draw::TextureFormat::Bc1
                                                                        : draw::TextureFormat::Rgba8;
     }
-    double errorPixels(const lod::View& view, const fabric::FrameData& frameData,
+    double errorPixels(const lod::TaskViews& views, const fabric::FrameData& frameData,
                        const fabric::ChannelTask& task, const fabric::PixelViewport& covered);
     absl::Status drawSelection(const draw::Selection& selection, const lod::View& view,
                                const fabric::FrameData& frameData, const fabric::ChannelTask& task,
@@ -152,7 +152,8 @@ absl::StatusOr<fabric::SceneInfo> Renderer::Impl::openScene(const fabric::Scene&
         ASSIGN_OR_RETURN(auto drawable, openObject(object, scene.objects.size()));
         info.bounds.grow(fabric::transformed(drawable->bounds(), object.worldFromObject));
         info.triangles += drawable->triangles();
-        info.bytes += drawable->bytes();
+        info.files.push_back(drawable->file());
+        info.bytes += info.files.back().bytes;
         surfaces.push_back(drawable->surface(object));
         objects.push_back({object, std::move(drawable)});
     }
@@ -166,7 +167,7 @@ absl::StatusOr<fabric::SceneInfo> Renderer::Impl::openScene(const fabric::Scene&
 
 /// What the finished picture promises. A frozen cut was chosen for another view. Hills hide what is
 /// behind them where nothing is in the picture but one terrain, all of it opaque.
-double Renderer::Impl::errorPixels(const lod::View& view, const fabric::FrameData& frameData,
+double Renderer::Impl::errorPixels(const lod::TaskViews& views, const fabric::FrameData& frameData,
                                    const fabric::ChannelTask& task,
                                    const fabric::PixelViewport& covered) {
     const fabric::Look& look = frameData.look;
@@ -177,11 +178,13 @@ double Renderer::Impl::errorPixels(const lod::View& view, const fabric::FrameDat
                                frameData.shading != fabric::Shading::Wireframe &&
                                objects_[0].object.kind == fabric::ObjectKind::Terrain;
     const fabric::Frustum channel =
-        lod::subFrustum(view, draw::reach(frameData, task.pixelViewport));
+        lod::subFrustum(views.drawn, draw::reach(frameData, task.pixelViewport));
     double worst = 0;
     for (const draw::OpenObject& open : objects_) {
-        const lod::ObjectView objectView(view, draw::drawnWorldFromObject(open.object, look));
-        occlusion::HiddenGround hidden(objectView, covered, [this](const auto& part, auto& depth) {
+        const fabric::Mat4 worldFromObject = draw::drawnWorldFromObject(open.object, look);
+        const lod::ObjectView objectView(views.whole, worldFromObject);
+        const lod::ObjectView drawnView(views.drawn, worldFromObject);
+        occlusion::HiddenGround hidden(drawnView, covered, [this](const auto& part, auto& depth) {
             framebuffer_.readDepth(part, depth);
         });
         const double pixels =
@@ -238,7 +241,7 @@ absl::Status Renderer::Impl::drawSelection(const draw::Selection& selection, con
                                            const fabric::FrameData& frameData,
                                            const fabric::ChannelTask& task,
                                            fabric::FrameStatistics& statistics) {
-    RETURN_IF_ERROR(framebuffer_.resize(task.viewWidth, task.viewHeight));
+    RETURN_IF_ERROR(framebuffer_.resize(view.width, view.height));
     const draw::FrameState frame{view,           *scene_,    frameData.shading,
                                  frameData.look, task.range, task.pixelViewport};
     drawn_.clear();
@@ -296,25 +299,27 @@ absl::StatusOr<fabric::ChannelResult> Renderer::Impl::render(const fabric::Frame
     terrainPrograms_.reloadChanged(start);
     meshPrograms_.reloadChanged(start);
 
-    const lod::View view(asked.camera, task.viewWidth, task.viewHeight);
-    const fabric::FrameData frameData = draw::withinBudget(objects_, view, asked, task, statistics);
+    const lod::TaskViews views(asked.camera, task);
+    const fabric::FrameData frameData =
+        draw::withinBudget(objects_, views.whole, asked, task, statistics);
     const draw::Selection selection =
-        draw::selectPieces(objects_, view, frameData, task, statistics);
+        draw::selectPieces(objects_, views, frameData, task, statistics);
     statistics.milliseconds.cull = millisecondsSince(start);
 
     const auto drawStart = Clock::now();
-    RETURN_IF_ERROR(drawSelection(selection, view, frameData, task, statistics));
+    RETURN_IF_ERROR(drawSelection(selection, views.drawn, frameData, task, statistics));
     statistics.milliseconds.draw = millisecondsSince(drawStart);
 
     const auto readStart = Clock::now();
     result.image = framebuffer_.read(selection.covered, task.wantsDepth);
     statistics.milliseconds.readback = millisecondsSince(readStart);
     const auto errorStart = Clock::now();
-    statistics.tauAchievedPixels = errorPixels(view, frameData, task, selection.covered);
+    statistics.tauAchievedPixels = errorPixels(views, frameData, task, selection.covered);
     statistics.milliseconds.cull += millisecondsSince(errorStart);
     statistics.milliseconds.total = millisecondsSince(start);
     if (task.measuresStages)
-        RETURN_IF_ERROR(measureStages(selection, view, frameData, task, statistics.milliseconds));
+        RETURN_IF_ERROR(
+            measureStages(selection, views.drawn, frameData, task, statistics.milliseconds));
     return result;
 }
 

@@ -7,6 +7,21 @@
 
 namespace eyrie {
 
+namespace {
+
+absl::Status checkPixelViewport(const fabric::ChannelTask& task) {
+    const fabric::PixelViewport part = task.pixelViewport;
+    const fabric::PixelViewport picture = fabric::pictureOf(task);
+    if (!part.isEmpty() && picture.contains(part))
+        return absl::OkStatus();
+    return absl::InvalidArgumentError(fmt::format(
+        "the pixel viewport {}x{}+{}+{} is empty or not inside the {} of {} x {} pixels",
+        part.width, part.height, part.x, part.y, task.raster ? "raster" : "view", picture.width,
+        picture.height));
+}
+
+}  // namespace
+
 absl::Status validateTask(const fabric::FrameData& frameData, const fabric::ChannelTask& task) {
     RETURN_IF_ERROR(fabric::validate(frameData.camera));
     RETURN_IF_ERROR(fabric::validate(frameData.look));
@@ -22,13 +37,11 @@ absl::Status validateTask(const fabric::FrameData& frameData, const fabric::Chan
         return absl::InvalidArgumentError(
             fmt::format("the view is {} x {} pixels; each side must be from 1 to {}",
                         task.viewWidth, task.viewHeight, fabric::kMaxViewPixels));
-    const fabric::PixelViewport view{0, 0, task.viewWidth, task.viewHeight};
-    if (task.pixelViewport.isEmpty() || !view.contains(task.pixelViewport))
-        return absl::InvalidArgumentError(fmt::format(
-            "the pixel viewport {}x{}+{}+{} is empty or not inside the view of {} x {} pixels",
-            task.pixelViewport.width, task.pixelViewport.height, task.pixelViewport.x,
-            task.pixelViewport.y, task.viewWidth, task.viewHeight));
-    return absl::OkStatus();
+    if (task.sight)
+        RETURN_IF_ERROR(fabric::validate(*task.sight));
+    if (task.raster)
+        RETURN_IF_ERROR(fabric::validate(*task.raster, task.viewWidth, task.viewHeight));
+    return checkPixelViewport(task);
 }
 
 }  // namespace eyrie

@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <mutex>
 #include <string_view>
+#include <thread>
 #include <utility>
 
 #include <fmt/format.h>
@@ -15,6 +16,7 @@
 
 #include "eyrie/v1/coordinator_service.grpc.pb.h"
 #include "fabric/version.h"
+#include "wire/protocol.h"
 #include "wire/statistics.h"
 #include "wire/status.h"
 #include "wire/transport.h"
@@ -24,7 +26,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::seconds kCallTimeout{3};
+constexpr std::chrono::milliseconds kCallTimeout{3000};
+constexpr std::chrono::milliseconds kDrainCallTimeout{1000};
+constexpr std::chrono::milliseconds kDrainInterval{20};
 
 /// What waiting does not mend.
 bool isRefusal(const absl::Status& status) {
@@ -75,6 +79,7 @@ public:
             }
             sleepFor(away_ ? options_.retryInterval : heartbeat_, stop);
         }
+        drain();
         return absl::OkStatus();
     }
 
@@ -85,9 +90,10 @@ private:
     absl::Status call(grpc::Status (v1::CoordinatorService::Stub::*method)(grpc::ClientContext*,
                                                                            const Request&,
                                                                            Response*),
-                      const Request& request, Response& response, const std::stop_token& stop) {
+                      const Request& request, Response& response, const std::stop_token& stop,
+                      std::chrono::milliseconds timeout = kCallTimeout) {
         grpc::ClientContext context;
-        context.set_deadline(std::chrono::system_clock::now() + kCallTimeout);
+        context.set_deadline(std::chrono::system_clock::now() + timeout);
         const std::stop_callback cancel(stop, [&context] { context.TryCancel(); });
         return wire::fromGrpc(((*stub_).*method)(&context, request, &response), peer_);
     }
@@ -97,6 +103,7 @@ private:
         request.set_address(options_.address);
         *request.mutable_device() = wire::toMessage(options_.device);
         request.set_software_version(std::string(fabric::kVersion));
+        request.set_protocol_checksum(wire::protocolChecksum());
         v1::RegisterRendererResponse response;
         const absl::Status status =
             call(&v1::CoordinatorService::Stub::RegisterRenderer, request, response, stop);
@@ -114,6 +121,21 @@ private:
         request.set_renderer_id(id_);
         v1::HeartbeatResponse response;
         return call(&v1::CoordinatorService::Stub::Heartbeat, request, response, stop);
+    }
+
+    /// Until the coordinator has forgotten it, which is when nothing is left to do for it.
+    void drain() {
+        const Clock::time_point limit = Clock::now() + options_.drainTime;
+        v1::DrainRequest request;
+        request.set_renderer_id(id_);
+        v1::DrainResponse response;
+        while (isRegistered() && Clock::now() < limit) {
+            if (!call(&v1::CoordinatorService::Stub::Drain, request, response, {},
+                      kDrainCallTimeout)
+                     .ok())
+                return;
+            std::this_thread::sleep_for(kDrainInterval);
+        }
     }
 
     void notePresence() {

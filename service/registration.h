@@ -19,13 +19,16 @@ struct RegistrationOptions {
     std::chrono::milliseconds retryInterval{1000};
     /// How long to live without the coordinator; none: for ever.
     std::optional<std::chrono::milliseconds> giveUpAfter;
+    /// How long to wait, once stopped, for the tasks in hand.
+    std::chrono::milliseconds drainTime{3'500};
 };
 
 /// Offers a renderer to its coordinator and says that it is alive, as often as the coordinator
 /// wants, until `stop`. Registers again where the coordinator has forgotten it, and waits for one
 /// that is away, telling the log when it goes and when it is back.
 ///
-/// Returns OK after `stop`. Errors: Unavailable (away for longer than giveUpAfter), or why the
+/// After `stop` it says that it leaves, so that it gets no new tasks, waits until those in hand are
+/// done, and returns OK. Errors: Unavailable (away for longer than giveUpAfter), or why the
 /// coordinator turned it down, such as FailedPrecondition for another version of Eyrie.
 absl::Status keepRegistered(const RegistrationOptions& options, const std::stop_token& stop);
 

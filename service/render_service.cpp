@@ -7,9 +7,12 @@
 #include <fmt/format.h>
 
 #include "fabric/status.h"
-#include "service/reply_stream.h"
+#include "service/frame_receiver.h"
+#include "service/picture_reply.h"
+#include "wire/channel_program.h"
 #include "wire/frame.h"
 #include "wire/pick.h"
+#include "wire/picture_header.h"
 #include "wire/scene.h"
 #include "wire/scene_info.h"
 #include "wire/status.h"
@@ -26,23 +29,24 @@ absl::Status openScene(ChannelDrawer& drawer, const fabric::Scene& scene, PickTh
 }
 
 void draw(ChannelDrawer& drawer, const fabric::FrameData& frameData,
-          const fabric::ChannelTask& task, ReplyStream& reply) {
+          const fabric::ChannelTask& task, wire::PixelEncoding encoding,
+          ReplyStream<v1::RenderChannelResponse>& reply) {
     if (reply.isCancelled())
         return reply.fail(absl::CancelledError("the coordinator no longer waits for this channel"));
     absl::StatusOr<fabric::ChannelResult> result = drawer.render(frameData, task);
     if (result.ok())
-        reply.send(*std::move(result));
+        reply.send(channelReply(*std::move(result), encoding));
     else
         reply.fail(result.status());
 }
 
 /// A call without a deadline has this one.
-constexpr std::chrono::seconds kPickTime{60};
+constexpr std::chrono::seconds kLongest{60};
 
 std::chrono::steady_clock::time_point deadlineOf(const grpc::CallbackServerContext& context) {
     const auto left = context.deadline() - std::chrono::system_clock::now();
     return std::chrono::steady_clock::now() +
-           std::min<std::chrono::system_clock::duration>(left, kPickTime);
+           std::min<std::chrono::system_clock::duration>(left, kLongest);
 }
 
 }  // namespace
@@ -77,10 +81,25 @@ grpc::ServerUnaryReactor* RenderService::SetFrameData(grpc::CallbackServerContex
 grpc::ServerWriteReactor<v1::RenderChannelResponse>* RenderService::RenderChannel(
     grpc::CallbackServerContext* /*context*/, const v1::RenderChannelRequest* request) {
     ++replies_;
-    auto* reply = new ReplyStream([this] { --replies_; });
+    auto* reply = new ChannelReplyStream([this] { --replies_; });
     if (const absl::Status status = startDrawing(*request, *reply); !status.ok())
         reply->fail(status);
     return reply;
+}
+
+grpc::ServerWriteReactor<v1::RunProgramResponse>* RenderService::RunProgram(
+    grpc::CallbackServerContext* context, const v1::RunProgramRequest* request) {
+    ++replies_;
+    auto* reply = new ProgramReplyStream([this] { --replies_; });
+    if (const absl::Status status = startProgram(*request, deadlineOf(*context), *reply);
+        !status.ok())
+        reply->fail(status);
+    return reply;
+}
+
+grpc::ServerReadReactor<v1::PutFrameRequest>* RenderService::PutFrame(
+    grpc::CallbackServerContext* /*context*/, v1::PutFrameResponse* /*response*/) {
+    return new FrameReceiver(exchange_.mailbox());
 }
 
 grpc::ServerUnaryReactor* RenderService::Pick(grpc::CallbackServerContext* context,
@@ -101,15 +120,37 @@ grpc::ServerUnaryReactor* RenderService::Pick(grpc::CallbackServerContext* conte
     return reactor;
 }
 
-absl::Status RenderService::startDrawing(const v1::RenderChannelRequest& request,
-                                         ReplyStream& reply) {
+absl::Status RenderService::checkReplies() const {
     if (replies_ > kMaxReplies)
         return absl::ResourceExhaustedError(fmt::format(
             "{} channels are being drawn or sent already; read those first", kMaxReplies));
+    return absl::OkStatus();
+}
+
+absl::Status RenderService::startDrawing(const v1::RenderChannelRequest& request,
+                                         ChannelReplyStream& reply) {
+    RETURN_IF_ERROR(checkReplies());
     ASSIGN_OR_RETURN(const fabric::ChannelTask task, wire::fromMessage(request.task()));
     ASSIGN_OR_RETURN(const fabric::FrameData frameData, frameData_.find(task.frameDataVersion));
-    return thread_.post(
-        [frameData, task, &reply](ChannelDrawer& drawer) { draw(drawer, frameData, task, reply); });
+    ASSIGN_OR_RETURN(const wire::PixelEncoding encoding, wire::fromMessage(request.encoding()));
+    return thread_.post([frameData, task, encoding, &reply](ChannelDrawer& drawer) {
+        draw(drawer, frameData, task, encoding, reply);
+    });
+}
+
+absl::Status RenderService::startProgram(const v1::RunProgramRequest& request,
+                                         Exchange::Clock::time_point deadline,
+                                         ProgramReplyStream& reply) {
+    RETURN_IF_ERROR(checkReplies());
+    ASSIGN_OR_RETURN(fabric::ChannelProgram program, wire::fromMessage(request.program()));
+    ASSIGN_OR_RETURN(const wire::PixelEncoding encoding, wire::fromMessage(request.encoding()));
+    return exchange_.start(std::move(program), deadline, reply.cancellation(),
+                           [encoding, &reply](absl::StatusOr<fabric::ProgramResult> result) {
+                               if (result.ok())
+                                   reply.send(programReply(*std::move(result), encoding));
+                               else
+                                   reply.fail(result.status());
+                           });
 }
 
 }  // namespace eyrie::service

@@ -4,14 +4,16 @@
 #include <atomic>
 
 #include "eyrie/v1/render_service.grpc.pb.h"
+#include "service/exchange.h"
 #include "service/frame_data_history.h"
 #include "service/gl_thread.h"
 #include "service/pick_thread.h"
+#include "service/reply_stream.h"
 
 namespace eyrie::service {
 
-/// The RPCs of render_service.proto: each becomes a value and a job for the GL thread, or,
-/// to pick, for a thread of its own.
+/// The RPCs of render_service.proto: each becomes a value and a job for the GL thread, or, to pick
+/// and to run programs, for threads of their own.
 class RenderService final : public v1::RenderService::CallbackService {
 public:
     /// Pictures drawn or being sent at once: bounds the memory that slow readers can hold.
@@ -28,16 +30,27 @@ public:
                                            v1::SetFrameDataResponse* response) override;
     grpc::ServerWriteReactor<v1::RenderChannelResponse>* RenderChannel(
         grpc::CallbackServerContext* context, const v1::RenderChannelRequest* request) override;
+    grpc::ServerWriteReactor<v1::RunProgramResponse>* RunProgram(
+        grpc::CallbackServerContext* context, const v1::RunProgramRequest* request) override;
+    grpc::ServerReadReactor<v1::PutFrameRequest>* PutFrame(grpc::CallbackServerContext* context,
+                                                           v1::PutFrameResponse* response) override;
     grpc::ServerUnaryReactor* Pick(grpc::CallbackServerContext* context,
                                    const v1::PickRequest* request,
                                    v1::PickResponse* response) override;
 
 private:
-    absl::Status startDrawing(const v1::RenderChannelRequest& request, class ReplyStream& reply);
+    using ChannelReplyStream = ReplyStream<v1::RenderChannelResponse>;
+    using ProgramReplyStream = ReplyStream<v1::RunProgramResponse>;
+
+    absl::Status checkReplies() const;
+    absl::Status startDrawing(const v1::RenderChannelRequest& request, ChannelReplyStream& reply);
+    absl::Status startProgram(const v1::RunProgramRequest& request,
+                              Exchange::Clock::time_point deadline, ProgramReplyStream& reply);
 
     GlThread& thread_;
     PickThread picks_;
     FrameDataHistory frameData_;
+    Exchange exchange_{thread_, frameData_};
     std::atomic<int> replies_{0};
 };
 

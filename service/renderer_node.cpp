@@ -12,7 +12,8 @@
 namespace eyrie::service {
 namespace {
 
-constexpr std::chrono::seconds kDrainTime{5};
+/// For what is still under way when the coordinator has nothing more to do.
+constexpr std::chrono::seconds kGrace{1};
 
 }  // namespace
 
@@ -42,7 +43,7 @@ absl::Status RendererNode::run(const std::stop_token& stop) {
     if (options_.exitWithCoordinator)
         registration.giveUpAfter = options_.giveUpAfter;
     const absl::Status status = keepRegistered(registration, stop);
-    server_->stop(kDrainTime);
+    server_->stop(kGrace);
     return status;
 }
 

@@ -43,9 +43,9 @@ public:
     /// Where it serves, with the port that was chosen.
     const std::string& address() const;
 
-    /// Registers with the coordinator and stays registered until `stop`; then finishes the channels
-    /// in progress, for 5 seconds at most. Returns OK after `stop`; otherwise why it cannot go on
-    /// (see keepRegistered).
+    /// Registers with the coordinator and stays registered until `stop`; then takes no new
+    /// channels, finishes those it was given, for 5 seconds at most, and leaves. Returns OK after
+    /// `stop`; otherwise why it cannot go on (see keepRegistered).
     absl::Status run(const std::stop_token& stop);
 
 private:

@@ -1,50 +1,78 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <atomic>
-#include <cstddef>
 #include <functional>
-#include <span>
+#include <memory>
+#include <stop_token>
+#include <utility>
 
 #include <absl/status/status.h>
 #include <grpcpp/support/server_callback.h>
 
-#include "eyrie/v1/render_service.grpc.pb.h"
-#include "fabric/channel_task.h"
+#include "wire/status.h"
 
 namespace eyrie::service {
 
-/// The answer to one RenderChannel call: a header, then the pixels in chunks. One chunk is copied
-/// at a time, so a slow reader costs its picture and one chunk, no more.
+/// The messages of an answer, made one by one when there is room for them.
+template <typename Message>
+class MessageSource {
+public:
+    virtual ~MessageSource() = default;
+
+    /// False for a source that has not been asked yet: an answer has one message at least.
+    virtual bool isDone() const = 0;
+    /// Replaces `message` with the next one.
+    virtual void next(Message& message) = 0;
+};
+
+/// The answer to one call as a stream of messages. One message is made at a time, so a slow reader
+/// costs what the source holds and one message, no more.
 ///
 /// Owns itself, as gRPC's reactors do: exactly one of send and fail must be called, once, from any
 /// thread; the object then goes when gRPC has done with it.
-class ReplyStream final : public grpc::ServerWriteReactor<v1::RenderChannelResponse> {
+template <typename Message>
+class ReplyStream final : public grpc::ServerWriteReactor<Message> {
 public:
     /// Calls `onGone` when the answer has left or was given up.
     explicit ReplyStream(std::function<void()> onGone) : onGone_(std::move(onGone)) {}
 
     /// True once nobody waits for the answer any more.
-    bool isCancelled() const { return cancelled_.load(std::memory_order_relaxed); }
+    bool isCancelled() const { return cancelled_.stop_requested(); }
+    std::stop_token cancellation() const { return cancelled_.get_token(); }
 
-    void send(fabric::ChannelResult result);
-    void fail(const absl::Status& status);
+    void send(std::unique_ptr<MessageSource<Message>> source) {
+        source_ = std::move(source);
+        writeNext();
+    }
+    void fail(const absl::Status& status) { this->Finish(wire::toGrpc(status)); }
 
-    void OnWriteDone(bool ok) override;
-    void OnCancel() override { cancelled_.store(true, std::memory_order_relaxed); }
-    void OnDone() override;
+    void OnWriteDone(bool ok) override {
+        if (source_->isDone())
+            return;  // Finish was called with the last one.
+        if (!ok || isCancelled())
+            this->Finish(grpc::Status::CANCELLED);
+        else
+            writeNext();
+    }
+    void OnCancel() override { cancelled_.request_stop(); }
+    void OnDone() override {
+        onGone_();
+        delete this;
+    }
 
 private:
-    void writeNext();
-    /// The bytes at `sent_` up to the end of colour or depth, whichever comes first.
-    std::span<const char> nextChunk() const;
+    void writeNext() {
+        source_->next(message_);
+        if (source_->isDone())
+            this->StartWriteAndFinish(&message_, {}, grpc::Status::OK);
+        else
+            this->StartWrite(&message_);
+    }
 
     std::function<void()> onGone_;
-    std::atomic<bool> cancelled_{false};
-    fabric::ChannelResult result_;
-    std::size_t total_ = 0;
-    std::size_t sent_ = 0;
-    v1::RenderChannelResponse message_;
+    std::stop_source cancelled_;
+    std::unique_ptr<MessageSource<Message>> source_;
+    Message message_;
 };
 
 }  // namespace eyrie::service

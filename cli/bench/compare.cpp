@@ -64,10 +64,12 @@ Figure exact(const char* name, const char* unit, double a, double b) {
 
 /// Which of what is hidden is left out is decided by times measured on the way, so that triangles
 /// of the same cuts differ by up to some thousandths.
-Figure counted(const char* name, double a, double b) {
-    constexpr double kLeast = 0.005;
+constexpr double kShareByOcclusion = 0.005;
+
+/// What repeats but for `noise`, a share of it.
+Figure counted(const char* name, double noise, double a, double b) {
     Figure figure = exact(name, "", a, b);
-    if (a != b && std::abs(b - a) <= kLeast * a)
+    if (a != b && std::abs(b - a) <= noise * a)
         figure.verdict = Verdict::WithinNoise;
     return figure;
 }
@@ -76,14 +78,14 @@ Figure once(const char* name, const char* unit, double a, double b) {
     return {name, unit, a, b, {}, Verdict::NotRepeated};
 }
 
-std::vector<Figure> figuresOf(const WrittenRun& a, const WrittenRun& b) {
+std::vector<Figure> figuresOf(const WrittenRun& a, const WrittenRun& b, double countNoise) {
     std::vector<Figure> figures = {
         ofPasses("frame, median", &Percentiles::p50, a, b),
         ofPasses("frame, p95", &Percentiles::p95, a, b),
         ofPasses("frame, p99", &Percentiles::p99, a, b),
         exact("error promised", "px", a.tauAchievedMax, b.tauAchievedMax),
         exact("frames over tau", "", a.framesBeyond, b.framesBeyond),
-        counted("triangles, mean", a.trianglesMean, b.trianglesMean)};
+        counted("triangles, mean", countNoise, a.trianglesMean, b.trianglesMean)};
     if (a.errorP99 && b.errorP99)
         figures.push_back(exact("error measured, p99", "px", *a.errorP99, *b.errorP99));
     if (a.errorMax && b.errorMax)
@@ -148,10 +150,12 @@ absl::StatusOr<Comparison> compare(WrittenReport a, WrittenReport b, bool force)
     if (a.processor != b.processor || a.device != b.device)
         comparison.notes.push_back(fmt::format("machines differ: {}, {}; {}, {}", a.processor,
                                                a.device, b.processor, b.device));
+    const bool countsRepeat = a.occlusion == "off" && b.occlusion == "off";
     for (const WrittenRun& run : a.runs)
         for (const WrittenRun& other : b.runs)
             if (isSameKind(run, other))
-                comparison.runs.push_back({run, other, figuresOf(run, other)});
+                comparison.runs.push_back(
+                    {run, other, figuresOf(run, other, countsRepeat ? 0 : kShareByOcclusion)});
     if (comparison.runs.empty())
         return absl::InvalidArgumentError(
             fmt::format("{} and {} have no run in common; measure the same --tau and --renderers",

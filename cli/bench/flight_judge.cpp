@@ -49,7 +49,8 @@ double share(const FrameError& error) { return error.maxPixels / error.promisedP
 }  // namespace
 
 bool keepsPromise(const FrameError& error) {
-    return error.maxPixels <= error.promisedPixels + kRasterPixels;
+    return error.maxPixels <= error.promisedPixels + kRasterPixels && error.holes == 0 &&
+           error.falseHits == 0 && error.misplaced == 0;
 }
 
 FlightJudge::FlightJudge(ReferenceScene reference, const fabric::Flight& flight,

@@ -29,7 +29,7 @@ struct FrameError {
 };
 
 /// Whether a frame's surface is nowhere farther off than it promises, but for the 1/256 pixel that
-/// rasterisation rounds.
+/// rasterisation rounds; and nothing is missing, too much, or shown before what hides it.
 bool keepsPromise(const FrameError& error);
 
 /// A frame that came closest to its promise, or broke it: worth looking at. PNG files' bytes.

@@ -74,6 +74,29 @@ double largestP99(const std::vector<BenchRun>& runs) {
     return largest;
 }
 
+/// Of the frames that do not keep their promise, the one that is farthest off.
+std::optional<FrameError> worstBroken(const std::vector<FrameError>& frames) {
+    std::optional<FrameError> worst;
+    const auto beyond = [](const FrameError& error) {
+        return error.maxPixels - error.promisedPixels;
+    };
+    for (const FrameError& frame : frames)
+        if (!keepsPromise(frame) && (!worst || beyond(frame) > beyond(*worst)))
+            worst = frame;
+    return worst;
+}
+
+std::string whatIsWrong(const FrameError& error) {
+    if (error.holes != 0 || error.falseHits != 0 || error.misplaced != 0)
+        return fmt::format(
+            "away from outlines, {} pixels are empty where the source is, {} are drawn where it is "
+            "not, {} show what is hidden in it",
+            error.holes, error.falseHits, error.misplaced);
+    return fmt::format(
+        "a surface is {:.4f} px from where the source has it, and {:.4f} px were promised",
+        error.maxPixels, error.promisedPixels);
+}
+
 }  // namespace
 
 void addReferenceOptions(CLI::App& command, ReferenceOptions& options) {
@@ -134,18 +157,14 @@ absl::StatusOr<std::vector<UniformLevel>> measureRuns(const ReferencePlan& refer
 }
 
 absl::Status checkPromises(const std::vector<BenchRun>& runs) {
-    const auto beyond = [](const FrameError& error) {
-        return error.maxPixels - error.promisedPixels;
-    };
     for (const BenchRun& run : runs) {
-        if (!run.measured || run.measured->frames.empty())
+        if (!run.measured)
             continue;
-        const FrameError worst = std::ranges::max(run.measured->frames, {}, beyond);
-        if (!keepsPromise(worst))
+        const auto broken = worstBroken(run.measured->frames);
+        if (broken)
             return absl::InternalError(fmt::format(
-                "ERROR: the promise is broken at tau {}, second {:.3f} of the flight: a surface is "
-                "{:.4f} px from where the source has it, and {:.4f} px were promised",
-                run.label, worst.seconds, worst.maxPixels, worst.promisedPixels));
+                "ERROR: the promise is broken at tau {}, second {:.3f} of the flight: {}",
+                run.label, broken->seconds, whatIsWrong(*broken)));
     }
     return absl::OkStatus();
 }

@@ -19,7 +19,8 @@ struct BenchFacts {
     int height = 0;
     int frames = 0;
     int repeats = 0;
-    std::string command;  ///< that does it again
+    std::string command;             ///< that does it again
+    std::string occlusion = "auto";  ///< as it was asked for
 };
 
 struct Report {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/bench/runs.h"
 
+#include <filesystem>
 #include <memory>
 #include <utility>
 
@@ -14,7 +15,7 @@ namespace eyrie::cli::bench {
 namespace {
 
 /// A run that has not been played.
-BenchRun runOf(const Asked& asked, int renderers, coordinator::Decomposition compound) {
+BenchRun runOf(const Asked& asked, int renderers, const ConfigOptions& config) {
     BenchRun run;
     run.label = asked.budgetMilliseconds > 0 ? fmt::format("{} ms", asked.budgetMilliseconds)
                                              : fmt::format("{} px", asked.tauPixels);
@@ -22,7 +23,8 @@ BenchRun runOf(const Asked& asked, int renderers, coordinator::Decomposition com
     run.budgetMilliseconds = asked.budgetMilliseconds;
     run.renderers = renderers;
     if (renderers > 1)
-        run.compound = compound == coordinator::Decomposition::TwoD ? "2D" : "DB";
+        run.compound = config.file.empty() ? config.compound
+                                           : std::filesystem::path(config.file).filename().string();
     return run;
 }
 
@@ -59,7 +61,7 @@ absl::StatusOr<std::vector<BenchRun>> playRuns(const RunPlan& plan, const std::s
     std::vector<BenchRun> runs;
     for (const int renderers : plan.renderers)
         for (const Asked& asked : plan.asked) {
-            BenchRun run = runOf(asked, renderers, plan.pictures.compound);
+            BenchRun run = runOf(asked, renderers, plan.pictures.config);
             const std::string stage =
                 fmt::format("{}, {}", run.label, drawnBy(renderers, run.compound));
             int done = 0;

@@ -19,8 +19,9 @@ namespace eyrie::cli::bench {
 struct BenchRun {
     std::string label;  ///< what was asked for, as a person says it: "1 px"
     double tauPixels = 0;
-    int renderers = 0;     ///< processes that drew; 0: the bench's own
-    std::string compound;  ///< how they cut the frame, "2D" or "DB"; empty in one process
+    int renderers = 0;  ///< processes that drew; 0: the bench's own
+    std::string
+        compound;  ///< how they share the frame: --compound or a configuration; empty for one
     Played played;
     std::optional<MeasuredErrors> measured = {};  ///< where a reference was asked for
     double budgetMilliseconds = 0;                ///< a frame time to hold; 0: tau was kept

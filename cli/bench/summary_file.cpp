@@ -114,6 +114,7 @@ WrittenReport reportOf(const Field& field) {
     report.height = bench.at("height").count();
     report.frames = bench.at("frames").count();
     report.command = bench.at("command").text();
+    report.occlusion = bench.at("occlusion").text();
     report.processor = field.at("machine").at("processor").text();
     report.device = field.at("machine").at("device").text();
     for (const Field& run : field.at("runs").list()) report.runs.push_back(runOf(run));

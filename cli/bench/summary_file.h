@@ -39,6 +39,7 @@ struct WrittenReport {
     std::string processor;
     std::string device;
     std::string command;
+    std::string occlusion;
     std::vector<WrittenRun> runs;
 };
 

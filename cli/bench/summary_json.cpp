@@ -104,7 +104,8 @@ JsonObject toJson(const BenchFacts& facts) {
         .count("height", static_cast<std::uint64_t>(facts.height))
         .count("frames", static_cast<std::uint64_t>(facts.frames))
         .count("repeats", static_cast<std::uint64_t>(facts.repeats))
-        .text("command", facts.command);
+        .text("command", facts.command)
+        .text("occlusion", facts.occlusion);
     return json;
 }
 

@@ -148,18 +148,18 @@ std::vector<JsonObject> frustaJson(const std::vector<config::EyeSight>& sights) 
         if (!sight.sight)
             continue;
         const fabric::Frustum& frustum = sight.sight->frustum;
+        const fabric::Mat4 viewFromCamera = fabric::viewFromCamera(*sight.sight);
         std::array<double, 16> matrix{};
         for (int row = 0; row < 4; ++row)
             for (int column = 0; column < 4; ++column)
-                matrix[static_cast<std::size_t>(4 * row + column)] =
-                    sight.sight->viewFromWorld[column][row];
+                matrix[static_cast<std::size_t>(4 * row + column)] = viewFromCamera[column][row];
         json.push_back(JsonObject()
                            .text("eye", word(sight.eye))
                            .number("left", frustum.left)
                            .number("right", frustum.right)
                            .number("bottom", frustum.bottom)
                            .number("top", frustum.top)
-                           .numbers("viewFromWorld", matrix));
+                           .numbers("viewFromCamera", matrix));
     }
     return json;
 }
@@ -208,6 +208,7 @@ std::vector<JsonObject> findingsJson(const config::Findings& findings) {
                                                                          : "onScreenOnly")
                            .count("line", finding.place.line)
                            .count("column", finding.place.column)
+                           .text("field", finding.place.field)
                            .text("message", finding.message));
     return json;
 }

@@ -14,19 +14,24 @@
 #include "fabric/status.h"
 #include "fabric/version.h"
 #include "wire/listen.h"
+#include "wire/protocol.h"
 #include "wire/statistics.h"
 #include "wire/status.h"
 
 namespace eyrie::coordinator {
 namespace {
 
-absl::Status checkVersion(const std::string& version) {
-    if (version == fabric::kVersion)
-        return absl::OkStatus();
-    return absl::FailedPreconditionError(fmt::format(
-        "software_version is '{}', the coordinator's is '{}'; install the same Eyrie on "
-        "both",
-        version.substr(0, 64), fabric::kVersion));
+absl::Status checkVersion(const v1::RegisterRendererRequest& request) {
+    if (request.software_version() != fabric::kVersion)
+        return absl::FailedPreconditionError(fmt::format(
+            "software_version is '{}', the coordinator's is '{}'; install the same Eyrie on both",
+            request.software_version().substr(0, 64), fabric::kVersion));
+    if (request.protocol_checksum() != wire::protocolChecksum())
+        return absl::FailedPreconditionError(fmt::format(
+            "protocol_checksum is {:016x}, the coordinator's is {:016x}, both in version {}; "
+            "install the same build of Eyrie on both",
+            request.protocol_checksum(), wire::protocolChecksum(), fabric::kVersion));
+    return absl::OkStatus();
 }
 
 class CoordinatorService final : public v1::CoordinatorService::CallbackService {
@@ -50,13 +55,26 @@ public:
         return reactor;
     }
 
+    grpc::ServerUnaryReactor* Drain(grpc::CallbackServerContext* context,
+                                    const v1::DrainRequest* request,
+                                    v1::DrainResponse* /*response*/) override {
+        grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
+        reactor->Finish(wire::toGrpc(
+            registry_.drain(request->renderer_id().substr(0, 64), Registry::Clock::now())));
+        return reactor;
+    }
+
 private:
     absl::Status add(const v1::RegisterRendererRequest& request, const std::string& peer,
                      v1::RegisterRendererResponse& response) {
-        RETURN_IF_ERROR(checkVersion(request.software_version()));
         const std::string address = reachableAddress(request.address(), peer);
         RETURN_IF_ERROR(wire::checkAddress(address));
         ASSIGN_OR_RETURN(const fabric::DeviceInfo device, wire::fromMessage(request.device()));
+        if (absl::Status status = checkVersion(request); !status.ok()) {
+            registry_.refuse(address, device, {status.message().data(), status.message().size()},
+                             Registry::Clock::now());
+            return status;
+        }
         ASSIGN_OR_RETURN(
             const std::string id,
             registry_.add(address, device, connectRenderer(address), Registry::Clock::now()));

@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <charconv>
 #include <span>
 
 #include <fmt/format.h>
+
+#include "coordinator/config/eqc_writer.h"
 
 namespace eyrie::config {
 namespace {
@@ -106,11 +109,13 @@ const Known* knownOf(Scope scope, std::string_view name) {
 bool readSetting(const Statement& statement, ValueReader& reader, Attribute& attribute) {
     const std::vector<Scalar>& values = statement.values;
     const bool isPlain = statement.form == Statement::Form::Plain;
-    if (isPlain && values.size() == 1 && values[0].kind == Scalar::Kind::Integer) {
+    if (isPlain && values.size() == 1 && values[0].kind == Scalar::Kind::Integer &&
+        values[0].isNumber()) {
         attribute.value = static_cast<std::int64_t>(std::clamp(values[0].number, -1e15, 1e15));
         return true;
     }
-    const bool isWord = isPlain && values.size() <= 2 && values[0].kind == Scalar::Kind::Word &&
+    const bool isWord = isPlain && !values.empty() && values.size() <= 2 &&
+                        values[0].kind == Scalar::Kind::Word &&
                         std::ranges::find(kSettings, values[0].text) != kSettings.end();
     if (!isWord || (values.size() == 2 && values[1].kind != Scalar::Kind::Integer)) {
         reader.expected(statement, "a whole number or a word such as ON, OFF, AUTO or FBO");
@@ -144,8 +149,10 @@ bool readText(const Statement& statement, ValueReader& reader, Attribute& attrib
 
 bool readCharacter(const Statement& statement, ValueReader& reader, Attribute& attribute) {
     const Scalar* const value = ValueReader::single(statement);
-    if (value == nullptr || value->kind != Scalar::Kind::Character) {
-        reader.expected(statement, "a character in single quotes");
+    const bool isOne = value != nullptr && value->kind == Scalar::Kind::Character &&
+                       value->text.size() == 1 && value->text[0] >= ' ' && value->text[0] <= '~';
+    if (!isOne) {
+        reader.expected(statement, "one character of ASCII in single quotes");
         return false;
     }
     attribute.value = value->text;
@@ -176,6 +183,25 @@ bool readValue(const Statement& statement, Type type, ValueReader& reader, Attri
     return readMask(statement, reader, attribute);
 }
 
+bool isCharacter(std::string_view name) {
+    return std::ranges::any_of(kKnown, [name = lowered(name)](const Known& known) {
+        return known.type == Type::Character && name.ends_with(known.name);
+    });
+}
+
+/// Masks may be empty, and no setting's words are colours.
+bool isMask(const std::vector<std::string>& words) {
+    return words.empty() || words[0] == "RED" || words[0] == "GREEN" || words[0] == "BLUE";
+}
+
+/// Of CORE 1 the second is a number, as only words after the first are.
+Scalar laterWord(const std::string& text) {
+    double number = 0;
+    const auto end = std::from_chars(text.data(), text.data() + text.size(), number);
+    const bool isNumber = end.ec == std::errc() && end.ptr == text.data() + text.size();
+    return {isNumber ? Scalar::Kind::Integer : Scalar::Kind::Word, text, number};
+}
+
 void read(const Statement& statement, const Known& known, ValueReader& reader,
           Attributes& attributes) {
     Attribute attribute{statement.keyword, {}, statement.place};
@@ -192,6 +218,24 @@ void read(const Statement& statement, const Known& known, ValueReader& reader,
 }
 
 }  // namespace
+
+Statement statementOf(const Attribute& attribute) {
+    if (const auto* number = std::get_if<std::int64_t>(&attribute.value))
+        return plain(attribute.name, numberScalar(static_cast<double>(*number)));
+    if (const auto* number = std::get_if<double>(&attribute.value))
+        return plain(attribute.name, numberScalar(*number));
+    if (const auto* text = std::get_if<std::string>(&attribute.value))
+        return plain(
+            attribute.name,
+            {isCharacter(attribute.name) ? Scalar::Kind::Character : Scalar::Kind::Text, *text});
+    Statement statement{attribute.name};
+    const std::vector<std::string>& words = std::get<Attribute::Words>(attribute.value).words;
+    for (const std::string& word : words)
+        statement.values.push_back(statement.values.empty() ? Scalar{Scalar::Kind::Word, word}
+                                                            : laterWord(word));
+    statement.form = isMask(words) ? Statement::Form::List : Statement::Form::Plain;
+    return statement;
+}
 
 const Attribute* find(const Attributes& attributes, std::string_view name) {
     const auto found = std::ranges::find(attributes, name, &Attribute::name);

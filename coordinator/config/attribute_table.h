@@ -30,7 +30,10 @@ void readAttribute(const Statement& statement, AttributeScope scope, ValueReader
 void readAttributes(const Statement& block, AttributeScope scope, ValueReader& reader,
                     Attributes& attributes);
 
-/// The same for a statement of the global block, kept by its whole name.
+/// The statement that a setting, global or not, is read from.
+Statement statementOf(const Attribute& attribute);
+
+/// As readAttribute() for a statement of the global block, kept by its whole name.
 void readGlobal(const Statement& statement, ValueReader& reader, Attributes& globals);
 
 }  // namespace eyrie::config

@@ -166,14 +166,23 @@ ChannelReference readDestination(const Statement& statement, const Configuration
     }
     if (reader.findings().errors() > errors)
         return {};
-    return index;
+    const bool isThere = index.canvas < before.canvases.size() &&
+                         index.segment < before.canvases[index.canvas].segments.size() &&
+                         index.layout < before.layouts.size() &&
+                         index.view < before.layouts[index.layout].views.size();
+    if (isThere)
+        return index;
+    reader.findings().error(statement.place,
+                            "the channel's reference is to the first segment or view of what has "
+                            "none");
+    return {};
 }
 
 ChannelReference readChannelReference(const Statement& statement, const Configuration& before,
                                       ValueReader& reader) {
-    if (statement.form == Statement::Form::Reference)
+    if (statement.form == Statement::Form::Reference && !isPosition(statement))
         return readDestination(statement, before, reader);
-    if (const auto channel = channelNamed(statement, before, reader))
+    if (const auto channel = readChannel(statement, before, reader))
         return *channel;
     return {};
 }

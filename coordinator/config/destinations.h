@@ -11,8 +11,12 @@ namespace eyrie::config {
 /// Where a channel is in its window, and how large.
 fabric::PixelViewport pixelsOf(const Configuration& configuration, const ChannelIndex& index);
 
+/// Of a whole canvas, by its first segment that has a channel; nothing where none has.
+std::optional<PixelSize> configuredSize(const Configuration& configuration, const Canvas& canvas);
+
 /// One for each view of each layout of a canvas and each segment that it falls on.
-std::vector<Destination> destinationsOf(const Configuration& configuration, Findings& findings);
+std::vector<Destination> destinationsOf(const Configuration& configuration, const Display& display,
+                                        Findings& findings);
 
 /// The eyes' places, metres: left, right, and between them. Those of the view's observer, or the
 /// usual ones.

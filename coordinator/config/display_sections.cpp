@@ -14,6 +14,12 @@ void vector(const Statement& statement, ValueReader& reader, std::optional<fabri
     reader.optional(target, [&](fabric::Vec3& value) { reader.vector(statement, value); });
 }
 
+bool isCamera(const std::string& text) {
+    return text == "ON" || text == "OFF" || text == "AUTO" ||
+           (!text.empty() && text.size() < 10 &&
+            text.find_first_not_of("0123456789") == std::string::npos);
+}
+
 View readView(const Statement& block, const Configuration& before, ValueReader& reader) {
     View view;
     view.place = block.place;
@@ -44,7 +50,7 @@ Segment readSegment(const Statement& block, const Configuration& before, ValueRe
         block, "a segment",
         {{"name", [&](const auto& each) { reader.text(each, segment.name); }},
          {"channel",
-          [&](const auto& each) { segment.channel = channelNamed(each, before, reader); }},
+          [&](const auto& each) { segment.channel = readChannel(each, before, reader); }},
          {"viewport", [&](const auto& each) { reader.fraction(each, segment.viewport); }},
          {"eye",
           [&](const auto& each) {
@@ -152,8 +158,8 @@ Observer readObserver(const Statement& block, ValueReader& reader) {
          {"opencv_camera",
           [&](const auto& each) {
               const Scalar* const value = ValueReader::single(each);
-              if (value == nullptr)
-                  return reader.expected(each, "ON, OFF, AUTO or a number");
+              if (value == nullptr || !isCamera(value->text))
+                  return reader.expected(each, "ON, OFF, AUTO or a whole number");
               observer.openCvCamera = value->text;
               reader.findings().onScreen(each.place,
                                          "cameras that track a head are not read; the "
@@ -194,30 +200,6 @@ Canvas readCanvas(const Statement& block, const Configuration& before, ValueRead
               canvas.segments.push_back(readSegment(each, before, reader));
           }}});
     return canvas;
-}
-
-std::optional<ChannelIndex> channelNamed(const Statement& statement, const Configuration& before,
-                                         ValueReader& reader) {
-    std::string name;
-    const std::size_t errors = reader.findings().errors();
-    reader.text(statement, name);
-    if (reader.findings().errors() > errors)
-        return std::nullopt;
-    for (std::size_t node = 0; node < before.nodes.size(); ++node) {
-        const std::vector<Pipe>& pipes = before.nodes[node].pipes;
-        for (std::size_t pipe = 0; pipe < pipes.size(); ++pipe) {
-            const std::vector<Window>& windows = pipes[pipe].windows;
-            for (std::size_t window = 0; window < windows.size(); ++window) {
-                const std::vector<Channel>& channels = windows[window].channels;
-                for (std::size_t channel = 0; channel < channels.size(); ++channel)
-                    if (channels[channel].name == name)
-                        return ChannelIndex{node, pipe, window, channel};
-            }
-        }
-    }
-    reader.findings().error(statement.place,
-                            fmt::format("no channel named \"{}\" is defined before this", name));
-    return std::nullopt;
 }
 
 }  // namespace eyrie::config

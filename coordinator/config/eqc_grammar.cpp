@@ -72,6 +72,8 @@ public:
                 last->form = Form::Plain;
             last->values.push_back(std::move(scalar));
         } else if (scalar.kind == Scalar::Kind::Word) {
+            if (++count_ > kMostStatements)
+                return tooMany(scalar.place);
             statements().push_back({std::move(scalar.text), scalar.place});
         } else {
             findings_.error(scalar.place, fmt::format("'{}' belongs to no keyword", scalar.text));
@@ -84,7 +86,7 @@ public:
             isInList_ = false;
         }
         if (form == Form::List ? isIgnored() : isIgnored() || open_.size() == kMostNesting) {
-            if (form != Form::List && ignored_++ == 0)
+            if (form != Form::List && ignored_++ == 0 && count_ <= kMostStatements)
                 findings_.error(place,
                                 fmt::format("more than {} blocks within each other", kMostNesting));
             return;
@@ -92,6 +94,8 @@ public:
         Statement* last = lastStatement();
         if (last == nullptr || last->form != Form::Missing) {
             findings_.error(place, fmt::format("'{}' belongs to no keyword", sign));
+            if (++count_ > kMostStatements)
+                return tooMany(place);
             statements().push_back({"", place});
             last = lastStatement();
         }
@@ -152,7 +156,10 @@ private:
         Place place;
     };
 
-    bool isIgnored() const { return ignored_ > 0; }
+    bool isIgnored() const { return ignored_ > 0 || count_ > kMostStatements; }
+    void tooMany(const Place& place) {
+        findings_.error(place, fmt::format("more than {} statements", kMostStatements));
+    }
     std::vector<Statement>& statements() {
         return open_.empty() ? root_ : open_.back().statement.statements;
     }
@@ -167,6 +174,7 @@ private:
     std::vector<Statement> root_;
     std::vector<Open> open_;   ///< blocks, outermost first; their statements still being gathered
     std::size_t ignored_ = 0;  ///< blocks deeper than kMostNesting
+    std::size_t count_ = 0;    ///< statements
     bool isInList_ = false;
 };
 
@@ -220,8 +228,8 @@ EYRIE_ACTION(Stray,
 
 EqcText parseEqc(std::string_view text, Findings& findings) {
     if (text.size() > kLongestText) {
-        findings.error({1, 1}, fmt::format("{} bytes; a configuration has at most {}", text.size(),
-                                           kLongestText));
+        findings.error(
+            {}, fmt::format("{} bytes; a configuration has at most {}", text.size(), kLongestText));
         return {};
     }
     tao::pegtl::memory_input input(text.data(), text.data() + text.size(), "");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,9 +19,12 @@ struct Scalar {
     Kind kind = Kind::Word;
     std::string text;   ///< as written, without quotes
     double number = 0;  ///< of Integer and Real
-    Place place;
+    Place place = {};
 
-    bool isNumber() const { return kind == Kind::Integer || kind == Kind::Real; }
+    /// Finite, as all numbers of a configuration are.
+    bool isNumber() const {
+        return (kind == Kind::Integer || kind == Kind::Real) && std::isfinite(number);
+    }
     bool isWord(std::string_view word) const { return kind == Kind::Word && text == word; }
 };
 
@@ -33,20 +37,21 @@ struct Statement {
         Reference,  ///< ( statements )
     };
     std::string keyword;
-    Place place;
+    Place place = {};
     Form form = Form::Missing;
     std::vector<Scalar> values = {};
     std::vector<Statement> statements = {};
 };
 
 struct EqcText {
-    std::string version;  ///< "1.2" of "#Equalizer 1.2 ascii"; empty without such a line
-    std::vector<Statement> statements;
+    std::string version = {};  ///< "1.2" of "#Equalizer 1.2 ascii"; empty without such a line
+    std::vector<Statement> statements = {};
 };
 
-/// Blocks within blocks, and longest text, bytes, that are read.
-inline constexpr std::size_t kMostNesting = 64;
-inline constexpr std::size_t kLongestText = std::size_t{16} << 20;
+/// Blocks within blocks, statements, and longest text, bytes, that are read, of any form.
+inline constexpr std::size_t kMostNesting = 40;
+inline constexpr std::size_t kMostStatements = 200'000;
+inline constexpr std::size_t kLongestText = std::size_t{4} << 20;
 
 /// All statements that can be told apart; what cannot is among `findings`, with its place. Never
 /// fails otherwise, whatever the bytes.

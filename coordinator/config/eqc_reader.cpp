@@ -8,7 +8,9 @@
 
 #include "coordinator/config/attribute_table.h"
 #include "coordinator/config/eqc_grammar.h"
+#include "coordinator/config/same_names.h"
 #include "coordinator/config/section_readers.h"
+#include "coordinator/config/upgrade.h"
 
 namespace eyrie::config {
 namespace {
@@ -70,7 +72,7 @@ public:
                                                      statement.keyword));
         }
         if (configs_ == 0 && !reader_.findings().hasErrors())
-            reader_.findings().error({1, 1}, "there is no config");
+            reader_.findings().error({}, "there is no config");
     }
 
 private:
@@ -102,16 +104,23 @@ private:
 
 }  // namespace
 
-Configuration readEqc(std::string_view text, Findings& findings) {
+Configuration readStatements(const EqcText& statements, Findings& findings) {
     Configuration configuration;
-    EqcText parsed = parseEqc(text, findings);
-    configuration.version = std::move(parsed.version);
+    configuration.version = statements.version;
     if (!configuration.version.empty() &&
         std::ranges::find(kVersions, configuration.version) == kVersions.end())
-        findings.error({1, 1}, fmt::format("the file is of version {}; 1.0, 1.1 and 1.2 are read",
-                                           configuration.version));
+        findings.error({}, fmt::format("the file is of version {}; 1.0, 1.1 and 1.2 are read",
+                                       configuration.version));
     ValueReader reader(findings);
-    FileReader(reader, configuration).read(parsed.statements);
+    FileReader(reader, configuration).read(statements.statements);
+    warnOfSameNames(configuration, findings);
+    return configuration;
+}
+
+Configuration readEqc(std::string_view text, Findings& findings) {
+    Configuration configuration = readStatements(parseEqc(text, findings), findings);
+    if (!findings.hasErrors())
+        upgrade(configuration);
     return configuration;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include "coordinator/config/equalizer_limits.h"
 #include "coordinator/config/section_readers.h"
 
 namespace eyrie::config {
@@ -21,7 +22,7 @@ void pixelsOrRange(const Statement& statement, ValueReader& reader,
         return;
     if (statement.form == Statement::Form::List)
         pixels = fabric::Vec2(x, y);
-    else if (share >= 0 && share <= 1)
+    else if (isShare(share))
         range = share;
     else
         reader.expected(statement, "a share from 0 to 1, or pixels as [ x y ]");
@@ -30,7 +31,7 @@ void pixelsOrRange(const Statement& statement, ValueReader& reader,
 void damping(const Statement& statement, ValueReader& reader, double& target) {
     double read = target;
     reader.number(statement, read);
-    if (read >= 0 && read <= 1)
+    if (isShare(read))
         target = read;
     else
         reader.expected(statement, "a number from 0 to 1");
@@ -39,7 +40,7 @@ void damping(const Statement& statement, ValueReader& reader, double& target) {
 void positive(const Statement& statement, ValueReader& reader, double& target) {
     double read = target;
     reader.number(statement, read);
-    if (read > 0)
+    if (isAboveZero(read))
         target = read;
     else
         reader.expected(statement, "a number above 0");
@@ -49,9 +50,12 @@ void tileSize(const Statement& statement, ValueReader& reader, Equalizer& equali
     const std::size_t errors = reader.findings().errors();
     if (statement.form != Statement::Form::List) {
         double chunk = 0;
-        positive(statement, reader, chunk);
-        if (reader.findings().errors() == errors)
-            equalizer.tileChunk = chunk;
+        reader.number(statement, chunk);
+        if (reader.findings().errors() > errors)
+            return;
+        if (!isChunk(chunk))
+            return reader.expected(statement, "a share above 0, 1 at most, or [ width height ]");
+        equalizer.tileChunk = chunk;
         return;
     }
     std::int64_t width = 0;
@@ -59,7 +63,7 @@ void tileSize(const Statement& statement, ValueReader& reader, Equalizer& equali
     reader.wholeNumbers(statement, {&width, &height});
     if (reader.findings().errors() > errors)
         return;
-    if (width < 1 || height < 1)
+    if (!isTileSize(fabric::Vec2(width, height)))
         return reader.expected(statement, "a width and a height of a pixel or more");
     equalizer.tileSize = fabric::Vec2(width, height);
 }
@@ -100,6 +104,21 @@ Entry limitEntry(ValueReader& reader, Equalizer& equalizer) {
 Entry framerateEntry(ValueReader& reader, Equalizer& equalizer) {
     return {"framerate",
             [&](const Statement& each) { positive(each, reader, equalizer.framerate); }};
+}
+
+/// Without what its kind has not.
+Equalizer ofItsKind(const Equalizer& read) {
+    Equalizer own;
+    own.kind = read.kind;
+    own.place = read.place;
+    if (read.kind == EqualizerKind::Load) {
+        own = read;
+        own.framerate = Equalizer{}.framerate;
+    } else if (read.kind == EqualizerKind::Dfr) {
+        own.damping = read.damping;
+        own.framerate = read.framerate;
+    }
+    return own;
 }
 
 }  // namespace
@@ -162,7 +181,7 @@ std::optional<Equalizer> readLoadBalancer(const Statement& block, ValueReader& r
                   framerateEntry(reader, equalizer)});
     if (reader.findings().errors() > errors)
         return std::nullopt;
-    return equalizer;
+    return ofItsKind(equalizer);
 }
 
 }  // namespace eyrie::config

@@ -26,11 +26,19 @@ void Findings::add(Finding::Kind kind, const Place& place, std::string message) 
         all_.push_back({kind, place, std::move(message)});
 }
 
+std::string describe(const Place& place) {
+    if (!place.field.empty() || place.line == 0)
+        return place.field;
+    return fmt::format("{}:{}", place.line, place.column);
+}
+
 std::string describe(const Findings& findings, const std::string& name) {
     std::string text;
-    for (const Finding& finding : findings.all())
-        text += fmt::format("{}:{}:{}: {}: {}\n", name, finding.place.line, finding.place.column,
+    for (const Finding& finding : findings.all()) {
+        const std::string place = describe(finding.place);
+        text += fmt::format("{}:{}{} {}: {}\n", name, place, place.empty() ? "" : ":",
                             nameOf(finding.kind), finding.message);
+    }
     if (findings.errors() > Findings::kMost)
         text += fmt::format("{}: and {} errors more\n", name, findings.errors() - Findings::kMost);
     return text;

@@ -8,11 +8,13 @@
 
 namespace eyrie::config {
 
-/// Where something stands in a configuration file, both from 1 on; 0 where there is no file. It is
-/// no part of what a configuration means: all places are equal.
+/// Where something stands in a configuration file: a line and a column, both from 1 on, of a text,
+/// a field such as nodes[0].pipes[1].device of a message; neither where there is no file. It is no
+/// part of what a configuration means: all places are equal.
 struct Place {
     std::size_t line = 0;
     std::size_t column = 0;
+    std::string field = {};
 
     bool operator==(const Place&) const { return true; }
 };
@@ -56,6 +58,9 @@ private:
     std::size_t errors_ = 0;
     std::size_t others_ = 0;
 };
+
+/// "12:5", or the field; empty where neither is known.
+std::string describe(const Place& place);
 
 /// "12:5: error: …", a line each, after `name` and a colon.
 std::string describe(const Findings& findings, const std::string& name);

@@ -9,10 +9,12 @@
 /// Whole pixels and parts of them.
 namespace eyrie::config {
 
-/// The pixels of a fraction; parts that meet share their edge, wherever it is rounded to.
+/// The pixels of a fraction; parts that meet share their edge, wherever it is rounded to, and
+/// however the sum of x and width is.
 inline fabric::PixelViewport part(const fabric::PixelViewport& whole, const Viewport& fraction) {
     const auto at = [](double share, std::int32_t pixels) {
-        return static_cast<std::int32_t>(std::floor(share * pixels + .5));
+        constexpr double kRounding = 1e-9;
+        return static_cast<std::int32_t>(std::floor(share * pixels + .5 + kRounding));
     };
     const std::int32_t x = at(fraction.x, whole.width);
     const std::int32_t y = at(fraction.y, whole.height);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numeric>
 #include <span>
+#include <unordered_map>
 
 #include <fmt/format.h>
 
@@ -29,7 +30,9 @@ Eyes both(const Eyes& a, const Eyes& b) {
 
 fabric::Range part(const fabric::Range& whole, const fabric::Range& share) {
     const double size = whole.end - whole.begin;
-    return {whole.begin + size * share.begin, whole.begin + size * share.end};
+    // The whole's own ends, however the sum is rounded: no data falls between two of its parts.
+    return {share.begin <= 0 ? whole.begin : whole.begin + size * share.begin,
+            share.end >= 1 ? whole.end : whole.begin + size * share.end};
 }
 
 /// The columns and rows of a share, side by side.
@@ -42,6 +45,11 @@ fabric::PixelViewport part(const fabric::PixelViewport& whole, const PixelShare&
             count(whole.height, share.y, share.height)};
 }
 
+/// Fractions are written with few digits: parts may add up to a little more than the whole.
+fabric::PixelViewport partWithin(const fabric::PixelViewport& whole, const Viewport& fraction) {
+    return fabric::intersection(whole, config::part(whole, fraction));
+}
+
 fabric::PixelViewport zoomed(const fabric::PixelViewport& whole, const fabric::Vec2& zoom) {
     const auto scaled = [](std::int32_t pixels, double by) {
         return static_cast<std::int32_t>(std::clamp(pixels * by + .5, 0.0, 65536.0));
@@ -51,9 +59,9 @@ fabric::PixelViewport zoomed(const fabric::PixelViewport& whole, const fabric::V
 
 class Resolver {
 public:
-    Resolver(const Configuration& configuration, Findings& findings)
+    Resolver(const Configuration& configuration, const Display& display, Findings& findings)
         : configuration_(configuration), findings_(findings) {
-        resolved_.destinations = destinationsOf(configuration, findings);
+        resolved_.destinations = destinationsOf(configuration, display, findings);
         served_.resize(resolved_.destinations.size(), false);
     }
 
@@ -119,6 +127,7 @@ private:
         own.destination = static_cast<std::size_t>(found - resolved_.destinations.begin());
         served_[*own.destination] = true;
         own.pixelViewport = found->pixelViewport;
+        own.area = {0, 0, found->pixelViewport.width, found->pixelViewport.height};
         own.eyes = both(own.eyes, found->eyes);
     }
 
@@ -127,15 +136,14 @@ private:
             own.viewport = config::part(own.viewport, compound.viewport);
         } else {
             const fabric::PixelViewport whole = own.pixelViewport;
-            own.pixelViewport = config::part(whole, compound.viewport);
+            own.pixelViewport = partWithin(whole, compound.viewport);
+            own.area = partWithin(own.area, compound.viewport);
             own.viewport =
                 config::part(own.viewport, whole.isEmpty() ? compound.viewport
                                                            : fractionOf(own.pixelViewport, whole));
         }
         own.range = part(own.range, compound.range);
-        own.pixelViewport = part(own.pixelViewport, compound.pixel);
-        own.pixel = part(own.pixel, compound.pixel);
-        own.subpixel = part(own.subpixel, compound.subpixel);
+        takeShares(compound, own);
         if (compound.zoom != fabric::Vec2(1, 1))
             zoom(compound.zoom, own);
         own.period = compound.period.value_or(own.period);
@@ -149,10 +157,39 @@ private:
                                                         own.phase, own.period));
     }
 
+    void takeShares(const Compound& compound, ResolvedCompound& own) {
+        constexpr std::int64_t kMost = 16384;  // columns, rows and samples; pictures have no more
+        const PixelShare pixel = part(own.pixel, compound.pixel);
+        const SubPixelShare subpixel = part(own.subpixel, compound.subpixel);
+        if (pixel.width > kMost || pixel.height > kMost || subpixel.count > kMost)
+            return findings_.error(
+                compound.place,
+                fmt::format("more than {} shares of pixels within each other", kMost));
+        if (compound.pixel != PixelShare{}) {
+            own.regriddings.push_back(fabric::everyNth(own.area, static_cast<int>(compound.pixel.x),
+                                                       static_cast<int>(compound.pixel.width),
+                                                       static_cast<int>(compound.pixel.y),
+                                                       static_cast<int>(compound.pixel.height)));
+            own.area = madeBy(own.regriddings.back());
+        }
+        own.pixelViewport = part(own.pixelViewport, compound.pixel);
+        own.pixel = pixel;
+        own.subpixel = subpixel;
+    }
+
+    static fabric::PixelViewport madeBy(const fabric::Regridding& regridding) {
+        return {0, 0, regridding.width, regridding.height};
+    }
+
     /// As exactly as whole pixels allow.
     static void zoom(const fabric::Vec2& by, ResolvedCompound& own) {
         const fabric::PixelViewport before = own.pixelViewport;
         own.pixelViewport = zoomed(before, by);
+        if (!own.area.isEmpty() && !own.pixelViewport.isEmpty()) {
+            own.regriddings.push_back({fabric::Regridding::Kind::Zoom, own.area,
+                                       own.pixelViewport.width, own.pixelViewport.height});
+            own.area = madeBy(own.regriddings.back());
+        }
         if (before.isEmpty())
             own.zoom *= by;
         else
@@ -262,34 +299,34 @@ private:
             for (ResolvedFrame& frame : compound.outputFrames) addOutput(compound, frame);
         for (ResolvedCompound& compound : tree)
             for (ResolvedFrame& frame : compound.inputFrames) {
-                for (const Output& output : outputs_)
-                    if (output.frame->name == frame.name)
-                        frame.isMatched = output.frame->isMatched = true;
+                for (const Output& output : outputs_[frame.name])
+                    frame.isMatched = output.frame->isMatched = true;
                 if (!frame.isMatched)
                     findings_.warning(frame.frame->place,
                                       fmt::format("no outputframe of this compound tree is named "
                                                   "\"{}\"",
                                                   frame.name));
             }
-        for (const Output& output : outputs_)
+        for (const Output& output : inOrder_)
             if (!output.frame->isMatched)
                 findings_.warning(
                     output.frame->frame->place,
                     fmt::format("nobody takes the outputframe \"{}\"", output.frame->name));
         outputs_.clear();
+        inOrder_.clear();
     }
 
     void addOutput(const ResolvedCompound& compound, ResolvedFrame& frame) {
-        const bool isTaken = std::ranges::any_of(outputs_, [&](const Output& other) {
-            return other.frame->name == frame.name && meet(*other.compound, compound);
-        });
+        std::vector<Output>& others = outputs_[frame.name];
+        const bool isTaken = std::ranges::any_of(
+            others, [&](const Output& other) { return meet(*other.compound, compound); });
         if (isTaken)
             findings_.warning(frame.frame->place,
                               fmt::format("another outputframe is named \"{}\" already; this one "
                                           "has no effect",
                                           frame.name));
         else
-            outputs_.push_back({&compound, &frame});
+            others.push_back(inOrder_.emplace_back(Output{&compound, &frame}));
     }
 
     /// Whether two are drawn for one eye in one frame.
@@ -305,6 +342,7 @@ private:
         plain.destination = destination;
         plain.channel = shown.channel;
         plain.pixelViewport = shown.pixelViewport;
+        plain.area = {0, 0, shown.pixelViewport.width, shown.pixelViewport.height};
         plain.eyes = shown.eyes;
         if (!plain.eyes.isEmpty() && !plain.pixelViewport.isEmpty())
             plain.tasks = {true, true, false, false};
@@ -321,15 +359,21 @@ private:
         ResolvedFrame* frame;
     };
 
-    std::vector<bool> served_;     ///< destinations that a compound makes
-    std::vector<Output> outputs_;  ///< of the tree being matched
+    std::vector<bool> served_;  ///< destinations that a compound makes
+    std::unordered_map<std::string, std::vector<Output>> outputs_;  ///< of the tree, by name
+    std::vector<Output> inOrder_;                                   ///< the same
     Path path_;
 };
 
 }  // namespace
 
 ResolvedConfiguration resolve(const Configuration& configuration, Findings& findings) {
-    return Resolver(configuration, findings).run();
+    return resolve(configuration, Display{}, findings);
+}
+
+ResolvedConfiguration resolve(const Configuration& configuration, const Display& display,
+                              Findings& findings) {
+    return Resolver(configuration, display, findings).run();
 }
 
 }  // namespace eyrie::config

@@ -6,13 +6,27 @@
 #include <vector>
 
 #include "coordinator/config/configuration.h"
+#include "coordinator/config/display.h"
 #include "coordinator/config/findings.h"
 #include "coordinator/config/screen.h"
+#include "fabric/regridding.h"
 #include "fabric/viewport.h"
 
 /// What follows from a configuration: where views are shown, and what every compound does with all
 /// that it inherits.
 namespace eyrie::config {
+
+/// The picture that destinations are parts of: of the whole canvas, of a segment or of a view,
+/// whichever has the wall, so that neighbours show one picture without a seam. The whole view
+/// where there is no wall.
+struct Panorama {
+    std::int32_t width = 0;
+    std::int32_t height = 0;
+    std::optional<Wall> wall;    ///< nothing: the camera's own picture
+    fabric::PixelViewport view;  ///< where the layout's view is; may reach beyond it
+
+    bool operator==(const Panorama&) const = default;
+};
 
 /// A view where it falls on a segment.
 struct Destination {
@@ -25,13 +39,20 @@ struct Destination {
     /// The wall that is seen through it; nothing where neither view, segment nor canvas has one:
     /// the picture is the camera's own.
     std::optional<Wall> wall;
+    bool isShown = true;                    ///< the canvas shows this layout
+    PixelSize canvas;                       ///< nearest whole pixels where segments differ
+    fabric::PixelViewport segmentOnCanvas;  ///< in those
+    fabric::PixelViewport onSegment;        ///< from the segment's lower left corner
+    Panorama panorama;
+    fabric::PixelViewport partOfPanorama;
+    double widening = 1;  ///< of walls, from the configured shape of the canvas to that shown
 };
 
 /// What one eye sees of a compound's part.
 struct EyeSight {
     enum class Eye { Cyclop, Left, Right };
     Eye eye = Eye::Cyclop;
-    std::optional<Sight> sight;  ///< nothing: the eye is not before the wall
+    std::optional<fabric::Sight> sight;  ///< nothing: the eye is not before the wall
 };
 
 struct ResolvedFrame {
@@ -46,7 +67,12 @@ struct ResolvedCompound {
     std::optional<std::size_t> destination;  ///< in ResolvedConfiguration::destinations
     std::optional<ChannelIndex> channel;     ///< that does the tasks
     fabric::PixelViewport pixelViewport;     ///< that is drawn, after pixel and zoom
-    Viewport viewport;                       ///< of the destination; exact for pixelViewport
+    /// From the destination's pixels to those that are drawn; none: they are the same.
+    std::vector<fabric::Regridding> regriddings;
+    /// What is drawn in those: of the destination, from its lower left corner, or of what the last
+    /// regridding makes.
+    fabric::PixelViewport area;
+    Viewport viewport;  ///< of the destination; exact for pixelViewport
     fabric::Range range;
     PixelShare pixel;
     SubPixelShare subpixel;
@@ -73,6 +99,9 @@ inline constexpr fabric::PixelViewport kPipePixels{0, 0, 1920, 1080};
 
 /// `configuration` outlives what is returned, which is to be used only where `findings` has no
 /// errors. Warnings say what has no effect, such as frames that nobody makes.
+/// Destinations and compounds are the same, in the same order, whatever is on display.
 ResolvedConfiguration resolve(const Configuration& configuration, Findings& findings);
+ResolvedConfiguration resolve(const Configuration& configuration, const Display& display,
+                              Findings& findings);
 
 }  // namespace eyrie::config

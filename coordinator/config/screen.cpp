@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/config/screen.h"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -14,6 +15,15 @@ using fabric::Mat4;
 using fabric::Vec3;
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
+
+/// Along its lower side, up, and towards the viewer; at right angles however its corners are
+/// rounded.
+std::array<Vec3, 3> axesOf(const Wall& wall) {
+    const Vec3 across = glm::normalize(wall.bottomRight - wall.bottomLeft);
+    const Vec3 side = wall.topLeft - wall.bottomLeft;
+    const Vec3 upward = glm::normalize(side - glm::dot(side, across) * across);
+    return {across, upward, glm::cross(across, upward)};
+}
 
 }  // namespace
 
@@ -52,22 +62,41 @@ Wall part(const Wall& wall, const Viewport& fraction) {
             wall.movesWithHead};
 }
 
-std::optional<Sight> sightThrough(const Wall& wall, const Vec3& eye) {
-    const Vec3 across = glm::normalize(wall.bottomRight - wall.bottomLeft);
-    const Vec3 upward = glm::normalize(wall.topLeft - wall.bottomLeft);
-    const Vec3 towardsViewer = glm::cross(across, upward);
+Wall widened(const Wall& wall, double by) { return part(wall, Viewport{(1 - by) / 2, 0, by, 1}); }
+
+Wall scaled(const Wall& wall, const Vec3& from, double by) {
+    const auto corner = [&](const Vec3& each) { return from + by * (each - from); };
+    return {corner(wall.bottomLeft), corner(wall.bottomRight), corner(wall.topLeft),
+            wall.movesWithHead};
+}
+
+Wall moved(const Wall& wall, const Mat4& roomFromHead) {
+    const auto corner = [&](const Vec3& each) {
+        return Vec3(roomFromHead * fabric::Vec4(each, 1));
+    };
+    return {corner(wall.bottomLeft), corner(wall.bottomRight), corner(wall.topLeft),
+            wall.movesWithHead};
+}
+
+double distanceAlong(const Wall& wall, const Vec3& from, const Vec3& direction) {
+    const Vec3 normal = axesOf(wall)[2];
+    const double towards = -glm::dot(direction, normal);
+    return towards > 0 ? glm::dot(from - wall.bottomLeft, normal) / towards : 0;
+}
+
+std::optional<fabric::Sight> sightThrough(const Wall& wall, const Vec3& eye) {
+    const auto [across, upward, towardsViewer] = axesOf(wall);
     const Vec3 corner = wall.bottomLeft - eye;
     const double distance = -glm::dot(corner, towardsViewer);
     if (!(distance > 0))
         return std::nullopt;
     const double left = glm::dot(corner, across) / distance;
     const double bottom = glm::dot(corner, upward) / distance;
-    Sight sight;
+    fabric::Sight sight;
+    sight.eye = eye;
+    sight.viewFromCamera = glm::transpose(fabric::Mat3(across, upward, towardsViewer));
     sight.frustum = {left, left + glm::length(wall.bottomRight - wall.bottomLeft) / distance,
                      bottom, bottom + glm::length(wall.topLeft - wall.bottomLeft) / distance};
-    const Mat4 turned(fabric::Vec4(across, 0), fabric::Vec4(upward, 0),
-                      fabric::Vec4(towardsViewer, 0), fabric::Vec4(0, 0, 0, 1));
-    sight.viewFromWorld = glm::translate(glm::transpose(turned), -eye);
     return sight;
 }
 

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "coordinator/config/configuration.h"
-#include "fabric/frustum.h"
+#include "fabric/sight.h"
 
 /// Walls and what is seen of them. Metres, right-handed, y up, -z ahead. After Cruz-Neira, Sandin,
 /// DeFanti: "Surround-Screen Projection-Based Virtual Reality" (1993), off-axis projection.
@@ -23,13 +23,21 @@ std::optional<Wall> wallOf(const Surface& surface);
 /// A part of a wall, in fractions from its lower left corner.
 Wall part(const Wall& wall, const Viewport& fraction);
 
-/// What an eye sees through a wall as through a window.
-struct Sight {
-    fabric::Frustum frustum;          ///< at unit distance, in the wall's axes
-    fabric::Mat4 viewFromWorld{1.0};  ///< x along the wall's lower side, y along its left one
-};
+/// `by` times as wide, about its centre.
+Wall widened(const Wall& wall, double by);
 
+/// Each corner `by` times as far from `from`.
+Wall scaled(const Wall& wall, const fabric::Vec3& from, double by);
+
+/// Where a head that is at `roomFromHead` takes it.
+Wall moved(const Wall& wall, const fabric::Mat4& roomFromHead);
+
+/// How far `from` is before the wall along `direction`, of length 1; not above 0 where it does not
+/// look at it.
+double distanceAlong(const Wall& wall, const fabric::Vec3& from, const fabric::Vec3& direction);
+
+/// What an eye sees through a wall as through a window. Both in the camera's axes.
 /// Nothing where the eye is not before the wall.
-std::optional<Sight> sightThrough(const Wall& wall, const fabric::Vec3& eye);
+std::optional<fabric::Sight> sightThrough(const Wall& wall, const fabric::Vec3& eye);
 
 }  // namespace eyrie::config

@@ -25,8 +25,11 @@ Equalizer readEqualizer(const Statement& block, EqualizerKind kind, ValueReader&
 /// Of the form before 1.0's equalizers: what it balances is its mode. Nothing where that is wrong.
 std::optional<Equalizer> readLoadBalancer(const Statement& block, ValueReader& reader);
 
-/// The channel of that name, which must be on a node; nothing where there is none, an error.
-std::optional<ChannelIndex> channelNamed(const Statement& statement, const Configuration& before,
-                                         ValueReader& reader);
+/// The channel of that name, or at ( node N pipe P window W channel C ), each by name or position;
+/// nothing where there is none, an error.
+std::optional<ChannelIndex> readChannel(const Statement& statement, const Configuration& before,
+                                        ValueReader& reader);
+/// Whether it is of the second form, and not of a view's segment.
+bool isPosition(const Statement& reference);
 
 }  // namespace eyrie::config

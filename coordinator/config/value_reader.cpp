@@ -20,6 +20,37 @@ std::string written(const Scalar& value) {
     }
 }
 
+/// Bytes of the UTF-8 character that `text` begins with; 0 where it begins with none.
+std::size_t characterLength(std::string_view text) {
+    const auto byte = [&text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+    const unsigned char lead = byte(0);
+    if (lead < 0x80)
+        return 1;
+    const std::size_t length = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
+    if (lead < 0xc2 || lead > 0xf4 || text.size() < length)
+        return 0;
+    for (std::size_t i = 1; i < length; ++i)
+        if ((byte(i) & 0xc0) != 0x80)
+            return 0;
+    const bool isOverlong = (lead == 0xe0 && byte(1) < 0xa0) || (lead == 0xf0 && byte(1) < 0x90);
+    const bool isSurrogate = lead == 0xed && byte(1) >= 0xa0;
+    const bool isBeyond = lead == 0xf4 && byte(1) >= 0x90;
+    return isOverlong || isSurrogate || isBeyond ? 0 : length;
+}
+
+/// In each form of a configuration: .eqc has no way to write quotes, JSON none for other bytes.
+bool isWritable(std::string_view text) {
+    if (text.find_first_of(std::string_view("\"\n\r\0", 4)) != std::string_view::npos)
+        return false;
+    while (!text.empty()) {
+        const std::size_t length = characterLength(text);
+        if (length == 0)
+            return false;
+        text.remove_prefix(length);
+    }
+    return true;
+}
+
 /// What stands after the keyword, shortened.
 std::string written(const Statement& statement) {
     if (statement.form == Statement::Form::Missing)
@@ -71,6 +102,8 @@ void ValueReader::text(const Statement& statement, std::string& target) {
     const Scalar* const value = single(statement);
     if (value == nullptr || value->kind != Scalar::Kind::Text)
         return expected(statement, "a text in quotes");
+    if (!isWritable(value->text))
+        return expected(statement, "UTF-8 without quotes or ends of lines");
     target = value->text;
 }
 
@@ -78,7 +111,8 @@ void ValueReader::wholeNumber(const Statement& statement, std::int64_t low, std:
                               std::int64_t& target) {
     const Scalar* const value = single(statement);
     if (value == nullptr || value->kind != Scalar::Kind::Integer ||
-        value->number < static_cast<double>(low) || value->number > static_cast<double>(high))
+        !(value->number >= static_cast<double>(low)) ||
+        !(value->number <= static_cast<double>(high)))
         return expected(statement, fmt::format("a whole number from {} to {}", low, high));
     target = static_cast<std::int64_t>(value->number);
 }

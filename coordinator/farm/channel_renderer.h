@@ -2,9 +2,11 @@
 #pragma once
 
 #include <chrono>
+#include <stop_token>
 
 #include <absl/status/statusor.h>
 
+#include "fabric/channel_program.h"
 #include "fabric/channel_task.h"
 #include "fabric/frame_data.h"
 #include "fabric/pick.h"
@@ -14,9 +16,9 @@ namespace eyrie::coordinator {
 
 /// A renderer as the coordinator sees it: one behind gRPC, or one in this process.
 ///
-/// openScene, setFrameData and render are called by one thread at a time and block; pick blocks,
-/// too, but may be called beside them from any thread, as may cancel. Of errors, Unavailable and
-/// DeadlineExceeded say that the renderer is gone.
+/// openScene, setFrameData and render are called by one thread at a time and block; runProgram and
+/// pick block, too, but may be called beside them from any thread, as may cancel. Of errors,
+/// Unavailable and DeadlineExceeded say that the renderer is gone.
 class ChannelRenderer {
 public:
     using Clock = std::chrono::steady_clock;
@@ -32,9 +34,28 @@ public:
     virtual absl::StatusOr<fabric::ChannelResult> render(const fabric::ChannelTask& task,
                                                          Clock::time_point deadline) = 0;
 
+    /// Carries out a channel program: draws and exchanges pictures with the renderers that it
+    /// names, which run the programs on the other side. Pictures as the program's outputs say. The
+    /// frame data of its draws have been sent before. Unlike render it may be called beside itself
+    /// and the others, since programs wait for each other; `stop` ends this call alone, with
+    /// Cancelled. Whatever it fails with, the frame can be drawn without it. Unimplemented where
+    /// pictures cannot be exchanged.
+    virtual absl::StatusOr<fabric::ProgramResult> runProgram(const fabric::ChannelProgram& program,
+                                                             Clock::time_point deadline,
+                                                             const std::stop_token& stop = {}) {
+        static_cast<void>(program);
+        static_cast<void>(deadline);
+        static_cast<void>(stop);
+        return absl::UnimplementedError("this renderer exchanges no pictures with others");
+    }
+
     /// What a place of a picture of the open scene shows.
     virtual absl::StatusOr<fabric::Picked> pick(const fabric::PickRequest& request,
                                                 Clock::time_point deadline) = 0;
+
+    /// Whether a connection to it that there was has ended, as it does at once when the process
+    /// dies. From any thread; does not wait.
+    virtual bool hasLostConnection() { return false; }
 
     /// Ends the calls in progress, and every later one, soon, with Cancelled.
     virtual void cancel() = 0;

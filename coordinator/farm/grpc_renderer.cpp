@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/farm/grpc_renderer.h"
 
+#include <atomic>
 #include <mutex>
 #include <utility>
 #include <vector>
@@ -11,10 +12,13 @@
 #include <grpcpp/security/credentials.h>
 
 #include "coordinator/farm/picture_assembly.h"
+#include "coordinator/farm/program_assembly.h"
 #include "eyrie/v1/render_service.grpc.pb.h"
 #include "fabric/status.h"
+#include "wire/channel_program.h"
 #include "wire/frame.h"
 #include "wire/pick.h"
+#include "wire/picture_header.h"
 #include "wire/scene.h"
 #include "wire/scene_info.h"
 #include "wire/status.h"
@@ -63,12 +67,22 @@ private:
     bool cancelled_ = false;
 };
 
+bool answersWithDepth(const fabric::ChannelProgram& program) {
+    for (const fabric::ProgramStage& stage : program.stages)
+        for (const fabric::ProgramOutput& output : stage.outputs)
+            if (output.to.empty() && output.withDepth)
+                return true;
+    return false;
+}
+
 class GrpcRenderer final : public ChannelRenderer {
 public:
     explicit GrpcRenderer(const std::string& address)
         : peer_(fmt::format("renderer at {}", address)),
-          stub_(v1::RenderService::NewStub(grpc::CreateCustomChannel(
-              address, grpc::InsecureChannelCredentials(), wire::clientArguments()))) {}
+          address_(address),
+          channel_(grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(),
+                                             wire::clientArguments())),
+          stub_(v1::RenderService::NewStub(channel_)) {}
 
     absl::StatusOr<fabric::SceneInfo> openScene(const fabric::Scene& scene,
                                                 Clock::time_point deadline) override {
@@ -98,20 +112,35 @@ public:
                                                  Clock::time_point deadline) override {
         v1::RenderChannelRequest request;
         *request.mutable_task() = wire::toMessage(task);
+        request.set_encoding(wire::toMessage(wire::encodingFor(address_, task.wantsDepth)));
         Calls::Call call(calls_, deadline);
         const auto reader = stub_->RenderChannel(call.context(), request);
         PictureAssembly assembly(task);
-        const absl::Status received = receive(*reader, assembly);
-        if (!received.ok())
-            call.context()->TryCancel();  // or Finish would wait for the rest
-        const absl::Status finished = wire::fromGrpc(reader->Finish(), peer_);
-        if (!received.ok())
-            return fabric::withContext(received, peer_);
-        RETURN_IF_ERROR(finished);
-        absl::StatusOr<fabric::ChannelResult> result = assembly.finish();
-        if (!result.ok())
-            return fabric::withContext(result.status(), peer_);
-        return result;
+        return receive(call, *reader, assembly,
+                       [&](const v1::RenderChannelResponse& part) -> absl::Status {
+                           return part.has_header() ? assembly.takeHeader(part.header())
+                                                    : assembly.takeChunk(part.chunk());
+                       });
+    }
+
+    absl::StatusOr<fabric::ProgramResult> runProgram(const fabric::ChannelProgram& program,
+                                                     Clock::time_point deadline,
+                                                     const std::stop_token& stop) override {
+        v1::RunProgramRequest request;
+        *request.mutable_program() = wire::toMessage(program);
+        request.set_encoding(
+            wire::toMessage(wire::encodingFor(address_, answersWithDepth(program))));
+        Calls::Call call(calls_, deadline);
+        const std::stop_callback cancel(stop, [&] { call.context()->TryCancel(); });
+        const auto reader = stub_->RunProgram(call.context(), request);
+        ProgramAssembly assembly(program);
+        return receive(call, *reader, assembly,
+                       [&](const v1::RunProgramResponse& part) -> absl::Status {
+                           if (part.has_statistics())
+                               return assembly.takeStatistics(part.statistics());
+                           return part.has_header() ? assembly.takeHeader(part.header())
+                                                    : assembly.takeChunk(part.chunk());
+                       });
     }
 
     absl::StatusOr<fabric::Picked> pick(const fabric::PickRequest& request,
@@ -129,23 +158,40 @@ public:
         return fabric::Picked(*point);
     }
 
+    bool hasLostConnection() override {
+        const bool isConnected = channel_->GetState(false) == GRPC_CHANNEL_READY;
+        if (isConnected)
+            wasConnected_ = true;
+        return wasConnected_ && !isConnected;
+    }
+
     void cancel() override { calls_.cancel(); }
 
 private:
-    static absl::Status receive(grpc::ClientReader<v1::RenderChannelResponse>& reader,
-                                PictureAssembly& assembly) {
-        v1::RenderChannelResponse part;
-        while (reader.Read(&part)) {
-            if (part.has_header())
-                RETURN_IF_ERROR(assembly.takeHeader(part.header()));
-            else
-                RETURN_IF_ERROR(assembly.takeChunk(part.chunk()));
-        }
-        return absl::OkStatus();
+    /// Reads a call to its end; what `take` says of a part ends it.
+    template <typename Part, typename Assembly, typename Take>
+    auto receive(Calls::Call& call, grpc::ClientReader<Part>& reader, Assembly& assembly,
+                 const Take& take) const -> decltype(assembly.finish()) {
+        Part part;
+        absl::Status received;
+        while (received.ok() && reader.Read(&part)) received = take(part);
+        if (!received.ok())
+            call.context()->TryCancel();  // or Finish would wait for the rest
+        const absl::Status finished = wire::fromGrpc(reader.Finish(), peer_);
+        if (!received.ok())
+            return fabric::withContext(received, peer_);
+        RETURN_IF_ERROR(finished);
+        auto result = assembly.finish();
+        if (!result.ok())
+            return fabric::withContext(result.status(), peer_);
+        return result;
     }
 
     const std::string peer_;
+    const std::string address_;
+    const std::shared_ptr<grpc::Channel> channel_;
     const std::unique_ptr<v1::RenderService::Stub> stub_;
+    std::atomic<bool> wasConnected_{false};
     Calls calls_;
 };
 

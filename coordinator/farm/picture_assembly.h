@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstddef>
+#include <optional>
 #include <string_view>
 
 #include <absl/status/statusor.h>
 
 #include "fabric/channel_task.h"
+#include "wire/picture_bytes.h"
 
 namespace eyrie::v1 {
 class ChannelHeader;
@@ -18,8 +19,10 @@ namespace eyrie::coordinator {
 /// at most, however large a picture the renderer claims.
 class PictureAssembly {
 public:
-    /// `task` outlives the assembly.
+    /// `task` outlives the assembly, which stays where it is.
     explicit PictureAssembly(const fabric::ChannelTask& task) : task_(task) {}
+    PictureAssembly(const PictureAssembly&) = delete;
+    PictureAssembly& operator=(const PictureAssembly&) = delete;
 
     /// All errors are Internal: the renderer broke the protocol.
     absl::Status takeHeader(const v1::ChannelHeader& header);
@@ -29,12 +32,9 @@ public:
     absl::StatusOr<fabric::ChannelResult> finish();
 
 private:
-    absl::Status checkSizes(const v1::ChannelHeader& header) const;
-
     const fabric::ChannelTask& task_;
     fabric::ChannelResult result_;
-    bool hasHeader_ = false;
-    std::size_t received_ = 0;
+    std::optional<wire::PictureReader> pixels_;  ///< once there is a header
 };
 
 }  // namespace eyrie::coordinator

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 namespace eyrie::coordinator {
@@ -27,10 +28,35 @@ bool saysGone(const absl::Status& status) {
     }
 }
 
+/// "dem (data/dem.eyt) has 123 bytes and sum 00…, with the others 124 bytes and sum 01…"; empty
+/// where both have the same files.
+std::string differenceOf(const fabric::Scene& scene, const std::vector<fabric::DataFile>& found,
+                         const std::vector<fabric::DataFile>& expected) {
+    if (found.size() != expected.size())
+        return fmt::format("it names {} files, the others {}", found.size(), expected.size());
+    std::string difference;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        if (found[i] == expected[i] || i >= scene.objects.size())
+            continue;
+        difference += fmt::format(
+            "{}{} ({}) has {} bytes and sum {:016x} there, {} bytes and sum {:016x} with the "
+            "others",
+            difference.empty() ? "" : "; ", scene.objects[i].name, scene.objects[i].path,
+            found[i].bytes, found[i].checksum, expected[i].bytes, expected[i].checksum);
+    }
+    return difference;
+}
+
+std::chrono::system_clock::time_point onTheWall(Member::Clock::time_point time) {
+    const auto ago = Member::Clock::now() - time;
+    return std::chrono::system_clock::now() -
+           std::chrono::duration_cast<std::chrono::system_clock::duration>(ago);
+}
+
 }  // namespace
 
-Crew::Crew(Registry& registry, std::chrono::milliseconds openTimeout, std::function<void()> changed)
-    : registry_(registry), openTimeout_(openTimeout), changed_(std::move(changed)) {
+Crew::Crew(Registry& registry, const CrewOptions& options, std::function<void()> changed)
+    : registry_(registry), options_(options), changed_(std::move(changed)) {
     subscription_ = registry_.listeners().add([this] {
         follow();
         changed_();
@@ -55,12 +81,18 @@ void Crew::setScene(fabric::Scene scene) {
     {
         const std::lock_guard lock(mutex_);
         scene_ = std::make_shared<const fabric::Scene>(std::move(scene));
-        ++revision_;
-        hasInfo_ = false;
-        info_ = {};
-        for (Seat& seat : seats_) openIn(seat);
+        openInAll();
     }
     changed_();
+}
+
+/// A new revision: parts of pictures that were begun with another scene, or other data, are never
+/// put together with parts of this one.
+void Crew::openInAll() {
+    ++revision_;
+    hasInfo_ = false;
+    info_ = {};
+    for (Seat& seat : seats_) openIn(seat);
 }
 
 std::vector<std::shared_ptr<Member>> Crew::ready(std::uint64_t revision) const {
@@ -77,8 +109,11 @@ void Crew::noteFailure(const std::string& id, const absl::Status& status) {
         registry_.markDead(id, textOf(status), Registry::Clock::now());
 }
 
-bool Crew::isReady(const Seat& seat) const {
-    return hasInfo_ && seat.member->openRevision() == revision_;
+bool Crew::isReady(const Seat& seat) const { return seat.opened == revision_ && !seat.drains; }
+
+bool Crew::anyOpened() const {
+    return std::any_of(seats_.begin(), seats_.end(),
+                       [this](const Seat& seat) { return seat.opened == revision_; });
 }
 
 Crew::State Crew::state() const {
@@ -87,12 +122,59 @@ Crew::State Crew::state() const {
     for (const Seat& seat : seats_) {
         if (isReady(seat))
             ++state.ready;
-        else if (seat.openError.empty())
-            ++state.opening;
-        else
+        else if (!seat.openError.empty())
             state.openError = seat.openError;
+        else if (!seat.drains)
+            ++state.opening;
     }
     return state;
+}
+
+std::string Crew::addressOf(const std::string& id) const {
+    const std::vector<Registry::Entry> entries = registry_.entries();
+    const auto found = std::ranges::find(entries, id, &Registry::Entry::id);
+    return found == entries.end() ? std::string() : found->address;
+}
+
+std::vector<RendererStatus> Crew::renderers() const {
+    using Presence = Registry::Presence;
+    const std::lock_guard lock(mutex_);
+    std::vector<RendererStatus> renderers;
+    for (const Registry::Entry& entry : registry_.entries()) {
+        RendererStatus& status = renderers.emplace_back();
+        status.id = entry.id;
+        status.address = entry.address;
+        status.device = entry.device;
+        if (entry.presence == Presence::Alive)
+            describe(entry.id, status);
+        else if (entry.presence == Presence::Draining)
+            status.condition = RendererCondition::Draining;
+        else
+            status = {entry.id,
+                      entry.address,
+                      entry.device,
+                      entry.presence == Presence::Dead ? RendererCondition::Dead
+                                                       : RendererCondition::Refused,
+                      entry.why,
+                      onTheWall(entry.since)};
+    }
+    return renderers;
+}
+
+void Crew::describe(const std::string& id, RendererStatus& status) const {
+    status.condition = RendererCondition::Opening;
+    for (const Seat& seat : seats_) {
+        if (seat.member->id() != id)
+            continue;
+        if (isReady(seat))
+            status.condition =
+                seat.member->isLate() ? RendererCondition::Late : RendererCondition::Ready;
+        if (!seat.openError.empty()) {
+            status.condition = RendererCondition::Refused;
+            status.why = seat.openError;
+            status.since = onTheWall(seat.since);
+        }
+    }
 }
 
 void Crew::follow() {
@@ -103,6 +185,9 @@ void Crew::follow() {
     const std::vector<Registry::Entry> entries = registry_.entries();
     retireMissing(entries);
     seatNew(entries);
+    if (hasInfo_ && !anyOpened() &&
+        std::any_of(seats_.begin(), seats_.end(), [](const Seat& s) { return s.hasOtherData; }))
+        openInAll();
     const auto done = std::stable_partition(retired_.begin(), retired_.end(),
                                             [](const auto& member) { return !member->hasEnded(); });
     ended.assign(std::make_move_iterator(done), std::make_move_iterator(retired_.end()));
@@ -111,15 +196,27 @@ void Crew::follow() {
 
 void Crew::retireMissing(const std::vector<Registry::Entry>& entries) {
     std::erase_if(seats_, [&](Seat& seat) {
-        const bool alive = std::any_of(entries.begin(), entries.end(), [&](const auto& entry) {
-            return entry.alive && entry.id == seat.member->id();
+        const auto entry = std::find_if(entries.begin(), entries.end(), [&](const auto& one) {
+            return one.isAlive() && one.id == seat.member->id();
         });
-        if (alive)
+        if (entry != entries.end()) {
+            if (entry->presence == Registry::Presence::Draining && !seat.drains)
+                drain(seat);
             return false;
+        }
         seat.member->retire();
         retired_.push_back(std::move(seat.member));
         return true;
     });
+}
+
+/// It leaves when it has done what it was given. Opening a scene is not worth waiting for.
+void Crew::drain(Seat& seat) {
+    const bool wasReady = isReady(seat);
+    seat.drains = true;
+    seat.member->leave([this, id = seat.member->id()] { registry_.remove(id); });
+    if (!wasReady)
+        seat.member->retire();
 }
 
 void Crew::seatNew(const std::vector<Registry::Entry>& entries) {
@@ -127,45 +224,74 @@ void Crew::seatNew(const std::vector<Registry::Entry>& entries) {
         const bool seated = std::any_of(seats_.begin(), seats_.end(), [&](const Seat& seat) {
             return seat.member->id() == entry.id;
         });
-        if (!entry.alive || seated)
+        if (!entry.isAlive() || seated)
             continue;
-        seats_.push_back(
-            {std::make_shared<Member>(entry.id, entry.device, entry.renderer), std::string()});
-        openIn(seats_.back());
+        Seat& seat = seats_.emplace_back();
+        seat.member =
+            std::make_shared<Member>(entry.id, entry.device, entry.renderer, options_.patience);
+        openIn(seat);
+        if (entry.presence == Registry::Presence::Draining)
+            drain(seat);
     }
 }
 
 void Crew::openIn(Seat& seat) {
     seat.openError.clear();
-    if (scene_->objects.empty())
+    seat.hasOtherData = false;
+    seat.opened = 0;
+    if (scene_->objects.empty() || seat.drains)
         return;
     seat.member->open(
-        scene_, revision_, openTimeout_,
+        scene_, revision_, options_.openTimeout,
         [this, id = seat.member->id(), revision = revision_](
             const absl::StatusOr<fabric::SceneInfo>& info) { noteOpened(id, revision, info); });
 }
 
 void Crew::noteOpened(const std::string& id, std::uint64_t revision,
                       const absl::StatusOr<fabric::SceneInfo>& info) {
+    absl::Status status = info.status();
     {
         const std::lock_guard lock(mutex_);
         if (closing_ || revision != revision_)
             return;
-        if (info.ok() && !hasInfo_) {
-            info_ = *info;
-            hasInfo_ = true;
+        const auto seat = std::find_if(seats_.begin(), seats_.end(),
+                                       [&](const Seat& one) { return one.member->id() == id; });
+        if (seat == seats_.end())
+            return;
+        if (info.ok())
+            status = seatOpened(*seat, *info);
+        if (!status.ok()) {
+            seat->openError = textOf(status);
+            seat->since = Member::Clock::now();
         }
-        for (Seat& seat : seats_)
-            if (!info.ok() && seat.member->id() == id)
-                seat.openError = textOf(info.status());
     }
-    if (info.ok()) {
+    if (status.ok()) {
         spdlog::info("{} has the scene open", id);
     } else {
-        spdlog::warn("{} cannot open the scene: {}", id, textOf(info.status()));
-        noteFailure(id, info.status());
+        spdlog::warn("{} cannot take part: {}", id, textOf(status));
+        if (!info.ok())
+            noteFailure(id, status);
     }
     changed_();
+}
+
+/// Where nobody is left that has the data which earlier pictures show, these are the data.
+absl::Status Crew::seatOpened(Seat& seat, const fabric::SceneInfo& info) {
+    const std::string difference =
+        hasInfo_ ? differenceOf(*scene_, info.files, info_.files) : std::string();
+    if (difference.empty()) {
+        if (!std::exchange(hasInfo_, true))
+            info_ = info;
+        seat.opened = revision_;
+    } else if (anyOpened()) {
+        seat.hasOtherData = true;
+        return absl::FailedPreconditionError(
+            fmt::format("{} has other data than the others: {}; give all renderers the same files",
+                        seat.member->id(), difference));
+    } else {
+        openInAll();
+    }
+    return absl::OkStatus();
 }
 
 }  // namespace eyrie::coordinator

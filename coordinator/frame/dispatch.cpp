@@ -2,6 +2,7 @@
 #include "coordinator/frame/dispatch.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include <spdlog/spdlog.h>
@@ -22,7 +23,13 @@ absl::StatusOr<std::vector<Dispatch::Drawn>> Dispatch::run(Crew& crew) {
     std::unique_lock lock(mutex_);
     while (!isDone()) {
         RETURN_IF_ERROR(assign(crew));
-        changed_.wait_for(lock, kLookAgain);
+        if (std::exchange(someAreLate_, false)) {
+            lock.unlock();
+            crew.noteLateness();
+            lock.lock();
+            continue;
+        }
+        changed_.wait_until(lock, nextLook());
     }
     std::vector<Drawn> drawn;
     for (Part& part : parts_) drawn.push_back(std::move(part.drawn));
@@ -33,36 +40,72 @@ bool Dispatch::isDone() const {
     return std::all_of(parts_.begin(), parts_.end(), [](const Part& part) { return part.done; });
 }
 
+Dispatch::Clock::time_point Dispatch::nextLook() const {
+    const Clock::time_point now = Clock::now();
+    Clock::time_point next = now + kLookAgain;
+    for (const Part& part : parts_)
+        if (!part.done && part.running != 0 && part.late > now)
+            next = std::min(next, part.late);
+    return next;
+}
+
 absl::Status Dispatch::assign(Crew& crew) {
-    const std::vector<std::shared_ptr<Member>> members = crew.ready(plan_.sceneRevision);
+    const Members members = crew.ready(plan_.sceneRevision);
     for (std::size_t i = 0; i < parts_.size(); ++i)
         if (!parts_[i].done && (parts_[i].running == 0 || Clock::now() >= parts_[i].late))
             RETURN_IF_ERROR(assign(i, members, crew));
     return absl::OkStatus();
 }
 
-absl::Status Dispatch::assign(std::size_t index,
-                              const std::vector<std::shared_ptr<Member>>& members, Crew& crew) {
+absl::Status Dispatch::assign(std::size_t index, const Members& members, Crew& crew) {
     Part& part = parts_[index];
-    Member* chosen = nullptr;
-    bool anyLeft = part.running != 0;
-    for (const std::shared_ptr<Member>& member : members) {
-        if (std::find(part.asked.begin(), part.asked.end(), member->id()) != part.asked.end())
-            continue;
-        anyLeft = true;
-        // One that has finished its part already must not take the next one's part, too: each
-        // renderer is to keep to its own share of the data, which it has in memory.
-        if (member->isIdle() && (chosen == nullptr || timesAsked(*member) < timesAsked(*chosen)))
-            chosen = member.get();
-    }
+    Member* chosen = preferredOf(index, members);
     if (chosen == nullptr)
+        chosen = idleOf(part, members);
+    else if (!chosen->isIdle())
+        return absl::OkStatus();  // it is busy with others of these tasks
+    if (chosen == nullptr) {
+        const bool anyLeft = part.running != 0 ||
+                             std::any_of(members.begin(), members.end(), [&](const auto& member) {
+                                 return !wasAsked(part, *member);
+                             });
         return anyLeft ? absl::OkStatus() : part.error;
+    }
     if (!part.asked.empty())
-        spdlog::warn("frame {}: {} draws the part that {} {}", plan_.tasks[index].frameNumber,
-                     chosen->id(), part.asked.back(),
-                     part.running != 0 ? "has not finished" : "could not draw");
-    start(index, *chosen, crew);
+        noteReissue(index, *chosen, members);
+    start(index, *chosen, members, crew);
     return absl::OkStatus();
+}
+
+bool Dispatch::wasAsked(const Part& part, const Member& member) const {
+    return std::find(part.asked.begin(), part.asked.end(), member.id()) != part.asked.end();
+}
+
+bool Dispatch::isAtWork(const Member& member) const {
+    return std::any_of(parts_.begin(), parts_.end(), [&](const Part& part) {
+        return part.running != 0 && wasAsked(part, member);
+    });
+}
+
+/// Null when there is none, or it is not worth waiting for.
+Member* Dispatch::preferredOf(std::size_t index, const Members& members) const {
+    if (index >= plan_.preferred.size() || members.empty())
+        return nullptr;
+    Member& member = *members[plan_.preferred[index] % members.size()];
+    if (wasAsked(parts_[index], member) || member.isLate())
+        return nullptr;
+    return member.isIdle() || isAtWork(member) ? &member : nullptr;
+}
+
+/// One that has finished its part already must not take the next one's part, too: each renderer is
+/// to keep to its own share of the data, which it has in memory.
+Member* Dispatch::idleOf(const Part& part, const Members& members) const {
+    Member* chosen = nullptr;
+    for (const std::shared_ptr<Member>& member : members)
+        if (member->isIdle() && !wasAsked(part, *member) &&
+            (chosen == nullptr || timesAsked(*member) < timesAsked(*chosen)))
+            chosen = member.get();
+    return chosen;
 }
 
 std::ptrdiff_t Dispatch::timesAsked(const Member& member) const {
@@ -72,25 +115,47 @@ std::ptrdiff_t Dispatch::timesAsked(const Member& member) const {
     return times;
 }
 
-void Dispatch::start(std::size_t index, Member& member, Crew& crew) {
+std::chrono::milliseconds Dispatch::patienceWith(const Member& member,
+                                                 const Members& members) const {
+    if (const auto own = member.patience(plan_.kind))
+        return *own;
+    std::optional<std::chrono::milliseconds> slowest;
+    for (const std::shared_ptr<Member>& other : members)
+        slowest = std::max(slowest, other->patience(plan_.kind));
+    return slowest.value_or(plan_.firstPatience);
+}
+
+void Dispatch::noteReissue(std::size_t index, const Member& chosen, const Members& members) {
+    const Part& part = parts_[index];
+    spdlog::warn("frame {}: {} draws the part that {} {}", plan_.tasks[index].frameNumber,
+                 chosen.id(), part.asked.back(),
+                 part.running != 0 ? "has not finished" : "could not draw");
+    for (const std::shared_ptr<Member>& member : members)
+        if (part.running != 0 && member->id() == part.asked.back() && !member->isIdle())
+            someAreLate_ |= !member->setLate(true);
+}
+
+void Dispatch::start(std::size_t index, Member& member, const Members& members, Crew& crew) {
     Part& part = parts_[index];
     ++part.running;
     part.asked.push_back(member.id());
-    const Clock::time_point now = Clock::now();
-    part.late = now + plan_.lateAfter;
-    member.draw(plan_.frameData, plan_.tasks[index], plan_.sceneRevision, plan_.callTimeout,
-                [self = shared_from_this(), index, &member, &crew,
-                 now](absl::StatusOr<fabric::ChannelResult> result) {
+    const std::chrono::milliseconds patience = patienceWith(member, members);
+    part.late = Clock::now() + patience;
+    member.draw({plan_.frameData, plan_.tasks[index], plan_.sceneRevision, plan_.kind, patience,
+                 plan_.callTimeout},
+                [self = shared_from_this(), index, &member, &crew](
+                    absl::StatusOr<fabric::ChannelResult> result, Clock::duration taken) {
+                    const bool wasLate = member.setLate(false);
                     if (!result.ok())  // even when the dispatch has ended without it
                         crew.noteFailure(member.id(), result.status());
-                    self->finish(index, member, now, std::move(result));
+                    self->finish(index, member, std::move(result), taken);
+                    if (wasLate)
+                        crew.noteLateness();
                 });
 }
 
-void Dispatch::finish(std::size_t index, const Member& member, Clock::time_point started,
-                      absl::StatusOr<fabric::ChannelResult> result) {
-    const auto taken =
-        std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - started);
+void Dispatch::finish(std::size_t index, const Member& member,
+                      absl::StatusOr<fabric::ChannelResult> result, Clock::duration taken) {
     {
         const std::lock_guard lock(mutex_);
         Part& part = parts_[index];

@@ -17,23 +17,31 @@ namespace eyrie::coordinator {
 
 /// The drawing of one frame by the crew, from its tasks to their results.
 ///
-/// Each task goes to a renderer. Where that fails, or takes too long while another one idles, the
-/// task goes to the other as well, to each renderer once at most; the first result counts. Answers
-/// that come after the dispatch has ended are dropped.
+/// Each task goes to a renderer. Where that fails, or takes longer than that renderer's patience
+/// (Patience, by what it drew lately; while nothing is known of it, by the slowest other) and
+/// another one idles, the task goes to the other as well, to each renderer once at most; the first
+/// result counts. Answers that come after the dispatch has ended are dropped.
 class Dispatch : public std::enable_shared_from_this<Dispatch> {
 public:
     struct Drawn {
         fabric::ChannelResult result;
-        fabric::DeviceInfo device;          ///< of the renderer that drew it
-        std::chrono::milliseconds taken{};  ///< by that renderer
+        fabric::DeviceInfo device;                    ///< of the renderer that drew it
+        std::chrono::steady_clock::duration taken{};  ///< by it, transmission included
     };
 
     struct Plan {
         fabric::FrameData frameData;
         std::vector<fabric::ChannelTask> tasks;
         std::uint64_t sceneRevision = 0;
-        std::chrono::milliseconds lateAfter{};    ///< then another renderer is asked as well
-        std::chrono::milliseconds callTimeout{};  ///< then the renderer is given up
+        /// Of frames that take about as long (FrameKinds): what was learned from them holds.
+        std::uint64_t kind = 0;
+        std::chrono::milliseconds firstPatience{};  ///< while nothing is known of any renderer
+        std::chrono::milliseconds callTimeout{};    ///< then the renderer is given up
+        /// Who is asked first, for each task; empty: anybody for all. Counts the renderers that are
+        /// ready, in the order of their registration, and begins again after the last: several
+        /// tasks of one renderer are drawn one after the other. It is not waited for while it is
+        /// late, or busy with an earlier dispatch.
+        std::vector<std::size_t> preferred = {};
     };
 
     explicit Dispatch(Plan plan);
@@ -51,23 +59,32 @@ private:
         Drawn drawn;
         int running = 0;                 ///< renderers at work on it
         Clock::time_point late;          ///< when to ask another one as well
-        std::vector<std::string> asked;  ///< ids of renderers
+        std::vector<std::string> asked;  ///< ids of renderers; the one at work came last
         absl::Status error = absl::UnavailableError("no renderer is ready");
     };
+    using Members = std::vector<std::shared_ptr<Member>>;
+
     bool isDone() const;
+    Clock::time_point nextLook() const;
     absl::Status assign(Crew& crew);
     /// OK, too, when the part has to wait for a renderer; the part's error when none is left.
-    absl::Status assign(std::size_t index, const std::vector<std::shared_ptr<Member>>& members,
-                        Crew& crew);
+    absl::Status assign(std::size_t index, const Members& members, Crew& crew);
+    bool wasAsked(const Part& part, const Member& member) const;
+    bool isAtWork(const Member& member) const;
+    Member* preferredOf(std::size_t index, const Members& members) const;
+    Member* idleOf(const Part& part, const Members& members) const;
     std::ptrdiff_t timesAsked(const Member& member) const;
-    void start(std::size_t index, Member& member, Crew& crew);
-    void finish(std::size_t index, const Member& member, Clock::time_point started,
-                absl::StatusOr<fabric::ChannelResult> result);
+    std::chrono::milliseconds patienceWith(const Member& member, const Members& members) const;
+    void noteReissue(std::size_t index, const Member& chosen, const Members& members);
+    void start(std::size_t index, Member& member, const Members& members, Crew& crew);
+    void finish(std::size_t index, const Member& member,
+                absl::StatusOr<fabric::ChannelResult> result, Clock::duration taken);
 
     const Plan plan_;
     std::mutex mutex_;  ///< guards what follows
     std::condition_variable changed_;
     std::vector<Part> parts_;
+    bool someAreLate_ = false;  ///< since the crew was told
 };
 
 }  // namespace eyrie::coordinator

@@ -2,13 +2,17 @@
 #include "coordinator/frame/frame_pipeline.h"
 
 #include <algorithm>
+#include <future>
+#include <iterator>
+#include <random>
 #include <utility>
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
-#include "coordinator/composite/assemble_2d.h"
-#include "coordinator/composite/assemble_db.h"
+#include "coordinator/compound/compose.h"
 #include "coordinator/frame/problem.h"
+#include "coordinator/frame/program_runs.h"
 #include "fabric/status.h"
 
 namespace eyrie::coordinator {
@@ -36,13 +40,70 @@ absl::Status check(const FrameRequest& request) {
                : absl::OkStatus();
 }
 
+std::vector<config::RendererFacts> factsOf(const std::vector<std::shared_ptr<Member>>& members) {
+    std::vector<config::RendererFacts> facts;
+    for (const auto& member : members)
+        facts.push_back({member->id(), "", member->device().renderer});
+    return facts;
+}
+
+/// How long programs are left alone after one has failed: renderers may be dying.
+constexpr std::chrono::seconds kProgramsRest{2};
+
+std::uint64_t newSession() {
+    std::random_device random;
+    return (std::uint64_t{random()} << 32 | random()) | 1;  // not 0
+}
+
+std::vector<bool> idleOnes(const std::vector<std::shared_ptr<Member>>& members) {
+    std::vector<bool> idle;
+    for (const auto& member : members) idle.push_back(member->isIdle());
+    return idle;
+}
+
+std::vector<ActiveConfiguration::Taken> takenBy(const std::vector<Dispatch::Drawn>& drawn) {
+    std::vector<ActiveConfiguration::Taken> taken;
+    for (const Dispatch::Drawn& one : drawn)
+        taken.push_back({one.result.image.area, one.result.statistics.milliseconds,
+                         std::chrono::duration<double, std::milli>(one.taken).count()});
+    return taken;
+}
+
+bool isThroughWall(const compound::Plan& plan) {
+    return std::ranges::any_of(plan.draws,
+                               [](const auto& draw) { return draw.task.sight.has_value(); });
+}
+
+/// `more` are of the plan's draws after those that were drawn.
+RenderedFrame composed(const compound::Plan& plan, std::vector<Dispatch::Drawn> drawn,
+                       std::vector<fabric::Image> more, fabric::Rgba background) {
+    RenderedFrame frame;
+    if (!drawn.empty())
+        frame.device = drawn.front().device;
+    frame.isThroughWall = isThroughWall(plan);
+    std::vector<fabric::Image> images;
+    for (Dispatch::Drawn& part : drawn) {
+        fabric::accumulate(frame.statistics, part.result.statistics);
+        images.push_back(std::move(part.result.image));
+    }
+    std::ranges::move(more, std::back_inserter(images));
+    std::vector<fabric::Image> pictures =
+        compound::composePictures(plan, std::move(images), background);
+    if (pictures.empty())
+        return frame;
+    frame.image = std::move(pictures.front());
+    frame.further.assign(std::make_move_iterator(pictures.begin() + 1),
+                         std::make_move_iterator(pictures.end()));
+    return frame;
+}
+
 }  // namespace
 
 FramePipeline::FramePipeline(Registry& registry, FramePipelineOptions options)
-    : registry_(registry),
-      options_(std::move(options)),
-      patience_(options_.patience),
-      crew_(registry, options_.openTimeout, [this] { listeners_.notify(); }) {}
+    : options_(std::move(options)),
+      configuration_(options_.configuration, options_.layout, [this] { listeners_.notify(); }),
+      programPatience_(options_.patience),
+      crew_(registry, {.patience = options_.patience}, [this] { listeners_.notify(); }) {}
 
 absl::StatusOr<RenderedFrame> FramePipeline::renderFrame(const FrameRequest& request) {
     RETURN_IF_ERROR(check(request));
@@ -66,8 +127,10 @@ absl::StatusOr<RenderedFrame> FramePipeline::renderFrame(const FrameRequest& req
 
 absl::StatusOr<RenderedFrame> FramePipeline::renderOfScene(const FrameRequest& asked,
                                                            const Crew::State& state) {
-    if (state.revision != lastRevision_)
+    if (state.revision != std::exchange(lastRevision_, state.revision)) {
         keepers_.forget();
+        session_ = newSession();
+    }
     FrameRequest request = asked;
     budget_.reset();
     if (asked.budgetMilliseconds) {
@@ -76,29 +139,113 @@ absl::StatusOr<RenderedFrame> FramePipeline::renderOfScene(const FrameRequest& a
         request.width = plan.width;
         request.height = plan.height;
     }
-    ASSIGN_OR_RETURN(std::vector<Dispatch::Drawn> drawn, draw(request, state.revision));
-    return compose(request, state.scene->background, std::move(drawn));
+    const std::vector<std::shared_ptr<Member>> members = crew_.ready(state.revision);
+    if (members.empty())
+        return absl::UnavailableError("no renderer is ready");
+    ActiveConfiguration& active = configuration_.with(factsOf(members));
+    const std::uint64_t number = ++frameNumber_;
+    ASSIGN_OR_RETURN(compound::Plan plan, active.plan(request, number, idleOnes(members)));
+    if (const auto exchange = compound::exchangeOf(plan, number);
+        exchange && mayExchange(active, *exchange, members.size())) {
+        absl::StatusOr<RenderedFrame> frame =
+            drawByPrograms(request, active, plan, *exchange, members, state);
+        if (frame.ok())
+            return frame;
+        spdlog::warn("frame {} is put together here: {}", number, frame.status().ToString());
+        programsRestUntil_ = Registry::Clock::now() + kProgramsRest;
+    }
+    return drawCentrally(request, active, plan, members, state);
+}
+
+/// Between renderers of their own; one that has just failed may fail again.
+bool FramePipeline::mayExchange(const ActiveConfiguration& active,
+                                const compound::Exchange& exchange, std::size_t renderers) const {
+    if (Registry::Clock::now() < programsRestUntil_)
+        return false;
+    const std::size_t first = active.rendererFor(exchange.programs.front().channel, renderers);
+    return std::ranges::any_of(exchange.programs, [&](const compound::PlannedProgram& each) {
+        return active.rendererFor(each.channel, renderers) != first;
+    });
+}
+
+absl::StatusOr<RenderedFrame> FramePipeline::drawCentrally(const FrameRequest& request,
+                                                           ActiveConfiguration& active,
+                                                           const compound::Plan& plan,
+                                                           const Members& members,
+                                                           const Crew::State& state) {
+    ASSIGN_OR_RETURN(
+        std::vector<Dispatch::Drawn> drawn,
+        draw(request, plan, active.renderersFor(plan, members.size()), state.revision));
+    active.record(plan, frameNumber_, takenBy(drawn));
+    RenderedFrame frame = composed(plan, std::move(drawn), {}, state.scene->background);
+    frame.statistics.tauAskedPixels = request.tauPixels;
+    return frame;
+}
+
+absl::StatusOr<RenderedFrame> FramePipeline::drawByPrograms(
+    const FrameRequest& request, ActiveConfiguration& active, const compound::Plan& plan,
+    const compound::Exchange& exchange, const Members& members, const Crew::State& state) {
+    Members renderers;
+    std::vector<std::string> addresses;
+    for (const compound::PlannedProgram& each : exchange.programs) {
+        renderers.push_back(members[active.rendererFor(each.channel, members.size())]);
+        addresses.push_back(crew_.addressOf(renderers.back()->id()));
+    }
+    const std::uint64_t kind = kinds_.of(request, state.revision);
+    const std::chrono::milliseconds timeout =
+        programPatience_.limit(kind).value_or(options_.patience.first);
+    const auto started = Registry::Clock::now();
+    const fabric::FrameData& frameData = frameDataFor(request);
+    auto running = std::async(std::launch::async, [&] {
+        return ProgramRuns::run(exchange,
+                                {frameData, state.revision, session_, state.scene->background,
+                                 request.completeness, timeout},
+                                renderers, addresses);
+    });
+    compound::Plan others = exchange.rest;
+    others.draws.resize(exchange.draws.size());
+    auto drawn = draw(request, others, active.renderersFor(others, members.size()), state.revision);
+    ASSIGN_OR_RETURN(ProgramRuns::Result result, running.get());
+    RETURN_IF_ERROR(drawn.status());
+    programPatience_.record(
+        kind, timeout,
+        std::chrono::duration_cast<std::chrono::milliseconds>(Registry::Clock::now() - started));
+    std::vector<ActiveConfiguration::Taken> taken(plan.draws.size());
+    const std::vector<ActiveConfiguration::Taken> byOthers = takenBy(*drawn);
+    for (std::size_t i = 0; i < byOthers.size(); ++i) taken[exchange.draws[i]] = byOthers[i];
+    for (const ProgramRuns::Result::Draw& each : result.draws)
+        taken[each.draw] = {plan.draws[each.draw].task.pixelViewport, each.statistics.milliseconds,
+                            each.statistics.milliseconds.total};
+    active.record(plan, frameNumber_, taken);
+    RenderedFrame frame = composed(exchange.rest, *std::move(drawn), std::move(result.pictures),
+                                   state.scene->background);
+    for (const ProgramRuns::Result::Draw& each : result.draws)
+        fabric::accumulate(frame.statistics, each.statistics);
+    frame.device = result.device;
+    frame.isThroughWall = isThroughWall(plan);
+    frame.statistics.tauAskedPixels = request.tauPixels;
+    return frame;
 }
 
 absl::StatusOr<std::vector<Dispatch::Drawn>> FramePipeline::draw(const FrameRequest& request,
+                                                                 const compound::Plan& plan,
+                                                                 std::vector<std::size_t> preferred,
                                                                  std::uint64_t revision) {
-    forgetOtherKinds(request, revision);
     const fabric::FrameData& frameData = frameDataFor(request);
-    const fabric::ChannelTask whole{
-        ++frameNumber_,     frameData.version,    request.width,
-        request.height,     request.drawnPart(),  {},
-        request.wantsDepth, request.completeness, request.measuresStages};
-    auto dispatch = std::make_shared<Dispatch>(Dispatch::Plan{
-        frameData, decompose(whole, options_.decomposition, balance_.cuts(freeRenderers(revision))),
-        revision, patience_.limit(), options_.callTimeout});
-    ASSIGN_OR_RETURN(std::vector<Dispatch::Drawn> drawn, dispatch->run(crew_));
-    std::vector<double> milliseconds;
-    for (const Dispatch::Drawn& part : drawn) {
-        patience_.record(part.taken);
-        milliseconds.push_back(part.result.statistics.milliseconds.total);
+    std::vector<fabric::ChannelTask> tasks;
+    for (const compound::PlannedDraw& draw : plan.draws) {
+        fabric::ChannelTask& task = tasks.emplace_back(draw.task);
+        task.frameDataVersion = frameData.version;
+        task.completeness = request.completeness;
+        task.measuresStages = request.measuresStages;
     }
-    balance_.record(milliseconds);
-    return drawn;
+    const std::uint64_t kind = kinds_.of(request, revision);
+    // What renderers did among themselves took as long as what they do for the coordinator will.
+    const auto first = programPatience_.limit(kind).value_or(options_.patience.first);
+    auto dispatch = std::make_shared<Dispatch>(Dispatch::Plan{frameData, std::move(tasks), revision,
+                                                              kind, first, options_.callTimeout,
+                                                              std::move(preferred)});
+    return dispatch->run(crew_);
 }
 
 const fabric::FrameData& FramePipeline::frameDataFor(const FrameRequest& request) {
@@ -110,51 +257,6 @@ const fabric::FrameData& FramePipeline::frameDataFor(const FrameRequest& request
         ++frameData_.version;
     }
     return frameData_;
-}
-
-/// What earlier frames took tells of frames that differ in nothing but the camera. Where their load
-/// lies is the same whatever time they are to keep.
-void FramePipeline::forgetOtherKinds(const FrameRequest& request, std::uint64_t revision) {
-    FrameRequest likeLast = request;
-    likeLast.camera = lastRequest_.camera;
-    if (request.budgetMilliseconds != lastRequest_.budgetMilliseconds)
-        patience_.forget();
-    likeLast.budgetMilliseconds = lastRequest_.budgetMilliseconds;
-    if (likeLast != lastRequest_ || revision != lastRevision_) {
-        patience_.forget();
-        balance_.forget();
-    }
-    lastRequest_ = request;
-    lastRevision_ = revision;
-}
-
-/// A renderer that is still busy with an earlier frame's part sits out until it has finished.
-int FramePipeline::freeRenderers(std::uint64_t revision) const {
-    const auto members = crew_.ready(revision);
-    const auto free = std::count_if(members.begin(), members.end(),
-                                    [](const auto& member) { return member->isIdle(); });
-    return std::max(1, static_cast<int>(free));
-}
-
-RenderedFrame FramePipeline::compose(const FrameRequest& request, fabric::Rgba background,
-                                     std::vector<Dispatch::Drawn> drawn) const {
-    RenderedFrame frame;
-    frame.device = drawn.front().device;
-    frame.statistics.tauAskedPixels = request.tauPixels;
-    std::vector<fabric::Image> images;
-    for (Dispatch::Drawn& part : drawn) {
-        fabric::accumulate(frame.statistics, part.result.statistics);
-        images.push_back(std::move(part.result.image));
-    }
-    const fabric::PixelViewport area = request.drawnPart();
-    if (images.size() == 1 || options_.decomposition == Decomposition::TwoD) {
-        frame.image = assemble2D(area, background, request.wantsDepth, std::move(images));
-    } else {
-        frame.image = assembleDb(area, background, std::move(images));
-        if (!request.wantsDepth)
-            frame.image.depth.clear();
-    }
-    return frame;
 }
 
 /// All renderers have all the data: any may answer. That one is slow or cannot read a page is not
@@ -185,13 +287,18 @@ std::string FramePipeline::problem(const Crew::State& state) const {
                       options_.howToJoin});
 }
 
+absl::Status FramePipeline::configure(const SwitchLayout& change) {
+    const std::lock_guard turn(turn_);
+    return configuration_.configure(change);
+}
+
 Status FramePipeline::status() const {
     Status status;
-    for (const Registry::Entry& entry : registry_.entries())
-        status.renderers.push_back({entry.id, entry.device, entry.alive});
+    status.renderers = crew_.renderers();
     const Crew::State state = crew_.state();
     status.scene = *state.scene;
     status.sceneInfo = state.sceneInfo;
+    status.canvases = configuration_.canvases();
     status.problem = problem(state);
     return status;
 }

@@ -4,13 +4,15 @@
 #include <optional>
 #include <string>
 
-#include "coordinator/compound/decompose.h"
-#include "coordinator/compound/load_balance.h"
+#include "coordinator/compound/exchange.h"
+#include "coordinator/config/configuration.h"
 #include "coordinator/farm/listeners.h"
 #include "coordinator/farm/registry.h"
 #include "coordinator/frame/budget_keeper.h"
+#include "coordinator/frame/configuration_keeper.h"
 #include "coordinator/frame/crew.h"
 #include "coordinator/frame/dispatch.h"
+#include "coordinator/frame/frame_kinds.h"
 #include "coordinator/frame/frame_source.h"
 #include "coordinator/frame/patience.h"
 #include "coordinator/frame/turn.h"
@@ -18,17 +20,19 @@
 namespace eyrie::coordinator {
 
 struct FramePipelineOptions {
-    Decomposition decomposition = Decomposition::TwoD;
+    /// Nothing: one is made of the renderers there are, whose `layout` is shown at first; see
+    /// config::defaultConfiguration.
+    std::optional<config::Configuration> configuration;
+    std::string layout;
     /// The command that starts a renderer for this coordinator, for people to read.
     std::string howToJoin = "eyrie renderer --coordinator HOST:PORT";
     PatienceOptions patience;
-    std::chrono::milliseconds callTimeout{30'000};   ///< a channel that takes longer is given up
-    std::chrono::milliseconds pickTimeout{5'000};    ///< a pick that takes longer goes elsewhere
-    std::chrono::milliseconds openTimeout{120'000};  ///< a scene that takes longer to open too
+    std::chrono::milliseconds callTimeout{30'000};  ///< a channel that takes longer is given up
+    std::chrono::milliseconds pickTimeout{5'000};   ///< a pick that takes longer goes elsewhere
 };
 
-/// Makes frames: cuts each into channels for the renderers that are ready, has them drawn at the
-/// same time, and puts the results together.
+/// Makes frames: by a configuration, each is cut into draws for the renderers that are ready, these
+/// are done at the same time, and put together.
 class FramePipeline final : public FrameSource {
 public:
     /// Draws with the renderers in `registry`, which outlives the pipeline.
@@ -42,6 +46,7 @@ public:
 
     absl::StatusOr<RenderedFrame> renderFrame(const FrameRequest& request) override;
     absl::StatusOr<fabric::Picked> pick(const fabric::PickRequest& request) override;
+    absl::Status configure(const SwitchLayout& change) override;
     Status status() const override;
     int subscribe(std::function<void()> listener) override;
     void unsubscribe(int handle) override;
@@ -50,15 +55,24 @@ private:
     absl::StatusOr<RenderedFrame> renderOfScene(const FrameRequest& asked,
                                                 const Crew::State& state);
     const fabric::FrameData& frameDataFor(const FrameRequest& request);
-    void forgetOtherKinds(const FrameRequest& request, std::uint64_t revision);
-    int freeRenderers(std::uint64_t revision) const;
+    using Members = std::vector<std::shared_ptr<Member>>;
+    absl::StatusOr<RenderedFrame> drawCentrally(const FrameRequest& request,
+                                                ActiveConfiguration& active,
+                                                const compound::Plan& plan, const Members& members,
+                                                const Crew::State& state);
+    absl::StatusOr<RenderedFrame> drawByPrograms(const FrameRequest& request,
+                                                 ActiveConfiguration& active,
+                                                 const compound::Plan& plan,
+                                                 const compound::Exchange& exchange,
+                                                 const Members& members, const Crew::State& state);
+    bool mayExchange(const ActiveConfiguration& active, const compound::Exchange& exchange,
+                     std::size_t renderers) const;
     absl::StatusOr<std::vector<Dispatch::Drawn>> draw(const FrameRequest& request,
+                                                      const compound::Plan& plan,
+                                                      std::vector<std::size_t> preferred,
                                                       std::uint64_t revision);
-    RenderedFrame compose(const FrameRequest& request, fabric::Rgba background,
-                          std::vector<Dispatch::Drawn> drawn) const;
     std::string problem(const Crew::State& state) const;
 
-    Registry& registry_;
     const FramePipelineOptions options_;
     Listeners listeners_;
 
@@ -67,10 +81,12 @@ private:
     fabric::FrameData frameData_;
     std::optional<fabric::FrameBudget> budget_;  ///< of the frame that is being drawn
     BudgetKeepers keepers_;
-    Patience patience_;
-    LoadBalance balance_;
-    FrameRequest lastRequest_;
-    std::uint64_t lastRevision_ = 0;
+    FrameKinds kinds_;
+    ConfigurationKeeper configuration_;
+    std::uint64_t lastRevision_ = 0;  ///< of the scene
+    std::uint64_t session_ = 0;       ///< of that, for programs
+    Patience programPatience_;
+    Registry::Clock::time_point programsRestUntil_{};  ///< since one failed
 
     Crew crew_;  ///< last: its threads end before the rest goes
 };

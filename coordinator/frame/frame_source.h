@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <optional>
 #include <string>
@@ -8,6 +9,7 @@
 
 #include <absl/status/statusor.h>
 
+#include "coordinator/frame/shown.h"
 #include "fabric/camera.h"
 #include "fabric/channel_task.h"
 #include "fabric/frame_data.h"
@@ -36,6 +38,9 @@ struct FrameRequest {
     /// A time to hold, 1 to 10,000 ms. Tau may rise, and where that is not enough the picture gets
     /// smaller than asked for; the statistics say what came of it.
     std::optional<double> budgetMilliseconds = {};
+    /// What of the configuration is seen, each as a picture of that size (of one eye); all with one
+    /// version of the frame data.
+    std::vector<Shown> shown = {Shown{}};
 
     fabric::PixelViewport drawnPart() const {
         return part.isEmpty() ? fabric::PixelViewport{0, 0, width, height} : part;
@@ -49,12 +54,49 @@ struct RenderedFrame {
     fabric::Image image;
     fabric::FrameStatistics statistics;
     fabric::DeviceInfo device;  ///< of the first renderer that took part
+    /// Through a wall or by an eye beside the camera: not what a pick's camera sees.
+    bool isThroughWall = false;
+    /// Of what else was asked for, in that order; of separate eyes, the second's after the first's.
+    std::vector<fabric::Image> further = {};
+};
+
+enum class RendererCondition {
+    Ready,     ///< draws
+    Opening,   ///< reads the scene
+    Late,      ///< has not answered in time: others do its part meanwhile
+    Draining,  ///< takes no new tasks, finishes its own and leaves
+    Dead,      ///< has died, or does not answer
+    Refused,   ///< has another version of Eyrie or other data, or cannot open the scene
 };
 
 struct RendererStatus {
     std::string id;
+    std::string address;  ///< where it takes work
     fabric::DeviceInfo device;
-    bool alive = true;
+    RendererCondition condition = RendererCondition::Ready;
+    std::string why = {};  ///< it is dead or refused, for a person to read
+    std::chrono::system_clock::time_point since = {};  ///< it is dead or was refused a place
+
+    bool isAlive() const {
+        return condition != RendererCondition::Dead && condition != RendererCondition::Refused;
+    }
+    bool operator==(const RendererStatus&) const = default;
+};
+
+/// What of the configuration can be seen and switched.
+struct CanvasStatus {
+    std::string name;
+    std::vector<std::string> segments;
+    std::vector<std::string> layouts;  ///< that it can show
+    std::string layout;                ///< that it shows; "OFF": none
+
+    bool operator==(const CanvasStatus&) const = default;
+};
+
+/// A change of what the configuration shows, by names as in Shown.
+struct SwitchLayout {
+    std::string canvas;
+    std::string layout;  ///< "OFF": none
 };
 
 /// What a person should know about the coordinator now.
@@ -62,6 +104,7 @@ struct Status {
     std::vector<RendererStatus> renderers;
     fabric::Scene scene;
     fabric::SceneInfo sceneInfo;
+    std::vector<CanvasStatus> canvases;
     /// Why there is no picture, for a person to read; empty while there is one.
     std::string problem;
 };
@@ -81,6 +124,9 @@ public:
     /// blocks, but not for frames. Errors: InvalidArgument (the request), Unavailable (no renderer,
     /// or no scene), or what the last renderer said.
     virtual absl::StatusOr<fabric::Picked> pick(const fabric::PickRequest& request) = 0;
+
+    /// From the next frame on. Errors: NotFound, naming what there is.
+    virtual absl::Status configure(const SwitchLayout& change) = 0;
 
     virtual Status status() const = 0;
 

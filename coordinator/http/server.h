@@ -20,8 +20,9 @@ struct ServerOptions {
     std::filesystem::path webFolder;  ///< the built UI; a page says how to build it where missing
     std::size_t maxConnections = 64;  ///< one above is answered 503 and closed
     std::chrono::milliseconds headerTimeout{
-        10'000};                                     ///< for a whole request; also between requests
-    std::chrono::milliseconds writeTimeout{10'000};  ///< for one message to a viewer
+        10'000};  ///< for a whole request; also between requests
+    /// For one message to a viewer, and for the viewer to acknowledge a picture.
+    std::chrono::milliseconds writeTimeout{10'000};
 };
 
 /// The door for browsers: HTTP/1.1 and the viewer's WebSocket on one port.

@@ -2,6 +2,7 @@
 #include "coordinator/http/status_json.h"
 
 #include <algorithm>
+#include <chrono>
 #include <iterator>
 #include <string_view>
 
@@ -23,11 +24,35 @@ std::string quoted(std::string_view text) {
     return result + '"';
 }
 
+std::string_view nameOf(coordinator::RendererCondition condition) {
+    using enum coordinator::RendererCondition;
+    switch (condition) {
+        case Ready:
+            return "ready";
+        case Opening:
+            return "opening";
+        case Late:
+            return "late";
+        case Draining:
+            return "draining";
+        case Dead:
+            return "dead";
+        case Refused:
+            break;
+    }
+    return "refused";
+}
+
 std::string rendererJson(const coordinator::RendererStatus& renderer) {
     return fmt::format(
-        R"({{"id":{},"alive":{},"device":{},"driver":{},"platform":{},"software":{}}})",
-        quoted(renderer.id), renderer.alive, quoted(renderer.device.renderer),
-        quoted(renderer.device.driver), quoted(renderer.device.platform), renderer.device.software);
+        R"({{"id":{},"address":{},"alive":{},"condition":"{}","why":{},"sinceUnixMilliseconds":{},)"
+        R"("device":{},"driver":{},"platform":{},"software":{}}})",
+        quoted(renderer.id), quoted(renderer.address), renderer.isAlive(),
+        nameOf(renderer.condition), quoted(renderer.why),
+        std::chrono::duration_cast<std::chrono::milliseconds>(renderer.since.time_since_epoch())
+            .count(),
+        quoted(renderer.device.renderer), quoted(renderer.device.driver),
+        quoted(renderer.device.platform), renderer.device.software);
 }
 
 /// The elements as `toJson` writes them, with commas between.
@@ -47,7 +72,7 @@ std::string joined(const Elements& elements, ToJson toJson) {
 bool isReady(const coordinator::Status& status) {
     const bool hasRenderer =
         std::any_of(status.renderers.begin(), status.renderers.end(),
-                    [](const coordinator::RendererStatus& renderer) { return renderer.alive; });
+                    [](const coordinator::RendererStatus& renderer) { return renderer.isAlive(); });
     return hasRenderer && status.problem.empty() && !status.sceneInfo.bounds.isEmpty();
 }
 

@@ -10,8 +10,8 @@ namespace eyrie::http {
 /// A renderer is alive, the scene is open and nothing stands in the way of a picture.
 bool isReady(const coordinator::Status& status);
 
-/// {"ready":true,"problem":"","renderers":[{"id":"…","alive":true,"device":"…","driver":"…",
-/// "platform":"…","software":false}],"scene":{"objects":["…"],"triangles":0}}
+/// {"ready":true,"problem":"","renderers":[{"id":"…","address":"…","alive":true,"condition":"ready",
+/// "why":"","sinceUnixMilliseconds":0,"device":"…","driver":"…","platform":"…","software":false}],"scene":{"objects":["…"],"triangles":0}}
 std::string statusJson(const coordinator::Status& status);
 
 }  // namespace eyrie::http

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/http/web_socket.h"
 
+#include <algorithm>
+#include <chrono>
 #include <optional>
 #include <span>
 #include <utility>
@@ -25,12 +27,16 @@ constexpr std::size_t kMaxMessageBytes = 64 * 1024;
 constexpr std::chrono::seconds kHandshakeTimeout{10};
 /// A peer that is silent for so long, pings included, is gone.
 constexpr std::chrono::seconds kIdleTimeout{30};
+/// While pictures are under way, the round trip is measured so often.
+constexpr std::chrono::milliseconds kPulse{1000};
+constexpr char kPulsePayload[] = "pulse";
 
 class WebSocket : public Session, public std::enable_shared_from_this<WebSocket> {
 public:
     WebSocket(tcp::socket socket, std::string received, Context& context, Slot slot)
         : stream_(std::move(socket)),
           writeDeadline_(stream_.get_executor()),
+          pulse_(stream_.get_executor()),
           received_(std::move(received)),
           context_(context),
           slot_(std::move(slot)) {
@@ -85,6 +91,10 @@ private:
                         self->write();
                 });
             });
+        stream_.control_callback([this](websocket::frame_type kind, beast::string_view payload) {
+            if (kind == websocket::frame_type::pong && payload == kPulsePayload)
+                pongRead();
+        });
         read();
     }
 
@@ -126,6 +136,8 @@ private:
             return;
         isWriting_ = true;
         outgoing_ = *std::move(message);
+        if (!isPulsing_)
+            beat();
         expectProgress();
         stream_.async_write(boost::asio::buffer(outgoing_),
                             [self = shared_from_this()](error_code error, std::size_t) {
@@ -138,13 +150,46 @@ private:
 
     /// A peer that takes nothing within the time is cut off.
     void expectProgress() {
-        writeDeadline_.expires_after(context_.options.writeTimeout);
+        writeDeadline_.expires_after(writeTimeout());
         writeDeadline_.async_wait([weak = weak_from_this()](error_code error) {
             const auto self = weak.lock();
             if (!error && self != nullptr)
                 self->end();
         });
     }
+
+    /// Measures the round trip, and cuts off a peer that acknowledges nothing within the time: it
+    /// may take what the system buffers and still not read. Until nothing is under way.
+    void beat() {
+        isPulsing_ = true;
+        if (!pingedAt_) {
+            pingedAt_ = std::chrono::steady_clock::now();
+            stream_.async_ping(kPulsePayload, [self = shared_from_this()](error_code) {});
+        }
+        pulse_.expires_after(std::min<std::chrono::milliseconds>(kPulse, writeTimeout() / 4));
+        pulse_.async_wait([weak = weak_from_this()](error_code error) {
+            const auto self = weak.lock();
+            if (!error && self != nullptr && self->viewer_ != nullptr)
+                self->checkUnderWay();
+        });
+    }
+
+    void checkUnderWay() {
+        const auto waited = viewer_->unacknowledgedFor();
+        isPulsing_ = waited.has_value() || isWriting_;
+        if (waited > writeTimeout())
+            end();
+        else if (isPulsing_)
+            beat();
+    }
+
+    void pongRead() {
+        if (pingedAt_ && viewer_ != nullptr)
+            viewer_->roundTrip(std::chrono::steady_clock::now() - *pingedAt_);
+        pingedAt_.reset();
+    }
+
+    std::chrono::milliseconds writeTimeout() const { return context_.options.writeTimeout; }
 
     void close(const websocket::close_reason& reason) {
         if (std::exchange(isClosing_, true))
@@ -157,11 +202,15 @@ private:
         isClosing_ = true;
         abandon();
         writeDeadline_.cancel();
+        pulse_.cancel();
         beast::get_lowest_layer(stream_).close();
     }
 
     websocket::stream<beast::tcp_stream> stream_;
     boost::asio::steady_timer writeDeadline_;
+    boost::asio::steady_timer pulse_;
+    bool isPulsing_ = false;
+    std::optional<std::chrono::steady_clock::time_point> pingedAt_;  ///< and not answered yet
     std::string received_;
     beast::flat_buffer buffer_;
     std::string outgoing_;

@@ -28,6 +28,8 @@ void Pacer::acknowledged(std::uint64_t frameNumber, Clock::time_point now) {
         frameNumber > inFlight_.back().frameNumber)
         return;
     while (inFlight_.front().frameNumber < frameNumber) inFlight_.pop_front();
+    if (inFlight_.front().frameNumber != frameNumber)
+        return;  // it was withdrawn
     const InFlight frame = inFlight_.front();
     inFlight_.pop_front();
     // Only a frame that was under way beside the one before it tells the pace of the stages.
@@ -38,6 +40,10 @@ void Pacer::acknowledged(std::uint64_t frameNumber, Clock::time_point now) {
             remember(spacings_, now - *lastAcknowledged_);
     }
     lastAcknowledged_ = now;
+}
+
+void Pacer::withdrawn(std::uint64_t frameNumber) {
+    std::erase_if(inFlight_, [=](const InFlight& one) { return one.frameNumber == frameNumber; });
 }
 
 int Pacer::window() const {

@@ -34,6 +34,9 @@ public:
     /// Acknowledges `frameNumber` and all before it; a number that was not sent changes nothing.
     void acknowledged(std::uint64_t frameNumber, Clock::time_point now);
 
+    /// What is left of `frameNumber` will not be sent.
+    void withdrawn(std::uint64_t frameNumber);
+
     void rendered(Clock::duration time) { renderTime_ = time; }
 
     int window() const;

@@ -7,12 +7,14 @@
 #include <thread>
 #include <utility>
 #include <variant>
-#include <vector>
 
-#include "coordinator/stream/pacer.h"
+#include "coordinator/stream/drawing.h"
+#include "coordinator/stream/outbox.h"
 #include "coordinator/stream/pick_desk.h"
+#include "coordinator/stream/picture_encoder.h"
+#include "coordinator/stream/progress.h"
+#include "coordinator/stream/quality.h"
 #include "coordinator/stream/viewer_messages.h"
-#include "wire/jpeg.h"
 
 namespace eyrie::stream {
 namespace {
@@ -21,46 +23,12 @@ std::string_view text(const absl::Status& status) {
     return {status.message().data(), status.message().size()};
 }
 
-/// A picture as it came from the frame source, for one view.
-struct Picture {
-    ViewRequest view;
-    std::shared_ptr<const coordinator::RenderedFrame> frame;
-    Clock::time_point started;
-    std::optional<fabric::Camera> liftedCamera;  ///< shown where the view's would be under ground
-};
-
-/// Coarser or smaller than what was asked for, to keep a frame time.
-bool isBelowAsked(const Picture& picture) {
-    const fabric::FrameStatistics& statistics = picture.frame->statistics;
-    const fabric::PixelViewport& area = picture.frame->image.area;
-    return statistics.budget &&
-           (statistics.budget->tauPixels > statistics.tauAskedPixels ||
-            area.width != picture.view.frame.width || area.height != picture.view.frame.height);
-}
-
-bool isSame(const ViewRequest& a, const ViewRequest& b) {
-    return a.frame == b.frame && a.isUnderground == b.isUnderground;
-}
-
 /// One frame in so many has its stages measured, which costs its vertices once more: the fourth
 /// first, since shaders are compiled in the ones before.
 constexpr std::uint64_t kFramesToAMeasurement = 32;
 
-/// What must be equal for a picture to be still right.
-struct PictureSource {
-    fabric::Scene scene;
-    fabric::SceneInfo sceneInfo;
-    std::vector<std::string> renderers;
-
-    bool operator==(const PictureSource&) const = default;
-};
-
-PictureSource pictureSource(const coordinator::Status& status) {
-    PictureSource source{status.scene, status.sceneInfo, {}};
-    for (const coordinator::RendererStatus& renderer : status.renderers)
-        if (renderer.alive)
-            source.renderers.push_back(renderer.id);
-    return source;
+double pixelsOf(const ViewRequest& view) {
+    return static_cast<double>(view.frame.width) * view.frame.height;
 }
 
 }  // namespace
@@ -71,8 +39,9 @@ public:
          const ViewerOptions& options)
         : frames_(frames),
           messageReady_(std::move(messageReady)),
-          options_(options),
-          pacer_(options.framesInFlight),
+          progress_(
+              {options.restDelay, options.retryDelay, options.loadingDelay, options.missingDelay}),
+          outbox_(options.framesInFlight),
           picks_(frames_, [this] { messageReady_(); }) {
         subscription_ = frames_.subscribe([this] { statusChanged(); });
         encoder_ = std::thread([this] { encodeLoop(); });
@@ -94,32 +63,43 @@ public:
             picks_.ask(std::get<ViewerPick>(*std::move(request)));
             return absl::OkStatus();
         }
+        if (request.ok() && std::holds_alternative<ViewerProfile>(*request)) {
+            picks_.ask(std::get<ViewerProfile>(*std::move(request)));
+            return absl::OkStatus();
+        }
         std::unique_lock lock(mutex_);
         if (!request.ok())
             setProblem(requestProblem_, sanitised(text(request.status())));
         else if (const auto* view = std::get_if<ViewRequest>(&*request))
             want(*view);
+        else if (auto* change = std::get_if<coordinator::SwitchLayout>(&*request))
+            switch_ = std::move(*change);
         else
-            pacer_.acknowledged(std::get<FrameAck>(*request).frameNumber, Clock::now());
-        const bool hasMessage = mayTakeFrame();
-        lock.unlock();
-        changed_.notify_all();
-        if (hasMessage)
-            messageReady_();
+            outbox_.acknowledged(std::get<FrameAck>(*request), Clock::now());
+        announce(lock);
         return absl::OkStatus();
     }
 
     std::optional<std::string> takeMessage() {
         const std::lock_guard lock(mutex_);
-        if (waitingState_.has_value())
-            return std::exchange(waitingState_, std::nullopt);
+        // Answers to picks, like states, are small and never wait for pictures.
         if (std::optional<std::string> answer = picks_.takeAnswer())
             return answer;
-        if (!mayTakeFrame())
-            return std::nullopt;
-        WaitingFrame frame = *std::exchange(waitingFrame_, std::nullopt);
-        pacer_.sent(frame.frameNumber, frame.started, !frame.isStill);
-        return std::move(frame.message);
+        std::optional<std::string> message = outbox_.take(Clock::now());
+        if (message.has_value())
+            changed_.notify_all();  // there may be room for the next frame
+        return message;
+    }
+
+    void roundTrip(Clock::duration time) {
+        const std::lock_guard lock(mutex_);
+        outbox_.roundTrip(time, Clock::now());
+    }
+
+    std::optional<Clock::duration> unacknowledgedFor() {
+        const std::lock_guard lock(mutex_);
+        const std::optional<Clock::time_point> since = outbox_.link().waitingSince();
+        return since.has_value() ? std::optional(Clock::now() - *since) : std::nullopt;
     }
 
     void stop() {
@@ -132,26 +112,12 @@ public:
     }
 
 private:
-    struct WaitingFrame {
-        std::uint64_t frameNumber = 0;
-        bool isStill = false;
-        Clock::time_point started;
-        std::string message;
-    };
-
     // ---- With mutex_ held.
 
     void want(const ViewRequest& view) {
-        const bool isOther = !wanted_.has_value() || !isSame(*wanted_, view);
-        wanted_ = view;
         setProblem(requestProblem_, "");
-        if (!isOther)
-            return;
-        isRenderNeeded_ = true;
-        wantedSince_ = Clock::now();
-        retryAt_.reset();
-        redrawAt_.reset();
-        isLoading_ = false;
+        if (progress_.want(view, Clock::now()))
+            outbox_.dropStill();
     }
 
     void setProblem(std::string& problem, std::string value) {
@@ -161,39 +127,7 @@ private:
         isStateStale_ = true;
     }
 
-    bool mayTakeFrame() const {
-        return waitingFrame_.has_value() && pacer_.unacknowledged() < pacer_.window();
-    }
-
-    /// Room for one more frame between the start of its rendering and its acknowledgement.
-    bool hasRoom() const {
-        const int underWay = (isRendering_ ? 1 : 0) + (rendered_.has_value() ? 1 : 0) +
-                             (isEncoding_ ? 1 : 0) + (waitingFrame_.has_value() ? 1 : 0);
-        return pacer_.unacknowledged() + underWay < pacer_.window();
-    }
-
-    bool isWaitingToRetry() const { return retryAt_.has_value() && Clock::now() < *retryAt_; }
-
-    bool isRedrawDue() const { return redrawAt_.has_value() && Clock::now() >= *redrawAt_; }
-
-    bool mayRender() const {
-        return (isRenderNeeded_ || isRedrawDue() || (needsFull() && hasRested())) &&
-               wanted_.has_value() && !rendered_.has_value() && hasRoom() && !isWaitingToRetry();
-    }
-
-    bool hasRested() const { return Clock::now() >= wantedSince_ + options_.restDelay; }
-
-    /// The last picture shows the view that is wanted.
-    bool isShown() const {
-        return last_.has_value() && !isRenderNeeded_ && !isLoading_ && !isRendering_ &&
-               !rendered_.has_value() && isSame(last_->view, *wanted_);
-    }
-
-    /// It was drawn in a limited time: at rest the view is drawn once more, without limit.
-    bool needsFull() const { return isShown() && isBelowAsked(*last_); }
-
-    /// It was sent as a moving one.
-    bool needsStill() const { return isShown() && !isLastStill_ && !isBelowAsked(*last_); }
+    bool hasRoom() const { return outbox_.hasRoom(progress_.underWay()); }
 
     /// Waits for a change, or until `deadline` if there is one.
     void waitForChange(std::unique_lock<std::mutex>& lock,
@@ -204,82 +138,74 @@ private:
             changed_.wait(lock);
     }
 
+    void announce(std::unique_lock<std::mutex>& lock) {
+        const bool hasMessage = !isStopping_ && outbox_.hasMessage(Clock::now());
+        lock.unlock();
+        changed_.notify_all();
+        if (hasMessage)
+            messageReady_();
+        lock.lock();
+    }
+
     // ---- The render thread.
 
     void renderLoop() {
         std::unique_lock lock(mutex_);
         while (!isStopping_) {
-            if (mayRender())
+            if (switch_)
+                switchLayout(lock);
+            else if (progress_.mayRender(Clock::now()) && hasRoom())
                 renderOne(lock);
             else
-                waitForChange(lock, nextAttempt());
+                waitForChange(lock, progress_.nextRender(Clock::now()));
         }
     }
 
-    /// When a frame is next to be drawn although nothing changes.
-    std::optional<Clock::time_point> nextAttempt() const {
-        if (isWaitingToRetry())
-            return retryAt_;
-        if (needsFull() && !hasRested())
-            return wantedSince_ + options_.restDelay;
-        return isRedrawDue() ? std::nullopt : redrawAt_;
+    /// Waits for frames of others, so it is done here and not where messages arrive.
+    void switchLayout(std::unique_lock<std::mutex>& lock) {
+        const coordinator::SwitchLayout change = *std::exchange(switch_, std::nullopt);
+        lock.unlock();
+        const absl::Status status = frames_.configure(change);
+        lock.lock();
+        setProblem(requestProblem_, status.ok() ? "" : sanitised(text(status)));
+        changed_.notify_all();
     }
 
     void renderOne(std::unique_lock<std::mutex>& lock) {
-        const ViewRequest view = *wanted_;
-        coordinator::FrameRequest request = requestFor(view);
-        if (hasRested())
+        const Clock::time_point started = Clock::now();
+        const ViewRequest view = *progress_.wanted();
+        const bool isAtRest = progress_.hasRested(started);
+        quality_.adapt(outbox_.link().bytesPerSecond(started), pixelsOf(view), started);
+        const int level = quality_.index();
+        coordinator::FrameRequest request =
+            drawingOf(view, source_.has_value() ? &source_->sceneInfo : nullptr,
+                      isAtRest ? 1 : QualityControl::level(level).scale);
+        if (isAtRest)
             request.budgetMilliseconds.reset();
         // Measuring has no place in a limited time.
         request.measuresStages =
             !request.budgetMilliseconds && ++requested_ % kFramesToAMeasurement == 4;
-        const Clock::time_point started = Clock::now();
-        isRenderNeeded_ = false;
-        redrawAt_.reset();
-        isRendering_ = true;
+        progress_.renderStarted();
         lock.unlock();
         absl::StatusOr<coordinator::RenderedFrame> frame = frames_.renderFrame(request);
         lock.lock();
-        isRendering_ = false;
+        const Clock::time_point now = Clock::now();
         if (frame.ok()) {
-            pacer_.rendered(Clock::now() - started);
+            outbox_.rendered(now - started);
             setProblem(renderProblem_, "");
-            retryAt_.reset();
-            if (isSame(view, *wanted_))
-                redrawUnlessComplete(frame->statistics);
-            rendered_ =
-                Picture{view, std::make_shared<const coordinator::RenderedFrame>(*std::move(frame)),
-                        started, std::nullopt};
+            tellAtFullSize(frame->statistics, view, request);
+            Picture picture{view,
+                            std::make_shared<const coordinator::RenderedFrame>(*std::move(frame)),
+                            started};
+            picture.level = level;
             if (!(request.camera == view.frame.camera))
-                rendered_->liftedCamera = request.camera;
+                picture.liftedCamera = request.camera;
+            progress_.rendered(std::move(picture), now);
         } else {
-            renderFailed(frame.status());
+            setProblem(renderProblem_, sanitised(text(frame.status())));
+            progress_.renderFailed(now);
         }
         changed_.notify_all();
-    }
-
-    /// The view with its eye lifted out of the ground, unless it may be there.
-    coordinator::FrameRequest requestFor(const ViewRequest& view) const {
-        coordinator::FrameRequest request = view.frame;
-        if (source_.has_value() && source_->sceneInfo.ground && !view.isUnderground)
-            request.camera = fabric::aboveGround(request.camera, *source_->sceneInfo.ground,
-                                                 request.look.exaggeration);
-        return request;
-    }
-
-    void redrawUnlessComplete(const fabric::FrameStatistics& statistics) {
-        isLoading_ = !statistics.complete && (statistics.pagesMissing == 0 ||
-                                              statistics.pagesFailed < statistics.pagesMissing);
-        if (!statistics.complete)
-            redrawAt_ = Clock::now() + (isLoading_ ? options_.loadingDelay : options_.missingDelay);
-    }
-
-    void renderFailed(const absl::Status& status) {
-        setProblem(renderProblem_, sanitised(text(status)));
-        // A newer view is drawn at once; the same one, after a while.
-        if (!isRenderNeeded_)
-            retryAt_ = Clock::now() + options_.retryDelay;
-        isRenderNeeded_ = true;
     }
 
     // ---- The encoder thread.
@@ -287,44 +213,34 @@ private:
     void encodeLoop() {
         std::unique_lock lock(mutex_);
         while (!isStopping_) {
+            const Clock::time_point now = Clock::now();
             if (isStateStale_)
                 composeState(lock);
-            else if (rendered_.has_value())
-                encode(lock, *std::exchange(rendered_, std::nullopt));
-            else if (needsStill() && hasRested() && hasRoom())
-                encode(lock, Picture{last_->view, last_->frame, Clock::now(), last_->liftedCamera});
+            else if (std::optional<Picture> picture =
+                         progress_.takePicture(hasRoom() && !outbox_.isWaiting(), now))
+                encode(lock, *std::move(picture));
             else
-                waitForChange(lock, needsStill() && hasRoom()
-                                        ? std::optional(wantedSince_ + options_.restDelay)
-                                        : std::nullopt);
+                waitForChange(lock, progress_.nextFiner(now));
         }
     }
 
     void encode(std::unique_lock<std::mutex>& lock, Picture picture) {
-        const bool isStill = hasRested() && isSame(picture.view, *wanted_) && !isRenderNeeded_ &&
-                             !isLoading_ && !isBelowAsked(picture);
-        // The same view may have come again meanwhile: this is the answer to that, too.
-        if (isSame(picture.view, *wanted_))
-            picture.view.sequence = wanted_->sequence;
+        const Fineness fineness = progress_.fineness(picture, Clock::now());
         const std::uint64_t frameNumber = ++lastFrameNumber_;
-        isEncoding_ = true;
         lock.unlock();
-        const absl::StatusOr<std::vector<std::byte>> jpeg = wire::encodeJpeg(
-            picture.frame->image, isStill ? options_.stillQuality : options_.movingQuality,
-            isStill ? wire::ChromaSubsampling::None : wire::ChromaSubsampling::Half);
-        std::string message;
-        if (jpeg.ok())
-            message = frameMessage(
-                {frameNumber, picture.view.sequence, isStill, *jpeg, picture.liftedCamera},
-                *picture.frame);
+        absl::StatusOr<EncodedFrame> encoded = encodePicture(picture, fineness, frameNumber);
         lock.lock();
-        isEncoding_ = false;
-        isLastStill_ = isStill || !jpeg.ok();
-        if (jpeg.ok())
-            waitingFrame_ = WaitingFrame{frameNumber, isStill, picture.started, std::move(message)};
-        else
-            setProblem(renderProblem_, sanitised(text(jpeg.status())));
-        last_ = std::move(picture);
+        const bool isMoving = fineness == Fineness::Moving;
+        // A still picture that is no longer wanted would only stand in the way of the next.
+        const bool isStale = !isMoving && progress_.fineness(picture, Clock::now()) != fineness;
+        if (!encoded.ok()) {
+            setProblem(renderProblem_, sanitised(text(encoded.status())));
+        } else if (!isStale) {
+            if (isMoving)
+                quality_.encoded(picture.level, encoded->picture.size(), pixelsOf(picture.view));
+            outbox_.putFrame({*std::move(encoded), picture.frame, picture.started});
+        }
+        progress_.encoded(std::move(picture), fineness, !encoded.ok());
         announce(lock);
     }
 
@@ -345,25 +261,14 @@ private:
         // A view that came before the first state was drawn without knowing the ground.
         const bool isOther =
             source_.has_value() ? !(*source_ == source) : source.sceneInfo.ground != nullptr;
-        if (isOther && wanted_.has_value()) {
-            isRenderNeeded_ = true;
-            retryAt_.reset();
-        }
+        if (isOther)
+            progress_.sourceChanged();
         source_ = std::move(source);
         if (message != lastState_) {
             lastState_ = message;
-            waitingState_ = std::move(message);
+            outbox_.putState(std::move(message));
         }
         announce(lock);
-    }
-
-    void announce(std::unique_lock<std::mutex>& lock) {
-        const bool hasMessage = !isStopping_ && (waitingState_.has_value() || mayTakeFrame());
-        lock.unlock();
-        changed_.notify_all();
-        if (hasMessage)
-            messageReady_();
-        lock.lock();
     }
 
     // ---- Threads of the frame source.
@@ -378,35 +283,21 @@ private:
 
     coordinator::FrameSource& frames_;
     const std::function<void()> messageReady_;
-    const ViewerOptions options_;
 
-    std::uint64_t requested_ = 0;  // of the render thread
-    std::mutex mutex_;             // guards everything below, up to the threads
+    std::mutex mutex_;  // guards everything below, up to the desk
     std::condition_variable changed_;
     bool isStopping_ = false;
-    Pacer pacer_;
-
-    std::optional<ViewRequest> wanted_;
-    Clock::time_point wantedSince_;  // when the view, not just its number, became another
-    bool isRenderNeeded_ = false;
-    std::optional<Clock::time_point> retryAt_;   // set after a failure
-    std::optional<Clock::time_point> redrawAt_;  // set after an incomplete frame of this view
-    bool isLoading_ = false;                     // that frame lacked data that are on their way
+    Progress progress_;
+    QualityControl quality_;
+    Outbox outbox_;
     std::optional<PictureSource> source_;
-
-    bool isRendering_ = false;
-    std::optional<Picture> rendered_;  // for the encoder to take
-    bool isEncoding_ = false;
-    std::optional<Picture> last_;
-    bool isLastStill_ = false;
+    std::optional<coordinator::SwitchLayout> switch_;  ///< asked for and not done yet
+    std::uint64_t requested_ = 0;
     std::uint64_t lastFrameNumber_ = 0;
-    std::optional<WaitingFrame> waitingFrame_;
-
     bool isStateStale_ = true;
     std::string requestProblem_;
     std::string renderProblem_;
     std::string lastState_;
-    std::optional<std::string> waitingState_;
 
     PickDesk picks_;
     int subscription_ = 0;
@@ -423,6 +314,12 @@ Viewer::~Viewer() = default;
 absl::Status Viewer::receive(std::span<const std::byte> message) { return impl_->receive(message); }
 
 std::optional<std::string> Viewer::takeMessage() { return impl_->takeMessage(); }
+
+void Viewer::roundTrip(std::chrono::steady_clock::duration time) { impl_->roundTrip(time); }
+
+std::optional<std::chrono::steady_clock::duration> Viewer::unacknowledgedFor() const {
+    return impl_->unacknowledgedFor();
+}
 
 void Viewer::stop() { impl_->stop(); }
 

@@ -2,6 +2,7 @@
 #include "coordinator/stream/viewer_messages.h"
 
 #include <algorithm>
+#include <chrono>
 
 #include "coordinator/stream/home_camera.h"
 #include "eyrie/v1/frame.pb.h"
@@ -18,6 +19,28 @@ namespace eyrie::stream {
 namespace {
 
 constexpr std::size_t kMaxProblemBytes = 400;
+
+/// What this version does not know is as if it were not said.
+coordinator::Shown shownFromMessage(const v1::ShownPicture& message) {
+    using compound::Eye;
+    using compound::Stereo;
+    coordinator::Shown shown;
+    shown.canvas = message.canvas();
+    shown.segment = message.segment();
+    if (message.eye() == v1::SHOWN_EYE_CYCLOP)
+        shown.eye = Eye::Cyclop;
+    else if (message.eye() == v1::SHOWN_EYE_LEFT)
+        shown.eye = Eye::Left;
+    else if (message.eye() == v1::SHOWN_EYE_RIGHT)
+        shown.eye = Eye::Right;
+    if (message.stereo() == v1::SHOWN_STEREO_ANAGLYPH)
+        shown.stereo = Stereo::Anaglyph;
+    else if (message.stereo() == v1::SHOWN_STEREO_SIDE_BY_SIDE)
+        shown.stereo = Stereo::SideBySide;
+    else if (message.stereo() == v1::SHOWN_STEREO_TOP_BOTTOM)
+        shown.stereo = Stereo::TopBottom;
+    return shown;
+}
 
 absl::StatusOr<ViewRequest> viewFromMessage(const v1::ViewRequest& message) {
     v1::FrameData data;
@@ -38,10 +61,50 @@ absl::StatusOr<ViewRequest> viewFromMessage(const v1::ViewRequest& message) {
         RETURN_IF_ERROR(fabric::validateBudgetMilliseconds(message.budget_milliseconds()));
         view.frame.budgetMilliseconds = message.budget_milliseconds();
     }
+    view.frame.shown = {shownFromMessage(message.shown())};
     view.frame.completeness = fabric::Completeness::Interactive;
     view.frame.width = std::clamp(message.width(), kMinPictureSide, kMaxPictureSide);
     view.frame.height = std::clamp(message.height(), kMinPictureSide, kMaxPictureSide);
     return view;
+}
+
+v1::RendererCondition toMessage(coordinator::RendererCondition condition) {
+    using enum coordinator::RendererCondition;
+    switch (condition) {
+        case Ready:
+            return v1::RENDERER_CONDITION_READY;
+        case Opening:
+            return v1::RENDERER_CONDITION_OPENING;
+        case Late:
+            return v1::RENDERER_CONDITION_LATE;
+        case Draining:
+            return v1::RENDERER_CONDITION_DRAINING;
+        case Dead:
+            return v1::RENDERER_CONDITION_DEAD;
+        case Refused:
+            break;
+    }
+    return v1::RENDERER_CONDITION_REFUSED;
+}
+
+FrameAck ackFromMessage(const v1::FrameAck& message) {
+    FrameAck ack{message.frame_number()};
+    if (message.has_received_bytes())
+        ack.receivedBytes = message.received_bytes();
+    // Who claims more than a minute, or what is no number, is not believed.
+    constexpr double kMostMilliseconds = 60'000;
+    const double milliseconds = message.decode_milliseconds();
+    if (milliseconds > 0 && milliseconds <= kMostMilliseconds)
+        ack.decoding = std::chrono::duration<double, std::milli>(milliseconds);
+    return ack;
+}
+
+absl::StatusOr<ProfileLine> lineFromMessage(const v1::ViewerProfile& message) {
+    const ProfileLine line{{message.from().x(), message.from().y()},
+                           {message.to().x(), message.to().y()},
+                           message.samples()};
+    RETURN_IF_ERROR(validate(line));
+    return line;
 }
 
 /// Bytes of the UTF-8 character at the start of `text`; 0 when there is none.
@@ -66,8 +129,7 @@ std::size_t utf8Length(std::string_view text) {
 
 }  // namespace
 
-absl::StatusOr<std::variant<ViewRequest, FrameAck, ViewerPick>> parseRequest(
-    std::span<const std::byte> bytes) {
+absl::StatusOr<Request> parseRequest(std::span<const std::byte> bytes) {
     v1::ViewerRequest message;
     if (!message.ParseFromArray(bytes.data(), static_cast<int>(bytes.size())))
         return absl::DataLossError("not an eyrie.v1.ViewerRequest");
@@ -77,10 +139,15 @@ absl::StatusOr<std::variant<ViewRequest, FrameAck, ViewerPick>> parseRequest(
             return view;
         }
         case v1::ViewerRequest::kFrameAck:
-            return FrameAck{message.frame_ack().frame_number()};
+            return ackFromMessage(message.frame_ack());
         case v1::ViewerRequest::kPick:
             return ViewerPick{message.pick().sequence(),
                               wire::fromMessage(message.pick().request())};
+        case v1::ViewerRequest::kProfile:
+            return ViewerProfile{message.profile().sequence(), lineFromMessage(message.profile())};
+        case v1::ViewerRequest::kSwitchLayout:
+            return coordinator::SwitchLayout{message.switch_layout().canvas(),
+                                             message.switch_layout().layout()};
         case v1::ViewerRequest::REQUEST_NOT_SET:
             break;
     }
@@ -94,7 +161,12 @@ std::string stateMessage(const coordinator::Status& status, std::string_view pro
         v1::RendererState& message = *state.add_renderers();
         message.set_id(sanitised(renderer.id));
         *message.mutable_device() = wire::toMessage(renderer.device);
-        message.set_alive(renderer.alive);
+        message.set_alive(renderer.isAlive());
+        message.set_condition(toMessage(renderer.condition));
+        message.set_why(sanitised(renderer.why));
+        message.set_since_unix_milliseconds(
+            std::chrono::duration_cast<std::chrono::milliseconds>(renderer.since.time_since_epoch())
+                .count());
     }
     if (!status.sceneInfo.bounds.isEmpty()) {
         *state.mutable_scene_bounds() = wire::toMessage(status.sceneInfo.bounds);
@@ -102,26 +174,52 @@ std::string stateMessage(const coordinator::Status& status, std::string_view pro
     }
     for (const fabric::SceneObject& object : status.scene.objects)
         state.add_object_names(sanitised(object.name));
+    for (const coordinator::CanvasStatus& canvas : status.canvases) {
+        v1::CanvasState& message = *state.add_canvases();
+        message.set_name(sanitised(canvas.name));
+        for (const std::string& segment : canvas.segments) message.add_segments(sanitised(segment));
+        for (const std::string& layout : canvas.layouts) message.add_layouts(sanitised(layout));
+        message.set_layout(sanitised(canvas.layout));
+    }
     state.set_scene_triangles(status.sceneInfo.triangles);
     state.set_problem(sanitised(problem.empty() ? status.problem : problem));
     return response.SerializeAsString();
 }
 
-std::string frameMessage(const EncodedFrame& encoded, const coordinator::RenderedFrame& rendered) {
+std::string frameMessage(const EncodedFrame& encoded, const coordinator::RenderedFrame& rendered,
+                         std::size_t bytes) {
     v1::ViewerResponse response;
     v1::Frame& frame = *response.mutable_frame();
     frame.set_frame_number(encoded.frameNumber);
     frame.set_view_sequence(encoded.viewSequence);
-    frame.set_still(encoded.isStill);
+    frame.set_still(encoded.fineness != Fineness::Moving);
     frame.set_width(rendered.image.area.width);
     frame.set_height(rendered.image.area.height);
-    frame.set_jpeg(encoded.jpeg.data(), encoded.jpeg.size());
+    if (encoded.fineness == Fineness::Exact)
+        frame.set_png(encoded.picture.data(), bytes);
+    else
+        frame.set_jpeg(encoded.picture.data(), bytes);
+    frame.set_picture_bytes(encoded.picture.size());
+    frame.set_pixel_hash(encoded.pixelHash);
+    frame.set_quality(encoded.quality);
+    frame.set_link_bytes_per_second(encoded.linkBytesPerSecond);
+    frame.set_through_wall(rendered.isThroughWall);
     *frame.mutable_statistics() = wire::toMessage(rendered.statistics);
     frame.mutable_statistics()->set_width(rendered.image.area.width);
     frame.mutable_statistics()->set_height(rendered.image.area.height);
     *frame.mutable_statistics()->mutable_renderer() = wire::toMessage(rendered.device);
     if (encoded.liftedCamera)
         *frame.mutable_lifted_camera() = wire::toMessage(*encoded.liftedCamera);
+    return response.SerializeAsString();
+}
+
+std::string framePartMessage(std::uint64_t frameNumber, std::size_t offset,
+                             std::span<const std::byte> bytes) {
+    v1::ViewerResponse response;
+    v1::FramePart& part = *response.mutable_frame_part();
+    part.set_frame_number(frameNumber);
+    part.set_offset(offset);
+    part.set_bytes(bytes.data(), bytes.size());
     return response.SerializeAsString();
 }
 
@@ -134,6 +232,24 @@ std::string pickedMessage(std::uint64_t sequence, const absl::StatusOr<fabric::P
             sanitised({picked.status().message().data(), picked.status().message().size()}));
     else if (picked->has_value())
         *message.mutable_point() = wire::toMessage(**picked);
+    return response.SerializeAsString();
+}
+
+std::string profiledMessage(std::uint64_t sequence,
+                            const absl::StatusOr<std::vector<fabric::Picked>>& samples) {
+    v1::ViewerResponse response;
+    v1::ViewerProfiled& message = *response.mutable_profiled();
+    message.set_sequence(sequence);
+    if (!samples.ok()) {
+        message.set_problem(
+            sanitised({samples.status().message().data(), samples.status().message().size()}));
+        return response.SerializeAsString();
+    }
+    for (const fabric::Picked& picked : *samples) {
+        v1::ProfileSample& sample = *message.add_samples();
+        if (picked)
+            *sample.mutable_point() = wire::toMessage(*picked);
+    }
     return response.SerializeAsString();
 }
 

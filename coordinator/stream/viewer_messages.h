@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -8,11 +9,13 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include <absl/status/status.h>
 #include <absl/status/statusor.h>
 
 #include "coordinator/frame/frame_source.h"
+#include "coordinator/stream/profile.h"
 
 /// Between viewer.proto's bytes and values.
 namespace eyrie::stream {
@@ -25,6 +28,9 @@ struct ViewRequest {
 
 struct FrameAck {
     std::uint64_t frameNumber = 0;
+    /// Bytes of its picture that have arrived, where it comes in parts; absent: it was drawn.
+    std::optional<std::uint64_t> receivedBytes = {};
+    std::chrono::duration<double> decoding{0};  ///< from its arrival until it was drawn
 };
 
 /// A question of what a place of a picture shows.
@@ -33,15 +39,30 @@ struct ViewerPick {
     absl::StatusOr<fabric::PickRequest> request;  ///< or what is wrong with it
 };
 
+/// A question of heights along a line.
+struct ViewerProfile {
+    std::uint64_t sequence = 0;
+    absl::StatusOr<ProfileLine> line;  ///< or what is wrong with it
+};
+
+/// How near to the server's picture one is sent.
+enum class Fineness {
+    Moving,  ///< JPEG, as the link allows
+    Fine,    ///< JPEG of quality 95, 4:4:4
+    Exact,   ///< PNG, bit for bit
+};
+
 inline constexpr int kMinPictureSide = 16;
 inline constexpr int kMaxPictureSide = 4096;
 
 /// Sizes are clamped to kMinPictureSide..kMaxPictureSide.
 /// Errors: InvalidArgument (a view that cannot be drawn; the message tells the user why), DataLoss
 /// (not a ViewerRequest: the sender does not speak this protocol).
-/// A pick that cannot be made is parsed, with what is wrong: it has an answer of its own.
-absl::StatusOr<std::variant<ViewRequest, FrameAck, ViewerPick>> parseRequest(
-    std::span<const std::byte> bytes);
+/// A pick or profile that cannot be made is parsed, with what is wrong: it has an answer of its
+/// own.
+using Request =
+    std::variant<ViewRequest, FrameAck, ViewerPick, ViewerProfile, coordinator::SwitchLayout>;
+absl::StatusOr<Request> parseRequest(std::span<const std::byte> bytes);
 
 /// A ViewerResponse with a SessionState. `problem` goes before status.problem.
 std::string stateMessage(const coordinator::Status& status, std::string_view problem);
@@ -49,16 +70,29 @@ std::string stateMessage(const coordinator::Status& status, std::string_view pro
 struct EncodedFrame {
     std::uint64_t frameNumber = 0;
     std::uint64_t viewSequence = 0;
-    bool isStill = false;
-    std::span<const std::byte> jpeg;
+    Fineness fineness = Fineness::Moving;
+    int quality = 0;                                  ///< of a JPEG
+    std::vector<std::byte> picture;                   ///< a PNG where it is Exact, else a JPEG
+    std::uint32_t pixelHash = 0;                      ///< fabric::pixelHash, where it is Exact
     std::optional<fabric::Camera> liftedCamera = {};  ///< shown in place of the one asked for
+    double linkBytesPerSecond = 0;                    ///< 0: not known
 };
 
-/// A ViewerResponse with a Frame: `encoded` of what `rendered` shows.
-std::string frameMessage(const EncodedFrame& encoded, const coordinator::RenderedFrame& rendered);
+/// A ViewerResponse with a Frame: `encoded` of what `rendered` shows, with the first `bytes` of its
+/// picture.
+std::string frameMessage(const EncodedFrame& encoded, const coordinator::RenderedFrame& rendered,
+                         std::size_t bytes);
+
+/// A ViewerResponse with a FramePart: `bytes` of a picture from `offset` on.
+std::string framePartMessage(std::uint64_t frameNumber, std::size_t offset,
+                             std::span<const std::byte> bytes);
 
 /// A ViewerResponse with a ViewerPicked.
 std::string pickedMessage(std::uint64_t sequence, const absl::StatusOr<fabric::Picked>& picked);
+
+/// A ViewerResponse with a ViewerProfiled.
+std::string profiledMessage(std::uint64_t sequence,
+                            const absl::StatusOr<std::vector<fabric::Picked>>& samples);
 
 /// `text` fit for a message to a person: valid UTF-8 without control characters, one line of at
 /// most 400 bytes.

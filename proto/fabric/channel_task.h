@@ -2,9 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "fabric/image.h"
 #include "fabric/range.h"
+#include "fabric/raster.h"
+#include "fabric/sight.h"
 #include "fabric/statistics.h"
 #include "fabric/viewport.h"
 
@@ -32,9 +35,21 @@ struct ChannelTask {
     /// Whether, after the picture, its vertices are drawn once more to tell how long they take
     /// (StageMilliseconds::vertices). The total goes without that.
     bool measuresStages = false;
+    /// What the view is seen through; nothing: straight ahead from the camera, by its field of
+    /// view.
+    std::optional<Sight> sight = {};
+    /// The points of the view that are drawn; nothing: its pixels' centres. pixelViewport, and the
+    /// image that comes back, count the raster's pixels.
+    std::optional<Raster> raster = {};
 
     bool operator==(const ChannelTask&) const = default;
 };
+
+/// All the pixels that a task counts in: its raster's or, without one, its view's.
+inline PixelViewport pictureOf(const ChannelTask& task) {
+    return task.raster ? PixelViewport{0, 0, task.raster->width, task.raster->height}
+                       : PixelViewport{0, 0, task.viewWidth, task.viewHeight};
+}
 
 /// What came of a task. `image.area` is the covered part of the task's pixel viewport: whatever of
 /// it the image leaves out is background.

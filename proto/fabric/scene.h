@@ -67,6 +67,15 @@ inline constexpr int kMaxLights = 4;
 /// singular, a name or path is empty, or there are too many lights.
 absl::Status validate(const Scene& scene);
 
+/// Tells the contents of one .eyt or .eym file from another's: `checksum` is its header's, which
+/// covers the index's, which covers those of all pages.
+struct DataFile {
+    std::uint64_t bytes = 0;
+    std::uint64_t checksum = 0;
+
+    bool operator==(const DataFile&) const = default;
+};
+
 /// What a renderer found in a scene.
 struct SceneInfo {
     Box bounds;                   ///< world space, metres
@@ -74,9 +83,11 @@ struct SceneInfo {
     std::uint64_t bytes = 0;      ///< of all files
     /// One for each terrain, at most kMaxGroundCells together; null where there is none.
     std::shared_ptr<const std::vector<GroundGrid>> ground = {};
+    std::vector<DataFile> files = {};  ///< of each object of the scene
 
     bool operator==(const SceneInfo& other) const {
         return bounds == other.bounds && triangles == other.triangles && bytes == other.bytes &&
+               files == other.files &&
                (ground == other.ground || (ground && other.ground && *ground == *other.ground));
     }
 };

@@ -8,6 +8,7 @@
 #include "fabric/status.h"
 #include "wire/camera.h"
 #include "wire/look.h"
+#include "wire/numbers.h"
 
 namespace eyrie::wire {
 namespace {
@@ -98,6 +99,59 @@ absl::Status checkPixels(std::int32_t value, std::int32_t least, std::string_vie
                                                   field, value, least, fabric::kMaxViewPixels));
 }
 
+absl::StatusOr<fabric::Mat3> rotationFrom(const Numbers& numbers) {
+    fabric::Mat3 rotation(1.0);
+    if (numbers.empty())
+        return rotation;
+    RETURN_IF_ERROR(checkNumbers(numbers, 9, "sight.view_from_camera"));
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 3; ++column)
+            rotation[column][row] = numbers[3 * row + column];
+    return rotation;
+}
+
+v1::Sight toMessage(const fabric::Sight& sight) {
+    v1::Sight message;
+    setNumbers(sight.eye, *message.mutable_eye());
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 3; ++column)
+            message.add_view_from_camera(sight.viewFromCamera[column][row]);
+    v1::Frustum& frustum = *message.mutable_frustum();
+    frustum.set_left(sight.frustum.left);
+    frustum.set_right(sight.frustum.right);
+    frustum.set_bottom(sight.frustum.bottom);
+    frustum.set_top(sight.frustum.top);
+    return message;
+}
+
+absl::StatusOr<fabric::Sight> fromMessage(const v1::Sight& message) {
+    fabric::Sight sight;
+    ASSIGN_OR_RETURN(sight.eye, threeNumbersOr(message.eye(), sight.eye, "sight.eye"));
+    ASSIGN_OR_RETURN(sight.viewFromCamera, rotationFrom(message.view_from_camera()));
+    const v1::Frustum& frustum = message.frustum();
+    sight.frustum = {frustum.left(), frustum.right(), frustum.bottom(), frustum.top()};
+    RETURN_IF_ERROR(fabric::validate(sight));
+    return sight;
+}
+
+v1::Raster toMessage(const fabric::Raster& raster) {
+    v1::Raster message;
+    message.set_width(raster.width);
+    message.set_height(raster.height);
+    message.set_origin_x(raster.origin.x);
+    message.set_origin_y(raster.origin.y);
+    message.set_step_x(raster.step.x);
+    message.set_step_y(raster.step.y);
+    return message;
+}
+
+fabric::Raster fromMessage(const v1::Raster& message) {
+    return {message.width(),
+            message.height(),
+            {message.origin_x(), message.origin_y()},
+            {message.step_x(), message.step_y()}};
+}
+
 }  // namespace
 
 v1::FrameData toMessage(const fabric::FrameData& frameData) {
@@ -185,6 +239,10 @@ v1::ChannelTask toMessage(const fabric::ChannelTask& task) {
     message.set_wants_depth(task.wantsDepth);
     message.set_completeness(toMessage(task.completeness));
     message.set_measures_stages(task.measuresStages);
+    if (task.sight)
+        *message.mutable_sight() = toMessage(*task.sight);
+    if (task.raster)
+        *message.mutable_raster() = toMessage(*task.raster);
     return message;
 }
 
@@ -197,13 +255,21 @@ absl::StatusOr<fabric::ChannelTask> fromMessage(const v1::ChannelTask& message) 
     RETURN_IF_ERROR(checkPixels(task.viewWidth, 1, "task.view_width"));
     RETURN_IF_ERROR(checkPixels(task.viewHeight, 1, "task.view_height"));
     ASSIGN_OR_RETURN(task.pixelViewport, fromMessage(message.pixel_viewport()));
+    if (message.has_sight()) {
+        ASSIGN_OR_RETURN(task.sight, fromMessage(message.sight()));
+    }
+    if (message.has_raster()) {
+        task.raster = fromMessage(message.raster());
+        RETURN_IF_ERROR(fabric::validate(*task.raster, task.viewWidth, task.viewHeight));
+    }
     const fabric::PixelViewport& part = task.pixelViewport;
-    if (part.isEmpty() ||
-        !fabric::PixelViewport{0, 0, task.viewWidth, task.viewHeight}.contains(part))
+    const fabric::PixelViewport picture = fabric::pictureOf(task);
+    if (part.isEmpty() || !picture.contains(part))
         return absl::InvalidArgumentError(fmt::format(
             "task.pixel_viewport is {}x{} pixels at {},{}; it must not be empty and lie inside the "
-            "view of {}x{}",
-            part.width, part.height, part.x, part.y, task.viewWidth, task.viewHeight));
+            "{} of {}x{}",
+            part.width, part.height, part.x, part.y, task.raster ? "raster" : "view", picture.width,
+            picture.height));
     if (message.has_range()) {
         ASSIGN_OR_RETURN(task.range, fromMessage(message.range()));
     }

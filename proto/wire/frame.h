@@ -28,7 +28,8 @@ absl::StatusOr<fabric::PixelViewport> fromMessage(const v1::PixelViewport& messa
 v1::Range toMessage(const fabric::Range& range);
 absl::StatusOr<fabric::Range> fromMessage(const v1::Range& message);
 
-/// The pixel viewport is not empty and lies inside the view. An absent range is the whole.
+/// The pixel viewport is not empty and lies inside the view, or its raster; sight and raster are
+/// what fabric::validate() accepts. An absent range is the whole.
 v1::ChannelTask toMessage(const fabric::ChannelTask& task);
 absl::StatusOr<fabric::ChannelTask> fromMessage(const v1::ChannelTask& message);
 

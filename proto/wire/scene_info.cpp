@@ -101,6 +101,11 @@ v1::OpenSceneResponse toMessage(const fabric::SceneInfo& info) {
     message.set_bytes(info.bytes);
     if (info.ground)
         for (const fabric::GroundGrid& grid : *info.ground) *message.add_ground() = toMessage(grid);
+    for (const fabric::DataFile& file : info.files) {
+        v1::DataFile& sent = *message.add_files();
+        sent.set_bytes(file.bytes);
+        sent.set_checksum(file.checksum);
+    }
     return message;
 }
 
@@ -111,6 +116,8 @@ absl::StatusOr<fabric::SceneInfo> fromMessage(const v1::OpenSceneResponse& messa
     }
     info.triangles = message.triangles();
     info.bytes = message.bytes();
+    for (const v1::DataFile& file : message.files())
+        info.files.push_back({file.bytes(), file.checksum()});
     std::vector<fabric::GroundGrid> ground;
     for (const v1::GroundGrid& one : message.ground()) {
         ASSIGN_OR_RETURN(fabric::GroundGrid grid, fromMessage(one));

@@ -19,7 +19,7 @@ inline constexpr std::size_t kChunkBytes = std::size_t{1} << 20;
 inline constexpr int kMaxMessageBytes = 4 << 20;
 
 /// Of a connection to a coordinator or renderer: direct (no HTTP proxy), tried again within a
-/// second, found dead after 13 seconds without an answer even if the network says nothing.
+/// second, found dead after 3 seconds without an answer even if the network says nothing.
 grpc::ChannelArguments clientArguments();
 
 /// Of a server that such clients connect to. A port that another process listens on is an error

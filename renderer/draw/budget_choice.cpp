@@ -5,6 +5,7 @@
 
 #include "fabric/frame_budget.h"
 #include "fabric/viewport.h"
+#include "renderer/draw/selection.h"
 
 namespace eyrie::draw {
 namespace {
@@ -14,8 +15,7 @@ std::uint64_t viewTriangles(std::span<const OpenObject> objects, const lod::View
                             const fabric::FrameData& frameData, const fabric::ChannelTask& task,
                             double tauPixels) {
     const fabric::Look& look = frameData.look;
-    const lod::View cutView =
-        look.cutCamera ? lod::View(*look.cutCamera, task.viewWidth, task.viewHeight) : view;
+    const lod::View cutView = cutViewOf(look, task, view);
     std::uint64_t triangles = 0;
     for (const OpenObject& open : objects) {
         const lod::ObjectView objectView(cutView, drawnWorldFromObject(open.object, look));

@@ -46,7 +46,7 @@ enum class Layer { Opaque, Blended };
 /// What part of which view a channel draws, and how well.
 struct CutRequest {
     const lod::ObjectView& view;     ///< the whole view, from the object
-    const fabric::Frustum& channel;  ///< the part that the channel looks through
+    const fabric::Frustum& channel;  ///< the part that the channel looks through; same axes
     fabric::Range range;             ///< the share of the view's pieces that it draws
     double tauPixels = 1;
     fabric::Completeness completeness = fabric::Completeness::Complete;
@@ -73,12 +73,12 @@ struct MemoryUse {
 
 /// What is the same for every piece of a frame.
 struct FrameState {
-    const lod::View& view;
+    const lod::View& view;  ///< that is drawn
     const fabric::Scene& scene;
     fabric::Shading shading;
     const fabric::Look& look;
     const fabric::Range& range;  ///< of the channel
-    fabric::PixelViewport part;  ///< of the view's pixels, that may be drawn: the scissor
+    fabric::PixelViewport part;  ///< of its pixels, that may be drawn: the scissor
     Layer layer = Layer::Opaque;
 };
 
@@ -90,7 +90,7 @@ public:
     /// Object space, metres.
     virtual fabric::Box bounds() const = 0;
     virtual std::uint64_t triangles() const = 0;
-    virtual std::uint64_t bytes() const = 0;
+    virtual fabric::DataFile file() const = 0;
 
     /// How many triangles of the object the whole view sees at `request.tauPixels`, when all data
     /// are there. About: what it decides is only how well to draw. Followed by selectCut() for the

@@ -58,7 +58,7 @@ public:
 
     fabric::Box bounds() const override { return file_->bounds(); }
     std::uint64_t triangles() const override { return file_->triangleCount(); }
-    std::uint64_t bytes() const override { return file_->fileBytes(); }
+    fabric::DataFile file() const override { return {file_->fileBytes(), file_->checksum()}; }
 
     std::unique_ptr<const pick::Surface> surface(const fabric::SceneObject& object) const override {
         return pick::meshSurface(object, file_);
@@ -315,7 +315,7 @@ absl::Status MeshDrawable::prepare(const mesh::Material& material, const FrameSt
                                    Prepared& prepared) {
     Program::Variant variant{variantFor(frame, worldFromObject_)};
     variant.gouraud = frame.shading == fabric::Shading::Gouraud;
-    variant.textured = material.hasImage();
+    variant.textured = !material.hasImage() ? 0 : frame.view.step == fabric::Vec2(1) ? 1 : 2;
     variant.seeThrough = material.isBlended() ? 2 : material.alphaCutoff > 0 ? 1 : 0;
     const auto [at, isNew] = prepared.try_emplace(variant, nullptr);
     const Program*& program = at->second;

@@ -56,7 +56,7 @@ void setLights(const effects::ObjectBlock& program, const FrameState& frame,
         add(light.positionMetres - snappedEye, 1 / (light.reachMetres * light.reachMetres),
             light.colour);
     if (count == 0)
-        add(glm::normalize(glm::transpose(frame.view.viewFromWorldRotation) *
+        add(glm::normalize(glm::transpose(frame.view.cameraFromWorldRotation) *
                            fabric::Vec3(-0.3, 0.4, 1)),
             0, fabric::Vec3(1));
     const auto counted = static_cast<std::size_t>(countedLights(frame.scene));
@@ -87,6 +87,8 @@ void setObject(const effects::ObjectBlock& program, const FrameState& frame,
     program.cameraLattice(lattice.cameraLattice);
     program.cameraOffsetMetres(glm::vec3(shadingFromWorld * lattice.cameraOffsetMetres));
     program.worldFromNormal(glm::mat3(glm::inverseTranspose(linear)));
+    program.columnStep(static_cast<float>(frame.view.step.x));
+    program.rowStep(static_cast<float>(frame.view.step.y));
     setLights(program, frame, shadingFromWorld, frame.view.eye - lattice.cameraOffsetMetres);
 }
 

@@ -42,22 +42,28 @@ fabric::PixelViewport reach(const fabric::FrameData& frameData, const fabric::Pi
                : part;
 }
 
-Selection selectPieces(std::span<const OpenObject> objects, const lod::View& view,
+lod::View cutViewOf(const fabric::Look& look, const fabric::ChannelTask& task,
+                    const lod::View& whole) {
+    return look.cutCamera ? lod::View(*look.cutCamera, task.sight, task.viewWidth, task.viewHeight)
+                          : whole;
+}
+
+Selection selectPieces(std::span<const OpenObject> objects, const lod::TaskViews& views,
                        const fabric::FrameData& frameData, const fabric::ChannelTask& task,
                        fabric::FrameStatistics& statistics) {
     Selection selection;
     std::vector<OrderedPiece>& pieces = selection.pieces;
     const fabric::Look& look = frameData.look;
     const bool hasLayers = frameData.shading != fabric::Shading::Wireframe;
-    const fabric::Frustum channel = lod::subFrustum(view, reach(frameData, task.pixelViewport));
+    const fabric::Frustum channel =
+        lod::subFrustum(views.drawn, reach(frameData, task.pixelViewport));
     // A cut that was frozen is brought whole: this view may see all of it.
-    const lod::View cutView =
-        look.cutCamera ? lod::View(*look.cutCamera, task.viewWidth, task.viewHeight) : view;
+    const lod::View cutView = cutViewOf(look, task, views.whole);
     const fabric::Frustum& cutChannel = look.cutCamera ? cutView.frustum : channel;
     for (std::uint32_t i = 0; i < objects.size(); ++i) {
         const fabric::Mat4& worldFromObject =
             selection.worldFromObject.emplace_back(drawnWorldFromObject(objects[i].object, look));
-        const lod::ObjectView objectView(view, worldFromObject);
+        const lod::ObjectView objectView(views.drawn, worldFromObject);
         const lod::ObjectView cutObjectView(cutView, worldFromObject);
         const Cut cut = objects[i].drawable->selectCut({cutObjectView, cutChannel, task.range,
                                                         frameData.tauPixels, task.completeness,
@@ -80,7 +86,7 @@ Selection selectPieces(std::span<const OpenObject> objects, const lod::View& vie
     std::stable_sort(pieces.begin(), pieces.end(), [](const auto& a, const auto& b) {
         return a.piece.rangePosition < b.piece.rangePosition;
     });
-    sortBackToFront(selection.blended, view, selection.worldFromObject);
+    sortBackToFront(selection.blended, views.drawn, selection.worldFromObject);
     selection.covered = intersection(selection.covered, task.pixelViewport);
     return selection;
 }

@@ -23,6 +23,10 @@ bool hasLines(const fabric::FrameData& frameData);
 /// the piece it belongs to may lie beside the channel.
 fabric::PixelViewport reach(const fabric::FrameData& frameData, const fabric::PixelViewport& part);
 
+/// The view that the cut is chosen for: `whole`, or that of the camera of a cut that was frozen.
+lod::View cutViewOf(const fabric::Look& look, const fabric::ChannelTask& task,
+                    const lod::View& whole);
+
 /// What a channel draws, and the pixels outside which none of it falls.
 struct Selection {
     std::vector<OrderedPiece> pieces;
@@ -39,7 +43,7 @@ struct Selection {
 /// What is blended falls to every range: of the channels that are composited, that which has the
 /// nearest opaque surface of a pixel wins, and has to have drawn all that is in front of it.
 /// Adds to `statistics` what was loaded and what is missing.
-Selection selectPieces(std::span<const OpenObject> objects, const lod::View& view,
+Selection selectPieces(std::span<const OpenObject> objects, const lod::TaskViews& views,
                        const fabric::FrameData& frameData, const fabric::ChannelTask& task,
                        fabric::FrameStatistics& statistics);
 

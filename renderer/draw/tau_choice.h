@@ -42,7 +42,7 @@ private:
             : eye(request.view.view().eye),
               rotation(request.view.view().viewFromWorldRotation),
               frustum(request.view.view().frustum),
-              height(request.view.view().height),
+              focalPixels(request.view.view().focalPixels),
               tauPixels(request.tauPixels),
               share(shareOfRange),
               exaggeration(request.exaggeration) {}
@@ -50,7 +50,7 @@ private:
         fabric::Vec3 eye;
         fabric::Mat3 rotation;
         fabric::Frustum frustum;
-        int height;
+        fabric::Vec2 focalPixels;
         double tauPixels;
         double share;
         double exaggeration;

@@ -60,7 +60,7 @@ public:
 
     fabric::Box bounds() const override { return bounds_; }
     std::uint64_t triangles() const override { return triangles_; }
-    std::uint64_t bytes() const override { return file_->sizeBytes(); }
+    fabric::DataFile file() const override { return {file_->sizeBytes(), file_->checksum()}; }
 
     std::unique_ptr<const pick::Surface> surface(const fabric::SceneObject& object) const override {
         return pick::terrainSurface(object, file_);

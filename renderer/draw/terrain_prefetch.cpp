@@ -32,9 +32,8 @@ void TerrainPrefetch::follow(const lod::View& view, const fabric::Mat4& worldFro
     metresASecond_ = tells ? (eye - eye_) / step.count() : Vec3(0);
     eye_ = eye;
     time_ = now;
-    forward_ = glm::normalize(fabric::Mat3(objectFromWorld) *
-                              (glm::transpose(view.viewFromWorldRotation) * Vec3(0, 0, -1)));
-    focalPixels_ = view.focalPixels;
+    forward_ = glm::normalize(fabric::Mat3(objectFromWorld) * lod::middleDirection(view));
+    focalPixels_ = view.greatestFocalPixels();
 }
 
 TerrainPrefetch::Candidate TerrainPrefetch::candidate(const TileId& tile, const Vec3& eye,

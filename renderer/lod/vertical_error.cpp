@@ -27,20 +27,22 @@ VerticalError::VerticalError(const ObjectView& view, double error)
     up_ = {up.x, up.y, -up.z};
     for (Plane& plane : planes_) plane.offset = error * std::abs(glm::dot(plane.normal, up_));
     depthReach_ = error * std::abs(up_.z);
-    scale_ = error * view.view().focalPixels;
+    const double focal = view.view().greatestFocalPixels();
+    scale_ = error * focal;
+    squeeze_ = view.view().focalPixels / focal;
     leastSlant_ = kLeastSlant * glm::length(up_);
 }
 
-/// Slant: how long a unit of height looks at unit depth. It is the norm of a linear map over the
-/// depth, so the points where it is below some value are a convex set, and it is greatest at a
-/// corner.
+/// Slant: how long a unit of height looks at unit depth, in the shorter sides of pixels. It is the
+/// norm of a linear map over the depth, so the points where it is below some value are a convex
+/// set, and it is greatest at a corner.
 void VerticalError::grow(Extremes& extremes, const Polygon& polygon) const {
     for (const Vec3& p : polygon) {
         extremes.leastDepth = std::min(extremes.leastDepth, p.z);
         if (p.z <= 0)
             continue;
-        const double x = up_.x - up_.z * p.x / p.z;
-        const double y = up_.y - up_.z * p.y / p.z;
+        const double x = squeeze_.x * (up_.x - up_.z * p.x / p.z);
+        const double y = squeeze_.y * (up_.y - up_.z * p.y / p.z);
         extremes.greatestSlantSquared = std::max(extremes.greatestSlantSquared, x * x + y * y);
     }
 }

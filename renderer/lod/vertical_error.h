@@ -47,7 +47,8 @@ private:
     fabric::Vec3 up_;              ///< the object's z axis in the view, (x, y, depth)
     std::array<Plane, 4> planes_;  ///< a point outside is not visible, nor is its partner
     double depthReach_;            ///< by how much the depths of partners differ, at most
-    double scale_;
+    double scale_;                 ///< pixels at unit slant and depth
+    fabric::Vec2 squeeze_;         ///< 1 along the side of a pixel that is the shorter, else less
     double leastSlant_;
 };
 

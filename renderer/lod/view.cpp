@@ -19,6 +19,7 @@ using fabric::Box;
 using fabric::Frustum;
 using fabric::Mat3;
 using fabric::Mat4;
+using fabric::Vec2;
 using fabric::Vec3;
 
 /// The part of a box inside a frustum: nearest depth and widest tangent off the axis.
@@ -46,9 +47,12 @@ VisiblePart visiblePart(const Corners& corners, const Frustum& frustum) {
     return part;
 }
 
-Frustum widened(const Frustum& f, double tangent) {
-    return {f.left - tangent, f.right + tangent, f.bottom - tangent, f.top + tangent};
+Frustum widened(const Frustum& f, const Vec2& tangent) {
+    return {f.left - tangent.x, f.right + tangent.x, f.bottom - tangent.y, f.top + tangent.y};
 }
+
+/// Exactly the ends at 0 and 1.
+double between(double low, double high, double share) { return low * (1 - share) + high * share; }
 
 }  // namespace
 
@@ -71,11 +75,49 @@ double largestStretch(const Mat3& m) {
 View::View(const fabric::Camera& camera, int widthPixels, int heightPixels)
     : eye(camera.eye),
       viewFromWorldRotation(fabric::viewFromWorldRotation(camera)),
+      cameraFromWorldRotation(viewFromWorldRotation),
       frustum(fabric::symmetricFrustum(camera.fovYDegrees,
                                        static_cast<double>(widthPixels) / heightPixels)),
       width(widthPixels),
       height(heightPixels),
       focalPixels(heightPixels / (frustum.top - frustum.bottom)) {}
+
+View::View(const fabric::Camera& camera, const std::optional<fabric::Sight>& sight, int widthPixels,
+           int heightPixels)
+    : View(camera, widthPixels, heightPixels) {
+    if (!sight)
+        return;
+    eye += glm::transpose(cameraFromWorldRotation) * sight->eye;
+    viewFromWorldRotation = sight->viewFromCamera * cameraFromWorldRotation;
+    frustum = sight->frustum;
+    focalPixels = {widthPixels / (frustum.right - frustum.left),
+                   heightPixels / (frustum.top - frustum.bottom)};
+}
+
+double View::greatestFocalPixels() const { return std::max(focalPixels.x, focalPixels.y); }
+
+View rasterView(const View& view, const std::optional<fabric::Raster>& raster) {
+    View sampled = view;
+    if (!raster)
+        return sampled;
+    const Vec2 size(raster->width, raster->height);
+    const Vec2 low = raster->origin / Vec2(view.width, view.height);
+    const Vec2 high = (raster->origin + size * raster->step) / Vec2(view.width, view.height);
+    const Frustum& f = view.frustum;
+    sampled.frustum = {between(f.left, f.right, low.x), between(f.left, f.right, high.x),
+                       between(f.bottom, f.top, low.y), between(f.bottom, f.top, high.y)};
+    sampled.width = raster->width;
+    sampled.height = raster->height;
+    sampled.focalPixels = view.focalPixels / raster->step;
+    sampled.step = raster->step;
+    return sampled;
+}
+
+Vec3 middleDirection(const View& view) {
+    const Frustum& f = view.frustum;
+    return glm::normalize(glm::transpose(view.viewFromWorldRotation) *
+                          Vec3((f.left + f.right) / 2, (f.bottom + f.top) / 2, -1));
+}
 
 Frustum subFrustum(const View& view, const fabric::PixelViewport& part) {
     const Frustum& f = view.frustum;
@@ -118,15 +160,16 @@ fabric::PixelViewport ObjectView::coveredPixels(const Box& bounds) const {
                   std::min(extent.bottom, p.y / p.z), std::max(extent.top, p.y / p.z)};
     }
     // One pixel more on each side: vertices are rounded to floats, and lines have a width.
-    const auto pixel = [&](double tangent, double origin, double margin, int side) {
-        const double at = std::floor((tangent - origin) * view_.focalPixels + margin);
+    const auto pixel = [](double fromOrigin, double focal, double margin, int side) {
+        const double at = std::floor(fromOrigin * focal + margin);
         return static_cast<std::int32_t>(std::clamp(at, 0.0, static_cast<double>(side)));
     };
     const Frustum& f = view_.frustum;
-    const std::int32_t left = pixel(extent.left, f.left, -1, view_.width);
-    const std::int32_t right = pixel(extent.right, f.left, 2, view_.width);
-    const std::int32_t bottom = pixel(extent.bottom, f.bottom, -1, view_.height);
-    const std::int32_t top = pixel(extent.top, f.bottom, 2, view_.height);
+    const Vec2& focal = view_.focalPixels;
+    const std::int32_t left = pixel(extent.left - f.left, focal.x, -1, view_.width);
+    const std::int32_t right = pixel(extent.right - f.left, focal.x, 2, view_.width);
+    const std::int32_t bottom = pixel(extent.bottom - f.bottom, focal.y, -1, view_.height);
+    const std::int32_t top = pixel(extent.top - f.bottom, focal.y, 2, view_.height);
     return {left, bottom, right - left, top - bottom};
 }
 
@@ -146,7 +189,7 @@ double ObjectView::screenSpaceErrorPixels(double errorMetres, const Box& bounds)
             return 0;
         if (part.minDepth <= 0)
             return std::numeric_limits<double>::infinity();
-        const double bound = errorMetres * metresPerObjectUnit_ * view_.focalPixels *
+        const double bound = errorMetres * metresPerObjectUnit_ * view_.greatestFocalPixels() *
                              std::sqrt(1 + part.maxTangentSquared) / part.minDepth;
         if (bound <= marginPixels)
             return bound;

@@ -1,25 +1,62 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 #include "fabric/box.h"
 #include "fabric/camera.h"
+#include "fabric/channel_task.h"
 #include "fabric/frustum.h"
+#include "fabric/raster.h"
+#include "fabric/sight.h"
 #include "fabric/viewport.h"
 
 namespace eyrie::lod {
 
-/// A camera with a picture size: what level of detail and culling are decided for.
-/// Always the whole view, so that every channel of it chooses the same LOD nodes.
+/// An eye with a picture: what is seen through which pixels.
+///
+/// What level of detail is decided for is the whole view, so that every channel of it chooses the
+/// same LOD nodes. Where a task has a raster, what is drawn is another one of the same eye and axes
+/// (rasterView). docs/decisions/0037-two-views.md
 struct View {
+    /// Straight ahead from the camera.
     View(const fabric::Camera& camera, int widthPixels, int heightPixels);
+    /// Through `sight` where there is one. Precondition: fabric::validate() of both is ok.
+    View(const fabric::Camera& camera, const std::optional<fabric::Sight>& sight, int widthPixels,
+         int heightPixels);
+
+    double greatestFocalPixels() const;
 
     fabric::Vec3 eye;  ///< world metres
     fabric::Mat3 viewFromWorldRotation;
-    fabric::Frustum frustum;
+    fabric::Mat3 cameraFromWorldRotation;  ///< of what the camera carries: its light
+    fabric::Frustum frustum;               ///< against the view's own axis
     int width;
     int height;
-    double focalPixels;  ///< height / (2 tan(fovY / 2)): pixels per unit of tangent
+    /// Pixels per unit of tangent, across and up. Straight ahead both are height / (2 tan(fovY /
+    /// 2)).
+    fabric::Vec2 focalPixels;
+    /// From one pixel to the next in the pixels that errors are counted in: those of the view that
+    /// a raster samples.
+    fabric::Vec2 step{1, 1};
 };
+
+/// What of `view` a raster shows: `view` itself where there is none, and, to the bit, where it is
+/// the view's own pixels. Precondition: fabric::validate(raster) is ok.
+View rasterView(const View& view, const std::optional<fabric::Raster>& raster);
+
+/// The two views of a task.
+struct TaskViews {
+    TaskViews(const fabric::Camera& camera, const fabric::ChannelTask& task)
+        : whole(camera, task.sight, task.viewWidth, task.viewHeight),
+          drawn(rasterView(whole, task.raster)) {}
+
+    View whole;  ///< for level of detail and errors
+    View drawn;  ///< for culling, drawing and occlusion: its pixels are the image's
+};
+
+/// The direction through the middle of the picture, world axes; unit length.
+fabric::Vec3 middleDirection(const View& view);
 
 /// Largest singular value of a linear map.
 double largestStretch(const fabric::Mat3& m);
@@ -44,11 +81,11 @@ public:
     /// Screen-space error, in pixels, of an LOD node drawn with `errorMetres` of geometric error.
     ///
     /// An upper bound for every visible point in `bounds` and every direction of the error: it
-    /// holds the 1/cos of the widest angle off axis besides the nearest depth. `bounds` covers the
-    /// drawn surface; it is grown here by `errorMetres` to cover the source's. Infinite when the
-    /// grown bounds reach the eye; 0 when nothing of them can be seen. For errors along z, such as
-    /// terrain's, VerticalError is narrower.
-    /// Proof: docs/errors.md#projection.
+    /// holds the 1/cos of the widest angle off axis besides the nearest depth, and the greater of
+    /// the focal lengths where pixels are not square. `bounds` covers the drawn surface; it is
+    /// grown here by `errorMetres` to cover the source's. Infinite when the grown bounds reach the
+    /// eye; 0 when nothing of them can be seen. For errors along z, such as terrain's,
+    /// VerticalError is narrower. Proof: docs/errors.md#projection.
     double screenSpaceErrorPixels(double errorMetres, const fabric::Box& bounds) const;
 
     const View& view() const { return view_; }

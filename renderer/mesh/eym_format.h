@@ -152,6 +152,8 @@ public:
     std::uint64_t vertexCount() const { return header_.sourceVertexCount; }
     std::uint64_t sourceHash() const { return header_.sourceHash; }
     std::uint64_t fileBytes() const { return header_.fileBytes; }
+    /// Of the header, which holds the tables', which hold the pages': of all of the file.
+    std::uint64_t checksum() const { return header_.checksum; }
     double coarsestErrorMetres() const { return header_.coarsestErrorMetres; }
     double finestErrorMetres() const { return header_.finestErrorMetres; }
     /// Of a leaf, where measuring frames chose that number; otherwise 0.

@@ -29,6 +29,16 @@ bool areMostlyTheSame(const fabric::PixelViewport& a, const fabric::PixelViewpor
     return 2 * intersection(a, b).area() >= std::max(a.area(), b.area());
 }
 
+double area(const fabric::Frustum& f) { return (f.right - f.left) * (f.top - f.bottom); }
+
+/// Two tiles of a wall have the same axis and size.
+bool areMostlyTheSame(const fabric::Frustum& a, const fabric::Frustum& b) {
+    const double width = std::min(a.right, b.right) - std::max(a.left, b.left);
+    const double height = std::min(a.top, b.top) - std::max(a.bottom, b.bottom);
+    return 2 * std::max(width, 0.0) * std::max(height, 0.0) >= std::max(area(a), area(b));
+}
+
+/// Along the view's axis.
 fabric::Vec3 direction(const lod::View& view) {
     return -glm::transpose(view.viewFromWorldRotation)[2];
 }
@@ -57,6 +67,7 @@ ChannelMemory& ChannelMemories::of(const lod::View& view, const fabric::Range& r
         const lod::View& last = known.memory.view;
         return last.width == view.width && last.height == view.height &&
                areMostlyTheSame(known.range, range) && areMostlyTheSame(known.part, part) &&
+               areMostlyTheSame(last.frustum, view.frustum) &&
                glm::dot(direction(last), direction(view)) > kNearlyTheSameWay;
     };
     const auto found = std::find_if(memories_.begin(), memories_.end(), isLikeThis);

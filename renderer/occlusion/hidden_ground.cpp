@@ -87,8 +87,11 @@ HiddenGround::HiddenGround(const lod::ObjectView& view, const PixelViewport& dra
     };
     const fabric::Frustum& f = view.view().frustum;
     lowerLeft_ = horizontal({f.left, f.bottom, -1});
-    perColumn_ = horizontal({1 / view.view().focalPixels, 0, 0});
-    perRow_ = horizontal({0, 1 / view.view().focalPixels, 0});
+    const Vec2& focal = view.view().focalPixels;
+    perColumn_ = horizontal({1 / focal.x, 0, 0});
+    perRow_ = horizontal({0, 1 / focal.y, 0});
+    const Vec2 errorFocal = focal * view.view().step;
+    shape_ = errorFocal / std::max(errorFocal.x, errorFocal.y);
 }
 
 bool HiddenGround::hides(const fabric::Box& bounds, double pixels) {
@@ -105,8 +108,8 @@ bool HiddenGround::hidesTriangle(std::span<const Vec3, 3> corners, double pixels
     for (const Vec3& corner : corners)
         if (!project(corner, rect))
             return false;
-    rect.low -= pixels;
-    rect.high += pixels;
+    rect.low -= pixels / view_.view().step;
+    rect.high += pixels / view_.view().step;
     return isCovered(rect, pixels, distanceToTriangle(eye_, corners));
 }
 
@@ -126,20 +129,21 @@ bool HiddenGround::raise(Rect& rect, double pixels) const {
     if (!(pixels < kInfinity))
         return false;
     const fabric::Frustum& f = view_.view().frustum;
+    const Vec2 reach = pixels / view_.view().step;
     Vec2 least(kInfinity);
     Vec2 most(-kInfinity);
     for (const double x : {rect.low.x, rect.high.x})
         for (const double y : {rect.low.y, rect.high.y}) {
             const Vec2 tangent = Vec2(f.left, f.bottom) + Vec2(x, y) / view_.view().focalPixels;
-            const Vec2 up = Vec2(up_) - up_.z * tangent;  // affine over the picture
+            const Vec2 up = shape_ * (Vec2(up_) - up_.z * tangent);  // affine over the picture
             if (!(up.y > 0))
                 return false;
             least = glm::min(least, glm::normalize(up));
             most = glm::max(most, glm::normalize(up));
         }
-    rect.low.x += std::min(0.0, least.x) * pixels;
-    rect.high.x += std::max(0.0, most.x) * pixels;
-    rect.high.y += pixels;
+    rect.low.x += std::min(0.0, least.x) * reach.x;
+    rect.high.x += std::max(0.0, most.x) * reach.x;
+    rect.high.y += reach.y;
     return true;
 }
 

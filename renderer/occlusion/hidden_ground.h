@@ -30,11 +30,12 @@ using ReadDepth = std::function<void(const fabric::PixelViewport& part, std::vec
 /// world.
 class HiddenGround {
 public:
-    /// `drawn` is the part of the view that the picture shows. Keeps a reference to `view`.
+    /// `view` is the one that is drawn, `drawn` the part of it that the picture shows. Keeps a
+    /// reference to `view`.
     HiddenGround(const lod::ObjectView& view, const fabric::PixelViewport& drawn, ReadDepth read);
 
     /// True only if nothing within `bounds` (object space) is seen, of either, in a picture that
-    /// promises `pixels` or less.
+    /// promises `pixels` (lod::View::step) or less.
     bool hides(const fabric::Box& bounds, double pixels);
     /// The same of a triangle and all that lies up to `pixels` from it in the picture.
     bool hidesTriangle(std::span<const fabric::Vec3, 3> corners, double pixels);
@@ -65,6 +66,7 @@ private:
     fabric::Vec2 lowerLeft_;  ///< of the view: object x and y per metre of depth
     fabric::Vec2 perColumn_;  ///< the same from pixel to pixel
     fabric::Vec2 perRow_;
+    fabric::Vec2 shape_;  ///< of the pixels that errors are counted in: the shorter side is 1
     std::int64_t pixelsRead_ = 0;
     fabric::PixelViewport seen_;  ///< whose depths are here
     std::vector<float> depth_;

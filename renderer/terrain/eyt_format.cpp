@@ -245,6 +245,7 @@ absl::StatusOr<std::shared_ptr<const EytFile>> EytFile::open(const std::string& 
     std::memcpy(static_cast<void*>(&header), head.data(), sizeof header);
     RETURN_IF_ERROR(checkHeader(header, file->sizeBytes(), path));
 
+    file->checksum_ = header.headerChecksum;
     EytIndex& index = file->index_;
     index.quadtree = Quadtree(header.columns, header.rows);
     if (static_cast<int>(header.levels) != index.quadtree.levels())

@@ -206,6 +206,8 @@ public:
     const EytIndex& index() const { return index_; }
     const std::string& path() const { return source_->name(); }
     std::uint64_t sizeBytes() const { return source_->sizeBytes(); }
+    /// Of the header, which holds the index's, which holds the pages': of all of the file.
+    std::uint64_t checksum() const { return checksum_; }
 
     /// Reads one page; of an address, from the cache or in a bounded time (page/byte_source.h).
     /// Errors: DataLoss (checksum, or contents that contradict themselves or the index, or the
@@ -225,6 +227,7 @@ private:
     explicit EytFile(std::unique_ptr<page::PageSource> source) : source_(std::move(source)) {}
 
     std::unique_ptr<page::PageSource> source_;
+    std::uint64_t checksum_ = 0;
     EytIndex index_;
 };
 

@@ -111,7 +111,7 @@ double DrawnTerrain::farthestSeen(const Pinhole& camera, const TerrainRayCaster&
             const auto q = other ? camera.project(*other) : std::nullopt;
             if (!p || !q || q->x < 0 || q->y < 0 || q->x > camera.width() || q->y > camera.height())
                 return;
-            if (const double pixels = glm::distance(*p, *q); pixels > atLeast)
+            if (const double pixels = camera.pixelsBetween(*p, *q); pixels > atLeast)
                 candidates.push_back({pixels, *other});
         });
     std::sort(candidates.begin(), candidates.end(),

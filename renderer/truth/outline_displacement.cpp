@@ -93,7 +93,7 @@ double OutlineDisplacement::leastPixels(const Pinhole& camera, const Vec2& from,
                 return;
             last = std::min(last, distance + distance / 2 + 1);
             if (const auto other = camera.project(pointAt(u, v, heights)))
-                least = std::min(least, glm::distance(from, *other));
+                least = std::min(least, camera.pixelsBetween(from, *other));
         });
     return std::isfinite(least) ? least : 0;
 }

@@ -63,7 +63,7 @@ Displacement PlacedSurfaces::displacement(const Placed& placed, const Pinhole& c
         other ? camera.project(transformed(placed.worldFromObject, *other)) : std::nullopt;
     if (!p || !q)
         return {};
-    return {glm::distance(*p, *q), fabric::Vec2(inObject) == fabric::Vec2(*other),
+    return {camera.pixelsBetween(*p, *q), fabric::Vec2(inObject) == fabric::Vec2(*other),
             inObject.z < other->z};
 }
 

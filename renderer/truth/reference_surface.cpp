@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/truth/reference_surface.h"
 
-#include <glm/geometric.hpp>
-
 namespace eyrie::truth {
 
 Displacement ReferenceSurface::displacement(const Pinhole& camera,
@@ -12,7 +10,8 @@ Displacement ReferenceSurface::displacement(const Pinhole& camera,
     const auto q = other ? camera.project(*other) : std::nullopt;
     if (!p || !q)
         return {};
-    return {glm::distance(*p, *q), fabric::Vec2(point) == fabric::Vec2(*other), point.z < other->z};
+    return {camera.pixelsBetween(*p, *q), fabric::Vec2(point) == fabric::Vec2(*other),
+            point.z < other->z};
 }
 
 }  // namespace eyrie::truth

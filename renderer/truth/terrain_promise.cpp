@@ -15,9 +15,9 @@
 namespace eyrie::truth {
 namespace {
 
-/// Depth of the whole view in metres, infinity for nothing, from the covered part of it.
-std::vector<float> depthMetres(const fabric::Image& image, int width, int height) {
-    fabric::Image whole = fabric::makeImage({0, 0, width, height}, {}, true);
+/// Depth of the whole picture in metres, infinity for nothing, from the covered part of it.
+std::vector<float> depthMetres(const fabric::Image& image, const fabric::PixelViewport& picture) {
+    fabric::Image whole = fabric::makeImage(picture, {}, true);
     if (!image.area.isEmpty())
         fabric::paste(image, whole);
     std::vector<float> metres;
@@ -29,34 +29,45 @@ std::vector<float> depthMetres(const fabric::Image& image, int width, int height
 
 }  // namespace
 
+double TerrainPromise::rasterPixels(const fabric::Vec2& step) {
+    return std::max(step.x, step.y) / 256;
+}
+
 absl::StatusOr<PromiseKept> TerrainPromise::hold(const fabric::Camera& camera, double tauPixels,
                                                  int width, int height) const {
-    const fabric::FrameData frame{.version = 1, .camera = camera, .tauPixels = tauPixels};
     fabric::ChannelTask task;
-    task.frameDataVersion = 1;
     task.viewWidth = width;
     task.viewHeight = height;
-    task.pixelViewport = {0, 0, width, height};
+    return hold(camera, tauPixels, task, Pinhole(camera, width, height));
+}
+
+absl::StatusOr<PromiseKept> TerrainPromise::hold(const fabric::Camera& camera, double tauPixels,
+                                                 fabric::ChannelTask task,
+                                                 const Pinhole& judge) const {
+    const fabric::FrameData frame{.version = 1, .camera = camera, .tauPixels = tauPixels};
+    task.frameDataVersion = 1;
+    task.pixelViewport = fabric::pictureOf(task);
     task.wantsDepth = true;
     ASSIGN_OR_RETURN(const fabric::ChannelResult drawn, renderer_.render(frame, task));
     PromiseKept kept{drawn.statistics.tauAchievedPixels, {}, 0, 0, drawn.statistics};
 
-    const Pinhole pinhole(camera, width, height);
-    ASSIGN_OR_RETURN(const DrawnTerrain triangles,
-                     DrawnTerrain::of(*file_, lod::View(camera, width, height), tauPixels));
+    const lod::View view = lod::TaskViews(camera, task).whole;
+    ASSIGN_OR_RETURN(const DrawnTerrain triangles, DrawnTerrain::of(*file_, view, tauPixels));
     const ShownPoint shown = [&](double x, double y, double depth) -> std::optional<fabric::Vec3> {
-        const auto found = shownAt(triangles.triangles(), pinhole, x, y, depth, kReachPixels);
+        const auto found = shownAt(triangles.triangles(), judge, x, y, depth, kReachPixels);
         return found ? std::optional(found->point) : std::nullopt;
     };
     // An outline may have moved by as much as everything else.
-    const int edgePixels = static_cast<int>(std::clamp(std::ceil(kept.promisedPixels), 1.0, 8.0));
-    const std::vector<float> depth = depthMetres(drawn.image, width, height);
-    kept.measured = compareDepth(pinhole, depth, ground_, edgePixels,
-                                 {kept.promisedPixels + kRasterPixels, shown});
-    kept.surfacePixels = triangles.farthestSeen(pinhole, ground_, kept.measured.maxPixels);
-    kept.measuredPixels =
-        outline_ ? outline_->farthestSeen(pinhole, triangles, depth, kept.surfacePixels)
-                 : kept.surfacePixels;
+    const fabric::Vec2 step = task.raster ? task.raster->step : fabric::Vec2(1);
+    const int edgePixels = static_cast<int>(
+        std::clamp(std::ceil(kept.promisedPixels / std::min(step.x, step.y)), 1.0, 8.0));
+    const std::vector<float> depth = depthMetres(drawn.image, task.pixelViewport);
+    kept.measured = compareDepth(judge, depth, ground_, edgePixels,
+                                 {kept.promisedPixels + rasterPixels(step), shown});
+    kept.surfacePixels = triangles.farthestSeen(judge, ground_, kept.measured.maxPixels);
+    kept.measuredPixels = outline_
+                              ? outline_->farthestSeen(judge, triangles, depth, kept.surfacePixels)
+                              : kept.surfacePixels;
     return kept;
 }
 

@@ -7,6 +7,7 @@
 #include <absl/status/statusor.h>
 
 #include "fabric/camera.h"
+#include "fabric/channel_task.h"
 #include "fabric/statistics.h"
 #include "renderer/renderer.h"
 #include "renderer/terrain/eyt_format.h"
@@ -43,6 +44,10 @@ public:
     /// Draws the picture, complete, and measures it. Errors: the renderer's.
     absl::StatusOr<PromiseKept> hold(const fabric::Camera& camera, double tauPixels, int width,
                                      int height) const;
+    /// The same of what `task` says of a view's size, its sight and its raster; `judge` is that
+    /// picture by other means.
+    absl::StatusOr<PromiseKept> hold(const fabric::Camera& camera, double tauPixels,
+                                     fabric::ChannelTask task, const Pinhole& judge) const;
 
     /// Pixels whose depth seems to break the promise are judged by the point of the drawn triangle
     /// that covers them: at its very edge a triangle that is seen edge-on may cover a pixel whose
@@ -51,6 +56,8 @@ public:
     static constexpr double kReachPixels = 1.0 / 128;
     /// What rasterisation may add to what is promised: the 1/256 pixel that corners are rounded to.
     static constexpr double kRasterPixels = 1.0 / 256;
+    /// The same of a raster's pixels.
+    static double rasterPixels(const fabric::Vec2& step);
 
 private:
     Renderer& renderer_;

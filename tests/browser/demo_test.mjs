@@ -30,6 +30,15 @@ await run("demo_test", async (browser, started) => {
   check(difference(home, await browser.picture()) > 0.05, "dragging turns the scene");
   const latency = await browser.hook("inputToDrawnMilliseconds");
   console.log(`while dragging: ${fps} frames/s, input to drawn ${latency.toFixed(1)} ms`);
+  const times = await browser.timesToExact();
+  console.log(
+    `from a key: drawn ${times.drawn.toFixed(0)} ms, nearly exact ${times.fine.toFixed(0)} ms, ` +
+      `exact ${times.exact.toFixed(0)} ms`,
+  );
+  check(
+    (await browser.canvasHash()) === (await browser.hook("pixelHash")),
+    "at rest every pixel on the canvas is the server's",
+  );
 
   const fine = await browser.hook("triangles");
   check(fine > 0, `triangles are counted (${fine})`);
@@ -41,6 +50,14 @@ await run("demo_test", async (browser, started) => {
   );
   const coarse = await browser.hook("triangles");
   check(coarse < fine, `a larger error draws fewer triangles (${coarse})`);
+
+  await browser.settled();
+  const byPixels = await browser.picture();
+  await page.locator("#layout").selectOption("DB dynamic");
+  await page.waitForTimeout(300);
+  await browser.settled();
+  check((await page.locator("#layout").inputValue()) === "DB dynamic", "the layout is switched");
+  check(difference(byPixels, await browser.picture()) === 0, "and shows the same picture");
 
   const live = await browser.picture();
   await server.kill();

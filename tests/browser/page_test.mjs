@@ -39,12 +39,31 @@ await run("page_test", async (browser, started) => {
   const latency = await browser.hook("inputToDrawnMilliseconds");
   check(latency > 0 && latency < 5000, `input to drawn is measured (${latency.toFixed(1)} ms)`);
 
+  check(
+    (await browser.canvasHash()) === (await browser.hook("pixelHash")),
+    "at rest every pixel on the canvas is the server's",
+  );
+  check(
+    (await page.locator("#numbers").innerText()).includes("· exact"),
+    "and the page says that it is exact",
+  );
+  const times = await browser.timesToExact();
+  console.log(
+    `from a key: drawn ${times.drawn.toFixed(0)} ms, nearly exact ${times.fine.toFixed(0)} ms, ` +
+      `exact ${times.exact.toFixed(0)} ms`,
+  );
+  check(
+    (await browser.canvasHash()) === (await browser.hook("pixelHash")),
+    "and again after a movement",
+  );
+  await browser.settled();
+
   const frames = await browser.hook("frameNumber");
   await page.waitForTimeout(700);
   check((await browser.hook("frameNumber")) === frames, "nothing is drawn while nothing changes");
 
   await page.keyboard.press("r");
-  await browser.until(() => !window.eyrie.still);
+  await browser.until(() => !window.eyrie.exact);
   await browser.settled();
   check(difference(home, await browser.picture()) < 0.01, "R shows the home view again");
 
@@ -84,14 +103,13 @@ await run("page_test", async (browser, started) => {
   check(true, "a moving view is drawn for the frame time asked for");
   await page.getByText("12 ms, foreseen 9.0 ms").waitFor();
   check(true, "which is shown beside the time foreseen and taken");
-  await page.waitForFunction(() => window.eyrie.still && window.eyrie.budgetMilliseconds === 0);
+  await page.waitForFunction(() => window.eyrie.exact && window.eyrie.budgetMilliseconds === 0);
   check(true, "and at rest for the error");
   await page.getByLabel("Fixed error").check();
   await browser.setTau(-2);
 
   await page.locator("#saturation").fill("0");
   await browser.settled();
-  await page.waitForFunction(() => window.eyrie.still);
   const grey = await browser.picture();
   const colourful = grey.filter((_, i) => i % 4 === 0 && Math.abs(grey[i] - grey[i + 1]) > 12);
   check(colourful.length < grey.length / 400, "saturation takes the colour away");

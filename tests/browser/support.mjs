@@ -110,6 +110,14 @@ export class Browser {
     return this.chromium.close();
   }
 
+  /** Another window at the same time, whose errors count, too. */
+  async openAnother(url) {
+    const page = await this.chromium.newPage();
+    page.on("pageerror", (error) => this.errors.push(String(error)));
+    await page.goto(url);
+    return page;
+  }
+
   /** A property of window.eyrie. */
   hook(name) {
     return this.page.evaluate((key) => window.eyrie?.[key], name);
@@ -123,11 +131,11 @@ export class Browser {
   /** Waits until nothing more will be drawn. */
   async settled() {
     for (;;) {
-      await this.until(() => window.eyrie?.still === true);
+      await this.until(() => window.eyrie?.exact === true);
       // The picture before a change is at rest, too, until the first one after it comes.
       const before = await this.page.evaluate(() => window.eyrie.frameNumber);
       await this.page.waitForTimeout(250);
-      const after = await this.page.evaluate(() => window.eyrie.still && window.eyrie.frameNumber);
+      const after = await this.page.evaluate(() => window.eyrie.exact && window.eyrie.frameNumber);
       if (after === before) return;
     }
   }
@@ -157,10 +165,65 @@ export class Browser {
     await mouse.up();
   }
 
+  /** The hash of what is on the canvas, as fabric/pixel_hash.h has it, made here anew. */
+  canvasHash() {
+    return this.page.evaluate(`(() => {
+      ${hashOfPixels}
+      return hashOfPixels(document.querySelector("#view"), window.eyrie);
+    })()`);
+  }
+
+  /** The same of a PNG file. */
+  pngHash(file) {
+    return this.eyes.evaluate(`(async () => {
+      ${hashOfPixels}
+      const image = new Image();
+      image.src = "data:image/png;base64,${file.toString("base64")}";
+      await image.decode();
+      return hashOfPixels(image, image);
+    })()`);
+  }
+
+  /**
+   * Milliseconds from an input at rest to each kind of picture of it: "drawn", "fine" and "exact".
+   */
+  timesToExact() {
+    return this.page.evaluate(async () => {
+      const times = {};
+      const before = window.eyrie.frameNumber;
+      const canvas = document.querySelector("#view");
+      canvas.focus();
+      const start = performance.now();
+      canvas.dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowLeft", bubbles: true }));
+      while (times.exact === undefined && performance.now() - start < 10_000) {
+        await new Promise((resolve) => setTimeout(resolve, 2));
+        if (window.eyrie.frameNumber === before) continue;
+        const elapsed = performance.now() - start;
+        times.drawn ??= elapsed;
+        if (window.eyrie.still) times.fine ??= elapsed;
+        if (window.eyrie.exact) times.exact = elapsed;
+      }
+      return times;
+    });
+  }
+
   /** Moves the tau slider to a power of two, as a hand would. */
   async setTau(log2) {
     await this.page.locator("#tau").fill(String(log2));
   }
+}
+
+/** Runs in a page. In whole numbers of any length, unlike what it is compared with. */
+function hashOfPixels(source, { width, height }) {
+  const copy = new OffscreenCanvas(width, height).getContext("2d", { alpha: false });
+  copy.drawImage(source, 0, 0);
+  const { data } = copy.getImageData(0, 0, width, height);
+  let hash = 2166136261n;
+  for (let i = 0; i < data.length; i += 4) {
+    const word = BigInt(data[i] + 256 * data[i + 1] + 65536 * data[i + 2]);
+    hash = ((hash ^ word) * 16777619n) & 0xffffffffn;
+  }
+  return Number(hash);
 }
 
 /** How many colours a picture has, coarsely. */

@@ -106,6 +106,15 @@ TEST_F(CompareReports, ErrorsDifferByAnyDifferenceTrianglesByMoreThanOcclusionMa
     EXPECT_EQ(verdictOf(*more, "triangles, mean"), Verdict::More);
 }
 
+TEST_F(CompareReports, WithoutOcclusionTrianglesAreHeldToTheLast) {
+    Report before = reportTaking(20);
+    before.facts.occlusion = "off";
+    Report after = before;
+    EXPECT_EQ(verdictOf(compared(before, after).value(), "triangles, mean"), Verdict::Equal);
+    for (PlayedFrame& frame : after.runs[0].played.frames) frame.statistics.triangles = 1001;
+    EXPECT_EQ(verdictOf(compared(before, after).value(), "triangles, mean"), Verdict::More);
+}
+
 TEST(PassRatio, OfTheSameThingIsBeyondNoiseAsSeldomAsItSays) {
     std::mt19937 random(7);
     std::normal_distribution<double> noise(0, 0.05);

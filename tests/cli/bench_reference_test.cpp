@@ -184,6 +184,9 @@ TEST(CheckPromises, NamesTheFrameThatBreaksItsOwn) {
     EXPECT_EQ(broken.code(), absl::StatusCode::kInternal);
     EXPECT_THAT(broken.ToString(), testing::HasSubstr("second 7.000"));
     EXPECT_THAT(broken.ToString(), testing::HasSubstr("tau 2 px"));
+    std::vector<BenchRun> seenThrough = runWith(1.5, 1.5);
+    seenThrough[0].measured->frames[0].holes = 3;
+    EXPECT_THAT(checkPromises(seenThrough).ToString(), testing::HasSubstr("3 pixels are empty"));
 }
 
 TEST(ErrorsCsv, HasALineAFrameAndIsNothingWithoutAReference) {

@@ -21,7 +21,8 @@ using Clock = RestartPolicy::Clock;
 
 TEST(RestartPolicy, StartsAgainAtOnceAfterTheFirstEnd) {
     RestartPolicy policy;
-    EXPECT_EQ(policy.ended(Clock::time_point{}), Clock::time_point{} + milliseconds(250));
+    const Clock::time_point now{};
+    EXPECT_EQ(policy.ended(now, now), now + milliseconds(250));
 }
 
 TEST(RestartPolicy, WaitsTwiceAsLongAfterEachFurtherEnd) {
@@ -29,7 +30,7 @@ TEST(RestartPolicy, WaitsTwiceAsLongAfterEachFurtherEnd) {
     Clock::time_point now{};
     milliseconds pause{250};
     for (int i = 0; i < 4; ++i) {
-        const Clock::time_point next = policy.ended(now);
+        const Clock::time_point next = policy.ended(now, now);
         EXPECT_EQ(next - now, pause);
         now = next;
         pause *= 2;
@@ -40,16 +41,29 @@ TEST(RestartPolicy, NeverStartsMoreThanSixTimesWithinAMinute) {
     RestartPolicy policy;
     Clock::time_point now{};
     std::vector<Clock::time_point> starts;
-    for (int i = 0; i < 50; ++i) starts.push_back(now = policy.ended(now));
+    for (int i = 0; i < 50; ++i) {
+        const Clock::time_point end = now + (i % 3 == 0 ? RestartPolicy::kWorked : seconds(0));
+        starts.push_back(now = policy.ended(now, end));
+    }
     for (std::size_t i = RestartPolicy::kMaxPerMinute; i < starts.size(); ++i)
         EXPECT_GE(starts[i] - starts[i - RestartPolicy::kMaxPerMinute], seconds(60)) << i;
 }
 
 TEST(RestartPolicy, ForgetsEndsOfLongAgo) {
     RestartPolicy policy;
-    for (int i = 0; i < 3; ++i) policy.ended(Clock::time_point{} + seconds(i));
-    const Clock::time_point later = Clock::time_point{} + seconds(120);
-    EXPECT_EQ(policy.ended(later) - later, milliseconds(250));
+    const Clock::time_point start{};
+    for (int i = 0; i < 3; ++i) policy.ended(start + seconds(i), start + seconds(i));
+    const Clock::time_point later = start + seconds(120);
+    EXPECT_EQ(policy.ended(later, later) - later, milliseconds(250));
+}
+
+TEST(RestartPolicy, StartsAgainAtOnceWhatHasWorkedForTenSeconds) {
+    RestartPolicy policy;
+    Clock::time_point now{};
+    for (int i = 0; i < 3; ++i) now = policy.ended(now, now);
+    const Clock::time_point end = now + seconds(10);
+    EXPECT_EQ(policy.ended(now, end) - end, milliseconds(250));
+    EXPECT_EQ(policy.ended(end, end) - end, milliseconds(500));
 }
 
 TEST(TemporaryFolder, IsPrivateAndGoesWithItsContents) {

@@ -12,6 +12,7 @@
 
 #include "coordinator/config/eqc_reader.h"
 #include "coordinator/config/resolved.h"
+#include "coordinator/config/upgrade.h"
 
 namespace eyrie::config {
 namespace {
@@ -152,10 +153,17 @@ TEST(EqcErrors, AreImpossibleShares) {
              {"channel \"c\"", "no channel named \"c\""},
              {"channel ( segment 4 )", "no segment 4: 1 are defined"},
              {"channel ( view \"v\" )", "no view named \"v\""},
+             {"} layout {} compound { channel ( layout 1 )", "first segment or view of what has"},
              {"wall { bottom_left [ 0 0 0 ] bottom_right [ 1 0 0 ] top_left [ 1 1 0 ] }",
               "right angle"},
              {"projection { distance 0 }", "above 0"},
-             {"load_equalizer { damping 2 }", "from 0 to 1"}})
+             {"load_equalizer { damping 2 }", "from 0 to 1"},
+             {"load_equalizer { boundary 1.5 }", "a share from 0 to 1"},
+             {"load_equalizer { resistance [ -1 2 ] }", "2 whole numbers"},
+             {"load_equalizer { assemble_only_limit 0 }", "above 0"},
+             {"tile_equalizer { size 1.5 }", "a share above 0, 1 at most"},
+             {"tile_equalizer { size [ 0 4 ] }", "a pixel or more"},
+             {"DFR_equalizer { framerate 0 }", "above 0"}})
         EXPECT_THAT(firstError(withCompounds("compound { " + compound + " }")), HasSubstr(message))
             << compound;
 }
@@ -175,6 +183,106 @@ TEST(EqcWarnings, SayWhatHasNoEffect) {
     EXPECT_THAT(text, HasSubstr("no outputframe of this compound tree is named \"x\""));
     EXPECT_THAT(describe(sample("1-pipe.eqc").findings, "f"),
                 HasSubstr("on screen only: 'EQ_WINDOW_IATTR_HINT_FULLSCREEN'"));
+}
+
+TEST(EqcWarnings, NameBothPlacesOfANameThatTwoThingsHave) {
+    const Read read(
+        "config {\n node { name \"n\" pipe { name \"p\" window { channel { name \"c\" }\n"
+        "  channel { name \"c\" } } } }\n node { name \"n\" }\n"
+        " layout { view { name \"v\" } view { name \"v\" } }\n layout { view { name \"v\" } } }");
+    EXPECT_EQ(describe(read.findings, "f"),
+              "f:4:2: warning: another node is named \"n\" already, at 2:2; the name finds that\n"
+              "f:3:3: warning: another channel is named \"c\" already, at 2:43; the name finds "
+              "that\n"
+              "f:5:29: warning: another view is named \"v\" already, at 5:11; the name finds "
+              "that\n");
+}
+
+TEST(EqcWarnings, SayThatALayoutIsOnItsCanvasAlready) {
+    const Read read(
+        "config { node { pipe { window { channel { name \"a\" } } } } layout { view {} }"
+        " canvas { layout 0 layout OFF layout 0 segment { channel \"a\" } } }");
+    EXPECT_THAT(describe(read.findings, "f"), HasSubstr("layout 0 is on the canvas already"));
+    EXPECT_EQ(read.resolved.destinations.size(), 1U);
+}
+
+TEST(EqcErrors, AreMoreStatementsThanAnyFileHas) {
+    std::string nodes;
+    for (std::size_t i = 0; i <= kMostStatements; ++i) nodes += "node{}";
+    EXPECT_THAT(firstError("config{" + nodes + "}"), HasSubstr("more than 200000 statements"));
+}
+
+TEST(EqcErrors, AreMorePairsOfViewsAndSegmentsThanCanBeShown) {
+    std::string views;
+    std::string segments;
+    for (int i = 0; i < 200; ++i) {
+        views += "view {}";
+        segments += "segment { channel \"a\" }";
+    }
+    EXPECT_THAT(firstError("config { node { pipe { window { channel { name \"a\" } } } } layout {" +
+                           views + "} canvas { layout 0 " + segments + "} }"),
+                HasSubstr("more than 20000 pairs"));
+}
+
+TEST(EqcReferences, FindChannelsWithoutNamesByPosition) {
+    const std::string nodes =
+        "config { node { pipe { window { channel {} channel { name \"a\" } } } } ";
+    const Read read(nodes + "compound { channel ( node 0 channel 1 ) } }");
+    EXPECT_EQ(std::get<ChannelIndex>(read.configuration.compounds[0].channel),
+              (ChannelIndex{0, 0, 0, 1}));
+    EXPECT_THAT(firstError(nodes + "compound { channel ( node 0 channel 2 ) } }"),
+                HasSubstr("no channel 2: 2 are defined"));
+    EXPECT_THAT(firstError(nodes + "compound { channel ( node 0 view 1 ) } }"),
+                HasSubstr("'view' in a channel's position"));
+    EXPECT_THAT(firstError("config { node {} compound { channel ( node 0 ) } }"),
+                HasSubstr("there is no pipe"));
+}
+
+TEST(EqcUpgrade, GivesOldTreesWithoutViewOneOfTheirOwn) {
+    const std::string rest =
+        " config { node { pipe { window { viewport [ 0 0 64 48 ] channel { name \"a\" }"
+        " channel { name \"b\" } } } }"
+        " compound { compound { channel \"a\" wall {} compound { eye [ LEFT ] }"
+        "                       compound { channel \"b\" eye [ RIGHT ] outputframe {} }"
+        "                       inputframe { name \"frame.b\" } } } }";
+    for (const char* const version : {"1.0", "1.1"}) {
+        const Read old("#Equalizer " + std::string(version) + " ascii\n" + rest);
+        EXPECT_EQ(describe(old.findings, "f"), "");
+        ASSERT_EQ(old.resolved.destinations.size(), 1U);
+        EXPECT_EQ(old.resolved.destinations[0].channel, (ChannelIndex{0, 0, 0, 0}));
+        EXPECT_TRUE(old.resolved.destinations[0].wall.has_value());
+        EXPECT_EQ(old.resolved.destinations[0].eyes, (Eyes{false, true, true}));
+        ASSERT_EQ(old.resolved.compounds.size(), 4U);
+        EXPECT_EQ(old.resolved.compounds[3].sights.at(0).eye, EyeSight::Eye::Right);
+        Configuration again = old.configuration;
+        upgrade(again);
+        EXPECT_EQ(again, old.configuration);
+    }
+    EXPECT_TRUE(Read("#Equalizer 1.2 ascii\n" + rest).resolved.destinations.empty());
+}
+
+TEST(EqcUpgrade, GivesTreesOfEachEyeOneView) {
+    const Read old(
+        "#Equalizer 1.0 ascii\n config { node { pipe { window { channel { name \"a\" } } } }"
+        " compound { channel \"a\" eye [ LEFT ] wall {} }"
+        " compound { channel \"a\" eye [ RIGHT ] wall {} } }");
+    EXPECT_EQ(describe(old.findings, "f"), "");
+    ASSERT_EQ(old.resolved.destinations.size(), 1U);
+    ASSERT_EQ(old.resolved.compounds.size(), 2U);
+    EXPECT_EQ(old.resolved.compounds[0].sights.at(0).eye, EyeSight::Eye::Left);
+    EXPECT_EQ(old.resolved.compounds[1].sights.at(0).eye, EyeSight::Eye::Right);
+}
+
+TEST(EqcUpgrade, GivesOldFilesAnObserver) {
+    const std::string rest = " config { layout { view {} } }";
+    const Configuration old = Read("#Equalizer 1.1 ascii\n" + rest).configuration;
+    EXPECT_EQ(old.observers.size(), 1U);
+    EXPECT_EQ(old.layouts[0].views[0].observer, 0U);
+    EXPECT_TRUE(Read("#Equalizer 1.2 ascii\n" + rest).configuration.observers.empty());
+    const Configuration has =
+        Read("#Equalizer 1.1 ascii\n config { observer {} layout { view {} } }").configuration;
+    EXPECT_EQ(has.observers.size(), 1U);
+    EXPECT_FALSE(has.layouts[0].views[0].observer.has_value());
 }
 
 TEST(Resolve, MakesAPlainCompoundOfAViewThatNoneShows) {
@@ -271,7 +379,7 @@ TEST(Screen, PutsEveryPointOfTheWallWhereTheEyeSeesIt) {
         const auto sight = sightThrough(wall, eye);
         ASSERT_TRUE(sight.has_value());
         expectNear(sight->frustum, byTheBook(wall, eye));
-        const fabric::Vec4 seen = sight->viewFromWorld * fabric::Vec4(wall.topLeft, 1);
+        const fabric::Vec4 seen = fabric::viewFromCamera(*sight) * fabric::Vec4(wall.topLeft, 1);
         EXPECT_NEAR(seen.x / -seen.z, sight->frustum.left, 1e-9);
         EXPECT_NEAR(seen.y / -seen.z, sight->frustum.top, 1e-9);
         EXPECT_FALSE(sightThrough(wall, eye - 10.0 * glm::cross(u, v)).has_value());

@@ -11,6 +11,7 @@
 #include "layered_scene.h"
 #include "service/renderer_node.h"
 #include "tests/service/eventually.h"
+#include "tests/support/identifier.h"
 #include "tests/support/temporary_folder.h"
 
 namespace eyrie::coordinator {
@@ -61,10 +62,10 @@ private:
     std::jthread runner_;
 };
 
-CoordinatorOptions optionsFor(const test::TemporaryFolder& folder, Decomposition decomposition) {
+CoordinatorOptions optionsFor(const test::TemporaryFolder& folder, const std::string& layout) {
     CoordinatorOptions options;
     options.grpcAddresses = {"unix:" + folder.path("s"), "127.0.0.1:0"};
-    options.decomposition = decomposition;
+    options.layout = layout;
     options.scene.background = LayeredScene::kBackground;
     options.scene.objects.push_back(
         {"layers", fabric::ObjectKind::Mesh, "a.eym", fabric::Mat4(1.0), {}});
@@ -79,13 +80,10 @@ FrameRequest request() {
     return request;
 }
 
-class CoordinatorTest : public testing::TestWithParam<Decomposition> {};
+class CoordinatorTest : public testing::TestWithParam<std::string> {};
 
-INSTANTIATE_TEST_SUITE_P(Of, CoordinatorTest,
-                         testing::Values(Decomposition::TwoD, Decomposition::Db),
-                         [](const auto& of) {
-                             return of.param == Decomposition::TwoD ? "TwoD" : "Db";
-                         });
+INSTANTIATE_TEST_SUITE_P(Of, CoordinatorTest, testing::Values("2D", "DB dynamic", "direct-send"),
+                         [](const auto& of) { return test::identifier(of.param); });
 
 TEST_P(CoordinatorTest, PicturesStayWholeWhileRenderersComeAndGo) {
     const test::TemporaryFolder folder;
@@ -110,21 +108,22 @@ TEST_P(CoordinatorTest, PicturesStayWholeWhileRenderersComeAndGo) {
 
 TEST(Coordinator, TellsHowToStartARenderer) {
     const test::TemporaryFolder folder;
-    const auto coordinator = Coordinator::start(optionsFor(folder, Decomposition::TwoD)).value();
+    const auto coordinator = Coordinator::start(optionsFor(folder, "2D")).value();
     EXPECT_THAT(coordinator->frames().status().problem,
                 testing::HasSubstr("--coordinator " + coordinator->grpcAddresses()[1]));
 }
 
 TEST(Coordinator, AnInvalidSceneIsRefused) {
     const test::TemporaryFolder folder;
-    CoordinatorOptions options = optionsFor(folder, Decomposition::TwoD);
+    CoordinatorOptions options = optionsFor(folder, "2D");
     options.scene.ambient = 7;
     EXPECT_EQ(Coordinator::start(options).status().code(), absl::StatusCode::kInvalidArgument);
 }
 
 TEST(Coordinator, NeedsAnAddress) {
-    EXPECT_EQ(Coordinator::start({{}, Decomposition::TwoD, {}}).status().code(),
-              absl::StatusCode::kInvalidArgument);
+    CoordinatorOptions options;
+    options.grpcAddresses.clear();
+    EXPECT_EQ(Coordinator::start(options).status().code(), absl::StatusCode::kInvalidArgument);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <condition_variable>
 #include <functional>
 #include <map>
@@ -69,6 +70,18 @@ public:
         const Pick pick = pick_;
         lock.unlock();
         return pick(request);
+    }
+
+    absl::Status configure(const SwitchLayout& change) override {
+        Status status = this->status();
+        for (CanvasStatus& canvas : status.canvases) {
+            const auto known = std::ranges::find(canvas.layouts, change.layout);
+            if (known == canvas.layouts.end())
+                return absl::NotFoundError("there is no layout " + change.layout);
+            canvas.layout = change.layout;
+        }
+        setStatus(status);
+        return absl::OkStatus();
     }
 
     Status status() const override {

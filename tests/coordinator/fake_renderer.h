@@ -26,7 +26,7 @@ public:
         if (!openStatus_.ok())
             return openStatus_;
         opened.push_back(scene.objects.at(0).name);
-        return fabric::SceneInfo{{{0, 0, 0}, {1, 1, 1}}, 30, 100};
+        return fabric::SceneInfo{{{0, 0, 0}, {1, 1, 1}}, 30, 100, {}, files};
     }
 
     absl::Status setFrameData(const fabric::FrameData& frameData, Clock::time_point) override {
@@ -40,6 +40,8 @@ public:
                                                  Clock::time_point deadline) override {
         ++begun;
         std::unique_lock lock(mutex_);
+        if (takes.load().count() > 0)
+            changed_.wait_for(lock, takes.load(), [this] { return cancelled_; });
         changed_.wait_until(lock, deadline, [this] { return !hangs_ || cancelled_; });
         if (cancelled_)
             return absl::CancelledError("cancelled");
@@ -81,8 +83,10 @@ public:
     void failToRender(const absl::Status& status) { set(renderStatus_, status); }
     void failToPick(const absl::Status& status) { set(pickStatus_, status); }
 
-    std::vector<std::string> opened;      ///< names of the scenes' first objects
-    std::vector<std::uint64_t> versions;  ///< of the frame data received
+    std::vector<fabric::DataFile> files;             ///< that it finds
+    std::atomic<std::chrono::milliseconds> takes{};  ///< really, for a channel
+    std::vector<std::string> opened;                 ///< names of the scenes' first objects
+    std::vector<std::uint64_t> versions;             ///< of the frame data received
     std::atomic<int> begun{0};
     std::atomic<int> drawn{0};
     std::atomic<double> share{0};               ///< of the frame, that the last channel was

@@ -13,6 +13,7 @@
 
 #include "fake_renderer.h"
 #include "tests/service/eventually.h"
+#include "tests/support/identifier.h"
 
 namespace eyrie::coordinator {
 namespace {
@@ -20,7 +21,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-class FramePipelineTest : public testing::TestWithParam<Decomposition> {
+class FramePipelineTest : public testing::TestWithParam<std::string> {
 protected:
     static constexpr int kWidth = 41;
     static constexpr int kHeight = 23;
@@ -28,9 +29,9 @@ protected:
     explicit FramePipelineTest(milliseconds patience = milliseconds(100))
         : pipeline_(registry_, options(GetParam(), patience)) {}
 
-    static FramePipelineOptions options(Decomposition decomposition, milliseconds patience) {
+    static FramePipelineOptions options(const std::string& layout, milliseconds patience) {
         FramePipelineOptions options;
-        options.decomposition = decomposition;
+        options.layout = layout;
         options.patience = {patience, patience, 3};
         options.callTimeout = seconds(60);
         return options;
@@ -51,11 +52,14 @@ protected:
 
     std::shared_ptr<FakeRenderer> addRenderer() {
         auto renderer = std::make_shared<FakeRenderer>(layers_);
+        add(renderer);
+        return renderer;
+    }
+    void add(const std::shared_ptr<FakeRenderer>& renderer) {
         const std::string address = fmt::format("fake:{}", ++added_);
         ids_.push_back(
             registry_.add(address, {"", address, "", "", true}, renderer, Registry::Clock::now())
                 .value());
-        return renderer;
     }
     std::vector<std::shared_ptr<FakeRenderer>> openWith(int renderers) {
         pipeline_.setScene(sceneNamed("first"));
@@ -78,12 +82,15 @@ protected:
         ASSERT_TRUE(frame.ok()) << frame.status();
         EXPECT_TRUE(frame->image == layers_->whole(kWidth, kHeight));
     }
-    bool isAlive(int renderer) const {
+    RendererStatus statusOf(int renderer) const {
         for (const RendererStatus& status : pipeline_.status().renderers)
             if (status.id == ids_[static_cast<std::size_t>(renderer)])
-                return status.alive;
-        return false;
+                return status;
+        RendererStatus gone;
+        gone.condition = RendererCondition::Dead;
+        return gone;
     }
+    bool isAlive(int renderer) const { return statusOf(renderer).isAlive(); }
 
     std::shared_ptr<const LayeredScene> layers_ = std::make_shared<LayeredScene>(4711);
     Registry registry_;
@@ -92,11 +99,8 @@ protected:
     int added_ = 0;
 };
 
-INSTANTIATE_TEST_SUITE_P(Of, FramePipelineTest,
-                         testing::Values(Decomposition::TwoD, Decomposition::Db),
-                         [](const auto& of) {
-                             return of.param == Decomposition::TwoD ? "TwoD" : "Db";
-                         });
+INSTANTIATE_TEST_SUITE_P(Of, FramePipelineTest, testing::Values("2D", "DB dynamic"),
+                         [](const auto& of) { return test::identifier(of.param); });
 
 TEST_P(FramePipelineTest, AnyNumberOfRenderersMakesTheSinglePicture) {
     for (int count = 1; count <= 4; ++count) {
@@ -307,6 +311,122 @@ TEST_P(FramePipelineTest, FramesFromSeveralThreadsAreAllWhole) {
     EXPECT_EQ(whole, 100);
 }
 
+TEST_P(FramePipelineTest, LatenessIsShownUntilItEnds) {
+    const auto renderers = openWith(2);
+    renderers[1]->hang(true);
+    expectWholePicture();
+    EXPECT_EQ(statusOf(1).condition, RendererCondition::Late);
+    EXPECT_EQ(statusOf(0).condition, RendererCondition::Ready);
+    std::atomic<bool> isOver{false};
+    const int handle = pipeline_.subscribe(
+        [&] { isOver = isOver || statusOf(1).condition == RendererCondition::Ready; });
+    renderers[1]->hang(false);
+    EXPECT_TRUE(eventually([&] { return isOver.load(); }));
+    pipeline_.unsubscribe(handle);
+}
+
+TEST_P(FramePipelineTest, ARendererThatFindsOtherDataIsRefusedWithTheDifference) {
+    const auto renderers = openWith(2);
+    auto other = std::make_shared<FakeRenderer>(std::make_shared<LayeredScene>(1));
+    other->files = {{123, 0xabc}};
+    for (const auto& renderer : renderers) EXPECT_TRUE(renderer->files.empty());
+    add(other);
+    ASSERT_TRUE(eventually([&] { return statusOf(2).condition == RendererCondition::Refused; }));
+    EXPECT_THAT(statusOf(2).why, testing::HasSubstr("it names 1 files, the others 0"));
+    for (int i = 0; i < 3; ++i) expectWholePicture();
+    EXPECT_EQ(other->begun, 0);
+}
+
+TEST_P(FramePipelineTest, TheDifferenceOfDataNamesFileAndSums) {
+    pipeline_.setScene(sceneNamed("hill"));
+    for (const std::uint64_t sum : {1, 2}) {
+        auto renderer = std::make_shared<FakeRenderer>(layers_);
+        renderer->files = {{100, sum}};
+        add(renderer);
+        EXPECT_TRUE(eventually([&] {
+            const RendererCondition is = statusOf(static_cast<int>(sum) - 1).condition;
+            return is == RendererCondition::Ready || is == RendererCondition::Refused;
+        }));
+    }
+    EXPECT_THAT(
+        statusOf(1).why,
+        testing::HasSubstr("hill (a.eym) has 100 bytes and sum 0000000000000002 there, 100 bytes "
+                           "and sum 0000000000000001 with the others"));
+}
+
+TEST_P(FramePipelineTest, OtherDataAreDrawnWhenNobodyIsLeftWithTheFirst) {
+    openWith(1);
+    const auto layers = std::make_shared<LayeredScene>(1);
+    std::vector<std::shared_ptr<FakeRenderer>> others;
+    for (int i = 0; i < 2; ++i) {
+        others.push_back(std::make_shared<FakeRenderer>(layers));
+        others.back()->files = {{123, 0xabc}};
+        add(others.back());
+    }
+    ASSERT_TRUE(eventually([&] {
+        return statusOf(1).condition == RendererCondition::Refused &&
+               statusOf(2).condition == RendererCondition::Refused;
+    }));
+    registry_.markDead(ids_[0], "test", Registry::Clock::now());
+    awaitReady(others);
+    const auto frame = pipeline_.renderFrame(request());
+    ASSERT_TRUE(frame.ok()) << frame.status();
+    EXPECT_TRUE(frame->image == layers->whole(kWidth, kHeight));
+}
+
+TEST_P(FramePipelineTest, ASuccessorWithOtherDataIsTakenWhereNobodyElseIs) {
+    openWith(1);
+    registry_.markDead(ids_[0], "test", Registry::Clock::now());
+    auto successor = std::make_shared<FakeRenderer>(layers_);
+    successor->files = {{123, 0xabc}};
+    add(successor);
+    awaitReady({successor});
+    expectWholePicture();
+}
+
+TEST_P(FramePipelineTest, OneThatDrainsFinishesWhatItHasAndGetsNothingNew) {
+    const auto renderers = openWith(2);
+    renderers[1]->hang(true);
+    const int begun = renderers[1]->begun;
+    std::jthread frame([&] { expectWholePicture(); });
+    ASSERT_TRUE(eventually([&] { return renderers[1]->begun > begun; }));
+    ASSERT_TRUE(registry_.drain(ids_[1], Registry::Clock::now()).ok());
+    EXPECT_EQ(statusOf(1).condition, RendererCondition::Draining);
+    frame.join();  // its part was late, and drawn by the other
+    expectWholePicture();
+    EXPECT_EQ(renderers[1]->begun, begun + 1);
+    EXPECT_TRUE(registry_.drain(ids_[1], Registry::Clock::now()).ok());
+    const int drawn = renderers[1]->drawn;
+    renderers[1]->hang(false);
+    EXPECT_TRUE(eventually([&] { return pipeline_.status().renderers.size() == 1; }));
+    EXPECT_EQ(renderers[1]->drawn, drawn + 1);
+    EXPECT_TRUE(absl::IsNotFound(registry_.drain(ids_[1], Registry::Clock::now())));
+    expectWholePicture();
+}
+
+TEST_P(FramePipelineTest, OneThatDrainsWithNothingToDoIsGoneAtOnce) {
+    openWith(2);
+    ASSERT_TRUE(registry_.drain(ids_[0], Registry::Clock::now()).ok());
+    EXPECT_TRUE(eventually([&] { return pipeline_.status().renderers.size() == 1; }));
+    expectWholePicture();
+}
+
+/// Without an equalizer, which would give it less and less to do.
+TEST_P(FramePipelineTest, ASlowRendererIsGivenThreeTimesWhatItTakes) {
+    const auto renderers = openWith(2);
+    expectWholePicture();
+    ASSERT_TRUE(pipeline_.configure({"0", "DB static"}).ok());
+    renderers[1]->takes = milliseconds(40);
+    for (int i = 0; i < 15; ++i) expectWholePicture();
+    const int begun = renderers[0]->begun;
+    renderers[1]->hang(true);
+    const auto start = std::chrono::steady_clock::now();
+    expectWholePicture();
+    EXPECT_GE(std::chrono::steady_clock::now() - start, milliseconds(120));
+    EXPECT_EQ(renderers[0]->begun, begun + 2);
+    renderers[1]->hang(false);
+}
+
 /// Depths of LayeredScene tie all over. No part is taken for lost and drawn by another.
 class HardCase13 : public FramePipelineTest {
 protected:
@@ -336,7 +456,7 @@ protected:
     }
 };
 
-INSTANTIATE_TEST_SUITE_P(Of, HardCase13, testing::Values(Decomposition::Db),
+INSTANTIATE_TEST_SUITE_P(Of, HardCase13, testing::Values("DB static"),
                          [](const auto&) { return "Db"; });
 
 TEST_P(HardCase13, PicturesAreTheSameInWhateverOrderTiedPartsArrive) {
@@ -361,10 +481,8 @@ protected:
     HardCase27() : FramePipelineTest(seconds(50)) {}
 };
 
-INSTANTIATE_TEST_SUITE_P(Of, HardCase27, testing::Values(Decomposition::TwoD, Decomposition::Db),
-                         [](const auto& of) {
-                             return of.param == Decomposition::TwoD ? "TwoD" : "Db";
-                         });
+INSTANTIATE_TEST_SUITE_P(Of, HardCase27, testing::Values("2D", "DB dynamic"),
+                         [](const auto& of) { return test::identifier(of.param); });
 
 TEST_P(HardCase27, AllInOnePixelIsTheSinglePictureOverEightRenderers) {
     layers_ = std::make_shared<LayeredScene>(27, 1, 1);

@@ -259,13 +259,14 @@ TEST_F(HttpServer, IsReadyOnlyWithARendererAndAScene) {
     EXPECT_EQ(ready.result_int(), 200u);
     EXPECT_EQ(ready["Content-Type"], "application/json");
     EXPECT_EQ(ready.body(),
-              R"({"ready":true,"problem":"","renderers":[{"id":"renderer-1","alive":true,)"
+              R"({"ready":true,"problem":"","renderers":[{"id":"renderer-1","address":"",)"
+              R"("alive":true,"condition":"ready","why":"","sinceUnixMilliseconds":0,)"
               R"("device":"fake","driver":"","platform":"","software":true}],)"
               R"("scene":{"objects":["hill"],"triangles":1000000}})"
               "\n");
 
     coordinator::Status status = coordinator::readyStatus();
-    status.renderers[0].alive = false;
+    status.renderers[0].condition = coordinator::RendererCondition::Dead;
     frames_.setStatus(status);
     EXPECT_EQ(get("/readyz").result_int(), 503u);
     EXPECT_EQ(get("/api/v1/status").result_int(), 200u);
@@ -465,6 +466,60 @@ TEST_F(HttpServer, AViewerThatNeverAcknowledgesGetsNoMoreThanAFewFrames) {
     other->write(asio::buffer(viewBytes(1)));
     EXPECT_EQ(readFrame(*other).view_sequence(), 1u);
     EXPECT_LE(frames_.requests().size(), 4u);
+}
+
+TEST_F(HttpServer, CutsOffAViewerThatAcknowledgesNothing) {
+    ServerOptions options;
+    options.writeTimeout = milliseconds(200);
+    start(options);
+    const auto mute = openSocket();  // reads, and says nothing
+    mute->write(asio::buffer(viewBytes(1)));
+    for (beast::error_code error; !error;) {
+        beast::flat_buffer buffer;
+        mute->read(buffer, error);
+    }
+    EXPECT_TRUE(eventually([&] { return frames_.listenerCount() == 0; }));
+
+    const auto deaf = openSocket();  // small frames, which the system's buffers take
+    deaf->write(asio::buffer(viewBytes(1)));
+    EXPECT_TRUE(eventually([&] { return frames_.requests().size() >= 2; }));
+    EXPECT_TRUE(eventually([&] { return frames_.listenerCount() == 0; }));
+}
+
+TEST_F(HttpServer, KeepsAViewerThatHasNothingToAcknowledge) {
+    ServerOptions options;
+    options.writeTimeout = milliseconds(200);
+    start(options);
+    const auto idle = openSocket();
+    idle->write(asio::buffer(viewBytes(1)));
+    for (bool isExact = false; !isExact;) {
+        const v1::Frame frame = readFrame(*idle);
+        isExact = frame.has_png();
+        idle->write(asio::buffer(ackBytes(frame.frame_number())));
+    }
+    std::this_thread::sleep_for(milliseconds(600));
+    idle->write(asio::buffer(viewBytes(2)));
+    EXPECT_EQ(readFrame(*idle).view_sequence(), 2u);
+}
+
+TEST_F(HttpServer, GivesEachViewerItsOwnViewAndPace) {
+    start();
+    const auto slow = openSocket();
+    const auto fast = openSocket();
+    slow->write(asio::buffer(viewBytes(1, 32, 32)));
+    EXPECT_EQ(readFrame(*slow).width(), 32);  // and does not acknowledge it
+    for (std::uint64_t sequence = 1; sequence <= 30; ++sequence) {
+        slow->write(asio::buffer(viewBytes(sequence + 1, 32, 32)));
+        fast->write(asio::buffer(viewBytes(sequence)));
+        v1::Frame frame = readFrame(*fast);
+        while (frame.view_sequence() < sequence) frame = readFrame(*fast);
+        EXPECT_EQ(frame.width(), 64);
+        fast->write(asio::buffer(ackBytes(frame.frame_number())));
+    }
+    const std::vector<coordinator::FrameRequest> drawn = frames_.requests();
+    EXPECT_LE(std::count_if(drawn.begin(), drawn.end(),
+                            [](const auto& request) { return request.width == 32; }),
+              4);
 }
 
 TEST_F(HttpServer, SurvivesViewersThatVanish) {

@@ -9,6 +9,7 @@
 
 #include "coordinator/farm/grpc_renderer.h"
 #include "eyrie/v1/render_service.grpc.pb.h"
+#include "tests/service/eventually.h"
 #include "tests/support/temporary_folder.h"
 #include "wire/listen.h"
 
@@ -105,6 +106,15 @@ TEST_F(LyingRenderer, ABoxThatIsNoNumbersIsAnError) {
     const auto info =
         renderer_->openScene({}, ChannelRenderer::Clock::now() + std::chrono::seconds(20));
     EXPECT_EQ(info.status().code(), absl::StatusCode::kInternal);
+}
+
+TEST_F(LyingRenderer, AConnectionIsLostWhenThePeerEnds) {
+    EXPECT_FALSE(renderer_->hasLostConnection());  // there is none yet
+    service_.answer = [](Writer&) {};
+    EXPECT_EQ(render().code(), absl::StatusCode::kInternal);
+    EXPECT_FALSE(renderer_->hasLostConnection());
+    listening_.server->Shutdown();
+    EXPECT_TRUE(eventually([this] { return renderer_->hasLostConnection(); }));
 }
 
 TEST_F(LyingRenderer, OneThatIsGoneIsUnavailable) {

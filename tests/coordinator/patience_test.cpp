@@ -3,38 +3,88 @@
 
 #include <gtest/gtest.h>
 
+#include "coordinator/frame/frame_kinds.h"
+
 namespace eyrie::coordinator {
 namespace {
 
 using std::chrono::milliseconds;
 
-const PatienceOptions kOptions{milliseconds(10'000), milliseconds(500), 3};
+constexpr std::uint64_t kKind = 7;
+constexpr milliseconds kLong{60'000};
 
-TEST(Patience, IsLongWhileNothingIsKnown) {
-    Patience patience(kOptions);
-    EXPECT_EQ(patience.limit(), milliseconds(10'000));
-    patience.record(milliseconds(1));
-    patience.forget();
-    EXPECT_EQ(patience.limit(), milliseconds(10'000));
+TEST(Patience, KnowsNothingOfAKindWithoutFrames) {
+    Patience patience({});
+    EXPECT_FALSE(patience.limit(kKind).has_value());
+    patience.record(kKind, kLong, milliseconds(1));
+    EXPECT_FALSE(patience.limit(kKind + 1).has_value());
 }
 
 TEST(Patience, IsThreeTimesTheRecentMedian) {
-    Patience patience(kOptions);
-    for (const int taken : {400, 9000, 300, 350, 20}) patience.record(milliseconds(taken));
-    EXPECT_EQ(patience.limit(), milliseconds(3 * 350));
+    Patience patience({});
+    for (const int taken : {400, 900, 300, 350, 20})
+        patience.record(kKind, kLong, milliseconds(taken));
+    EXPECT_EQ(patience.limit(kKind), milliseconds(3 * 350));
 }
 
-TEST(Patience, HasALeastLimit) {
-    Patience patience(kOptions);
-    patience.record(milliseconds(5));
-    EXPECT_EQ(patience.limit(), milliseconds(500));
+TEST(Patience, IsAHundredMillisecondsAtLeast) {
+    Patience patience({});
+    patience.record(kKind, kLong, milliseconds(33));
+    EXPECT_EQ(patience.limit(kKind), milliseconds(100));
+    for (int i = 0; i < 15; ++i) patience.record(kKind, kLong, milliseconds(34));
+    EXPECT_EQ(patience.limit(kKind), milliseconds(102));
 }
 
 TEST(Patience, FollowsARendererThatHasBecomeSlower) {
-    Patience patience(kOptions);
-    for (int i = 0; i < 100; ++i) patience.record(milliseconds(200));
-    for (int i = 0; i < 8; ++i) patience.record(milliseconds(1000));
-    EXPECT_EQ(patience.limit(), milliseconds(3000));
+    Patience patience({});
+    for (int i = 0; i < 15; ++i) patience.record(kKind, kLong, milliseconds(200));
+    for (int i = 0; i < 16; ++i) patience.record(kKind, *patience.limit(kKind), milliseconds(1000));
+    EXPECT_EQ(patience.limit(kKind), milliseconds(3000));
+}
+
+TEST(Patience, IsNotWornOutByOneThatStoodStill) {
+    Patience patience({});
+    patience.record(kKind, milliseconds(150), kLong);
+    EXPECT_EQ(patience.limit(kKind), milliseconds(450));
+    for (int i = 0; i < 2; ++i) patience.record(kKind, milliseconds(450), milliseconds(50));
+    EXPECT_EQ(patience.limit(kKind), milliseconds(150));
+}
+
+TEST(Patience, KeepsTheLatestEightKindsApart) {
+    Patience patience({});
+    for (std::uint64_t kind = 1; kind <= 9; ++kind)
+        for (int i = 0; i < 5; ++i)
+            patience.record(kind, kLong, milliseconds(100 * static_cast<int>(kind)));
+    EXPECT_FALSE(patience.limit(1).has_value());
+    for (std::uint64_t kind = 2; kind <= 9; ++kind)
+        EXPECT_EQ(patience.limit(kind), milliseconds(300 * static_cast<int>(kind)));
+}
+
+TEST(FrameKinds, DifferInAnythingButTheCamera) {
+    FrameKinds kinds;
+    FrameRequest request;
+    const std::uint64_t first = kinds.of(request, 1);
+    request.camera.eye.x += 1;
+    EXPECT_EQ(kinds.of(request, 1), first);
+    EXPECT_NE(kinds.of(request, 2), first);
+    FrameRequest wide = request;
+    wide.width += 1;
+    EXPECT_NE(kinds.of(wide, 1), first);
+    FrameRequest timed = request;
+    timed.budgetMilliseconds = 20;
+    EXPECT_NE(kinds.of(timed, 1), first);
+    EXPECT_NE(kinds.of(timed, 1), kinds.of(wide, 1));
+    EXPECT_EQ(kinds.of(request, 1), first);
+}
+
+TEST(FrameKinds, AreRememberedWhileEightOthersHaveNotCome) {
+    FrameKinds kinds;
+    FrameRequest request;
+    const std::uint64_t first = kinds.of(request, 1);
+    for (std::uint64_t revision = 2; revision <= 8; ++revision) kinds.of(request, revision);
+    EXPECT_EQ(kinds.of(request, 1), first);
+    for (std::uint64_t revision = 11; revision <= 18; ++revision) kinds.of(request, revision);
+    EXPECT_NE(kinds.of(request, 1), first);
 }
 
 }  // namespace

@@ -9,7 +9,9 @@
 #include <gmock/gmock.h>
 #include <rapidcheck/gtest.h>
 
+#include "coordinator/farm/program_assembly.h"
 #include "eyrie/v1/render_service.pb.h"
+#include "wire/picture_header.h"
 
 namespace eyrie::coordinator {
 namespace {
@@ -96,6 +98,70 @@ TEST(PictureAssembly, NothingDrawnNeedsNoPixels) {
     PictureAssembly assembly(kTask);
     ASSERT_TRUE(assembly.takeHeader(header(0, 0, 0, 0, false)).ok());
     EXPECT_TRUE(assembly.finish().value().image.area.isEmpty());
+}
+
+TEST(PictureAssembly, BandsThatAreNoneAreRefused) {
+    PictureAssembly assembly(kTask);
+    v1::ChannelHeader runs = header(10, 5, 4, 4);
+    runs.set_encoding(v1::PIXEL_ENCODING_ACTIVE_RUNS);
+    ASSERT_TRUE(assembly.takeHeader(runs).ok());
+    EXPECT_EQ(assembly.finish().status().code(), absl::StatusCode::kInternal);
+    EXPECT_EQ(assembly.takeChunk("nonsense").code(), absl::StatusCode::kInternal);
+    runs.set_encoding(static_cast<v1::PixelEncoding>(9));
+    EXPECT_THAT(refusal(runs), testing::HasSubstr("encoding is 9"));
+}
+
+/// Two outputs go into the answer, one elsewhere; there is one draw.
+const fabric::ChannelProgram kProgram{1,
+                                      1,
+                                      {0, 0, 40, 20},
+                                      true,
+                                      {},
+                                      {{kTask,
+                                        {},
+                                        {{5, {0, 0, 4, 4}, true, ""},
+                                         {6, {0, 0, 4, 4}, true, "unix:/run/r1"},
+                                         {7, {4, 0, 4, 4}, false, ""}}}}};
+
+v1::ProgramPictureHeader pictureHeader(std::uint32_t frame, const fabric::Image& image) {
+    v1::ProgramPictureHeader message;
+    message.set_frame(frame);
+    wire::describe(image, wire::PixelEncoding::Raw, message);
+    return message;
+}
+
+TEST(ProgramAssembly, PicturesComeInTheirOrderThenStatistics) {
+    ProgramAssembly assembly(kProgram);
+    const fabric::Image first = fabric::makeImage({1, 1, 2, 2}, {1, 2, 3, 4}, true);
+    ASSERT_TRUE(assembly.takeHeader(pictureHeader(5, first)).ok());
+    ASSERT_TRUE(assembly.takeChunk({reinterpret_cast<const char*>(first.colour.data()), 16}).ok());
+    ASSERT_TRUE(assembly.takeChunk({reinterpret_cast<const char*>(first.depth.data()), 16}).ok());
+    ASSERT_TRUE(assembly.takeHeader(pictureHeader(7, {})).ok());
+    v1::ProgramStatistics statistics;
+    statistics.add_draws()->set_triangles(12);
+    ASSERT_TRUE(assembly.takeStatistics(statistics).ok());
+    const auto result = assembly.finish();
+    ASSERT_TRUE(result.ok()) << result.status();
+    EXPECT_TRUE(result->pictures.at(0).image == first);
+    EXPECT_EQ(result->pictures.at(1).frame, 7U);
+    EXPECT_EQ(result->draws.at(0).triangles, 12U);
+}
+
+TEST(ProgramAssembly, AnswersThatAreNotTheProgramsAreRefused) {
+    const fabric::Image image = fabric::makeImage({1, 1, 2, 2}, {}, true);
+    const auto refused = [](const absl::Status& status) { return absl::IsInternal(status); };
+    ProgramAssembly assembly(kProgram);
+    EXPECT_TRUE(refused(assembly.finish().status()));
+    EXPECT_TRUE(refused(assembly.takeChunk("x")));
+    EXPECT_TRUE(refused(assembly.takeHeader(pictureHeader(6, image))));
+    EXPECT_TRUE(
+        refused(assembly.takeHeader(pictureHeader(5, fabric::makeImage({3, 3, 2, 2}, {}, true)))));
+    EXPECT_TRUE(
+        refused(assembly.takeHeader(pictureHeader(5, fabric::makeImage({1, 1, 2, 2}, {}, false)))));
+    EXPECT_TRUE(refused(assembly.takeStatistics({})));
+    ProgramAssembly few(kProgram);
+    ASSERT_TRUE(few.takeHeader(pictureHeader(5, image)).ok());
+    EXPECT_TRUE(refused(few.takeHeader(pictureHeader(7, {}))));
 }
 
 }  // namespace

@@ -11,6 +11,13 @@ using std::chrono::seconds;
 
 const Registry::Clock::time_point kStart{};
 
+RegistryOptions everySecond() {
+    RegistryOptions options;
+    options.heartbeatInterval = seconds(1);
+    options.missedHeartbeats = 3;
+    return options;
+}
+
 class RegistryTest : public testing::Test {
 protected:
     RegistryTest() {
@@ -22,11 +29,11 @@ protected:
     bool isAlive(const std::string& id) const {
         for (const Registry::Entry& entry : registry_.entries())
             if (entry.id == id)
-                return entry.alive;
+                return entry.isAlive();
         return false;
     }
 
-    Registry registry_;
+    Registry registry_{everySecond()};
     int changes_ = 0;
 };
 
@@ -72,10 +79,71 @@ TEST_F(RegistryTest, ListenersHearOfChangesAndOfNothingElse) {
     ASSERT_TRUE(registry_.heartbeat(id, kStart + seconds(1)).ok());
     registry_.expire(kStart + seconds(2));
     EXPECT_EQ(changes_, 1);
-    registry_.expire(kStart + seconds(9));
+    for (int i = 3; i <= 9; ++i) registry_.expire(kStart + seconds(i));
     EXPECT_EQ(changes_, 2);
     registry_.markDead(id, "again", kStart + seconds(9));
     EXPECT_EQ(changes_, 2);
+}
+
+TEST_F(RegistryTest, TimeInWhichNobodyLookedIsNobodysSilence) {
+    const std::string id = add("a:1");
+    registry_.expire(kStart);
+    registry_.expire(kStart + seconds(100));  // the coordinator was stopped
+    EXPECT_TRUE(isAlive(id));
+    for (int i = 1; i <= 5; ++i) registry_.expire(kStart + seconds(100 + i));
+    EXPECT_FALSE(isAlive(id));
+}
+
+TEST_F(RegistryTest, OneThatDrainsIsAliveUntilItIsRemoved) {
+    const std::string id = add("a:1");
+    EXPECT_TRUE(registry_.drain(id, kStart).ok());
+    EXPECT_TRUE(registry_.drain(id, kStart + seconds(2)).ok());
+    EXPECT_EQ(changes_, 2);
+    EXPECT_EQ(registry_.entries().at(0).presence, Registry::Presence::Draining);
+    registry_.expire(kStart + seconds(3));  // asking to leave is a sign of life
+    registry_.expire(kStart + seconds(4));
+    EXPECT_TRUE(isAlive(id));
+    registry_.remove(id);
+    EXPECT_TRUE(registry_.entries().empty());
+    EXPECT_EQ(registry_.drain(id, kStart).code(), absl::StatusCode::kNotFound);
+}
+
+TEST_F(RegistryTest, TheRefusedAreListedWithTheReasonForAMinute) {
+    registry_.refuse("a:1", {}, "too old", kStart);
+    registry_.refuse("a:1", {}, "still too old", kStart + seconds(1));
+    ASSERT_EQ(registry_.entries().size(), 1U);
+    const Registry::Entry refused = registry_.entries()[0];
+    EXPECT_EQ(refused.presence, Registry::Presence::Refused);
+    EXPECT_EQ(refused.why, "still too old");
+    EXPECT_FALSE(refused.isAlive());
+    registry_.expire(kStart + seconds(62));
+    EXPECT_TRUE(registry_.entries().empty());
+}
+
+TEST_F(RegistryTest, ARefusalTakesNobodysPlace) {
+    const std::string id = add("a:1");
+    registry_.refuse("a:1", {}, "too old", kStart);
+    EXPECT_TRUE(isAlive(id));
+    registry_.refuse("a:2", {}, "too old", kStart);
+    EXPECT_TRUE(isAlive(add("a:2")));
+    EXPECT_EQ(registry_.entries().size(), 2U);
+}
+
+TEST_F(RegistryTest, AtMostSixteenRefusedAreListedTheLatest) {
+    for (int i = 0; i < 40; ++i)
+        registry_.refuse("a:" + std::to_string(i), {}, "too old", kStart + seconds(i));
+    ASSERT_EQ(registry_.entries().size(), 16U);
+    EXPECT_EQ(registry_.entries()[0].address, "a:24");
+}
+
+TEST(Registry, SilenceIsDeathWithinThreeSeconds) {
+    Registry registry;
+    ASSERT_TRUE(registry.add("a:1", {}, nullptr, kStart).ok());
+    // As the coordinator looks: four times a heartbeat.
+    for (auto now = kStart; now <= kStart + seconds(3);
+         now += registry.options().heartbeatInterval / 4)
+        registry.expire(now);
+    EXPECT_FALSE(registry.entries().at(0).isAlive());
 }
 
 TEST(Registry, TheNumberOfLivingRenderersIsBounded) {

@@ -55,6 +55,23 @@ public:
         send(request);
     }
 
+    /// Takes the parts of a frame's picture until it is whole, and acknowledges them and the frame.
+    void receiveWhole(v1::Frame& frame) {
+        std::string& picture = frame.has_png() ? *frame.mutable_png() : *frame.mutable_jpeg();
+        v1::ViewerRequest request;
+        request.mutable_frame_ack()->set_frame_number(frame.frame_number());
+        while (picture.size() < frame.picture_bytes()) {
+            request.mutable_frame_ack()->set_received_bytes(picture.size());
+            send(request);
+            const std::optional<v1::ViewerResponse> response = next();
+            ASSERT_TRUE(response && response->has_frame_part());
+            ASSERT_EQ(response->frame_part().frame_number(), frame.frame_number());
+            ASSERT_EQ(response->frame_part().offset(), picture.size());
+            picture += response->frame_part().bytes();
+        }
+        acknowledge(frame.frame_number());
+    }
+
     /// The next message within `patience`.
     std::optional<v1::ViewerResponse> next(
         std::chrono::milliseconds patience = std::chrono::milliseconds(10'000)) {

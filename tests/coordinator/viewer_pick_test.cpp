@@ -91,5 +91,73 @@ TEST(ViewerPicks, ThatWaitAreReplacedByNewerOnes) {
     EXPECT_EQ(frames.picks().size(), 2U);
 }
 
+v1::ViewerRequest profileMessage(std::uint64_t sequence, int samples) {
+    v1::ViewerRequest request;
+    v1::ViewerProfile& profile = *request.mutable_profile();
+    profile.set_sequence(sequence);
+    profile.mutable_from()->set_x(10);
+    profile.mutable_to()->set_x(50);
+    profile.mutable_to()->set_y(30);
+    profile.set_samples(samples);
+    return request;
+}
+
+std::optional<v1::ViewerProfiled> nextProfiled(Browser& browser) {
+    while (const std::optional<v1::ViewerResponse> response = browser.next())
+        if (response->has_profiled())
+            return response->profiled();
+    return std::nullopt;
+}
+
+TEST(ViewerProfiles, LookStraightDownAtEvenlySpacedPlaces) {
+    FakeFrameSource frames;
+    frames.setPick([](const fabric::PickRequest& request) -> absl::StatusOr<fabric::Picked> {
+        EXPECT_TRUE(fabric::validate(request).ok());
+        EXPECT_EQ(request.camera.eye.x, request.camera.target.x);
+        EXPECT_EQ(request.camera.eye.y, request.camera.target.y);
+        EXPECT_GT(request.camera.eye.z, 10) << "the scene is 10 m high";
+        EXPECT_EQ(request.exaggeration, 1);
+        if (request.camera.eye.x > 45)
+            return fabric::Picked();
+        fabric::PickedPoint point;
+        point.worldMetres = {request.camera.eye.x, request.camera.eye.y, 7};
+        return fabric::Picked(point);
+    });
+    Browser browser(frames);
+    browser.send(profileMessage(3, 5));
+    const auto profiled = nextProfiled(browser);
+    ASSERT_TRUE(profiled.has_value());
+    EXPECT_EQ(profiled->sequence(), 3U);
+    ASSERT_EQ(profiled->samples_size(), 5);
+    for (int i = 0; i < 4; ++i) {
+        EXPECT_DOUBLE_EQ(profiled->samples(i).point().position().x(), 10 + 10 * i);
+        EXPECT_DOUBLE_EQ(profiled->samples(i).point().position().y(), 7.5 * i);
+    }
+    EXPECT_FALSE(profiled->samples(4).has_point()) << "there is nothing";
+}
+
+TEST(ViewerProfiles, AreRefusedWithMorePointsThanTheLimit) {
+    FakeFrameSource frames;
+    Browser browser(frames);
+    for (const int samples : {-1, 0, 1, 513, 2'000'000'000}) {
+        browser.send(profileMessage(1, samples));
+        EXPECT_THAT(nextProfiled(browser)->problem(), HasSubstr("2 to 512"));
+    }
+    EXPECT_TRUE(frames.picks().empty());
+}
+
+TEST(ViewerProfiles, LetPicksGoFirst) {
+    FakeFrameSource frames;
+    Browser browser(frames);
+    frames.holdPicks(true);
+    browser.send(profileMessage(1, 100));
+    ASSERT_TRUE(frames.waitForPicks(1));
+    browser.send(pickMessage(2, 10));
+    frames.holdPicks(false);
+    ASSERT_TRUE(nextProfiled(browser).has_value());
+    EXPECT_EQ(frames.picks()[1].viewWidth, 64) << "the pick, after the profile's first point";
+    EXPECT_EQ(frames.picks().size(), 101u);
+}
+
 }  // namespace
 }  // namespace eyrie::stream

@@ -11,9 +11,10 @@
 
 #include "coordinator/stream/viewer_messages.h"
 #include "eyrie/v1/viewer.pb.h"
+#include "fabric/pixel_hash.h"
 #include "tests/coordinator/fake_frame_source.h"
 #include "tests/coordinator/viewer_browser.h"
-#include "wire/jpeg.h"
+#include "wire/png.h"
 
 namespace eyrie::stream {
 namespace {
@@ -113,29 +114,97 @@ TEST(Viewer, AcknowledgingAFrameAcknowledgesThoseBefore) {
     }
 }
 
-TEST(Viewer, SendsARestingViewOnceMoreAtItsBest) {
+/// Some noise, whose PNG takes several messages.
+coordinator::RenderedFrame noisyFrame(const FrameRequest& request) {
+    coordinator::RenderedFrame frame = coordinator::plainFrame(request, {});
+    std::uint32_t state = 1;
+    for (fabric::Rgba& pixel : frame.image.colour) {
+        state = state * 1664525u + 1013904223u;
+        pixel = {static_cast<std::uint8_t>(state >> 24), static_cast<std::uint8_t>(state >> 16),
+                 static_cast<std::uint8_t>(state >> 8), 255};
+    }
+    return frame;
+}
+
+TEST(Viewer, SendsARestingViewNearlyExactAndThenExact) {
     FakeFrameSource frames;
-    Browser browser(frames, resting());
+    frames.setDraw(noisyFrame);
+    ViewerOptions options = resting();
+    options.restDelay = milliseconds(300);  // longer than a busy machine takes to draw
+    Browser browser(frames, options);
     browser.look(1);
     const auto moved = browser.nextFrame();
-    const auto still = browser.nextFrame();
-    ASSERT_TRUE(moved.has_value() && still.has_value());
-    EXPECT_FALSE(moved->still());
-    EXPECT_TRUE(still->still());
-    EXPECT_EQ(still->view_sequence(), 1u);
-    EXPECT_GT(still->frame_number(), moved->frame_number());
+    browser.acknowledge(moved->frame_number());
+    const auto fine = browser.nextFrame();
+    browser.acknowledge(fine->frame_number());
+    const auto exact = browser.nextFrame();
+    ASSERT_TRUE(moved && fine && exact);
+    EXPECT_TRUE(!moved->still() && moved->quality() == 75) << moved->quality();
+    EXPECT_TRUE(fine->still() && fine->has_jpeg() && fine->quality() == 95);
+    EXPECT_TRUE(exact->still() && exact->has_png());
+    EXPECT_EQ(exact->view_sequence(), 1u);
+    FrameRequest request;
+    request.width = 64;
+    request.height = 48;
+    EXPECT_EQ(exact->pixel_hash(), fabric::pixelHash(noisyFrame(request).image));
+    EXPECT_EQ(exact->picture_bytes(), exact->png().size());
     EXPECT_EQ(frames.requests().size(), 1u) << "the same picture, encoded again";
+}
+
+/// A viewer whose exact picture, in several parts, has begun to arrive.
+v1::Frame startOfExact(Browser& browser) {
+    v1::ViewerRequest request = viewMessage(1, 5);
+    request.mutable_view()->set_width(400);
+    request.mutable_view()->set_height(300);
+    browser.send(request);
+    for (;;) {
+        v1::Frame frame = *browser.nextFrame();
+        if (frame.has_png())
+            return frame;
+        browser.receiveWhole(frame);
+    }
+}
+
+TEST(Viewer, SendsAStillPictureInPartsAsTheyArrive) {
+    FakeFrameSource frames;
+    frames.setDraw(noisyFrame);
+    Browser browser(frames, resting());
+    v1::Frame exact = startOfExact(browser);
+    EXPECT_LT(exact.png().size(), exact.picture_bytes());
+    browser.receiveWhole(exact);
+    FrameRequest request;
+    request.width = 400;
+    request.height = 300;
+    const auto png = wire::encodePng(noisyFrame(request).image);
+    EXPECT_EQ(exact.png(), std::string(reinterpret_cast<const char*>(png->data()), png->size()));
+}
+
+TEST(Viewer, SendsNoMoreOfAStillPictureOnceTheViewMoves) {
+    FakeFrameSource frames;
+    frames.setDraw(noisyFrame);
+    Browser browser(frames, resting());
+    const v1::Frame exact = startOfExact(browser);
+    browser.look(2);
+    const auto next = browser.next();
+    ASSERT_TRUE(next && next->has_frame()) << "not a part";
+    EXPECT_EQ(next->frame().view_sequence(), 2u);
+    browser.acknowledge(next->frame().frame_number());
+    EXPECT_TRUE(browser.next()->frame().still()) << "nor one later";
 }
 
 TEST(Viewer, DoesNothingWhileNothingChanges) {
     FakeFrameSource frames;
     Browser browser(frames, resting());
     browser.look(1);
-    browser.acknowledge(browser.nextFrame()->frame_number());
-    browser.acknowledge(browser.nextFrame()->frame_number());
+    for (bool isExact = false; !isExact;) {
+        const auto frame = browser.nextFrame();
+        browser.acknowledge(frame->frame_number());
+        isExact = frame->has_png();
+    }
     browser.send(viewMessage(2, 1));  // another number, the same view
     EXPECT_FALSE(browser.next(milliseconds(300)).has_value());
     EXPECT_EQ(frames.requests().size(), 1u);
+    EXPECT_FALSE(browser.viewer().unacknowledgedFor().has_value());
 }
 
 /// A source whose first `count` frames lack pages, of which `failed` cannot be read.
@@ -171,7 +240,7 @@ TEST(Viewer, DrawsOnWhilePagesAreBeingLoadedAndThenRests) {
         browser.acknowledge(frame->frame_number());
         EXPECT_EQ(frame->statistics().pages_missing(), frame->statistics().complete() ? 0u : 2u);
         EXPECT_FALSE(frame->still() && !frame->statistics().complete()) << "it is not its best";
-        if (frame->still())
+        if (frame->has_png())
             break;
     }
     EXPECT_FALSE(browser.nextFrame(milliseconds(100)).has_value());
@@ -199,13 +268,34 @@ TEST(Viewer, LooksNowAndThenWhetherWhatCouldNotBeReadCanBe) {
     EXPECT_TRUE(hadStill) << "what there is deserves its best, too";
 }
 
+TEST(Viewer, TellsWhichRenderersDoNotDrawSinceWhenAndWhy) {
+    FakeFrameSource frames;
+    Browser browser(frames, moving(2));
+    coordinator::Status status = coordinator::readyStatus();
+    status.renderers.push_back({"renderer-2",
+                                {},
+                                {},
+                                coordinator::RendererCondition::Dead,
+                                "no\nheartbeat",
+                                std::chrono::system_clock::time_point(std::chrono::seconds(7))});
+    frames.setStatus(status);
+    EXPECT_TRUE(browser.stateWhere([](const v1::SessionState& state) {
+        return state.renderers_size() == 2 &&
+               state.renderers(0).condition() == v1::RENDERER_CONDITION_READY &&
+               state.renderers(0).alive() && state.renderers(0).since_unix_milliseconds() == 0 &&
+               state.renderers(1).condition() == v1::RENDERER_CONDITION_DEAD &&
+               !state.renderers(1).alive() && state.renderers(1).why() == "no heartbeat" &&
+               state.renderers(1).since_unix_milliseconds() == 7000;
+    }));
+}
+
 TEST(Viewer, DrawsAgainWhenTheRenderersChange) {
     FakeFrameSource frames;
     Browser browser(frames, moving(2));
     browser.look(1);
     ASSERT_TRUE(browser.nextFrame().has_value());
     coordinator::Status status = coordinator::readyStatus();
-    status.renderers.push_back({"renderer-2", {}, true});
+    status.renderers.push_back({"renderer-2", {}, {}});
     frames.setStatus(status);
     EXPECT_TRUE(browser.stateWhere([](const auto& s) { return s.renderers_size() == 2; }));
     EXPECT_TRUE(browser.nextFrame().has_value());

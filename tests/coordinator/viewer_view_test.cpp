@@ -125,6 +125,9 @@ TEST(Viewer, KeepsAFrameTimeUntilTheViewRestsAndThenDrawsWhatWasAskedFor) {
     EXPECT_EQ(still->statistics().tau_achieved(), 1);
     EXPECT_FALSE(still->statistics().has_budget());
     browser.acknowledge(still->frame_number());
+    const auto exact = browser.nextFrame();
+    EXPECT_TRUE(exact.has_value() && exact->has_png());
+    browser.acknowledge(exact->frame_number());
     EXPECT_FALSE(browser.nextFrame(milliseconds(100)).has_value());
     ASSERT_EQ(frames.requests().size(), 2u);
     EXPECT_EQ(frames.requests()[0].budgetMilliseconds, 33);
@@ -163,6 +166,47 @@ TEST(Viewer, RefusesATimeThatIsNone) {
     }
     for (const FrameRequest& request : frames.requests())
         EXPECT_FALSE(request.budgetMilliseconds.has_value());
+}
+
+TEST(Viewer, AsksForThePictureOfTheConfigurationThatTheViewNames) {
+    FakeFrameSource frames;
+    Browser browser(frames, moving(2));
+    v1::ViewerRequest request = viewMessage(1, 1);
+    v1::ShownPicture& shown = *request.mutable_view()->mutable_shown();
+    shown.set_canvas("cave");
+    shown.set_segment("2");
+    shown.set_eye(v1::SHOWN_EYE_RIGHT);
+    shown.set_stereo(v1::SHOWN_STEREO_TOP_BOTTOM);
+    browser.send(request);
+    ASSERT_TRUE(browser.nextFrame().has_value());
+    EXPECT_EQ(frames.requests().back().shown,
+              (std::vector<coordinator::Shown>{
+                  {"cave", "2", compound::Eye::Right, compound::Stereo::TopBottom}}));
+}
+
+TEST(Viewer, SwitchesLayoutsAndDrawsWhatThenIsShown) {
+    FakeFrameSource frames;
+    coordinator::Status status = coordinator::readyStatus();
+    status.canvases = {{"wall", {"left", "right"}, {"2D", "DB", "OFF"}, "2D"}};
+    frames.setStatus(status);
+    Browser browser(frames, moving(2));
+    ASSERT_TRUE(browser.stateWhere([](const v1::SessionState& state) {
+        return state.canvases_size() == 1 && state.canvases(0).layouts_size() == 3 &&
+               state.canvases(0).segments(1) == "right" && state.canvases(0).layout() == "2D";
+    }));
+    browser.look(1);
+    ASSERT_TRUE(browser.nextFrame().has_value());
+    v1::ViewerRequest request;
+    request.mutable_switch_layout()->set_canvas("wall");
+    request.mutable_switch_layout()->set_layout("DB");
+    browser.send(request);
+    EXPECT_TRUE(browser.stateWhere(
+        [](const v1::SessionState& state) { return state.canvases(0).layout() == "DB"; }));
+    request.mutable_switch_layout()->set_layout("attic");
+    browser.send(request);
+    EXPECT_TRUE(browser.stateWhere([](const v1::SessionState& state) {
+        return state.problem() == "there is no layout attic";
+    }));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <gdal_priv.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/stat.h>
 
 #include "tests/support/image_files.h"
 #include "tests/support/program.h"
@@ -263,6 +264,21 @@ TEST_F(BadInput, OptionsOutOfRangeAreRefusedByName) {
     expectRefused({"render", good("ball.eym"), "--camera", good("camera.json"), "-o",
                    bad("out.xyz"), "--size", "32x32"},
                   {"out.xyz", ".png"});
+}
+
+TEST_F(BadInput, ConfigurationsThatCannotBeAreRefusedByPlaceAndNotConverted) {
+    const std::string text = folder_.write("wrong.eqc", "config {\n latency -1 }");
+    const std::string json =
+        folder_.write("wrong.json", R"({"nodes": [{"pipes": [{"port": -1}]}]})");
+    const std::string fine = folder_.write("fine.eqc", "config { node { pipe {} } }");
+    expectRefused({"check", text, "--convert", bad("out.json")}, {"wrong.eqc:2:2", "latency"});
+    expectRefused({"check", json, "--convert", bad("out.eqc")},
+                  {"wrong.json:nodes[0].pipes[0].port: error"});
+    expectRefused({"check", fine, "--convert", bad("out.txt")}, {"--convert", ".eqc or .json"});
+    expectRefused({"check", fine, "--convert", bad("none/out.json")}, {"none/out.json"});
+    ASSERT_EQ(mkfifo(bad("pipe").c_str(), 0600), 0);
+    expectRefused({"check", bad("pipe")}, {"no regular file"});
+    expectRefused({"check", bad("missing.eqc")}, {"missing.eqc"});
 }
 
 TEST_F(BadInput, UnknownCommandsAndOptionsAreRefused) {

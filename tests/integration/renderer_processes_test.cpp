@@ -17,7 +17,6 @@
 namespace eyrie {
 namespace {
 
-using coordinator::Decomposition;
 using coordinator::FrameRequest;
 using fabric::Vec3;
 using std::chrono::seconds;
@@ -104,10 +103,10 @@ protected:
     }
 
     static void compare(const fabric::Scene& scene, const std::vector<FrameRequest>& views,
-                        const std::vector<fabric::Image>& expected, Decomposition decomposition,
+                        const std::vector<fabric::Image>& expected, const std::string& layout,
                         std::size_t count) {
         auto coordinator = coordinator::Coordinator::start(
-            {.grpcAddresses = {"127.0.0.1:0"}, .decomposition = decomposition, .scene = scene});
+            {.grpcAddresses = {"127.0.0.1:0"}, .layout = layout, .scene = scene});
         ASSERT_TRUE(coordinator.ok()) << coordinator.status();
         std::vector<std::unique_ptr<test::Process>> renderers;
         for (std::size_t i = 0; i < count; ++i)
@@ -126,8 +125,8 @@ protected:
             worst = std::max(worst, different);
             EXPECT_EQ(different, 0U) << "camera " << i;
         }
-        fmt::print("{} over {} processes: at most {} of 921600 pixels differ, {} cameras\n",
-                   decomposition == Decomposition::Db ? "DB" : "2D", count, worst, views.size());
+        fmt::print("{} over {} processes: at most {} of 921600 pixels differ, {} cameras\n", layout,
+                   count, worst, views.size());
     }
 
     static void expectEveryDecompositionEqual(fabric::ObjectKind kind) {
@@ -138,10 +137,10 @@ protected:
         ASSERT_TRUE(info.ok()) << info.status();
         const auto views = randomViews(info->bounds);
         const auto expected = expectedPictures(scene, views, **renderer);
-        ASSERT_NO_FATAL_FAILURE(compare(scene, views, expected, Decomposition::TwoD, 2));
-        ASSERT_NO_FATAL_FAILURE(compare(scene, views, expected, Decomposition::TwoD, 4));
-        ASSERT_NO_FATAL_FAILURE(compare(scene, views, expected, Decomposition::Db, 2));
-        ASSERT_NO_FATAL_FAILURE(compare(scene, views, expected, Decomposition::Db, 3));
+        ASSERT_NO_FATAL_FAILURE(compare(scene, views, expected, "2D", 2));
+        ASSERT_NO_FATAL_FAILURE(compare(scene, views, expected, "DB-2D", 4));
+        ASSERT_NO_FATAL_FAILURE(compare(scene, views, expected, "DB dynamic", 2));
+        ASSERT_NO_FATAL_FAILURE(compare(scene, views, expected, "direct-send", 3));
     }
 
     static std::unique_ptr<test::TemporaryFolder> folder_;

@@ -235,6 +235,37 @@ TEST_F(MeshMaterials, TexturesLeaveTheirFinestLevelsWhereMemoryIsShort) {
     EXPECT_LE(renderer_->memory().deviceBytes, kLimit);
 }
 
+/// A raster of every third row and column has a pixel's centre in common with every ninth of the
+/// view's. Checks of 3.6 pixels would be all grey to one that is filtered for its own.
+TEST_F(MeshMaterials, TexturesAreAsFineInARasterAsInItsView) {
+    std::vector<Rgba> checks;
+    for (int i = 0; i < 256 * 256; ++i)
+        checks.push_back((i / 8 + i / 256 / 8) % 2 == 0 ? kWhite : Rgba{0, 0, 0, 255});
+    import::TriangleMesh square;
+    square.materials = {{}, {.image = 0}};
+    square.images = {mesh::encodeImage({256, 256, 0}, checks)};
+    addSquare(square, 14, 0, kWhite, 1);
+    add(std::move(square));
+    const fabric::Image whole = draw();
+    fabric::ChannelTask task = task_;
+    task.raster = fabric::Raster{kSize / 3, kSize / 3, {0, 0}, {3, 3}};
+    task.pixelViewport = fabric::pictureOf(task);
+    const fabric::Image ninth = draw(task);
+    ASSERT_EQ(whole.area, task_.pixelViewport);
+    ASSERT_EQ(ninth.area, task.pixelViewport);
+    double difference = 0, contrast = 0;
+    for (int y = 0; y < kSize / 3; ++y)
+        for (int x = 0; x < kSize / 3; ++x) {
+            const int seen = ninth.colour[static_cast<std::size_t>(y * kSize / 3 + x)].g;
+            const int inView =
+                whole.colour[static_cast<std::size_t>((3 * y + 1) * kSize + 3 * x + 1)].g;
+            difference += std::abs(seen - inView);
+            contrast += std::abs(inView - 128);
+        }
+    EXPECT_GT(contrast / (kSize * kSize / 9), 60);
+    EXPECT_LT(difference / (kSize * kSize / 9), 4);
+}
+
 TEST_F(MeshMaterials, AnImageThatIsDamagedIsDrawnInItsMeanColour) {
     add(texturedSquare());
     std::string bytes = test::readFile(scene_.objects[0].path);

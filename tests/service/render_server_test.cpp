@@ -110,9 +110,13 @@ fabric::Image checkered(fabric::Image image) {
     return image;
 }
 
-/// Expected is what was drawn, to the bit.
+/// Expected is what was drawn, to the bit: colour and depth, as active runs, and colour alone, over
+/// a Unix socket, raw, and over TCP.
 TEST_F(HardCase24, WhateverBitsWereDrawnArriveInPicturesOfAnyShape) {
+    const auto overTcp = RenderServer::start("127.0.0.1:0", *thread_).value();
+    const auto far = coordinator::connectRenderer(overTcp->address());
     ASSERT_TRUE(renderer_->setFrameData(frameData(), soon()).ok());
+    ASSERT_TRUE(far->setFrameData(frameData(), soon()).ok());
     for (const fabric::Image& drawn :
          {noise({0, 0, 640, 360}, 1), noise({0, 0, 16384, 1}, 2), noise({7, 0, 1, 16384}, 3),
           noise({16383, 16383, 1, 1}, 4), checkered(noise({3, 5, 511, 257}, 5)),
@@ -123,15 +127,22 @@ TEST_F(HardCase24, WhateverBitsWereDrawnArriveInPicturesOfAnyShape) {
         fabric::ChannelTask whole = task(16384, 16384, true);
         if (!drawn.area.isEmpty())
             whole.pixelViewport = drawn.area;
-        const auto arrived = renderer_->render(whole, soon());
-        ASSERT_TRUE(arrived.ok()) << arrived.status();
         const auto isSame = [](const auto& one, const auto& other) {
             return std::ranges::equal(std::as_bytes(std::span(one)),
                                       std::as_bytes(std::span(other)));
         };
-        EXPECT_EQ(arrived->image.area, drawn.area);
-        EXPECT_TRUE(isSame(arrived->image.colour, drawn.colour));
-        EXPECT_TRUE(isSame(arrived->image.depth, drawn.depth));
+        for (ChannelRenderer* renderer : {renderer_.get(), far.get()})
+            for (const bool wantsDepth : {true, false}) {
+                whole.wantsDepth = wantsDepth;
+                if (!wantsDepth)
+                    control_->image->depth.clear();
+                const auto arrived = renderer->render(whole, soon());
+                ASSERT_TRUE(arrived.ok()) << arrived.status();
+                EXPECT_EQ(arrived->image.area, drawn.area);
+                EXPECT_TRUE(isSame(arrived->image.colour, drawn.colour));
+                EXPECT_TRUE(isSame(arrived->image.depth, control_->image->depth));
+                control_->image = drawn;
+            }
     }
 }
 

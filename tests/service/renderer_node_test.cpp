@@ -4,6 +4,7 @@
 #include <atomic>
 #include <thread>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <grpcpp/grpcpp.h>
 
@@ -15,6 +16,7 @@
 #include "tests/service/eventually.h"
 #include "tests/support/temporary_folder.h"
 #include "wire/listen.h"
+#include "wire/protocol.h"
 #include "wire/transport.h"
 
 namespace eyrie::service {
@@ -31,7 +33,7 @@ coordinator::RegistryOptions quickHeartbeats() {
 
 int aliveIn(const Registry& registry) {
     int alive = 0;
-    for (const Registry::Entry& entry : registry.entries()) alive += entry.alive ? 1 : 0;
+    for (const Registry::Entry& entry : registry.entries()) alive += entry.isAlive() ? 1 : 0;
     return alive;
 }
 
@@ -59,6 +61,11 @@ class RendererNodeTest : public testing::Test {
 protected:
     void startCoordinator() {
         registry_ = std::make_unique<Registry>(quickHeartbeats());
+        registry_->listeners().add([registry = registry_.get(), this] {
+            for (const Registry::Entry& entry : registry->entries())
+                if (entry.presence == Registry::Presence::Draining && !isBusy_)
+                    registry->remove(entry.id);
+        });
         door_ = GrpcService::start({"unix:" + folder_.path("s")}, *registry_).value();
     }
     void stopCoordinator() {
@@ -83,6 +90,7 @@ protected:
 
     test::TemporaryFolder folder_;
     std::shared_ptr<FakeDrawerControl> control_ = std::make_shared<FakeDrawerControl>();
+    std::atomic<bool> isBusy_{false};  ///< in the eyes of the coordinator
     std::unique_ptr<Registry> registry_;
     std::unique_ptr<GrpcService> door_;
     std::unique_ptr<RendererNode> node_;
@@ -161,6 +169,26 @@ TEST_F(RendererNodeTest, EndsWhenItIsStopped) {
     EXPECT_TRUE(control_->destroyed);
 }
 
+TEST_F(RendererNodeTest, StaysUntilTheCoordinatorHasNothingMoreForIt) {
+    startCoordinator();
+    startNode();
+    ASSERT_TRUE(registers());
+    isBusy_ = true;
+    runner_.request_stop();
+    const auto drains = [&] {
+        const auto entries = registry_->entries();
+        return !entries.empty() && entries[0].presence == Registry::Presence::Draining;
+    };
+    ASSERT_TRUE(eventually(drains));
+    const Registry::Entry entry = registry_->entries()[0];
+    EXPECT_TRUE(
+        entry.renderer->openScene({}, Registry::Clock::now() + std::chrono::seconds(20)).ok());
+    EXPECT_FALSE(ended_);
+    registry_->remove(entry.id);
+    ASSERT_TRUE(eventually([this] { return ended_.load(); }));
+    EXPECT_TRUE(result_.ok()) << result_;
+}
+
 TEST(RendererNode, AnAddressOfAnotherFormIsRefused) {
     RendererNodeOptions options;
     options.coordinator = "nowhere";
@@ -169,7 +197,9 @@ TEST(RendererNode, AnAddressOfAnotherFormIsRefused) {
     EXPECT_EQ(node.status().code(), absl::StatusCode::kInvalidArgument);
 }
 
-TEST(CoordinatorGrpc, ARendererOfAnotherVersionIsTurnedDown) {
+/// Turned down, and listed as such, by a message that has `found` and `expected`.
+void expectRefused(const std::string& version, std::uint64_t protocol, const std::string& found,
+                   const std::string& expected) {
     const test::TemporaryFolder folder;
     Registry registry;
     const auto door = GrpcService::start({"unix:" + folder.path("s")}, registry).value();
@@ -177,15 +207,26 @@ TEST(CoordinatorGrpc, ARendererOfAnotherVersionIsTurnedDown) {
         "unix:" + folder.path("s"), grpc::InsecureChannelCredentials(), wire::clientArguments()));
     v1::RegisterRendererRequest request;
     request.set_address("127.0.0.1:1");
-    request.set_software_version("0.0.1");
+    request.set_software_version(version);
+    request.set_protocol_checksum(protocol);
     v1::RegisterRendererResponse response;
     grpc::ClientContext context;
     const grpc::Status status = stub->RegisterRenderer(&context, request, &response);
     EXPECT_EQ(status.error_code(), grpc::StatusCode::FAILED_PRECONDITION);
     EXPECT_THAT(status.error_message(),
-                testing::AllOf(testing::HasSubstr("0.0.1"),
-                               testing::HasSubstr(std::string(fabric::kVersion))));
-    EXPECT_TRUE(registry.entries().empty());
+                testing::AllOf(testing::HasSubstr(found), testing::HasSubstr(expected)));
+    ASSERT_EQ(registry.entries().size(), 1U);
+    EXPECT_EQ(registry.entries()[0].presence, Registry::Presence::Refused);
+    EXPECT_EQ(registry.entries()[0].why, status.error_message());
+}
+
+TEST(CoordinatorGrpc, ARendererOfAnotherVersionIsTurnedDown) {
+    expectRefused("0.0.1", wire::protocolChecksum(), "0.0.1", std::string(fabric::kVersion));
+}
+
+TEST(CoordinatorGrpc, ARendererThatSpeaksOtherMessagesIsTurnedDown) {
+    expectRefused(std::string(fabric::kVersion), 0xbeef, "000000000000beef",
+                  fmt::format("{:016x}", wire::protocolChecksum()));
 }
 
 }  // namespace

@@ -92,11 +92,28 @@ absl::StatusOr<v1::ViewerResponse> ViewerClient::receive(Milliseconds limit) {
     return response;
 }
 
+namespace {
+
+std::string& pictureOf(v1::Frame& frame) {
+    return frame.has_png() ? *frame.mutable_png() : *frame.mutable_jpeg();
+}
+
+}  // namespace
+
+absl::Status ViewerClient::acknowledge(const v1::Frame& frame, std::size_t received) {
+    v1::ViewerRequest request;
+    request.mutable_frame_ack()->set_frame_number(frame.frame_number());
+    if (received < frame.picture_bytes())
+        request.mutable_frame_ack()->set_received_bytes(received);
+    return send(request);
+}
+
 absl::StatusOr<v1::Frame> ViewerClient::frameOf(const v1::ViewRequest& view, Milliseconds limit) {
     v1::ViewerRequest request;
     *request.mutable_view() = view;
     if (const absl::Status status = send(request); !status.ok())
         return status;
+    v1::Frame frame;
     const auto end = Clock::now() + limit;
     while (Clock::now() < end) {
         const auto left = std::chrono::duration_cast<Milliseconds>(end - Clock::now());
@@ -105,14 +122,17 @@ absl::StatusOr<v1::Frame> ViewerClient::frameOf(const v1::ViewRequest& view, Mil
             break;
         if (!response.ok())
             return response.status();
-        if (!response->has_frame())
+        if (response->has_frame())
+            frame = response->frame();
+        else if (response->has_frame_part())
+            pictureOf(frame) += response->frame_part().bytes();
+        else
             continue;
-        v1::ViewerRequest acknowledgement;
-        acknowledgement.mutable_frame_ack()->set_frame_number(response->frame().frame_number());
-        if (const absl::Status status = send(acknowledgement); !status.ok())
+        const std::size_t received = pictureOf(frame).size();
+        if (const absl::Status status = acknowledge(frame, received); !status.ok())
             return status;
-        if (response->frame().view_sequence() >= view.sequence())
-            return response->frame();
+        if (received == frame.picture_bytes() && frame.view_sequence() >= view.sequence())
+            return frame;
     }
     return absl::DeadlineExceededError(
         fmt::format("no frame of view {} in time; the state's problem is '{}'", view.sequence(),

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -29,7 +30,7 @@ public:
     /// (closed).
     absl::StatusOr<v1::ViewerResponse> receive(Milliseconds limit);
 
-    /// Asks for a view and answers with the next frame that shows it, acknowledging every frame and
+    /// Asks for a view and answers with the next frame that shows it, whole, acknowledging all and
     /// keeping the newest state. DeadlineExceeded names the state's problem, if there is one.
     absl::StatusOr<v1::Frame> frameOf(const v1::ViewRequest& view, Milliseconds limit);
 
@@ -37,6 +38,7 @@ public:
 
 private:
     class Impl;
+    absl::Status acknowledge(const v1::Frame& frame, std::size_t received);
     explicit ViewerClient(std::unique_ptr<Impl> impl);
     std::unique_ptr<Impl> impl_;
     v1::SessionState state_;

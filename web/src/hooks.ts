@@ -13,8 +13,16 @@ export interface Hooks {
   readonly tauAchieved: number;
   /** The frame time that it was to hold; 0: none, or the view is at rest. */
   readonly budgetMilliseconds: number;
-  /** It is at its best: nothing more comes until something changes. */
+  /** It is of a view at rest, nearly exact or exact. */
   readonly still: boolean;
+  /** Its pixels are the server's, bit for bit; nothing more comes. */
+  readonly exact: boolean;
+  /** What the server says of them. */
+  readonly pixelHash: number;
+  /** Of its JPEG; 0: a PNG. */
+  readonly quality: number;
+  readonly width: number;
+  readonly height: number;
   readonly fps: number;
   /** Median of the last ones; NaN before any. */
   readonly inputToDrawnMilliseconds: number;
@@ -48,6 +56,21 @@ export function exposeHooks(state: State, viewer: Viewer): void {
     },
     get still() {
       return numbers()?.still ?? false;
+    },
+    get exact() {
+      return numbers()?.exact ?? false;
+    },
+    get pixelHash() {
+      return numbers()?.pixelHash ?? 0;
+    },
+    get quality() {
+      return numbers()?.quality ?? 0;
+    },
+    get width() {
+      return numbers()?.width ?? 0;
+    },
+    get height() {
+      return numbers()?.height ?? 0;
     },
     get fps() {
       return numbers()?.fps ?? 0;

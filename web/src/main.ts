@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 import "./style.css";
 import { exposeHooks } from "./hooks";
+import { outputOf } from "./output";
 import { keepDescription } from "./panel/description";
+import { showDisplays } from "./panel/displays";
 import { byId } from "./panel/element";
+import { showMeasure } from "./panel/measure";
 import { showMessages } from "./panel/message";
+import { showNotice } from "./panel/notice";
 import { showNumbers } from "./panel/numbers";
 import { showPick } from "./panel/pick";
+import { showPlots } from "./panel/plots";
 import { showQuality } from "./panel/quality";
 import { showStatus } from "./panel/status";
 import { showTerrain } from "./panel/terrain";
 import { setUpToolbar } from "./panel/toolbar";
+import { keepAddress, showViews } from "./panel/views";
 import { State } from "./state";
 import { PictureCanvas } from "./view/canvas";
 import { Viewer } from "./viewer";
@@ -31,13 +37,20 @@ function start(): void {
     return;
   }
   const state = new State();
+  state.output.set(outputOf(window.location.search));
   const viewer = new Viewer(canvas, socketUrl(), state);
   showStatus(state);
   showMessages(state);
   showQuality(state);
+  showDisplays(state, viewer);
   showTerrain(state, viewer);
   showNumbers(state);
   showPick(state);
+  showMeasure(state, viewer);
+  showViews(state, viewer);
+  showPlots(state);
+  showNotice(state);
+  keepAddress(state, viewer);
   setUpToolbar(state, viewer);
   keepDescription(state, canvas);
   exposeHooks(state, viewer);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // From a click to a place of the picture, and from the answer to what the page says of it.
 import type { Point } from "./camera/touch";
-import type { ViewerPicked } from "./protocol/messages";
-import type { Pick } from "./state";
+import type { Vec3 } from "./camera/camera";
+import type { ViewerPicked, ViewerProfiled } from "./protocol/messages";
+import type { Pick, ProfileState } from "./state";
 import type { Size } from "./view/size";
 
 /**
@@ -38,4 +39,14 @@ export function pickOf(
     farthest: point.farthest,
     exaggeration,
   };
+}
+
+export function profileOf(answer: ViewerProfiled, from: Vec3, to: Vec3): ProfileState {
+  if (answer.problem !== "") return { kind: "problem", text: answer.problem };
+  const samples = answer.samples.map(({ point }) => {
+    if (point?.position === undefined) return undefined;
+    const { x, y, z } = point.position;
+    return { position: [x, y, z] as const, error: point.error };
+  });
+  return { kind: "found", from, to, samples };
 }

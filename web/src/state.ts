@@ -2,6 +2,9 @@
 import type { Look } from "./look";
 import { defaultLook } from "./look";
 import type { Vec3 } from "./camera/camera";
+import type { Output } from "./output";
+import { usualOutput } from "./output";
+import type { Profile } from "./profile";
 import type { SessionState, Shown } from "./protocol/messages";
 import { Shading } from "./protocol/messages";
 
@@ -42,6 +45,15 @@ export interface Numbers {
   width: number;
   height: number;
   still: boolean;
+  /** Its pixels are the server's, bit for bit, as compared here. */
+  exact: boolean;
+  /** What the server says of its pixels; 0 while they are not sent as they are. */
+  pixelHash: number;
+  /** Of a JPEG; 0: it is a PNG. */
+  quality: number;
+  /** What the link carries, as the server estimates; 0: not known. */
+  linkBytesPerSecond: number;
+  pictureBytes: number;
   tauAsked: number;
   /** The frame time that was to be held, and what was foreseen for this frame; 0: none was. */
   budgetMilliseconds: number;
@@ -56,6 +68,10 @@ export interface Numbers {
   triangles: number;
   /** Wall-clock time of rendering on the server. */
   renderMilliseconds: number;
+  /** Of the slowest renderer, the stages of it. */
+  cullMilliseconds: number;
+  drawMilliseconds: number;
+  readbackMilliseconds: number;
   /** The stage of rendering that took longest when they were last measured; "" before that. */
   limitedBy: string;
   /** Frames drawn in the last second. */
@@ -91,6 +107,12 @@ export type Pick =
   /** For the user to read. */
   | { kind: "problem"; text: string };
 
+/** Heights along a line: found, asked for, or why there are none. */
+export type ProfileState =
+  | ({ kind: "found" } & Profile)
+  | { kind: "asking"; from: Vec3; to: Vec3 }
+  | { kind: "problem"; text: string };
+
 /** Everything the page shows. The viewer writes it; panels read it. */
 export class State {
   readonly connection = new Value<Connection>({ kind: "connecting" });
@@ -102,10 +124,18 @@ export class State {
   readonly pick = new Value<Pick | null>(null);
   /** A view has been waiting for its picture for long. */
   readonly stale = new Value(false);
+  /** Clicks add points to what is measured. */
+  readonly measuring = new Value(false);
+  readonly measured = new Value<readonly PickedPoint[]>([]);
+  readonly profile = new Value<ProfileState | null>(null);
+  /** What came of a command, for the user to read; goes by itself. */
+  readonly notice = new Value("");
   readonly flying = new Value(false);
   readonly tau = new Value(1);
   /** Milliseconds a frame may take while the view moves; null: tau is kept. */
   readonly budget = new Value<number | null>(null);
   readonly shading = new Value<Shading>(Shading.SMOOTH);
   readonly look = new Value<Look>(defaultLook);
+  /** Which picture of the configuration is seen here. */
+  readonly output = new Value<Output>(usualOutput);
 }

@@ -6,15 +6,27 @@ import type { CameraHolder } from "./camera/controls";
 import type { DistanceLimits } from "./camera/orbit";
 import { distanceLimits, lookAt } from "./camera/orbit";
 import type { Point } from "./camera/touch";
-import { pickOf, placeOf } from "./pick";
-import type { Frame, SessionState, Shown, ViewerPicked } from "./protocol/messages";
+import type { Bounds } from "./camera/standard";
+import { standardCamera, standardViews } from "./camera/standard";
+import type { Frame, SessionState, Shown } from "./protocol/messages";
 import { cameraOf } from "./protocol/messages";
+import type { EncodedPicture } from "./protocol/parts";
 import { Socket } from "./protocol/socket";
+import { Questions } from "./questions";
+import type { SharedView } from "./share";
 import type { State } from "./state";
 import { PictureCanvas } from "./view/canvas";
-import { FrameRate, Latency, limitingStage } from "./view/measure";
+import { FrameRate, Latency } from "./view/measure";
+import { numbersOf } from "./view/numbers";
 import type { Size } from "./view/size";
 import { pictureSize, softwarePixels } from "./view/size";
+
+/** A frame on its way to the canvas; `at`: when it arrived, in ms of performance.now(). */
+interface Arrived {
+  frame: Frame;
+  at: number;
+  picture: Blob | undefined;
+}
 
 /** A view without its picture for so long is stale. */
 const staleAfter = 2000;
@@ -33,18 +45,19 @@ export class Viewer implements CameraHolder {
   private readonly canvas: PictureCanvas;
   private readonly socket: Socket;
   private readonly controls: Controls;
+  readonly questions: Questions;
   private readonly rate = new FrameRate();
   private readonly latency = new Latency();
-  private readonly frames = new Map<number, Frame>();
+  private readonly frames = new Map<number, Arrived>();
   private readonly ticker: number;
+
+  /** The picture on the canvas as the server's PNG, while it is exact. */
+  exactPicture: Blob | undefined;
 
   private size: Size;
   private sequence = 0;
   /** Views that were sent and not drawn yet. */
   private readonly sentViews = new Map<number, Shown>();
-  private pickSequence = 0;
-  /** The pick that the camera is to turn to. */
-  private turnTo = 0;
   /** Of the last view, as text; empty before any on this connection. */
   private sentContent = "";
   /** What the last frame said of the camera of its view. */
@@ -62,8 +75,8 @@ export class Viewer implements CameraHolder {
     private readonly state: State,
   ) {
     this.canvas = new PictureCanvas(canvas, {
-      drawn: (frameNumber, time) => this.drawn(frameNumber, time),
-      failed: (frameNumber) => this.acknowledge(frameNumber),
+      drawn: (frameNumber, time, isExact) => this.drawn(frameNumber, time, isExact),
+      failed: (frameNumber) => this.acknowledge(frameNumber, performance.now()),
       resized: () => this.resize(),
     });
     this.size = this.wantedSize();
@@ -72,13 +85,18 @@ export class Viewer implements CameraHolder {
       opened: () => this.opened(),
       lost: () => this.lost(),
       state: (session) => this.sessionChanged(session),
-      frame: (frame) => this.frameArrived(frame),
-      picked: (answer) => this.picked(answer),
+      frame: (frame, picture) => this.frameArrived(frame, picture),
+      picked: (answer) => this.questions.picked(answer),
+      profiled: (answer) => this.questions.profiled(answer),
+    });
+    this.questions = new Questions(this.socket, state, (to) => {
+      if (this.camera !== null) this.move(lookAt(this.camera, to));
     });
     state.tau.watch(() => this.requestView(performance.now()));
     state.budget.watch(() => this.requestView(performance.now()));
     state.shading.watch(() => this.requestView(performance.now()));
     state.look.watch(() => this.requestView(performance.now()));
+    state.output.watch(() => this.requestView(performance.now()));
     this.ticker = window.setInterval(() => this.tick(), 250);
   }
 
@@ -112,7 +130,55 @@ export class Viewer implements CameraHolder {
     this.move(fitToAspect(home, width / Math.max(1, height)), inputTime);
   }
 
+  /** From where maps and drawings show things; `index` in standardViews. */
+  goTo(index: number, inputTime?: number): void {
+    const view = standardViews[index];
+    const { min, max } = this.state.session.value?.sceneBounds ?? {};
+    if (view === undefined || min === undefined || max === undefined) return;
+    const { width, height } = this.canvas.size();
+    const bounds: Bounds = { min: [min.x, min.y, min.z], max: [max.x, max.y, max.z] };
+    const fovyDegrees = this.camera?.fovyDegrees ?? 45;
+    this.move(standardCamera(view, bounds, width / Math.max(1, height), fovyDegrees), inputTime);
+  }
+
+  /** Clicks at the middle of the picture, for those without a pointer. */
+  clickMiddle(): void {
+    const { width, height } = this.canvas.size();
+    this.clicked({ x: width / 2, y: height / 2 });
+  }
+
+  /** For everybody; what comes of it is in the session's state. */
+  switchLayout(canvas: string, layout: string): void {
+    this.socket.switchLayout(canvas, layout);
+  }
+
   // ---- Views
+
+  /** What is wanted now, to be found again; null before there is a camera. */
+  sharedView(): SharedView | null {
+    const { tau, budget, shading, look } = this.state;
+    if (this.camera === null) return null;
+    return {
+      camera: this.camera,
+      tau: tau.value,
+      budget: budget.value,
+      shading: shading.value,
+      look: { ...look.value, frozen: null },
+    };
+  }
+
+  /** Of the picture that is asked for, in pixels. */
+  get pictureSize(): Size {
+    return this.size;
+  }
+
+  show(view: SharedView): void {
+    this.state.tau.set(view.tau);
+    this.state.budget.set(view.budget);
+    this.state.shading.set(view.shading);
+    this.state.look.set(view.look);
+    this.move(view.camera, performance.now());
+  }
 
   /**
    * Sends the view with the next animation frame: at most one a frame, always the newest.
@@ -135,6 +201,7 @@ export class Viewer implements CameraHolder {
       budgetMilliseconds: this.state.budget.value,
       shading: this.state.shading.value,
       look: this.state.look.value,
+      output: this.state.output.value,
     };
     // The server draws what has changed: it would not answer the same view again.
     const content = JSON.stringify(view);
@@ -151,6 +218,7 @@ export class Viewer implements CameraHolder {
       camera: view.camera,
       ...this.size,
       exaggeration: view.look.exaggeration,
+      throughWall: false,
     });
     this.latency.sent(this.sequence, performance.now(), inputTime);
   }
@@ -179,7 +247,7 @@ export class Viewer implements CameraHolder {
   private lost(): void {
     this.latency.reset();
     this.frames.clear();
-    if (this.state.pick.value?.kind === "asking") this.state.pick.set(null);
+    this.questions.lost();
     this.inputTime = undefined;
     this.sentContent = "";
     this.state.connection.set({ kind: "lost", since: performance.now() });
@@ -193,56 +261,47 @@ export class Viewer implements CameraHolder {
       this.limits = distanceLimits(diagonal);
       const key = [min.x, min.y, min.z, max.x, max.y, max.z].join();
       // Another scene starts at its own home; after a reconnection the camera stays.
-      if (this.camera === null || key !== this.sceneKey) this.goHome();
+      const isOther = this.sceneKey !== "" && key !== this.sceneKey;
+      if (this.camera === null || isOther) this.goHome();
       this.sceneKey = key;
     }
     this.resize();
   }
 
-  private frameArrived(frame: Frame): void {
+  private frameArrived(frame: Frame, picture: EncodedPicture): void {
     const frameNumber = Number(frame.frameNumber);
-    const jpeg = frame.jpeg as Uint8Array<ArrayBuffer>;
-    this.frames.set(frameNumber, { ...frame, jpeg: new Uint8Array() });
-    this.canvas.show(frameNumber, jpeg);
+    frame.picture = { case: undefined };
+    // The worker takes the bytes; those of an exact picture may be saved as a file.
+    const kept = picture.type === "image/png" ? new Blob([picture.bytes], picture) : undefined;
+    this.frames.set(frameNumber, { frame, at: performance.now(), picture: kept });
+    this.canvas.show(frameNumber, picture);
   }
 
-  private acknowledge(frameNumber: number): void {
-    this.socket.acknowledge(frameNumber);
+  private acknowledge(frameNumber: number, time: number): void {
+    const arrived = this.frames.get(frameNumber)?.at ?? time;
+    this.socket.acknowledge(frameNumber, Math.max(0, time - arrived));
     for (const known of this.frames.keys()) if (known <= frameNumber) this.frames.delete(known);
   }
 
-  private drawn(frameNumber: number, time: number): void {
-    const frame = this.frames.get(frameNumber);
-    this.acknowledge(frameNumber);
+  private drawn(frameNumber: number, time: number, isExact: boolean): void {
+    const arrived = this.frames.get(frameNumber);
+    const frame = arrived?.frame;
+    this.acknowledge(frameNumber, time);
+    this.exactPicture = undefined;
     if (frame === undefined) return; // of a connection that is gone
     this.rate.drawn(time);
     this.latency.drawn(Number(frame.viewSequence), time);
     this.lifted = { camera: cameraOf(frame.liftedCamera), sequence: Number(frame.viewSequence) };
     this.adoptLifted();
     this.noteShown(frame);
-    const { statistics } = frame;
-    this.state.numbers.set({
-      frameNumber,
-      viewSequence: Number(frame.viewSequence),
-      width: frame.width,
-      height: frame.height,
-      still: frame.still,
-      tauAsked: statistics?.tauAsked ?? 0,
-      budgetMilliseconds: statistics?.budget?.milliseconds ?? 0,
-      predictedMilliseconds: statistics?.budget?.predictedMilliseconds ?? 0,
-      budgetTau: statistics?.budget?.tauPixels ?? 0,
-      tauAchieved: statistics?.tauAchieved ?? 0,
-      complete: statistics?.complete ?? true,
-      pagesMissing: Number(statistics?.pagesMissing ?? 0n),
-      pagesFailed: Number(statistics?.pagesFailed ?? 0n),
-      triangles: Number(statistics?.triangles ?? 0n),
-      renderMilliseconds: statistics?.milliseconds?.total ?? 0,
-      limitedBy:
-        limitingStage(statistics?.milliseconds) || (this.state.numbers.value?.limitedBy ?? ""),
+    const seen = {
+      exact: isExact,
       fps: this.rate.perSecond(time),
       inputToDrawnMilliseconds: this.latency.median(),
       frozen: this.state.look.value.frozen !== null,
-    });
+    };
+    this.state.numbers.set(numbersOf(frame, seen, this.state.numbers.value?.limitedBy ?? ""));
+    if (isExact) this.exactPicture = arrived?.picture;
   }
 
   private noteShown(frame: Frame): void {
@@ -251,37 +310,23 @@ export class Viewer implements CameraHolder {
     for (const known of this.sentViews.keys()) if (known < sequence) this.sentViews.delete(known);
     if (sent === undefined) return;
     const camera = cameraOf(frame.liftedCamera) ?? sent.camera;
-    this.state.shown.set({ ...sent, camera, width: frame.width, height: frame.height });
+    const { throughWall, width, height } = frame;
+    this.state.shown.set({ ...sent, camera, width, height, throughWall });
   }
 
   // ---- Picks
 
   clicked(at: Point): void {
-    this.pick(at);
+    this.pick(at, false);
   }
 
   /** Turns to the point and, from then on, about it. */
   doubleClicked(at: Point): void {
-    if (this.pick(at)) this.turnTo = this.pickSequence;
+    this.pick(at, true);
   }
 
-  private pick(at: Point): boolean {
-    const shown = this.state.shown.value;
-    if (shown === null) return false;
-    const place = placeOf(at, this.canvas.size(), shown);
-    if (!this.socket.pick(this.pickSequence + 1, shown, place)) return false;
-    this.pickSequence += 1;
-    this.state.pick.set({ kind: "asking" });
-    return true;
-  }
-
-  private picked(answer: ViewerPicked): void {
-    if (Number(answer.sequence) !== this.pickSequence || this.state.pick.value === null) return;
-    const exaggeration = this.state.shown.value?.exaggeration ?? 1;
-    const pick = pickOf(answer, this.state.session.value?.objectNames ?? [], exaggeration);
-    this.state.pick.set(pick);
-    if (pick.kind === "point" && this.turnTo === this.pickSequence && this.camera !== null)
-      this.move(lookAt(this.camera, pick.position));
+  private pick(at: Point, turns: boolean): void {
+    this.questions.pick(at, this.canvas.size(), turns);
   }
 
   dragEnded(): void {

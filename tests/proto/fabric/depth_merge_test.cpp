@@ -52,6 +52,14 @@ RC_GTEST_PROP(DepthMerge, IsAssociativeTiesIncluded, (std::uint32_t seed)) {
     RC_ASSERT(merged(c, merged(b, a)) == merged(merged(c, b), a));
 }
 
+RC_GTEST_PROP(DepthMerge, TheRangeBeforeMayComeLater, (std::uint32_t seed)) {
+    const Image a = sampleImage(kWhole, seed);
+    Image b = sampleImage(kWhole, seed + 1);
+    const Image expected = merged(b, a);
+    mergeDepth(a, b, Ties::Source);
+    RC_ASSERT(b == expected);
+}
+
 TEST(DepthMerge, OfEqualDepthsTheTargetStays) {
     const Image first = makeImage({0, 0, 9, 1}, {1, 1, 1, 255}, true);
     Image target = first;

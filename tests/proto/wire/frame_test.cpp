@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include <glm/common.hpp>
 #include <gmock/gmock.h>
 #include <rapidcheck/gtest.h>
 
@@ -12,6 +13,38 @@ namespace eyrie::wire {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+/// From -1 to 1.
+double anyNumber() { return *rc::gen::inRange(-1'000'000, 1'000'001) / 1e6; }
+
+fabric::Sight anySight() {
+    fabric::Sight sight;
+    sight.eye = {anyNumber(), anyNumber(), anyNumber()};
+    sight.viewFromCamera = fabric::Mat3(
+        glm::rotate(glm::rotate(fabric::Mat4(1.0), 6 * anyNumber(), fabric::Vec3(1, 0, 0)),
+                    6 * anyNumber(), fabric::Vec3(0, 0.6, 0.8)));
+    sight.frustum.left = 9 * anyNumber();
+    sight.frustum.right = sight.frustum.left + 1.1 + anyNumber();
+    sight.frustum.bottom = 9 * anyNumber();
+    sight.frustum.top = sight.frustum.bottom + 1.1 + anyNumber();
+    return sight;
+}
+
+/// Of the whole view; what is drawn is the last row.
+void addRaster(fabric::ChannelTask& task) {
+    fabric::Raster raster;
+    raster.width = *rc::gen::inRange(1, fabric::kMaxViewPixels + 1);
+    raster.height = *rc::gen::inRange(1, fabric::kMaxViewPixels + 1);
+    raster.step = {static_cast<double>(task.viewWidth) / raster.width,
+                   static_cast<double>(task.viewHeight) / raster.height};
+    raster.origin = fabric::Vec2(anyNumber(), anyNumber()) * 0.4 * raster.step;
+    // A raster so fine has more pixels than any is allowed.
+    raster.step = glm::max(raster.step, fabric::Vec2(fabric::kMinRasterStep));
+    if (!fabric::validate(raster, task.viewWidth, task.viewHeight).ok())
+        raster = {1, 1, {-0.5, -0.5}, {1, 1}};
+    task.raster = raster;
+    task.pixelViewport = {0, raster.height - 1, raster.width, 1};
+}
 
 fabric::ChannelTask anyTask() {
     fabric::ChannelTask task;
@@ -29,6 +62,10 @@ fabric::ChannelTask anyTask() {
     task.measuresStages = *rc::gen::arbitrary<bool>();
     task.completeness =
         *rc::gen::element(fabric::Completeness::Complete, fabric::Completeness::Interactive);
+    if (*rc::gen::arbitrary<bool>())
+        task.sight = anySight();
+    if (*rc::gen::arbitrary<bool>())
+        addRaster(task);
     return task;
 }
 
@@ -78,6 +115,21 @@ TEST(WireChannelTask, ARefusalNamesTheField) {
     v1::ChannelTask empty = taskMessage();
     empty.mutable_pixel_viewport()->set_width(0);
     EXPECT_THAT(refusal(empty), testing::HasSubstr("task.pixel_viewport"));
+    v1::ChannelTask sampled = taskMessage();
+    sampled.mutable_raster()->set_width(50);
+    sampled.mutable_raster()->set_height(50);
+    sampled.mutable_raster()->set_step_x(2);
+    sampled.mutable_raster()->set_step_y(1);
+    EXPECT_THAT(refusal(sampled), testing::HasSubstr("task.pixel_viewport"));
+    sampled.mutable_pixel_viewport()->set_width(50);
+    EXPECT_TRUE(fromMessage(sampled).ok());
+    sampled.mutable_raster()->set_step_y(0);
+    EXPECT_THAT(refusal(sampled), testing::HasSubstr("raster.step.y"));
+    v1::ChannelTask blind = taskMessage();
+    blind.mutable_sight();
+    EXPECT_THAT(refusal(blind), testing::HasSubstr("sight.frustum.right"));
+    blind.mutable_sight()->add_view_from_camera(1);
+    EXPECT_THAT(refusal(blind), testing::HasSubstr("sight.view_from_camera"));
     v1::ChannelTask unknown = taskMessage();
     unknown.set_completeness(static_cast<v1::Completeness>(7));
     EXPECT_THAT(refusal(unknown), testing::HasSubstr("task.completeness"));

@@ -132,7 +132,8 @@ TEST(WireScene, ARefusalNamesTheObjectAndField) {
 }
 
 TEST(WireSceneInfo, ComesBackAsItWas) {
-    const fabric::SceneInfo info{{{-1, -2, -3}, {4, 5, 6}}, 7, 8};
+    const fabric::SceneInfo info{
+        {{-1, -2, -3}, {4, 5, 6}}, 7, 8, {}, {{9, 0xfedcba9876543210}, {1, 2}}};
     EXPECT_EQ(fromMessage(toMessage(info)).value(), info);
     EXPECT_EQ(fromMessage(toMessage(fabric::SceneInfo{})).value(), fabric::SceneInfo{});
 }

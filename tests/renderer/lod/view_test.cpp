@@ -66,7 +66,7 @@ TEST(ScreenSpaceError, HoldsInTheCornerOfAWideView) {
     const Box box = Box{Vec3(tangent * 10, 10, 16), Vec3(tangent * 10, 10, 16)}.grownBy(0.01);
     const double error = 0.05;
     const double bound = ObjectView(view, Mat4(1.0)).screenSpaceErrorPixels(error, box);
-    const double withoutSecant = error * view.focalPixels / 10;
+    const double withoutSecant = error * view.greatestFocalPixels() / 10;
     const Vec3 point = box.centre();
     double worst = 0;
     for (int i = 0; i < 360; ++i) {

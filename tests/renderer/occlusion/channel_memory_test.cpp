@@ -49,6 +49,20 @@ TEST(ChannelMemories, AreApartForOtherChannelsAndAfterAHardCut) {
     EXPECT_FALSE(isSame(memories, lookingAlong(0), {0.5, 1}, kAll));
 }
 
+TEST(ChannelMemories, AreApartForTilesOfOneWall) {
+    lod::View left = lookingAlong(0);
+    lod::View right = left;
+    left.frustum = {-1, 0, -0.5, 0.5};
+    right.frustum = {0, 1, -0.5, 0.5};
+    lod::View moved = left;
+    moved.frustum = {-0.8, 0.2, -0.5, 0.5};
+    ChannelMemories memories;
+    EXPECT_FALSE(isSame(memories, left, {}, kAll));
+    EXPECT_FALSE(isSame(memories, right, {}, kAll));
+    EXPECT_TRUE(isSame(memories, left, {}, kAll));
+    EXPECT_TRUE(isSame(memories, moved, {}, kAll)) << "a head that moves";
+}
+
 /// A wall 10 m before the eye, which ends on the right 100 of 160 pixels from the left.
 ChannelMemory wall() {
     std::vector<float> depth(static_cast<std::size_t>(kAll.area()), 0);

@@ -40,6 +40,44 @@ TEST(Pinhole, ProjectsAPointOfARayBackToItsPixel) {
     }
 }
 
+TEST(Pinhole, ThroughAScreenSeesItsCornersInThePicturesCorners) {
+    const Vec3 eye(6e5 + 1, 5e6 - 2, 1000.5);
+    const Screen screen{{6e5, 5e6, 1000}, {6e5 + 3, 5e6 + 2, 1000}, {6e5, 5e6, 1002}};
+    const Pinhole camera(eye, screen, 640, 480);
+    EXPECT_NEAR(glm::distance(*camera.project(screen.lowerLeft), Vec2(0, 0)), 0, 1e-6);
+    EXPECT_NEAR(glm::distance(*camera.project(screen.lowerRight), Vec2(640, 0)), 0, 1e-6);
+    EXPECT_NEAR(glm::distance(*camera.project(screen.upperLeft), Vec2(0, 480)), 0, 1e-6);
+    const Vec3 beyond = eye + 7.0 * (screen.lowerRight - eye);
+    EXPECT_NEAR(glm::distance(*camera.project(beyond), Vec2(640, 0)), 0, 1e-6);
+    const Vec3 seen = camera.rayThrough(640, 0).at(camera.depth(beyond));
+    EXPECT_NEAR(glm::distance(seen, beyond), 0, 1e-6);
+    EXPECT_NEAR(camera.depth(screen.upperLeft), camera.depth(screen.lowerRight), 1e-9);
+    EXPECT_FALSE(camera.project(eye + eye - screen.lowerLeft));
+}
+
+TEST(Pinhole, ThroughAScreenStraightAheadIsThatOfACamera) {
+    const Pinhole camera = northward();  // its picture is 4 x 2 at unit depth
+    const Vec3 eye(6e5, 5e6, 1000);
+    const Pinhole same(eye, {eye + Vec3(-2, 1, -1), eye + Vec3(2, 1, -1), eye + Vec3(-2, 1, 1)},
+                       200, 100);
+    for (const Vec2 p : {Vec2(0.5, 0.5), Vec2(100, 50), Vec2(199.5, 3.25)})
+        EXPECT_NEAR(glm::distance(same.rayThrough(p.x, p.y).direction,
+                                  camera.rayThrough(p.x, p.y).direction),
+                    0, 1e-9);
+    EXPECT_NEAR(same.focalPixels(), 50, 1e-9);
+}
+
+TEST(Pinhole, SampledShowsThePointsNamedAndCountsThePixelsOfThePicture) {
+    const Pinhole whole = northward();
+    const Pinhole third = whole.sampled({-0.5, 1}, {3, 2}, 60, 40);
+    const Ray ray = third.rayThrough(7.5, 4.5);  // pixel (7, 4)
+    const Ray same = whole.rayThrough(-0.5 + 7.5 * 3, 1 + 4.5 * 2);
+    EXPECT_NEAR(glm::distance(ray.direction, same.direction), 0, 1e-12);
+    EXPECT_NEAR(glm::distance(*third.project(ray.at(50)), Vec2(7.5, 4.5)), 0, 1e-8);
+    EXPECT_EQ(third.pixelsBetween({1, 1}, {2, 3}), 5);
+    EXPECT_EQ(whole.pixelsBetween({1, 1}, {4, 5}), 5);
+}
+
 TEST(Pinhole, ProjectsNothingBehindTheEye) {
     EXPECT_FALSE(northward().project(Vec3(6e5, 5e6 - 1, 1000)));
     EXPECT_FALSE(northward().project(Vec3(6e5, 5e6, 1000)));

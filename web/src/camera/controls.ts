@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // From pointer, wheel and keys to a camera. The geometry is in orbit.ts, fly.ts and touch.ts.
 import type { Camera } from "./camera";
+import { isTyping } from "./typing";
 import { fly, isFlyKey, look } from "./fly";
 import type { DistanceLimits } from "./orbit";
 import { orbit, pan, zoom } from "./orbit";
@@ -46,11 +47,6 @@ export function clickAfter(downAt: Point | undefined, to: Point): Point | undefi
   const isNear = downAt && Math.hypot(to.x - downAt.x, to.y - downAt.y) <= clickSlack;
   return isNear ? downAt : undefined;
 }
-
-const isTyping = (target: EventTarget | null): boolean =>
-  target instanceof HTMLElement &&
-  (target.matches("input, select, textarea, [contenteditable]") ||
-    target.closest("dialog") !== null);
 
 export class Controls {
   private readonly pointers = new Map<number, Pointer>();

@@ -1,8 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sheet of controls.
-import { byId, make } from "./element";
+// The sheet of controls, with how they stand.
+import { standardViews } from "../camera/standard";
+import type { State } from "../state";
+import { byId, make, setText } from "./element";
+import { metres, times } from "./format";
+import { sentText } from "./numbers";
 
-const groups: readonly (readonly [string, readonly (readonly [string, string])[]])[] = [
+/** Keys, what they do, and how that stands. */
+type Line = readonly [string, string, ((state: State) => string)?];
+
+const onOff = (isOn: boolean): string => (isOn ? "on" : "off");
+
+const groups: readonly (readonly [string, readonly Line[]])[] = [
   [
     "Mouse",
     [
@@ -26,12 +35,43 @@ const groups: readonly (readonly [string, readonly (readonly [string, string])[]
       ["← → ↑ ↓", "Orbit; with Shift: pan"],
       ["+ −", "Zoom"],
       ["W A S D, Q E", "Fly; with Shift: faster"],
-      ["F", "Fly on or off; Esc ends it"],
+      ["F", "Fly on or off; Esc ends it", ({ flying }) => onOff(flying.value)],
       ["Home or R", "Show the whole scene"],
-      ["[ ]", "Terrain lower or higher; \\ at its true height"],
-      ["C", "Contour lines on or off"],
-      ["X", "Hold the cut, or let it follow the view"],
-      ["U", "Camera under ground, or above it"],
+      [
+        "1 to 7",
+        `Standard views: ${standardViews.map(({ name }) => name.toLowerCase()).join(", ")}`,
+      ],
+      ["Space", "What is at the middle of the picture"],
+      ["M", "Measure: then click points, or Space", ({ measuring }) => onOff(measuring.value)],
+      ["V", "Heights along the last line measured"],
+      [
+        "[ ]",
+        "Terrain lower or higher; \\ at its true height",
+        ({ look }) => times(look.value.exaggeration),
+      ],
+      [
+        "C",
+        "Contour lines on or off",
+        ({ look }) =>
+          look.value.contourMetres > 0 ? `every ${metres(look.value.contourMetres)}` : "off",
+      ],
+      [
+        "X",
+        "Hold the cut, or let it follow the view",
+        ({ look }) => (look.value.frozen === null ? "follows" : "held"),
+      ],
+      [
+        "U",
+        "Camera under ground, or above it",
+        ({ look }) => (look.value.underground ? "anywhere" : "above"),
+      ],
+      ["L, K", "Copy a link to this view; the command that renders it"],
+      [
+        "O",
+        "Save the exact picture as a file",
+        ({ numbers }) => (numbers.value ? sentText(numbers.value) : ""),
+      ],
+      ["G", "Live plots of time, error and bandwidth"],
       ["P", "Show or hide the panel"],
       ["H or ?", "This sheet"],
     ],
@@ -39,7 +79,7 @@ const groups: readonly (readonly [string, readonly (readonly [string, string])[]
 ];
 
 /** Fills the sheet and returns how to open and close it. */
-export function setUpHelp(): () => void {
+export function setUpHelp(state: State): () => void {
   const dialog = byId("help", HTMLDialogElement);
   const title = make("h2", "help-title", "Controls");
   title.id = "help-title";
@@ -47,17 +87,26 @@ export function setUpHelp(): () => void {
   close.type = "button";
   close.addEventListener("click", () => dialog.close());
   dialog.append(make("div", "help-head", title, close));
+  const states: (() => void)[] = [];
   for (const [name, entries] of groups) {
     const list = make("dl", "help-list");
-    for (const [keys, meaning] of entries)
-      list.append(make("dt", "", make("kbd", "", keys)), make("dd", "", meaning));
+    for (const [keys, meaning, stands] of entries) {
+      const text = make("dd", "", meaning);
+      if (stands !== undefined) {
+        const now = make("span", "help-now");
+        text.append(now);
+        states.push(() => setText(now, stands(state)));
+      }
+      list.append(make("dt", "", make("kbd", "", keys)), text);
+    }
     dialog.append(make("h3", "heading", name), list);
   }
   dialog.addEventListener("click", (event) => {
     if (event.target === dialog) dialog.close();
   });
   return () => {
-    if (dialog.open) dialog.close();
-    else dialog.showModal();
+    if (dialog.open) return dialog.close();
+    for (const update of states) update();
+    dialog.showModal();
   };
 }

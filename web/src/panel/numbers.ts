@@ -8,6 +8,12 @@ export function triangleText(drawn: number, total: number): string {
   return total > 0 ? `${count(drawn)} of ${count(total)}` : count(drawn);
 }
 
+/** How a picture was sent. */
+export function sentText({ exact, quality }: Pick<Numbers, "exact" | "quality">): string {
+  if (exact) return "exact";
+  return quality > 0 ? `JPEG ${quality}` : "lossless";
+}
+
 interface Row {
   name: string;
   title: string;
@@ -44,8 +50,10 @@ const rows: readonly Row[] = [
   },
   {
     name: "Picture",
-    title: "Size in pixels; the best one follows when the view rests",
-    text: ({ width, height, still }) => `${width} × ${height}${still ? " · best" : ""}`,
+    title:
+      "Size in pixels, and how it was sent: JPEG of a quality that the link allows while the view " +
+      "moves; exact: every pixel here has been compared with the server's",
+    text: ({ width, height, ...sent }) => `${width} × ${height} · ${sentText(sent)}`,
   },
 ];
 

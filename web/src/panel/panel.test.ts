@@ -2,13 +2,14 @@
 import { create } from "@bufbuild/protobuf";
 import { describe, expect, it } from "vitest";
 import { SessionStateSchema } from "../protocol/gen/eyrie/v1/viewer_pb";
+import { RendererCondition } from "../protocol/messages";
 import type { SessionState } from "../protocol/messages";
 import type { Connection, Numbers } from "../state";
 import { count, deviceName, milliseconds, pixels } from "./format";
 import { bannerFor, lossText, messageFor } from "./message";
-import { triangleText } from "./numbers";
+import { sentText, triangleText } from "./numbers";
 import { budgetHint, tauHint } from "./quality";
-import { missingText, statusOf } from "./status";
+import { degradedText, missingText, rendererLine, statusOf } from "./status";
 
 const connected: Connection = { kind: "connected" };
 const lost: Connection = { kind: "lost", since: 1000 };
@@ -37,6 +38,27 @@ describe("the status chip", () => {
     const status = statusOf(connected, session(1, 1), false);
     expect(status.detail).toContain("1 of 2 renderers");
     expect(status.level).toBe("wait");
+  });
+
+  it("says who does not draw as usual, and why", () => {
+    const { READY, LATE, DEAD, REFUSED } = RendererCondition;
+    const why = "it has other data";
+    const state = create(SessionStateSchema, {
+      renderers: [
+        { id: "a", alive: true, condition: READY, device: { device: "llvmpipe" } },
+        { id: "b", alive: true, condition: LATE },
+        { id: "c", condition: DEAD, why: "no heartbeat", sinceUnixMilliseconds: 1000n },
+        { id: "d", condition: REFUSED, why },
+      ],
+    });
+    expect(degradedText(state)).toBe("b late, c dead, d refused");
+    expect(degradedText(session(2))).toBe("");
+    expect(statusOf(connected, state, false).detail).toContain("d refused");
+    const [ready, late, dead, refused] = state.renderers.map(rendererLine);
+    expect(ready).toBe("a: llvmpipe");
+    expect(late).toBe("b: late");
+    expect(dead).toMatch(/^c: dead since .*:01.*: no heartbeat$/);
+    expect(refused).toBe(`d: refused: ${why}`);
   });
 
   it("is never good without a live picture", () => {
@@ -89,6 +111,14 @@ describe("numbers", () => {
     width: 1,
     height: 1,
     still: false,
+    exact: false,
+    pixelHash: 0,
+    quality: 75,
+    linkBytesPerSecond: 0,
+    pictureBytes: 0,
+    cullMilliseconds: 0,
+    drawMilliseconds: 0,
+    readbackMilliseconds: 0,
     tauAsked: 1,
     budgetMilliseconds: 0,
     predictedMilliseconds: 0,
@@ -152,5 +182,13 @@ describe("numbers", () => {
     expect([NaN, 4.24, 33.3].map(milliseconds)).toEqual(["–", "4.2 ms", "33 ms"]);
     expect(triangleText(412_000, 1_740_000)).toBe("412 k of 1.74 M");
     expect(deviceName("NVIDIA H200/PCIe/SSE2")).toBe("NVIDIA H200");
+  });
+});
+
+describe("sentText", () => {
+  it("says exact only where that was compared", () => {
+    expect(sentText({ exact: false, quality: 75 })).toBe("JPEG 75");
+    expect(sentText({ exact: false, quality: 0 })).toBe("lossless");
+    expect(sentText({ exact: true, quality: 0 })).toBe("exact");
   });
 });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The chip that says whether all is well, and who renders.
-import type { SessionState } from "../protocol/messages";
+import { RendererCondition } from "../protocol/messages";
+import type { RendererState, SessionState } from "../protocol/messages";
 import type { Connection, Numbers, State } from "../state";
 import { byId, make, setText } from "./element";
 import { deviceName, plural } from "./format";
@@ -25,6 +26,31 @@ export function rendererText(session: SessionState): string {
   return [number, ...names].join(" · ");
 }
 
+const conditionNames: ReadonlyMap<RendererCondition, string> = new Map([
+  [RendererCondition.OPENING, "opening the scene"],
+  [RendererCondition.LATE, "late"],
+  [RendererCondition.DRAINING, "leaving"],
+  [RendererCondition.DEAD, "dead"],
+  [RendererCondition.REFUSED, "refused"],
+]);
+
+/** Who does not draw as usual: "renderer-2 dead, renderer-3 late", or "". */
+export function degradedText(session: SessionState): string {
+  return session.renderers
+    .filter(({ condition }) => conditionNames.has(condition))
+    .map(({ id, condition }) => `${id} ${conditionNames.get(condition) ?? ""}`)
+    .join(", ");
+}
+
+/** "renderer-2: llvmpipe, dead since 14:03:05: no heartbeat for 2500 ms". */
+export function rendererLine(renderer: RendererState): string {
+  const { id, device, condition, why, sinceUnixMilliseconds: since } = renderer;
+  const name = conditionNames.get(condition);
+  const time = since === 0n ? "" : ` since ${new Date(Number(since)).toLocaleTimeString()}`;
+  const state = name === undefined ? "" : `${name}${time}${why === "" ? "" : `: ${why}`}`;
+  return `${id}: ${[device?.device ?? "", state].filter((text) => text !== "").join(", ")}`;
+}
+
 /** What the last picture lacks: "loading 3 pages", "2 pages unreadable", or "". */
 export function missingText(numbers: Numbers | null): string {
   if (numbers === null) return "";
@@ -44,7 +70,9 @@ export function statusOf(
   if (connection.kind === "connecting") return { level: "wait", text: "Connecting", detail: "" };
   if (connection.kind === "lost") return { level: "bad", text: "Reconnecting", detail: "" };
   if (session === null) return { level: "wait", text: "Connected", detail: "" };
-  const detail = [missing, rendererText(session)].filter((text) => text !== "").join(" · ");
+  const detail = [missing, rendererText(session), degradedText(session)]
+    .filter((text) => text !== "")
+    .join(" · ");
   const alive = session.renderers.filter((renderer) => renderer.alive).length;
   if (alive === 0) return { level: "bad", text: "No renderer", detail: "" };
   if (session.problem !== "") return { level: "bad", text: "Problem", detail };
@@ -66,8 +94,7 @@ export function showStatus(state: State): void {
     chip.dataset["level"] = status.level;
     setText(text, status.text);
     setText(detail, status.detail);
-    const devices = session?.renderers.map(({ id, device }) => `${id}: ${device?.device ?? ""}`);
-    chip.title = devices?.join("\n") ?? "";
+    chip.title = session?.renderers.map(rendererLine).join("\n") ?? "";
     setText(scene, session?.objectNames.join(", ") ?? "");
     scene.title = scene.textContent ?? "";
   };

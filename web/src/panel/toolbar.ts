@@ -4,6 +4,7 @@ import type { State } from "../state";
 import type { Viewer } from "../viewer";
 import { byId } from "./element";
 import { setUpHelp } from "./help";
+import { onKeys } from "./keys";
 
 /** In a window this narrow the panel would cover the picture. */
 const narrow = "(max-width: 700px)";
@@ -13,7 +14,7 @@ export function setUpToolbar(state: State, viewer: Viewer): void {
   const toggle = byId("panel-toggle", HTMLButtonElement);
   const panel = byId("panel", HTMLElement);
   const mode = byId("mode", HTMLElement);
-  const toggleHelp = setUpHelp();
+  const toggleHelp = setUpHelp(state);
   const showPanel = (isShown: boolean): void => {
     panel.hidden = !isShown;
     toggle.setAttribute("aria-expanded", String(isShown));
@@ -31,10 +32,10 @@ export function setUpToolbar(state: State, viewer: Viewer): void {
     mode.hidden = !isFlying;
   });
 
-  window.addEventListener("keydown", (event) => {
-    if (event.ctrlKey || event.metaKey || event.altKey || event.repeat) return;
-    const key = event.key.toLowerCase();
-    if (key === "h" || key === "?") toggleHelp();
-    else if (key === "p") showPanel(panel.hidden);
+  onKeys({
+    h: toggleHelp,
+    "?": toggleHelp,
+    p: () => showPanel(panel.hidden),
+    " ": () => viewer.clickMiddle(),
   });
 }

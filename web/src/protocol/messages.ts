@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The messages of viewer.proto, to and from bytes.
 import { create, fromBinary, toBinary } from "@bufbuild/protobuf";
-import type { Camera } from "../camera/camera";
+import type { Camera, Vec3 } from "../camera/camera";
 import { CameraSchema } from "./gen/eyrie/v1/camera_pb";
+import { Vector3Schema } from "./gen/eyrie/v1/geometry_pb";
 import { Shading } from "./gen/eyrie/v1/frame_pb";
 import type { Look } from "../look";
+import type { Output } from "../output";
 import {
   ContourLinesSchema,
   HeightUnit,
@@ -16,21 +18,40 @@ import type { Look as LookMessage } from "./gen/eyrie/v1/look_pb";
 import { PickRequestSchema } from "./gen/eyrie/v1/pick_pb";
 import {
   FrameAckSchema,
+  RendererCondition,
+  ShownEye,
+  ShownPictureSchema,
+  ShownStereo,
   ViewerPickSchema,
+  ViewerProfileSchema,
   ViewerRequestSchema,
   ViewerResponseSchema,
+  ViewerSwitchSchema,
   ViewRequestSchema,
 } from "./gen/eyrie/v1/viewer_pb";
 import type {
+  CanvasState,
   Frame,
+  FramePart,
+  RendererState,
   SessionState,
   ViewerPicked,
+  ViewerProfiled,
   ViewerRequest,
   ViewerResponse,
 } from "./gen/eyrie/v1/viewer_pb";
 
-export { Shading };
-export type { Frame, SessionState, ViewerPicked, ViewerResponse };
+export { RendererCondition, Shading };
+export type {
+  CanvasState,
+  Frame,
+  FramePart,
+  RendererState,
+  SessionState,
+  ViewerPicked,
+  ViewerProfiled,
+  ViewerResponse,
+};
 
 /** What the viewer wants to see. */
 export interface View {
@@ -44,6 +65,7 @@ export interface View {
   budgetMilliseconds: number | null;
   shading: Shading;
   look: Look;
+  output: Output;
 }
 
 /** What a picture shows a scene with. */
@@ -53,6 +75,8 @@ export interface Shown {
   width: number;
   height: number;
   exaggeration: number;
+  /** Seen through a wall or by an eye beside the camera. */
+  throughWall: boolean;
 }
 
 /** A buffer of its own, as toBinary makes it. */
@@ -101,6 +125,22 @@ export function lookMessage(look: Look): LookMessage {
   });
 }
 
+const eyes = {
+  "": ShownEye.UNSPECIFIED,
+  cyclop: ShownEye.CYCLOP,
+  left: ShownEye.LEFT,
+  right: ShownEye.RIGHT,
+} as const;
+const stereos = {
+  "": ShownStereo.UNSPECIFIED,
+  anaglyph: ShownStereo.ANAGLYPH,
+  "side-by-side": ShownStereo.SIDE_BY_SIDE,
+  "top-bottom": ShownStereo.TOP_BOTTOM,
+} as const;
+
+const shownMessage = ({ canvas, segment, eye, stereo }: Output) =>
+  create(ShownPictureSchema, { canvas, segment, eye: eyes[eye], stereo: stereos[stereo] });
+
 export function encodeView(view: View): Uint8Array<ArrayBuffer> {
   const value = create(ViewRequestSchema, {
     sequence: BigInt(view.sequence),
@@ -111,13 +151,26 @@ export function encodeView(view: View): Uint8Array<ArrayBuffer> {
     ...(view.budgetMilliseconds === null ? {} : { budgetMilliseconds: view.budgetMilliseconds }),
     shading: view.shading,
     look: lookMessage(view.look),
+    shown: shownMessage(view.output),
     underground: view.look.underground,
   });
   return bytesOf({ case: "view", value });
 }
 
-export function encodeAck(frameNumber: number): Uint8Array<ArrayBuffer> {
-  const value = create(FrameAckSchema, { frameNumber: BigInt(frameNumber) });
+/** Has a canvas show another of its layouts. */
+export function encodeSwitch(canvas: string, layout: string): Uint8Array<ArrayBuffer> {
+  return bytesOf({ case: "switchLayout", value: create(ViewerSwitchSchema, { canvas, layout }) });
+}
+
+/** `decodeMilliseconds`: from a picture's arrival until it was drawn. */
+export function encodeAck(frameNumber: number, decodeMilliseconds = 0): Uint8Array<ArrayBuffer> {
+  const value = create(FrameAckSchema, { frameNumber: BigInt(frameNumber), decodeMilliseconds });
+  return bytesOf({ case: "frameAck", value });
+}
+
+/** So much of a picture that comes in parts has arrived. */
+export function encodePartAck(frameNumber: bigint, bytes: number): Uint8Array<ArrayBuffer> {
+  const value = create(FrameAckSchema, { frameNumber, receivedBytes: BigInt(bytes) });
   return bytesOf({ case: "frameAck", value });
 }
 
@@ -138,6 +191,23 @@ export function encodePick(
     case: "pick",
     value: create(ViewerPickSchema, { sequence: BigInt(sequence), request }),
   });
+}
+
+/** Heights at `samples` places from one point to the other. */
+export function encodeProfile(
+  sequence: number,
+  from: Vec3,
+  to: Vec3,
+  samples: number,
+): Uint8Array<ArrayBuffer> {
+  const vector = ([x, y, z]: Vec3) => create(Vector3Schema, { x, y, z });
+  const value = create(ViewerProfileSchema, {
+    sequence: BigInt(sequence),
+    from: vector(from),
+    to: vector(to),
+    samples,
+  });
+  return bytesOf({ case: "profile", value });
 }
 
 /** Throws when `bytes` is no ViewerResponse. */

@@ -2,7 +2,12 @@
 import { create, fromBinary, toBinary } from "@bufbuild/protobuf";
 import { describe, expect, it } from "vitest";
 import { defaultLook } from "../look";
-import { ViewerRequestSchema, ViewerResponseSchema } from "./gen/eyrie/v1/viewer_pb";
+import {
+  ShownEye,
+  ShownStereo,
+  ViewerRequestSchema,
+  ViewerResponseSchema,
+} from "./gen/eyrie/v1/viewer_pb";
 import { cameraOf, decodeResponse, encodeAck, encodeView, Shading } from "./messages";
 import { reconnectDelay } from "./socket";
 
@@ -23,6 +28,7 @@ describe("messages", () => {
       budgetMilliseconds: 33,
       shading: Shading.FLAT,
       look: { ...defaultLook, underground: true },
+      output: { canvas: "wall", segment: "1", eye: "left", stereo: "side-by-side" },
     });
     const { request } = fromBinary(ViewerRequestSchema, bytes);
     expect(request.case).toBe("view");
@@ -34,6 +40,9 @@ describe("messages", () => {
     expect(request.value.shading).toBe(Shading.FLAT);
     expect(request.value.underground).toBe(true);
     expect(request.value.look?.exaggeration).toBe(1);
+    expect(request.value.shown).toMatchObject({ canvas: "wall", segment: "1" });
+    expect(request.value.shown?.eye).toBe(ShownEye.LEFT);
+    expect(request.value.shown?.stereo).toBe(ShownStereo.SIDE_BY_SIDE);
   });
 
   it("carry an acknowledgement", () => {
@@ -43,14 +52,21 @@ describe("messages", () => {
 
   it("keep a picture's bytes as a part of the message, without a copy", () => {
     const response = create(ViewerResponseSchema, {
-      response: { case: "frame", value: { frameNumber: 3n, jpeg: new Uint8Array([1, 2, 3]) } },
+      response: {
+        case: "frame",
+        value: {
+          frameNumber: 3n,
+          picture: { case: "jpeg", value: new Uint8Array([1, 2, 3]) },
+        },
+      },
     });
     const bytes = toBinary(ViewerResponseSchema, response);
     const decoded = decodeResponse(bytes.buffer as ArrayBuffer).response;
     expect(decoded.case).toBe("frame");
     if (decoded.case !== "frame") return;
-    expect([...decoded.value.jpeg]).toEqual([1, 2, 3]);
-    expect(decoded.value.jpeg.buffer).toBe(bytes.buffer);
+    const { value } = decoded.value.picture;
+    expect([...(value ?? [])]).toEqual([1, 2, 3]);
+    expect(value?.buffer).toBe(bytes.buffer);
   });
 
   it("have no camera when numbers are missing", () => {

@@ -1,14 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { Frame, SessionState, Shown, View, ViewerPicked } from "./messages";
-import { decodeResponse, encodeAck, encodePick, encodeView } from "./messages";
+import type { Vec3 } from "../camera/camera";
+import type { Frame, SessionState, Shown, View, ViewerPicked, ViewerProfiled } from "./messages";
+import {
+  decodeResponse,
+  encodeAck,
+  encodePartAck,
+  encodePick,
+  encodeProfile,
+  encodeSwitch,
+  encodeView,
+} from "./messages";
+import type { Arrival, EncodedPicture } from "./parts";
+import { Parts } from "./parts";
 
 export interface SocketEvents {
   opened(): void;
   /** Called once per loss, not per failed attempt to connect again. */
   lost(): void;
   state(state: SessionState): void;
-  frame(frame: Frame): void;
+  frame(frame: Frame, picture: EncodedPicture): void;
   picked(picked: ViewerPicked): void;
+  profiled(profiled: ViewerProfiled): void;
 }
 
 /** How long to wait before attempt number `attempt` (0 is the first after a loss), in ms. */
@@ -26,6 +38,7 @@ export class Socket {
   private isOpen = false;
   private isLossTold = false;
   private timer: number | undefined;
+  private readonly parts = new Parts();
 
   constructor(
     private readonly url: string,
@@ -41,8 +54,8 @@ export class Socket {
     return true;
   }
 
-  acknowledge(frameNumber: number): void {
-    if (this.isOpen) this.socket?.send(encodeAck(frameNumber));
+  acknowledge(frameNumber: number, decodeMilliseconds: number): void {
+    if (this.isOpen) this.socket?.send(encodeAck(frameNumber, decodeMilliseconds));
   }
 
   /** False when it could not be sent; who clicks may click again. */
@@ -50,6 +63,17 @@ export class Socket {
     if (!this.canSend()) return false;
     this.socket?.send(encodePick(sequence, shown, place));
     return true;
+  }
+
+  /** False when it could not be sent. */
+  profile(sequence: number, from: Vec3, to: Vec3, samples: number): boolean {
+    if (!this.canSend()) return false;
+    this.socket?.send(encodeProfile(sequence, from, to, samples));
+    return true;
+  }
+
+  switchLayout(canvas: string, layout: string): void {
+    if (this.isOpen) this.socket?.send(encodeSwitch(canvas, layout));
   }
 
   close(): void {
@@ -79,14 +103,24 @@ export class Socket {
     try {
       if (!(data instanceof ArrayBuffer)) throw new Error("a text message");
       const { response } = decodeResponse(data);
-      if (response.case === "frame") this.events.frame(response.value);
+      if (response.case === "frame") this.arrived(this.parts.begin(response.value));
+      else if (response.case === "framePart") this.arrived(this.parts.add(response.value));
       else if (response.case === "state") this.events.state(response.value);
       else if (response.case === "picked") this.events.picked(response.value);
+      else if (response.case === "profiled") this.events.profiled(response.value);
     } catch (error) {
       // Another protocol, most likely of a newer server: only loading the page again can help.
       console.error("Eyrie: not understood:", error);
       this.reconnect();
     }
+  }
+
+  private arrived(arrival: Arrival | undefined): void {
+    if (arrival === undefined) return; // of a picture that is no longer wanted
+    const { frame, picture, receivedBytes } = arrival;
+    const isInParts = frame.picture.value?.length !== Number(frame.pictureBytes);
+    if (isInParts) this.socket?.send(encodePartAck(frame.frameNumber, receivedBytes));
+    if (picture !== undefined) this.events.frame(frame, picture);
   }
 
   private reconnect(): void {

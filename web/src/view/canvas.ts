@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+import type { EncodedPicture } from "../protocol/parts";
 import type { FromWorker, ToWorker } from "./decode.worker";
 import type { Size } from "./size";
 
 export interface CanvasEvents {
-  /** The picture of this frame is on the canvas; `time` in ms of performance.now(). */
-  drawn(frameNumber: number, time: number): void;
+  /** The picture of this frame is on the canvas; `time` in ms of performance.now(). `isExact`: its pixels are the server's. */
+  drawn(frameNumber: number, time: number, isExact: boolean): void;
   /** This frame's picture could not be decoded. */
   failed(frameNumber: number): void;
   /** The canvas has another size, in CSS pixels, and has kept it for a moment. */
@@ -40,8 +41,8 @@ export class PictureCanvas {
   }
 
   /** Shows a picture soon, unless a newer one comes first. Takes the bytes' buffer away. */
-  show(frameNumber: number, jpeg: Uint8Array<ArrayBuffer>): void {
-    this.post({ kind: "picture", frameNumber, jpeg }, [jpeg.buffer]);
+  show(frameNumber: number, picture: EncodedPicture): void {
+    this.post({ kind: "picture", frameNumber, picture }, [picture.bytes.buffer]);
   }
 
   close(): void {
@@ -56,7 +57,7 @@ export class PictureCanvas {
 
   private reported(report: FromWorker): void {
     if (report.kind === "failed") this.events.failed(report.frameNumber);
-    else this.events.drawn(report.frameNumber, report.time - performance.timeOrigin);
+    else this.events.drawn(report.frameNumber, report.time - performance.timeOrigin, report.exact);
   }
 
   private resizeSoon(): void {

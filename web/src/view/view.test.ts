@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
 import { FrameRate, Latency, limitingStage } from "./measure";
+import { pixelHash } from "./pixel_hash";
 import { pictureSize, softwarePixels } from "./size";
 
 describe("pictureSize", () => {
@@ -20,6 +21,19 @@ describe("pictureSize", () => {
   it("stays within what the server makes", () => {
     expect(pictureSize({ width: 10000, height: 10 }, 1, 1e9).width).toBeLessThanOrEqual(4096);
     expect(pictureSize({ width: 0, height: 0 }, 1, 1e9)).toEqual({ width: 16, height: 16 });
+  });
+});
+
+describe("pixelHash", () => {
+  it("is the server's", () => {
+    const rows = [250, 128, 0, 255, 255, 255, 255, 255, 1, 2, 3, 255, 4, 5, 6, 255];
+    expect(pixelHash(new Uint8ClampedArray(rows))).toBe(1337354147);
+  });
+
+  it("leaves alpha out and tells pixels apart", () => {
+    const hash = (...rgba: number[]) => pixelHash(new Uint8ClampedArray(rgba));
+    expect(hash(1, 2, 3, 0)).toBe(hash(1, 2, 3, 255));
+    expect(hash(1, 2, 3, 0)).not.toBe(hash(1, 2, 4, 0));
   });
 });
 

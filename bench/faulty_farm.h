@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <absl/status/statusor.h>
+
+#include "coordinator/coordinator.h"
+#include "tests/support/process.h"
+#include "tests/support/temporary_folder.h"
+
+namespace eyrie::bench {
+
+using Clock = std::chrono::steady_clock;
+
+enum class Fault {
+    Kill,       ///< SIGKILL; a new process starts 250 ms later
+    BriefStop,  ///< SIGSTOP, SIGCONT after 0.05 to 1.5 s: mere lateness
+    LongStop,   ///< SIGSTOP, SIGCONT after 4 s: it is taken for dead
+};
+
+/// What happened to one renderer, and when the coordinator noticed.
+struct Event {
+    Fault fault;
+    Clock::time_point at;
+    std::optional<Clock::time_point> dead;    ///< listed as dead
+    std::optional<Clock::time_point> mended;  ///< continued, or started again
+    std::optional<Clock::time_point> back;    ///< listed as ready after that
+};
+
+/// A coordinator with renderer processes of this machine, over Unix sockets, that come to grief.
+class FaultyFarm {
+public:
+    struct Options {
+        std::string program;  ///< path of `eyrie`
+        fabric::Scene scene;
+        std::string layout = "2D";
+        int renderers = 3;
+        unsigned seed = 1;
+    };
+
+    static absl::StatusOr<std::unique_ptr<FaultyFarm>> start(const Options& options);
+
+    coordinator::FrameSource& frames() { return coordinator_->frames(); }
+
+    /// True once all renderers draw.
+    bool awaitAllReady(std::chrono::milliseconds limit);
+
+    /// Does it to a renderer that is ready, chosen by chance. False, and nothing is done, while it
+    /// would leave no other that is.
+    bool inject(Fault fault);
+
+    /// To be called often: continues and restarts processes when it is time, and notes what the
+    /// coordinator says of them.
+    void tend();
+
+    /// Whether every renderer is back that something was done to.
+    bool isWhole() const;
+
+    const std::vector<Event>& events() const { return events_; }
+
+private:
+    struct Slot {
+        std::string address;
+        std::unique_ptr<test::Process> process;
+        std::optional<std::size_t> event;  ///< that it has not recovered from
+        Clock::time_point mendAt;
+        int generation = 0;
+    };
+
+    explicit FaultyFarm(const Options& options) : options_(options), random_(options.seed) {}
+    void launch(std::size_t slot);
+    void tend(std::size_t slot, const coordinator::Status& status);
+    Clock::duration lengthOf(Fault fault);
+
+    const Options options_;
+    std::mt19937 random_;
+    test::TemporaryFolder folder_;
+    std::unique_ptr<coordinator::Coordinator> coordinator_;
+    std::vector<Slot> slots_;
+    std::vector<Event> events_;
+};
+
+}  // namespace eyrie::bench

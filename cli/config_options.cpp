@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/config_options.h"
+
+#include <algorithm>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "cli/compound_names.h"
+#include "cli/configuration_file.h"
+#include "coordinator/config/findings.h"
+#include "coordinator/config/one_channel.h"
+#include "coordinator/frame/active_configuration.h"
+#include "fabric/status.h"
+
+namespace eyrie::cli {
+namespace {
+
+using compound::Eye;
+using compound::Stereo;
+
+/// The layout goes to the front of the list of the canvas that is seen.
+absl::Status showLayout(const ConfigOptions& options, config::Configuration& configuration) {
+    if (options.layout.empty())
+        return absl::OkStatus();
+    config::ConfigurationState state = config::initialState(configuration);
+    const std::string canvas = options.shown.canvas.empty() ? "0" : options.shown.canvas;
+    RETURN_IF_ERROR(fabric::withContext(
+        config::switchLayout(configuration, state, canvas, options.layout), "--layout"));
+    for (std::size_t i = 0; i < configuration.canvases.size(); ++i) {
+        auto& layouts = configuration.canvases[i].layouts;
+        const auto shown = std::ranges::find(layouts, state.layouts[i]);
+        if (shown != layouts.end())
+            std::rotate(layouts.begin(), shown, shown + 1);
+    }
+    return absl::OkStatus();
+}
+
+}  // namespace
+
+void addConfigOptions(CLI::App& command, ConfigOptions& options) {
+    CLI::Option* const file =
+        command
+            .add_option("--config", options.file,
+                        "How renderers share the work and what is seen: an .eqc file of Equalizer, "
+                        "or .json (`eyrie check` explains it)")
+            ->type_name("FILE");
+    command.add_option("--compound", options.compound, kCompoundHelp)
+        ->check(CLI::IsMember(compoundNames()).description(""))
+        ->type_name("2D|DB|DB-static|direct-send|DB-2D")
+        ->excludes(file);
+}
+
+void addShownOptions(CLI::App& command, ConfigOptions& options) {
+    static const std::map<std::string, std::optional<Eye>> kEyes = {
+        {"cyclop", Eye::Cyclop}, {"left", Eye::Left}, {"right", Eye::Right}};
+    static const std::map<std::string, Stereo> kStereo = {{"anaglyph", Stereo::Anaglyph},
+                                                          {"side-by-side", Stereo::SideBySide},
+                                                          {"top-bottom", Stereo::TopBottom}};
+    command
+        .add_option("--canvas", options.shown.canvas,
+                    "Which of the configuration's canvases, by name or position [the first]")
+        ->type_name("NAME");
+    command
+        .add_option("--segment", options.shown.segment,
+                    "Which of its segments, by name or position [the whole canvas]")
+        ->type_name("NAME");
+    command
+        .add_option("--layout", options.layout,
+                    "Which of its layouts it shows, by name or position [the first]")
+        ->type_name("NAME");
+    command.add_option("--eye", options.shown.eye, "What one eye sees [what the view shows]")
+        ->transform(CLI::CheckedTransformer(kEyes).description(""))
+        ->type_name("left|right|cyclop");
+    command
+        .add_option("--stereo", options.shown.stereo,
+                    "How two eyes are put into one picture [as the configuration says]")
+        ->transform(CLI::CheckedTransformer(kStereo).description(""))
+        ->type_name("anaglyph|side-by-side|top-bottom");
+    command.add_flag("--one-channel", options.oneChannel,
+                     "Draw each destination by its own channel, without compounds: what every "
+                     "configuration's picture is to equal");
+}
+
+absl::StatusOr<std::optional<config::Configuration>> configurationOf(const ConfigOptions& options,
+                                                                     bool quiet) {
+    if (options.file.empty()) {
+        if (!options.layout.empty() || options.oneChannel)
+            return absl::InvalidArgumentError(
+                "--layout and --one-channel are of a configuration; name one with --config");
+        return std::optional<config::Configuration>();
+    }
+    config::Findings findings;
+    ASSIGN_OR_RETURN(config::Configuration configuration,
+                     readConfiguration(options.file, findings));
+    if (!findings.hasErrors())
+        config::resolve(configuration, findings);
+    if (findings.hasErrors() || !quiet)
+        fmt::print(stderr, "{}", config::describe(findings, options.file));
+    if (findings.hasErrors())
+        return absl::InvalidArgumentError(
+            fmt::format("--config: {} has {} error{}; `eyrie check` explains it", options.file,
+                        findings.errors(), findings.errors() == 1 ? "" : "s"));
+    RETURN_IF_ERROR(showLayout(options, configuration));
+    if (options.oneChannel)
+        configuration = config::oneChannel(configuration);
+    return std::optional(std::move(configuration));
+}
+
+int renderersOf(const config::Configuration& configuration) {
+    const coordinator::ActiveConfiguration active(configuration);
+    return std::max(1, static_cast<int>(active.pipes().size()));
+}
+
+}  // namespace eyrie::cli

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <absl/status/statusor.h>
+
+#include "coordinator/config/configuration.h"
+#include "coordinator/frame/frame_source.h"
+
+/// Which configuration frames are made by, and what of it is seen.
+namespace eyrie::cli {
+
+struct ConfigOptions {
+    std::string file;             ///< .eqc or .json; empty: one is made of the renderers there are
+    std::string compound = "2D";  ///< layout of that; not with a file
+    std::string layout;           ///< of the canvas that is seen, in the place of its first one
+    coordinator::Shown shown;
+    bool oneChannel = false;  ///< without its compounds: each destination by its own channel
+};
+
+/// --config and --compound.
+void addConfigOptions(CLI::App& command, ConfigOptions& options);
+
+/// What of it is seen: --canvas, --segment, --layout, --eye, --stereo, --one-channel.
+void addShownOptions(CLI::App& command, ConfigOptions& options);
+
+/// The configuration that the file says; nothing without one. Warnings go to standard error unless
+/// `quiet`. Errors: those of reading the file; InvalidArgument, with all that is wrong with it.
+absl::StatusOr<std::optional<config::Configuration>> configurationOf(const ConfigOptions& options,
+                                                                     bool quiet);
+
+/// How many renderers what is shown at first can use.
+int renderersOf(const config::Configuration& configuration);
+
+}  // namespace eyrie::cli

@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/compound/compose.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+
+#include "coordinator/composite/eyes.h"
+#include "coordinator/composite/mean.h"
+#include "coordinator/composite/place.h"
+#include "fabric/depth_merge.h"
+
+namespace eyrie::compound {
+namespace {
+
+using fabric::Image;
+using fabric::PixelViewport;
+
+bool isByDepth(Combine combine) {
+    return combine == Combine::Nearer || combine == Combine::NearerOrEqual;
+}
+
+/// What is in a framebuffer. Outside `image` there is background.
+struct Layer {
+    PixelViewport area;
+    Image image;
+
+    bool isEmpty() const { return image.area.isEmpty(); }
+};
+
+class Composer {
+public:
+    Composer(const Plan& plan, std::vector<Image> drawn, fabric::Rgba background)
+        : plan_(plan),
+          drawn_(std::move(drawn)),
+          background_(background),
+          frames_(plan.frames),
+          takers_(plan.frames, 0),
+          lastStep_(plan.framebuffers.size(), 0),
+          showings_(plan.framebuffers.size(), 0) {
+        assert(drawn_.size() == plan.draws.size());
+        for (const Framebuffer& each : plan.framebuffers) layers_.push_back({each.area, {}});
+        for (std::size_t i = 0; i < plan.steps.size(); ++i)
+            std::visit([&](const auto& each) { count(each, i); }, plan.steps[i]);
+        for (const Picture& picture : plan.pictures)
+            for (const std::vector<PicturePart>* const parts : {&picture.parts, &picture.right})
+                for (const PicturePart& part : *parts) ++showings_[part.framebuffer];
+    }
+
+    std::vector<Image> compose() {
+        for (; now_ < plan_.steps.size(); ++now_)
+            std::visit([this](const auto& each) { carryOut(each); }, plan_.steps[now_]);
+        std::vector<Image> pictures;
+        for (const Picture& picture : plan_.pictures) pictures.push_back(show(picture));
+        return pictures;
+    }
+
+private:
+    template <typename Any>
+    void count(const Any& step, std::size_t index) {
+        lastStep_[step.framebuffer] = index;
+        if constexpr (std::is_same_v<Any, Assemble>)
+            ++takers_[step.frame];
+        if constexpr (std::is_same_v<Any, Average>)
+            for (const std::size_t sample : step.samples) lastStep_[sample] = index;
+    }
+
+    /// Whether nobody looks at a framebuffer after this step.
+    bool isDone(std::size_t framebuffer) const {
+        return lastStep_[framebuffer] == now_ && showings_[framebuffer] == 0;
+    }
+
+    void carryOut(const Clear& step) {
+        Layer& layer = layers_[step.framebuffer];
+        if (step.part.contains(layer.image.area))
+            layer.image = {};
+        else
+            fill(step.part, layer);
+    }
+
+    void carryOut(const Draw& step) {
+        const PixelViewport& part = plan_.draws[step.draw].task.pixelViewport;
+        combine(std::move(drawn_[step.draw]), part, step.combine, layers_[step.framebuffer]);
+    }
+
+    void carryOut(const ReadBack& step) {
+        Layer& layer = layers_[step.framebuffer];
+        Image& frame = frames_[step.frame];
+        const bool hasWhatIsNeeded = layer.image.hasDepth() || !step.withDepth;
+        if (isDone(step.framebuffer) && !step.zoom && hasWhatIsNeeded &&
+            step.part.contains(layer.image.area))
+            frame = std::move(layer.image);
+        else
+            frame = cut(layer, step.zoom ? step.part : intersection(step.part, layer.image.area),
+                        step.withDepth);
+        if (step.zoom)
+            frame = composite::zoomed(frame, *step.zoom);
+    }
+
+    void carryOut(const Assemble& step) {
+        Image frame =
+            --takers_[step.frame] == 0 ? std::move(frames_[step.frame]) : frames_[step.frame];
+        Layer& layer = layers_[step.framebuffer];
+        if (step.regriddings.empty() && step.fromX == 0 && step.fromY == 0)
+            return combine(cropped(std::move(frame), step.part), step.part, step.combine, layer);
+        if (frame.area.isEmpty() && isByDepth(step.combine))
+            return;  // nothing was drawn, which is behind all
+        place(step, whole(frame, step.part), layer);
+    }
+
+    void carryOut(const Average& step) {
+        std::vector<Image> samples;
+        for (const std::size_t each : step.samples)
+            samples.push_back(cut(layers_[each], step.part, layers_[each].image.hasDepth()));
+        const bool withDepth = samples.front().hasDepth();
+        for (Image& each : samples)
+            if (!withDepth)
+                each.depth.clear();
+        combine(composite::mean(samples), step.part, Combine::Replace, layers_[step.framebuffer]);
+    }
+
+    /// A part of what is there, background included.
+    Image cut(const Layer& layer, const PixelViewport& part, bool withDepth) const {
+        if (part.isEmpty())
+            return {};
+        if (layer.image.area.contains(part) && layer.image.hasDepth() >= withDepth)
+            return copied(layer.image, part, withDepth);
+        Image image = fabric::makeImage(part, background_, withDepth);
+        pastePart(layer.image, image);
+        return image;
+    }
+
+    /// Row by row, without a background to fill first.
+    static Image copied(const Image& source, const PixelViewport& part, bool withDepth) {
+        Image image{part, {}, {}};
+        const auto pixels = static_cast<std::size_t>(part.area());
+        image.colour.reserve(pixels);
+        image.depth.reserve(withDepth ? pixels : 0);
+        for (int y = part.y; y < part.y + part.height; ++y) {
+            const auto from = offset(source, part.x, y);
+            const auto colour = source.colour.begin() + from;
+            image.colour.insert(image.colour.end(), colour, colour + part.width);
+            if (withDepth)
+                image.depth.insert(image.depth.end(), source.depth.begin() + from,
+                                   source.depth.begin() + from + part.width);
+        }
+        return image;
+    }
+
+    Image whole(const Image& frame, const PixelViewport& part) const {
+        if (frame.area == part)
+            return frame;
+        Image image = fabric::makeImage(part, background_, frame.hasDepth());
+        pastePart(frame, image);
+        return image;
+    }
+
+    static Image cropped(Image frame, const PixelViewport& part) {
+        if (part.contains(frame.area))
+            return frame;
+        Image image = fabric::makeImage(intersection(frame.area, part), {}, frame.hasDepth());
+        pastePart(frame, image);
+        return image;
+    }
+
+    /// As much of `source` as falls on `target`.
+    static void pastePart(const Image& source, Image& target) {
+        const PixelViewport part = intersection(source.area, target.area);
+        const bool withDepth = source.hasDepth() && target.hasDepth();
+        for (int y = part.y; y < part.y + part.height; ++y) {
+            const auto from = offset(source, part.x, y);
+            const auto to = offset(target, part.x, y);
+            std::copy_n(source.colour.begin() + from, part.width, target.colour.begin() + to);
+            if (withDepth)
+                std::copy_n(source.depth.begin() + from, part.width, target.depth.begin() + to);
+        }
+    }
+
+    static std::ptrdiff_t offset(const Image& image, int x, int y) {
+        return static_cast<std::ptrdiff_t>(y - image.area.y) * image.area.width +
+               (x - image.area.x);
+    }
+
+    void fill(const PixelViewport& part, Layer& layer) const {
+        const PixelViewport both = intersection(part, layer.image.area);
+        if (!both.isEmpty())
+            pastePart(fabric::makeImage(both, background_, layer.image.hasDepth()), layer.image);
+    }
+
+    /// `image` lies within `part`; there is background where it has nothing.
+    void combine(Image image, const PixelViewport& part, Combine how, Layer& layer) const {
+        if (how == Combine::Replace)
+            fill(part, layer);
+        if (image.area.isEmpty())
+            return;
+        if (layer.isEmpty()) {
+            layer.image = std::move(image);
+            return;
+        }
+        makeRoom(image.area, layer);
+        takeDepth(image, layer);
+        if (isByDepth(how) && image.hasDepth() && layer.image.hasDepth())
+            fabric::mergeDepth(
+                image, layer.image,
+                how == Combine::Nearer ? fabric::Ties::Target : fabric::Ties::Source);
+        else
+            fabric::paste(image, layer.image);
+    }
+
+    /// Where depth comes to what has none, nobody needs that of what was there.
+    static void takeDepth(const Image& image, Layer& layer) {
+        if (image.hasDepth())
+            layer.image.depth.resize(layer.image.colour.size(), 0);
+    }
+
+    /// A framebuffer that gets more than it began with gets all of its area at once.
+    void makeRoom(const PixelViewport& part, Layer& layer) const {
+        if (layer.image.area.contains(part))
+            return;
+        Image larger =
+            fabric::makeImage(enclosing(layer.area, part), background_, layer.image.hasDepth());
+        pastePart(layer.image, larger);
+        layer.image = std::move(larger);
+    }
+
+    void place(const Assemble& step, Image frame, Layer& layer) const {
+        const PixelViewport part = step.regriddings.empty()
+                                       ? layer.area
+                                       : intersection(step.regriddings.front().of, layer.area);
+        if (part.isEmpty())
+            return;
+        if (layer.isEmpty())
+            layer.image = fabric::makeImage(part, background_, frame.hasDepth());
+        makeRoom(part, layer);
+        takeDepth(frame, layer);
+        frame.area.x -= step.fromX;
+        frame.area.y -= step.fromY;
+        const bool byDepth = isByDepth(step.combine) && frame.hasDepth() && layer.image.hasDepth();
+        const composite::Placing placing = !byDepth ? composite::Placing::Paste
+                                           : step.combine == Combine::Nearer
+                                               ? composite::Placing::Nearer
+                                               : composite::Placing::NearerOrEqual;
+        composite::place(
+            frame,
+            composite::tapsBehind(step.regriddings, composite::Axis::Columns, part.x, part.width),
+            composite::tapsBehind(step.regriddings, composite::Axis::Rows, part.y, part.height),
+            part, placing, layer.image);
+    }
+
+    Image show(const Picture& picture) {
+        if (picture.stereo == Stereo::Separate)
+            return seen(picture, picture.parts);
+        const Image left = seen(picture, picture.parts);
+        const Image right = seen(picture, picture.right);
+        switch (picture.stereo) {
+            case Stereo::SideBySide:
+                return composite::sideBySide(left, right);
+            case Stereo::TopBottom:
+                return composite::topBottom(left, right);
+            default:
+                return composite::anaglyph(left, maskOf(picture.leftMask), right,
+                                           maskOf(picture.rightMask));
+        }
+    }
+
+    static composite::Mask maskOf(const config::ColourMask& mask) {
+        return {mask.red, mask.green, mask.blue};
+    }
+
+    /// One eye's picture. What is all of it becomes it: nothing to fill, nothing to copy.
+    Image seen(const Picture& picture, const std::vector<PicturePart>& parts) {
+        if (parts.size() == 1 && isAllOf(picture, parts.front())) {
+            Image image = std::move(layers_[parts.front().framebuffer].image);
+            image.area = picture.area;
+            if (!picture.withDepth)
+                image.depth.clear();
+            return image;
+        }
+        Image image = fabric::makeImage(picture.area, background_, picture.withDepth);
+        for (const PicturePart& part : parts) {
+            Image shown = cut(layers_[part.framebuffer], part.part, picture.withDepth);
+            shown.area.x = part.x;
+            shown.area.y = part.y;
+            pastePart(shown, image);
+        }
+        return image;
+    }
+
+    bool isAllOf(const Picture& picture, const PicturePart& part) const {
+        const Image& image = layers_[part.framebuffer].image;
+        return showings_[part.framebuffer] == 1 && image.area == part.part &&
+               part.part.width == picture.area.width && part.part.height == picture.area.height &&
+               (image.hasDepth() || !picture.withDepth);
+    }
+
+    const Plan& plan_;
+    std::vector<Image> drawn_;
+    fabric::Rgba background_;
+    std::vector<Layer> layers_;
+    std::vector<Image> frames_;
+    std::vector<std::size_t> takers_;    ///< of frames, who have not had them yet
+    std::vector<std::size_t> lastStep_;  ///< that has to do with a framebuffer
+    std::vector<std::size_t> showings_;  ///< of framebuffers, in pictures
+    std::size_t now_ = 0;                ///< step
+};
+
+}  // namespace
+
+std::vector<Image> composePictures(const Plan& plan, std::vector<Image> drawn,
+                                   fabric::Rgba background) {
+    return Composer(plan, std::move(drawn), background).compose();
+}
+
+}  // namespace eyrie::compound

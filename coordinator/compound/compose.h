@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "coordinator/compound/plan.h"
+#include "fabric/image.h"
+
+namespace eyrie::compound {
+
+/// Carries out a plan's steps: from what renderers drew to its pictures, each of its area (that of
+/// two eyes in one picture is larger), with depth where it says so.
+///
+/// `drawn` is of plan.draws, in their order: each within its task's pixel viewport, background
+/// where it has nothing, with depth where its task asks for it. `background` is the colour where
+/// nothing was drawn.
+std::vector<fabric::Image> composePictures(const Plan& plan, std::vector<fabric::Image> drawn,
+                                           fabric::Rgba background);
+
+}  // namespace eyrie::compound

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "fabric/range.h"
+#include "fabric/regridding.h"
+#include "fabric/viewport.h"
+
+namespace eyrie::compound {
+
+/// Something that was drawn: where, of which data, and on which of the pixels there.
+struct Content {
+    fabric::PixelViewport area;
+    fabric::Range range;
+    std::optional<fabric::Regridding> everyNth;
+    bool isFull = true;  ///< all data of the range is there, on all of those pixels
+};
+
+/// What is on a picture that is being put together.
+class Contents {
+public:
+    /// The range around all that `content` would meet; nothing where it meets nothing.
+    std::optional<fabric::Range> met(const Content& content) const;
+
+    /// The range around all; nothing where there is nothing.
+    std::optional<fabric::Range> range() const;
+
+    /// Whether all data of `range` is there in all of `area`. False, too, where finding out takes
+    /// long.
+    bool cover(const fabric::PixelViewport& area, const fabric::Range& range) const;
+
+    /// When all shares of a rectangle's columns and rows are there, they count as the rectangle.
+    void add(const Content& content);
+
+    /// Forgets what lies in `area` with all of it.
+    void clear(const fabric::PixelViewport& area);
+
+    Contents within(const fabric::PixelViewport& area) const;
+
+    const std::vector<Content>& all() const { return all_; }
+
+private:
+    std::vector<Content> all_;
+};
+
+}  // namespace eyrie::compound

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/compound/equalizer/dfr.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "coordinator/config/destinations.h"
+
+namespace eyrie::equalizer {
+namespace {
+
+constexpr double kLeastPixels = 128;
+/// A frame that took next to nothing does not say how many more pixels it could have had.
+constexpr double kMostAtOnce = 2;
+
+/// How many pixels of a side the channel that draws has for each of `shown`. That of the
+/// destination is as large as what is shown.
+double roomOf(const Turn& turn, std::size_t position, const fabric::Vec2& shown) {
+    const config::ResolvedConfiguration& resolved = turn.facts.resolved;
+    const config::ChannelIndex destination =
+        resolved.destinations[*resolved.compounds[position].destination].channel;
+    double room = 1;
+    for (std::size_t p = position; p < turn.work.at(position).end; ++p) {
+        const config::ResolvedCompound* const each = turn.resolved(p);
+        if (!turn.work.at(p).drawsItself || each == nullptr || !each->channel ||
+            each->channel == destination)
+            continue;
+        const fabric::PixelViewport pixels = config::pixelsOf(turn.configuration, *each->channel);
+        room = std::max(room, std::min(pixels.width / shown.x, pixels.height / shown.y));
+    }
+    return room;
+}
+
+}  // namespace
+
+Dfr::Dfr(const config::Compound& written, std::size_t position, const Work& work)
+    : position_(position), work_(work), written_(written.zoom) {}
+
+void Dfr::apply(Turn& turn, const config::Equalizer& settings, bool isFrozen) {
+    const config::ResolvedCompound* const compound = turn.resolved(position_);
+    if (compound == nullptr)
+        return;
+    if (milliseconds_ > 0 && !isFrozen) {
+        const double ratio = framesPerSecond_ / settings.framerate;
+        zoom_ *= 1 + settings.damping * (std::min(std::sqrt(ratio), kMostAtOnce) - 1);
+        milliseconds_ = 0;
+    }
+    const fabric::Vec2 zoomed = turn.live[position_]->zoom;
+    const fabric::Vec2 shown(compound->pixelViewport.width / zoomed.x * written_.x,
+                             compound->pixelViewport.height / zoomed.y * written_.y);
+    const double shorter = std::min(shown.x, shown.y);
+    if (!compound->destination || !(shorter > 0) || !std::isfinite(shorter))
+        return;
+    const double least = std::min(1.0, kLeastPixels / shorter);
+    zoom_ = std::clamp(zoom_, least, std::max(least, roomOf(turn, position_, shown)));
+    turn.live[position_]->zoom = written_ * zoom_;
+}
+
+void Dfr::switchOff(Turn& turn) { turn.live[position_]->zoom = written_; }
+
+void Dfr::record(const PlannedFrame& frame, const FrameTimes& times) {
+    milliseconds_ = work_.longest(position_, frame, times);
+    if (milliseconds_ > 0 && position_ < times.compounds.size())
+        milliseconds_ += known(times.compounds[position_].assemble).value_or(0);
+    if (milliseconds_ > 0)
+        framesPerSecond_ = 1000 / milliseconds_;
+}
+
+Report Dfr::report() const { return {.framesPerSecond = framesPerSecond_, .zoom = zoom_}; }
+
+}  // namespace eyrie::equalizer

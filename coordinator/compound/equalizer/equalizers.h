@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <absl/status/statusor.h>
+
+#include "coordinator/compound/equalizer/balancer.h"
+#include "coordinator/compound/equalizer/frame_facts.h"
+#include "coordinator/config/configuration.h"
+
+namespace eyrie::equalizer {
+
+/// What a user changes of an equalizer while it runs; what is absent stays.
+struct Tuning {
+    std::optional<bool> isOn;      ///< off: as if the equalizer were not there
+    std::optional<bool> isFrozen;  ///< on, but what it has chosen stays
+    std::optional<config::SplitMode> mode;
+    std::optional<double> damping;  ///< 0 to 1
+    std::optional<fabric::Vec2> boundaryPixels;
+    std::optional<double> boundaryRange;
+    std::optional<fabric::Vec2> resistancePixels;
+    std::optional<double> resistanceRange;
+    std::optional<double> assembleOnlyLimit;  ///< above 0
+    std::optional<double> framerate;          ///< frames a second, above 0
+    std::optional<fabric::Vec2> tileSize;     ///< whole pixels; ends chunks
+    std::optional<double> tileChunk;          ///< share of the range
+};
+
+struct EqualizerState {
+    /// As written or, where it has none, kind and compound: "load.left" or, by position, "load.2".
+    std::string name;
+    std::size_t compound = 0;  ///< position in config::ResolvedConfiguration::compounds
+    config::Equalizer settings;
+    bool isOn = true;
+    bool isFrozen = false;
+    Report report;
+};
+
+/// All equalizers of a configuration at work: before each frame they change its compounds, after it
+/// they learn what it took. No threads, no clock: callers take turns, and times come as numbers.
+///
+/// Changed are viewport and range of the children of a compound with a load, tree or view
+/// equalizer, zoom (DFR), outputtiles and inputtiles (tile), and frames' zoom and an input frame's
+/// viewport (monitor). A framerate equalizer changes nothing; its report says how often a frame may
+/// be shown. A child without a share gets a viewport or range of no size.
+class Equalizers {
+public:
+    /// `written` is the configuration as its file has it; what is switched off returns to that.
+    explicit Equalizers(const config::Configuration& written);
+
+    /// `live` has the compounds of `written`, perhaps as an earlier call left them.
+    void apply(config::Configuration& live, const FrameFacts& facts);
+
+    /// For one of the last frames applied, in any order; older ones than the newest recorded, and
+    /// those that were not applied, tell nothing. Whatever the numbers, shares stay shares.
+    void record(const FrameTimes& times);
+
+    /// `name` as in states(), or its position there. Errors: NotFound, naming those there are;
+    /// InvalidArgument, naming the setting. Then nothing has changed.
+    absl::Status tune(std::string_view name, const Tuning& tuning);
+
+    /// In preorder of their compounds, of each as written.
+    std::vector<EqualizerState> states() const;
+
+private:
+    struct Entry {
+        std::string name;
+        std::size_t position = 0;
+        config::Equalizer settings;
+        bool isOn = true;
+        bool isFrozen = false;
+        std::unique_ptr<Balancer> balancer;
+    };
+    void add(const config::Compound& written, std::size_t& position);
+    absl::StatusOr<Entry*> find(std::string_view name);
+
+    std::unique_ptr<const Work> work_;  ///< balancers refer to it
+    std::vector<Entry> entries_;
+    std::deque<PlannedFrame> planned_;  ///< the last ones, oldest first
+    std::optional<std::uint64_t> recorded_;
+};
+
+}  // namespace eyrie::equalizer

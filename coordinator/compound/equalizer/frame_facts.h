@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "coordinator/config/configuration.h"
+#include "coordinator/config/resolved.h"
+
+namespace eyrie::equalizer {
+
+/// What is known before a frame is planned.
+struct FrameFacts {
+    std::uint64_t frameNumber = 0;
+    /// The live configuration as it was last resolved. Only sizes, channels, periods and
+    /// destinations of compounds are read, so that of the frame before will do.
+    const config::ResolvedConfiguration& resolved;
+    /// Channels whose renderer is away. They get no share until they are back.
+    std::vector<config::ChannelIndex> gone = {};
+};
+
+/// What the tasks of one compound took in a frame, milliseconds. Not a number, or negative: not
+/// known, or not done in this frame.
+struct CompoundTime {
+    static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+    double draw = kUnknown;  ///< clearing and drawing, of all its tiles
+    double readback = 0;
+    double transmit = 0;  ///< encoding and decoding included
+    double assemble = 0;  ///< of its input frames, without waiting for them
+    /// What of the compound's own picture was covered, a fraction of that from its lower left
+    /// corner.
+    config::Viewport covered;
+};
+
+struct FrameTimes {
+    std::uint64_t frameNumber = 0;  ///< that of FrameFacts
+    /// By position in ResolvedConfiguration::compounds; what is left out is not known.
+    std::vector<CompoundTime> compounds;
+};
+
+}  // namespace eyrie::equalizer

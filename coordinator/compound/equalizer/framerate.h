@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <deque>
+
+#include "coordinator/compound/equalizer/balancer.h"
+
+namespace eyrie::equalizer {
+
+/// Spaces the frames of a time-multiplexed (DPlex) compound evenly: how often one may be shown
+/// follows from what those of a period took, and a twentieth to spare. Without it frames come in
+/// bursts, as its children happen to end together. The framerate equalizer of Equalizer.
+///
+/// A frame's time is that of what took longest; n children that take turns make n frames in it. A
+/// destination that takes longer to assemble holds all up by that.
+class Framerate final : public Balancer {
+public:
+    Framerate(std::size_t position, const Work& work);
+
+    void apply(Turn& turn, const config::Equalizer& settings, bool isFrozen) override;
+    void switchOff(Turn&) override { isOn_ = false; }
+    void record(const PlannedFrame& frame, const FrameTimes& times) override;
+    Report report() const override;
+
+private:
+    const std::size_t position_;
+    const Work& work_;
+    const std::vector<std::size_t> children_;
+    bool isOn_ = false;
+    bool isFrozen_ = false;
+    std::size_t period_ = 1;
+    std::deque<double> times_;  ///< milliseconds of the frames of the last period
+    double assembly_ = 0;       ///< of the last frame
+    double interval_ = 0;       ///< milliseconds between frames; 0: not known
+};
+
+}  // namespace eyrie::equalizer

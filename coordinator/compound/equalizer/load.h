@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "coordinator/compound/equalizer/balancer.h"
+#include "coordinator/compound/equalizer/children.h"
+#include "coordinator/compound/equalizer/load_map.h"
+
+namespace eyrie::equalizer {
+
+/// Shares out a compound's picture (2D, HORIZONTAL, VERTICAL) or range (DB) between its children so
+/// that all take equally long: the load equalizer of Equalizer (Eilemann, Makhinya, Pajarola 2009).
+///
+/// From frames of which all times are known it learns where the load lies (LoadMap) and moves the
+/// cuts of a SplitTree so that each side has of it what it has of the resources. What a destination
+/// assembles is charged to the child that draws on its channel. Times within a twentieth of each
+/// other are left alone: moving a cut costs, because what lies there has to be loaded by another
+/// renderer.
+class Load final : public Balancer {
+public:
+    Load(const config::Compound& written, std::size_t position, const Work& work);
+
+    void apply(Turn& turn, const config::Equalizer& settings, bool isFrozen) override;
+    void switchOff(Turn& turn) override;
+    void record(const PlannedFrame& frame, const FrameTimes& times) override;
+    Report report() const override;
+
+private:
+    void setMode(config::SplitMode mode);
+    std::vector<double> resources(const Turn& turn, const config::Equalizer& settings) const;
+    void charge(std::vector<double>& resources, std::size_t destination) const;
+    double imbalance() const;
+
+    const std::size_t position_;
+    const Work& work_;
+    const Children children_;
+    config::SplitMode mode_ = config::SplitMode::TwoD;
+    LoadMap map_;
+    SplitTree tree_;
+    std::vector<double> resources_;  ///< of the last frame planned, by child
+    std::vector<double> costs_;      ///< of the last frame recorded, by child; empty: none yet
+    double assembly_ = 0;            ///< of that frame
+    std::size_t destination_;        ///< the child on the compound's channel; past the last: none
+};
+
+}  // namespace eyrie::equalizer

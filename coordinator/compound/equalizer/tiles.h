@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "coordinator/compound/equalizer/balancer.h"
+
+namespace eyrie::equalizer {
+
+/// Has the drawing children of a compound fetch tiles of its picture, or chunks of its range, from
+/// one queue (TileQueue) in place of drawing a part each: while it is on, the compound has
+/// outputtiles and they have inputtiles of its name. Each has all of the
+/// picture then. The tile equalizer of Equalizer.
+class Tiles final : public Balancer {
+public:
+    Tiles(const config::Equalizer& equalizer, const config::Compound& written, std::size_t position,
+          const Work& work);
+
+    void apply(Turn& turn, const config::Equalizer& settings, bool isFrozen) override;
+    void switchOff(Turn& turn) override;
+    void record(const PlannedFrame&, const FrameTimes&) override {}
+    Report report() const override { return {}; }
+
+private:
+    void set(Turn& turn, const std::optional<config::Tiles>& tiles) const;
+
+    const std::size_t position_;
+    const Work& work_;
+    const std::string name_;
+    std::vector<Part> written_;  ///< of the children
+    bool isOn_ = false;
+};
+
+}  // namespace eyrie::equalizer

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/compound/pictures.h"
+
+#include <algorithm>
+
+#include "coordinator/config/destinations.h"
+
+namespace eyrie::compound {
+namespace {
+
+using config::Compound;
+using config::Destination;
+
+/// What the compound of an output's first destination says about two eyes.
+struct StereoSettings {
+    config::StereoMode mode = config::StereoMode::Auto;
+    std::optional<config::ColourMask> left;
+    std::optional<config::ColourMask> right;
+};
+
+config::StereoMode globalMode(const config::Configuration& configuration) {
+    const config::Attribute* const setting =
+        find(configuration.globals, "EQ_COMPOUND_IATTR_STEREO_MODE");
+    if (setting == nullptr)
+        return config::StereoMode::Auto;
+    const auto* const words = std::get_if<config::Attribute::Words>(&setting->value);
+    if (words == nullptr || words->words.empty())
+        return config::StereoMode::Auto;
+    const std::string& word = words->words.front();
+    if (word == "QUAD")
+        return config::StereoMode::Quad;
+    if (word == "ANAGLYPH")
+        return config::StereoMode::Anaglyph;
+    return word == "PASSIVE" ? config::StereoMode::Passive : config::StereoMode::Auto;
+}
+
+std::optional<config::ColourMask> globalMask(const config::Configuration& configuration,
+                                             std::string_view name) {
+    const config::Attribute* const setting = find(configuration.globals, name);
+    if (setting == nullptr)
+        return std::nullopt;
+    const auto* const words = std::get_if<config::Attribute::Words>(&setting->value);
+    if (words == nullptr)
+        return std::nullopt;
+    const auto has = [&](std::string_view word) {
+        return std::ranges::find(words->words, word) != words->words.end();
+    };
+    return config::ColourMask{has("RED"), has("GREEN"), has("BLUE")};
+}
+
+StereoSettings settingsOf(const config::Configuration& configuration,
+                          const config::ResolvedConfiguration& resolved, const Output& output) {
+    StereoSettings settings{
+        globalMode(configuration),
+        globalMask(configuration, "EQ_COMPOUND_IATTR_STEREO_ANAGLYPH_LEFT_MASK"),
+        globalMask(configuration, "EQ_COMPOUND_IATTR_STEREO_ANAGLYPH_RIGHT_MASK")};
+    std::vector<StereoSettings> path;  // from the root down
+    for (const config::ResolvedCompound& each : resolved.compounds) {
+        path.resize(static_cast<std::size_t>(each.depth));
+        StereoSettings own = path.empty() ? settings : path.back();
+        if (each.compound != nullptr) {
+            own.mode = each.compound->stereoMode.value_or(own.mode);
+            own.left = each.compound->anaglyphLeft ? each.compound->anaglyphLeft : own.left;
+            own.right = each.compound->anaglyphRight ? each.compound->anaglyphRight : own.right;
+        }
+        if (each.destination && isPartOf(resolved.destinations[*each.destination], output))
+            return own;
+        path.push_back(own);
+    }
+    return settings;
+}
+
+config::Eyes allEyes(const config::ResolvedConfiguration& resolved, const Output& output) {
+    config::Eyes eyes;
+    for (const Destination& each : resolved.destinations)
+        if (isPartOf(each, output))
+            eyes = {eyes.cyclop || each.eyes.cyclop, eyes.left || each.eyes.left,
+                    eyes.right || each.eyes.right};
+    return eyes;
+}
+
+/// Whether one channel shows both eyes, wherever two are shown.
+bool areTogether(const config::ResolvedConfiguration& resolved, const Output& output) {
+    return std::ranges::all_of(resolved.destinations, [&](const Destination& each) {
+        return !isPartOf(each, output) || each.eyes.left == each.eyes.right;
+    });
+}
+
+Stereo configuredStereo(config::StereoMode mode, bool together) {
+    switch (mode) {
+        case config::StereoMode::Auto:
+            return together ? Stereo::Anaglyph : Stereo::Separate;
+        case config::StereoMode::Anaglyph:
+            return Stereo::Anaglyph;
+        case config::StereoMode::Quad:
+        case config::StereoMode::Passive:
+            break;
+    }
+    return Stereo::Separate;
+}
+
+config::PixelSize sizeOf(const config::Configuration& configuration,
+                         const config::ResolvedConfiguration& resolved, const Output& output) {
+    for (const Destination& each : resolved.destinations)
+        if (isPartOf(each, output))
+            return output.segment
+                       ? config::PixelSize{each.segmentOnCanvas.width, each.segmentOnCanvas.height}
+                       : each.canvas;
+    if (output.size)  // nothing is shown there
+        return *output.size;
+    const config::Canvas& canvas = configuration.canvases[output.canvas];
+    if (output.segment && canvas.segments[*output.segment].channel) {
+        const auto pixels =
+            config::pixelsOf(configuration, *canvas.segments[*output.segment].channel);
+        return {pixels.width, pixels.height};
+    }
+    return config::configuredSize(configuration, canvas).value_or(config::PixelSize{1, 1});
+}
+
+/// Where a destination is in an output, in one eye's picture.
+fabric::PixelViewport placeOf(const Destination& destination, const Output& output) {
+    fabric::PixelViewport place = destination.onSegment;
+    if (!output.segment) {
+        place.x += destination.segmentOnCanvas.x;
+        place.y += destination.segmentOnCanvas.y;
+    }
+    return place;
+}
+
+/// What the left and the right glass of an anaglyph see of a segment that shows one eye: that,
+/// unless another segment shows the other eye there.
+std::optional<Pass> passThroughGlass(const config::ResolvedConfiguration& resolved,
+                                     const Output& output, const Destination& destination,
+                                     Eye eye) {
+    const fabric::PixelViewport place = placeOf(destination, output);
+    const bool isElsewhere =
+        std::ranges::any_of(resolved.destinations, [&](const Destination& other) {
+            return isPartOf(other, output) && passFor(other, eye) &&
+                   !intersection(placeOf(other, output), place).isEmpty();
+        });
+    return isElsewhere ? std::nullopt
+                       : passFor(destination, eye == Eye::Left ? Eye::Right : Eye::Left);
+}
+
+/// The destinations of an output, in one eye's picture.
+std::vector<PicturePart> partsOf(const config::ResolvedConfiguration& resolved,
+                                 const Output& output, const Picture& picture, Eye eye,
+                                 WorkList& list) {
+    std::vector<PicturePart> parts;
+    for (std::size_t i = 0; i < resolved.destinations.size(); ++i) {
+        const Destination& each = resolved.destinations[i];
+        if (!isPartOf(each, output))
+            continue;
+        std::optional<Pass> pass = passFor(each, eye);
+        if (!pass && picture.stereo == Stereo::Anaglyph)
+            pass = passThroughGlass(resolved, output, each, eye);
+        const fabric::PixelViewport place = placeOf(each, output);
+        const fabric::PixelViewport shown = intersection(place, picture.area);
+        if (!pass || shown.isEmpty())
+            continue;
+        const fabric::PixelViewport& own = each.partOfPanorama;
+        parts.push_back(
+            {list.pictureOf(resolved, i, *pass),
+             {own.x + shown.x - place.x, own.y + shown.y - place.y, shown.width, shown.height},
+             shown.x,
+             shown.y});
+    }
+    return parts;
+}
+
+}  // namespace
+
+bool isPartOf(const Destination& destination, const Output& output) {
+    return destination.isShown && destination.index.canvas == output.canvas &&
+           (!output.segment || destination.index.segment == *output.segment);
+}
+
+std::optional<Pass> passFor(const Destination& destination, Eye eye) {
+    const config::Eyes& shown = destination.eyes;
+    if (eye == Eye::Left && shown.left)
+        return Pass{Eye::Left, Eye::Left};
+    if (eye == Eye::Right && shown.right)
+        return Pass{Eye::Right, Eye::Right};
+    if (shown.cyclop)
+        return Pass{Eye::Cyclop, eye};
+    if (eye != Eye::Cyclop)
+        return std::nullopt;  // the segment is the other eye's
+    if (shown.left)
+        return Pass{Eye::Left, eye};
+    return shown.right ? std::optional(Pass{Eye::Right, eye}) : std::nullopt;
+}
+
+ShownEyes shownEyes(const config::Configuration& configuration,
+                    const config::ResolvedConfiguration& resolved, const Output& output) {
+    if (output.eye)
+        return {{*output.eye}, Stereo::Separate, false};
+    if (output.stereo != Stereo::Configured)
+        return {{Eye::Left, Eye::Right}, output.stereo, false};
+    const config::Eyes eyes = allEyes(resolved, output);
+    if (!eyes.left && !eyes.right)
+        return {{Eye::Cyclop}, Stereo::Separate, true};
+    if (!eyes.left || !eyes.right)
+        return {{eyes.left ? Eye::Left : Eye::Right}, Stereo::Separate, false};
+    const StereoSettings settings = settingsOf(configuration, resolved, output);
+    return {{Eye::Left, Eye::Right},
+            configuredStereo(settings.mode, areTogether(resolved, output)),
+            false};
+}
+
+std::vector<Picture> picturesOf(const config::Configuration& configuration,
+                                const config::ResolvedConfiguration& resolved, const Output& output,
+                                std::size_t index, WorkList& list) {
+    const ShownEyes shown = shownEyes(configuration, resolved, output);
+    Picture picture;
+    picture.output = index;
+    picture.whole = sizeOf(configuration, resolved, output);
+    const fabric::PixelViewport whole{0, 0, picture.whole.width, picture.whole.height};
+    picture.area = output.part ? intersection(*output.part, whole) : whole;
+    picture.withDepth = output.wantsDepth && shown.stereo != Stereo::Anaglyph;
+    picture.stereo = shown.stereo;
+    const StereoSettings settings = settingsOf(configuration, resolved, output);
+    picture.leftMask = settings.left.value_or(picture.leftMask);
+    picture.rightMask = settings.right.value_or(picture.rightMask);
+    std::vector<Picture> pictures;
+    for (const Eye eye : shown.eyes) {
+        std::vector<PicturePart> parts = partsOf(resolved, output, picture, eye, list);
+        if (shown.stereo != Stereo::Separate && !pictures.empty()) {
+            pictures.back().right = std::move(parts);
+            continue;
+        }
+        pictures.push_back(picture);
+        pictures.back().parts = std::move(parts);
+        if (shown.stereo == Stereo::Separate && !shown.isPlain)
+            pictures.back().eye = eye;
+    }
+    return pictures;
+}
+
+}  // namespace eyrie::compound

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/compound/seen.h"
+
+#include <cmath>
+#include <limits>
+
+#include <glm/geometric.hpp>
+
+#include "coordinator/config/destinations.h"
+#include "coordinator/config/pixels.h"
+
+namespace eyrie::compound {
+namespace {
+
+using fabric::Mat4;
+using fabric::Vec3;
+using fabric::Vec4;
+
+const config::View& viewOf(const config::Configuration& configuration,
+                           const config::Destination& destination) {
+    return configuration.layouts[destination.index.layout].views[destination.index.view];
+}
+
+const config::Observer* observerOf(const config::Configuration& configuration,
+                                   const config::View& view) {
+    return view.observer ? &configuration.observers[*view.observer] : nullptr;
+}
+
+Mat4 headOf(const config::View& view, const config::Display& display) {
+    return view.observer && *view.observer < display.heads.size() ? display.heads[*view.observer]
+                                                                  : Mat4(1.0);
+}
+
+Vec3 moved(const Mat4& roomFromHead, const Vec3& point) {
+    return Vec3(roomFromHead * Vec4(point, 1));
+}
+
+const Vec3& placeOf(Eye eye, const config::EyePlaces& places) {
+    switch (eye) {
+        case Eye::Left:
+            return places.left;
+        case Eye::Right:
+            return places.right;
+        case Eye::Cyclop:
+            break;
+    }
+    return places.cyclop;
+}
+
+/// Renderers draw nothing that is wider, at unit distance; an eye in its wall would ask for it.
+constexpr double kWidestFrustum = 1e4;
+
+bool canBeDrawn(const fabric::Frustum& frustum) {
+    for (const double side : {frustum.left, frustum.right, frustum.bottom, frustum.top})
+        if (!(std::abs(side) < kWidestFrustum / 2))
+            return false;
+    return true;
+}
+
+Seen through(const config::Wall& wall, const Vec3& eye) {
+    const auto sight = config::sightThrough(wall, eye);
+    if (!sight || !canBeDrawn(sight->frustum))
+        return {false, std::nullopt};
+    return {true, sight};
+}
+
+/// Straight ahead at the focus, as large as the camera's field of view is there.
+config::Wall wallAhead(double distance, double fovYDegrees, const fabric::PixelViewport& view) {
+    const double aspect = static_cast<double>(view.width) / view.height;
+    const fabric::Frustum at = fabric::symmetricFrustum(fovYDegrees, aspect);
+    const auto corner = [&](double x, double y) {
+        return Vec3(x * distance, y * distance, -distance);
+    };
+    return {corner(at.left, at.bottom), corner(at.right, at.bottom), corner(at.left, at.top),
+            false};
+}
+
+}  // namespace
+
+Surroundings surroundingsOf(const config::Destination& destination,
+                            const std::optional<config::Wall>& wall) {
+    const config::Panorama& panorama = destination.panorama;
+    const fabric::PixelViewport whole{0, 0, panorama.width, panorama.height};
+    if (!wall)
+        return {whole, panorama.wall};
+    const fabric::PixelViewport& own = destination.partOfPanorama;
+    return {whole, config::part(config::widened(*wall, destination.widening),
+                                config::fractionOf(whole, own))};
+}
+
+double focusRatio(const config::Configuration& configuration, const config::Display& display,
+                  const config::ResolvedConfiguration& resolved,
+                  const config::Destination& destination) {
+    const config::View& view = viewOf(configuration, destination);
+    const config::Observer* const observer = observerOf(configuration, view);
+    if (observer == nullptr || observer->focusMode == config::FocusMode::Fixed)
+        return 1;
+    const Mat4 head = headOf(view, display);
+    const Vec3 eye = moved(head, config::eyePlaces(configuration, view).cyclop);
+    const bool fromObserver = observer->focusMode == config::FocusMode::RelativeToObserver;
+    const Vec3 from = fromObserver ? eye : Vec3(0, 0, 0);
+    const Vec3 ahead =
+        fromObserver ? glm::normalize(Vec3(head * Vec4(0, 0, -1, 0))) : Vec3(0, 0, -1);
+    double nearest = std::numeric_limits<double>::infinity();
+    double ratio = 1;
+    for (const config::Destination& other : resolved.destinations) {
+        const bool isOfView = other.index.canvas == destination.index.canvas &&
+                              other.index.layout == destination.index.layout &&
+                              other.index.view == destination.index.view;
+        if (!isOfView || !other.panorama.wall)
+            continue;
+        const double distance = config::distanceAlong(*other.panorama.wall, from, ahead);
+        // Along the same direction, how far the eye is; it stays where it is while the wall moves.
+        const double ofEye = config::distanceAlong(*other.panorama.wall, eye, ahead);
+        if (!(distance > 0 && distance < nearest && ofEye > 0))
+            continue;
+        nearest = distance;
+        ratio = (observer->focusDistance - distance + ofEye) / ofEye;
+    }
+    return ratio > 0 ? ratio : 1;
+}
+
+Seen seen(const config::Configuration& configuration, const PlanRequest& request,
+          const config::Destination& destination, const Surroundings& surroundings, Eye eye,
+          double focusRatio) {
+    const config::View& view = viewOf(configuration, destination);
+    const config::EyePlaces places = config::eyePlaces(configuration, view);
+    const double unit = request.display.modelUnit;
+    if (!surroundings.wall) {
+        if (eye == Eye::Cyclop)
+            return {};
+        const config::Observer* const observer = observerOf(configuration, view);
+        const double focus = observer != nullptr ? observer->focusDistance : 1;
+        const config::Wall wall = wallAhead(focus * unit, request.fovYDegrees, surroundings.whole);
+        return through(wall, unit * (placeOf(eye, places) - places.cyclop));
+    }
+    const Mat4 head = headOf(view, request.display);
+    const bool isWorn = surroundings.wall->movesWithHead;
+    // What is worn is where the head is; a room's walls are seen from where the eyes are.
+    const Mat4 ofWall = isWorn ? head : Mat4(1.0);
+    const auto cyclop = isWorn ? places.cyclop : moved(head, places.cyclop);
+    config::Wall wall = config::scaled(*surroundings.wall, cyclop, focusRatio);
+    wall = config::scaled(config::moved(wall, ofWall), Vec3(0, 0, 0), unit);
+    return through(wall, unit * moved(head, placeOf(eye, places)));
+}
+
+}  // namespace eyrie::compound

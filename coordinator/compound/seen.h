@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "coordinator/compound/plan.h"
+
+/// What the views of a configuration show: through which walls, from where.
+namespace eyrie::compound {
+
+/// The view that a destination is a part of.
+struct Surroundings {
+    fabric::PixelViewport whole;       ///< from (0, 0), of the size of the view
+    std::optional<config::Wall> wall;  ///< of the whole, in the room; nothing: the camera's view
+};
+
+/// `wall`: one that a compound has for the whole of the destination.
+Surroundings surroundingsOf(const config::Destination& destination,
+                            const std::optional<config::Wall>& wall);
+
+/// The ratio by which an observer's focus moves the walls of a view away from the eyes: as the
+/// nearest of them asks. 1 where the focus is fixed.
+double focusRatio(const config::Configuration& configuration, const config::Display& display,
+                  const config::ResolvedConfiguration& resolved,
+                  const config::Destination& destination);
+
+/// What an eye sees of the whole of `surroundings`.
+struct Seen {
+    bool isBeforeTheWall = true;         ///< otherwise nothing is seen
+    std::optional<fabric::Sight> sight;  ///< nothing: the camera's own
+};
+Seen seen(const config::Configuration& configuration, const PlanRequest& request,
+          const config::Destination& destination, const Surroundings& surroundings, Eye eye,
+          double focusRatio);
+
+}  // namespace eyrie::compound

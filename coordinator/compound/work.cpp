@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/compound/work.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "coordinator/compound/jitter.h"
+#include "coordinator/compound/seen.h"
+#include "coordinator/config/pixels.h"
+#include "fabric/status.h"
+
+namespace eyrie::compound {
+namespace {
+
+using config::ResolvedCompound;
+using fabric::PixelViewport;
+using fabric::Regridding;
+
+bool has(const config::Eyes& eyes, Eye eye) {
+    switch (eye) {
+        case Eye::Left:
+            return eyes.left;
+        case Eye::Right:
+            return eyes.right;
+        case Eye::Cyclop:
+            break;
+    }
+    return eyes.cyclop;
+}
+
+PixelViewport moved(const PixelViewport& area, const PixelViewport& by) {
+    return {area.x + by.x, area.y + by.y, area.width, area.height};
+}
+
+/// In pixels of the view, which those of the destination are a part of.
+Lattice latticeOf(const ResolvedCompound& compound, const config::Destination& destination) {
+    Lattice lattice{compound.regriddings, compound.subpixel};
+    if (!lattice.regriddings.empty())
+        lattice.regriddings.front().of =
+            moved(lattice.regriddings.front().of, destination.partOfPanorama);
+    return lattice;
+}
+
+PixelViewport areaOf(const Lattice& lattice, const config::Destination& destination) {
+    if (lattice.regriddings.empty())
+        return destination.partOfPanorama;
+    return {0, 0, lattice.regriddings.back().width, lattice.regriddings.back().height};
+}
+
+std::optional<Regridding> zoomOf(const fabric::Vec2& zoom, const PixelViewport& part) {
+    if (zoom == fabric::Vec2(1, 1))
+        return std::nullopt;
+    const auto scaled = [](std::int32_t pixels, double by) {
+        return static_cast<std::int32_t>(
+            std::clamp(pixels * by + .5, 1.0, static_cast<double>(fabric::kMaxViewPixels)));
+    };
+    return Regridding{Regridding::Kind::Zoom, part, scaled(part.width, zoom.x),
+                      scaled(part.height, zoom.y)};
+}
+
+/// One tree of compounds in one pass.
+class TreeWalk {
+public:
+    TreeWalk(const config::Configuration& configuration,
+             const config::ResolvedConfiguration& resolved, const PlanRequest& request,
+             const Pass& pass, WorkList& list)
+        : configuration_(configuration),
+          resolved_(resolved),
+          request_(request),
+          pass_(pass),
+          list_(list) {}
+
+    /// From the root at `first`; returns where the next tree begins.
+    absl::StatusOr<std::size_t> walk(std::size_t first) {
+        ASSIGN_OR_RETURN(const std::size_t next, visit(first, std::nullopt));
+        for (const Waiting& waiting : waiting_) match(waiting);
+        return next;
+    }
+
+private:
+    /// A compound on the way down from the root.
+    struct Level {
+        std::optional<config::ChannelIndex> channel;
+        std::optional<std::size_t> framebuffer;  ///< where it has a destination
+        std::vector<std::size_t> given;          ///< frames of children without a name
+        std::size_t firstWork = 0;               ///< of what it and its children do
+    };
+
+    struct Named {
+        std::string_view name;
+        std::size_t frame;
+    };
+
+    struct Waiting {
+        std::size_t work;
+        std::size_t compound;
+    };
+
+    absl::StatusOr<std::size_t> visit(std::size_t index, std::optional<config::Wall> wall) {
+        const ResolvedCompound& own = resolved_.compounds[index];
+        std::size_t next = index + 1;
+        if (!isActive(own)) {
+            while (isBelow(next, own)) ++next;
+            return next;
+        }
+        if (own.compound != nullptr)
+            if (const auto other = config::wallOf(own.compound->surface))
+                wall = other;
+        const bool isLeaf = !isBelow(next, own);
+        levels_.push_back({own.channel, framebufferOf(own), {}, list_.works.size()});
+        RETURN_IF_ERROR(begin(index, isLeaf, wall));
+        while (isBelow(next, own)) {
+            ASSIGN_OR_RETURN(next, visit(next, wall));
+        }
+        end(index);
+        return next;
+    }
+
+    bool isBelow(std::size_t index, const ResolvedCompound& parent) const {
+        return index < resolved_.compounds.size() &&
+               resolved_.compounds[index].depth > parent.depth;
+    }
+
+    bool isActive(const ResolvedCompound& own) const {
+        if (own.destination && !resolved_.destinations[*own.destination].isShown)
+            return false;
+        const auto period = static_cast<std::uint64_t>(own.period);
+        return has(own.eyes, pass_.compounds) &&
+               request_.frameNumber % period == static_cast<std::uint64_t>(own.phase);
+    }
+
+    std::optional<std::size_t> framebufferOf(const ResolvedCompound& own) {
+        if (!own.destination || !own.channel)
+            return std::nullopt;
+        const config::Destination& destination = resolved_.destinations[*own.destination];
+        WorkingBuffer wanted{*own.destination, pass_, latticeOf(own, destination), {}};
+        wanted.framebuffer = {*own.channel, false, pass_.sight,
+                              areaOf(wanted.lattice, destination)};
+        wanted.framebuffer.isDestination =
+            *own.channel == destination.channel && wanted.lattice == Lattice{};
+        return list_.find(wanted);
+    }
+
+    PixelViewport areaOnFramebuffer(const ResolvedCompound& own) const {
+        return own.regriddings.empty()
+                   ? moved(own.area, resolved_.destinations[*own.destination].partOfPanorama)
+                   : own.area;
+    }
+
+    absl::Status begin(std::size_t index, bool isLeaf, const std::optional<config::Wall>& wall) {
+        const ResolvedCompound& own = resolved_.compounds[index];
+        const std::optional<std::size_t> framebuffer = levels_.back().framebuffer;
+        if (!framebuffer)
+            return absl::OkStatus();
+        if (own.tasks.clear)
+            add(Work::Kind::Clear, *framebuffer, areaOnFramebuffer(own));
+        if (own.tasks.draw && isLeaf)
+            return addDraw(index, *framebuffer, wall);
+        return absl::OkStatus();
+    }
+
+    absl::Status addDraw(std::size_t index, std::size_t framebuffer,
+                         const std::optional<config::Wall>& wall) {
+        const ResolvedCompound& own = resolved_.compounds[index];
+        const config::Destination& destination = resolved_.destinations[*own.destination];
+        const Surroundings surroundings = surroundingsOf(destination, wall);
+        const Seen what =
+            seen(configuration_, request_, destination, surroundings, pass_.sight,
+                 focusRatio(configuration_, request_.display, resolved_, destination));
+        if (!what.isBeforeTheWall)
+            return absl::OkStatus();
+        fabric::ChannelTask task;
+        task.frameNumber = request_.frameNumber;
+        task.viewWidth = surroundings.whole.width;
+        task.viewHeight = surroundings.whole.height;
+        task.pixelViewport = areaOnFramebuffer(own);
+        task.range = own.range;
+        task.sight = what.sight;
+        const Lattice& lattice = list_.framebuffers[framebuffer].lattice;
+        if (lattice != Lattice{})
+            task.raster = rasterAfter(surroundings.whole, lattice.regriddings,
+                                      jitter(lattice.subpixel.index, lattice.subpixel.count));
+        RETURN_IF_ERROR(checkSize(destination, task.viewWidth, task.viewHeight));
+        if (task.raster)
+            RETURN_IF_ERROR(checkSize(destination, task.raster->width, task.raster->height));
+        add(Work::Kind::Draw, framebuffer, task.pixelViewport).draw = list_.draws.size();
+        list_.draws.push_back({*own.channel, index, task, framebuffer});
+        return absl::OkStatus();
+    }
+
+    static absl::Status checkSize(const config::Destination& destination, std::int32_t width,
+                                  std::int32_t height) {
+        if (width >= 1 && height >= 1 && width <= fabric::kMaxViewPixels &&
+            height <= fabric::kMaxViewPixels)
+            return absl::OkStatus();
+        return absl::InvalidArgumentError(fmt::format(
+            "the picture that channel \"{}\" is a part of is {}x{} pixels; renderers draw up to "
+            "{} a side: ask for a smaller one",
+            destination.name, width, height, fabric::kMaxViewPixels));
+    }
+
+    void end(std::size_t index) {
+        const ResolvedCompound& own = resolved_.compounds[index];
+        const Level level = std::move(levels_.back());
+        levels_.pop_back();
+        if (!level.framebuffer)
+            return;
+        const PixelViewport area = areaOnFramebuffer(own);
+        if (own.tasks.assemble || !level.given.empty()) {
+            add(Work::Kind::Assemble, *level.framebuffer, area).inputs = level.given;
+            if (own.tasks.assemble)
+                waiting_.push_back({list_.works.size() - 1, index});
+        }
+        if (own.tasks.readback)
+            for (const config::ResolvedFrame& frame : own.outputFrames)
+                addFrame(own, frame, *level.framebuffer, area);
+        if (own.outputFrames.empty())
+            give(own, level, area);
+    }
+
+    void addFrame(const ResolvedCompound& own, const config::ResolvedFrame& frame,
+                  std::size_t framebuffer, const PixelViewport& area) {
+        const PixelViewport part =
+            fabric::intersection(area, config::part(area, frame.frame->viewport));
+        if (part.isEmpty())
+            return;
+        named_.push_back({frame.name, list_.frames.size()});
+        const bool hasDepth = frame.frame->buffers.value_or(own.buffers).depth;
+        addReadBack({framebuffer, part, zoomOf(frame.frame->zoom, part), hasDepth});
+    }
+
+    void addReadBack(const OutputFrame& frame) {
+        add(Work::Kind::ReadBack, frame.framebuffer, frame.part).frame = list_.frames.size();
+        list_.frames.push_back(frame);
+    }
+
+    /// What a compound makes in other pixels on the channel of one that it is part of is brought
+    /// into that one's, as if there were a frame.
+    void give(const ResolvedCompound& own, const Level& done, const PixelViewport& area) {
+        const std::size_t framebuffer = *done.framebuffer;
+        if (area.isEmpty() || !isUsedSince(done.firstWork, framebuffer))
+            return;
+        const std::size_t frame = list_.frames.size();
+        for (auto level = levels_.rbegin(); level != levels_.rend(); ++level) {
+            if (!level->framebuffer || level->channel != own.channel)
+                continue;
+            if (*level->framebuffer == framebuffer)
+                return;
+            addReadBack({framebuffer, area, std::nullopt, own.buffers.depth});
+            level->given.push_back(frame);
+            return;
+        }
+        const config::Destination& destination = resolved_.destinations[*own.destination];
+        if (!(*own.channel == destination.channel))
+            return;
+        const std::size_t picture = list_.pictureOf(resolved_, *own.destination, pass_);
+        if (picture == framebuffer)
+            return;
+        addReadBack({framebuffer, area, std::nullopt, own.buffers.depth});
+        add(Work::Kind::Assemble, picture, destination.partOfPanorama).inputs = {frame};
+    }
+
+    bool isUsedSince(std::size_t work, std::size_t framebuffer) const {
+        return std::any_of(
+            list_.works.begin() + static_cast<std::ptrdiff_t>(work), list_.works.end(),
+            [&](const Work& each) {
+                return each.framebuffer == framebuffer &&
+                       (each.kind == Work::Kind::Draw || each.kind == Work::Kind::Assemble);
+            });
+    }
+
+    Work& add(Work::Kind kind, std::size_t framebuffer, const PixelViewport& part) {
+        list_.works.push_back({kind, framebuffer, part, 0, 0, {}});
+        return list_.works.back();
+    }
+
+    /// Of several frames with one name, the first.
+    void match(const Waiting& waiting) {
+        for (const config::ResolvedFrame& frame :
+             resolved_.compounds[waiting.compound].inputFrames) {
+            const auto found =
+                std::ranges::find(named_, std::string_view(frame.name), &Named::name);
+            if (found == named_.end())
+                continue;
+            if (frame.frame->buffers && !frame.frame->buffers->depth)
+                list_.frames[found->frame].hasDepth = false;
+            list_.works[waiting.work].inputs.push_back(found->frame);
+        }
+    }
+
+    const config::Configuration& configuration_;
+    const config::ResolvedConfiguration& resolved_;
+    const PlanRequest& request_;
+    const Pass pass_;
+    WorkList& list_;
+    std::vector<Level> levels_;
+    std::vector<Named> named_;
+    std::vector<Waiting> waiting_;
+};
+
+}  // namespace
+
+std::size_t WorkList::find(const WorkingBuffer& wanted) {
+    for (std::size_t i = 0; i < framebuffers.size(); ++i) {
+        const WorkingBuffer& each = framebuffers[i];
+        if (each.destination == wanted.destination && each.pass == wanted.pass &&
+            each.framebuffer.channel == wanted.framebuffer.channel &&
+            each.lattice == wanted.lattice)
+            return i;
+    }
+    framebuffers.push_back(wanted);
+    return framebuffers.size() - 1;
+}
+
+std::size_t WorkList::pictureOf(const config::ResolvedConfiguration& resolved,
+                                std::size_t destination, const Pass& pass) {
+    const config::Destination& shown = resolved.destinations[destination];
+    return find({destination, pass, {}, {shown.channel, true, pass.sight, shown.partOfPanorama}});
+}
+
+absl::Status addWork(const config::Configuration& configuration,
+                     const config::ResolvedConfiguration& resolved, const PlanRequest& request,
+                     const Pass& pass, WorkList& list) {
+    for (std::size_t next = 0; next < resolved.compounds.size();) {
+        ASSIGN_OR_RETURN(next, TreeWalk(configuration, resolved, request, pass, list).walk(next));
+    }
+    return absl::OkStatus();
+}
+
+}  // namespace eyrie::compound

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include <absl/status/statusor.h>
+
+#include "coordinator/compound/plan.h"
+
+/// What the compounds of a configuration would do in one frame, whether anyone needs it or not:
+/// their tasks, in the order in which they are written.
+namespace eyrie::compound {
+
+/// A walk through the trees for one eye: compounds of `compounds` take part, and see by `sight`.
+/// They differ where a view for one eye is to be seen with two.
+struct Pass {
+    Eye compounds = Eye::Cyclop;
+    Eye sight = Eye::Cyclop;
+
+    bool operator==(const Pass&) const = default;
+};
+
+/// How the pixels of a framebuffer lie on the view.
+struct Lattice {
+    std::vector<fabric::Regridding> regriddings;  ///< from the view's pixels
+    config::SubPixelShare subpixel;
+
+    bool operator==(const Lattice&) const = default;
+};
+
+/// A framebuffer while a plan is made.
+struct WorkingBuffer {
+    std::size_t destination = 0;  ///< in ResolvedConfiguration::destinations
+    Pass pass;
+    Lattice lattice;
+    Framebuffer framebuffer;
+};
+
+/// A part of a framebuffer that others may take.
+struct OutputFrame {
+    std::size_t framebuffer = 0;
+    fabric::PixelViewport part;
+    std::optional<fabric::Regridding> zoom;
+    bool hasDepth = false;  ///< to be composited by depth
+};
+
+/// One task of a compound.
+struct Work {
+    enum class Kind { Clear, Draw, Assemble, ReadBack };
+    Kind kind = Kind::Clear;
+    std::size_t framebuffer = 0;
+    fabric::PixelViewport part;
+    std::size_t draw = 0;             ///< Draw: in WorkList::draws
+    std::size_t frame = 0;            ///< ReadBack: in WorkList::frames
+    std::vector<std::size_t> inputs;  ///< Assemble: frames
+};
+
+struct WorkList {
+    std::vector<WorkingBuffer> framebuffers;
+    std::vector<OutputFrame> frames;
+    std::vector<PlannedDraw> draws;
+    std::vector<Work> works;
+
+    /// The framebuffer in which a destination's picture comes to be; made where there is none yet.
+    std::size_t pictureOf(const config::ResolvedConfiguration& resolved, std::size_t destination,
+                          const Pass& pass);
+    std::size_t find(const WorkingBuffer& wanted);
+};
+
+/// Adds what one pass does. InvalidArgument: a picture larger than renderers draw.
+absl::Status addWork(const config::Configuration& configuration,
+                     const config::ResolvedConfiguration& resolved, const PlanRequest& request,
+                     const Pass& pass, WorkList& list);
+
+/// The same works, each after those that it depends on: those before it on its framebuffer, and
+/// those whose frames it takes. InvalidArgument where some wait for each other.
+absl::StatusOr<std::vector<Work>> inOrder(const WorkList& list);
+
+}  // namespace eyrie::compound

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <absl/status/statusor.h>
+#include <fmt/format.h>
+
+namespace eyrie::config {
+
+/// "left", 1, "right": names, positions where there are none.
+template <typename T>
+std::string namesOf(const std::vector<T>& things) {
+    std::string names;
+    for (std::size_t i = 0; i < things.size(); ++i)
+        names += fmt::format(
+            "{}{}", i == 0 ? "" : ", ",
+            things[i].name.empty() ? fmt::format("{}", i) : fmt::format("\"{}\"", things[i].name));
+    return names.empty() ? "none" : names;
+}
+
+/// The position of the first that is called `name`, or of that whose position is so written: a name
+/// comes before a position, so that what is called "1" is found by it. NotFound, with the names
+/// that there are; `what` says of what kind.
+template <typename T>
+absl::StatusOr<std::size_t> findNamed(const std::vector<T>& things, std::string_view what,
+                                      std::string_view name) {
+    const auto named = name.empty() ? things.end() : std::ranges::find(things, name, &T::name);
+    if (named != things.end())
+        return static_cast<std::size_t>(named - things.begin());
+    for (std::size_t i = 0; i < things.size(); ++i)
+        if (fmt::format("{}", i) == name)
+            return i;
+    return absl::NotFoundError(
+        fmt::format("no {} is called \"{}\"; there are {}", what, name, namesOf(things)));
+}
+
+}  // namespace eyrie::config

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/config/one_channel.h"
+
+#include <variant>
+
+namespace eyrie::config {
+namespace {
+
+template <typename T>
+void inherit(const std::optional<T>& from, std::optional<T>& to) {
+    if (from)
+        to = from;
+}
+
+void keepDestinations(const std::vector<Compound>& from, const Compound& inherited,
+                      std::vector<Compound>& to) {
+    for (const Compound& each : from) {
+        Compound own = inherited;
+        if (!std::holds_alternative<std::monostate>(each.surface))
+            own.surface = each.surface;
+        inherit(each.stereoMode, own.stereoMode);
+        inherit(each.anaglyphLeft, own.anaglyphLeft);
+        inherit(each.anaglyphRight, own.anaglyphRight);
+        if (!std::holds_alternative<DestinationIndex>(each.channel)) {
+            keepDestinations(each.children, own, to);
+            continue;
+        }
+        own.channel = each.channel;
+        own.eyes = each.eyes;
+        // A wall that an only child has is what is seen.
+        if (each.children.size() == 1 && std::holds_alternative<std::monostate>(own.surface))
+            own.surface = each.children.front().surface;
+        to.push_back(own);
+    }
+}
+
+}  // namespace
+
+Configuration oneChannel(const Configuration& configuration) {
+    Configuration plain = configuration;
+    plain.compounds.clear();
+    keepDestinations(configuration.compounds, {}, plain.compounds);
+    return plain;
+}
+
+}  // namespace eyrie::config

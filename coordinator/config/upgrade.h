@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "coordinator/config/configuration.h"
+
+namespace eyrie::config {
+
+/// Brings what was written for Equalizer 1.0 or 1.1 to what 1.2 has, as Equalizer does when it
+/// opens it; what is of another version stays as it is. Done twice it changes nothing more.
+///
+/// - A tree of compounds that draws straight into a channel, which no view names, gets a canvas of
+///   one segment and a layout of one view, which has the compound's wall; where the tree has eyes
+///   LEFT or RIGHT the view is stereo. Trees of one channel and wall share them.
+/// - Where no observer is, there is one of usual values, and each view has it.
+///
+/// That a view without compound is drawn plainly holds for all versions, and is resolve()'s.
+void upgrade(Configuration& configuration);
+
+}  // namespace eyrie::config

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/frame/active_configuration.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "coordinator/config/findings.h"
+#include "coordinator/config/named.h"
+#include "fabric/status.h"
+
+namespace eyrie::coordinator {
+namespace {
+
+/// Layouts by their positions in the canvas's list.
+config::Display displayOf(const config::Configuration& configuration,
+                          const config::ConfigurationState& state) {
+    config::Display display;
+    for (std::size_t i = 0; i < configuration.canvases.size(); ++i) {
+        const auto& layouts = configuration.canvases[i].layouts;
+        const auto shown = std::ranges::find(layouts, state.layouts[i]);
+        config::ShownCanvas& canvas = display.canvases.emplace_back();
+        canvas.layout.reset();
+        if (shown != layouts.end() && state.layouts[i])
+            canvas.layout = static_cast<std::size_t>(shown - layouts.begin());
+    }
+    display.heads = state.heads;
+    return display;
+}
+
+bool isOnDisplay(const config::ResolvedConfiguration& resolved,
+                 const config::ResolvedCompound& compound) {
+    return compound.destination && resolved.destinations[*compound.destination].isShown;
+}
+
+std::vector<ActiveConfiguration::Pipe> pipesOf(const config::Configuration& configuration,
+                                               const config::ResolvedConfiguration& resolved) {
+    std::vector<ActiveConfiguration::Pipe> pipes;
+    for (std::size_t node = 0; node < configuration.nodes.size(); ++node)
+        for (std::size_t pipe = 0; pipe < configuration.nodes[node].pipes.size(); ++pipe)
+            if (std::ranges::any_of(resolved.compounds, [&](const auto& compound) {
+                    return compound.channel && compound.channel->node == node &&
+                           compound.channel->pipe == pipe && isOnDisplay(resolved, compound);
+                }))
+                pipes.push_back({node, pipe});
+    return pipes;
+}
+
+config::Viewport fractionOf(const fabric::PixelViewport& part, const fabric::PixelViewport& whole) {
+    if (part.isEmpty() || whole.isEmpty())
+        return {0, 0, 0, 0};
+    return {static_cast<double>(part.x - whole.x) / whole.width,
+            static_cast<double>(part.y - whole.y) / whole.height,
+            static_cast<double>(part.width) / whole.width,
+            static_cast<double>(part.height) / whole.height};
+}
+
+/// A compound may draw several times in a frame: for two eyes, or tile by tile.
+void add(equalizer::CompoundTime& sum, const ActiveConfiguration::Taken& taken,
+         const fabric::PixelViewport& asked) {
+    if (!(sum.draw >= 0))
+        sum.draw = 0;
+    const double drawn = taken.stages.total - taken.stages.readback;
+    sum.draw += drawn;
+    sum.readback += taken.stages.readback;
+    sum.transmit += std::max(0.0, taken.milliseconds - taken.stages.total);
+    sum.covered = fractionOf(taken.covered, asked);
+}
+
+}  // namespace
+
+ActiveConfiguration::ActiveConfiguration(config::Configuration written)
+    : written_(std::move(written)),
+      live_(written_),
+      state_(config::initialState(written_)),
+      equalizers_(written_) {
+    resolveAnew();
+}
+
+void ActiveConfiguration::resolveAnew() {
+    display_ = displayOf(written_, state_);
+    config::Findings ignored;  // whoever read the configuration has told of them
+    resolved_ = config::resolve(written_, display_, ignored);
+    pipes_ = pipesOf(written_, resolved_);
+}
+
+absl::Status ActiveConfiguration::switchLayout(std::string_view canvas, std::string_view layout) {
+    RETURN_IF_ERROR(config::switchLayout(written_, state_, canvas, layout));
+    resolveAnew();
+    return absl::OkStatus();
+}
+
+absl::Status ActiveConfiguration::setHead(std::string_view observer,
+                                          const fabric::Mat4& roomFromHead) {
+    RETURN_IF_ERROR(config::setHead(written_, state_, observer, roomFromHead));
+    resolveAnew();
+    return absl::OkStatus();
+}
+
+absl::Status ActiveConfiguration::tune(std::string_view equalizer,
+                                       const equalizer::Tuning& tuning) {
+    return equalizers_.tune(equalizer, tuning);
+}
+
+absl::StatusOr<compound::Output> ActiveConfiguration::outputOf(const Shown& shown,
+                                                               const FrameRequest& request) const {
+    compound::Output output;
+    if (!shown.canvas.empty()) {
+        ASSIGN_OR_RETURN(output.canvas,
+                         config::findNamed(written_.canvases, "canvas", shown.canvas));
+    }
+    if (!shown.segment.empty() && output.canvas < written_.canvases.size()) {
+        ASSIGN_OR_RETURN(
+            output.segment,
+            config::findNamed(written_.canvases[output.canvas].segments, "segment", shown.segment));
+    }
+    output.size = config::PixelSize{request.width, request.height};
+    if (!request.part.isEmpty())
+        output.part = request.part;
+    output.eye = shown.eye;
+    output.stereo = shown.stereo;
+    output.wantsDepth = request.wantsDepth;
+    return output;
+}
+
+absl::StatusOr<compound::Plan> ActiveConfiguration::plan(const FrameRequest& request,
+                                                         std::uint64_t frameNumber,
+                                                         const std::vector<bool>& isFree) {
+    compound::PlanRequest asked;
+    asked.frameNumber = frameNumber;
+    asked.display = display_;
+    asked.fovYDegrees = request.camera.fovYDegrees;
+    for (const Shown& shown : request.shown) {
+        ASSIGN_OR_RETURN(compound::Output output, outputOf(shown, request));
+        asked.outputs.push_back(output);
+    }
+    equalizers_.apply(live_, {frameNumber, resolved_, gone(isFree)});
+    return compound::makePlan(live_, asked);
+}
+
+std::size_t ActiveConfiguration::positionOf(const config::ChannelIndex& channel) const {
+    const auto found = std::ranges::find(pipes_, Pipe{channel.node, channel.pipe});
+    return static_cast<std::size_t>(found - pipes_.begin());
+}
+
+/// Of the channels whose renderer cannot draw now; none where none can.
+std::vector<config::ChannelIndex> ActiveConfiguration::gone(const std::vector<bool>& isFree) const {
+    std::vector<config::ChannelIndex> gone;
+    if (std::ranges::find(isFree, true) == isFree.end())
+        return gone;
+    for (const config::ResolvedCompound& compound : resolved_.compounds)
+        if (compound.channel && !isFree[positionOf(*compound.channel) % isFree.size()] &&
+            std::ranges::find(gone, *compound.channel) == gone.end())
+            gone.push_back(*compound.channel);
+    return gone;
+}
+
+std::vector<std::size_t> ActiveConfiguration::renderersFor(const compound::Plan& plan,
+                                                           std::size_t renderers) const {
+    std::vector<std::size_t> preferred;
+    for (const compound::PlannedDraw& draw : plan.draws)
+        preferred.push_back(rendererFor(draw.channel, renderers));
+    return preferred;
+}
+
+void ActiveConfiguration::record(const compound::Plan& plan, std::uint64_t frameNumber,
+                                 std::span<const Taken> taken) {
+    equalizer::FrameTimes times;
+    times.frameNumber = frameNumber;
+    times.compounds.resize(resolved_.compounds.size());
+    for (std::size_t i = 0; i < plan.draws.size(); ++i) {
+        const compound::PlannedDraw& draw = plan.draws[i];
+        if (draw.compound < times.compounds.size())
+            add(times.compounds[draw.compound], taken[i], draw.task.pixelViewport);
+    }
+    equalizers_.record(times);
+}
+
+}  // namespace eyrie::coordinator

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include <absl/status/statusor.h>
+
+#include "coordinator/compound/equalizer/equalizers.h"
+#include "coordinator/compound/plan.h"
+#include "coordinator/config/configuration.h"
+#include "coordinator/config/resolved.h"
+#include "coordinator/config/state.h"
+#include "coordinator/frame/frame_source.h"
+
+namespace eyrie::coordinator {
+
+/// A configuration at work: what it shows at the moment, and how it shares the work out from frame
+/// to frame. Callers take turns.
+class ActiveConfiguration {
+public:
+    explicit ActiveConfiguration(config::Configuration written);
+    ActiveConfiguration(const ActiveConfiguration&) = delete;
+    ActiveConfiguration& operator=(const ActiveConfiguration&) = delete;
+
+    const config::Configuration& written() const { return written_; }
+    const config::ConfigurationState& state() const { return state_; }
+    std::vector<equalizer::EqualizerState> equalizers() const { return equalizers_.states(); }
+
+    /// As config::switchLayout, config::setHead and Equalizers::tune.
+    absl::Status switchLayout(std::string_view canvas, std::string_view layout);
+    absl::Status setHead(std::string_view observer, const fabric::Mat4& roomFromHead);
+    absl::Status tune(std::string_view equalizer, const equalizer::Tuning& tuning);
+
+    /// Pipes that draw something of what is shown: each wants a renderer of its own. In the order
+    /// of the configuration.
+    struct Pipe {
+        std::size_t node = 0;
+        std::size_t pipe = 0;
+        bool operator==(const Pipe&) const = default;
+    };
+    const std::vector<Pipe>& pipes() const { return pipes_; }
+
+    /// The next frame. `isFree` tells of each renderer, of which there is at least one, whether it
+    /// can draw now; pipes take renderers in turn, and pipes of those that cannot get no share
+    /// where an equalizer decides. Errors: NotFound, naming what there is; those of makePlan.
+    absl::StatusOr<compound::Plan> plan(const FrameRequest& request, std::uint64_t frameNumber,
+                                        const std::vector<bool>& isFree);
+
+    /// Which renderer, of `renderers`, is to do each of the plan's draws.
+    std::vector<std::size_t> renderersFor(const compound::Plan& plan, std::size_t renderers) const;
+
+    /// Which of `renderers` is to do what this channel does.
+    std::size_t rendererFor(const config::ChannelIndex& channel, std::size_t renderers) const {
+        return positionOf(channel) % renderers;
+    }
+
+    /// What a draw of the plan took.
+    struct Taken {
+        fabric::PixelViewport covered;  ///< of the task's pixel viewport
+        fabric::StageMilliseconds stages;
+        double milliseconds = 0;  ///< until the picture was here
+    };
+    void record(const compound::Plan& plan, std::uint64_t frameNumber,
+                std::span<const Taken> taken);
+
+private:
+    absl::StatusOr<compound::Output> outputOf(const Shown& shown,
+                                              const FrameRequest& request) const;
+    std::size_t positionOf(const config::ChannelIndex& channel) const;
+    std::vector<config::ChannelIndex> gone(const std::vector<bool>& isFree) const;
+    void resolveAnew();
+
+    const config::Configuration written_;
+    config::Configuration live_;  ///< as the equalizers have it
+    config::ConfigurationState state_;
+    config::Display display_;                 ///< of state_
+    config::ResolvedConfiguration resolved_;  ///< of written_, as displayed
+    std::vector<Pipe> pipes_;
+    equalizer::Equalizers equalizers_;
+};
+
+}  // namespace eyrie::coordinator

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/frame/configuration_keeper.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "fabric/status.h"
+
+namespace eyrie::coordinator {
+namespace {
+
+template <typename T>
+std::string nameAt(const std::vector<T>& things, std::size_t i) {
+    return things[i].name.empty() ? fmt::format("{}", i) : things[i].name;
+}
+
+std::string layoutName(const config::Configuration& configuration,
+                       const std::optional<std::size_t>& layout) {
+    return layout ? nameAt(configuration.layouts, *layout) : "OFF";
+}
+
+std::vector<CanvasStatus> canvasesOf(const ActiveConfiguration& active) {
+    const config::Configuration& configuration = active.written();
+    std::vector<CanvasStatus> canvases;
+    for (std::size_t i = 0; i < configuration.canvases.size(); ++i) {
+        const config::Canvas& canvas = configuration.canvases[i];
+        CanvasStatus& status = canvases.emplace_back();
+        status.name = nameAt(configuration.canvases, i);
+        for (std::size_t segment = 0; segment < canvas.segments.size(); ++segment)
+            status.segments.push_back(nameAt(canvas.segments, segment));
+        for (const auto& layout : canvas.layouts)
+            status.layouts.push_back(layoutName(configuration, layout));
+        status.layout = layoutName(configuration, active.state().layouts[i]);
+    }
+    return canvases;
+}
+
+}  // namespace
+
+ConfigurationKeeper::ConfigurationKeeper(std::optional<config::Configuration> given,
+                                         std::string layout, std::function<void()> changed)
+    : given_(std::move(given)), layout_(std::move(layout)), changed_(std::move(changed)) {
+    if (given_)
+        use(*given_);
+}
+
+ActiveConfiguration& ConfigurationKeeper::with(
+    const std::vector<config::RendererFacts>& renderers) {
+    std::vector<std::string> ids;
+    for (const config::RendererFacts& one : renderers) ids.push_back(one.id);
+    if (given_ || ids == ids_)
+        return *active_;
+    ids_ = std::move(ids);
+    use(config::defaultConfiguration(renderers));
+    // Of one renderer there may be no such layout; the choice stands until there are more.
+    if (!layout_.empty() && active_->switchLayout("0", layout_).ok())
+        show();
+    return *active_;
+}
+
+void ConfigurationKeeper::use(config::Configuration configuration) {
+    active_ = std::make_unique<ActiveConfiguration>(std::move(configuration));
+    show();
+}
+
+void ConfigurationKeeper::show() {
+    std::vector<CanvasStatus> canvases = canvasesOf(*active_);
+    {
+        const std::lock_guard lock(mutex_);
+        if (canvases == std::exchange(canvases_, canvases))
+            return;
+    }
+    changed_();
+}
+
+absl::Status ConfigurationKeeper::configure(const SwitchLayout& change) {
+    if (!active_)
+        return absl::FailedPreconditionError(
+            "there is no renderer yet, and so no configuration that could be switched");
+    RETURN_IF_ERROR(active_->switchLayout(change.canvas, change.layout));
+    if (!given_)
+        layout_ = change.layout;
+    show();
+    return absl::OkStatus();
+}
+
+std::vector<CanvasStatus> ConfigurationKeeper::canvases() const {
+    const std::lock_guard lock(mutex_);
+    return canvases_;
+}
+
+}  // namespace eyrie::coordinator

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "coordinator/config/default_config.h"
+#include "coordinator/frame/active_configuration.h"
+
+namespace eyrie::coordinator {
+
+/// The configuration that frames are made by: the one that was given or, without, one made of the
+/// renderers there are, anew whenever these change. Callers take turns, but for canvases().
+class ConfigurationKeeper {
+public:
+    /// `layout` is shown at first on the first canvas of a made configuration, where it has it.
+    /// `changed` is called, without locks held, after each change of canvases().
+    ConfigurationKeeper(std::optional<config::Configuration> given, std::string layout,
+                        std::function<void()> changed);
+
+    /// At work with `renderers`, of which there is at least one.
+    ActiveConfiguration& with(const std::vector<config::RendererFacts>& renderers);
+
+    /// NotFound, naming what there is; FailedPrecondition before there was a renderer.
+    absl::Status configure(const SwitchLayout& change);
+
+    /// Any thread.
+    std::vector<CanvasStatus> canvases() const;
+
+private:
+    void use(config::Configuration configuration);
+    void show();
+
+    const std::optional<config::Configuration> given_;
+    std::string layout_;  ///< of a made configuration
+    const std::function<void()> changed_;
+    std::vector<std::string> ids_;
+    std::unique_ptr<ActiveConfiguration> active_;
+    mutable std::mutex mutex_;  ///< guards what follows
+    std::vector<CanvasStatus> canvases_;
+};
+
+}  // namespace eyrie::coordinator

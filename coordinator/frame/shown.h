@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "coordinator/compound/plan.h"
+
+namespace eyrie::coordinator {
+
+/// Which picture of a configuration somebody wants to see. Things are named by their names, of
+/// several the first, or by their positions from 0 on.
+struct Shown {
+    std::string canvas;                ///< empty: the first
+    std::string segment;               ///< empty: the whole canvas
+    std::optional<compound::Eye> eye;  ///< nothing: what the view shows
+    compound::Stereo stereo = compound::Stereo::Configured;
+
+    bool operator==(const Shown&) const = default;
+};
+
+}  // namespace eyrie::coordinator

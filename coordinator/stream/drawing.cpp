@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/stream/drawing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fabric/frame_data.h"
+#include "fabric/ground.h"
+
+namespace eyrie::stream {
+namespace {
+
+/// Pixels of the picture asked for that one of the picture drawn covers, the longer way.
+double stretch(const ViewRequest& view, const coordinator::FrameRequest& drawn) {
+    return std::max(static_cast<double>(view.frame.width) / drawn.width,
+                    static_cast<double>(view.frame.height) / drawn.height);
+}
+
+}  // namespace
+
+PictureSource pictureSource(const coordinator::Status& status) {
+    PictureSource source{status.scene, status.sceneInfo, {}, status.canvases};
+    for (const coordinator::RendererStatus& renderer : status.renderers)
+        if (renderer.isAlive())
+            source.renderers.push_back(renderer.id);
+    return source;
+}
+
+coordinator::FrameRequest drawingOf(const ViewRequest& view, const fabric::SceneInfo* scene,
+                                    double scale) {
+    coordinator::FrameRequest request = view.frame;
+    if (scene != nullptr && scene->ground && !view.isUnderground)
+        request.camera =
+            fabric::aboveGround(request.camera, *scene->ground, request.look.exaggeration);
+    if (scale == 1)
+        return request;
+    const auto scaled = [=](int side) {
+        return std::max(kMinPictureSide, static_cast<int>(std::lround(scale * side)));
+    };
+    request.width = scaled(request.width);
+    request.height = scaled(request.height);
+    request.tauPixels = std::max(fabric::kMinTauPixels, request.tauPixels / stretch(view, request));
+    return request;
+}
+
+void tellAtFullSize(fabric::FrameStatistics& statistics, const ViewRequest& view,
+                    const coordinator::FrameRequest& drawn) {
+    const double factor = stretch(view, drawn);
+    statistics.tauAskedPixels = view.frame.tauPixels;
+    statistics.tauAchievedPixels *= factor;
+    if (statistics.budget)
+        statistics.budget->tauPixels *= factor;
+}
+
+}  // namespace eyrie::stream

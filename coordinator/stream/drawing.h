@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "coordinator/frame/frame_source.h"
+#include "coordinator/stream/viewer_messages.h"
+
+namespace eyrie::stream {
+
+/// What must be equal for a picture to be still right.
+struct PictureSource {
+    fabric::Scene scene;
+    fabric::SceneInfo sceneInfo;
+    std::vector<std::string> renderers;
+    std::vector<coordinator::CanvasStatus> canvases;
+
+    bool operator==(const PictureSource&) const = default;
+};
+
+PictureSource pictureSource(const coordinator::Status& status);
+
+/// What to draw for `view`: its eye lifted out of the ground, unless it may be there, and both
+/// sides `scale` of what they are, at the same error in metres.
+coordinator::FrameRequest drawingOf(const ViewRequest& view, const fabric::SceneInfo* scene,
+                                    double scale);
+
+/// Puts errors in pixels of `drawn` into pixels of the picture that was asked for.
+void tellAtFullSize(fabric::FrameStatistics& statistics, const ViewRequest& view,
+                    const coordinator::FrameRequest& drawn);
+
+}  // namespace eyrie::stream

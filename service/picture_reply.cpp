@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "service/picture_reply.h"
+
+#include <optional>
+#include <utility>
+
+#include "wire/picture_header.h"
+#include "wire/statistics.h"
+
+namespace eyrie::service {
+namespace {
+
+class ChannelReply final : public MessageSource<v1::RenderChannelResponse> {
+public:
+    ChannelReply(fabric::ChannelResult result, wire::PixelEncoding encoding)
+        : result_(std::move(result)), encoding_(encoding), pixels_(result_.image, encoding) {}
+
+    bool isDone() const override { return hasHeader_ && pixels_.isDone(); }
+
+    void next(v1::RenderChannelResponse& message) override {
+        if (std::exchange(hasHeader_, true))
+            return pixels_.next(*message.mutable_chunk());
+        wire::describe(result_.image, encoding_, *message.mutable_header());
+        *message.mutable_header()->mutable_statistics() = wire::toMessage(result_.statistics);
+    }
+
+private:
+    const fabric::ChannelResult result_;
+    const wire::PixelEncoding encoding_;
+    wire::PictureWriter pixels_;
+    bool hasHeader_ = false;
+};
+
+class ProgramReply final : public MessageSource<v1::RunProgramResponse> {
+public:
+    ProgramReply(fabric::ProgramResult result, wire::PixelEncoding encoding)
+        : result_(std::move(result)), encoding_(encoding) {}
+
+    bool isDone() const override { return isDone_; }
+
+    void next(v1::RunProgramResponse& message) override {
+        if (pixels_ && !pixels_->isDone())
+            return pixels_->next(*message.mutable_chunk());
+        pixels_.reset();
+        if (picture_ < result_.pictures.size())
+            return begin(result_.pictures[picture_++], *message.mutable_header());
+        for (const fabric::FrameStatistics& draw : result_.draws)
+            *message.mutable_statistics()->add_draws() = wire::toMessage(draw);
+        message.mutable_statistics();  // the end, even where nothing was drawn
+        isDone_ = true;
+    }
+
+private:
+    void begin(const fabric::ProgramPicture& picture, v1::ProgramPictureHeader& header) {
+        header.set_frame(picture.frame);
+        wire::describe(picture.image, encoding_, header);
+        pixels_.emplace(picture.image, encoding_);
+    }
+
+    const fabric::ProgramResult result_;
+    const wire::PixelEncoding encoding_;
+    std::size_t picture_ = 0;  ///< the next one
+    std::optional<wire::PictureWriter> pixels_;
+    bool isDone_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<MessageSource<v1::RenderChannelResponse>> channelReply(
+    fabric::ChannelResult result, wire::PixelEncoding encoding) {
+    return std::make_unique<ChannelReply>(std::move(result), encoding);
+}
+
+std::unique_ptr<MessageSource<v1::RunProgramResponse>> programReply(fabric::ProgramResult result,
+                                                                    wire::PixelEncoding encoding) {
+    return std::make_unique<ProgramReply>(std::move(result), encoding);
+}
+
+}  // namespace eyrie::service

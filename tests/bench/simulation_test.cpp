@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "bench/simulator/costs.h"
+#include "bench/simulator/events.h"
+#include "bench/simulator/frames.h"
+#include "bench/simulator/layouts.h"
+#include "coordinator/config/eqc_reader.h"
+
+namespace eyrie::simulator {
+namespace {
+
+constexpr double kMegapixels = 1280 * 720 / 1e6;
+
+config::Configuration layout(int renderers, const std::string& name) {
+    for (const Layout& each : layoutsOf(renderers, 1280, 720)) {
+        config::Findings findings;
+        config::Configuration configuration = config::readEqc(each.eqc, findings);
+        EXPECT_TRUE(findings.all().empty()) << each.name << config::describe(findings, each.name);
+        if (each.name == name)
+            return configuration;
+    }
+    ADD_FAILURE() << "no layout " << name;
+    return {};
+}
+
+Prediction predicted(int renderers, const std::string& name, const Costs& costs,
+                     const Machines& machines = {}) {
+    const auto prediction = predict(layout(renderers, name), costs, machines, 1e6);
+    EXPECT_TRUE(prediction.ok()) << prediction.status();
+    return prediction.value_or(Prediction{});
+}
+
+Costs trianglesOnly() {
+    Costs costs;
+    costs.millionTrianglesMs = 64;
+    return costs;
+}
+
+Machines instantLinks() {
+    Machines machines;
+    machines.gigabitsPerSecond = 1e12;
+    machines.latencyMilliseconds = 0;
+    return machines;
+}
+
+TEST(Events, ShareWhatTheyUseAtATime) {
+    Events events;
+    const Id cores = events.addResource(2);
+    const Id first = events.addActivity(10, 2, {cores}, {});
+    const Id second = events.addActivity(20, 2, {cores}, {});
+    const Id third = events.addDelay(5, {first, second});
+    ASSERT_TRUE(events.run());
+    EXPECT_NEAR(events.doneAt(first), 10, 1e-6);   // one core each
+    EXPECT_NEAR(events.doneAt(second), 15, 1e-6);  // then both
+    EXPECT_NEAR(events.doneAt(third), 20, 1e-6);
+    EXPECT_NEAR(events.busy(cores), 15, 1e-6);
+}
+
+TEST(Events, GoAsFastAsTheSlowestThatTheyUse) {
+    Events events;
+    const Id fast = events.addResource(100);
+    const Id slow = events.addResource(10);
+    const Id stream = events.addActivity(50, 1000, {fast, slow}, {});
+    ASSERT_TRUE(events.run());
+    EXPECT_NEAR(events.doneAt(stream), 5, 1e-6);
+}
+
+TEST(Events, SayWhenTheyWaitForEachOther) {
+    Events events;
+    const Id first = events.addDelay(1, {});
+    const Id second = events.addDelay(1, {first});
+    events.addDependency(first, second);
+    EXPECT_FALSE(events.run());
+}
+
+TEST(Prediction, OfOneRendererIsTheSumOfItsSteps) {
+    Costs costs;
+    costs.taskMs = 3;
+    costs.millionTrianglesMs = 20;
+    costs.megapixelMs = 10;
+    costs.readbackMegapixelMs = 2;
+    costs.assembleMegapixelMs = 1;
+    costs.threads = 2;
+    Machines machines;
+    machines.cores = 4;
+    machines.gigabitsPerSecond = 8;  // 1 MB a millisecond
+    machines.latencyMilliseconds = .5;
+    const Prediction one = predicted(1, "one", costs, machines);
+    const double drawn = (3 + 20 + 10 * kMegapixels) / 2;
+    EXPECT_NEAR(one.frameMilliseconds, drawn + (2 + 4 + 1) * kMegapixels + .5, 1e-6);
+    EXPECT_NEAR(one.processorMilliseconds, 23 + 13 * kMegapixels, 1e-6);
+    EXPECT_NEAR(one.bytes, 4e6 * kMegapixels, 1e-3);
+}
+
+TEST(Prediction, IsPerfectWhereNothingButSharedWorkCosts) {
+    for (const char* name : {"2D", "DB", "direct send", "binary swap"})
+        EXPECT_NEAR(predicted(8, name, trianglesOnly(), instantLinks()).frameMilliseconds, 8, 1e-6)
+            << name;
+    EXPECT_NEAR(predicted(8, "DPlex", trianglesOnly(), instantLinks()).framesPerSecond,
+                8 * 1000. / 64, 1e-3);
+}
+
+TEST(Prediction, GainsNothingFromRenderersThatShareOneCore) {
+    Machines machines = instantLinks();
+    machines.isOneMachine = true;
+    for (const char* name : {"2D", "DB"})
+        EXPECT_NEAR(predicted(4, name, trianglesOnly(), machines).frameMilliseconds, 64, 1e-6)
+            << name;
+}
+
+TEST(Prediction, DrawsTwiceWhatLiesAcrossCuts) {
+    Costs costs = trianglesOnly();
+    costs.overlap = .5;  // halves have three quarters each
+    EXPECT_NEAR(predicted(2, "2D", costs, instantLinks()).frameMilliseconds, 48, 1e-6);
+    EXPECT_NEAR(predicted(2, "DB", costs, instantLinks()).frameMilliseconds, 32, 1e-6);
+}
+
+TEST(Prediction, SendsWhatEachWayOfMergingNeeds) {
+    const double picture = 4e6 * kMegapixels;
+    const auto sent = [](const char* name) { return predicted(8, name, {}).bytes; };
+    EXPECT_NEAR(sent("2D"), picture, 1e3);
+    EXPECT_NEAR(sent("DB"), 8 * 2 * picture, 1e3);
+    EXPECT_NEAR(sent("direct send"), 7 * 2 * picture + picture, 1e3);
+    EXPECT_NEAR(sent("binary swap"), 7 * 2 * picture + picture, 1e3);
+}
+
+TEST(Prediction, MergesOneLayerAStageInBinarySwap) {
+    Costs costs;
+    costs.mergeMegapixelMs = 8;
+    // Halves, quarters and eighths: 7 eighths of a picture, one after the other.
+    EXPECT_NEAR(predicted(8, "binary swap", costs, instantLinks()).frameMilliseconds,
+                7 * kMegapixels, 1e-3);
+    EXPECT_NEAR(predicted(8, "DB", costs, instantLinks()).frameMilliseconds, 64 * kMegapixels,
+                1e-3);
+}
+
+TEST(Costs, NameTheLineThatTheyCannotTake) {
+    const std::string path = testing::TempDir() + "costs.csv";
+    std::ofstream(path) << "# what\ntask_ms,3\nspeed,9\n";
+    EXPECT_THAT(std::string(readCosts(path).status().ToString()),
+                testing::HasSubstr("costs.csv:3: \"speed,9\" is no cost"));
+    std::ofstream(path) << "task_ms,-3\n";
+    EXPECT_FALSE(readCosts(path).ok());
+    EXPECT_FALSE(readTriangles(path).ok());
+    EXPECT_EQ(readCosts("no such file").status().code(), absl::StatusCode::kNotFound);
+}
+
+TEST(Costs, AreReadFromTheMeasuredOnes) {
+    const std::string folder = EYRIE_SOURCE_DIR "/bench/data/";
+    const auto costs = readCosts(folder + "costs.csv");
+    ASSERT_TRUE(costs.ok()) << costs.status();
+    EXPECT_GT(costs->megapixelMs, 0);
+    const auto triangles = readTriangles(folder + "dragon_orbit.csv");
+    ASSERT_TRUE(triangles.ok()) << triangles.status();
+    EXPECT_EQ(triangles->size(), 20U);
+}
+
+}  // namespace
+}  // namespace eyrie::simulator

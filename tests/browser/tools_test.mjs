@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+// The page's tools against a server of made-up pictures: views kept and shared, things measured,
+// plots, all by the keyboard; and what axe-core finds.
+import { readFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { fileURLToPath } from "node:url";
+import { check, environment, run, ServerProcess } from "./support.mjs";
+
+const web = environment("EYRIE_WEB_FOLDER");
+const axe = readFileSync(
+  createRequire(fileURLToPath(new URL("../../web/package.json", import.meta.url))).resolve(
+    "axe-core/axe.min.js",
+  ),
+  "utf8",
+);
+
+/** What axe-core calls serious or worse. */
+async function seriousFindings(page) {
+  await page.evaluate(axe); // as the debugger: the page's policy forbids it to others
+  const { violations } = await page.evaluate(() => window.axe.run());
+  return violations
+    .filter(({ impact }) => impact === "serious" || impact === "critical")
+    .map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html.slice(0, 120)).join(" ")}`);
+}
+
+await run("tools_test", async (browser, started) => {
+  const { page } = browser;
+  const server = started(await ServerProcess.start(environment("EYRIE_FAKE_SERVER"), [web], 20));
+  await page.goto(server.url);
+  await browser.settled();
+  const cameraNow = async () => JSON.stringify(await browser.hook("camera"));
+  const home = await cameraNow();
+
+  await page.keyboard.press("1");
+  await browser.settled();
+  const top = await browser.hook("camera");
+  check(Math.abs(top.eye[0] - top.target[0]) < 2 && top.eye[2] > 100, "1 looks down from the top");
+  await page.keyboard.press("2");
+  check((await browser.hook("camera")).eye[1] < 0, "2 looks from the south");
+  await page.getByRole("button", { name: "Isometric" }).click();
+  await browser.settled();
+  const isometric = await cameraNow();
+
+  const link = page.url();
+  check(link.includes("#eye="), "the address is a link to the view");
+  await page.getByLabel("Name of the bookmark").fill("corner");
+  await page.keyboard.press("Enter");
+  await page.locator("#notice", { hasText: "Kept as corner" }).waitFor();
+  await page.locator("canvas#view").focus();
+  await page.keyboard.press("r");
+  await browser.settled();
+  check((await cameraNow()) === home, "R leaves it for the whole scene");
+  await page.getByRole("button", { name: "corner", exact: true }).click();
+  check((await cameraNow()) === isometric, "a bookmark shows the view again");
+  await browser.settled();
+
+  await page.goto("about:blank");
+  await page.goto(link);
+  await browser.settled();
+  check((await cameraNow()) === isometric, "a link shows the view in a new page");
+  check(
+    await page.getByRole("button", { name: "corner", exact: true }).isVisible(),
+    "bookmarks outlast the page",
+  );
+  await page.getByRole("button", { name: "Remove corner" }).click();
+  check((await page.locator(".bookmark").count()) === 0, "and can be removed");
+  await page.evaluate(() => (window.location.hash = "eye=1,2&at=3"));
+  await page.locator("#notice", { hasText: "cannot be read" }).waitFor();
+  check((await cameraNow()) === isometric, "a damaged link is said to be one and left out");
+
+  await page.context().grantPermissions(["clipboard-read", "clipboard-write"]);
+  await page.locator("canvas#view").focus();
+  await page.keyboard.press("k");
+  await page.locator("#notice", { hasText: "Command copied" }).waitFor();
+  const command = await page.evaluate(() => navigator.clipboard.readText());
+  check(
+    command.includes("eyrie render SCENE --camera camera.json") &&
+      command.includes(JSON.stringify(JSON.parse(isometric).eye)),
+    "K copies the command that renders the view",
+  );
+  const saving = page.waitForEvent("download");
+  await page.keyboard.press("o");
+  const saved = readFileSync(await (await saving).path());
+  const hash = await browser.pngHash(saved);
+  check(hash === (await browser.hook("pixelHash")), "O saves the server's picture bit for bit");
+
+  await page.keyboard.press("m");
+  check(await page.locator("#measure").isVisible(), "M measures");
+  await page.keyboard.press("Space");
+  await page.locator("#measure", { hasText: "One more point" }).waitFor();
+  await page.mouse.click(640, 500);
+  await page.locator("#measure", { hasText: "Length" }).waitFor();
+  const text = await page.locator("#measure").innerText();
+  check(/Length\s+\S+ m ± 500 mm/.test(text), "a length has the errors of both its ends");
+  await page.mouse.click(500, 450);
+  await page.locator("#measure", { hasText: "Area" }).waitFor();
+  check(
+    ((await page.locator(".measure-dots").getAttribute("d")).match(/M/g) ?? []).length === 3,
+    "three points are marked, and have an area",
+  );
+  await page.locator("canvas#view").focus();
+  await page.keyboard.press("v");
+  await page.locator("#measure .chart").waitFor();
+  check(
+    (await page.locator("#measure").innerText()).includes("off by 250 mm at most"),
+    "V draws the heights along the last line, with their error",
+  );
+  await page.getByLabel("Place along the line").focus();
+  await page.keyboard.press("ArrowRight");
+  check(
+    /along: -?0\.\d m/.test(await page.locator("#measure").innerText()),
+    "and arrows read them",
+  );
+
+  await page.locator("canvas#view").focus();
+  await page.keyboard.press("g");
+  await page.keyboard.press("ArrowLeft");
+  await page.locator("#plots .dot.last").first().waitFor();
+  check(
+    (await page.locator("#plots").innerText()).includes("Mbit/s"),
+    "G plots time, error and bandwidth",
+  );
+  await browser.settled();
+
+  const other = await browser.openAnother(server.url);
+  await other.waitForFunction(() => window.eyrie?.exact === true);
+  const mine = JSON.stringify(await other.evaluate(() => window.eyrie.camera));
+  const frame = await other.evaluate(() => window.eyrie.frameNumber);
+  await page.bringToFront();
+  await browser.drag(40, 10);
+  await browser.settled();
+  const others = await other.evaluate(() => ({ ...window.eyrie }));
+  check(
+    JSON.stringify(others.camera) === mine && others.frameNumber === frame,
+    "a second browser on the session keeps its view, and is sent nothing",
+  );
+  await other.close();
+
+  for (const colorScheme of ["dark", "light"]) {
+    await page.emulateMedia({ colorScheme });
+    for (const part of ["page", "help"]) {
+      if (part === "help") await page.keyboard.press("h");
+      const findings = await seriousFindings(page);
+      check(
+        findings.length === 0,
+        `axe finds nothing serious (${colorScheme}, ${part}) ${findings.join("; ")}`,
+      );
+      if (part === "help") await page.keyboard.press("h");
+    }
+  }
+  await page.keyboard.press("h");
+  const states = await page.locator(".help-now").allInnerTexts();
+  check(
+    states.includes("on") && states.includes("exact"),
+    `the sheet of controls shows how they stand (${states.join(", ")})`,
+  );
+  await page.keyboard.press("Escape");
+  await page.locator("canvas#view").focus();
+  await page.keyboard.press("m");
+  check(await page.locator("#measure").isHidden(), "M ends measuring");
+  check(
+    (await page.locator(".measure-dots").getAttribute("d")) === "",
+    "and takes its points away",
+  );
+});

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/frame/dispatch.h"
+
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "fake_renderer.h"
+#include "tests/service/eventually.h"
+
+namespace eyrie::coordinator {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+constexpr int kWidth = 40;
+constexpr int kHeight = 10;
+
+class DispatchTest : public testing::Test {
+protected:
+    explicit DispatchTest(milliseconds leastPatience = seconds(50))
+        : crew_(registry_, {.patience = {.least = leastPatience}}, [] {}) {
+        fabric::Scene scene;
+        scene.objects.push_back({"a", fabric::ObjectKind::Mesh, "a.eym", fabric::Mat4(1.0), {}});
+        crew_.setScene(scene);
+    }
+
+    void openWith(int renderers) {
+        for (int i = 0; i < renderers; ++i) {
+            renderers_.push_back(std::make_shared<FakeRenderer>(layers_));
+            ASSERT_TRUE(registry_
+                            .add(fmt::format("fake:{}", renderers_.size()), {}, renderers_.back(),
+                                 Registry::Clock::now())
+                            .ok());
+            ASSERT_TRUE(eventually(
+                [&] { return crew_.state().ready == static_cast<int>(renderers_.size()); }));
+        }
+    }
+
+    /// Draws as many columns of the picture as there are preferences, by these.
+    absl::StatusOr<std::vector<Dispatch::Drawn>> draw(std::vector<std::size_t> preferred) {
+        Dispatch::Plan plan;
+        plan.frameData.version = 1;
+        const int columns = static_cast<int>(preferred.size());
+        for (int i = 0; i < columns; ++i) {
+            fabric::ChannelTask task{1, 1, kWidth, kHeight, {}, {}, true};
+            task.pixelViewport = {kWidth * i / columns, 0, kWidth / columns, kHeight};
+            plan.tasks.push_back(task);
+        }
+        plan.sceneRevision = crew_.state().revision;
+        plan.kind = 1;
+        plan.firstPatience = seconds(50);
+        plan.callTimeout = seconds(60);
+        plan.preferred = std::move(preferred);
+        return std::make_shared<Dispatch>(plan)->run(crew_);
+    }
+    std::vector<int> drawn() const {
+        std::vector<int> counts;
+        for (const auto& renderer : renderers_) counts.push_back(renderer->drawn);
+        return counts;
+    }
+
+    std::shared_ptr<const LayeredScene> layers_ =
+        std::make_shared<LayeredScene>(4711, kWidth, kHeight);
+    std::vector<std::shared_ptr<FakeRenderer>> renderers_;
+    Registry registry_;
+    Crew crew_;
+};
+
+class ImpatientDispatch : public DispatchTest {
+protected:
+    ImpatientDispatch() : DispatchTest(milliseconds(100)) {}
+};
+
+TEST_F(DispatchTest, EachTaskIsDrawnByTheRendererThatItPrefers) {
+    openWith(3);
+    for (const auto& renderer : renderers_) renderer->takes = milliseconds(5);
+    ASSERT_TRUE(draw({2, 0, 2, 2}).ok());
+    EXPECT_EQ(drawn(), (std::vector<int>{1, 0, 3}));
+}
+
+TEST_F(DispatchTest, PreferencesBeginAgainAfterTheLastRenderer) {
+    openWith(2);
+    ASSERT_TRUE(draw({0, 1, 2, 3, 4}).ok());
+    EXPECT_EQ(drawn(), (std::vector<int>{3, 2}));
+}
+
+TEST_F(ImpatientDispatch, APreferredRendererThatHangsIsNotWaitedFor) {
+    openWith(2);
+    ASSERT_TRUE(draw({0, 1}).ok());  // it is known how long they take
+    renderers_[0]->hang(true);
+    ASSERT_TRUE(draw({0, 0, 0, 1}).ok());
+    EXPECT_EQ(drawn(), (std::vector<int>{1, 5}));
+    ASSERT_TRUE(draw({0, 0, 1, 1}).ok());  // busy with what is past
+    EXPECT_EQ(drawn(), (std::vector<int>{1, 9}));
+    renderers_[0]->hang(false);
+}
+
+TEST_F(ImpatientDispatch, ARendererOfWhichNothingIsKnownIsGivenAsLongAsTheOthers) {
+    openWith(1);
+    ASSERT_TRUE(draw({0}).ok());
+    openWith(1);
+    renderers_[1]->hang(true);
+    const auto start = std::chrono::steady_clock::now();
+    ASSERT_TRUE(draw({0, 1}).ok());
+    EXPECT_LT(std::chrono::steady_clock::now() - start, seconds(25));  // half of firstPatience
+    EXPECT_EQ(drawn(), (std::vector<int>{3, 0}));
+    renderers_[1]->hang(false);
+}
+
+}  // namespace
+}  // namespace eyrie::coordinator

@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/compound/equalizer/equalizers.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/coordinator/balanced_scene.h"
+
+namespace eyrie::equalizer {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr const char* kFolder = EYRIE_SOURCE_DIR "/../shared/data/eqc";
+
+config::Configuration sample(const std::filesystem::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    EXPECT_TRUE(in) << path << " is missing";
+    config::Findings findings;
+    return config::readEqc(std::string(std::istreambuf_iterator<char>(in), {}), findings);
+}
+
+const Spot kRight{{.75, 0, 1, 1}, 60, 40};
+
+double even(const config::ResolvedCompound& part) {
+    return 100 * (part.range.end - part.range.begin) * part.viewport.width * part.viewport.height;
+}
+
+TEST(TreeEqualizer, SharesOutWhatTheTimesOfItsSubtreesSay) {
+    for (const char* mode : {"2D", "DB", "VERTICAL"}) {
+        Balanced balanced(configurationOf(
+            3, sharedBetween(4, std::string("tree_equalizer { mode ") + mode + " }")));
+        for (int frame = 0; frame < 20; ++frame) balanced.draw(kRight);
+        const std::vector<double> times = balanced.draw(kRight);
+        EXPECT_LE(*std::ranges::max_element(times), 25 * 1.1) << mode;
+        EXPECT_NEAR(balanced.equalizers.states()[0].report.imbalance, 1, .1);
+    }
+}
+
+TEST(TreeEqualizer, CutsPicturesByTurnsAcrossAndAlong) {
+    Balanced balanced(configurationOf(3, sharedBetween(4, "tree_equalizer { }")));
+    balanced.apply();
+    for (std::size_t i = 1; i <= 4; ++i)
+        EXPECT_EQ(balanced.at(i).pixelViewport.width * 9, balanced.at(i).pixelViewport.height * 16);
+}
+
+/// Of a wall of two segments the left one has nine tenths of the load.
+double leftHeavy(const Balanced& wall, const config::ResolvedCompound& part) {
+    const bool isLeft = wall.resolved.destinations[*part.destination].index.segment == 0;
+    return (isLeft ? 90 : 10) * part.viewport.width * part.viewport.height;
+}
+
+TEST(ViewEqualizer, GivesSegmentsPipesByTheirLoad) {
+    Balanced wall(sample(std::string(kFolder) + "/8-window.wall.lb.eqc"));
+    std::vector<double> times;
+    for (int frame = 0; frame < 20; ++frame)
+        times = wall.draw([&](const auto& part) { return leftHeavy(wall, part); });
+    int left = 0;
+    int right = 0;
+    for (const config::ResolvedCompound& each : wall.resolved.compounds)
+        if (each.tasks.draw)
+            ++(wall.resolved.destinations[*each.destination].index.segment == 0 ? left : right);
+    EXPECT_GE(left, 7);
+    EXPECT_GE(right, 1);
+    EXPECT_LE(right, 2);
+    EXPECT_LE(*std::ranges::max_element(times), 100. / 8 * 1.3) << "of eight pipes";
+}
+
+TEST(ViewEqualizer, LetsAPipeServeTwoSegmentsAtMost) {
+    std::string segments = "compound { view_equalizer { }";
+    for (int segment = 0; segment < 3; ++segment)
+        segments += fmt::format(
+            " compound {{ channel ( segment {} view 0 ) load_equalizer {{ }} "
+            "compound {{ }} compound {{ channel \"help\" }} }}",
+            segment);
+    config::Findings findings;
+    const std::string pipe = "pipe { window { channel { name \"";
+    config::Configuration configuration =
+        config::readEqc("server { config { appNode { " + pipe + "a\" } } }" + pipe + "b\" } } }" +
+                            pipe + "c\" } } }" + pipe +
+                            "help\" } } } } layout { view { } } canvas { layout 0 "
+                            "segment { channel \"a\" viewport [ 0 0 .3 1 ] } "
+                            "segment { channel \"b\" viewport [ .3 0 .3 1 ] } "
+                            "segment { channel \"c\" viewport [ .6 0 .4 1 ] } } " +
+                            segments + " } } }",
+                        findings);
+    ASSERT_FALSE(findings.hasErrors()) << config::describe(findings, "the test's");
+    Balanced wall(std::move(configuration));
+    for (int frame = 0; frame < 10; ++frame) wall.draw(even);
+    int served = 0;
+    for (const std::size_t helper : {3, 6, 9}) served += wall.at(helper).tasks.draw ? 1 : 0;
+    EXPECT_GE(served, 1);
+    EXPECT_LE(served, 2);
+}
+
+TEST(FramerateEqualizer, SpacesTheFramesOfAPeriodEvenly) {
+    Balanced balanced(sample(std::string(kFolder) + "/3-window.DPlex.eqc"));
+    EXPECT_EQ(balanced.equalizers.states()[0].report.framesPerSecond, 0);
+    for (int frame = 0; frame < 4; ++frame) {
+        balanced.apply();
+        FrameTimes times{balanced.number, std::vector<CompoundTime>(3)};
+        times.compounds[frame % 2 == 0 ? 1 : 2].draw = frame % 2 == 0 ? 30 : 50;
+        balanced.equalizers.record(times);
+    }
+    EXPECT_NEAR(balanced.equalizers.states()[0].report.framesPerSecond, 1000 / (40. / 2 * 1.05),
+                1e-9);
+}
+
+const std::string kReduced =
+    "compound { channel ( segment 0 view 0 ) compound { DFR_equalizer { framerate 20 } "
+    "outputframe { name \"small\" } } inputframe { name \"small\" } }";
+
+TEST(DfrEqualizer, HoldsAFrameRateByTheNumberOfPixels) {
+    Balanced balanced(configurationOf(0, kReduced));
+    std::vector<double> times;
+    for (int frame = 0; frame < 20; ++frame)
+        times = balanced.draw([](const config::ResolvedCompound& part) {
+            return 1e-4 * static_cast<double>(part.pixelViewport.area()) *
+                   (part.range.end - part.range.begin);
+        });
+    EXPECT_NEAR(times[1], 50, 1);
+    EXPECT_NEAR(balanced.equalizers.states()[0].report.framesPerSecond, 20, .5);
+}
+
+TEST(DfrEqualizer, KeepsToTheLimitsOfThePicture) {
+    Balanced balanced(configurationOf(0, kReduced));
+    for (int frame = 0; frame < 20; ++frame) balanced.draw([](const auto&) { return 1e8; });
+    EXPECT_EQ(balanced.at(1).pixelViewport.height, 128);
+    for (int frame = 0; frame < 20; ++frame) balanced.draw([](const auto&) { return .001; });
+    EXPECT_EQ(balanced.at(1).pixelViewport, (fabric::PixelViewport{0, 0, 1280, 720}));
+}
+
+TEST(TileEqualizer, HasChildrenFetchTilesWhileItIsOn) {
+    Balanced balanced(sample(std::string(kFolder) + "/2-node.tile.eqc"));
+    balanced.apply();
+    const config::Compound& root = balanced.live.compounds[0];
+    ASSERT_EQ(root.outputTiles.size(), 1U);
+    EXPECT_EQ(root.outputTiles[0].size, fabric::Vec2(64, 64));
+    for (const config::Compound& child : root.children) {
+        ASSERT_EQ(child.inputTiles.size(), 1U);
+        EXPECT_EQ(child.inputTiles[0].name, root.outputTiles[0].name);
+    }
+    Tuning off;
+    off.isOn = false;
+    EXPECT_TRUE(balanced.equalizers.tune("0", off).ok());
+    balanced.apply();
+    EXPECT_TRUE(balanced.live == balanced.written);
+}
+
+TEST(TileEqualizer, TakesTurnsWithALoadEqualizer) {
+    Balanced balanced(
+        configurationOf(1, sharedBetween(2, "load_equalizer { } tile_equalizer { size .25 }")));
+    Tuning on;
+    on.isOn = true;
+    Tuning off;
+    off.isOn = false;
+    EXPECT_TRUE(balanced.equalizers.tune("load.0", off).ok());
+    balanced.apply();
+    EXPECT_EQ(balanced.live.compounds[0].outputTiles[0].chunk, .25);
+    EXPECT_EQ(balanced.at(2).viewport, config::Viewport{});
+    EXPECT_TRUE(balanced.equalizers.tune("load.0", on).ok());
+    EXPECT_TRUE(balanced.equalizers.tune("tile.0", off).ok());
+    balanced.apply();
+    EXPECT_TRUE(balanced.live.compounds[0].outputTiles.empty());
+    EXPECT_EQ(balanced.at(2).viewport, (config::Viewport{.5, 0, .5, 1}));
+}
+
+TEST(MonitorEqualizer, PutsReducedPicturesWhereTheyBelong) {
+    Balanced balanced(sample(std::string(kFolder) + "/3-window.monitor.eqc"));
+    balanced.apply();
+    const config::Compound& root = balanced.live.compounds[0];
+    const auto pixels = [&](std::size_t i) { return balanced.at(i).pixelViewport; };
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_DOUBLE_EQ(root.children[i].outputFrames[0].zoom.x,
+                         pixels(3).width / 2. / pixels(i + 1).width);
+        EXPECT_DOUBLE_EQ(root.children[i].outputFrames[0].zoom.y,
+                         static_cast<double>(pixels(3).height) / pixels(i + 1).height);
+        EXPECT_EQ(root.children[2].inputFrames[i].viewport,
+                  (config::Viewport{.5 * static_cast<double>(i), 0, .5, 1}));
+    }
+    Tuning off;
+    off.isOn = false;
+    EXPECT_TRUE(balanced.equalizers.tune("monitor.3", off).ok());
+    balanced.apply();
+    EXPECT_TRUE(balanced.live == balanced.written);
+}
+
+TEST(Equalizers, ReturnToWhatIsWrittenWhenSwitchedOff) {
+    const auto switchedOff = [](const std::string& compounds) {
+        Balanced balanced(configurationOf(1, compounds));
+        for (int frame = 0; frame < 5; ++frame) balanced.draw(kRight);
+        EXPECT_NE(balanced.at(1).viewport.width, .5);
+        Tuning off;
+        off.isOn = false;
+        EXPECT_TRUE(balanced.equalizers.tune("0", off).ok());
+        balanced.draw(kRight);
+        return balanced.at(1).viewport;
+    };
+    EXPECT_EQ(switchedOff("compound { channel ( segment 0 view 0 ) load_equalizer { } "
+                          "compound { viewport [ 0 0 .25 1 ] } "
+                          "compound { viewport [ .25 0 .75 1 ] channel \"s1\" } }"),
+              (config::Viewport{0, 0, .25, 1}));
+    EXPECT_EQ(switchedOff(sharedBetween(2, "load_equalizer { }")), (config::Viewport{0, 0, .5, 1}))
+        << "where everyone is written to draw everything";
+}
+
+TEST(Equalizers, StayAsTheyAreWhileFrozen) {
+    for (const char* kind : {"load_equalizer", "tree_equalizer"}) {
+        Balanced balanced(
+            configurationOf(1, sharedBetween(2, std::string(kind) + " { mode VERTICAL }")));
+        for (int frame = 0; frame < 3; ++frame) balanced.draw(kRight);
+        Tuning frozen;
+        frozen.isFrozen = true;
+        EXPECT_TRUE(balanced.equalizers.tune("0", frozen).ok());
+        balanced.apply();
+        const config::Configuration before = balanced.live;
+        for (int frame = 0; frame < 3; ++frame) balanced.draw(Spot{{0, 0, .1, 1}});
+        EXPECT_TRUE(balanced.live == before) << kind;
+    }
+}
+
+TEST(Equalizers, TakeOtherSettingsWhileTheyRun) {
+    Balanced balanced(configurationOf(1, sharedBetween(2, "load_equalizer { mode VERTICAL }")));
+    for (int frame = 0; frame < 3; ++frame) balanced.draw(kRight);
+    Tuning tuning;
+    tuning.mode = config::SplitMode::Db;
+    tuning.boundaryRange = .25;
+    tuning.damping = .25;
+    EXPECT_TRUE(balanced.equalizers.tune("load.0", tuning).ok());
+    EXPECT_EQ(balanced.equalizers.states()[0].settings.damping, .25);
+    for (int frame = 0; frame < 5; ++frame) balanced.draw(even);
+    EXPECT_EQ(balanced.at(1).range, (fabric::Range{0, .5}));
+    EXPECT_EQ(balanced.at(1).viewport, config::Viewport{});
+}
+
+TEST(Equalizers, SayWhichSettingCannotBe) {
+    Equalizers equalizers(configurationOf(1, sharedBetween(2, "load_equalizer { }")));
+    Tuning tuning;
+    tuning.damping = 1.5;
+    EXPECT_THAT(std::string(equalizers.tune("load.0", tuning).ToString()),
+                HasSubstr("damping is 1.5; it must be from 0 to 1"));
+    tuning = {};
+    tuning.resistancePixels = fabric::Vec2(.5, 3);
+    EXPECT_EQ(equalizers.tune("0", tuning).code(), absl::StatusCode::kInvalidArgument);
+    EXPECT_THAT(std::string(equalizers.tune("tree.0", {}).ToString()),
+                HasSubstr("no equalizer is named \"tree.0\"; there are \"load.0\""));
+    EXPECT_EQ(equalizers.states()[0].settings.damping, .5);
+}
+
+TEST(Equalizers, LearnNothingFromFramesThatTheyDidNotPlan) {
+    Balanced balanced(configurationOf(1, sharedBetween(2, "load_equalizer { mode DB }")));
+    balanced.apply();
+    FrameTimes times{99, std::vector<CompoundTime>(3)};
+    times.compounds[1].draw = 1;
+    times.compounds[2].draw = 100;
+    balanced.equalizers.record(times);
+    balanced.apply();
+    EXPECT_EQ(balanced.at(1).range.end, .5);
+}
+
+TEST(Equalizers, KeepEverySampleWholeWhateverIsGone) {
+    std::size_t found = 0;
+    for (const auto& file : std::filesystem::directory_iterator(kFolder)) {
+        if (file.path().extension() != ".eqc")
+            continue;
+        Balanced balanced(sample(file.path()));
+        found += balanced.equalizers.states().size();
+        for (int frame = 0; frame < 4; ++frame) {
+            balanced.draw(kRight);
+            if (frame == 1 && balanced.at(0).channel)
+                balanced.gone = {*balanced.at(0).channel};
+        }
+        config::Findings findings;
+        config::resolve(balanced.live, findings);
+        EXPECT_FALSE(findings.hasErrors())
+            << file.path() << config::describe(findings, file.path());
+    }
+    EXPECT_GE(found, 20U);
+}
+
+}  // namespace
+}  // namespace eyrie::equalizer

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+
+const isIn = (target: EventTarget | null, selector: string): boolean =>
+  target instanceof Element && target.closest(selector) !== null;
+
+/** Where letters belong to a text. */
+export const isText = (target: EventTarget | null): boolean =>
+  isIn(target, "input[type=text], input[type=number], select, textarea");
+
+/** Where arrows belong to what they change, too. */
+export const isTyping = (target: EventTarget | null): boolean =>
+  isIn(target, "input, select, textarea, dialog");

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+import { describe, expect, it } from "vitest";
+import { outputOf, queryOf, usualOutput } from "./output";
+
+describe("the picture that an address names", () => {
+  it("is the first canvas where nothing is said", () => {
+    expect(outputOf("")).toEqual(usualOutput);
+    expect(queryOf(usualOutput)).toBe("");
+  });
+
+  it("comes back from its own query, whatever the names", () => {
+    const output = {
+      canvas: "Wand & Tür",
+      segment: "links=1",
+      eye: "right",
+      stereo: "side-by-side",
+    } as const;
+    expect(outputOf(queryOf(output))).toEqual(output);
+  });
+
+  it("leaves out what it does not understand", () => {
+    expect(outputOf("?eye=third&stereo=quad&segment=a")).toEqual({ ...usualOutput, segment: "a" });
+  });
+});

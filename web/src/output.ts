@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which picture of the configuration the page shows, as the query of its address:
+// "?canvas=wall&segment=left&eye=right". Each screen of a wall has an address of its own.
+
+export type Eye = "" | "cyclop" | "left" | "right";
+export type Stereo = "" | "anaglyph" | "side-by-side" | "top-bottom";
+
+export interface Output {
+  /** Names, or positions from 0 on. "": the first. */
+  canvas: string;
+  /** "": the whole canvas. */
+  segment: string;
+  /** "": what the view shows. */
+  eye: Eye;
+  /** How two eyes are put into one picture; "": as configured. */
+  stereo: Stereo;
+}
+
+export const usualOutput: Output = { canvas: "", segment: "", eye: "", stereo: "" };
+
+const eyes: readonly Eye[] = ["cyclop", "left", "right"];
+const stereos: readonly Stereo[] = ["anaglyph", "side-by-side", "top-bottom"];
+
+/** What is not understood is as usual. */
+export function outputOf(query: string): Output {
+  const fields = new URLSearchParams(query);
+  const one = <T extends string>(name: string, known: readonly T[]): T | "" =>
+    known.find((value) => value === fields.get(name)) ?? "";
+  return {
+    canvas: fields.get("canvas") ?? "",
+    segment: fields.get("segment") ?? "",
+    eye: one("eye", eyes),
+    stereo: one("stereo", stereos),
+  };
+}
+
+/** With its "?"; "" where all is as usual. */
+export function queryOf(output: Output): string {
+  const fields = new URLSearchParams(Object.entries(output).filter(([, value]) => value !== ""));
+  return fields.size === 0 ? "" : `?${fields.toString()}`;
+}

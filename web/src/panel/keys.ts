@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+import { isText } from "../camera/typing";
+
+/** Calls what belongs to a key, by KeyboardEvent.key in lower case, wherever no text is edited. */
+export function onKeys(actions: Readonly<Record<string, (time: number) => void>>): void {
+  window.addEventListener("keydown", (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey || event.repeat) return;
+    const key = event.key.toLowerCase();
+    const action = isText(event.target) || !Object.hasOwn(actions, key) ? undefined : actions[key];
+    if (action === undefined) return;
+    event.preventDefault();
+    action(event.timeStamp);
+  });
+}

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+// Ways to views and from them: standard ones, bookmarks, the link, the command, the picture as a
+// file.
+import { addBookmark, readBookmarks, removeBookmark } from "../bookmarks";
+import { standardViews } from "../camera/standard";
+import { cameraJson, renderCommand } from "../command";
+import { decodeView, encodeView } from "../share";
+import type { State } from "../state";
+import type { Viewer } from "../viewer";
+import { copyText, download } from "./clipboard";
+import { byId, make } from "./element";
+import { onKeys } from "./keys";
+
+/** How long an exact picture may take to come, when one is to be saved. */
+const exactWithin = 10_000;
+
+function button(text: string, title: string, action: () => void): HTMLButtonElement {
+  const element = make("button", "small", text);
+  element.type = "button";
+  element.title = title;
+  element.addEventListener("click", action);
+  return element;
+}
+
+function bookmarkList(state: State, viewer: Viewer): HTMLElement {
+  const list = make("ul", "bookmarks");
+  const name = make("input", "text");
+  name.type = "text";
+  name.id = "bookmark-name";
+  name.maxLength = 80;
+  name.placeholder = "Name of this view";
+  name.ariaLabel = "Name of the bookmark";
+  const fill = (): void => {
+    const rows = readBookmarks(localStorage).map((bookmark) => {
+      const go = button(bookmark.name, `Show ${bookmark.name}`, () => viewer.show(bookmark.view));
+      const remove = button("×", `Remove ${bookmark.name}`, () => {
+        removeBookmark(localStorage, bookmark.name);
+        fill();
+        name.focus();
+      });
+      remove.ariaLabel = remove.title;
+      return make("li", "bookmark", go, remove);
+    });
+    list.replaceChildren(...rows);
+    list.hidden = rows.length === 0;
+  };
+  const form = make("form", "row");
+  const add = make("button", "small", "Keep");
+  add.type = "submit";
+  add.title = "Keep this view under the name";
+  form.append(name, add);
+  form.addEventListener("submit", (event) => {
+    event.preventDefault();
+    const view = viewer.sharedView();
+    const title = name.value.trim();
+    if (view === null || title === "") return;
+    const isKept = addBookmark(localStorage, title, view);
+    state.notice.set(isKept ? `Kept as ${title}` : "This browser keeps no more bookmarks");
+    name.value = "";
+    fill();
+  });
+  fill();
+  return make("div", "field", form, list);
+}
+
+/** The exact picture; the view comes to rest first where it moves. */
+async function exactPicture(viewer: Viewer): Promise<Blob | undefined> {
+  const deadline = performance.now() + exactWithin;
+  while (viewer.exactPicture === undefined && performance.now() < deadline)
+    await new Promise((resolve) => setTimeout(resolve, 50));
+  return viewer.exactPicture;
+}
+
+/** The commands, for buttons and keys alike. */
+function commands(state: State, viewer: Viewer) {
+  const copy = async (what: string, text: string): Promise<void> =>
+    state.notice.set((await copyText(text)) ? `${what} copied` : `${what}: copying is forbidden`);
+  const withView =
+    (action: (view: NonNullable<ReturnType<Viewer["sharedView"]>>) => Promise<void>) => () => {
+      const view = viewer.sharedView();
+      if (view !== null) void action(view);
+    };
+  return {
+    link: withView((view) => {
+      const url = new URL(window.location.href);
+      url.hash = encodeView(view);
+      return copy("Link", url.href);
+    }),
+    command: withView((view) => copy("Command", renderCommand(view, viewer.pictureSize))),
+    camera: withView((view) => copy("Camera", cameraJson(view.camera))),
+    save: () =>
+      void exactPicture(viewer).then((picture) => {
+        if (picture === undefined) state.notice.set("There is no exact picture to save yet");
+        else download(picture, "eyrie.png");
+      }),
+  };
+}
+
+/** Keeps the address a link to the view that is shown, and follows it when it is edited. */
+export function keepAddress(state: State, viewer: Viewer): void {
+  const follow = (): void => {
+    const fragment = window.location.hash;
+    if (fragment.length <= 1) return;
+    const view = decodeView(fragment);
+    if (view === undefined) state.notice.set("The link's view cannot be read; it is left out");
+    else viewer.show(view);
+  };
+  follow();
+  window.addEventListener("hashchange", follow);
+  state.numbers.watch((numbers) => {
+    const view = viewer.sharedView();
+    if (numbers?.exact === true && view !== null)
+      window.history.replaceState(null, "", `#${encodeView(view)}`);
+  });
+}
+
+export function showViews(state: State, viewer: Viewer): void {
+  const { link, command, camera, save } = commands(state, viewer);
+  const standard = make("div", "small-buttons");
+  standard.setAttribute("role", "group");
+  standard.setAttribute("aria-label", "Standard views");
+  const keys: Record<string, (time: number) => void> = { l: link, k: command, o: save };
+  standardViews.forEach((view, i) => {
+    const key = String(i + 1);
+    standard.append(button(view.name, `${view.name} (${key})`, () => viewer.goTo(i)));
+    keys[key] = (time) => viewer.goTo(i, time);
+  });
+  onKeys(keys);
+  byId("views", HTMLElement).append(
+    make("h2", "heading", "Views"),
+    standard,
+    bookmarkList(state, viewer),
+    make(
+      "div",
+      "small-buttons field",
+      button("Copy link", "A link to this view (L)", link),
+      button("Copy command", "eyrie render, for this picture (K)", command),
+      button("Copy camera", "As JSON, for --camera", camera),
+      button("Save picture", "The exact picture as a PNG file (O)", save),
+    ),
+  );
+}

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the page asks of the scene's data: points under the pointer, and heights along a line.
+import type { Vec3 } from "./camera/camera";
+import type { Point } from "./camera/touch";
+import { pickOf, placeOf, profileOf } from "./pick";
+import type { ViewerPicked, ViewerProfiled } from "./protocol/messages";
+import type { Socket } from "./protocol/socket";
+import type { State } from "./state";
+import type { Size } from "./view/size";
+
+/** Points of a profile: enough for a chart, and quick. */
+const profileSamples = 160;
+
+export class Questions {
+  private pickSequence = 0;
+  private profileSequence = 0;
+  /** The pick that the camera is to turn to. */
+  private turnTo = 0;
+
+  constructor(
+    private readonly socket: Socket,
+    private readonly state: State,
+    /** Turns the camera to a point. */
+    private readonly turn: (to: Vec3) => void,
+  ) {}
+
+  /** Asks what is at a point of the canvas; false where it cannot be asked now. */
+  pick(at: Point, canvas: Size, turns: boolean): boolean {
+    const shown = this.state.shown.value;
+    if (shown === null) return false;
+    if (shown.throughWall) {
+      const text = "Points cannot be picked in pictures through walls: show one without";
+      this.state.pick.set({ kind: "problem", text });
+      return false;
+    }
+    const sequence = this.pickSequence + 1;
+    if (!this.socket.pick(sequence, shown, placeOf(at, canvas, shown))) return false;
+    this.pickSequence = sequence;
+    if (turns) this.turnTo = sequence;
+    this.state.pick.set({ kind: "asking" });
+    return true;
+  }
+
+  picked(answer: ViewerPicked): void {
+    const { state } = this;
+    if (Number(answer.sequence) !== this.pickSequence || state.pick.value === null) return;
+    const exaggeration = state.shown.value?.exaggeration ?? 1;
+    const pick = pickOf(answer, state.session.value?.objectNames ?? [], exaggeration);
+    state.pick.set(pick);
+    if (pick.kind !== "point") return;
+    if (this.turnTo === this.pickSequence) this.turn(pick.position);
+    else if (state.measuring.value) state.measured.set([...state.measured.value, pick]);
+  }
+
+  /** Asks for the heights between two points. */
+  profile(from: Vec3, to: Vec3): void {
+    const sequence = this.profileSequence + 1;
+    if (!this.socket.profile(sequence, from, to, profileSamples)) return;
+    this.profileSequence = sequence;
+    this.state.profile.set({ kind: "asking", from, to });
+  }
+
+  profiled(answer: ViewerProfiled): void {
+    const asked = this.state.profile.value;
+    if (Number(answer.sequence) !== this.profileSequence || asked?.kind !== "asking") return;
+    this.state.profile.set(profileOf(answer, asked.from, asked.to));
+  }
+
+  /** No answers come any more. */
+  lost(): void {
+    if (this.state.pick.value?.kind === "asking") this.state.pick.set(null);
+    if (this.state.profile.value?.kind === "asking") this.state.profile.set(null);
+  }
+}

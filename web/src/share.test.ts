@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+import { describe, expect, it } from "vitest";
+import { addBookmark, readBookmarks, removeBookmark } from "./bookmarks";
+import { cameraJson, renderCommand } from "./command";
+import { defaultLook } from "./look";
+import { Shading } from "./protocol/messages";
+import type { SharedView } from "./share";
+import { decodeView, encodeView } from "./share";
+
+const plain: SharedView = {
+  camera: { eye: [1.5, -2, 1e6 + 1 / 3], target: [0, 0, 0], up: [0, 0, 1], fovyDegrees: 45 },
+  tau: 1,
+  budget: null,
+  shading: Shading.SMOOTH,
+  look: defaultLook,
+};
+const special: SharedView = {
+  camera: { ...plain.camera, up: [0, 1, 0], fovyDegrees: 30 },
+  tau: 0.25,
+  budget: 33,
+  shading: Shading.WIREFRAME,
+  look: {
+    ...defaultLook,
+    exaggeration: 2.5,
+    colouring: "edited",
+    primitives: defaultLook.primitives.slice(0, 2),
+    contourMetres: 50,
+    underground: true,
+  },
+};
+
+describe("a link", () => {
+  it("brings a view back to the last bit", () => {
+    for (const view of [plain, special]) expect(decodeView(`#${encodeView(view)}`)).toEqual(view);
+  });
+
+  it("is short where all is as usual, and holds no frozen cut", () => {
+    expect(encodeView(plain)).toBe("eye=1.5,-2,1000000.3333333334&at=0,0,0&tau=1");
+    const frozen = { ...plain, look: { ...defaultLook, frozen: plain.camera } };
+    expect(decodeView(encodeView(frozen))).toEqual(plain);
+  });
+
+  it("stays whole in a URL", () => {
+    const url = new URL("http://127.0.0.1/");
+    url.hash = encodeView(special);
+    expect(decodeView(new URL(url.href).hash)).toEqual(special);
+  });
+
+  it("that is not one whole is none", () => {
+    const good = encodeView(plain);
+    for (const bad of [
+      "",
+      "#",
+      "eye=1,2,3",
+      "eye=1,2,3&at=1,2,3",
+      "eye=1,2&at=0,0,0",
+      "eye=1,2,3,4&at=0,0,0",
+      "eye=1,,3&at=0,0,0",
+      "eye=NaN,2,3&at=0,0,0",
+      "eye=Infinity,2,3&at=0,0,0",
+      `${good}&fov=0`,
+      `${good}&budget=-1`,
+      `${good}&shading=nice`,
+      `${good}&look=%7B`,
+      `${good}&look=%zz`,
+      `${good}&look=null`,
+      `${good}&look=${encodeURIComponent('{"exaggeration":"2"}')}`,
+      `${good}&look=${encodeURIComponent('{"__proto__x":1}')}`,
+      `${good}&look=${encodeURIComponent('{"constructor":1}')}`,
+      `${good}&look=${encodeURIComponent('{"primitives":[{"shape":"box"}]}')}`,
+      `${good.replace("tau=1", "tau=0")}`,
+    ])
+      expect(decodeView(bad), bad).toBeUndefined();
+  });
+});
+
+/** What a browser keeps. */
+class MemoryStorage {
+  private readonly items = new Map<string, string>();
+  getItem(key: string): string | null {
+    return this.items.get(key) ?? null;
+  }
+  setItem(key: string, value: string): void {
+    if (value.length > 10_000) throw new DOMException("full", "QuotaExceededError");
+    this.items.set(key, value);
+  }
+}
+
+describe("bookmarks", () => {
+  it("are kept by name, the newest of a name, and in the order of theirs", () => {
+    const storage = new MemoryStorage();
+    expect(addBookmark(storage, "summit", plain)).toBe(true);
+    addBookmark(storage, "a ridge & more", special);
+    addBookmark(storage, "summit", special);
+    expect(readBookmarks(storage)).toEqual([
+      { name: "a ridge & more", view: special },
+      { name: "summit", view: special },
+    ]);
+    removeBookmark(storage, "a ridge & more");
+    expect(readBookmarks(storage).map(({ name }) => name)).toEqual(["summit"]);
+  });
+
+  it("are none where what was kept is damaged, and say when no more fit", () => {
+    const storage = new MemoryStorage();
+    for (const bad of ["", "{", "null", '[{"name":1}]', '[{"name":"a","view":"eye=1"}]']) {
+      storage.setItem("eyrie.bookmarks", bad);
+      expect(readBookmarks(storage)).toEqual([]);
+    }
+    expect(addBookmark(storage, "x".repeat(20_000), plain)).toBe(false);
+  });
+});
+
+describe("the command for a picture", () => {
+  const size = { width: 1280, height: 720 };
+
+  it("names camera, size, error and shading", () => {
+    expect(cameraJson(special.camera)).toBe(
+      '{"eye":[1.5,-2,1000000.3333333334],"target":[0,0,0],"up":[0,1,0],"fovyDegrees":30}',
+    );
+    const text = renderCommand({ ...plain, shading: Shading.FLAT }, size);
+    expect(text).toContain(cameraJson(plain.camera));
+    expect(text).toContain(
+      "eyrie render SCENE --camera camera.json --size 1280x720 --tau 1 --shading flat -o view.png",
+    );
+    expect(text).not.toContain("look");
+  });
+
+  it("has a look where it is not the usual one", () => {
+    const text = renderCommand(special, size);
+    expect(text).toContain("--look look.json");
+    const look: unknown = JSON.parse(/LOOK'\n(.*)\nLOOK/.exec(text)?.[1] ?? "");
+    expect(look).toMatchObject({ exaggeration: 2.5, contours: { intervalMetres: 50 } });
+  });
+});
