@@ -61,7 +61,7 @@ public:
 
     absl::Status run(const std::stop_token& stop) {
         while (!stop.stop_requested()) {
-            absl::Status status = isRegistered() ? sendHeartbeat(stop) : sendRegistration(stop);
+            absl::Status status = isRegistered() ? sendHeartbeat(stop) : sendRegistration();
             if (isRegistered() && absl::IsNotFound(status)) {
                 spdlog::info("the {} does not know this renderer any more: registering again",
                              peer_);
@@ -98,7 +98,9 @@ private:
         return wire::fromGrpc(((*stub_).*method)(&context, request, &response), peer_);
     }
 
-    absl::Status sendRegistration(const std::stop_token& stop) {
+    /// Not ended by a stop: the coordinator would keep a renderer that does not know its id, and
+    /// so cannot leave.
+    absl::Status sendRegistration() {
         v1::RegisterRendererRequest request;
         request.set_address(options_.address);
         *request.mutable_device() = wire::toMessage(options_.device);
@@ -106,7 +108,7 @@ private:
         request.set_protocol_checksum(wire::protocolChecksum());
         v1::RegisterRendererResponse response;
         const absl::Status status =
-            call(&v1::CoordinatorService::Stub::RegisterRenderer, request, response, stop);
+            call(&v1::CoordinatorService::Stub::RegisterRenderer, request, response, {});
         if (status.ok()) {
             id_ = response.renderer_id();
             heartbeat_ = std::chrono::milliseconds(
