@@ -29,9 +29,9 @@ Image makeImage(const PixelViewport& area, Rgba background, bool withDepth) {
 }
 
 void paste(const Image& source, Image& target) {
-    assert(target.area.contains(source.area));
     if (source.area.isEmpty())
         return;
+    assert(target.area.contains(source.area));
     copyRows(source.colour, source.area, target.colour, target.area, source.area);
     if (source.hasDepth() && target.hasDepth())
         copyRows(source.depth, source.area, target.depth, target.area, source.area);

@@ -37,7 +37,7 @@ struct Image {
 Image makeImage(const PixelViewport& area, Rgba background, bool withDepth);
 
 /// Copies `source` over `target` (sort-first assembly); depth too where both have it.
-/// Precondition: target.area contains source.area.
+/// Precondition: target.area contains source.area, unless that is empty.
 void paste(const Image& source, Image& target);
 
 }  // namespace eyrie::fabric

@@ -41,5 +41,12 @@ TEST(Image, PastingWithoutDepthLeavesDepthAlone) {
     EXPECT_EQ(target.colour[5], (Rgba{9, 9, 9, 255}));
 }
 
+TEST(Image, OfAnEmptyOneNothingIsPastedWhereverItLies) {
+    Image target = sampleImage({3, 2, 4, 4}, 7);
+    const Image before = target;
+    paste(Image{}, target);
+    EXPECT_EQ(target, before);
+}
+
 }  // namespace
 }  // namespace eyrie::fabric
