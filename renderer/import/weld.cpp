@@ -2,9 +2,13 @@
 #include "renderer/import/weld.h"
 
 #include <bit>
+#include <cstddef>
 
 namespace eyrie::import {
 namespace {
+
+/// Triangles ahead of the one in hand whose places in the table are fetched already.
+constexpr std::size_t kLookAhead = 16;
 
 /// Murmur3's finaliser: every bit of the key moves every bit of the place.
 std::uint64_t mix(std::uint64_t value) {
@@ -36,10 +40,15 @@ Weld weld(std::span<const VertexKey> keys,
         }
         return table[at];
     };
-    for (const auto& triangle : triangles)
-        for (const std::uint32_t key : triangle)
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        if (i + kLookAhead < triangles.size())
+            for (const std::uint32_t key : triangles[i + kLookAhead])
+                if (result.vertexOf[key] == kNoVertex)
+                    __builtin_prefetch(&table[hash(keys[key]) & mask], 1);
+        for (const std::uint32_t key : triangles[i])
             if (result.vertexOf[key] == kNoVertex)
                 result.vertexOf[key] = find(key);
+    }
     return result;
 }
 
