@@ -5,6 +5,7 @@ import { outputOf } from "./output";
 import { keepDescription } from "./panel/description";
 import { showDisplays } from "./panel/displays";
 import { byId } from "./panel/element";
+import { showFlight } from "./panel/flight";
 import { showMeasure } from "./panel/measure";
 import { showMessages } from "./panel/message";
 import { showNotice } from "./panel/notice";
@@ -48,6 +49,7 @@ function start(): void {
   showPick(state);
   showMeasure(state, viewer);
   showViews(state, viewer);
+  showFlight(state, viewer);
   showPlots(state);
   showNotice(state);
   keepAddress(state, viewer);

@@ -54,6 +54,9 @@ export class Viewer implements CameraHolder {
   /** The picture on the canvas as the server's PNG, while it is exact. */
   exactPicture: Blob | undefined;
 
+  /** How often the camera was moved, by whomever. */
+  movements = 0;
+
   private size: Size;
   private sequence = 0;
   /** Views that were sent and not drawn yet. */
@@ -120,6 +123,7 @@ export class Viewer implements CameraHolder {
   move(camera: Camera, inputTime?: number): void {
     if (!isUsable(camera)) return;
     this.camera = camera;
+    this.movements += 1;
     this.requestView(inputTime);
   }
 
@@ -170,6 +174,12 @@ export class Viewer implements CameraHolder {
   /** Of the picture that is asked for, in pixels. */
   get pictureSize(): Size {
     return this.size;
+  }
+
+  /** The exact picture of what is wanted now, once it is on the canvas. */
+  exactNow(): Blob | undefined {
+    const isNewest = this.state.numbers.value?.viewSequence === this.sequence;
+    return isNewest && this.sendAt === undefined ? this.exactPicture : undefined;
   }
 
   show(view: SharedView): void {

@@ -65,6 +65,9 @@ const groups: readonly (readonly [string, readonly Line[]])[] = [
         "Camera under ground, or above it",
         ({ look }) => (look.value.underground ? "anywhere" : "above"),
       ],
+      ["B", "Record a flight; again ends it"],
+      ["Y", "Play the flight, or stop"],
+      ["N", "Add what is seen to the flight, at its time or after its end"],
       ["L, K", "Copy a link to this view; the command that renders it"],
       [
         "O",
