@@ -7,7 +7,7 @@ import { showDisplays } from "./panel/displays";
 import { byId } from "./panel/element";
 import { showFlight } from "./panel/flight";
 import { showMeasure } from "./panel/measure";
-import { showMessages } from "./panel/message";
+import { showMessages, showTooOld } from "./panel/message";
 import { showNotice } from "./panel/notice";
 import { showNumbers } from "./panel/numbers";
 import { showPick } from "./panel/pick";
@@ -31,10 +31,7 @@ function socketUrl(): string {
 function start(): void {
   const canvas = byId("view", HTMLCanvasElement);
   if (!PictureCanvas.isSupported()) {
-    const message = byId("message", HTMLElement);
-    message.textContent =
-      "This browser is too old: Eyrie needs OffscreenCanvas (Chrome 69, Firefox 105, Safari 16.4 or newer).";
-    message.hidden = false;
+    showTooOld();
     return;
   }
   const state = new State();
