@@ -47,7 +47,7 @@ await run("flight_test", async (browser, started) => {
   const end = await camera();
   await canvas.focus();
   await page.keyboard.press("b");
-  await notice("keys, off by 0.");
+  await notice("of the distance at most");
   check(await page.locator("#recording").isHidden(), "and ends it, saying how well keys fit");
 
   await page.getByLabel("Name of the flight").fill("cub u");

@@ -26,8 +26,11 @@ export type Activity =
   | { kind: "playing" }
   | { kind: "drawing"; frame: number; frames: number };
 
-/** As a share of the distance looked at: about a pixel of a picture 720 high. */
-const tolerance = 0.00125;
+/**
+ * As a share of the distance looked at: some eight pixels of a picture 720 high. An eighth of it
+ * takes twice the keys and plays the hand's tremor.
+ */
+const tolerance = 0.01;
 const longestSeconds = 600;
 /** A hand presses Record and Stop: nothing moves meanwhile. */
 const stillness = 1e-9;
