@@ -96,6 +96,17 @@ await run("move_test", async (browser, started) => {
   check(Math.abs(by - turn) < 0.05, `fingers turned by 90° turn the scene (${by.toFixed(3)} rad)`);
   await browser.settled();
 
+  await page.setViewportSize({ width: 360, height: 640 });
+  const help = await page.getByRole("button", { name: "Help" }).boundingBox();
+  const chip = await page.locator("#status").boundingBox();
+  const first = await page.getByRole("button", { name: "Home" }).boundingBox();
+  check(
+    help.x + help.width <= 360 && chip.x + chip.width <= first.x,
+    "every button is on a telephone's screen, beside what says that all is well",
+  );
+  await page.setViewportSize({ width: 1280, height: 766 });
+  await browser.settled();
+
   // ---- Feet
   await page.keyboard.press("r");
   await browser.settled();
