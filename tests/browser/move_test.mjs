@@ -130,6 +130,28 @@ await run("move_test", async (browser, started) => {
     "dragging looks around",
   );
   check(await page.locator("#walk-mode").isVisible(), "and the walk goes on");
+  const height = looked.eye[2];
+  await swipe(
+    page,
+    [
+      [
+        [400, 300],
+        [400, 480],
+      ],
+      [
+        [520, 300],
+        [520, 480],
+      ],
+    ],
+    40,
+  );
+  const drawn = await camera();
+  const ahead = looked.target.map((value, i) => value - looked.eye[i]);
+  const gone = drawn.eye.map((value, i) => value - looked.eye[i]);
+  check(
+    gone[0] * ahead[0] + gone[1] * ahead[1] > 1 && Math.abs(drawn.eye[2] - height) < 0.01,
+    "two fingers draw the ground near, and walk",
+  );
   await page.mouse.move(500, 400);
   await page.mouse.wheel(0, 240);
   await browser.until(() => window.eyrie.camera.eye[2] > 1.9);

@@ -42,6 +42,15 @@ const pixelsPerLine = 33;
 /** A hand that clicks moves the pointer by no more, in CSS pixels. */
 const clickSlack = 4;
 
+/** Two fingers, while walking. */
+const walkSecondsPerPixel = 0.01;
+
+/** The ground follows the fingers: down the screen is ahead. */
+function keysOfFingers(dx: number, dy: number): Keys {
+  if (Math.abs(dy) >= Math.abs(dx)) return new Set([dy > 0 ? "KeyW" : "KeyS"]);
+  return new Set([dx > 0 ? "KeyA" : "KeyD"]);
+}
+
 interface Pointer extends Point {
   isPan: boolean;
   /** Where it went down, while it may yet become a click. */
@@ -159,7 +168,11 @@ export class Controls {
 
   private pinch(before: [Point, Point], after: [Point, Point], time: number): void {
     const { dx, dy, factor, turn, centre } = pinch(before, after);
-    if (this.holder.isWalking) return this.holder.scaleWalker(factor, time);
+    if (this.holder.isWalking) {
+      this.holder.scaleWalker(factor, time);
+      const seconds = Math.max(Math.abs(dx), Math.abs(dy)) * walkSecondsPerPixel;
+      return this.holder.walk(keysOfFingers(dx, dy), false, seconds, time);
+    }
     const { x, y } = this.fromCentre(centre);
     this.change(time, (camera) => {
       const shifted = pan(camera, dx, dy, this.height);

@@ -26,7 +26,7 @@ const groups: readonly (readonly [string, readonly Line[]])[] = [
     "Touch",
     [
       ["One finger", "Orbit"],
-      ["Two fingers", "Pan, zoom by pinching, and turn"],
+      ["Two fingers", "Pan, zoom by pinching, and turn; walk while walking"],
     ],
   ],
   [
