@@ -136,6 +136,9 @@ await run("tools_test", async (browser, started) => {
   );
   await other.close();
 
+  await page.locator("#flight summary").first().click();
+  await page.keyboard.press("n");
+  await page.getByText("Keys (1)").click();
   for (const colorScheme of ["dark", "light"]) {
     await page.emulateMedia({ colorScheme });
     for (const part of ["page", "help"]) {

@@ -5,8 +5,9 @@ import { outputOf } from "./output";
 import { keepDescription } from "./panel/description";
 import { showDisplays } from "./panel/displays";
 import { byId } from "./panel/element";
+import { showFlight } from "./panel/flight";
 import { showMeasure } from "./panel/measure";
-import { showMessages } from "./panel/message";
+import { showMessages, showTooOld } from "./panel/message";
 import { showNotice } from "./panel/notice";
 import { showNumbers } from "./panel/numbers";
 import { showPick } from "./panel/pick";
@@ -30,10 +31,7 @@ function socketUrl(): string {
 function start(): void {
   const canvas = byId("view", HTMLCanvasElement);
   if (!PictureCanvas.isSupported()) {
-    const message = byId("message", HTMLElement);
-    message.textContent =
-      "This browser is too old: Eyrie needs OffscreenCanvas (Chrome 69, Firefox 105, Safari 16.4 or newer).";
-    message.hidden = false;
+    showTooOld();
     return;
   }
   const state = new State();
@@ -48,6 +46,7 @@ function start(): void {
   showPick(state);
   showMeasure(state, viewer);
   showViews(state, viewer);
+  showFlight(state, viewer);
   showPlots(state);
   showNotice(state);
   keepAddress(state, viewer);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heights along a line: what a chart of them shows.
+// Heights along a line: what a chart of them shows, and the ground for a walk.
 import type { Vec3 } from "./camera/camera";
 import { length, subtract } from "./camera/camera";
+import type { Ground } from "./camera/walk";
+import type { ViewerProfiled } from "./protocol/messages";
 
 export interface ProfileSample {
   position: Vec3;
@@ -53,4 +55,23 @@ export function chartOf({ from, to, samples }: Profile): ProfileChart {
 export function heightAlong({ samples }: Profile, share: number): number | undefined {
   const sample = samples[Math.round(share * (samples.length - 1))];
   return sample === undefined ? undefined : heightOf(sample);
+}
+
+/**
+ * The ground as it is drawn; undefined where the answer is none. Exaggerated heights are those of
+ * terrain that its scene does not scale.
+ */
+export function groundOf(
+  answer: ViewerProfiled,
+  from: Ground["from"],
+  to: Ground["to"],
+  exaggeration: number,
+): Ground | undefined {
+  if (answer.problem !== "" || answer.samples.length < 2) return undefined;
+  const heights = answer.samples.map(({ point }) =>
+    point?.position === undefined
+      ? undefined
+      : point.position.z + (exaggeration - 1) * (point.elevation ?? 0),
+  );
+  return { from, to, heights };
 }

@@ -14,6 +14,11 @@ const profileSamples = 160;
 export class Questions {
   private pickSequence = 0;
   private profileSequence = 0;
+  /** A walk's question for ground, and who waits for the answer. */
+  private ground: {
+    sequence: number;
+    answered: (answer: ViewerProfiled | undefined) => void;
+  } | null = null;
   /** The pick that the camera is to turn to. */
   private turnTo = 0;
 
@@ -52,8 +57,30 @@ export class Questions {
     else if (state.measuring.value) state.measured.set([...state.measured.value, pick]);
   }
 
+  /** For a walk; false while a person's profile is asked for, or where it cannot be asked. */
+  askGround(
+    from: Vec3,
+    to: Vec3,
+    samples: number,
+    answered: (answer: ViewerProfiled | undefined) => void,
+  ): boolean {
+    if (this.ground !== null || this.state.profile.value?.kind === "asking") return false;
+    const sequence = this.profileSequence + 1;
+    if (!this.socket.profile(sequence, from, to, samples)) return false;
+    this.profileSequence = sequence;
+    this.ground = { sequence, answered };
+    return true;
+  }
+
+  private groundAnswered(answer: ViewerProfiled | undefined): void {
+    const { ground } = this;
+    this.ground = null;
+    ground?.answered(answer);
+  }
+
   /** Asks for the heights between two points. */
   profile(from: Vec3, to: Vec3): void {
+    this.groundAnswered(undefined); // the server answers the newest only
     const sequence = this.profileSequence + 1;
     if (!this.socket.profile(sequence, from, to, profileSamples)) return;
     this.profileSequence = sequence;
@@ -61,6 +88,7 @@ export class Questions {
   }
 
   profiled(answer: ViewerProfiled): void {
+    if (Number(answer.sequence) === this.ground?.sequence) return this.groundAnswered(answer);
     const asked = this.state.profile.value;
     if (Number(answer.sequence) !== this.profileSequence || asked?.kind !== "asking") return;
     this.state.profile.set(profileOf(answer, asked.from, asked.to));
@@ -68,6 +96,7 @@ export class Questions {
 
   /** No answers come any more. */
   lost(): void {
+    this.groundAnswered(undefined);
     if (this.state.pick.value?.kind === "asking") this.state.pick.set(null);
     if (this.state.profile.value?.kind === "asking") this.state.profile.set(null);
   }

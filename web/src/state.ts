@@ -131,6 +131,8 @@ export class State {
   /** What came of a command, for the user to read; goes by itself. */
   readonly notice = new Value("");
   readonly flying = new Value(false);
+  /** The eye follows the ground. */
+  readonly walking = new Value(false);
   readonly tau = new Value(1);
   /** Milliseconds a frame may take while the view moves; null: tau is kept. */
   readonly budget = new Value<number | null>(null);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Camera } from "./camera/camera";
+import type { Keys } from "./camera/fly";
+import type { Look } from "./look";
 import { fitToAspect, isUsable } from "./camera/camera";
 import { Controls } from "./camera/controls";
 import type { CameraHolder } from "./camera/controls";
@@ -12,10 +14,12 @@ import type { Frame, SessionState, Shown } from "./protocol/messages";
 import { cameraOf } from "./protocol/messages";
 import type { EncodedPicture } from "./protocol/parts";
 import { Socket } from "./protocol/socket";
+import { groundOf } from "./profile";
 import { Questions } from "./questions";
 import type { SharedView } from "./share";
 import type { State } from "./state";
 import { PictureCanvas } from "./view/canvas";
+import { Walker } from "./walker";
 import { FrameRate, Latency } from "./view/measure";
 import { numbersOf } from "./view/numbers";
 import type { Size } from "./view/size";
@@ -46,6 +50,7 @@ export class Viewer implements CameraHolder {
   private readonly socket: Socket;
   private readonly controls: Controls;
   readonly questions: Questions;
+  private readonly walker: Walker;
   private readonly rate = new FrameRate();
   private readonly latency = new Latency();
   private readonly frames = new Map<number, Arrived>();
@@ -53,6 +58,9 @@ export class Viewer implements CameraHolder {
 
   /** The picture on the canvas as the server's PNG, while it is exact. */
   exactPicture: Blob | undefined;
+
+  /** How often the camera was moved, by whomever. */
+  movements = 0;
 
   private size: Size;
   private sequence = 0;
@@ -92,6 +100,18 @@ export class Viewer implements CameraHolder {
     this.questions = new Questions(this.socket, state, (to) => {
       if (this.camera !== null) this.move(lookAt(this.camera, to));
     });
+    this.walker = new Walker({
+      moved: (camera, time) => this.moveTo(camera, time),
+      ask: (from, to, samples, answered) =>
+        this.questions.askGround([...from, 0], [...to, 0], samples, (answer) =>
+          answered(answer && groundOf(answer, from, to, state.look.value.exaggeration)),
+        ),
+      failed: () => {
+        state.walking.set(false);
+        state.notice.set("There is no ground to stand on in the middle of the picture");
+      },
+    });
+    state.walking.watch((isWalking) => this.walkingChanged(isWalking));
     state.tau.watch(() => this.requestView(performance.now()));
     state.budget.watch(() => this.requestView(performance.now()));
     state.shading.watch(() => this.requestView(performance.now()));
@@ -114,12 +134,45 @@ export class Viewer implements CameraHolder {
   }
 
   setFlying(isFlying: boolean): void {
+    if (isFlying) this.state.walking.set(false);
     this.state.flying.set(isFlying);
   }
 
+  get isWalking(): boolean {
+    return this.state.walking.value;
+  }
+
+  setWalking(isWalking: boolean): void {
+    if (isWalking) this.state.flying.set(false);
+    this.state.walking.set(isWalking);
+  }
+
+  walk(keys: Keys, isFast: boolean, seconds: number, time: number): void {
+    this.walker.walk(keys, isFast, seconds, time);
+  }
+
+  scaleWalker(factor: number, time: number): void {
+    this.walker.scale(factor, time);
+  }
+
+  private walkingChanged(isWalking: boolean): void {
+    if (isWalking && this.camera !== null) this.walker.begin(this.camera);
+    else this.walker.end();
+    this.requestView();
+  }
+
   move(camera: Camera, inputTime?: number): void {
+    if (this.isWalking && isUsable(camera)) {
+      if (this.walker.isAt(camera)) this.walker.turned(camera);
+      else this.state.walking.set(false);
+    }
+    this.moveTo(camera, inputTime);
+  }
+
+  private moveTo(camera: Camera, inputTime?: number): void {
     if (!isUsable(camera)) return;
     this.camera = camera;
+    this.movements += 1;
     this.requestView(inputTime);
   }
 
@@ -172,6 +225,12 @@ export class Viewer implements CameraHolder {
     return this.size;
   }
 
+  /** The exact picture of what is wanted now, once it is on the canvas. */
+  exactNow(): Blob | undefined {
+    const isNewest = this.state.numbers.value?.viewSequence === this.sequence;
+    return isNewest && this.sendAt === undefined ? this.exactPicture : undefined;
+  }
+
   show(view: SharedView): void {
     this.state.tau.set(view.tau);
     this.state.budget.set(view.budget);
@@ -200,7 +259,7 @@ export class Viewer implements CameraHolder {
       tauPixels: this.state.tau.value,
       budgetMilliseconds: this.state.budget.value,
       shading: this.state.shading.value,
-      look: this.state.look.value,
+      look: this.seenLook(),
       output: this.state.output.value,
     };
     // The server draws what has changed: it would not answer the same view again.
@@ -221,6 +280,12 @@ export class Viewer implements CameraHolder {
       throughWall: false,
     });
     this.latency.sent(this.sequence, performance.now(), inputTime);
+  }
+
+  /** Nothing lifts a walk out of the ground: it is above it, and nearer than the server would let. */
+  private seenLook(): Look {
+    const look = this.state.look.value;
+    return this.isWalking ? { ...look, underground: true } : look;
   }
 
   private wantedSize(): Size {

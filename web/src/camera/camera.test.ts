@@ -142,7 +142,20 @@ describe("pinch", () => {
       { x: -40, y: 10 },
       { x: 160, y: 10 },
     ] as const;
-    expect(pinch(before, after)).toEqual({ dx: 10, dy: 10, factor: 0.5, centre: { x: 60, y: 10 } });
+    expect(pinch(before, after)).toEqual({
+      dx: 10,
+      dy: 10,
+      factor: 0.5,
+      turn: 0,
+      centre: { x: 60, y: 10 },
+    });
+  });
+
+  it("tells turning, clockwise as seen", () => {
+    const at = (x: number, y: number) => ({ x, y });
+    const { turn, factor } = pinch([at(0, 0), at(100, 0)], [at(50, -50), at(50, 50)]);
+    expect(turn).toBeCloseTo(Math.PI / 2, 12);
+    expect(factor).toBeCloseTo(1, 12);
   });
 });
 

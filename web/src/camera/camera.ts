@@ -37,6 +37,8 @@ export const isFinite3 = (a: Vec3): boolean => a.every(Number.isFinite);
 export const clamp = (value: number, low: number, high: number): number =>
   Math.min(high, Math.max(low, value));
 
+const unit = (a: Vec3): Vec3 => scale(a, 1 / length(a));
+
 /** From eye to target, in metres. */
 export const distance = (camera: Camera): number => length(subtract(camera.target, camera.eye));
 
@@ -78,7 +80,9 @@ export function metresPerPixel(camera: Camera, heightPixels: number): number {
  * corner; undefined behind the eye.
  */
 export function project(camera: Camera, point: Vec3, aspect: number): [number, number] | undefined {
-  const { right, up, forward } = axesOf(camera);
+  const forward = unit(subtract(camera.target, camera.eye));
+  const right = unit(cross(forward, camera.up)); // as it is rolled, unlike the hand's axes
+  const up = cross(right, forward);
   const offset = subtract(point, camera.eye);
   const depth = dot(offset, forward);
   if (!(depth > 0)) return undefined;
@@ -96,7 +100,10 @@ export function translate(camera: Camera, by: Vec3): Camera {
 
 /** True for a camera that the server would accept. */
 export function isUsable(camera: Camera): boolean {
-  return isFinite3(camera.eye) && isFinite3(camera.target) && distance(camera) > 0;
+  const { eye, target, up, fovyDegrees } = camera;
+  if (!isFinite3(eye) || !isFinite3(target) || !isFinite3(up)) return false;
+  if (!(fovyDegrees >= 1 && fovyDegrees <= 170) || !(distance(camera) > 0)) return false;
+  return length(cross(unit(subtract(target, eye)), unit(up))) > 1e-9;
 }
 
 /**

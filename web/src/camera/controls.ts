@@ -2,6 +2,7 @@
 // From pointer, wheel and keys to a camera. The geometry is in orbit.ts, fly.ts and touch.ts.
 import type { Camera } from "./camera";
 import { isTyping } from "./typing";
+import type { Keys } from "./fly";
 import { fly, isFlyKey, look } from "./fly";
 import type { DistanceLimits } from "./orbit";
 import { orbit, pan, zoom } from "./orbit";
@@ -22,6 +23,11 @@ export interface CameraHolder {
   doubleClicked(at: Point): void;
   readonly isFlying: boolean;
   setFlying(isFlying: boolean): void;
+  readonly isWalking: boolean;
+  setWalking(isWalking: boolean): void;
+  walk(keys: Keys, isFast: boolean, seconds: number, time: number): void;
+  /** Makes the walker taller or smaller. */
+  scaleWalker(factor: number, time: number): void;
 }
 
 const radiansPerPixel = 0.006;
@@ -35,6 +41,15 @@ const pixelsPerLine = 33;
 
 /** A hand that clicks moves the pointer by no more, in CSS pixels. */
 const clickSlack = 4;
+
+/** Two fingers, while walking. */
+const walkSecondsPerPixel = 0.01;
+
+/** The ground follows the fingers: down the screen is ahead. */
+function keysOfFingers(dx: number, dy: number): Keys {
+  if (Math.abs(dy) >= Math.abs(dx)) return new Set([dy > 0 ? "KeyW" : "KeyS"]);
+  return new Set([dx > 0 ? "KeyA" : "KeyD"]);
+}
 
 interface Pointer extends Point {
   isPan: boolean;
@@ -143,20 +158,28 @@ export class Controls {
     const dy = after.y - before.y;
     if (dx === 0 && dy === 0) return;
     this.change(time, (camera) => {
-      if (before.isPan) return pan(camera, dx, dy, this.height);
+      if (before.isPan && !this.holder.isWalking) return pan(camera, dx, dy, this.height);
       const [azimuth, elevation] = [-dx * radiansPerPixel, dy * radiansPerPixel];
       // The scene follows the pointer when orbiting; the view does when looking around.
-      if (this.holder.isFlying) return look(camera, azimuth, -elevation);
+      if (this.looksAround) return look(camera, azimuth, -elevation);
       return orbit(camera, azimuth, elevation);
     });
   }
 
   private pinch(before: [Point, Point], after: [Point, Point], time: number): void {
-    const { dx, dy, factor, centre } = pinch(before, after);
+    const { dx, dy, factor, turn, centre } = pinch(before, after);
+    if (this.holder.isWalking) {
+      this.holder.scaleWalker(factor, time);
+      const seconds = Math.max(Math.abs(dx), Math.abs(dy)) * walkSecondsPerPixel;
+      return this.holder.walk(keysOfFingers(dx, dy), false, seconds, time);
+    }
     const { x, y } = this.fromCentre(centre);
-    this.change(time, (camera) =>
-      zoom(pan(camera, dx, dy, this.height), factor, x, y, this.height, this.holder.limits),
-    );
+    this.change(time, (camera) => {
+      const shifted = pan(camera, dx, dy, this.height);
+      const nearer = zoom(shifted, factor, x, y, this.height, this.holder.limits);
+      // The scene turns with the fingers, seen from above or from below.
+      return orbit(nearer, camera.eye[2] >= camera.target[2] ? turn : -turn, 0);
+    });
   }
 
   private wheel(event: WheelEvent): void {
@@ -167,7 +190,12 @@ export class Controls {
     this.zoomBy(Math.exp(step * zoomPerWheelPixel), x, y, event.timeStamp);
   }
 
+  private get looksAround(): boolean {
+    return this.holder.isFlying || this.holder.isWalking;
+  }
+
   private zoomBy(factor: number, x: number, y: number, time: number): void {
+    if (this.holder.isWalking) return this.holder.scaleWalker(factor, time);
     this.change(time, (camera) => zoom(camera, factor, x, y, this.height, this.holder.limits));
   }
 
@@ -197,8 +225,13 @@ export class Controls {
       case "F":
         if (!event.repeat) this.holder.setFlying(!this.holder.isFlying);
         return true;
+      case "t":
+      case "T":
+        if (!event.repeat) this.holder.setWalking(!this.holder.isWalking);
+        return true;
       case "Escape":
         this.holder.setFlying(false);
+        this.holder.setWalking(false);
         return false;
       case "+":
       case "=":
@@ -218,9 +251,10 @@ export class Controls {
     const y = Number(event.key === "ArrowDown") - Number(event.key === "ArrowUp");
     if (x === 0 && y === 0) return false;
     this.change(event.timeStamp, (camera) => {
-      if (event.shiftKey) return pan(camera, -x * pixelsPerKey, -y * pixelsPerKey, this.height);
+      if (event.shiftKey && !this.holder.isWalking)
+        return pan(camera, -x * pixelsPerKey, -y * pixelsPerKey, this.height);
       // To the right: the eye goes there, or looks there.
-      if (this.holder.isFlying) return look(camera, -x * radiansPerKey, -y * radiansPerKey);
+      if (this.looksAround) return look(camera, -x * radiansPerKey, -y * radiansPerKey);
       return orbit(camera, x * radiansPerKey, -y * radiansPerKey);
     });
     return true;
@@ -238,7 +272,7 @@ export class Controls {
 
   private flyKeyDown(event: KeyboardEvent): void {
     event.preventDefault();
-    this.holder.setFlying(true);
+    if (!this.holder.isWalking) this.holder.setFlying(true);
     this.keys.add(event.code);
     if (this.flyFrame !== undefined) return;
     this.lastFlyTime = event.timeStamp;
@@ -249,7 +283,8 @@ export class Controls {
   private flyStep(now: number): void {
     const seconds = (now - this.lastFlyTime) / 1000;
     this.lastFlyTime = now;
-    this.change(now, (camera) => fly(camera, this.keys, this.isFast, seconds));
+    if (this.holder.isWalking) this.holder.walk(this.keys, this.isFast, seconds, now);
+    else this.change(now, (camera) => fly(camera, this.keys, this.isFast, seconds));
     this.flyFrame =
       this.keys.size > 0 ? requestAnimationFrame((next) => this.flyStep(next)) : undefined;
   }

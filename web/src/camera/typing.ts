@@ -7,6 +7,10 @@ const isIn = (target: EventTarget | null, selector: string): boolean =>
 export const isText = (target: EventTarget | null): boolean =>
   isIn(target, "input[type=text], input[type=number], select, textarea");
 
+/** What the space bar presses. */
+export const isPressed = (target: EventTarget | null): boolean =>
+  isIn(target, "button, summary, input, a");
+
 /** Where arrows belong to what they change, too. */
 export const isTyping = (target: EventTarget | null): boolean =>
   isIn(target, "input, select, textarea, dialog");

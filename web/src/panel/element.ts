@@ -19,6 +19,15 @@ export function make<K extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
+/** A small button; its title is for those who rest the pointer on it. */
+export function button(text: string, title: string, action: () => void): HTMLButtonElement {
+  const element = make("button", "small", text);
+  element.type = "button";
+  element.title = title;
+  element.addEventListener("click", action);
+  return element;
+}
+
 /** Sets text only where it differs, so that screen readers hear changes alone. */
 export function setText(element: Element, text: string): void {
   if (element.textContent !== text) element.textContent = text;

@@ -15,9 +15,9 @@ const groups: readonly (readonly [string, readonly Line[]])[] = [
   [
     "Mouse",
     [
-      ["Left drag", "Orbit; look around while flying"],
+      ["Left drag", "Orbit; look around while flying or walking"],
       ["Right, middle or Shift + left drag", "Pan"],
-      ["Wheel", "Zoom to the cursor"],
+      ["Wheel", "Zoom to the cursor; a taller or smaller walker"],
       ["Click", "What is there: coordinates and their error; Esc closes it"],
       ["Double click", "Turn to the point, and from then on about it"],
     ],
@@ -26,7 +26,7 @@ const groups: readonly (readonly [string, readonly Line[]])[] = [
     "Touch",
     [
       ["One finger", "Orbit"],
-      ["Two fingers", "Pan, and zoom by pinching"],
+      ["Two fingers", "Pan, zoom by pinching, and turn; walk while walking"],
     ],
   ],
   [
@@ -34,8 +34,13 @@ const groups: readonly (readonly [string, readonly Line[]])[] = [
     [
       ["← → ↑ ↓", "Orbit; with Shift: pan"],
       ["+ −", "Zoom"],
-      ["W A S D, Q E", "Fly; with Shift: faster"],
+      ["W A S D, Q E", "Fly, or walk; with Shift: faster"],
       ["F", "Fly on or off; Esc ends it", ({ flying }) => onOff(flying.value)],
+      [
+        "T",
+        "Walk on the ground that is in the middle, or end it",
+        ({ walking }) => onOff(walking.value),
+      ],
       ["Home or R", "Show the whole scene"],
       [
         "1 to 7",
@@ -65,6 +70,9 @@ const groups: readonly (readonly [string, readonly Line[]])[] = [
         "Camera under ground, or above it",
         ({ look }) => (look.value.underground ? "anywhere" : "above"),
       ],
+      ["B", "Record a flight; again ends it"],
+      ["Y", "Play the flight, or stop"],
+      ["N", "Add what is seen to the flight, at its time or after its end"],
       ["L, K", "Copy a link to this view; the command that renders it"],
       [
         "O",

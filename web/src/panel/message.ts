@@ -57,11 +57,32 @@ export function messageFor({ connection, session, hasPicture }: Situation): Mess
 /** One line above the last picture while it is not live. */
 export function bannerFor({ connection, session, hasPicture }: Situation): string | null {
   if (!hasPicture) return null;
-  if (connection.kind === "lost") return "Connection lost. This is the last picture; reconnecting.";
+  if (connection.kind === "lost")
+    return `Connection lost. This is the last picture; the page connects again by itself. If that lasts, see that the server runs: ${startServer}`;
   if (session === null) return null;
   if (!hasRenderer(session))
     return `No renderer is left; this is the last picture. ${session.problem || `Start one with: ${startRenderer}`}`;
   return session.problem === "" ? null : `This is the last picture. ${session.problem}`;
+}
+
+/** In a browser that cannot show pictures there is nothing to press either. */
+export function showTooOld(): void {
+  const message = byId("message", HTMLElement);
+  const text =
+    "It has no OffscreenCanvas, which Eyrie draws with. Open this page in Chrome 69, Firefox 105, " +
+    "Safari 16.4 or newer; or have pictures without a browser:";
+  message.append(
+    make(
+      "div",
+      "message-box",
+      make("h2", "message-title", "This browser is too old"),
+      make("p", "message-text", text),
+      make("code", "message-command", "eyrie render --help"),
+    ),
+  );
+  message.hidden = false;
+  byId("panel", HTMLElement).hidden = true;
+  for (const button of document.querySelectorAll("button")) button.disabled = true;
 }
 
 export function showMessages(state: State): void {

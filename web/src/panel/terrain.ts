@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // How terrain is shown: height, colours, contour lines, and what the engine did.
+import { isText } from "../camera/typing";
 import type { Colouring, Look } from "../look";
 import { defaultLook, exaggerationAt, nextInterval, placeOf, suggestedInterval } from "../look";
 import type { State } from "../state";
@@ -222,9 +223,7 @@ export function showTerrain(state: State, viewer: Viewer): void {
     "\\": () => change(state, { exaggeration: 1 }),
   };
   window.addEventListener("keydown", (event) => {
-    const isTyping =
-      event.target instanceof Element && event.target.matches("input[type=number], select");
-    if (event.ctrlKey || event.metaKey || event.altKey || isTyping) return;
+    if (event.ctrlKey || event.metaKey || event.altKey || isText(event.target)) return;
     keys[event.key.toLowerCase()]?.();
   });
 }

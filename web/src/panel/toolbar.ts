@@ -26,10 +26,17 @@ export function setUpToolbar(state: State, viewer: Viewer): void {
     viewer.goHome(event.timeStamp),
   );
   byId("help-open", HTMLButtonElement).addEventListener("click", toggleHelp);
-  fly.addEventListener("click", () => state.flying.set(!state.flying.value));
+  const walk = byId("walk", HTMLButtonElement);
+  const walkMode = byId("walk-mode", HTMLElement);
+  fly.addEventListener("click", () => viewer.setFlying(!state.flying.value));
+  walk.addEventListener("click", () => viewer.setWalking(!state.walking.value));
   state.flying.watch((isFlying) => {
     fly.setAttribute("aria-pressed", String(isFlying));
     mode.hidden = !isFlying;
+  });
+  state.walking.watch((isWalking) => {
+    walk.setAttribute("aria-pressed", String(isWalking));
+    walkMode.hidden = !isWalking;
   });
 
   onKeys({

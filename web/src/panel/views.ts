@@ -8,19 +8,11 @@ import { decodeView, encodeView } from "../share";
 import type { State } from "../state";
 import type { Viewer } from "../viewer";
 import { copyText, download } from "./clipboard";
-import { byId, make } from "./element";
+import { button, byId, make } from "./element";
 import { onKeys } from "./keys";
 
 /** How long an exact picture may take to come, when one is to be saved. */
 const exactWithin = 10_000;
-
-function button(text: string, title: string, action: () => void): HTMLButtonElement {
-  const element = make("button", "small", text);
-  element.type = "button";
-  element.title = title;
-  element.addEventListener("click", action);
-  return element;
-}
 
 function bookmarkList(state: State, viewer: Viewer): HTMLElement {
   const list = make("ul", "bookmarks");

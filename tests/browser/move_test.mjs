@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+// Moving otherwise than by mouse: fingers, and feet on the ground. And what a browser is told that
+// cannot show pictures.
+import { check, environment, run, ServerProcess } from "./support.mjs";
+
+const web = environment("EYRIE_WEB_FOLDER");
+
+const apart = (a, b) => Math.hypot(...a.map((value, i) => value - b[i]));
+const distance = ({ eye, target }) => apart(eye, target);
+const azimuth = ({ eye, target }) => Math.atan2(eye[1] - target[1], eye[0] - target[0]);
+
+/** Fingers that go straight from their first places to their last ones, by real touch events. */
+async function swipe(page, fingers, steps = 12) {
+  const session = await page.context().newCDPSession(page);
+  const points = (share) =>
+    fingers.map(([from, to], id) => ({
+      id,
+      x: from[0] + (to[0] - from[0]) * share,
+      y: from[1] + (to[1] - from[1]) * share,
+    }));
+  const touch = (type, touchPoints) =>
+    session.send("Input.dispatchTouchEvent", { type, touchPoints });
+  await touch("touchStart", points(0));
+  for (let i = 1; i <= steps; ++i) await touch("touchMove", points(i / steps));
+  await touch("touchEnd", []);
+  await session.detach();
+}
+
+await run("move_test", async (browser, started) => {
+  const { page } = browser;
+  const server = started(await ServerProcess.start(environment("EYRIE_FAKE_SERVER"), [web], 20));
+  await page.goto(server.url);
+  await browser.settled();
+  const camera = () => browser.hook("camera");
+  const home = await camera();
+
+  // ---- Fingers
+  await swipe(page, [
+    [
+      [400, 400],
+      [520, 400],
+    ],
+  ]);
+  const orbited = await camera();
+  check(
+    apart(orbited.target, home.target) < 1e-9 &&
+      Math.abs(distance(orbited) - distance(home)) < 1e-6,
+    "one finger turns about the target",
+  );
+  check(azimuth(orbited) < azimuth(home) - 0.3, "and the scene follows it");
+
+  await swipe(page, [
+    [
+      [400, 400],
+      [480, 440],
+    ],
+    [
+      [500, 400],
+      [580, 440],
+    ],
+  ]);
+  const panned = await camera();
+  check(
+    apart(panned.target, orbited.target) > 1 && Math.abs(azimuth(panned) - azimuth(orbited)) < 1e-6,
+    "two fingers side by side pan",
+  );
+  check(Math.abs(distance(panned) - distance(orbited)) < 1e-6, "and nothing else");
+
+  await swipe(page, [
+    [
+      [450, 400],
+      [350, 400],
+    ],
+    [
+      [550, 400],
+      [650, 400],
+    ],
+  ]);
+  const nearer = await camera();
+  check(
+    Math.abs(distance(nearer) / distance(panned) - 1 / 3) < 0.02,
+    "fingers three times as far apart come three times as near",
+  );
+
+  const turn = Math.PI / 2;
+  const at = (angle) => [500 + 100 * Math.cos(angle), 400 + 100 * Math.sin(angle)];
+  for (let i = 0; i < 6; ++i) {
+    const [from, to] = [(turn * i) / 6, (turn * (i + 1)) / 6];
+    await swipe(page, [
+      [at(from), at(to)],
+      [at(from + Math.PI), at(to + Math.PI)],
+    ]);
+  }
+  const turned = await camera();
+  const by = ((azimuth(turned) - azimuth(nearer) + 3 * Math.PI) % (2 * Math.PI)) - Math.PI;
+  check(Math.abs(by - turn) < 0.05, `fingers turned by 90° turn the scene (${by.toFixed(3)} rad)`);
+  await browser.settled();
+
+  await page.setViewportSize({ width: 360, height: 640 });
+  const help = await page.getByRole("button", { name: "Help" }).boundingBox();
+  const chip = await page.locator("#status").boundingBox();
+  const first = await page.getByRole("button", { name: "Home" }).boundingBox();
+  check(
+    help.x + help.width <= 360 && chip.x + chip.width <= first.x,
+    "every button is on a telephone's screen, beside what says that all is well",
+  );
+  await page.setViewportSize({ width: 1280, height: 766 });
+  await browser.settled();
+
+  // ---- Feet
+  await page.keyboard.press("r");
+  await browser.settled();
+  await page.keyboard.press("t");
+  await browser.until(() => Math.abs(window.eyrie.camera.eye[2] - 1.7) < 1e-6);
+  check(await page.locator("#walk-mode").isVisible(), "T stands on the ground, at eye height");
+  const stood = await camera();
+  check(apart(stood.eye.slice(0, 2), home.target.slice(0, 2)) < 1e-6, "where the view looked at");
+  await browser.settled();
+  const shown = await camera();
+  check(apart(shown.eye, stood.eye) < 1e-9, "nearer the ground than other views may come");
+
+  await page.keyboard.press("w", { delay: 600 });
+  const walked = await camera();
+  const way = apart(walked.eye, stood.eye);
+  check(way > 0.3 && Math.abs(walked.eye[2] - 1.7) < 1e-6, `W walks (${way.toFixed(2)} m)`);
+  await browser.drag(100, 0);
+  const looked = await camera();
+  check(
+    apart(looked.eye, walked.eye) < 1e-9 && apart(looked.target, walked.target) > 0.1,
+    "dragging looks around",
+  );
+  check(await page.locator("#walk-mode").isVisible(), "and the walk goes on");
+  const height = looked.eye[2];
+  await swipe(
+    page,
+    [
+      [
+        [400, 300],
+        [400, 480],
+      ],
+      [
+        [520, 300],
+        [520, 480],
+      ],
+    ],
+    40,
+  );
+  const drawn = await camera();
+  const ahead = looked.target.map((value, i) => value - looked.eye[i]);
+  const gone = drawn.eye.map((value, i) => value - looked.eye[i]);
+  check(
+    gone[0] * ahead[0] + gone[1] * ahead[1] > 1 && Math.abs(drawn.eye[2] - height) < 0.01,
+    "two fingers draw the ground near, and walk",
+  );
+  await page.mouse.move(500, 400);
+  await page.mouse.wheel(0, 240);
+  await browser.until(() => window.eyrie.camera.eye[2] > 1.9);
+  for (let i = 0; i < 12; ++i) await page.mouse.wheel(0, 240);
+  await browser.until(() => window.eyrie.camera.eye[2] > 50);
+  check(true, "the wheel makes a taller walker");
+  await page.keyboard.down("Shift");
+  await page.keyboard.down("w");
+  await page.waitForTimeout(4000);
+  await page.keyboard.up("w");
+  await page.keyboard.up("Shift");
+  const edge = await camera();
+  check(
+    edge.eye.slice(0, 2).every((value) => value >= 0 && value <= 100),
+    `who runs on stays on the ground (${edge.eye.map((value) => value.toFixed(1)).join(", ")})`,
+  );
+  await page.keyboard.press("Escape");
+  check(await page.locator("#walk-mode").isHidden(), "Escape ends the walk");
+  await page.keyboard.press("t");
+  await browser.until(() => Math.abs(window.eyrie.camera.eye[2] - 1.7) < 1e-6);
+  await page.keyboard.press("2");
+  check(await page.locator("#walk-mode").isHidden(), "so does another view");
+  await page.evaluate(() => (window.location.hash = "eye=500,0,100&at=900,0,0"));
+  await browser.until(() => window.eyrie.camera.target[0] === 900);
+  await browser.settled();
+  await page.keyboard.press("t");
+  await page.locator("#notice", { hasText: "no ground to stand on" }).waitFor();
+  check(await page.locator("#walk-mode").isHidden(), "nobody stands where there is no ground");
+
+  // ---- A browser without OffscreenCanvas
+  await page.addInitScript(() => delete window.OffscreenCanvas);
+  await page.goto("about:blank");
+  await page.goto(server.url);
+  await page.locator("#message", { hasText: "This browser is too old" }).waitFor();
+  check(
+    (await page.locator("#message").innerText()).includes("Firefox 105"),
+    "a browser that cannot show pictures is told why, and which can",
+  );
+});

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+// Records, plays and draws a flight.
+import type { Camera } from "../camera/camera";
+import { Value } from "../state";
+import type { Size } from "../view/size";
+import { flightJson } from "./file";
+import { fitKeys, offBy } from "./fit";
+import type { Flight, FlightKey } from "./flight";
+import { cameraAt, secondsOf } from "./flight";
+import { ZipWriter } from "./zip";
+
+/** What of the viewer a flight needs. */
+export interface Stage {
+  readonly camera: Camera | null;
+  /** Counts up with each call of move(), whoever calls it. */
+  readonly movements: number;
+  readonly pictureSize: Size;
+  move(camera: Camera): void;
+  /** The picture of the newest view, once it is exact. */
+  exactNow(): Blob | undefined;
+}
+
+export type Activity =
+  | { kind: "idle" }
+  | { kind: "recording" }
+  | { kind: "playing" }
+  | { kind: "drawing"; frame: number; frames: number };
+
+/**
+ * As a share of the distance looked at: some eight pixels of a picture 720 high. An eighth of it
+ * takes twice the keys and plays the hand's tremor.
+ */
+const tolerance = 0.01;
+const longestSeconds = 600;
+/** A hand presses Record and Stop: nothing moves meanwhile. */
+const stillness = 1e-9;
+const exactWithin = 60_000;
+const idle: Activity = { kind: "idle" };
+
+/** Without what stood still before and after the movement; from 0 s on. */
+export function trimmed(views: readonly FlightKey[]): FlightKey[] {
+  const isStill = (a: FlightKey | undefined, b: FlightKey | undefined): boolean =>
+    a !== undefined && b !== undefined && offBy(a.camera, b.camera) <= stillness;
+  let [first, last] = [0, views.length - 1];
+  while (first < last && isStill(views[first], views[first + 1])) first += 1;
+  while (last > first && isStill(views[last], views[last - 1])) last -= 1;
+  const start = views[first]?.seconds ?? 0;
+  return views.slice(first, last + 1).map((key) => ({ ...key, seconds: key.seconds - start }));
+}
+
+export class FlightDeck {
+  readonly flight = new Value<Flight>({ name: "", keys: [] });
+  /** After the first key. */
+  readonly seconds = new Value(0);
+  readonly activity = new Value<Activity>(idle);
+  private views: FlightKey[] = [];
+  private frame: number | undefined;
+  private expected = 0;
+
+  constructor(
+    private readonly stage: Stage,
+    /** Tells the user what came of something. */
+    private readonly tell: (text: string) => void,
+  ) {}
+
+  get length(): number {
+    return secondsOf(this.flight.value);
+  }
+
+  load(flight: Flight): void {
+    this.stop();
+    this.flight.set(flight);
+    this.seconds.set(0);
+  }
+
+  edit(keys: readonly FlightKey[]): void {
+    this.stop();
+    this.flight.set({ ...this.flight.value, keys });
+    this.seconds.set(Math.min(this.seconds.value, this.length));
+  }
+
+  /** Shows where the flight is then. */
+  seek(seconds: number): void {
+    this.stop();
+    this.show(seconds);
+  }
+
+  private show(seconds: number): void {
+    this.seconds.set(seconds);
+    if (this.flight.value.keys.length === 0) return;
+    this.stage.move(cameraAt(this.flight.value, seconds));
+    this.expected = this.stage.movements;
+  }
+
+  /** Ends whatever goes on; a recording becomes the flight. */
+  stop(): void {
+    const { kind } = this.activity.value;
+    if (this.frame !== undefined) cancelAnimationFrame(this.frame);
+    this.frame = undefined;
+    this.activity.set(idle);
+    if (kind === "recording") this.finishRecording();
+  }
+
+  // ---- Recording
+
+  record(): void {
+    this.stop();
+    this.views = [];
+    this.activity.set({ kind: "recording" });
+    const start = performance.now();
+    const step = (): void => {
+      const seconds = (performance.now() - start) / 1000;
+      const before = this.views[this.views.length - 1]?.seconds ?? -1;
+      if (this.stage.camera !== null && seconds > before)
+        this.views.push({ seconds, camera: this.stage.camera });
+      this.seconds.set(seconds);
+      if (seconds > longestSeconds) this.stop();
+      else this.frame = requestAnimationFrame(step);
+    };
+    step();
+  }
+
+  private finishRecording(): void {
+    const views = trimmed(this.views);
+    this.views = [];
+    if (views.length < 2) {
+      this.seconds.set(0);
+      return this.tell("Nothing moved: the flight stays as it was");
+    }
+    const { keys, error } = fitKeys(views, tolerance);
+    this.flight.set({ ...this.flight.value, keys });
+    this.seconds.set(this.length);
+    const percent = Number((100 * error).toPrecision(2));
+    this.tell(
+      `${views.length} views as ${keys.length} keys, off by ${percent} % of the distance at most`,
+    );
+  }
+
+  // ---- Playing
+
+  play(): void {
+    this.stop();
+    if (this.flight.value.keys.length === 0) return this.tell("There is no flight to play yet");
+    const from = this.seconds.value < this.length ? this.seconds.value : 0;
+    const start = performance.now() - 1000 * from;
+    this.activity.set({ kind: "playing" });
+    this.show(from);
+    const step = (): void => {
+      // A hand that steers takes over.
+      if (this.stage.movements !== this.expected) return this.stop();
+      const seconds = (performance.now() - start) / 1000;
+      this.show(Math.min(seconds, this.length));
+      if (seconds >= this.length) this.stop();
+      else this.frame = requestAnimationFrame(step);
+    };
+    this.frame = requestAnimationFrame(step);
+  }
+
+  // ---- Pictures
+
+  /**
+   * Every picture of the flight, exact, and the flight, as a ZIP file; undefined where it was
+   * stopped. Throws an Error for the user to read where a picture does not come.
+   */
+  async draw(framesPerSecond: number): Promise<Blob | undefined> {
+    this.stop();
+    const flight = this.flight.value;
+    const frames = Math.floor(this.length * framesPerSecond + 1e-6) + 1;
+    const digits = Math.max(5, String(frames).length);
+    const size = JSON.stringify(this.stage.pictureSize);
+    const zip = new ZipWriter();
+    const mine = (frame: number): Activity => ({ kind: "drawing", frame, frames });
+    let activity = mine(0);
+    this.activity.set(activity);
+    try {
+      for (let i = 0; i < frames; ++i) {
+        this.show(i / framesPerSecond);
+        const picture = await this.exact(() => this.activity.value === activity);
+        if (picture === undefined) return undefined;
+        if (JSON.stringify(this.stage.pictureSize) !== size)
+          throw new Error("The window has changed its size meanwhile: pictures would differ");
+        await zip.add({ name: `${String(i + 1).padStart(digits, "0")}.png`, content: picture });
+        if (this.activity.value !== activity) return undefined;
+        activity = mine(i + 1);
+        this.activity.set(activity);
+      }
+      await zip.add({ name: "flight.json", content: new Blob([flightJson(flight)]) });
+      return zip.finish();
+    } finally {
+      if (this.activity.value === activity) this.activity.set(idle);
+    }
+  }
+
+  /** Undefined where it is no longer wanted. */
+  private async exact(isWanted: () => boolean): Promise<Blob | undefined> {
+    const deadline = performance.now() + exactWithin;
+    while (performance.now() < deadline) {
+      if (!isWanted()) return undefined;
+      if (this.stage.movements !== this.expected)
+        throw new Error("The view was moved meanwhile: no pictures are saved");
+      const picture = this.stage.exactNow();
+      if (picture !== undefined) return picture;
+      await new Promise((resolve) => setTimeout(resolve, 5));
+    }
+    throw new Error("A picture did not become exact within a minute");
+  }
+}

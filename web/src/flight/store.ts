@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// Flights that a person has named, kept by the browser.
+import type { BookmarkStorage } from "../bookmarks";
+import { flightJson, flightOfJson } from "./file";
+import type { Flight } from "./flight";
+
+const key = "eyrie.flights";
+
+/** In the order of their names; what cannot be read is left out. */
+export function readFlights(storage: BookmarkStorage): Flight[] {
+  try {
+    const texts: unknown = JSON.parse(storage.getItem(key) ?? "[]");
+    if (!Array.isArray(texts)) return [];
+    return texts.flatMap((text: unknown) => {
+      try {
+        return typeof text === "string" ? [flightOfJson(text, "flight")] : [];
+      } catch {
+        return [];
+      }
+    });
+  } catch {
+    return [];
+  }
+}
+
+function write(storage: BookmarkStorage, flights: readonly Flight[]): boolean {
+  const sorted = [...flights].sort((a, b) => a.name.localeCompare(b.name));
+  try {
+    storage.setItem(key, JSON.stringify(sorted.map(flightJson)));
+    return true;
+  } catch {
+    return false; // full, or forbidden
+  }
+}
+
+const others = (storage: BookmarkStorage, name: string): Flight[] =>
+  readFlights(storage).filter((one) => one.name !== name);
+
+/** Replaces one of the same name; false where the browser keeps no more. */
+export const keepFlight = (storage: BookmarkStorage, flight: Flight): boolean =>
+  write(storage, [...others(storage, flight.name), flight]);
+
+export function removeFlight(storage: BookmarkStorage, name: string): void {
+  write(storage, others(storage, name));
+}

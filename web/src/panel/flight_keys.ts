@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// The keys of a flight, to go to, move in time, replace and delete.
+import type { FlightDeck } from "../flight/deck";
+import type { FlightKey } from "../flight/flight";
+import { withCamera, withKey, withoutKey, withTime } from "../flight/flight";
+import type { State } from "../state";
+import type { Viewer } from "../viewer";
+import { button, make, setText } from "./element";
+import { onKeys } from "./keys";
+
+/** Rows at once: of a longer flight those about the time that is shown. */
+export const rowsShown = 30;
+/** What a new key at the end adds. */
+const secondsPerKey = 2;
+
+/** The first of the rows to show, of `count` keys, when `current` is where the flight is. */
+export function firstRow(count: number, current: number): number {
+  return Math.max(0, Math.min(current - Math.floor(rowsShown / 2), count - rowsShown));
+}
+
+/** The key that the flight is at or has passed last. */
+function currentKey(keys: readonly FlightKey[], seconds: number): number {
+  const time = (keys[0]?.seconds ?? 0) + seconds + 1e-9;
+  return Math.max(0, keys.filter((key) => key.seconds <= time).length - 1);
+}
+
+/** Where a new key goes: where the flight is, or after its end. */
+export function timeOfNewKey(keys: readonly FlightKey[], seconds: number): number {
+  const [first, last] = [keys[0], keys[keys.length - 1]];
+  if (first === undefined || last === undefined) return 0;
+  const time = first.seconds + seconds;
+  const isAtKey = keys.some((key) => Math.abs(key.seconds - time) < 1e-6);
+  return isAtKey ? last.seconds + secondsPerKey : time;
+}
+
+export function keyList(
+  deck: FlightDeck,
+  state: State,
+  viewer: Viewer,
+  open: () => void,
+): HTMLElement {
+  const rows = make("div", "flight-keys");
+  rows.setAttribute("role", "group");
+  rows.ariaLabel = "Keys";
+  const note = make("p", "note");
+  const keysNow = (): readonly FlightKey[] => deck.flight.value.keys;
+
+  const row = (key: FlightKey, index: number): HTMLElement => {
+    const name = `key ${index + 1}`;
+    const seconds = make("input", "percent");
+    seconds.type = "number";
+    seconds.step = "0.1";
+    seconds.value = String(Number(key.seconds.toFixed(3)));
+    seconds.ariaLabel = `Seconds of ${name}`;
+    seconds.addEventListener("change", () => {
+      const moved = withTime(keysNow(), index, seconds.valueAsNumber);
+      if (moved !== undefined) return deck.edit(moved);
+      state.notice.set("A key has a time of its own, in seconds");
+      seconds.value = String(Number(key.seconds.toFixed(3)));
+    });
+    const show = button("Show", `Show ${name}`, () =>
+      deck.seek(key.seconds - (keysNow()[0]?.seconds ?? 0)),
+    );
+    const replace = button("Replace", `Let ${name} show what is seen now`, () => {
+      if (viewer.camera !== null) deck.edit(withCamera(keysNow(), index, viewer.camera));
+    });
+    const remove = button("×", `Remove ${name}`, () => {
+      deck.edit(withoutKey(keysNow(), index));
+      const next = rows.querySelectorAll<HTMLElement>(".flight-key .small:last-child");
+      (next[Math.min(index, next.length - 1)] ?? add).focus();
+    });
+    for (const one of [show, replace, remove]) one.ariaLabel = one.title;
+    return make("div", "flight-key", seconds, show, replace, remove);
+  };
+
+  const fill = (): void => {
+    const keys = keysNow();
+    const first = firstRow(keys.length, currentKey(keys, deck.seconds.value));
+    const shown = keys.slice(first, first + rowsShown);
+    rows.replaceChildren(...shown.map((key, i) => row(key, first + i)));
+    note.hidden = keys.length <= rowsShown;
+    setText(note, `Keys ${first + 1} to ${first + shown.length} of ${keys.length}`);
+  };
+  const addKey = (): void => {
+    open();
+    if (viewer.camera === null) return;
+    const { camera } = viewer;
+    const seconds = timeOfNewKey(keysNow(), deck.seconds.value);
+    deck.edit(withKey(keysNow(), { seconds, camera }));
+    deck.seconds.set(seconds - (keysNow()[0]?.seconds ?? 0));
+  };
+  const add = button("Add key", "Let the flight show, at this time, what is seen now (N)", addKey);
+  onKeys({ n: addKey });
+  deck.flight.watch(fill);
+  // Another part of a long flight, once it stands there.
+  deck.activity.watch(({ kind }) => kind === "idle" && keysNow().length > rowsShown && fill());
+  const box = make("details", "flight-box", make("summary", "label", "Keys"), rows, note);
+  deck.flight.watch(({ keys }) => setText(box.firstElementChild ?? box, `Keys (${keys.length})`));
+  return make("div", "field", box, make("div", "small-buttons", add));
+}
