@@ -83,9 +83,11 @@ private:
             const double noise = 0.9 + 0.002 * static_cast<double>(frameNumber_ * 37 % 100);
             EncodedFrame encoded;
             encoded.frameNumber = frameNumber_;
-            encoded.picture.resize(
+            EncodedPicture picture;
+            picture.bytes.resize(
                 static_cast<std::size_t>(noise * settings_.bytesAtBest * sizes_[level_]));
-            quality_.encoded(level_, encoded.picture.size(), kPixels);
+            quality_.encoded(level_, picture.bytes.size(), kPixels);
+            encoded.picture = std::make_shared<const EncodedPicture>(std::move(picture));
             outbox_.putFrame({std::move(encoded), frame_, startedAt_});
         }
         if (!isRendering_ && outbox_.hasRoom(0)) {
