@@ -5,6 +5,7 @@ eyrie_test(viewer_test LABEL unit
                    session_fairness_test.cpp session_test.cpp viewer_pick_test.cpp
                    viewer_test.cpp viewer_view_test.cpp
            LINK eyrie::stream eyrie::jpeg eyrie::png eyrie::proto)
+eyrie_test(shared_session_test LABEL unit LINK eyrie::http eyrie::test_viewer)
 eyrie_test(http_server_test LABEL unit LINK eyrie::http eyrie::jpeg eyrie::proto Boost::headers
                                             Threads::Threads)
 if(EYRIE_SANITIZE MATCHES thread)
