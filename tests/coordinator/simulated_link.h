@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <deque>
 #include <functional>
 #include <map>
@@ -31,6 +32,9 @@ public:
         /// What the browser's threads take before they see a message, and up to how much more.
         Time threads{0};
         Time hiccups{0};
+        /// How often the page takes its input and sends a view; 0: with each acknowledgement, which
+        /// is when a frame may start.
+        Time viewsEvery{0};
         double bytesAtBest = 52'000;  ///< a moving frame of 1280x720 at level 0
     };
 
@@ -96,8 +100,15 @@ private:
             isRendering_ = true;
             startedAt_ = clock();
             renderedAt_ = now_ + settings_.rendering + settings_.encoding;
-            made_[++frameNumber_] = {now_ - settings_.roundTrip / 2, level_};
+            made_[++frameNumber_] = {inputOf(now_ - settings_.roundTrip / 2), level_};
         }
+    }
+
+    /// When the newest input was made of those sent by then: on average half an interval before it
+    /// was taken.
+    Time inputOf(Time sent) const {
+        const Time every = settings_.viewsEvery;
+        return every == Time(0) ? sent : every * (std::floor(sent / every) - 0.5);
     }
 
     void send() {
