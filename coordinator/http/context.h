@@ -9,6 +9,7 @@
 
 #include "coordinator/http/server.h"
 #include "coordinator/http/static_files.h"
+#include "coordinator/stream/sessions.h"
 
 namespace eyrie::http {
 
@@ -34,6 +35,8 @@ struct Context {
     std::function<void()> sessionEnded;
     /// Ends viewers, which may mean to wait for a frame being rendered.
     boost::asio::thread_pool reaper{1};
+    /// What viewers see, by themselves or together.
+    stream::Sessions viewing{frames};
 };
 
 /// A connection's place among the `maxConnections`; held until its viewer, too, has ended.

@@ -102,10 +102,14 @@ private:
                              context_.isLoopback))
             return reply(textResponse(403, "Pages of other sites may not connect to this server."),
                          false);
+        const auto joining = stream::joiningOf(view(request.target()));
+        if (!joining.ok())
+            return reply(textResponse(400, std::string(joining.status().message())), false);
         std::ostringstream received;
         received << request << beast::buffers_to_string(buffer_.data());
         stream_.expires_never();
-        openWebSocket(stream_.release_socket(), received.str(), context_, std::move(slot_));
+        openWebSocket(stream_.release_socket(), received.str(), *joining, context_,
+                      std::move(slot_));
     }
 
     void reply(const Response& response, bool keepAlive) {

@@ -28,7 +28,8 @@ struct ServerOptions {
 /// The door for browsers: HTTP/1.1 and the viewer's WebSocket on one port.
 ///
 ///   /          the UI, from webFolder (read once, at start)
-///   /ws        viewer.proto over binary WebSocket messages; cross-origin requests get 403
+///   /ws        viewer.proto over binary WebSocket messages; ?session=NAME shares a view, with
+///              &role=watch without moving it; cross-origin requests get 403
 ///   /healthz   200 while the process lives
 ///   /readyz    200 while a renderer is alive and a scene is open, 503 otherwise; JSON says why
 ///   /api/v1/status   the same JSON, always 200

@@ -33,11 +33,13 @@ constexpr char kPulsePayload[] = "pulse";
 
 class WebSocket : public Session, public std::enable_shared_from_this<WebSocket> {
 public:
-    WebSocket(tcp::socket socket, std::string received, Context& context, Slot slot)
+    WebSocket(tcp::socket socket, std::string received, stream::Joining joining, Context& context,
+              Slot slot)
         : stream_(std::move(socket)),
           writeDeadline_(stream_.get_executor()),
           pulse_(stream_.get_executor()),
           received_(std::move(received)),
+          joining_(std::move(joining)),
           context_(context),
           slot_(std::move(slot)) {
         context_.sessions.insert(this);
@@ -85,7 +87,8 @@ private:
     void accepted() {
         received_.clear();
         viewer_ = std::make_shared<stream::Viewer>(
-            context_.frames, [weak = weak_from_this(), executor = stream_.get_executor()] {
+            context_.viewing, joining_,
+            [weak = weak_from_this(), executor = stream_.get_executor()] {
                 boost::asio::post(executor, [weak] {
                     if (const auto self = weak.lock())
                         self->write();
@@ -212,6 +215,7 @@ private:
     bool isPulsing_ = false;
     std::optional<std::chrono::steady_clock::time_point> pingedAt_;  ///< and not answered yet
     std::string received_;
+    const stream::Joining joining_;
     beast::flat_buffer buffer_;
     std::string outgoing_;
     bool isWriting_ = false;
@@ -223,8 +227,10 @@ private:
 
 }  // namespace
 
-void openWebSocket(tcp::socket socket, std::string received, Context& context, Slot slot) {
-    std::make_shared<WebSocket>(std::move(socket), std::move(received), context, std::move(slot))
+void openWebSocket(tcp::socket socket, std::string received, const stream::Joining& joining,
+                   Context& context, Slot slot) {
+    std::make_shared<WebSocket>(std::move(socket), std::move(received), joining, context,
+                                std::move(slot))
         ->accept();
 }
 

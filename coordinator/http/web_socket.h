@@ -9,9 +9,9 @@
 
 namespace eyrie::http {
 
-/// Makes a viewer of a connection. `received` is what came over it so far: the request for the
-/// upgrade and what followed. Lives as long as the connection.
-void openWebSocket(boost::asio::ip::tcp::socket socket, std::string received, Context& context,
-                   Slot slot);
+/// Makes a viewer of a connection, in the session that it asks for. `received` is what came over it
+/// so far: the request for the upgrade and what followed. Lives as long as the connection.
+void openWebSocket(boost::asio::ip::tcp::socket socket, std::string received,
+                   const stream::Joining& joining, Context& context, Slot slot);
 
 }  // namespace eyrie::http

@@ -16,10 +16,12 @@ constexpr double kSecondsInParts = 0.1;
 /// 5 Mbit/s carry them in 0.4 s.
 constexpr std::size_t kMostInFrames = 256 * 1024;
 
-bool isStill(const OutgoingFrame& frame) { return frame.encoded.fineness != Fineness::Moving; }
+bool isStill(const OutgoingFrame& frame) {
+    return frame.encoded.picture->fineness != Fineness::Moving;
+}
 
 std::size_t headBytes(const OutgoingFrame& frame) {
-    const std::size_t whole = frame.encoded.picture.size();
+    const std::size_t whole = frame.encoded.picture->bytes.size();
     return isStill(frame) ? std::min(whole, kPartBytes) : whole;
 }
 
@@ -69,7 +71,7 @@ std::string Outbox::takeFrame(Clock::time_point now) {
     OutgoingFrame frame = *std::exchange(waiting_, std::nullopt);
     EncodedFrame& encoded = frame.encoded;
     const std::size_t bytes = headBytes(frame);
-    const bool isWhole = bytes == encoded.picture.size();
+    const bool isWhole = bytes == encoded.picture->bytes.size();
     encoded.linkBytesPerSecond = link_.bytesPerSecond(now).value_or(0);
     std::string message = frameMessage(encoded, *frame.rendered, bytes);
     pacer_.sent(encoded.frameNumber, frame.started, !isStill(frame));
@@ -80,12 +82,12 @@ std::string Outbox::takeFrame(Clock::time_point now) {
 }
 
 std::string Outbox::takePart(Clock::time_point now) {
-    const std::span<const std::byte> left = std::span(rest_->picture).subspan(rest_->offset);
+    const std::span<const std::byte> left = std::span(rest_->picture->bytes).subspan(rest_->offset);
     const std::span<const std::byte> part = left.first(std::min(left.size(), kPartBytes));
     std::string message = framePartMessage(rest_->frameNumber, rest_->offset, part);
     rest_->offset += part.size();
     link_.sent(rest_->frameNumber, rest_->offset, message.size(), now);
-    if (rest_->offset == rest_->picture.size())
+    if (rest_->offset == rest_->picture->bytes.size())
         rest_.reset();
     return message;
 }

@@ -6,7 +6,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "coordinator/stream/link_estimate.h"
 #include "coordinator/stream/pacer.h"
@@ -69,7 +68,7 @@ private:
     std::optional<OutgoingFrame> waiting_;
     struct Rest {
         std::uint64_t frameNumber = 0;
-        std::vector<std::byte> picture;
+        std::shared_ptr<const EncodedPicture> picture;
         std::size_t offset = 0;  ///< of what has not been taken
     };
     std::optional<Rest> rest_;

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/stream/picture_encoder.h"
 
+#include <optional>
+
+#include "coordinator/stream/drawing.h"
 #include "coordinator/stream/quality.h"
+#include "coordinator/stream/shrink.h"
 #include "fabric/pixel_hash.h"
 #include "fabric/status.h"
 #include "wire/jpeg.h"
@@ -12,26 +16,37 @@ namespace {
 
 constexpr int kFineQuality = 95;
 
+/// Nothing where it is no larger than the level asks for.
+std::optional<fabric::Image> shrunkFor(const Picture& picture, int level) {
+    const fabric::Image& image = picture.frame->image;
+    const coordinator::FrameRequest wanted =
+        drawingOf(picture.view, nullptr, QualityControl::level(level).scale);
+    if (wanted.width >= image.area.width || wanted.height >= image.area.height)
+        return std::nullopt;
+    return shrunk(image, wanted.width, wanted.height);
+}
+
 }  // namespace
 
-absl::StatusOr<EncodedFrame> encodePicture(const Picture& picture, Fineness fineness,
-                                           std::uint64_t frameNumber) {
-    const fabric::Image& image = picture.frame->image;
-    EncodedFrame encoded;
-    encoded.frameNumber = frameNumber;
-    encoded.viewSequence = picture.view.sequence;
-    encoded.fineness = fineness;
-    encoded.liftedCamera = picture.liftedCamera;
-    if (fineness == Fineness::Exact) {
-        ASSIGN_OR_RETURN(encoded.picture, wire::encodePng(image));
+absl::StatusOr<EncodedPicture> encodePicture(const Picture& picture, const QualityClass& as) {
+    std::optional<fabric::Image> smaller;
+    if (as.fineness == Fineness::Moving && as.level > picture.level)
+        smaller = shrunkFor(picture, as.level);
+    const fabric::Image& image = smaller ? *smaller : picture.frame->image;
+    EncodedPicture encoded;
+    encoded.fineness = as.fineness;
+    encoded.width = image.area.width;
+    encoded.height = image.area.height;
+    if (as.fineness == Fineness::Exact) {
+        ASSIGN_OR_RETURN(encoded.bytes, wire::encodePng(image));
         encoded.pixelHash = fabric::pixelHash(image);
         return encoded;
     }
-    const bool isMoving = fineness == Fineness::Moving;
-    encoded.quality = isMoving ? QualityControl::level(picture.level).quality : kFineQuality;
-    ASSIGN_OR_RETURN(encoded.picture, wire::encodeJpeg(image, encoded.quality,
-                                                       isMoving ? wire::ChromaSubsampling::Half
-                                                                : wire::ChromaSubsampling::None));
+    const bool isMoving = as.fineness == Fineness::Moving;
+    encoded.quality = isMoving ? QualityControl::level(as.level).quality : kFineQuality;
+    ASSIGN_OR_RETURN(encoded.bytes, wire::encodeJpeg(image, encoded.quality,
+                                                     isMoving ? wire::ChromaSubsampling::Half
+                                                              : wire::ChromaSubsampling::None));
     return encoded;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <compare>
+
 #include <absl/status/statusor.h>
 
 #include "coordinator/stream/progress.h"
@@ -8,9 +10,17 @@
 
 namespace eyrie::stream {
 
-/// `picture` as it goes to a browser, by its fineness: a JPEG as its level says, one of quality 95
-/// without loss in chroma, or a PNG with its hash. Errors: those of wire::encodeJpeg and encodePng.
-absl::StatusOr<EncodedFrame> encodePicture(const Picture& picture, Fineness fineness,
-                                           std::uint64_t frameNumber);
+/// What is encoded once for all browsers that are to have it so.
+struct QualityClass {
+    Fineness fineness = Fineness::Moving;
+    int level = 0;  ///< QualityControl's; of still ones 0
+
+    auto operator<=>(const QualityClass&) const = default;
+};
+
+/// `picture` as browsers get it: a JPEG as the level says, shrunk to its scale where it was drawn
+/// larger, one of quality 95 without loss in chroma, or a PNG with its hash. Errors: those of
+/// wire::encodeJpeg and encodePng.
+absl::StatusOr<EncodedPicture> encodePicture(const Picture& picture, const QualityClass& as);
 
 }  // namespace eyrie::stream

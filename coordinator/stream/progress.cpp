@@ -51,21 +51,19 @@ bool Progress::isWaitingToRetry(Clock::time_point now) const {
 bool Progress::mayRender(Clock::time_point now) const {
     const bool isRedrawDue = redrawAt_.has_value() && now >= *redrawAt_;
     return (isRenderNeeded_ || isRedrawDue || (needsFull() && hasRested(now))) &&
-           wanted_.has_value() && !rendered_.has_value() && !isWaitingToRetry(now);
+           wanted_.has_value() && !isWaitingToRetry(now);
 }
 
-/// The last picture shows the view that is wanted.
+/// The newest picture shows the view that is wanted.
 bool Progress::isShown() const {
-    return last_.has_value() && !isRenderNeeded_ && !isLoading_ && !isRendering_ &&
-           !rendered_.has_value() && isSame(last_->view, *wanted_);
+    return newest_ != nullptr && !isRenderNeeded_ && !isLoading_ && rendering_ == 0 &&
+           isSame(newest_->view, *wanted_);
 }
 
 /// It was drawn within a limit: at rest the view is drawn once more, without.
-bool Progress::needsFull() const { return isShown() && isBelowAsked(*last_); }
+bool Progress::needsFull() const { return isShown() && isBelowAsked(*newest_); }
 
-bool Progress::needsFiner() const {
-    return isShown() && lastFineness_ != Fineness::Exact && !isBelowAsked(*last_);
-}
+bool Progress::isBest() const { return isShown() && !isBelowAsked(*newest_); }
 
 std::optional<Clock::time_point> Progress::nextRender(Clock::time_point now) const {
     if (isWaitingToRetry(now))
@@ -78,11 +76,11 @@ std::optional<Clock::time_point> Progress::nextRender(Clock::time_point now) con
 void Progress::renderStarted() {
     isRenderNeeded_ = false;
     redrawAt_.reset();
-    isRendering_ = true;
+    ++rendering_;
 }
 
 void Progress::rendered(Picture picture, Clock::time_point now) {
-    isRendering_ = false;
+    --rendering_;
     retryAt_.reset();
     const fabric::FrameStatistics& statistics = picture.frame->statistics;
     if (isSame(picture.view, *wanted_)) {
@@ -91,56 +89,37 @@ void Progress::rendered(Picture picture, Clock::time_point now) {
         if (!statistics.complete)
             redrawAt_ = now + (isLoading_ ? options_.loadingDelay : options_.missingDelay);
     }
-    rendered_ = std::move(picture);
+    picture.number = ++lastNumber_;
+    newest_ = std::make_shared<const Picture>(std::move(picture));
 }
 
 void Progress::renderFailed(Clock::time_point now) {
-    isRendering_ = false;
+    --rendering_;
     // A newer view is drawn at once; the same one, after a while.
     if (!isRenderNeeded_)
         retryAt_ = now + options_.retryDelay;
     isRenderNeeded_ = true;
 }
 
-std::optional<Picture> Progress::takePicture(bool hasRoom, Clock::time_point now) {
-    std::optional<Picture> picture;
-    if (rendered_.has_value()) {
-        picture = std::exchange(rendered_, std::nullopt);
-    } else if (needsFiner() && hasRested(now) && hasRoom) {
-        picture = last_;
-        picture->started = now;
-    } else {
+std::optional<Fineness> Progress::next(const Delivered& delivered, Clock::time_point now) const {
+    if (newest_ == nullptr)
         return std::nullopt;
-    }
-    isEncoding_ = true;
-    // The same view may have come again meanwhile: this is the answer to that, too.
-    if (isSame(picture->view, *wanted_))
-        picture->view.sequence = wanted_->sequence;
-    return picture;
+    const bool mayBeStill = isBest() && hasRested(now);
+    if (delivered.picture != newest_->number)
+        return mayBeStill ? Fineness::Fine : Fineness::Moving;
+    if (!mayBeStill || delivered.fineness == Fineness::Exact)
+        return std::nullopt;
+    return delivered.fineness == Fineness::Fine ? Fineness::Exact : Fineness::Fine;
 }
 
 std::optional<Clock::time_point> Progress::nextFiner(Clock::time_point now) const {
-    if (!needsFiner() || hasRested(now))
+    if (!isBest() || hasRested(now))
         return std::nullopt;
     return wantedSince_ + options_.restDelay;
 }
 
-Fineness Progress::fineness(const Picture& picture, Clock::time_point now) const {
-    if (!hasRested(now) || !isSame(picture.view, *wanted_) || isRenderNeeded_ || isLoading_ ||
-        isBelowAsked(picture))
-        return Fineness::Moving;
-    const bool isOfLast = last_.has_value() && last_->frame == picture.frame;
-    return isOfLast && lastFineness_ == Fineness::Fine ? Fineness::Exact : Fineness::Fine;
-}
-
-void Progress::encoded(Picture picture, Fineness fineness, bool isLost) {
-    isEncoding_ = false;
-    lastFineness_ = isLost ? Fineness::Exact : fineness;
-    last_ = std::move(picture);
-}
-
-int Progress::underWay() const {
-    return (isRendering_ ? 1 : 0) + (rendered_.has_value() ? 1 : 0) + (isEncoding_ ? 1 : 0);
+const ViewRequest& Progress::answered(const Picture& picture) const {
+    return isSame(picture.view, *wanted_) ? *wanted_ : picture.view;
 }
 
 }  // namespace eyrie::stream

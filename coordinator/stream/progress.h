@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <memory>
 #include <optional>
 
@@ -16,7 +17,14 @@ struct Picture {
     std::shared_ptr<const coordinator::RenderedFrame> frame;
     Clock::time_point started;
     std::optional<fabric::Camera> liftedCamera = {};  ///< shown where the view's is under ground
-    int level = 0;                                    ///< QualityControl's, that it was drawn for
+    int level = 0;             ///< the best of QualityControl's that it is large enough for
+    std::uint64_t number = 0;  ///< 1, 2, … in the order in which they were drawn
+};
+
+/// What a browser has been given last.
+struct Delivered {
+    std::uint64_t picture = 0;  ///< Picture::number; 0: none
+    Fineness fineness = Fineness::Moving;
 };
 
 struct ProgressOptions {
@@ -26,10 +34,10 @@ struct ProgressOptions {
     std::chrono::milliseconds missingDelay;
 };
 
-/// How far the wanted view has come on its way to one browser, and so what is to be done next:
-/// drawn as long as it moves; when it has rested, drawn once more where a limit had been set or
-/// data were missing, then sent nearly exact, then exact. Then nothing, until something changes.
-/// Not thread-safe.
+/// How far the wanted view has come, and so what is to be done next: drawn as long as it moves;
+/// when it has rested, drawn once more where a limit had been set or data were missing, then sent
+/// to each browser nearly exact, then exact. Then nothing, until something changes. Not
+/// thread-safe.
 class Progress {
 public:
     explicit Progress(const ProgressOptions& options) : options_(options) {}
@@ -44,7 +52,7 @@ public:
     /// The view has not moved for a while.
     bool hasRested(Clock::time_point now) const;
 
-    // ---- Drawing, by one thread.
+    // ---- Drawing.
 
     bool mayRender(Clock::time_point now) const;
     /// When a frame is next to be drawn although nothing changes.
@@ -52,26 +60,25 @@ public:
     void renderStarted();
     void rendered(Picture picture, Clock::time_point now);
     void renderFailed(Clock::time_point now);
+    int rendering() const { return rendering_; }  ///< frames that are being drawn
 
-    // ---- Encoding, by another.
+    // ---- Sending.
 
-    /// The picture to encode next, if there is one that has not been, or one to be sent finer;
-    /// the second only where `hasRoom`.
-    std::optional<Picture> takePicture(bool hasRoom, Clock::time_point now);
-    /// When one is next to be sent finer although nothing changes.
+    /// Drawn last; null before any.
+    const std::shared_ptr<const Picture>& newest() const { return newest_; }
+    /// The newest picture is the best there is of the view that is wanted.
+    bool isBest() const;
+    /// How fine a browser that has `delivered` is now to get the newest picture; nothing where it
+    /// has all there is.
+    std::optional<Fineness> next(const Delivered& delivered, Clock::time_point now) const;
+    /// When next() may change although nothing else does.
     std::optional<Clock::time_point> nextFiner(Clock::time_point now) const;
-    /// How fine to send `picture` now.
-    Fineness fineness(const Picture& picture, Clock::time_point now) const;
-    /// `isLost`: it could not be encoded, and will not be tried again.
-    void encoded(Picture picture, Fineness fineness, bool isLost);
-
-    /// How many frames are being drawn, encoded or wait for that.
-    int underWay() const;
+    /// The view that `picture` answers: the same may have been asked for again meanwhile.
+    const ViewRequest& answered(const Picture& picture) const;
 
 private:
     bool isShown() const;
     bool needsFull() const;
-    bool needsFiner() const;
     bool isWaitingToRetry(Clock::time_point now) const;
 
     const ProgressOptions options_;
@@ -81,12 +88,9 @@ private:
     std::optional<Clock::time_point> retryAt_;   ///< set after a failure
     std::optional<Clock::time_point> redrawAt_;  ///< set after an incomplete frame of this view
     bool isLoading_ = false;                     ///< it lacked data that are on their way
-
-    bool isRendering_ = false;
-    std::optional<Picture> rendered_;  ///< for the encoder to take
-    bool isEncoding_ = false;
-    std::optional<Picture> last_;  ///< that was encoded
-    Fineness lastFineness_ = Fineness::Moving;
+    int rendering_ = 0;
+    std::shared_ptr<const Picture> newest_;
+    std::uint64_t lastNumber_ = 0;
 };
 
 }  // namespace eyrie::stream

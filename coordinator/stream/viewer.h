@@ -4,52 +4,34 @@
 #include <chrono>
 #include <cstddef>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 
 #include <absl/status/status.h>
 
-#include "coordinator/frame/frame_source.h"
+#include "coordinator/stream/pick_desk.h"
+#include "coordinator/stream/sessions.h"
 
 namespace eyrie::stream {
 
-struct ViewerOptions {
-    /// Frames that may be under way at once; absent leaves it to the Pacer's rule.
-    std::optional<int> framesInFlight;
-    /// How long a view rests before it is sent once more, nearly exact and then exact.
-    std::chrono::milliseconds restDelay{150};
-    /// How long after a failed frame the same view is tried again.
-    std::chrono::milliseconds retryDelay{1000};
-    /// After a frame that shows less than it should because data are still being loaded, the same
-    /// view is drawn again, with this pause for the loading.
-    std::chrono::milliseconds loadingDelay{30};
-    /// The same when all that is missing could not be read, and may be readable later.
-    std::chrono::milliseconds missingDelay{5000};
-};
-
 /// One browser's stream of frames, without the network: bytes come in by receive() and go out by
-/// takeMessage(), so nothing is ever queued for a browser that does not keep up.
+/// takeMessage(), so nothing is ever queued for a browser that does not keep up. What it sees is a
+/// Session's, which it may share with others.
 ///
-/// The newest view request replaces the one before. A render thread draws it while a second thread
-/// encodes the frame before. At most as many frames are under way as the Pacer says, each as large
-/// as QualityControl says, and an encoded frame that still waits is replaced by a newer one. A view
-/// that rests is sent as a JPEG of quality 95, and then as a PNG that is the server's picture bit
-/// for bit; what has not been sent of them when it moves again never is. Nothing is rendered or
-/// sent while neither the view nor the scene nor the renderers change and the last frame is
-/// complete. A frame that fails leaves the last picture in place and becomes the state's problem
-/// text.
+/// At most as many frames are under way to it as the Pacer says, each as large as QualityControl
+/// says, and an encoded frame that still waits is replaced by a newer one. A frame that fails
+/// leaves the last picture in place and becomes the state's problem text.
 ///
 /// All functions may be called from any thread.
 class Viewer {
 public:
     /// Calls `messageReady`, from any thread and without locks held, when takeMessage() may have
-    /// something new. `frames` outlives the viewer.
-    Viewer(coordinator::FrameSource& frames, std::function<void()> messageReady,
-           const ViewerOptions& options = {});
+    /// something new. `sessions` outlives the viewer.
+    Viewer(Sessions& sessions, const Joining& joining, const std::function<void()>& messageReady);
 
-    /// Waits for the frame being rendered. `messageReady` is not called afterwards.
+    /// `messageReady` is not called afterwards. The last viewer of a session waits for the frame
+    /// being rendered.
     ~Viewer();
     Viewer(const Viewer&) = delete;
     Viewer& operator=(const Viewer&) = delete;
@@ -69,12 +51,13 @@ public:
     /// acknowledged; absent while there is none.
     std::optional<std::chrono::steady_clock::duration> unacknowledgedFor() const;
 
-    /// Makes the threads end soon, without waiting for them; the destructor waits.
+    /// Leaves the session; makes threads end soon, without waiting for them.
     void stop();
 
 private:
-    class Impl;
-    std::unique_ptr<Impl> impl_;
+    Sessions& sessions_;
+    const Sessions::Joined joined_;
+    PickDesk picks_;
 };
 
 }  // namespace eyrie::stream

@@ -5,12 +5,9 @@
 #include <chrono>
 
 #include "coordinator/stream/home_camera.h"
-#include "eyrie/v1/frame.pb.h"
-#include "eyrie/v1/look.pb.h"
 #include "eyrie/v1/viewer.pb.h"
 #include "fabric/status.h"
 #include "wire/camera.h"
-#include "wire/frame.h"
 #include "wire/pick.h"
 #include "wire/scene_info.h"
 #include "wire/statistics.h"
@@ -19,54 +16,6 @@ namespace eyrie::stream {
 namespace {
 
 constexpr std::size_t kMaxProblemBytes = 400;
-
-/// What this version does not know is as if it were not said.
-coordinator::Shown shownFromMessage(const v1::ShownPicture& message) {
-    using compound::Eye;
-    using compound::Stereo;
-    coordinator::Shown shown;
-    shown.canvas = message.canvas();
-    shown.segment = message.segment();
-    if (message.eye() == v1::SHOWN_EYE_CYCLOP)
-        shown.eye = Eye::Cyclop;
-    else if (message.eye() == v1::SHOWN_EYE_LEFT)
-        shown.eye = Eye::Left;
-    else if (message.eye() == v1::SHOWN_EYE_RIGHT)
-        shown.eye = Eye::Right;
-    if (message.stereo() == v1::SHOWN_STEREO_ANAGLYPH)
-        shown.stereo = Stereo::Anaglyph;
-    else if (message.stereo() == v1::SHOWN_STEREO_SIDE_BY_SIDE)
-        shown.stereo = Stereo::SideBySide;
-    else if (message.stereo() == v1::SHOWN_STEREO_TOP_BOTTOM)
-        shown.stereo = Stereo::TopBottom;
-    return shown;
-}
-
-absl::StatusOr<ViewRequest> viewFromMessage(const v1::ViewRequest& message) {
-    v1::FrameData data;
-    data.set_version(1);
-    *data.mutable_camera() = message.camera();
-    data.set_tau_pixels(message.tau_pixels());
-    data.set_shading(message.shading());
-    *data.mutable_look() = message.look();
-    ASSIGN_OR_RETURN(const fabric::FrameData frameData, wire::fromMessage(data));
-    ViewRequest view;
-    view.sequence = message.sequence();
-    view.frame.camera = frameData.camera;
-    view.frame.tauPixels = frameData.tauPixels;
-    view.frame.shading = frameData.shading;
-    view.frame.look = frameData.look;
-    view.isUnderground = message.underground();
-    if (message.has_budget_milliseconds()) {
-        RETURN_IF_ERROR(fabric::validateBudgetMilliseconds(message.budget_milliseconds()));
-        view.frame.budgetMilliseconds = message.budget_milliseconds();
-    }
-    view.frame.shown = {shownFromMessage(message.shown())};
-    view.frame.completeness = fabric::Completeness::Interactive;
-    view.frame.width = std::clamp(message.width(), kMinPictureSide, kMaxPictureSide);
-    view.frame.height = std::clamp(message.height(), kMinPictureSide, kMaxPictureSide);
-    return view;
-}
 
 v1::RendererCondition toMessage(coordinator::RendererCondition condition) {
     using enum coordinator::RendererCondition;
@@ -135,8 +84,9 @@ absl::StatusOr<Request> parseRequest(std::span<const std::byte> bytes) {
         return absl::DataLossError("not an eyrie.v1.ViewerRequest");
     switch (message.request_case()) {
         case v1::ViewerRequest::kView: {
-            ASSIGN_OR_RETURN(ViewRequest view, viewFromMessage(message.view()));
-            return view;
+            absl::StatusOr<ViewRequest> view = viewFromMessage(message.view());
+            RETURN_IF_ERROR(view.status());
+            return absl::StatusOr<Request>(absl::in_place, *std::move(view));
         }
         case v1::ViewerRequest::kFrameAck:
             return ackFromMessage(message.frame_ack());
@@ -148,13 +98,16 @@ absl::StatusOr<Request> parseRequest(std::span<const std::byte> bytes) {
         case v1::ViewerRequest::kSwitchLayout:
             return coordinator::SwitchLayout{message.switch_layout().canvas(),
                                              message.switch_layout().layout()};
+        case v1::ViewerRequest::kLead:
+            return TakeLead{};
         case v1::ViewerRequest::REQUEST_NOT_SET:
             break;
     }
     return absl::DataLossError("an eyrie.v1.ViewerRequest without a request");
 }
 
-std::string stateMessage(const coordinator::Status& status, std::string_view problem) {
+std::string stateMessage(const coordinator::Status& status, std::string_view problem,
+                         const Place& place) {
     v1::ViewerResponse response;
     v1::SessionState& state = *response.mutable_state();
     for (const coordinator::RendererStatus& renderer : status.renderers) {
@@ -182,6 +135,10 @@ std::string stateMessage(const coordinator::Status& status, std::string_view pro
         message.set_layout(sanitised(canvas.layout));
     }
     state.set_scene_triangles(status.sceneInfo.triangles);
+    state.mutable_place()->set_session(place.session);
+    state.mutable_place()->set_viewers(place.viewers);
+    state.mutable_place()->set_leads(place.leads);
+    state.mutable_place()->set_led(place.isLed);
     state.set_problem(sanitised(problem.empty() ? status.problem : problem));
     return response.SerializeAsString();
 }
@@ -192,24 +149,27 @@ std::string frameMessage(const EncodedFrame& encoded, const coordinator::Rendere
     v1::Frame& frame = *response.mutable_frame();
     frame.set_frame_number(encoded.frameNumber);
     frame.set_view_sequence(encoded.viewSequence);
-    frame.set_still(encoded.fineness != Fineness::Moving);
-    frame.set_width(rendered.image.area.width);
-    frame.set_height(rendered.image.area.height);
-    if (encoded.fineness == Fineness::Exact)
-        frame.set_png(encoded.picture.data(), bytes);
+    const EncodedPicture& picture = *encoded.picture;
+    frame.set_still(picture.fineness != Fineness::Moving);
+    frame.set_width(picture.width);
+    frame.set_height(picture.height);
+    if (picture.fineness == Fineness::Exact)
+        frame.set_png(picture.bytes.data(), bytes);
     else
-        frame.set_jpeg(encoded.picture.data(), bytes);
-    frame.set_picture_bytes(encoded.picture.size());
-    frame.set_pixel_hash(encoded.pixelHash);
-    frame.set_quality(encoded.quality);
+        frame.set_jpeg(picture.bytes.data(), bytes);
+    frame.set_picture_bytes(picture.bytes.size());
+    frame.set_pixel_hash(picture.pixelHash);
+    frame.set_quality(picture.quality);
     frame.set_link_bytes_per_second(encoded.linkBytesPerSecond);
     frame.set_through_wall(rendered.isThroughWall);
     *frame.mutable_statistics() = wire::toMessage(rendered.statistics);
-    frame.mutable_statistics()->set_width(rendered.image.area.width);
-    frame.mutable_statistics()->set_height(rendered.image.area.height);
+    frame.mutable_statistics()->set_width(picture.width);
+    frame.mutable_statistics()->set_height(picture.height);
     *frame.mutable_statistics()->mutable_renderer() = wire::toMessage(rendered.device);
     if (encoded.liftedCamera)
         *frame.mutable_lifted_camera() = wire::toMessage(*encoded.liftedCamera);
+    if (encoded.ledView)
+        *frame.mutable_led_view() = toMessage(*encoded.ledView);
     return response.SerializeAsString();
 }
 

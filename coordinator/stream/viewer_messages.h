@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,15 +17,10 @@
 
 #include "coordinator/frame/frame_source.h"
 #include "coordinator/stream/profile.h"
+#include "coordinator/stream/view_message.h"
 
 /// Between viewer.proto's bytes and values.
 namespace eyrie::stream {
-
-struct ViewRequest {
-    std::uint64_t sequence = 0;
-    coordinator::FrameRequest frame;
-    bool isUnderground = false;  ///< the camera may be under ground
-};
 
 struct FrameAck {
     std::uint64_t frameNumber = 0;
@@ -45,6 +41,9 @@ struct ViewerProfile {
     absl::StatusOr<ProfileLine> line;  ///< or what is wrong with it
 };
 
+/// Takes the lead of the session.
+struct TakeLead {};
+
 /// How near to the server's picture one is sent.
 enum class Fineness {
     Moving,  ///< JPEG, as the link allows
@@ -52,29 +51,43 @@ enum class Fineness {
     Exact,   ///< PNG, bit for bit
 };
 
-inline constexpr int kMinPictureSide = 16;
-inline constexpr int kMaxPictureSide = 4096;
-
-/// Sizes are clamped to kMinPictureSide..kMaxPictureSide.
 /// Errors: InvalidArgument (a view that cannot be drawn; the message tells the user why), DataLoss
 /// (not a ViewerRequest: the sender does not speak this protocol).
 /// A pick or profile that cannot be made is parsed, with what is wrong: it has an answer of its
 /// own.
-using Request =
-    std::variant<ViewRequest, FrameAck, ViewerPick, ViewerProfile, coordinator::SwitchLayout>;
+using Request = std::variant<ViewRequest, FrameAck, ViewerPick, ViewerProfile,
+                             coordinator::SwitchLayout, TakeLead>;
 absl::StatusOr<Request> parseRequest(std::span<const std::byte> bytes);
 
-/// A ViewerResponse with a SessionState. `problem` goes before status.problem.
-std::string stateMessage(const coordinator::Status& status, std::string_view problem);
+/// A viewer among those that see the same.
+struct Place {
+    std::string session;  ///< empty: it is alone
+    int viewers = 1;      ///< this one among them
+    bool leads = true;    ///< this one moves the view
+    bool isLed = true;    ///< somebody does
+};
 
+/// A ViewerResponse with a SessionState. `problem` goes before status.problem.
+std::string stateMessage(const coordinator::Status& status, std::string_view problem,
+                         const Place& place);
+
+/// A picture as browsers get it, for all whose links are alike.
+struct EncodedPicture {
+    Fineness fineness = Fineness::Moving;
+    int quality = 0;  ///< of a JPEG
+    int width = 0;    ///< pixels
+    int height = 0;
+    std::vector<std::byte> bytes;  ///< a PNG where it is Exact, else a JPEG
+    std::uint32_t pixelHash = 0;   ///< fabric::pixelHash, where it is Exact
+};
+
+/// The same for one of them.
 struct EncodedFrame {
     std::uint64_t frameNumber = 0;
     std::uint64_t viewSequence = 0;
-    Fineness fineness = Fineness::Moving;
-    int quality = 0;                                  ///< of a JPEG
-    std::vector<std::byte> picture;                   ///< a PNG where it is Exact, else a JPEG
-    std::uint32_t pixelHash = 0;                      ///< fabric::pixelHash, where it is Exact
+    std::shared_ptr<const EncodedPicture> picture;
     std::optional<fabric::Camera> liftedCamera = {};  ///< shown in place of the one asked for
+    std::optional<ViewRequest> ledView = {};          ///< that another viewer asked for
     double linkBytesPerSecond = 0;                    ///< 0: not known
 };
 

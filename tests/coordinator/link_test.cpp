@@ -64,6 +64,16 @@ TEST(StreamOnASimulatedLink, HoldsThirtyFramesAndNinetyMillisecondsAtTwentyMegab
     EXPECT_LE(now.worstMilliseconds, 150);
 }
 
+TEST(StreamOnASimulatedLink, IsAnAnimationFrameLaterWhereThePageSendsViewsWithThose) {
+    SimulatedLink::Settings settings = linkOf(20);
+    settings.viewsEvery = Time(1000.0 / 60);
+    const Figures now =
+        figures(SimulatedLink(settings).run(Time(12'000)), Time(2000), Time(12'000));
+    tell("20 Mbit/s, views at 60 Hz", now);
+    EXPECT_GE(now.medianMilliseconds, 98);
+    EXPECT_LE(now.medianMilliseconds, 112);
+}
+
 TEST(StreamOnASimulatedLink, HoldsFifteenFramesAndAHundredAndFiftyMillisecondsAtFiveMegabits) {
     const Figures now =
         figures(SimulatedLink(linkOf(5)).run(Time(12'000)), Time(2000), Time(12'000));

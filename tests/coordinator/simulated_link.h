@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <deque>
 #include <functional>
 #include <map>
@@ -31,6 +32,9 @@ public:
         /// What the browser's threads take before they see a message, and up to how much more.
         Time threads{0};
         Time hiccups{0};
+        /// How often the page takes its input and sends a view; 0: with each acknowledgement, which
+        /// is when a frame may start.
+        Time viewsEvery{0};
         double bytesAtBest = 52'000;  ///< a moving frame of 1280x720 at level 0
     };
 
@@ -83,9 +87,11 @@ private:
             const double noise = 0.9 + 0.002 * static_cast<double>(frameNumber_ * 37 % 100);
             EncodedFrame encoded;
             encoded.frameNumber = frameNumber_;
-            encoded.picture.resize(
+            EncodedPicture picture;
+            picture.bytes.resize(
                 static_cast<std::size_t>(noise * settings_.bytesAtBest * sizes_[level_]));
-            quality_.encoded(level_, encoded.picture.size(), kPixels);
+            quality_.encoded(level_, picture.bytes.size(), kPixels);
+            encoded.picture = std::make_shared<const EncodedPicture>(std::move(picture));
             outbox_.putFrame({std::move(encoded), frame_, startedAt_});
         }
         if (!isRendering_ && outbox_.hasRoom(0)) {
@@ -94,8 +100,15 @@ private:
             isRendering_ = true;
             startedAt_ = clock();
             renderedAt_ = now_ + settings_.rendering + settings_.encoding;
-            made_[++frameNumber_] = {now_ - settings_.roundTrip / 2, level_};
+            made_[++frameNumber_] = {inputOf(now_ - settings_.roundTrip / 2), level_};
         }
+    }
+
+    /// When the newest input was made of those sent by then: on average half an interval before it
+    /// was taken.
+    Time inputOf(Time sent) const {
+        const Time every = settings_.viewsEvery;
+        return every == Time(0) ? sent : every * (std::floor(sent / every) - 0.5);
     }
 
     void send() {

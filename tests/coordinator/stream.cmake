@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 eyrie_test(jpeg_test LABEL unit SOURCES jpeg_test.cpp png_test.cpp LINK eyrie::jpeg eyrie::png PNG::PNG)
 eyrie_test(viewer_test LABEL unit
-           SOURCES home_camera_test.cpp link_test.cpp pacer_test.cpp viewer_pick_test.cpp
+           SOURCES encoding_test.cpp home_camera_test.cpp link_test.cpp pacer_test.cpp
+                   session_fairness_test.cpp session_test.cpp viewer_pick_test.cpp
                    viewer_test.cpp viewer_view_test.cpp
-           LINK eyrie::stream eyrie::png eyrie::proto)
+           LINK eyrie::stream eyrie::jpeg eyrie::png eyrie::proto)
+eyrie_test(shared_session_test LABEL unit LINK eyrie::http eyrie::test_viewer)
 eyrie_test(http_server_test LABEL unit LINK eyrie::http eyrie::jpeg eyrie::proto Boost::headers
                                             Threads::Threads)
 if(EYRIE_SANITIZE MATCHES thread)

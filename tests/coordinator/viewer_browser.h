@@ -4,6 +4,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <span>
@@ -37,9 +38,13 @@ inline v1::ViewerRequest viewMessage(std::uint64_t sequence, double eyeX) {
 /// The browser's end of a viewer.
 class Browser {
 public:
-    explicit Browser(coordinator::FakeFrameSource& frames, const ViewerOptions& options = {})
-        : viewer_(
-              frames, [this] { ready(); }, options) {}
+    /// Of a session of its own.
+    explicit Browser(coordinator::FakeFrameSource& frames, const SessionOptions& options = {})
+        : own_(std::make_unique<Sessions>(frames, options)),
+          viewer_(*own_, {}, [this] { ready(); }) {}
+
+    explicit Browser(Sessions& sessions, const Joining& joining)
+        : viewer_(sessions, joining, [this] { ready(); }) {}
 
     void send(const v1::ViewerRequest& request) {
         ASSERT_TRUE(viewer_.receive(bytesOf(request.SerializeAsString())).ok());
@@ -126,19 +131,20 @@ private:
     std::mutex mutex_;
     std::condition_variable changed_;
     bool isReady_ = false;
+    std::unique_ptr<Sessions> own_;
     Viewer viewer_;  // last: it calls ready() until it is gone
 };
 
 /// Never comes to rest, so that every frame is a moving one.
-inline ViewerOptions moving(int framesInFlight) {
-    ViewerOptions options;
+inline SessionOptions moving(int framesInFlight) {
+    SessionOptions options;
     options.framesInFlight = framesInFlight;
     options.restDelay = std::chrono::hours(1);
     return options;
 }
 
-inline ViewerOptions resting() {
-    ViewerOptions options;
+inline SessionOptions resting() {
+    SessionOptions options;
     options.framesInFlight = 2;
     options.restDelay = std::chrono::milliseconds(50);
     return options;

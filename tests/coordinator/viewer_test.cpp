@@ -55,7 +55,7 @@ TEST(Viewer, DrawsTheNewestViewAndLeavesOutThoseBetween) {
 
 TEST(Viewer, AnswersTheSameViewWithTheNextPictureOfIt) {
     FakeFrameSource frames;
-    ViewerOptions options = resting();
+    SessionOptions options = resting();
     options.framesInFlight = 1;  // so nothing follows before the acknowledgement
     Browser browser(frames, options);
     browser.send(viewMessage(1, 7));
@@ -129,7 +129,7 @@ coordinator::RenderedFrame noisyFrame(const FrameRequest& request) {
 TEST(Viewer, SendsARestingViewNearlyExactAndThenExact) {
     FakeFrameSource frames;
     frames.setDraw(noisyFrame);
-    ViewerOptions options = resting();
+    SessionOptions options = resting();
     options.restDelay = milliseconds(300);  // longer than a busy machine takes to draw
     Browser browser(frames, options);
     browser.look(1);
@@ -230,7 +230,7 @@ TEST(Viewer, AsksForFramesThatDoNotWait) {
 TEST(Viewer, DrawsOnWhilePagesAreBeingLoadedAndThenRests) {
     FakeFrameSource frames;
     lackPages(frames, 5, 1);
-    ViewerOptions options = resting();
+    SessionOptions options = resting();
     options.loadingDelay = milliseconds(1);
     Browser browser(frames, options);
     browser.look(1);
@@ -250,7 +250,7 @@ TEST(Viewer, DrawsOnWhilePagesAreBeingLoadedAndThenRests) {
 TEST(Viewer, LooksNowAndThenWhetherWhatCouldNotBeReadCanBe) {
     FakeFrameSource frames;
     lackPages(frames, 1, 2);
-    ViewerOptions options = resting();
+    SessionOptions options = resting();
     options.restDelay = milliseconds(1);
     options.loadingDelay = std::chrono::hours(1);
     options.missingDelay = milliseconds(100);
@@ -307,7 +307,7 @@ TEST(Viewer, TellsWhyThereIsNoFrameAndRecoversByItself) {
     frames.setDraw([](const FrameRequest&) -> absl::StatusOr<coordinator::RenderedFrame> {
         return absl::UnavailableError("no renderer\x1b[31m\nleft");
     });
-    ViewerOptions options = moving(2);
+    SessionOptions options = moving(2);
     options.retryDelay = milliseconds(20);
     Browser browser(frames, options);
     browser.look(1);

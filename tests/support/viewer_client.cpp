@@ -19,11 +19,11 @@ using Clock = std::chrono::steady_clock;
 
 class ViewerClient::Impl {
 public:
-    absl::Status open(std::uint16_t port) {
+    absl::Status open(std::uint16_t port, const std::string& query) {
         boost::system::error_code error;
         stream_.next_layer().connect({asio::ip::address_v4::loopback(), port}, error);
         if (!error)
-            stream_.handshake(fmt::format("127.0.0.1:{}", port), "/ws", error);
+            stream_.handshake(fmt::format("127.0.0.1:{}", port), "/ws" + query, error);
         stream_.binary(true);
         stream_.read_message_max(64 << 20);
         return error ? absl::UnavailableError(fmt::format("port {}: {}", port, error.message()))
@@ -69,9 +69,10 @@ private:
 ViewerClient::ViewerClient(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 ViewerClient::~ViewerClient() = default;
 
-absl::StatusOr<std::unique_ptr<ViewerClient>> ViewerClient::connect(std::uint16_t port) {
+absl::StatusOr<std::unique_ptr<ViewerClient>> ViewerClient::connect(std::uint16_t port,
+                                                                    const std::string& query) {
     auto impl = std::make_unique<Impl>();
-    if (const absl::Status status = impl->open(port); !status.ok())
+    if (const absl::Status status = impl->open(port, query); !status.ok())
         return status;
     return std::unique_ptr<ViewerClient>(new ViewerClient(std::move(impl)));
 }

@@ -18,8 +18,9 @@ class ViewerClient {
 public:
     using Milliseconds = std::chrono::milliseconds;
 
-    /// Opens ws://127.0.0.1:port/ws. Errors: Unavailable.
-    static absl::StatusOr<std::unique_ptr<ViewerClient>> connect(std::uint16_t port);
+    /// Opens ws://127.0.0.1:port/ws, with `query` behind it. Errors: Unavailable.
+    static absl::StatusOr<std::unique_ptr<ViewerClient>> connect(std::uint16_t port,
+                                                                 const std::string& query = "");
     ~ViewerClient();
     ViewerClient(const ViewerClient&) = delete;
     ViewerClient& operator=(const ViewerClient&) = delete;

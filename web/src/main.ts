@@ -13,20 +13,15 @@ import { showNumbers } from "./panel/numbers";
 import { showPick } from "./panel/pick";
 import { showPlots } from "./panel/plots";
 import { showQuality } from "./panel/quality";
+import { showSession } from "./panel/session";
 import { showStatus } from "./panel/status";
 import { showTerrain } from "./panel/terrain";
 import { setUpToolbar } from "./panel/toolbar";
 import { keepAddress, showViews } from "./panel/views";
+import { joiningOf, socketUrl } from "./place";
 import { State } from "./state";
 import { PictureCanvas } from "./view/canvas";
 import { Viewer } from "./viewer";
-
-/** /ws beside the page. */
-function socketUrl(): string {
-  const url = new URL("ws", window.location.href);
-  url.protocol = url.protocol === "https:" ? "wss:" : "ws:";
-  return url.href;
-}
 
 function start(): void {
   const canvas = byId("view", HTMLCanvasElement);
@@ -36,11 +31,19 @@ function start(): void {
   }
   const state = new State();
   state.output.set(outputOf(window.location.search));
-  const viewer = new Viewer(canvas, socketUrl(), state);
+  const joining = joiningOf(window.location.search);
+  // Who led before the connection was lost leads again, and nobody else.
+  const url = (): string => {
+    const place = state.session.value?.place;
+    const role = place === undefined ? joining.role : place.leads ? "lead" : "watch";
+    return socketUrl(window.location.href, { ...joining, role });
+  };
+  const viewer = new Viewer(canvas, url, state);
   showStatus(state);
   showMessages(state);
   showQuality(state);
   showDisplays(state, viewer);
+  showSession(state, viewer);
   showTerrain(state, viewer);
   showNumbers(state);
   showPick(state);

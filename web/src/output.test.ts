@@ -18,6 +18,12 @@ describe("the picture that an address names", () => {
     expect(outputOf(queryOf(output))).toEqual(output);
   });
 
+  it("leaves alone what else the address says", () => {
+    const before = "?session=review&eye=left";
+    expect(queryOf(usualOutput, before)).toBe("?session=review");
+    expect(queryOf({ ...usualOutput, eye: "right" }, before)).toBe("?session=review&eye=right");
+  });
+
   it("leaves out what it does not understand", () => {
     expect(outputOf("?eye=third&stereo=quad&segment=a")).toEqual({ ...usualOutput, segment: "a" });
   });

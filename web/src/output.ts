@@ -34,8 +34,12 @@ export function outputOf(query: string): Output {
   };
 }
 
-/** With its "?"; "" where all is as usual. */
-export function queryOf(output: Output): string {
-  const fields = new URLSearchParams(Object.entries(output).filter(([, value]) => value !== ""));
+/** With its "?", and with what else `before` says; "" where all is as usual. */
+export function queryOf(output: Output, before = ""): string {
+  const fields = new URLSearchParams(before);
+  for (const [name, value] of Object.entries(output)) {
+    if (value === "") fields.delete(name);
+    else fields.set(name, value as string);
+  }
   return fields.size === 0 ? "" : `?${fields.toString()}`;
 }

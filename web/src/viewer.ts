@@ -11,6 +11,8 @@ import type { Point } from "./camera/touch";
 import type { Bounds } from "./camera/standard";
 import { standardCamera, standardViews } from "./camera/standard";
 import type { Frame, SessionState, Shown } from "./protocol/messages";
+import type { LedView } from "./protocol/led_view";
+import { ledViewOf } from "./protocol/led_view";
 import { cameraOf } from "./protocol/messages";
 import type { EncodedPicture } from "./protocol/parts";
 import { Socket } from "./protocol/socket";
@@ -73,13 +75,15 @@ export class Viewer implements CameraHolder {
     camera: undefined,
     sequence: 0,
   };
+  /** What who leads the session has asked for, while that is another. */
+  private led: LedView | undefined;
   private sendAt: number | undefined;
   private inputTime: number | undefined;
   private sceneKey = "";
 
   constructor(
     canvas: HTMLCanvasElement,
-    url: string,
+    url: string | (() => string),
     private readonly state: State,
   ) {
     this.canvas = new PictureCanvas(canvas, {
@@ -171,9 +175,16 @@ export class Viewer implements CameraHolder {
 
   private moveTo(camera: Camera, inputTime?: number): void {
     if (!isUsable(camera)) return;
+    if (this.isWatching) {
+      const isInput = inputTime !== undefined;
+      if (isInput) this.state.notice.set("You watch this session: take the lead to move the view");
+      return;
+    }
     this.camera = camera;
     this.movements += 1;
     this.requestView(inputTime);
+    // While no picture is on its way there is nothing to wait for.
+    if (this.latency.waitingSince() === undefined) this.sendNow();
   }
 
   goHome(inputTime?: number): void {
@@ -205,6 +216,20 @@ export class Viewer implements CameraHolder {
     this.socket.switchLayout(canvas, layout);
   }
 
+  /** Another moves the view, or nobody: this one only sees it. */
+  get isWatching(): boolean {
+    return this.state.session.value?.place?.leads === false;
+  }
+
+  /** Goes on from what is seen now. */
+  takeLead(): void {
+    if (this.led !== undefined) {
+      this.state.output.set(this.led.output);
+      this.showSettings(this.led);
+    }
+    this.socket.takeLead();
+  }
+
   // ---- Views
 
   /** What is wanted now, to be found again; null before there is a camera. */
@@ -232,27 +257,37 @@ export class Viewer implements CameraHolder {
   }
 
   show(view: SharedView): void {
+    this.showSettings(view);
+    this.move(view.camera, performance.now());
+  }
+
+  private showSettings(view: SharedView): void {
     this.state.tau.set(view.tau);
     this.state.budget.set(view.budget);
     this.state.shading.set(view.shading);
     this.state.look.set(view.look);
-    this.move(view.camera, performance.now());
   }
 
   /**
-   * Sends the view with the next animation frame: at most one a frame, always the newest.
-   * `inputTime` is of the input that caused it, if one did.
+   * Sends the view with the next animation frame, or before that with an acknowledgement: the
+   * newest one then. `inputTime` is of the input that caused it, if one did.
    */
   private requestView(inputTime?: number): void {
     this.inputTime ??= inputTime;
     this.sendAt ??= requestAnimationFrame(() => this.sendView());
   }
 
+  private sendNow(): void {
+    if (this.sendAt === undefined) return;
+    cancelAnimationFrame(this.sendAt);
+    this.sendView();
+  }
+
   private sendView(): void {
     this.sendAt = undefined;
     const inputTime = this.inputTime;
     this.inputTime = undefined;
-    if (this.camera === null) return;
+    if (this.camera === null || this.isWatching) return;
     const view = {
       camera: this.camera,
       ...this.size,
@@ -320,6 +355,7 @@ export class Viewer implements CameraHolder {
 
   private sessionChanged(session: SessionState): void {
     this.state.session.set(session);
+    this.placeChanged();
     const { min, max } = session.sceneBounds ?? {};
     if (min !== undefined && max !== undefined) {
       const diagonal = Math.hypot(max.x - min.x, max.y - min.y, max.z - min.z);
@@ -333,6 +369,17 @@ export class Viewer implements CameraHolder {
     this.resize();
   }
 
+  /** What was sent while another leads is not answered; who leads now has to say where to. */
+  private placeChanged(): void {
+    if (this.isWatching) {
+      this.latency.reset();
+      this.sentContent = "";
+    } else if (this.led !== undefined) {
+      this.led = undefined;
+      this.requestView();
+    }
+  }
+
   private frameArrived(frame: Frame, picture: EncodedPicture): void {
     const frameNumber = Number(frame.frameNumber);
     frame.picture = { case: undefined };
@@ -343,6 +390,8 @@ export class Viewer implements CameraHolder {
   }
 
   private acknowledge(frameNumber: number, time: number): void {
+    // The server may start a frame for each that is acknowledged: it is to be of the newest view.
+    this.sendNow();
     const arrived = this.frames.get(frameNumber)?.at ?? time;
     this.socket.acknowledge(frameNumber, Math.max(0, time - arrived));
     for (const known of this.frames.keys()) if (known <= frameNumber) this.frames.delete(known);
@@ -370,6 +419,11 @@ export class Viewer implements CameraHolder {
   }
 
   private noteShown(frame: Frame): void {
+    this.led = frame.ledView && ledViewOf(frame.ledView);
+    if (this.led !== undefined) {
+      this.noteLed(this.led, frame);
+      return;
+    }
     const sequence = Number(frame.viewSequence);
     const sent = this.sentViews.get(sequence);
     for (const known of this.sentViews.keys()) if (known < sequence) this.sentViews.delete(known);
@@ -377,6 +431,13 @@ export class Viewer implements CameraHolder {
     const camera = cameraOf(frame.liftedCamera) ?? sent.camera;
     const { throughWall, width, height } = frame;
     this.state.shown.set({ ...sent, camera, width, height, throughWall });
+  }
+
+  private noteLed({ camera: asked, look }: LedView, frame: Frame): void {
+    const camera = cameraOf(frame.liftedCamera) ?? asked;
+    if (this.isWatching) this.camera = camera;
+    const { throughWall, width, height } = frame;
+    this.state.shown.set({ camera, width, height, exaggeration: look.exaggeration, throughWall });
   }
 
   // ---- Picks

@@ -78,6 +78,14 @@ export class Controls {
     const { signal } = this.ending;
     canvas.addEventListener("pointerdown", (event) => this.pointerDown(event), { signal });
     canvas.addEventListener("pointermove", (event) => this.pointerMove(event), { signal });
+    // The same at once, and not with the next animation frame; not in all browsers.
+    canvas.addEventListener(
+      "pointerrawupdate",
+      (event) => this.pointerMove(event as PointerEvent),
+      {
+        signal,
+      },
+    );
     for (const end of ["pointerup", "pointercancel", "lostpointercapture"] as const)
       canvas.addEventListener(end, (event) => this.pointerEnd(event), { signal });
     canvas.addEventListener("dblclick", (event) => this.doubleClick(event), { signal });

@@ -92,7 +92,7 @@ export function showDisplays(state: State, viewer: Viewer): void {
   state.session.watch(show);
   state.output.watch((output) => {
     show();
-    const { pathname, hash } = window.location;
-    window.history.replaceState(null, "", `${pathname}${queryOf(output)}${hash}`);
+    const { pathname, search, hash } = window.location;
+    window.history.replaceState(null, "", `${pathname}${queryOf(output, search)}${hash}`);
   });
 }

@@ -22,6 +22,7 @@ import {
   ShownEye,
   ShownPictureSchema,
   ShownStereo,
+  ViewerLeadSchema,
   ViewerPickSchema,
   ViewerProfileSchema,
   ViewerRequestSchema,
@@ -36,6 +37,7 @@ import type {
   RendererState,
   SessionState,
   ViewerPicked,
+  ViewerPlace,
   ViewerProfiled,
   ViewerRequest,
   ViewerResponse,
@@ -49,6 +51,7 @@ export type {
   RendererState,
   SessionState,
   ViewerPicked,
+  ViewerPlace,
   ViewerProfiled,
   ViewerResponse,
 };
@@ -160,6 +163,11 @@ export function encodeView(view: View): Uint8Array<ArrayBuffer> {
 /** Has a canvas show another of its layouts. */
 export function encodeSwitch(canvas: string, layout: string): Uint8Array<ArrayBuffer> {
   return bytesOf({ case: "switchLayout", value: create(ViewerSwitchSchema, { canvas, layout }) });
+}
+
+/** Takes the lead of the session. */
+export function encodeLead(): Uint8Array<ArrayBuffer> {
+  return bytesOf({ case: "lead", value: create(ViewerLeadSchema) });
 }
 
 /** `decodeMilliseconds`: from a picture's arrival until it was drawn. */

@@ -4,6 +4,7 @@ import type { Frame, SessionState, Shown, View, ViewerPicked, ViewerProfiled } f
 import {
   decodeResponse,
   encodeAck,
+  encodeLead,
   encodePartAck,
   encodePick,
   encodeProfile,
@@ -41,7 +42,8 @@ export class Socket {
   private readonly parts = new Parts();
 
   constructor(
-    private readonly url: string,
+    /** A function is asked before each attempt. */
+    private readonly url: string | (() => string),
     private readonly events: SocketEvents,
   ) {
     this.connect();
@@ -76,6 +78,10 @@ export class Socket {
     if (this.isOpen) this.socket?.send(encodeSwitch(canvas, layout));
   }
 
+  takeLead(): void {
+    if (this.isOpen) this.socket?.send(encodeLead());
+  }
+
   close(): void {
     clearTimeout(this.timer);
     this.detach();
@@ -86,7 +92,7 @@ export class Socket {
   }
 
   private connect(): void {
-    const socket = new WebSocket(this.url);
+    const socket = new WebSocket(typeof this.url === "string" ? this.url : this.url());
     this.socket = socket;
     socket.binaryType = "arraybuffer";
     socket.onopen = () => {

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "coordinator/stream/outbox.h"
+#include "coordinator/stream/picture_encoder.h"
+#include "coordinator/stream/progress.h"
+#include "coordinator/stream/quality.h"
+
+namespace eyrie::stream {
+
+/// Who moves the view of a session.
+enum class Role {
+    Lead,   ///< leads where nobody does, now or when who leads has left
+    Watch,  ///< only when it takes the lead
+};
+
+/// One browser in a session: its link, what it has been given and what it is to be given next.
+/// Guarded by the session's lock, but for tell() and close().
+class Seat {
+public:
+    /// `messageReady` is called without locks held but the seat's own.
+    Seat(std::uint64_t number, Role joinedAs, bool isController, std::optional<int> framesInFlight,
+         std::function<void()> messageReady)
+        : id(number),
+          role(joinedAs),
+          mayControl(isController),
+          outbox(framesInFlight),
+          messageReady_(std::move(messageReady)) {}
+
+    /// What it is to get of the newest picture now; nothing while it has no room, or all there is.
+    std::optional<QualityClass> due(const Progress& progress, Clock::time_point now) const;
+
+    /// A picture drawn now would go to it at once: it has the newest, and room for one more.
+    bool isReadyForMore(const Progress& progress) const;
+
+    /// Hands `encoded` of `picture` over, in place of one that waits.
+    void give(std::shared_ptr<const EncodedPicture> encoded, const QualityClass& as,
+              const Picture& picture, const Progress& progress, Clock::time_point now);
+
+    /// Says that there may be a message; not any more once close() has returned.
+    void tell();
+    void close();
+
+    const std::uint64_t id;  ///< among those of the session, from 1
+    const Role role;
+    const bool mayControl;
+    Outbox outbox;
+    QualityControl quality;
+    Delivered delivered;       ///< or being made for it
+    bool isServed = false;     ///< it is being made
+    bool isAwaiting = false;   ///< the picture that is being drawn will go to it at once
+    int timesPassedOver = 0;   ///< others came before it since it was served
+    std::string problem = {};  ///< what was wrong with its last request
+    std::string lastState = {};
+
+private:
+    std::uint64_t lastFrameNumber_ = 0;
+    std::mutex telling_;  ///< guards what follows
+    std::function<void()> messageReady_;
+};
+
+}  // namespace eyrie::stream

@@ -1,0 +1,499 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/stream/session.h"
+
+#include <algorithm>
+#include <condition_variable>
+#include <map>
+#include <mutex>
+#include <string_view>
+#include <thread>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "coordinator/stream/drawing.h"
+#include "coordinator/stream/viewer_messages.h"
+
+namespace eyrie::stream {
+namespace {
+
+std::string_view text(const absl::Status& status) {
+    return {status.message().data(), status.message().size()};
+}
+
+/// One frame in so many has its stages measured, which costs its vertices once more: the fourth
+/// first, since shaders are compiled in the ones before.
+constexpr std::uint64_t kFramesToAMeasurement = 32;
+
+/// After so many others a viewer's picture is made before those of better links.
+constexpr int kMostPassedOver = 2;
+
+double pixelsOf(const ViewRequest& view) {
+    return static_cast<double>(view.frame.width) * view.frame.height;
+}
+
+using Seats = std::vector<std::shared_ptr<Seat>>;
+
+}  // namespace
+
+class Session::Impl {
+public:
+    Impl(coordinator::FrameSource& frames, std::string name, const SessionOptions& options)
+        : frames_(frames),
+          name_(std::move(name)),
+          framesInFlight_(options.framesInFlight),
+          progress_(
+              {options.restDelay, options.retryDelay, options.loadingDelay, options.missingDelay}) {
+        subscription_ = frames_.subscribe([this] { statusChanged(); });
+        encoder_ = std::thread([this] { encodeLoop(); });
+        renderer_ = std::thread([this] { renderLoop(); });
+    }
+
+    ~Impl() {
+        {
+            const std::lock_guard lock(mutex_);
+            isStopping_ = true;
+        }
+        changed_.notify_all();
+        frames_.unsubscribe(subscription_);
+        renderer_.join();
+        encoder_.join();
+    }
+
+    std::shared_ptr<Seat> join(Role role, bool mayControl, std::function<void()> messageReady) {
+        const std::lock_guard lock(mutex_);
+        if (isStopping_)
+            return nullptr;
+        seats_.push_back(std::make_shared<Seat>(++lastSeat_, role, mayControl, framesInFlight_,
+                                                std::move(messageReady)));
+        if (leader_ == nullptr && role == Role::Lead)
+            leader_ = seats_.back().get();
+        isStateStale_ = true;
+        changed_.notify_all();
+        return seats_.back();
+    }
+
+    bool leave(const std::shared_ptr<Seat>& seat) {
+        const std::lock_guard lock(mutex_);
+        if (std::erase(seats_, seat) == 0)
+            return false;
+        if (leader_ == seat.get()) {
+            const auto heir = std::ranges::find(seats_, Role::Lead, &Seat::role);
+            leader_ = heir == seats_.end() ? nullptr : heir->get();
+        }
+        isStateStale_ = true;
+        isStopping_ = seats_.empty();
+        changed_.notify_all();
+        return isStopping_;
+    }
+
+    void want(Seat& seat, ViewRequest view) {
+        const std::lock_guard lock(mutex_);
+        if (leader_ != &seat)
+            return;
+        setProblem(seat.problem, "");
+        view.viewer = seat.id;
+        if (progress_.want(view, Clock::now()))
+            for (const auto& each : seats_) each->outbox.dropStill();
+        changed_.notify_all();
+    }
+
+    void takeLead(Seat& seat) {
+        const std::lock_guard lock(mutex_);
+        const bool isHere = std::ranges::any_of(
+            seats_, [&](const std::shared_ptr<Seat>& each) { return each.get() == &seat; });
+        if (!isHere)
+            return;
+        if (seat.mayControl) {
+            leader_ = &seat;
+            seat.problem.clear();
+            isStateStale_ = true;
+        } else {
+            setProblem(seat.problem, "This viewer may not take the lead.");
+        }
+        changed_.notify_all();
+    }
+
+    void switchLayout(Seat& seat, coordinator::SwitchLayout change) {
+        const std::lock_guard lock(mutex_);
+        if (leader_ == &seat && seat.mayControl)
+            switch_ = std::move(change);
+        else if (!seat.mayControl)
+            setProblem(seat.problem, "This viewer may not switch layouts.");
+        else
+            setProblem(seat.problem, "Only who leads the session may switch layouts.");
+        changed_.notify_all();
+    }
+
+    void acknowledged(Seat& seat, const FrameAck& ack) {
+        bool hasMessage = false;
+        {
+            const std::lock_guard lock(mutex_);
+            seat.outbox.acknowledged(ack, Clock::now());
+            hasMessage = !isStopping_ && seat.outbox.hasMessage(Clock::now());
+        }
+        changed_.notify_all();
+        if (hasMessage)
+            seat.tell();
+    }
+
+    void refuse(Seat& seat, const absl::Status& why) {
+        const std::lock_guard lock(mutex_);
+        setProblem(seat.problem, sanitised(text(why)));
+        changed_.notify_all();
+    }
+
+    void roundTrip(Seat& seat, Clock::duration time) {
+        const std::lock_guard lock(mutex_);
+        seat.outbox.roundTrip(time, Clock::now());
+    }
+
+    std::optional<std::string> take(Seat& seat) {
+        const std::lock_guard lock(mutex_);
+        std::optional<std::string> message = seat.outbox.take(Clock::now());
+        if (message.has_value())
+            changed_.notify_all();  // there may be room for the next frame
+        return message;
+    }
+
+    std::optional<Clock::duration> unacknowledgedFor(Seat& seat) {
+        const std::lock_guard lock(mutex_);
+        const std::optional<Clock::time_point> since = seat.outbox.link().waitingSince();
+        return since.has_value() ? std::optional(Clock::now() - *since) : std::nullopt;
+    }
+
+    SessionCounts counts() const {
+        const std::lock_guard lock(mutex_);
+        return counts_;
+    }
+
+    const std::string& name() const { return name_; }
+
+private:
+    // ---- With mutex_ held.
+
+    void setProblem(std::string& problem, std::string value) {
+        if (problem == value)
+            return;
+        problem = std::move(value);
+        isStateStale_ = true;
+    }
+
+    /// Waits for a change, or until `deadline` if there is one.
+    void waitForChange(std::unique_lock<std::mutex>& lock,
+                       std::optional<Clock::time_point> deadline) {
+        if (deadline.has_value())
+            changed_.wait_until(lock, *deadline);
+        else
+            changed_.wait(lock);
+    }
+
+    /// Wakes whoever has something to do now.
+    void tell(std::unique_lock<std::mutex>& lock) {
+        Seats ready;
+        if (!isStopping_)
+            std::ranges::copy_if(seats_, std::back_inserter(ready), [](const auto& seat) {
+                return seat->outbox.hasMessage(Clock::now());
+            });
+        lock.unlock();
+        changed_.notify_all();
+        for (const auto& seat : ready) seat->tell();
+        ready.clear();
+        lock.lock();
+    }
+
+    // ---- The render thread.
+
+    bool mayRender() const {
+        return progress_.mayRender(Clock::now()) &&
+               std::ranges::any_of(seats_, [this](const std::shared_ptr<Seat>& seat) {
+                   return seat->isReadyForMore(progress_);
+               });
+    }
+
+    void renderLoop() {
+        std::unique_lock lock(mutex_);
+        while (!isStopping_) {
+            if (switch_)
+                switchLayout(lock);
+            else if (mayRender())
+                renderOne(lock);
+            else
+                waitForChange(lock, progress_.nextRender(Clock::now()));
+        }
+    }
+
+    /// Waits for frames of others, so it is done here and not where messages arrive.
+    void switchLayout(std::unique_lock<std::mutex>& lock) {
+        const coordinator::SwitchLayout change = *std::exchange(switch_, std::nullopt);
+        lock.unlock();
+        const absl::Status status = frames_.configure(change);
+        lock.lock();
+        if (leader_ != nullptr)
+            setProblem(leader_->problem, status.ok() ? "" : sanitised(text(status)));
+        changed_.notify_all();
+    }
+
+    /// The best level that a link of the viewers takes: a picture for it serves the others, too.
+    int chooseLevel(const ViewRequest& view, Clock::time_point now) {
+        int best = QualityControl::levelCount() - 1;
+        for (const auto& seat : seats_) {
+            seat->isAwaiting = seat->isReadyForMore(progress_);
+            seat->quality.adapt(seat->outbox.link().bytesPerSecond(now), pixelsOf(view), now);
+            best = std::min(best, seat->quality.index());
+        }
+        return best;
+    }
+
+    /// A frame that has begun.
+    struct Begun {
+        ViewRequest view;
+        coordinator::FrameRequest request;
+        Clock::time_point at;
+        int level = 0;
+    };
+
+    /// With mutex_ held.
+    Begun begin() {
+        Begun begun{*progress_.wanted(), {}, Clock::now()};
+        const bool isAtRest = progress_.hasRested(begun.at);
+        begun.level = chooseLevel(begun.view, begun.at);
+        begun.request = drawingOf(begun.view, source_.has_value() ? &source_->sceneInfo : nullptr,
+                                  isAtRest ? 1 : QualityControl::level(begun.level).scale);
+        if (isAtRest)
+            begun.request.budgetMilliseconds.reset();
+        // Measuring has no place in a limited time.
+        begun.request.measuresStages =
+            !begun.request.budgetMilliseconds && ++requested_ % kFramesToAMeasurement == 4;
+        progress_.renderStarted();
+        return begun;
+    }
+
+    void renderOne(std::unique_lock<std::mutex>& lock) {
+        const Begun begun = begin();
+        lock.unlock();
+        absl::StatusOr<coordinator::RenderedFrame> frame = frames_.renderFrame(begun.request);
+        lock.lock();
+        rendered(begun, std::move(frame));
+        changed_.notify_all();
+    }
+
+    /// With mutex_ held.
+    void rendered(const Begun& begun, absl::StatusOr<coordinator::RenderedFrame> frame) {
+        const Clock::time_point now = Clock::now();
+        if (frame.ok()) {
+            ++counts_.drawn;
+            for (const auto& seat : seats_) seat->outbox.rendered(now - begun.at);
+            setProblem(renderProblem_, "");
+            tellAtFullSize(frame->statistics, begun.view, begun.request);
+            Picture picture{begun.view,
+                            std::make_shared<const coordinator::RenderedFrame>(*std::move(frame)),
+                            begun.at};
+            picture.level = begun.level;
+            if (!(begun.request.camera == begun.view.frame.camera))
+                picture.liftedCamera = begun.request.camera;
+            progress_.rendered(std::move(picture), now);
+            encodings_.clear();
+        } else {
+            setProblem(renderProblem_, sanitised(text(frame.status())));
+            progress_.renderFailed(now);
+        }
+    }
+
+    // ---- The encoder thread.
+
+    void encodeLoop() {
+        std::unique_lock lock(mutex_);
+        while (!isStopping_) {
+            const Clock::time_point now = Clock::now();
+            if (isStateStale_)
+                composeStates(lock);
+            else if (const std::optional<QualityClass> next = nextClass(now))
+                serve(lock, *next);
+            else
+                waitForChange(lock, progress_.nextFiner(now));
+        }
+    }
+
+    /// Who waits for long first, then moving pictures before still ones, and better links, which
+    /// are quicker served, before worse.
+    std::optional<QualityClass> nextClass(Clock::time_point now) const {
+        std::optional<std::tuple<bool, QualityClass>> best;
+        for (const auto& seat : seats_)
+            if (const auto due = seat->due(progress_, now)) {
+                const std::tuple key(seat->timesPassedOver < kMostPassedOver, *due);
+                if (!best || key < *best)
+                    best = key;
+            }
+        return best ? std::optional(std::get<QualityClass>(*best)) : std::nullopt;
+    }
+
+    /// Those who are to get a picture of that class now; it is theirs from now on.
+    Seats takeDue(const QualityClass& as, Clock::time_point now) {
+        Seats served;
+        for (const auto& seat : seats_) {
+            const auto due = seat->due(progress_, now);
+            if (due == as) {
+                seat->delivered = {progress_.newest()->number, as.fineness};
+                seat->isServed = true;
+                seat->timesPassedOver = 0;
+                served.push_back(seat);
+            } else if (due) {
+                ++seat->timesPassedOver;
+            }
+        }
+        return served;
+    }
+
+    void serve(std::unique_lock<std::mutex>& lock, const QualityClass& as) {
+        const Seats served = takeDue(as, Clock::now());
+        const std::shared_ptr<const Picture> picture = progress_.newest();
+        const absl::StatusOr<std::shared_ptr<const EncodedPicture>> encoded =
+            encodingOf(lock, picture, as);
+        for (const auto& seat : served) seat->isServed = false;
+        if (!encoded.ok()) {
+            setProblem(renderProblem_, sanitised(text(encoded.status())));
+            for (const auto& seat : served) seat->delivered.fineness = Fineness::Exact;  // given up
+        } else if (as.fineness == Fineness::Moving || isStillBest(*picture)) {
+            // A still picture that is no longer wanted would only stand in the way of the next.
+            for (const auto& seat : served) give(*seat, *encoded, as, *picture);
+            replaceWaiting(*encoded, as, *picture);
+        }
+        tell(lock);
+    }
+
+    bool isStillBest(const Picture& picture) const {
+        return progress_.isBest() && progress_.newest()->number == picture.number &&
+               progress_.hasRested(Clock::now());
+    }
+
+    void give(Seat& seat, const std::shared_ptr<const EncodedPicture>& encoded,
+              const QualityClass& as, const Picture& picture) {
+        ++counts_.given;
+        seat.give(encoded, as, picture, progress_, Clock::now());
+    }
+
+    /// A picture that has not gone out yet is older than this one, which is there already.
+    void replaceWaiting(const std::shared_ptr<const EncodedPicture>& encoded,
+                        const QualityClass& as, const Picture& picture) {
+        if (as.fineness != Fineness::Moving)
+            return;
+        for (const auto& seat : seats_) {
+            const bool isOfClass = std::max(seat->quality.index(), picture.level) == as.level;
+            if (seat->isServed || !seat->outbox.isWaiting() || !isOfClass ||
+                seat->delivered.picture >= picture.number)
+                continue;
+            seat->delivered = {picture.number, as.fineness};
+            give(*seat, encoded, as, picture);
+        }
+    }
+
+    /// Made now, or before for others.
+    absl::StatusOr<std::shared_ptr<const EncodedPicture>> encodingOf(
+        std::unique_lock<std::mutex>& lock, const std::shared_ptr<const Picture>& picture,
+        const QualityClass& as) {
+        if (const auto known = encodings_.find(as); known != encodings_.end())
+            return known->second;
+        lock.unlock();
+        absl::StatusOr<EncodedPicture> encoded = encodePicture(*picture, as);
+        lock.lock();
+        if (!encoded.ok())
+            return encoded.status();
+        ++counts_.encoded;
+        auto shared = std::make_shared<const EncodedPicture>(*std::move(encoded));
+        if (progress_.newest() == picture)
+            encodings_[as] = shared;
+        return shared;
+    }
+
+    /// status() may wait for whoever holds the frame source, so it is called here and not where
+    /// messages arrive.
+    void composeStates(std::unique_lock<std::mutex>& lock) {
+        isStateStale_ = false;
+        lock.unlock();
+        const coordinator::Status status = frames_.status();
+        PictureSource source = pictureSource(status);
+        lock.lock();
+        // A view that came before the first state was drawn without knowing the ground.
+        const bool isOther =
+            source_.has_value() ? !(*source_ == source) : source.sceneInfo.ground != nullptr;
+        if (isOther)
+            progress_.sourceChanged();
+        source_ = std::move(source);
+        for (const auto& seat : seats_) putState(*seat, status);
+        tell(lock);
+    }
+
+    void putState(Seat& seat, const coordinator::Status& status) {
+        const bool isExplained = seat.problem.empty() && !status.problem.empty();
+        const std::string& problem = isExplained            ? status.problem
+                                     : seat.problem.empty() ? renderProblem_
+                                                            : seat.problem;
+        std::string message = stateMessage(
+            status, problem,
+            {name_, static_cast<int>(seats_.size()), leader_ == &seat, leader_ != nullptr});
+        if (message == seat.lastState)
+            return;
+        seat.lastState = message;
+        seat.outbox.putState(std::move(message));
+    }
+
+    // ---- Threads of the frame source.
+
+    void statusChanged() {
+        {
+            const std::lock_guard lock(mutex_);
+            isStateStale_ = true;
+        }
+        changed_.notify_all();
+    }
+
+    coordinator::FrameSource& frames_;
+    const std::string name_;
+    const std::optional<int> framesInFlight_;
+
+    mutable std::mutex mutex_;  // guards everything below, up to the threads, and the seats
+    std::condition_variable changed_;
+    bool isStopping_ = false;
+    Seats seats_;             ///< in the order in which they came
+    Seat* leader_ = nullptr;  ///< one of them
+    std::uint64_t lastSeat_ = 0;
+    Progress progress_;
+    std::map<QualityClass, std::shared_ptr<const EncodedPicture>> encodings_;  ///< of the newest
+    std::optional<PictureSource> source_;
+    std::optional<coordinator::SwitchLayout> switch_;  ///< asked for and not done yet
+    std::uint64_t requested_ = 0;
+    SessionCounts counts_;
+    bool isStateStale_ = true;
+    std::string renderProblem_;
+
+    int subscription_ = 0;
+    std::thread encoder_;
+    std::thread renderer_;
+};
+
+Session::Session(coordinator::FrameSource& frames, std::string name, const SessionOptions& options)
+    : impl_(std::make_unique<Impl>(frames, std::move(name), options)) {}
+Session::~Session() = default;
+
+std::shared_ptr<Seat> Session::join(Role role, bool mayControl,
+                                    std::function<void()> messageReady) {
+    return impl_->join(role, mayControl, std::move(messageReady));
+}
+bool Session::leave(const std::shared_ptr<Seat>& seat) { return impl_->leave(seat); }
+void Session::want(Seat& seat, const ViewRequest& view) { impl_->want(seat, view); }
+void Session::takeLead(Seat& seat) { impl_->takeLead(seat); }
+void Session::switchLayout(Seat& seat, coordinator::SwitchLayout change) {
+    impl_->switchLayout(seat, std::move(change));
+}
+void Session::acknowledged(Seat& seat, const FrameAck& ack) { impl_->acknowledged(seat, ack); }
+void Session::refuse(Seat& seat, const absl::Status& why) { impl_->refuse(seat, why); }
+void Session::roundTrip(Seat& seat, Clock::duration time) { impl_->roundTrip(seat, time); }
+std::optional<std::string> Session::take(Seat& seat) { return impl_->take(seat); }
+std::optional<Clock::duration> Session::unacknowledgedFor(Seat& seat) {
+    return impl_->unacknowledgedFor(seat);
+}
+SessionCounts Session::counts() const { return impl_->counts(); }
+const std::string& Session::name() const { return impl_->name(); }
+
+}  // namespace eyrie::stream

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/stream/sessions.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+namespace eyrie::stream {
+namespace {
+
+constexpr std::size_t kMaxNameLength = 64;
+
+bool isName(std::string_view text) {
+    return !text.empty() && text.size() <= kMaxNameLength && std::ranges::all_of(text, [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+               c == '.' || c == '-' || c == '_';
+    });
+}
+
+}  // namespace
+
+absl::StatusOr<Joining> joiningOf(std::string_view target) {
+    Joining joining;
+    const std::size_t mark = target.find('?');
+    std::string_view query = mark == target.npos ? "" : target.substr(mark + 1);
+    while (!query.empty()) {
+        const std::string_view field = query.substr(0, query.find('&'));
+        query.remove_prefix(std::min(query.size(), field.size() + 1));
+        if (field.starts_with("session=")) {
+            joining.session = field.substr(8);
+            if (!isName(joining.session))
+                return absl::InvalidArgumentError(
+                    fmt::format("a session's name is 1 to {} letters, digits, \".\", \"-\" and "
+                                "\"_\"",
+                                kMaxNameLength));
+        } else if (field == "role=watch") {
+            joining.role = Role::Watch;
+        } else if (field.starts_with("role=") && field != "role=lead") {
+            return absl::InvalidArgumentError("a viewer's role is \"lead\" or \"watch\"");
+        }
+    }
+    return joining;
+}
+
+Sessions::Joined Sessions::join(const Joining& joining, std::function<void()> messageReady) {
+    if (joining.session.empty()) {
+        // Alone, there is nobody else to lead.
+        auto own = std::make_shared<Session>(frames_, "", options_);
+        return {own, own->join(Role::Lead, joining.mayControl, std::move(messageReady))};
+    }
+    const std::lock_guard lock(mutex_);
+    std::weak_ptr<Session>& known = named_[joining.session];
+    std::shared_ptr<Session> session = known.lock();
+    if (session == nullptr) {
+        session = std::make_shared<Session>(frames_, joining.session, options_);
+        known = session;
+    }
+    const Role role = joining.mayControl ? joining.role : Role::Watch;
+    return {session, session->join(role, joining.mayControl, std::move(messageReady))};
+}
+
+void Sessions::leave(const Joined& joined) {
+    const std::lock_guard lock(mutex_);
+    const std::string& name = joined.session->name();
+    if (!joined.session->leave(joined.seat) || name.empty())
+        return;
+    named_.erase(name);
+    const SessionCounts counts = joined.session->counts();
+    spdlog::info("session {} has ended: {} frames drawn, {} pictures encoded, {} sent", name,
+                 counts.drawn, counts.encoded, counts.given);
+}
+
+}  // namespace eyrie::stream

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
+
+#include "coordinator/stream/session.h"
+
+namespace eyrie::stream {
+
+/// Which session a viewer joins, and how.
+struct Joining {
+    std::string session = {};  ///< empty: one of its own
+    Role role = Role::Lead;
+    /// Otherwise it only watches where others are, and switches no layouts.
+    bool mayControl = true;
+};
+
+/// What /ws?session=NAME&role=watch|lead asks for; `target` may have more fields. Errors:
+/// InvalidArgument (no name of 1 to 64 letters, digits, ".", "-" and "_", or another role).
+absl::StatusOr<Joining> joiningOf(std::string_view target);
+
+/// The sessions of one frame source: those with names are there while they have viewers. All
+/// functions may be called from any thread.
+class Sessions {
+public:
+    /// `frames` outlives this and all viewers.
+    explicit Sessions(coordinator::FrameSource& frames, SessionOptions options = {})
+        : frames_(frames), options_(options) {}
+
+    struct Joined {
+        std::shared_ptr<Session> session;
+        std::shared_ptr<Seat> seat;
+    };
+    Joined join(const Joining& joining, std::function<void()> messageReady);
+    void leave(const Joined& joined);
+
+    coordinator::FrameSource& frames() { return frames_; }
+
+private:
+    coordinator::FrameSource& frames_;
+    const SessionOptions options_;
+    std::mutex mutex_;                                     ///< guards the names
+    std::map<std::string, std::weak_ptr<Session>> named_;  ///< those that have viewers
+};
+
+}  // namespace eyrie::stream

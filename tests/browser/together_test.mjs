@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// Two pages in one session: one leads, the other sees the same and may take over.
+import { check, environment, run, ServerProcess } from "./support.mjs";
+
+const patience = { timeout: 30_000, polling: 50 };
+
+const camera = (page) => page.evaluate(() => JSON.stringify(window.eyrie.camera));
+
+/** Waits until the page has the server's picture bit for bit, of a newer frame than `after`. */
+async function exact(page, after = 0) {
+  await page.waitForFunction(
+    (before) => window.eyrie?.exact === true && window.eyrie.frameNumber > before,
+    after,
+    patience,
+  );
+  return page.evaluate(() => window.eyrie.pixelHash);
+}
+
+const frame = (page) => page.evaluate(() => window.eyrie.frameNumber);
+
+/** Turns the view by a key. */
+async function turn(page) {
+  await page.focus("#view");
+  await page.keyboard.press("ArrowLeft");
+}
+
+const says = (page, text) =>
+  page.waitForFunction(
+    (wanted) => document.querySelector("#session-place")?.textContent === wanted,
+    text,
+    patience,
+  );
+
+await run("together", async (browser, started) => {
+  const { page: first } = browser;
+  const server = started(
+    await ServerProcess.start(
+      environment("EYRIE_FAKE_SERVER"),
+      [environment("EYRIE_WEB_FOLDER")],
+      60,
+    ),
+  );
+  await first.goto(server.url);
+  await exact(first);
+  const before = JSON.parse(await camera(first)).eye;
+  await first.click("#share-session");
+  await says(first, "1 viewer · you lead");
+  check(new URL(first.url()).searchParams.get("session") !== null, "sharing names the session");
+  await exact(first);
+  const seen = await camera(first);
+  const off = JSON.parse(seen).eye.map((value, i) => Math.abs(value - before[i]));
+  check(Math.max(...off) < 0.01, "who shares a view goes on seeing it");
+
+  const link = new URL(first.url());
+  link.searchParams.set("role", "watch");
+  link.hash = "";
+  const second = await browser.openAnother(link.href);
+  await says(second, "2 viewers · you watch");
+  await says(first, "2 viewers · you lead");
+  check((await exact(second)) === (await exact(first)), "who watches gets the same picture");
+  check((await camera(second)) === seen, "and the camera with it");
+
+  let frames = [await frame(first), await frame(second)];
+  await turn(first);
+  const moved = await exact(first, frames[0]);
+  check((await exact(second, frames[1])) === moved, "a movement is seen by both");
+  const turned = await camera(first);
+  check(turned !== seen && (await camera(second)) === turned, "from the same place");
+
+  await turn(second);
+  await second.waitForTimeout(300);
+  check((await camera(second)) === turned, "who watches moves nothing");
+
+  frames = [await frame(first), await frame(second)];
+  await second.click("#take-lead");
+  await says(second, "2 viewers · you lead");
+  await says(first, "2 viewers · you watch");
+  await turn(second);
+  const own = await exact(second, frames[1]);
+  check((await exact(first, frames[0])) === own, "who takes the lead moves both");
+  const last = await camera(second);
+  check(last !== turned && (await camera(first)) === last, "on from where the other was");
+
+  await second.close();
+  await says(first, "1 viewer · you lead");
+  check((await camera(first)) === last, "who stays has the lead, and the view");
+});

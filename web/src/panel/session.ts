@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// Who else sees what is seen here, and who moves it.
+import { newSessionName, pageIn } from "../place";
+import type { ViewerPlace } from "../protocol/messages";
+import type { State } from "../state";
+import type { Viewer } from "../viewer";
+import { copyText } from "./clipboard";
+import { byId, make, setText } from "./element";
+import { plural } from "./format";
+
+/** "2 viewers · you lead". */
+export function placeText(place: ViewerPlace): string {
+  const who = place.leads ? "you lead" : place.led ? "you watch" : "nobody leads";
+  return `${plural(place.viewers, "viewer")} · ${who}`;
+}
+
+function button(id: string, text: string, title: string, action: () => void): HTMLButtonElement {
+  const element = make("button", "small", text);
+  element.id = id;
+  element.type = "button";
+  element.title = title;
+  element.addEventListener("click", action);
+  return element;
+}
+
+export function showSession(state: State, viewer: Viewer): void {
+  const text = make("p", "field");
+  text.id = "session-place";
+  text.setAttribute("role", "status");
+  const lead = button("take-lead", "Take the lead", "Move the view from here", () =>
+    viewer.takeLead(),
+  );
+  const share = button("share-session", "Share this view", "Let others see what you see", () => {
+    const session = newSessionName((bytes) => crypto.getRandomValues(bytes));
+    window.location.assign(pageIn(window.location.href, { session, role: "lead" }));
+  });
+  const link = button("watch-link", "Copy link to watch", "For those who are to watch", () => {
+    const { session = "" } = state.session.value?.place ?? {};
+    const page = window.location.href.replace(/#.*/, "");
+    void copyText(pageIn(page, { session, role: "watch" })).then((isCopied) =>
+      state.notice.set(isCopied ? "Link copied" : "Link: copying is forbidden"),
+    );
+  });
+  byId("session", HTMLElement).append(
+    make("h2", "heading", "Together"),
+    text,
+    make("div", "small-buttons field", lead, share, link),
+  );
+  state.session.watch((session) => {
+    const place = session?.place;
+    const isShared = (place?.session ?? "") !== "";
+    setText(text, isShared && place !== undefined ? placeText(place) : "");
+    text.hidden = !isShared;
+    lead.hidden = !isShared || place?.leads === true;
+    link.hidden = !isShared;
+    share.hidden = isShared;
+  });
+}

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which session the page joins, and how, as the query of its address: "?session=review&role=watch".
+// Without a session it has a view of its own.
+
+export interface Joining {
+  /** "": a session of its own. */
+  session: string;
+  /** Who leads moves the view; "watch" does so only when asked to. */
+  role: "lead" | "watch";
+}
+
+/** A name that the server would refuse is none. */
+export function joiningOf(query: string): Joining {
+  const fields = new URLSearchParams(query);
+  const name = fields.get("session") ?? "";
+  return {
+    session: /^[A-Za-z0-9._-]{1,64}$/.test(name) ? name : "",
+    role: fields.get("role") === "watch" ? "watch" : "lead",
+  };
+}
+
+/** /ws beside the page at `page`. */
+export function socketUrl(page: string, { session, role }: Joining): string {
+  const url = new URL("ws", page);
+  url.protocol = url.protocol === "https:" ? "wss:" : "ws:";
+  url.hash = "";
+  url.search = session === "" ? "" : `?session=${session}&role=${role}`;
+  return url.href;
+}
+
+/** The same page in a session, as that role. */
+export function pageIn(page: string, { session, role }: Joining): string {
+  const url = new URL(page);
+  url.searchParams.set("session", session);
+  if (role === "watch") url.searchParams.set("role", role);
+  else url.searchParams.delete("role");
+  return url.href;
+}
+
+/** Hard to guess, easy to read out. */
+export function newSessionName(random: (bytes: Uint8Array) => Uint8Array): string {
+  const letters = "abcdefghjkmnpqrstuvwxyz23456789";
+  return Array.from(random(new Uint8Array(12)), (byte) => letters[byte % letters.length]).join("");
+}
