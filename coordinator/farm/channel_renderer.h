@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <stop_token>
 
 #include <absl/status/statusor.h>
@@ -16,9 +17,10 @@ namespace eyrie::coordinator {
 
 /// A renderer as the coordinator sees it: one behind gRPC, or one in this process.
 ///
-/// openScene, setFrameData and render are called by one thread at a time and block; runProgram and
-/// pick block, too, but may be called beside them from any thread, as may cancel. Of errors,
-/// Unavailable and DeadlineExceeded say that the renderer is gone.
+/// openScene, setFrameData and render are called by one thread at a time and block, but for a
+/// render that has called its `drawn`: the others may be called beside that. runProgram and pick
+/// block, too, but may be called beside them from any thread, as may cancel. Of errors, Unavailable
+/// and DeadlineExceeded say that the renderer is gone.
 class ChannelRenderer {
 public:
     using Clock = std::chrono::steady_clock;
@@ -30,9 +32,11 @@ public:
     virtual absl::Status setFrameData(const fabric::FrameData& frameData,
                                       Clock::time_point deadline) = 0;
     /// The image lies inside the task's pixel viewport, fills its area, and has depth if the task
-    /// wants it (and is not empty).
-    virtual absl::StatusOr<fabric::ChannelResult> render(const fabric::ChannelTask& task,
-                                                         Clock::time_point deadline) = 0;
+    /// wants it (and is not empty). Calls `drawn`, if there is one, once at most: when the renderer
+    /// has drawn and can take the next task, while the picture is still on its way.
+    virtual absl::StatusOr<fabric::ChannelResult> render(
+        const fabric::ChannelTask& task, Clock::time_point deadline,
+        const std::function<void()>& drawn = {}) = 0;
 
     /// Carries out a channel program: draws and exchanges pictures with the renderers that it
     /// names, which run the programs on the other side. Pictures as the program's outputs say. The

@@ -2,6 +2,7 @@
 #include "coordinator/farm/grpc_renderer.h"
 
 #include <atomic>
+#include <functional>
 #include <mutex>
 #include <utility>
 #include <vector>
@@ -108,8 +109,10 @@ public:
         return wire::fromGrpc(stub_->SetFrameData(call.context(), request, &response), peer_);
     }
 
+    /// Its header comes when the picture has been drawn.
     absl::StatusOr<fabric::ChannelResult> render(const fabric::ChannelTask& task,
-                                                 Clock::time_point deadline) override {
+                                                 Clock::time_point deadline,
+                                                 const std::function<void()>& drawn) override {
         v1::RenderChannelRequest request;
         *request.mutable_task() = wire::toMessage(task);
         request.set_encoding(wire::toMessage(wire::encodingFor(address_, task.wantsDepth)));
@@ -117,7 +120,9 @@ public:
         const auto reader = stub_->RenderChannel(call.context(), request);
         PictureAssembly assembly(task);
         return receive(call, *reader, assembly,
-                       [&](const v1::RenderChannelResponse& part) -> absl::Status {
+                       [&, isDrawn = !drawn](const v1::RenderChannelResponse& part) mutable {
+                           if (!std::exchange(isDrawn, true))
+                               drawn();
                            return part.has_header() ? assembly.takeHeader(part.header())
                                                     : assembly.takeChunk(part.chunk());
                        });
@@ -171,7 +176,7 @@ private:
     /// Reads a call to its end; what `take` says of a part ends it.
     template <typename Part, typename Assembly, typename Take>
     auto receive(Calls::Call& call, grpc::ClientReader<Part>& reader, Assembly& assembly,
-                 const Take& take) const -> decltype(assembly.finish()) {
+                 Take&& take) const -> decltype(assembly.finish()) {
         Part part;
         absl::Status received;
         while (received.ok() && reader.Read(&part)) received = take(part);

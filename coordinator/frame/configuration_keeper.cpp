@@ -45,22 +45,22 @@ ConfigurationKeeper::ConfigurationKeeper(std::optional<config::Configuration> gi
         use(*given_);
 }
 
-ActiveConfiguration& ConfigurationKeeper::with(
+std::shared_ptr<ActiveConfiguration> ConfigurationKeeper::with(
     const std::vector<config::RendererFacts>& renderers) {
     std::vector<std::string> ids;
     for (const config::RendererFacts& one : renderers) ids.push_back(one.id);
     if (given_ || ids == ids_)
-        return *active_;
+        return active_;
     ids_ = std::move(ids);
     use(config::defaultConfiguration(renderers));
     // Of one renderer there may be no such layout; the choice stands until there are more.
     if (!layout_.empty() && active_->switchLayout("0", layout_).ok())
         show();
-    return *active_;
+    return active_;
 }
 
 void ConfigurationKeeper::use(config::Configuration configuration) {
-    active_ = std::make_unique<ActiveConfiguration>(std::move(configuration));
+    active_ = std::make_shared<ActiveConfiguration>(std::move(configuration));
     show();
 }
 

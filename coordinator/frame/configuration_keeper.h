@@ -22,8 +22,9 @@ public:
     ConfigurationKeeper(std::optional<config::Configuration> given, std::string layout,
                         std::function<void()> changed);
 
-    /// At work with `renderers`, of which there is at least one.
-    ActiveConfiguration& with(const std::vector<config::RendererFacts>& renderers);
+    /// At work with `renderers`, of which there is at least one. Frames keep the one that they were
+    /// made by.
+    std::shared_ptr<ActiveConfiguration> with(const std::vector<config::RendererFacts>& renderers);
 
     /// NotFound, naming what there is; FailedPrecondition before there was a renderer.
     absl::Status configure(const SwitchLayout& change);
@@ -39,7 +40,7 @@ private:
     std::string layout_;  ///< of a made configuration
     const std::function<void()> changed_;
     std::vector<std::string> ids_;
-    std::unique_ptr<ActiveConfiguration> active_;
+    std::shared_ptr<ActiveConfiguration> active_;
     mutable std::mutex mutex_;  ///< guards what follows
     std::vector<CanvasStatus> canvases_;
 };

@@ -21,16 +21,26 @@ Dispatch::Dispatch(Plan plan) : plan_(std::move(plan)), parts_(plan_.tasks.size(
 
 absl::StatusOr<std::vector<Dispatch::Drawn>> Dispatch::run(Crew& crew) {
     std::unique_lock lock(mutex_);
-    while (!isDone()) {
-        RETURN_IF_ERROR(assign(crew));
+    absl::Status status = assign(crew);
+    plan_.handedOut();
+    while (status.ok() && !isDone()) {
         if (std::exchange(someAreLate_, false)) {
             lock.unlock();
             crew.noteLateness();
             lock.lock();
-            continue;
+        } else {
+            changed_.wait_until(lock, nextLook());
         }
-        changed_.wait_until(lock, nextLook());
+        status = assign(crew);
     }
+    hasEnded_ = true;
+    if (!status.ok())
+        giveUp(crew.ready(plan_.sceneRevision));
+    if (std::exchange(someAreLate_, false)) {
+        lock.unlock();
+        crew.noteLateness();
+    }
+    RETURN_IF_ERROR(status);
     std::vector<Drawn> drawn;
     for (Part& part : parts_) drawn.push_back(std::move(part.drawn));
     return drawn;
@@ -44,7 +54,7 @@ Dispatch::Clock::time_point Dispatch::nextLook() const {
     const Clock::time_point now = Clock::now();
     Clock::time_point next = now + kLookAgain;
     for (const Part& part : parts_)
-        if (!part.done && part.running != 0 && part.late > now)
+        if (!part.done && part.running != 0 && part.hasBegun && part.late > now)
             next = std::min(next, part.late);
     return next;
 }
@@ -52,7 +62,7 @@ Dispatch::Clock::time_point Dispatch::nextLook() const {
 absl::Status Dispatch::assign(Crew& crew) {
     const Members members = crew.ready(plan_.sceneRevision);
     for (std::size_t i = 0; i < parts_.size(); ++i)
-        if (!parts_[i].done && (parts_[i].running == 0 || Clock::now() >= parts_[i].late))
+        if (!parts_[i].done && (parts_[i].running == 0 || isOverdue(parts_[i], members)))
             RETURN_IF_ERROR(assign(i, members, crew));
     return absl::OkStatus();
 }
@@ -62,8 +72,6 @@ absl::Status Dispatch::assign(std::size_t index, const Members& members, Crew& c
     Member* chosen = preferredOf(index, members);
     if (chosen == nullptr)
         chosen = idleOf(part, members);
-    else if (!chosen->isIdle())
-        return absl::OkStatus();  // it is busy with others of these tasks
     if (chosen == nullptr) {
         const bool anyLeft = part.running != 0 ||
                              std::any_of(members.begin(), members.end(), [&](const auto& member) {
@@ -81,9 +89,12 @@ bool Dispatch::wasAsked(const Part& part, const Member& member) const {
     return std::find(part.asked.begin(), part.asked.end(), member.id()) != part.asked.end();
 }
 
-bool Dispatch::isAtWork(const Member& member) const {
-    return std::any_of(parts_.begin(), parts_.end(), [&](const Part& part) {
-        return part.running != 0 && wasAsked(part, member);
+/// The renderer that was asked last takes longer than it may, or does not come to it.
+bool Dispatch::isOverdue(const Part& part, const Members& members) const {
+    if (part.hasBegun)
+        return Clock::now() >= part.late;
+    return std::ranges::any_of(members, [&](const auto& member) {
+        return member->id() == part.asked.back() && member->isLate();
     });
 }
 
@@ -92,9 +103,7 @@ Member* Dispatch::preferredOf(std::size_t index, const Members& members) const {
     if (index >= plan_.preferred.size() || members.empty())
         return nullptr;
     Member& member = *members[plan_.preferred[index] % members.size()];
-    if (wasAsked(parts_[index], member) || member.isLate())
-        return nullptr;
-    return member.isIdle() || isAtWork(member) ? &member : nullptr;
+    return wasAsked(parts_[index], member) || member.isLate() ? nullptr : &member;
 }
 
 /// One that has finished its part already must not take the next one's part, too: each renderer is
@@ -102,7 +111,7 @@ Member* Dispatch::preferredOf(std::size_t index, const Members& members) const {
 Member* Dispatch::idleOf(const Part& part, const Members& members) const {
     Member* chosen = nullptr;
     for (const std::shared_ptr<Member>& member : members)
-        if (member->isIdle() && !wasAsked(part, *member) &&
+        if (member->isIdle() && !member->isLate() && !wasAsked(part, *member) &&
             (chosen == nullptr || timesAsked(*member) < timesAsked(*chosen)))
             chosen = member.get();
     return chosen;
@@ -126,32 +135,77 @@ std::chrono::milliseconds Dispatch::patienceWith(const Member& member,
 }
 
 void Dispatch::noteReissue(std::size_t index, const Member& chosen, const Members& members) {
-    const Part& part = parts_[index];
+    Part& part = parts_[index];
     spdlog::warn("frame {}: {} draws the part that {} {}", plan_.tasks[index].frameNumber,
                  chosen.id(), part.asked.back(),
-                 part.running != 0 ? "has not finished" : "could not draw");
+                 part.running == 0 ? "could not draw"
+                 : part.hasBegun   ? "has not finished"
+                                   : "has not begun");
+    noteLate(part, members);
+}
+
+/// The one at work on `part` is.
+void Dispatch::noteLate(Part& part, const Members& members) {
+    if (part.running == 0 || !part.hasBegun)
+        return;
     for (const std::shared_ptr<Member>& member : members)
-        if (part.running != 0 && member->id() == part.asked.back() && !member->isIdle())
-            someAreLate_ |= !member->setLate(true);
+        if (member->id() == part.asked.back() &&
+            std::ranges::find(part.slow, member->id()) == part.slow.end()) {
+            part.slow.push_back(member->id());
+            someAreLate_ |= member->addLate();
+        }
+}
+
+/// There will be no frame: those at work on it are not to be waited for by the next.
+void Dispatch::giveUp(const Members& members) {
+    for (Part& part : parts_)
+        if (!part.done)
+            noteLate(part, members);
 }
 
 void Dispatch::start(std::size_t index, Member& member, const Members& members, Crew& crew) {
     Part& part = parts_[index];
     ++part.running;
+    part.hasBegun = false;
     part.asked.push_back(member.id());
     const std::chrono::milliseconds patience = patienceWith(member, members);
-    part.late = Clock::now() + patience;
+    const auto self = shared_from_this();
     member.draw({plan_.frameData, plan_.tasks[index], plan_.sceneRevision, plan_.kind, patience,
-                 plan_.callTimeout},
-                [self = shared_from_this(), index, &member, &crew](
-                    absl::StatusOr<fabric::ChannelResult> result, Clock::duration taken) {
-                    const bool wasLate = member.setLate(false);
+                 plan_.callTimeout,
+                 [self, index, &member, patience] { return self->begin(index, member, patience); },
+                 plan_.freed},
+                [self, index, &member, &crew](absl::StatusOr<fabric::ChannelResult> result,
+                                              Clock::duration taken) {
+                    const bool isLateNoMore = self->endLateness(index, member);
                     if (!result.ok())  // even when the dispatch has ended without it
                         crew.noteFailure(member.id(), result.status());
                     self->finish(index, member, std::move(result), taken);
-                    if (wasLate)
+                    self->plan_.freed();
+                    if (isLateNoMore)
                         crew.noteLateness();
                 });
+}
+
+/// False when it need not.
+bool Dispatch::begin(std::size_t index, const Member& member, std::chrono::milliseconds patience) {
+    {
+        const std::lock_guard lock(mutex_);
+        Part& part = parts_[index];
+        if (hasEnded_ || part.done)
+            return false;
+        if (part.asked.back() == member.id()) {
+            part.hasBegun = true;
+            part.late = Clock::now() + patience;
+        }
+    }
+    changed_.notify_one();
+    return true;
+}
+
+/// Returns whether `member` was late and is so no more.
+bool Dispatch::endLateness(std::size_t index, Member& member) {
+    const std::lock_guard lock(mutex_);
+    return std::erase(parts_[index].slow, member.id()) != 0 && member.removeLate();
 }
 
 void Dispatch::finish(std::size_t index, const Member& member,

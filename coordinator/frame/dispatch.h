@@ -3,6 +3,7 @@
 
 #include <condition_variable>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -17,10 +18,12 @@ namespace eyrie::coordinator {
 
 /// The drawing of one frame by the crew, from its tasks to their results.
 ///
-/// Each task goes to a renderer. Where that fails, or takes longer than that renderer's patience
-/// (Patience, by what it drew lately; while nothing is known of it, by the slowest other) and
-/// another one idles, the task goes to the other as well, to each renderer once at most; the first
-/// result counts. Answers that come after the dispatch has ended are dropped.
+/// Each task goes to a renderer, which may have those of earlier frames to draw before. Where that
+/// fails, or takes longer than that renderer's patience (Patience, by what it drew lately; while
+/// nothing is known of it, by the slowest other) from when it began, or has not begun because it is
+/// late with another frame, and another renderer idles, the task goes to the other as well, to each
+/// renderer once at most; the first result counts. What has not begun when it is no longer needed
+/// is not drawn, and answers that come after the dispatch has ended are dropped.
 class Dispatch : public std::enable_shared_from_this<Dispatch> {
 public:
     struct Drawn {
@@ -40,8 +43,13 @@ public:
         /// Who is asked first, for each task; empty: anybody for all. Counts the renderers that are
         /// ready, in the order of their registration, and begins again after the last: several
         /// tasks of one renderer are drawn one after the other. It is not waited for while it is
-        /// late, or busy with an earlier dispatch.
+        /// late.
         std::vector<std::size_t> preferred = {};
+        /// Called, with locks held, when each task has been given to a renderer or waits for one.
+        std::function<void()> handedOut = [] {};
+        /// Called, from any thread and even when the dispatch has ended, whenever a renderer may
+        /// have its next task.
+        std::function<void()> freed = [] {};
     };
 
     explicit Dispatch(Plan plan);
@@ -57,9 +65,11 @@ private:
     struct Part {
         bool done = false;
         Drawn drawn;
-        int running = 0;                 ///< renderers at work on it
-        Clock::time_point late;          ///< when to ask another one as well
+        int running = 0;                 ///< renderers that have it, drawn or to be drawn
+        bool hasBegun = false;           ///< the one that was asked last, with it
+        Clock::time_point late;          ///< when to ask another one as well, if it has begun
         std::vector<std::string> asked;  ///< ids of renderers; the one at work came last
+        std::vector<std::string> slow;   ///< those of them that are late with it
         absl::Status error = absl::UnavailableError("no renderer is ready");
     };
     using Members = std::vector<std::shared_ptr<Member>>;
@@ -69,14 +79,18 @@ private:
     absl::Status assign(Crew& crew);
     /// OK, too, when the part has to wait for a renderer; the part's error when none is left.
     absl::Status assign(std::size_t index, const Members& members, Crew& crew);
+    bool isOverdue(const Part& part, const Members& members) const;
     bool wasAsked(const Part& part, const Member& member) const;
-    bool isAtWork(const Member& member) const;
     Member* preferredOf(std::size_t index, const Members& members) const;
     Member* idleOf(const Part& part, const Members& members) const;
     std::ptrdiff_t timesAsked(const Member& member) const;
     std::chrono::milliseconds patienceWith(const Member& member, const Members& members) const;
     void noteReissue(std::size_t index, const Member& chosen, const Members& members);
+    void noteLate(Part& part, const Members& members);
+    void giveUp(const Members& members);
     void start(std::size_t index, Member& member, const Members& members, Crew& crew);
+    bool begin(std::size_t index, const Member& member, std::chrono::milliseconds patience);
+    bool endLateness(std::size_t index, Member& member);
     void finish(std::size_t index, const Member& member,
                 absl::StatusOr<fabric::ChannelResult> result, Clock::duration taken);
 
@@ -85,6 +99,7 @@ private:
     std::condition_variable changed_;
     std::vector<Part> parts_;
     bool someAreLate_ = false;  ///< since the crew was told
+    bool hasEnded_ = false;
 };
 
 }  // namespace eyrie::coordinator

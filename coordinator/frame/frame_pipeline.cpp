@@ -2,17 +2,12 @@
 #include "coordinator/frame/frame_pipeline.h"
 
 #include <algorithm>
-#include <future>
-#include <iterator>
-#include <random>
 #include <utility>
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
-#include "coordinator/compound/compose.h"
+#include "coordinator/frame/dispatch.h"
 #include "coordinator/frame/problem.h"
-#include "coordinator/frame/program_runs.h"
 #include "fabric/status.h"
 
 namespace eyrie::coordinator {
@@ -40,223 +35,84 @@ absl::Status check(const FrameRequest& request) {
                : absl::OkStatus();
 }
 
-std::vector<config::RendererFacts> factsOf(const std::vector<std::shared_ptr<Member>>& members) {
-    std::vector<config::RendererFacts> facts;
-    for (const auto& member : members)
-        facts.push_back({member->id(), "", member->device().renderer});
-    return facts;
-}
-
-/// How long programs are left alone after one has failed: renderers may be dying.
-constexpr std::chrono::seconds kProgramsRest{2};
-
-std::uint64_t newSession() {
-    std::random_device random;
-    return (std::uint64_t{random()} << 32 | random()) | 1;  // not 0
-}
-
-std::vector<bool> idleOnes(const std::vector<std::shared_ptr<Member>>& members) {
-    std::vector<bool> idle;
-    for (const auto& member : members) idle.push_back(member->isIdle());
-    return idle;
-}
-
-std::vector<ActiveConfiguration::Taken> takenBy(const std::vector<Dispatch::Drawn>& drawn) {
-    std::vector<ActiveConfiguration::Taken> taken;
-    for (const Dispatch::Drawn& one : drawn)
-        taken.push_back({one.result.image.area, one.result.statistics.milliseconds,
-                         std::chrono::duration<double, std::milli>(one.taken).count()});
-    return taken;
-}
-
-bool isThroughWall(const compound::Plan& plan) {
-    return std::ranges::any_of(plan.draws,
-                               [](const auto& draw) { return draw.task.sight.has_value(); });
-}
-
-/// `more` are of the plan's draws after those that were drawn.
-RenderedFrame composed(const compound::Plan& plan, std::vector<Dispatch::Drawn> drawn,
-                       std::vector<fabric::Image> more, fabric::Rgba background) {
-    RenderedFrame frame;
-    if (!drawn.empty())
-        frame.device = drawn.front().device;
-    frame.isThroughWall = isThroughWall(plan);
-    std::vector<fabric::Image> images;
-    for (Dispatch::Drawn& part : drawn) {
-        fabric::accumulate(frame.statistics, part.result.statistics);
-        images.push_back(std::move(part.result.image));
-    }
-    std::ranges::move(more, std::back_inserter(images));
-    std::vector<fabric::Image> pictures =
-        compound::composePictures(plan, std::move(images), background);
-    if (pictures.empty())
-        return frame;
-    frame.image = std::move(pictures.front());
-    frame.further.assign(std::make_move_iterator(pictures.begin() + 1),
-                         std::make_move_iterator(pictures.end()));
-    return frame;
-}
-
 }  // namespace
 
 FramePipeline::FramePipeline(Registry& registry, FramePipelineOptions options)
     : options_(std::move(options)),
-      configuration_(options_.configuration, options_.layout, [this] { listeners_.notify(); }),
-      programPatience_(options_.patience),
+      planner_(options_.configuration, options_.layout, [this] { listeners_.notify(); }),
+      programs_({options_.patience, options_.callTimeout, [this] { gate_.look(); }}, crew_),
       crew_(registry, {.patience = options_.patience}, [this] { listeners_.notify(); }) {}
 
 absl::StatusOr<RenderedFrame> FramePipeline::renderFrame(const FrameRequest& request) {
     RETURN_IF_ERROR(check(request));
-    const std::lock_guard turn(turn_);
-    const auto start = Registry::Clock::now();
+    FrameGate::Pass pass(gate_);
+    return render(request, pass);
+}
+
+absl::StatusOr<RenderedFrame> FramePipeline::renderLatest(const ChooseFrame& choose) {
+    FrameGate::Pass pass(gate_);
+    const std::optional<FrameRequest> request = choose();
+    if (!request)
+        return absl::CancelledError("no frame is wanted any more");
+    RETURN_IF_ERROR(check(*request));
+    return render(*request, pass);
+}
+
+absl::StatusOr<RenderedFrame> FramePipeline::render(const FrameRequest& asked,
+                                                    FrameGate::Pass& pass) {
+    const auto start = FramePlanner::Clock::now();
     while (true) {
         const Crew::State state = crew_.state();
         if (const std::string why = problem(state); !why.empty())
             return absl::UnavailableError(why);
-        absl::StatusOr<RenderedFrame> frame = renderOfScene(request, state);
-        if (!frame.ok() && crew_.state().revision != state.revision)
+        ASSIGN_OR_RETURN(const PlannedFrame planned,
+                         planner_.plan(asked, state, crew_.ready(state.revision)));
+        gate_.setLimit(planner_.framesUnderWay());
+        absl::StatusOr<DrawnFrame> drawn = draw(planned, [&] { pass.letNext(); });
+        if (!drawn.ok() && crew_.state().revision != state.revision)
             continue;  // the scene was replaced meanwhile: draw that one
-        RETURN_IF_ERROR(frame.status());
-        double& total = frame->statistics.milliseconds.total;
-        total = std::chrono::duration<double, std::milli>(Registry::Clock::now() - start).count();
-        if (request.budgetMilliseconds)
-            keepers_.of(request).record(request, frame->statistics, total);
-        return frame;
+        RETURN_IF_ERROR(drawn.status());
+        pass.awaitEarlier();
+        planner_.record(planned, drawn->taken);
+        fabric::FrameStatistics& statistics = drawn->picture.statistics;
+        const std::chrono::duration<double, std::milli> total = FramePlanner::Clock::now() - start;
+        statistics.milliseconds.total = total.count();
+        planner_.finished(asked, planned, statistics, start);
+        return std::move(drawn->picture);
     }
 }
 
-absl::StatusOr<RenderedFrame> FramePipeline::renderOfScene(const FrameRequest& asked,
-                                                           const Crew::State& state) {
-    if (state.revision != std::exchange(lastRevision_, state.revision)) {
-        keepers_.forget();
-        session_ = newSession();
-    }
-    FrameRequest request = asked;
-    budget_.reset();
-    if (asked.budgetMilliseconds) {
-        const BudgetPlan plan = keepers_.of(asked).plan(asked);
-        budget_ = plan.budget;
-        request.width = plan.width;
-        request.height = plan.height;
-    }
-    const std::vector<std::shared_ptr<Member>> members = crew_.ready(state.revision);
-    if (members.empty())
-        return absl::UnavailableError("no renderer is ready");
-    ActiveConfiguration& active = configuration_.with(factsOf(members));
-    const std::uint64_t number = ++frameNumber_;
-    ASSIGN_OR_RETURN(compound::Plan plan, active.plan(request, number, idleOnes(members)));
-    if (const auto exchange = compound::exchangeOf(plan, number);
-        exchange && mayExchange(active, *exchange, members.size())) {
-        absl::StatusOr<RenderedFrame> frame =
-            drawByPrograms(request, active, plan, *exchange, members, state);
-        if (frame.ok())
-            return frame;
-        spdlog::warn("frame {} is put together here: {}", number, frame.status().ToString());
-        programsRestUntil_ = Registry::Clock::now() + kProgramsRest;
-    }
-    return drawCentrally(request, active, plan, members, state);
+/// Another frame could begin without waiting for those under way.
+bool FramePipeline::hasIdleRenderer() const {
+    const auto members = crew_.ready(crew_.state().revision);
+    const std::size_t used = std::min(members.size(), planner_.renderersUsed());
+    return std::any_of(members.begin(), members.begin() + static_cast<std::ptrdiff_t>(used),
+                       [](const auto& member) { return member->isIdle() && !member->isLate(); });
 }
 
-/// Between renderers of their own; one that has just failed may fail again.
-bool FramePipeline::mayExchange(const ActiveConfiguration& active,
-                                const compound::Exchange& exchange, std::size_t renderers) const {
-    if (Registry::Clock::now() < programsRestUntil_)
-        return false;
-    const std::size_t first = active.rendererFor(exchange.programs.front().channel, renderers);
-    return std::ranges::any_of(exchange.programs, [&](const compound::PlannedProgram& each) {
-        return active.rendererFor(each.channel, renderers) != first;
-    });
-}
-
-absl::StatusOr<RenderedFrame> FramePipeline::drawCentrally(const FrameRequest& request,
-                                                           ActiveConfiguration& active,
-                                                           const compound::Plan& plan,
-                                                           const Members& members,
-                                                           const Crew::State& state) {
-    ASSIGN_OR_RETURN(
-        std::vector<Dispatch::Drawn> drawn,
-        draw(request, plan, active.renderersFor(plan, members.size()), state.revision));
-    active.record(plan, frameNumber_, takenBy(drawn));
-    RenderedFrame frame = composed(plan, std::move(drawn), {}, state.scene->background);
-    frame.statistics.tauAskedPixels = request.tauPixels;
-    return frame;
-}
-
-absl::StatusOr<RenderedFrame> FramePipeline::drawByPrograms(
-    const FrameRequest& request, ActiveConfiguration& active, const compound::Plan& plan,
-    const compound::Exchange& exchange, const Members& members, const Crew::State& state) {
-    Members renderers;
-    std::vector<std::string> addresses;
-    for (const compound::PlannedProgram& each : exchange.programs) {
-        renderers.push_back(members[active.rendererFor(each.channel, members.size())]);
-        addresses.push_back(crew_.addressOf(renderers.back()->id()));
+absl::StatusOr<DrawnFrame> FramePipeline::draw(const PlannedFrame& frame,
+                                               const std::function<void()>& handedOut) {
+    if (frame.byPrograms && programs_.mayDraw()) {
+        absl::StatusOr<DrawnFrame> drawn = programs_.draw(frame, handedOut);
+        if (drawn.ok())
+            return drawn;
     }
-    const std::uint64_t kind = kinds_.of(request, state.revision);
-    const std::chrono::milliseconds timeout =
-        programPatience_.limit(kind).value_or(options_.patience.first);
-    const auto started = Registry::Clock::now();
-    const fabric::FrameData& frameData = frameDataFor(request);
-    auto running = std::async(std::launch::async, [&] {
-        return ProgramRuns::run(exchange,
-                                {frameData, state.revision, session_, state.scene->background,
-                                 request.completeness, timeout},
-                                renderers, addresses);
-    });
-    compound::Plan others = exchange.rest;
-    others.draws.resize(exchange.draws.size());
-    auto drawn = draw(request, others, active.renderersFor(others, members.size()), state.revision);
-    ASSIGN_OR_RETURN(ProgramRuns::Result result, running.get());
-    RETURN_IF_ERROR(drawn.status());
-    programPatience_.record(
-        kind, timeout,
-        std::chrono::duration_cast<std::chrono::milliseconds>(Registry::Clock::now() - started));
-    std::vector<ActiveConfiguration::Taken> taken(plan.draws.size());
-    const std::vector<ActiveConfiguration::Taken> byOthers = takenBy(*drawn);
-    for (std::size_t i = 0; i < byOthers.size(); ++i) taken[exchange.draws[i]] = byOthers[i];
-    for (const ProgramRuns::Result::Draw& each : result.draws)
-        taken[each.draw] = {plan.draws[each.draw].task.pixelViewport, each.statistics.milliseconds,
-                            each.statistics.milliseconds.total};
-    active.record(plan, frameNumber_, taken);
-    RenderedFrame frame = composed(exchange.rest, *std::move(drawn), std::move(result.pictures),
-                                   state.scene->background);
-    for (const ProgramRuns::Result::Draw& each : result.draws)
-        fabric::accumulate(frame.statistics, each.statistics);
-    frame.device = result.device;
-    frame.isThroughWall = isThroughWall(plan);
-    frame.statistics.tauAskedPixels = request.tauPixels;
-    return frame;
+    return drawCentrally(frame, handedOut);
 }
 
-absl::StatusOr<std::vector<Dispatch::Drawn>> FramePipeline::draw(const FrameRequest& request,
-                                                                 const compound::Plan& plan,
-                                                                 std::vector<std::size_t> preferred,
-                                                                 std::uint64_t revision) {
-    const fabric::FrameData& frameData = frameDataFor(request);
-    std::vector<fabric::ChannelTask> tasks;
-    for (const compound::PlannedDraw& draw : plan.draws) {
-        fabric::ChannelTask& task = tasks.emplace_back(draw.task);
-        task.frameDataVersion = frameData.version;
-        task.completeness = request.completeness;
-        task.measuresStages = request.measuresStages;
-    }
-    const std::uint64_t kind = kinds_.of(request, revision);
-    // What renderers did among themselves took as long as what they do for the coordinator will.
-    const auto first = programPatience_.limit(kind).value_or(options_.patience.first);
-    auto dispatch = std::make_shared<Dispatch>(Dispatch::Plan{frameData, std::move(tasks), revision,
-                                                              kind, first, options_.callTimeout,
-                                                              std::move(preferred)});
-    return dispatch->run(crew_);
-}
-
-const fabric::FrameData& FramePipeline::frameDataFor(const FrameRequest& request) {
-    const fabric::FrameData asked{
-        frameData_.version, request.camera, request.tauPixels, request.shading, request.look,
-        request.occlusion,  budget_};
-    if (frameData_.version == 0 || asked != frameData_) {
-        frameData_ = asked;
-        ++frameData_.version;
-    }
-    return frameData_;
+absl::StatusOr<DrawnFrame> FramePipeline::drawCentrally(const PlannedFrame& frame,
+                                                        const std::function<void()>& handedOut) {
+    Dispatch::Plan plan =
+        dispatchOf(frame, frame.plan, frame.preferred, programs_.patienceWith(frame.kind));
+    plan.callTimeout = options_.callTimeout;
+    plan.handedOut = handedOut;
+    plan.freed = [this] { gate_.look(); };
+    ASSIGN_OR_RETURN(std::vector<Dispatch::Drawn> drawn,
+                     std::make_shared<Dispatch>(std::move(plan))->run(crew_));
+    DrawnFrame whole;
+    whole.taken = takenBy(drawn);
+    whole.picture = composedFrame(frame, frame.plan, std::move(drawn));
+    return whole;
 }
 
 /// All renderers have all the data: any may answer. That one is slow or cannot read a page is not
@@ -288,8 +144,7 @@ std::string FramePipeline::problem(const Crew::State& state) const {
 }
 
 absl::Status FramePipeline::configure(const SwitchLayout& change) {
-    const std::lock_guard turn(turn_);
-    return configuration_.configure(change);
+    return planner_.configure(change);
 }
 
 Status FramePipeline::status() const {
@@ -298,7 +153,7 @@ Status FramePipeline::status() const {
     const Crew::State state = crew_.state();
     status.scene = *state.scene;
     status.sceneInfo = state.sceneInfo;
-    status.canvases = configuration_.canvases();
+    status.canvases = planner_.canvases();
     status.problem = problem(state);
     return status;
 }

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
+#include <functional>
 #include <optional>
 #include <string>
 
-#include "coordinator/compound/exchange.h"
 #include "coordinator/config/configuration.h"
 #include "coordinator/farm/listeners.h"
 #include "coordinator/farm/registry.h"
-#include "coordinator/frame/budget_keeper.h"
-#include "coordinator/frame/configuration_keeper.h"
+#include "coordinator/frame/composed_frame.h"
 #include "coordinator/frame/crew.h"
-#include "coordinator/frame/dispatch.h"
-#include "coordinator/frame/frame_kinds.h"
+#include "coordinator/frame/frame_gate.h"
+#include "coordinator/frame/frame_planner.h"
 #include "coordinator/frame/frame_source.h"
 #include "coordinator/frame/patience.h"
-#include "coordinator/frame/turn.h"
+#include "coordinator/frame/program_drawing.h"
 
 namespace eyrie::coordinator {
 
@@ -32,7 +32,10 @@ struct FramePipelineOptions {
 };
 
 /// Makes frames: by a configuration, each is cut into draws for the renderers that are ready, these
-/// are done at the same time, and put together.
+/// are done at the same time, and put together. As many frames may be under way as the
+/// configuration's latency, and one: while the pictures of one are on their way, or some renderers
+/// draw it, those that have nothing to do begin with the next. None begins sooner than that, since
+/// its camera would only be older.
 class FramePipeline final : public FrameSource {
 public:
     /// Draws with the renderers in `registry`, which outlives the pipeline.
@@ -45,6 +48,7 @@ public:
     void setScene(fabric::Scene scene) { crew_.setScene(std::move(scene)); }
 
     absl::StatusOr<RenderedFrame> renderFrame(const FrameRequest& request) override;
+    absl::StatusOr<RenderedFrame> renderLatest(const ChooseFrame& choose) override;
     absl::StatusOr<fabric::Picked> pick(const fabric::PickRequest& request) override;
     absl::Status configure(const SwitchLayout& change) override;
     Status status() const override;
@@ -52,42 +56,20 @@ public:
     void unsubscribe(int handle) override;
 
 private:
-    absl::StatusOr<RenderedFrame> renderOfScene(const FrameRequest& asked,
-                                                const Crew::State& state);
-    const fabric::FrameData& frameDataFor(const FrameRequest& request);
-    using Members = std::vector<std::shared_ptr<Member>>;
-    absl::StatusOr<RenderedFrame> drawCentrally(const FrameRequest& request,
-                                                ActiveConfiguration& active,
-                                                const compound::Plan& plan, const Members& members,
-                                                const Crew::State& state);
-    absl::StatusOr<RenderedFrame> drawByPrograms(const FrameRequest& request,
-                                                 ActiveConfiguration& active,
-                                                 const compound::Plan& plan,
-                                                 const compound::Exchange& exchange,
-                                                 const Members& members, const Crew::State& state);
-    bool mayExchange(const ActiveConfiguration& active, const compound::Exchange& exchange,
-                     std::size_t renderers) const;
-    absl::StatusOr<std::vector<Dispatch::Drawn>> draw(const FrameRequest& request,
-                                                      const compound::Plan& plan,
-                                                      std::vector<std::size_t> preferred,
-                                                      std::uint64_t revision);
+    absl::StatusOr<RenderedFrame> render(const FrameRequest& asked, FrameGate::Pass& pass);
+    /// `handedOut` is called when every renderer has been given its part.
+    absl::StatusOr<DrawnFrame> draw(const PlannedFrame& frame,
+                                    const std::function<void()>& handedOut);
+    absl::StatusOr<DrawnFrame> drawCentrally(const PlannedFrame& frame,
+                                             const std::function<void()>& handedOut);
+    bool hasIdleRenderer() const;
     std::string problem(const Crew::State& state) const;
 
     const FramePipelineOptions options_;
     Listeners listeners_;
-
-    Turn turn_;  ///< guards what follows: one frame at a time
-    std::uint64_t frameNumber_ = 0;
-    fabric::FrameData frameData_;
-    std::optional<fabric::FrameBudget> budget_;  ///< of the frame that is being drawn
-    BudgetKeepers keepers_;
-    FrameKinds kinds_;
-    ConfigurationKeeper configuration_;
-    std::uint64_t lastRevision_ = 0;  ///< of the scene
-    std::uint64_t session_ = 0;       ///< of that, for programs
-    Patience programPatience_;
-    Registry::Clock::time_point programsRestUntil_{};  ///< since one failed
-
+    FramePlanner planner_;
+    FrameGate gate_{[this] { return hasIdleRenderer(); }};
+    ProgramDrawing programs_;
     Crew crew_;  ///< last: its threads end before the rest goes
 };
 

@@ -114,11 +114,25 @@ class FrameSource {
 public:
     virtual ~FrameSource() = default;
 
-    /// Draws one frame; blocks until all of the picture is there. Calls from several threads take
-    /// turns. A renderer that fails has its part drawn by another, so an error means that no
-    /// complete frame can be had: InvalidArgument (the request), Unavailable (no renderer, or no
-    /// scene), or what the last renderer said.
+    /// Draws one frame; blocks until all of the picture is there. Calls from several threads begin
+    /// in turn, a few of them at the same time where the configuration's latency allows it and
+    /// renderers would be idle, and end in the order in which they began. A renderer that fails has
+    /// its part drawn by another, so an error means that no complete frame can be had:
+    /// InvalidArgument (the request), Unavailable (no renderer, or no scene), or what the last
+    /// renderer said.
     virtual absl::StatusOr<RenderedFrame> renderFrame(const FrameRequest& request) = 0;
+
+    /// What to draw; nothing where no frame is wanted any more.
+    using ChooseFrame = std::function<std::optional<FrameRequest>()>;
+    /// The same, but the request is asked for when the frame begins: what it shows is no older than
+    /// need be. `choose` is called on the caller's thread, once or, on an error, perhaps not.
+    /// Cancelled where nothing is wanted.
+    virtual absl::StatusOr<RenderedFrame> renderLatest(const ChooseFrame& choose) {
+        const std::optional<FrameRequest> request = choose();
+        if (!request)
+            return absl::CancelledError("no frame is wanted any more");
+        return renderFrame(*request);
+    }
 
     /// What a place of a picture shows, asked of one renderer and, should that fail, of the next;
     /// blocks, but not for frames. Errors: InvalidArgument (the request), Unavailable (no renderer,

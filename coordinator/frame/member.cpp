@@ -14,12 +14,13 @@ Member::Member(std::string id, fabric::DeviceInfo device, std::shared_ptr<Channe
     : id_(std::move(id)),
       device_(std::move(device)),
       renderer_(std::move(renderer)),
-      patience_(patience),
-      thread_([this] { work(); }) {}
+      patience_(patience) {
+    for (std::thread& thread : threads_) thread = std::thread([this] { work(); });
+}
 
 Member::~Member() {
     retire();
-    thread_.join();
+    for (std::thread& thread : threads_) thread.join();
 }
 
 void Member::retire() {
@@ -28,7 +29,12 @@ void Member::retire() {
         retired_ = true;
     }
     renderer_->cancel();
-    changed_.notify_one();
+    changed_.notify_all();
+}
+
+bool Member::isIdle() const {
+    const std::lock_guard lock(mutex_);
+    return !isHeld_ && jobs_.empty() && working_ < kThreads && occupants_ == 0;
 }
 
 std::optional<std::chrono::milliseconds> Member::patience(std::uint64_t kind) const {
@@ -36,73 +42,109 @@ std::optional<std::chrono::milliseconds> Member::patience(std::uint64_t kind) co
     return patience_.limit(kind);
 }
 
-void Member::post(std::function<void()> job) {
-    ++pending_;
+void Member::Hold::release() {
+    if (!std::exchange(isHeld_, false))
+        return;
+    {
+        const std::lock_guard lock(member_.mutex_);
+        member_.isHeld_ = false;
+    }
+    member_.changed_.notify_all();
+}
+
+void Member::Hold::end() {
+    release();
+    if (std::exchange(hasEnded_, true))
+        return;
+    {
+        const std::lock_guard lock(member_.mutex_);
+        --member_.working_;
+    }
+    member_.changed_.notify_all();
+}
+
+void Member::post(Job job) {
     {
         const std::lock_guard lock(mutex_);
         jobs_.push_back(std::move(job));
     }
-    changed_.notify_one();
-}
-
-void Member::leave(std::function<void()> left) {
-    post([this, left = std::move(left)] {
-        --pending_;
-        left();
-    });
+    changed_.notify_all();
 }
 
 void Member::work() {
     std::unique_lock lock(mutex_);
     while (true) {
-        changed_.wait(lock, [this] { return retired_ || !jobs_.empty(); });
+        changed_.wait(lock, [this] { return !isHeld_ && (retired_ || !jobs_.empty()); });
         if (jobs_.empty())
             break;
-        const std::function<void()> job = std::move(jobs_.front());
+        const Job job = std::move(jobs_.front());
         jobs_.pop_front();
+        isHeld_ = true;
+        ++working_;
         lock.unlock();
-        job();
+        {
+            Hold hold(*this);
+            job(hold);
+        }
         lock.lock();
     }
-    ended_ = true;
+    ++ended_;
+}
+
+void Member::leave(std::function<void()> left) {
+    post([this, left = std::move(left)](Hold& hold) {
+        {
+            std::unique_lock lock(mutex_);
+            changed_.wait(lock, [this] { return retired_ || working_ == 1; });
+        }
+        hold.end();
+        left();
+    });
 }
 
 void Member::open(std::shared_ptr<const fabric::Scene> scene, std::uint64_t revision,
                   std::chrono::milliseconds timeout, OpenDone done) {
-    post([this, scene = std::move(scene), revision, timeout, done = std::move(done)] {
+    post([this, scene = std::move(scene), revision, timeout, done = std::move(done)](Hold& hold) {
         // On an error a renderer keeps the scene before, which is no use to the next frame.
         openRevision_ = 0;
         absl::StatusOr<fabric::SceneInfo> info =
             renderer_->openScene(*scene, Clock::now() + timeout);
         if (info.ok())
             openRevision_ = revision;
-        --pending_;
+        hold.end();
         done(std::move(info));
     });
 }
 
 void Member::draw(const Draw& what, DrawDone done) {
     post([this, frameData = what.frameData, task = what.task, revision = what.revision,
-          kind = what.kind, patience = what.patience, timeout = what.timeout,
-          done = std::move(done)] {
-        const Clock::time_point started = Clock::now();
-        absl::StatusOr<fabric::ChannelResult> result = drawNow(frameData, task, revision, timeout);
-        if (absl::IsCancelled(result.status()))  // only retire cancels
-            result = absl::UnavailableError(fmt::format("{} was given up", id_));
-        const bool ok = result.ok();
-        const Clock::duration taken = Clock::now() - started;
-        if (ok) {
+          kind = what.kind, patience = what.patience, timeout = what.timeout, begins = what.begins,
+          drawn = what.drawn, done = std::move(done)](Hold& hold) {
+        drawNow({frameData, task, revision, kind, patience, timeout, begins, drawn}, hold, done);
+    });
+}
+
+void Member::drawNow(const Draw& what, Hold& hold, const DrawDone& done) {
+    if (what.begins && !what.begins()) {
+        hold.end();
+        return done(absl::CancelledError("it is not needed any more"), {});
+    }
+    const Clock::time_point started = Clock::now();
+    absl::StatusOr<fabric::ChannelResult> result = render(what, hold);
+    if (absl::IsCancelled(result.status()))  // only retire cancels
+        result = absl::UnavailableError(fmt::format("{} was given up", id_));
+    const bool ok = result.ok();
+    const Clock::duration taken = Clock::now() - started;
+    if (ok) {
+        {
             const std::lock_guard lock(mutex_);
-            patience_.record(kind, patience,
+            patience_.record(what.kind, what.patience,
                              std::chrono::duration_cast<std::chrono::milliseconds>(taken));
         }
-        if (ok)
-            --pending_;
-        done(std::move(result), taken);
-        // One that failed takes no more work before `done` has decided what becomes of it.
-        if (!ok)
-            --pending_;
-    });
+        hold.end();
+    }
+    // One that failed takes no more work before `done` has decided what becomes of it.
+    done(std::move(result), taken);
 }
 
 absl::StatusOr<fabric::Picked> Member::pick(const fabric::PickRequest& request,
@@ -119,11 +161,15 @@ std::future<absl::Status> Member::prepare(const fabric::FrameData& frameData,
                                           std::chrono::milliseconds timeout) {
     auto prepared = std::make_shared<std::promise<absl::Status>>();
     std::future<absl::Status> done = prepared->get_future();
-    post([this, frameData, revision, timeout, prepared] {
+    post([this, frameData, revision, timeout, prepared](Hold&) {
         prepared->set_value(sendFrameData(frameData, revision, Clock::now() + timeout));
-        --pending_;
     });
     return done;
+}
+
+std::shared_ptr<void> Member::occupy() {
+    ++occupants_;
+    return {nullptr, [this](void*) { --occupants_; }};
 }
 
 absl::StatusOr<fabric::ProgramResult> Member::runProgram(const fabric::ChannelProgram& program,
@@ -146,13 +192,14 @@ absl::Status Member::sendFrameData(const fabric::FrameData& frameData, std::uint
     return absl::OkStatus();
 }
 
-absl::StatusOr<fabric::ChannelResult> Member::drawNow(const fabric::FrameData& frameData,
-                                                      const fabric::ChannelTask& task,
-                                                      std::uint64_t revision,
-                                                      std::chrono::milliseconds timeout) {
-    const Clock::time_point deadline = Clock::now() + timeout;
-    RETURN_IF_ERROR(sendFrameData(frameData, revision, deadline));
-    return renderer_->render(task, deadline);
+absl::StatusOr<fabric::ChannelResult> Member::render(const Draw& what, Hold& hold) {
+    const Clock::time_point deadline = Clock::now() + what.timeout;
+    RETURN_IF_ERROR(sendFrameData(what.frameData, what.revision, deadline));
+    return renderer_->render(what.task, deadline, [&] {
+        hold.release();
+        if (what.drawn)
+            what.drawn();
+    });
 }
 
 }  // namespace eyrie::coordinator

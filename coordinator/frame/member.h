@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
@@ -19,8 +20,9 @@
 
 namespace eyrie::coordinator {
 
-/// A living renderer at work, and the thread that talks to it: one job after the other.
-/// All functions may be called from any thread; `done` functions run on the member's own.
+/// A living renderer at work, and the threads that talk to it: one job after the other, but that
+/// the picture of a draw may still be on its way while the next job runs.
+/// All functions may be called from any thread; functions given to it run on the member's own.
 class Member {
 public:
     using Clock = ChannelRenderer::Clock;
@@ -32,7 +34,7 @@ public:
     Member(std::string id, fabric::DeviceInfo device, std::shared_ptr<ChannelRenderer> renderer,
            const PatienceOptions& patience = {});
 
-    /// Cancels what is in progress and waits for the thread.
+    /// Cancels what is in progress and waits for the threads.
     ~Member();
     Member(const Member&) = delete;
     Member& operator=(const Member&) = delete;
@@ -40,18 +42,19 @@ public:
     const std::string& id() const { return id_; }
     const fabric::DeviceInfo& device() const { return device_; }
 
-    /// Nothing to do: a job given now starts now. True already when `done` is called, but for a
-    /// failure.
-    bool isIdle() const { return pending_ == 0; }
+    /// Nothing to draw or to open: a job given now starts now. True already when Draw::drawn, or
+    /// `done` where there was none, is called, but for a failure.
+    bool isIdle() const;
 
     /// How long it may take for a channel of a frame of `kind`: Patience::limit, by those it has
     /// drawn.
     std::optional<std::chrono::milliseconds> patience(std::uint64_t kind) const;
 
     /// Whether it has a channel in hand that another was asked for as well, until it has done with
-    /// it. Setting it tells what it was before.
-    bool isLate() const { return late_; }
-    bool setLate(bool late) { return late_.exchange(late); }
+    /// all such. Both return whether that has changed.
+    bool isLate() const { return late_ > 0; }
+    bool addLate() { return late_++ == 0; }
+    bool removeLate() { return --late_ == 0; }
 
     /// Opens a scene, known from then on by `revision`.
     void open(std::shared_ptr<const fabric::Scene> scene, std::uint64_t revision,
@@ -65,6 +68,10 @@ public:
         std::uint64_t kind = 0;      ///< of the frame, for patience()
         std::chrono::milliseconds patience{};  ///< how long it is given before it is late
         std::chrono::milliseconds timeout{};
+        /// Asked when its turn has come: false, and it is not drawn but done with, as Cancelled.
+        std::function<bool()> begins = {};
+        /// Called once the renderer may have its next job, if that is before `done`.
+        std::function<void()> drawn = {};
     };
     /// Sends the frame data first where the renderer does not have that version. Copies `what`.
     void draw(const Draw& what, DrawDone done);
@@ -72,6 +79,9 @@ public:
     /// Sends the frame data where the renderer does not have that version, after the jobs before.
     std::future<absl::Status> prepare(const fabric::FrameData& frameData, std::uint64_t revision,
                                       std::chrono::milliseconds timeout);
+
+    /// It is not idle until what is returned is gone, which this outlives.
+    std::shared_ptr<void> occupy();
 
     /// ChannelRenderer::runProgram, beside the jobs and on the caller's thread; Aborted when
     /// another scene is open.
@@ -90,32 +100,52 @@ public:
 
     /// Ends: jobs in progress and in the queue fail soon. Does not wait.
     void retire();
-    bool hasEnded() const { return ended_; }
+    bool hasEnded() const { return ended_ == kThreads; }
 
 private:
-    void post(std::function<void()> job);
+    /// One draws while another takes in the picture before.
+    static constexpr int kThreads = 2;
+
+    /// The renderer, while a job has it to itself, which may end before the job does.
+    class Hold {
+    public:
+        explicit Hold(Member& member) : member_(member) {}
+        ~Hold() { end(); }
+        Hold(const Hold&) = delete;
+        Hold& operator=(const Hold&) = delete;
+        void release();  ///< the next job may begin
+        void end();      ///< and this one is done
+
+    private:
+        Member& member_;
+        bool isHeld_ = true;
+        bool hasEnded_ = false;
+    };
+    using Job = std::function<void(Hold&)>;
+
+    void post(Job job);
     void work();
+    void drawNow(const Draw& what, Hold& hold, const DrawDone& done);
     absl::Status sendFrameData(const fabric::FrameData& frameData, std::uint64_t revision,
                                Clock::time_point deadline);
-    absl::StatusOr<fabric::ChannelResult> drawNow(const fabric::FrameData& frameData,
-                                                  const fabric::ChannelTask& task,
-                                                  std::uint64_t revision,
-                                                  std::chrono::milliseconds timeout);
+    absl::StatusOr<fabric::ChannelResult> render(const Draw& what, Hold& hold);
 
     const std::string id_;
     const fabric::DeviceInfo device_;
     const std::shared_ptr<ChannelRenderer> renderer_;
-    std::uint64_t sentVersion_ = 0;               ///< of the frame data; the thread's own
+    std::uint64_t sentVersion_ = 0;               ///< of the frame data; the holder's own
     std::atomic<std::uint64_t> openRevision_{0};  ///< of the scene it has open; 0: none
-    std::atomic<int> pending_{0};
-    std::atomic<bool> late_{false};
-    std::atomic<bool> ended_{false};
-    mutable std::mutex mutex_;  ///< guards patience_, jobs_ and retired_
+    std::atomic<int> late_{0};
+    std::atomic<int> occupants_{0};
+    std::atomic<int> ended_{0};
+    mutable std::mutex mutex_;  ///< guards what follows
     Patience patience_;
     std::condition_variable changed_;
-    std::deque<std::function<void()>> jobs_;
+    std::deque<Job> jobs_;
+    bool isHeld_ = false;  ///< by a job
+    int working_ = 0;      ///< threads that do a job
     bool retired_ = false;
-    std::thread thread_;
+    std::array<std::thread, kThreads> threads_;
 };
 
 }  // namespace eyrie::coordinator

@@ -22,6 +22,7 @@ fabric::ChannelProgram addressed(const compound::PlannedProgram& planned,
         if (stage.draw) {
             stage.draw->frameDataVersion = setting.frameData.version;
             stage.draw->completeness = setting.completeness;
+            stage.draw->measuresStages = setting.measuresStages;
         }
         for (fabric::ProgramOutput& each : stage.outputs)
             if (const auto& taker = planned.takers[output++])
@@ -49,6 +50,9 @@ absl::StatusOr<ProgramRuns::Result> ProgramRuns::run(
     const compound::Exchange& exchange, const Setting& setting,
     const std::vector<std::shared_ptr<Member>>& renderers,
     const std::vector<std::string>& addresses) {
+    std::vector<std::shared_ptr<void>> occupied;
+    for (const auto& one : renderers) occupied.push_back(one->occupy());
+    setting.handedOut();
     RETURN_IF_ERROR(prepareAll(setting, renderers));
     std::stop_source stop;
     using Answer = absl::StatusOr<fabric::ProgramResult>;
@@ -58,6 +62,8 @@ absl::StatusOr<ProgramRuns::Result> ProgramRuns::run(
             Answer answer =
                 renderers[i]->runProgram(addressed(exchange.programs[i], setting, addresses),
                                          setting.sceneRevision, setting.timeout, stop.get_token());
+            occupied[i].reset();
+            setting.freed();
             if (!answer.ok())
                 stop.request_stop();
             return answer;

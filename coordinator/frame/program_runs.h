@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -24,7 +25,10 @@ public:
         std::uint64_t session = 0;  ///< fabric::ChannelProgram::session
         fabric::Rgba background;
         fabric::Completeness completeness = fabric::Completeness::Complete;
+        bool measuresStages = false;
         std::chrono::milliseconds timeout{};
+        std::function<void()> handedOut;  ///< called when the renderers have been given them
+        std::function<void()> freed;      ///< called when one has done with its program
     };
 
     /// What came of them: pictures in the order of Exchange::rest's draws, and of each draw of the

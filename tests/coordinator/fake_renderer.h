@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -36,10 +39,68 @@ public:
         return absl::OkStatus();
     }
 
-    absl::StatusOr<fabric::ChannelResult> render(const fabric::ChannelTask& task,
-                                                 Clock::time_point deadline) override {
+    absl::StatusOr<fabric::ChannelResult> render(
+        const fabric::ChannelTask& task, Clock::time_point deadline,
+        const std::function<void()>& isDrawn = {}) override {
         ++begun;
         std::unique_lock lock(mutex_);
+        most = std::max(most.load(), ++drawing_);
+        frames.push_back(task.frameNumber);
+        tasks[task.frameNumber] = task.frameDataVersion;
+        absl::StatusOr<fabric::ChannelResult> result = draw(task, deadline, lock);
+        --drawing_;
+        if (isDrawn && result.ok()) {
+            lock.unlock();
+            isDrawn();
+            lock.lock();
+        }
+        changed_.wait_until(lock, deadline, [this] { return !holdsPictures_ || cancelled_; });
+        if (cancelled_)
+            return absl::CancelledError("cancelled");
+        return result;
+    }
+
+    absl::StatusOr<fabric::Picked> pick(const fabric::PickRequest& request,
+                                        Clock::time_point) override {
+        ++picks;
+        const std::lock_guard lock(mutex_);
+        if (!pickStatus_.ok())
+            return pickStatus_;
+        fabric::PickedPoint point;
+        point.object = pickedObject;
+        point.worldMetres = {request.place, 0};
+        return fabric::Picked(point);
+    }
+
+    void cancel() override { set(cancelled_, true); }
+
+    void hang(bool hangs) { set(hangs_, hangs); }
+    /// What it draws meanwhile does not arrive before the end of that.
+    void holdPictures(bool holds) { set(holdsPictures_, holds); }
+    void failToOpen(const absl::Status& status) { set(openStatus_, status); }
+    void failToRender(const absl::Status& status) { set(renderStatus_, status); }
+    void failToPick(const absl::Status& status) { set(pickStatus_, status); }
+
+    std::vector<fabric::DataFile> files;             ///< that it finds
+    std::atomic<std::chrono::milliseconds> takes{};  ///< really, for a channel
+    std::vector<std::string> opened;                 ///< names of the scenes' first objects
+    std::vector<std::uint64_t> versions;             ///< of the frame data received
+    std::vector<std::uint64_t> frames;               ///< numbers of those it began to draw
+    std::map<std::uint64_t, std::uint64_t> tasks;    ///< versions of the frame data, by frames
+    std::atomic<int> most{0};                        ///< channels that it was drawing at once
+    std::atomic<int> begun{0};
+    std::atomic<int> drawn{0};
+    std::atomic<double> share{0};               ///< of the frame, that the last channel was
+    std::atomic<double> millisecondsAFrame{0};  ///< said to be taken for the whole of it
+    std::atomic<int> picks{0};
+    std::atomic<int> pickedObject{0};
+
+private:
+    absl::StatusOr<fabric::ChannelResult> draw(const fabric::ChannelTask& task,
+                                               Clock::time_point deadline,
+                                               std::unique_lock<std::mutex>& lock) {
+        if (std::ranges::find(versions, task.frameDataVersion) == versions.end())
+            return absl::FailedPreconditionError("the fake has no such frame data");
         if (takes.load().count() > 0)
             changed_.wait_for(lock, takes.load(), [this] { return cancelled_; });
         changed_.wait_until(lock, deadline, [this] { return !hangs_ || cancelled_; });
@@ -64,37 +125,6 @@ public:
         return result;
     }
 
-    absl::StatusOr<fabric::Picked> pick(const fabric::PickRequest& request,
-                                        Clock::time_point) override {
-        ++picks;
-        const std::lock_guard lock(mutex_);
-        if (!pickStatus_.ok())
-            return pickStatus_;
-        fabric::PickedPoint point;
-        point.object = pickedObject;
-        point.worldMetres = {request.place, 0};
-        return fabric::Picked(point);
-    }
-
-    void cancel() override { set(cancelled_, true); }
-
-    void hang(bool hangs) { set(hangs_, hangs); }
-    void failToOpen(const absl::Status& status) { set(openStatus_, status); }
-    void failToRender(const absl::Status& status) { set(renderStatus_, status); }
-    void failToPick(const absl::Status& status) { set(pickStatus_, status); }
-
-    std::vector<fabric::DataFile> files;             ///< that it finds
-    std::atomic<std::chrono::milliseconds> takes{};  ///< really, for a channel
-    std::vector<std::string> opened;                 ///< names of the scenes' first objects
-    std::vector<std::uint64_t> versions;             ///< of the frame data received
-    std::atomic<int> begun{0};
-    std::atomic<int> drawn{0};
-    std::atomic<double> share{0};               ///< of the frame, that the last channel was
-    std::atomic<double> millisecondsAFrame{0};  ///< said to be taken for the whole of it
-    std::atomic<int> picks{0};
-    std::atomic<int> pickedObject{0};
-
-private:
     template <typename T>
     void set(T& variable, const T& value) {
         {
@@ -107,7 +137,9 @@ private:
     const std::shared_ptr<const LayeredScene> scene_;
     std::mutex mutex_;
     std::condition_variable changed_;
+    int drawing_ = 0;
     bool hangs_ = false;
+    bool holdsPictures_ = false;
     bool cancelled_ = false;
     std::optional<fabric::FrameBudget> budget_;
     absl::Status openStatus_;

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/frame/composed_frame.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "coordinator/compound/compose.h"
+
+namespace eyrie::coordinator {
+
+Dispatch::Plan dispatchOf(const PlannedFrame& frame, const compound::Plan& draws,
+                          std::vector<std::size_t> preferred, std::chrono::milliseconds first) {
+    Dispatch::Plan plan;
+    plan.frameData = frame.frameData;
+    for (const compound::PlannedDraw& draw : draws.draws) {
+        fabric::ChannelTask& task = plan.tasks.emplace_back(draw.task);
+        task.frameDataVersion = frame.frameData.version;
+        task.completeness = frame.request.completeness;
+        task.measuresStages = frame.request.measuresStages;
+    }
+    plan.sceneRevision = frame.scene.revision;
+    plan.kind = frame.kind;
+    plan.firstPatience = first;
+    plan.preferred = std::move(preferred);
+    return plan;
+}
+
+std::vector<ActiveConfiguration::Taken> takenBy(const std::vector<Dispatch::Drawn>& drawn) {
+    std::vector<ActiveConfiguration::Taken> taken;
+    for (const Dispatch::Drawn& one : drawn)
+        taken.push_back({one.result.image.area, one.result.statistics.milliseconds,
+                         std::chrono::duration<double, std::milli>(one.taken).count()});
+    return taken;
+}
+
+RenderedFrame composedFrame(const PlannedFrame& frame, const compound::Plan& plan,
+                            std::vector<Dispatch::Drawn> drawn, std::vector<fabric::Image> more) {
+    RenderedFrame result;
+    if (!drawn.empty())
+        result.device = drawn.front().device;
+    result.isThroughWall = std::ranges::any_of(
+        frame.plan.draws, [](const auto& draw) { return draw.task.sight.has_value(); });
+    std::vector<fabric::Image> images;
+    for (Dispatch::Drawn& part : drawn) {
+        fabric::accumulate(result.statistics, part.result.statistics);
+        images.push_back(std::move(part.result.image));
+    }
+    result.statistics.tauAskedPixels = frame.request.tauPixels;
+    std::ranges::move(more, std::back_inserter(images));
+    std::vector<fabric::Image> pictures =
+        compound::composePictures(plan, std::move(images), frame.scene.scene->background);
+    if (pictures.empty())
+        return result;
+    result.image = std::move(pictures.front());
+    result.further.assign(std::make_move_iterator(pictures.begin() + 1),
+                          std::make_move_iterator(pictures.end()));
+    return result;
+}
+
+}  // namespace eyrie::coordinator

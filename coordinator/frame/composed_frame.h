@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <vector>
+
+#include "coordinator/compound/plan.h"
+#include "coordinator/frame/active_configuration.h"
+#include "coordinator/frame/dispatch.h"
+#include "coordinator/frame/frame_source.h"
+#include "coordinator/frame/planned_frame.h"
+
+namespace eyrie::coordinator {
+
+/// The dispatch of draws of a frame: all of its plan, or some. `first` is for renderers of which
+/// nothing is known.
+Dispatch::Plan dispatchOf(const PlannedFrame& frame, const compound::Plan& draws,
+                          std::vector<std::size_t> preferred, std::chrono::milliseconds first);
+
+/// A frame, and what each draw of its plan took, for equalizers.
+struct DrawnFrame {
+    RenderedFrame picture;
+    std::vector<ActiveConfiguration::Taken> taken;
+};
+
+std::vector<ActiveConfiguration::Taken> takenBy(const std::vector<Dispatch::Drawn>& drawn);
+
+/// The pictures of `plan` from those of its draws: `drawn`, and after these `more`.
+RenderedFrame composedFrame(const PlannedFrame& frame, const compound::Plan& plan,
+                            std::vector<Dispatch::Drawn> drawn,
+                            std::vector<fabric::Image> more = {});
+
+}  // namespace eyrie::coordinator

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/frame/frame_gate.h"
+
+#include <utility>
+
+namespace eyrie::coordinator {
+
+FrameGate::Pass::Pass(FrameGate& gate)
+    : gate_(gate), ticket_([&] {
+          const std::lock_guard lock(gate.mutex_);
+          return gate.issued_++;
+      }()) {
+    std::unique_lock lock(gate_.mutex_);
+    gate_.changed_.wait(lock, [&] { return gate_.next_ == ticket_ && gate_.mayBegin(); });
+    gate_.underWay_.push_back(ticket_);
+}
+
+FrameGate::Pass::~Pass() {
+    letNext();
+    {
+        const std::lock_guard lock(gate_.mutex_);
+        std::erase(gate_.underWay_, ticket_);
+    }
+    gate_.changed_.notify_all();
+}
+
+void FrameGate::Pass::letNext() {
+    if (std::exchange(hasLetNext_, true))
+        return;
+    {
+        const std::lock_guard lock(gate_.mutex_);
+        ++gate_.next_;
+    }
+    gate_.changed_.notify_all();
+}
+
+void FrameGate::Pass::awaitEarlier() {
+    std::unique_lock lock(gate_.mutex_);
+    gate_.changed_.wait(lock, [this] { return gate_.underWay_.front() == ticket_; });
+}
+
+bool FrameGate::mayBegin() const {
+    return underWay_.empty() || (underWay_.size() < limit_ && isWorthwhile_());
+}
+
+void FrameGate::setLimit(int limit) {
+    {
+        const std::lock_guard lock(mutex_);
+        limit_ = static_cast<std::size_t>(limit);
+    }
+    changed_.notify_all();
+}
+
+void FrameGate::look() {
+    {
+        // Whoever is between asking and waiting must not miss it.
+        const std::lock_guard lock(mutex_);
+    }
+    changed_.notify_all();
+}
+
+}  // namespace eyrie::coordinator

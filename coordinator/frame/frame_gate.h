@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <mutex>
+
+namespace eyrie::coordinator {
+
+/// Lets frames begin in the order in which they were asked for, so that no viewer starves, a few at
+/// a time, and end in the order in which they began. All functions may be called from any thread.
+class FrameGate {
+public:
+    /// Whether another frame would find something to do while others are under way.
+    using IsWorthwhile = std::function<bool()>;
+
+    explicit FrameGate(IsWorthwhile isWorthwhile) : isWorthwhile_(std::move(isWorthwhile)) {}
+    FrameGate(const FrameGate&) = delete;
+    FrameGate& operator=(const FrameGate&) = delete;
+
+    /// A frame under way.
+    class Pass {
+    public:
+        /// Waits for the turn: until those before have let the next and none is under way, or fewer
+        /// than the limit and another is worthwhile.
+        explicit Pass(FrameGate& gate);
+        /// The frame has ended, in order or not.
+        ~Pass();
+        Pass(const Pass&) = delete;
+        Pass& operator=(const Pass&) = delete;
+
+        /// The frame has its renderers: the next may begin where others have nothing to do.
+        void letNext();
+
+        /// Waits until those that began before have ended.
+        void awaitEarlier();
+
+    private:
+        FrameGate& gate_;
+        const std::uint64_t ticket_;
+        bool hasLetNext_ = false;
+    };
+
+    /// How many frames may be under way, 1 or more.
+    void setLimit(int limit);
+
+    /// Another frame may have become worthwhile.
+    void look();
+
+private:
+    bool mayBegin() const;
+
+    const IsWorthwhile isWorthwhile_;
+    std::mutex mutex_;  ///< guards what follows; held while isWorthwhile_ is asked
+    std::condition_variable changed_;
+    std::size_t limit_ = 1;
+    std::uint64_t issued_ = 0;            ///< tickets
+    std::uint64_t next_ = 0;              ///< ticket whose turn it is
+    std::deque<std::uint64_t> underWay_;  ///< in the order in which they began
+};
+
+}  // namespace eyrie::coordinator

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/frame/frame_planner.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "fabric/status.h"
+
+namespace eyrie::coordinator {
+namespace {
+
+using Members = std::vector<std::shared_ptr<Member>>;
+
+std::vector<config::RendererFacts> factsOf(const Members& members) {
+    std::vector<config::RendererFacts> facts;
+    for (const auto& member : members)
+        facts.push_back({member->id(), "", member->device().renderer});
+    return facts;
+}
+
+/// Those that are not late with what others draw meanwhile.
+std::vector<bool> freeOnes(const Members& members) {
+    std::vector<bool> free;
+    for (const auto& member : members) free.push_back(!member->isLate());
+    return free;
+}
+
+/// Between renderers of their own.
+std::optional<PlannedFrame::ByPrograms> byPrograms(const PlannedFrame& frame) {
+    std::optional<compound::Exchange> exchange = compound::exchangeOf(frame.plan, frame.number);
+    if (!exchange)
+        return std::nullopt;
+    const std::size_t count = frame.members.size();
+    PlannedFrame::ByPrograms programs;
+    for (const compound::PlannedProgram& each : exchange->programs)
+        programs.renderers.push_back(frame.configuration->rendererFor(each.channel, count));
+    if (std::ranges::adjacent_find(programs.renderers, std::ranges::not_equal_to()) ==
+        programs.renderers.end())
+        return std::nullopt;
+    programs.others = exchange->rest;
+    programs.others.draws.resize(exchange->draws.size());
+    programs.preferred = frame.configuration->renderersFor(programs.others, count);
+    programs.exchange = *std::move(exchange);
+    return programs;
+}
+
+}  // namespace
+
+FramePlanner::FramePlanner(std::optional<config::Configuration> given, std::string layout,
+                           std::function<void()> changed)
+    : configuration_(std::move(given), std::move(layout), std::move(changed)) {}
+
+absl::StatusOr<PlannedFrame> FramePlanner::plan(const FrameRequest& asked, const Crew::State& scene,
+                                                Members ready) {
+    if (ready.empty())
+        return absl::UnavailableError("no renderer is ready");
+    const std::lock_guard lock(mutex_);
+    if (scene.revision != std::exchange(lastRevision_, scene.revision))
+        keepers_.forget();
+    PlannedFrame frame;
+    frame.request = asked;
+    frame.scene = scene;
+    frame.members = std::move(ready);
+    std::optional<fabric::FrameBudget> budget;
+    if (asked.budgetMilliseconds) {
+        const BudgetPlan plan = keepers_.of(asked).plan(asked);
+        budget = plan.budget;
+        frame.request.width = plan.width;
+        frame.request.height = plan.height;
+    }
+    active_ = configuration_.with(factsOf(frame.members));
+    frame.configuration = active_;
+    frame.number = ++frameNumber_;
+    ASSIGN_OR_RETURN(frame.plan,
+                     active_->plan(frame.request, frame.number, freeOnes(frame.members)));
+    frame.preferred = active_->renderersFor(frame.plan, frame.members.size());
+    frame.frameData = frameDataFor(frame.request, budget);
+    frame.kind = kinds_.of(frame.request, scene.revision);
+    frame.byPrograms = byPrograms(frame);
+    return frame;
+}
+
+const fabric::FrameData& FramePlanner::frameDataFor(
+    const FrameRequest& request, const std::optional<fabric::FrameBudget>& budget) {
+    const fabric::FrameData asked{
+        frameData_.version, request.camera, request.tauPixels, request.shading, request.look,
+        request.occlusion,  budget};
+    if (frameData_.version == 0 || asked != frameData_) {
+        frameData_ = asked;
+        ++frameData_.version;
+    }
+    return frameData_;
+}
+
+void FramePlanner::record(const PlannedFrame& frame,
+                          std::span<const ActiveConfiguration::Taken> taken) {
+    const std::lock_guard lock(mutex_);
+    frame.configuration->record(frame.plan, frame.number, taken);
+}
+
+void FramePlanner::finished(const FrameRequest& asked, const PlannedFrame& frame,
+                            const fabric::FrameStatistics& statistics, Clock::time_point begun) {
+    const std::lock_guard lock(mutex_);
+    const Clock::time_point now = Clock::now();
+    const std::chrono::duration<double, std::milli> taken =
+        now - std::max(begun, std::exchange(lastFinished_, now));
+    if (!asked.budgetMilliseconds || frame.scene.revision != lastRevision_)
+        return;
+    BudgetKeeper& keeper = keepers_.of(asked);
+    const BudgetPlan next = keeper.plan(asked);
+    if (next.width == frame.request.width && next.height == frame.request.height)
+        keeper.record(asked, statistics, taken.count());
+}
+
+absl::Status FramePlanner::configure(const SwitchLayout& change) {
+    const std::lock_guard lock(mutex_);
+    return configuration_.configure(change);
+}
+
+int FramePlanner::framesUnderWay() const {
+    const std::lock_guard lock(mutex_);
+    if (!active_)
+        return 1;
+    return static_cast<int>(
+        std::clamp<std::int64_t>(active_->written().latency + 1, 1, kMostFrames));
+}
+
+std::size_t FramePlanner::renderersUsed() const {
+    const std::lock_guard lock(mutex_);
+    return active_ ? active_->pipes().size() : 0;
+}
+
+}  // namespace eyrie::coordinator

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "coordinator/frame/budget_keeper.h"
+#include "coordinator/frame/configuration_keeper.h"
+#include "coordinator/frame/frame_kinds.h"
+#include "coordinator/frame/planned_frame.h"
+
+namespace eyrie::coordinator {
+
+/// What frames have in common: the configuration they are made by, the versions of their data, and
+/// what is learned from one for the next. All functions may be called from any thread.
+class FramePlanner {
+public:
+    using Clock = std::chrono::steady_clock;
+
+    /// More are never under way: renderers keep the frame data of as many.
+    static constexpr int kMostFrames = 8;
+
+    /// As for ConfigurationKeeper.
+    FramePlanner(std::optional<config::Configuration> given, std::string layout,
+                 std::function<void()> changed);
+
+    /// The next frame, by the renderers that are `ready`. Errors: Unavailable (there is none);
+    /// those of ActiveConfiguration::plan.
+    absl::StatusOr<PlannedFrame> plan(const FrameRequest& asked, const Crew::State& scene,
+                                      std::vector<std::shared_ptr<Member>> ready);
+
+    /// What its draws took, for the configuration's equalizers. Frames come in their order.
+    void record(const PlannedFrame& frame, std::span<const ActiveConfiguration::Taken> taken);
+
+    /// The frame that was `asked` for at `begun` is there, for the budget it had: what counts is
+    /// the time since then or since the frame before it was there, as for who sees them. Frames
+    /// come in their order. One that was planned at another size than the next will be teaches
+    /// nothing.
+    void finished(const FrameRequest& asked, const PlannedFrame& frame,
+                  const fabric::FrameStatistics& statistics, Clock::time_point begun);
+
+    /// From the next frame on. Errors: those of ConfigurationKeeper::configure.
+    absl::Status configure(const SwitchLayout& change);
+    std::vector<CanvasStatus> canvases() const { return configuration_.canvases(); }
+
+    /// As the configuration of the frame planned last has it: its latency and the one that is being
+    /// seen, at most kMostFrames.
+    int framesUnderWay() const;
+    /// How many of the renderers that are ready that one has something to do for.
+    std::size_t renderersUsed() const;
+
+private:
+    const fabric::FrameData& frameDataFor(const FrameRequest& request,
+                                          const std::optional<fabric::FrameBudget>& budget);
+
+    mutable std::mutex mutex_;  ///< guards what follows
+    std::uint64_t frameNumber_ = 0;
+    fabric::FrameData frameData_;
+    BudgetKeepers keepers_;
+    FrameKinds kinds_;
+    ConfigurationKeeper configuration_;
+    std::shared_ptr<ActiveConfiguration> active_;  ///< of the last frame
+    std::uint64_t lastRevision_ = 0;               ///< of the scene
+    Clock::time_point lastFinished_{};
+};
+
+}  // namespace eyrie::coordinator

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/frame/program_drawing.h"
+
+#include <future>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <spdlog/spdlog.h>
+
+#include "coordinator/frame/program_runs.h"
+#include "fabric/status.h"
+
+namespace eyrie::coordinator {
+namespace {
+
+/// How long programs are left alone after one has failed.
+constexpr std::chrono::seconds kRest{2};
+
+std::uint64_t newSession() {
+    std::random_device random;
+    return (std::uint64_t{random()} << 32 | random()) | 1;  // not 0
+}
+
+/// What each draw of the plan took, whoever had it.
+std::vector<ActiveConfiguration::Taken> takenByAll(const PlannedFrame& frame,
+                                                   const std::vector<Dispatch::Drawn>& others,
+                                                   const ProgramRuns::Result& programs) {
+    std::vector<ActiveConfiguration::Taken> taken(frame.plan.draws.size());
+    const std::vector<ActiveConfiguration::Taken> byOthers = takenBy(others);
+    for (std::size_t i = 0; i < byOthers.size(); ++i)
+        taken[frame.byPrograms->exchange.draws[i]] = byOthers[i];
+    for (const ProgramRuns::Result::Draw& each : programs.draws)
+        taken[each.draw] = {frame.plan.draws[each.draw].task.pixelViewport,
+                            each.statistics.milliseconds, each.statistics.milliseconds.total};
+    return taken;
+}
+
+}  // namespace
+
+ProgramDrawing::ProgramDrawing(const Options& options, Crew& crew)
+    : options_(options), crew_(crew), patience_(options.patience) {}
+
+bool ProgramDrawing::mayDraw() const {
+    const std::lock_guard lock(mutex_);
+    return Clock::now() >= restsUntil_;
+}
+
+std::chrono::milliseconds ProgramDrawing::patienceWith(std::uint64_t kind) const {
+    const std::lock_guard lock(mutex_);
+    return patience_.limit(kind).value_or(options_.patience.first);
+}
+
+std::uint64_t ProgramDrawing::sessionOf(std::uint64_t revision) {
+    const std::lock_guard lock(mutex_);
+    if (revision != std::exchange(revision_, revision))
+        session_ = newSession();
+    return session_;
+}
+
+absl::StatusOr<DrawnFrame> ProgramDrawing::draw(const PlannedFrame& frame,
+                                                const std::function<void()>& handedOut) {
+    absl::StatusOr<DrawnFrame> drawn = tryToDraw(frame, handedOut);
+    if (!drawn.ok()) {
+        spdlog::warn("frame {} is put together here: {}", frame.number, drawn.status().ToString());
+        const std::lock_guard lock(mutex_);
+        restsUntil_ = Clock::now() + kRest;
+    }
+    return drawn;
+}
+
+absl::StatusOr<DrawnFrame> ProgramDrawing::tryToDraw(const PlannedFrame& frame,
+                                                     const std::function<void()>& handedOut) {
+    const PlannedFrame::ByPrograms& programs = *frame.byPrograms;
+    std::vector<std::shared_ptr<Member>> renderers;
+    std::vector<std::string> addresses;
+    for (const std::size_t each : programs.renderers) {
+        renderers.push_back(frame.members[each]);
+        addresses.push_back(crew_.addressOf(renderers.back()->id()));
+    }
+    const std::chrono::milliseconds timeout = patienceWith(frame.kind);
+    const std::uint64_t session = sessionOf(frame.scene.revision);
+    const auto started = Clock::now();
+    auto running = std::async(std::launch::async, [&] {
+        return ProgramRuns::run(programs.exchange,
+                                {frame.frameData, frame.scene.revision, session,
+                                 frame.scene.scene->background, frame.request.completeness,
+                                 frame.request.measuresStages, timeout, handedOut, options_.freed},
+                                renderers, addresses);
+    });
+    Dispatch::Plan others =
+        dispatchOf(frame, programs.others, programs.preferred, patienceWith(frame.kind));
+    others.callTimeout = options_.callTimeout;
+    others.freed = options_.freed;
+    auto drawn = std::make_shared<Dispatch>(std::move(others))->run(crew_);
+    ASSIGN_OR_RETURN(ProgramRuns::Result result, running.get());
+    RETURN_IF_ERROR(drawn.status());
+    {
+        const std::lock_guard lock(mutex_);
+        patience_.record(
+            frame.kind, timeout,
+            std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - started));
+    }
+    DrawnFrame whole;
+    whole.taken = takenByAll(frame, *drawn, result);
+    RenderedFrame& picture = whole.picture;
+    picture =
+        composedFrame(frame, programs.exchange.rest, *std::move(drawn), std::move(result.pictures));
+    for (const ProgramRuns::Result::Draw& each : result.draws)
+        fabric::accumulate(picture.statistics, each.statistics);
+    picture.statistics.tauAskedPixels = frame.request.tauPixels;
+    picture.device = result.device;
+    return whole;
+}
+
+}  // namespace eyrie::coordinator
