@@ -39,6 +39,7 @@ public:
          const ViewerOptions& options)
         : frames_(frames),
           messageReady_(std::move(messageReady)),
+          maySwitch_(options.maySwitch),
           progress_(
               {options.restDelay, options.retryDelay, options.loadingDelay, options.missingDelay}),
           outbox_(options.framesInFlight),
@@ -72,9 +73,13 @@ public:
             setProblem(requestProblem_, sanitised(text(request.status())));
         else if (const auto* view = std::get_if<ViewRequest>(&*request))
             want(*view);
-        else if (auto* change = std::get_if<coordinator::SwitchLayout>(&*request))
-            switch_ = std::move(*change);
-        else
+        else if (auto* change = std::get_if<coordinator::SwitchLayout>(&*request)) {
+            if (maySwitch_)
+                switch_ = std::move(*change);
+            else
+                setProblem(requestProblem_,
+                           "layouts are switched by who has a token of role control");
+        } else
             outbox_.acknowledged(std::get<FrameAck>(*request), Clock::now());
         announce(lock);
         return absl::OkStatus();
@@ -283,6 +288,7 @@ private:
 
     coordinator::FrameSource& frames_;
     const std::function<void()> messageReady_;
+    const bool maySwitch_;
 
     std::mutex mutex_;  // guards everything below, up to the desk
     std::condition_variable changed_;

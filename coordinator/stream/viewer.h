@@ -27,6 +27,8 @@ struct ViewerOptions {
     std::chrono::milliseconds loadingDelay{30};
     /// The same when all that is missing could not be read, and may be readable later.
     std::chrono::milliseconds missingDelay{5000};
+    /// Whether this browser may switch layouts, which everybody sees; it is told where it may not.
+    bool maySwitch = true;
 };
 
 /// One browser's stream of frames, without the network: bytes come in by receive() and go out by

@@ -12,6 +12,7 @@ import { showNumbers } from "./panel/numbers";
 import { showPick } from "./panel/pick";
 import { showPlots } from "./panel/plots";
 import { showQuality } from "./panel/quality";
+import { signIn, signInAgain } from "./panel/sign_in";
 import { showStatus } from "./panel/status";
 import { showTerrain } from "./panel/terrain";
 import { setUpToolbar } from "./panel/toolbar";
@@ -54,6 +55,9 @@ function start(): void {
   setUpToolbar(state, viewer);
   keepDescription(state, canvas);
   exposeHooks(state, viewer);
+  state.connection.watch(({ kind }) => {
+    if (kind === "lost") void signInAgain();
+  });
 }
 
-start();
+void signIn().then(start);
