@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Everything comes from Debian 12; `./dev deps` installs it.
 find_package(Threads REQUIRED)
+find_package(OpenSSL REQUIRED)
 find_package(absl REQUIRED)
 find_package(fmt REQUIRED)
 find_package(spdlog REQUIRED)

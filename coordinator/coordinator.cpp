@@ -69,7 +69,7 @@ absl::StatusOr<std::unique_ptr<Coordinator>> Coordinator::start(const Coordinato
             "the coordinator has no address for renderers to register at");
     auto registry = std::make_unique<Registry>();
     ASSIGN_OR_RETURN(std::unique_ptr<GrpcService> door,
-                     GrpcService::start(options.grpcAddresses, *registry));
+                     GrpcService::start(options.grpcAddresses, *registry, options.security));
     return std::unique_ptr<Coordinator>(
         new Coordinator(std::make_unique<Impl>(std::move(registry), std::move(door), options)));
 }

@@ -11,6 +11,7 @@
 #include "coordinator/config/configuration.h"
 #include "coordinator/frame/frame_source.h"
 #include "fabric/scene.h"
+#include "wire/security.h"
 
 namespace eyrie::coordinator {
 
@@ -19,7 +20,9 @@ struct CoordinatorOptions {
     std::vector<std::string> grpcAddresses{"127.0.0.1:0"};
     /// How frames are made; nothing: by a configuration of the renderers there are.
     std::optional<config::Configuration> configuration = {};
-    std::string layout = {};   ///< of that, at first; empty: 2D (config::defaultConfiguration)
+    std::string layout = {};  ///< of that, at first; empty: 2D (config::defaultConfiguration)
+    /// How renderers and the coordinator know each other; nothing: whoever reaches the addresses.
+    wire::Security security = {};
     fabric::Scene scene = {};  ///< of .eyt and .eym files that the renderers can read
 };
 

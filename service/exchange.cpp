@@ -22,8 +22,9 @@ std::vector<FrameKey> keysOf(const fabric::ChannelProgram& program) {
 
 }  // namespace
 
-Exchange::Exchange(GlThread& thread, const FrameDataHistory& frameData)
-    : thread_(thread), frameData_(frameData) {}
+Exchange::Exchange(GlThread& thread, const FrameDataHistory& frameData,
+                   const wire::Security& security)
+    : thread_(thread), frameData_(frameData), peers_(security) {}
 
 Exchange::~Exchange() {
     for (Running& running : running_) running.thread.join();

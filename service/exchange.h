@@ -29,7 +29,9 @@ public:
     static constexpr std::size_t kMaxPrograms = 16;
 
     /// `thread` and `frameData` outlive the exchange.
-    Exchange(GlThread& thread, const FrameDataHistory& frameData);
+    /// `security` is how this renderer shows itself to the others.
+    Exchange(GlThread& thread, const FrameDataHistory& frameData,
+             const wire::Security& security = {});
 
     /// Waits for programs in progress: stop them before.
     ~Exchange();

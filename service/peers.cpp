@@ -17,10 +17,11 @@
 namespace eyrie::service {
 
 struct Peers::Connection {
-    explicit Connection(std::string to)
+    Connection(std::string to, const wire::Security& security)
         : address(std::move(to)),
-          stub(v1::RenderService::NewStub(grpc::CreateCustomChannel(
-              address, grpc::InsecureChannelCredentials(), wire::clientArguments()))) {}
+          stub(v1::RenderService::NewStub(
+              grpc::CreateCustomChannel(address, wire::channelCredentials(security, address),
+                                        wire::clientArguments(security)))) {}
 
     const std::string address;
     const std::unique_ptr<v1::RenderService::Stub> stub;
@@ -48,7 +49,7 @@ void write(grpc::ClientWriter<v1::PutFrameRequest>& writer, const FrameKey& key,
 
 }  // namespace
 
-Peers::Peers() = default;
+Peers::Peers(wire::Security security) : security_(std::move(security)) {}
 Peers::~Peers() = default;
 
 absl::Status Peers::send(const std::string& address, const FrameKey& key,
@@ -56,6 +57,7 @@ absl::Status Peers::send(const std::string& address, const FrameKey& key,
                          const std::stop_token& stop) {
     const std::shared_ptr<Connection> connection = connectionTo(address);
     grpc::ClientContext context;
+    wire::present(security_, context);
     context.set_deadline(std::chrono::system_clock::now() + (deadline - Clock::now()));
     const std::stop_callback cancel(stop, [&] { context.TryCancel(); });
     v1::PutFrameResponse response;
@@ -73,7 +75,7 @@ std::shared_ptr<Peers::Connection> Peers::connectionTo(const std::string& addres
         connections_.splice(connections_.begin(), connections_, found);
         return connections_.front();
     }
-    connections_.push_front(std::make_shared<Connection>(address));
+    connections_.push_front(std::make_shared<Connection>(address, security_));
     if (connections_.size() > kMaxConnections)
         connections_.pop_back();
     return connections_.front();

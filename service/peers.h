@@ -12,6 +12,7 @@
 
 #include "fabric/image.h"
 #include "service/mailbox.h"
+#include "wire/security.h"
 
 namespace eyrie::service {
 
@@ -24,7 +25,8 @@ public:
     /// Connections kept open; the one longest unused goes first.
     static constexpr std::size_t kMaxConnections = 64;
 
-    Peers();
+    /// `security` is how this renderer shows itself to the others.
+    explicit Peers(wire::Security security = {});
     ~Peers();
     Peers(const Peers&) = delete;
     Peers& operator=(const Peers&) = delete;
@@ -39,6 +41,7 @@ private:
 
     std::shared_ptr<Connection> connectionTo(const std::string& address);
 
+    const wire::Security security_;
     std::mutex mutex_;                                    ///< guards connections_
     std::list<std::shared_ptr<Connection>> connections_;  ///< the last used one first
 };

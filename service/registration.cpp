@@ -57,7 +57,8 @@ public:
         : options_(options),
           peer_(fmt::format("coordinator {}", options.coordinator)),
           stub_(v1::CoordinatorService::NewStub(grpc::CreateCustomChannel(
-              options.coordinator, grpc::InsecureChannelCredentials(), wire::clientArguments()))) {}
+              options.coordinator, wire::channelCredentials(options.security, options.coordinator),
+              wire::clientArguments(options.security)))) {}
 
     absl::Status run(const std::stop_token& stop) {
         while (!stop.stop_requested()) {
@@ -93,6 +94,7 @@ private:
                       const Request& request, Response& response, const std::stop_token& stop,
                       std::chrono::milliseconds timeout = kCallTimeout) {
         grpc::ClientContext context;
+        wire::present(options_.security, context);
         context.set_deadline(std::chrono::system_clock::now() + timeout);
         const std::stop_callback cancel(stop, [&context] { context.TryCancel(); });
         return wire::fromGrpc(((*stub_).*method)(&context, request, &response), peer_);

@@ -9,6 +9,7 @@
 #include <absl/status/status.h>
 
 #include "fabric/statistics.h"
+#include "wire/security.h"
 
 namespace eyrie::service {
 
@@ -16,6 +17,7 @@ struct RegistrationOptions {
     std::string coordinator;  ///< "host:port" or "unix:/path"
     std::string address;      ///< where the renderer's RenderService listens
     fabric::DeviceInfo device;
+    wire::Security security = {};  ///< how it shows itself, and knows the coordinator
     std::chrono::milliseconds retryInterval{1000};
     /// How long to live without the coordinator; none: for ever.
     std::optional<std::chrono::milliseconds> giveUpAfter;

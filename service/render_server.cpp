@@ -15,11 +15,12 @@ namespace eyrie::service {
 
 class RenderServer::Impl {
 public:
-    explicit Impl(GlThread& thread) : service_(thread) {}
+    Impl(GlThread& thread, const wire::Security& security)
+        : service_(thread, security), security_(security) {}
 
     absl::Status listen(const std::string& address) {
         grpc::EnableDefaultHealthCheckService(true);
-        ASSIGN_OR_RETURN(wire::Listening listening, wire::listen({address}, service_));
+        ASSIGN_OR_RETURN(wire::Listening listening, wire::listen({address}, service_, security_));
         server_ = std::move(listening.server);
         address_ = listening.addresses.front();
         return absl::OkStatus();
@@ -35,13 +36,15 @@ public:
 
 private:
     RenderService service_;
+    const wire::Security security_;
     std::unique_ptr<grpc::Server> server_;
     std::string address_;
 };
 
 absl::StatusOr<std::unique_ptr<RenderServer>> RenderServer::start(const std::string& address,
-                                                                  GlThread& thread) {
-    auto impl = std::make_unique<Impl>(thread);
+                                                                  GlThread& thread,
+                                                                  const wire::Security& security) {
+    auto impl = std::make_unique<Impl>(thread, security);
     RETURN_IF_ERROR(impl->listen(address));
     return std::unique_ptr<RenderServer>(new RenderServer(std::move(impl)));
 }

@@ -8,6 +8,7 @@
 #include <absl/status/statusor.h>
 
 #include "service/gl_thread.h"
+#include "wire/security.h"
 
 namespace eyrie::service {
 
@@ -15,9 +16,11 @@ namespace eyrie::service {
 class RenderServer {
 public:
     /// Listens on "host:port" (port 0: the system chooses) or "unix:/path". `thread` outlives the
-    /// server. Errors: Unavailable (the address cannot be listened on).
+    /// server. Who calls is known by `security`. Errors: Unavailable (the address cannot be
+    /// listened on).
     static absl::StatusOr<std::unique_ptr<RenderServer>> start(const std::string& address,
-                                                               GlThread& thread);
+                                                               GlThread& thread,
+                                                               const wire::Security& security = {});
     ~RenderServer();
     RenderServer(const RenderServer&) = delete;
     RenderServer& operator=(const RenderServer&) = delete;

@@ -40,6 +40,13 @@ void draw(ChannelDrawer& drawer, const fabric::FrameData& frameData,
         reply.fail(result.status());
 }
 
+/// Of a caller that may not send any.
+class RefusedFrame final : public grpc::ServerReadReactor<v1::PutFrameRequest> {
+public:
+    explicit RefusedFrame(const absl::Status& why) { Finish(wire::toGrpc(why)); }
+    void OnDone() override { delete this; }
+};
+
 /// A call without a deadline has this one.
 constexpr std::chrono::seconds kLongest{60};
 
@@ -56,8 +63,10 @@ grpc::ServerUnaryReactor* RenderService::OpenScene(grpc::CallbackServerContext* 
                                                    v1::OpenSceneResponse* response) {
     grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
     absl::StatusOr<fabric::Scene> scene = wire::fromMessage(request->scene());
-    absl::Status status = scene.status();
-    if (scene.ok())
+    absl::Status status = wire::admit(security_, *context);
+    if (status.ok())
+        status = scene.status();
+    if (status.ok())
         status = thread_.post(
             [this, scene = *std::move(scene), response, reactor](ChannelDrawer& drawer) {
                 reactor->Finish(wire::toGrpc(openScene(drawer, scene, picks_, *response)));
@@ -72,17 +81,23 @@ grpc::ServerUnaryReactor* RenderService::SetFrameData(grpc::CallbackServerContex
                                                       v1::SetFrameDataResponse* /*response*/) {
     grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
     const absl::StatusOr<fabric::FrameData> frameData = wire::fromMessage(request->frame_data());
-    if (frameData.ok())
+    absl::Status status = wire::admit(security_, *context);
+    if (status.ok())
+        status = frameData.status();
+    if (status.ok())
         frameData_.store(*frameData);
-    reactor->Finish(wire::toGrpc(frameData.status()));
+    reactor->Finish(wire::toGrpc(status));
     return reactor;
 }
 
 grpc::ServerWriteReactor<v1::RenderChannelResponse>* RenderService::RenderChannel(
-    grpc::CallbackServerContext* /*context*/, const v1::RenderChannelRequest* request) {
+    grpc::CallbackServerContext* context, const v1::RenderChannelRequest* request) {
     ++replies_;
     auto* reply = new ChannelReplyStream([this] { --replies_; });
-    if (const absl::Status status = startDrawing(*request, *reply); !status.ok())
+    absl::Status status = wire::admit(security_, *context);
+    if (status.ok())
+        status = startDrawing(*request, *reply);
+    if (!status.ok())
         reply->fail(status);
     return reply;
 }
@@ -91,14 +106,18 @@ grpc::ServerWriteReactor<v1::RunProgramResponse>* RenderService::RunProgram(
     grpc::CallbackServerContext* context, const v1::RunProgramRequest* request) {
     ++replies_;
     auto* reply = new ProgramReplyStream([this] { --replies_; });
-    if (const absl::Status status = startProgram(*request, deadlineOf(*context), *reply);
-        !status.ok())
+    absl::Status status = wire::admit(security_, *context);
+    if (status.ok())
+        status = startProgram(*request, deadlineOf(*context), *reply);
+    if (!status.ok())
         reply->fail(status);
     return reply;
 }
 
 grpc::ServerReadReactor<v1::PutFrameRequest>* RenderService::PutFrame(
-    grpc::CallbackServerContext* /*context*/, v1::PutFrameResponse* /*response*/) {
+    grpc::CallbackServerContext* context, v1::PutFrameResponse* /*response*/) {
+    if (const absl::Status status = wire::admit(security_, *context); !status.ok())
+        return new RefusedFrame(status);
     return new FrameReceiver(exchange_.mailbox());
 }
 
@@ -107,8 +126,11 @@ grpc::ServerUnaryReactor* RenderService::Pick(grpc::CallbackServerContext* conte
                                               v1::PickResponse* response) {
     grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
     const absl::StatusOr<fabric::PickRequest> asked = wire::fromMessage(*request);
-    if (!asked.ok()) {
-        reactor->Finish(wire::toGrpc(asked.status()));
+    absl::Status status = wire::admit(security_, *context);
+    if (status.ok())
+        status = asked.status();
+    if (!status.ok()) {
+        reactor->Finish(wire::toGrpc(status));
         return reactor;
     }
     picks_.pick(*asked, deadlineOf(*context),

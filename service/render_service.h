@@ -20,7 +20,8 @@ public:
     static constexpr int kMaxReplies = 16;
 
     /// `thread` outlives the service.
-    explicit RenderService(GlThread& thread) : thread_(thread) {}
+    explicit RenderService(GlThread& thread, const wire::Security& security = {})
+        : thread_(thread), security_(security), exchange_(thread, frameData_, security) {}
 
     grpc::ServerUnaryReactor* OpenScene(grpc::CallbackServerContext* context,
                                         const v1::OpenSceneRequest* request,
@@ -48,9 +49,10 @@ private:
                               Exchange::Clock::time_point deadline, ProgramReplyStream& reply);
 
     GlThread& thread_;
+    const wire::Security security_;
     PickThread picks_;
     FrameDataHistory frameData_;
-    Exchange exchange_{thread_, frameData_};
+    Exchange exchange_;
     std::atomic<int> replies_{0};
 };
 

@@ -23,7 +23,7 @@ absl::StatusOr<std::unique_ptr<RendererNode>> RendererNode::start(
     RETURN_IF_ERROR(wire::checkAddress(options.listen));
     ASSIGN_OR_RETURN(std::unique_ptr<GlThread> thread, GlThread::start(create));
     ASSIGN_OR_RETURN(std::unique_ptr<RenderServer> server,
-                     RenderServer::start(options.listen, *thread));
+                     RenderServer::start(options.listen, *thread, options.security));
     return std::unique_ptr<RendererNode>(
         new RendererNode(options, std::move(thread), std::move(server)));
 }
@@ -38,8 +38,9 @@ const fabric::DeviceInfo& RendererNode::device() const { return thread_->device(
 const std::string& RendererNode::address() const { return server_->address(); }
 
 absl::Status RendererNode::run(const std::stop_token& stop) {
-    RegistrationOptions registration{options_.coordinator, address(), device(),
-                                     options_.retryInterval, std::nullopt};
+    RegistrationOptions registration{
+        options_.coordinator,   address(),   device(), options_.security,
+        options_.retryInterval, std::nullopt};
     if (options_.exitWithCoordinator)
         registration.giveUpAfter = options_.giveUpAfter;
     const absl::Status status = keepRegistered(registration, stop);

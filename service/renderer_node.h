@@ -9,6 +9,7 @@
 #include <absl/status/statusor.h>
 
 #include "service/channel_drawer.h"
+#include "wire/security.h"
 
 namespace eyrie::service {
 
@@ -24,6 +25,7 @@ struct RendererNodeOptions {
     /// renderers that belong to one `eyrie serve`.
     bool exitWithCoordinator = false;
     std::chrono::milliseconds giveUpAfter{10'000};
+    wire::Security security = {};  ///< of its own door, and at the coordinator's and others'
     std::chrono::milliseconds retryInterval{1000};
 };
 

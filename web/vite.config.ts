@@ -11,7 +11,10 @@ export default defineConfig({
   worker: { format: "es" },
   server: {
     // `npm run dev` beside `eyrie serve`.
-    proxy: { "/ws": { target: "ws://127.0.0.1:8080", ws: true } },
+    proxy: {
+      "/login": { target: "http://127.0.0.1:8080" },
+      "/ws": { target: "ws://127.0.0.1:8080", ws: true },
+    },
   },
   test: { include: ["src/**/*.test.ts"] },
 });

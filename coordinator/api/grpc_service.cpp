@@ -36,13 +36,17 @@ absl::Status checkVersion(const v1::RegisterRendererRequest& request) {
 
 class CoordinatorService final : public v1::CoordinatorService::CallbackService {
 public:
-    explicit CoordinatorService(Registry& registry) : registry_(registry) {}
+    CoordinatorService(Registry& registry, const wire::Security& security)
+        : registry_(registry), security_(security) {}
 
     grpc::ServerUnaryReactor* RegisterRenderer(grpc::CallbackServerContext* context,
                                                const v1::RegisterRendererRequest* request,
                                                v1::RegisterRendererResponse* response) override {
         grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
-        reactor->Finish(wire::toGrpc(add(*request, context->peer(), *response)));
+        absl::Status status = wire::admit(security_, *context);
+        if (status.ok())
+            status = add(*request, context->peer(), *response);
+        reactor->Finish(wire::toGrpc(status));
         return reactor;
     }
 
@@ -50,8 +54,11 @@ public:
                                         const v1::HeartbeatRequest* request,
                                         v1::HeartbeatResponse* /*response*/) override {
         grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
-        reactor->Finish(wire::toGrpc(
-            registry_.heartbeat(request->renderer_id().substr(0, 64), Registry::Clock::now())));
+        absl::Status status = wire::admit(security_, *context);
+        if (status.ok())
+            status =
+                registry_.heartbeat(request->renderer_id().substr(0, 64), Registry::Clock::now());
+        reactor->Finish(wire::toGrpc(status));
         return reactor;
     }
 
@@ -59,8 +66,10 @@ public:
                                     const v1::DrainRequest* request,
                                     v1::DrainResponse* /*response*/) override {
         grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
-        reactor->Finish(wire::toGrpc(
-            registry_.drain(request->renderer_id().substr(0, 64), Registry::Clock::now())));
+        absl::Status status = wire::admit(security_, *context);
+        if (status.ok())
+            status = registry_.drain(request->renderer_id().substr(0, 64), Registry::Clock::now());
+        reactor->Finish(wire::toGrpc(status));
         return reactor;
     }
 
@@ -75,9 +84,9 @@ private:
                              Registry::Clock::now());
             return status;
         }
-        ASSIGN_OR_RETURN(
-            const std::string id,
-            registry_.add(address, device, connectRenderer(address), Registry::Clock::now()));
+        ASSIGN_OR_RETURN(const std::string id,
+                         registry_.add(address, device, connectRenderer(address, security_),
+                                       Registry::Clock::now()));
         response.set_renderer_id(id);
         response.set_heartbeat_milliseconds(
             static_cast<std::int32_t>(registry_.options().heartbeatInterval.count()));
@@ -85,17 +94,19 @@ private:
     }
 
     Registry& registry_;
+    const wire::Security security_;
 };
 
 }  // namespace
 
 class GrpcService::Impl {
 public:
-    explicit Impl(Registry& registry) : service_(registry) {}
+    Impl(Registry& registry, const wire::Security& security)
+        : service_(registry, security), security_(security) {}
 
     absl::Status listen(const std::vector<std::string>& addresses) {
         grpc::EnableDefaultHealthCheckService(true);
-        ASSIGN_OR_RETURN(listening_, wire::listen(addresses, service_));
+        ASSIGN_OR_RETURN(listening_, wire::listen(addresses, service_, security_));
         return absl::OkStatus();
     }
 
@@ -105,12 +116,13 @@ public:
 
 private:
     CoordinatorService service_;
+    const wire::Security security_;
     wire::Listening listening_;
 };
 
 absl::StatusOr<std::unique_ptr<GrpcService>> GrpcService::start(
-    const std::vector<std::string>& addresses, Registry& registry) {
-    auto impl = std::make_unique<Impl>(registry);
+    const std::vector<std::string>& addresses, Registry& registry, const wire::Security& security) {
+    auto impl = std::make_unique<Impl>(registry, security);
     RETURN_IF_ERROR(impl->listen(addresses));
     return std::unique_ptr<GrpcService>(new GrpcService(std::move(impl)));
 }

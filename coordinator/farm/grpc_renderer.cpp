@@ -35,6 +35,7 @@ public:
     class Call {
     public:
         Call(Calls& calls, ChannelRenderer::Clock::time_point deadline) : calls_(calls) {
+            wire::present(calls.security_, context_);
             context_.set_deadline(std::chrono::system_clock::now() +
                                   (deadline - ChannelRenderer::Clock::now()));
             const std::lock_guard lock(calls_.mutex_);
@@ -56,6 +57,8 @@ public:
         grpc::ClientContext context_;
     };
 
+    explicit Calls(const wire::Security& security) : security_(security) {}
+
     void cancel() {
         const std::lock_guard lock(mutex_);
         cancelled_ = true;
@@ -63,6 +66,7 @@ public:
     }
 
 private:
+    const wire::Security security_;
     std::mutex mutex_;  ///< guards current_ and cancelled_
     std::vector<grpc::ClientContext*> current_;
     bool cancelled_ = false;
@@ -78,12 +82,13 @@ bool answersWithDepth(const fabric::ChannelProgram& program) {
 
 class GrpcRenderer final : public ChannelRenderer {
 public:
-    explicit GrpcRenderer(const std::string& address)
+    GrpcRenderer(const std::string& address, const wire::Security& security)
         : peer_(fmt::format("renderer at {}", address)),
           address_(address),
-          channel_(grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(),
-                                             wire::clientArguments())),
-          stub_(v1::RenderService::NewStub(channel_)) {}
+          channel_(grpc::CreateCustomChannel(address, wire::channelCredentials(security, address),
+                                             wire::clientArguments(security))),
+          stub_(v1::RenderService::NewStub(channel_)),
+          calls_(security) {}
 
     absl::StatusOr<fabric::SceneInfo> openScene(const fabric::Scene& scene,
                                                 Clock::time_point deadline) override {
@@ -202,8 +207,9 @@ private:
 
 }  // namespace
 
-std::shared_ptr<ChannelRenderer> connectRenderer(const std::string& address) {
-    return std::make_shared<GrpcRenderer>(address);
+std::shared_ptr<ChannelRenderer> connectRenderer(const std::string& address,
+                                                 const wire::Security& security) {
+    return std::make_shared<GrpcRenderer>(address, security);
 }
 
 }  // namespace eyrie::coordinator

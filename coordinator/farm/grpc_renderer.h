@@ -5,6 +5,7 @@
 #include <string>
 
 #include "coordinator/farm/channel_renderer.h"
+#include "wire/security.h"
 
 namespace eyrie::coordinator {
 
@@ -13,6 +14,7 @@ namespace eyrie::coordinator {
 ///
 /// Nothing it answers is believed unchecked: what does not fit the task is an Internal error that
 /// names the field.
-std::shared_ptr<ChannelRenderer> connectRenderer(const std::string& address);
+std::shared_ptr<ChannelRenderer> connectRenderer(const std::string& address,
+                                                 const wire::Security& security = {});
 
 }  // namespace eyrie::coordinator

@@ -2,14 +2,18 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <set>
 
 #include <boost/asio/thread_pool.hpp>
 
+#include "coordinator/http/access.h"
+#include "coordinator/http/crowd.h"
 #include "coordinator/http/server.h"
 #include "coordinator/http/static_files.h"
 #include "coordinator/stream/sessions.h"
+#include "coordinator/http/tls.h"
 
 namespace eyrie::http {
 
@@ -30,7 +34,12 @@ struct Context {
     ServerOptions options;
     StaticFiles files;
     coordinator::FrameSource& frames;
+    /// Reached from this machine alone, and asks nobody for a token: so no stranger's name may lead
+    /// a browser here.
     bool isLoopback = true;
+    Access access;
+    std::unique_ptr<Tls> tls;  ///< null: not encrypted
+    Crowd crowd;               ///< who is connected
     std::set<Session*> sessions;
     std::function<void()> sessionEnded;
     /// Ends viewers, which may mean to wait for a frame being rendered.
@@ -39,7 +48,7 @@ struct Context {
     stream::Sessions viewing{frames};
 };
 
-/// A connection's place among the `maxConnections`; held until its viewer, too, has ended.
-using Slot = std::shared_ptr<void>;
+/// A connection's place, and its viewer's; held until that, too, has ended.
+using Slot = Crowd::Place;
 
 }  // namespace eyrie::http

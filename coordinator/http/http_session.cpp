@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/http/http_session.h"
 
+#include <algorithm>
 #include <optional>
 #include <sstream>
 #include <string_view>
 #include <utility>
 
+#include <boost/asio/ip/address.hpp>
 #include <boost/beast/core/buffers_to_string.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
-#include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
 
 #include "coordinator/http/origin.h"
+#include "coordinator/http/problem.h"
 #include "coordinator/http/router.h"
+#include "coordinator/http/stream.h"
 #include "coordinator/http/web_socket.h"
 
 namespace eyrie::http {
@@ -44,10 +47,24 @@ bool isMalformed(error_code error) {
            error != http::error::end_of_stream && error != http::error::partial_message;
 }
 
+/// An IP address; of IPv6 the network, since who has one address has all of it.
+std::string addressOf(tcp::socket& socket) {
+    error_code error;
+    const boost::asio::ip::address address = socket.remote_endpoint(error).address();
+    if (error || address.is_v4())
+        return error ? "nowhere" : address.to_string();
+    boost::asio::ip::address_v6::bytes_type bytes = address.to_v6().to_bytes();
+    if (!address.to_v6().is_v4_mapped() && !address.is_loopback())
+        std::fill(bytes.begin() + 8, bytes.end(), std::uint8_t{0});
+    return boost::asio::ip::address_v6(bytes).to_string();
+}
+
 class HttpSession : public Session, public std::enable_shared_from_this<HttpSession> {
 public:
     HttpSession(tcp::socket socket, Context& context, Slot slot)
-        : stream_(std::move(socket)),
+        : address_(addressOf(socket)),
+          stream_(context.tls ? Stream(std::move(socket), context.tls->current())
+                              : Stream(std::move(socket))),
           buffer_(2 * kMaxHeaderBytes),
           context_(context),
           slot_(std::move(slot)) {
@@ -62,6 +79,28 @@ public:
     void shutDown() override { stream_.cancel(); }
     void abandon() override {}
 
+    void begin() {
+        await();
+        if (!stream_.isEncrypted())
+            return read();
+        stream_.expires_after(context_.options.headerTimeout);
+        stream_.asyncHandshake([self = shared_from_this()](error_code error) {
+            if (!error && !self->isDropped_)
+                self->read();
+        });
+    }
+
+private:
+    /// Until a request has come it may have to make room for another connection.
+    void await() {
+        context_.crowd.await(waiting_, address_, [this] {
+            isDropped_ = true;
+            waiting_.end();
+            slot_.reset();
+            stream_.close();
+        });
+    }
+
     void read() {
         parser_.emplace();
         parser_->header_limit(kMaxHeaderBytes);
@@ -73,9 +112,11 @@ public:
                                 });
     }
 
-private:
     void requestRead(error_code error) {
         namespace http = beast::http;
+        if (isDropped_)
+            return;
+        waiting_.end();
         if (error == http::error::header_limit)
             return reply(textResponse(431, "The request's header is longer than 16 KiB."), false);
         if (error == http::error::body_limit)
@@ -85,15 +126,29 @@ private:
         if (error)
             return;  // closed or too slow; the socket goes with this session
         const Request request = parser_->release();
-        if (pathOf(view(request.target())) == "/ws")
-            return upgrade(request);
         isHead_ = request.method() == http::verb::head;
+        const Asked asked = askedBy(request);
+        if (const std::optional<Response> answer = context_.access.answer(asked, context_.frames))
+            return reply(*answer, request.keep_alive() && answer->status < 400);
+        if (pathOf(view(request.target())) == "/ws")
+            return upgrade(request, context_.access.roleOf(asked));
         reply(route(view(request.method_string()), view(request.target()), context_.files,
                     context_.frames),
               request.keep_alive());
     }
 
-    void upgrade(const Request& request) {
+    Asked askedBy(const Request& request) const {
+        using beast::http::field;
+        return {view(request.method_string()),
+                view(request.target()),
+                view(request[field::authorization]),
+                view(request[field::cookie]),
+                view(request[field::origin]),
+                view(request[field::host]),
+                address_};
+    }
+
+    void upgrade(const Request& request, access::Role role) {
         namespace http = beast::http;
         if (!beast::websocket::is_upgrade(request))
             return reply(textResponse(426, "This is a WebSocket; open / in a browser instead."),
@@ -102,14 +157,19 @@ private:
                              context_.isLoopback))
             return reply(textResponse(403, "Pages of other sites may not connect to this server."),
                          false);
-        const auto joining = stream::joiningOf(view(request.target()));
+        auto joining = stream::joiningOf(view(request.target()));
         if (!joining.ok())
-            return reply(textResponse(400, std::string(joining.status().message())), false);
+            return reply(problemResponse(400, std::string(joining.status().message())), false);
+        joining->mayControl = role >= access::Role::Control;
+        Crowd::Place seat = context_.crowd.seat(address_);
+        if (seat == nullptr)
+            return reply(problemResponse(503, "too many viewers; close some, or try again later"),
+                         false);
         std::ostringstream received;
         received << request << beast::buffers_to_string(buffer_.data());
         stream_.expires_never();
-        openWebSocket(stream_.release_socket(), received.str(), *joining, context_,
-                      std::move(slot_));
+        openWebSocket(std::move(stream_), received.str(), *joining, context_,
+                      std::make_shared<std::pair<Slot, Slot>>(std::move(slot_), std::move(seat)));
     }
 
     void reply(const Response& response, bool keepAlive) {
@@ -121,7 +181,8 @@ private:
         reply_.set("X-Content-Type-Options", "nosniff");
         reply_.set("Referrer-Policy", "no-referrer");
         reply_.set("Cross-Origin-Resource-Policy", "same-origin");
-        if (response.status == 405)
+        for (const auto& [name, value] : response.headers) reply_.set(name, value);
+        if (response.status == 405 && reply_[http::field::allow].empty())
             reply_.set(http::field::allow, "GET, HEAD");
         if (response.status == 426)
             reply_.set(http::field::upgrade, "websocket");
@@ -132,20 +193,26 @@ private:
         stream_.expires_after(context_.options.headerTimeout);
         http::async_write(stream_, reply_,
                           [self = shared_from_this(), keepAlive](error_code error, std::size_t) {
-                              if (!error && keepAlive)
-                                  self->read();
-                              else
-                                  self->finish();
+                              if (error || !keepAlive)
+                                  return self->finish();
+                              self->await();
+                              self->read();
                           });
     }
 
     /// Lets the peer read the reply before the connection goes.
     void finish() {
+        if (stream_.isEncrypted())
+            return stream_.asyncShutDown(beast::role_type::server,
+                                         [self = shared_from_this()](error_code) {});
         error_code ignored;
         stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
     }
 
-    beast::tcp_stream stream_;
+    const std::string address_;
+    Crowd::Waiting waiting_;
+    bool isDropped_ = false;
+    Stream stream_;
     beast::flat_buffer buffer_;
     std::optional<beast::http::request_parser<beast::http::string_body>> parser_;
     Reply reply_;
@@ -157,7 +224,7 @@ private:
 }  // namespace
 
 void openHttpSession(tcp::socket socket, Context& context, Slot slot) {
-    std::make_shared<HttpSession>(std::move(socket), context, std::move(slot))->read();
+    std::make_shared<HttpSession>(std::move(socket), context, std::move(slot))->begin();
 }
 
 }  // namespace eyrie::http

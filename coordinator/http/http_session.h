@@ -7,7 +7,8 @@
 
 namespace eyrie::http {
 
-/// Answers the requests of one connection until it closes or becomes a WebSocket.
+/// Answers the requests of one connection, encrypted where the context says so, until it closes or
+/// becomes a WebSocket.
 void openHttpSession(boost::asio::ip::tcp::socket socket, Context& context, Slot slot);
 
 }  // namespace eyrie::http

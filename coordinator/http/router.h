@@ -4,6 +4,8 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "coordinator/frame/frame_source.h"
 #include "coordinator/http/static_files.h"
@@ -15,6 +17,7 @@ struct Response {
     std::string contentType = "text/plain; charset=utf-8";
     std::string cacheControl = "no-store";
     std::shared_ptr<const std::string> body = std::make_shared<const std::string>();
+    std::vector<std::pair<std::string, std::string>> headers = {};  ///< besides those of all
 };
 
 /// One line of text for a person.

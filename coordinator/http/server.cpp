@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/http/server.h"
 
-#include <atomic>
 #include <mutex>
 #include <string_view>
 #include <thread>
@@ -66,13 +65,21 @@ absl::StatusOr<tcp::endpoint> endpointOf(const ServerOptions& options) {
 
 class Server::Impl {
 public:
-    Impl(const ServerOptions& options, StaticFiles files, coordinator::FrameSource& frames)
-        : context_{options, std::move(files), frames, true, {}, [this] { sessionEnded(); }} {}
+    Impl(const ServerOptions& options, StaticFiles files, std::unique_ptr<Tls> tls, bool isLoopback,
+         coordinator::FrameSource& frames)
+        : context_{options,
+                   std::move(files),
+                   frames,
+                   isLoopback,
+                   Access(options.gate, isLoopback, tls != nullptr),
+                   std::move(tls),
+                   Crowd(options.limits),
+                   {},
+                   [this] { sessionEnded(); }} {}
 
     ~Impl() { stop(); }
 
-    absl::Status listen() {
-        ASSIGN_OR_RETURN(const tcp::endpoint endpoint, endpointOf(context_.options));
+    absl::Status listen(const tcp::endpoint& endpoint) {
         error_code error;
         acceptor_.open(endpoint.protocol(), error);
         if (!error)
@@ -83,7 +90,6 @@ public:
             acceptor_.listen(boost::asio::socket_base::max_listen_connections, error);
         if (error)
             return cannotListen(context_.options, error);
-        context_.isLoopback = endpoint.address().is_loopback();
         port_ = acceptor_.local_endpoint().port();
         accept();
         thread_ = std::thread([this] { io_.run(); });
@@ -91,7 +97,8 @@ public:
     }
 
     std::string url() const {
-        return fmt::format("http://{}/", hostAndPort(context_.options.host, port_));
+        return fmt::format("{}://{}/", context_.tls ? "https" : "http",
+                           hostAndPort(context_.options.host, port_));
     }
 
     void stop() {
@@ -127,14 +134,15 @@ private:
     }
 
     void welcome(tcp::socket socket) {
-        if (connections_ >= context_.options.maxConnections)
-            return refuse(std::move(socket));
-        ++connections_;
-        openHttpSession(std::move(socket), context_,
-                        Slot(nullptr, [this](void*) { --connections_; }));
+        Slot slot = context_.crowd.enter();
+        if (slot == nullptr)
+            return refuse(std::move(socket), context_.tls != nullptr);
+        openHttpSession(std::move(socket), context_, std::move(slot));
     }
 
-    static void refuse(tcp::socket socket) {
+    static void refuse(tcp::socket socket, bool isEncrypted) {
+        if (isEncrypted)
+            return;  // closing says it; there was no handshake
         // The reply fits into the empty send buffer; where it does not, closing says it too.
         error_code ignored;
         socket.non_blocking(true, ignored);
@@ -164,7 +172,6 @@ private:
             shutDownDeadline_.cancel();
     }
 
-    std::atomic<std::size_t> connections_ = 0;
     Context context_;
     boost::asio::io_context io_{1};
     tcp::acceptor acceptor_{io_};
@@ -179,8 +186,15 @@ private:
 absl::StatusOr<std::unique_ptr<Server>> Server::start(const ServerOptions& options,
                                                       coordinator::FrameSource& frames) {
     ASSIGN_OR_RETURN(StaticFiles files, StaticFiles::read(options.webFolder));
-    auto impl = std::make_unique<Impl>(options, std::move(files), frames);
-    RETURN_IF_ERROR(impl->listen());
+    ASSIGN_OR_RETURN(const tcp::endpoint endpoint, endpointOf(options));
+    std::unique_ptr<Tls> tls;
+    if (options.tls) {
+        ASSIGN_OR_RETURN(tls, Tls::open(*options.tls));
+    }
+    const bool isLoopback = endpoint.address().is_loopback() && options.gate == nullptr;
+    auto impl =
+        std::make_unique<Impl>(options, std::move(files), std::move(tls), isLoopback, frames);
+    RETURN_IF_ERROR(impl->listen(endpoint));
     return std::unique_ptr<Server>(new Server(std::move(impl)));
 }
 

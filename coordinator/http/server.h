@@ -6,11 +6,15 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <absl/status/statusor.h>
 
+#include "access/gate.h"
+#include "access/tls_files.h"
 #include "coordinator/frame/frame_source.h"
+#include "coordinator/http/crowd.h"
 
 namespace eyrie::http {
 
@@ -18,18 +22,23 @@ struct ServerOptions {
     std::string host = "127.0.0.1";   ///< an address to listen on, or "localhost"
     std::uint16_t port = 8080;        ///< 0 lets the system choose; see Server::url
     std::filesystem::path webFolder;  ///< the built UI; a page says how to build it where missing
-    std::size_t maxConnections = 64;  ///< one above is answered 503 and closed
+    CrowdLimits limits;               ///< who comes above them is answered 503 and closed
     std::chrono::milliseconds headerTimeout{
         10'000};  ///< for a whole request; also between requests
     /// For one message to a viewer, and for the viewer to acknowledge a picture.
     std::chrono::milliseconds writeTimeout{10'000};
+    int messagesPerSecond = 400;  ///< of one viewer; more wait (message_rate.h)
+    /// Who comes in; null: everybody who can reach the address.
+    std::shared_ptr<access::Gate> gate = {};
+    std::optional<access::TlsFiles> tls = {};  ///< HTTPS instead of HTTP
 };
 
-/// The door for browsers: HTTP/1.1 and the viewer's WebSocket on one port.
+/// The door for browsers: HTTP/1.1, or HTTPS, and the viewer's WebSocket on one port.
 ///
 ///   /          the UI, from webFolder (read once, at start)
 ///   /ws        viewer.proto over binary WebSocket messages; ?session=NAME shares a view, with
 ///              &role=watch without moving it; cross-origin requests get 403
+///   /login     who one is, and a cookie for a token (access.h)
 ///   /healthz   200 while the process lives
 ///   /readyz    200 while a renderer is alive and a scene is open, 503 otherwise; JSON says why
 ///   /api/v1/status   the same JSON, always 200
@@ -39,7 +48,7 @@ class Server {
 public:
     /// Listens and serves on threads of its own until stop(). `frames` outlives the server.
     /// Errors: InvalidArgument (host is no address of this machine), Unavailable (the port is in
-    /// use or not permitted).
+    /// use or not permitted), those of checkTlsFiles.
     static absl::StatusOr<std::unique_ptr<Server>> start(const ServerOptions& options,
                                                          coordinator::FrameSource& frames);
     ~Server();

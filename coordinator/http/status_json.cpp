@@ -11,19 +11,6 @@
 namespace eyrie::http {
 namespace {
 
-std::string quoted(std::string_view text) {
-    std::string result = "\"";
-    for (const char c : text) {
-        if (c == '"' || c == '\\')
-            result += {'\\', c};
-        else if (static_cast<unsigned char>(c) < 0x20)
-            fmt::format_to(std::back_inserter(result), "\\u{:04x}", static_cast<unsigned>(c));
-        else
-            result += c;
-    }
-    return result + '"';
-}
-
 std::string_view nameOf(coordinator::RendererCondition condition) {
     using enum coordinator::RendererCondition;
     switch (condition) {
@@ -47,12 +34,12 @@ std::string rendererJson(const coordinator::RendererStatus& renderer) {
     return fmt::format(
         R"({{"id":{},"address":{},"alive":{},"condition":"{}","why":{},"sinceUnixMilliseconds":{},)"
         R"("device":{},"driver":{},"platform":{},"software":{}}})",
-        quoted(renderer.id), quoted(renderer.address), renderer.isAlive(),
-        nameOf(renderer.condition), quoted(renderer.why),
+        quotedJson(renderer.id), quotedJson(renderer.address), renderer.isAlive(),
+        nameOf(renderer.condition), quotedJson(renderer.why),
         std::chrono::duration_cast<std::chrono::milliseconds>(renderer.since.time_since_epoch())
             .count(),
-        quoted(renderer.device.renderer), quoted(renderer.device.driver),
-        quoted(renderer.device.platform), renderer.device.software);
+        quotedJson(renderer.device.renderer), quotedJson(renderer.device.driver),
+        quotedJson(renderer.device.platform), renderer.device.software);
 }
 
 /// The elements as `toJson` writes them, with commas between.
@@ -69,6 +56,19 @@ std::string joined(const Elements& elements, ToJson toJson) {
 
 }  // namespace
 
+std::string quotedJson(std::string_view text) {
+    std::string result = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\')
+            result += {'\\', c};
+        else if (static_cast<unsigned char>(c) < 0x20)
+            fmt::format_to(std::back_inserter(result), "\\u{:04x}", static_cast<unsigned>(c));
+        else
+            result += c;
+    }
+    return result + '"';
+}
+
 bool isReady(const coordinator::Status& status) {
     const bool hasRenderer =
         std::any_of(status.renderers.begin(), status.renderers.end(),
@@ -80,9 +80,9 @@ std::string statusJson(const coordinator::Status& status) {
     return fmt::format(
         R"({{"ready":{},"problem":{},"renderers":[{}],"scene":{{"objects":[{}],"triangles":{}}}}})"
         "\n",
-        isReady(status), quoted(status.problem), joined(status.renderers, rendererJson),
+        isReady(status), quotedJson(status.problem), joined(status.renderers, rendererJson),
         joined(status.scene.objects,
-               [](const fabric::SceneObject& object) { return quoted(object.name); }),
+               [](const fabric::SceneObject& object) { return quotedJson(object.name); }),
         status.sceneInfo.triangles);
 }
 

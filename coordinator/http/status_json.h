@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "coordinator/frame/frame_source.h"
 
@@ -13,5 +14,8 @@ bool isReady(const coordinator::Status& status);
 /// {"ready":true,"problem":"","renderers":[{"id":"…","address":"…","alive":true,"condition":"ready",
 /// "why":"","sinceUnixMilliseconds":0,"device":"…","driver":"…","platform":"…","software":false}],"scene":{"objects":["…"],"triangles":0}}
 std::string statusJson(const coordinator::Status& status);
+
+/// `text` as a JSON string.
+std::string quotedJson(std::string_view text);
 
 }  // namespace eyrie::http

@@ -10,9 +10,9 @@
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
-#include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/websocket.hpp>
 
+#include "coordinator/http/message_rate.h"
 #include "coordinator/stream/viewer.h"
 
 namespace eyrie::http {
@@ -22,6 +22,7 @@ namespace beast = boost::beast;
 namespace websocket = beast::websocket;
 using beast::error_code;
 using boost::asio::ip::tcp;
+using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kMaxMessageBytes = 64 * 1024;
 constexpr std::chrono::seconds kHandshakeTimeout{10};
@@ -33,11 +34,13 @@ constexpr char kPulsePayload[] = "pulse";
 
 class WebSocket : public Session, public std::enable_shared_from_this<WebSocket> {
 public:
-    WebSocket(tcp::socket socket, std::string received, stream::Joining joining, Context& context,
+    WebSocket(Stream stream, std::string received, stream::Joining joining, Context& context,
               Slot slot)
-        : stream_(std::move(socket)),
+        : stream_(std::move(stream)),
           writeDeadline_(stream_.get_executor()),
           pulse_(stream_.get_executor()),
+          pause_(stream_.get_executor()),
+          rate_(context.options.messagesPerSecond),
           received_(std::move(received)),
           joining_(std::move(joining)),
           context_(context),
@@ -121,7 +124,19 @@ private:
         if (!status.ok())
             return close({websocket::close_code::bad_payload,
                           std::string(status.message().data(), status.message().size())});
-        read();
+        readInTime();
+    }
+
+    /// The next message, when it is due; until then the peer's wait where they are.
+    void readInTime() {
+        const Clock::duration wait = rate_.take(Clock::now());
+        if (wait == Clock::duration::zero())
+            return read();
+        pause_.expires_after(wait);
+        pause_.async_wait([self = shared_from_this()](error_code error) {
+            if (!error && !self->isEnded_)
+                self->read();
+        });
     }
 
     /// Reads on until the peer's own close arrives.
@@ -206,12 +221,16 @@ private:
         abandon();
         writeDeadline_.cancel();
         pulse_.cancel();
+        pause_.cancel();
+        isEnded_ = true;
         beast::get_lowest_layer(stream_).close();
     }
 
-    websocket::stream<beast::tcp_stream> stream_;
+    websocket::stream<Stream> stream_;
     boost::asio::steady_timer writeDeadline_;
     boost::asio::steady_timer pulse_;
+    boost::asio::steady_timer pause_;  ///< before the next message is read
+    MessageRate rate_;
     bool isPulsing_ = false;
     std::optional<std::chrono::steady_clock::time_point> pingedAt_;  ///< and not answered yet
     std::string received_;
@@ -220,6 +239,7 @@ private:
     std::string outgoing_;
     bool isWriting_ = false;
     bool isClosing_ = false;
+    bool isEnded_ = false;
     Context& context_;
     Slot slot_;
     std::shared_ptr<stream::Viewer> viewer_;
@@ -227,9 +247,9 @@ private:
 
 }  // namespace
 
-void openWebSocket(tcp::socket socket, std::string received, const stream::Joining& joining,
+void openWebSocket(Stream stream, std::string received, const stream::Joining& joining,
                    Context& context, Slot slot) {
-    std::make_shared<WebSocket>(std::move(socket), std::move(received), joining, context,
+    std::make_shared<WebSocket>(std::move(stream), std::move(received), joining, context,
                                 std::move(slot))
         ->accept();
 }

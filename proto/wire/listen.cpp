@@ -68,15 +68,16 @@ absl::Status checkAddress(const std::string& address) {
     return absl::OkStatus();
 }
 
-absl::StatusOr<Listening> listen(const std::vector<std::string>& addresses,
-                                 grpc::Service& service) {
+absl::StatusOr<Listening> listen(const std::vector<std::string>& addresses, grpc::Service& service,
+                                 const Security& security) {
     grpc::ServerBuilder builder;
     configureServer(builder);
     builder.RegisterService(&service);
     std::vector<int> ports(addresses.size(), 0);
     for (std::size_t i = 0; i < addresses.size(); ++i) {
         RETURN_IF_ERROR(checkAddress(addresses[i]));
-        builder.AddListeningPort(addresses[i], grpc::InsecureServerCredentials(), &ports[i]);
+        builder.AddListeningPort(addresses[i], serverCredentials(security, addresses[i]),
+                                 &ports[i]);
     }
     Listening listening{builder.BuildAndStart(), {}};
     if (listening.server == nullptr)

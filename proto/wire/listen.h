@@ -7,6 +7,8 @@
 
 #include <absl/status/statusor.h>
 
+#include "wire/security.h"
+
 namespace grpc {
 class Server;
 class Service;
@@ -20,10 +22,11 @@ struct Listening {
 };
 
 /// Serves `service` on "host:port" (port 0: the system chooses) and "unix:/path" addresses, with
-/// the limits of transport.h. `service` outlives the server.
+/// the limits of transport.h. `service` outlives the server, and asks for tokens itself (admit).
 /// Errors: InvalidArgument (an address of another form), Unavailable (one that cannot be listened
 /// on, such as a port in use).
-absl::StatusOr<Listening> listen(const std::vector<std::string>& addresses, grpc::Service& service);
+absl::StatusOr<Listening> listen(const std::vector<std::string>& addresses, grpc::Service& service,
+                                 const Security& security = {});
 
 /// InvalidArgument unless `address` is "host:port" or "unix:/path".
 absl::Status checkAddress(const std::string& address);

@@ -14,6 +14,7 @@ import { showPick } from "./panel/pick";
 import { showPlots } from "./panel/plots";
 import { showQuality } from "./panel/quality";
 import { showSession } from "./panel/session";
+import { signIn, signInAgain } from "./panel/sign_in";
 import { showStatus } from "./panel/status";
 import { showTerrain } from "./panel/terrain";
 import { setUpToolbar } from "./panel/toolbar";
@@ -56,6 +57,9 @@ function start(): void {
   setUpToolbar(state, viewer);
   keepDescription(state, canvas);
   exposeHooks(state, viewer);
+  state.connection.watch(({ kind }) => {
+    if (kind === "lost") void signInAgain();
+  });
 }
 
-start();
+void signIn().then(start);

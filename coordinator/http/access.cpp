@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/http/access.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "coordinator/http/origin.h"
+#include "coordinator/http/problem.h"
+#include "coordinator/http/status_json.h"
+
+namespace eyrie::http {
+namespace {
+
+using access::Role;
+
+constexpr std::string_view kCookie = "eyrie_ticket";
+constexpr std::string_view kApi = "/api/v1/";
+
+bool reads(std::string_view method) { return method == "GET" || method == "HEAD"; }
+
+/// Calls that make something of what there is, and change nothing, but need a body.
+constexpr std::array<std::string_view, 3> kLooks = {"image", "pick", "profile"};
+/// What everybody sees, and can be changed while it is shown.
+constexpr std::array<std::string_view, 3> kShown = {"scene", "configuration", "flights"};
+
+template <std::size_t N>
+bool isOneOf(std::string_view name, const std::array<std::string_view, N>& names) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+Role roleForApi(std::string_view method, std::string_view path) {
+    path.remove_prefix(kApi.size());
+    const std::string_view resource = path.substr(0, path.find('/'));
+    if (reads(method) || (method == "POST" && isOneOf(resource, kLooks)))
+        return Role::View;
+    return isOneOf(resource, kShown) ? Role::Control : Role::Admin;
+}
+
+Response jsonResponse(int status, std::string text) {
+    Response response;
+    response.status = status;
+    response.contentType = "application/json";
+    response.body = std::make_shared<const std::string>(std::move(text));
+    return response;
+}
+
+/// For probes, which have no token.
+Response readyResponse(bool ready) {
+    return jsonResponse(ready ? 200 : 503, fmt::format("{{\"ready\":{}}}\n", ready));
+}
+
+Response refusalOf(const absl::Status& status) {
+    Response response = problemResponse(status);
+    if (response.status == 401)
+        response.headers.emplace_back("WWW-Authenticate", "Bearer realm=\"eyrie\"");
+    if (response.status == 429)
+        response.headers.emplace_back(
+            "Retry-After", std::to_string(std::chrono::seconds(access::Gate::kWindow).count()));
+    return response;
+}
+
+}  // namespace
+
+std::optional<Role> roleFor(std::string_view method, std::string_view path) {
+    if (path == "/ws" || path == "/metrics")
+        return Role::View;
+    if (path.starts_with(kApi))
+        return roleForApi(method, path);
+    return reads(method) ? std::nullopt : std::optional(Role::Admin);
+}
+
+std::string_view cookieNamed(std::string_view name, std::string_view header) {
+    while (!header.empty()) {
+        const std::size_t end = std::min(header.find(';'), header.size());
+        std::string_view pair = header.substr(0, end);
+        header.remove_prefix(std::min(end + 1, header.size()));
+        pair.remove_prefix(std::min(pair.find_first_not_of(' '), pair.size()));
+        if (pair.starts_with(name) && pair.substr(name.size()).starts_with('='))
+            return pair.substr(name.size() + 1);
+    }
+    return {};
+}
+
+absl::StatusOr<Role> Access::admit(const Asked& asked, Role needed) {
+    if (gate_ == nullptr)
+        return Role::Admin;
+    return gate_->admit({asked.authorization, cookieNamed(kCookie, asked.cookie)}, asked.address,
+                        needed);
+}
+
+Role Access::roleOf(const Asked& asked) {
+    const absl::StatusOr<Role> role = admit(asked, Role::View);
+    return role.ok() ? *role : Role::View;
+}
+
+std::optional<Response> Access::answer(const Asked& asked, const coordinator::FrameSource& frames) {
+    const std::string_view path = pathOf(asked.target);
+    // A cookie comes with what any page asks for: only this server's own may change something.
+    if (!reads(asked.method) && !isAllowedOrigin(asked.origin, asked.host, isLoopback_))
+        return problemResponse(
+            absl::PermissionDeniedError("pages of other sites may not change anything here"));
+    if (path == "/login")
+        return login(asked);
+    if (path == "/readyz" && gate_ != nullptr && asked.authorization.empty() &&
+        !admit(asked, Role::View).ok())
+        return readyResponse(isReady(frames.status()));
+    const std::optional<Role> needed = roleFor(asked.method, path);
+    if (!needed)
+        return std::nullopt;
+    const absl::StatusOr<Role> role = admit(asked, *needed);
+    return role.ok() ? std::nullopt : std::optional(refusalOf(role.status()));
+}
+
+Response Access::login(const Asked& asked) {
+    if (asked.method == "DELETE") {
+        Response gone;
+        gone.status = 204;
+        gone.headers.emplace_back("Set-Cookie", cookieOf("", std::chrono::seconds(0)));
+        return gone;
+    }
+    const bool isPost = asked.method == "POST";
+    if (!isPost && !reads(asked.method)) {
+        Response refused = problemResponse(405, "/login answers GET, POST and DELETE");
+        refused.headers.emplace_back("Allow", "GET, HEAD, POST, DELETE");
+        return refused;
+    }
+    const absl::StatusOr<Role> role = admit(asked, Role::View);
+    if (!role.ok())
+        return refusalOf(role.status());
+    Response response =
+        jsonResponse(200, fmt::format("{{\"role\":\"{}\"}}\n", access::nameOf(*role)));
+    if (isPost && gate_ != nullptr && !asked.authorization.empty())
+        response.headers.emplace_back(
+            "Set-Cookie",
+            cookieOf(access::Gate::ticketFor(asked.authorization), access::Gate::kTicketLife));
+    return response;
+}
+
+std::string Access::cookieOf(std::string_view ticket, std::chrono::seconds life) const {
+    return fmt::format("{}={}; Path=/; Max-Age={}; HttpOnly; SameSite=Strict{}", kCookie, ticket,
+                       life.count(), isSecure_ ? "; Secure" : "");
+}
+
+}  // namespace eyrie::http

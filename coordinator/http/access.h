@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "access/gate.h"
+#include "coordinator/http/router.h"
+
+namespace eyrie::http {
+
+/// What of a request says who asks, and for what.
+struct Asked {
+    std::string_view method;
+    std::string_view target;
+    std::string_view authorization = {};  ///< the header; empty: absent, as of all below
+    std::string_view cookie = {};
+    std::string_view origin = {};
+    std::string_view host = {};
+    std::string address = {};  ///< of the peer, without its port
+};
+
+/// The role that a request needs; nothing: anybody may make it. The page itself, and whether the
+/// server lives, are for everybody; looking is `view`, changing what all see `control`, and every
+/// other change, also of paths that are not known here, `admin`.
+std::optional<access::Role> roleFor(std::string_view method, std::string_view path);
+
+/// Who comes in by HTTP. A program sends `Authorization: Bearer TOKEN` with every request. A page
+/// sends it once, with POST /login, and gets a cookie: its scripts cannot read that, no other site
+/// can have it sent (SameSite), and it stands for the token without telling it. Tokens are taken
+/// from nowhere else, so that none is in an address, a log or a Referer.
+///
+///   GET /login     200 {"role":"view"}; 401: a token is needed
+///   POST /login    the same, and a cookie for 12 hours; anybody's page but this server's gets 403
+///   DELETE /login  204; the browser forgets the cookie
+///
+/// Used on the server's thread only.
+class Access {
+public:
+    /// Without a gate everybody may do everything. `isLoopback` as
+    /// in Context; `isSecure`: over TLS.
+    Access(std::shared_ptr<access::Gate> gate, bool isLoopback, bool isSecure)
+        : gate_(std::move(gate)), isLoopback_(isLoopback), isSecure_(isSecure) {}
+
+    /// The answer to a request that is turned away (401, 403, 429), or to one that is answered
+    /// here: /login, and, to strangers, /readyz without what only `view` may know.
+    std::optional<Response> answer(const Asked& asked, const coordinator::FrameSource& frames);
+
+    /// The role of a request that answer() let in.
+    access::Role roleOf(const Asked& asked);
+
+private:
+    absl::StatusOr<access::Role> admit(const Asked& asked, access::Role needed);
+    Response login(const Asked& asked);
+    std::string cookieOf(std::string_view ticket, std::chrono::seconds life) const;
+
+    const std::shared_ptr<access::Gate> gate_;
+    const bool isLoopback_;
+    const bool isSecure_;
+};
+
+/// The value of cookie `name` in a Cookie header; empty: absent.
+std::string_view cookieNamed(std::string_view name, std::string_view header);
+
+}  // namespace eyrie::http

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+import type { Entry } from "../protocol/login";
+import { logIn, splitFragment } from "../protocol/login";
+import { byId, make, setText } from "./element";
+
+const loginUrl = "login";
+
+const reasons: Record<Exclude<Entry, "ok">, string> = {
+  needed: "This server wants a token. Who runs it has one for you.",
+  wrong: "The server does not know this token, or no longer.",
+  limited: "Too many wrong tokens came from here; wait a minute.",
+};
+
+/** The token in the page's address, which leaves the address and the history at once. */
+function takeToken(): string | undefined {
+  const { token, rest } = splitFragment(window.location.hash);
+  if (token === undefined) return undefined;
+  const { pathname, search } = window.location;
+  window.history.replaceState(null, "", `${pathname}${search}${rest === "" ? "" : `#${rest}`}`);
+  return token;
+}
+
+/** Asks for a token until the server takes one. */
+function askForToken(why: Exclude<Entry, "ok">): Promise<void> {
+  const message = byId("message", HTMLElement);
+  const reason = make("p", "", reasons[why]);
+  const input = make("input", "token");
+  input.type = "password";
+  input.autocomplete = "off";
+  input.setAttribute("aria-label", "Token");
+  const form = make("form", "message-box sign-in", reason, input, make("button", "", "Enter"));
+  message.replaceChildren(form);
+  message.hidden = false;
+  input.focus();
+  return new Promise((resolve) => {
+    form.addEventListener("submit", (event) => {
+      event.preventDefault();
+      void logIn(loginUrl, input.value.trim()).then((entry) => {
+        if (entry !== "ok") {
+          setText(reason, reasons[entry]);
+          return;
+        }
+        message.hidden = true;
+        message.replaceChildren();
+        resolve();
+      });
+    });
+  });
+}
+
+/** Returns when the server lets this browser in, for which the user may have to give a token. */
+export async function signIn(): Promise<void> {
+  const entry = await logIn(loginUrl, takeToken());
+  if (entry !== "ok") await askForToken(entry);
+}
+
+/** Once the server, lost before, wants a token again, as after a cookie's life, the page starts anew. */
+export async function signInAgain(): Promise<void> {
+  if ((await logIn(loginUrl)) === "needed") window.location.reload();
+}
