@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,6 +13,10 @@
 #include "coordinator/frame/frame_source.h"
 #include "fabric/scene.h"
 
+namespace eyrie::api {
+class Api;
+}
+
 namespace eyrie::coordinator {
 
 struct CoordinatorOptions {
@@ -19,8 +24,11 @@ struct CoordinatorOptions {
     std::vector<std::string> grpcAddresses{"127.0.0.1:0"};
     /// How frames are made; nothing: by a configuration of the renderers there are.
     std::optional<config::Configuration> configuration = {};
-    std::string layout = {};   ///< of that, at first; empty: 2D (config::defaultConfiguration)
-    fabric::Scene scene = {};  ///< of .eyt and .eym files that the renderers can read
+    std::string layout = {};  ///< of that, at first; empty: 2D (config::defaultConfiguration)
+    /// Where programs may name files and keep flights; empty: nowhere.
+    std::filesystem::path dataFolder = {};
+    bool grpcReflection = false;  ///< tools may ask over gRPC which calls there are
+    fabric::Scene scene = {};     ///< of .eyt and .eym files that the renderers can read
 };
 
 /// A coordinator without its doors for browsers: renderers register with it, and it makes frames
@@ -37,6 +45,9 @@ public:
 
     /// Lives as long as the coordinator. End what calls renderFrame before the coordinator.
     FrameSource& frames();
+
+    /// For programs, over gRPC already. Lives as long as the coordinator.
+    const api::Api& api() const;
 
     /// Where renderers register, with the ports that were chosen.
     const std::vector<std::string>& grpcAddresses() const;

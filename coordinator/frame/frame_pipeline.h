@@ -9,6 +9,7 @@
 #include "coordinator/farm/listeners.h"
 #include "coordinator/farm/registry.h"
 #include "coordinator/frame/budget_keeper.h"
+#include "coordinator/frame/configuration_access.h"
 #include "coordinator/frame/configuration_keeper.h"
 #include "coordinator/frame/crew.h"
 #include "coordinator/frame/dispatch.h"
@@ -33,7 +34,7 @@ struct FramePipelineOptions {
 
 /// Makes frames: by a configuration, each is cut into draws for the renderers that are ready, these
 /// are done at the same time, and put together.
-class FramePipeline final : public FrameSource {
+class FramePipeline final : public FrameSource, public ConfigurationAccess {
 public:
     /// Draws with the renderers in `registry`, which outlives the pipeline.
     FramePipeline(Registry& registry, FramePipelineOptions options);
@@ -47,6 +48,8 @@ public:
     absl::StatusOr<RenderedFrame> renderFrame(const FrameRequest& request) override;
     absl::StatusOr<fabric::Picked> pick(const fabric::PickRequest& request) override;
     absl::Status configure(const SwitchLayout& change) override;
+    absl::Status withConfiguration(
+        const std::function<absl::Status(ActiveConfiguration&)>& use) override;
     Status status() const override;
     int subscribe(std::function<void()> listener) override;
     void unsubscribe(int handle) override;

@@ -7,6 +7,7 @@
 
 #include <boost/asio/thread_pool.hpp>
 
+#include "coordinator/api/workers.h"
 #include "coordinator/http/server.h"
 #include "coordinator/http/static_files.h"
 
@@ -32,6 +33,8 @@ struct Context {
     bool isLoopback = true;
     std::set<Session*> sessions;
     std::function<void()> sessionEnded;
+    /// Do the API's calls, which may take as long as a picture.
+    api::Workers callers{8, 64};
     /// Ends viewers, which may mean to wait for a frame being rendered.
     boost::asio::thread_pool reaper{1};
 };

@@ -16,11 +16,7 @@
 #include "wire/statistics.h"
 
 namespace eyrie::stream {
-namespace {
 
-constexpr std::size_t kMaxProblemBytes = 400;
-
-/// What this version does not know is as if it were not said.
 coordinator::Shown shownFromMessage(const v1::ShownPicture& message) {
     using compound::Eye;
     using compound::Stereo;
@@ -41,6 +37,10 @@ coordinator::Shown shownFromMessage(const v1::ShownPicture& message) {
         shown.stereo = Stereo::TopBottom;
     return shown;
 }
+
+namespace {
+
+constexpr std::size_t kMaxProblemBytes = 400;
 
 absl::StatusOr<ViewRequest> viewFromMessage(const v1::ViewRequest& message) {
     v1::FrameData data;
@@ -156,7 +156,12 @@ absl::StatusOr<Request> parseRequest(std::span<const std::byte> bytes) {
 
 std::string stateMessage(const coordinator::Status& status, std::string_view problem) {
     v1::ViewerResponse response;
-    v1::SessionState& state = *response.mutable_state();
+    *response.mutable_state() = sessionState(status, problem);
+    return response.SerializeAsString();
+}
+
+v1::SessionState sessionState(const coordinator::Status& status, std::string_view problem) {
+    v1::SessionState state;
     for (const coordinator::RendererStatus& renderer : status.renderers) {
         v1::RendererState& message = *state.add_renderers();
         message.set_id(sanitised(renderer.id));
@@ -183,7 +188,7 @@ std::string stateMessage(const coordinator::Status& status, std::string_view pro
     }
     state.set_scene_triangles(status.sceneInfo.triangles);
     state.set_problem(sanitised(problem.empty() ? status.problem : problem));
-    return response.SerializeAsString();
+    return state;
 }
 
 std::string frameMessage(const EncodedFrame& encoded, const coordinator::RenderedFrame& rendered,

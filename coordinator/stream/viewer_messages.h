@@ -17,6 +17,11 @@
 #include "coordinator/frame/frame_source.h"
 #include "coordinator/stream/profile.h"
 
+namespace eyrie::v1 {
+class SessionState;
+class ShownPicture;
+}  // namespace eyrie::v1
+
 /// Between viewer.proto's bytes and values.
 namespace eyrie::stream {
 
@@ -66,6 +71,11 @@ absl::StatusOr<Request> parseRequest(std::span<const std::byte> bytes);
 
 /// A ViewerResponse with a SessionState. `problem` goes before status.problem.
 std::string stateMessage(const coordinator::Status& status, std::string_view problem);
+
+v1::SessionState sessionState(const coordinator::Status& status, std::string_view problem);
+
+/// What this version does not know is as if it were not said.
+coordinator::Shown shownFromMessage(const v1::ShownPicture& message);
 
 struct EncodedFrame {
     std::uint64_t frameNumber = 0;

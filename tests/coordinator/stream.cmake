@@ -9,3 +9,4 @@ eyrie_test(http_server_test LABEL unit LINK eyrie::http eyrie::jpeg eyrie::proto
 if(EYRIE_SANITIZE MATCHES thread)
     target_compile_options(http_server_test PRIVATE -Wno-tsan)  # as in coordinator/http.cmake
 endif()
+eyrie_test(api_test LABEL unit LINK eyrie::api eyrie::frame eyrie::jpeg eyrie::wire eyrie::proto)
