@@ -28,6 +28,8 @@ struct Options {
     std::string scene;
     std::string listen = "127.0.0.1:8080";
     std::string grpc = "127.0.0.1:9090";
+    std::string data;
+    bool grpcReflection = false;
     CacheOptions cache;
     ConfigOptions config;
     bool quiet = false;
@@ -51,13 +53,15 @@ absl::Status coordinate(const Options& options) {
     settings.grpcAddresses = {options.grpc};
     ASSIGN_OR_RETURN(settings.configuration, configurationOf(options.config, options.quiet));
     settings.layout = compoundNames().at(options.config.compound);
+    settings.dataFolder = options.data;
+    settings.grpcReflection = options.grpcReflection;
     ASSIGN_OR_RETURN(settings.scene, loadScene(options, stop.token()));
     auto coordinator = coordinator::Coordinator::start(settings);
     if (absl::IsUnavailable(coordinator.status()))  // a port in use: the caller can choose another
         return fabric::withContext(absl::InvalidArgumentError(coordinator.status().message()),
                                    "--grpc");
     RETURN_IF_ERROR(coordinator.status());
-    ASSIGN_OR_RETURN(const auto door, openWebDoor(options.listen, (*coordinator)->frames()));
+    ASSIGN_OR_RETURN(const auto door, openWebDoor(options.listen, **coordinator));
     fmt::print("Eyrie is at {}\n", door->url());
     for (const std::string& address : (*coordinator)->grpcAddresses())
         fmt::print("Renderers register at {}\n", address);
@@ -82,6 +86,12 @@ void addCoordinator(CLI::App& app, Run& run) {
     command->add_option("--grpc", options->grpc, "Where renderers register; port 0: any free one")
         ->type_name("HOST:PORT|unix:/PATH")
         ->capture_default_str();
+    command
+        ->add_option("--data", options->data,
+                     "Where programs may name imported files, and keep flights [nowhere]")
+        ->type_name("DIR");
+    command->add_flag("--grpc-reflection", options->grpcReflection,
+                      "Let gRPC tools ask which calls there are");
     addConfigOptions(*command, options->config);
     addCacheOptions(*command, options->cache);
     command->add_flag("--quiet", options->quiet, "No progress, only warnings and errors");

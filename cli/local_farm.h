@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <stop_token>
@@ -20,11 +21,13 @@ namespace eyrie::cli {
 /// can enter, over Unix sockets.
 class LocalFarm {
 public:
-    /// Without renderers yet, and without a scene. `cache` and `decoding` are the renderers'.
+    /// Without renderers yet, and without a scene. `cache` and `decoding` are the renderers',
+    /// `dataFolder` is CoordinatorOptions::dataFolder.
     /// Errors: Unavailable.
     static absl::StatusOr<std::unique_ptr<LocalFarm>> start(
         std::optional<config::Configuration> configuration, const std::string& compound,
-        const CacheOptions& cache, TileDecoding decoding);
+        const CacheOptions& cache, TileDecoding decoding,
+        const std::filesystem::path& dataFolder = {});
 
     coordinator::Coordinator& coordinator() { return *coordinator_; }
     coordinator::FrameSource& frames() { return coordinator_->frames(); }

@@ -34,6 +34,7 @@ constexpr std::chrono::milliseconds kPollInterval{100};
 struct Options {
     std::vector<std::string> data;
     std::string listen = "127.0.0.1:8080";
+    std::string dataFolder;
     CacheOptions cache;
     TileDecoding decoding = TileDecoding::Auto;
     ConfigOptions config;
@@ -89,8 +90,8 @@ absl::Status serve(const Options& options) {
     const int renderers = rendererCount(options, configuration);
     ASSIGN_OR_RETURN(const auto farm,
                      LocalFarm::start(std::move(configuration), options.config.compound,
-                                      options.cache, options.decoding));
-    ASSIGN_OR_RETURN(const auto door, openWebDoor(options.listen, farm->frames()));
+                                      options.cache, options.decoding, options.dataFolder));
+    ASSIGN_OR_RETURN(const auto door, openWebDoor(options.listen, farm->coordinator()));
     ASSIGN_OR_RETURN(fabric::Scene scene, loadScene(options, stop.token()));
     RETURN_IF_ERROR(farm->coordinator().setScene(std::move(scene)));
     farm->startRenderers(renderers);
@@ -127,6 +128,10 @@ void addServe(CLI::App& app, Run& run) {
         ->add_option("--renderers", options->renderers,
                      "Renderer processes [as many as --config uses; one a GPU; without, two]")
         ->check(CLI::Range(1, RendererProcesses::kMaxCount));
+    command
+        ->add_option("--data", options->dataFolder,
+                     "Where programs may name imported files, and keep flights [nowhere]")
+        ->type_name("DIR");
     addConfigOptions(*command, options->config);
     addDecodeOption(*command, options->decoding);
     addCacheOptions(*command, options->cache);

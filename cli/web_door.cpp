@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "cli/values.h"
+#include "coordinator/api/api.h"
 #include "fabric/status.h"
 
 namespace eyrie::cli {
@@ -23,13 +24,14 @@ std::filesystem::path webFolder() {
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<http::Server>> openWebDoor(const std::string& listen,
-                                                          coordinator::FrameSource& frames) {
+                                                          coordinator::Coordinator& coordinator) {
     ASSIGN_OR_RETURN(const HostPort address, parseHostPort(listen, "--listen"));
     http::ServerOptions options;
     options.host = address.host;
     options.port = address.port;
     options.webFolder = webFolder();
-    auto server = http::Server::start(options, frames);
+    options.api = &coordinator.api().rest();
+    auto server = http::Server::start(options, coordinator.frames());
     if (server.ok())
         return server;
     const auto message = server.status().message();

@@ -6,6 +6,7 @@
 
 #include <absl/status/statusor.h>
 
+#include "coordinator/coordinator.h"
 #include "coordinator/http/server.h"
 
 namespace eyrie::cli {
@@ -13,6 +14,6 @@ namespace eyrie::cli {
 /// Starts the HTTP server on what --listen says, with the page that was built beside this program.
 /// Errors: InvalidArgument, naming --listen and a remedy.
 absl::StatusOr<std::unique_ptr<http::Server>> openWebDoor(const std::string& listen,
-                                                          coordinator::FrameSource& frames);
+                                                          coordinator::Coordinator& coordinator);
 
 }  // namespace eyrie::cli

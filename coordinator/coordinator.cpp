@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "coordinator/api/api.h"
 #include "coordinator/api/grpc_service.h"
 #include "coordinator/farm/registry.h"
 #include "coordinator/frame/frame_pipeline.h"
@@ -33,16 +34,25 @@ void watchHeartbeats(Registry& registry, const std::stop_token& stop) {
 class Coordinator::Impl {
 public:
     Impl(std::unique_ptr<Registry> registry, std::unique_ptr<GrpcService> door,
-         const CoordinatorOptions& options)
+         std::optional<access::DataFolder> dataFolder, const CoordinatorOptions& options)
         : registry_(std::move(registry)),
           pipeline_(*registry_, pipelineOptions(options, *door)),
+          api_({pipeline_, pipeline_,
+                [this](fabric::Scene scene) { pipeline_.setScene(std::move(scene)); },
+                std::move(dataFolder)}),
           door_(std::move(door)),
           watcher_([this](const std::stop_token& stop) { watchHeartbeats(*registry_, stop); }) {
-        pipeline_.setScene(options.scene);
+        setScene(options.scene);
+        door_->use(api_.handlers());
     }
 
     FramePipeline& frames() { return pipeline_; }
     const GrpcService& door() const { return *door_; }
+    const api::Api& api() const { return api_; }
+    void setScene(fabric::Scene scene) {
+        api_.allow(scene);
+        pipeline_.setScene(std::move(scene));
+    }
     void stop() { door_->stop(); }
 
 private:
@@ -58,6 +68,7 @@ private:
 
     const std::unique_ptr<Registry> registry_;
     FramePipeline pipeline_;
+    api::Api api_;
     const std::unique_ptr<GrpcService> door_;
     std::jthread watcher_;
 };
@@ -67,11 +78,16 @@ absl::StatusOr<std::unique_ptr<Coordinator>> Coordinator::start(const Coordinato
     if (options.grpcAddresses.empty())
         return absl::InvalidArgumentError(
             "the coordinator has no address for renderers to register at");
+    std::optional<access::DataFolder> dataFolder;
+    if (!options.dataFolder.empty()) {
+        ASSIGN_OR_RETURN(dataFolder, access::DataFolder::open(options.dataFolder));
+    }
     auto registry = std::make_unique<Registry>();
     ASSIGN_OR_RETURN(std::unique_ptr<GrpcService> door,
-                     GrpcService::start(options.grpcAddresses, *registry, options.security));
-    return std::unique_ptr<Coordinator>(
-        new Coordinator(std::make_unique<Impl>(std::move(registry), std::move(door), options)));
+                     GrpcService::start(options.grpcAddresses, *registry,
+                                        {options.security, options.grpcReflection}));
+    return std::unique_ptr<Coordinator>(new Coordinator(std::make_unique<Impl>(
+        std::move(registry), std::move(door), std::move(dataFolder), options)));
 }
 
 Coordinator::Coordinator(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -79,13 +95,15 @@ Coordinator::~Coordinator() { stop(); }
 
 FrameSource& Coordinator::frames() { return impl_->frames(); }
 
+const api::Api& Coordinator::api() const { return impl_->api(); }
+
 const std::vector<std::string>& Coordinator::grpcAddresses() const {
     return impl_->door().addresses();
 }
 
 absl::Status Coordinator::setScene(fabric::Scene scene) {
     RETURN_IF_ERROR(fabric::validate(scene));
-    impl_->frames().setScene(std::move(scene));
+    impl_->setScene(std::move(scene));
     return absl::OkStatus();
 }
 

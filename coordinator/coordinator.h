@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,6 +14,10 @@
 #include "fabric/scene.h"
 #include "wire/security.h"
 
+namespace eyrie::api {
+class Api;
+}
+
 namespace eyrie::coordinator {
 
 struct CoordinatorOptions {
@@ -23,7 +28,10 @@ struct CoordinatorOptions {
     std::string layout = {};  ///< of that, at first; empty: 2D (config::defaultConfiguration)
     /// How renderers and the coordinator know each other; nothing: whoever reaches the addresses.
     wire::Security security = {};
-    fabric::Scene scene = {};  ///< of .eyt and .eym files that the renderers can read
+    /// Where programs may name files and keep flights; empty: nowhere.
+    std::filesystem::path dataFolder = {};
+    bool grpcReflection = false;  ///< tools may ask over gRPC which calls there are
+    fabric::Scene scene = {};     ///< of .eyt and .eym files that the renderers can read
 };
 
 /// A coordinator without its doors for browsers: renderers register with it, and it makes frames
@@ -40,6 +48,9 @@ public:
 
     /// Lives as long as the coordinator. End what calls renderFrame before the coordinator.
     FrameSource& frames();
+
+    /// For programs, over gRPC already. Lives as long as the coordinator.
+    const api::Api& api() const;
 
     /// Where renderers register, with the ports that were chosen.
     const std::vector<std::string>& grpcAddresses() const;

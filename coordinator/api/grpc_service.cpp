@@ -5,9 +5,11 @@
 
 #include <fmt/format.h>
 #include <grpcpp/ext/health_check_service_server_builder_option.h>
+#include <grpcpp/ext/proto_server_reflection_plugin.h>
 #include <grpcpp/health_check_service_interface.h>
 #include <grpcpp/server.h>
 
+#include "coordinator/api/eyrie_service.h"
 #include "coordinator/api/reachable_address.h"
 #include "coordinator/farm/grpc_renderer.h"
 #include "eyrie/v1/coordinator_service.grpc.pb.h"
@@ -102,28 +104,36 @@ private:
 class GrpcService::Impl {
 public:
     Impl(Registry& registry, const wire::Security& security)
-        : service_(registry, security), security_(security) {}
+        : service_(registry, security), calls_(security), security_(security) {}
 
-    absl::Status listen(const std::vector<std::string>& addresses) {
+    absl::Status listen(const std::vector<std::string>& addresses, bool withReflection) {
+        if (withReflection)
+            grpc::reflection::InitProtoReflectionServerBuilderPlugin();
         grpc::EnableDefaultHealthCheckService(true);
-        ASSIGN_OR_RETURN(listening_, wire::listen(addresses, service_, security_));
+        ASSIGN_OR_RETURN(listening_, wire::listen(addresses, {&service_, &calls_}, security_));
         return absl::OkStatus();
     }
 
     const std::vector<std::string>& addresses() const { return listening_.addresses; }
 
-    void stop() { listening_.server->Shutdown(std::chrono::system_clock::now()); }
+    void use(const api::Handlers& handlers) { calls_.use(handlers); }
+
+    void stop() {
+        listening_.server->Shutdown(std::chrono::system_clock::now());
+        calls_.stop();
+    }
 
 private:
     CoordinatorService service_;
+    api::EyrieService calls_;
     const wire::Security security_;
     wire::Listening listening_;
 };
 
 absl::StatusOr<std::unique_ptr<GrpcService>> GrpcService::start(
-    const std::vector<std::string>& addresses, Registry& registry, const wire::Security& security) {
-    auto impl = std::make_unique<Impl>(registry, security);
-    RETURN_IF_ERROR(impl->listen(addresses));
+    const std::vector<std::string>& addresses, Registry& registry, const GrpcOptions& options) {
+    auto impl = std::make_unique<Impl>(registry, options.security);
+    RETURN_IF_ERROR(impl->listen(addresses, options.withReflection));
     return std::unique_ptr<GrpcService>(new GrpcService(std::move(impl)));
 }
 
@@ -131,6 +141,7 @@ GrpcService::GrpcService(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 GrpcService::~GrpcService() { stop(); }
 
 const std::vector<std::string>& GrpcService::addresses() const { return impl_->addresses(); }
+void GrpcService::use(const api::Handlers& handlers) { impl_->use(handlers); }
 void GrpcService::stop() { impl_->stop(); }
 
 }  // namespace eyrie::coordinator

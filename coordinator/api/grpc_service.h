@@ -10,18 +10,27 @@
 #include "coordinator/farm/registry.h"
 #include "wire/security.h"
 
+namespace eyrie::api {
+class Handlers;
+}
+
 namespace eyrie::coordinator {
 
-/// The coordinator's gRPC door: CoordinatorService, where renderers register, and the standard
-/// health service. All functions may be called from any thread.
+struct GrpcOptions {
+    wire::Security security =
+        {};                       ///< how callers are known, and how renderers know the coordinator
+    bool withReflection = false;  ///< tools may ask which calls there are
+};
+
+/// The coordinator's gRPC door: CoordinatorService, where renderers register, EyrieService, and the
+/// standard health service. All functions may be called from any thread.
 class GrpcService {
 public:
     /// Serves on each of `addresses` ("host:port", port 0: the system chooses; "unix:/path").
-    /// `registry` outlives it. Renderers are known by `security`, and know the coordinator by it.
-    /// Errors: InvalidArgument, Unavailable (an address).
+    /// `registry` outlives it. Errors: InvalidArgument, Unavailable (an address).
     static absl::StatusOr<std::unique_ptr<GrpcService>> start(
         const std::vector<std::string>& addresses, Registry& registry,
-        const wire::Security& security = {});
+        const GrpcOptions& options = {});
 
     ~GrpcService();
     GrpcService(const GrpcService&) = delete;
@@ -30,7 +39,10 @@ public:
     /// Where it listens, with the ports that were chosen.
     const std::vector<std::string>& addresses() const;
 
-    /// Takes no more calls. May be called twice.
+    /// EyrieService answers from now on. `handlers` outlive stop().
+    void use(const api::Handlers& handlers);
+
+    /// Takes no more calls, and waits for those in progress. May be called twice.
     void stop();
 
 private:

@@ -85,6 +85,18 @@ absl::Status ConfigurationKeeper::configure(const SwitchLayout& change) {
     return absl::OkStatus();
 }
 
+absl::Status ConfigurationKeeper::change(
+    const std::function<absl::Status(ActiveConfiguration&)>& use) {
+    if (!active_)
+        return absl::FailedPreconditionError(
+            "there is no renderer yet, and so no configuration; start one");
+    RETURN_IF_ERROR(use(*active_));
+    if (!given_)
+        layout_ = layoutName(active_->written(), active_->state().layouts.front());
+    show();
+    return absl::OkStatus();
+}
+
 std::vector<CanvasStatus> ConfigurationKeeper::canvases() const {
     const std::lock_guard lock(mutex_);
     return canvases_;

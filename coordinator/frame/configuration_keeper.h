@@ -29,6 +29,9 @@ public:
     /// NotFound, naming what there is; FailedPrecondition before there was a renderer.
     absl::Status configure(const SwitchLayout& change);
 
+    /// As ConfigurationAccess::withConfiguration, in its caller's turn.
+    absl::Status change(const std::function<absl::Status(ActiveConfiguration&)>& use);
+
     /// Any thread.
     std::vector<CanvasStatus> canvases() const;
 

@@ -147,6 +147,12 @@ absl::Status FramePipeline::configure(const SwitchLayout& change) {
     return planner_.configure(change);
 }
 
+absl::Status FramePipeline::withConfiguration(
+    const std::function<absl::Status(ActiveConfiguration&)>& use) {
+    const std::lock_guard turn(turn_);
+    return configuration_.change(use);
+}
+
 Status FramePipeline::status() const {
     Status status;
     status.renderers = crew_.renderers();

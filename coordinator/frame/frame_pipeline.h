@@ -10,6 +10,7 @@
 #include "coordinator/farm/listeners.h"
 #include "coordinator/farm/registry.h"
 #include "coordinator/frame/composed_frame.h"
+#include "coordinator/frame/configuration_access.h"
 #include "coordinator/frame/crew.h"
 #include "coordinator/frame/frame_gate.h"
 #include "coordinator/frame/frame_planner.h"
@@ -36,7 +37,7 @@ struct FramePipelineOptions {
 /// configuration's latency, and one: while the pictures of one are on their way, or some renderers
 /// draw it, those that have nothing to do begin with the next. None begins sooner than that, since
 /// its camera would only be older.
-class FramePipeline final : public FrameSource {
+class FramePipeline final : public FrameSource, public ConfigurationAccess {
 public:
     /// Draws with the renderers in `registry`, which outlives the pipeline.
     FramePipeline(Registry& registry, FramePipelineOptions options);
@@ -51,6 +52,8 @@ public:
     absl::StatusOr<RenderedFrame> renderLatest(const ChooseFrame& choose) override;
     absl::StatusOr<fabric::Picked> pick(const fabric::PickRequest& request) override;
     absl::Status configure(const SwitchLayout& change) override;
+    absl::Status withConfiguration(
+        const std::function<absl::Status(ActiveConfiguration&)>& use) override;
     Status status() const override;
     int subscribe(std::function<void()> listener) override;
     void unsubscribe(int handle) override;

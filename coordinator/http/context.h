@@ -8,12 +8,13 @@
 
 #include <boost/asio/thread_pool.hpp>
 
+#include "coordinator/api/workers.h"
 #include "coordinator/http/access.h"
 #include "coordinator/http/crowd.h"
 #include "coordinator/http/server.h"
 #include "coordinator/http/static_files.h"
-#include "coordinator/stream/sessions.h"
 #include "coordinator/http/tls.h"
+#include "coordinator/stream/sessions.h"
 
 namespace eyrie::http {
 
@@ -42,6 +43,8 @@ struct Context {
     Crowd crowd;               ///< who is connected
     std::set<Session*> sessions;
     std::function<void()> sessionEnded;
+    /// Do the API's calls, which may take as long as a picture.
+    api::Workers callers{8, 64};
     /// Ends viewers, which may mean to wait for a frame being rendered.
     boost::asio::thread_pool reaper{1};
     /// What viewers see, by themselves or together.

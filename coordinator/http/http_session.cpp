@@ -4,15 +4,18 @@
 #include <algorithm>
 #include <optional>
 #include <sstream>
+#include <stop_token>
 #include <string_view>
 #include <utility>
 
 #include <boost/asio/ip/address.hpp>
+#include <boost/asio/post.hpp>
 #include <boost/beast/core/buffers_to_string.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
 
+#include "coordinator/http/api_calls.h"
 #include "coordinator/http/origin.h"
 #include "coordinator/http/problem.h"
 #include "coordinator/http/router.h"
@@ -29,7 +32,7 @@ using Request = beast::http::request<beast::http::string_body>;
 using Reply = beast::http::response<beast::http::string_body>;
 
 constexpr std::uint32_t kMaxHeaderBytes = 16 * 1024;
-constexpr std::uint64_t kMaxBodyBytes = 4 * 1024;
+constexpr std::uint64_t kMaxBodyBytes = 1024 * 1024;
 
 /// The page runs its own scripts and styles only, talks to this server only, and may be framed by
 /// it only.
@@ -39,6 +42,19 @@ constexpr const char* kContentSecurityPolicy =
     "form-action 'none'; frame-ancestors 'self'";
 
 std::string_view view(beast::string_view text) { return {text.data(), text.size()}; }
+
+api::RestRequest restRequest(const Request& request, std::stop_token gone) {
+    namespace http = beast::http;
+    const auto header = [&](auto name) { return std::string(view(request[name])); };
+    return {std::string(view(request.method_string())),
+            std::string(view(request.target())),
+            request.body(),
+            header(http::field::content_type),
+            header(http::field::accept),
+            header(http::field::if_none_match),
+            header("Idempotency-Key"),
+            std::move(gone)};
+}
 
 /// What came is no HTTP, as opposed to: nothing more came.
 bool isMalformed(error_code error) {
@@ -76,7 +92,10 @@ public:
         context_.sessionEnded();
     }
 
-    void shutDown() override { stream_.cancel(); }
+    void shutDown() override {
+        gone_.request_stop();
+        stream_.cancel();
+    }
     void abandon() override {}
 
     void begin() {
@@ -120,7 +139,7 @@ private:
         if (error == http::error::header_limit)
             return reply(textResponse(431, "The request's header is longer than 16 KiB."), false);
         if (error == http::error::body_limit)
-            return reply(textResponse(413, "Requests have no body here."), false);
+            return reply(textResponse(413, "The request's body is longer than 1 MiB."), false);
         if (isMalformed(error))
             return reply(textResponse(400, "This is not HTTP/1.1."), false);
         if (error)
@@ -132,6 +151,8 @@ private:
             return reply(*answer, request.keep_alive() && answer->status < 400);
         if (pathOf(view(request.target())) == "/ws")
             return upgrade(request, context_.access.roleOf(asked));
+        if (isApiCall(pathOf(view(request.target()))) && context_.options.api != nullptr)
+            return call(request);
         reply(route(view(request.method_string()), view(request.target()), context_.files,
                     context_.frames),
               request.keep_alive());
@@ -172,6 +193,48 @@ private:
                       std::make_shared<std::pair<Slot, Slot>>(std::move(slot_), std::move(seat)));
     }
 
+    /// On a thread of its own; what ends the connection ends the call.
+    void call(const Request& request) {
+        namespace http = beast::http;
+        if (!isAllowedOrigin(view(request[http::field::origin]), view(request[http::field::host]),
+                             context_.isLoopback))
+            return reply(problemResponse(403, "pages of other sites may not call this server"),
+                         false);
+        gone_ = std::stop_source();
+        isCalling_ = true;
+        watch();
+        const bool isTaken = context_.callers.post([self = shared_from_this(),
+                                                    asked = restRequest(request, gone_.get_token()),
+                                                    keepAlive = request.keep_alive()]() mutable {
+            const Response response = toResponse(self->context_.options.api->answer(asked));
+            const auto executor = self->stream_.get_executor();
+            // The session ends on its own thread.
+            boost::asio::post(executor, [self = std::move(self), response, keepAlive] {
+                self->isCalling_ = false;
+                self->reply(response, keepAlive);
+            });
+        });
+        if (isTaken)
+            return;
+        isCalling_ = false;
+        reply(toResponse(api::busyAnswer()), request.keep_alive());
+    }
+
+    /// Notices that the client has gone while its call is being done. One that has sent its next
+    /// request already is not watched.
+    void watch() {
+        stream_.expires_never();
+        stream_.socket().async_wait(
+            tcp::socket::wait_read, [weak = weak_from_this()](error_code error) {
+                const auto self = weak.lock();
+                if (!self || !self->isCalling_)
+                    return;
+                error_code failed;
+                if (error || self->stream_.socket().available(failed) == 0 || failed)
+                    self->gone_.request_stop();
+            });
+    }
+
     void reply(const Response& response, bool keepAlive) {
         namespace http = beast::http;
         reply_ = Reply(static_cast<http::status>(response.status), 11);
@@ -182,7 +245,7 @@ private:
         reply_.set("Referrer-Policy", "no-referrer");
         reply_.set("Cross-Origin-Resource-Policy", "same-origin");
         for (const auto& [name, value] : response.headers) reply_.set(name, value);
-        if (response.status == 405 && reply_[http::field::allow].empty())
+        if (response.status == 405 && reply_.count(http::field::allow) == 0)
             reply_.set(http::field::allow, "GET, HEAD");
         if (response.status == 426)
             reply_.set(http::field::upgrade, "websocket");
@@ -217,6 +280,8 @@ private:
     std::optional<beast::http::request_parser<beast::http::string_body>> parser_;
     Reply reply_;
     bool isHead_ = false;
+    bool isCalling_ = false;  ///< a call of the API is being done
+    std::stop_source gone_;   ///< its client has
     Context& context_;
     Slot slot_;
 };

@@ -61,9 +61,9 @@ Response route(std::string_view method, std::string_view target, const StaticFil
     const std::string_view path = pathOf(target);
     if (path == "/healthz")
         return textResponse(200, "ok");
-    if (path == "/readyz" || path == "/api/v1/status") {
+    if (path == "/readyz") {
         const coordinator::Status status = frames.status();
-        return statusResponse(path == "/readyz" && !isReady(status) ? 503 : 200, status);
+        return statusResponse(isReady(status) ? 200 : 503, status);
     }
     if (const StaticFile* file = files.find(path); file != nullptr)
         return fileResponse(*file);

@@ -16,6 +16,7 @@ struct Response {
     int status = 200;
     std::string contentType = "text/plain; charset=utf-8";
     std::string cacheControl = "no-store";
+    std::vector<std::pair<std::string, std::string>> headers = {};  ///< beside these
     std::shared_ptr<const std::string> body = std::make_shared<const std::string>();
     std::vector<std::pair<std::string, std::string>> headers = {};  ///< besides those of all
 };

@@ -109,6 +109,7 @@ public:
         thread_.join();
         for (Session* session : context_.sessions) session->abandon();
         context_.reaper.join();
+        context_.callers.stop();
         context_.sessionEnded = [] {};  // what is left goes with io_, after the timers
     }
 

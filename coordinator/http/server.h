@@ -16,13 +16,19 @@
 #include "coordinator/frame/frame_source.h"
 #include "coordinator/http/crowd.h"
 
+namespace eyrie::api {
+class RestDoor;
+}
+
 namespace eyrie::http {
 
 struct ServerOptions {
     std::string host = "127.0.0.1";   ///< an address to listen on, or "localhost"
     std::uint16_t port = 8080;        ///< 0 lets the system choose; see Server::url
     std::filesystem::path webFolder;  ///< the built UI; a page says how to build it where missing
-    CrowdLimits limits;               ///< who comes above them is answered 503 and closed
+    /// What is below /api/v1/, but for nothing: 404 then. Outlives the server.
+    const api::RestDoor* api = nullptr;
+    CrowdLimits limits;  ///< who comes above them is answered 503 and closed
     std::chrono::milliseconds headerTimeout{
         10'000};  ///< for a whole request; also between requests
     /// For one message to a viewer, and for the viewer to acknowledge a picture.
@@ -41,7 +47,8 @@ struct ServerOptions {
 ///   /login     who one is, and a cookie for a token (access.h)
 ///   /healthz   200 while the process lives
 ///   /readyz    200 while a renderer is alive and a scene is open, 503 otherwise; JSON says why
-///   /api/v1/status   the same JSON, always 200
+///   /api       what programs can ask, for people to read; the calls of EyrieService are below
+///              /api/v1/ (api/rest_door.h)
 ///
 /// All functions may be called from any thread.
 class Server {

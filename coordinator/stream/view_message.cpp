@@ -10,9 +10,7 @@
 #include "wire/frame.h"
 
 namespace eyrie::stream {
-namespace {
 
-/// What this version does not know is as if it were not said.
 coordinator::Shown shownFromMessage(const v1::ShownPicture& message) {
     using compound::Eye;
     using compound::Stereo;
@@ -33,6 +31,8 @@ coordinator::Shown shownFromMessage(const v1::ShownPicture& message) {
         shown.stereo = Stereo::TopBottom;
     return shown;
 }
+
+namespace {
 
 v1::ShownEye toMessage(compound::Eye eye) {
     using compound::Eye;

@@ -8,8 +8,9 @@
 #include "coordinator/frame/frame_source.h"
 
 namespace eyrie::v1 {
+class ShownPicture;
 class ViewRequest;
-}
+}  // namespace eyrie::v1
 
 namespace eyrie::stream {
 
@@ -22,6 +23,9 @@ struct ViewRequest {
 
 inline constexpr int kMinPictureSide = 16;
 inline constexpr int kMaxPictureSide = 4096;
+
+/// What this version does not know is as if it were not said.
+coordinator::Shown shownFromMessage(const v1::ShownPicture& message);
 
 /// Sizes are clamped to kMinPictureSide..kMaxPictureSide. Errors: InvalidArgument (a view that
 /// cannot be drawn; the message tells the user why).

@@ -110,6 +110,16 @@ std::string stateMessage(const coordinator::Status& status, std::string_view pro
                          const Place& place) {
     v1::ViewerResponse response;
     v1::SessionState& state = *response.mutable_state();
+    state = sessionState(status, problem);
+    state.mutable_place()->set_session(place.session);
+    state.mutable_place()->set_viewers(place.viewers);
+    state.mutable_place()->set_leads(place.leads);
+    state.mutable_place()->set_led(place.isLed);
+    return response.SerializeAsString();
+}
+
+v1::SessionState sessionState(const coordinator::Status& status, std::string_view problem) {
+    v1::SessionState state;
     for (const coordinator::RendererStatus& renderer : status.renderers) {
         v1::RendererState& message = *state.add_renderers();
         message.set_id(sanitised(renderer.id));
@@ -135,12 +145,8 @@ std::string stateMessage(const coordinator::Status& status, std::string_view pro
         message.set_layout(sanitised(canvas.layout));
     }
     state.set_scene_triangles(status.sceneInfo.triangles);
-    state.mutable_place()->set_session(place.session);
-    state.mutable_place()->set_viewers(place.viewers);
-    state.mutable_place()->set_leads(place.leads);
-    state.mutable_place()->set_led(place.isLed);
     state.set_problem(sanitised(problem.empty() ? status.problem : problem));
-    return response.SerializeAsString();
+    return state;
 }
 
 std::string frameMessage(const EncodedFrame& encoded, const coordinator::RenderedFrame& rendered,

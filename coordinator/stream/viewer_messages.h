@@ -19,6 +19,10 @@
 #include "coordinator/stream/profile.h"
 #include "coordinator/stream/view_message.h"
 
+namespace eyrie::v1 {
+class SessionState;
+}
+
 /// Between viewer.proto's bytes and values.
 namespace eyrie::stream {
 
@@ -67,7 +71,9 @@ struct Place {
     bool isLed = true;    ///< somebody does
 };
 
-/// A ViewerResponse with a SessionState. `problem` goes before status.problem.
+v1::SessionState sessionState(const coordinator::Status& status, std::string_view problem);
+
+/// A ViewerResponse with that and `place`. `problem` goes before status.problem.
 std::string stateMessage(const coordinator::Status& status, std::string_view problem,
                          const Place& place);
 

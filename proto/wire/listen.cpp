@@ -70,9 +70,15 @@ absl::Status checkAddress(const std::string& address) {
 
 absl::StatusOr<Listening> listen(const std::vector<std::string>& addresses, grpc::Service& service,
                                  const Security& security) {
+    return listen(addresses, std::vector<grpc::Service*>{&service}, security);
+}
+
+absl::StatusOr<Listening> listen(const std::vector<std::string>& addresses,
+                                 const std::vector<grpc::Service*>& services,
+                                 const Security& security) {
     grpc::ServerBuilder builder;
     configureServer(builder);
-    builder.RegisterService(&service);
+    for (grpc::Service* service : services) builder.RegisterService(service);
     std::vector<int> ports(addresses.size(), 0);
     for (std::size_t i = 0; i < addresses.size(); ++i) {
         RETURN_IF_ERROR(checkAddress(addresses[i]));

@@ -21,10 +21,15 @@ struct Listening {
     std::vector<std::string> addresses;  ///< as given, with the ports that were chosen
 };
 
-/// Serves `service` on "host:port" (port 0: the system chooses) and "unix:/path" addresses, with
-/// the limits of transport.h. `service` outlives the server, and asks for tokens itself (admit).
+/// Serves `services` on "host:port" (port 0: the system chooses) and "unix:/path" addresses, with
+/// the limits of transport.h. They outlive the server, and ask for tokens themselves (admit).
 /// Errors: InvalidArgument (an address of another form), Unavailable (one that cannot be listened
 /// on, such as a port in use).
+absl::StatusOr<Listening> listen(const std::vector<std::string>& addresses,
+                                 const std::vector<grpc::Service*>& services,
+                                 const Security& security = {});
+
+/// The same for one.
 absl::StatusOr<Listening> listen(const std::vector<std::string>& addresses, grpc::Service& service,
                                  const Security& security = {});
 

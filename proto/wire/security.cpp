@@ -74,7 +74,8 @@ void present(const Security& security, grpc::ClientContext& context) {
         context.AddMetadata(kAuthorization, fmt::format("Bearer {}", security.token));
 }
 
-absl::Status admit(const Security& security, const grpc::CallbackServerContext& context) {
+absl::Status admit(const Security& security, const grpc::CallbackServerContext& context,
+                   access::Role needed) {
     const std::string peer = context.peer();
     if (security.gate == nullptr || isUnix(peer))
         return absl::OkStatus();
@@ -83,7 +84,7 @@ absl::Status admit(const Security& security, const grpc::CallbackServerContext& 
         found == context.client_metadata().end()
             ? std::string_view()
             : std::string_view(found->second.data(), found->second.size());
-    return security.gate->admit({authorization, {}}, peerAddress(peer), access::Role::Admin)
+    return security.gate->admit({authorization, {}}, peerAddress(peer), needed)
         .status();
 }
 

@@ -46,9 +46,10 @@ grpc::ChannelArguments clientArguments(const Security& security);
 /// Has a call bring the token.
 void present(const Security& security, grpc::ClientContext& context);
 
-/// Whether who calls has a token of role admin, which renderers and coordinators have. Errors:
+/// Whether who calls has a token of role `needed`; renderers and coordinators have admin's. Errors:
 /// those of Gate::admit.
-absl::Status admit(const Security& security, const grpc::CallbackServerContext& context);
+absl::Status admit(const Security& security, const grpc::CallbackServerContext& context,
+                   access::Role needed = access::Role::Admin);
 
 /// "10.0.0.7" of gRPC's "ipv4:10.0.0.7:41234"; the peer as it is where it has another form.
 std::string peerAddress(const std::string& peer);

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "access/data_folder.h"
+#include "coordinator/api/rest_door.h"
+#include "coordinator/frame/configuration_access.h"
+#include "coordinator/frame/frame_source.h"
+
+namespace eyrie::api {
+
+/// What the calls act upon; outlives the API.
+struct ApiParts {
+    coordinator::FrameSource& frames;
+    coordinator::ConfigurationAccess& configuration;
+    std::function<void(fabric::Scene)> setScene;  ///< of a scene that fabric::validate accepts
+    std::optional<access::DataFolder> dataFolder = {};
+};
+
+/// What programs can ask of a coordinator: the handlers of EyrieService and what these need. All
+/// functions may be called from any thread.
+class Api {
+public:
+    explicit Api(ApiParts parts);
+    ~Api();
+    Api(const Api&) = delete;
+    Api& operator=(const Api&) = delete;
+
+    const Handlers& handlers() const;
+    const RestDoor& rest() const;
+
+    /// Programs may show the scene's files, wherever they are.
+    void allow(const fabric::Scene& scene);
+
+private:
+    class Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace eyrie::api

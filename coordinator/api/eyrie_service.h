@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <string_view>
+
+#include "coordinator/api/workers.h"
+#include "eyrie/v1/eyrie_service.grpc.pb.h"
+#include "wire/security.h"
+
+namespace eyrie::api {
+
+class Handlers;
+
+/// What a call's caller has to be; what http::roleFor says of its way over HTTP.
+access::Role roleFor(std::string_view call);
+
+/// EyrieService over gRPC. Calls are done by threads of its own; one that is cancelled, or whose
+/// deadline passes, tells its handler.
+class EyrieService final : public v1::EyrieService::CallbackService {
+public:
+    explicit EyrieService(const wire::Security& security) : security_(security) {}
+
+    /// From now on calls are answered; Unavailable before. `handlers` outlive stop(). Any thread.
+    void use(const Handlers& handlers) { handlers_ = &handlers; }
+
+    /// Waits for the calls in progress. Once the server takes no more.
+    void stop() { workers_.stop(); }
+
+#define EYRIE_CALL(NAME)                                                                         \
+    grpc::ServerUnaryReactor* NAME(grpc::CallbackServerContext* context,                         \
+                                   const v1::NAME##Request* request, v1::NAME##Response* answer) \
+        override {                                                                               \
+        return call(#NAME, *context, *request, *answer);                                         \
+    }
+    EYRIE_CALL(GetStatus)
+    EYRIE_CALL(GetScene)
+    EYRIE_CALL(SetScene)
+    EYRIE_CALL(RenderImage)
+    EYRIE_CALL(PickPoint)
+    EYRIE_CALL(MeasureProfile)
+    EYRIE_CALL(GetConfiguration)
+    EYRIE_CALL(ChangeConfiguration)
+    EYRIE_CALL(ListFlights)
+    EYRIE_CALL(GetFlight)
+    EYRIE_CALL(PutFlight)
+    EYRIE_CALL(DeleteFlight)
+#undef EYRIE_CALL
+
+private:
+    grpc::ServerUnaryReactor* call(const char* name, const grpc::CallbackServerContext& context,
+                                   const google::protobuf::Message& request,
+                                   google::protobuf::Message& answer);
+
+    const wire::Security security_;
+
+    std::atomic<const Handlers*> handlers_ = nullptr;
+    Workers workers_{8, 64};
+};
+
+}  // namespace eyrie::api

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "access/data_folder.h"
+#include "coordinator/frame/configuration_access.h"
+#include "coordinator/frame/frame_source.h"
+
+namespace eyrie::api {
+
+/// Where callers may name files; nothing: nowhere.
+using DataFolder = std::optional<access::DataFolder>;
+
+class Handlers;
+class SceneDesk;
+
+/// Each adds some calls of EyrieService; what they are given outlives the handlers.
+void addStatusHandlers(Handlers& handlers, coordinator::FrameSource& frames);
+void addImageHandlers(Handlers& handlers, coordinator::FrameSource& frames);
+void addPlaceHandlers(Handlers& handlers, coordinator::FrameSource& frames);
+void addConfigurationHandlers(Handlers& handlers, coordinator::ConfigurationAccess& configuration);
+void addSceneHandlers(Handlers& handlers, SceneDesk& scenes);
+void addFlightHandlers(Handlers& handlers, const DataFolder& folder);
+
+}  // namespace eyrie::api

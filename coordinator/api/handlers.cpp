@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/api/handlers.h"
+
+#include <new>
+
+#include <fmt/format.h>
+
+namespace eyrie::api {
+
+absl::Status Handlers::handle(std::string_view name, const Message& request, Message& response,
+                              const Call& call) const {
+    const auto found = table_.find(name);
+    if (found == table_.end())
+        return absl::UnimplementedError(fmt::format("this server has no {}", name));
+    if (call.stop.stop_requested())
+        return absl::CancelledError("the caller has gone");
+    try {
+        return found->second(request, response, call);
+    } catch (const std::bad_alloc&) {
+        return absl::ResourceExhaustedError(
+            "there is no memory for the answer; ask for less at a time");
+    }
+}
+
+}  // namespace eyrie::api

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <atomic>
+#include <bit>
+#include <cstring>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "coordinator/api/asked_view.h"
+#include "coordinator/api/handler_list.h"
+#include "coordinator/api/handlers.h"
+#include "coordinator/stream/viewer_messages.h"
+#include "eyrie/v1/eyrie_service.pb.h"
+#include "fabric/frame_data.h"
+#include "fabric/frustum.h"
+#include "fabric/status.h"
+#include "wire/camera.h"
+#include "wire/frame.h"
+#include "wire/jpeg.h"
+#include "wire/png.h"
+#include "wire/statistics.h"
+
+namespace eyrie::api {
+namespace {
+
+constexpr int kMaxSide = 8192;
+constexpr std::int64_t kMaxPixels = 1 << 25;
+/// Of all pictures in the making; each pixel takes some 20 bytes.
+constexpr std::int64_t kMaxPixelsAtOnce = 1 << 26;
+constexpr int kUsualQuality = 90;
+
+absl::Status checkSize(int width, int height) {
+    if (width < 1 || width > kMaxSide)
+        return absl::InvalidArgumentError(
+            fmt::format("width is {} pixels; it must be from 1 to {}", width, kMaxSide));
+    if (height < 1 || height > kMaxSide)
+        return absl::InvalidArgumentError(
+            fmt::format("height is {} pixels; it must be from 1 to {}", height, kMaxSide));
+    if (std::int64_t{width} * height > kMaxPixels)
+        return absl::InvalidArgumentError(
+            fmt::format("height makes {}x{} pixels, {} in all; at most {} are drawn here, and more "
+                        "by `eyrie render`",
+                        width, height, std::int64_t{width} * height, kMaxPixels));
+    return absl::OkStatus();
+}
+
+absl::Status checkFormat(const v1::RenderImageRequest& request) {
+    if (!v1::ImageFormat_IsValid(request.format()))
+        return absl::InvalidArgumentError(
+            fmt::format("format is {}; it must be one that this version knows",
+                        static_cast<int>(request.format())));
+    if (request.has_jpeg_quality() && (request.jpeg_quality() < 1 || request.jpeg_quality() > 100))
+        return absl::InvalidArgumentError(
+            fmt::format("jpeg_quality is {}; it must be from 1 to 100", request.jpeg_quality()));
+    return absl::OkStatus();
+}
+
+absl::StatusOr<coordinator::FrameRequest> requestOf(const v1::RenderImageRequest& message,
+                                                    const coordinator::FrameSource& frames) {
+    RETURN_IF_ERROR(checkFormat(message));
+    coordinator::FrameRequest request;
+    request.width = message.has_width() ? message.width() : kUsualWidth;
+    request.height = message.has_height() ? message.height() : kUsualHeight;
+    RETURN_IF_ERROR(checkSize(request.width, request.height));
+    ASSIGN_OR_RETURN(request.camera, cameraOf(message.camera(), frames));
+    v1::FrameData data;
+    data.set_version(1);
+    *data.mutable_camera() = wire::toMessage(request.camera);
+    data.set_tau_pixels(message.has_tau_pixels() ? message.tau_pixels() : request.tauPixels);
+    data.set_shading(message.shading());
+    *data.mutable_look() = message.look();
+    ASSIGN_OR_RETURN(const fabric::FrameData frameData, wire::fromMessage(data));
+    request.tauPixels = frameData.tauPixels;
+    request.shading = frameData.shading;
+    request.look = frameData.look;
+    request.shown = {stream::shownFromMessage(message.shown())};
+    request.wantsDepth = message.with_depth();
+    return request;
+}
+
+/// Rows from the top down.
+template <typename Pixel, typename Convert>
+std::string upright(const std::vector<Pixel>& pixels, const fabric::PixelViewport& area,
+                    Convert convert) {
+    using Made = decltype(convert(pixels.front()));
+    static_assert(std::endian::native == std::endian::little);
+    std::string bytes(pixels.size() * sizeof(Made), '\0');
+    const auto width = static_cast<std::size_t>(area.width);
+    char* to = bytes.data();
+    for (std::size_t row = static_cast<std::size_t>(area.height); row-- > 0;)
+        for (std::size_t i = row * width; i < (row + 1) * width; ++i, to += sizeof(Made)) {
+            const Made made = convert(pixels[i]);
+            std::memcpy(to, &made, sizeof(Made));
+        }
+    return bytes;
+}
+
+absl::StatusOr<std::string> encoded(const fabric::Image& image,
+                                    const v1::RenderImageRequest& request) {
+    if (request.format() == v1::IMAGE_FORMAT_RAW)
+        return upright(image.colour, image.area, [](fabric::Rgba pixel) { return pixel; });
+    const int quality = request.has_jpeg_quality() ? request.jpeg_quality() : kUsualQuality;
+    auto bytes = request.format() == v1::IMAGE_FORMAT_JPEG
+                     ? wire::encodeJpeg(image, quality, wire::ChromaSubsampling::None)
+                     : wire::encodePng(image);
+    RETURN_IF_ERROR(bytes.status());
+    return std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+}
+
+/// A picture's share of kMaxPixelsAtOnce, while it is being made.
+class PixelShare {
+public:
+    PixelShare(std::atomic<std::int64_t>& used, std::int64_t pixels)
+        : used_(used), pixels_(pixels), isGranted_((used += pixels) <= kMaxPixelsAtOnce) {}
+    ~PixelShare() { used_ -= pixels_; }
+    PixelShare(const PixelShare&) = delete;
+    PixelShare& operator=(const PixelShare&) = delete;
+
+    bool isGranted() const { return isGranted_; }
+
+private:
+    std::atomic<std::int64_t>& used_;
+    const std::int64_t pixels_;
+    const bool isGranted_;
+};
+
+absl::StatusOr<v1::RenderImageResponse> renderImage(coordinator::FrameSource& frames,
+                                                    std::atomic<std::int64_t>& pixelsInUse,
+                                                    const v1::RenderImageRequest& request,
+                                                    const Call& call) {
+    ASSIGN_OR_RETURN(const coordinator::FrameRequest asked, requestOf(request, frames));
+    const PixelShare share(pixelsInUse, std::int64_t{asked.width} * asked.height);
+    if (!share.isGranted())
+        return absl::ResourceExhaustedError(
+            "too many large pictures are being drawn; try again in a bit");
+    ASSIGN_OR_RETURN(const coordinator::RenderedFrame frame, frames.renderFrame(asked));
+    if (call.stop.stop_requested())
+        return absl::CancelledError("the caller has gone");
+    v1::RenderImageResponse response;
+    ASSIGN_OR_RETURN(*response.mutable_image(), encoded(frame.image, request));
+    response.set_format(request.format() == v1::IMAGE_FORMAT_UNSPECIFIED ? v1::IMAGE_FORMAT_PNG
+                                                                         : request.format());
+    response.set_width(frame.image.area.width);
+    response.set_height(frame.image.area.height);
+    if (asked.wantsDepth && frame.image.hasDepth())
+        *response.mutable_depth() =
+            upright(frame.image.depth, frame.image.area, [](float reversed) {
+                return static_cast<float>(fabric::viewDepthMetres(reversed, fabric::kNearMetres));
+            });
+    v1::FrameStatistics& statistics = *response.mutable_statistics();
+    statistics = wire::toMessage(frame.statistics);
+    statistics.set_width(frame.image.area.width);
+    statistics.set_height(frame.image.area.height);
+    *statistics.mutable_renderer() = wire::toMessage(frame.device);
+    return response;
+}
+
+}  // namespace
+
+void addImageHandlers(Handlers& handlers, coordinator::FrameSource& frames) {
+    handlers.add<v1::RenderImageRequest, v1::RenderImageResponse>(
+        "RenderImage", [&frames, pixels = std::make_shared<std::atomic<std::int64_t>>(0)](
+                           const v1::RenderImageRequest& request, const Call& call) {
+            return renderImage(frames, *pixels, request, call);
+        });
+}
+
+}  // namespace eyrie::api

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/api/asked_view.h"
+#include "coordinator/api/handler_list.h"
+#include "coordinator/api/handlers.h"
+#include "coordinator/stream/profile.h"
+#include "coordinator/stream/viewer_messages.h"
+#include "eyrie/v1/eyrie_service.pb.h"
+#include "fabric/pick.h"
+#include "fabric/status.h"
+#include "wire/pick.h"
+
+namespace eyrie::api {
+namespace {
+
+absl::StatusOr<v1::PickPointResponse> pickPoint(coordinator::FrameSource& frames,
+                                                const v1::PickPointRequest& message) {
+    fabric::PickRequest request;
+    ASSIGN_OR_RETURN(request.camera, cameraOf(message.camera(), frames));
+    request.viewWidth = message.has_width() ? message.width() : kUsualWidth;
+    request.viewHeight = message.has_height() ? message.height() : kUsualHeight;
+    request.place = {message.x(), request.viewHeight - message.y()};  // rows count from the top
+    if (message.has_exaggeration())
+        request.exaggeration = message.exaggeration();
+    RETURN_IF_ERROR(fabric::validate(request));
+    ASSIGN_OR_RETURN(const fabric::Picked picked, frames.pick(request));
+    v1::PickPointResponse response;
+    if (!picked)
+        return response;
+    *response.mutable_point() = wire::toMessage(*picked);
+    const fabric::Scene scene = frames.status().scene;
+    if (const auto object = static_cast<std::size_t>(picked->object); object < scene.objects.size())
+        response.set_object_name(stream::sanitised(scene.objects[object].name));
+    return response;
+}
+
+absl::StatusOr<v1::MeasureProfileResponse> measureProfile(coordinator::FrameSource& frames,
+                                                          const v1::MeasureProfileRequest& message,
+                                                          const Call& call) {
+    const stream::ProfileLine line{{message.from().x(), message.from().y()},
+                                   {message.to().x(), message.to().y()},
+                                   message.samples()};
+    RETURN_IF_ERROR(stream::validate(line));
+    const fabric::Box bounds = frames.status().sceneInfo.bounds;
+    v1::MeasureProfileResponse response;
+    for (int i = 0; i < line.samples; ++i) {
+        if (call.stop.stop_requested())
+            return absl::CancelledError("the caller has gone");
+        ASSIGN_OR_RETURN(const fabric::Picked picked,
+                         frames.pick(stream::pickFromAbove(line, i, bounds)));
+        v1::ProfileSample& sample = *response.add_samples();
+        if (picked)
+            *sample.mutable_point() = wire::toMessage(*picked);
+    }
+    return response;
+}
+
+}  // namespace
+
+void addPlaceHandlers(Handlers& handlers, coordinator::FrameSource& frames) {
+    handlers.add<v1::PickPointRequest, v1::PickPointResponse>(
+        "PickPoint", [&frames](const v1::PickPointRequest& request, const Call&) {
+            return pickPoint(frames, request);
+        });
+    handlers.add<v1::MeasureProfileRequest, v1::MeasureProfileResponse>(
+        "MeasureProfile", [&frames](const v1::MeasureProfileRequest& request, const Call& call) {
+            return measureProfile(frames, request, call);
+        });
+}
+
+}  // namespace eyrie::api

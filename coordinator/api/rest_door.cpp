@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/api/rest_door.h"
+
+#include <string_view>
+
+#include <fmt/format.h>
+#include <google/protobuf/descriptor.h>
+#include <google/protobuf/message.h>
+#include <google/protobuf/util/json_util.h>
+#include <xxhash.h>
+
+#include "coordinator/api/api_page.h"
+#include "coordinator/api/handlers.h"
+#include "coordinator/api/openapi.h"
+#include "coordinator/api/problem_json.h"
+#include "coordinator/api/rest_request.h"
+#include "coordinator/api/rest_routes.h"
+#include "eyrie/v1/eyrie_service.pb.h"
+#include "fabric/status.h"
+
+namespace eyrie::api {
+namespace {
+
+using google::protobuf::Message;
+using google::protobuf::MessageFactory;
+
+constexpr std::string_view kPrefix = "/api/v1";
+constexpr std::size_t kMaxKeyBytes = 128;
+
+RestAnswer problem(const absl::Status& status, int httpStatus,
+                   const google::protobuf::Descriptor* request = nullptr) {
+    RestAnswer answer;
+    answer.status = httpStatus;
+    answer.contentType = "application/problem+json";
+    if (httpStatus == 429 || httpStatus == 503)
+        answer.headers.emplace_back("Retry-After", "1");
+    answer.body = std::make_shared<const std::string>(problemJson(status, httpStatus, request));
+    return answer;
+}
+
+std::unique_ptr<Message> newMessage(const google::protobuf::Descriptor* type) {
+    return std::unique_ptr<Message>(MessageFactory::generated_factory()->GetPrototype(type)->New());
+}
+
+std::string jsonOf(const Message& message, bool isSparse) {
+    google::protobuf::util::JsonPrintOptions options;
+    options.add_whitespace = true;
+    options.always_print_primitive_fields = !isSparse;
+    std::string text;
+    return google::protobuf::util::MessageToJsonString(message, &text, options).ok() ? text : "{}";
+}
+
+bool wantsJson(std::string_view accept) {
+    return accept.find("application/json") != std::string_view::npos;
+}
+
+/// Pages of other sites can send a browser's forms here, but no JSON.
+absl::Status checkContentType(const RestRequest& request) {
+    const std::string_view type(request.contentType);
+    if (request.body.empty() || type.starts_with("application/json"))
+        return absl::OkStatus();
+    return absl::InvalidArgumentError(fmt::format(
+        "the body's Content-Type is '{}'; it must be application/json", type.substr(0, 64)));
+}
+
+absl::Status readKey(const RestRequest& request, Message& message) {
+    if (request.idempotencyKey.empty())
+        return absl::OkStatus();
+    if (request.idempotencyKey.size() > kMaxKeyBytes)
+        return absl::InvalidArgumentError(fmt::format(
+            "Idempotency-Key has more than {} bytes; choose a shorter one", kMaxKeyBytes));
+    if (message.GetDescriptor()->FindFieldByName("request_id") == nullptr)
+        return absl::OkStatus();
+    return setField("requestId", request.idempotencyKey, message);
+}
+
+absl::Status read(const RestRequest& request, const FoundRoute& found, Message& message) {
+    const v1::Rest& rest = found.route->rest;
+    const std::size_t question = request.target.find('?');
+    const std::string_view query =
+        question == std::string::npos ? "" : std::string_view(request.target).substr(question + 1);
+    const bool hasBody = rest.method() != "GET" && rest.method() != "DELETE";
+    if (!hasBody && !request.body.empty())
+        return absl::InvalidArgumentError(
+            fmt::format("{} has no body; what is asked for goes into the query", rest.method()));
+    RETURN_IF_ERROR(checkContentType(request));
+    RETURN_IF_ERROR(setFromBody(request.body, rest.body(), message));
+    RETURN_IF_ERROR(setFromQuery(query, message));
+    for (const auto& [field, text] : found.fields) RETURN_IF_ERROR(setField(field, text, message));
+    return readKey(request, message);
+}
+
+std::string imageType(const Message& message) {
+    const auto* image = dynamic_cast<const v1::RenderImageResponse*>(&message);
+    if (image == nullptr || image->format() == v1::IMAGE_FORMAT_RAW)
+        return "application/octet-stream";
+    return image->format() == v1::IMAGE_FORMAT_JPEG ? "image/jpeg" : "image/png";
+}
+
+/// What of a picture's facts fits into a line.
+void describe(const Message& message, RestAnswer& answer) {
+    if (const auto* image = dynamic_cast<const v1::RenderImageResponse*>(&message)) {
+        answer.headers.emplace_back("Eyrie-Tau-Achieved",
+                                    fmt::format("{}", image->statistics().tau_achieved()));
+        answer.headers.emplace_back("Eyrie-Complete",
+                                    image->statistics().complete() ? "true" : "false");
+    }
+}
+
+RestAnswer bytesOf(Message& message, const std::string& field) {
+    const auto* descriptor = message.GetDescriptor()->FindFieldByName(field);
+    RestAnswer answer;
+    answer.contentType = imageType(message);
+    describe(message, answer);
+    std::string scratch;
+    answer.body = std::make_shared<const std::string>(
+        message.GetReflection()->GetStringReference(message, descriptor, &scratch));
+    return answer;
+}
+
+RestAnswer jsonAnswer(const Message& message, const v1::Rest& rest) {
+    const Message* part = &message;
+    if (!rest.answer().empty())
+        part = &message.GetReflection()->GetMessage(
+            message, message.GetDescriptor()->FindFieldByName(rest.answer()));
+    RestAnswer answer;
+    answer.body = std::make_shared<const std::string>(jsonOf(*part, rest.sparse()));
+    return answer;
+}
+
+void tag(const RestRequest& request, RestAnswer& answer) {
+    const std::string etag =
+        fmt::format("\"{:016x}\"", XXH64(answer.body->data(), answer.body->size(), 0));
+    answer.headers.emplace_back("ETag", etag);
+    if (request.ifNoneMatch.find(etag) == std::string::npos && request.ifNoneMatch != "*")
+        return;
+    answer.status = 304;
+    answer.body = std::make_shared<const std::string>();
+}
+
+/// What there is, for programs.
+RestAnswer document(const RestRequest& request) {
+    RestAnswer answer;
+    static const auto text = std::make_shared<const std::string>(openApiJson());
+    answer.body = text;
+    tag(request, answer);
+    return answer;
+}
+
+/// What there is, for people.
+RestAnswer page(std::string_view path) {
+    const bool isStyle = path == kApiStylePath;
+    if (!isStyle && path != "/api" && path != "/api/")
+        return problem(absl::NotFoundError("there is nothing at this path; see /api"), 404);
+    RestAnswer answer;
+    answer.contentType = isStyle ? "text/css; charset=utf-8" : "text/html; charset=utf-8";
+    answer.body = std::make_shared<const std::string>(isStyle ? apiStyle() : apiPage());
+    return answer;
+}
+
+RestAnswer notThere(const RestRequest& request, const FoundRoute& found) {
+    if (found.allowed.empty())
+        return problem(
+            absl::NotFoundError("there is nothing at this path; see /api for what there is"), 404);
+    RestAnswer answer =
+        problem(absl::UnimplementedError(fmt::format("{} is not done here; this path has {}",
+                                                     request.method.substr(0, 16), found.allowed)),
+                405);
+    answer.headers.emplace_back("Allow", found.allowed);
+    return answer;
+}
+
+}  // namespace
+
+RestAnswer RestDoor::answer(const RestRequest& request) const {
+    if (request.target.starts_with("/api") && !request.target.starts_with(kPrefix))
+        return page(request.target);
+    const std::string_view target(request.target);
+    const std::string_view path = target.substr(0, target.find('?')).substr(kPrefix.size());
+    const FoundRoute found = findRoute(request.method, path);
+    if (path == "/openapi.json" && (request.method == "GET" || request.method == "HEAD"))
+        return document(request);
+    if (found.route == nullptr)
+        return notThere(request, found);
+    const auto asked = newMessage(found.route->call->input_type());
+    const auto made = newMessage(found.route->call->output_type());
+    absl::Status status = read(request, found, *asked);
+    if (status.ok())
+        status = handlers_.handle(found.route->call->name(), *asked, *made, {request.stop});
+    if (!status.ok())
+        return problem(status, httpStatusOf(status.code()), asked->GetDescriptor());
+    const v1::Rest& rest = found.route->rest;
+    RestAnswer answer = !rest.bytes().empty() && !wantsJson(request.accept)
+                            ? bytesOf(*made, rest.bytes())
+                            : jsonAnswer(*made, rest);
+    if (rest.method() == "GET")
+        tag(request, answer);
+    return answer;
+}
+
+RestAnswer busyAnswer() {
+    return problem(absl::ResourceExhaustedError("too many calls wait; try again in a bit"), 503);
+}
+
+}  // namespace eyrie::api

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/api/scene_desk.h"
+
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "fabric/status.h"
+#include "wire/scene.h"
+
+namespace eyrie::api {
+namespace {
+
+constexpr int kMaxObjects = 1000;
+
+absl::Status atObject(int index, const absl::Status& status) {
+    return fabric::withContext(status, fmt::format("scene.objects[{}]", index));
+}
+
+}  // namespace
+
+SceneDesk::SceneDesk(const std::optional<access::DataFolder>& folder,
+                     coordinator::FrameSource& frames, std::function<void(fabric::Scene)> setScene)
+    : folder_(folder), frames_(frames), setScene_(std::move(setScene)) {}
+
+void SceneDesk::allow(const fabric::Scene& scene) {
+    const std::lock_guard lock(mutex_);
+    for (const fabric::SceneObject& object : scene.objects) allowed_.insert(object.path);
+}
+
+v1::Scene SceneDesk::scene() const {
+    v1::Scene message = wire::toMessage(frames_.status().scene);
+    for (v1::SceneObject& object : *message.mutable_objects()) {
+        std::string& path =
+            object.has_terrain() ? *object.mutable_terrain() : *object.mutable_mesh();
+        if (!folder_)
+            continue;
+        const std::filesystem::path name =
+            std::filesystem::path(path).lexically_relative(folder_->path());
+        if (!name.empty() && *name.begin() != "..")
+            path = name.string();
+    }
+    return message;
+}
+
+absl::StatusOr<std::string> SceneDesk::pathOf(const std::string& name, const char* ending) const {
+    {
+        const std::lock_guard lock(mutex_);
+        if (allowed_.contains(name))
+            return name;
+    }
+    if (!folder_)
+        return absl::FailedPreconditionError(
+            "the server has no data folder, and draws what it was started with; start it with "
+            "--data DIR");
+    ASSIGN_OR_RETURN(const std::filesystem::path path, folder_->existing(name));
+    if (path.extension() != ending)
+        return absl::InvalidArgumentError(
+            fmt::format("'{}' does not end in {}; import it first", name, ending));
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(path, error))
+        return absl::NotFoundError(fmt::format("'{}' is no file of the data folder", name));
+    return path.string();
+}
+
+absl::Status SceneDesk::show(v1::Scene message) {
+    if (message.objects_size() == 0 || message.objects_size() > kMaxObjects)
+        return absl::InvalidArgumentError(
+            fmt::format("scene.objects has {} objects; it must have 1 to {}",
+                        message.objects_size(), kMaxObjects));
+    for (int i = 0; i < message.objects_size(); ++i) {
+        v1::SceneObject& object = *message.mutable_objects(i);
+        if (object.imagery_size() > 0)
+            return atObject(i, absl::InvalidArgumentError(
+                                   "imagery is given; import it with its terrain first"));
+        if (object.data_case() == v1::SceneObject::DATA_NOT_SET)
+            return atObject(
+                i, absl::InvalidArgumentError("there is neither terrain nor mesh; name a file"));
+        std::string& name =
+            object.has_terrain() ? *object.mutable_terrain() : *object.mutable_mesh();
+        if (object.name().empty())
+            object.set_name(std::filesystem::path(name).filename().string());
+        absl::StatusOr<std::string> path = pathOf(name, object.has_terrain() ? ".eyt" : ".eym");
+        if (!path.ok())
+            return atObject(i, path.status());
+        name = *std::move(path);
+    }
+    ASSIGN_OR_RETURN(fabric::Scene scene, wire::fromMessage(message));
+    setScene_(std::move(scene));
+    return absl::OkStatus();
+}
+
+}  // namespace eyrie::api

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/api/handler_list.h"
+#include "coordinator/api/handlers.h"
+#include "coordinator/api/scene_desk.h"
+#include "eyrie/v1/eyrie_service.pb.h"
+#include "fabric/status.h"
+
+namespace eyrie::api {
+
+void addSceneHandlers(Handlers& handlers, SceneDesk& scenes) {
+    handlers.add<v1::GetSceneRequest, v1::GetSceneResponse>(
+        "GetScene",
+        [&scenes](const v1::GetSceneRequest&, const Call&) -> absl::StatusOr<v1::GetSceneResponse> {
+            v1::GetSceneResponse response;
+            *response.mutable_scene() = scenes.scene();
+            return response;
+        });
+    handlers.add<v1::SetSceneRequest, v1::SetSceneResponse>(
+        "SetScene",
+        [&scenes](const v1::SetSceneRequest& request,
+                  const Call&) -> absl::StatusOr<v1::SetSceneResponse> {
+            RETURN_IF_ERROR(scenes.show(request.scene()));
+            v1::SetSceneResponse response;
+            *response.mutable_scene() = scenes.scene();
+            return response;
+        });
+}
+
+}  // namespace eyrie::api

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+
+#include <absl/status/status.h>
+
+namespace eyrie::coordinator {
+
+class ActiveConfiguration;
+
+/// The way to a configuration at work for those who make no frames by it.
+class ConfigurationAccess {
+public:
+    virtual ~ConfigurationAccess() = default;
+
+    /// Calls `use` between two frames, and tells viewers of what it changed. From any thread; waits
+    /// for the frame being rendered. Errors: those of `use`; FailedPrecondition before there was a
+    /// renderer to make a configuration of.
+    virtual absl::Status withConfiguration(
+        const std::function<absl::Status(ActiveConfiguration&)>& use) = 0;
+};
+
+}  // namespace eyrie::coordinator

@@ -1,0 +1,442 @@
+// SPDX-License-Identifier: Apache-2.0
+// EyrieService without the network: what REST requests become, and what comes back.
+#include "coordinator/api/api.h"
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <google/protobuf/struct.pb.h>
+#include <google/protobuf/util/json_util.h>
+#include <grpcpp/create_channel.h>
+#include <grpcpp/server.h>
+#include <gtest/gtest.h>
+
+#include "coordinator/api/eyrie_service.h"
+#include "coordinator/api/openapi.h"
+#include "coordinator/api/rest_routes.h"
+#include "coordinator/config/default_config.h"
+#include "coordinator/frame/active_configuration.h"
+#include "fabric/frustum.h"
+#include "tests/coordinator/fake_frame_source.h"
+#include "tests/support/temporary_folder.h"
+#include "wire/jpeg.h"
+#include "wire/listen.h"
+
+namespace eyrie::api {
+namespace {
+
+using google::protobuf::Value;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::StartsWith;
+
+/// The configuration of two renderers.
+class FakeConfiguration : public coordinator::ConfigurationAccess {
+public:
+    absl::Status withConfiguration(
+        const std::function<absl::Status(coordinator::ActiveConfiguration&)>& use) override {
+        return use(active_);
+    }
+
+private:
+    coordinator::ActiveConfiguration active_{config::defaultConfiguration(
+        std::vector<config::RendererFacts>{{"a", "", "fake"}, {"b", "", "fake"}})};
+};
+
+class Rest : public testing::Test {
+protected:
+    Rest() {
+        std::filesystem::create_directory(folder_.path("data"));
+        makeApi(access::DataFolder::open(folder_.path("data")).value());
+    }
+
+    void makeApi(std::optional<access::DataFolder> data) {
+        api_ = std::make_unique<Api>(ApiParts{frames_, configuration_,
+                                              [this](fabric::Scene scene) {
+                                                  coordinator::Status status = frames_.status();
+                                                  status.scene = std::move(scene);
+                                                  frames_.setStatus(status);
+                                              },
+                                              std::move(data)});
+    }
+
+    RestAnswer ask(RestRequest request) const {
+        request.target = "/api/v1" + request.target;
+        return api_->rest().answer(request);
+    }
+    RestAnswer get(const std::string& target, const std::string& accept = "") const {
+        return ask({"GET", target, "", "", accept});
+    }
+    RestAnswer send(const std::string& method, const std::string& target, const std::string& body,
+                    const std::string& accept = "") const {
+        return ask({method, target, body, "application/json", accept});
+    }
+
+    static Value json(const RestAnswer& answer) {
+        Value value;
+        EXPECT_TRUE(google::protobuf::util::JsonStringToMessage(*answer.body, &value).ok())
+            << *answer.body;
+        return value;
+    }
+    static Value member(const Value& value, const std::string& name) {
+        const auto& fields = value.struct_value().fields();
+        EXPECT_TRUE(fields.contains(name)) << name;
+        return fields.contains(name) ? fields.at(name) : Value();
+    }
+    static std::string text(const RestAnswer& answer, const std::string& name) {
+        return member(json(answer), name).string_value();
+    }
+    static std::string header(const RestAnswer& answer, const std::string& name) {
+        for (const auto& [key, value] : answer.headers)
+            if (key == name)
+                return value;
+        return "";
+    }
+    static void expectProblem(const RestAnswer& answer, int status, const std::string& code) {
+        EXPECT_EQ(answer.status, status) << *answer.body;
+        EXPECT_EQ(answer.contentType, "application/problem+json");
+        EXPECT_EQ(text(answer, "code"), code);
+        EXPECT_EQ(member(json(answer), "status").number_value(), status);
+    }
+
+    test::TemporaryFolder folder_;
+    coordinator::FakeFrameSource frames_;
+    FakeConfiguration configuration_;
+    std::unique_ptr<Api> api_;
+};
+
+TEST_F(Rest, TellsWhatThereIs) {
+    const RestAnswer answer = get("/status");
+    EXPECT_EQ(answer.status, 200);
+    EXPECT_EQ(answer.contentType, "application/json");
+    EXPECT_TRUE(member(json(answer), "ready").bool_value());
+    EXPECT_THAT(*answer.body, HasSubstr("\"renderer-1\""));
+
+    coordinator::Status status = coordinator::readyStatus();
+    status.problem = "no renderer";
+    frames_.setStatus(status);
+    EXPECT_FALSE(member(json(get("/status")), "ready").bool_value());
+}
+
+TEST_F(Rest, AnswersThatHaveNotChangedAreNotSentAgain) {
+    const std::string tag = header(get("/status"), "ETag");
+    ASSERT_FALSE(tag.empty());
+    RestRequest again{"GET", "/status"};
+    again.ifNoneMatch = tag;
+    EXPECT_EQ(ask(again).status, 304);
+    EXPECT_TRUE(ask(again).body->empty());
+    coordinator::Status status = coordinator::readyStatus();
+    status.problem = "other";
+    frames_.setStatus(status);
+    EXPECT_EQ(ask(again).status, 200);
+}
+
+TEST_F(Rest, PicturesComeAsTheyAreAskedFor) {
+    const RestAnswer png = send("POST", "/image", R"({"width":20,"height":10,"tauPixels":2})");
+    ASSERT_EQ(png.status, 200) << *png.body;
+    EXPECT_EQ(png.contentType, "image/png");
+    EXPECT_THAT(*png.body, StartsWith("\x89PNG"));
+    EXPECT_EQ(header(png, "Eyrie-Tau-Achieved"), "2");
+    EXPECT_EQ(frames_.requests().back().width, 20);
+    EXPECT_EQ(frames_.requests().back().tauPixels, 2);
+    EXPECT_EQ(frames_.requests().back().completeness, fabric::Completeness::Complete);
+
+    const RestAnswer jpeg =
+        get("/image?width=20&height=10&format=IMAGE_FORMAT_JPEG&jpegQuality=50");
+    EXPECT_EQ(jpeg.contentType, "image/jpeg");
+    const auto decoded =
+        wire::decodeJpeg(std::as_bytes(std::span(jpeg.body->data(), jpeg.body->size())));
+    ASSERT_TRUE(decoded.ok());
+    EXPECT_EQ(decoded->area.width, 20);
+
+    const RestAnswer raw = get("/image?width=2&height=1&format=IMAGE_FORMAT_RAW");
+    EXPECT_EQ(raw.contentType, "application/octet-stream");
+    EXPECT_EQ(*raw.body, std::string("\x5A\x78\x3C\xFF\x5A\x78\x3C\xFF", 8));
+}
+
+TEST_F(Rest, DepthComesInMetresAndItsTopRowFirst) {
+    frames_.setDraw([](const coordinator::FrameRequest& request) {
+        coordinator::RenderedFrame frame = coordinator::plainFrame(request, {1, 2, 3, 255});
+        frame.image = fabric::makeImage({0, 0, 1, 2}, {}, true);
+        frame.image.depth = {static_cast<float>(fabric::kNearMetres / 5), 0};  // below, above
+        return frame;
+    });
+    const RestAnswer answer =
+        send("POST", "/image", R"({"width":1,"height":2,"withDepth":true})", "application/json");
+    ASSERT_EQ(answer.status, 200) << *answer.body;
+    v1::RenderImageResponse response;
+    ASSERT_TRUE(google::protobuf::util::JsonStringToMessage(*answer.body, &response).ok());
+    ASSERT_EQ(response.depth().size(), 8U);
+    float metres[2];
+    std::memcpy(metres, response.depth().data(), 8);
+    EXPECT_TRUE(std::isinf(metres[0]));
+    EXPECT_NEAR(metres[1], 5, 1e-5);
+    EXPECT_TRUE(frames_.requests().back().wantsDepth);
+}
+
+TEST_F(Rest, SaysWhichFieldIsWrongAndWhatToDo) {
+    const RestAnswer tau = send("POST", "/image", R"({"tauPixels":0})");
+    expectProblem(tau, 400, "INVALID_ARGUMENT");
+    EXPECT_EQ(text(tau, "field"), "tauPixels");
+    const RestAnswer width = send("POST", "/image", R"({"width":8193})");
+    expectProblem(width, 400, "INVALID_ARGUMENT");
+    EXPECT_EQ(text(width, "field"), "width");
+    EXPECT_EQ(text(width, "remedy"), "it must be from 1 to 8192");
+    expectProblem(send("POST", "/image", R"({"width":8192,"height":8192})"), 400,
+                  "INVALID_ARGUMENT");
+    expectProblem(send("POST", "/image", R"({"camera":{"eye":[0,0]}})"), 400, "INVALID_ARGUMENT");
+    expectProblem(send("POST", "/image", R"({"format":99})"), 400, "INVALID_ARGUMENT");
+    EXPECT_THAT(frames_.requests(), IsEmpty());
+}
+
+TEST_F(Rest, RefusesWhatItDoesNotKnow) {
+    expectProblem(send("POST", "/image", R"({"witdh":20})"), 400, "INVALID_ARGUMENT");
+    expectProblem(send("POST", "/image", "{"), 400, "INVALID_ARGUMENT");
+    expectProblem(get("/image?witdh=20"), 400, "INVALID_ARGUMENT");
+    expectProblem(get("/image?width=a"), 400, "INVALID_ARGUMENT");
+    expectProblem(get("/image?width=20&width=30"), 400, "INVALID_ARGUMENT");
+    expectProblem(get("/image?width=%2"), 400, "INVALID_ARGUMENT");
+    expectProblem(get("/image?camera=1"), 400, "INVALID_ARGUMENT");
+    expectProblem(get("/nothing"), 404, "NOT_FOUND");
+    expectProblem(get("/status/more"), 404, "NOT_FOUND");
+    expectProblem(ask({"GET", "/status", "{}", "application/json"}), 400, "INVALID_ARGUMENT");
+    const RestAnswer method = send("DELETE", "/image", "");
+    expectProblem(method, 405, "UNIMPLEMENTED");
+    EXPECT_EQ(header(method, "Allow"), "POST, GET");
+    EXPECT_THAT(frames_.requests(), IsEmpty());
+}
+
+TEST_F(Rest, TakesNoFormsOfOtherSitesPages) {
+    expectProblem(ask({"POST", "/image", R"({"width":20})", "text/plain"}), 400,
+                  "INVALID_ARGUMENT");
+    EXPECT_THAT(frames_.requests(), IsEmpty());
+}
+
+TEST_F(Rest, ErrorsOfFramesHaveTheirStatus) {
+    frames_.setDraw([](const coordinator::FrameRequest&) {
+        return absl::UnavailableError("no renderer; start one");
+    });
+    const RestAnswer answer = get("/image");
+    expectProblem(answer, 503, "UNAVAILABLE");
+    EXPECT_EQ(header(answer, "Retry-After"), "1");
+    EXPECT_EQ(text(answer, "remedy"), "start one");
+}
+
+TEST_F(Rest, NothingIsDrawnForAClientThatHasGone) {
+    RestRequest request{"GET", "/image"};
+    std::stop_source gone;
+    gone.request_stop();
+    request.stop = gone.get_token();
+    EXPECT_EQ(ask(request).status, 499);
+    EXPECT_THAT(frames_.requests(), IsEmpty());
+}
+
+TEST_F(Rest, PicksCountTheirRowsFromTheTop) {
+    const RestAnswer answer =
+        send("POST", "/pick", R"({"width":100,"height":50,"x":10.5,"y":0.5})");
+    ASSERT_EQ(answer.status, 200) << *answer.body;
+    EXPECT_EQ(frames_.picks().back().place.x, 10.5);
+    EXPECT_EQ(frames_.picks().back().place.y, 49.5);
+    expectProblem(send("POST", "/pick", R"({"width":100,"height":50,"x":101,"y":0})"), 400,
+                  "INVALID_ARGUMENT");
+}
+
+TEST_F(Rest, ProfilesHaveTheirSamples) {
+    const RestAnswer answer =
+        send("POST", "/profile", R"({"from":{"x":1},"to":{"x":2},"samples":5})");
+    ASSERT_EQ(answer.status, 200) << *answer.body;
+    EXPECT_EQ(member(json(answer), "samples").list_value().values_size(), 5);
+    expectProblem(send("POST", "/profile", R"({"samples":513})"), 400, "INVALID_ARGUMENT");
+}
+
+TEST_F(Rest, ConfigurationsChangeWhollyOrNotAtAll) {
+    const RestAnswer before = get("/configuration");
+    ASSERT_EQ(before.status, 200) << *before.body;
+    EXPECT_THAT(*before.body, HasSubstr("\"compounds\""));
+
+    const RestAnswer switched =
+        send("PATCH", "/configuration", R"({"layouts":[{"canvas":"0","layout":"OFF"}]})");
+    if (switched.status != 200)  // not all canvases can show nothing
+        expectProblem(switched, 404, "NOT_FOUND");
+    const std::string now = *get("/configuration").body;
+    expectProblem(send("PATCH", "/configuration",
+                       R"({"layouts":[{"canvas":"0","layout":"1"}],)"
+                       R"("equalizers":[{"equalizer":999}]})"),
+                  404, "NOT_FOUND");
+    EXPECT_EQ(*get("/configuration").body, now);
+    expectProblem(send("PATCH", "/configuration", R"({"heads":[{"roomFromHead":[1]}]})"), 400,
+                  "INVALID_ARGUMENT");
+
+    const RestAnswer layout =
+        send("PATCH", "/configuration", R"({"layouts":[{"canvas":"0","layout":"1"}]})");
+    ASSERT_EQ(layout.status, 200) << *layout.body;
+    EXPECT_NE(*get("/configuration").body, now);
+}
+
+TEST_F(Rest, EqualizersAreFrozenAndSwitchedOff) {
+    const RestAnswer answer =
+        send("PATCH", "/configuration", R"({"equalizers":[{"equalizer":0,"frozen":true}]})");
+    ASSERT_EQ(answer.status, 200) << *answer.body;
+    const Value now = json(get("/configuration"));
+    const Value first = member(now, "equalizers").list_value().values(0);
+    EXPECT_TRUE(member(first, "frozen").bool_value());
+    EXPECT_TRUE(member(first, "on").bool_value());
+}
+
+TEST_F(Rest, ScenesThatWereAnsweredCanBeShownAgain) {
+    api_->allow(frames_.status().scene);
+    std::ofstream(folder_.path("data/other.eyt")) << "x";
+    const RestAnswer scene = get("/scene");
+    ASSERT_EQ(scene.status, 200);
+    EXPECT_EQ(send("PUT", "/scene", *scene.body).status, 200);
+
+    const RestAnswer other = send("PUT", "/scene", R"({"objects":[{"terrain":"other.eyt"}]})");
+    ASSERT_EQ(other.status, 200) << *other.body;
+    EXPECT_EQ(frames_.status().scene.objects[0].path,
+              std::filesystem::canonical(folder_.path("data/other.eyt")).string());
+    EXPECT_THAT(*other.body, HasSubstr("\"other.eyt\""));
+    EXPECT_EQ(send("PUT", "/scene", *scene.body).status, 200);
+}
+
+TEST_F(Rest, ScenesNameNothingOutsideTheDataFolder) {
+    std::ofstream(folder_.path("secret.eyt")) << "x";
+    std::ofstream(folder_.path("data/source.tif")) << "x";
+    std::filesystem::create_symlink(folder_.path("secret.eyt"), folder_.path("data/link.eyt"));
+    for (const std::string name : {"../secret.eyt", "link.eyt", "none.eyt", "source.tif", "", "/",
+                                   "a/../../secret.eyt", "https://host/a.eyt"}) {
+        const RestAnswer answer =
+            send("PUT", "/scene", R"({"objects":[{"terrain":")" + name + "\"}]}");
+        EXPECT_GE(answer.status, 400) << name;
+        EXPECT_LT(answer.status, 500) << name;
+    }
+    const RestAnswer whole =
+        send("PUT", "/scene", R"({"objects":[{"terrain":")" + folder_.path("secret.eyt") + "\"}]}");
+    EXPECT_EQ(whole.status, 400);
+    expectProblem(send("PUT", "/scene", "{}"), 400, "INVALID_ARGUMENT");
+    EXPECT_EQ(frames_.status().scene, coordinator::readyStatus().scene);
+}
+
+TEST_F(Rest, FlightsAreKept) {
+    constexpr const char* kFlight =
+        R"({"name":"round","keys":[{"camera":{"eye":[0,-10,3],"target":[0,0,0]}}]})";
+    EXPECT_THAT(*get("/flights").body, HasSubstr("\"names\": []"));
+    const RestAnswer put = send("PUT", "/flights/a-b_1", kFlight);
+    ASSERT_EQ(put.status, 200) << *put.body;
+    const RestAnswer kept = get("/flights/a-b_1");
+    ASSERT_EQ(kept.status, 200);
+    EXPECT_EQ(*kept.body, *put.body);
+    EXPECT_THAT(*get("/flights").body, HasSubstr("\"a-b_1\""));
+    makeApi(access::DataFolder::open(folder_.path("data")).value());
+    EXPECT_EQ(*get("/flights/a-b_1").body, *put.body);
+    EXPECT_EQ(send("DELETE", "/flights/a-b_1", "").status, 200);
+    expectProblem(get("/flights/a-b_1"), 404, "NOT_FOUND");
+    expectProblem(send("DELETE", "/flights/a-b_1", ""), 404, "NOT_FOUND");
+}
+
+TEST_F(Rest, FlightsThatCannotBeFlownAreNotKept) {
+    expectProblem(send("PUT", "/flights/a", R"({"keys":[]})"), 400, "INVALID_ARGUMENT");
+    for (const char* name : {"..%2fa", "a%00", "a.b", "%", "a%2Fb"})
+        EXPECT_EQ(send("PUT", "/flights/" + std::string(name),
+                       R"({"keys":[{"camera":{"eye":[0,-10,3],"target":[0,0,0]}}]})")
+                          .status /
+                      100,
+                  4)
+            << name;
+    EXPECT_THAT(*get("/flights").body, HasSubstr("\"names\": []"));
+}
+
+TEST_F(Rest, WithoutADataFolderNothingIsKept) {
+    makeApi(std::nullopt);
+    expectProblem(get("/flights"), 409, "FAILED_PRECONDITION");
+    EXPECT_EQ(text(get("/flights"), "remedy"), "start it with --data DIR");
+}
+
+TEST_F(Rest, ThePageAndTheDocumentHaveEveryCall) {
+    const RestAnswer page = api_->rest().answer({"GET", "/api"});
+    EXPECT_EQ(page.contentType, "text/html; charset=utf-8");
+    EXPECT_EQ(api_->rest().answer({"GET", "/api/style.css"}).status, 200);
+    EXPECT_EQ(api_->rest().answer({"GET", "/api/else"}).status, 404);
+    const Value document = json(get("/openapi.json"));
+    EXPECT_EQ(member(document, "openapi").string_value(), "3.1.0");
+    for (const Route& route : restRoutes()) {
+        EXPECT_THAT(*page.body, HasSubstr("id=\"" + route.call->name() + "\""));
+        const Value path = member(member(document, "paths"), route.rest.path());
+        std::string method = route.rest.method();
+        std::ranges::transform(method, method.begin(),
+                               [](char c) { return static_cast<char>(c - 'A' + 'a'); });
+        EXPECT_TRUE(path.struct_value().fields().contains(method)) << route.rest.path();
+    }
+}
+
+TEST(OpenApi, LeavesNothingUndocumented) { EXPECT_THAT(undocumented(), IsEmpty()); }
+
+TEST(OpenApi, RefersOnlyToWhatItHas) {
+    const std::string& document = openApiJson();
+    constexpr std::string_view kRef = "\"$ref\":\"#/components/schemas/";
+    int found = 0;
+    for (std::size_t at = document.find(kRef); at != std::string::npos;
+         at = document.find(kRef, at + 1)) {
+        const std::size_t from = at + kRef.size();
+        const std::string name = document.substr(from, document.find('"', from) - from);
+        EXPECT_THAT(document, HasSubstr("\"" + name + "\":{\"type\":")) << name;
+        ++found;
+    }
+    EXPECT_GT(found, 50);
+}
+
+TEST_F(Rest, IsTheSameOverGrpc) {
+    EyrieService service;
+    const auto listening =
+        wire::listen({"unix:" + folder_.path("s")}, std::vector<grpc::Service*>{&service}).value();
+    auto stub = v1::EyrieService::NewStub(
+        grpc::CreateChannel("unix:" + folder_.path("s"), grpc::InsecureChannelCredentials()));
+    const auto status = [&](auto&& call) {
+        grpc::ClientContext context;
+        context.set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(30));
+        return call(context);
+    };
+    v1::RenderImageRequest request;
+    request.set_width(20);
+    request.set_height(10);
+    v1::RenderImageResponse response;
+    const auto render = [&](grpc::ClientContext& context) {
+        return stub->RenderImage(&context, request, &response);
+    };
+    EXPECT_EQ(status(render).error_code(), grpc::StatusCode::UNAVAILABLE);  // still starting
+    service.use(api_->handlers());
+    ASSERT_TRUE(status(render).ok());
+    EXPECT_EQ(response.image(), *get("/image?width=20&height=10").body);
+    request.set_width(0);
+    EXPECT_EQ(status(render).error_code(), grpc::StatusCode::INVALID_ARGUMENT);
+    listening.server->Shutdown();
+    service.stop();
+}
+
+TEST_F(Rest, TellsTheHandlerThatAGrpcCallerHasGone) {
+    EyrieService service;
+    service.use(api_->handlers());
+    const auto listening =
+        wire::listen({"unix:" + folder_.path("s")}, std::vector<grpc::Service*>{&service}).value();
+    auto stub = v1::EyrieService::NewStub(
+        grpc::CreateChannel("unix:" + folder_.path("s"), grpc::InsecureChannelCredentials()));
+    frames_.setPick([](const fabric::PickRequest&) {  // 512 of them take longer than anybody waits
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        return fabric::Picked();
+    });
+    grpc::ClientContext context;
+    context.set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(1));
+    v1::MeasureProfileRequest request;
+    request.set_samples(512);
+    v1::MeasureProfileResponse response;
+    EXPECT_EQ(stub->MeasureProfile(&context, request, &response).error_code(),
+              grpc::StatusCode::DEADLINE_EXCEEDED);
+    listening.server->Shutdown();
+    service.stop();
+    EXPECT_LT(frames_.picks().size(), 512U);
+}
+
+}  // namespace
+}  // namespace eyrie::api

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+// Calls of the API over connections: what they hold up, and what ends them.
+#include <future>
+#include <thread>
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/read.hpp>
+#include <boost/asio/write.hpp>
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "coordinator/api/api.h"
+#include "coordinator/http/server.h"
+#include "tests/coordinator/fake_frame_source.h"
+
+namespace eyrie::http {
+namespace {
+
+using boost::asio::ip::tcp;
+using std::chrono::milliseconds;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+class NoConfiguration : public coordinator::ConfigurationAccess {
+public:
+    absl::Status withConfiguration(
+        const std::function<absl::Status(coordinator::ActiveConfiguration&)>&) override {
+        return absl::FailedPreconditionError("there is none");
+    }
+};
+
+class HttpApi : public testing::Test {
+protected:
+    HttpApi() {
+        ServerOptions options;
+        options.port = 0;
+        options.api = &api_.rest();
+        server_ = Server::start(options, frames_).value();
+        const std::string url = server_->url();
+        port_ = static_cast<std::uint16_t>(std::stoi(url.substr(url.rfind(':') + 1)));
+    }
+
+    tcp::socket send(const std::string& request) {
+        tcp::socket socket(io_);
+        socket.connect({boost::asio::ip::make_address("127.0.0.1"), port_});
+        boost::asio::write(socket, boost::asio::buffer(request));
+        return socket;
+    }
+
+    static std::string receive(tcp::socket socket) {
+        std::string answer;
+        boost::system::error_code end;
+        boost::asio::read(socket, boost::asio::dynamic_buffer(answer), end);
+        return answer;
+    }
+
+    std::string ask(const std::string& line, const std::string& headers = "") {
+        return receive(send(fmt::format(
+            "{} HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n{}\r\n", line, headers)));
+    }
+
+    std::string profile() const {
+        const std::string body = R"({"samples":512})";
+        return fmt::format(
+            "POST /api/v1/profile HTTP/1.1\r\nHost: localhost\r\n"
+            "Content-Type: application/json\r\nContent-Length: {}\r\n\r\n{}",
+            body.size(), body);
+    }
+
+    coordinator::FakeFrameSource frames_;
+    NoConfiguration configuration_;
+    api::Api api_{{frames_, configuration_, [](fabric::Scene) {}}};
+    boost::asio::io_context io_;
+    std::unique_ptr<Server> server_;
+    std::uint16_t port_ = 0;
+};
+
+TEST_F(HttpApi, OthersAreAnsweredWhileAPictureIsDrawn) {
+    frames_.hold(true);
+    auto picture = std::async(std::launch::async, [this] {
+        return receive(
+            send("GET /api/v1/image?width=20&height=10 HTTP/1.1\r\nHost: localhost\r\n"
+                 "Connection: close\r\n\r\n"));
+    });
+    ASSERT_TRUE(frames_.waitForRequests(1));
+    EXPECT_THAT(ask("GET /healthz"), StartsWith("HTTP/1.1 200"));
+    EXPECT_THAT(ask("GET /api/v1/status"), StartsWith("HTTP/1.1 200"));
+    frames_.hold(false);
+    const std::string answer = picture.get();
+    EXPECT_THAT(answer, StartsWith("HTTP/1.1 200"));
+    EXPECT_THAT(answer, HasSubstr("Content-Type: image/png"));
+}
+
+TEST_F(HttpApi, SeveralPicturesAreAskedForAtOnce) {
+    frames_.hold(true);
+    std::vector<std::future<std::string>> pictures;
+    for (int i = 0; i < 4; ++i)
+        pictures.push_back(
+            std::async(std::launch::async, [this] { return ask("GET /api/v1/image?width=20"); }));
+    EXPECT_TRUE(frames_.waitForRequests(4));
+    frames_.hold(false);
+    for (auto& picture : pictures) EXPECT_THAT(picture.get(), StartsWith("HTTP/1.1 200"));
+}
+
+TEST_F(HttpApi, CallsEndWithTheirConnection) {
+    frames_.setPick([](const fabric::PickRequest&) {
+        std::this_thread::sleep_for(milliseconds(50));  // all of them take longer than the test
+        return fabric::Picked();
+    });
+    {
+        const tcp::socket client = send(profile());
+        ASSERT_TRUE(frames_.waitForPicks(1));
+    }
+    std::size_t before = 0;
+    for (int i = 0; i < 40 && before != frames_.picks().size(); ++i) {
+        before = frames_.picks().size();
+        std::this_thread::sleep_for(milliseconds(500));
+    }
+    EXPECT_LT(frames_.picks().size(), 512U);
+    EXPECT_EQ(frames_.picks().size(), before);
+}
+
+TEST_F(HttpApi, ServersStopWhileCallsAreBeingDone) {
+    frames_.setPick([](const fabric::PickRequest&) {
+        std::this_thread::sleep_for(milliseconds(50));
+        return fabric::Picked();
+    });
+    const tcp::socket client = send(profile());
+    ASSERT_TRUE(frames_.waitForPicks(1));
+    server_->stop();
+    EXPECT_LT(frames_.picks().size(), 512U);
+}
+
+TEST_F(HttpApi, PagesOfOtherSitesGetNothing) {
+    EXPECT_THAT(ask("GET /api/v1/status", "Origin: http://evil.example\r\n"),
+                StartsWith("HTTP/1.1 403"));
+    EXPECT_THAT(ask("GET /api/v1/image?width=20", "Origin: http://evil.example\r\n"),
+                StartsWith("HTTP/1.1 403"));
+    EXPECT_TRUE(frames_.requests().empty());
+}
+
+TEST_F(HttpApi, ErrorsAreProblems) {
+    const std::string wrong = ask("GET /api/v1/image?width=0");
+    EXPECT_THAT(wrong, StartsWith("HTTP/1.1 400"));
+    EXPECT_THAT(wrong, HasSubstr("Content-Type: application/problem+json"));
+    EXPECT_THAT(ask("DELETE /api/v1/image"), HasSubstr("Allow: POST, GET"));
+    EXPECT_THAT(ask("GET /api"), HasSubstr("<title>Eyrie"));
+}
+
+}  // namespace
+}  // namespace eyrie::http
