@@ -15,6 +15,7 @@
 #include "cli/compound_names.h"
 #include "cli/config_options.h"
 #include "cli/data_cache.h"
+#include "cli/log.h"
 #include "cli/scene_files.h"
 #include "cli/stop_signal.h"
 #include "cli/web_door.h"
@@ -45,7 +46,7 @@ absl::StatusOr<fabric::Scene> loadScene(const Options& options, const std::stop_
 absl::Status coordinate(const Options& options) {
     const StopSignal stop;
     if (options.quiet)
-        spdlog::set_level(spdlog::level::warn);
+        quietLog();
     RETURN_IF_ERROR(fabric::withContext(wire::checkAddress(options.grpc), "--grpc"));
     coordinator::CoordinatorOptions settings;
     settings.grpcAddresses = {options.grpc};
@@ -57,13 +58,14 @@ absl::Status coordinate(const Options& options) {
         return fabric::withContext(absl::InvalidArgumentError(coordinator.status().message()),
                                    "--grpc");
     RETURN_IF_ERROR(coordinator.status());
-    ASSIGN_OR_RETURN(const auto door, openWebDoor(options.listen, (*coordinator)->frames()));
+    ASSIGN_OR_RETURN(const auto door, openWebDoor(options.listen, (*coordinator)->frames(),
+                                                  (*coordinator)->telemetry()));
     fmt::print("Eyrie is at {}\n", door->url());
     for (const std::string& address : (*coordinator)->grpcAddresses())
         fmt::print("Renderers register at {}\n", address);
     std::fflush(stdout);
     stop.wait();
-    door->stop();
+    closeWebDoor(*door, **coordinator);
     return absl::OkStatus();
 }
 

@@ -19,6 +19,7 @@
 #include "cli/decode_names.h"
 #include "cli/hardware_devices.h"
 #include "cli/local_farm.h"
+#include "cli/log.h"
 #include "cli/scene_files.h"
 #include "cli/stop_signal.h"
 #include "cli/web_door.h"
@@ -84,13 +85,14 @@ int rendererCount(const Options& options,
 absl::Status serve(const Options& options) {
     const StopSignal stop;
     if (options.quiet)
-        spdlog::set_level(spdlog::level::warn);
+        quietLog();
     ASSIGN_OR_RETURN(auto configuration, configurationOf(options.config, options.quiet));
     const int renderers = rendererCount(options, configuration);
     ASSIGN_OR_RETURN(const auto farm,
                      LocalFarm::start(std::move(configuration), options.config.compound,
                                       options.cache, options.decoding));
-    ASSIGN_OR_RETURN(const auto door, openWebDoor(options.listen, farm->frames()));
+    ASSIGN_OR_RETURN(const auto door,
+                     openWebDoor(options.listen, farm->frames(), farm->coordinator().telemetry()));
     ASSIGN_OR_RETURN(fabric::Scene scene, loadScene(options, stop.token()));
     RETURN_IF_ERROR(farm->coordinator().setScene(std::move(scene)));
     farm->startRenderers(renderers);
@@ -102,7 +104,7 @@ absl::Status serve(const Options& options) {
         return absl::OkStatus();
     announce(door->url(), farm->frames().status(), options.quiet);
     absl::Status end = serveUntilStopped(*farm, stop.token());
-    door->stop();  // while there are renderers: a frame in progress is waited for
+    closeWebDoor(*door, farm->coordinator());  // while there are renderers
     return end;
 }
 

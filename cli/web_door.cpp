@@ -4,14 +4,20 @@
 #include <filesystem>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "cli/stop_limit.h"
 #include "cli/values.h"
 #include "fabric/status.h"
 
 namespace eyrie::cli {
 namespace {
+
+/// How long a door may take to close before the frames in progress are given up: longer than
+/// viewers are given, and so that the process ends within 5 seconds.
+constexpr std::chrono::milliseconds kPatience{3'000};
 
 /// share/eyrie/web beside the bin folder that this program is in.
 std::filesystem::path webFolder() {
@@ -23,12 +29,14 @@ std::filesystem::path webFolder() {
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<http::Server>> openWebDoor(const std::string& listen,
-                                                          coordinator::FrameSource& frames) {
+                                                          coordinator::FrameSource& frames,
+                                                          observe::SharedTelemetry telemetry) {
     ASSIGN_OR_RETURN(const HostPort address, parseHostPort(listen, "--listen"));
     http::ServerOptions options;
     options.host = address.host;
     options.port = address.port;
     options.webFolder = webFolder();
+    options.telemetry = std::move(telemetry);
     auto server = http::Server::start(options, frames);
     if (server.ok())
         return server;
@@ -36,6 +44,11 @@ absl::StatusOr<std::unique_ptr<http::Server>> openWebDoor(const std::string& lis
     return absl::InvalidArgumentError(
         fmt::format("{}; choose another place with --listen HOST:PORT",
                     std::string_view(message.data(), message.size())));
+}
+
+void closeWebDoor(http::Server& door, coordinator::Coordinator& coordinator) {
+    const StopLimit limit(kPatience, [&] { coordinator.abandonFrames(); });
+    door.stop();
 }
 
 }  // namespace eyrie::cli

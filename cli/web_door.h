@@ -6,13 +6,20 @@
 
 #include <absl/status/statusor.h>
 
+#include "coordinator/coordinator.h"
 #include "coordinator/http/server.h"
 
 namespace eyrie::cli {
 
 /// Starts the HTTP server on what --listen says, with the page that was built beside this program.
+/// It shows, and adds to, what `telemetry` has.
 /// Errors: InvalidArgument, naming --listen and a remedy.
 absl::StatusOr<std::unique_ptr<http::Server>> openWebDoor(const std::string& listen,
-                                                          coordinator::FrameSource& frames);
+                                                          coordinator::FrameSource& frames,
+                                                          observe::SharedTelemetry telemetry);
+
+/// Stops the door: viewers get what they have asked for, for some seconds at most, after which
+/// `coordinator` gives up the frames in progress.
+void closeWebDoor(http::Server& door, coordinator::Coordinator& coordinator);
 
 }  // namespace eyrie::cli

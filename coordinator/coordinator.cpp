@@ -32,10 +32,11 @@ void watchHeartbeats(Registry& registry, const std::stop_token& stop) {
 
 class Coordinator::Impl {
 public:
-    Impl(std::unique_ptr<Registry> registry, std::unique_ptr<GrpcService> door,
-         const CoordinatorOptions& options)
-        : registry_(std::move(registry)),
-          pipeline_(*registry_, pipelineOptions(options, *door)),
+    Impl(observe::SharedTelemetry telemetry, std::unique_ptr<Registry> registry,
+         std::unique_ptr<GrpcService> door, const CoordinatorOptions& options)
+        : telemetry_(std::move(telemetry)),
+          registry_(std::move(registry)),
+          pipeline_(*registry_, pipelineOptions(options, *door, telemetry_)),
           door_(std::move(door)),
           watcher_([this](const std::stop_token& stop) { watchHeartbeats(*registry_, stop); }) {
         pipeline_.setScene(options.scene);
@@ -43,12 +44,22 @@ public:
 
     FramePipeline& frames() { return pipeline_; }
     const GrpcService& door() const { return *door_; }
+    const observe::SharedTelemetry& telemetry() const { return telemetry_; }
     void stop() { door_->stop(); }
+
+    void abandonFrames() {
+        stop();
+        for (const Registry::Entry& entry : registry_->entries())
+            if (entry.renderer)
+                entry.renderer->cancel();
+    }
 
 private:
     static FramePipelineOptions pipelineOptions(const CoordinatorOptions& options,
-                                                const GrpcService& door) {
+                                                const GrpcService& door,
+                                                observe::SharedTelemetry telemetry) {
         FramePipelineOptions pipeline;
+        pipeline.telemetry = std::move(telemetry);
         pipeline.configuration = options.configuration;
         pipeline.layout = options.layout;
         pipeline.howToJoin =
@@ -56,6 +67,7 @@ private:
         return pipeline;
     }
 
+    const observe::SharedTelemetry telemetry_;
     const std::unique_ptr<Registry> registry_;
     FramePipeline pipeline_;
     const std::unique_ptr<GrpcService> door_;
@@ -68,16 +80,19 @@ absl::StatusOr<std::unique_ptr<Coordinator>> Coordinator::start(const Coordinato
         return absl::InvalidArgumentError(
             "the coordinator has no address for renderers to register at");
     auto registry = std::make_unique<Registry>();
+    auto telemetry = std::make_shared<observe::Telemetry>();
     ASSIGN_OR_RETURN(std::unique_ptr<GrpcService> door,
-                     GrpcService::start(options.grpcAddresses, *registry));
-    return std::unique_ptr<Coordinator>(
-        new Coordinator(std::make_unique<Impl>(std::move(registry), std::move(door), options)));
+                     GrpcService::start(options.grpcAddresses, *registry, telemetry));
+    return std::unique_ptr<Coordinator>(new Coordinator(std::make_unique<Impl>(
+        std::move(telemetry), std::move(registry), std::move(door), options)));
 }
 
 Coordinator::Coordinator(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Coordinator::~Coordinator() { stop(); }
 
 FrameSource& Coordinator::frames() { return impl_->frames(); }
+
+const observe::SharedTelemetry& Coordinator::telemetry() const { return impl_->telemetry(); }
 
 const std::vector<std::string>& Coordinator::grpcAddresses() const {
     return impl_->door().addresses();
@@ -90,5 +105,6 @@ absl::Status Coordinator::setScene(fabric::Scene scene) {
 }
 
 void Coordinator::stop() { impl_->stop(); }
+void Coordinator::abandonFrames() { impl_->abandonFrames(); }
 
 }  // namespace eyrie::coordinator

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-add_library(eyrie_http http/http_session.cpp http/origin.cpp http/router.cpp
+add_library(eyrie_http http/http_session.cpp http/observe_routes.cpp http/origin.cpp http/router.cpp
                        http/server.cpp http/static_files.cpp http/status_json.cpp
                        http/web_socket.cpp)
 add_library(eyrie::http ALIAS eyrie_http)
-target_link_libraries(eyrie_http PUBLIC eyrie::fabric absl::statusor
+target_link_libraries(eyrie_http PUBLIC eyrie::fabric eyrie::observe absl::statusor
                                  PRIVATE eyrie::stream Boost::headers Threads::Threads fmt::fmt)
 # The thread sanitizer does not know the fences in Asio and says so; the locks beside them order the
 # same accesses.

@@ -4,6 +4,6 @@ add_library(eyrie_stream
     stream/pacer.cpp stream/pick_desk.cpp stream/picture_encoder.cpp stream/profile.cpp
     stream/progress.cpp stream/quality.cpp stream/viewer.cpp stream/viewer_messages.cpp)
 add_library(eyrie::stream ALIAS eyrie_stream)
-target_link_libraries(eyrie_stream PUBLIC eyrie::fabric absl::status
+target_link_libraries(eyrie_stream PUBLIC eyrie::fabric eyrie::observe absl::status
                                    PRIVATE eyrie::jpeg eyrie::png eyrie::wire eyrie::proto
                                            Threads::Threads fmt::fmt)

@@ -16,6 +16,7 @@
 
 #include "eyrie/v1/coordinator_service.grpc.pb.h"
 #include "fabric/version.h"
+#include "wire/deadline.h"
 #include "wire/protocol.h"
 #include "wire/statistics.h"
 #include "wire/status.h"
@@ -93,7 +94,7 @@ private:
                       const Request& request, Response& response, const std::stop_token& stop,
                       std::chrono::milliseconds timeout = kCallTimeout) {
         grpc::ClientContext context;
-        context.set_deadline(std::chrono::system_clock::now() + timeout);
+        context.set_deadline(wire::deadlineIn(timeout));
         const std::stop_callback cancel(stop, [&context] { context.TryCancel(); });
         return wire::fromGrpc(((*stub_).*method)(&context, request, &response), peer_);
     }

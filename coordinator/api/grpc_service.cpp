@@ -13,6 +13,7 @@
 #include "eyrie/v1/coordinator_service.grpc.pb.h"
 #include "fabric/status.h"
 #include "fabric/version.h"
+#include "wire/deadline.h"
 #include "wire/listen.h"
 #include "wire/protocol.h"
 #include "wire/statistics.h"
@@ -36,7 +37,8 @@ absl::Status checkVersion(const v1::RegisterRendererRequest& request) {
 
 class CoordinatorService final : public v1::CoordinatorService::CallbackService {
 public:
-    explicit CoordinatorService(Registry& registry) : registry_(registry) {}
+    CoordinatorService(Registry& registry, observe::SharedTelemetry telemetry)
+        : registry_(registry), telemetry_(std::move(telemetry)) {}
 
     grpc::ServerUnaryReactor* RegisterRenderer(grpc::CallbackServerContext* context,
                                                const v1::RegisterRendererRequest* request,
@@ -75,9 +77,9 @@ private:
                              Registry::Clock::now());
             return status;
         }
-        ASSIGN_OR_RETURN(
-            const std::string id,
-            registry_.add(address, device, connectRenderer(address), Registry::Clock::now()));
+        ASSIGN_OR_RETURN(const std::string id,
+                         registry_.add(address, device, connectRenderer(address, telemetry_),
+                                       Registry::Clock::now()));
         response.set_renderer_id(id);
         response.set_heartbeat_milliseconds(
             static_cast<std::int32_t>(registry_.options().heartbeatInterval.count()));
@@ -85,13 +87,15 @@ private:
     }
 
     Registry& registry_;
+    const observe::SharedTelemetry telemetry_;
 };
 
 }  // namespace
 
 class GrpcService::Impl {
 public:
-    explicit Impl(Registry& registry) : service_(registry) {}
+    Impl(Registry& registry, observe::SharedTelemetry telemetry)
+        : service_(registry, std::move(telemetry)) {}
 
     absl::Status listen(const std::vector<std::string>& addresses) {
         grpc::EnableDefaultHealthCheckService(true);
@@ -101,7 +105,7 @@ public:
 
     const std::vector<std::string>& addresses() const { return listening_.addresses; }
 
-    void stop() { listening_.server->Shutdown(std::chrono::system_clock::now()); }
+    void stop() { listening_.server->Shutdown(wire::deadlineIn(std::chrono::seconds(0))); }
 
 private:
     CoordinatorService service_;
@@ -109,8 +113,9 @@ private:
 };
 
 absl::StatusOr<std::unique_ptr<GrpcService>> GrpcService::start(
-    const std::vector<std::string>& addresses, Registry& registry) {
-    auto impl = std::make_unique<Impl>(registry);
+    const std::vector<std::string>& addresses, Registry& registry,
+    observe::SharedTelemetry telemetry) {
+    auto impl = std::make_unique<Impl>(registry, std::move(telemetry));
     RETURN_IF_ERROR(impl->listen(addresses));
     return std::unique_ptr<GrpcService>(new GrpcService(std::move(impl)));
 }

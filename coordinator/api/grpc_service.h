@@ -8,6 +8,7 @@
 #include <absl/status/statusor.h>
 
 #include "coordinator/farm/registry.h"
+#include "coordinator/observe/telemetry.h"
 
 namespace eyrie::coordinator {
 
@@ -16,9 +17,11 @@ namespace eyrie::coordinator {
 class GrpcService {
 public:
     /// Serves on each of `addresses` ("host:port", port 0: the system chooses; "unix:/path").
-    /// `registry` outlives it. Errors: InvalidArgument, Unavailable (an address).
+    /// `registry` outlives it. The renderers tell
+    /// `telemetry` what they draw. Errors: InvalidArgument, Unavailable (an address).
     static absl::StatusOr<std::unique_ptr<GrpcService>> start(
-        const std::vector<std::string>& addresses, Registry& registry);
+        const std::vector<std::string>& addresses, Registry& registry,
+        observe::SharedTelemetry telemetry = nullptr);
 
     ~GrpcService();
     GrpcService(const GrpcService&) = delete;

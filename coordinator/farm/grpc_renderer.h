@@ -5,6 +5,7 @@
 #include <string>
 
 #include "coordinator/farm/channel_renderer.h"
+#include "coordinator/observe/telemetry.h"
 
 namespace eyrie::coordinator {
 
@@ -12,7 +13,8 @@ namespace eyrie::coordinator {
 /// for the connection: the first call fails with Unavailable when nobody listens.
 ///
 /// Nothing it answers is believed unchecked: what does not fit the task is an Internal error that
-/// names the field.
-std::shared_ptr<ChannelRenderer> connectRenderer(const std::string& address);
+/// names the field. Tells `telemetry` of what it draws.
+std::shared_ptr<ChannelRenderer> connectRenderer(const std::string& address,
+                                                 observe::SharedTelemetry telemetry = nullptr);
 
 }  // namespace eyrie::coordinator

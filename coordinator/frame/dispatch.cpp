@@ -130,6 +130,8 @@ void Dispatch::noteReissue(std::size_t index, const Member& chosen, const Member
     spdlog::warn("frame {}: {} draws the part that {} {}", plan_.tasks[index].frameNumber,
                  chosen.id(), part.asked.back(),
                  part.running != 0 ? "has not finished" : "could not draw");
+    if (plan_.telemetry)
+        plan_.telemetry->metrics.taskReissued(part.running != 0);
     for (const std::shared_ptr<Member>& member : members)
         if (part.running != 0 && member->id() == part.asked.back() && !member->isIdle())
             someAreLate_ |= !member->setLate(true);

@@ -10,6 +10,7 @@
 
 #include "coordinator/frame/crew.h"
 #include "coordinator/frame/patience.h"
+#include "coordinator/observe/telemetry.h"
 #include "fabric/channel_task.h"
 #include "fabric/frame_data.h"
 
@@ -42,6 +43,7 @@ public:
         /// tasks of one renderer are drawn one after the other. It is not waited for while it is
         /// late, or busy with an earlier dispatch.
         std::vector<std::size_t> preferred = {};
+        observe::SharedTelemetry telemetry = nullptr;  ///< is told of tasks given to another
     };
 
     explicit Dispatch(Plan plan);

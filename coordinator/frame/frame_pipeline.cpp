@@ -107,7 +107,28 @@ FramePipeline::FramePipeline(Registry& registry, FramePipelineOptions options)
 
 absl::StatusOr<RenderedFrame> FramePipeline::renderFrame(const FrameRequest& request) {
     RETURN_IF_ERROR(check(request));
+    const auto asked = Registry::Clock::now();
     const std::lock_guard turn(turn_);
+    if (telemetry() == nullptr)
+        return renderInTurn(request);
+    observe::Metrics& metrics = telemetry()->metrics;
+    metrics.took(observe::Stage::Turn, Registry::Clock::now() - asked);
+    absl::StatusOr<RenderedFrame> frame = [&] {
+        observe::StageTimer timer(telemetry(), observe::Stage::Total);
+        const std::uint64_t before = frameNumber_;
+        auto result = renderInTurn(request);
+        if (frameNumber_ != before)
+            timer.setFrame(frameNumber_);
+        return result;
+    }();
+    if (frame.ok())
+        metrics.frameMade(frame->statistics);
+    else
+        metrics.frameFailed();
+    return frame;
+}
+
+absl::StatusOr<RenderedFrame> FramePipeline::renderInTurn(const FrameRequest& request) {
     const auto start = Registry::Clock::now();
     while (true) {
         const Crew::State state = crew_.state();
@@ -144,7 +165,9 @@ absl::StatusOr<RenderedFrame> FramePipeline::renderOfScene(const FrameRequest& a
         return absl::UnavailableError("no renderer is ready");
     ActiveConfiguration& active = configuration_.with(factsOf(members));
     const std::uint64_t number = ++frameNumber_;
+    observe::StageTimer planning(telemetry(), observe::Stage::Plan, "frames", number);
     ASSIGN_OR_RETURN(compound::Plan plan, active.plan(request, number, idleOnes(members)));
+    planning.stop();
     if (const auto exchange = compound::exchangeOf(plan, number);
         exchange && mayExchange(active, *exchange, members.size())) {
         absl::StatusOr<RenderedFrame> frame =
@@ -173,10 +196,14 @@ absl::StatusOr<RenderedFrame> FramePipeline::drawCentrally(const FrameRequest& r
                                                            const compound::Plan& plan,
                                                            const Members& members,
                                                            const Crew::State& state) {
+    observe::StageTimer rendering(telemetry(), observe::Stage::Render, "frames", frameNumber_);
     ASSIGN_OR_RETURN(
         std::vector<Dispatch::Drawn> drawn,
         draw(request, plan, active.renderersFor(plan, members.size()), state.revision));
+    rendering.stop();
     active.record(plan, frameNumber_, takenBy(drawn));
+    const observe::StageTimer composing(telemetry(), observe::Stage::Compose, "frames",
+                                        frameNumber_);
     RenderedFrame frame = composed(plan, std::move(drawn), {}, state.scene->background);
     frame.statistics.tauAskedPixels = request.tauPixels;
     return frame;
@@ -195,6 +222,7 @@ absl::StatusOr<RenderedFrame> FramePipeline::drawByPrograms(
     const std::chrono::milliseconds timeout =
         programPatience_.limit(kind).value_or(options_.patience.first);
     const auto started = Registry::Clock::now();
+    observe::StageTimer rendering(telemetry(), observe::Stage::Render, "frames", frameNumber_);
     const fabric::FrameData& frameData = frameDataFor(request);
     auto running = std::async(std::launch::async, [&] {
         return ProgramRuns::run(exchange,
@@ -207,6 +235,7 @@ absl::StatusOr<RenderedFrame> FramePipeline::drawByPrograms(
     auto drawn = draw(request, others, active.renderersFor(others, members.size()), state.revision);
     ASSIGN_OR_RETURN(ProgramRuns::Result result, running.get());
     RETURN_IF_ERROR(drawn.status());
+    rendering.stop();
     programPatience_.record(
         kind, timeout,
         std::chrono::duration_cast<std::chrono::milliseconds>(Registry::Clock::now() - started));
@@ -217,6 +246,8 @@ absl::StatusOr<RenderedFrame> FramePipeline::drawByPrograms(
         taken[each.draw] = {plan.draws[each.draw].task.pixelViewport, each.statistics.milliseconds,
                             each.statistics.milliseconds.total};
     active.record(plan, frameNumber_, taken);
+    const observe::StageTimer composing(telemetry(), observe::Stage::Compose, "frames",
+                                        frameNumber_);
     RenderedFrame frame = composed(exchange.rest, *std::move(drawn), std::move(result.pictures),
                                    state.scene->background);
     for (const ProgramRuns::Result::Draw& each : result.draws)
@@ -242,9 +273,9 @@ absl::StatusOr<std::vector<Dispatch::Drawn>> FramePipeline::draw(const FrameRequ
     const std::uint64_t kind = kinds_.of(request, revision);
     // What renderers did among themselves took as long as what they do for the coordinator will.
     const auto first = programPatience_.limit(kind).value_or(options_.patience.first);
-    auto dispatch = std::make_shared<Dispatch>(Dispatch::Plan{frameData, std::move(tasks), revision,
-                                                              kind, first, options_.callTimeout,
-                                                              std::move(preferred)});
+    auto dispatch = std::make_shared<Dispatch>(
+        Dispatch::Plan{frameData, std::move(tasks), revision, kind, first, options_.callTimeout,
+                       std::move(preferred), options_.telemetry});
     return dispatch->run(crew_);
 }
 

@@ -16,6 +16,7 @@
 #include "coordinator/frame/frame_source.h"
 #include "coordinator/frame/patience.h"
 #include "coordinator/frame/turn.h"
+#include "coordinator/observe/stage_timer.h"
 
 namespace eyrie::coordinator {
 
@@ -29,6 +30,7 @@ struct FramePipelineOptions {
     PatienceOptions patience;
     std::chrono::milliseconds callTimeout{30'000};  ///< a channel that takes longer is given up
     std::chrono::milliseconds pickTimeout{5'000};   ///< a pick that takes longer goes elsewhere
+    observe::SharedTelemetry telemetry = nullptr;   ///< is told of every frame
 };
 
 /// Makes frames: by a configuration, each is cut into draws for the renderers that are ready, these
@@ -67,6 +69,8 @@ private:
                                                  const Members& members, const Crew::State& state);
     bool mayExchange(const ActiveConfiguration& active, const compound::Exchange& exchange,
                      std::size_t renderers) const;
+    absl::StatusOr<RenderedFrame> renderInTurn(const FrameRequest& request);
+    observe::Telemetry* telemetry() const { return options_.telemetry.get(); }
     absl::StatusOr<std::vector<Dispatch::Drawn>> draw(const FrameRequest& request,
                                                       const compound::Plan& plan,
                                                       std::vector<std::size_t> preferred,

@@ -30,8 +30,10 @@ struct Context {
     StaticFiles files;
     coordinator::FrameSource& frames;
     bool isLoopback = true;
-    std::set<Session*> sessions;
-    std::function<void()> sessionEnded;
+    /// Not null.
+    observe::SharedTelemetry telemetry = std::make_shared<observe::Telemetry>();
+    std::set<Session*> sessions = {};
+    std::function<void()> sessionEnded = {};
     /// Ends viewers, which may mean to wait for a frame being rendered.
     boost::asio::thread_pool reaper{1};
 };

@@ -12,6 +12,7 @@
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
 
+#include "coordinator/http/observe_routes.h"
 #include "coordinator/http/origin.h"
 #include "coordinator/http/router.h"
 #include "coordinator/http/web_socket.h"
@@ -68,7 +69,8 @@ public:
         parser_->body_limit(kMaxBodyBytes);
         stream_.expires_after(context_.options.headerTimeout);
         beast::http::async_read(stream_, buffer_, *parser_,
-                                [self = shared_from_this()](error_code error, std::size_t) {
+                                [self = shared_from_this()](error_code error, std::size_t bytes) {
+                                    self->count(observe::Direction::In, bytes);
                                     self->requestRead(error);
                                 });
     }
@@ -88,6 +90,10 @@ private:
         if (pathOf(view(request.target())) == "/ws")
             return upgrade(request);
         isHead_ = request.method() == http::verb::head;
+        if (const auto observed =
+                observationResponse(view(request.method_string()), view(request.target()),
+                                    *context_.telemetry, context_.frames))
+            return reply(*observed, request.keep_alive());
         reply(route(view(request.method_string()), view(request.target()), context_.files,
                     context_.frames),
               request.keep_alive());
@@ -110,6 +116,7 @@ private:
 
     void reply(const Response& response, bool keepAlive) {
         namespace http = beast::http;
+        context_.telemetry->metrics.refused(response.status);
         reply_ = Reply(static_cast<http::status>(response.status), 11);
         reply_.set(http::field::content_type, response.contentType);
         reply_.set(http::field::cache_control, response.cacheControl);
@@ -126,13 +133,19 @@ private:
             reply_.body() = *response.body;
         reply_.keep_alive(keepAlive);
         stream_.expires_after(context_.options.headerTimeout);
-        http::async_write(stream_, reply_,
-                          [self = shared_from_this(), keepAlive](error_code error, std::size_t) {
-                              if (!error && keepAlive)
-                                  self->read();
-                              else
-                                  self->finish();
-                          });
+        http::async_write(
+            stream_, reply_,
+            [self = shared_from_this(), keepAlive](error_code error, std::size_t bytes) {
+                self->count(observe::Direction::Out, bytes);
+                if (!error && keepAlive)
+                    self->read();
+                else
+                    self->finish();
+            });
+    }
+
+    void count(observe::Direction direction, std::size_t bytes) {
+        context_.telemetry->metrics.bytes(observe::Peer::Http, direction, bytes);
     }
 
     /// Lets the peer read the reply before the connection goes.

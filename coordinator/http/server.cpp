@@ -24,7 +24,8 @@ namespace {
 using boost::asio::ip::tcp;
 using boost::system::error_code;
 
-constexpr std::chrono::seconds kShutDownTimeout{2};
+/// After viewers have been drained: for their last messages and goodbyes.
+constexpr std::chrono::seconds kShutDownTimeout{1};
 constexpr std::chrono::milliseconds kPauseAfterFailedAccept{100};
 
 constexpr std::string_view kBusyReply =
@@ -67,7 +68,11 @@ absl::StatusOr<tcp::endpoint> endpointOf(const ServerOptions& options) {
 class Server::Impl {
 public:
     Impl(const ServerOptions& options, StaticFiles files, coordinator::FrameSource& frames)
-        : context_{options, std::move(files), frames, true, {}, [this] { sessionEnded(); }} {}
+        : context_{options, std::move(files), frames} {
+        context_.sessionEnded = [this] { sessionEnded(); };
+        if (options.telemetry)
+            context_.telemetry = options.telemetry;
+    }
 
     ~Impl() { stop(); }
 
@@ -128,13 +133,14 @@ private:
 
     void welcome(tcp::socket socket) {
         if (connections_ >= context_.options.maxConnections)
-            return refuse(std::move(socket));
+            return refuse(std::move(socket), *context_.telemetry);
         ++connections_;
         openHttpSession(std::move(socket), context_,
                         Slot(nullptr, [this](void*) { --connections_; }));
     }
 
-    static void refuse(tcp::socket socket) {
+    static void refuse(tcp::socket socket, observe::Telemetry& telemetry) {
+        telemetry.metrics.refused(503);
         // The reply fits into the empty send buffer; where it does not, closing says it too.
         error_code ignored;
         socket.non_blocking(true, ignored);
@@ -149,7 +155,7 @@ private:
         acceptor_.close(ignored);
         pause_.cancel();
         isShuttingDown_ = true;
-        shutDownDeadline_.expires_after(kShutDownTimeout);
+        shutDownDeadline_.expires_after(context_.options.drainTimeout + kShutDownTimeout);
         shutDownDeadline_.async_wait([this](error_code error) {
             if (!error)
                 io_.stop();

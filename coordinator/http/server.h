@@ -11,6 +11,7 @@
 #include <absl/status/statusor.h>
 
 #include "coordinator/frame/frame_source.h"
+#include "coordinator/observe/telemetry.h"
 
 namespace eyrie::http {
 
@@ -23,6 +24,10 @@ struct ServerOptions {
         10'000};  ///< for a whole request; also between requests
     /// For one message to a viewer, and for the viewer to acknowledge a picture.
     std::chrono::milliseconds writeTimeout{10'000};
+    /// How long viewers may go on when the server stops, to get the pictures they asked for.
+    std::chrono::milliseconds drainTimeout{2'500};
+    /// What it tells of itself, and what /metrics and /api/v1/trace show; null: of its own.
+    observe::SharedTelemetry telemetry = nullptr;
 };
 
 /// The door for browsers: HTTP/1.1 and the viewer's WebSocket on one port.
@@ -32,6 +37,8 @@ struct ServerOptions {
 ///   /healthz   200 while the process lives
 ///   /readyz    200 while a renderer is alive and a scene is open, 503 otherwise; JSON says why
 ///   /api/v1/status   the same JSON, always 200
+///   /metrics   numbers for Prometheus
+///   /api/v1/trace?frames=N   the last frames, for Chrome's trace viewer
 ///
 /// All functions may be called from any thread.
 class Server {
@@ -48,8 +55,10 @@ public:
     /// Where it listens: "http://127.0.0.1:8080/", with the port that was chosen.
     std::string url() const;
 
-    /// Tells viewers that the server goes away (close code 1001), then ends every connection and
-    /// thread. Returns when that is done; waits for a frame being rendered. May be called twice.
+    /// Takes no more connections and no more views, sends viewers what they have asked for, for
+    /// drainTimeout at most, and tells them that it goes away (close code 1001); then ends every
+    /// connection and thread. Returns when that is done; waits for a frame being rendered. May be
+    /// called twice.
     void stop();
 
 private:

@@ -24,25 +24,6 @@ std::string quoted(std::string_view text) {
     return result + '"';
 }
 
-std::string_view nameOf(coordinator::RendererCondition condition) {
-    using enum coordinator::RendererCondition;
-    switch (condition) {
-        case Ready:
-            return "ready";
-        case Opening:
-            return "opening";
-        case Late:
-            return "late";
-        case Draining:
-            return "draining";
-        case Dead:
-            return "dead";
-        case Refused:
-            break;
-    }
-    return "refused";
-}
-
 std::string rendererJson(const coordinator::RendererStatus& renderer) {
     return fmt::format(
         R"({{"id":{},"address":{},"alive":{},"condition":"{}","why":{},"sinceUnixMilliseconds":{},)"
@@ -68,6 +49,25 @@ std::string joined(const Elements& elements, ToJson toJson) {
 }
 
 }  // namespace
+
+std::string_view nameOf(coordinator::RendererCondition condition) {
+    using enum coordinator::RendererCondition;
+    switch (condition) {
+        case Ready:
+            return "ready";
+        case Opening:
+            return "opening";
+        case Late:
+            return "late";
+        case Draining:
+            return "draining";
+        case Dead:
+            return "dead";
+        case Refused:
+            break;
+    }
+    return "refused";
+}
 
 bool isReady(const coordinator::Status& status) {
     const bool hasRenderer =

@@ -30,6 +30,8 @@ constexpr std::chrono::seconds kIdleTimeout{30};
 /// While pictures are under way, the round trip is measured so often.
 constexpr std::chrono::milliseconds kPulse{1000};
 constexpr char kPulsePayload[] = "pulse";
+/// How soon the end of what a viewer had asked for is noticed.
+constexpr std::chrono::milliseconds kDrainPoll{5};
 
 class WebSocket : public Session, public std::enable_shared_from_this<WebSocket> {
 public:
@@ -37,6 +39,7 @@ public:
         : stream_(std::move(socket)),
           writeDeadline_(stream_.get_executor()),
           pulse_(stream_.get_executor()),
+          drain_(stream_.get_executor()),
           received_(std::move(received)),
           context_(context),
           slot_(std::move(slot)) {
@@ -44,6 +47,8 @@ public:
     }
 
     ~WebSocket() override {
+        if (isCounted_)
+            context_.telemetry->metrics.viewers(-1);
         abandon();
         context_.sessions.erase(this);
         context_.sessionEnded();
@@ -66,7 +71,9 @@ public:
     void shutDown() override {
         if (viewer_ == nullptr)
             return beast::get_lowest_layer(stream_).cancel();
-        close({websocket::close_code::going_away, "the server is shutting down"});
+        viewer_->drain();
+        const auto now = std::chrono::steady_clock::now();
+        sayGoodbye(now + context_.options.drainTimeout);
     }
 
     void abandon() override {
@@ -82,15 +89,36 @@ public:
     }
 
 private:
+    /// Once the viewer has nothing more to send, or at `deadline`.
+    void sayGoodbye(std::chrono::steady_clock::time_point deadline) {
+        if (viewer_ == nullptr)
+            return;
+        const bool isLate = std::chrono::steady_clock::now() >= deadline;
+        if (isLate || (!isWriting_ && viewer_->hasDrained()))
+            return close({websocket::close_code::going_away, "the server is shutting down"});
+        drain_.expires_after(kDrainPoll);
+        drain_.async_wait([weak = weak_from_this(), deadline](error_code error) {
+            const auto self = weak.lock();
+            if (!error && self != nullptr)
+                self->sayGoodbye(deadline);
+        });
+    }
+
     void accepted() {
         received_.clear();
+        isCounted_ = true;
+        context_.telemetry->metrics.viewers(1);
+        stream::ViewerOptions options;
+        options.telemetry = context_.telemetry;
         viewer_ = std::make_shared<stream::Viewer>(
-            context_.frames, [weak = weak_from_this(), executor = stream_.get_executor()] {
+            context_.frames,
+            [weak = weak_from_this(), executor = stream_.get_executor()] {
                 boost::asio::post(executor, [weak] {
                     if (const auto self = weak.lock())
                         self->write();
                 });
-            });
+            },
+            options);
         stream_.control_callback([this](websocket::frame_type kind, beast::string_view payload) {
             if (kind == websocket::frame_type::pong && payload == kPulsePayload)
                 pongRead();
@@ -112,6 +140,7 @@ private:
         if (!stream_.got_binary())
             return close({websocket::close_code::unknown_data, "messages are binary here"});
         const auto data = buffer_.data();
+        count(observe::Direction::In, data.size());
         const absl::Status status =
             viewer_->receive({static_cast<const std::byte*>(data.data()), data.size()});
         buffer_.clear();
@@ -140,7 +169,11 @@ private:
             beat();
         expectProgress();
         stream_.async_write(boost::asio::buffer(outgoing_),
-                            [self = shared_from_this()](error_code error, std::size_t) {
+                            [self = shared_from_this(), begun = std::chrono::steady_clock::now()](
+                                error_code error, std::size_t bytes) {
+                                self->count(observe::Direction::Out, bytes);
+                                self->context_.telemetry->metrics.took(
+                                    observe::Stage::Send, std::chrono::steady_clock::now() - begun);
                                 self->writeDeadline_.cancel();
                                 self->isWriting_ = false;
                                 if (!error)
@@ -189,6 +222,10 @@ private:
         pingedAt_.reset();
     }
 
+    void count(observe::Direction direction, std::size_t bytes) {
+        context_.telemetry->metrics.bytes(observe::Peer::WebSocket, direction, bytes);
+    }
+
     std::chrono::milliseconds writeTimeout() const { return context_.options.writeTimeout; }
 
     void close(const websocket::close_reason& reason) {
@@ -203,12 +240,14 @@ private:
         abandon();
         writeDeadline_.cancel();
         pulse_.cancel();
+        drain_.cancel();
         beast::get_lowest_layer(stream_).close();
     }
 
     websocket::stream<beast::tcp_stream> stream_;
     boost::asio::steady_timer writeDeadline_;
     boost::asio::steady_timer pulse_;
+    boost::asio::steady_timer drain_;
     bool isPulsing_ = false;
     std::optional<std::chrono::steady_clock::time_point> pingedAt_;  ///< and not answered yet
     std::string received_;
@@ -216,6 +255,7 @@ private:
     std::string outgoing_;
     bool isWriting_ = false;
     bool isClosing_ = false;
+    bool isCounted_ = false;  ///< among the viewers
     Context& context_;
     Slot slot_;
     std::shared_ptr<stream::Viewer> viewer_;

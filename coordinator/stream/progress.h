@@ -47,6 +47,11 @@ public:
     // ---- Drawing, by one thread.
 
     bool mayRender(Clock::time_point now) const;
+    /// The wanted view has not been drawn since it, or what it shows, changed; and not for want of
+    /// renderers.
+    bool owesPicture(Clock::time_point now) const {
+        return isRenderNeeded_ && !isWaitingToRetry(now);
+    }
     /// When a frame is next to be drawn although nothing changes.
     std::optional<Clock::time_point> nextRender(Clock::time_point now) const;
     void renderStarted();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/stream/viewer.h"
 
+#include <atomic>
 #include <condition_variable>
 #include <mutex>
 #include <string_view>
@@ -8,6 +9,9 @@
 #include <utility>
 #include <variant>
 
+#include <fmt/format.h>
+
+#include "coordinator/observe/stage_timer.h"
 #include "coordinator/stream/drawing.h"
 #include "coordinator/stream/outbox.h"
 #include "coordinator/stream/pick_desk.h"
@@ -27,6 +31,9 @@ std::string_view text(const absl::Status& status) {
 /// first, since shaders are compiled in the ones before.
 constexpr std::uint64_t kFramesToAMeasurement = 32;
 
+/// Tells viewers apart in traces.
+std::atomic<int> viewers{0};
+
 double pixelsOf(const ViewRequest& view) {
     return static_cast<double>(view.frame.width) * view.frame.height;
 }
@@ -39,6 +46,7 @@ public:
          const ViewerOptions& options)
         : frames_(frames),
           messageReady_(std::move(messageReady)),
+          telemetry_(options.telemetry),
           progress_(
               {options.restDelay, options.retryDelay, options.loadingDelay, options.missingDelay}),
           outbox_(options.framesInFlight),
@@ -68,6 +76,8 @@ public:
             return absl::OkStatus();
         }
         std::unique_lock lock(mutex_);
+        if (isDraining_ && !(request.ok() && std::holds_alternative<FrameAck>(*request)))
+            return absl::OkStatus();
         if (!request.ok())
             setProblem(requestProblem_, sanitised(text(request.status())));
         else if (const auto* view = std::get_if<ViewRequest>(&*request))
@@ -100,6 +110,20 @@ public:
         const std::lock_guard lock(mutex_);
         const std::optional<Clock::time_point> since = outbox_.link().waitingSince();
         return since.has_value() ? std::optional(Clock::now() - *since) : std::nullopt;
+    }
+
+    void drain() {
+        {
+            const std::lock_guard lock(mutex_);
+            isDraining_ = true;
+        }
+        changed_.notify_all();
+    }
+
+    bool hasDrained() {
+        const std::lock_guard lock(mutex_);
+        return !progress_.owesPicture(Clock::now()) && progress_.underWay() == 0 &&
+               !outbox_.hasUnsent();
     }
 
     void stop() {
@@ -154,6 +178,8 @@ private:
         while (!isStopping_) {
             if (switch_)
                 switchLayout(lock);
+            else if (isDraining_ && !progress_.owesPicture(Clock::now()))
+                waitForChange(lock, std::nullopt);
             else if (progress_.mayRender(Clock::now()) && hasRoom())
                 renderOne(lock);
             else
@@ -216,11 +242,11 @@ private:
             const Clock::time_point now = Clock::now();
             if (isStateStale_)
                 composeState(lock);
-            else if (std::optional<Picture> picture =
-                         progress_.takePicture(hasRoom() && !outbox_.isWaiting(), now))
+            else if (std::optional<Picture> picture = progress_.takePicture(
+                         hasRoom() && !outbox_.isWaiting() && !isDraining_, now))
                 encode(lock, *std::move(picture));
             else
-                waitForChange(lock, progress_.nextFiner(now));
+                waitForChange(lock, isDraining_ ? std::nullopt : progress_.nextFiner(now));
         }
     }
 
@@ -228,7 +254,9 @@ private:
         const Fineness fineness = progress_.fineness(picture, Clock::now());
         const std::uint64_t frameNumber = ++lastFrameNumber_;
         lock.unlock();
+        observe::StageTimer timer(telemetry_.get(), observe::Stage::Encode, encoding_);
         absl::StatusOr<EncodedFrame> encoded = encodePicture(picture, fineness, frameNumber);
+        timer.stop();
         lock.lock();
         const bool isMoving = fineness == Fineness::Moving;
         // A still picture that is no longer wanted would only stand in the way of the next.
@@ -283,10 +311,13 @@ private:
 
     coordinator::FrameSource& frames_;
     const std::function<void()> messageReady_;
+    const observe::SharedTelemetry telemetry_;
+    const std::string encoding_ = fmt::format("encodes for viewer {}", ++viewers);
 
     std::mutex mutex_;  // guards everything below, up to the desk
     std::condition_variable changed_;
     bool isStopping_ = false;
+    bool isDraining_ = false;
     Progress progress_;
     QualityControl quality_;
     Outbox outbox_;
@@ -320,6 +351,9 @@ void Viewer::roundTrip(std::chrono::steady_clock::duration time) { impl_->roundT
 std::optional<std::chrono::steady_clock::duration> Viewer::unacknowledgedFor() const {
     return impl_->unacknowledgedFor();
 }
+
+void Viewer::drain() { impl_->drain(); }
+bool Viewer::hasDrained() const { return impl_->hasDrained(); }
 
 void Viewer::stop() { impl_->stop(); }
 

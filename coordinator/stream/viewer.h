@@ -12,6 +12,7 @@
 #include <absl/status/status.h>
 
 #include "coordinator/frame/frame_source.h"
+#include "coordinator/observe/telemetry.h"
 
 namespace eyrie::stream {
 
@@ -27,6 +28,7 @@ struct ViewerOptions {
     std::chrono::milliseconds loadingDelay{30};
     /// The same when all that is missing could not be read, and may be readable later.
     std::chrono::milliseconds missingDelay{5000};
+    observe::SharedTelemetry telemetry = nullptr;  ///< is told how long pictures take to encode
 };
 
 /// One browser's stream of frames, without the network: bytes come in by receive() and go out by
@@ -68,6 +70,12 @@ public:
     /// For how long the oldest picture, or part of one, has been under way that the browser has not
     /// acknowledged; absent while there is none.
     std::optional<std::chrono::steady_clock::duration> unacknowledgedFor() const;
+
+    /// From now on only what was asked for is drawn and sent, no finer than while a view moves;
+    /// new views and picks are not heard.
+    void drain();
+    /// Whether all of that has been taken.
+    bool hasDrained() const;
 
     /// Makes the threads end soon, without waiting for them; the destructor waits.
     void stop();
