@@ -99,7 +99,8 @@ public:
         refused_.Add({{"reason", std::string(kOther)}});
         for (const Peer peer : {Peer::Http, Peer::WebSocket, Peer::Renderer}) {
             received_.Add({{"peer", nameOf(peer)}});
-            sent_.Add({{"peer", nameOf(peer)}});
+            if (peer != Peer::Renderer)  // what it is sent is small, and not counted
+                sent_.Add({{"peer", nameOf(peer)}});
         }
         family(&prometheus::BuildGauge, "eyrie_build_info", "Which Eyrie this is; always 1.")
             .Add({{"version", std::string(fabric::kVersion)}})
