@@ -15,6 +15,7 @@
 #include "cli/compound_names.h"
 #include "cli/config_options.h"
 #include "cli/data_cache.h"
+#include "cli/log.h"
 #include "cli/scene_files.h"
 #include "cli/stop_signal.h"
 #include "cli/web_door.h"
@@ -47,7 +48,7 @@ absl::StatusOr<fabric::Scene> loadScene(const Options& options, const std::stop_
 absl::Status coordinate(const Options& options) {
     const StopSignal stop;
     if (options.quiet)
-        spdlog::set_level(spdlog::level::warn);
+        quietLog();
     RETURN_IF_ERROR(fabric::withContext(wire::checkAddress(options.grpc), "--grpc"));
     coordinator::CoordinatorOptions settings;
     settings.grpcAddresses = {options.grpc};
@@ -67,7 +68,7 @@ absl::Status coordinate(const Options& options) {
         fmt::print("Renderers register at {}\n", address);
     std::fflush(stdout);
     stop.wait();
-    door->stop();
+    closeWebDoor(*door, **coordinator);
     return absl::OkStatus();
 }
 

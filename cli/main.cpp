@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -8,23 +10,20 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <malloc.h>
-#include <spdlog/sinks/stdout_color_sinks.h>
-#include <spdlog/spdlog.h>
 
 #include "cli/commands.h"
 #include "cli/exit_status.h"
+#include "cli/log.h"
+#include "cli/options/common_options.h"
+#include "cli/options/completed_line.h"
+#include "cli/options/options_file.h"
+#include "cli/options/print_config.h"
 #include "fabric/version.h"
 
 namespace {
 
+using eyrie::cli::CompletedLine;
 using eyrie::cli::ExitStatus;
-
-/// Standard output is for facts and pictures; the log goes beside it.
-void startLog() {
-    auto logger = spdlog::stderr_color_mt("eyrie");
-    logger->set_pattern("%H:%M:%S.%e %^%l%$ %v");
-    spdlog::set_default_logger(std::move(logger));
-}
 
 /// Pictures are megabytes that come and go every frame. By default each would be mapped anew and
 /// faulted in page by page, which costs more than filling it.
@@ -33,7 +32,7 @@ void keepFreedPictures() {
     mallopt(M_TRIM_THRESHOLD, 256 << 20);
 }
 
-void declare(CLI::App& app, eyrie::cli::Run& run) {
+void declare(CLI::App& app, eyrie::cli::Run& run, eyrie::cli::CommonOptions& common) {
     app.set_version_flag("--version", std::string(eyrie::fabric::kVersion));
     app.require_subcommand(1);
     app.footer(
@@ -49,6 +48,7 @@ void declare(CLI::App& app, eyrie::cli::Run& run) {
     eyrie::cli::addSynth(app, run);
     eyrie::cli::addCoordinator(app, run);
     eyrie::cli::addRenderer(app, run);
+    eyrie::cli::addCommonOptions(app, common);
 }
 
 /// Says what is wrong with the command line and where to read on. CLI11 complains of a missing
@@ -73,26 +73,59 @@ void explain(const CLI::App& app, const CLI::ParseError& error) {
         fmt::print(stderr, "`{} --help` explains it\n", name);
 }
 
+std::optional<std::string> variable(const std::string& name) {
+    const char* value = std::getenv(name.c_str());
+    return value == nullptr ? std::nullopt : std::optional<std::string>(value);
+}
+
+void parse(CLI::App& app, const CompletedLine& line) {
+    std::vector<std::string> backwards(line.arguments.rbegin(), line.arguments.rend());
+    app.parse(std::move(backwards));
+}
+
+std::string textOf(const absl::Status& status) {
+    return {status.message().data(), status.message().size()};
+}
+
+/// Which option that the error may be about was not on the command line.
+void tellOrigins(const CompletedLine& line, const CLI::ParseError& error) {
+    for (const auto& [option, origin] : line.origins)
+        if (std::string_view(error.what()).find("--" + option) != std::string_view::npos)
+            fmt::print(stderr, "eyrie: --{} comes from {}\n", option, origin);
+}
+
 ExitStatus runCommandLine(int argc, char** argv) {
-    startLog();
+    eyrie::cli::startLog();
     keepFreedPictures();
     eyrie::cli::Run run;
+    eyrie::cli::CommonOptions common;
     CLI::App app("Eyrie shows terrain and massive meshes, drawn by headless renderer processes.",
                  "eyrie");
-    declare(app, run);
+    declare(app, run, common);
+    const auto line = eyrie::cli::completed(app, {argv + 1, argv + argc}, variable);
+    if (!line.ok()) {
+        fmt::print(stderr, "eyrie: {}\n", textOf(line.status()));
+        return ExitStatus::WrongInput;
+    }
     try {
-        app.parse(argc, argv);
+        parse(app, *line);
     } catch (const CLI::Success& asked) {  // --help and --version
         app.exit(asked);
         return ExitStatus::Done;
     } catch (const CLI::ParseError& error) {
         explain(app, error);
+        tellOrigins(*line, error);
         return ExitStatus::WrongInput;
     }
+    if (common.printsConfig) {
+        fmt::print("{}", eyrie::cli::printedConfig(*line));
+        return ExitStatus::Done;
+    }
+    eyrie::cli::startLog(
+        {common.logFormat == "json", common.logLevel, eyrie::cli::pathOf(*line->command)});
     const absl::Status status = run();
     if (!status.ok())
-        fmt::print(stderr, "eyrie: {}\n",
-                   std::string_view(status.message().data(), status.message().size()));
+        eyrie::cli::logFailure(textOf(status));
     return eyrie::cli::exitStatusOf(status);
 }
 

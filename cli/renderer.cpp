@@ -10,6 +10,7 @@
 #include "cli/cache_options.h"
 #include "cli/commands.h"
 #include "cli/decode_names.h"
+#include "cli/log.h"
 #include "cli/stop_signal.h"
 #include "cli/values.h"
 #include "fabric/status.h"
@@ -35,7 +36,7 @@ struct Options {
 absl::Status run(const Options& options) {
     StopSignal stop;
     if (options.quiet)
-        spdlog::set_level(spdlog::level::warn);
+        quietLog();
     RETURN_IF_ERROR(fabric::withContext(wire::checkAddress(options.coordinator), "--coordinator"));
     RETURN_IF_ERROR(fabric::withContext(wire::checkAddress(options.listen), "--listen"));
     ASSIGN_OR_RETURN(const std::uint64_t memory, parseBytes(options.memory, "--memory"));

@@ -10,13 +10,14 @@
 
 #include "cli/child_process.h"
 #include "cli/decode_names.h"
+#include "cli/log.h"
 #include "cli/restart_policy.h"
 
 namespace eyrie::cli {
 namespace {
 
 constexpr std::chrono::milliseconds kPollInterval{50};
-constexpr std::chrono::milliseconds kStopGrace{5000};
+constexpr std::chrono::milliseconds kStopGrace{1000};
 /// A renderer that ends by itself within this has not worked: it says why and ends again.
 constexpr std::chrono::seconds kProbation{5};
 
@@ -57,6 +58,7 @@ private:
             nameOf(options_.decoding), "--quiet"};
         if (!options_.cache.folder.empty())
             arguments.insert(arguments.end(), {"--cache", options_.cache.folder});
+        for (std::string& argument : logArguments()) arguments.push_back(std::move(argument));
         if (!options_.devices.empty()) {
             const auto index = static_cast<std::size_t>(number_) % options_.devices.size();
             arguments.insert(arguments.end(),

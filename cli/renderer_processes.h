@@ -33,7 +33,7 @@ public:
 
     /// Returns at once; the processes start on a thread of this object.
     explicit RendererProcesses(RendererProcessesOptions options, const TemporaryFolder& sockets);
-    /// Ends them, within 5 seconds.
+    /// Ends them, within a second or so: one that still draws is killed.
     ~RendererProcesses();
     RendererProcesses(const RendererProcesses&) = delete;
     RendererProcesses& operator=(const RendererProcesses&) = delete;

@@ -19,6 +19,7 @@
 #include "cli/decode_names.h"
 #include "cli/hardware_devices.h"
 #include "cli/local_farm.h"
+#include "cli/log.h"
 #include "cli/scene_files.h"
 #include "cli/stop_signal.h"
 #include "cli/web_door.h"
@@ -85,7 +86,7 @@ int rendererCount(const Options& options,
 absl::Status serve(const Options& options) {
     const StopSignal stop;
     if (options.quiet)
-        spdlog::set_level(spdlog::level::warn);
+        quietLog();
     ASSIGN_OR_RETURN(auto configuration, configurationOf(options.config, options.quiet));
     const int renderers = rendererCount(options, configuration);
     ASSIGN_OR_RETURN(const auto farm,
@@ -103,7 +104,7 @@ absl::Status serve(const Options& options) {
         return absl::OkStatus();
     announce(door->url(), farm->frames().status(), options.quiet);
     absl::Status end = serveUntilStopped(*farm, stop.token());
-    door->stop();  // while there are renderers: a frame in progress is waited for
+    closeWebDoor(*door, farm->coordinator());  // while there are renderers
     return end;
 }
 

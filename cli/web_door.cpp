@@ -4,15 +4,21 @@
 #include <filesystem>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "cli/stop_limit.h"
 #include "cli/values.h"
 #include "coordinator/api/api.h"
 #include "fabric/status.h"
 
 namespace eyrie::cli {
 namespace {
+
+/// How long a door may take to close before the frames in progress are given up: longer than
+/// viewers are given, and so that the process ends within 5 seconds.
+constexpr std::chrono::milliseconds kPatience{3'000};
 
 /// share/eyrie/web beside the bin folder that this program is in.
 std::filesystem::path webFolder() {
@@ -31,6 +37,7 @@ absl::StatusOr<std::unique_ptr<http::Server>> openWebDoor(const std::string& lis
     options.port = address.port;
     options.webFolder = webFolder();
     options.api = &coordinator.api().rest();
+    options.telemetry = coordinator.telemetry();
     auto server = http::Server::start(options, coordinator.frames());
     if (server.ok())
         return server;
@@ -38,6 +45,11 @@ absl::StatusOr<std::unique_ptr<http::Server>> openWebDoor(const std::string& lis
     return absl::InvalidArgumentError(
         fmt::format("{}; choose another place with --listen HOST:PORT",
                     std::string_view(message.data(), message.size())));
+}
+
+void closeWebDoor(http::Server& door, coordinator::Coordinator& coordinator) {
+    const StopLimit limit(kPatience, [&] { coordinator.abandonFrames(); });
+    door.stop();
 }
 
 }  // namespace eyrie::cli

@@ -16,4 +16,8 @@ namespace eyrie::cli {
 absl::StatusOr<std::unique_ptr<http::Server>> openWebDoor(const std::string& listen,
                                                           coordinator::Coordinator& coordinator);
 
+/// Stops the door: viewers get what they have asked for, for some seconds at most, after which
+/// `coordinator` gives up the frames in progress.
+void closeWebDoor(http::Server& door, coordinator::Coordinator& coordinator);
+
 }  // namespace eyrie::cli

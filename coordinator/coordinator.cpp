@@ -33,10 +33,12 @@ void watchHeartbeats(Registry& registry, const std::stop_token& stop) {
 
 class Coordinator::Impl {
 public:
-    Impl(std::unique_ptr<Registry> registry, std::unique_ptr<GrpcService> door,
-         std::optional<access::DataFolder> dataFolder, const CoordinatorOptions& options)
-        : registry_(std::move(registry)),
-          pipeline_(*registry_, pipelineOptions(options, *door)),
+    Impl(observe::SharedTelemetry telemetry, std::unique_ptr<Registry> registry,
+         std::unique_ptr<GrpcService> door, std::optional<access::DataFolder> dataFolder,
+         const CoordinatorOptions& options)
+        : telemetry_(std::move(telemetry)),
+          registry_(std::move(registry)),
+          pipeline_(*registry_, pipelineOptions(options, *door, telemetry_)),
           api_({pipeline_, pipeline_,
                 [this](fabric::Scene scene) { pipeline_.setScene(std::move(scene)); },
                 std::move(dataFolder)}),
@@ -53,12 +55,22 @@ public:
         api_.allow(scene);
         pipeline_.setScene(std::move(scene));
     }
+    const observe::SharedTelemetry& telemetry() const { return telemetry_; }
     void stop() { door_->stop(); }
+
+    void abandonFrames() {
+        stop();
+        for (const Registry::Entry& entry : registry_->entries())
+            if (entry.renderer)
+                entry.renderer->cancel();
+    }
 
 private:
     static FramePipelineOptions pipelineOptions(const CoordinatorOptions& options,
-                                                const GrpcService& door) {
+                                                const GrpcService& door,
+                                                observe::SharedTelemetry telemetry) {
         FramePipelineOptions pipeline;
+        pipeline.telemetry = std::move(telemetry);
         pipeline.configuration = options.configuration;
         pipeline.layout = options.layout;
         pipeline.howToJoin =
@@ -66,6 +78,7 @@ private:
         return pipeline;
     }
 
+    const observe::SharedTelemetry telemetry_;
     const std::unique_ptr<Registry> registry_;
     FramePipeline pipeline_;
     api::Api api_;
@@ -83,11 +96,13 @@ absl::StatusOr<std::unique_ptr<Coordinator>> Coordinator::start(const Coordinato
         ASSIGN_OR_RETURN(dataFolder, access::DataFolder::open(options.dataFolder));
     }
     auto registry = std::make_unique<Registry>();
+    auto telemetry = std::make_shared<observe::Telemetry>();
     ASSIGN_OR_RETURN(std::unique_ptr<GrpcService> door,
                      GrpcService::start(options.grpcAddresses, *registry,
-                                        {options.security, options.grpcReflection}));
-    return std::unique_ptr<Coordinator>(new Coordinator(std::make_unique<Impl>(
-        std::move(registry), std::move(door), std::move(dataFolder), options)));
+                                        {options.security, options.grpcReflection, telemetry}));
+    return std::unique_ptr<Coordinator>(new Coordinator(
+        std::make_unique<Impl>(std::move(telemetry), std::move(registry), std::move(door),
+                               std::move(dataFolder), options)));
 }
 
 Coordinator::Coordinator(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -96,6 +111,7 @@ Coordinator::~Coordinator() { stop(); }
 FrameSource& Coordinator::frames() { return impl_->frames(); }
 
 const api::Api& Coordinator::api() const { return impl_->api(); }
+const observe::SharedTelemetry& Coordinator::telemetry() const { return impl_->telemetry(); }
 
 const std::vector<std::string>& Coordinator::grpcAddresses() const {
     return impl_->door().addresses();
@@ -108,5 +124,6 @@ absl::Status Coordinator::setScene(fabric::Scene scene) {
 }
 
 void Coordinator::stop() { impl_->stop(); }
+void Coordinator::abandonFrames() { impl_->abandonFrames(); }
 
 }  // namespace eyrie::coordinator

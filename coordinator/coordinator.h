@@ -11,6 +11,7 @@
 
 #include "coordinator/config/configuration.h"
 #include "coordinator/frame/frame_source.h"
+#include "coordinator/observe/telemetry.h"
 #include "fabric/scene.h"
 #include "wire/security.h"
 
@@ -52,6 +53,9 @@ public:
     /// For programs, over gRPC already. Lives as long as the coordinator.
     const api::Api& api() const;
 
+    /// What it tells of itself.
+    const observe::SharedTelemetry& telemetry() const;
+
     /// Where renderers register, with the ports that were chosen.
     const std::vector<std::string>& grpcAddresses() const;
 
@@ -62,6 +66,10 @@ public:
     /// Takes no more registrations; frames can still be made with the renderers there are, until
     /// their heartbeats are missed. May be called twice.
     void stop();
+
+    /// Ends, with errors and soon, all frames in progress and every later one, whatever renderers
+    /// do: for who cannot wait for them any longer.
+    void abandonFrames();
 
 private:
     class Impl;

@@ -6,7 +6,7 @@ add_library(eyrie_stream
     stream/sessions.cpp stream/shrink.cpp stream/view_message.cpp stream/viewer.cpp
     stream/viewer_messages.cpp)
 add_library(eyrie::stream ALIAS eyrie_stream)
-target_link_libraries(eyrie_stream PUBLIC eyrie::fabric absl::status
+target_link_libraries(eyrie_stream PUBLIC eyrie::fabric eyrie::observe absl::status
                                    PRIVATE eyrie::jpeg eyrie::png eyrie::wire eyrie::proto
                                            Threads::Threads fmt::fmt
                                            spdlog::spdlog)

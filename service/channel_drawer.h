@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <memory>
 
@@ -19,6 +20,12 @@ namespace eyrie::service {
 using PickFunction = std::function<absl::StatusOr<fabric::Picked>(
     const fabric::PickRequest& request, std::chrono::steady_clock::time_point deadline)>;
 
+/// What a drawer holds for its scene.
+struct DrawerMemory {
+    std::uint64_t deviceBytes = 0;  ///< geometry and textures
+    std::uint64_t hostBytes = 0;    ///< pages, those being loaded included
+};
+
 /// What a renderer process draws with: eyrie::Renderer, or a fake in tests. Created, used and
 /// destroyed on one thread.
 class ChannelDrawer {
@@ -32,6 +39,8 @@ public:
 
     /// For the scene that is open; null where none is.
     virtual PickFunction pickFunction() const = 0;
+
+    virtual DrawerMemory memory() const { return {}; }
 };
 
 using DrawerFactory = std::function<absl::StatusOr<std::unique_ptr<ChannelDrawer>>()>;

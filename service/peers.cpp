@@ -10,6 +10,7 @@
 #include <grpcpp/security/credentials.h>
 
 #include "eyrie/v1/render_service.grpc.pb.h"
+#include "wire/deadline.h"
 #include "wire/picture_header.h"
 #include "wire/status.h"
 #include "wire/transport.h"
@@ -58,7 +59,7 @@ absl::Status Peers::send(const std::string& address, const FrameKey& key,
     const std::shared_ptr<Connection> connection = connectionTo(address);
     grpc::ClientContext context;
     wire::present(security_, context);
-    context.set_deadline(std::chrono::system_clock::now() + (deadline - Clock::now()));
+    context.set_deadline(wire::deadlineIn(deadline - Clock::now()));
     const std::stop_callback cancel(stop, [&] { context.TryCancel(); });
     v1::PutFrameResponse response;
     const auto writer = connection->stub->PutFrame(&context, &response);

@@ -10,10 +10,28 @@
 namespace eyrie::service {
 namespace {
 
+std::int64_t nanoseconds(ChannelStory::Clock::time_point time) {
+    return std::chrono::nanoseconds(time.time_since_epoch()).count();
+}
+
+void tell(const ChannelStory& story, v1::ChannelHeader& header) {
+    v1::ChannelTimes& times = *header.mutable_times();
+    times.set_received(nanoseconds(story.received));
+    times.set_begun(nanoseconds(story.begun));
+    times.set_drawn(nanoseconds(story.drawn));
+    times.set_sent(nanoseconds(ChannelStory::Clock::now()));
+    header.mutable_memory()->set_device_bytes(story.memory.deviceBytes);
+    header.mutable_memory()->set_host_bytes(story.memory.hostBytes);
+}
+
 class ChannelReply final : public MessageSource<v1::RenderChannelResponse> {
 public:
-    ChannelReply(fabric::ChannelResult result, wire::PixelEncoding encoding)
-        : result_(std::move(result)), encoding_(encoding), pixels_(result_.image, encoding) {}
+    ChannelReply(fabric::ChannelResult result, wire::PixelEncoding encoding,
+                 const ChannelStory& story)
+        : result_(std::move(result)),
+          encoding_(encoding),
+          story_(story),
+          pixels_(result_.image, encoding) {}
 
     bool isDone() const override { return hasHeader_ && pixels_.isDone(); }
 
@@ -22,11 +40,13 @@ public:
             return pixels_.next(*message.mutable_chunk());
         wire::describe(result_.image, encoding_, *message.mutable_header());
         *message.mutable_header()->mutable_statistics() = wire::toMessage(result_.statistics);
+        tell(story_, *message.mutable_header());
     }
 
 private:
     const fabric::ChannelResult result_;
     const wire::PixelEncoding encoding_;
+    const ChannelStory story_;
     wire::PictureWriter pixels_;
     bool hasHeader_ = false;
 };
@@ -66,9 +86,10 @@ private:
 
 }  // namespace
 
-std::unique_ptr<MessageSource<v1::RenderChannelResponse>> channelReply(
-    fabric::ChannelResult result, wire::PixelEncoding encoding) {
-    return std::make_unique<ChannelReply>(std::move(result), encoding);
+std::unique_ptr<MessageSource<v1::RenderChannelResponse>> channelReply(fabric::ChannelResult result,
+                                                                       wire::PixelEncoding encoding,
+                                                                       const ChannelStory& story) {
+    return std::make_unique<ChannelReply>(std::move(result), encoding, story);
 }
 
 std::unique_ptr<MessageSource<v1::RunProgramResponse>> programReply(fabric::ProgramResult result,

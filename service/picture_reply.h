@@ -1,18 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <memory>
 
 #include "eyrie/v1/render_service.pb.h"
 #include "fabric/channel_program.h"
+#include "service/channel_drawer.h"
 #include "service/reply_stream.h"
 #include "wire/picture_bytes.h"
 
 namespace eyrie::service {
 
+/// How a channel came about, for whoever wants to know where its time went.
+struct ChannelStory {
+    using Clock = std::chrono::steady_clock;
+
+    Clock::time_point received;
+    Clock::time_point begun;
+    Clock::time_point drawn;
+    DrawerMemory memory;
+};
+
 /// The answer to RenderChannel: a header, then the pixels.
-std::unique_ptr<MessageSource<v1::RenderChannelResponse>> channelReply(
-    fabric::ChannelResult result, wire::PixelEncoding encoding);
+std::unique_ptr<MessageSource<v1::RenderChannelResponse>> channelReply(fabric::ChannelResult result,
+                                                                       wire::PixelEncoding encoding,
+                                                                       const ChannelStory& story);
 
 /// The answer to RunProgram: each picture likewise, then the statistics.
 std::unique_ptr<MessageSource<v1::RunProgramResponse>> programReply(fabric::ProgramResult result,

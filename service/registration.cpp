@@ -16,6 +16,7 @@
 
 #include "eyrie/v1/coordinator_service.grpc.pb.h"
 #include "fabric/version.h"
+#include "wire/deadline.h"
 #include "wire/protocol.h"
 #include "wire/statistics.h"
 #include "wire/status.h"
@@ -95,7 +96,7 @@ private:
                       std::chrono::milliseconds timeout = kCallTimeout) {
         grpc::ClientContext context;
         wire::present(options_.security, context);
-        context.set_deadline(std::chrono::system_clock::now() + timeout);
+        context.set_deadline(wire::deadlineIn(timeout));
         const std::stop_callback cancel(stop, [&context] { context.TryCancel(); });
         return wire::fromGrpc(((*stub_).*method)(&context, request, &response), peer_);
     }

@@ -9,6 +9,7 @@
 
 #include "fabric/status.h"
 #include "service/render_service.h"
+#include "wire/deadline.h"
 #include "wire/listen.h"
 
 namespace eyrie::service {
@@ -26,10 +27,15 @@ public:
         return absl::OkStatus();
     }
 
+    void announceLeaving() {
+        if (server_->GetHealthCheckService() != nullptr)
+            server_->GetHealthCheckService()->SetServingStatus(false);
+    }
+
     void stop(std::chrono::milliseconds grace) {
         if (server_->GetHealthCheckService() != nullptr)
             server_->GetHealthCheckService()->Shutdown();
-        server_->Shutdown(std::chrono::system_clock::now() + grace);
+        server_->Shutdown(wire::deadlineIn(grace));
     }
 
     const std::string& address() const { return address_; }
@@ -53,6 +59,7 @@ RenderServer::RenderServer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) 
 RenderServer::~RenderServer() { stop(std::chrono::milliseconds(0)); }
 
 const std::string& RenderServer::address() const { return impl_->address(); }
+void RenderServer::announceLeaving() { impl_->announceLeaving(); }
 void RenderServer::stop(std::chrono::milliseconds grace) { impl_->stop(grace); }
 
 }  // namespace eyrie::service

@@ -28,6 +28,9 @@ public:
     /// Where it listens, with the port that was chosen.
     const std::string& address() const;
 
+    /// Has the health service say that this renderer is about to leave; calls are served on.
+    void announceLeaving();
+
     /// Takes no more calls and ends those in progress, after `grace` by cancelling them. Waits for
     /// the channel that is being drawn. May be called twice.
     void stop(std::chrono::milliseconds grace);

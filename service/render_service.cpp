@@ -10,6 +10,7 @@
 #include "service/frame_receiver.h"
 #include "service/picture_reply.h"
 #include "wire/channel_program.h"
+#include "wire/deadline.h"
 #include "wire/frame.h"
 #include "wire/pick.h"
 #include "wire/picture_header.h"
@@ -30,12 +31,14 @@ absl::Status openScene(ChannelDrawer& drawer, const fabric::Scene& scene, PickTh
 
 void draw(ChannelDrawer& drawer, const fabric::FrameData& frameData,
           const fabric::ChannelTask& task, wire::PixelEncoding encoding,
-          ReplyStream<v1::RenderChannelResponse>& reply) {
+          ChannelStory::Clock::time_point received, ReplyStream<v1::RenderChannelResponse>& reply) {
+    const auto begun = ChannelStory::Clock::now();
     if (reply.isCancelled())
         return reply.fail(absl::CancelledError("the coordinator no longer waits for this channel"));
     absl::StatusOr<fabric::ChannelResult> result = drawer.render(frameData, task);
     if (result.ok())
-        reply.send(channelReply(*std::move(result), encoding));
+        reply.send(channelReply(*std::move(result), encoding,
+                                {received, begun, ChannelStory::Clock::now(), drawer.memory()}));
     else
         reply.fail(result.status());
 }
@@ -51,9 +54,8 @@ public:
 constexpr std::chrono::seconds kLongest{60};
 
 std::chrono::steady_clock::time_point deadlineOf(const grpc::CallbackServerContext& context) {
-    const auto left = context.deadline() - std::chrono::system_clock::now();
     return std::chrono::steady_clock::now() +
-           std::min<std::chrono::system_clock::duration>(left, kLongest);
+           std::min<std::chrono::nanoseconds>(wire::timeLeft(context.raw_deadline()), kLongest);
 }
 
 }  // namespace
@@ -151,12 +153,13 @@ absl::Status RenderService::checkReplies() const {
 
 absl::Status RenderService::startDrawing(const v1::RenderChannelRequest& request,
                                          ChannelReplyStream& reply) {
+    const auto received = ChannelStory::Clock::now();
     RETURN_IF_ERROR(checkReplies());
     ASSIGN_OR_RETURN(const fabric::ChannelTask task, wire::fromMessage(request.task()));
     ASSIGN_OR_RETURN(const fabric::FrameData frameData, frameData_.find(task.frameDataVersion));
     ASSIGN_OR_RETURN(const wire::PixelEncoding encoding, wire::fromMessage(request.encoding()));
-    return thread_.post([frameData, task, encoding, &reply](ChannelDrawer& drawer) {
-        draw(drawer, frameData, task, encoding, reply);
+    return thread_.post([frameData, task, encoding, received, &reply](ChannelDrawer& drawer) {
+        draw(drawer, frameData, task, encoding, received, reply);
     });
 }
 

@@ -24,6 +24,10 @@ public:
                                                  const fabric::ChannelTask& task) override {
         return renderer_->render(frameData, task);
     }
+    DrawerMemory memory() const override {
+        const RendererMemory memory = renderer_->memory();
+        return {memory.deviceBytes, memory.hostBytes};
+    }
     PickFunction pickFunction() const override {
         auto picker = renderer_->picker();
         if (!picker)

@@ -43,6 +43,7 @@ absl::Status RendererNode::run(const std::stop_token& stop) {
         options_.retryInterval, std::nullopt};
     if (options_.exitWithCoordinator)
         registration.giveUpAfter = options_.giveUpAfter;
+    const std::stop_callback leaving(stop, [this] { server_->announceLeaving(); });
     const absl::Status status = keepRegistered(registration, stop);
     server_->stop(kGrace);
     return status;

@@ -15,6 +15,7 @@
 #include "eyrie/v1/coordinator_service.grpc.pb.h"
 #include "fabric/status.h"
 #include "fabric/version.h"
+#include "wire/deadline.h"
 #include "wire/listen.h"
 #include "wire/protocol.h"
 #include "wire/statistics.h"
@@ -38,8 +39,8 @@ absl::Status checkVersion(const v1::RegisterRendererRequest& request) {
 
 class CoordinatorService final : public v1::CoordinatorService::CallbackService {
 public:
-    CoordinatorService(Registry& registry, const wire::Security& security)
-        : registry_(registry), security_(security) {}
+    CoordinatorService(Registry& registry, const GrpcOptions& options)
+        : registry_(registry), security_(options.security), telemetry_(options.telemetry) {}
 
     grpc::ServerUnaryReactor* RegisterRenderer(grpc::CallbackServerContext* context,
                                                const v1::RegisterRendererRequest* request,
@@ -87,7 +88,8 @@ private:
             return status;
         }
         ASSIGN_OR_RETURN(const std::string id,
-                         registry_.add(address, device, connectRenderer(address, security_),
+                         registry_.add(address, device,
+                                       connectRenderer(address, security_, telemetry_),
                                        Registry::Clock::now()));
         response.set_renderer_id(id);
         response.set_heartbeat_milliseconds(
@@ -97,14 +99,15 @@ private:
 
     Registry& registry_;
     const wire::Security security_;
+    const observe::SharedTelemetry telemetry_;
 };
 
 }  // namespace
 
 class GrpcService::Impl {
 public:
-    Impl(Registry& registry, const wire::Security& security)
-        : service_(registry, security), calls_(security), security_(security) {}
+    Impl(Registry& registry, const GrpcOptions& options)
+        : service_(registry, options), calls_(options.security), security_(options.security) {}
 
     absl::Status listen(const std::vector<std::string>& addresses, bool withReflection) {
         if (withReflection)
@@ -119,7 +122,7 @@ public:
     void use(const api::Handlers& handlers) { calls_.use(handlers); }
 
     void stop() {
-        listening_.server->Shutdown(std::chrono::system_clock::now());
+        listening_.server->Shutdown(wire::deadlineIn(std::chrono::seconds(0)));
         calls_.stop();
     }
 
@@ -132,7 +135,7 @@ private:
 
 absl::StatusOr<std::unique_ptr<GrpcService>> GrpcService::start(
     const std::vector<std::string>& addresses, Registry& registry, const GrpcOptions& options) {
-    auto impl = std::make_unique<Impl>(registry, options.security);
+    auto impl = std::make_unique<Impl>(registry, options);
     RETURN_IF_ERROR(impl->listen(addresses, options.withReflection));
     return std::unique_ptr<GrpcService>(new GrpcService(std::move(impl)));
 }

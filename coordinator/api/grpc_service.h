@@ -8,6 +8,7 @@
 #include <absl/status/statusor.h>
 
 #include "coordinator/farm/registry.h"
+#include "coordinator/observe/telemetry.h"
 #include "wire/security.h"
 
 namespace eyrie::api {

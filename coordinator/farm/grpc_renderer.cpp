@@ -12,11 +12,13 @@
 #include <grpcpp/create_channel.h>
 #include <grpcpp/security/credentials.h>
 
+#include "coordinator/farm/channel_report.h"
 #include "coordinator/farm/picture_assembly.h"
 #include "coordinator/farm/program_assembly.h"
 #include "eyrie/v1/render_service.grpc.pb.h"
 #include "fabric/status.h"
 #include "wire/channel_program.h"
+#include "wire/deadline.h"
 #include "wire/frame.h"
 #include "wire/pick.h"
 #include "wire/picture_header.h"
@@ -36,8 +38,7 @@ public:
     public:
         Call(Calls& calls, ChannelRenderer::Clock::time_point deadline) : calls_(calls) {
             wire::present(calls.security_, context_);
-            context_.set_deadline(std::chrono::system_clock::now() +
-                                  (deadline - ChannelRenderer::Clock::now()));
+            context_.set_deadline(wire::deadlineIn(deadline - ChannelRenderer::Clock::now()));
             const std::lock_guard lock(calls_.mutex_);
             calls_.current_.push_back(&context_);
             if (calls_.cancelled_)
@@ -82,13 +83,15 @@ bool answersWithDepth(const fabric::ChannelProgram& program) {
 
 class GrpcRenderer final : public ChannelRenderer {
 public:
-    GrpcRenderer(const std::string& address, const wire::Security& security)
+    GrpcRenderer(const std::string& address, const wire::Security& security,
+                 observe::SharedTelemetry telemetry)
         : peer_(fmt::format("renderer at {}", address)),
           address_(address),
           channel_(grpc::CreateCustomChannel(address, wire::channelCredentials(security, address),
                                              wire::clientArguments(security))),
           stub_(v1::RenderService::NewStub(channel_)),
-          calls_(security) {}
+          calls_(security),
+          report_(address, std::move(telemetry)) {}
 
     absl::StatusOr<fabric::SceneInfo> openScene(const fabric::Scene& scene,
                                                 Clock::time_point deadline) override {
@@ -122,15 +125,23 @@ public:
         *request.mutable_task() = wire::toMessage(task);
         request.set_encoding(wire::toMessage(wire::encodingFor(address_, task.wantsDepth)));
         Calls::Call call(calls_, deadline);
+        report_.asked(task.frameNumber);
         const auto reader = stub_->RenderChannel(call.context(), request);
         PictureAssembly assembly(task);
-        return receive(call, *reader, assembly,
-                       [&, isDrawn = !drawn](const v1::RenderChannelResponse& part) mutable {
-                           if (!std::exchange(isDrawn, true))
-                               drawn();
-                           return part.has_header() ? assembly.takeHeader(part.header())
-                                                    : assembly.takeChunk(part.chunk());
-                       });
+        auto result =
+            receive(call, *reader, assembly,
+                    [&, isDrawn = !drawn](const v1::RenderChannelResponse& part) mutable {
+                        if (!std::exchange(isDrawn, true))
+                            drawn();
+                        if (part.has_header()) {
+                            report_.headerCame(part.header());
+                            return assembly.takeHeader(part.header());
+                        }
+                        report_.chunkCame(part.chunk().size());
+                        return assembly.takeChunk(part.chunk());
+                    });
+        report_.ended(result.status());
+        return result;
     }
 
     absl::StatusOr<fabric::ProgramResult> runProgram(const fabric::ChannelProgram& program,
@@ -203,13 +214,15 @@ private:
     const std::unique_ptr<v1::RenderService::Stub> stub_;
     std::atomic<bool> wasConnected_{false};
     Calls calls_;
+    ChannelReport report_;  ///< of render, which one thread at a time calls
 };
 
 }  // namespace
 
 std::shared_ptr<ChannelRenderer> connectRenderer(const std::string& address,
-                                                 const wire::Security& security) {
-    return std::make_shared<GrpcRenderer>(address, security);
+                                                 const wire::Security& security,
+                                                 observe::SharedTelemetry telemetry) {
+    return std::make_shared<GrpcRenderer>(address, security, std::move(telemetry));
 }
 
 }  // namespace eyrie::coordinator

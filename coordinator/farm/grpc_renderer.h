@@ -5,6 +5,7 @@
 #include <string>
 
 #include "coordinator/farm/channel_renderer.h"
+#include "coordinator/observe/telemetry.h"
 #include "wire/security.h"
 
 namespace eyrie::coordinator {
@@ -13,8 +14,9 @@ namespace eyrie::coordinator {
 /// for the connection: the first call fails with Unavailable when nobody listens.
 ///
 /// Nothing it answers is believed unchecked: what does not fit the task is an Internal error that
-/// names the field.
+/// names the field. Tells `telemetry` of what it draws.
 std::shared_ptr<ChannelRenderer> connectRenderer(const std::string& address,
-                                                 const wire::Security& security = {});
+                                                 const wire::Security& security = {},
+                                                 observe::SharedTelemetry telemetry = nullptr);
 
 }  // namespace eyrie::coordinator

@@ -141,6 +141,8 @@ void Dispatch::noteReissue(std::size_t index, const Member& chosen, const Member
                  part.running == 0 ? "could not draw"
                  : part.hasBegun   ? "has not finished"
                                    : "has not begun");
+    if (plan_.telemetry)
+        plan_.telemetry->metrics.taskReissued(part.running != 0);
     noteLate(part, members);
 }
 

@@ -11,6 +11,7 @@
 
 #include "coordinator/frame/crew.h"
 #include "coordinator/frame/patience.h"
+#include "coordinator/observe/telemetry.h"
 #include "fabric/channel_task.h"
 #include "fabric/frame_data.h"
 
@@ -50,6 +51,7 @@ public:
         /// Called, from any thread and even when the dispatch has ended, whenever a renderer may
         /// have its next task.
         std::function<void()> freed = [] {};
+        observe::SharedTelemetry telemetry = nullptr;  ///< is told of tasks given to another
     };
 
     explicit Dispatch(Plan plan);

@@ -31,6 +31,10 @@ public:
         Pass(const Pass&) = delete;
         Pass& operator=(const Pass&) = delete;
 
+        /// Of frames under way at the same time no two are the same, nor are their remainders by
+        /// the limit or more.
+        std::uint64_t ticket() const { return ticket_; }
+
         /// The frame has its renderers: the next may begin where others have nothing to do.
         void letNext();
 

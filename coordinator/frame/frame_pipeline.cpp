@@ -40,17 +40,27 @@ absl::Status check(const FrameRequest& request) {
 FramePipeline::FramePipeline(Registry& registry, FramePipelineOptions options)
     : options_(std::move(options)),
       planner_(options_.configuration, options_.layout, [this] { listeners_.notify(); }),
-      programs_({options_.patience, options_.callTimeout, [this] { gate_.look(); }}, crew_),
+      programs_({options_.patience,
+                 options_.callTimeout,
+                 [this] { gate_.look(); },
+                 options_.telemetry},
+                crew_),
       crew_(registry, {.patience = options_.patience}, [this] { listeners_.notify(); }) {}
 
 absl::StatusOr<RenderedFrame> FramePipeline::renderFrame(const FrameRequest& request) {
     RETURN_IF_ERROR(check(request));
+    const auto asked = FramePlanner::Clock::now();
     FrameGate::Pass pass(gate_);
+    if (telemetry() != nullptr)
+        telemetry()->metrics.took(observe::Stage::Turn, FramePlanner::Clock::now() - asked);
     return render(request, pass);
 }
 
 absl::StatusOr<RenderedFrame> FramePipeline::renderLatest(const ChooseFrame& choose) {
+    const auto asked = FramePlanner::Clock::now();
     FrameGate::Pass pass(gate_);
+    if (telemetry() != nullptr)
+        telemetry()->metrics.took(observe::Stage::Turn, FramePlanner::Clock::now() - asked);
     const std::optional<FrameRequest> request = choose();
     if (!request)
         return absl::CancelledError("no frame is wanted any more");
@@ -60,13 +70,34 @@ absl::StatusOr<RenderedFrame> FramePipeline::renderLatest(const ChooseFrame& cho
 
 absl::StatusOr<RenderedFrame> FramePipeline::render(const FrameRequest& asked,
                                                     FrameGate::Pass& pass) {
+    const std::string line = fmt::format("frames {}", pass.ticket() % FramePlanner::kMostFrames);
+    observe::StageTimer total(telemetry(), observe::Stage::Total, line);
+    absl::StatusOr<RenderedFrame> frame = renderInTurn(asked, pass, line, total);
+    if (telemetry() != nullptr) {
+        if (frame.ok())
+            telemetry()->metrics.frameMade(frame->statistics);
+        else
+            telemetry()->metrics.frameFailed();
+    }
+    return frame;
+}
+
+absl::StatusOr<RenderedFrame> FramePipeline::renderInTurn(const FrameRequest& asked,
+                                                          FrameGate::Pass& pass,
+                                                          const std::string& line,
+                                                          observe::StageTimer& total) {
     const auto start = FramePlanner::Clock::now();
     while (true) {
         const Crew::State state = crew_.state();
         if (const std::string why = problem(state); !why.empty())
             return absl::UnavailableError(why);
-        ASSIGN_OR_RETURN(const PlannedFrame planned,
+        observe::StageTimer planning(telemetry(), observe::Stage::Plan, line);
+        ASSIGN_OR_RETURN(PlannedFrame planned,
                          planner_.plan(asked, state, crew_.ready(state.revision)));
+        planned.timeLine = line;
+        planning.setFrame(planned.number);
+        planning.stop();
+        total.setFrame(planned.number);
         gate_.setLimit(planner_.framesUnderWay());
         absl::StatusOr<DrawnFrame> drawn = draw(planned, [&] { pass.letNext(); });
         if (!drawn.ok() && crew_.state().revision != state.revision)
@@ -107,8 +138,13 @@ absl::StatusOr<DrawnFrame> FramePipeline::drawCentrally(const PlannedFrame& fram
     plan.callTimeout = options_.callTimeout;
     plan.handedOut = handedOut;
     plan.freed = [this] { gate_.look(); };
+    plan.telemetry = options_.telemetry;
+    observe::StageTimer rendering(telemetry(), observe::Stage::Render, frame.timeLine, frame.number);
     ASSIGN_OR_RETURN(std::vector<Dispatch::Drawn> drawn,
                      std::make_shared<Dispatch>(std::move(plan))->run(crew_));
+    rendering.stop();
+    const observe::StageTimer composing(telemetry(), observe::Stage::Compose, frame.timeLine,
+                                        frame.number);
     DrawnFrame whole;
     whole.taken = takenBy(drawn);
     whole.picture = composedFrame(frame, frame.plan, std::move(drawn));

@@ -17,6 +17,7 @@
 #include "coordinator/frame/frame_source.h"
 #include "coordinator/frame/patience.h"
 #include "coordinator/frame/program_drawing.h"
+#include "coordinator/observe/stage_timer.h"
 
 namespace eyrie::coordinator {
 
@@ -30,6 +31,7 @@ struct FramePipelineOptions {
     PatienceOptions patience;
     std::chrono::milliseconds callTimeout{30'000};  ///< a channel that takes longer is given up
     std::chrono::milliseconds pickTimeout{5'000};   ///< a pick that takes longer goes elsewhere
+    observe::SharedTelemetry telemetry = nullptr;   ///< is told of every frame
 };
 
 /// Makes frames: by a configuration, each is cut into draws for the renderers that are ready, these
@@ -60,6 +62,9 @@ public:
 
 private:
     absl::StatusOr<RenderedFrame> render(const FrameRequest& asked, FrameGate::Pass& pass);
+    absl::StatusOr<RenderedFrame> renderInTurn(const FrameRequest& asked, FrameGate::Pass& pass,
+                                               const std::string& line, observe::StageTimer& total);
+    observe::Telemetry* telemetry() const { return options_.telemetry.get(); }
     /// `handedOut` is called when every renderer has been given its part.
     absl::StatusOr<DrawnFrame> draw(const PlannedFrame& frame,
                                     const std::function<void()>& handedOut);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "coordinator/compound/exchange.h"
@@ -25,6 +26,7 @@ struct PlannedFrame {
     std::vector<std::shared_ptr<Member>> members;  ///< those that were ready
     std::uint64_t number = 0;                      ///< ascending from 1
     std::uint64_t kind = 0;                        ///< FrameKinds
+    std::string timeLine;  ///< of traces, where frames at the same time have different ones
     fabric::FrameData frameData;
     std::shared_ptr<ActiveConfiguration> configuration;
     compound::Plan plan;

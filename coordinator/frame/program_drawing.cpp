@@ -10,6 +10,7 @@
 #include <spdlog/spdlog.h>
 
 #include "coordinator/frame/program_runs.h"
+#include "coordinator/observe/stage_timer.h"
 #include "fabric/status.h"
 
 namespace eyrie::coordinator {
@@ -82,6 +83,8 @@ absl::StatusOr<DrawnFrame> ProgramDrawing::tryToDraw(const PlannedFrame& frame,
     const std::chrono::milliseconds timeout = patienceWith(frame.kind);
     const std::uint64_t session = sessionOf(frame.scene.revision);
     const auto started = Clock::now();
+    observe::Telemetry* const telemetry = options_.telemetry.get();
+    observe::StageTimer rendering(telemetry, observe::Stage::Render, frame.timeLine, frame.number);
     auto running = std::async(std::launch::async, [&] {
         return ProgramRuns::run(programs.exchange,
                                 {frame.frameData, frame.scene.revision, session,
@@ -93,15 +96,19 @@ absl::StatusOr<DrawnFrame> ProgramDrawing::tryToDraw(const PlannedFrame& frame,
         dispatchOf(frame, programs.others, programs.preferred, patienceWith(frame.kind));
     others.callTimeout = options_.callTimeout;
     others.freed = options_.freed;
+    others.telemetry = options_.telemetry;
     auto drawn = std::make_shared<Dispatch>(std::move(others))->run(crew_);
     ASSIGN_OR_RETURN(ProgramRuns::Result result, running.get());
     RETURN_IF_ERROR(drawn.status());
+    rendering.stop();
     {
         const std::lock_guard lock(mutex_);
         patience_.record(
             frame.kind, timeout,
             std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - started));
     }
+    const observe::StageTimer composing(telemetry, observe::Stage::Compose, frame.timeLine,
+                                        frame.number);
     DrawnFrame whole;
     whole.taken = takenByAll(frame, *drawn, result);
     RenderedFrame& picture = whole.picture;

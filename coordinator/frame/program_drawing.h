@@ -13,6 +13,7 @@
 #include "coordinator/frame/crew.h"
 #include "coordinator/frame/patience.h"
 #include "coordinator/frame/planned_frame.h"
+#include "coordinator/observe/telemetry.h"
 
 namespace eyrie::coordinator {
 
@@ -26,6 +27,7 @@ public:
         PatienceOptions patience;
         std::chrono::milliseconds callTimeout{};  ///< of what is drawn beside the programs
         std::function<void()> freed;              ///< Dispatch::Plan::freed
+        observe::SharedTelemetry telemetry = nullptr;  ///< is told how long it takes
     };
 
     /// `crew` outlives it.

@@ -41,14 +41,15 @@ struct Context {
     Access access;
     std::unique_ptr<Tls> tls;  ///< null: not encrypted
     Crowd crowd;               ///< who is connected
-    std::set<Session*> sessions;
-    std::function<void()> sessionEnded;
+    observe::SharedTelemetry telemetry;  ///< not null
+    std::set<Session*> sessions = {};
+    std::function<void()> sessionEnded = {};
     /// Do the API's calls, which may take as long as a picture.
     api::Workers callers{8, 64};
     /// Ends viewers, which may mean to wait for a frame being rendered.
     boost::asio::thread_pool reaper{1};
     /// What viewers see, by themselves or together.
-    stream::Sessions viewing{frames};
+    stream::Sessions viewing{frames, {.telemetry = telemetry}};
 };
 
 /// A connection's place, and its viewer's; held until that, too, has ended.

@@ -16,6 +16,7 @@
 #include <boost/beast/websocket/rfc6455.hpp>
 
 #include "coordinator/http/api_calls.h"
+#include "coordinator/http/observe_routes.h"
 #include "coordinator/http/origin.h"
 #include "coordinator/http/problem.h"
 #include "coordinator/http/router.h"
@@ -126,7 +127,8 @@ private:
         parser_->body_limit(kMaxBodyBytes);
         stream_.expires_after(context_.options.headerTimeout);
         beast::http::async_read(stream_, buffer_, *parser_,
-                                [self = shared_from_this()](error_code error, std::size_t) {
+                                [self = shared_from_this()](error_code error, std::size_t bytes) {
+                                    self->count(observe::Direction::In, bytes);
                                     self->requestRead(error);
                                 });
     }
@@ -151,6 +153,10 @@ private:
             return reply(*answer, request.keep_alive() && answer->status < 400);
         if (pathOf(view(request.target())) == "/ws")
             return upgrade(request, context_.access.roleOf(asked));
+        if (const auto observed =
+                observationResponse(view(request.method_string()), view(request.target()),
+                                    *context_.telemetry, context_.frames))
+            return reply(*observed, request.keep_alive());
         if (isApiCall(pathOf(view(request.target()))) && context_.options.api != nullptr)
             return call(request);
         reply(route(view(request.method_string()), view(request.target()), context_.files,
@@ -237,6 +243,7 @@ private:
 
     void reply(const Response& response, bool keepAlive) {
         namespace http = beast::http;
+        context_.telemetry->metrics.refused(response.status);
         reply_ = Reply(static_cast<http::status>(response.status), 11);
         reply_.set(http::field::content_type, response.contentType);
         reply_.set(http::field::cache_control, response.cacheControl);
@@ -254,13 +261,19 @@ private:
             reply_.body() = *response.body;
         reply_.keep_alive(keepAlive);
         stream_.expires_after(context_.options.headerTimeout);
-        http::async_write(stream_, reply_,
-                          [self = shared_from_this(), keepAlive](error_code error, std::size_t) {
-                              if (error || !keepAlive)
-                                  return self->finish();
-                              self->await();
-                              self->read();
-                          });
+        http::async_write(
+            stream_, reply_,
+            [self = shared_from_this(), keepAlive](error_code error, std::size_t bytes) {
+                self->count(observe::Direction::Out, bytes);
+                if (error || !keepAlive)
+                    return self->finish();
+                self->await();
+                self->read();
+            });
+    }
+
+    void count(observe::Direction direction, std::size_t bytes) {
+        context_.telemetry->metrics.bytes(observe::Peer::Http, direction, bytes);
     }
 
     /// Lets the peer read the reply before the connection goes.

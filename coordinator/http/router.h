@@ -18,7 +18,6 @@ struct Response {
     std::string cacheControl = "no-store";
     std::vector<std::pair<std::string, std::string>> headers = {};  ///< beside these
     std::shared_ptr<const std::string> body = std::make_shared<const std::string>();
-    std::vector<std::pair<std::string, std::string>> headers = {};  ///< besides those of all
 };
 
 /// One line of text for a person.

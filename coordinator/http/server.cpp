@@ -23,7 +23,8 @@ namespace {
 using boost::asio::ip::tcp;
 using boost::system::error_code;
 
-constexpr std::chrono::seconds kShutDownTimeout{2};
+/// After viewers have been drained: for their last messages and goodbyes.
+constexpr std::chrono::seconds kShutDownTimeout{1};
 constexpr std::chrono::milliseconds kPauseAfterFailedAccept{100};
 
 constexpr std::string_view kBusyReply =
@@ -74,6 +75,7 @@ public:
                    Access(options.gate, isLoopback, tls != nullptr),
                    std::move(tls),
                    Crowd(options.limits),
+                   options.telemetry ? options.telemetry : std::make_shared<observe::Telemetry>(),
                    {},
                    [this] { sessionEnded(); }} {}
 
@@ -137,11 +139,12 @@ private:
     void welcome(tcp::socket socket) {
         Slot slot = context_.crowd.enter();
         if (slot == nullptr)
-            return refuse(std::move(socket), context_.tls != nullptr);
+            return refuse(std::move(socket), context_.tls != nullptr, *context_.telemetry);
         openHttpSession(std::move(socket), context_, std::move(slot));
     }
 
-    static void refuse(tcp::socket socket, bool isEncrypted) {
+    static void refuse(tcp::socket socket, bool isEncrypted, observe::Telemetry& telemetry) {
+        telemetry.metrics.refused(503);
         if (isEncrypted)
             return;  // closing says it; there was no handshake
         // The reply fits into the empty send buffer; where it does not, closing says it too.
@@ -158,7 +161,7 @@ private:
         acceptor_.close(ignored);
         pause_.cancel();
         isShuttingDown_ = true;
-        shutDownDeadline_.expires_after(kShutDownTimeout);
+        shutDownDeadline_.expires_after(context_.options.drainTimeout + kShutDownTimeout);
         shutDownDeadline_.async_wait([this](error_code error) {
             if (!error)
                 io_.stop();

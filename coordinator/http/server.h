@@ -15,6 +15,7 @@
 #include "access/tls_files.h"
 #include "coordinator/frame/frame_source.h"
 #include "coordinator/http/crowd.h"
+#include "coordinator/observe/telemetry.h"
 
 namespace eyrie::api {
 class RestDoor;
@@ -37,6 +38,10 @@ struct ServerOptions {
     /// Who comes in; null: everybody who can reach the address.
     std::shared_ptr<access::Gate> gate = {};
     std::optional<access::TlsFiles> tls = {};  ///< HTTPS instead of HTTP
+    /// How long viewers may go on when the server stops, to get the pictures they asked for.
+    std::chrono::milliseconds drainTimeout{2'500};
+    /// What it tells of itself, and what /metrics and /api/v1/trace show; null: of its own.
+    observe::SharedTelemetry telemetry = nullptr;
 };
 
 /// The door for browsers: HTTP/1.1, or HTTPS, and the viewer's WebSocket on one port.
@@ -49,6 +54,8 @@ struct ServerOptions {
 ///   /readyz    200 while a renderer is alive and a scene is open, 503 otherwise; JSON says why
 ///   /api       what programs can ask, for people to read; the calls of EyrieService are below
 ///              /api/v1/ (api/rest_door.h)
+///   /metrics   numbers for Prometheus
+///   /api/v1/trace?frames=N   the last frames, for Chrome's trace viewer
 ///
 /// All functions may be called from any thread.
 class Server {
@@ -65,8 +72,10 @@ public:
     /// Where it listens: "http://127.0.0.1:8080/", with the port that was chosen.
     std::string url() const;
 
-    /// Tells viewers that the server goes away (close code 1001), then ends every connection and
-    /// thread. Returns when that is done; waits for a frame being rendered. May be called twice.
+    /// Takes no more connections and no more views, sends viewers what they have asked for, for
+    /// drainTimeout at most, and tells them that it goes away (close code 1001); then ends every
+    /// connection and thread. Returns when that is done; waits for a frame being rendered. May be
+    /// called twice.
     void stop();
 
 private:

@@ -11,25 +11,6 @@
 namespace eyrie::http {
 namespace {
 
-std::string_view nameOf(coordinator::RendererCondition condition) {
-    using enum coordinator::RendererCondition;
-    switch (condition) {
-        case Ready:
-            return "ready";
-        case Opening:
-            return "opening";
-        case Late:
-            return "late";
-        case Draining:
-            return "draining";
-        case Dead:
-            return "dead";
-        case Refused:
-            break;
-    }
-    return "refused";
-}
-
 std::string rendererJson(const coordinator::RendererStatus& renderer) {
     return fmt::format(
         R"({{"id":{},"address":{},"alive":{},"condition":"{}","why":{},"sinceUnixMilliseconds":{},)"
@@ -55,6 +36,25 @@ std::string joined(const Elements& elements, ToJson toJson) {
 }
 
 }  // namespace
+
+std::string_view nameOf(coordinator::RendererCondition condition) {
+    using enum coordinator::RendererCondition;
+    switch (condition) {
+        case Ready:
+            return "ready";
+        case Opening:
+            return "opening";
+        case Late:
+            return "late";
+        case Draining:
+            return "draining";
+        case Dead:
+            return "dead";
+        case Refused:
+            break;
+    }
+    return "refused";
+}
 
 std::string quotedJson(std::string_view text) {
     std::string result = "\"";

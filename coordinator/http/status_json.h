@@ -8,6 +8,9 @@
 
 namespace eyrie::http {
 
+/// "ready", "opening" and so on, as in statusJson.
+std::string_view nameOf(coordinator::RendererCondition condition);
+
 /// A renderer is alive, the scene is open and nothing stands in the way of a picture.
 bool isReady(const coordinator::Status& status);
 

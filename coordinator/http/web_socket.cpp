@@ -31,6 +31,8 @@ constexpr std::chrono::seconds kIdleTimeout{30};
 /// While pictures are under way, the round trip is measured so often.
 constexpr std::chrono::milliseconds kPulse{1000};
 constexpr char kPulsePayload[] = "pulse";
+/// How soon the end of what a viewer had asked for is noticed.
+constexpr std::chrono::milliseconds kDrainPoll{5};
 
 class WebSocket : public Session, public std::enable_shared_from_this<WebSocket> {
 public:
@@ -40,6 +42,7 @@ public:
           writeDeadline_(stream_.get_executor()),
           pulse_(stream_.get_executor()),
           pause_(stream_.get_executor()),
+          drain_(stream_.get_executor()),
           rate_(context.options.messagesPerSecond),
           received_(std::move(received)),
           joining_(std::move(joining)),
@@ -49,6 +52,8 @@ public:
     }
 
     ~WebSocket() override {
+        if (isCounted_)
+            context_.telemetry->metrics.viewers(-1);
         abandon();
         context_.sessions.erase(this);
         context_.sessionEnded();
@@ -71,7 +76,9 @@ public:
     void shutDown() override {
         if (viewer_ == nullptr)
             return beast::get_lowest_layer(stream_).cancel();
-        close({websocket::close_code::going_away, "the server is shutting down"});
+        viewer_->drain();
+        const auto now = std::chrono::steady_clock::now();
+        sayGoodbye(now + context_.options.drainTimeout);
     }
 
     void abandon() override {
@@ -87,8 +94,25 @@ public:
     }
 
 private:
+    /// Once the viewer has nothing more to send, or at `deadline`.
+    void sayGoodbye(std::chrono::steady_clock::time_point deadline) {
+        if (viewer_ == nullptr)
+            return;
+        const bool isLate = std::chrono::steady_clock::now() >= deadline;
+        if (isLate || (!isWriting_ && viewer_->hasDrained()))
+            return close({websocket::close_code::going_away, "the server is shutting down"});
+        drain_.expires_after(kDrainPoll);
+        drain_.async_wait([weak = weak_from_this(), deadline](error_code error) {
+            const auto self = weak.lock();
+            if (!error && self != nullptr)
+                self->sayGoodbye(deadline);
+        });
+    }
+
     void accepted() {
         received_.clear();
+        isCounted_ = true;
+        context_.telemetry->metrics.viewers(1);
         viewer_ = std::make_shared<stream::Viewer>(
             context_.viewing, joining_,
             [weak = weak_from_this(), executor = stream_.get_executor()] {
@@ -118,6 +142,7 @@ private:
         if (!stream_.got_binary())
             return close({websocket::close_code::unknown_data, "messages are binary here"});
         const auto data = buffer_.data();
+        count(observe::Direction::In, data.size());
         const absl::Status status =
             viewer_->receive({static_cast<const std::byte*>(data.data()), data.size()});
         buffer_.clear();
@@ -158,7 +183,11 @@ private:
             beat();
         expectProgress();
         stream_.async_write(boost::asio::buffer(outgoing_),
-                            [self = shared_from_this()](error_code error, std::size_t) {
+                            [self = shared_from_this(), begun = std::chrono::steady_clock::now()](
+                                error_code error, std::size_t bytes) {
+                                self->count(observe::Direction::Out, bytes);
+                                self->context_.telemetry->metrics.took(
+                                    observe::Stage::Send, std::chrono::steady_clock::now() - begun);
                                 self->writeDeadline_.cancel();
                                 self->isWriting_ = false;
                                 if (!error)
@@ -207,6 +236,10 @@ private:
         pingedAt_.reset();
     }
 
+    void count(observe::Direction direction, std::size_t bytes) {
+        context_.telemetry->metrics.bytes(observe::Peer::WebSocket, direction, bytes);
+    }
+
     std::chrono::milliseconds writeTimeout() const { return context_.options.writeTimeout; }
 
     void close(const websocket::close_reason& reason) {
@@ -222,6 +255,7 @@ private:
         writeDeadline_.cancel();
         pulse_.cancel();
         pause_.cancel();
+        drain_.cancel();
         isEnded_ = true;
         beast::get_lowest_layer(stream_).close();
     }
@@ -230,6 +264,7 @@ private:
     boost::asio::steady_timer writeDeadline_;
     boost::asio::steady_timer pulse_;
     boost::asio::steady_timer pause_;  ///< before the next message is read
+    boost::asio::steady_timer drain_;
     MessageRate rate_;
     bool isPulsing_ = false;
     std::optional<std::chrono::steady_clock::time_point> pingedAt_;  ///< and not answered yet
@@ -240,6 +275,7 @@ private:
     bool isWriting_ = false;
     bool isClosing_ = false;
     bool isEnded_ = false;
+    bool isCounted_ = false;  ///< among the viewers
     Context& context_;
     Slot slot_;
     std::shared_ptr<stream::Viewer> viewer_;

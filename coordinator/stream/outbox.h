@@ -46,6 +46,8 @@ public:
 
     /// A frame has not been taken yet: a finer one of the same view would only take its place.
     bool isWaiting() const { return waiting_.has_value(); }
+    /// A frame, or the rest of one, has not been taken yet.
+    bool hasUnsent() const { return waiting_.has_value() || rest_.has_value(); }
 
     /// Whether one more frame may be started while `underWay` are being made.
     bool hasRoom(int underWay) const;

@@ -82,6 +82,8 @@ void Progress::renderStarted() {
 void Progress::rendered(Picture picture, Clock::time_point now) {
     --rendering_;
     retryAt_.reset();
+    if (newest_ != nullptr && picture.started < newest_->started)
+        return;
     const fabric::FrameStatistics& statistics = picture.frame->statistics;
     if (isSame(picture.view, *wanted_)) {
         isLoading_ = !statistics.complete && (statistics.pagesMissing == 0 ||

@@ -52,12 +52,18 @@ public:
     /// The view has not moved for a while.
     bool hasRested(Clock::time_point now) const;
 
-    // ---- Drawing.
+    // ---- Drawing, of several frames at once.
 
     bool mayRender(Clock::time_point now) const;
+    /// The wanted view has not been drawn since it, or what it shows, changed; and not for want of
+    /// renderers.
+    bool owesPicture(Clock::time_point now) const {
+        return isRenderNeeded_ && !isWaitingToRetry(now);
+    }
     /// When a frame is next to be drawn although nothing changes.
     std::optional<Clock::time_point> nextRender(Clock::time_point now) const;
     void renderStarted();
+    /// One that began before one that is there already is left out.
     void rendered(Picture picture, Clock::time_point now);
     void renderFailed(Clock::time_point now);
     int rendering() const { return rendering_; }  ///< frames that are being drawn

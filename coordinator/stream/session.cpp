@@ -2,6 +2,8 @@
 #include "coordinator/stream/session.h"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <condition_variable>
 #include <map>
 #include <mutex>
@@ -11,6 +13,9 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
+#include "coordinator/observe/stage_timer.h"
 #include "coordinator/stream/drawing.h"
 #include "coordinator/stream/viewer_messages.h"
 
@@ -24,6 +29,13 @@ std::string_view text(const absl::Status& status) {
 /// One frame in so many has its stages measured, which costs its vertices once more: the fourth
 /// first, since shaders are compiled in the ones before.
 constexpr std::uint64_t kFramesToAMeasurement = 32;
+
+/// Frames that are drawn for a session at once, at most: renderers decide whether more than one is,
+/// and the browsers whether there is room.
+constexpr std::size_t kRenderThreads = 3;
+
+/// Tells sessions apart in traces.
+std::atomic<int> sessionsSoFar{0};
 
 /// After so many others a viewer's picture is made before those of better links.
 constexpr int kMostPassedOver = 2;
@@ -42,11 +54,12 @@ public:
         : frames_(frames),
           name_(std::move(name)),
           framesInFlight_(options.framesInFlight),
+          telemetry_(options.telemetry),
           progress_(
               {options.restDelay, options.retryDelay, options.loadingDelay, options.missingDelay}) {
         subscription_ = frames_.subscribe([this] { statusChanged(); });
         encoder_ = std::thread([this] { encodeLoop(); });
-        renderer_ = std::thread([this] { renderLoop(); });
+        for (std::thread& thread : renderers_) thread = std::thread([this] { renderLoop(); });
     }
 
     ~Impl() {
@@ -56,7 +69,7 @@ public:
         }
         changed_.notify_all();
         frames_.unsubscribe(subscription_);
-        renderer_.join();
+        for (std::thread& thread : renderers_) thread.join();
         encoder_.join();
     }
 
@@ -89,7 +102,7 @@ public:
 
     void want(Seat& seat, ViewRequest view) {
         const std::lock_guard lock(mutex_);
-        if (leader_ != &seat)
+        if (leader_ != &seat || isDraining_)
             return;
         setProblem(seat.problem, "");
         view.viewer = seat.id;
@@ -116,6 +129,8 @@ public:
 
     void switchLayout(Seat& seat, coordinator::SwitchLayout change) {
         const std::lock_guard lock(mutex_);
+        if (isDraining_)
+            return;
         if (leader_ == &seat && seat.mayControl)
             switch_ = std::move(change);
         else if (!seat.mayControl)
@@ -162,6 +177,19 @@ public:
         return since.has_value() ? std::optional(Clock::now() - *since) : std::nullopt;
     }
 
+    void drain() {
+        const std::lock_guard lock(mutex_);
+        isDraining_ = true;
+        changed_.notify_all();
+    }
+
+    bool hasDrained(Seat& seat) {
+        const std::lock_guard lock(mutex_);
+        const Clock::time_point now = Clock::now();
+        return !progress_.owesPicture(now) && progress_.rendering() == 0 && !seat.isServed &&
+               !dueNow(seat, now) && !seat.outbox.hasUnsent();
+    }
+
     SessionCounts counts() const {
         const std::lock_guard lock(mutex_);
         return counts_;
@@ -202,10 +230,12 @@ private:
         lock.lock();
     }
 
-    // ---- The render thread.
+    // ---- The render threads.
 
     bool mayRender() const {
-        return progress_.mayRender(Clock::now()) &&
+        const Clock::time_point now = Clock::now();
+        return !isStarting_ && progress_.mayRender(now) &&
+               (!isDraining_ || progress_.owesPicture(now)) &&
                std::ranges::any_of(seats_, [this](const std::shared_ptr<Seat>& seat) {
                    return seat->isReadyForMore(progress_);
                });
@@ -219,7 +249,9 @@ private:
             else if (mayRender())
                 renderOne(lock);
             else
-                waitForChange(lock, progress_.nextRender(Clock::now()));
+                waitForChange(lock, isDraining_ || isStarting_
+                                        ? std::nullopt
+                                        : progress_.nextRender(Clock::now()));
         }
     }
 
@@ -253,7 +285,7 @@ private:
         int level = 0;
     };
 
-    /// With mutex_ held.
+    /// The newest view, when its frame's turn has come. With mutex_ held.
     Begun begin() {
         Begun begun{*progress_.wanted(), {}, Clock::now()};
         const bool isAtRest = progress_.hasRested(begun.at);
@@ -265,16 +297,28 @@ private:
         // Measuring has no place in a limited time.
         begun.request.measuresStages =
             !begun.request.budgetMilliseconds && ++requested_ % kFramesToAMeasurement == 4;
+        isStarting_ = false;
         progress_.renderStarted();
         return begun;
     }
 
     void renderOne(std::unique_lock<std::mutex>& lock) {
-        const Begun begun = begin();
+        isStarting_ = true;
+        std::optional<Begun> begun;
         lock.unlock();
-        absl::StatusOr<coordinator::RenderedFrame> frame = frames_.renderFrame(begun.request);
+        absl::StatusOr<coordinator::RenderedFrame> frame =
+            frames_.renderLatest([&]() -> std::optional<coordinator::FrameRequest> {
+                const std::lock_guard choosing(mutex_);
+                if (isStopping_)
+                    return std::nullopt;
+                begun = begin();
+                changed_.notify_all();  // another may get in line
+                return begun->request;
+            });
         lock.lock();
-        rendered(begun, std::move(frame));
+        if (!begun)
+            begun = begin();
+        rendered(*begun, std::move(frame));
         changed_.notify_all();
     }
 
@@ -283,7 +327,9 @@ private:
         const Clock::time_point now = Clock::now();
         if (frame.ok()) {
             ++counts_.drawn;
-            for (const auto& seat : seats_) seat->outbox.rendered(now - begun.at);
+            // Of frames at the same time each takes what it adds.
+            const Clock::time_point from = std::max(begun.at, std::exchange(lastRendered_, now));
+            for (const auto& seat : seats_) seat->outbox.rendered(now - from);
             setProblem(renderProblem_, "");
             tellAtFullSize(frame->statistics, begun.view, begun.request);
             Picture picture{begun.view,
@@ -311,8 +357,15 @@ private:
             else if (const std::optional<QualityClass> next = nextClass(now))
                 serve(lock, *next);
             else
-                waitForChange(lock, progress_.nextFiner(now));
+                waitForChange(lock, isDraining_ ? std::nullopt : progress_.nextFiner(now));
         }
+    }
+
+    /// At the end nothing is sent finer than it was asked for.
+    std::optional<QualityClass> dueNow(const Seat& seat, Clock::time_point now) const {
+        const bool hasNewest = progress_.newest() != nullptr &&
+                               seat.delivered.picture == progress_.newest()->number;
+        return isDraining_ && hasNewest ? std::nullopt : seat.due(progress_, now);
     }
 
     /// Who waits for long first, then moving pictures before still ones, and better links, which
@@ -320,7 +373,7 @@ private:
     std::optional<QualityClass> nextClass(Clock::time_point now) const {
         std::optional<std::tuple<bool, QualityClass>> best;
         for (const auto& seat : seats_)
-            if (const auto due = seat->due(progress_, now)) {
+            if (const auto due = dueNow(*seat, now)) {
                 const std::tuple key(seat->timesPassedOver < kMostPassedOver, *due);
                 if (!best || key < *best)
                     best = key;
@@ -332,7 +385,7 @@ private:
     Seats takeDue(const QualityClass& as, Clock::time_point now) {
         Seats served;
         for (const auto& seat : seats_) {
-            const auto due = seat->due(progress_, now);
+            const auto due = dueNow(*seat, now);
             if (due == as) {
                 seat->delivered = {progress_.newest()->number, as.fineness};
                 seat->isServed = true;
@@ -395,7 +448,9 @@ private:
         if (const auto known = encodings_.find(as); known != encodings_.end())
             return known->second;
         lock.unlock();
+        observe::StageTimer timer(telemetry_.get(), observe::Stage::Encode, encoding_);
         absl::StatusOr<EncodedPicture> encoded = encodePicture(*picture, as);
+        timer.stop();
         lock.lock();
         if (!encoded.ok())
             return encoded.status();
@@ -451,10 +506,15 @@ private:
     coordinator::FrameSource& frames_;
     const std::string name_;
     const std::optional<int> framesInFlight_;
+    const observe::SharedTelemetry telemetry_;
+    const std::string encoding_ = fmt::format("encodes for session {}", ++sessionsSoFar);
 
     mutable std::mutex mutex_;  // guards everything below, up to the threads, and the seats
     std::condition_variable changed_;
     bool isStopping_ = false;
+    bool isDraining_ = false;
+    bool isStarting_ = false;  ///< a render thread waits for its frame's turn
+    Clock::time_point lastRendered_{};
     Seats seats_;             ///< in the order in which they came
     Seat* leader_ = nullptr;  ///< one of them
     std::uint64_t lastSeat_ = 0;
@@ -469,7 +529,7 @@ private:
 
     int subscription_ = 0;
     std::thread encoder_;
-    std::thread renderer_;
+    std::array<std::thread, kRenderThreads> renderers_;
 };
 
 Session::Session(coordinator::FrameSource& frames, std::string name, const SessionOptions& options)
@@ -493,6 +553,8 @@ std::optional<std::string> Session::take(Seat& seat) { return impl_->take(seat);
 std::optional<Clock::duration> Session::unacknowledgedFor(Seat& seat) {
     return impl_->unacknowledgedFor(seat);
 }
+void Session::drain() { impl_->drain(); }
+bool Session::hasDrained(Seat& seat) { return impl_->hasDrained(seat); }
 SessionCounts Session::counts() const { return impl_->counts(); }
 const std::string& Session::name() const { return impl_->name(); }
 

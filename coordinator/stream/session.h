@@ -11,6 +11,7 @@
 #include <absl/status/status.h>
 
 #include "coordinator/frame/frame_source.h"
+#include "coordinator/observe/telemetry.h"
 #include "coordinator/stream/seat.h"
 
 namespace eyrie::stream {
@@ -27,6 +28,7 @@ struct SessionOptions {
     std::chrono::milliseconds loadingDelay{30};
     /// The same when all that is missing could not be read, and may be readable later.
     std::chrono::milliseconds missingDelay{5000};
+    observe::SharedTelemetry telemetry = nullptr;  ///< is told how long pictures take to encode
 };
 
 /// What a session has done so far.
@@ -38,8 +40,9 @@ struct SessionCounts {
 
 /// One view, which one viewer moves and any number see.
 ///
-/// The newest view request of the leader replaces the one before. A render thread draws it while a
-/// second thread encodes the frame before. It is drawn whenever a viewer that has the newest
+/// The newest view request of the leader replaces the one before. Render threads have it drawn,
+/// several frames at once where renderers would be idle, while another thread encodes the frame
+/// before. It is drawn whenever a viewer that has the newest
 /// picture has room for one more, so at the pace of the fastest; each viewer gets the newest
 /// picture when it has room itself, and what it has left out never is sent. Pictures are drawn as
 /// large as the best link takes them, and encoded once for each class of links (QualityControl's
@@ -78,6 +81,12 @@ public:
 
     /// See Viewer.
     std::optional<Clock::duration> unacknowledgedFor(Seat& seat);
+
+    /// From now on only what was asked for is drawn and sent, no finer than while a view moves; new
+    /// views are not heard.
+    void drain();
+    /// Whether the seat has all of that.
+    bool hasDrained(Seat& seat);
 
     SessionCounts counts() const;
     const std::string& name() const;

@@ -40,7 +40,7 @@ absl::Status Viewer::receive(std::span<const std::byte> message) {
                 session->switchLayout(*seat, std::move(one));
             else if constexpr (std::is_same_v<Kind, TakeLead>)
                 session->takeLead(*seat);
-            else
+            else if (!isDraining_)
                 picks_.ask(std::move(one));
         },
         *std::move(request));
@@ -61,6 +61,13 @@ void Viewer::roundTrip(std::chrono::steady_clock::duration time) {
 std::optional<std::chrono::steady_clock::duration> Viewer::unacknowledgedFor() const {
     return joined_.session->unacknowledgedFor(*joined_.seat);
 }
+
+void Viewer::drain() {
+    isDraining_ = true;
+    joined_.session->drain();
+}
+
+bool Viewer::hasDrained() const { return joined_.session->hasDrained(*joined_.seat); }
 
 void Viewer::stop() {
     sessions_.leave(joined_);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <functional>
@@ -51,6 +52,12 @@ public:
     /// acknowledged; absent while there is none.
     std::optional<std::chrono::steady_clock::duration> unacknowledgedFor() const;
 
+    /// From now on only what was asked for is drawn and sent, to it and to those who share its
+    /// session, no finer than while a view moves; new views and picks are not heard.
+    void drain();
+    /// Whether all of that has been taken.
+    bool hasDrained() const;
+
     /// Leaves the session; makes threads end soon, without waiting for them.
     void stop();
 
@@ -58,6 +65,7 @@ private:
     Sessions& sessions_;
     const Sessions::Joined joined_;
     PickDesk picks_;
+    std::atomic<bool> isDraining_ = false;
 };
 
 }  // namespace eyrie::stream

@@ -551,6 +551,75 @@ TEST_F(HttpServer, TellsViewersThatItShutsDown) {
     EXPECT_EQ(error, asio::error::connection_refused);
 }
 
+TEST_F(HttpServer, SendsWhatWasAskedForBeforeItStopsAndTakesNoNewViews) {
+    ServerOptions options;
+    options.drainTimeout = std::chrono::seconds(20);
+    start(options);
+    const auto socket = openSocket();
+    frames_.hold(true);
+    socket->write(asio::buffer(viewBytes(1)));
+    ASSERT_TRUE(frames_.waitForRequests(1));
+    std::thread stopping([this] { server_->stop(); });
+    EXPECT_TRUE(eventually([this] {
+        beast::error_code error;
+        tcp::socket late(io_);
+        late.connect({asio::ip::make_address("127.0.0.1"), port()}, error);
+        return error == asio::error::connection_refused;
+    }));
+    socket->write(asio::buffer(viewBytes(2)));
+    frames_.hold(false);
+    EXPECT_EQ(readFrame(*socket).view_sequence(), 1u);
+    EXPECT_EQ(closeCode(*socket), websocket::close_code::going_away);
+    stopping.join();
+    EXPECT_EQ(frames_.requests().size(), 1u);
+}
+
+TEST_F(HttpServer, TellsPrometheusOfViewersBytesAndRefusals) {
+    start();
+    const auto socket = openSocket();
+    socket->write(asio::buffer(viewBytes(1)));
+    ASSERT_EQ(readFrame(*socket).view_sequence(), 1u);
+    EXPECT_EQ(get("/nothing").result_int(), 404u);
+    const Response response = get("/metrics");
+    EXPECT_EQ(response.result_int(), 200u);
+    EXPECT_EQ(response[beast::http::field::content_type],
+              "text/plain; version=0.0.4; charset=utf-8");
+    EXPECT_THAT(response.body(), HasSubstr("\neyrie_viewers 1\n"));
+    EXPECT_THAT(response.body(), HasSubstr("\neyrie_renderers{condition=\"ready\"} 1\n"));
+    EXPECT_THAT(response.body(),
+                HasSubstr("\neyrie_requests_refused_total{reason=\"not_found\"} 1\n"));
+    EXPECT_THAT(response.body(),
+                Not(HasSubstr("\neyrie_received_bytes_total{peer=\"websocket\"} 0\n")));
+    EXPECT_THAT(response.body(),
+                Not(HasSubstr("\neyrie_sent_bytes_total{peer=\"websocket\"} 0\n")));
+    EXPECT_THAT(response.body(),
+                Not(HasSubstr("eyrie_frame_stage_seconds_count{stage=\"encode\"} 0\n")));
+}
+
+TEST_F(HttpServer, GivesTracesOfAsManyFramesAsAskedFor) {
+    ServerOptions options;
+    options.telemetry = std::make_shared<observe::Telemetry>();
+    const auto now = observe::Clock::now();
+    for (std::uint64_t frame = 1; frame <= 20; ++frame)
+        options.telemetry->traces.add({"coordinator", "frames", "frame", frame,
+                                       now + milliseconds(frame), now + milliseconds(frame + 1)});
+    start(options);
+    const auto count = [](const std::string& text) {
+        std::size_t spans = 0;
+        for (auto at = text.find("\"ph\":\"X\""); at != std::string::npos;
+             at = text.find("\"ph\":\"X\"", at + 1))
+            ++spans;
+        return spans;
+    };
+    EXPECT_EQ(get("/api/v1/trace")[beast::http::field::content_type], "application/json");
+    EXPECT_EQ(count(get("/api/v1/trace").body()), 10u);
+    EXPECT_EQ(count(get("/api/v1/trace?frames=3").body()), 3u);
+    EXPECT_EQ(count(get("/api/v1/trace?frames=1000").body()), 20u);
+    for (const char* wrong : {"0", "-1", "1001", "x", "", "3x", "99999999999999999999"})
+        EXPECT_EQ(get(std::string("/api/v1/trace?frames=") + wrong).result_int(), 400u) << wrong;
+    EXPECT_EQ(get("/api/v1/trace?frame=3").result_int(), 400u);
+}
+
 TEST_F(HttpServer, StopsAlthoughViewersDoNotListen) {
     start();
     const auto deaf = openSocket();

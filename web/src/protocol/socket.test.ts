@@ -12,8 +12,8 @@ import { cameraOf, decodeResponse, encodeAck, encodeView, Shading } from "./mess
 import { reconnectDelay } from "./socket";
 
 describe("reconnectDelay", () => {
-  it("is none at first and never more than a second and a half", () => {
-    expect([0, 1, 2, 3, 4, 100].map(reconnectDelay)).toEqual([0, 250, 500, 1000, 1500, 1500]);
+  it("is none at first and never more than half a second", () => {
+    expect([0, 1, 2, 3, 4, 100].map(reconnectDelay)).toEqual([0, 250, 500, 500, 500, 500]);
   });
 });
 

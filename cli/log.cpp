@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/log.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <string_view>
+#include <utility>
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <spdlog/formatter.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include "cli/json_object.h"
+
+namespace eyrie::cli {
+namespace {
+
+LogOptions current;
+
+/// How many bytes the character at the front has; 0 where it is none.
+std::size_t characterBytes(std::string_view text) {
+    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+    const unsigned char first = byte(0);
+    if (first < 0x80)
+        return 1;
+    const std::size_t bytes = first >= 0xF0 && first < 0xF5   ? 4
+                              : first >= 0xE0 && first < 0xF0 ? 3
+                              : first >= 0xC2 && first < 0xE0 ? 2
+                                                              : 0;
+    if (bytes == 0 || bytes > text.size())
+        return 0;
+    for (std::size_t i = 1; i < bytes; ++i)
+        if (byte(i) < 0x80 || byte(i) > 0xBF)
+            return 0;
+    const bool isTooLong = (first == 0xE0 && byte(1) < 0xA0) || (first == 0xF0 && byte(1) < 0x90);
+    const bool isNone = (first == 0xED && byte(1) > 0x9F) || (first == 0xF4 && byte(1) > 0x8F);
+    return isTooLong || isNone ? 0 : bytes;
+}
+
+/// What is no UTF-8, as of a peer's name, becomes question marks: JSON is UTF-8.
+std::string validUtf8(std::string_view text) {
+    std::string valid;
+    while (!text.empty()) {
+        const std::size_t bytes = characterBytes(text);
+        valid += bytes == 0 ? std::string_view("?") : text.substr(0, bytes);
+        text.remove_prefix(std::max<std::size_t>(1, bytes));
+    }
+    return valid;
+}
+
+class JsonLines final : public spdlog::formatter {
+public:
+    explicit JsonLines(std::string command) : command_(std::move(command)) {}
+
+    void format(const spdlog::details::log_msg& entry, spdlog::memory_buf_t& line) override {
+        const auto seconds = std::chrono::floor<std::chrono::seconds>(entry.time);
+        const auto micro =
+            std::chrono::duration_cast<std::chrono::microseconds>(entry.time - seconds);
+        const auto level = spdlog::level::to_string_view(entry.level);
+        JsonObject json;
+        json.text("time", fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:06}Z",
+                                      fmt::gmtime(std::chrono::system_clock::to_time_t(seconds)),
+                                      micro.count()))
+            .text("level", std::string_view(level.data(), level.size()))
+            .text("command", command_)
+            .count("process", static_cast<std::uint64_t>(getpid()))
+            .count("thread", entry.thread_id)
+            .text("message", validUtf8({entry.payload.data(), entry.payload.size()}));
+        const std::string text = json.str() + "\n";
+        line.append(text.data(), text.data() + text.size());
+    }
+
+    std::unique_ptr<spdlog::formatter> clone() const override {
+        return std::make_unique<JsonLines>(command_);
+    }
+
+private:
+    const std::string command_;
+};
+
+}  // namespace
+
+void startLog(const LogOptions& options) {
+    current = options;
+    spdlog::drop("eyrie");
+    auto logger =
+        options.isJson ? spdlog::stderr_logger_mt("eyrie") : spdlog::stderr_color_mt("eyrie");
+    if (options.isJson)
+        logger->set_formatter(std::make_unique<JsonLines>(options.command));
+    else
+        logger->set_pattern("%H:%M:%S.%e %^%l%$ %v");
+    spdlog::set_default_logger(std::move(logger));
+    spdlog::set_level(options.level.empty() ? spdlog::level::info
+                                            : spdlog::level::from_str(options.level));
+}
+
+void quietLog() {
+    if (current.level.empty())
+        spdlog::set_level(spdlog::level::warn);
+}
+
+std::vector<std::string> logArguments() {
+    std::vector<std::string> arguments;
+    if (current.isJson)
+        arguments.insert(arguments.end(), {"--log-format", "json"});
+    if (!current.level.empty())
+        arguments.insert(arguments.end(), {"--log-level", current.level});
+    return arguments;
+}
+
+void logFailure(const std::string& message) {
+    if (current.isJson)
+        spdlog::error("{}", message);
+    else
+        fmt::print(stderr, "eyrie: {}\n", message);
+}
+
+}  // namespace eyrie::cli

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace eyrie::cli {
+
+/// How this process logs: to standard error, since standard output is for facts and pictures.
+struct LogOptions {
+    bool isJson = false;
+    std::string level;    ///< as spdlog's; empty: info, until quietLog
+    std::string command;  ///< that runs, such as "serve"
+};
+
+/// Before any other thread. As text for people to read, or each entry as a line of JSON with
+/// `time` (UTC, RFC 3339), `level`, `command`, `process`, `thread` and `message`.
+void startLog(const LogOptions& options = {});
+
+/// Only warnings and errors, unless a level was asked for.
+void quietLog();
+
+/// The options by which a child process logs in the same way.
+std::vector<std::string> logArguments();
+
+/// The last word of a command that failed: an entry of a JSON log, "eyrie: …" for people.
+void logFailure(const std::string& message);
+
+}  // namespace eyrie::cli

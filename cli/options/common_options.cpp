@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/options/common_options.h"
+
+#include <set>
+
+namespace eyrie::cli {
+namespace {
+
+constexpr const char* kGroup = "Every command";
+
+void addTo(CLI::App& command, CommonOptions& options) {
+    static const std::set<std::string> kFormats = {"text", "json"};
+    static const std::set<std::string> kLevels = {"trace", "debug", "info", "warn", "error", "off"};
+    command
+        .add_option("--options", options.file,
+                    "A file of options, TOML or INI: for what neither the command line says nor "
+                    "the environment, EYRIE_ and the option's name (docs/operations.md)")
+        ->type_name("FILE")
+        ->group(kGroup);
+    command
+        .add_flag("--print-config", options.printsConfig,
+                  "Print every option, its value and where that came from, and end")
+        ->group(kGroup);
+    command.add_option("--log-format", options.logFormat, "Of the log: text, or JSON, one a line")
+        ->check(CLI::IsMember(kFormats).description(""))
+        ->type_name("text|json")
+        ->capture_default_str()
+        ->group(kGroup);
+    command.add_option("--log-level", options.logLevel, "The least that is logged [info]")
+        ->check(CLI::IsMember(kLevels).description(""))
+        ->type_name("trace|debug|info|warn|error|off")
+        ->group(kGroup);
+}
+
+}  // namespace
+
+void addCommonOptions(CLI::App& app, CommonOptions& options) {
+    const auto inner = app.get_subcommands({});
+    if (inner.empty() && app.get_parent() != nullptr)
+        addTo(app, options);
+    for (CLI::App* command : inner) addCommonOptions(*command, options);
+}
+
+}  // namespace eyrie::cli

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/farm/channel_report.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "eyrie/v1/render_service.pb.h"
+
+namespace eyrie::coordinator {
+namespace {
+
+using observe::Clock;
+using std::chrono::nanoseconds;
+
+nanoseconds ofMilliseconds(double milliseconds) {
+    return std::chrono::duration_cast<nanoseconds>(
+        std::chrono::duration<double, std::milli>(std::clamp(milliseconds, 0.0, 1e9)));
+}
+
+/// In the order that ChannelTimes promises.
+bool isInOrder(const v1::ChannelTimes& times) {
+    return 0 <= times.received() && times.received() <= times.begun() &&
+           times.begun() <= times.drawn() && times.drawn() <= times.sent();
+}
+
+}  // namespace
+
+ChannelReport::ChannelReport(const std::string& address, observe::SharedTelemetry telemetry)
+    : name_(observe::rendererName(address)), telemetry_(std::move(telemetry)) {}
+
+void ChannelReport::asked(std::uint64_t frame) {
+    frame_ = frame;
+    header_.reset();
+    bytes_ = 0;
+    asked_ = Clock::now();
+}
+
+void ChannelReport::headerCame(const v1::ChannelHeader& header) {
+    header_ = Clock::now();
+    if (telemetry_ == nullptr)
+        return;
+    if (header.has_memory())
+        telemetry_->metrics.rendererHolds(name_, header.memory().device_bytes(),
+                                          header.memory().host_bytes());
+    const v1::ChannelTimes& times = header.times();
+    if (!header.has_times() || !isInOrder(times))
+        return;
+    const auto& stages = header.statistics().milliseconds();
+    const There there{nanoseconds(times.received()),    nanoseconds(times.begun()),
+                      nanoseconds(times.drawn()),       nanoseconds(times.sent()),
+                      ofMilliseconds(stages.cull()),    ofMilliseconds(stages.draw()),
+                      ofMilliseconds(stages.readback())};
+    if (const auto offset = clock_.note({asked_, there.received, there.sent, *header_}))
+        tellThere(there, *offset);
+}
+
+/// The stages come one after the other from when drawing begins; what a stage does later counts as
+/// if it came with the rest of it.
+void ChannelReport::tellThere(const There& there, const observe::ClockMap::Offset& offset) {
+    const auto tell = [&](const char* name, nanoseconds begin, nanoseconds end) {
+        telemetry_->traces.add({name_, "channels", name, frame_, offset.here(begin),
+                                offset.here(std::max(begin, end)), offset.bound});
+    };
+    tell("channel", there.received, there.sent);
+    tell("queue", there.received, there.begun);
+    tell("render", there.begun, there.drawn);
+    nanoseconds at = there.begun;
+    for (const auto& [name, time] : {std::pair("cull", there.cull), std::pair("draw", there.draw),
+                                     std::pair("readback", there.readback)}) {
+        const nanoseconds end = std::min(at + time, there.drawn);
+        tell(name, at, end);
+        at = end;
+    }
+}
+
+void ChannelReport::ended(const absl::Status& status) {
+    if (telemetry_ == nullptr)
+        return;
+    const Clock::time_point now = Clock::now();
+    const std::string thread = "asks " + name_;
+    observe::Span call{"coordinator", thread, "channel", frame_, asked_, now};
+    if (!status.ok())
+        call.note = absl::StatusCodeToString(status.code());
+    telemetry_->traces.add(std::move(call));
+    if (header_) {
+        telemetry_->metrics.took(observe::Stage::Receive, now - *header_);
+        telemetry_->traces.add({"coordinator", thread, "receive", frame_, *header_, now});
+    }
+    telemetry_->metrics.bytes(observe::Peer::Renderer, observe::Direction::In, bytes_);
+}
+
+}  // namespace eyrie::coordinator

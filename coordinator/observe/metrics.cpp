@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/observe/metrics.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include <prometheus/counter.h>
+#include <prometheus/gauge.h>
+#include <prometheus/histogram.h>
+#include <prometheus/registry.h>
+#include <prometheus/text_serializer.h>
+
+#include "coordinator/observe/process_figures.h"
+#include "fabric/version.h"
+
+namespace eyrie::observe {
+namespace {
+
+using prometheus::Counter;
+using prometheus::Family;
+using prometheus::Gauge;
+using prometheus::Histogram;
+
+const Histogram::BucketBoundaries kSeconds = {0.001, 0.002, 0.005, 0.01, 0.016, 0.025, 0.033,
+                                              0.05,  0.1,   0.2,   0.5,  1,     2,     5};
+const Histogram::BucketBoundaries kPixels = {0.25, 0.5, 1, 1.5, 2, 4, 8, 16, 32, 64};
+
+/// Reasons by HTTP status; what is not listed counts as "other".
+constexpr std::array<std::pair<int, std::string_view>, 13> kReasons = {{
+    {400, "malformed"},
+    {401, "unauthenticated"},
+    {403, "forbidden"},
+    {404, "not_found"},
+    {405, "method"},
+    {408, "too_slow"},
+    {412, "precondition"},
+    {413, "body_too_large"},
+    {426, "not_a_websocket"},
+    {429, "rate"},
+    {431, "header_too_large"},
+    {500, "failed"},
+    {503, "unavailable"},
+}};
+constexpr std::string_view kOther = "other";
+
+std::string reasonOf(int status) {
+    for (const auto& [known, reason] : kReasons)
+        if (known == status)
+            return std::string(reason);
+    return std::string(kOther);
+}
+
+std::string nameOf(Peer peer) {
+    return peer == Peer::Http ? "http" : peer == Peer::WebSocket ? "websocket" : "renderer";
+}
+
+}  // namespace
+
+std::string_view nameOf(Stage stage) {
+    switch (stage) {
+        case Stage::Turn:
+            return "turn";
+        case Stage::Plan:
+            return "plan";
+        case Stage::Render:
+            return "render";
+        case Stage::Compose:
+            return "compose";
+        case Stage::Total:
+            return "total";
+        case Stage::Cull:
+            return "cull";
+        case Stage::Draw:
+            return "draw";
+        case Stage::Readback:
+            return "readback";
+        case Stage::Receive:
+            return "receive";
+        case Stage::Encode:
+            return "encode";
+        case Stage::Send:
+            return "send";
+    }
+    return "";
+}
+
+class Metrics::Impl {
+public:
+    Impl() {
+        for (int stage = 0; stage <= static_cast<int>(kLastStage); ++stage)
+            byStage_.push_back(&stages_.Add(
+                {{"stage", std::string(nameOf(static_cast<Stage>(stage)))}}, kSeconds));
+        for (const auto& [status, reason] : kReasons)
+            refused_.Add({{"reason", std::string(reason)}});
+        refused_.Add({{"reason", std::string(kOther)}});
+        for (const Peer peer : {Peer::Http, Peer::WebSocket, Peer::Renderer}) {
+            received_.Add({{"peer", nameOf(peer)}});
+            if (peer != Peer::Renderer)  // what it is sent is small, and not counted
+                sent_.Add({{"peer", nameOf(peer)}});
+        }
+        family(&prometheus::BuildGauge, "eyrie_build_info", "Which Eyrie this is; always 1.")
+            .Add({{"version", std::string(fabric::kVersion)}})
+            .Set(1);
+        startTime_.SetToCurrentTime();
+    }
+
+    void frameMade(const fabric::FrameStatistics& statistics) {
+        (statistics.complete ? complete_ : degraded_).Increment();
+        if (std::isfinite(statistics.tauAchievedPixels))
+            error_.Observe(statistics.tauAchievedPixels);
+        else
+            unbounded_.Increment();
+        triangles_.Increment(static_cast<double>(statistics.triangles));
+        pages_.Increment(static_cast<double>(statistics.pagesLoaded));
+        pageBytes_.Increment(static_cast<double>(statistics.bytesLoaded));
+        missing_.Set(static_cast<double>(statistics.pagesMissing));
+        unreadable_.Set(static_cast<double>(statistics.pagesFailed));
+        const fabric::StageMilliseconds& ms = statistics.milliseconds;
+        took(Stage::Cull, std::chrono::duration<double, std::milli>(ms.cull));
+        took(Stage::Draw, std::chrono::duration<double, std::milli>(ms.draw));
+        took(Stage::Readback, std::chrono::duration<double, std::milli>(ms.readback));
+    }
+
+    void frameFailed() { failed_.Increment(); }
+
+    void took(Stage stage, std::chrono::duration<double> time) {
+        byStage_[static_cast<std::size_t>(stage)]->Observe(time.count());
+    }
+
+    void bytes(Peer peer, Direction direction, std::size_t count) {
+        (direction == Direction::In ? received_ : sent_)
+            .Add({{"peer", nameOf(peer)}})
+            .Increment(static_cast<double>(count));
+    }
+
+    void viewers(int change) { viewers_.Increment(change); }
+    void taskReissued(bool wasLate) { (wasLate ? late_ : afterFailure_).Increment(); }
+    void refused(int status) {
+        if (status >= 400)
+            refused_.Add({{"reason", reasonOf(status)}}).Increment();
+    }
+
+    void rendererHolds(const std::string& name, std::uint64_t deviceBytes,
+                       std::uint64_t hostBytes) {
+        const std::lock_guard lock(heldMutex_);
+        Held& held = held_[name];
+        if (held.device == nullptr) {
+            held.device = &memory_.Add({{"renderer", name}, {"memory", "device"}});
+            held.host = &memory_.Add({{"renderer", name}, {"memory", "host"}});
+        }
+        held.device->Set(static_cast<double>(deviceBytes));
+        held.host->Set(static_cast<double>(hostBytes));
+    }
+
+    std::string text(const std::map<std::string, int>& renderers,
+                     const std::map<std::string, bool>& present) {
+        for (const auto& [condition, count] : renderers)
+            renderers_.Add({{"condition", condition}}).Set(count);
+        forgetAbsent(present);
+        const ProcessFigures figures = processFigures();
+        cpu_.Increment(std::max(0.0, figures.cpuSeconds - cpu_.Value()));
+        resident_.Set(static_cast<double>(figures.residentBytes));
+        virtual_.Set(static_cast<double>(figures.virtualBytes));
+        files_.Set(static_cast<double>(figures.openFiles));
+        threads_.Set(static_cast<double>(figures.threads));
+        return prometheus::TextSerializer().Serialize(registry_.Collect());
+    }
+
+private:
+    struct Held {
+        Gauge* device = nullptr;
+        Gauge* host = nullptr;
+    };
+
+    template <typename Builder>
+    auto family(Builder (*build)(), const char* name, const char* help)
+        -> decltype(build().Register(std::declval<prometheus::Registry&>())) {
+        return build().Name(name).Help(help).Register(registry_);
+    }
+    Family<Counter>& counters(const char* name, const char* help) {
+        return family(&prometheus::BuildCounter, name, help);
+    }
+    Counter& counter(const char* name, const char* help) { return counters(name, help).Add({}); }
+    Family<Gauge>& gauges(const char* name, const char* help) {
+        return family(&prometheus::BuildGauge, name, help);
+    }
+    Gauge& gauge(const char* name, const char* help) { return gauges(name, help).Add({}); }
+    Family<Histogram>& histograms(const char* name, const char* help) {
+        return family(&prometheus::BuildHistogram, name, help);
+    }
+
+    void forgetAbsent(const std::map<std::string, bool>& present) {
+        const std::lock_guard lock(heldMutex_);
+        std::erase_if(held_, [&](const auto& entry) {
+            if (present.contains(entry.first))
+                return false;
+            memory_.Remove(entry.second.device);
+            memory_.Remove(entry.second.host);
+            return true;
+        });
+    }
+
+    prometheus::Registry registry_;
+    Family<Counter>& frames_ =
+        counters("eyrie_frames_total", "Frames: complete, degraded (data were missing) or failed.");
+    Counter& complete_ = frames_.Add({{"result", "complete"}});
+    Counter& degraded_ = frames_.Add({{"result", "degraded"}});
+    Counter& failed_ = frames_.Add({{"result", "failed"}});
+    Family<Histogram>& stages_ =
+        histograms("eyrie_frame_stage_seconds", "Where the time of frames goes.");
+    std::vector<Histogram*> byStage_;
+    Histogram& error_ =
+        histograms("eyrie_frame_error_pixels", "Screen-space error promised with each frame.")
+            .Add({}, kPixels);
+    Counter& unbounded_ =
+        counter("eyrie_frames_unbounded_total", "Frames without a finite bound on their error.");
+    Counter& triangles_ = counter("eyrie_triangles_total", "Triangles drawn.");
+    Counter& pages_ = counter("eyrie_pages_loaded_total", "Pages that renderers loaded.");
+    Counter& pageBytes_ =
+        counter("eyrie_page_bytes_loaded_total", "Of the pages that renderers loaded, as stored.");
+    Gauge& missing_ = gauge("eyrie_pages_missing",
+                            "Pages that the last frame needed and renderers were yet loading.");
+    Gauge& unreadable_ =
+        gauge("eyrie_pages_unreadable", "Those of the last frame that could not be read.");
+    Family<Counter>& received_ = counters("eyrie_received_bytes_total", "Bytes received.");
+    Family<Counter>& sent_ = counters("eyrie_sent_bytes_total", "Bytes sent.");
+    Gauge& viewers_ = gauge("eyrie_viewers", "Browsers that are connected.");
+    Family<Gauge>& renderers_ = gauges("eyrie_renderers", "Renderers by their condition.");
+    Family<Counter>& reissued_ =
+        counters("eyrie_tasks_reissued_total", "Channel tasks given to another renderer as well.");
+    Counter& late_ = reissued_.Add({{"reason", "late"}});
+    Counter& afterFailure_ = reissued_.Add({{"reason", "failed"}});
+    Family<Gauge>& memory_ =
+        gauges("eyrie_renderer_memory_bytes", "What a renderer holds for its scene.");
+    Family<Counter>& refused_ = counters("eyrie_requests_refused_total", "HTTP requests refused.");
+    Counter& cpu_ = counter("process_cpu_seconds_total", "User and system time of this process.");
+    Gauge& resident_ = gauge("process_resident_memory_bytes", "Memory in use by this process.");
+    Gauge& virtual_ = gauge("process_virtual_memory_bytes", "Address space of this process.");
+    Gauge& files_ = gauge("process_open_fds", "Open file descriptors of this process.");
+    Gauge& threads_ = gauge("process_threads", "Threads of this process.");
+    Gauge& startTime_ = gauge("process_start_time_seconds", "When this process began, since 1970.");
+
+    std::mutex heldMutex_;  ///< guards held_
+    std::map<std::string, Held> held_;
+};
+
+Metrics::Metrics() : impl_(std::make_unique<Impl>()) {}
+Metrics::~Metrics() = default;
+
+void Metrics::frameMade(const fabric::FrameStatistics& statistics) { impl_->frameMade(statistics); }
+void Metrics::frameFailed() { impl_->frameFailed(); }
+void Metrics::took(Stage stage, std::chrono::duration<double> time) { impl_->took(stage, time); }
+void Metrics::bytes(Peer peer, Direction direction, std::size_t count) {
+    impl_->bytes(peer, direction, count);
+}
+void Metrics::viewers(int change) { impl_->viewers(change); }
+void Metrics::taskReissued(bool wasLate) { impl_->taskReissued(wasLate); }
+void Metrics::refused(int status) { impl_->refused(status); }
+void Metrics::rendererHolds(const std::string& name, std::uint64_t deviceBytes,
+                            std::uint64_t hostBytes) {
+    impl_->rendererHolds(name, deviceBytes, hostBytes);
+}
+std::string Metrics::text(const std::map<std::string, int>& renderers,
+                          const std::map<std::string, bool>& present) {
+    return impl_->text(renderers, present);
+}
+
+std::string rendererName(const std::string& address) {
+    constexpr std::string_view kUnix = "unix:";
+    if (!address.starts_with(kUnix))
+        return address;
+    const std::size_t slash = address.rfind('/');
+    return address.substr(slash == std::string::npos ? kUnix.size() : slash + 1);
+}
+
+}  // namespace eyrie::observe

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "fabric/statistics.h"
+
+namespace eyrie::observe {
+
+/// Where the time of a frame goes; docs/operations.md says what each is.
+enum class Stage {
+    Turn,     ///< waiting for the frame before
+    Plan,     ///< from the configuration to channel tasks
+    Render,   ///< tasks out, pictures in
+    Compose,  ///< one picture of many
+    Total,    ///< from the turn to the picture
+    Cull,     ///< of the renderer that took longest, as are the next two
+    Draw,
+    Readback,
+    Receive,  ///< of one channel: its pixels, from the header to the last
+    Encode,   ///< for one browser
+    Send,     ///< to one browser, until the system has taken it
+};
+std::string_view nameOf(Stage stage);
+inline constexpr Stage kLastStage = Stage::Send;
+
+enum class Peer { Http, WebSocket, Renderer };
+enum class Direction { In, Out };
+
+/// Numbers for Prometheus, counted since the process began. All functions may be called from any
+/// thread. Every name and label is in docs/operations.md.
+class Metrics {
+public:
+    Metrics();
+    ~Metrics();
+    Metrics(const Metrics&) = delete;
+    Metrics& operator=(const Metrics&) = delete;
+
+    void frameMade(const fabric::FrameStatistics& statistics);
+    void frameFailed();
+    void took(Stage stage, std::chrono::duration<double> time);
+    void bytes(Peer peer, Direction direction, std::size_t count);
+    void viewers(int change);
+    void taskReissued(bool wasLate);  ///< else the renderer before had failed
+    /// By HTTP status, 400 or more; others are not counted.
+    void refused(int status);
+    /// What a renderer holds for its scene.
+    void rendererHolds(const std::string& name, std::uint64_t deviceBytes, std::uint64_t hostBytes);
+
+    /// In the text form that Prometheus scrapes. `renderers`: how many are in each condition. What
+    /// renderers hold that are not among `present` is forgotten.
+    std::string text(const std::map<std::string, int>& renderers,
+                     const std::map<std::string, bool>& present);
+
+    static constexpr std::string_view kContentType = "text/plain; version=0.0.4; charset=utf-8";
+
+private:
+    class Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+/// A short name for the renderer at `address`: "renderer-0-1" of a Unix socket of that name, else
+/// the address.
+std::string rendererName(const std::string& address);
+
+}  // namespace eyrie::observe

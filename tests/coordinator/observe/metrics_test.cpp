@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/observe/metrics.h"
+
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <regex>
+#include <set>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/json.h"
+
+namespace eyrie::observe {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::Not;
+
+std::string textOf(const std::string& path) {
+    std::ifstream file(EYRIE_SOURCE_DIR "/" + path);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::string scraped(Metrics& metrics) {
+    return metrics.text({{"ready", 2}, {"dead", 0}}, {{"renderer-0-1", true}});
+}
+
+/// Of everything that can be scraped: "eyrie_frames_total" and so on.
+std::set<std::string> families() {
+    Metrics metrics;
+    metrics.rendererHolds("renderer-0-1", 1, 2);
+    const std::string text = scraped(metrics);
+    const std::regex type("# TYPE (\\w+) ");
+    std::set<std::string> names;
+    for (std::sregex_iterator at(text.begin(), text.end(), type), end; at != end; ++at)
+        names.insert((*at)[1]);
+    return names;
+}
+
+void collectQueries(const test::JsonValue& value, std::vector<std::string>& queries) {
+    for (const auto& [name, field] : value.struct_value().fields()) {
+        if (name == "expr")
+            queries.push_back(field.string_value());
+        collectQueries(field, queries);
+    }
+    for (const auto& element : value.list_value().values()) collectQueries(element, queries);
+}
+
+TEST(Metrics, CountsFramesByWhatBecameOfThem) {
+    Metrics metrics;
+    fabric::FrameStatistics statistics;
+    statistics.tauAchievedPixels = 0.75;
+    statistics.triangles = 1000;
+    metrics.frameMade(statistics);
+    statistics.complete = false;
+    statistics.pagesMissing = 3;
+    metrics.frameMade(statistics);
+    metrics.frameFailed();
+    const std::string text = scraped(metrics);
+    EXPECT_THAT(text, HasSubstr("eyrie_frames_total{result=\"complete\"} 1\n"));
+    EXPECT_THAT(text, HasSubstr("eyrie_frames_total{result=\"degraded\"} 1\n"));
+    EXPECT_THAT(text, HasSubstr("eyrie_frames_total{result=\"failed\"} 1\n"));
+    EXPECT_THAT(text, HasSubstr("eyrie_frame_error_pixels_bucket{le=\"0.5\"} 0\n"));
+    EXPECT_THAT(text, HasSubstr("eyrie_frame_error_pixels_bucket{le=\"1\"} 2\n"));
+    EXPECT_THAT(text, HasSubstr("eyrie_triangles_total 2000\n"));
+    EXPECT_THAT(text, HasSubstr("eyrie_pages_missing 3\n"));
+    EXPECT_THAT(text, HasSubstr("eyrie_renderers{condition=\"ready\"} 2\n"));
+}
+
+TEST(Metrics, KeepsAnInfiniteErrorOutOfTheSum) {
+    Metrics metrics;
+    fabric::FrameStatistics statistics;
+    statistics.tauAchievedPixels = std::numeric_limits<double>::infinity();
+    metrics.frameMade(statistics);
+    EXPECT_THAT(scraped(metrics), HasSubstr("eyrie_frames_unbounded_total 1\n"));
+    EXPECT_THAT(scraped(metrics), HasSubstr("eyrie_frame_error_pixels_sum 0\n"));
+}
+
+TEST(Metrics, TellsRefusalsApart) {
+    Metrics metrics;
+    for (const int status : {200, 403, 404, 404, 418}) metrics.refused(status);
+    const std::string text = scraped(metrics);
+    EXPECT_THAT(text, HasSubstr("eyrie_requests_refused_total{reason=\"forbidden\"} 1\n"));
+    EXPECT_THAT(text, HasSubstr("eyrie_requests_refused_total{reason=\"not_found\"} 2\n"));
+    EXPECT_THAT(text, HasSubstr("eyrie_requests_refused_total{reason=\"other\"} 1\n"));
+    EXPECT_THAT(text, HasSubstr("eyrie_requests_refused_total{reason=\"rate\"} 0\n"));
+}
+
+TEST(Metrics, ForgetsRenderersThatAreGone) {
+    Metrics metrics;
+    metrics.rendererHolds("renderer-0-1", 10, 20);
+    metrics.rendererHolds("renderer-1-1", 30, 40);
+    EXPECT_THAT(scraped(metrics), HasSubstr("renderer=\"renderer-0-1\""));
+    EXPECT_THAT(scraped(metrics), Not(HasSubstr("renderer=\"renderer-1-1\"")));
+    metrics.rendererHolds("renderer-1-1", 50, 60);
+    EXPECT_THAT(metrics.text({}, {{"renderer-1-1", true}}), HasSubstr("memory=\"host\""));
+}
+
+TEST(Metrics, EachHasAPlaceInTheDocumentation) {
+    const std::string documentation = textOf("docs/operations.md");
+    for (const std::string& name : families())
+        EXPECT_THAT(documentation, HasSubstr("`" + name + "`"));
+    for (int stage = 0; stage <= static_cast<int>(kLastStage); ++stage)
+        EXPECT_THAT(documentation,
+                    HasSubstr("`" + std::string(nameOf(static_cast<Stage>(stage))) + "`"));
+}
+
+TEST(Metrics, TheDashboardAsksForNothingElse) {
+    std::vector<std::string> queries;
+    collectQueries(test::parseJson(textOf("deploy/grafana/eyrie.json")), queries);
+    ASSERT_GT(queries.size(), 8u);
+    const std::set<std::string> known = families();
+    const std::regex word("\\b(?:eyrie|process)_\\w+");
+    for (const std::string& query : queries) {
+        int names = 0;
+        for (std::sregex_iterator at(query.begin(), query.end(), word), end; at != end; ++at) {
+            const std::string series = at->str();
+            const std::string family =
+                std::regex_replace(series, std::regex("_(bucket|sum|count)$"), "");
+            EXPECT_TRUE(known.contains(series) || known.contains(family)) << query;
+            ++names;
+        }
+        EXPECT_GT(names, 0) << query;
+    }
+}
+
+TEST(RendererName, IsShortForASocket) {
+    EXPECT_EQ(rendererName("unix:/tmp/eyrie-abc/renderer-0-1"), "renderer-0-1");
+    EXPECT_EQ(rendererName("unix:renderer"), "renderer");
+    EXPECT_EQ(rendererName("10.0.0.7:5000"), "10.0.0.7:5000");
+}
+
+}  // namespace
+}  // namespace eyrie::observe
