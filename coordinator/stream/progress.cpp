@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/stream/progress.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace eyrie::stream {
@@ -56,7 +57,7 @@ bool Progress::mayRender(Clock::time_point now) const {
 
 /// The last picture shows the view that is wanted.
 bool Progress::isShown() const {
-    return last_.has_value() && !isRenderNeeded_ && !isLoading_ && !isRendering_ &&
+    return last_.has_value() && !isRenderNeeded_ && !isLoading_ && rendering_ == 0 &&
            !rendered_.has_value() && isSame(last_->view, *wanted_);
 }
 
@@ -78,12 +79,14 @@ std::optional<Clock::time_point> Progress::nextRender(Clock::time_point now) con
 void Progress::renderStarted() {
     isRenderNeeded_ = false;
     redrawAt_.reset();
-    isRendering_ = true;
+    ++rendering_;
 }
 
 void Progress::rendered(Picture picture, Clock::time_point now) {
-    isRendering_ = false;
+    --rendering_;
     retryAt_.reset();
+    if (picture.started < std::exchange(newest_, std::max(newest_, picture.started)))
+        return;
     const fabric::FrameStatistics& statistics = picture.frame->statistics;
     if (isSame(picture.view, *wanted_)) {
         isLoading_ = !statistics.complete && (statistics.pagesMissing == 0 ||
@@ -95,7 +98,7 @@ void Progress::rendered(Picture picture, Clock::time_point now) {
 }
 
 void Progress::renderFailed(Clock::time_point now) {
-    isRendering_ = false;
+    --rendering_;
     // A newer view is drawn at once; the same one, after a while.
     if (!isRenderNeeded_)
         retryAt_ = now + options_.retryDelay;
@@ -140,7 +143,7 @@ void Progress::encoded(Picture picture, Fineness fineness, bool isLost) {
 }
 
 int Progress::underWay() const {
-    return (isRendering_ ? 1 : 0) + (rendered_.has_value() ? 1 : 0) + (isEncoding_ ? 1 : 0);
+    return rendering_ + (rendered_.has_value() ? 1 : 0) + (isEncoding_ ? 1 : 0);
 }
 
 }  // namespace eyrie::stream

@@ -44,16 +44,17 @@ public:
     /// The view has not moved for a while.
     bool hasRested(Clock::time_point now) const;
 
-    // ---- Drawing, by one thread.
+    // ---- Drawing, of several frames at once.
 
     bool mayRender(Clock::time_point now) const;
     /// When a frame is next to be drawn although nothing changes.
     std::optional<Clock::time_point> nextRender(Clock::time_point now) const;
     void renderStarted();
+    /// One that began before one that is there already is left out.
     void rendered(Picture picture, Clock::time_point now);
     void renderFailed(Clock::time_point now);
 
-    // ---- Encoding, by another.
+    // ---- Encoding, by one thread.
 
     /// The picture to encode next, if there is one that has not been, or one to be sent finer;
     /// the second only where `hasRoom`.
@@ -82,7 +83,8 @@ private:
     std::optional<Clock::time_point> redrawAt_;  ///< set after an incomplete frame of this view
     bool isLoading_ = false;                     ///< it lacked data that are on their way
 
-    bool isRendering_ = false;
+    int rendering_ = 0;                ///< frames
+    Clock::time_point newest_{};       ///< when the newest that is there began
     std::optional<Picture> rendered_;  ///< for the encoder to take
     bool isEncoding_ = false;
     std::optional<Picture> last_;  ///< that was encoded

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/stream/viewer.h"
 
+#include <algorithm>
+#include <array>
 #include <condition_variable>
 #include <mutex>
 #include <string_view>
@@ -27,6 +29,10 @@ std::string_view text(const absl::Status& status) {
 /// first, since shaders are compiled in the ones before.
 constexpr std::uint64_t kFramesToAMeasurement = 32;
 
+/// Frames that are drawn for one browser at once, at most: renderers decide whether more than one
+/// is, and the browser whether there is room.
+constexpr std::size_t kRenderThreads = 3;
+
 double pixelsOf(const ViewRequest& view) {
     return static_cast<double>(view.frame.width) * view.frame.height;
 }
@@ -45,13 +51,13 @@ public:
           picks_(frames_, [this] { messageReady_(); }) {
         subscription_ = frames_.subscribe([this] { statusChanged(); });
         encoder_ = std::thread([this] { encodeLoop(); });
-        renderer_ = std::thread([this] { renderLoop(); });
+        for (std::thread& thread : renderers_) thread = std::thread([this] { renderLoop(); });
     }
 
     ~Impl() {
         stop();
         frames_.unsubscribe(subscription_);
-        renderer_.join();
+        for (std::thread& thread : renderers_) thread.join();
         encoder_.join();
     }
 
@@ -147,14 +153,14 @@ private:
         lock.lock();
     }
 
-    // ---- The render thread.
+    // ---- The render threads.
 
     void renderLoop() {
         std::unique_lock lock(mutex_);
         while (!isStopping_) {
             if (switch_)
                 switchLayout(lock);
-            else if (progress_.mayRender(Clock::now()) && hasRoom())
+            else if (!isStarting_ && progress_.mayRender(Clock::now()) && hasRoom())
                 renderOne(lock);
             else
                 waitForChange(lock, progress_.nextRender(Clock::now()));
@@ -171,41 +177,71 @@ private:
         changed_.notify_all();
     }
 
-    void renderOne(std::unique_lock<std::mutex>& lock) {
-        const Clock::time_point started = Clock::now();
-        const ViewRequest view = *progress_.wanted();
-        const bool isAtRest = progress_.hasRested(started);
-        quality_.adapt(outbox_.link().bytesPerSecond(started), pixelsOf(view), started);
-        const int level = quality_.index();
-        coordinator::FrameRequest request =
-            drawingOf(view, source_.has_value() ? &source_->sceneInfo : nullptr,
-                      isAtRest ? 1 : QualityControl::level(level).scale);
+    /// A frame that has begun.
+    struct Begun {
+        ViewRequest view;
+        coordinator::FrameRequest request;
+        Clock::time_point at;
+        int level = 0;
+    };
+
+    /// The newest view, when its frame's turn has come. With mutex_ held.
+    Begun begin() {
+        Begun begun{*progress_.wanted(), {}, Clock::now()};
+        const bool isAtRest = progress_.hasRested(begun.at);
+        quality_.adapt(outbox_.link().bytesPerSecond(begun.at), pixelsOf(begun.view), begun.at);
+        begun.level = quality_.index();
+        begun.request = drawingOf(begun.view, source_.has_value() ? &source_->sceneInfo : nullptr,
+                                  isAtRest ? 1 : QualityControl::level(begun.level).scale);
         if (isAtRest)
-            request.budgetMilliseconds.reset();
+            begun.request.budgetMilliseconds.reset();
         // Measuring has no place in a limited time.
-        request.measuresStages =
-            !request.budgetMilliseconds && ++requested_ % kFramesToAMeasurement == 4;
+        begun.request.measuresStages =
+            !begun.request.budgetMilliseconds && ++requested_ % kFramesToAMeasurement == 4;
+        isStarting_ = false;
         progress_.renderStarted();
+        return begun;
+    }
+
+    void renderOne(std::unique_lock<std::mutex>& lock) {
+        isStarting_ = true;
+        std::optional<Begun> begun;
         lock.unlock();
-        absl::StatusOr<coordinator::RenderedFrame> frame = frames_.renderFrame(request);
+        absl::StatusOr<coordinator::RenderedFrame> frame =
+            frames_.renderLatest([&]() -> std::optional<coordinator::FrameRequest> {
+                const std::lock_guard choosing(mutex_);
+                if (isStopping_)
+                    return std::nullopt;
+                begun = begin();
+                changed_.notify_all();  // another may get in line
+                return begun->request;
+            });
         lock.lock();
+        if (!begun)
+            begun = begin();
+        rendered(*begun, std::move(frame));
+        changed_.notify_all();
+    }
+
+    /// With mutex_ held.
+    void rendered(const Begun& begun, absl::StatusOr<coordinator::RenderedFrame> frame) {
         const Clock::time_point now = Clock::now();
         if (frame.ok()) {
-            outbox_.rendered(now - started);
+            // Of frames at the same time each takes what it adds.
+            outbox_.rendered(now - std::max(begun.at, std::exchange(lastRendered_, now)));
             setProblem(renderProblem_, "");
-            tellAtFullSize(frame->statistics, view, request);
-            Picture picture{view,
+            tellAtFullSize(frame->statistics, begun.view, begun.request);
+            Picture picture{begun.view,
                             std::make_shared<const coordinator::RenderedFrame>(*std::move(frame)),
-                            started};
-            picture.level = level;
-            if (!(request.camera == view.frame.camera))
-                picture.liftedCamera = request.camera;
+                            begun.at};
+            picture.level = begun.level;
+            if (!(begun.request.camera == begun.view.frame.camera))
+                picture.liftedCamera = begun.request.camera;
             progress_.rendered(std::move(picture), now);
         } else {
             setProblem(renderProblem_, sanitised(text(frame.status())));
             progress_.renderFailed(now);
         }
-        changed_.notify_all();
     }
 
     // ---- The encoder thread.
@@ -287,6 +323,8 @@ private:
     std::mutex mutex_;  // guards everything below, up to the desk
     std::condition_variable changed_;
     bool isStopping_ = false;
+    bool isStarting_ = false;  ///< a render thread waits for its frame's turn
+    Clock::time_point lastRendered_{};
     Progress progress_;
     QualityControl quality_;
     Outbox outbox_;
@@ -302,7 +340,7 @@ private:
     PickDesk picks_;
     int subscription_ = 0;
     std::thread encoder_;
-    std::thread renderer_;
+    std::array<std::thread, kRenderThreads> renderers_;
 };
 
 Viewer::Viewer(coordinator::FrameSource& frames, std::function<void()> messageReady,

@@ -32,14 +32,14 @@ struct ViewerOptions {
 /// One browser's stream of frames, without the network: bytes come in by receive() and go out by
 /// takeMessage(), so nothing is ever queued for a browser that does not keep up.
 ///
-/// The newest view request replaces the one before. A render thread draws it while a second thread
-/// encodes the frame before. At most as many frames are under way as the Pacer says, each as large
-/// as QualityControl says, and an encoded frame that still waits is replaced by a newer one. A view
-/// that rests is sent as a JPEG of quality 95, and then as a PNG that is the server's picture bit
-/// for bit; what has not been sent of them when it moves again never is. Nothing is rendered or
-/// sent while neither the view nor the scene nor the renderers change and the last frame is
-/// complete. A frame that fails leaves the last picture in place and becomes the state's problem
-/// text.
+/// The newest view request replaces the one before. Render threads have it drawn, several frames at
+/// once where renderers would be idle, while another thread encodes the frame before. At most as
+/// many frames are under way as the Pacer says, each as large as QualityControl says, and an
+/// encoded frame that still waits is replaced by a newer one. A view that rests is sent as a JPEG
+/// of quality 95, and then as a PNG that is the server's picture bit for bit; what has not been
+/// sent of them when it moves again never is. Nothing is rendered or sent while neither the view
+/// nor the scene nor the renderers change and the last frame is complete. A frame that fails leaves
+/// the last picture in place and becomes the state's problem text.
 ///
 /// All functions may be called from any thread.
 class Viewer {
@@ -49,7 +49,7 @@ public:
     Viewer(coordinator::FrameSource& frames, std::function<void()> messageReady,
            const ViewerOptions& options = {});
 
-    /// Waits for the frame being rendered. `messageReady` is not called afterwards.
+    /// Waits for the frames being rendered. `messageReady` is not called afterwards.
     ~Viewer();
     Viewer(const Viewer&) = delete;
     Viewer& operator=(const Viewer&) = delete;
