@@ -97,6 +97,28 @@ TEST(Viewer, RendersTheNextFrameWhileTheLastIsUnderWay) {
     EXPECT_EQ(browser.nextFrame()->view_sequence(), 2u) << "although frame 1 is not acknowledged";
 }
 
+TEST(Viewer, HasAsManyFramesDrawnAtOnceAsMayBeUnderWay) {
+    FakeFrameSource frames;
+    frames.hold(true);
+    Browser browser(frames, moving(2));
+    browser.look(1);
+    ASSERT_TRUE(frames.waitForRequests(1));
+    browser.look(2);
+    EXPECT_TRUE(frames.waitForRequests(2)) << "the source decides what it draws at once";
+    browser.look(3);
+    std::this_thread::sleep_for(milliseconds(50));
+    EXPECT_EQ(frames.requests().size(), 2u);
+    frames.hold(false);
+    std::uint64_t last = 0;
+    while (last < 3) {
+        const auto frame = browser.nextFrame();
+        ASSERT_TRUE(frame.has_value());
+        EXPECT_GT(frame->view_sequence(), last) << "none after a newer one";
+        last = frame->view_sequence();
+        browser.acknowledge(frame->frame_number());
+    }
+}
+
 TEST(Viewer, AcknowledgingAFrameAcknowledgesThoseBefore) {
     FakeFrameSource frames;
     Browser browser(frames, moving(2));
