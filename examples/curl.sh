@@ -1,0 +1,29 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# The calls most asked for, by curl: curl.sh http://127.0.0.1:8080 FOLDER
+set -euo pipefail
+server=${1:?usage: curl.sh SERVER FOLDER}/api/v1
+folder=${2:?usage: curl.sh SERVER FOLDER}
+ask() { curl --silent --show-error --fail-with-body "$@"; }
+mkdir -p "$folder"
+
+# What there is.
+ask "$server/status" -o "$folder/status.json"
+ask "$server/configuration" -o "$folder/configuration.json"
+
+# A picture of it, in one line.
+ask "$server/image?width=320&height=180" -o "$folder/picture.png"
+
+# A picture as it is wanted.
+ask "$server/image" -o "$folder/picture.jpg" --json \
+    '{"width":320,"height":180,"tauPixels":0.5,"shading":"SHADING_FLAT","format":"IMAGE_FORMAT_JPEG"}'
+
+# What is in its middle.
+ask "$server/pick" -o "$folder/pick.json" --json '{"width":320,"height":180,"x":160,"y":90}'
+
+# The answer again, only if it has changed.
+tag=$(ask --head "$server/scene" | tr -d '\r' | sed -n 's/^[Ee][Tt]ag: //p')
+ask "$server/scene" --header "If-None-Match: $tag" -o /dev/null -w 'scene: %{http_code}\n'
+
+# What goes wrong says so, and what to do.
+curl --silent "$server/image?width=0"

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// Programs that ask a running `eyrie serve`: the examples, and every call of the API's document.
+#include <cstdlib>
+#include <filesystem>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/http_client.h"
+#include "tests/support/program.h"
+#include "tests/support/temporary_folder.h"
+
+namespace eyrie {
+namespace {
+
+using std::chrono::seconds;
+using testing::HasSubstr;
+
+/// One server of the demo's scene for all of these.
+class ApiExamples : public testing::Test {
+protected:
+    static void SetUpTestSuite() {
+        folder_ = new test::TemporaryFolder;
+        std::filesystem::create_directory(folder_->path("data"));
+        server_ =
+            new test::Process(test::eyrieCommand({"serve", EYRIE_SOURCE_DIR "/demo/scene.json",
+                                                  "--listen", "127.0.0.1:0", "--renderers", "2",
+                                                  "--data", folder_->path("data")}),
+                              {"XDG_CACHE_HOME=" + folder_->path("cache")});
+        ASSERT_TRUE(server_->waitForOutput("Eyrie is at http://", seconds(120)) &&
+                    server_->waitForOutput("/\n", seconds(1)))
+            << server_->errors();
+        const std::string line = server_->output();
+        url_ = line.substr(line.find("http://"));
+        url_ = url_.substr(0, url_.find("/\n"));
+        const auto port = static_cast<std::uint16_t>(std::atoi(&url_[url_.rfind(':') + 1]));
+        ASSERT_TRUE(test::eventually(seconds(120), [&] {
+            const auto ready = test::httpGet(port, "/readyz");
+            return ready.ok() && ready->status == 200;
+        })) << server_->errors();
+    }
+
+    static void TearDownTestSuite() {
+        delete server_;
+        delete folder_;
+    }
+
+    static test::Outcome ask(const std::string& interpreter, const std::string& script,
+                             std::vector<std::string> arguments) {
+        std::vector<std::string> command{"/usr/bin/env", interpreter, EYRIE_SOURCE_DIR "/" + script,
+                                         url_};
+        command.insert(command.end(), arguments.begin(), arguments.end());
+        return test::run(command, seconds(200));
+    }
+
+    static inline test::TemporaryFolder* folder_ = nullptr;
+    static inline test::Process* server_ = nullptr;
+    static inline std::string url_;
+};
+
+TEST_F(ApiExamples, EveryCallAnswersAsDocumented) {
+    const test::Outcome outcome = ask("python3", "tests/integration/check_api.py", {});
+    EXPECT_EQ(outcome.exit.status, 0) << outcome.output << outcome.errors;
+    EXPECT_THAT(outcome.output, HasSubstr(" 0 answers that are not as documented"));
+}
+
+TEST_F(ApiExamples, AStillComesWithDepthAndAPick) {
+    const std::string picture = folder_->path("still.png");
+    const test::Outcome outcome = ask("python3", "examples/render_still.py", {picture});
+    EXPECT_EQ(outcome.exit.status, 0) << outcome.output << outcome.errors;
+    EXPECT_THAT(outcome.output, HasSubstr("of the pixels show something"));
+    EXPECT_THAT(outcome.output, HasSubstr("in the middle: "));
+    EXPECT_GT(std::filesystem::file_size(picture), 1000U);
+}
+
+TEST_F(ApiExamples, PicturesAreDrawnSeveralAtATime) {
+    const std::string folder = folder_->path("turn");
+    const test::Outcome outcome = ask("python3", "examples/turntable.py", {folder, "8"});
+    EXPECT_EQ(outcome.exit.status, 0) << outcome.output << outcome.errors;
+    for (const char* name : {"0000.jpg", "0007.jpg"})
+        EXPECT_GT(std::filesystem::file_size(folder + "/" + name), 1000U);
+}
+
+TEST_F(ApiExamples, CurlMakesTheCallsMostAskedFor) {
+    const std::string folder = folder_->path("curl");
+    const test::Outcome outcome = ask("bash", "examples/curl.sh", {folder});
+    EXPECT_EQ(outcome.exit.status, 0) << outcome.output << outcome.errors;
+    EXPECT_THAT(outcome.output, HasSubstr("scene: 304"));
+    EXPECT_THAT(outcome.output, HasSubstr("\"field\""));
+    for (const char* name :
+         {"status.json", "configuration.json", "picture.png", "picture.jpg", "pick.json"})
+        EXPECT_GT(std::filesystem::file_size(folder + "/" + name), 10U) << name;
+}
+
+}  // namespace
+}  // namespace eyrie
