@@ -15,6 +15,7 @@
 #include "cli/compound_names.h"
 #include "cli/config_options.h"
 #include "cli/data_cache.h"
+#include "cli/door_options.h"
 #include "cli/log.h"
 #include "cli/scene_files.h"
 #include "cli/stop_signal.h"
@@ -33,6 +34,7 @@ struct Options {
     bool grpcReflection = false;
     CacheOptions cache;
     ConfigOptions config;
+    DoorOptions door;
     bool quiet = false;
 };
 
@@ -50,7 +52,10 @@ absl::Status coordinate(const Options& options) {
     if (options.quiet)
         quietLog();
     RETURN_IF_ERROR(fabric::withContext(wire::checkAddress(options.grpc), "--grpc"));
+    ASSIGN_OR_RETURN(const Doors doors, doorsOf(options.door));
+    RETURN_IF_ERROR(checkGrpcDoor(doors, options.grpc, "--grpc"));
     coordinator::CoordinatorOptions settings;
+    settings.security = doors.security;
     settings.grpcAddresses = {options.grpc};
     ASSIGN_OR_RETURN(settings.configuration, configurationOf(options.config, options.quiet));
     settings.layout = compoundNames().at(options.config.compound);
@@ -62,7 +67,7 @@ absl::Status coordinate(const Options& options) {
         return fabric::withContext(absl::InvalidArgumentError(coordinator.status().message()),
                                    "--grpc");
     RETURN_IF_ERROR(coordinator.status());
-    ASSIGN_OR_RETURN(const auto door, openWebDoor(options.listen, **coordinator));
+    ASSIGN_OR_RETURN(const auto door, openWebDoor(options.listen, doors, **coordinator));
     fmt::print("Eyrie is at {}\n", door->url());
     for (const std::string& address : (*coordinator)->grpcAddresses())
         fmt::print("Renderers register at {}\n", address);
@@ -94,13 +99,18 @@ void addCoordinator(CLI::App& app, Run& run) {
     command->add_flag("--grpc-reflection", options->grpcReflection,
                       "Let gRPC tools ask which calls there are");
     addConfigOptions(*command, options->config);
+    addDoorOptions(*command, options->door);
+    addPeerOptions(*command, options->door);
     addCacheOptions(*command, options->cache);
     command->add_flag("--quiet", options->quiet, "No progress, only warnings and errors");
     command->footer(
         "Example:\n"
-        "  eyrie coordinator --listen 0.0.0.0:8080 --grpc 0.0.0.0:9090 scene.json\n"
-        "then `eyrie renderer --coordinator HOST:9090` on every machine that draws.\n"
-        "Connections are neither encrypted nor authenticated: use a trusted network.");
+        "  eyrie coordinator --listen 0.0.0.0:8080 --grpc 0.0.0.0:9090 \\\n"
+        "      --token-file tokens scene.json\n"
+        "then `eyrie renderer --coordinator HOST:9090 --listen 0.0.0.0:0 --token-file tokens` on\n"
+        "every machine that draws. With --tls-cert, --tls-key and --tls-ca on all of them they "
+        "are\n"
+        "encrypted and show each other certificates: docs/security.md.");
     command->callback([options, &run] { run = [options] { return coordinate(*options); }; });
 }
 

@@ -10,6 +10,7 @@
 #include "cli/cache_options.h"
 #include "cli/commands.h"
 #include "cli/decode_names.h"
+#include "cli/door_options.h"
 #include "cli/log.h"
 #include "cli/stop_signal.h"
 #include "cli/values.h"
@@ -29,6 +30,7 @@ struct Options {
     TileDecoding decoding = TileDecoding::Auto;
     std::vector<std::string> allowedUrls;
     CacheOptions cache;
+    DoorOptions door;
     bool exitWithCoordinator = false;
     bool quiet = false;
 };
@@ -39,6 +41,8 @@ absl::Status run(const Options& options) {
         quietLog();
     RETURN_IF_ERROR(fabric::withContext(wire::checkAddress(options.coordinator), "--coordinator"));
     RETURN_IF_ERROR(fabric::withContext(wire::checkAddress(options.listen), "--listen"));
+    ASSIGN_OR_RETURN(const Doors doors, doorsOf(options.door));
+    RETURN_IF_ERROR(checkGrpcDoor(doors, options.listen, "--listen"));
     ASSIGN_OR_RETURN(const std::uint64_t memory, parseBytes(options.memory, "--memory"));
     RendererOptions settings;
     settings.device = options.device;
@@ -48,6 +52,7 @@ absl::Status run(const Options& options) {
     service::RendererNodeOptions node;
     node.coordinator = options.coordinator;
     node.listen = options.listen;
+    node.security = doors.security;
     node.exitWithCoordinator = options.exitWithCoordinator;
     ASSIGN_OR_RETURN(
         const auto renderer,
@@ -82,6 +87,8 @@ void addRenderer(CLI::App& app, Run& run) {
                      "may be given several times; any: all [none]")
         ->type_name("URL")
         ->allow_extra_args(false);
+    addDoorOptions(*command, options->door);
+    addPeerOptions(*command, options->door);
     addDecodeOption(*command, options->decoding);
     addCacheOptions(*command, options->cache);
     command->add_flag("--exit-with-coordinator", options->exitWithCoordinator,
@@ -89,7 +96,8 @@ void addRenderer(CLI::App& app, Run& run) {
     command->add_flag("--quiet", options->quiet, "Only warnings and errors");
     command->footer(
         "Example, on each machine that draws:\n"
-        "  eyrie renderer --coordinator viz:9090 --listen 0.0.0.0:0 --memory 8G\n"
+        "  eyrie renderer --coordinator viz:9090 --listen 0.0.0.0:0 --memory 8G --token-file "
+        "tokens\n"
         "The data must be readable under the paths that the coordinator names. URLs are read only\n"
         "where --allow-url says so: else whoever reaches this port could have this machine ask\n"
         "servers that only it can reach. Redirections of an allowed server are followed.\n"

@@ -17,6 +17,7 @@
 #include "cli/config_options.h"
 #include "cli/data_cache.h"
 #include "cli/decode_names.h"
+#include "cli/door_options.h"
 #include "cli/hardware_devices.h"
 #include "cli/local_farm.h"
 #include "cli/log.h"
@@ -39,6 +40,7 @@ struct Options {
     CacheOptions cache;
     TileDecoding decoding = TileDecoding::Auto;
     ConfigOptions config;
+    DoorOptions door;
     int renderers = 0;  ///< 0: as many as suit this machine
     bool quiet = false;
 };
@@ -87,12 +89,13 @@ absl::Status serve(const Options& options) {
     const StopSignal stop;
     if (options.quiet)
         quietLog();
+    ASSIGN_OR_RETURN(const Doors doors, doorsOf(options.door));
     ASSIGN_OR_RETURN(auto configuration, configurationOf(options.config, options.quiet));
     const int renderers = rendererCount(options, configuration);
     ASSIGN_OR_RETURN(const auto farm,
                      LocalFarm::start(std::move(configuration), options.config.compound,
                                       options.cache, options.decoding, options.dataFolder));
-    ASSIGN_OR_RETURN(const auto door, openWebDoor(options.listen, farm->coordinator()));
+    ASSIGN_OR_RETURN(const auto door, openWebDoor(options.listen, doors, farm->coordinator()));
     ASSIGN_OR_RETURN(fabric::Scene scene, loadScene(options, stop.token()));
     RETURN_IF_ERROR(farm->coordinator().setScene(std::move(scene)));
     farm->startRenderers(renderers);
@@ -134,6 +137,7 @@ void addServe(CLI::App& app, Run& run) {
                      "Where programs may name imported files, and keep flights [nowhere]")
         ->type_name("DIR");
     addConfigOptions(*command, options->config);
+    addDoorOptions(*command, options->door);
     addDecodeOption(*command, options->decoding);
     addCacheOptions(*command, options->cache);
     command->add_flag("--quiet", options->quiet, "No progress, only warnings and errors");
@@ -141,7 +145,7 @@ void addServe(CLI::App& app, Run& run) {
         "Examples:\n"
         "  eyrie serve dem.tif scan.ply\n"
         "  eyrie serve https://data.example/dem.eyt\n"
-        "  eyrie serve scene.json --listen 0.0.0.0:8080 --renderers 4\n"
+        "  eyrie serve scene.json --listen 0.0.0.0:8080 --token-file tokens\n"
         "  eyrie serve scan.ply --config powerwall.eqc\n"
         "Ctrl-C ends it.");
     command->callback([options, &run] { run = [options] { return serve(*options); }; });

@@ -30,9 +30,17 @@ std::filesystem::path webFolder() {
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<http::Server>> openWebDoor(const std::string& listen,
+                                                          const Doors& doors,
                                                           coordinator::Coordinator& coordinator) {
     ASSIGN_OR_RETURN(const HostPort address, parseHostPort(listen, "--listen"));
+    RETURN_IF_ERROR(checkWebDoor(doors,
+                                 address.host.find(':') == std::string::npos
+                                     ? fmt::format("{}:{}", address.host, address.port)
+                                     : fmt::format("[{}]:{}", address.host, address.port),
+                                 "--listen"));
     http::ServerOptions options;
+    options.gate = doors.gate;
+    options.tls = doors.tls;
     options.host = address.host;
     options.port = address.port;
     options.webFolder = webFolder();

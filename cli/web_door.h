@@ -6,14 +6,17 @@
 
 #include <absl/status/statusor.h>
 
+#include "cli/door_options.h"
 #include "coordinator/coordinator.h"
 #include "coordinator/http/server.h"
 
 namespace eyrie::cli {
 
-/// Starts the HTTP server on what --listen says, with the page that was built beside this program.
+/// Starts the HTTP server on what --listen says, with the page that was built beside this program,
+/// for whom `doors` lets in.
 /// Errors: InvalidArgument, naming --listen and a remedy.
 absl::StatusOr<std::unique_ptr<http::Server>> openWebDoor(const std::string& listen,
+                                                          const Doors& doors,
                                                           coordinator::Coordinator& coordinator);
 
 /// Stops the door: viewers get what they have asked for, for some seconds at most, after which

@@ -14,8 +14,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (const auto effect = loadEffect("fuzzed.effect", read); effect.ok()) {
         declarations(*effect);
         allVariants(*effect);
-        stageText(*effect, true);
-        stageText(*effect, false);
+        stageText(*effect, StageKind::Vertex);
+        stageText(*effect, StageKind::Fragment);
     }
     static_cast<void>(loadBlock("fuzzed.block", read));
     return 0;

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/door_options.h"
+
+#include <string_view>
+#include <utility>
+
+#include <arpa/inet.h>
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include "fabric/status.h"
+
+namespace eyrie::cli {
+namespace {
+
+/// The error that the command line is answered with, whatever it was for the file.
+absl::Status ofOption(const absl::Status& status, std::string_view option) {
+    return fabric::withContext(absl::InvalidArgumentError(status.message()), option);
+}
+
+std::string hostOf(std::string_view address) {
+    if (address.starts_with('['))
+        return std::string(address.substr(1, address.find(']') - 1));
+    return std::string(address.substr(0, address.rfind(':')));
+}
+
+absl::StatusOr<std::optional<access::TlsFiles>> tlsOf(const access::TlsFiles& files) {
+    if (files == access::TlsFiles())
+        return std::nullopt;
+    if (files.certificate.empty() || files.key.empty())
+        return absl::InvalidArgumentError(
+            "--tls-cert and --tls-key go together, also with --tls-ca");
+    if (absl::Status status = access::checkTlsFiles(files); !status.ok())
+        return ofOption(status, "--tls-cert, --tls-key, --tls-ca");
+    return files;
+}
+
+absl::Status refuse(std::string_view option, const std::string& listen, std::string_view remedy) {
+    return absl::InvalidArgumentError(fmt::format(
+        "{} {}: others than this machine reach that address; {}, or say --insecure if everybody "
+        "who reaches it may use it",
+        option, listen, remedy));
+}
+
+}  // namespace
+
+void addDoorOptions(CLI::App& command, DoorOptions& options) {
+    command
+        .add_option("--token-file", options.tokenFile,
+                    "Who may come in: a role (view, control or admin) and a token a line; for "
+                    "nobody else to read")
+        ->type_name("FILE");
+    command
+        .add_option("--tls-cert", options.tls.certificate,
+                    "Encrypts: the certificate, in PEM form; read again when it changes")
+        ->type_name("FILE");
+    command.add_option("--tls-key", options.tls.key, "Its key")->type_name("FILE");
+    command.add_flag("--insecure", options.insecure,
+                     "Let in everybody who reaches an address, also from other machines");
+}
+
+void addPeerOptions(CLI::App& command, DoorOptions& options) {
+    command
+        .add_option("--tls-ca", options.tls.authority,
+                    "Coordinator and renderers have to show each other certificates of this "
+                    "authority")
+        ->type_name("FILE");
+    command
+        .add_option("--tls-name", options.tlsName,
+                    "Name that their certificates are for [the host that each is reached at]")
+        ->type_name("NAME");
+}
+
+absl::StatusOr<Doors> doorsOf(const DoorOptions& options) {
+    Doors doors;
+    doors.insecure = options.insecure;
+    ASSIGN_OR_RETURN(doors.tls, tlsOf(options.tls));
+    if (!options.tlsName.empty() && !doors.tls)
+        return absl::InvalidArgumentError("--tls-name goes with --tls-cert and --tls-key");
+    doors.security.tls = doors.tls;
+    doors.security.peerName = options.tlsName;
+    if (options.tokenFile.empty())
+        return doors;
+    absl::StatusOr<access::Tokens> tokens = access::Tokens::read(options.tokenFile);
+    if (!tokens.ok())
+        return ofOption(tokens.status(), "--token-file");
+    doors.security.token = std::string(tokens->first(access::Role::Admin));
+    doors.gate = std::make_shared<access::Gate>(*std::move(tokens));
+    doors.security.gate = doors.gate;
+    return doors;
+}
+
+absl::Status checkWebDoor(const Doors& doors, const std::string& listen, std::string_view option) {
+    if (isLocal(listen))
+        return absl::OkStatus();
+    if (doors.gate == nullptr && !doors.insecure)
+        return refuse(option, listen, "give tokens with --token-file FILE");
+    if (doors.gate == nullptr)
+        spdlog::warn("{} {}: everybody who reaches this address may see and change all", option,
+                     listen);
+    else if (!doors.tls)
+        spdlog::warn(
+            "{} {}: tokens and pictures cross the network in the clear; encrypt with "
+            "--tls-cert and --tls-key, or by a proxy on this machine",
+            option, listen);
+    return absl::OkStatus();
+}
+
+absl::Status checkGrpcDoor(const Doors& doors, const std::string& listen, std::string_view option) {
+    if (doors.gate != nullptr && doors.security.token.empty())
+        return absl::InvalidArgumentError(
+            "--token-file: coordinator and renderers need a token of role admin in it");
+    if (isLocal(listen))
+        return absl::OkStatus();
+    const bool isMutual = doors.tls && !doors.tls->authority.empty();
+    if (doors.gate == nullptr && !isMutual && !doors.insecure)
+        return refuse(option, listen,
+                      "give coordinator and renderers the same --token-file FILE, or certificates "
+                      "of one authority with --tls-cert, --tls-key and --tls-ca");
+    if (doors.gate == nullptr && !isMutual)
+        spdlog::warn("{} {}: everybody who reaches this address may use it", option, listen);
+    else if (!doors.tls)
+        spdlog::warn(
+            "{} {}: tokens and pictures cross the network in the clear; encrypt with "
+            "--tls-cert, --tls-key and --tls-ca",
+            option, listen);
+    return absl::OkStatus();
+}
+
+bool isLocal(std::string_view address) {
+    if (address.starts_with("unix:"))
+        return true;
+    const std::string host = hostOf(address);
+    in_addr v4{};
+    in6_addr v6{};
+    if (inet_pton(AF_INET, host.c_str(), &v4) == 1)
+        return ntohl(v4.s_addr) >> 24 == 127;
+    if (inet_pton(AF_INET6, host.c_str(), &v6) == 1)
+        return IN6_IS_ADDR_LOOPBACK(&v6);
+    return host == "localhost";
+}
+
+}  // namespace eyrie::cli

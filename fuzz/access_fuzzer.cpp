@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// What strangers send to get in, and names of data, of any bytes. The first line is an
+// Authorization, the second a cookie, the third an origin, the fourth a host, and all of it a token
+// file and a name.
+#include <array>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <string_view>
+
+#include "access/data_folder.h"
+#include "access/gate.h"
+#include "coordinator/http/access.h"
+#include "coordinator/http/origin.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    using namespace eyrie;
+    const std::string_view text(reinterpret_cast<const char*>(data), size);
+    static access::Gate gate(*access::Tokens::parse("admin a-secret-that-no-input-has-in-it", "t"));
+    std::array<std::string_view, 4> lines;
+    std::string_view rest = text;
+    for (std::string_view& line : lines) {
+        line = rest.substr(0, rest.find('\n'));
+        rest.remove_prefix(std::min(rest.size(), line.size() + 1));
+    }
+    const std::string_view cookie = http::cookieNamed("eyrie_ticket", lines[1]);
+    if (gate.admit({lines[0], cookie}, "fuzz", access::Role::View).ok() ||
+        gate.admit({"", cookie}, "fuzz", access::Role::View).ok())
+        std::abort();
+    if (http::isAllowedOrigin(lines[2], lines[3], true) && lines[2].find("evil") != lines[2].npos)
+        std::abort();  // no name but localhost is one of a loopback address
+    static_cast<void>(access::Tokens::parse(text, "fuzzed"));
+    if (access::checkDataName(text).ok()) {
+        const std::filesystem::path path = std::filesystem::path("/data") / text;
+        if (!path.lexically_normal().string().starts_with("/data/"))
+            std::abort();
+    }
+    return 0;
+}
