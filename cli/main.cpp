@@ -49,6 +49,7 @@ void declare(CLI::App& app, eyrie::cli::Run& run) {
     eyrie::cli::addSynth(app, run);
     eyrie::cli::addCoordinator(app, run);
     eyrie::cli::addRenderer(app, run);
+    eyrie::cli::addHealth(app, run);
 }
 
 /// Says what is wrong with the command line and where to read on. CLI11 complains of a missing

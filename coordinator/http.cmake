@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-add_library(eyrie_http http/http_session.cpp http/origin.cpp http/router.cpp
+add_library(eyrie_http http/http_session.cpp http/origin.cpp http/probe.cpp http/router.cpp
                        http/server.cpp http/static_files.cpp http/status_json.cpp
                        http/web_socket.cpp)
 add_library(eyrie::http ALIAS eyrie_http)
