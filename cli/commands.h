@@ -18,6 +18,7 @@ using Run = std::function<absl::Status()>;
 void addServe(CLI::App& app, Run& run);
 void addCoordinator(CLI::App& app, Run& run);
 void addRenderer(CLI::App& app, Run& run);
+void addHealth(CLI::App& app, Run& run);
 void addImport(CLI::App& app, Run& run);
 void addImportTerrain(CLI::App& app, Run& run);  ///< of `eyrie import`
 void addImportMesh(CLI::App& app, Run& run);     ///< of `eyrie import`

@@ -48,6 +48,7 @@ void declare(CLI::App& app, eyrie::cli::Run& run, eyrie::cli::CommonOptions& com
     eyrie::cli::addSynth(app, run);
     eyrie::cli::addCoordinator(app, run);
     eyrie::cli::addRenderer(app, run);
+    eyrie::cli::addHealth(app, run);
     eyrie::cli::addCommonOptions(app, common);
 }
 

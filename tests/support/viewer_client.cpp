@@ -110,6 +110,16 @@ absl::Status ViewerClient::acknowledge(const v1::Frame& frame, std::size_t recei
 }
 
 absl::StatusOr<v1::Frame> ViewerClient::frameOf(const v1::ViewRequest& view, Milliseconds limit) {
+    return frameOf(view, limit, Wanted::Any);
+}
+
+absl::StatusOr<v1::Frame> ViewerClient::exactFrameOf(const v1::ViewRequest& view,
+                                                     Milliseconds limit) {
+    return frameOf(view, limit, Wanted::Exact);
+}
+
+absl::StatusOr<v1::Frame> ViewerClient::frameOf(const v1::ViewRequest& view, Milliseconds limit,
+                                                Wanted wanted) {
     v1::ViewerRequest request;
     *request.mutable_view() = view;
     if (const absl::Status status = send(request); !status.ok())
@@ -132,7 +142,8 @@ absl::StatusOr<v1::Frame> ViewerClient::frameOf(const v1::ViewRequest& view, Mil
         const std::size_t received = pictureOf(frame).size();
         if (const absl::Status status = acknowledge(frame, received); !status.ok())
             return status;
-        if (received == frame.picture_bytes() && frame.view_sequence() >= view.sequence())
+        if (received == frame.picture_bytes() && frame.view_sequence() >= view.sequence() &&
+            (wanted == Wanted::Any || frame.has_png()))
             return frame;
     }
     return absl::DeadlineExceededError(

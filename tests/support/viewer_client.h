@@ -35,10 +35,16 @@ public:
     /// keeping the newest state. DeadlineExceeded names the state's problem, if there is one.
     absl::StatusOr<v1::Frame> frameOf(const v1::ViewRequest& view, Milliseconds limit);
 
+    /// As frameOf, but waits for the exact picture (a PNG) of a view that rests.
+    absl::StatusOr<v1::Frame> exactFrameOf(const v1::ViewRequest& view, Milliseconds limit);
+
     const v1::SessionState& state() const { return state_; }
 
 private:
     class Impl;
+    enum class Wanted { Any, Exact };
+    absl::StatusOr<v1::Frame> frameOf(const v1::ViewRequest& view, Milliseconds limit,
+                                      Wanted wanted);
     absl::Status acknowledge(const v1::Frame& frame, std::size_t received);
     explicit ViewerClient(std::unique_ptr<Impl> impl);
     std::unique_ptr<Impl> impl_;
