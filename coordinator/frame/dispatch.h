@@ -10,6 +10,7 @@
 
 #include "coordinator/frame/crew.h"
 #include "coordinator/frame/patience.h"
+#include "coordinator/frame/takers.h"
 #include "fabric/channel_task.h"
 #include "fabric/frame_data.h"
 
@@ -37,11 +38,9 @@ public:
         std::uint64_t kind = 0;
         std::chrono::milliseconds firstPatience{};  ///< while nothing is known of any renderer
         std::chrono::milliseconds callTimeout{};    ///< then the renderer is given up
-        /// Who is asked first, for each task; empty: anybody for all. Counts the renderers that are
-        /// ready, in the order of their registration, and begins again after the last: several
-        /// tasks of one renderer are drawn one after the other. It is not waited for while it is
-        /// late, or busy with an earlier dispatch.
-        std::vector<std::size_t> preferred = {};
+        /// Several tasks of one renderer are drawn one after the other. It is not waited for while
+        /// it is late, or busy with an earlier dispatch; then others take its tasks, too.
+        Takers takers = {};
     };
 
     explicit Dispatch(Plan plan);
@@ -72,6 +71,9 @@ private:
     bool wasAsked(const Part& part, const Member& member) const;
     bool isAtWork(const Member& member) const;
     Member* preferredOf(std::size_t index, const Members& members) const;
+    const std::vector<std::size_t>* queueOf(std::size_t index) const;
+    Member* takerOf(std::size_t index, const std::vector<std::size_t>& takers,
+                    const Members& members) const;
     Member* idleOf(const Part& part, const Members& members) const;
     std::ptrdiff_t timesAsked(const Member& member) const;
     std::chrono::milliseconds patienceWith(const Member& member, const Members& members) const;

@@ -173,9 +173,8 @@ absl::StatusOr<RenderedFrame> FramePipeline::drawCentrally(const FrameRequest& r
                                                            const compound::Plan& plan,
                                                            const Members& members,
                                                            const Crew::State& state) {
-    ASSIGN_OR_RETURN(
-        std::vector<Dispatch::Drawn> drawn,
-        draw(request, plan, active.renderersFor(plan, members.size()), state.revision));
+    ASSIGN_OR_RETURN(std::vector<Dispatch::Drawn> drawn,
+                     draw(request, plan, active.takersOf(plan, members.size()), state.revision));
     active.record(plan, frameNumber_, takenBy(drawn));
     RenderedFrame frame = composed(plan, std::move(drawn), {}, state.scene->background);
     frame.statistics.tauAskedPixels = request.tauPixels;
@@ -204,7 +203,7 @@ absl::StatusOr<RenderedFrame> FramePipeline::drawByPrograms(
     });
     compound::Plan others = exchange.rest;
     others.draws.resize(exchange.draws.size());
-    auto drawn = draw(request, others, active.renderersFor(others, members.size()), state.revision);
+    auto drawn = draw(request, others, active.takersOf(others, members.size()), state.revision);
     ASSIGN_OR_RETURN(ProgramRuns::Result result, running.get());
     RETURN_IF_ERROR(drawn.status());
     programPatience_.record(
@@ -229,7 +228,7 @@ absl::StatusOr<RenderedFrame> FramePipeline::drawByPrograms(
 
 absl::StatusOr<std::vector<Dispatch::Drawn>> FramePipeline::draw(const FrameRequest& request,
                                                                  const compound::Plan& plan,
-                                                                 std::vector<std::size_t> preferred,
+                                                                 Takers takers,
                                                                  std::uint64_t revision) {
     const fabric::FrameData& frameData = frameDataFor(request);
     std::vector<fabric::ChannelTask> tasks;
@@ -242,9 +241,9 @@ absl::StatusOr<std::vector<Dispatch::Drawn>> FramePipeline::draw(const FrameRequ
     const std::uint64_t kind = kinds_.of(request, revision);
     // What renderers did among themselves took as long as what they do for the coordinator will.
     const auto first = programPatience_.limit(kind).value_or(options_.patience.first);
-    auto dispatch = std::make_shared<Dispatch>(Dispatch::Plan{frameData, std::move(tasks), revision,
-                                                              kind, first, options_.callTimeout,
-                                                              std::move(preferred)});
+    auto dispatch =
+        std::make_shared<Dispatch>(Dispatch::Plan{frameData, std::move(tasks), revision, kind,
+                                                  first, options_.callTimeout, std::move(takers)});
     return dispatch->run(crew_);
 }
 

@@ -68,8 +68,7 @@ private:
     bool mayExchange(const ActiveConfiguration& active, const compound::Exchange& exchange,
                      std::size_t renderers) const;
     absl::StatusOr<std::vector<Dispatch::Drawn>> draw(const FrameRequest& request,
-                                                      const compound::Plan& plan,
-                                                      std::vector<std::size_t> preferred,
+                                                      const compound::Plan& plan, Takers takers,
                                                       std::uint64_t revision);
     std::string problem(const Crew::State& state) const;
 
