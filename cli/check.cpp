@@ -19,6 +19,7 @@ namespace {
 struct Options {
     std::string file;
     std::string convert;
+    int renderers = 0;
     bool json = false;
     bool quiet = false;
 };
@@ -42,6 +43,9 @@ absl::Status checkFile(const Options& options) {
     ASSIGN_OR_RETURN(checked.configuration, readConfiguration(options.file, checked.findings));
     if (!checked.findings.hasErrors())
         checked.resolved = config::resolve(checked.configuration, checked.findings);
+    if (!checked.findings.hasErrors() && options.renderers > 0)
+        checked.started =
+            check::startedWith(checked.configuration, static_cast<std::size_t>(options.renderers));
     if (options.json)
         fmt::print("{}\n", check::json(checked));
     else
@@ -74,13 +78,19 @@ void addCheck(CLI::App& app, Run& run) {
                      "Write it in the other form, whole or not at all: a name that ends in .eqc or "
                      ".json")
         ->type_name("FILE");
+    command
+        ->add_option("--renderers", options->renderers,
+                     "Say, too, what is started where so many renderers are present, and how many "
+                     "are missing")
+        ->check(CLI::Range(1, 1024));
     command->add_flag("--quiet", options->quiet, "Only errors and warnings");
     command->footer(
         "Prints resources, destination channels, and each compound with all that it inherits: its\n"
         "tasks, its share of the picture, and what its eyes see. Errors and warnings come with "
         "line\n"
         "and column or, of JSON, with the field; with an error the exit status is 2.\n\n"
-        "Example:\n  eyrie check cave.eqc\n  eyrie check cave.eqc --json\n"
+        "Examples:\n  eyrie check cave.eqc\n  eyrie check cave.eqc --renderers 4\n  eyrie check "
+        "cave.eqc --json\n"
         "  eyrie check cave.eqc --convert cave.json");
     command->callback([options, &run] { run = [options] { return checkFile(*options); }; });
 }

@@ -52,7 +52,8 @@ void addConfigOptions(CLI::App& command, ConfigOptions& options) {
 }
 
 void addShownOptions(CLI::App& command, ConfigOptions& options) {
-    static const std::map<std::string, std::optional<Eye>> kEyes = {
+    // Not of std::optional<Eye>, which CLI11 would turn into no text at all.
+    static const std::map<std::string, Eye> kEyes = {
         {"cyclop", Eye::Cyclop}, {"left", Eye::Left}, {"right", Eye::Right}};
     static const std::map<std::string, Stereo> kStereo = {{"anaglyph", Stereo::Anaglyph},
                                                           {"side-by-side", Stereo::SideBySide},

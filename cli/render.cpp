@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "cli/all_pictures.h"
 #include "cli/cache_options.h"
 #include "cli/commands.h"
 #include "cli/config_options.h"
@@ -43,6 +44,7 @@ struct Options {
     std::string out;
     std::string depth;
     std::string stats;
+    bool all = false;
     bool json = false;
 };
 
@@ -126,6 +128,27 @@ absl::Status finish(Outputs& outputs, const DrawnBands& drawn, const Options& op
     return absl::OkStatus();
 }
 
+/// What one frame of a configuration shows, each in files of its own.
+absl::StatusOr<std::vector<NamedPicture>> picturesOf(const Options& options) {
+    const ConfigOptions& config = options.pictures.config;
+    if (config.file.empty() || config.shown != coordinator::Shown{})
+        return absl::InvalidArgumentError(
+            "--all is of a configuration, and of all that it shows: name one with --config, and "
+            "leave out --canvas, --segment, --eye and --stereo");
+    ASSIGN_OR_RETURN(const auto configuration, configurationOf(config, true));
+    std::vector<NamedPicture> pictures = allPictures(*configuration);
+    if (pictures.empty())
+        return absl::InvalidArgumentError("--all: the configuration shows nothing");
+    return pictures;
+}
+
+Options named(Options options, const std::string& name) {
+    options.out = pathOf(options.out, name);
+    if (!options.depth.empty())
+        options.depth = pathOf(options.depth, name);
+    return options;
+}
+
 /// Finds out what cannot be written before anything is drawn or written.
 absl::Status checkOutputs(const Options& options) {
     RETURN_IF_ERROR(checkPictureName(options.out, "-o"));
@@ -150,6 +173,42 @@ absl::Status render(const Options& options) {
             return outputs.take(rows);
         }));
     return finish(outputs, drawn, options, request);
+}
+
+absl::Status write(const fabric::Image& image, const Options& options,
+                   const coordinator::FrameRequest& request) {
+    ASSIGN_OR_RETURN(Outputs outputs, createOutputs(options, request));
+    RETURN_IF_ERROR(outputs.take(image));
+    if (outputs.depth)
+        RETURN_IF_ERROR(outputs.depth->commit());
+    return outputs.picture->commit();
+}
+
+/// All in one frame, with one version of its data, and so of one moment.
+absl::Status renderAll(const Options& options) {
+    const StopSignal stop;
+    ASSIGN_OR_RETURN(const std::vector<NamedPicture> asked, picturesOf(options));
+    for (const NamedPicture& each : asked) RETURN_IF_ERROR(checkOutputs(named(options, each.name)));
+    ASSIGN_OR_RETURN(coordinator::FrameRequest request, requestOf(options));
+    request.shown.clear();
+    for (const NamedPicture& each : asked) request.shown.push_back(each.shown);
+    ASSIGN_OR_RETURN(const auto pictures,
+                     PictureSource::open(options.scene, options.pictures, stop.token()));
+    ASSIGN_OR_RETURN(const coordinator::RenderedFrame frame, pictures->draw(request));
+    if (frame.further.size() + 1 != asked.size())
+        return absl::InternalError(fmt::format("{} pictures were asked for, {} were drawn",
+                                               asked.size(), frame.further.size() + 1));
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+        const Options own = named(options, asked[i].name);
+        RETURN_IF_ERROR(write(i == 0 ? frame.image : frame.further[i - 1], own, request));
+        if (!options.pictures.quiet && !options.json)
+            fmt::print(stderr, "{}\n", own.out);
+    }
+    const std::string statistics =
+        wire::statisticsJson(frame.statistics, request.width, request.height, frame.device);
+    if (options.json)
+        fmt::print("{}\n", statistics);
+    return options.stats.empty() ? absl::OkStatus() : writeText(statistics, options.stats);
 }
 
 void addOutputOptions(CLI::App& command, Options& options) {
@@ -210,6 +269,11 @@ void addRender(CLI::App& app, Run& run) {
         ->check(CLI::Range(1, RendererProcesses::kMaxCount));
     addConfigOptions(*command, options->pictures.config);
     addShownOptions(*command, options->pictures.config);
+    command->add_flag("--all", options->all,
+                      "Draw every segment of every canvas, for each eye of it, in one frame: -o "
+                      "OUT.png becomes OUT.CANVAS.SEGMENT.png or, of stereo views, "
+                      "OUT.CANVAS.SEGMENT.left.png and .right.png, each of --size (names, or "
+                      "positions from 0 on where there are none); --depth likewise");
     addDecodeOption(*command, options->pictures.decoding);
     addCacheOptions(*command, options->pictures.cache);
     addOutputOptions(*command, *options);
@@ -218,8 +282,12 @@ void addRender(CLI::App& app, Run& run) {
         "Examples:\n"
         "  eyrie render scene.json --camera cam.json --size 1920x1080 --tau 1 -o a.png\n"
         "  eyrie render dem.eyt --camera cam.json --renderers 3 --compound DB \\\n"
-        "      -o a.png --depth a.pfm --stats a.json");
-    command->callback([options, &run] { run = [options] { return render(*options); }; });
+        "      -o a.png --depth a.pfm --stats a.json\n"
+        "  eyrie render scan.eym --camera cam.json --size 1024x1024 --config cave.eqc --all -o "
+        "cave.png");
+    command->callback([options, &run] {
+        run = [options] { return options->all ? renderAll(*options) : render(*options); };
+    });
 }
 
 }  // namespace eyrie::cli

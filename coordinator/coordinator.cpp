@@ -100,9 +100,9 @@ absl::StatusOr<std::unique_ptr<Coordinator>> Coordinator::start(const Coordinato
     ASSIGN_OR_RETURN(std::unique_ptr<GrpcService> door,
                      GrpcService::start(options.grpcAddresses, *registry,
                                         {options.security, options.grpcReflection, telemetry}));
-    return std::unique_ptr<Coordinator>(new Coordinator(
-        std::make_unique<Impl>(std::move(telemetry), std::move(registry), std::move(door),
-                               std::move(dataFolder), options)));
+    return std::unique_ptr<Coordinator>(
+        new Coordinator(std::make_unique<Impl>(std::move(telemetry), std::move(registry),
+                                               std::move(door), std::move(dataFolder), options)));
 }
 
 Coordinator::Coordinator(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}

@@ -224,8 +224,8 @@ std::vector<JsonObject> each(const Things& things, const ToJson& toJson) {
 
 std::string json(const Checked& checked) {
     const Configuration& configuration = checked.configuration;
-    return JsonObject()
-        .text("file", checked.file)
+    JsonObject object;
+    object.text("file", checked.file)
         .text("version", configuration.version)
         .flag("isUsable", !checked.findings.hasErrors())
         .count("latency", static_cast<std::uint64_t>(configuration.latency))
@@ -244,8 +244,10 @@ std::string json(const Checked& checked) {
                                    [&](const config::ResolvedCompound& compound) {
                                        return compoundJson(configuration, compound);
                                    }))
-        .objects("findings", findingsJson(checked.findings))
-        .str();
+        .objects("findings", findingsJson(checked.findings));
+    if (checked.started)
+        object.object("started", jsonOf(*checked.started));
+    return object.str();
 }
 
 }  // namespace eyrie::cli::check

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 
+#include "cli/check/started.h"
 #include "coordinator/config/findings.h"
 #include "coordinator/config/resolved.h"
 
@@ -14,6 +16,7 @@ struct Checked {
     config::Configuration configuration;
     config::ResolvedConfiguration resolved;  ///< refers to `configuration`
     config::Findings findings;
+    std::optional<Started> started;  ///< where it was asked for
 };
 
 /// The tree as one object. Rectangles are [x, y, width, height], from the lower left corner.

@@ -135,7 +135,7 @@ std::string compounds(const Checked& checked) {
 
 std::string text(const Checked& checked) {
     return summary(checked) + resources(checked.configuration) + display(checked) +
-           compounds(checked);
+           compounds(checked) + (checked.started ? text(*checked.started) : "");
 }
 
 }  // namespace eyrie::cli::check

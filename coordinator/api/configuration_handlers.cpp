@@ -14,62 +14,35 @@ namespace {
 
 using coordinator::ActiveConfiguration;
 
-/// As config::change has read it: numbers are in their ranges, lists of their lengths.
-equalizer::Tuning tuningOf(const v1::EqualizerTuning& message) {
-    const auto pair = [](const auto& numbers) -> std::optional<fabric::Vec2> {
-        if (numbers.size() != 2)
-            return std::nullopt;
-        return fabric::Vec2(numbers[0], numbers[1]);
-    };
-    equalizer::Tuning tuning;
-    tuning.isOn = !message.off();
-    tuning.isFrozen = message.frozen();
-    if (message.mode() != v1::SPLIT_MODE_UNSPECIFIED)
-        tuning.mode = static_cast<config::SplitMode>(static_cast<int>(message.mode()) - 1);
-    if (message.has_damping())
-        tuning.damping = message.damping();
-    tuning.boundaryPixels = pair(message.boundary());
-    if (message.has_boundary_range())
-        tuning.boundaryRange = message.boundary_range();
-    tuning.resistancePixels = pair(message.resistance());
-    if (message.has_resistance_range())
-        tuning.resistanceRange = message.resistance_range();
-    if (message.has_assemble_only_limit())
-        tuning.assembleOnlyLimit = message.assemble_only_limit();
-    if (message.has_framerate())
-        tuning.framerate = message.framerate();
-    tuning.tileSize = pair(message.tile_size());
-    return tuning;
-}
-
-/// The equalizers' settings are their own.
+/// With what equalizers are by default where nobody has changed it.
 v1::ConfigurationState stateOf(const ActiveConfiguration& active) {
     v1::ConfigurationState state = config::toMessage(active.written(), active.state());
     const std::vector<equalizer::EqualizerState> equalizers = active.equalizers();
     for (v1::EqualizerTuning& tuning : *state.mutable_equalizers()) {
         const auto at = static_cast<std::size_t>(tuning.equalizer());
-        tuning.set_off(!equalizers[at].isOn);
+        tuning.set_on(equalizers[at].isOn);
         tuning.set_frozen(equalizers[at].isFrozen);
     }
     return state;
 }
 
 absl::Status apply(const v1::ConfigurationState& change, ActiveConfiguration& active) {
-    if (change.views_size() > 0)
-        return absl::UnimplementedError(
-            "change.views cannot be set while the configuration is at work; change its file");
     // All of it is checked before anything is done.
     config::ConfigurationState wanted = active.state();
     RETURN_IF_ERROR(config::change(change, active.written(), wanted));
     for (const v1::LayoutSwitch& layout : change.layouts())
         RETURN_IF_ERROR(active.switchLayout(layout.canvas(), layout.layout()));
-    for (const v1::EqualizerTuning& tuning : change.equalizers())
-        RETURN_IF_ERROR(active.tune(fmt::format("{}", tuning.equalizer()), tuningOf(tuning)));
-    if (change.heads_size() == 0)
-        return absl::OkStatus();
+    for (std::size_t i = 0; i < wanted.equalizers.size(); ++i)
+        if (wanted.equalizers[i] != active.state().equalizers[i])
+            RETURN_IF_ERROR(active.tune(fmt::format("{}", i), wanted.equalizers[i]));
     for (std::size_t i = 0; i < wanted.heads.size(); ++i)
         if (wanted.heads[i] != active.state().heads[i])
             RETURN_IF_ERROR(active.setHead(fmt::format("{}", i), wanted.heads[i]));
+    for (std::size_t i = 0; i < wanted.views.size(); ++i)
+        for (std::size_t j = 0; j < wanted.views[i].size(); ++j)
+            if (wanted.views[i][j] != active.state().views[i][j])
+                RETURN_IF_ERROR(
+                    active.setView(fmt::format("{}", i), fmt::format("{}", j), wanted.views[i][j]));
     return absl::OkStatus();
 }
 

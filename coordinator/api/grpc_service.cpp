@@ -87,10 +87,10 @@ private:
                              Registry::Clock::now());
             return status;
         }
-        ASSIGN_OR_RETURN(const std::string id,
-                         registry_.add(address, device,
-                                       connectRenderer(address, security_, telemetry_),
-                                       Registry::Clock::now()));
+        ASSIGN_OR_RETURN(
+            const std::string id,
+            registry_.add(address, device, connectRenderer(address, security_, telemetry_),
+                          Registry::Clock::now()));
         response.set_renderer_id(id);
         response.set_heartbeat_milliseconds(
             static_cast<std::int32_t>(registry_.options().heartbeatInterval.count()));

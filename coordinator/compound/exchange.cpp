@@ -255,6 +255,10 @@ private:
 }  // namespace
 
 std::optional<Exchange> exchangeOf(const Plan& plan, std::uint64_t frameNumber) {
+    // Who draws a tile is known when it is drawn.
+    if (std::ranges::any_of(plan.draws,
+                            [](const PlannedDraw& each) { return each.queue.has_value(); }))
+        return std::nullopt;
     return Divider(plan, frameNumber).divide();
 }
 

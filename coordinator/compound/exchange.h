@@ -34,7 +34,8 @@ struct Exchange {
 
 /// The plan as programs: framebuffers that are no destination's whole, of a destination's what is
 /// done until its last picture leaves for another. Nothing where no program takes a picture of
-/// another, or where a step is none that programs have: then it is carried out centrally.
+/// another, where a step is none that programs have, or where there is a queue: then it is carried
+/// out centrally.
 std::optional<Exchange> exchangeOf(const Plan& plan, std::uint64_t frameNumber);
 
 }  // namespace eyrie::compound

@@ -11,7 +11,7 @@ namespace {
 using config::Compound;
 using config::Destination;
 
-/// What the compound of an output's first destination says about two eyes.
+/// What the view and the compound of an output's first destination says about two eyes.
 struct StereoSettings {
     config::StereoMode mode = config::StereoMode::Auto;
     std::optional<config::ColourMask> left;
@@ -63,8 +63,12 @@ StereoSettings settingsOf(const config::Configuration& configuration,
             own.left = each.compound->anaglyphLeft ? each.compound->anaglyphLeft : own.left;
             own.right = each.compound->anaglyphRight ? each.compound->anaglyphRight : own.right;
         }
-        if (each.destination && isPartOf(resolved.destinations[*each.destination], output))
+        if (each.destination && isPartOf(resolved.destinations[*each.destination], output)) {
+            const config::DestinationIndex& shown = resolved.destinations[*each.destination].index;
+            own.mode =
+                configuration.layouts[shown.layout].views[shown.view].stereoMode.value_or(own.mode);
             return own;
+        }
         path.push_back(own);
     }
     return settings;

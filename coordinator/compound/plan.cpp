@@ -108,6 +108,25 @@ std::vector<Pass> passesFor(const config::Configuration& configuration,
     return passes;
 }
 
+/// A segment of one eye has nothing for the other.
+absl::Status checkEye(const config::ResolvedConfiguration& resolved, const Output& output) {
+    bool showsAnything = false;
+    for (const config::Destination& each : resolved.destinations) {
+        if (!isPartOf(each, output))
+            continue;
+        if (!output.eye || passFor(each, *output.eye))
+            return absl::OkStatus();
+        showsAnything = true;
+    }
+    if (!showsAnything)
+        return absl::OkStatus();
+    const char* const eye = *output.eye == Eye::Left    ? "left"
+                            : *output.eye == Eye::Right ? "right"
+                                                        : "middle";
+    return absl::InvalidArgumentError(fmt::format(
+        "nothing of what is asked for of canvas {} is shown to the {} eye", output.canvas, eye));
+}
+
 }  // namespace
 
 absl::StatusOr<Plan> makePlan(const config::Configuration& configuration,
@@ -118,6 +137,7 @@ absl::StatusOr<Plan> makePlan(const config::Configuration& configuration,
     request.display = displayOf(configuration, asked);
     ASSIGN_OR_RETURN(const config::ResolvedConfiguration shown,
                      resolved(configuration, request.display));
+    for (const Output& output : request.outputs) RETURN_IF_ERROR(checkEye(shown, output));
     WorkList list;
     for (const Pass& pass : passesFor(configuration, shown, request))
         RETURN_IF_ERROR(addWork(configuration, shown, request, pass, list));
@@ -129,6 +149,7 @@ absl::StatusOr<Plan> makePlan(const config::Configuration& configuration,
     ASSIGN_OR_RETURN(plan.steps, stepsOf(shown, works, list));
     plan.frames = list.frames.size();
     plan.draws = std::move(list.draws);
+    plan.queues = std::move(list.queues);
     for (const WorkingBuffer& each : list.framebuffers)
         plan.framebuffers.push_back(each.framebuffer);
     keepWhatIsNeeded(plan);

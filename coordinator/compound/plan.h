@@ -129,6 +129,8 @@ struct PlannedDraw {
     std::size_t compound = 0;  ///< in ResolvedConfiguration::compounds
     fabric::ChannelTask task;
     std::size_t framebuffer = 0;
+    /// In Plan::queues: any of those channels may draw it. Nothing: `channel` is to.
+    std::optional<std::size_t> queue = {};
 };
 
 /// Where a framebuffer is in a picture.
@@ -158,12 +160,15 @@ struct Plan {
     std::size_t frames = 0;
     std::vector<Step> steps;  ///< each after those that it depends on
     std::vector<Picture> pictures;
+    /// Channels that take tiles or chunks of one queue, each when it is free.
+    std::vector<std::vector<config::ChannelIndex>> queues;
 };
 
 /// Only what the outputs need: no depth that nothing compares, nothing that nobody sees.
 ///
 /// InvalidArgument: the configuration has errors, a canvas or segment is not there, a picture is
-/// larger than renderers draw, frames that wait for each other.
+/// larger than renderers draw, an eye that nothing of an output is shown to, frames that wait for
+/// each other.
 absl::StatusOr<Plan> makePlan(const config::Configuration& configuration,
                               const PlanRequest& request);
 

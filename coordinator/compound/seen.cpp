@@ -125,7 +125,7 @@ Seen seen(const config::Configuration& configuration, const PlanRequest& request
           double focusRatio) {
     const config::View& view = viewOf(configuration, destination);
     const config::EyePlaces places = config::eyePlaces(configuration, view);
-    const double unit = request.display.modelUnit;
+    const double unit = request.display.modelUnit(destination.index.layout, destination.index.view);
     if (!surroundings.wall) {
         if (eye == Eye::Cyclop)
             return {};

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <string_view>
 
 #include <fmt/format.h>
 
 #include "coordinator/compound/jitter.h"
+#include "coordinator/compound/queues.h"
 #include "coordinator/compound/seen.h"
 #include "coordinator/config/pixels.h"
 #include "fabric/status.h"
@@ -75,6 +77,7 @@ public:
 
     /// From the root at `first`; returns where the next tree begins.
     absl::StatusOr<std::size_t> walk(std::size_t first) {
+        findQueues(first);
         ASSIGN_OR_RETURN(const std::size_t next, visit(first, std::nullopt));
         for (const Waiting& waiting : waiting_) match(waiting);
         return next;
@@ -91,6 +94,7 @@ private:
 
     struct Named {
         std::string_view name;
+        std::size_t compound;
         std::size_t frame;
     };
 
@@ -117,6 +121,35 @@ private:
         }
         end(index);
         return next;
+    }
+
+    /// Those of the tree at `first`, and what each compound has of them.
+    void findQueues(std::size_t first) {
+        std::vector<QueueMaker> makers;
+        std::vector<QueueTaker> takers;
+        for (std::size_t i = first; i == first || isBelow(i, resolved_.compounds[first]);) {
+            const std::size_t index = i++;
+            const ResolvedCompound& own = resolved_.compounds[index];
+            if (!isActive(own)) {
+                while (isBelow(i, own)) ++i;
+                continue;
+            }
+            if (own.compound == nullptr || !own.destination || !own.channel)
+                continue;
+            const Lattice lattice = latticeOf(own, resolved_.destinations[*own.destination]);
+            for (const config::Tiles& each : own.compound->outputTiles)
+                makers.push_back(
+                    {&each, *own.destination, lattice, areaOnFramebuffer(own), own.range});
+            if (own.tasks.draw && !isBelow(i, own))
+                for (const config::Tiles& each : own.compound->inputTiles)
+                    takers.push_back({index, each.name, *own.channel, *own.destination, lattice});
+        }
+        shares_ = queueShares(makers, takers, list_);
+    }
+
+    const QueueShare* shareOf(std::size_t compound) const {
+        const auto found = shares_.find(compound);
+        return found == shares_.end() ? nullptr : &found->second;
     }
 
     bool isBelow(std::size_t index, const ResolvedCompound& parent) const {
@@ -186,9 +219,22 @@ private:
         RETURN_IF_ERROR(checkSize(destination, task.viewWidth, task.viewHeight));
         if (task.raster)
             RETURN_IF_ERROR(checkSize(destination, task.raster->width, task.raster->height));
-        add(Work::Kind::Draw, framebuffer, task.pixelViewport).draw = list_.draws.size();
-        list_.draws.push_back({*own.channel, index, task, framebuffer});
+        const QueueShare* const share = shareOf(index);
+        if (share == nullptr) {
+            addTask({*own.channel, index, task, framebuffer});
+            return absl::OkStatus();
+        }
+        for (const equalizer::Tile& tile : share->tiles) {
+            task.pixelViewport = tile.pixelViewport;
+            task.range = tile.range;
+            addTask({*own.channel, index, task, framebuffer, share->queue});
+        }
         return absl::OkStatus();
+    }
+
+    void addTask(const PlannedDraw& draw) {
+        add(Work::Kind::Draw, draw.framebuffer, draw.task.pixelViewport).draw = list_.draws.size();
+        list_.draws.push_back(draw);
     }
 
     static absl::Status checkSize(const config::Destination& destination, std::int32_t width,
@@ -216,19 +262,32 @@ private:
         }
         if (own.tasks.readback)
             for (const config::ResolvedFrame& frame : own.outputFrames)
-                addFrame(own, frame, *level.framebuffer, area);
+                addFrames(index, frame, *level.framebuffer, area);
         if (own.outputFrames.empty())
             give(own, level, area);
     }
 
-    void addFrame(const ResolvedCompound& own, const config::ResolvedFrame& frame,
-                  std::size_t framebuffer, const PixelViewport& area) {
+    /// One or, of one that takes tiles, one for each: others' tiles are between them.
+    void addFrames(std::size_t index, const config::ResolvedFrame& frame, std::size_t framebuffer,
+                   const PixelViewport& area) {
+        const QueueShare* const share = shareOf(index);
+        if (share == nullptr)
+            return addFrame(index, frame, framebuffer, area, area);
+        if (share->isOfRange && !share->tiles.empty())
+            return addFrame(index, frame, framebuffer, share->area, share->area);
+        for (const equalizer::Tile& tile : share->tiles)
+            addFrame(index, frame, framebuffer, share->area, tile.pixelViewport);
+    }
+
+    void addFrame(std::size_t index, const config::ResolvedFrame& frame, std::size_t framebuffer,
+                  const PixelViewport& area, const PixelViewport& drawn) {
         const PixelViewport part =
-            fabric::intersection(area, config::part(area, frame.frame->viewport));
+            fabric::intersection(drawn, config::part(area, frame.frame->viewport));
         if (part.isEmpty())
             return;
-        named_.push_back({frame.name, list_.frames.size()});
-        const bool hasDepth = frame.frame->buffers.value_or(own.buffers).depth;
+        named_.push_back({frame.name, index, list_.frames.size()});
+        const bool hasDepth =
+            frame.frame->buffers.value_or(resolved_.compounds[index].buffers).depth;
         addReadBack({framebuffer, part, zoomOf(frame.frame->zoom, part), hasDepth});
     }
 
@@ -277,7 +336,7 @@ private:
         return list_.works.back();
     }
 
-    /// Of several frames with one name, the first.
+    /// Of several frames with one name, those of the first compound.
     void match(const Waiting& waiting) {
         for (const config::ResolvedFrame& frame :
              resolved_.compounds[waiting.compound].inputFrames) {
@@ -285,9 +344,13 @@ private:
                 std::ranges::find(named_, std::string_view(frame.name), &Named::name);
             if (found == named_.end())
                 continue;
-            if (frame.frame->buffers && !frame.frame->buffers->depth)
-                list_.frames[found->frame].hasDepth = false;
-            list_.works[waiting.work].inputs.push_back(found->frame);
+            for (auto each = found; each != named_.end(); ++each) {
+                if (each->name != found->name || each->compound != found->compound)
+                    continue;
+                if (frame.frame->buffers && !frame.frame->buffers->depth)
+                    list_.frames[each->frame].hasDepth = false;
+                list_.works[waiting.work].inputs.push_back(each->frame);
+            }
         }
     }
 
@@ -299,6 +362,7 @@ private:
     std::vector<Level> levels_;
     std::vector<Named> named_;
     std::vector<Waiting> waiting_;
+    std::map<std::size_t, QueueShare> shares_;  ///< by compound
 };
 
 }  // namespace

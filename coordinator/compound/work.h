@@ -62,6 +62,7 @@ struct WorkList {
     std::vector<OutputFrame> frames;
     std::vector<PlannedDraw> draws;
     std::vector<Work> works;
+    std::vector<std::vector<config::ChannelIndex>> queues;
 
     /// The framebuffer in which a destination's picture comes to be; made where there is none yet.
     std::size_t pictureOf(const config::ResolvedConfiguration& resolved, std::size_t destination,

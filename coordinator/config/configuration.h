@@ -152,12 +152,16 @@ struct Observer {
     bool operator==(const Observer&) const = default;
 };
 
+enum class StereoMode { Auto, Quad, Anaglyph, Passive };
+
 struct View {
     std::string name;
     bool isStereo = false;
     Viewport viewport;  ///< of the layout
     Surface surface;
     std::optional<std::size_t> observer;
+    /// How two eyes are shown in one picture, before what compounds say. In no file; see state.h.
+    std::optional<StereoMode> stereoMode;
     Attributes attributes;
     Place place;
 
@@ -303,8 +307,6 @@ struct Equalizer {
 
     bool operator==(const Equalizer&) const = default;
 };
-
-enum class StereoMode { Auto, Quad, Anaglyph, Passive };
 
 struct ColourMask {
     bool red = false;

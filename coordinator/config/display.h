@@ -34,14 +34,19 @@ struct Display {
     std::vector<ShownCanvas> canvases;
     /// Where the observers' heads are in the room, of metres: rotation and place.
     std::vector<fabric::Mat4> heads;
-    /// Metres of the scene that one metre of the room stands for: walls and eyes are that much
-    /// larger. Above 0.
-    double modelUnit = 1;
+    /// Of layouts' views: metres of the scene that one metre of the room stands for; walls and eyes
+    /// are that much larger. Above 0; those left out are 1.
+    std::vector<std::vector<double>> modelUnits;
 
     bool operator==(const Display&) const = default;
 
     const ShownCanvas* find(std::size_t canvas) const {
         return canvas < canvases.size() ? &canvases[canvas] : nullptr;
+    }
+    double modelUnit(std::size_t layout, std::size_t view) const {
+        return layout < modelUnits.size() && view < modelUnits[layout].size()
+                   ? modelUnits[layout][view]
+                   : 1;
     }
 };
 

@@ -37,29 +37,6 @@ void take(const std::optional<T>& setting, U& target) {
         target = *setting;
 }
 
-Equalizer tuned(Equalizer equalizer, const EqualizerState& state) {
-    take(state.mode, equalizer.mode);
-    take(state.damping, equalizer.damping);
-    take(state.boundaryPixels, equalizer.boundaryPixels);
-    take(state.boundaryRange, equalizer.boundaryRange);
-    take(state.resistancePixels, equalizer.resistancePixels);
-    take(state.resistanceRange, equalizer.resistanceRange);
-    take(state.assembleOnlyLimit, equalizer.assembleOnlyLimit);
-    take(state.framerate, equalizer.framerate);
-    take(state.tileSize, equalizer.tileSize);
-    return equalizer;
-}
-
-/// By reading it as a file's: what its kind does not have is warned of.
-absl::Status check(const Equalizer& equalizer) {
-    StatementList list;
-    writeEqualizer(equalizer, list);
-    Findings findings;
-    ValueReader reader(findings);
-    readEqualizer(list.take().front(), equalizer.kind, reader);
-    return firstError(findings);
-}
-
 absl::Status check(const Surface& surface) {
     if (std::holds_alternative<std::monostate>(surface))
         return absl::OkStatus();
@@ -78,24 +55,11 @@ void addEqualizers(const Compound& compound, std::vector<PlacedEqualizer>& found
     for (const Compound& child : compound.children) addEqualizers(child, found);
 }
 
-class Applier {
-public:
-    explicit Applier(const ConfigurationState& state) : state_(state) {}
-
-    /// `isWithin`: an ancestor shows the view already, and what is there holds here.
-    void apply(Compound& compound, bool isWithin) {
-        for (Equalizer& equalizer : compound.equalizers)
-            equalizer = tuned(equalizer, state_.equalizers[next_++]);
-        const auto* const shown = std::get_if<DestinationIndex>(&compound.channel);
-        if (shown != nullptr && !isWithin)
-            take(state_.views[shown->layout][shown->view].stereoMode, compound.stereoMode);
-        for (Compound& child : compound.children) apply(child, isWithin || shown != nullptr);
-    }
-
-private:
-    const ConfigurationState& state_;
-    std::size_t next_ = 0;
-};
+void tuneAll(Compound& compound, const ConfigurationState& state, std::size_t& next) {
+    for (Equalizer& equalizer : compound.equalizers)
+        equalizer = tuned(equalizer, state.equalizers[next++]).value_or(equalizer);
+    for (Compound& child : compound.children) tuneAll(child, state, next);
+}
 
 }  // namespace
 
@@ -147,13 +111,14 @@ absl::Status setHead(const Configuration& configuration, ConfigurationState& sta
 }
 
 absl::Status tuneEqualizer(const Configuration& configuration, ConfigurationState& state,
-                           std::size_t equalizer, const EqualizerState& settings) {
+                           std::size_t equalizer, const EqualizerTuning& tuning) {
     const std::vector<PlacedEqualizer> all = equalizersOf(configuration);
     if (equalizer >= all.size())
         return absl::NotFoundError(
             fmt::format("there is no equalizer {}; there are {}", equalizer, all.size()));
-    RETURN_IF_ERROR(check(tuned(*all[equalizer].equalizer, settings)));
-    state.equalizers[equalizer] = settings;
+    const EqualizerTuning changed = together(state.equalizers[equalizer], tuning);
+    RETURN_IF_ERROR(tuned(*all[equalizer].equalizer, changed).status());
+    state.equalizers[equalizer] = changed;
     return absl::OkStatus();
 }
 
@@ -183,9 +148,11 @@ Configuration applied(const Configuration& configuration, const ConfigurationSta
         for (std::size_t view = 0; view < result.layouts[layout].views.size(); ++view) {
             take(state.views[layout][view].isStereo, result.layouts[layout].views[view].isStereo);
             take(state.views[layout][view].surface, result.layouts[layout].views[view].surface);
+            take(state.views[layout][view].stereoMode,
+                 result.layouts[layout].views[view].stereoMode);
         }
-    Applier applier(state);
-    for (Compound& root : result.compounds) applier.apply(root, false);
+    std::size_t next = 0;
+    for (Compound& root : result.compounds) tuneAll(root, state, next);
     return result;
 }
 

@@ -9,6 +9,7 @@
 #include <absl/status/status.h>
 
 #include "coordinator/config/configuration.h"
+#include "coordinator/config/equalizer_tuning.h"
 #include "fabric/vec.h"
 
 /// What of a configuration changes while it runs, as a plain value, and what changes it. A change
@@ -16,28 +17,11 @@
 /// positions from 0 on; errors are NotFound, with the names that there are, and InvalidArgument.
 namespace eyrie::config {
 
-/// Of an equalizer; what is absent is as configured.
-struct EqualizerState {
-    bool isOff = false;     ///< its compounds stay as they are configured
-    bool isFrozen = false;  ///< they stay as they are now
-    std::optional<SplitMode> mode;
-    std::optional<double> damping;
-    std::optional<fabric::Vec2> boundaryPixels;
-    std::optional<double> boundaryRange;
-    std::optional<fabric::Vec2> resistancePixels;
-    std::optional<double> resistanceRange;
-    std::optional<double> assembleOnlyLimit;
-    std::optional<double> framerate;
-    std::optional<fabric::Vec2> tileSize;
-
-    bool operator==(const EqualizerState&) const = default;
-};
-
 /// Of a view; what is absent is as configured.
 struct ViewState {
     std::optional<bool> isStereo;
     std::optional<StereoMode> stereoMode;  ///< how both eyes are shown in one picture
-    double modelUnit = 1;  ///< metres of the display in which a world metre is shown
+    double modelUnit = 1;                  ///< metres of the scene for one of the room; above 0
     std::optional<Surface> surface;
 
     bool operator==(const ViewState&) const = default;
@@ -45,7 +29,7 @@ struct ViewState {
 
 struct ConfigurationState {
     std::vector<std::optional<std::size_t>> layouts;  ///< shown by each canvas; none: OFF
-    std::vector<EqualizerState> equalizers;     ///< of compounds from the roots down, as written
+    std::vector<EqualizerTuning> equalizers;    ///< of compounds from the roots down, as written
     std::vector<fabric::Mat4> heads;            ///< of observers: roomFromHead, rigid, metres
     std::vector<std::vector<ViewState>> views;  ///< of layouts
 
@@ -64,10 +48,11 @@ absl::Status setHead(const Configuration& configuration, ConfigurationState& sta
                      std::string_view observer, const fabric::Mat4& roomFromHead);
 
 /// Of the equalizers, from 0 on. Settings are limited as those of a file, and must be such as its
-/// kind has.
+/// kind has; those that were changed before stay as they are.
 absl::Status tuneEqualizer(const Configuration& configuration, ConfigurationState& state,
-                           std::size_t equalizer, const EqualizerState& settings);
+                           std::size_t equalizer, const EqualizerTuning& tuning);
 
+/// In the place of what was set before.
 absl::Status setView(const Configuration& configuration, ConfigurationState& state,
                      std::string_view layout, std::string_view view, const ViewState& settings);
 

@@ -44,10 +44,12 @@ absl::Status read(const Pixels& pixels, std::string_view field,
     return absl::OkStatus();
 }
 
-v1::EqualizerTuning toMessage(const EqualizerState& state) {
+v1::EqualizerTuning toMessage(const EqualizerTuning& state) {
     v1::EqualizerTuning message;
-    message.set_off(state.isOff);
-    message.set_frozen(state.isFrozen);
+    if (state.isOn)
+        message.set_on(*state.isOn);
+    if (state.isFrozen)
+        message.set_frozen(*state.isFrozen);
     if (state.mode)
         message.set_mode(static_cast<v1::SplitMode>(static_cast<int>(*state.mode) + 1));
     if (state.damping)
@@ -63,6 +65,8 @@ v1::EqualizerTuning toMessage(const EqualizerState& state) {
     if (state.framerate)
         message.set_framerate(*state.framerate);
     set(state.tileSize, *message.mutable_tile_size());
+    if (state.tileChunk)
+        message.set_tile_chunk(*state.tileChunk);
     return message;
 }
 
@@ -161,9 +165,11 @@ absl::Status change(const v1::EqualizerTuning& message, const Configuration& con
                     ConfigurationState& state) {
     if (message.equalizer() < 0)
         return absl::NotFoundError(fmt::format("there is no equalizer {}", message.equalizer()));
-    EqualizerState settings;
-    settings.isOff = message.off();
-    settings.isFrozen = message.frozen();
+    EqualizerTuning settings;
+    if (message.has_on())
+        settings.isOn = message.on();
+    if (message.has_frozen())
+        settings.isFrozen = message.frozen();
     RETURN_IF_ERROR(readEnum(message.mode(), v1::SPLIT_MODE_VERTICAL, "mode", settings.mode));
     RETURN_IF_ERROR(read(message.boundary(), "boundary", settings.boundaryPixels));
     RETURN_IF_ERROR(read(message.resistance(), "resistance", settings.resistancePixels));
@@ -178,6 +184,8 @@ absl::Status change(const v1::EqualizerTuning& message, const Configuration& con
         settings.assembleOnlyLimit = message.assemble_only_limit();
     if (message.has_framerate())
         settings.framerate = message.framerate();
+    if (message.has_tile_chunk())
+        settings.tileChunk = message.tile_chunk();
     return tuneEqualizer(configuration, state, static_cast<std::size_t>(message.equalizer()),
                          settings);
 }

@@ -128,18 +128,17 @@ public:
         report_.asked(task.frameNumber);
         const auto reader = stub_->RenderChannel(call.context(), request);
         PictureAssembly assembly(task);
-        auto result =
-            receive(call, *reader, assembly,
-                    [&, isDrawn = !drawn](const v1::RenderChannelResponse& part) mutable {
-                        if (!std::exchange(isDrawn, true))
-                            drawn();
-                        if (part.has_header()) {
-                            report_.headerCame(part.header());
-                            return assembly.takeHeader(part.header());
-                        }
-                        report_.chunkCame(part.chunk().size());
-                        return assembly.takeChunk(part.chunk());
-                    });
+        auto result = receive(call, *reader, assembly,
+                              [&, isDrawn = !drawn](const v1::RenderChannelResponse& part) mutable {
+                                  if (!std::exchange(isDrawn, true))
+                                      drawn();
+                                  if (part.has_header()) {
+                                      report_.headerCame(part.header());
+                                      return assembly.takeHeader(part.header());
+                                  }
+                                  report_.chunkCame(part.chunk().size());
+                                  return assembly.takeChunk(part.chunk());
+                              });
         report_.ended(result.status());
         return result;
     }

@@ -24,6 +24,10 @@ config::Display displayOf(const config::Configuration& configuration,
             canvas.layout = static_cast<std::size_t>(shown - layouts.begin());
     }
     display.heads = state.heads;
+    for (const auto& views : state.views) {
+        std::vector<double>& units = display.modelUnits.emplace_back();
+        for (const config::ViewState& view : views) units.push_back(view.modelUnit);
+    }
     return display;
 }
 
@@ -78,9 +82,11 @@ ActiveConfiguration::ActiveConfiguration(config::Configuration written)
 
 void ActiveConfiguration::resolveAnew() {
     display_ = displayOf(written_, state_);
+    shown_ = config::applied(written_, state_);
+    live_.layouts = shown_.layouts;
     config::Findings ignored;  // whoever read the configuration has told of them
-    resolved_ = config::resolve(written_, display_, ignored);
-    pipes_ = pipesOf(written_, resolved_);
+    resolved_ = config::resolve(shown_, display_, ignored);
+    pipes_ = pipesOf(shown_, resolved_);
 }
 
 absl::Status ActiveConfiguration::switchLayout(std::string_view canvas, std::string_view layout) {
@@ -96,8 +102,17 @@ absl::Status ActiveConfiguration::setHead(std::string_view observer,
     return absl::OkStatus();
 }
 
+absl::Status ActiveConfiguration::setView(std::string_view layout, std::string_view view,
+                                          const config::ViewState& settings) {
+    RETURN_IF_ERROR(config::setView(written_, state_, layout, view, settings));
+    resolveAnew();
+    return absl::OkStatus();
+}
+
 absl::Status ActiveConfiguration::tune(std::string_view equalizer,
                                        const equalizer::Tuning& tuning) {
+    ASSIGN_OR_RETURN(const std::size_t position, equalizers_.find(equalizer));
+    RETURN_IF_ERROR(config::tuneEqualizer(written_, state_, position, tuning));
     return equalizers_.tune(equalizer, tuning);
 }
 
@@ -154,12 +169,18 @@ std::vector<config::ChannelIndex> ActiveConfiguration::gone(const std::vector<bo
     return gone;
 }
 
-std::vector<std::size_t> ActiveConfiguration::renderersFor(const compound::Plan& plan,
-                                                           std::size_t renderers) const {
-    std::vector<std::size_t> preferred;
-    for (const compound::PlannedDraw& draw : plan.draws)
-        preferred.push_back(rendererFor(draw.channel, renderers));
-    return preferred;
+Takers ActiveConfiguration::takersOf(const compound::Plan& plan, std::size_t renderers) const {
+    Takers takers;
+    for (const compound::PlannedDraw& draw : plan.draws) {
+        takers.preferred.push_back(rendererFor(draw.channel, renderers));
+        takers.queueOf.push_back(draw.queue);
+    }
+    for (const auto& channels : plan.queues) {
+        std::vector<std::size_t>& queue = takers.queues.emplace_back();
+        for (const config::ChannelIndex& channel : channels)
+            queue.push_back(rendererFor(channel, renderers));
+    }
+    return takers;
 }
 
 void ActiveConfiguration::record(const compound::Plan& plan, std::uint64_t frameNumber,

@@ -16,6 +16,7 @@
 #include "coordinator/config/resolved.h"
 #include "coordinator/config/state.h"
 #include "coordinator/frame/frame_source.h"
+#include "coordinator/frame/takers.h"
 
 namespace eyrie::coordinator {
 
@@ -31,9 +32,11 @@ public:
     const config::ConfigurationState& state() const { return state_; }
     std::vector<equalizer::EqualizerState> equalizers() const { return equalizers_.states(); }
 
-    /// As config::switchLayout, config::setHead and Equalizers::tune.
+    /// As config::switchLayout, config::setHead, config::setView and Equalizers::tune.
     absl::Status switchLayout(std::string_view canvas, std::string_view layout);
     absl::Status setHead(std::string_view observer, const fabric::Mat4& roomFromHead);
+    absl::Status setView(std::string_view layout, std::string_view view,
+                         const config::ViewState& settings);
     absl::Status tune(std::string_view equalizer, const equalizer::Tuning& tuning);
 
     /// Pipes that draw something of what is shown: each wants a renderer of its own. In the order
@@ -52,7 +55,7 @@ public:
                                         const std::vector<bool>& isFree);
 
     /// Which renderer, of `renderers`, is to do each of the plan's draws.
-    std::vector<std::size_t> renderersFor(const compound::Plan& plan, std::size_t renderers) const;
+    Takers takersOf(const compound::Plan& plan, std::size_t renderers) const;
 
     /// Which of `renderers` is to do what this channel does.
     std::size_t rendererFor(const config::ChannelIndex& channel, std::size_t renderers) const {
@@ -76,10 +79,11 @@ private:
     void resolveAnew();
 
     const config::Configuration written_;
-    config::Configuration live_;  ///< as the equalizers have it
+    config::Configuration live_;  ///< as shown, and as the equalizers have it
     config::ConfigurationState state_;
+    config::Configuration shown_;             ///< written_, with what state_ changes of it
     config::Display display_;                 ///< of state_
-    config::ResolvedConfiguration resolved_;  ///< of written_, as displayed
+    config::ResolvedConfiguration resolved_;  ///< of shown_, as displayed
     std::vector<Pipe> pipes_;
     equalizer::Equalizers equalizers_;
 };

@@ -9,8 +9,8 @@
 
 namespace eyrie::coordinator {
 
-Dispatch::Plan dispatchOf(const PlannedFrame& frame, const compound::Plan& draws,
-                          std::vector<std::size_t> preferred, std::chrono::milliseconds first) {
+Dispatch::Plan dispatchOf(const PlannedFrame& frame, const compound::Plan& draws, Takers takers,
+                          std::chrono::milliseconds first) {
     Dispatch::Plan plan;
     plan.frameData = frame.frameData;
     for (const compound::PlannedDraw& draw : draws.draws) {
@@ -22,7 +22,7 @@ Dispatch::Plan dispatchOf(const PlannedFrame& frame, const compound::Plan& draws
     plan.sceneRevision = frame.scene.revision;
     plan.kind = frame.kind;
     plan.firstPatience = first;
-    plan.preferred = std::move(preferred);
+    plan.takers = std::move(takers);
     return plan;
 }
 

@@ -15,8 +15,8 @@ namespace eyrie::coordinator {
 
 /// The dispatch of draws of a frame: all of its plan, or some. `first` is for renderers of which
 /// nothing is known.
-Dispatch::Plan dispatchOf(const PlannedFrame& frame, const compound::Plan& draws,
-                          std::vector<std::size_t> preferred, std::chrono::milliseconds first);
+Dispatch::Plan dispatchOf(const PlannedFrame& frame, const compound::Plan& draws, Takers takers,
+                          std::chrono::milliseconds first);
 
 /// A frame, and what each draw of its plan took, for equalizers.
 struct DrawnFrame {

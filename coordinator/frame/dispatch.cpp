@@ -61,15 +61,25 @@ Dispatch::Clock::time_point Dispatch::nextLook() const {
 
 absl::Status Dispatch::assign(Crew& crew) {
     const Members members = crew.ready(plan_.sceneRevision);
-    for (std::size_t i = 0; i < parts_.size(); ++i)
-        if (!parts_[i].done && (parts_[i].running == 0 || isOverdue(parts_[i], members)))
-            RETURN_IF_ERROR(assign(i, members, crew));
+    const std::vector<std::size_t>* waiting = nullptr;  // the queue whose takers are all busy
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+        Part& part = parts_[i];
+        const std::vector<std::size_t>* const queue = part.asked.empty() ? queueOf(i) : nullptr;
+        if (part.done || (part.running != 0 && !isOverdue(part, members)) ||
+            (queue != nullptr && queue == waiting))
+            continue;
+        RETURN_IF_ERROR(assign(i, members, crew));
+        if (part.asked.empty())
+            waiting = queue;
+    }
     return absl::OkStatus();
 }
 
 absl::Status Dispatch::assign(std::size_t index, const Members& members, Crew& crew) {
     Part& part = parts_[index];
     Member* chosen = preferredOf(index, members);
+    if (chosen != nullptr && part.asked.empty() && queueOf(index) != nullptr && !chosen->isIdle())
+        return absl::OkStatus();  // whoever of its takers is free first has it
     if (chosen == nullptr)
         chosen = idleOf(part, members);
     if (chosen == nullptr) {
@@ -98,11 +108,37 @@ bool Dispatch::isOverdue(const Part& part, const Members& members) const {
     });
 }
 
+const std::vector<std::size_t>* Dispatch::queueOf(std::size_t index) const {
+    const auto& queueOf = plan_.takers.queueOf;
+    return index < queueOf.size() && queueOf[index] ? &plan_.takers.queues[*queueOf[index]]
+                                                    : nullptr;
+}
+
+/// One that is free, or one that will be; null when nobody is worth waiting for.
+Member* Dispatch::takerOf(std::size_t index, const std::vector<std::size_t>& takers,
+                          const Members& members) const {
+    Member* busy = nullptr;
+    for (const std::size_t taker : takers) {
+        Member& member = *members[taker % members.size()];
+        if (wasAsked(parts_[index], member) || member.isLate())
+            continue;
+        if (member.isIdle())
+            return &member;
+        if (busy == nullptr)
+            busy = &member;
+    }
+    return busy;
+}
+
 /// Null when there is none, or it is not worth waiting for.
 Member* Dispatch::preferredOf(std::size_t index, const Members& members) const {
-    if (index >= plan_.preferred.size() || members.empty())
+    if (members.empty())
         return nullptr;
-    Member& member = *members[plan_.preferred[index] % members.size()];
+    if (const auto* const takers = queueOf(index))
+        return takerOf(index, *takers, members);
+    if (index >= plan_.takers.preferred.size())
+        return nullptr;
+    Member& member = *members[plan_.takers.preferred[index] % members.size()];
     return wasAsked(parts_[index], member) || member.isLate() ? nullptr : &member;
 }
 

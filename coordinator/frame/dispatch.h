@@ -11,6 +11,7 @@
 
 #include "coordinator/frame/crew.h"
 #include "coordinator/frame/patience.h"
+#include "coordinator/frame/takers.h"
 #include "coordinator/observe/telemetry.h"
 #include "fabric/channel_task.h"
 #include "fabric/frame_data.h"
@@ -41,11 +42,9 @@ public:
         std::uint64_t kind = 0;
         std::chrono::milliseconds firstPatience{};  ///< while nothing is known of any renderer
         std::chrono::milliseconds callTimeout{};    ///< then the renderer is given up
-        /// Who is asked first, for each task; empty: anybody for all. Counts the renderers that are
-        /// ready, in the order of their registration, and begins again after the last: several
-        /// tasks of one renderer are drawn one after the other. It is not waited for while it is
-        /// late.
-        std::vector<std::size_t> preferred = {};
+        /// Several tasks of one renderer are drawn one after the other. It is not waited for while
+        /// it is late. What is in a queue waits for a taker that has nothing to do.
+        Takers takers = {};
         /// Called, with locks held, when each task has been given to a renderer or waits for one.
         std::function<void()> handedOut = [] {};
         /// Called, from any thread and even when the dispatch has ended, whenever a renderer may
@@ -84,6 +83,9 @@ private:
     bool isOverdue(const Part& part, const Members& members) const;
     bool wasAsked(const Part& part, const Member& member) const;
     Member* preferredOf(std::size_t index, const Members& members) const;
+    const std::vector<std::size_t>* queueOf(std::size_t index) const;
+    Member* takerOf(std::size_t index, const std::vector<std::size_t>& takers,
+                    const Members& members) const;
     Member* idleOf(const Part& part, const Members& members) const;
     std::ptrdiff_t timesAsked(const Member& member) const;
     std::chrono::milliseconds patienceWith(const Member& member, const Members& members) const;

@@ -40,11 +40,9 @@ absl::Status check(const FrameRequest& request) {
 FramePipeline::FramePipeline(Registry& registry, FramePipelineOptions options)
     : options_(std::move(options)),
       planner_(options_.configuration, options_.layout, [this] { listeners_.notify(); }),
-      programs_({options_.patience,
-                 options_.callTimeout,
-                 [this] { gate_.look(); },
-                 options_.telemetry},
-                crew_),
+      programs_(
+          {options_.patience, options_.callTimeout, [this] { gate_.look(); }, options_.telemetry},
+          crew_),
       crew_(registry, {.patience = options_.patience}, [this] { listeners_.notify(); }) {}
 
 absl::StatusOr<RenderedFrame> FramePipeline::renderFrame(const FrameRequest& request) {
@@ -134,12 +132,13 @@ absl::StatusOr<DrawnFrame> FramePipeline::draw(const PlannedFrame& frame,
 absl::StatusOr<DrawnFrame> FramePipeline::drawCentrally(const PlannedFrame& frame,
                                                         const std::function<void()>& handedOut) {
     Dispatch::Plan plan =
-        dispatchOf(frame, frame.plan, frame.preferred, programs_.patienceWith(frame.kind));
+        dispatchOf(frame, frame.plan, frame.takers, programs_.patienceWith(frame.kind));
     plan.callTimeout = options_.callTimeout;
     plan.handedOut = handedOut;
     plan.freed = [this] { gate_.look(); };
     plan.telemetry = options_.telemetry;
-    observe::StageTimer rendering(telemetry(), observe::Stage::Render, frame.timeLine, frame.number);
+    observe::StageTimer rendering(telemetry(), observe::Stage::Render, frame.timeLine,
+                                  frame.number);
     ASSIGN_OR_RETURN(std::vector<Dispatch::Drawn> drawn,
                      std::make_shared<Dispatch>(std::move(plan))->run(crew_));
     rendering.stop();

@@ -39,7 +39,7 @@ std::optional<PlannedFrame::ByPrograms> byPrograms(const PlannedFrame& frame) {
         return std::nullopt;
     programs.others = exchange->rest;
     programs.others.draws.resize(exchange->draws.size());
-    programs.preferred = frame.configuration->renderersFor(programs.others, count);
+    programs.takers = frame.configuration->takersOf(programs.others, count);
     programs.exchange = *std::move(exchange);
     return programs;
 }
@@ -73,7 +73,7 @@ absl::StatusOr<PlannedFrame> FramePlanner::plan(const FrameRequest& asked, const
     frame.number = ++frameNumber_;
     ASSIGN_OR_RETURN(frame.plan,
                      active_->plan(frame.request, frame.number, freeOnes(frame.members)));
-    frame.preferred = active_->renderersFor(frame.plan, frame.members.size());
+    frame.takers = active_->takersOf(frame.plan, frame.members.size());
     frame.frameData = frameDataFor(frame.request, budget);
     frame.kind = kinds_.of(frame.request, scene.revision);
     frame.byPrograms = byPrograms(frame);

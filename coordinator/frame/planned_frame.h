@@ -14,6 +14,7 @@
 #include "coordinator/frame/crew.h"
 #include "coordinator/frame/frame_source.h"
 #include "coordinator/frame/member.h"
+#include "coordinator/frame/takers.h"
 #include "fabric/frame_data.h"
 
 namespace eyrie::coordinator {
@@ -30,14 +31,14 @@ struct PlannedFrame {
     fabric::FrameData frameData;
     std::shared_ptr<ActiveConfiguration> configuration;
     compound::Plan plan;
-    std::vector<std::size_t> preferred;  ///< of members, for each draw of the plan
+    Takers takers;  ///< of members, for each draw of the plan
 
     /// The same by programs, where it can be; positions are of members.
     struct ByPrograms {
         compound::Exchange exchange;
         std::vector<std::size_t> renderers;  ///< for each program
         compound::Plan others;               ///< what they leave to be drawn
-        std::vector<std::size_t> preferred;  ///< for each draw of that
+        Takers takers;                       ///< for each draw of that
     };
     std::optional<ByPrograms> byPrograms;
 };

@@ -93,7 +93,7 @@ absl::StatusOr<DrawnFrame> ProgramDrawing::tryToDraw(const PlannedFrame& frame,
                                 renderers, addresses);
     });
     Dispatch::Plan others =
-        dispatchOf(frame, programs.others, programs.preferred, patienceWith(frame.kind));
+        dispatchOf(frame, programs.others, programs.takers, patienceWith(frame.kind));
     others.callTimeout = options_.callTimeout;
     others.freed = options_.freed;
     others.telemetry = options_.telemetry;

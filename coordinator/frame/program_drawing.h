@@ -25,8 +25,8 @@ public:
 
     struct Options {
         PatienceOptions patience;
-        std::chrono::milliseconds callTimeout{};  ///< of what is drawn beside the programs
-        std::function<void()> freed;              ///< Dispatch::Plan::freed
+        std::chrono::milliseconds callTimeout{};       ///< of what is drawn beside the programs
+        std::function<void()> freed;                   ///< Dispatch::Plan::freed
         observe::SharedTelemetry telemetry = nullptr;  ///< is told how long it takes
     };
 

@@ -39,8 +39,8 @@ struct Context {
     /// a browser here.
     bool isLoopback = true;
     Access access;
-    std::unique_ptr<Tls> tls;  ///< null: not encrypted
-    Crowd crowd;               ///< who is connected
+    std::unique_ptr<Tls> tls;            ///< null: not encrypted
+    Crowd crowd;                         ///< who is connected
     observe::SharedTelemetry telemetry;  ///< not null
     std::set<Session*> sessions = {};
     std::function<void()> sessionEnded = {};

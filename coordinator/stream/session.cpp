@@ -363,8 +363,8 @@ private:
 
     /// At the end nothing is sent finer than it was asked for.
     std::optional<QualityClass> dueNow(const Seat& seat, Clock::time_point now) const {
-        const bool hasNewest = progress_.newest() != nullptr &&
-                               seat.delivered.picture == progress_.newest()->number;
+        const bool hasNewest =
+            progress_.newest() != nullptr && seat.delivered.picture == progress_.newest()->number;
         return isDraining_ && hasNewest ? std::nullopt : seat.due(progress_, now);
     }
 

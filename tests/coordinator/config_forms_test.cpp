@@ -223,7 +223,8 @@ TEST(ConfigurationStateMessage, BringsBackTheStateThatItIsOf) {
     const ConfigurationState initial = initialState(configuration);
     ConfigurationState state = initial;
     state.layouts[0] = std::nullopt;
-    state.equalizers[0].isOff = state.equalizers[1].isFrozen = true;
+    state.equalizers[0].isOn = false;
+    state.equalizers[1].isFrozen = true;
     state.equalizers[0].damping = .25;
     state.heads[0][3] = fabric::Vec4(1, 2, 3, 1);
     state.views[1][0] = {true, StereoMode::Passive, 2, Wall{}};
@@ -234,7 +235,7 @@ TEST(ConfigurationStateMessage, BringsBackTheStateThatItIsOf) {
     EXPECT_TRUE(status.ok()) << status.ToString();
     EXPECT_EQ(changed, state);
 
-    EqualizerState settings;
+    EqualizerTuning settings;
     settings.mode = SplitMode::Vertical;
     settings.boundaryPixels = fabric::Vec2(2, 3);
     settings.boundaryRange = .5;

@@ -147,7 +147,7 @@ TEST(ConfigurationState, TunesEqualizersAsFarAsAFileMay) {
     const Configuration made = defaultConfiguration(renderers(2));
     ConfigurationState state = initialState(made);
     ASSERT_EQ(state.equalizers.size(), 2U);
-    EqualizerState settings;
+    EqualizerTuning settings;
     settings.damping = .25;
     settings.boundaryPixels = fabric::Vec2(8, 8);
     EXPECT_TRUE(tuneEqualizer(made, state, 1, settings).ok());
@@ -155,10 +155,15 @@ TEST(ConfigurationState, TunesEqualizersAsFarAsAFileMay) {
     EXPECT_EQ(equalizersOf(tuned)[0].equalizer->damping, .5);
     EXPECT_EQ(equalizersOf(tuned)[1].equalizer->damping, .25);
     EXPECT_EQ(equalizersOf(tuned)[1].equalizer->boundaryPixels, fabric::Vec2(8, 8));
+    EqualizerTuning second;
+    second.damping = .75;
+    EXPECT_TRUE(tuneEqualizer(made, state, 1, second).ok());
+    EXPECT_EQ(state.equalizers[1].damping, .75);
+    EXPECT_EQ(state.equalizers[1].boundaryPixels, fabric::Vec2(8, 8)) << "what is absent stays";
     const ConfigurationState before = state;
     settings.damping = 2;
     EXPECT_THAT(messageOf(tuneEqualizer(made, state, 1, settings)), HasSubstr("from 0 to 1"));
-    EqualizerState foreign;
+    EqualizerTuning foreign;
     foreign.framerate = 30;
     EXPECT_THAT(messageOf(tuneEqualizer(made, state, 1, foreign)), HasSubstr("'framerate'"));
     EXPECT_THAT(messageOf(tuneEqualizer(made, state, 2, {})), HasSubstr("there are 2"));
@@ -191,7 +196,7 @@ TEST(ConfigurationState, ShowsViewsAsTheyAreSet) {
     const Configuration shown = applied(made, state);
     EXPECT_TRUE(shown.layouts[1].views[0].isStereo);
     EXPECT_FALSE(shown.layouts[0].views[0].isStereo);
-    EXPECT_EQ(shown.compounds[1].stereoMode, StereoMode::Anaglyph);
+    EXPECT_EQ(shown.layouts[1].views[0].stereoMode, StereoMode::Anaglyph);
     Findings findings;
     EXPECT_EQ(of(resolve(shown, findings), 1).front().sights.size(), 2U);
     settings.surface = Wall{{0, 0, 0}, {0, 0, 0}, {0, 1, 0}, false};

@@ -53,7 +53,7 @@ protected:
         plan.kind = 1;
         plan.firstPatience = seconds(50);
         plan.callTimeout = seconds(60);
-        plan.preferred = std::move(preferred);
+        plan.takers.preferred = std::move(preferred);
         return std::make_shared<Dispatch>(plan)->run(crew_);
     }
     std::vector<int> drawn() const {

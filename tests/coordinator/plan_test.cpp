@@ -213,7 +213,7 @@ TEST(Plan, AModelUnitMovesTheEyesAndKeepsTheFrustum) {
     const fabric::Sight one = sightOf(powerWall(), request);
     EXPECT_NEAR(one.eye.x, -.05, 1e-12);
     for (const double unit : {.5, 2.0}) {
-        request.display.modelUnit = unit;
+        request.display.modelUnits = {{unit}};
         const fabric::Sight scaled = sightOf(powerWall(), request);
         EXPECT_NEAR(scaled.eye.x, -.05 * unit, 1e-12);
         expectNear(scaled.frustum, one.frustum);
@@ -316,6 +316,11 @@ TEST(Plan, EyesOfSegmentsOfTheirOwnArePicturesOfTheirOwn) {
     EXPECT_EQ(plan.pictures[0].eye, Eye::Left);
     EXPECT_EQ(plan.pictures[1].eye, Eye::Right);
     EXPECT_EQ(plan.draws.size(), 2U);
+    PlanRequest request = canvasOf(64, 48);
+    request.outputs[0].segment = 0;
+    request.outputs[0].eye = Eye::Right;
+    EXPECT_THAT(std::string(makePlan(passive, request).status().message()),
+                HasSubstr("shown to the right eye"));
 }
 
 /// What may stand anywhere, sensible or not.

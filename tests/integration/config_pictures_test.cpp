@@ -1,6 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Configurations of Equalizer, drawn by real renderer processes: each picture must be that of one
 // channel.
+#include <array>
+#include <cstdint>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <string>
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -19,6 +26,34 @@ struct Case {
     std::size_t mayDiffer = 0;
 };
 
+/// Six walls of four pipes around the head, each seen by two eyes.
+std::string cave() {
+    constexpr std::array<std::array<const char*, 3>, 6> kCorners = {
+        {{"-1 -1 -1", "1 -1 -1", "-1 1 -1"},
+         {"1 -1 -1", "1 -1 1", "1 1 -1"},
+         {"1 -1 1", "-1 -1 1", "1 1 1"},
+         {"-1 -1 1", "-1 -1 -1", "-1 1 1"},
+         {"-1 -1 1", "1 -1 1", "-1 -1 -1"},
+         {"-1 1 -1", "1 1 -1", "-1 1 1"}}};
+    std::string pipes;
+    for (int pipe = 0; pipe < 4; ++pipe) {
+        pipes += "pipe { ";
+        for (int wall = pipe; wall < 6; wall += 4)
+            pipes +=
+                fmt::format("window {{ viewport [ 0 0 96 96 ] channel {{ name \"{}\" }} }} ", wall);
+        pipes += "} ";
+    }
+    std::string canvases;
+    for (std::size_t i = 0; i < kCorners.size(); ++i)
+        canvases += fmt::format(
+            "canvas {{ layout 0 wall {{ bottom_left [ {} ] bottom_right [ {} ] top_left [ {} ] }} "
+            "segment {{ channel \"{}\" }} }} ",
+            kCorners[i][0], kCorners[i][1], kCorners[i][2], i);
+    return "#Equalizer 1.2 ascii\nserver { config { appNode { " + pipes +
+           "} observer { eye_base .1 } layout { view { observer 0 mode STEREO } } " + canvases +
+           "} }";
+}
+
 class ConfigPictures : public testing::TestWithParam<Case> {
 protected:
     static void SetUpTestSuite() {
@@ -29,6 +64,9 @@ protected:
             {"import", "mesh", folder_->path("ball.ply"), "-o", folder_->path("ball.eym")}));
         folder_->write("cam.json",
                        R"({"eye":[0,-3.2,0.4],"target":[0,0,0],"up":[0,0,1],"fovyDegrees":45})");
+        folder_->write("inside.json",
+                       R"({"eye":[0.1,0,0],"target":[1,0,0],"up":[0,0,1],"fovyDegrees":45})");
+        folder_->write("cave.eqc", cave());
     }
     static void TearDownTestSuite() { folder_.reset(); }
 
@@ -80,6 +118,107 @@ INSTANTIATE_TEST_SUITE_P(Of, ConfigPictures,
                                          Case{"3-channel.cave.eqc", {"--segment", "1"}},
                                          Case{"8-window.wall.lb.eqc"}),
                          [](const auto& of) { return test::identifier(of.param.file); });
+
+std::size_t differing(const fabric::Image& a, const fabric::Image& b) {
+    if (a.area != b.area)
+        return a.colour.size();
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < a.colour.size(); ++i) count += a.colour[i] == b.colour[i] ? 0 : 1;
+    return count;
+}
+
+/// Of a view that is not stereo, too: each is beside the middle by half of the observer's eye base.
+TEST_F(ConfigPictures, EveryEyeSeesAPictureOfItsOwn) {
+    for (const std::vector<std::string>& more :
+         {std::vector<std::string>{"--renderers", "1"},
+          std::vector<std::string>{"--config", folder_->path("cave.eqc"), "--canvas", "0"}}) {
+        std::vector<fabric::Image> seen;
+        for (const char* eye : {"left", "cyclop", "right"}) {
+            std::vector<std::string> arguments = {"render",
+                                                  folder_->path("ball.eym"),
+                                                  "--camera",
+                                                  folder_->path("cam.json"),
+                                                  "--size",
+                                                  "320x180",
+                                                  "--quiet",
+                                                  "--eye",
+                                                  eye,
+                                                  "-o",
+                                                  folder_->path("eye.png")};
+            arguments.insert(arguments.end(), more.begin(), more.end());
+            ASSERT_TRUE(test::succeeded(arguments));
+            const auto image = test::readPng(folder_->path("eye.png"));
+            ASSERT_TRUE(image.ok()) << image.status();
+            seen.push_back(*image);
+        }
+        EXPECT_GT(differing(seen[0], seen[1]), 100U);
+        EXPECT_GT(differing(seen[2], seen[1]), 100U);
+        EXPECT_GT(differing(seen[0], seen[2]), 100U);
+    }
+}
+
+std::uint64_t pagesLoaded(const std::string& path) {
+    std::ifstream in(path);
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    const std::size_t at = text.find("\"pagesLoaded\"");
+    return at == std::string::npos ? 0 : std::stoull(text.substr(text.find(':', at) + 1));
+}
+
+/// Six walls and two eyes: 12 views in one frame, by four renderers that load once for all that
+/// each draws.
+TEST_F(ConfigPictures, OfACaveComeTwelveAtOnceAndAreThoseDrawnOneByOne) {
+    const auto draw = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> arguments = {"render",
+                                              folder_->path("ball.eym"),
+                                              "--camera",
+                                              folder_->path("inside.json"),
+                                              "--size",
+                                              "96x96",
+                                              "--config",
+                                              folder_->path("cave.eqc"),
+                                              "--quiet",
+                                              "--stats",
+                                              folder_->path("stats.json")};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        EXPECT_TRUE(test::succeeded(arguments));
+        return pagesLoaded(folder_->path("stats.json"));
+    };
+    const std::uint64_t together = draw({"--all", "-o", folder_->path("cave.png")});
+    std::uint64_t separately = 0;
+    for (int wall = 0; wall < 6; ++wall)
+        for (const std::string eye : {"left", "right"}) {
+            separately +=
+                draw({"--canvas", std::to_string(wall), "--segment", "0", "--eye", eye,
+                      "--one-channel", "--renderers", "1", "-o", folder_->path("one.png")});
+            const auto of12 =
+                test::readPng(folder_->path(fmt::format("cave.{}.0.{}.png", wall, eye)));
+            const auto single = test::readPng(folder_->path("one.png"));
+            ASSERT_TRUE(of12.ok() && single.ok()) << of12.status() << single.status();
+            EXPECT_EQ(differing(*of12, *single), 0U) << wall << eye;
+        }
+    EXPECT_GT(together, 0U);
+    EXPECT_LT(together, separately);
+    std::printf("%d pages loaded for 12 views in one frame, %d one by one\n",
+                static_cast<int>(together), static_cast<int>(separately));
+}
+
+TEST_F(ConfigPictures, AllOfWhatIsNoConfigurationIsRefused) {
+    const test::Outcome outcome =
+        test::eyrie({"render", folder_->path("ball.eym"), "--camera", folder_->path("cam.json"),
+                     "--all", "-o", folder_->path("out.png")});
+    EXPECT_EQ(outcome.exit, (test::Exit{2, 0})) << outcome.errors;
+    EXPECT_NE(outcome.errors.find("--config"), std::string::npos) << outcome.errors;
+}
+
+TEST_F(ConfigPictures, WhatIsStartedWithFewerRenderersIsSaid) {
+    const test::Outcome outcome =
+        test::eyrie({"check", folder_->path("cave.eqc"), "--renderers", "3"});
+    EXPECT_EQ(outcome.exit, (test::Exit{0, 0})) << outcome.errors;
+    EXPECT_NE(outcome.output.find("renderer 1: pipe 0/0, 0/3"), std::string::npos)
+        << outcome.output;
+    EXPECT_NE(outcome.output.find("missing: 1 of 4 renderers"), std::string::npos)
+        << outcome.output;
+}
 
 TEST_F(ConfigPictures, WhatIsNotThereIsNamed) {
     const test::Outcome outcome = test::eyrie(

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "coordinator/compound/equalizer/settings.h"
 #include "fabric/status.h"
 
 namespace eyrie::equalizer {
@@ -115,11 +114,11 @@ void Equalizers::record(const FrameTimes& times) {
             entry.balancer->record(*frame, times);
 }
 
-absl::StatusOr<Equalizers::Entry*> Equalizers::find(std::string_view name) {
+absl::StatusOr<std::size_t> Equalizers::find(std::string_view name) const {
     std::string known;
     for (std::size_t i = 0; i < entries_.size(); ++i) {
         if (entries_[i].name == name || fmt::format("{}", i) == name)
-            return &entries_[i];
+            return i;
         known += fmt::format("{}\"{}\"", i == 0 ? "" : ", ", entries_[i].name);
     }
     return absl::NotFoundError(
@@ -128,10 +127,11 @@ absl::StatusOr<Equalizers::Entry*> Equalizers::find(std::string_view name) {
 }
 
 absl::Status Equalizers::tune(std::string_view name, const Tuning& tuning) {
-    ASSIGN_OR_RETURN(Entry* const entry, find(name));
-    ASSIGN_OR_RETURN(entry->settings, tuned(entry->settings, tuning));
-    entry->isOn = tuning.isOn.value_or(entry->isOn);
-    entry->isFrozen = tuning.isFrozen.value_or(entry->isFrozen);
+    ASSIGN_OR_RETURN(const std::size_t position, find(name));
+    Entry& entry = entries_[position];
+    ASSIGN_OR_RETURN(entry.settings, config::tuned(entry.settings, tuning));
+    entry.isOn = tuning.isOn.value_or(entry.isOn);
+    entry.isFrozen = tuning.isFrozen.value_or(entry.isFrozen);
     return absl::OkStatus();
 }
 

@@ -14,25 +14,13 @@
 #include "coordinator/compound/equalizer/balancer.h"
 #include "coordinator/compound/equalizer/frame_facts.h"
 #include "coordinator/config/configuration.h"
+#include "coordinator/config/equalizer_tuning.h"
 
 namespace eyrie::equalizer {
 
-/// What a user changes of an equalizer while it runs; what is absent stays.
-struct Tuning {
-    std::optional<bool> isOn;      ///< off: as if the equalizer were not there
-    std::optional<bool> isFrozen;  ///< on, but what it has chosen stays
-    std::optional<config::SplitMode> mode;
-    std::optional<double> damping;  ///< 0 to 1
-    std::optional<fabric::Vec2> boundaryPixels;
-    std::optional<double> boundaryRange;
-    std::optional<fabric::Vec2> resistancePixels;
-    std::optional<double> resistanceRange;
-    std::optional<double> assembleOnlyLimit;  ///< above 0
-    std::optional<double> framerate;          ///< frames a second, above 0
-    std::optional<fabric::Vec2> tileSize;     ///< whole pixels; ends chunks
-    std::optional<double> tileChunk;          ///< share of the range
-};
+using Tuning = config::EqualizerTuning;
 
+/// An equalizer at work.
 struct EqualizerState {
     /// As written or, where it has none, kind and compound: "load.left" or, by position, "load.2".
     std::string name;
@@ -66,6 +54,9 @@ public:
     /// InvalidArgument, naming the setting. Then nothing has changed.
     absl::Status tune(std::string_view name, const Tuning& tuning);
 
+    /// The position in states() of what is named so. Errors: NotFound, naming those there are.
+    absl::StatusOr<std::size_t> find(std::string_view name) const;
+
     /// In preorder of their compounds, of each as written.
     std::vector<EqualizerState> states() const;
 
@@ -79,7 +70,6 @@ private:
         std::unique_ptr<Balancer> balancer;
     };
     void add(const config::Compound& written, std::size_t& position);
-    absl::StatusOr<Entry*> find(std::string_view name);
 
     std::unique_ptr<const Work> work_;  ///< balancers refer to it
     std::vector<Entry> entries_;

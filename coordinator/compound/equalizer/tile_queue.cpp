@@ -49,34 +49,4 @@ Tile TileQueue::tile(std::int64_t index) const {
             range_};
 }
 
-std::optional<Tile> TileQueue::next(int client) {
-    std::int64_t index = handedOut_;
-    if (!again_.empty())
-        index = again_.extract(again_.begin()).value();
-    else if (handedOut_ < size())
-        ++handedOut_;
-    else
-        return std::nullopt;
-    drawing_[index] = client;
-    return tile(index);
-}
-
-bool TileQueue::finish(std::int64_t index) {
-    if (drawing_.erase(index) == 0 && again_.erase(index) == 0)
-        return false;
-    ++finished_;
-    return true;
-}
-
-void TileQueue::giveBack(int client) {
-    for (auto each = drawing_.begin(); each != drawing_.end();) {
-        if (each->second != client) {
-            ++each;
-            continue;
-        }
-        again_.insert(each->first);
-        each = drawing_.erase(each);
-    }
-}
-
 }  // namespace eyrie::equalizer

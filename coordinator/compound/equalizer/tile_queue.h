@@ -2,9 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
-#include <optional>
-#include <set>
 
 #include "fabric/range.h"
 #include "fabric/viewport.h"
@@ -20,16 +17,12 @@ struct Tile {
     bool operator==(const Tile&) const = default;
 };
 
-/// Hands out the tiles of one frame, or the chunks of its range, to whoever asks for one: where
-/// nobody knows what they will take, none waits for long. Tiles go row by row from below, each
-/// second row backwards, so that neighbours follow each other and share what is loaded.
-///
-/// Clients are numbered by the caller. Who asks for a tile before the last is done never idles:
-/// kAhead at a time are enough.
+/// The tiles of one frame, or the chunks of its range, in the order in which they are handed out to
+/// whoever is free: where nobody knows what they will take, none waits for long. Tiles go row by
+/// row from below, each second row backwards, so that neighbours follow each other and share what
+/// is loaded.
 class TileQueue {
 public:
-    static constexpr int kAhead = 2;
-
     /// Tiles of `tileWidth` x `tileHeight` from the lower left corner, the last ones of rows and
     /// columns with what is left; sizes below 1 count as 1.
     static TileQueue ofPicture(const fabric::PixelViewport& whole, std::int32_t tileWidth,
@@ -42,22 +35,12 @@ public:
 
     std::int64_t size() const { return columns_ * rows_; }
 
-    /// The next one for `client`; nothing when all are handed out.
-    std::optional<Tile> next(int client);
-
-    /// Whoever had the tile has drawn it; false when that was no longer waited for.
-    bool finish(std::int64_t index);
-
-    /// `client` is gone: what it has not drawn is handed out again, before the rest.
-    void giveBack(int client);
-
-    /// All tiles are drawn.
-    bool isDone() const { return finished_ == size(); }
+    /// `index` from 0 to below size().
+    Tile tile(std::int64_t index) const;
 
 private:
     TileQueue(const fabric::PixelViewport& picture, const fabric::Range& range)
         : picture_(picture), range_(range) {}
-    Tile tile(std::int64_t index) const;
 
     fabric::PixelViewport picture_;
     fabric::Range range_;
@@ -66,10 +49,6 @@ private:
     double chunk_ = 1;
     std::int64_t columns_ = 0;
     std::int64_t rows_ = 0;
-    std::int64_t handedOut_ = 0;
-    std::int64_t finished_ = 0;
-    std::map<std::int64_t, int> drawing_;  ///< tile to client
-    std::set<std::int64_t> again_;
 };
 
 }  // namespace eyrie::equalizer
