@@ -14,9 +14,9 @@ class ConfigurationAccess {
 public:
     virtual ~ConfigurationAccess() = default;
 
-    /// Calls `use` between two frames, and tells viewers of what it changed. From any thread; waits
-    /// for the frame being rendered. Errors: those of `use`; FailedPrecondition before there was a
-    /// renderer to make a configuration of.
+    /// Calls `use` while no frame is being planned, and tells viewers of what it changed; those
+    /// under way are made as they were planned. From any thread. Errors: those of `use`;
+    /// FailedPrecondition before there was a renderer to make a configuration of.
     virtual absl::Status withConfiguration(
         const std::function<absl::Status(ActiveConfiguration&)>& use) = 0;
 };

@@ -29,7 +29,7 @@ public:
     /// NotFound, naming what there is; FailedPrecondition before there was a renderer.
     absl::Status configure(const SwitchLayout& change);
 
-    /// As ConfigurationAccess::withConfiguration, in its caller's turn.
+    /// As ConfigurationAccess::withConfiguration.
     absl::Status change(const std::function<absl::Status(ActiveConfiguration&)>& use);
 
     /// Any thread.

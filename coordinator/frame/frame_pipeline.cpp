@@ -104,8 +104,8 @@ absl::StatusOr<RenderedFrame> FramePipeline::renderInTurn(const FrameRequest& as
         pass.awaitEarlier();
         planner_.record(planned, drawn->taken);
         fabric::FrameStatistics& statistics = drawn->picture.statistics;
-        const std::chrono::duration<double, std::milli> total = FramePlanner::Clock::now() - start;
-        statistics.milliseconds.total = total.count();
+        const std::chrono::duration<double, std::milli> taken = FramePlanner::Clock::now() - start;
+        statistics.milliseconds.total = taken.count();
         planner_.finished(asked, planned, statistics, start);
         return std::move(drawn->picture);
     }
@@ -184,8 +184,7 @@ absl::Status FramePipeline::configure(const SwitchLayout& change) {
 
 absl::Status FramePipeline::withConfiguration(
     const std::function<absl::Status(ActiveConfiguration&)>& use) {
-    const std::lock_guard turn(turn_);
-    return configuration_.change(use);
+    return planner_.withConfiguration(use);
 }
 
 Status FramePipeline::status() const {

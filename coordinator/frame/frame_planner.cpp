@@ -117,6 +117,12 @@ absl::Status FramePlanner::configure(const SwitchLayout& change) {
     return configuration_.configure(change);
 }
 
+absl::Status FramePlanner::withConfiguration(
+    const std::function<absl::Status(ActiveConfiguration&)>& use) {
+    const std::lock_guard lock(mutex_);
+    return configuration_.change(use);
+}
+
 int FramePlanner::framesUnderWay() const {
     const std::lock_guard lock(mutex_);
     if (!active_)

@@ -47,6 +47,8 @@ public:
 
     /// From the next frame on. Errors: those of ConfigurationKeeper::configure.
     absl::Status configure(const SwitchLayout& change);
+    /// As ConfigurationAccess::withConfiguration.
+    absl::Status withConfiguration(const std::function<absl::Status(ActiveConfiguration&)>& use);
     std::vector<CanvasStatus> canvases() const { return configuration_.canvases(); }
 
     /// As the configuration of the frame planned last has it: its latency and the one that is being
