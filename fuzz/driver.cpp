@@ -6,7 +6,7 @@
 //   NAME CORPUS_FOLDER [INPUT]...     only the inputs, where there are some
 //
 // EYRIE_FUZZ_SECONDS: how long [5]. EYRIE_FUZZ_SEED: another order [1]. An input on which the
-// target dies, takes longer than EYRIE_FUZZ_LIMIT_SECONDS [10; a loaded machine is slow] or 256 MiB
+// target dies, takes more than EYRIE_FUZZ_LIMIT_SECONDS of processor time [10] or 256 MiB
 // more than before is left in NAME.crash.
 #include <algorithm>
 #include <array>
@@ -24,6 +24,7 @@
 
 #include <fcntl.h>
 #include <sys/resource.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
@@ -65,16 +66,23 @@ long peakKilobytes() {
     return usage.ru_maxrss;
 }
 
+/// SIGPROF after so many seconds of processor time, which a loaded machine does not take away.
+void limitProcessorTime(int seconds) {
+    itimerval limit{};
+    limit.it_value.tv_sec = seconds;
+    setitimer(ITIMER_PROF, &limit, nullptr);
+}
+
 /// Dies by a signal, like the target, where it is too slow or too large.
 void play(const Input& input) {
     static const int kLimit = number("EYRIE_FUZZ_LIMIT_SECONDS", 10);
     const long before = peakKilobytes();
     running = &input;
-    alarm(static_cast<unsigned>(kLimit));
+    limitProcessorTime(kLimit);
     // A copy of its very size: reading past the end is seen.
     const Input copy(input);
     LLVMFuzzerTestOneInput(copy.data(), copy.size());
-    alarm(0);
+    limitProcessorTime(0);
     if (peakKilobytes() - before > kMaxGrowthKilobytes) {
         std::fprintf(stderr, "more than 256 MiB for %zu bytes\n", input.size());
         std::abort();
@@ -169,7 +177,7 @@ int main(int count, char** arguments) {
     }
     std::snprintf(crashFile.data(), crashFile.size(), "%s.crash",
                   fs::path(arguments[0]).filename().c_str());
-    for (const int signal : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGALRM})
+    for (const int signal : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGPROF})
         std::signal(signal, keepInput);
     if (count > 2) {
         for (int i = 2; i < count; ++i) play(read(arguments[i]));

@@ -19,7 +19,7 @@ access::Role roleFor(std::string_view call);
 /// deadline passes, tells its handler.
 class EyrieService final : public v1::EyrieService::CallbackService {
 public:
-    explicit EyrieService(const wire::Security& security) : security_(security) {}
+    explicit EyrieService(const wire::Security& security = {}) : security_(security) {}
 
     /// From now on calls are answered; Unavailable before. `handlers` outlive stop(). Any thread.
     void use(const Handlers& handlers) { handlers_ = &handlers; }

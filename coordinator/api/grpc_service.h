@@ -18,9 +18,9 @@ class Handlers;
 namespace eyrie::coordinator {
 
 struct GrpcOptions {
-    wire::Security security =
-        {};                       ///< how callers are known, and how renderers know the coordinator
-    bool withReflection = false;  ///< tools may ask which calls there are
+    wire::Security security = {};  ///< who may call, and how renderers know the coordinator
+    bool withReflection = false;   ///< tools may ask which calls there are
+    observe::SharedTelemetry telemetry = nullptr;  ///< is told what renderers draw
 };
 
 /// The coordinator's gRPC door: CoordinatorService, where renderers register, EyrieService, and the

@@ -18,7 +18,7 @@ namespace eyrie::stream {
 
 struct SessionOptions {
     /// Frames that may be under way to a viewer at once; absent leaves it to the Pacer's rule.
-    std::optional<int> framesInFlight;
+    std::optional<int> framesInFlight = {};
     /// How long a view rests before it is sent once more, nearly exact and then exact.
     std::chrono::milliseconds restDelay{150};
     /// How long after a failed frame the same view is tried again.
