@@ -144,7 +144,7 @@ TEST(HttpCookies, AreFoundByTheirWholeName) {
 
 TEST_F(HttpAccess, WithoutAGateEverybodyMayDoEverything) {
     start({}, false);
-    EXPECT_EQ(statusOf(request("GET", "/api/v1/status")), 200);
+    EXPECT_EQ(statusOf(request("GET", "/metrics")), 200);
     EXPECT_EQ(upgradeStatus(""), 101);
     EXPECT_THAT(ask(request("GET", "/login")), HasSubstr(R"({"role":"admin"})"));
 }
@@ -169,7 +169,7 @@ TEST_F(HttpAccess, StrangersSeeThePageAndThatTheServerLives) {
 
 TEST_F(HttpAccess, TokensDoWhatTheirRoleMay) {
     start();
-    EXPECT_EQ(statusOf(request("GET", "/api/v1/status", bearer(kViewToken))), 200);
+    EXPECT_EQ(statusOf(request("GET", "/metrics", bearer(kViewToken))), 200);
     EXPECT_EQ(upgradeStatus(bearer(kViewToken)), 101);
     const std::string refused = ask(request("PUT", "/api/v1/scene", bearer(kViewToken)));
     EXPECT_THAT(refused, HasSubstr("HTTP/1.1 403 Forbidden"));
@@ -184,8 +184,7 @@ TEST_F(HttpAccess, TokensDoWhatTheirRoleMay) {
 TEST_F(HttpAccess, TokensInAddressesAreNotTaken) {
     start();
     for (const char* key : {"token", "access_token", "authorization"})
-        EXPECT_EQ(statusOf(request("GET", fmt::format("/api/v1/status?{}={}", key, kAdminToken))),
-                  401);
+        EXPECT_EQ(statusOf(request("GET", fmt::format("/metrics?{}={}", key, kAdminToken))), 401);
 }
 
 TEST_F(HttpAccess, ACookieStandsForATokenAndDoesNotTellIt) {
@@ -198,14 +197,13 @@ TEST_F(HttpAccess, ACookieStandsForATokenAndDoesNotTellIt) {
     const std::size_t begin = answer.find("Set-Cookie: ") + 12;
     const std::string cookie =
         "Cookie: theme=dark; " + answer.substr(begin, answer.find(';', begin) - begin) + "\r\n";
-    EXPECT_EQ(statusOf(request("GET", "/api/v1/status", cookie)), 200);
+    EXPECT_EQ(statusOf(request("GET", "/metrics", cookie)), 200);
     EXPECT_EQ(upgradeStatus(cookie), 101);
     EXPECT_EQ(statusOf(request("PUT", "/api/v1/scene", cookie)), 403);
-    EXPECT_EQ(
-        statusOf(request("GET", "/api/v1/status", cookie + bearer("wrong-0123456789abcdefgh"))),
-        401);
+    EXPECT_EQ(statusOf(request("GET", "/metrics", cookie + bearer("wrong-0123456789abcdefgh"))),
+              401);
     EXPECT_THAT(ask(request("DELETE", "/login", cookie)), HasSubstr("Max-Age=0"));
-    EXPECT_EQ(statusOf(request("GET", "/api/v1/status", "Cookie: eyrie_ticket=1.2\r\n")), 401);
+    EXPECT_EQ(statusOf(request("GET", "/metrics", "Cookie: eyrie_ticket=1.2\r\n")), 401);
 }
 
 TEST_F(HttpAccess, PagesOfOtherSitesChangeNothingWithTheUsersCookie) {
@@ -223,12 +221,12 @@ TEST_F(HttpAccess, PagesOfOtherSitesChangeNothingWithTheUsersCookie) {
 
 TEST_F(HttpAccess, WrongTokensAreLimitedAndRightOnesStillPass) {
     start();
-    const std::string wrong = request("GET", "/api/v1/status", bearer("wrong-0123456789abcdefgh"));
+    const std::string wrong = request("GET", "/metrics", bearer("wrong-0123456789abcdefgh"));
     for (int i = 0; i < access::Gate::kMaxWrong; ++i) EXPECT_EQ(statusOf(wrong), 401);
     EXPECT_THAT(ask(wrong), HasSubstr("HTTP/1.1 429"));
     EXPECT_THAT(ask(wrong), HasSubstr("Retry-After: 60"));
     EXPECT_THAT(ask(wrong, "127.0.0.2"), HasSubstr("HTTP/1.1 401")) << "others are not limited";
-    EXPECT_EQ(statusOf(request("GET", "/api/v1/status", bearer(kViewToken))), 200);
+    EXPECT_EQ(statusOf(request("GET", "/metrics", bearer(kViewToken))), 200);
 }
 
 TEST_F(HttpAccess, FiveHundredSlowConnectionsAreCutOffAndKeepNobodyOut) {

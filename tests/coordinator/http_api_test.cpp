@@ -9,9 +9,13 @@
 #include <boost/asio/write.hpp>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <google/protobuf/descriptor.h>
 #include <gtest/gtest.h>
 
 #include "coordinator/api/api.h"
+#include "coordinator/api/eyrie_service.h"
+#include "coordinator/api/rest_routes.h"
+#include "coordinator/http/access.h"
 #include "coordinator/http/server.h"
 #include "tests/coordinator/fake_frame_source.h"
 
@@ -147,6 +151,14 @@ TEST_F(HttpApi, ErrorsAreProblems) {
     EXPECT_THAT(wrong, HasSubstr("Content-Type: application/problem+json"));
     EXPECT_THAT(ask("DELETE /api/v1/image"), HasSubstr("Allow: POST, GET"));
     EXPECT_THAT(ask("GET /api"), HasSubstr("<title>Eyrie"));
+}
+
+TEST(Roles, OfACallAreTheSameByEitherDoor) {
+    ASSERT_FALSE(api::restRoutes().empty());
+    for (const api::Route& route : api::restRoutes())
+        EXPECT_EQ(roleFor(route.rest.method(), "/api/v1" + route.rest.path()),
+                  api::roleFor(route.call->name()))
+            << route.call->name();
 }
 
 }  // namespace
