@@ -55,7 +55,7 @@ protected:
     std::unique_ptr<test::Process> startRenderer(const std::string& host) const {
         return std::make_unique<test::Process>(
             test::eyrieCommand({"renderer", "--coordinator", coordinator_->grpcAddresses().front(),
-                                "--listen", host + ":0"}),
+                                "--listen", host + ":0", "--insecure"}),
             std::vector<std::string>{"LP_NUM_THREADS=1"});
     }
     coordinator::FrameSource& frames() const { return coordinator_->frames(); }

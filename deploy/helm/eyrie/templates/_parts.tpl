@@ -32,7 +32,21 @@ envFrom:
 {{- end }}
 {{- end }}
 
+{{/* Who may come in. */}}
+{{- define "eyrie.access" -}}
+{{- if .Values.access.tokenSecret -}}
+- --token-file=/run/eyrie/tokens
+{{- else if .Values.access.insecure -}}
+- --insecure
+{{- else -}}
+{{- fail "set access.tokenSecret, or access.insecure=true if everybody who reaches the pods may use them" }}
+{{- end }}
+{{- end }}
+
 {{- define "eyrie.mounts" -}}
+{{- if .Values.access.tokenSecret }}
+- { name: access, mountPath: /run/eyrie, readOnly: true }
+{{- end }}
 - { name: tmp, mountPath: /tmp }
 - { name: cache, mountPath: /cache }
 {{- if .Values.data.existingClaim }}
@@ -41,6 +55,10 @@ envFrom:
 {{- end }}
 
 {{- define "eyrie.volumes" -}}
+{{- with .Values.access.tokenSecret }}
+- name: access
+  secret: { secretName: {{ . | quote }}, defaultMode: 0440 }
+{{- end }}
 - name: tmp
   emptyDir: { medium: Memory, sizeLimit: 256Mi }
 - name: cache
