@@ -76,7 +76,7 @@ public:
 
     /// All renderers draw.
     bool isWhole() const {
-        const auto answer = test::httpGet(port_, "/api/v1/status");
+        const auto answer = test::httpGet(port_, "/readyz");
         if (!answer.ok())
             return false;
         int ready = 0;
