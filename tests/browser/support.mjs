@@ -98,7 +98,7 @@ export class Browser {
     browser.page.on("pageerror", (error) => browser.errors.push(String(error)));
     browser.page.on("console", (message) => {
       // Chromium itself logs each refused connection while the server is gone.
-      const isRefusal = message.text().includes("WebSocket connection to");
+      const isRefusal = /WebSocket connection to|net::ERR_CONNECTION_/.test(message.text());
       if (message.type() === "error" && !isRefusal) browser.errors.push(message.text());
     });
     return browser;
