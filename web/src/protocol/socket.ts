@@ -39,7 +39,6 @@ const maxBufferedBytes = 16 * 1024;
 export class Socket {
   private socket: WebSocket | null = null;
   private attempt = 0;
-  private isOpen = false;
   private isLossTold = false;
   private timer: number | undefined;
   private readonly parts = new Parts();
@@ -90,6 +89,11 @@ export class Socket {
     this.detach();
   }
 
+  /** Not any more once the server has begun to close it. */
+  private get isOpen(): boolean {
+    return this.socket?.readyState === WebSocket.OPEN;
+  }
+
   private canSend(): boolean {
     return this.isOpen && this.socket !== null && this.socket.bufferedAmount < maxBufferedBytes;
   }
@@ -100,7 +104,6 @@ export class Socket {
     socket.binaryType = "arraybuffer";
     socket.onopen = () => {
       this.attempt = 0;
-      this.isOpen = true;
       this.isLossTold = false;
       this.events.opened();
     };
@@ -128,7 +131,8 @@ export class Socket {
     if (arrival === undefined) return; // of a picture that is no longer wanted
     const { frame, picture, receivedBytes } = arrival;
     const isInParts = frame.picture.value?.length !== Number(frame.pictureBytes);
-    if (isInParts) this.socket?.send(encodePartAck(frame.frameNumber, receivedBytes));
+    if (isInParts && this.isOpen)
+      this.socket?.send(encodePartAck(frame.frameNumber, receivedBytes));
     if (picture !== undefined) this.events.frame(frame, picture);
   }
 
@@ -143,7 +147,6 @@ export class Socket {
   }
 
   private detach(): void {
-    this.isOpen = false;
     if (this.socket === null) return;
     this.socket.onopen = this.socket.onclose = this.socket.onmessage = null;
     this.socket.close();
