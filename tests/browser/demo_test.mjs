@@ -35,6 +35,7 @@ await run("demo_test", async (browser, started) => {
     `from a key: drawn ${times.drawn.toFixed(0)} ms, nearly exact ${times.fine.toFixed(0)} ms, ` +
       `exact ${times.exact.toFixed(0)} ms`,
   );
+  await browser.settled();
   check(
     (await browser.canvasHash()) === (await browser.hook("pixelHash")),
     "at rest every pixel on the canvas is the server's",

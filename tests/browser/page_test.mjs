@@ -52,11 +52,11 @@ await run("page_test", async (browser, started) => {
     `from a key: drawn ${times.drawn.toFixed(0)} ms, nearly exact ${times.fine.toFixed(0)} ms, ` +
       `exact ${times.exact.toFixed(0)} ms`,
   );
+  await browser.settled();
   check(
     (await browser.canvasHash()) === (await browser.hook("pixelHash")),
     "and again after a movement",
   );
-  await browser.settled();
 
   const frames = await browser.hook("frameNumber");
   await page.waitForTimeout(700);
