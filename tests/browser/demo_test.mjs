@@ -63,7 +63,7 @@ await run("demo_test", async (browser, started) => {
   const live = await browser.picture();
   await server.kill();
   await page.locator("#banner", { hasText: "Connection lost" }).waitFor();
-  await page.waitForTimeout(500); // the dimming is eased
+  await browser.eased();
   check(
     brightness(await browser.picture()) < brightness(live) * 0.8,
     "a lost server dims the last picture",

@@ -187,7 +187,7 @@ await run("page_test", async (browser, started) => {
   const camera = JSON.stringify(await browser.hook("camera"));
   await server.kill();
   await page.locator("#banner", { hasText: "Connection lost" }).waitFor();
-  await page.waitForTimeout(500); // the dimming is eased
+  await browser.eased();
   check(
     brightness(await browser.picture()) < brightness(live) * 0.7,
     "a lost server dims the last picture",

@@ -54,7 +54,6 @@ await run("restart_test", async (browser, started) => {
   await browser.until(() => window.eyrie.exact, 60_000);
   console.log(`exact ${Date.now() - listening} ms after its address was printed`);
   await browser.settled();
-  await page.waitForTimeout(500); // the dimming is eased
   check((await page.evaluate(settings)) === asked, "the camera and the error asked for are kept");
   check(difference(picture, await browser.picture()) < 1e-4, "and the picture is the same");
 });

@@ -128,10 +128,17 @@ export class Browser {
     return this.page.waitForFunction(predicate, undefined, { timeout, polling: 10 });
   }
 
+  /** Waits until the picture is neither being dimmed nor undimmed. */
+  async eased() {
+    await this.page.waitForTimeout(100);
+    await this.until(() => document.querySelector("canvas").getAnimations().length === 0);
+  }
+
   /** Waits until nothing more will be drawn. */
   async settled() {
     for (;;) {
       await this.until(() => window.eyrie?.exact === true);
+      await this.eased();
       // The picture before a change is at rest, too, until the first one after it comes.
       const before = await this.page.evaluate(() => window.eyrie.frameNumber);
       await this.page.waitForTimeout(250);
