@@ -5,21 +5,10 @@
 
 #include <fmt/format.h>
 
+#include "fabric/json_text.h"
+
 namespace eyrie::cli {
 namespace {
-
-std::string quoted(std::string_view text) {
-    std::string result = "\"";
-    for (const char c : text) {
-        if (c == '"' || c == '\\')
-            result += fmt::format("\\{}", c);
-        else if (static_cast<unsigned char>(c) < 0x20)
-            result += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
-        else
-            result += c;
-    }
-    return result + '"';
-}
 
 /// The shortest text that reads back as the same double.
 std::string shortest(double value) {
@@ -33,12 +22,12 @@ std::string triple(const fabric::Vec3& v) {
 }  // namespace
 
 JsonObject& JsonObject::raw(std::string_view name, std::string_view json) {
-    fields_ += fmt::format("{}{}: {}", fields_.empty() ? "" : ", ", quoted(name), json);
+    fields_ += fmt::format("{}{}: {}", fields_.empty() ? "" : ", ", fabric::quotedJson(name), json);
     return *this;
 }
 
 JsonObject& JsonObject::text(std::string_view name, std::string_view value) {
-    return raw(name, quoted(value));
+    return raw(name, fabric::quotedJson(value));
 }
 
 JsonObject& JsonObject::number(std::string_view name, double value) {
@@ -61,7 +50,8 @@ JsonObject& JsonObject::numbers(std::string_view name, std::span<const double> v
 
 JsonObject& JsonObject::texts(std::string_view name, const std::vector<std::string>& values) {
     std::string list;
-    for (const std::string& value : values) list += (list.empty() ? "" : ", ") + quoted(value);
+    for (const std::string& value : values)
+        list += (list.empty() ? "" : ", ") + fabric::quotedJson(value);
     return raw(name, "[" + list + "]");
 }
 

@@ -1,31 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/api/json_text.h"
 
-#include <iterator>
-
 #include <fmt/format.h>
+
+#include "fabric/json_text.h"
 
 namespace eyrie::api {
 
-std::string jsonQuoted(std::string_view text) {
-    std::string json = "\"";
-    for (const char c : text) {
-        if (c == '"' || c == '\\')
-            json += {'\\', c};
-        else if (static_cast<unsigned char>(c) < 0x20)
-            fmt::format_to(std::back_inserter(json), "\\u{:04x}", static_cast<unsigned>(c));
-        else
-            json += c;
-    }
-    return json + '"';
-}
-
 JsonMembers& JsonMembers::text(std::string_view name, std::string_view value) {
-    return raw(name, jsonQuoted(value));
+    return raw(name, fabric::quotedJson(value));
 }
 
 JsonMembers& JsonMembers::raw(std::string_view name, std::string_view json) {
-    members_ += fmt::format("{}{}:{}", members_.empty() ? "" : ",", jsonQuoted(name), json);
+    members_ += fmt::format("{}{}:{}", members_.empty() ? "" : ",", fabric::quotedJson(name), json);
     return *this;
 }
 

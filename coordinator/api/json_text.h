@@ -7,9 +7,6 @@
 
 namespace eyrie::api {
 
-/// `text` as a JSON string. What is not UTF-8 is not mended.
-std::string jsonQuoted(std::string_view text);
-
 /// A JSON object in the making: members in the order in which they came.
 class JsonMembers {
 public:

@@ -11,6 +11,7 @@
 #include "coordinator/api/json_text.h"
 #include "coordinator/api/rest_routes.h"
 #include "coordinator/api/schema.h"
+#include "fabric/json_text.h"
 #include "fabric/version.h"
 
 namespace eyrie::api {
@@ -114,7 +115,7 @@ private:
         std::vector<std::string> values;
         std::string text = commentOf(type);
         for (int i = 0; i < type.value_count(); ++i) {
-            values.push_back(jsonQuoted(type.value(i)->name()));
+            values.push_back(fabric::quotedJson(type.value(i)->name()));
             text += fmt::format("{}{}: {}", text.empty() ? "" : " ", type.value(i)->name(),
                                 documented(*type.value(i)));
         }
@@ -127,7 +128,7 @@ private:
 
     std::string schemaOf(const FieldDescriptor& field, bool withComment) {
         const std::string description =
-            withComment ? ",\"description\":" + jsonQuoted(documented(field)) : "";
+            withComment ? ",\"description\":" + fabric::quotedJson(documented(field)) : "";
         std::string one = elementOf(field);
         if (field.is_repeated())
             one = JsonMembers().text("type", "array").raw("items", one).str();
@@ -171,7 +172,7 @@ private:
             parameter.raw("required", "true");
         if (!example.empty())
             parameter.raw("example", field.cpp_type() == FieldDescriptor::CPPTYPE_STRING
-                                         ? jsonQuoted(example)
+                                         ? fabric::quotedJson(example)
                                          : example);
         return parameter.str();
     }

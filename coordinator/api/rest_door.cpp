@@ -25,7 +25,6 @@ using google::protobuf::Message;
 using google::protobuf::MessageFactory;
 
 constexpr std::string_view kPrefix = "/api/v1";
-constexpr std::size_t kMaxKeyBytes = 128;
 
 RestAnswer problem(const absl::Status& status, int httpStatus,
                    const google::protobuf::Descriptor* request = nullptr) {
@@ -63,17 +62,6 @@ absl::Status checkContentType(const RestRequest& request) {
         "the body's Content-Type is '{}'; it must be application/json", type.substr(0, 64)));
 }
 
-absl::Status readKey(const RestRequest& request, Message& message) {
-    if (request.idempotencyKey.empty())
-        return absl::OkStatus();
-    if (request.idempotencyKey.size() > kMaxKeyBytes)
-        return absl::InvalidArgumentError(fmt::format(
-            "Idempotency-Key has more than {} bytes; choose a shorter one", kMaxKeyBytes));
-    if (message.GetDescriptor()->FindFieldByName("request_id") == nullptr)
-        return absl::OkStatus();
-    return setField("requestId", request.idempotencyKey, message);
-}
-
 absl::Status read(const RestRequest& request, const FoundRoute& found, Message& message) {
     const v1::Rest& rest = found.route->rest;
     const std::size_t question = request.target.find('?');
@@ -87,7 +75,7 @@ absl::Status read(const RestRequest& request, const FoundRoute& found, Message& 
     RETURN_IF_ERROR(setFromBody(request.body, rest.body(), message));
     RETURN_IF_ERROR(setFromQuery(query, message));
     for (const auto& [field, text] : found.fields) RETURN_IF_ERROR(setField(field, text, message));
-    return readKey(request, message);
+    return absl::OkStatus();
 }
 
 std::string imageType(const Message& message) {

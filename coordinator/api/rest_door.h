@@ -18,7 +18,6 @@ struct RestRequest {
     std::string contentType = {};
     std::string accept = {};
     std::string ifNoneMatch = {};
-    std::string idempotencyKey = {};
     std::stop_token stop = {};  ///< the client has gone
 };
 

@@ -53,7 +53,6 @@ api::RestRequest restRequest(const Request& request, std::stop_token gone) {
             header(http::field::content_type),
             header(http::field::accept),
             header(http::field::if_none_match),
-            header("Idempotency-Key"),
             std::move(gone)};
 }
 

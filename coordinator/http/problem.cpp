@@ -4,46 +4,44 @@
 #include <memory>
 #include <string>
 
-#include <boost/beast/http/status.hpp>
-#include <fmt/format.h>
-
-#include "coordinator/http/status_json.h"
+#include "coordinator/api/problem_json.h"
 
 namespace eyrie::http {
 namespace {
 
-int httpStatusOf(absl::StatusCode code) {
-    switch (code) {
-        case absl::StatusCode::kUnauthenticated:
-            return 401;
-        case absl::StatusCode::kPermissionDenied:
-            return 403;
-        case absl::StatusCode::kResourceExhausted:
-            return 429;
-        case absl::StatusCode::kUnavailable:
-            return 503;
+absl::StatusCode codeOf(int status) {
+    switch (status) {
+        case 401:
+            return absl::StatusCode::kUnauthenticated;
+        case 403:
+            return absl::StatusCode::kPermissionDenied;
+        case 405:
+            return absl::StatusCode::kUnimplemented;
+        case 429:
+            return absl::StatusCode::kResourceExhausted;
+        case 503:
+            return absl::StatusCode::kUnavailable;
         default:
-            return 400;
+            return absl::StatusCode::kInvalidArgument;
     }
+}
+
+Response problemOf(const absl::Status& problem, int status) {
+    Response response;
+    response.status = status;
+    response.contentType = "application/problem+json";
+    response.body = std::make_shared<const std::string>(api::problemJson(problem, status, nullptr));
+    return response;
 }
 
 }  // namespace
 
 Response problemResponse(int status, std::string_view detail) {
-    const auto title =
-        boost::beast::http::obsolete_reason(static_cast<boost::beast::http::status>(status));
-    Response response;
-    response.status = status;
-    response.contentType = "application/problem+json";
-    response.body = std::make_shared<const std::string>(
-        fmt::format("{{\"title\":{},\"status\":{},\"detail\":{}}}\n",
-                    quotedJson({title.data(), title.size()}), status, quotedJson(detail)));
-    return response;
+    return problemOf({codeOf(status), {detail.data(), detail.size()}}, status);
 }
 
 Response problemResponse(const absl::Status& status) {
-    const auto message = status.message();
-    return problemResponse(httpStatusOf(status.code()), {message.data(), message.size()});
+    return problemOf(status, api::httpStatusOf(status.code()));
 }
 
 }  // namespace eyrie::http

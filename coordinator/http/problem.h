@@ -9,10 +9,10 @@
 
 namespace eyrie::http {
 
-/// application/problem+json (RFC 9457): {"title":"Forbidden","status":403,"detail":"…"}.
+/// application/problem+json (RFC 9457): as api/problem_json.h says.
 Response problemResponse(int status, std::string_view detail);
 
-/// The same of a refusal: 401, 403, 429, 503, or 400.
+/// The same of an error, with the status that api::httpStatusOf has for it.
 Response problemResponse(const absl::Status& status);
 
 }  // namespace eyrie::http

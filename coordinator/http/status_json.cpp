@@ -3,10 +3,11 @@
 
 #include <algorithm>
 #include <chrono>
-#include <iterator>
 #include <string_view>
 
 #include <fmt/format.h>
+
+#include "fabric/json_text.h"
 
 namespace eyrie::http {
 namespace {
@@ -15,12 +16,12 @@ std::string rendererJson(const coordinator::RendererStatus& renderer) {
     return fmt::format(
         R"({{"id":{},"address":{},"alive":{},"condition":"{}","why":{},"sinceUnixMilliseconds":{},)"
         R"("device":{},"driver":{},"platform":{},"software":{}}})",
-        quotedJson(renderer.id), quotedJson(renderer.address), renderer.isAlive(),
-        nameOf(renderer.condition), quotedJson(renderer.why),
+        fabric::quotedJson(renderer.id), fabric::quotedJson(renderer.address), renderer.isAlive(),
+        nameOf(renderer.condition), fabric::quotedJson(renderer.why),
         std::chrono::duration_cast<std::chrono::milliseconds>(renderer.since.time_since_epoch())
             .count(),
-        quotedJson(renderer.device.renderer), quotedJson(renderer.device.driver),
-        quotedJson(renderer.device.platform), renderer.device.software);
+        fabric::quotedJson(renderer.device.renderer), fabric::quotedJson(renderer.device.driver),
+        fabric::quotedJson(renderer.device.platform), renderer.device.software);
 }
 
 /// The elements as `toJson` writes them, with commas between.
@@ -56,19 +57,6 @@ std::string_view nameOf(coordinator::RendererCondition condition) {
     return "refused";
 }
 
-std::string quotedJson(std::string_view text) {
-    std::string result = "\"";
-    for (const char c : text) {
-        if (c == '"' || c == '\\')
-            result += {'\\', c};
-        else if (static_cast<unsigned char>(c) < 0x20)
-            fmt::format_to(std::back_inserter(result), "\\u{:04x}", static_cast<unsigned>(c));
-        else
-            result += c;
-    }
-    return result + '"';
-}
-
 bool isReady(const coordinator::Status& status) {
     const bool hasRenderer =
         std::any_of(status.renderers.begin(), status.renderers.end(),
@@ -80,9 +68,9 @@ std::string statusJson(const coordinator::Status& status) {
     return fmt::format(
         R"({{"ready":{},"problem":{},"renderers":[{}],"scene":{{"objects":[{}],"triangles":{}}}}})"
         "\n",
-        isReady(status), quotedJson(status.problem), joined(status.renderers, rendererJson),
+        isReady(status), fabric::quotedJson(status.problem), joined(status.renderers, rendererJson),
         joined(status.scene.objects,
-               [](const fabric::SceneObject& object) { return quotedJson(object.name); }),
+               [](const fabric::SceneObject& object) { return fabric::quotedJson(object.name); }),
         status.sceneInfo.triangles);
 }
 

@@ -18,7 +18,4 @@ bool isReady(const coordinator::Status& status);
 /// "why":"","sinceUnixMilliseconds":0,"device":"…","driver":"…","platform":"…","software":false}],"scene":{"objects":["…"],"triangles":0}}
 std::string statusJson(const coordinator::Status& status);
 
-/// `text` as a JSON string.
-std::string quotedJson(std::string_view text);
-
 }  // namespace eyrie::http

@@ -12,21 +12,10 @@
 
 #include <fmt/format.h>
 
+#include "fabric/json_text.h"
+
 namespace eyrie::observe {
 namespace {
-
-std::string quoted(std::string_view text) {
-    std::string json = "\"";
-    for (const char c : text) {
-        if (c == '"' || c == '\\')
-            json += '\\';
-        if (static_cast<unsigned char>(c) < 0x20)
-            json += fmt::format("\\u{:04x}", static_cast<int>(c));
-        else
-            json += c;
-    }
-    return json + '"';
-}
 
 double microseconds(Clock::duration time) {
     return std::chrono::duration<double, std::micro>(time).count();
@@ -55,12 +44,12 @@ public:
             json += fmt::format(
                 R"({{"ph":"M","name":"process_name","pid":{},"tid":0,"args":{{"name":{}}}}},)"
                 "\n",
-                number, quoted(name));
+                number, fabric::quotedJson(name));
         for (const auto& [thread, number] : threads_)
             json += fmt::format(
                 R"({{"ph":"M","name":"thread_name","pid":{},"tid":{},"args":{{"name":{}}}}},)"
                 "\n",
-                processes_.at(thread.first), number, quoted(thread.second));
+                processes_.at(thread.first), number, fabric::quotedJson(thread.second));
     }
 
 private:
@@ -78,7 +67,7 @@ std::string argumentsOf(const Span& span) {
     if (span.clockBound)
         add("clockBoundMicroseconds", fmt::format("{:.3f}", microseconds(*span.clockBound)));
     if (!span.note.empty())
-        add("note", quoted(span.note));
+        add("note", fabric::quotedJson(span.note));
     return json;
 }
 
@@ -126,7 +115,7 @@ std::string TraceBook::chromeJson(std::size_t frames) const {
         json += fmt::format(
             R"({{"ph":"X","name":{},"cat":"frame","pid":{},"tid":{},"ts":{:.3f},"dur":{:.3f},"args":{{{}}}}},)"
             "\n",
-            quoted(span.name), numbers.process(span), numbers.thread(span),
+            fabric::quotedJson(span.name), numbers.process(span), numbers.thread(span),
             microseconds(span.begin - begin), microseconds(span.end - span.begin),
             argumentsOf(span));
     if (json.ends_with(",\n"))
