@@ -26,6 +26,10 @@ absl::Status checkSize(const char* what, const std::optional<config::PixelSize>&
 }
 
 absl::Status checkOutput(const config::Configuration& configuration, const Output& output) {
+    if (configuration.canvases.empty())
+        return absl::InvalidArgumentError(
+            "the configuration has no canvas, so it shows nothing; give it one, with a segment and "
+            "a layout of a view");
     if (output.canvas >= configuration.canvases.size())
         return absl::InvalidArgumentError(
             fmt::format("there is no canvas {}: the configuration has {}", output.canvas,

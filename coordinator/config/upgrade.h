@@ -6,11 +6,15 @@
 namespace eyrie::config {
 
 /// Brings what was written for Equalizer 1.0 or 1.1 to what 1.2 has, as Equalizer does when it
-/// opens it; what is of another version stays as it is. Done twice it changes nothing more.
+/// opens it; so, too, what has no canvas, whatever version it is of, since it would show nothing.
+/// Done twice it changes nothing more.
 ///
 /// - A tree of compounds that draws straight into a channel, which no view names, gets a canvas of
-///   one segment and a layout of one view, which has the compound's wall; where the tree has eyes
-///   LEFT or RIGHT the view is stereo. Trees of one channel and wall share them.
+///   one segment and a layout of one view, which has the compound's wall. Trees of one channel and
+///   wall share them.
+/// - Where such trees have a group above them, they are segments of one canvas, which has the
+///   group's wall; each shows its share, the tree's viewport, in the whole of its channel.
+/// - Where the trees have eyes LEFT or RIGHT the view is stereo.
 /// - Where no observer is, there is one of usual values, and each view has it.
 ///
 /// That a view without compound is drawn plainly holds for all versions, and is resolve()'s.

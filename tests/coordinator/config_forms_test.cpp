@@ -91,11 +91,13 @@ TEST(ConfigurationForms, HoldCompoundsAsDeepAsTextMayBe) {
 
 TEST(ConfigurationJson, IsWrittenAsPeopleWouldWriteIt) {
     Findings findings;
-    EXPECT_EQ(writeJson(readEqc("config { node { name \"n\" pipe { device 0 window {"
-                                " attributes { planes_depth 24 hint_drawable FBO }"
-                                " channel { name \"c [ 1, 2 ]\" viewport [ 0 0 .5 1 ] } } } }"
-                                " compound { channel \"c [ 1, 2 ]\" load_equalizer { mode DB } } }",
-                                findings)),
+    EXPECT_EQ(writeJson(readStatements(
+                  parseEqc("config { node { name \"n\" pipe { device 0 window {"
+                           " attributes { planes_depth 24 hint_drawable FBO }"
+                           " channel { name \"c [ 1, 2 ]\" viewport [ 0 0 .5 1 ] } } } }"
+                           " compound { channel \"c [ 1, 2 ]\" load_equalizer { mode DB } } }",
+                           findings),
+                  findings)),
               R"({
  "nodes": [
   {

@@ -226,7 +226,7 @@ TEST(EqcErrors, AreMorePairsOfViewsAndSegmentsThanCanBeShown) {
 
 TEST(EqcReferences, FindChannelsWithoutNamesByPosition) {
     const std::string nodes =
-        "config { node { pipe { window { channel {} channel { name \"a\" } } } } ";
+        "config { node { pipe { window { channel {} channel { name \"a\" } } } } canvas {} ";
     const Read read(nodes + "compound { channel ( node 0 channel 1 ) } }");
     EXPECT_EQ(std::get<ChannelIndex>(read.configuration.compounds[0].channel),
               (ChannelIndex{0, 0, 0, 1}));
@@ -245,8 +245,9 @@ TEST(EqcUpgrade, GivesOldTreesWithoutViewOneOfTheirOwn) {
         " compound { compound { channel \"a\" wall {} compound { eye [ LEFT ] }"
         "                       compound { channel \"b\" eye [ RIGHT ] outputframe {} }"
         "                       inputframe { name \"frame.b\" } } } }";
-    for (const char* const version : {"1.0", "1.1"}) {
-        const Read old("#Equalizer " + std::string(version) + " ascii\n" + rest);
+    for (const char* const version : {"", "1.0", "1.1", "1.2"}) {
+        const std::string header = "#Equalizer " + std::string(version) + " ascii\n";
+        const Read old((*version == '\0' ? "" : header) + rest);
         EXPECT_EQ(describe(old.findings, "f"), "");
         ASSERT_EQ(old.resolved.destinations.size(), 1U);
         EXPECT_EQ(old.resolved.destinations[0].channel, (ChannelIndex{0, 0, 0, 0}));
@@ -258,7 +259,38 @@ TEST(EqcUpgrade, GivesOldTreesWithoutViewOneOfTheirOwn) {
         upgrade(again);
         EXPECT_EQ(again, old.configuration);
     }
+}
+
+TEST(EqcUpgrade, LeavesTreesOfNewerFilesAloneBesideACanvas) {
+    const std::string rest =
+        " config { node { pipe { window { channel { name \"a\" } } } } canvas {}"
+        " compound { channel \"a\" } }";
+    EXPECT_EQ(Read("#Equalizer 1.1 ascii\n" + rest).resolved.destinations.size(), 1U);
     EXPECT_TRUE(Read("#Equalizer 1.2 ascii\n" + rest).resolved.destinations.empty());
+    EXPECT_TRUE(Read(rest).resolved.destinations.empty());
+}
+
+TEST(EqcUpgrade, MakesSegmentsOfOneCanvasOfAGroup) {
+    const Read old(
+        "config { node { pipe { window { viewport [ 0 0 480 300 ] channel { name \"a\" } }"
+        "                       window { viewport [ 0 0 480 300 ] channel { name \"b\" } } } }"
+        " compound { wall { bottom_left [ -.64 -.2 -1 ] bottom_right [ .64 -.2 -1 ]"
+        "                   top_left [ -.64 .2 -1 ] }"
+        "   compound { channel \"a\" viewport [ 0 0 .25 1 ] }"
+        "   compound { channel \"b\" viewport [ .25 0 .75 1 ] } } }");
+    EXPECT_EQ(describe(old.findings, "f"), "");
+    ASSERT_EQ(old.configuration.canvases.size(), 1U);
+    ASSERT_EQ(old.resolved.destinations.size(), 2U);
+    for (const Destination& destination : old.resolved.destinations) {
+        EXPECT_EQ(destination.pixelViewport, (fabric::PixelViewport{0, 0, 480, 300}));
+        ASSERT_TRUE(destination.wall.has_value());
+    }
+    EXPECT_NEAR(old.resolved.destinations[0].wall->bottomRight.x, -0.32, 1e-12);
+    EXPECT_NEAR(old.resolved.destinations[1].wall->bottomLeft.x, -0.32, 1e-12);
+    ASSERT_EQ(old.resolved.compounds.size(), 3U);
+    for (const std::size_t part : {1U, 2U})
+        EXPECT_EQ(old.resolved.compounds[part].pixelViewport,
+                  (fabric::PixelViewport{0, 0, 480, 300}));
 }
 
 TEST(EqcUpgrade, GivesTreesOfEachEyeOneView) {
