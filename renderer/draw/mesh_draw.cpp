@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
 
@@ -412,6 +413,11 @@ absl::StatusOr<std::unique_ptr<Drawable>> openMesh(const fabric::SceneObject& ob
     ASSIGN_OR_RETURN(mesh::EymFile opened, mesh::EymFile::open(object.path, sources));
     auto file = std::make_shared<const mesh::EymFile>(std::move(opened));
     MeshTextures textures(*file, memory.deviceBytes / 2, format);
+    if (textures.bytes() > memory.deviceBytes)
+        return absl::ResourceExhaustedError(fmt::format(
+            "{}: its textures' coarsest levels need {} bytes, and its share of memory on the "
+            "device is {}; raise the limit, or open fewer objects",
+            object.path, textures.bytes(), memory.deviceBytes));
     ASSIGN_OR_RETURN(
         auto paging,
         MeshPaging::open(file, loader, {memory.deviceBytes - textures.bytes(), memory.hostBytes}));
