@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What loading does to the frame times of a flight over terrain.
+// What loading does to the frame times of a flight over terrain or a mesh.
 //
-//   build/release/bench/cold_flight FILE.eyt [FRAMES=300] [TAU=1] [DEVICE_MIB=2048] [HOST_MIB=512]
+//   build/release/bench/cold_flight FILE.eyt|FILE.eym [FRAMES=300] [TAU=1] [DEVICE_MIB=2048]
+//   [HOST_MIB=512]
 //
 // Flies twice, with interactive frames: with nothing loaded (the file is dropped from the system's
 // cache, too), then once more. On a machine that is not idle, compare the processor time of the
@@ -45,7 +46,7 @@ void dropFromSystemCache(const std::string& path) {
     close(file);
 }
 
-/// An S across the terrain, looking ahead and a little down.
+/// An S across the data, just above them, looking ahead and a little down.
 fabric::Camera cameraAt(const fabric::Box& bounds, double t) {
     const auto at = [&](double s) {
         const fabric::Vec3 size = bounds.size();
@@ -179,8 +180,10 @@ absl::Status run(const Options& options) {
     if (!renderer.ok())
         return renderer.status();
     fabric::Scene scene;
-    scene.objects.push_back(
-        {.name = "terrain", .kind = fabric::ObjectKind::Terrain, .path = options.path});
+    scene.objects.push_back({.name = "flown over",
+                             .kind = options.path.ends_with(".eym") ? fabric::ObjectKind::Mesh
+                                                                    : fabric::ObjectKind::Terrain,
+                             .path = options.path});
     auto info = (*renderer)->openScene(scene);
     if (!info.ok())
         return info.status();
@@ -207,7 +210,7 @@ absl::Status run(const Options& options) {
 int main(int argc, char** argv) {
     if (argc < 2 || std::string(argv[1]) == "--help") {
         fmt::print(stderr,
-                   "usage: cold_flight FILE.eyt [FRAMES=300] [TAU=1] [DEVICE_MIB=2048] "
+                   "usage: cold_flight FILE.eyt|FILE.eym [FRAMES=300] [TAU=1] [DEVICE_MIB=2048] "
                    "[HOST_MIB=512]\n");
         return 2;
     }

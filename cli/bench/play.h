@@ -34,6 +34,12 @@ inline bool showsSomething(const PlayedFrame& frame) {
     return frame.statistics.nodes + frame.statistics.nodesHidden > 0;
 }
 
+/// Whether its promise is more than was asked for: its data were not there, did not fit into memory
+/// or would have taken longer than a frame time to hold.
+inline bool isBeyondTau(const PlayedFrame& frame) {
+    return frame.statistics.tauAchievedPixels > frame.statistics.tauAskedPixels;
+}
+
 struct Played {
     std::vector<PlayedFrame> frames;      ///< pass by pass
     std::uint64_t peakResidentBytes = 0;  ///< this process and its children, added up

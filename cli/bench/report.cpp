@@ -20,12 +20,9 @@ namespace {
 std::string frameTimes(const std::vector<BenchRun>& runs) {
     std::string json;
     for (std::size_t run = 0; run < runs.size(); ++run)
-        for (const PlayedFrame& frame : runs[run].played.frames) {
-            const fabric::FrameStatistics& s = frame.statistics;
+        for (const PlayedFrame& frame : runs[run].played.frames)
             json += fmt::format("{}[{},{},{:.3f},{:.2f},{:d}]", json.empty() ? "" : ",", run,
-                                frame.pass, frame.seconds, frame.milliseconds,
-                                s.tauAchievedPixels > s.tauAskedPixels);
-        }
+                                frame.pass, frame.seconds, frame.milliseconds, isBeyondTau(frame));
     return "[" + json + "]";
 }
 
@@ -111,17 +108,19 @@ std::string summaryJson(const Report& report) { return summaryOf(report).str() +
 std::string framesCsv(const std::vector<BenchRun>& runs) {
     std::string csv =
         "asked,tau,renderers,pass,seconds,milliseconds,cull,draw,readback,encode,triangles,nodes,"
-        "nodesHidden,pagesLoaded,bytesLoaded,tauAchieved,complete,budgetMs,predictedMs,budgetTau\n";
+        "nodesHidden,pagesLoaded,bytesLoaded,tauAchieved,beyondTau,complete,budgetMs,predictedMs,"
+        "budgetTau\n";
     for (const BenchRun& run : runs)
         for (const PlayedFrame& frame : run.played.frames) {
             const fabric::FrameStatistics& s = frame.statistics;
             const fabric::StageMilliseconds& ms = s.milliseconds;
             csv += fmt::format(
-                "{},{},{},{},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{},{},{},{},{},{},{:d},{}\n",
+                "{},{},{},{},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{},{},{},{},{},{},{:d},{:d},{}"
+                "\n",
                 run.label, run.tauPixels, run.renderers, frame.pass, frame.seconds,
                 frame.milliseconds, ms.cull, ms.draw, ms.readback, ms.encode, s.triangles, s.nodes,
-                s.nodesHidden, s.pagesLoaded, s.bytesLoaded, s.tauAchievedPixels, s.complete,
-                budgetColumns(s.budget));
+                s.nodesHidden, s.pagesLoaded, s.bytesLoaded, s.tauAchievedPixels,
+                isBeyondTau(frame), s.complete, budgetColumns(s.budget));
         }
     return csv;
 }
@@ -135,10 +134,15 @@ std::string reportPage(const Report& report) {
 
 std::string table(const std::vector<BenchRun>& runs) {
     std::string text = tableHead();
+    std::string beyond;
     std::string notes;
     for (const BenchRun& run : runs) {
         const RunSummary summary = summarize(run.played);
         text += tableLine(run, summary);
+        if (summary.framesBeyond > 0)
+            beyond += fmt::format("{}, {}: {} of {} frames promise more than was asked\n",
+                                  run.label, drawnBy(run.renderers, run.compound),
+                                  summary.framesBeyond, run.played.frames.size());
         if (summary.framesEmpty > 0 && notes.empty())
             notes = fmt::format("{} of {} frames show nothing of the scene\n", summary.framesEmpty,
                                 run.played.frames.size());
@@ -146,7 +150,7 @@ std::string table(const std::vector<BenchRun>& runs) {
     for (const BenchRun& run : runs)
         if (run.budgetMilliseconds > 0)
             text += budgetLine(run);
-    return text + notes;
+    return text + beyond + notes;
 }
 
 absl::Status writeReport(const Report& report, const std::string& folder) {

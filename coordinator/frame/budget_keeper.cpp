@@ -3,12 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace eyrie::coordinator {
 namespace {
 
 /// How clear of the coarsest tau a larger picture is to begin.
 constexpr double kClearOfCoarsest = 0.7;
+
+/// Of the budget, what an easy frame takes less than.
+constexpr double kEasy = 0.25;
 
 double pixelsAfter(int halvings) { return std::exp2(-halvings); }
 
@@ -19,12 +23,14 @@ int scaled(int side, int halvings) {
 }  // namespace
 
 BudgetPlan BudgetKeeper::plan(const FrameRequest& request) const {
-    return {budgetOf(request), scaled(request.width, halvings_), scaled(request.height, halvings_)};
+    const double margin = view_.isCut(request.camera) ? margin_.factor() : 1;
+    return {budgetOf(request, margin), scaled(request.width, halvings_),
+            scaled(request.height, halvings_)};
 }
 
-fabric::FrameBudget BudgetKeeper::budgetOf(const FrameRequest& request) const {
-    return {*request.budgetMilliseconds, cost_.fixedMilliseconds(), cost_.millisecondsATriangle(),
-            lastTauPixels_};
+fabric::FrameBudget BudgetKeeper::budgetOf(const FrameRequest& request, double margin) const {
+    return {*request.budgetMilliseconds, margin * cost_.fixedMilliseconds(),
+            margin * cost_.millisecondsATriangle(), lastTauPixels_};
 }
 
 void BudgetKeeper::record(const FrameRequest& request, const fabric::FrameStatistics& statistics,
@@ -38,10 +44,20 @@ void BudgetKeeper::record(const FrameRequest& request, const fabric::FrameStatis
     if (hasWaited || request.measuresStages)
         return;
     // Until its data are there a frame is drawn with others, mostly fewer, triangles.
-    const double triangles = static_cast<double>(
-        statistics.complete ? use.triangles : std::min(use.triangles, statistics.triangles));
-    cost_.record(fabric::FrameBudget::fixedShare(use.covered), triangles, milliseconds);
-    use.predictedMilliseconds = budgetOf(request).predict(use.covered, use.triangles);
+    const std::uint64_t drawn =
+        statistics.complete ? use.triangles : std::min(use.triangles, statistics.triangles);
+    const bool isOfNewView = view_.isCut(request.camera);
+    view_.follow(request.camera);
+    if (isOfNewView)
+        margin_.record(budgetOf(request, 1).predict(use.covered, drawn), milliseconds,
+                       use.milliseconds);
+    cost_.record({.fixedShare = fabric::FrameBudget::fixedShare(use.covered),
+                  .triangles = static_cast<double>(drawn),
+                  .milliseconds = milliseconds,
+                  .isEasy = halvings_ == 0 && use.tauPixels <= statistics.tauAskedPixels &&
+                            milliseconds < kEasy * use.milliseconds,
+                  .isOfNewView = isOfNewView});
+    use.predictedMilliseconds = budgetOf(request, 1).predict(use.covered, use.triangles);
     resize(use, std::max(statistics.tauAskedPixels, fabric::kBudgetTauPixels));
 }
 

@@ -5,7 +5,9 @@
 #include <list>
 
 #include "coordinator/frame/cost_model.h"
+#include "coordinator/frame/cut_margin.h"
 #include "coordinator/frame/frame_source.h"
+#include "coordinator/frame/view_change.h"
 #include "fabric/frame_budget.h"
 #include "fabric/statistics.h"
 
@@ -25,6 +27,9 @@ struct BudgetPlan {
 /// as many halvings as the time foreseen is too long by; and larger again when the same cut, whose
 /// tau in larger pixels is larger, keeps well clear of the coarsest, and the time of all the pixels
 /// is foreseen to fit. So the step up is not taken back at once.
+///
+/// The first frame of a new view is foreseen with a margin, for what a triangle costs there is not
+/// known yet, and the view is drawn somewhat coarser for that frame than for the next.
 class BudgetKeeper {
 public:
     static constexpr int kHalvings = 4;  ///< of pixels, at most
@@ -38,10 +43,13 @@ public:
                 double milliseconds);
 
 private:
-    fabric::FrameBudget budgetOf(const FrameRequest& request) const;
+    /// With costs `margin` times as high as learned.
+    fabric::FrameBudget budgetOf(const FrameRequest& request, double margin) const;
     void resize(const fabric::BudgetUse& use, double coarsestTau);
 
     CostModel cost_;
+    ViewChange view_;
+    CutMargin margin_;
     double lastTauPixels_ = 0;
     int halvings_ = 0;
 };

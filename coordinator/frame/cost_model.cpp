@@ -7,37 +7,47 @@
 namespace eyrie::coordinator {
 namespace {
 
-constexpr double kLongest = 3.6e6;      ///< milliseconds
-constexpr double kNoise = 0.15;         ///< of a frame's time, relative
-constexpr double kFixedDrift = 0.02;    ///< a frame, of its time
-constexpr double kSlopeDrift = 0.03;    ///< a frame, relative
-constexpr double kMostUncertain = 0.5;  ///< of a parameter's part of a frame's time
-constexpr double kMostAtOnce = 3;       ///< by which both are scaled after two frames
-constexpr int kFirstFrames = 3;         ///< each of which counts wholly
-constexpr double kLeast = 1e-4;         ///< milliseconds of a parameter; of a time, a hundredfold
+constexpr double kLongest = 3.6e6;       ///< milliseconds
+constexpr double kNoise = 0.15;          ///< of a frame's time, relative
+constexpr double kTrustInNewView = 0.8;  ///< in the logarithm of how far its first frame is off
+constexpr double kFixedDrift = 0.02;     ///< a frame, of its time
+constexpr double kSlopeDrift = 0.03;     ///< a frame, relative
+constexpr double kMostUncertain = 0.5;   ///< of a parameter's part of a frame's time
+constexpr double kMostAtOnce = 3;        ///< by which both are scaled after two frames
+constexpr int kFirstFrames = 3;          ///< each of which counts wholly
+constexpr double kLeast = 1e-4;          ///< milliseconds of a parameter; of a time, a hundredfold
 constexpr double kMost = 1e6;
 
 double square(double value) { return value * value; }
 
 }  // namespace
 
-void CostModel::record(double fixedShare, double triangles, double milliseconds) {
-    const bool isTime = milliseconds > 0 && milliseconds < kLongest;
-    if (!isTime || !(triangles >= 0 && std::isfinite(triangles)))
+void CostModel::record(const FrameCost& frame) {
+    const bool isTime = frame.milliseconds > 0 && frame.milliseconds < kLongest;
+    if (!isTime || !(frame.triangles >= 0 && std::isfinite(frame.triangles)))
         return;
-    const double x = triangles / kTriangles;
-    const double ratio = milliseconds / predict(fixedShare, x);
-    double factor = 1;
-    if (++frames_ <= kFirstFrames)
-        factor = ratio;
-    else if (std::min(ratio, lastRatio_) > kOutlier)
-        factor = std::min({ratio, lastRatio_, kMostAtOnce});
-    else if (std::max(ratio, lastRatio_) < 1 / kOutlier)
-        factor = std::max({ratio, lastRatio_, 1 / kMostAtOnce});
+    if (++frames_ > kFirstFrames && frame.isEasy)
+        return;
+    const double ratio =
+        frame.milliseconds / predict(frame.fixedShare, frame.triangles / kTriangles);
+    const double factor = news(frame, ratio);
     set(fixed_ * factor, slope_ * factor);
     scaleCovariance(factor, factor);
     lastRatio_ = ratio / factor;
-    follow(fixedShare, x, milliseconds);
+    follow(frame);
+}
+
+/// By what both parameters are off, says a frame that took `ratio` times as long as foreseen.
+double CostModel::news(const FrameCost& frame, double ratio) const {
+    if (frames_ <= kFirstFrames)
+        return ratio;
+    if (frame.isOfNewView)
+        return std::clamp(std::pow(ratio, kTrustInNewView), 1 / kMostAtOnce, kMostAtOnce);
+    if (std::min(ratio, lastRatio_) > kOutlier)
+        return std::min({ratio, lastRatio_, kMostAtOnce});
+    if (std::max(ratio, lastRatio_) < 1 / kOutlier)
+        return std::max({ratio, lastRatio_, 1 / kMostAtOnce});
+    return 1;
 }
 
 void CostModel::resized(double factor) {
@@ -62,10 +72,12 @@ void CostModel::scaleCovariance(double fixed, double slope) {
 }
 
 /// One step of the filter, with what was measured brought within kOutlier of what was foreseen.
-void CostModel::follow(double share, double x, double milliseconds) {
+void CostModel::follow(const FrameCost& frame) {
+    const double share = frame.fixedShare;
+    const double x = frame.triangles / kTriangles;
     const double foreseen = predict(share, x);
     const double error =
-        std::clamp(milliseconds, foreseen / kOutlier, foreseen * kOutlier) - foreseen;
+        std::clamp(frame.milliseconds, foreseen / kOutlier, foreseen * kOutlier) - foreseen;
     ff_ += square(kFixedDrift * std::max(foreseen, fixed_));
     ss_ += square(kSlopeDrift * slope_);
     const double most = kMostUncertain * foreseen;

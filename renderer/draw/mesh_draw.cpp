@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
+#include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
 
@@ -16,6 +18,7 @@
 #include "renderer/draw/mesh_paging.h"
 #include "renderer/draw/mesh_textures.h"
 #include "renderer/draw/object_program.h"
+#include "renderer/draw/prefetch.h"
 #include "renderer/draw/tau_choice.h"
 #include "renderer/draw/tint.h"
 #include "renderer/gl/object.h"
@@ -36,6 +39,28 @@ std::uint32_t packedSrgb(const fabric::Vec3& linear) {
 }
 
 bool isTinted(const fabric::Look& look) { return look.levelTint || look.rangeTint; }
+
+/// For Prefetch::nodes.
+struct NodeTree {
+    using Node = std::uint32_t;
+
+    const mesh::EymFile& file;
+
+    Node root() const { return 0; }
+    fabric::Box bounds(Node node) const { return file.bounds(node); }
+    double errorMetres(Node node) const {
+        const mesh::Node& at = file.nodes()[node];
+        return at.indexCount > 0 ? at.errorMetres : std::numeric_limits<double>::infinity();
+    }
+    template <typename Visit>
+    void forEachChild(Node node, const Visit& visit) const {
+        const mesh::Node& at = file.nodes()[node];
+        if (at.isLeaf())
+            return;
+        visit(static_cast<Node>(at.left));
+        visit(static_cast<Node>(at.right));
+    }
+};
 
 class MeshDrawable : public Drawable {
 public:
@@ -112,6 +137,7 @@ private:
     gl::VertexArray vertexArray_;
     BoxLines boxLines_;
     std::unique_ptr<MeshPaging> paging_;
+    Prefetch prefetch_;
     TauChoice tau_;
     std::map<int, MeshCut> cuts_;  ///< of this view and tau, by step
 };
@@ -180,12 +206,16 @@ Cut MeshDrawable::selectCut(const CutRequest& request) {
     cuts_.clear();
     const page::TauLadder::Choice choice = tau_.choose(
         request, [&](int step) { return bytesOf(cutAt(step, request)); }, paging_->roomBytes());
+    const double tauPixels = request.tauPixels * page::TauLadder::factor(choice.step);
+    prefetch_.follow(request.view.view(), worldFromObject_, Prefetch::Clock::now());
     MeshPaging::Progress progress;
     if (request.completeness == fabric::Completeness::Complete) {
         progress.hasUploaded = countMissing(cutAt(choice.step, request)) > 0;
-        progress.loaded = reach(request, request.tauPixels * page::TauLadder::factor(choice.step));
+        progress.loaded = reach(request, tauPixels);
     } else {
-        progress = paging_->approach(cutAt(choice.step, request));
+        progress = paging_->approach(cutAt(choice.step, request), [&] {
+            return prefetch_.nodes(NodeTree{*file_}, tauPixels, paging_->latency());
+        });
     }
     if (progress.hasUploaded)
         cuts_.erase(choice.step);
@@ -383,6 +413,11 @@ absl::StatusOr<std::unique_ptr<Drawable>> openMesh(const fabric::SceneObject& ob
     ASSIGN_OR_RETURN(mesh::EymFile opened, mesh::EymFile::open(object.path, sources));
     auto file = std::make_shared<const mesh::EymFile>(std::move(opened));
     MeshTextures textures(*file, memory.deviceBytes / 2, format);
+    if (textures.bytes() > memory.deviceBytes)
+        return absl::ResourceExhaustedError(fmt::format(
+            "{}: its textures' coarsest levels need {} bytes, and its share of memory on the "
+            "device is {}; raise the limit, or open fewer objects",
+            object.path, textures.bytes(), memory.deviceBytes));
     ASSIGN_OR_RETURN(
         auto paging,
         MeshPaging::open(file, loader, {memory.deviceBytes - textures.bytes(), memory.hostBytes}));

@@ -142,7 +142,7 @@ bool MeshPaging::upload(std::chrono::duration<double> time) {
     return hasUploaded;
 }
 
-MeshPaging::Progress MeshPaging::approach(const MeshCut& cut) {
+MeshPaging::Progress MeshPaging::approach(const MeshCut& cut, const Prefetch& prefetch) {
     beginFrame();
     for (const CutNode& node : cut.drawn) {
         items_.rank(node.node, 0);
@@ -152,14 +152,22 @@ MeshPaging::Progress MeshPaging::approach(const MeshCut& cut) {
     std::vector<CutNode> below = cut.wanted;
     below.insert(below.end(), cut.between.begin(), cut.between.end());
     rank(std::move(below));
+    const bool isUrgent = !missing_.empty();
     rank(cut.above);
-    if (missing_.empty() && !hasWishes_)
+    bool hasWishes = !missing_.empty();
+    if (!isUrgent)
+        for (const std::uint32_t node : prefetch())
+            if (!isResident(node)) {
+                pages_.want(node);
+                hasWishes = true;
+            }
+    if (!hasWishes && !hasWishes_)
         return {};
     Progress progress;
     progress.loaded = pages_.tryTake();
     progress.hasUploaded = upload(kUploadTime);
     pages_.tryWish();
-    hasWishes_ = !missing_.empty();
+    hasWishes_ = hasWishes;
     return progress;
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <unordered_set>
 #include <vector>
@@ -46,6 +48,8 @@ public:
     static absl::StatusOr<std::unique_ptr<MeshPaging>> open(
         std::shared_ptr<const mesh::EymFile> file, page::Loader& loader, const MeshMemory& limits);
 
+    using Prefetch = std::function<std::vector<std::uint32_t>()>;
+
     struct Progress {
         page::HostPages::Loads loaded;
         bool hasUploaded = false;
@@ -53,8 +57,9 @@ public:
 
     /// Brings what is there to the device for a few milliseconds and wishes for the rest, without
     /// waiting. What is drawn stays; then comes what lies below it, then, against the day when the
-    /// camera draws back, what lies above.
-    Progress approach(const MeshCut& cut);
+    /// camera draws back, what lies above; where nothing below is missing, pages of `prefetch()`:
+    /// nodes that may be needed soon, likely ones first.
+    Progress approach(const MeshCut& cut, const Prefetch& prefetch);
 
     /// One round of waiting for `needed`: false when nothing is left that may come.
     bool reach(const std::vector<CutNode>& needed, page::HostPages::Loads& loaded);
@@ -77,6 +82,8 @@ public:
         return index == 0 && root_ ? 0 : mesh::blockBytes(file_->shape(index));
     }
     std::uint64_t roomBytes() const { return items_.limitBytes(); }
+    /// From a page's first wish to its arrival, averaged over the last ones.
+    std::chrono::duration<double> latency() const { return pages_.latency(); }
     MemoryUse memory() const { return {rootBytes_ + items_.bytes(), pages_.bytes()}; }
 
 private:

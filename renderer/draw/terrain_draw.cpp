@@ -12,11 +12,11 @@
 #include "renderer/draw/needed_tiles.h"
 #include "renderer/draw/object_program.h"
 #include "renderer/draw/page_bounds.h"
+#include "renderer/draw/prefetch.h"
 #include "renderer/draw/tau_choice.h"
 #include "renderer/draw/terrain_error.h"
 #include "renderer/draw/terrain_ground.h"
 #include "renderer/draw/terrain_look.h"
-#include "renderer/draw/terrain_prefetch.h"
 #include "renderer/draw/terrain_tiles.h"
 #include "renderer/draw/tile_imagery.h"
 #include "renderer/draw/tint.h"
@@ -39,6 +39,24 @@ constexpr double kElevationBands = 5;               ///< of effects/terrain.effe
 /// Where memory is short, texels grow as tau does.
 double texelPixels(int step) { return terrain::kTexelPixels * page::TauLadder::factor(step); }
 
+/// For Prefetch::nodes.
+struct TileTree {
+    using Node = terrain::TileId;
+
+    const terrain::EytIndex& index;
+
+    Node root() const { return index.quadtree.top(); }
+    fabric::Box bounds(const Node& tile) const { return index.bounds(tile); }
+    double errorMetres(const Node& tile) const { return index.tile(tile).greatestErrorMetres(); }
+    template <typename Visit>
+    void forEachChild(const Node& tile, const Visit& visit) const {
+        for (int i = 0; i < 4 && tile.level > 0; ++i)
+            if (const Node child = terrain::Quadtree::child(tile, i);
+                index.quadtree.contains(child) && index.tile(child).triangles > 0)
+                visit(child);
+    }
+};
+
 class TerrainDrawable : public Drawable {
 public:
     TerrainDrawable(const fabric::SceneObject& object, TerrainPrograms& programs,
@@ -50,7 +68,6 @@ public:
           bounds_(index().bounds()),
           triangles_(index().triangles()),
           needed_(index()),
-          prefetch_(index()),
           look_(index()),
           paging_(std::move(paging)),
           imagery_(index(), *paging_) {
@@ -115,7 +132,7 @@ private:
     gl::VertexArray shortVertices_;  ///< one word a vertex; the second reads as 0
     gl::VertexArray longVertices_;   ///< two words
     NeededTiles needed_;
-    TerrainPrefetch prefetch_;
+    Prefetch prefetch_;
     TerrainLook look_;
     BoxLines boxLines_;
     std::unique_ptr<TerrainPaging> paging_;
@@ -168,14 +185,16 @@ Cut TerrainDrawable::selectCut(const CutRequest& request) {
     const Wanted& wanted = wantedAt(tauPixels, request.view);
     needed_.assign(wanted.cut, request);
     prefetch_.follow(request.view.view(),
-                     fabric::exaggerated(worldFromObject_, request.exaggeration));
+                     fabric::exaggerated(worldFromObject_, request.exaggeration),
+                     Prefetch::Clock::now());
     const std::vector<terrain::TextureId> textures =
         imagery_.texturesOf(needed_.leaves(), request.view, texelPixels(choice.step));
     const TerrainPaging::Result result =
         request.completeness == fabric::Completeness::Complete
             ? paging_->reach(wanted.refinement, needed_, textures, request.view)
-            : paging_->approach(wanted.refinement, needed_, textures, request.view,
-                                [&] { return prefetch_.tiles(tauPixels, paging_->latency()); });
+            : paging_->approach(wanted.refinement, needed_, textures, request.view, [&] {
+                  return prefetch_.nodes(TileTree{index()}, tauPixels, paging_->latency());
+              });
 
     Cut cut;
     cut.isComplete = result.pagesMissing == 0 && choice.isLowest;

@@ -93,6 +93,21 @@ TEST(BenchReport, ARunAtAFrameTimeSaysHowItWasHeld) {
     EXPECT_THAT(framesCsv(held.runs), testing::HasSubstr(",33,30.000,0.5\n"));
 }
 
+TEST(BenchReport, FramesThatPromiseMoreThanWasAskedSaySoEverywhere) {
+    Report broken = report();
+    broken.runs[0].played.frames[2] = frame(1, 10, 1.5);
+    const std::string csv = framesCsv(broken.runs);
+    EXPECT_THAT(csv, testing::HasSubstr(",tauAchieved,beyondTau,complete,"));
+    EXPECT_THAT(csv, testing::HasSubstr(",0.5,0,1,"));
+    EXPECT_THAT(csv, testing::HasSubstr(",1.5,1,1,"));
+    const test::JsonValue run = test::list(parseJson(summaryJson(broken)), "runs").at(0);
+    EXPECT_EQ(number(run, "framesBeyondTau"), 1);
+    EXPECT_THAT(table(broken.runs),
+                testing::HasSubstr("1 px, one process: 1 of 4 frames promise more than was asked"));
+    EXPECT_THAT(table(oneRun()), testing::Not(testing::HasSubstr("promise more")));
+    EXPECT_THAT(reportPage(broken), testing::HasSubstr("[0,1,0.250,10.00,1]"));
+}
+
 TEST(RunSummary, StagesAreThoseOfTheFramesThatWereMeasured) {
     Played played = oneRun()[0].played;
     for (const double fill : {8.0, 30.0, 9.0})

@@ -76,13 +76,27 @@ public:
         return frame();
     }
 
+    /// Far from where it is, looking elsewhere.
+    void cut() { lookAt(azimuth_ + 2.2); }
+    /// As usual from one frame to the next.
+    void move() { lookAt(azimuth_ + 0.02); }
+
+    const FrameRequest& request() const { return request_; }
+    const BudgetKeeper& keeper() const { return keeper_; }
     int width() const { return request_.width; }
 
     SimulatedScene scene;
 
 private:
+    void lookAt(double azimuth) {
+        azimuth_ = azimuth;
+        request_.camera.eye = {10 * std::cos(azimuth), 10 * std::sin(azimuth), 1};
+        request_.camera.target = {0, 0, 0};
+    }
+
     FrameRequest request_;
     BudgetKeeper keeper_;
+    double azimuth_ = 0;
 };
 
 /// How often the choice turns back: up after down or down after up.
@@ -162,6 +176,132 @@ TEST(BudgetKeeper, ComingCloseIsForeseen) {
     }
 }
 
+/// Nothing but a few triangles, at a fraction of what they cost when they fill the picture.
+TEST(BudgetKeeper, ViewsOfNearlyNothingDoNotTeachThatAllIsCheap) {
+    Simulation simulation;
+    simulation.scene.perPixel = 10;
+    simulation.settled();
+    const SimulatedScene near = simulation.scene;
+    for (int time = 0; time < 5; ++time) {
+        simulation.scene.covered = 0.02;
+        simulation.scene.trianglesAtOnePixel = 10'000;
+        simulation.scene.perTriangle = near.perTriangle / 3;
+        simulation.scene.overhead = 0.3;
+        for (int i = 0; i < 20; ++i) simulation.frame();
+        simulation.scene = near;
+        for (int i = 0; i < 10; ++i) EXPECT_LE(simulation.frame().milliseconds, 1.2 * kBudget) << i;
+    }
+}
+
+/// Cuts every five frames between views in which a triangle costs 0.5 to 2 times as much.
+TEST(BudgetKeeper, CutsBetweenViewsOfDifferentCostAreInTime) {
+    std::mt19937 random(60);
+    std::uniform_real_distribution<double> doubling(-1, 1);
+    Simulation simulation;
+    simulation.scene.perPixel = 10;
+    const SimulatedScene usual = simulation.scene;
+    int late = 0;
+    int coarse = 0;
+    constexpr int kViews = 200;
+    for (int view = 0; view < kViews; ++view) {
+        simulation.cut();
+        simulation.scene.perTriangle = usual.perTriangle * std::exp2(doubling(random));
+        simulation.scene.trianglesAtOnePixel =
+            usual.trianglesAtOnePixel * std::exp2(doubling(random));
+        for (int i = 0; i < 5; ++i) {
+            const SimulatedFrame frame = simulation.frames(1, 0.1, random).front();
+            late += frame.milliseconds > 1.2 * kBudget ? 1 : 0;
+            coarse += i == 4 && frame.milliseconds < 0.5 * kBudget ? 1 : 0;
+            simulation.move();
+        }
+    }
+    EXPECT_LE(late, 5 * kViews * 5 / 100);
+    EXPECT_LE(coarse, kViews * 5 / 100);  // the margin is not kept
+}
+
+TEST(BudgetKeeper, TheMarginIsForCutsAlone) {
+    Simulation simulation;
+    const SimulatedScene usual = simulation.scene;
+    for (int view = 0; view < 20; ++view) {
+        simulation.cut();
+        simulation.scene.perTriangle = usual.perTriangle * (view % 2 == 0 ? 0.5 : 2);
+        simulation.settled();
+    }
+    const fabric::FrameBudget learned = simulation.keeper().plan(simulation.request()).budget;
+    simulation.move();
+    EXPECT_EQ(simulation.keeper().plan(simulation.request()).budget, learned);
+    simulation.cut();
+    const fabric::FrameBudget careful = simulation.keeper().plan(simulation.request()).budget;
+    EXPECT_GT(careful.millisecondsATriangle, 1.1 * learned.millisecondsATriangle);
+    EXPECT_LE(careful.millisecondsATriangle, 2.001 * learned.millisecondsATriangle);
+}
+
+TEST(CutMargin, HoldsItsShareOfNewViews) {
+    std::mt19937 random(7);
+    std::normal_distribution<double> doublings(0, 0.5);
+    CutMargin margin;
+    EXPECT_EQ(margin.factor(), 1);
+    int longer = 0;
+    constexpr int kViews = 2000;
+    for (int i = 0; i < kViews; ++i) {
+        const double taken = 100 * std::exp2(doublings(random));
+        longer += taken > 100 * margin.factor() ? 1 : 0;
+        margin.record(100, taken, 1);
+    }
+    EXPECT_NEAR(longer, (1 - CutMargin::kQuantile) * kViews, 0.05 * kViews);
+    for (int i = 0; i < 100; ++i) margin.record(100, 1e6, 1);
+    EXPECT_DOUBLE_EQ(margin.factor(), 2);
+    for (int i = 0; i < 100; ++i) margin.record(1e6, 100, 1);
+    EXPECT_EQ(margin.factor(), 1);
+}
+
+fabric::Camera cameraAt(double azimuth, double distance = 10) {
+    fabric::Camera camera;
+    camera.eye = {distance * std::cos(azimuth), distance * std::sin(azimuth), 0};
+    camera.target = {0, 0, 0};
+    return camera;
+}
+
+TEST(ViewChange, TellsCutsFromMovements) {
+    ViewChange view;
+    EXPECT_TRUE(view.isCut(cameraAt(0)));
+    view.follow(cameraAt(0));
+    for (int i = 1; i < 50; ++i) {
+        const double azimuth = 0.05 * i;
+        EXPECT_FALSE(view.isCut(cameraAt(azimuth))) << i;
+        view.follow(cameraAt(azimuth));
+        fabric::Camera turned = cameraAt(azimuth);
+        turned.target = 2.0 * turned.eye;
+        EXPECT_TRUE(view.isCut(turned)) << i;
+        EXPECT_TRUE(view.isCut(cameraAt(azimuth, 50))) << i;
+        fabric::Camera zoomed = cameraAt(azimuth);
+        zoomed.fovYDegrees /= 3;
+        EXPECT_TRUE(view.isCut(zoomed)) << i;
+    }
+}
+
+TEST(ViewChange, EveryFifthFrameMayBeACut) {
+    ViewChange view;
+    view.follow(cameraAt(0));
+    for (int cut = 1; cut < 20; ++cut) {
+        const double azimuth = 2.0 * cut;
+        EXPECT_TRUE(view.isCut(cameraAt(azimuth))) << cut;
+        for (int i = 0; i < 5; ++i) {
+            view.follow(cameraAt(azimuth + 0.02 * i));
+            EXPECT_FALSE(view.isCut(cameraAt(azimuth + 0.02 * (i + 1)))) << cut << " " << i;
+        }
+    }
+}
+
+/// A quarter turn a frame is a movement, too, once it goes on.
+TEST(ViewChange, FastMovementsAreNoCuts) {
+    ViewChange view;
+    for (int i = 0; i < 10; ++i) {
+        EXPECT_EQ(view.isCut(cameraAt(1.5 * i)), i < 2) << i;
+        view.follow(cameraAt(1.5 * i));
+    }
+}
+
 /// A step in what a triangle costs can be known only once it has been seen, twice.
 TEST(BudgetKeeper, AStepInCostIsFollowedInThreeFrames) {
     for (const double step : {3.0, 1 / 3.0}) {
@@ -205,6 +345,16 @@ TEST(BudgetKeeper, PicturesGetSmallerWhereTrianglesAreNotWhatTakesLong) {
     const SimulatedFrame large = simulation.settled();
     EXPECT_EQ(large.width, simulation.width());
     EXPECT_LE(large.milliseconds, kBudget);
+}
+
+/// Small pictures are no easy frames: they are to become large again.
+TEST(BudgetKeeper, PicturesGetLargeAgainHoweverLittleTheyTake) {
+    Simulation simulation;
+    simulation.scene.trianglesAtOnePixel = 1000;
+    simulation.scene.perPixel = 40;
+    EXPECT_LT(simulation.settled().width, simulation.width());
+    simulation.scene.perPixel = 1;
+    EXPECT_EQ(simulation.settled().width, simulation.width());
 }
 
 TEST(BudgetKeeper, LearnsNothingFromFramesThatWaitedForData) {

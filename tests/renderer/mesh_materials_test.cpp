@@ -235,6 +235,18 @@ TEST_F(MeshMaterials, TexturesLeaveTheirFinestLevelsWhereMemoryIsShort) {
     EXPECT_LE(renderer_->memory().deviceBytes, kLimit);
 }
 
+TEST_F(MeshMaterials, TexturesThatDoNotFitAtAllKeepTheSceneFromOpening) {
+    add(texturedSquare());
+    RendererOptions options;
+    options.memoryBytes = 2;  // the coarsest level is one texel of four bytes
+    renderer_.reset();
+    auto small = Renderer::create(options);
+    ASSERT_TRUE(small.ok()) << small.status();
+    const absl::Status status = (*small)->openScene(scene_).status();
+    EXPECT_EQ(status.code(), absl::StatusCode::kResourceExhausted) << status;
+    EXPECT_NE(status.message().find("its textures"), absl::string_view::npos) << status;
+}
+
 /// A raster of every third row and column has a pixel's centre in common with every ninth of the
 /// view's. Checks of 3.6 pixels would be all grey to one that is filtered for its own.
 TEST_F(MeshMaterials, TexturesAreAsFineInARasterAsInItsView) {

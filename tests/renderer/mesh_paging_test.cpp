@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Meshes whose pages come late, never, or do not all fit into memory.
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -73,19 +74,25 @@ protected:
     /// Of a renderer that lives alone on this thread. From `distance` radii away along x, which
     /// fill the picture at about 2.
     static ChannelResult render(Renderer& renderer, double distance, double tauPixels,
-                                Completeness completeness, bool wantsDepth = true) {
+                                Completeness completeness) {
         const fabric::Box box = mesh::EymFile::open(path("coded.eym"))->bounds();
+        fabric::Camera camera;
+        camera.eye = box.centre() + fabric::Vec3(0.5 * glm::length(box.size()) * distance, 0, 0);
+        camera.target = box.centre();
+        return render(renderer, camera, tauPixels, completeness);
+    }
+
+    static ChannelResult render(Renderer& renderer, const fabric::Camera& camera, double tauPixels,
+                                Completeness completeness) {
         fabric::FrameData frame;
-        frame.camera.eye =
-            box.centre() + fabric::Vec3(0.5 * glm::length(box.size()) * distance, 0, 0);
-        frame.camera.target = box.centre();
+        frame.camera = camera;
         frame.tauPixels = tauPixels;
         fabric::ChannelTask task;
         task.viewWidth = kWidth;
         task.viewHeight = kHeight;
         task.pixelViewport = {0, 0, kWidth, kHeight};
         task.completeness = completeness;
-        task.wantsDepth = wantsDepth;
+        task.wantsDepth = true;
         const auto result = renderer.render(frame, task);
         EXPECT_TRUE(result.ok()) << result.status();
         return result.ok() ? *result : ChannelResult{};
@@ -214,6 +221,53 @@ TEST_F(MeshPaging, AQuarterOfTheMemoryRaisesTauAndIsKept) {
     }
     const auto again = render(*renderer, 2.2, 0.05, Completeness::Complete);
     EXPECT_EQ(again.statistics.pagesLoaded, 0U);  // it has come to rest
+}
+
+/// Looking away from the ball, beside which the camera is: all of it may be needed soon.
+TEST_F(MeshPaging, WhatMayBeNeededSoonIsThereWhenTheCameraTurns) {
+    constexpr double kTau = 0.01;
+    const auto file = mesh::EymFile::open(path("coded.eym"));
+    const auto nodes = static_cast<std::uint64_t>(
+        std::ranges::count_if(file->nodes(), [](auto& node) { return node.indexCount > 0; }));
+    const fabric::Box box = file->bounds();
+    fabric::Camera camera;
+    camera.eye = box.centre() + fabric::Vec3(glm::length(box.size()), 0, 0);
+    camera.target = 2.0 * camera.eye - box.centre();
+    const auto renderer = open(path("coded.eym"));
+    std::uint64_t loaded = 1;  // the root
+    const auto end = std::chrono::steady_clock::now() + kPatience;
+    while (loaded < nodes && std::chrono::steady_clock::now() < end) {
+        const ChannelResult away = render(*renderer, camera, kTau, Completeness::Interactive);
+        EXPECT_EQ(away.statistics.nodes, 0U);
+        EXPECT_TRUE(away.statistics.complete);
+        loaded += away.statistics.pagesLoaded;
+    }
+    EXPECT_EQ(loaded, nodes);
+    camera.target = box.centre();
+    ChannelResult turned = render(*renderer, camera, kTau, Completeness::Interactive);
+    while (!turned.statistics.complete && std::chrono::steady_clock::now() < end) {
+        EXPECT_EQ(turned.statistics.pagesLoaded, 0U);
+        turned = render(*renderer, camera, kTau, Completeness::Interactive);
+    }
+    EXPECT_EQ(turned.statistics.pagesLoaded, 0U);
+    EXPECT_TRUE(turned.image ==
+                render(*open(path("coded.eym")), camera, kTau, Completeness::Complete).image);
+}
+
+TEST_F(MeshPaging, PrefetchingKeepsWithinMemoryAndComesToRest) {
+    RendererOptions options;
+    options.hostMemoryBytes = 3 << 20;
+    const auto renderer = open(path("coded.eym"), options);
+    std::uint64_t loaded = 0;
+    const auto end = std::chrono::steady_clock::now() + kPatience;
+    for (int quiet = 0; quiet < 30 && std::chrono::steady_clock::now() < end;) {
+        const ChannelResult now = render(*renderer, 3, 0.05, Completeness::Interactive);
+        EXPECT_LE(renderer->memory().hostBytes, options.hostMemoryBytes);
+        loaded += now.statistics.pagesLoaded;
+        quiet = now.statistics.complete && now.statistics.pagesLoaded == 0 ? quiet + 1 : 0;
+    }
+    EXPECT_LT(std::chrono::steady_clock::now(), end);
+    EXPECT_GT(loaded, 0U);
 }
 
 TEST_F(MeshPaging, SaysThatMemoryHoldsNoNode) {
