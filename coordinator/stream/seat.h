@@ -54,11 +54,13 @@ public:
     const bool mayControl;
     Outbox outbox;
     QualityControl quality;
-    Delivered delivered;       ///< or being made for it
-    bool isServed = false;     ///< it is being made
-    bool isAwaiting = false;   ///< the picture that is being drawn will go to it at once
-    int timesPassedOver = 0;   ///< others came before it since it was served
-    std::string problem = {};  ///< what was wrong with its last request
+    bool showsVideo = false;          ///< it says that it can
+    std::optional<VideoPlace> video;  ///< of the last picture of a stream that it was given
+    Delivered delivered;              ///< or being made for it
+    bool isServed = false;            ///< it is being made
+    bool isAwaiting = false;          ///< the picture that is being drawn will go to it at once
+    int timesPassedOver = 0;          ///< others came before it since it was served
+    std::string problem = {};         ///< what was wrong with its last request
     std::string lastState = {};
 
 private:
