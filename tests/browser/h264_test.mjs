@@ -58,6 +58,29 @@ function likenessAtRest(page) {
   });
 }
 
+/** Whether a message is a Frame with a picture of a stream: its fields 2 and, therein, 16. */
+function isOfStream(message) {
+  let at = 0;
+  const varint = () => {
+    let value = 0;
+    for (let shift = 1; ; shift *= 128) {
+      const byte = message[at++];
+      value += (byte & 127) * shift;
+      if (byte < 128) return value;
+    }
+  };
+  if (varint() !== (2 << 3) + 2) return false;
+  varint();
+  while (at < message.length) {
+    const tag = varint();
+    if (tag === (16 << 3) + 2) return true;
+    const type = tag & 7;
+    if (type === 0) varint();
+    else at += type === 1 ? 8 : type === 5 ? 4 : varint();
+  }
+  return false;
+}
+
 await run("h264_test", async (browser, started) => {
   const { page } = browser;
   const server = started(
@@ -69,12 +92,12 @@ await run("h264_test", async (browser, started) => {
   );
   const { url, close } = await slowLink(server.url, { megabits: 8, delay: 10 });
 
-  // Drops one message of those that are larger than any but pictures, when told to.
+  // Loses a picture of a stream, when told to.
   let drops = 0;
   await page.routeWebSocket(/\/ws/, (socket) => {
     const upstream = socket.connectToServer();
     upstream.onMessage((message) => {
-      if (drops > 0 && message.length > 1000) drops -= 1;
+      if (drops > 0 && typeof message !== "string" && isOfStream(message)) drops -= 1;
       else socket.send(message);
     });
   });
@@ -103,12 +126,16 @@ await run("h264_test", async (browser, started) => {
   check(await turnUntil(page, () => window.eyrie.video), "the stream goes on after that");
   drops = 1;
   check(
-    await turnUntil(page, () => !window.eyrie.video && window.eyrie.quality > 0),
+    await turnUntil(page, () => {
+      const { video, still, quality } = window.eyrie;
+      return !video && !still && quality > 0;
+    }),
     "where a picture of the stream is lost, JPEGs come in its place",
   );
+  check(drops === 0, "one was lost");
   await page.evaluate(() => {
     window.sawVideo = false;
-    window.watching = setInterval(() => (window.sawVideo ||= window.eyrie.video), 1);
+    setInterval(() => (window.sawVideo ||= window.eyrie.video), 1);
   });
   await page.evaluate(() => (window.turnsUntil = performance.now() + 1500));
   await turnUntil(page, () => performance.now() > window.turnsUntil);
