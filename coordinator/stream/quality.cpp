@@ -14,13 +14,13 @@ struct Step {
 };
 
 constexpr std::array<Step, 9> kSteps = {{
-    {{1, 75, 26}, 1.00, milliseconds(14), 0.40},
+    {{1, 75, 20}, 1.00, milliseconds(14), 0.30},
     {{1, 60}, 0.80, milliseconds(12)},
     {{1, 50}, 0.72, milliseconds(18)},
     {{1, 40}, 0.64, milliseconds(22)},
-    {{0.75, 60, 28}, 0.50, milliseconds(30), 0.20},
+    {{0.75, 60, 22}, 0.50, milliseconds(30), 0.13},
     {{0.75, 40}, 0.40, milliseconds(36)},
-    {{0.5, 60, 30}, 0.26, milliseconds(45), 0.08},
+    {{0.5, 60, 24}, 0.26, milliseconds(45), 0.06},
     {{0.5, 40}, 0.20, milliseconds(45)},
     {{0.5, 20}, 0.14, milliseconds(45)},
 }};

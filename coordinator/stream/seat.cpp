@@ -4,6 +4,16 @@
 #include <algorithm>
 
 namespace eyrie::stream {
+namespace {
+
+/// Of round trips, over networks that have slow links; within a house they are shorter.
+constexpr std::chrono::milliseconds kFarAway{8};
+
+}  // namespace
+
+bool Seat::mayGetVideo() const {
+    return showsVideo && outbox.link().shortestRoundTrip() >= kFarAway;
+}
 
 std::optional<QualityClass> Seat::due(const Progress& progress, Clock::time_point now) const {
     if (isServed || !outbox.hasRoom(0))

@@ -41,6 +41,10 @@ public:
     /// A picture drawn now would go to it at once: it has the newest, and room for one more.
     bool isReadyForMore(const Progress& progress) const;
 
+    /// It says that it can show H.264, and is so far away that a link which looks slow is not just
+    /// a busy machine.
+    bool mayGetVideo() const;
+
     /// Hands `encoded` of `picture` over, in place of one that waits.
     void give(std::shared_ptr<const EncodedPicture> encoded, const QualityClass& as,
               const Picture& picture, const Progress& progress, Clock::time_point now);

@@ -281,7 +281,7 @@ private:
         for (const auto& seat : seats_) {
             seat->isAwaiting = seat->isReadyForMore(progress_);
             const bool mayBeVideo =
-                seat->showsVideo && videos_.canCode(view.frame.width, view.frame.height);
+                seat->mayGetVideo() && videos_.canCode(view.frame.width, view.frame.height);
             seat->quality.adapt(seat->outbox.link().bytesPerSecond(now), pixelsOf(view), now,
                                 mayBeVideo);
             best = std::min(best, seat->quality.index());

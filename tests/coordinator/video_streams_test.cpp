@@ -244,6 +244,20 @@ TEST(SessionVideo, IsNotSentToWhoHasNotSaidThatItShowsIt) {
     EXPECT_EQ(module.streams, 0);
 }
 
+TEST(SessionVideo, IsNotSentToABusyBrowserNearby) {
+    FakeFrameSource frames;
+    const FakeVideo module;
+    Browser browser(frames, withVideo(module));
+    tellAbility(browser, true);
+    for (std::uint64_t view = 1; view <= 30; ++view) {
+        browser.viewer().roundTrip(milliseconds(1));
+        browser.look(view);
+        const auto frame = frameOverSlowLink(browser);
+        ASSERT_TRUE(frame && frame->has_jpeg());
+    }
+    EXPECT_EQ(module.streams, 0);
+}
+
 TEST(SessionVideo, EndsWithThePictureAfterWhichABrowserSaysThatItFailed) {
     FakeFrameSource frames;
     const FakeVideo module;
