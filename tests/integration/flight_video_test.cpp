@@ -2,6 +2,7 @@
 // `eyrie render --flight`: a video of what the program draws.
 #include <chrono>
 #include <csignal>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -80,6 +81,25 @@ TEST_F(FlightVideo, LeavesNothingBehindWhenStopped) {
     ASSERT_TRUE(exit);
     EXPECT_NE(*exit, (test::Exit{0, 0}));
     EXPECT_TRUE(test::namesIn(out.path("")).empty()) << stopped.errors();
+}
+
+TEST_F(FlightVideo, SaysWhatIsMissingWhereThereIsNoModule) {
+    const test::TemporaryFolder elsewhere;
+    std::filesystem::create_directory(elsewhere.path("bin"));
+    const std::string program = elsewhere.path("bin/eyrie");
+    std::filesystem::copy_file(EYRIE_BINARY, program);
+    for (const std::vector<std::string>& arguments :
+         {std::vector<std::string>{"render", path("ball.eym"), "--flight", path("flight.json"),
+                                   "-o", path("none.mp4")},
+          {"serve", path("ball.eym"), "--listen", "127.0.0.1:0", "--h264"},
+          {"coordinator", path("ball.eym"), "--listen", "127.0.0.1:0", "--h264"}}) {
+        std::vector<std::string> command = {program};
+        command.insert(command.end(), arguments.begin(), arguments.end());
+        const test::Outcome outcome = test::run(command, std::chrono::seconds(60));
+        EXPECT_EQ(outcome.exit, (test::Exit{1, 0})) << arguments.front();
+        EXPECT_NE(outcome.errors.find("libavcodec-dev"), std::string::npos) << outcome.errors;
+    }
+    EXPECT_FALSE(std::filesystem::exists(path("none.mp4")));
 }
 
 TEST_F(FlightVideo, RefusesWhatItCannotWrite) {
