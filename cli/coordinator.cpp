@@ -19,6 +19,7 @@
 #include "cli/log.h"
 #include "cli/scene_files.h"
 #include "cli/stop_signal.h"
+#include "cli/video_option.h"
 #include "cli/web_door.h"
 #include "fabric/status.h"
 #include "wire/listen.h"
@@ -35,6 +36,7 @@ struct Options {
     CacheOptions cache;
     ConfigOptions config;
     DoorOptions door;
+    bool h264 = false;
     bool quiet = false;
 };
 
@@ -53,6 +55,7 @@ absl::Status coordinate(const Options& options) {
         quietLog();
     RETURN_IF_ERROR(fabric::withContext(wire::checkAddress(options.grpc), "--grpc"));
     ASSIGN_OR_RETURN(const Doors doors, doorsOf(options.door));
+    ASSIGN_OR_RETURN(const video::Module* video, videoModule(options.h264));
     RETURN_IF_ERROR(checkGrpcDoor(doors, options.grpc, "--grpc"));
     coordinator::CoordinatorOptions settings;
     settings.security = doors.security;
@@ -67,7 +70,7 @@ absl::Status coordinate(const Options& options) {
         return fabric::withContext(absl::InvalidArgumentError(coordinator.status().message()),
                                    "--grpc");
     RETURN_IF_ERROR(coordinator.status());
-    ASSIGN_OR_RETURN(const auto door, openWebDoor(options.listen, doors, **coordinator));
+    ASSIGN_OR_RETURN(const auto door, openWebDoor(options.listen, doors, video, **coordinator));
     fmt::print("Eyrie is at {}\n", door->url());
     for (const std::string& address : (*coordinator)->grpcAddresses())
         fmt::print("Renderers register at {}\n", address);
@@ -101,6 +104,7 @@ void addCoordinator(CLI::App& app, Run& run) {
     addConfigOptions(*command, options->config);
     addDoorOptions(*command, options->door);
     addPeerOptions(*command, options->door);
+    addVideoOption(*command, options->h264);
     addCacheOptions(*command, options->cache);
     command->add_flag("--quiet", options->quiet, "No progress, only warnings and errors");
     command->footer(

@@ -14,6 +14,7 @@
 #include "cli/commands.h"
 #include "cli/config_options.h"
 #include "cli/decode_names.h"
+#include "cli/flight_video.h"
 #include "cli/image_files.h"
 #include "cli/occlusion_option.h"
 #include "cli/picture_bands.h"
@@ -34,6 +35,8 @@ namespace {
 struct Options {
     std::string scene;
     std::string camera;
+    std::string flight;  ///< drawn instead, as a video
+    int framesPerSecond = 30;
     std::string size = "1280x720";
     double tau = 1;
     fabric::Shading shading = fabric::Shading::Smooth;
@@ -71,8 +74,10 @@ absl::StatusOr<coordinator::FrameRequest> requestOf(const Options& options) {
         return absl::InvalidArgumentError(fmt::format("--tau is {}; expected {} to {} pixels",
                                                       options.tau, fabric::kMinTauPixels,
                                                       fabric::kMaxTauPixels));
-    ASSIGN_OR_RETURN(const std::string text, readText(options.camera));
-    ASSIGN_OR_RETURN(request.camera, wire::cameraFromJson(text, options.camera));
+    if (options.flight.empty()) {
+        ASSIGN_OR_RETURN(const std::string text, readText(options.camera));
+        ASSIGN_OR_RETURN(request.camera, wire::cameraFromJson(text, options.camera));
+    }
     request.tauPixels = options.tau;
     request.shading = options.shading;
     request.occlusion = options.occlusion;
@@ -211,8 +216,30 @@ absl::Status renderAll(const Options& options) {
     return options.stats.empty() ? absl::OkStatus() : writeText(statistics, options.stats);
 }
 
+absl::Status renderFlight(const Options& options) {
+    const StopSignal stop;
+    if (options.all || options.json || !options.depth.empty() || !options.stats.empty())
+        return absl::InvalidArgumentError(
+            "--flight is drawn as a video: leave out --all, --depth, --stats and --json");
+    ASSIGN_OR_RETURN(const coordinator::FrameRequest request, requestOf(options));
+    return writeFlightVideo(
+        {options.flight, options.framesPerSecond, options.out, options.pictures.quiet},
+        options.scene, options.pictures, request, stop.token());
+}
+
+absl::Status renderAsAsked(const Options& options) {
+    if (options.camera.empty() == options.flight.empty())
+        return absl::InvalidArgumentError(
+            "name either --camera, for a picture, or --flight, for a video");
+    if (!options.flight.empty())
+        return renderFlight(options);
+    return options.all ? renderAll(options) : render(options);
+}
+
 void addOutputOptions(CLI::App& command, Options& options) {
-    command.add_option("-o,--output", options.out, "Picture to write: .png, .jpg or .jpeg")
+    command
+        .add_option("-o,--output", options.out,
+                    "Picture to write: .png, .jpg or .jpeg; of --flight: .mp4, .mkv or .webm")
         ->type_name("FILE")
         ->required();
     command
@@ -253,8 +280,16 @@ void addRender(CLI::App& app, Run& run) {
     command
         ->add_option("--camera", options->camera,
                      R"(JSON: {"eye":[x,y,z],"target":[x,y,z],"up":[0,0,1],"fovyDegrees":45})")
-        ->type_name("FILE")
-        ->required();
+        ->type_name("FILE");
+    command
+        ->add_option("--flight", options->flight,
+                     "Draw a video of a flight instead, each picture in full: orbit, walkthrough, "
+                     "or a JSON file as the page saves them. Needs the module for video, which is "
+                     "built where libavcodec-dev and libavformat-dev are installed")
+        ->type_name("NAME|FILE");
+    command->add_option("--fps", options->framesPerSecond, "Of the video, pictures a second")
+        ->check(CLI::Range(1, 240))
+        ->capture_default_str();
     command->add_option("--size", options->size, "Of the picture, in pixels, up to 16384 a side")
         ->type_name("WIDTHxHEIGHT")
         ->capture_default_str();
@@ -283,11 +318,10 @@ void addRender(CLI::App& app, Run& run) {
         "  eyrie render scene.json --camera cam.json --size 1920x1080 --tau 1 -o a.png\n"
         "  eyrie render dem.eyt --camera cam.json --renderers 3 --compound DB \\\n"
         "      -o a.png --depth a.pfm --stats a.json\n"
+        "  eyrie render dem.eyt --flight flight.json --fps 30 --size 1280x720 -o flight.mp4\n"
         "  eyrie render scan.eym --camera cam.json --size 1024x1024 --config cave.eqc --all -o "
         "cave.png");
-    command->callback([options, &run] {
-        run = [options] { return options->all ? renderAll(*options) : render(*options); };
-    });
+    command->callback([options, &run] { run = [options] { return renderAsAsked(*options); }; });
 }
 
 }  // namespace eyrie::cli

@@ -23,6 +23,7 @@
 #include "cli/log.h"
 #include "cli/scene_files.h"
 #include "cli/stop_signal.h"
+#include "cli/video_option.h"
 #include "cli/web_door.h"
 #include "fabric/status.h"
 
@@ -42,6 +43,7 @@ struct Options {
     ConfigOptions config;
     DoorOptions door;
     int renderers = 0;  ///< 0: as many as suit this machine
+    bool h264 = false;
     bool quiet = false;
 };
 
@@ -90,12 +92,14 @@ absl::Status serve(const Options& options) {
     if (options.quiet)
         quietLog();
     ASSIGN_OR_RETURN(const Doors doors, doorsOf(options.door));
+    ASSIGN_OR_RETURN(const video::Module* video, videoModule(options.h264));
     ASSIGN_OR_RETURN(auto configuration, configurationOf(options.config, options.quiet));
     const int renderers = rendererCount(options, configuration);
     ASSIGN_OR_RETURN(const auto farm,
                      LocalFarm::start(std::move(configuration), options.config.compound,
                                       options.cache, options.decoding, options.dataFolder));
-    ASSIGN_OR_RETURN(const auto door, openWebDoor(options.listen, doors, farm->coordinator()));
+    ASSIGN_OR_RETURN(const auto door,
+                     openWebDoor(options.listen, doors, video, farm->coordinator()));
     ASSIGN_OR_RETURN(fabric::Scene scene, loadScene(options, stop.token()));
     RETURN_IF_ERROR(farm->coordinator().setScene(std::move(scene)));
     farm->startRenderers(renderers);
@@ -138,6 +142,7 @@ void addServe(CLI::App& app, Run& run) {
         ->type_name("DIR");
     addConfigOptions(*command, options->config);
     addDoorOptions(*command, options->door);
+    addVideoOption(*command, options->h264);
     addDecodeOption(*command, options->decoding);
     addCacheOptions(*command, options->cache);
     command->add_flag("--quiet", options->quiet, "No progress, only warnings and errors");

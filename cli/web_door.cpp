@@ -31,6 +31,7 @@ std::filesystem::path webFolder() {
 
 absl::StatusOr<std::unique_ptr<http::Server>> openWebDoor(const std::string& listen,
                                                           const Doors& doors,
+                                                          const video::Module* video,
                                                           coordinator::Coordinator& coordinator) {
     ASSIGN_OR_RETURN(const HostPort address, parseHostPort(listen, "--listen"));
     RETURN_IF_ERROR(checkWebDoor(doors,
@@ -46,6 +47,7 @@ absl::StatusOr<std::unique_ptr<http::Server>> openWebDoor(const std::string& lis
     options.webFolder = webFolder();
     options.api = &coordinator.api().rest();
     options.telemetry = coordinator.telemetry();
+    options.video = video;
     auto server = http::Server::start(options, coordinator.frames());
     if (server.ok())
         return server;

@@ -20,6 +20,7 @@ pkg_check_modules(EGL REQUIRED IMPORTED_TARGET egl)
 pkg_check_modules(TURBOJPEG REQUIRED IMPORTED_TARGET libturbojpeg)
 pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
+pkg_check_modules(LIBAV IMPORTED_TARGET libavcodec libavformat libavutil)  # optional: video/
 
 find_path(PEGTL_INCLUDE_DIR tao/pegtl.hpp REQUIRED)
 add_library(eyrie_pegtl INTERFACE)

@@ -16,6 +16,7 @@
 #include "coordinator/frame/frame_source.h"
 #include "coordinator/http/crowd.h"
 #include "coordinator/observe/telemetry.h"
+#include "video/module.h"
 
 namespace eyrie::api {
 class RestDoor;
@@ -42,6 +43,8 @@ struct ServerOptions {
     std::chrono::milliseconds drainTimeout{2'500};
     /// What it tells of itself, and what /metrics and /api/v1/trace show; null: of its own.
     observe::SharedTelemetry telemetry = nullptr;
+    /// Codes moving pictures for viewers of slow links that can show H.264; null: all get JPEGs.
+    const video::Module* video = nullptr;
 };
 
 /// The door for browsers: HTTP/1.1, or HTTPS, and the viewer's WebSocket on one port.

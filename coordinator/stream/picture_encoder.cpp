@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/stream/picture_encoder.h"
 
-#include <optional>
-
 #include "coordinator/stream/drawing.h"
-#include "coordinator/stream/quality.h"
 #include "coordinator/stream/shrink.h"
 #include "fabric/pixel_hash.h"
 #include "fabric/status.h"
@@ -16,22 +13,21 @@ namespace {
 
 constexpr int kFineQuality = 95;
 
-/// Nothing where it is no larger than the level asks for.
-std::optional<fabric::Image> shrunkFor(const Picture& picture, int level) {
+}  // namespace
+
+std::optional<fabric::Image> shrunkFor(const Picture& picture, const QualityClass& as) {
+    if (as.fineness != Fineness::Moving || as.level <= picture.level)
+        return std::nullopt;
     const fabric::Image& image = picture.frame->image;
     const coordinator::FrameRequest wanted =
-        drawingOf(picture.view, nullptr, QualityControl::level(level).scale);
+        drawingOf(picture.view, nullptr, QualityControl::level(as.level).scale);
     if (wanted.width >= image.area.width || wanted.height >= image.area.height)
         return std::nullopt;
     return shrunk(image, wanted.width, wanted.height);
 }
 
-}  // namespace
-
 absl::StatusOr<EncodedPicture> encodePicture(const Picture& picture, const QualityClass& as) {
-    std::optional<fabric::Image> smaller;
-    if (as.fineness == Fineness::Moving && as.level > picture.level)
-        smaller = shrunkFor(picture, as.level);
+    const std::optional<fabric::Image> smaller = shrunkFor(picture, as);
     const fabric::Image& image = smaller ? *smaller : picture.frame->image;
     EncodedPicture encoded;
     encoded.fineness = as.fineness;

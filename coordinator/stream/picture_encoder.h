@@ -2,10 +2,12 @@
 #pragma once
 
 #include <compare>
+#include <optional>
 
 #include <absl/status/statusor.h>
 
 #include "coordinator/stream/progress.h"
+#include "coordinator/stream/quality.h"
 #include "coordinator/stream/viewer_messages.h"
 
 namespace eyrie::stream {
@@ -13,14 +15,19 @@ namespace eyrie::stream {
 /// What is encoded once for all browsers that are to have it so.
 struct QualityClass {
     Fineness fineness = Fineness::Moving;
-    int level = 0;  ///< QualityControl's; of still ones 0
+    int level = 0;              ///< QualityControl's; of still ones 0
+    Codec codec = Codec::Jpeg;  ///< of moving ones
 
     auto operator<=>(const QualityClass&) const = default;
 };
 
-/// `picture` as browsers get it: a JPEG as the level says, shrunk to its scale where it was drawn
-/// larger, one of quality 95 without loss in chroma, or a PNG with its hash. Errors: those of
-/// wire::encodeJpeg and encodePng.
+/// The pixels of `picture` as a class gets them: shrunk to its scale where it was drawn larger,
+/// and nothing where they are its own.
+std::optional<fabric::Image> shrunkFor(const Picture& picture, const QualityClass& as);
+
+/// `picture` as browsers get it, but for streams: a JPEG as the level says, shrunk to its scale
+/// where it was drawn larger, one of quality 95 without loss in chroma, or a PNG with its hash.
+/// Errors: those of wire::encodeJpeg and encodePng.
 absl::StatusOr<EncodedPicture> encodePicture(const Picture& picture, const QualityClass& as);
 
 }  // namespace eyrie::stream

@@ -4,6 +4,16 @@
 #include <algorithm>
 
 namespace eyrie::stream {
+namespace {
+
+/// Of round trips, over networks that have slow links; within a house they are shorter.
+constexpr std::chrono::milliseconds kFarAway{8};
+
+}  // namespace
+
+bool Seat::mayGetVideo() const {
+    return showsVideo && outbox.link().shortestRoundTrip() >= kFarAway;
+}
 
 std::optional<QualityClass> Seat::due(const Progress& progress, Clock::time_point now) const {
     if (isServed || !outbox.hasRoom(0))
@@ -11,6 +21,13 @@ std::optional<QualityClass> Seat::due(const Progress& progress, Clock::time_poin
     const std::optional<Fineness> fineness = progress.next(delivered, now);
     if (!fineness)
         return std::nullopt;
+    if (*fineness == Fineness::Moving && quality.codec() == Codec::H264) {
+        // The next one needs the one that waits, which is not to be replaced.
+        if (outbox.isWaiting())
+            return std::nullopt;
+        const int level = std::max(quality.index(), progress.newest()->level);
+        return QualityClass{*fineness, QualityControl::streamLevel(level), Codec::H264};
+    }
     if (*fineness == Fineness::Moving)
         return QualityClass{*fineness, std::max(quality.index(), progress.newest()->level)};
     // A finer one of the same view would only take the place of one that waits.
@@ -26,8 +43,14 @@ bool Seat::isReadyForMore(const Progress& progress) const {
 void Seat::give(std::shared_ptr<const EncodedPicture> encoded, const QualityClass& as,
                 const Picture& picture, const Progress& progress, Clock::time_point now) {
     const double pixels = static_cast<double>(picture.view.frame.width) * picture.view.frame.height;
-    if (as.fineness == Fineness::Moving)
-        quality.encoded(as.level, encoded->bytes.size(), pixels);
+    // Keys are larger than what follows, and few.
+    if (as.fineness == Fineness::Moving && !(encoded->video && encoded->video->isKey))
+        quality.encoded(as.level, encoded->bytes.size(), pixels,
+                        encoded->video ? Codec::H264 : Codec::Jpeg);
+    if (encoded->video)
+        video = encoded->video;
+    else if (outbox.isWaiting())
+        video.reset();  // what waits is replaced, and may be of a stream
     EncodedFrame frame;
     frame.frameNumber = ++lastFrameNumber_;
     frame.picture = std::move(encoded);

@@ -41,6 +41,10 @@ public:
     /// A picture drawn now would go to it at once: it has the newest, and room for one more.
     bool isReadyForMore(const Progress& progress) const;
 
+    /// It says that it can show H.264, and is so far away that a link which looks slow is not just
+    /// a busy machine.
+    bool mayGetVideo() const;
+
     /// Hands `encoded` of `picture` over, in place of one that waits.
     void give(std::shared_ptr<const EncodedPicture> encoded, const QualityClass& as,
               const Picture& picture, const Progress& progress, Clock::time_point now);
@@ -54,11 +58,13 @@ public:
     const bool mayControl;
     Outbox outbox;
     QualityControl quality;
-    Delivered delivered;       ///< or being made for it
-    bool isServed = false;     ///< it is being made
-    bool isAwaiting = false;   ///< the picture that is being drawn will go to it at once
-    int timesPassedOver = 0;   ///< others came before it since it was served
-    std::string problem = {};  ///< what was wrong with its last request
+    bool showsVideo = false;          ///< it says that it can
+    std::optional<VideoPlace> video;  ///< of the last picture of a stream that it was given
+    Delivered delivered;              ///< or being made for it
+    bool isServed = false;            ///< it is being made
+    bool isAwaiting = false;          ///< the picture that is being drawn will go to it at once
+    int timesPassedOver = 0;          ///< others came before it since it was served
+    std::string problem = {};         ///< what was wrong with its last request
     std::string lastState = {};
 
 private:

@@ -14,9 +14,11 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include "coordinator/observe/stage_timer.h"
 #include "coordinator/stream/drawing.h"
+#include "coordinator/stream/video_streams.h"
 #include "coordinator/stream/viewer_messages.h"
 
 namespace eyrie::stream {
@@ -55,6 +57,7 @@ public:
           name_(std::move(name)),
           framesInFlight_(options.framesInFlight),
           telemetry_(options.telemetry),
+          videos_(options.video),
           progress_(
               {options.restDelay, options.retryDelay, options.loadingDelay, options.missingDelay}) {
         subscription_ = frames_.subscribe([this] { statusChanged(); });
@@ -150,6 +153,12 @@ public:
         changed_.notify_all();
         if (hasMessage)
             seat.tell();
+    }
+
+    void able(Seat& seat, const Abilities& abilities) {
+        const std::lock_guard lock(mutex_);
+        seat.showsVideo = abilities.h264;
+        seat.video.reset();
     }
 
     void refuse(Seat& seat, const absl::Status& why) {
@@ -271,7 +280,10 @@ private:
         int best = QualityControl::levelCount() - 1;
         for (const auto& seat : seats_) {
             seat->isAwaiting = seat->isReadyForMore(progress_);
-            seat->quality.adapt(seat->outbox.link().bytesPerSecond(now), pixelsOf(view), now);
+            const bool mayBeVideo =
+                seat->mayGetVideo() && videos_.canCode(view.frame.width, view.frame.height);
+            seat->quality.adapt(seat->outbox.link().bytesPerSecond(now), pixelsOf(view), now,
+                                mayBeVideo);
             best = std::min(best, seat->quality.index());
         }
         return best;
@@ -365,7 +377,14 @@ private:
     std::optional<QualityClass> dueNow(const Seat& seat, Clock::time_point now) const {
         const bool hasNewest =
             progress_.newest() != nullptr && seat.delivered.picture == progress_.newest()->number;
-        return isDraining_ && hasNewest ? std::nullopt : seat.due(progress_, now);
+        const auto due = isDraining_ && hasNewest ? std::nullopt : seat.due(progress_, now);
+        const bool isLost =
+            due && due->codec == Codec::H264 &&
+            !videos_.mayFollow(due->level, seat.video, progress_.newest()->number, now);
+        if (!isLost)
+            return due;
+        return QualityClass{due->fineness,
+                            std::max(seat.quality.jpegIndex(), progress_.newest()->level)};
     }
 
     /// Who waits for long first, then moving pictures before still ones, and better links, which
@@ -402,7 +421,7 @@ private:
         const Seats served = takeDue(as, Clock::now());
         const std::shared_ptr<const Picture> picture = progress_.newest();
         const absl::StatusOr<std::shared_ptr<const EncodedPicture>> encoded =
-            encodingOf(lock, picture, as);
+            encodingOf(lock, picture, as, served);
         for (const auto& seat : served) seat->isServed = false;
         if (!encoded.ok()) {
             setProblem(renderProblem_, sanitised(text(encoded.status())));
@@ -429,9 +448,11 @@ private:
     /// A picture that has not gone out yet is older than this one, which is there already.
     void replaceWaiting(const std::shared_ptr<const EncodedPicture>& encoded,
                         const QualityClass& as, const Picture& picture) {
-        if (as.fineness != Fineness::Moving)
+        if (as.fineness != Fineness::Moving || as.codec != Codec::Jpeg)
             return;
         for (const auto& seat : seats_) {
+            if (seat->quality.codec() != Codec::Jpeg)
+                continue;
             const bool isOfClass = std::max(seat->quality.index(), picture.level) == as.level;
             if (seat->isServed || !seat->outbox.isWaiting() || !isOfClass ||
                 seat->delivered.picture >= picture.number)
@@ -444,14 +465,23 @@ private:
     /// Made now, or before for others.
     absl::StatusOr<std::shared_ptr<const EncodedPicture>> encodingOf(
         std::unique_lock<std::mutex>& lock, const std::shared_ptr<const Picture>& picture,
-        const QualityClass& as) {
+        const QualityClass& as, const Seats& served) {
         if (const auto known = encodings_.find(as); known != encodings_.end())
             return known->second;
+        const bool needsKey = std::ranges::any_of(served, [&](const std::shared_ptr<Seat>& seat) {
+            return videos_.needsKey(as.level, seat->video);
+        });
+        const int jpegLevel = worstJpegLevel(served, *picture);
         lock.unlock();
         observe::StageTimer timer(telemetry_.get(), observe::Stage::Encode, encoding_);
-        absl::StatusOr<EncodedPicture> encoded = encodePicture(*picture, as);
+        const Clock::time_point now = Clock::now();
+        absl::StatusOr<EncodedPicture> encoded =
+            as.codec == Codec::H264 ? encodeVideo(*picture, as, needsKey, jpegLevel, now)
+                                    : encodePicture(*picture, as);
         timer.stop();
         lock.lock();
+        if (encoded.ok() && encoded->video)
+            videos_.coded(as.level, *encoded->video, picture->number, now);
         if (!encoded.ok())
             return encoded.status();
         ++counts_.encoded;
@@ -459,6 +489,35 @@ private:
         if (progress_.newest() == picture)
             encodings_[as] = shared;
         return shared;
+    }
+
+    /// A JPEG in place of a stream's picture is one that all of them have room for.
+    static int worstJpegLevel(const Seats& served, const Picture& picture) {
+        int level = picture.level;
+        for (const auto& seat : served) level = std::max(level, seat->quality.jpegIndex());
+        return level;
+    }
+
+    /// Without the lock. A JPEG of `jpegLevel` where the stream cannot go on yet, or not at all.
+    absl::StatusOr<EncodedPicture> encodeVideo(const Picture& picture, const QualityClass& as,
+                                               bool asKey, int jpegLevel, Clock::time_point now) {
+        const std::optional<fabric::Image> smaller = shrunkFor(picture, as);
+        const fabric::Image& image = smaller ? *smaller : picture.frame->image;
+        absl::StatusOr<std::optional<VideoStreams::Coded>> coded =
+            videos_.encode(as.level, image, QualityControl::level(as.level).rateFactor, asKey, now);
+        if (!coded.ok()) {
+            spdlog::warn("moving pictures go as JPEG from now on: {}", text(coded.status()));
+            const std::lock_guard lock(mutex_);
+            videos_.giveUp();
+        }
+        if (!coded.ok() || !*coded)
+            return encodePicture(picture, {as.fineness, jpegLevel});
+        EncodedPicture encoded;
+        encoded.width = image.area.width;
+        encoded.height = image.area.height;
+        encoded.bytes = std::move((*coded)->picture.bytes);
+        encoded.video = (*coded)->place;
+        return encoded;
     }
 
     /// status() may wait for whoever holds the frame source, so it is called here and not where
@@ -518,6 +577,7 @@ private:
     Seats seats_;             ///< in the order in which they came
     Seat* leader_ = nullptr;  ///< one of them
     std::uint64_t lastSeat_ = 0;
+    VideoStreams videos_;
     Progress progress_;
     std::map<QualityClass, std::shared_ptr<const EncodedPicture>> encodings_;  ///< of the newest
     std::optional<PictureSource> source_;
@@ -547,6 +607,7 @@ void Session::switchLayout(Seat& seat, coordinator::SwitchLayout change) {
     impl_->switchLayout(seat, std::move(change));
 }
 void Session::acknowledged(Seat& seat, const FrameAck& ack) { impl_->acknowledged(seat, ack); }
+void Session::able(Seat& seat, const Abilities& abilities) { impl_->able(seat, abilities); }
 void Session::refuse(Seat& seat, const absl::Status& why) { impl_->refuse(seat, why); }
 void Session::roundTrip(Seat& seat, Clock::duration time) { impl_->roundTrip(seat, time); }
 std::optional<std::string> Session::take(Seat& seat) { return impl_->take(seat); }

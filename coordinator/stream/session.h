@@ -13,6 +13,7 @@
 #include "coordinator/frame/frame_source.h"
 #include "coordinator/observe/telemetry.h"
 #include "coordinator/stream/seat.h"
+#include "video/module.h"
 
 namespace eyrie::stream {
 
@@ -29,6 +30,7 @@ struct SessionOptions {
     /// The same when all that is missing could not be read, and may be readable later.
     std::chrono::milliseconds missingDelay{5000};
     observe::SharedTelemetry telemetry = nullptr;  ///< is told how long pictures take to encode
+    const video::Module* video = nullptr;  ///< codes H.264 for slow links; null: nothing does
 };
 
 /// What a session has done so far.
@@ -46,9 +48,10 @@ struct SessionCounts {
 /// picture has room for one more, so at the pace of the fastest; each viewer gets the newest
 /// picture when it has room itself, and what it has left out never is sent. Pictures are drawn as
 /// large as the best link takes them, and encoded once for each class of links (QualityControl's
-/// levels), shrunk for worse ones. A view that rests is sent as a JPEG of quality 95, and then as a
-/// PNG that is the server's picture bit for bit. Nothing is rendered or sent while neither the view
-/// nor the scene nor the renderers change and all viewers have the last picture.
+/// levels), shrunk for worse ones; for slow ones as a stream of H.264 where there is a module for
+/// it (VideoStreams). A view that rests is sent as a JPEG of quality 95, and then as a PNG that is
+/// the server's picture bit for bit. Nothing is rendered or sent while neither the view nor the
+/// scene nor the renderers change and all viewers have the last picture.
 ///
 /// All functions may be called from any thread.
 class Session {
@@ -73,6 +76,7 @@ public:
     /// Refused where another leads, and to who may not control.
     void switchLayout(Seat& seat, coordinator::SwitchLayout change);
     void acknowledged(Seat& seat, const FrameAck& ack);
+    void able(Seat& seat, const Abilities& abilities);
     void refuse(Seat& seat, const absl::Status& why);  ///< a request: its viewer is told
     void roundTrip(Seat& seat, Clock::duration time);
 

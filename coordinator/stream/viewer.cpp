@@ -40,6 +40,8 @@ absl::Status Viewer::receive(std::span<const std::byte> message) {
                 session->switchLayout(*seat, std::move(one));
             else if constexpr (std::is_same_v<Kind, TakeLead>)
                 session->takeLead(*seat);
+            else if constexpr (std::is_same_v<Kind, Abilities>)
+                session->able(*seat, one);
             else if (!isDraining_)
                 picks_.ask(std::move(one));
         },

@@ -100,6 +100,8 @@ absl::StatusOr<Request> parseRequest(std::span<const std::byte> bytes) {
                                              message.switch_layout().layout()};
         case v1::ViewerRequest::kLead:
             return TakeLead{};
+        case v1::ViewerRequest::kAbilities:
+            return Abilities{message.abilities().h264()};
         case v1::ViewerRequest::REQUEST_NOT_SET:
             break;
     }
@@ -161,11 +163,18 @@ std::string frameMessage(const EncodedFrame& encoded, const coordinator::Rendere
     frame.set_height(picture.height);
     if (picture.fineness == Fineness::Exact)
         frame.set_png(picture.bytes.data(), bytes);
+    else if (picture.video)
+        frame.set_h264(picture.bytes.data(), bytes);
     else
         frame.set_jpeg(picture.bytes.data(), bytes);
     frame.set_picture_bytes(picture.bytes.size());
     frame.set_pixel_hash(picture.pixelHash);
     frame.set_quality(picture.quality);
+    if (picture.video) {
+        frame.mutable_video()->set_stream(picture.video->stream);
+        frame.mutable_video()->set_picture(picture.video->picture);
+        frame.mutable_video()->set_key(picture.video->isKey);
+    }
     frame.set_link_bytes_per_second(encoded.linkBytesPerSecond);
     frame.set_through_wall(rendered.isThroughWall);
     *frame.mutable_statistics() = wire::toMessage(rendered.statistics);

@@ -48,9 +48,14 @@ struct ViewerProfile {
 /// Takes the lead of the session.
 struct TakeLead {};
 
+/// What a browser can show beside JPEG and PNG.
+struct Abilities {
+    bool h264 = false;
+};
+
 /// How near to the server's picture one is sent.
 enum class Fineness {
-    Moving,  ///< JPEG, as the link allows
+    Moving,  ///< JPEG or H.264, as the link allows
     Fine,    ///< JPEG of quality 95, 4:4:4
     Exact,   ///< PNG, bit for bit
 };
@@ -60,7 +65,7 @@ enum class Fineness {
 /// A pick or profile that cannot be made is parsed, with what is wrong: it has an answer of its
 /// own.
 using Request = std::variant<ViewRequest, FrameAck, ViewerPick, ViewerProfile,
-                             coordinator::SwitchLayout, TakeLead>;
+                             coordinator::SwitchLayout, TakeLead, Abilities>;
 absl::StatusOr<Request> parseRequest(std::span<const std::byte> bytes);
 
 /// A viewer among those that see the same.
@@ -77,14 +82,24 @@ v1::SessionState sessionState(const coordinator::Status& status, std::string_vie
 std::string stateMessage(const coordinator::Status& status, std::string_view problem,
                          const Place& place);
 
+/// Where in which stream of H.264 a picture is.
+struct VideoPlace {
+    std::uint64_t stream = 0;   ///< from 1, in its session
+    std::uint64_t picture = 0;  ///< from 1, in the stream
+    bool isKey = false;         ///< it needs none before it
+
+    bool operator==(const VideoPlace&) const = default;
+};
+
 /// A picture as browsers get it, for all whose links are alike.
 struct EncodedPicture {
     Fineness fineness = Fineness::Moving;
     int quality = 0;  ///< of a JPEG
     int width = 0;    ///< pixels
     int height = 0;
-    std::vector<std::byte> bytes;  ///< a PNG where it is Exact, else a JPEG
-    std::uint32_t pixelHash = 0;   ///< fabric::pixelHash, where it is Exact
+    std::vector<std::byte> bytes;          ///< a PNG where it is Exact, else a JPEG or H.264
+    std::uint32_t pixelHash = 0;           ///< fabric::pixelHash, where it is Exact
+    std::optional<VideoPlace> video = {};  ///< of H.264
 };
 
 /// The same for one of them.

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // The door for browsers with pictures made up here: for tests of the page, and work on it, without
 // renderers. Prints the line with the URL that `eyrie serve` prints, and serves until its standard
-// input ends; a line "no renderer" or "renderer" on it takes the renderer away or brings it back.
+// input ends, with --h264 as the program's option; a line "no renderer" or "renderer" on it takes
+// the renderer away or brings it back.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -16,6 +18,7 @@
 
 #include "coordinator/http/server.h"
 #include "tests/coordinator/fake_frame_source.h"
+#include "video/load.h"
 
 namespace {
 
@@ -117,8 +120,11 @@ coordinator::Status statusWith(bool hasRenderer) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    const bool hasVideo = argc > 2 && std::string_view(argv[argc - 1]) == "--h264";
+    if (hasVideo)
+        --argc;
     if (argc != 2 && argc != 3) {
-        std::cerr << "usage: fake_server WEB_FOLDER [PORT]\n";
+        std::cerr << "usage: fake_server WEB_FOLDER [PORT] [--h264]\n";
         return 2;
     }
     coordinator::FakeFrameSource frames;
@@ -128,6 +134,14 @@ int main(int argc, char** argv) {
     http::ServerOptions options;
     options.port = argc == 3 ? static_cast<std::uint16_t>(std::stoi(argv[2])) : std::uint16_t{0};
     options.webFolder = argv[1];
+    if (hasVideo) {
+        const auto module = video::load();
+        if (!module.ok()) {
+            std::cerr << module.status() << '\n';
+            return 1;
+        }
+        options.video = *module;
+    }
     auto server = http::Server::start(options, frames);
     if (!server.ok()) {
         std::cerr << server.status() << '\n';

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Not a test: prints how pictures follow the hand over slow links, in Chromium, with pictures that
-// the fake server makes up. docs/benchmarks.md has what it said.
+// the fake server makes up; with --h264 as H.264 where that is taken. docs/benchmarks.md has what it
+// said.
 import { environment, run, ServerProcess } from "./support.mjs";
 import { slowLink } from "./slow_link.mjs";
 
@@ -12,10 +13,11 @@ async function record(page, during) {
     window.drawn = [];
     let last = window.eyrie.frameNumber;
     window.recorder = setInterval(() => {
-      const { frameNumber, inputToDrawnMilliseconds, quality, width } = window.eyrie;
+      const { frameNumber, inputToDrawnMilliseconds, quality, video, width } = window.eyrie;
       if (frameNumber === last) return;
       last = frameNumber;
-      window.drawn.push([performance.now(), inputToDrawnMilliseconds, quality, width]);
+      const kind = video ? "H.264" : quality;
+      window.drawn.push([performance.now(), inputToDrawnMilliseconds, kind, width]);
     }, 2);
   });
   const { mouse } = page;
@@ -56,7 +58,7 @@ await run("link_figures", async (browser, started) => {
   const server = started(
     await ServerProcess.start(
       environment("EYRIE_FAKE_SERVER"),
-      [environment("EYRIE_WEB_FOLDER")],
+      [environment("EYRIE_WEB_FOLDER"), ...process.argv.slice(2)],
       20,
     ),
   );

@@ -58,6 +58,7 @@ export async function slowLink(url, link) {
     new Direction(browser, upstream, link, false);
   });
   await new Promise((resolve) => server.listen(0, hostname, resolve));
+  server.unref(); // a program that ends is not kept by it
   const { port: own } = server.address();
   return { url: `http://${hostname}:${own}/`, close: () => server.close() };
 }

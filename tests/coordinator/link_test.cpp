@@ -97,6 +97,37 @@ TEST(StreamOnASimulatedLink, SettlesWithinTwoSecondsOfAFallAndIsNeverHalfASecond
     EXPECT_LE(settled.worstMilliseconds, 250);
 }
 
+TEST(StreamOnASimulatedLink, ShowsWholePicturesByVideoWhereJpegsAreShrunk) {
+    SimulatedLink::Settings settings = linkOf(5);
+    settings.showsVideo = true;
+    const Figures now =
+        figures(SimulatedLink(settings).run(Time(12'000)), Time(2000), Time(12'000));
+    tell("5 Mbit/s, H.264", now);
+    EXPECT_EQ(now.worstLevel, 0);
+    EXPECT_GE(now.framesPerSecond, 15);
+    EXPECT_LE(now.medianMilliseconds, 150);
+    EXPECT_LE(now.worstMilliseconds, 250);
+}
+
+TEST(StreamOnASimulatedLink, TakesVideoWithinTwoSecondsOfAFallAndJpegsAfterARise) {
+    SimulatedLink::Settings settings = linkOf(0);
+    settings.showsVideo = true;
+    settings.megabits = [](Time now) {
+        return now >= Time(5000) && now < Time(12'000) ? 5.0 : 50.0;
+    };
+    const auto drawn = SimulatedLink(settings).run(Time(20'000));
+    tell("fall, H.264", figures(drawn, Time(5000), Time(7000)));
+    tell("settled, H.264", figures(drawn, Time(7000), Time(12'000)));
+    EXPECT_LE(figures(drawn, Time(5000), Time(7000)).worstMilliseconds, 500);
+    EXPECT_LE(figures(drawn, Time(7000), Time(12'000)).worstMilliseconds, 250);
+    for (const SimulatedLink::Drawn& one : drawn) {
+        const bool isSlow = one.at >= Time(7000) && one.at < Time(12'000);
+        if (isSlow || one.at < Time(5000) || one.at > Time(16'000)) {
+            EXPECT_EQ(one.codec, isSlow ? Codec::H264 : Codec::Jpeg) << one.at.count();
+        }
+    }
+}
+
 TEST(StreamOnASimulatedLink, RisesAgainWhenTheLinkDoes) {
     SimulatedLink::Settings settings = linkOf(0);
     settings.megabits = [](Time now) { return now < Time(5000) ? 3.0 : 100.0; };

@@ -36,6 +36,7 @@ public:
         /// is when a frame may start.
         Time viewsEvery{0};
         double bytesAtBest = 52'000;  ///< a moving frame of 1280x720 at level 0
+        bool showsVideo = false;      ///< H.264 may be sent
     };
 
     /// A frame on the canvas.
@@ -43,6 +44,7 @@ public:
         Time at;
         Time latency;  ///< since the input that it shows
         int level;
+        Codec codec;
     };
 
     explicit SimulatedLink(Settings settings) : settings_(std::move(settings)), outbox_({}) {}
@@ -58,6 +60,7 @@ private:
     struct Made {
         Time input;
         int level = 0;
+        Codec codec = Codec::Jpeg;
     };
     struct Packet {
         Time at;  ///< when it comes out
@@ -88,20 +91,34 @@ private:
             EncodedFrame encoded;
             encoded.frameNumber = frameNumber_;
             EncodedPicture picture;
-            picture.bytes.resize(
-                static_cast<std::size_t>(noise * settings_.bytesAtBest * sizes_[level_]));
-            quality_.encoded(level_, picture.bytes.size(), kPixels);
+            picture.bytes.resize(static_cast<std::size_t>(noise * settings_.bytesAtBest * share()));
+            if (!isKey())
+                quality_.encoded(level_, picture.bytes.size(), kPixels, codec_);
+            streamLevel_ = codec_ == Codec::H264 ? level_ : -1;
             encoded.picture = std::make_shared<const EncodedPicture>(std::move(picture));
             outbox_.putFrame({std::move(encoded), frame_, startedAt_});
         }
         if (!isRendering_ && outbox_.hasRoom(0)) {
-            quality_.adapt(outbox_.link().bytesPerSecond(clock()), kPixels, clock());
+            quality_.adapt(outbox_.link().bytesPerSecond(clock()), kPixels, clock(),
+                           settings_.showsVideo);
             level_ = quality_.index();
+            codec_ = quality_.codec();
             isRendering_ = true;
             startedAt_ = clock();
-            renderedAt_ = now_ + settings_.rendering + settings_.encoding;
-            made_[++frameNumber_] = {inputOf(now_ - settings_.roundTrip / 2), level_};
+            renderedAt_ = now_ + settings_.rendering +
+                          settings_.encoding * (codec_ == Codec::H264 ? kVideoEffort : 1);
+            made_[++frameNumber_] = {inputOf(now_ - settings_.roundTrip / 2), level_, codec_};
         }
+    }
+
+    /// The first of a stream, and the first after it has been at another level.
+    bool isKey() const { return codec_ == Codec::H264 && streamLevel_ != level_; }
+
+    /// Of the bytes that the best JPEG takes.
+    double share() const {
+        return isKey()                 ? kKeyShare
+               : codec_ == Codec::H264 ? videoSizes_.at(level_)
+                                       : sizes_[level_];
     }
 
     /// When the newest input was made of those sent by then: on average half an interval before it
@@ -135,7 +152,8 @@ private:
             seenAt_ = seen;
             const Time at = std::max(decoderFree_, seen) + settings_.decoding;
             decoderFree_ = at;
-            drawn_.push_back({at, at - made_[number].input, made_[number].level});
+            drawn_.push_back(
+                {at, at - made_[number].input, made_[number].level, made_[number].codec});
             FrameAck ack{number};
             ack.decoding = at - seen;
             acks_.emplace_back(at + settings_.roundTrip / 2, ack);
@@ -145,6 +163,10 @@ private:
     /// What the levels take of the best one: measured of a terrain picture, docs/benchmarks.md,
     /// and not what QualityControl believes.
     const std::vector<double> sizes_ = {1, .78, .70, .61, .49, .37, .25, .19, .13};
+    /// The same of streams (bench/codecs), of their keys, and of the time that coding takes.
+    const std::map<int, double> videoSizes_ = {{0, .25}, {4, .11}, {6, .05}};
+    static constexpr double kKeyShare = 1.1;
+    static constexpr double kVideoEffort = 2.4;
     const Settings settings_;
     const std::shared_ptr<const coordinator::RenderedFrame> frame_ =
         std::make_shared<coordinator::RenderedFrame>();
@@ -158,6 +180,8 @@ private:
     QualityControl quality_;
     bool isRendering_ = false;
     int level_ = 0;
+    Codec codec_ = Codec::Jpeg;
+    int streamLevel_ = -1;  ///< of the last frame, if it was of a stream
     Time renderedAt_{0};
     Clock::time_point startedAt_;
     std::uint64_t frameNumber_ = 0;

@@ -19,8 +19,10 @@ export interface Hooks {
   readonly exact: boolean;
   /** What the server says of them. */
   readonly pixelHash: number;
-  /** Of its JPEG; 0: a PNG. */
+  /** Of its JPEG; 0: it is none. */
   readonly quality: number;
+  /** It is one of a stream of H.264. */
+  readonly video: boolean;
   readonly width: number;
   readonly height: number;
   readonly fps: number;
@@ -65,6 +67,9 @@ export function exposeHooks(state: State, viewer: Viewer): void {
     },
     get quality() {
       return numbers()?.quality ?? 0;
+    },
+    get video() {
+      return numbers()?.isVideo ?? false;
     },
     get width() {
       return numbers()?.width ?? 0;

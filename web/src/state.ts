@@ -49,8 +49,10 @@ export interface Numbers {
   exact: boolean;
   /** What the server says of its pixels; 0 while they are not sent as they are. */
   pixelHash: number;
-  /** Of a JPEG; 0: it is a PNG. */
+  /** Of a JPEG; 0: it is none. */
   quality: number;
+  /** It is one of a stream of H.264. */
+  isVideo: boolean;
   /** What the link carries, as the server estimates; 0: not known. */
   linkBytesPerSecond: number;
   pictureBytes: number;

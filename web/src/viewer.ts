@@ -25,6 +25,7 @@ import { Walker } from "./walker";
 import { FrameRate, Latency } from "./view/measure";
 import { numbersOf } from "./view/numbers";
 import type { Size } from "./view/size";
+import { canShowVideo } from "./view/video";
 import { pictureSize, softwarePixels } from "./view/size";
 
 /** A frame on its way to the canvas; `at`: when it arrived, in ms of performance.now(). */
@@ -64,6 +65,8 @@ export class Viewer implements CameraHolder {
   /** How often the camera was moved, by whomever. */
   movements = 0;
 
+  /** H.264 can be decoded, and none has failed to be. */
+  private showsVideo = false;
   private size: Size;
   private sequence = 0;
   /** Views that were sent and not drawn yet. */
@@ -89,6 +92,7 @@ export class Viewer implements CameraHolder {
     this.canvas = new PictureCanvas(canvas, {
       drawn: (frameNumber, time, isExact) => this.drawn(frameNumber, time, isExact),
       failed: (frameNumber) => this.acknowledge(frameNumber, performance.now()),
+      videoFailed: () => this.setVideo(false),
       resized: () => this.resize(),
     });
     this.size = this.wantedSize();
@@ -122,6 +126,7 @@ export class Viewer implements CameraHolder {
     state.look.watch(() => this.requestView(performance.now()));
     state.output.watch(() => this.requestView(performance.now()));
     this.ticker = window.setInterval(() => this.tick(), 250);
+    void canShowVideo().then((can) => this.setVideo(can));
   }
 
   close(): void {
@@ -341,6 +346,7 @@ export class Viewer implements CameraHolder {
 
   private opened(): void {
     this.state.connection.set({ kind: "connected" });
+    if (this.showsVideo) this.socket.tellAbilities(true);
     this.requestView();
   }
 
@@ -378,6 +384,12 @@ export class Viewer implements CameraHolder {
       this.led = undefined;
       this.requestView();
     }
+  }
+
+  private setVideo(isShown: boolean): void {
+    if (isShown === this.showsVideo) return;
+    this.showsVideo = isShown;
+    this.socket.tellAbilities(isShown);
   }
 
   private frameArrived(frame: Frame, picture: EncodedPicture): void {

@@ -9,8 +9,13 @@ export function triangleText(drawn: number, total: number): string {
 }
 
 /** How a picture was sent. */
-export function sentText({ exact, quality }: Pick<Numbers, "exact" | "quality">): string {
+export function sentText({
+  exact,
+  quality,
+  isVideo,
+}: Pick<Numbers, "exact" | "quality" | "isVideo">): string {
   if (exact) return "exact";
+  if (isVideo) return "H.264";
   return quality > 0 ? `JPEG ${quality}` : "lossless";
 }
 
@@ -51,8 +56,8 @@ const rows: readonly Row[] = [
   {
     name: "Picture",
     title:
-      "Size in pixels, and how it was sent: JPEG of a quality that the link allows while the view " +
-      "moves; exact: every pixel here has been compared with the server's",
+      "Size in pixels, and how it was sent: while the view moves as JPEG of a quality that the link " +
+      "allows or, over a slow one, H.264, which only come near to the server's picture; exact: every pixel here has been compared with the server's",
     text: ({ width, height, ...sent }) => `${width} × ${height} · ${sentText(sent)}`,
   },
 ];

@@ -114,6 +114,7 @@ describe("numbers", () => {
     exact: false,
     pixelHash: 0,
     quality: 75,
+    isVideo: false,
     linkBytesPerSecond: 0,
     pictureBytes: 0,
     cullMilliseconds: 0,
@@ -187,8 +188,9 @@ describe("numbers", () => {
 
 describe("sentText", () => {
   it("says exact only where that was compared", () => {
-    expect(sentText({ exact: false, quality: 75 })).toBe("JPEG 75");
-    expect(sentText({ exact: false, quality: 0 })).toBe("lossless");
-    expect(sentText({ exact: true, quality: 0 })).toBe("exact");
+    expect(sentText({ exact: false, quality: 75, isVideo: false })).toBe("JPEG 75");
+    expect(sentText({ exact: false, quality: 0, isVideo: false })).toBe("lossless");
+    expect(sentText({ exact: false, quality: 0, isVideo: true })).toBe("H.264");
+    expect(sentText({ exact: true, quality: 0, isVideo: false })).toBe("exact");
   });
 });

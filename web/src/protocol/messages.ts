@@ -22,6 +22,7 @@ import {
   ShownEye,
   ShownPictureSchema,
   ShownStereo,
+  ViewerAbilitiesSchema,
   ViewerLeadSchema,
   ViewerPickSchema,
   ViewerProfileSchema,
@@ -168,6 +169,11 @@ export function encodeSwitch(canvas: string, layout: string): Uint8Array<ArrayBu
 /** Takes the lead of the session. */
 export function encodeLead(): Uint8Array<ArrayBuffer> {
   return bytesOf({ case: "lead", value: create(ViewerLeadSchema) });
+}
+
+/** What can be shown beside JPEG and PNG. */
+export function encodeAbilities(h264: boolean): Uint8Array<ArrayBuffer> {
+  return bytesOf({ case: "abilities", value: create(ViewerAbilitiesSchema, { h264 }) });
 }
 
 /** `decodeMilliseconds`: from a picture's arrival until it was drawn. */

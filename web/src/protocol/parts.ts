@@ -2,12 +2,23 @@
 // Pictures, of which still ones come in parts so that something newer never waits for them.
 import type { Frame, FramePart } from "./messages";
 
+/** Where in which stream of H.264 a picture is, and how much of it is seen: it is coded with even sides. */
+export interface VideoPlace {
+  stream: bigint;
+  picture: bigint;
+  isKey: boolean;
+  width: number;
+  height: number;
+}
+
 /** A whole picture as it came. */
 export interface EncodedPicture {
-  type: "image/jpeg" | "image/png";
+  type: "image/jpeg" | "image/png" | "video/h264";
   bytes: Uint8Array<ArrayBuffer>;
   /** Of the server's pixels; undefined where the picture has others. */
   pixelHash: number | undefined;
+  /** Of H.264. */
+  video: VideoPlace | undefined;
 }
 
 /** How many bytes of a frame's picture have come, and the picture once that is all of them. */
@@ -19,6 +30,13 @@ export interface Arrival {
 
 /** No picture of 4096 x 4096 pixels is larger. */
 const mostBytes = 2 ** 27;
+
+const types = { jpeg: "image/jpeg", png: "image/png", h264: "video/h264" } as const;
+
+function placeOf({ video, width, height }: Frame): VideoPlace {
+  if (video === undefined) throw new Error("H.264 of no stream");
+  return { stream: video.stream, picture: video.picture, isKey: video.key, width, height };
+}
 
 export class Parts {
   private frame: Frame | undefined;
@@ -54,11 +72,12 @@ export class Parts {
   private arrival(frame: Frame): Arrival {
     const receivedBytes = this.received;
     if (receivedBytes < this.bytes.length) return { frame, receivedBytes, picture: undefined };
-    const isPng = frame.picture.case === "png";
+    const kind = frame.picture.case ?? "jpeg";
     const picture: EncodedPicture = {
-      type: isPng ? "image/png" : "image/jpeg",
+      type: types[kind],
       bytes: this.bytes,
-      pixelHash: isPng ? frame.pixelHash : undefined,
+      pixelHash: kind === "png" ? frame.pixelHash : undefined,
+      video: kind === "h264" ? placeOf(frame) : undefined,
     };
     this.frame = undefined;
     this.bytes = new Uint8Array(0);

@@ -3,6 +3,7 @@ import type { Vec3 } from "../camera/camera";
 import type { Frame, SessionState, Shown, View, ViewerPicked, ViewerProfiled } from "./messages";
 import {
   decodeResponse,
+  encodeAbilities,
   encodeAck,
   encodeLead,
   encodePartAck,
@@ -82,6 +83,11 @@ export class Socket {
 
   takeLead(): void {
     if (this.isOpen) this.socket?.send(encodeLead());
+  }
+
+  /** Whether H.264 can be shown; the server takes it that it cannot until it is told. */
+  tellAbilities(h264: boolean): void {
+    if (this.isOpen) this.socket?.send(encodeAbilities(h264));
   }
 
   close(): void {

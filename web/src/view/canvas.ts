@@ -8,6 +8,8 @@ export interface CanvasEvents {
   drawn(frameNumber: number, time: number, isExact: boolean): void;
   /** This frame's picture could not be decoded. */
   failed(frameNumber: number): void;
+  /** Nor will those of any other stream of H.264 be. */
+  videoFailed(): void;
   /** The canvas has another size, in CSS pixels, and has kept it for a moment. */
   resized(size: Size): void;
 }
@@ -56,8 +58,11 @@ export class PictureCanvas {
   }
 
   private reported(report: FromWorker): void {
-    if (report.kind === "failed") this.events.failed(report.frameNumber);
-    else this.events.drawn(report.frameNumber, report.time - performance.timeOrigin, report.exact);
+    if (report.kind === "failed") {
+      if (report.isVideo) this.events.videoFailed();
+      this.events.failed(report.frameNumber);
+    } else
+      this.events.drawn(report.frameNumber, report.time - performance.timeOrigin, report.exact);
   }
 
   private resizeSoon(): void {

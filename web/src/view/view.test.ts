@@ -3,6 +3,7 @@ import { describe, expect, it } from "vitest";
 import { FrameRate, Latency, limitingStage } from "./measure";
 import { pixelHash } from "./pixel_hash";
 import { pictureSize, softwarePixels } from "./size";
+import { canShowVideo, follows } from "./video";
 
 describe("pictureSize", () => {
   it("is the canvas in device pixels", () => {
@@ -90,5 +91,36 @@ describe("limitingStage", () => {
     expect(limitingStage({ ...stages, readback: 6 })).toBe("readback");
     expect(limitingStage({ ...stages, vertices: 0, fill: 0 })).toBe("");
     expect(limitingStage(undefined)).toBe("");
+  });
+});
+
+describe("A picture of a stream", () => {
+  const place = (stream: bigint, picture: bigint, isKey = false) => ({
+    stream,
+    picture,
+    isKey,
+    width: 64,
+    height: 48,
+  });
+
+  it("is decoded right after the one that it is made from", () => {
+    expect(follows(place(1n, 4n), place(1n, 5n))).toBe(true);
+    expect(follows(place(1n, 4n, true), place(1n, 5n))).toBe(true);
+  });
+
+  it("is not decoded without it", () => {
+    expect(follows(undefined, place(1n, 1n))).toBe(false);
+    expect(follows(place(1n, 4n), place(1n, 6n))).toBe(false);
+    expect(follows(place(1n, 4n), place(1n, 4n))).toBe(false);
+    expect(follows(place(1n, 4n), place(2n, 5n))).toBe(false);
+  });
+
+  it("can be a key, which needs none", () => {
+    expect(follows(undefined, place(1n, 1n, true))).toBe(true);
+    expect(follows(place(1n, 4n), place(1n, 9n, true))).toBe(true);
+  });
+
+  it("is not asked for where nothing decodes it", async () => {
+    expect(await canShowVideo()).toBe(false);
   });
 });

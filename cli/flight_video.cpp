@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/flight_video.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "cli/bench/flights.h"
+#include "cli/progress_bar.h"
+#include "fabric/status.h"
+#include "renderer/mesh/output_file.h"
+#include "video/load.h"
+
+namespace eyrie::cli {
+namespace {
+
+constexpr std::array<std::string_view, 3> kEndings = {"mp4", "mkv", "webm"};
+/// An hour at 60 frames a second.
+constexpr double kMostFrames = 216'000;
+
+std::string endingOf(const std::string& path) {
+    const std::size_t dot = path.rfind('.');
+    return dot == std::string::npos ? "" : path.substr(dot + 1);
+}
+
+absl::StatusOr<std::vector<fabric::FlightKey>> framesFor(const FlightVideo& video,
+                                                         const fabric::Box& bounds) {
+    ASSIGN_OR_RETURN(const fabric::Flight flight, bench::flightNamed(video.flight, bounds));
+    const double count = std::round(flight.seconds() * video.framesPerSecond) + 1;
+    if (count > kMostFrames)
+        return absl::InvalidArgumentError(fmt::format(
+            "--flight takes {} seconds, {:.0f} pictures at --fps {}; at most {:.0f} are "
+            "drawn",
+            flight.seconds(), count, video.framesPerSecond, kMostFrames));
+    return bench::framesOf(flight, static_cast<int>(count));
+}
+
+}  // namespace
+
+bool isVideoName(const std::string& path) {
+    return std::ranges::find(kEndings, endingOf(path)) != kEndings.end();
+}
+
+absl::Status writeFlightVideo(const FlightVideo& video, const std::string& scene,
+                              const PictureSourceOptions& pictures,
+                              const coordinator::FrameRequest& request,
+                              const std::stop_token& stop) {
+    if (!isVideoName(video.out))
+        return absl::InvalidArgumentError(
+            fmt::format("-o {}: a flight is written as .mp4, .mkv or .webm", video.out));
+    ASSIGN_OR_RETURN(const video::Module* module, video::load());
+    ASSIGN_OR_RETURN(mesh::OutputFile file, mesh::OutputFile::create(video.out));
+    ASSIGN_OR_RETURN(
+        const auto movie,
+        module->makeMovie(
+            {endingOf(video.out), request.width, request.height, video.framesPerSecond},
+            [&file](std::uint64_t offset, std::span<const std::byte> bytes) {
+                return file.writeAt(offset, bytes);
+            }));
+    ASSIGN_OR_RETURN(const auto source, PictureSource::open(scene, pictures, stop));
+    ASSIGN_OR_RETURN(const auto frames, framesFor(video, source->sceneInfo().bounds));
+    ProgressBar bar(video.out, static_cast<double>(frames.size()), "pictures",
+                    ProgressBar::styleFor(video.quiet));
+    coordinator::FrameRequest asked = request;
+    double worstPixels = 0;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        if (stop.stop_requested())
+            return absl::CancelledError("stopped; nothing was written");
+        asked.camera = frames[i].camera;
+        ASSIGN_OR_RETURN(const coordinator::RenderedFrame frame, source->draw(asked));
+        worstPixels = std::max(worstPixels, frame.statistics.tauAchievedPixels);
+        RETURN_IF_ERROR(movie->add(frame.image));
+        bar.show("drawing", static_cast<double>(i + 1) / static_cast<double>(frames.size()),
+                 ProgressBar::Clock::now());
+    }
+    RETURN_IF_ERROR(movie->finish());
+    RETURN_IF_ERROR(file.commit());
+    if (!video.quiet)
+        fmt::print(stderr,
+                   "{}: {} pictures, error at most {:.3g} of {:.3g} pixels asked, and what "
+                   "coding adds\n",
+                   video.out, frames.size(), worstPixels, request.tauPixels);
+    return absl::OkStatus();
+}
+
+}  // namespace eyrie::cli
