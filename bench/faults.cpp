@@ -5,10 +5,12 @@
 //                              [LONG_STOPS=20] [FRAMES=10000] [RENDERERS=3] [WIDTHxHEIGHT=320x180]
 //                              [SEED=1]
 //
-// Draws an orbit again and again while renderer processes are killed, or stopped and continued, at
+// Draws an orbit again and again, with as many frames in flight as the configuration's latency and
+// one, while renderer processes are killed, or stopped and continued, at
 // random moments of frames, never all at once. Compares every picture, depths included, with that
 // of the same camera from before the first fault. Prints the pixels that differ, and times: from a
-// fault to the next complete picture, to where the renderer is known to be dead, and from its
+// fault to the next complete picture, to the last of those that were under way, to where the
+// renderer is known to be dead, and from its
 // restart or continuation to where it draws again. Exit status 1 when a picture was wrong or could
 // not be had.
 #include <algorithm>
@@ -16,6 +18,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -26,13 +29,15 @@
 #include <spdlog/spdlog.h>
 
 #include "bench/faulty_farm.h"
+#include "coordinator/frame/frame_sequence.h"
+#include "tests/support/different_pixels.h"
 
 namespace {
 
 using namespace eyrie;
 using namespace eyrie::bench;
 using coordinator::FrameRequest;
-using coordinator::RenderedFrame;
+using coordinator::FrameSequence;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
@@ -66,21 +71,12 @@ std::vector<FrameRequest> orbit(const fabric::Box& bounds, const Options& option
     return views;
 }
 
-std::size_t differentPixels(const fabric::Image& a, const fabric::Image& b) {
-    if (a.colour.size() != b.colour.size() || a.depth.size() != b.depth.size())
-        return std::max(a.colour.size(), b.colour.size());
-    std::size_t different = 0;
-    for (std::size_t i = 0; i < a.colour.size(); ++i)
-        different += a.colour[i] == b.colour[i] && a.depth[i] == b.depth[i] ? 0 : 1;
-    return different;
-}
-
 struct Frame {
     Clock::time_point begin;
     Clock::time_point end;
 };
 
-/// What was drawn, by the thread that draws. Others read `begun` only.
+/// What was drawn. Others than those that draw read `begun` only.
 struct Flight {
     std::vector<Frame> frames;
     std::atomic<int> begun{0};
@@ -89,20 +85,40 @@ struct Flight {
     int failures = 0;
     int incomplete = 0;
 
-    void add(const absl::StatusOr<RenderedFrame>& drawn, const fabric::Image& expected,
-             Clock::time_point begin) {
-        if (!drawn.ok()) {
+    void add(const FrameSequence::Frame& frame, const fabric::Image& expected) {
+        if (!frame.drawn.ok()) {
             ++failures;
-            fmt::print(stderr, "{}\n", drawn.status().ToString());
+            fmt::print(stderr, "{}\n", frame.drawn.status().ToString());
             return;
         }
-        frames.push_back({begin, Clock::now()});
-        const std::size_t wrong = differentPixels(drawn->image, expected);
+        frames.push_back({frame.begun, frame.arrived});
+        const std::size_t wrong = test::differentPixels(frame.drawn->image, expected);
         wrongPixels += wrong;
         wrongFrames += wrong != 0 ? 1 : 0;
-        incomplete += drawn->statistics.complete ? 0 : 1;
+        incomplete += frame.drawn->statistics.complete ? 0 : 1;
     }
 };
+
+/// Until all `least` frames are drawn and the harm is done.
+void fly(coordinator::FrameSource& source, const std::vector<FrameRequest>& views,
+         const std::vector<fabric::Image>& expected, int least, const std::atomic<bool>& harmIsDone,
+         Flight& flight) {
+    FrameSequence sequence;
+    sequence.atOnce = source.framesAtOnce();
+    sequence.draw = [&](const auto& choose) { return source.renderLatest(choose); };
+    sequence.view = [&](std::size_t index) -> std::optional<FrameRequest> {
+        if (flight.begun >= least && harmIsDone)
+            return std::nullopt;
+        ++flight.begun;
+        return views[index % views.size()];
+    };
+    sequence.take = [&](const FrameSequence::Frame& frame) {
+        flight.add(frame, expected[frame.index % expected.size()]);
+        return absl::OkStatus();
+    };
+    drawSequence(sequence).IgnoreError();  // none ends it
+    fmt::print("{} frames in flight\n", sequence.atOnce);
+}
 
 std::vector<Fault> shuffledFaults(const Options& options) {
     std::vector<Fault> faults(static_cast<std::size_t>(options.kills), Fault::Kill);
@@ -157,7 +173,7 @@ double millisecondsBetween(Clock::time_point begin, Clock::time_point end) {
 }
 
 void printFault(Fault fault, const std::vector<Event>& events, const std::vector<Frame>& frames) {
-    std::vector<double> complete, dead, back;
+    std::vector<double> complete, underWay, dead, back;
     for (const Event& event : events) {
         if (event.fault != fault)
             continue;
@@ -166,21 +182,29 @@ void printFault(Fault fault, const std::vector<Event>& events, const std::vector
             [](const Frame& frame, Clock::time_point at) { return frame.end < at; });
         if (next != frames.end())
             complete.push_back(millisecondsBetween(event.at, next->end));
+        const auto later = std::lower_bound(
+            frames.begin(), frames.end(), event.at,
+            [](const Frame& frame, Clock::time_point at) { return frame.begin < at; });
+        if (later != frames.begin() && std::prev(later)->end >= event.at)
+            underWay.push_back(millisecondsBetween(event.at, std::prev(later)->end));
         if (event.dead)
             dead.push_back(millisecondsBetween(event.at, *event.dead));
         if (event.mended && event.back)
             back.push_back(millisecondsBetween(*event.mended, *event.back));
     }
     printTimes(fmt::format("{}: to the next complete picture", nameOf(fault)), complete);
+    printTimes(fmt::format("{}: to the last that was under way", nameOf(fault)), underWay);
     printTimes(fmt::format("{}: to being known as dead", nameOf(fault)), dead);
     printTimes(fmt::format("{}: from its end to drawing again", nameOf(fault)), back);
 }
 
 void print(const Flight& flight, const std::vector<Event>& events) {
-    std::vector<double> times;
+    std::vector<double> intervals, latencies;
     int hit = 0;
     for (const Frame& frame : flight.frames) {
-        times.push_back(millisecondsBetween(frame.begin, frame.end));
+        latencies.push_back(millisecondsBetween(frame.begin, frame.end));
+        if (&frame != &flight.frames.front())
+            intervals.push_back(millisecondsBetween((&frame - 1)->end, frame.end));
         hit += std::any_of(events.begin(), events.end(), [&](const Event& event) {
             return event.at >= frame.begin && event.at <= frame.end;
         });
@@ -190,7 +214,8 @@ void print(const Flight& flight, const std::vector<Event>& events) {
         flight.frames.size(), hit, flight.wrongPixels, flight.wrongFrames, flight.incomplete,
         flight.failures);
     fmt::print("{:44} {:>6} {:>8} {:>8} {:>8}\n", "", "number", "p50", "p95", "max");
-    printTimes("frames", times);
+    printTimes("from picture to picture", intervals);
+    printTimes("from a view to its picture", latencies);
     for (const Fault fault : {Fault::Kill, Fault::BriefStop, Fault::LongStop})
         printFault(fault, events, flight.frames);
 }
@@ -224,12 +249,7 @@ int run(const Options& options) {
         harmIsDone = true;
         while (!flightIsOver.stop_requested()) std::this_thread::sleep_for(milliseconds(5));
     });
-    for (int i = 0; i < options.frames || !harmIsDone; ++i) {
-        const auto view = static_cast<std::size_t>(i % kCameras);
-        const Clock::time_point begin = Clock::now();
-        ++flight.begun;
-        flight.add(frames.renderFrame(views[view]), expected[view], begin);
-    }
+    fly(frames, views, expected, options.frames, harmIsDone, flight);
     harm.request_stop();
     harm.join();
     print(flight, (*farm)->events());

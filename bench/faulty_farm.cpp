@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <csignal>
 
-#include <fmt/format.h>
-
 #include "fabric/status.h"
 
 namespace eyrie::bench {
@@ -18,44 +16,15 @@ using std::chrono::milliseconds;
 constexpr milliseconds kRestartPause{250};
 constexpr milliseconds kLongStop{4000};
 
-std::optional<RendererCondition> conditionAt(const coordinator::Status& status,
-                                             const std::string& address) {
-    for (const coordinator::RendererStatus& renderer : status.renderers)
-        if (renderer.address == address)
-            return renderer.condition;
-    return std::nullopt;
-}
-
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<FaultyFarm>> FaultyFarm::start(const Options& options) {
-    std::unique_ptr<FaultyFarm> farm(new FaultyFarm(options));
-    ASSIGN_OR_RETURN(farm->coordinator_, coordinator::Coordinator::start(
-                                             {.grpcAddresses = {"unix:" + farm->folder_.path("c")},
-                                              .layout = options.layout,
-                                              .scene = options.scene}));
+    std::unique_ptr<FaultyFarm> farm(new FaultyFarm(options.seed));
+    ASSIGN_OR_RETURN(farm->farm_,
+                     test::RendererFarm::start(options.program, options.renderers,
+                                               {.layout = options.layout, .scene = options.scene}));
     farm->slots_.resize(static_cast<std::size_t>(options.renderers));
-    for (std::size_t i = 0; i < farm->slots_.size(); ++i) farm->launch(i);
     return farm;
-}
-
-void FaultyFarm::launch(std::size_t index) {
-    Slot& slot = slots_[index];
-    slot.address =
-        fmt::format("unix:{}", folder_.path(fmt::format("r{}-{}", index, slot.generation++)));
-    slot.process = std::make_unique<test::Process>(
-        std::vector<std::string>{options_.program, "renderer", "--coordinator",
-                                 "unix:" + folder_.path("c"), "--listen", slot.address, "--quiet"},
-        std::vector<std::string>{"LP_NUM_THREADS=1"});
-}
-
-bool FaultyFarm::awaitAllReady(milliseconds limit) {
-    return test::eventually(limit, [this] {
-        const coordinator::Status status = frames().status();
-        return std::all_of(slots_.begin(), slots_.end(), [&](const Slot& slot) {
-            return conditionAt(status, slot.address) == RendererCondition::Ready;
-        });
-    });
 }
 
 Clock::duration FaultyFarm::lengthOf(Fault fault) {
@@ -70,15 +39,16 @@ bool FaultyFarm::inject(Fault fault) {
     const coordinator::Status status = frames().status();
     std::vector<std::size_t> sound;
     for (std::size_t i = 0; i < slots_.size(); ++i)
-        if (!slots_[i].event && conditionAt(status, slots_[i].address) == RendererCondition::Ready)
+        if (!slots_[i].event && farm_->conditionOf(i, status) == RendererCondition::Ready)
             sound.push_back(i);
     if (sound.size() < 2)
         return false;
-    Slot& slot =
-        slots_[sound[std::uniform_int_distribution<std::size_t>(0, sound.size() - 1)(random_)]];
+    const std::size_t index =
+        sound[std::uniform_int_distribution<std::size_t>(0, sound.size() - 1)(random_)];
+    Slot& slot = slots_[index];
     slot.event = events_.size();
     const Clock::time_point now = Clock::now();
-    slot.process->send(fault == Fault::Kill ? SIGKILL : SIGSTOP);
+    farm_->renderer(index).send(fault == Fault::Kill ? SIGKILL : SIGSTOP);
     slot.mendAt = now + lengthOf(fault);
     events_.push_back({fault, now, {}, {}, {}});
     return true;
@@ -95,15 +65,15 @@ void FaultyFarm::tend(std::size_t index, const coordinator::Status& status) {
     Slot& slot = slots_[index];
     Event& event = events_[*slot.event];
     const Clock::time_point now = Clock::now();
-    const auto condition = conditionAt(status, slot.address);
+    const auto condition = farm_->conditionOf(index, status);
     if (!event.dead && !event.mended && condition == RendererCondition::Dead)
         event.dead = now;
     if (!event.mended && now >= slot.mendAt) {
         event.mended = now;
         if (event.fault == Fault::Kill)
-            launch(index);
+            farm_->restart(index);
         else
-            slot.process->send(SIGCONT);
+            farm_->renderer(index).send(SIGCONT);
     } else if (event.mended && condition == RendererCondition::Ready) {
         event.back = now;
         slot.event.reset();

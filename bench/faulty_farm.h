@@ -10,9 +10,7 @@
 
 #include <absl/status/statusor.h>
 
-#include "coordinator/coordinator.h"
-#include "tests/support/process.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/renderer_farm.h"
 
 namespace eyrie::bench {
 
@@ -33,7 +31,7 @@ struct Event {
     std::optional<Clock::time_point> back;    ///< listed as ready after that
 };
 
-/// A coordinator with renderer processes of this machine, over Unix sockets, that come to grief.
+/// Renderer processes that come to grief.
 class FaultyFarm {
 public:
     struct Options {
@@ -46,10 +44,10 @@ public:
 
     static absl::StatusOr<std::unique_ptr<FaultyFarm>> start(const Options& options);
 
-    coordinator::FrameSource& frames() { return coordinator_->frames(); }
+    coordinator::FrameSource& frames() { return farm_->frames(); }
 
     /// True once all renderers draw.
-    bool awaitAllReady(std::chrono::milliseconds limit);
+    bool awaitAllReady(std::chrono::milliseconds limit) { return farm_->awaitAllReady(limit); }
 
     /// Does it to a renderer that is ready, chosen by chance. False, and nothing is done, while it
     /// would leave no other that is.
@@ -66,23 +64,17 @@ public:
 
 private:
     struct Slot {
-        std::string address;
-        std::unique_ptr<test::Process> process;
         std::optional<std::size_t> event;  ///< that it has not recovered from
         Clock::time_point mendAt;
-        int generation = 0;
     };
 
-    explicit FaultyFarm(const Options& options) : options_(options), random_(options.seed) {}
-    void launch(std::size_t slot);
+    explicit FaultyFarm(unsigned seed) : random_(seed) {}
     void tend(std::size_t slot, const coordinator::Status& status);
     Clock::duration lengthOf(Fault fault);
 
-    const Options options_;
     std::mt19937 random_;
-    test::TemporaryFolder folder_;
-    std::unique_ptr<coordinator::Coordinator> coordinator_;
-    std::vector<Slot> slots_;
+    std::unique_ptr<test::RendererFarm> farm_;
+    std::vector<Slot> slots_;  ///< of the farm's renderers
     std::vector<Event> events_;
 };
 

@@ -220,7 +220,11 @@ void addBench(CLI::App& app, Run& run) {
     command->add_flag("--quiet", options->pictures.quiet, "Only errors");
     command->add_flag("--json", options->json, "Print the summary as JSON");
     command->footer(
-        "The report is index.html to look at, summary.json and frames.csv to work with. The error\n"
+        "The report is index.html to look at, summary.json and frames.csv to work with. Processes\n"
+        "have as many frames in flight as the configuration's latency and one (two without one): "
+        "a\n"
+        "frame's time is that since the frame before it, and latency, from choosing the view to\n"
+        "having its picture, is told beside it. In this process they are the same. The error\n"
         "in it is the one promised for every frame; frames that promise more than was asked count\n"
         "as framesBeyondTau. At a frame time to hold (--budget-ms), frames do not wait for data.\n"
         "With --reference errors are measured, too (errors.csv has each "

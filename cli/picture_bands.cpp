@@ -2,7 +2,9 @@
 #include "cli/picture_bands.h"
 
 #include <algorithm>
+#include <optional>
 
+#include "coordinator/frame/frame_sequence.h"
 #include "fabric/status.h"
 
 namespace eyrie::cli {
@@ -32,16 +34,25 @@ absl::StatusOr<DrawnBands> drawInBands(
     DrawnBands drawn;
     const int most =
         static_cast<int>(std::clamp<std::int64_t>(bandPixels / request.width, 1, request.height));
-    for (int top = request.height; top > 0;) {
-        const int rows = std::min(top, most);
-        top -= rows;
+    coordinator::FrameSequence bands;
+    bands.atOnce = pictures.framesAtOnce();
+    bands.draw = [&](const auto& choose) { return pictures.drawLatest(choose); };
+    bands.view = [&](std::size_t index) -> std::optional<coordinator::FrameRequest> {
+        const std::int64_t top = request.height - static_cast<std::int64_t>(index) * most;
+        if (top <= 0)
+            return std::nullopt;
+        const auto end = static_cast<std::int32_t>(top);
         coordinator::FrameRequest band = request;
-        band.part = {0, top, request.width, rows};
-        ASSIGN_OR_RETURN(const coordinator::RenderedFrame frame, pictures.draw(band));
-        accumulateNext(drawn.statistics, frame.statistics);
-        drawn.device = frame.device;
-        RETURN_IF_ERROR(take(frame.image));
-    }
+        band.part = {0, std::max(end - most, 0), request.width, std::min(end, most)};
+        return band;
+    };
+    bands.take = [&](const coordinator::FrameSequence::Frame& band) {
+        RETURN_IF_ERROR(band.drawn.status());
+        accumulateNext(drawn.statistics, band.drawn->statistics);
+        drawn.device = band.drawn->device;
+        return take(band.drawn->image);
+    };
+    RETURN_IF_ERROR(coordinator::drawSequence(bands));
     return drawn;
 }
 

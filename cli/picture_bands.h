@@ -20,9 +20,10 @@ struct DrawnBands {
     fabric::DeviceInfo device;
 };
 
-/// Draws what `request` asks for as bands of whole rows, from the top down, and gives each to
-/// `take`. Together they are the picture drawn at once, to the bit: a band is a part of the one
-/// view, as a renderer's is (docs/decisions/0036-posters-by-bands.md).
+/// Draws what `request` asks for as bands of whole rows, from the top down, several at the same
+/// time where `pictures` can, and gives each to `take`, one after the other. Together they are the
+/// picture drawn at once, to the bit: a band is a part of the one view, as a renderer's is
+/// (docs/decisions/0036-posters-by-bands.md).
 ///
 /// A band has as many rows as fit in `bandPixels`, and one at least. Errors: those of
 /// PictureSource::draw and of `take`, after which nothing more is drawn.

@@ -22,6 +22,7 @@ namespace {
 
 using coordinator::FrameRequest;
 using coordinator::RenderedFrame;
+using ChooseFrame = coordinator::FrameSource::ChooseFrame;
 
 constexpr std::chrono::seconds kRenderersLimit{60};
 
@@ -95,6 +96,12 @@ public:
         return farm_->frames().renderFrame(request);
     }
 
+    absl::StatusOr<RenderedFrame> drawLatest(const ChooseFrame& choose) override {
+        return farm_->frames().renderLatest(choose);
+    }
+
+    int framesAtOnce() const override { return farm_->frames().framesAtOnce(); }
+
     fabric::SceneInfo sceneInfo() const override { return farm_->frames().status().sceneInfo; }
 
 private:
@@ -136,6 +143,13 @@ absl::StatusOr<fabric::Scene> loadScene(const std::string& path,
                     page::sourceOptions(remote.cacheFolder, remote.cacheBytes));
     std::vector<std::string> notes;
     return assembleScene(std::vector<std::string>{path}, cache, notes);
+}
+
+absl::StatusOr<RenderedFrame> PictureSource::drawLatest(const ChooseFrame& choose) {
+    const std::optional<FrameRequest> request = choose();
+    if (!request)
+        return absl::CancelledError("no frame is wanted any more");
+    return draw(*request);
 }
 
 absl::StatusOr<std::unique_ptr<PictureSource>> PictureSource::open(

@@ -30,7 +30,7 @@ absl::StatusOr<fabric::Scene> loadScene(const std::string& path,
                                         const std::stop_token& stop);
 
 /// Draws pictures of one scene, for commands that need no viewer. Belongs to the thread that opened
-/// it.
+/// it, but where it can be asked for several pictures at once.
 class PictureSource {
 public:
     /// `path` names what is drawn, as for loadScene. Errors: those of loadScene,
@@ -43,6 +43,11 @@ public:
 
     virtual absl::StatusOr<coordinator::RenderedFrame> draw(
         const coordinator::FrameRequest& request) = 0;
+    /// As FrameSource::renderLatest.
+    virtual absl::StatusOr<coordinator::RenderedFrame> drawLatest(
+        const coordinator::FrameSource::ChooseFrame& choose);
+    /// As FrameSource::framesAtOnce; where it is more than 1, any thread may draw.
+    virtual int framesAtOnce() const { return 1; }
     virtual fabric::SceneInfo sceneInfo() const = 0;
 };
 

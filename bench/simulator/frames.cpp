@@ -122,10 +122,11 @@ private:
                 continue;
             for (const config::ResolvedFrame& frame : compound.outputFrames) {
                 const config::Frame& written = *frame.frame;
+                const fabric::Vec2 zoom = written.zoom.value_or(fabric::Vec2(1, 1));
                 sent_.emplace(frame.name,
                               Sent{placeOf(compound),
                                    megapixels(compound) * written.viewport.width *
-                                       written.viewport.height * written.zoom.x * written.zoom.y,
+                                       written.viewport.height * zoom.x * zoom.y,
                                    written.buffers.value_or(compound.buffers).depth, 0});
             }
         }

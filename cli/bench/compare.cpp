@@ -153,9 +153,15 @@ absl::StatusOr<Comparison> compare(WrittenReport a, WrittenReport b, bool force)
     const bool countsRepeat = a.occlusion == "off" && b.occlusion == "off";
     for (const WrittenRun& run : a.runs)
         for (const WrittenRun& other : b.runs)
-            if (isSameKind(run, other))
+            if (isSameKind(run, other)) {
                 comparison.runs.push_back(
                     {run, other, figuresOf(run, other, countsRepeat ? 0 : kShareByOcclusion)});
+                if (run.framesInFlight != other.framesInFlight)
+                    comparison.notes.push_back(fmt::format(
+                        "{}: {} has {} frames in flight, {} {}; the times of frames "
+                        "are not those of one way to draw",
+                        nameOf(run), a.name, run.framesInFlight, b.name, other.framesInFlight));
+            }
     if (comparison.runs.empty())
         return absl::InvalidArgumentError(
             fmt::format("{} and {} have no run in common; measure the same --tau and --renderers",

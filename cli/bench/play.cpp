@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "cli/bench/flights.h"
 #include "cli/bench/resident_memory.h"
+#include "coordinator/frame/frame_sequence.h"
 #include "fabric/status.h"
 
 namespace eyrie::cli::bench {
@@ -33,29 +36,43 @@ public:
     absl::Status play(int pass, const std::vector<fabric::FlightKey>& frames,
                       coordinator::FrameRequest request) {
         const auto begin = Clock::now();
+        auto last = begin;
         double drawing = 0;
-        for (const fabric::FlightKey& key : frames) {
+        coordinator::FrameSequence sequence;
+        sequence.atOnce = pictures_.framesAtOnce();
+        sequence.draw = [&](const auto& choose) { return pictures_.drawLatest(choose); };
+        sequence.view = [&](std::size_t index) -> std::optional<coordinator::FrameRequest> {
+            if (index == frames.size())
+                return std::nullopt;
+            request.camera = frames[index].camera;
+            return request;
+        };
+        sequence.take = [&](const coordinator::FrameSequence::Frame& frame) {
+            const double seconds = frames[frame.index].seconds;
             if (stop_.stop_requested())
                 return absl::CancelledError("stopped; nothing was written");
-            request.camera = key.camera;
-            const auto start = Clock::now();
-            const auto frame = pictures_.draw(request);
-            const Milliseconds taken = Clock::now() - start;
-            if (!frame.ok())
-                return fabric::withContext(frame.status(),
-                                           fmt::format("second {:.3f} of the flight", key.seconds));
-            fabric::FrameStatistics statistics = frame->statistics;
+            if (!frame.drawn.ok())
+                return fabric::withContext(frame.drawn.status(),
+                                           fmt::format("second {:.3f} of the flight", seconds));
+            const Milliseconds latency = frame.arrived - frame.begun;
+            const Milliseconds interval = frame.arrived - std::exchange(last, frame.arrived);
+            const Milliseconds taken = sequence.atOnce == 1 ? latency : interval;
+            fabric::FrameStatistics statistics = frame.drawn->statistics;
             statistics.tauAchievedPixels *=
-                static_cast<double>(request.width) / frame->image.area.width;
-            played_.frames.push_back({pass, key.seconds, taken.count(), std::move(statistics)});
-            played_.device = frame->device;
+                static_cast<double>(request.width) / frame.drawn->image.area.width;
+            played_.frames.push_back(
+                {pass, seconds, taken.count(), std::move(statistics), latency.count()});
+            played_.device = frame.drawn->device;
             drawing += taken.count();
             frameDone_();
-        }
+            return absl::OkStatus();
+        };
+        RETURN_IF_ERROR(coordinator::drawSequence(sequence));
         if (pass > 0) {
             drawing_ += drawing;
-            all_ += Milliseconds(Clock::now() - begin).count();
+            all_ += Milliseconds(last - begin).count();
         }
+        played_.framesInFlight = sequence.atOnce;
         return absl::OkStatus();
     }
 

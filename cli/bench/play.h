@@ -22,11 +22,16 @@ struct PlayOptions {
 };
 
 struct PlayedFrame {
-    int pass = 0;             ///< 0: the first one, which loads; measured passes from 1
-    double seconds = 0;       ///< of the flight
-    double milliseconds = 0;  ///< from asking for the picture to having all of it
+    int pass = 0;        ///< 0: the first one, which loads; measured passes from 1
+    double seconds = 0;  ///< of the flight
+    /// From asking for the picture to having all of it; with several in flight, from the picture
+    /// before it (of a pass's first: from its begin).
+    double milliseconds = 0;
     /// Errors in pixels of the size asked for, even where a smaller picture was drawn.
     fabric::FrameStatistics statistics;
+    /// From choosing the view to having all of the picture: with one in flight the same as
+    /// milliseconds.
+    double latencyMilliseconds = 0;
 };
 
 /// Whether anything of the scene is in the picture's view.
@@ -47,14 +52,17 @@ struct Played {
     /// Drawn after all passes, evenly along the flight, with their stages measured.
     std::vector<fabric::StageMilliseconds> stages = {};
     /// Time of the measured passes between their frames, in percent of the frames' time: what the
-    /// bench itself takes. It is in no frame's milliseconds.
+    /// bench itself takes. It is in no frame's milliseconds, but where several are in flight: then
+    /// there is no time between them.
     double overheadPercent = 0;
+    int framesInFlight = 1;  ///< at most
 };
 
 /// Frames of which the stages are measured, or as many as a pass has.
 inline constexpr int kMeasuredFrames = 24;
 
-/// Plays `flight` 1 + repeats times; every frame waits for its data, unless the request says not.
+/// Plays `flight` 1 + repeats times, with as many frames in flight as `pictures` can; every frame
+/// waits for its data, unless the request says not.
 /// `frameDone` is called after each of these. Errors: those of PictureSource::draw, naming the
 /// second; those of framesOf; InvalidArgument after the first pass when no frame of it showed
 /// anything; Cancelled.

@@ -38,13 +38,17 @@ double mean(const Played& played, Select select) {
            static_cast<double>(std::max<std::size_t>(values.size(), 1));
 }
 
+double taken(const PlayedFrame& frame) { return frame.milliseconds; }
+
+double latency(const PlayedFrame& frame) { return frame.latencyMilliseconds; }
+
 fabric::StageMilliseconds meansOf(const Played& played) {
     fabric::StageMilliseconds means;
     means.cull = mean(played, [](auto& f) { return f.statistics.milliseconds.cull; });
     means.draw = mean(played, [](auto& f) { return f.statistics.milliseconds.draw; });
     means.readback = mean(played, [](auto& f) { return f.statistics.milliseconds.readback; });
     means.encode = mean(played, [](auto& f) { return f.statistics.milliseconds.encode; });
-    means.total = mean(played, [](auto& f) { return f.milliseconds; });
+    means.total = mean(played, latency);
     double vertices = 0;
     double both = 0;
     for (const fabric::StageMilliseconds& stages : played.stages) {
@@ -55,8 +59,6 @@ fabric::StageMilliseconds meansOf(const Played& played) {
     means.fill = both > 0 ? means.draw - means.vertices : 0;
     return means;
 }
-
-double taken(const PlayedFrame& frame) { return frame.milliseconds; }
 
 constexpr double kLearningMilliseconds = 1000;
 constexpr double kBudgetSlack = 1.2;
@@ -128,6 +130,7 @@ Percentiles percentiles(const std::vector<double>& values) {
 RunSummary summarize(const Played& played) {
     RunSummary summary;
     summary.frame = percentiles(column(played, false, taken));
+    summary.latency = percentiles(column(played, false, latency));
     summary.firstPass = percentiles(column(played, true, taken));
     summary.fpsMedian = 1000 / summary.frame.p50;
     summary.tauAchieved = percentiles(
@@ -138,7 +141,7 @@ RunSummary summarize(const Played& played) {
     stages.draw = median(played, [](auto& f) { return f.statistics.milliseconds.draw; });
     stages.readback = median(played, [](auto& f) { return f.statistics.milliseconds.readback; });
     stages.encode = median(played, [](auto& f) { return f.statistics.milliseconds.encode; });
-    stages.total = summary.frame.p50;
+    stages.total = summary.latency.p50;
     stages.vertices = median(played.stages, &fabric::StageMilliseconds::vertices);
     stages.fill = median(played.stages, &fabric::StageMilliseconds::fill);
     summary.means = meansOf(played);

@@ -25,11 +25,12 @@ Percentiles percentiles(const std::vector<double>& values);
 /// What is said of a flight played at one tau. Milliseconds.
 struct RunSummary {
     Percentiles frame;                 ///< of the measured passes together
+    Percentiles latency;               ///< of these, from choosing the view to its picture
     std::vector<Percentiles> passes;   ///< of each measured pass: their spread is the noise
     Percentiles firstPass;             ///< of the pass that loads
     fabric::StageMilliseconds stages;  ///< medians; fabric::limitingStage names the longest
     /// Means over the measured passes, which add up where medians do not: draw's parts as the
-    /// frames with measured stages share it, total the frame's.
+    /// frames with measured stages share it, total the frame's latency.
     fabric::StageMilliseconds means;
     double fpsMedian = 0;
     double trianglesMean = 0;

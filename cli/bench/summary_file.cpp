@@ -90,6 +90,8 @@ WrittenRun runOf(const Field& field) {
     run.label = field.at("label").text();
     run.renderers = field.at("renderers").count();
     run.compound = field.at("compound").text();
+    if (field.has("framesInFlight"))
+        run.framesInFlight = field.at("framesInFlight").count();
     run.frame = percentilesOf(field.at("frameMs"));
     for (const Field& pass : field.at("passes").list()) run.passes.push_back(percentilesOf(pass));
     run.firstPassMedian = field.at("firstPassMs").at("p50").number();

@@ -17,6 +17,7 @@ struct WrittenRun {
     std::string label;
     int renderers = 0;
     std::string compound;
+    int framesInFlight = 1;
     Percentiles frame;
     std::vector<Percentiles> passes;
     double firstPassMedian = 0;

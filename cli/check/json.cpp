@@ -134,11 +134,14 @@ JsonObject destinationJson(const Configuration& configuration,
 
 std::vector<JsonObject> framesJson(const std::vector<config::ResolvedFrame>& frames) {
     std::vector<JsonObject> json;
-    for (const config::ResolvedFrame& frame : frames)
+    for (const config::ResolvedFrame& frame : frames) {
         json.push_back(JsonObject()
                            .text("name", frame.name)
                            .flag("isMatched", frame.isMatched)
                            .numbers("viewport", rectangle(frame.frame->viewport)));
+        if (const auto& zoom = frame.frame->zoom)
+            json.back().numbers("zoom", std::array{zoom->x, zoom->y});
+    }
     return json;
 }
 

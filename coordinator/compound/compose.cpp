@@ -226,9 +226,11 @@ private:
     }
 
     void place(const Assemble& step, Image frame, Layer& layer) const {
-        const PixelViewport part = step.regriddings.empty()
-                                       ? layer.area
-                                       : intersection(step.regriddings.front().of, layer.area);
+        PixelViewport part = step.regriddings.empty()
+                                 ? layer.area
+                                 : intersection(step.regriddings.front().of, layer.area);
+        if (step.within)
+            part = intersection(part, *step.within);
         if (part.isEmpty())
             return;
         if (layer.isEmpty())

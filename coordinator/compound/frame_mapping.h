@@ -34,10 +34,12 @@ struct FrameMapping {
 };
 
 /// Within a destination: the steps that lead from the framebuffer's pixels to the frame's. Between
-/// destinations, such as those of a monitor: what both show of a view, to scale.
+/// destinations, such as those of a monitor: what both show of a view, to scale. From there an
+/// input with a placing is moved, so that the picture it is a part of begins at the placing's, and
+/// gets as many pixels for each of its own as that says.
 /// InvalidArgument where no steps lead there.
 absl::StatusOr<FrameMapping> mappingOf(const config::ResolvedConfiguration& resolved,
-                                       const WorkList& list, const OutputFrame& frame,
+                                       const WorkList& list, const Input& input,
                                        std::size_t framebuffer);
 
 }  // namespace eyrie::compound

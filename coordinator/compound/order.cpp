@@ -28,7 +28,7 @@ struct Dependencies {
                 maker[work.frame] = i;
         }
         for (std::size_t i = 0; i < list.works.size(); ++i)
-            for (const std::size_t frame : list.works[i].inputs) add(maker[frame], i);
+            for (const Input& input : list.works[i].inputs) add(maker[input.frame], i);
     }
 
 private:

@@ -108,6 +108,8 @@ struct Assemble {
     std::int32_t fromX = 0;
     std::int32_t fromY = 0;
     Combine combine = Combine::Over;
+    /// Of the framebuffer, beside which nothing comes; nothing: all that there is.
+    std::optional<fabric::PixelViewport> within = {};
 
     bool operator==(const Assemble&) const = default;
 };

@@ -66,7 +66,7 @@ absl::Status check(const config::Compound& compound) {
     for (const auto* const frames : {&compound.outputFrames, &compound.inputFrames})
         for (const config::Frame& frame : *frames) {
             RETURN_IF_ERROR(check("frame", frame.name, frame.viewport, 0));
-            RETURN_IF_ERROR(checkZoom(name, frame.zoom));
+            RETURN_IF_ERROR(checkZoom(name, frame.zoom.value_or(fabric::Vec2(1, 1))));
         }
     for (const config::Compound& child : compound.children) RETURN_IF_ERROR(check(child));
     return absl::OkStatus();

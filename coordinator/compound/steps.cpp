@@ -80,16 +80,16 @@ private:
     }
 
     absl::Status assemble(const Work& work) {
-        std::map<std::int64_t, std::vector<std::size_t>> samples;
-        std::vector<std::size_t> direct;
+        std::map<std::int64_t, std::vector<Input>> samples;
+        std::vector<Input> direct;
         const config::SubPixelShare& own = latticeOf(work.framebuffer).subpixel;
-        for (const std::size_t frame : work.inputs) {
+        for (const Input& input : work.inputs) {
             const config::SubPixelShare& other =
-                latticeOf(list_.frames[frame].framebuffer).subpixel;
+                latticeOf(list_.frames[input.frame].framebuffer).subpixel;
             if (other == own)
-                direct.push_back(frame);
+                direct.push_back(input);
             else
-                samples[other.index].push_back(frame);
+                samples[other.index].push_back(input);
         }
         RETURN_IF_ERROR(assembleAll(direct, work.framebuffer));
         return samples.empty() ? absl::OkStatus() : average(work, samples);
@@ -97,7 +97,7 @@ private:
 
     /// Every sample is a picture by itself; the framebuffer gets their mean.
     absl::Status average(const Work& work,
-                         const std::map<std::int64_t, std::vector<std::size_t>>& samples) {
+                         const std::map<std::int64_t, std::vector<Input>>& samples) {
         Average mean{{}, work.framebuffer, {}};
         for (const auto& [index, inputs] : samples) {
             const std::size_t sample = list_.framebuffers.size();
@@ -126,20 +126,27 @@ private:
         FrameMapping mapping;
         Content content;
         bool isBelow;  ///< its data comes before what is there, whatever it meets
+        std::optional<PixelViewport> within = {};  ///< as Assemble::within
     };
 
-    absl::Status assembleAll(const std::vector<std::size_t>& inputs, std::size_t framebuffer) {
+    absl::Status assembleAll(const std::vector<Input>& inputs, std::size_t framebuffer) {
         std::vector<Incoming> incoming;
-        for (const std::size_t index : inputs) {
+        for (const Input& input : inputs) {
+            const std::size_t index = input.frame;
             const OutputFrame& frame = list_.frames[index];
-            ASSIGN_OR_RETURN(FrameMapping mapping, mappingOf(resolved_, list_, frame, framebuffer));
-            const Content content{intersection(mapping.covered(frame.part),
-                                               list_.framebuffers[framebuffer].framebuffer.area),
-                                  frames_[index].range().value_or(fabric::Range{}),
-                                  mapping.everyNth(), isFull(index, framebuffer, mapping)};
+            ASSIGN_OR_RETURN(FrameMapping mapping, mappingOf(resolved_, list_, input, framebuffer));
+            Content content{intersection(mapping.covered(frame.part),
+                                         list_.framebuffers[framebuffer].framebuffer.area),
+                            frames_[index].range().value_or(fabric::Range{}), mapping.everyNth(),
+                            isFull(index, framebuffer, mapping)};
+            std::optional<PixelViewport> within;
+            if (input.placing) {
+                within = input.placing->part;
+                content.area = intersection(content.area, *within);
+            }
             const auto met = contents_[framebuffer].met(content);
             const bool isBelow = met && content.range.begin < met->begin;
-            incoming.push_back({index, std::move(mapping), content, isBelow});
+            incoming.push_back({index, std::move(mapping), content, isBelow, within});
         }
         sortByRange(incoming);
         for (const Incoming& each : incoming) assembleOne(each, framebuffer);
@@ -177,18 +184,24 @@ private:
     }
 
     void assembleOne(const Incoming& incoming, std::size_t framebuffer) {
-        const auto& [index, mapping, content, isBelow] = incoming;
+        const auto& [index, mapping, content, isBelow, within] = incoming;
         const OutputFrame& frame = list_.frames[index];
         const Contents& source = frames_[index];
         Contents& target = contents_[framebuffer];
         const auto met = target.met(content);
-        const bool isComplete =
-            met && contains(content.range, *met) && source.cover(frame.part, content.range);
+        // What was moved shows other things than what it meets.
+        const bool isComplete = met && !within && contains(content.range, *met) &&
+                                source.cover(frame.part, content.range);
         const Combine combine = combineWith(met, content, isComplete, frame.hasDepth);
         if (content.area.isEmpty() || (source.all().empty() && combine != Combine::Replace))
             return;
-        steps_.emplace_back(Assemble{index, framebuffer, partOf(frame), mapping.regriddings,
-                                     mapping.fromX, mapping.fromY, combine});
+        Assemble step{index,         framebuffer,   partOf(frame), mapping.regriddings,
+                      mapping.fromX, mapping.fromY, combine};
+        if (within && mapping.isIdentity())
+            step.part = intersection(step.part, *within);
+        else
+            step.within = within;
+        steps_.emplace_back(std::move(step));
         if (!mapping.isIdentity())
             return target.add(content);
         if (combine == Combine::Replace)

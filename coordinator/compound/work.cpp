@@ -52,7 +52,9 @@ PixelViewport areaOf(const Lattice& lattice, const config::Destination& destinat
     return {0, 0, lattice.regriddings.back().width, lattice.regriddings.back().height};
 }
 
-std::optional<Regridding> zoomOf(const fabric::Vec2& zoom, const PixelViewport& part) {
+std::optional<Regridding> zoomOf(const std::optional<fabric::Vec2>& wanted,
+                                 const PixelViewport& part) {
+    const fabric::Vec2 zoom = wanted.value_or(fabric::Vec2(1, 1));
     if (zoom == fabric::Vec2(1, 1))
         return std::nullopt;
     const auto scaled = [](std::int32_t pixels, double by) {
@@ -61,6 +63,12 @@ std::optional<Regridding> zoomOf(const fabric::Vec2& zoom, const PixelViewport& 
     };
     return Regridding{Regridding::Kind::Zoom, part, scaled(part.width, zoom.x),
                       scaled(part.height, zoom.y)};
+}
+
+std::optional<Placing> placingOf(const config::Frame& frame, const PixelViewport& whole) {
+    if (frame.viewport == config::Viewport{} && !frame.zoom)
+        return std::nullopt;
+    return Placing{whole, config::part(whole, frame.viewport), frame.zoom};
 }
 
 /// One tree of compounds in one pass.
@@ -88,7 +96,7 @@ private:
     struct Level {
         std::optional<config::ChannelIndex> channel;
         std::optional<std::size_t> framebuffer;  ///< where it has a destination
-        std::vector<std::size_t> given;          ///< frames of children without a name
+        std::vector<Input> given;                ///< frames of children without a name
         std::size_t firstWork = 0;               ///< of what it and its children do
     };
 
@@ -309,7 +317,7 @@ private:
             if (*level->framebuffer == framebuffer)
                 return;
             addReadBack({framebuffer, area, std::nullopt, own.buffers.depth});
-            level->given.push_back(frame);
+            level->given.push_back({frame});
             return;
         }
         const config::Destination& destination = resolved_.destinations[*own.destination];
@@ -319,7 +327,7 @@ private:
         if (picture == framebuffer)
             return;
         addReadBack({framebuffer, area, std::nullopt, own.buffers.depth});
-        add(Work::Kind::Assemble, picture, destination.partOfPanorama).inputs = {frame};
+        add(Work::Kind::Assemble, picture, destination.partOfPanorama).inputs = {Input{frame}};
     }
 
     bool isUsedSince(std::size_t work, std::size_t framebuffer) const {
@@ -349,7 +357,8 @@ private:
                     continue;
                 if (frame.frame->buffers && !frame.frame->buffers->depth)
                     list_.frames[each->frame].hasDepth = false;
-                list_.works[waiting.work].inputs.push_back(each->frame);
+                list_.works[waiting.work].inputs.push_back(
+                    {each->frame, placingOf(*frame.frame, list_.works[waiting.work].part)});
             }
         }
     }

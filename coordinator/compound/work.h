@@ -46,15 +46,29 @@ struct OutputFrame {
     bool hasDepth = false;  ///< to be composited by depth
 };
 
+/// What an input frame says of where it comes; others come to where they were made.
+struct Placing {
+    fabric::PixelViewport whole;  ///< of the compound that takes it
+    fabric::PixelViewport part;   ///< of that, the frame's viewport
+    std::optional<fabric::Vec2> zoom;
+
+    bool operator==(const Placing&) const = default;
+};
+
+struct Input {
+    std::size_t frame = 0;  ///< in WorkList::frames
+    std::optional<Placing> placing = {};
+};
+
 /// One task of a compound.
 struct Work {
     enum class Kind { Clear, Draw, Assemble, ReadBack };
     Kind kind = Kind::Clear;
     std::size_t framebuffer = 0;
     fabric::PixelViewport part;
-    std::size_t draw = 0;             ///< Draw: in WorkList::draws
-    std::size_t frame = 0;            ///< ReadBack: in WorkList::frames
-    std::vector<std::size_t> inputs;  ///< Assemble: frames
+    std::size_t draw = 0;       ///< Draw: in WorkList::draws
+    std::size_t frame = 0;      ///< ReadBack: in WorkList::frames
+    std::vector<Input> inputs;  ///< Assemble
 };
 
 struct WorkList {

@@ -22,8 +22,9 @@ std::optional<Buffers> readBuffers(const Statement& statement, ValueReader& read
     return buffers;
 }
 
-void readZoom(const Statement& statement, ValueReader& reader, fabric::Vec2& zoom) {
-    fabric::Vec2 read = zoom;
+template <typename Zoom>
+void readZoom(const Statement& statement, ValueReader& reader, Zoom& zoom) {
+    fabric::Vec2 read(1, 1);
     reader.pair(statement, read);
     if (!(read.x > 0 && read.y > 0))
         return reader.expected(statement, "two numbers above 0");

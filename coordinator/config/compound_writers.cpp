@@ -45,8 +45,8 @@ void writeFrame(std::string_view keyword, const Frame& frame, StatementList& lis
     if (frame.viewport != Viewport{})
         inner.viewport("viewport", frame.viewport);
     writeBuffers(frame.buffers, inner);
-    if (frame.zoom != fabric::Vec2(1, 1))
-        inner.pair("zoom", frame.zoom);
+    if (frame.zoom)
+        inner.pair("zoom", *frame.zoom);
     list.block(keyword, std::move(inner));
 }
 

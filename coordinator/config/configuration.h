@@ -268,9 +268,13 @@ struct SubPixelShare {
 struct Frame {
     std::string name;  ///< empty: "frame." and that of the compound or its channel
     bool isTexture = false;
+    /// Output: what of the compound's picture it is. Input: its lower left corner is where the
+    /// picture that the frame is a part of begins, and nothing comes in beside it.
     Viewport viewport;
     std::optional<Buffers> buffers;
-    fabric::Vec2 zoom{1, 1};
+    /// Output: its pixels for each pixel there is; nothing: as many. Input: pixels for each of the
+    /// frame's; nothing: as many as make it fit.
+    std::optional<fabric::Vec2> zoom;
     Place place;
 
     bool operator==(const Frame&) const = default;

@@ -97,6 +97,10 @@ absl::Status ConfigurationKeeper::change(
     return absl::OkStatus();
 }
 
+std::int64_t ConfigurationKeeper::latency() const {
+    return active_ ? active_->written().latency : config::Configuration{}.latency;
+}
+
 std::vector<CanvasStatus> ConfigurationKeeper::canvases() const {
     const std::lock_guard lock(mutex_);
     return canvases_;

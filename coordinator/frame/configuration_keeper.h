@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -28,6 +29,9 @@ public:
 
     /// NotFound, naming what there is; FailedPrecondition before there was a renderer.
     absl::Status configure(const SwitchLayout& change);
+
+    /// That it has or, of the renderers to come, will have.
+    std::int64_t latency() const;
 
     /// As ConfigurationAccess::withConfiguration.
     absl::Status change(const std::function<absl::Status(ActiveConfiguration&)>& use);

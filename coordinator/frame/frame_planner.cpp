@@ -125,10 +125,7 @@ absl::Status FramePlanner::withConfiguration(
 
 int FramePlanner::framesUnderWay() const {
     const std::lock_guard lock(mutex_);
-    if (!active_)
-        return 1;
-    return static_cast<int>(
-        std::clamp<std::int64_t>(active_->written().latency + 1, 1, kMostFrames));
+    return static_cast<int>(std::clamp<std::int64_t>(configuration_.latency() + 1, 1, kMostFrames));
 }
 
 std::size_t FramePlanner::renderersUsed() const {

@@ -51,8 +51,8 @@ public:
     absl::Status withConfiguration(const std::function<absl::Status(ActiveConfiguration&)>& use);
     std::vector<CanvasStatus> canvases() const { return configuration_.canvases(); }
 
-    /// As the configuration of the frame planned last has it: its latency and the one that is being
-    /// seen, at most kMostFrames.
+    /// As the configuration has it: its latency and the one that is being seen, at most
+    /// kMostFrames.
     int framesUnderWay() const;
     /// How many of the renderers that are ready that one has something to do for.
     std::size_t renderersUsed() const;

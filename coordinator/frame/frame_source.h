@@ -134,6 +134,9 @@ public:
         return renderFrame(*request);
     }
 
+    /// How many frames it is worth to ask for at the same time: more would only wait.
+    virtual int framesAtOnce() const { return 1; }
+
     /// What a place of a picture shows, asked of one renderer and, should that fail, of the next;
     /// blocks, but not for frames. Errors: InvalidArgument (the request), Unavailable (no renderer,
     /// or no scene), or what the last renderer said.

@@ -71,6 +71,16 @@ TEST_F(CompareReports, TheSameReportTwiceHasNothingBeyondNoise) {
     }
 }
 
+TEST_F(CompareReports, SayWhenFramesWereInFlightInOneOnly) {
+    Report inFlight = reportTaking(20);
+    for (BenchRun& run : inFlight.runs) run.played.framesInFlight = 2;
+    const auto mixed = compared(reportTaking(20), inFlight);
+    ASSERT_TRUE(mixed.ok()) << mixed.status();
+    ASSERT_FALSE(mixed->notes.empty());
+    EXPECT_THAT(mixed->notes.front(), HasSubstr("b.json 2; the times of frames are not"));
+    EXPECT_THAT(mixed->notes.front(), HasSubstr("a.json has 1 frames in flight"));
+}
+
 TEST_F(CompareReports, ATenthMoreIsBeyondPassesThatSpreadByATwentieth) {
     const auto slower = compared(reportTaking(20), reportTaking(22));
     ASSERT_TRUE(slower.ok()) << slower.status();

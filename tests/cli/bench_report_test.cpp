@@ -19,7 +19,7 @@ using test::number;
 using test::parseJson;
 
 PlayedFrame frame(int pass, double milliseconds, double tauAchieved = 0.5) {
-    PlayedFrame frame{pass, 0.25, milliseconds, {}};
+    PlayedFrame frame{pass, 0.25, milliseconds, {}, milliseconds};
     frame.statistics.tauAskedPixels = 1;
     frame.statistics.tauAchievedPixels = tauAchieved;
     frame.statistics.triangles = 100;
@@ -90,7 +90,7 @@ TEST(BenchReport, ARunAtAFrameTimeSaysHowItWasHeld) {
     EXPECT_EQ(number(run, "tauAchieved.p95"), 0.5);
     EXPECT_THAT(table(held.runs),
                 testing::HasSubstr("33 ms to hold: 0.0 % of frames within 40 ms"));
-    EXPECT_THAT(framesCsv(held.runs), testing::HasSubstr(",33,30.000,0.5\n"));
+    EXPECT_THAT(framesCsv(held.runs), testing::HasSubstr(",33,30.000,0.5,20.000\n"));
 }
 
 TEST(BenchReport, FramesThatPromiseMoreThanWasAskedSaySoEverywhere) {
@@ -260,6 +260,22 @@ TEST(BenchReport, TheTableOfFramesHasALineAFrame) {
     const std::string csv = framesCsv(oneRun());
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 5);
     EXPECT_THAT(csv, testing::HasSubstr("\n1 px,1,0,0,0.25,500.000,"));
+}
+
+TEST(BenchReport, NamesFrameTimeAndLatencyApart) {
+    std::vector<BenchRun> runs = oneRun();
+    runs[0].played.framesInFlight = 2;
+    for (PlayedFrame& one : runs[0].played.frames) one.latencyMilliseconds = one.milliseconds + 7;
+    const auto run = test::list(parseJson(summaryJson(Report{report().facts, runs})), "runs").at(0);
+    EXPECT_EQ(number(run, "frameMs.p50"), 20);
+    EXPECT_EQ(number(run, "fpsMedian"), 50);
+    EXPECT_EQ(number(run, "latencyMs.p50"), 27);
+    EXPECT_EQ(number(run, "framesInFlight"), 2);
+    EXPECT_EQ(number(run, "stagesMs.total"), 27) << "stages are of one frame's life";
+    EXPECT_THAT(table(runs),
+                testing::ContainsRegex("in flight  latency ms.*\n.* 20.0 .* 2 +27.0 "));
+    EXPECT_THAT(framesCsv(runs), testing::HasSubstr(",latency\n"));
+    EXPECT_THAT(framesCsv(runs), testing::HasSubstr(",,,27.000\n"));
 }
 
 TEST(BenchReport, AFilesNameCannotEndThePagesScript) {

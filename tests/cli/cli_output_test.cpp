@@ -4,6 +4,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <mutex>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -132,7 +133,10 @@ class SamplePictures final : public PictureSource {
 public:
     absl::StatusOr<coordinator::RenderedFrame> draw(
         const coordinator::FrameRequest& request) override {
-        parts.push_back(request.part);
+        {
+            const std::lock_guard lock(mutex_);
+            parts.push_back(request.part);
+        }
         coordinator::RenderedFrame frame;
         frame.image = rowsOf(sample(), request.part.y, request.part.y + request.part.height);
         frame.statistics.triangles = 5;
@@ -141,9 +145,14 @@ public:
         frame.device.vendor = "sample";
         return frame;
     }
+    int framesAtOnce() const override { return atOnce; }
     fabric::SceneInfo sceneInfo() const override { return {}; }
 
+    int atOnce = 1;
     std::vector<fabric::PixelViewport> parts;
+
+private:
+    std::mutex mutex_;  ///< guards parts while pictures are drawn
 };
 
 coordinator::FrameRequest sampleRequest() {
@@ -151,6 +160,19 @@ coordinator::FrameRequest sampleRequest() {
     request.width = 3;
     request.height = 2;
     return request;
+}
+
+TEST(DrawInBands, SeveralAtOnceStillComeFromTheTopDown) {
+    SamplePictures pictures;
+    pictures.atOnce = 3;
+    std::vector<int> tops;
+    const auto drawn = drawInBands(pictures, sampleRequest(), 3, [&](const fabric::Image& rows) {
+        tops.push_back(rows.area.y);
+        return absl::OkStatus();
+    });
+    ASSERT_TRUE(drawn.ok()) << drawn.status();
+    EXPECT_THAT(tops, testing::ElementsAre(1, 0));
+    EXPECT_EQ(drawn->statistics.triangles, 10U);
 }
 
 TEST(DrawInBands, DrawsWholeRowsFromTheTopDownAndAddsUpWhatTheyTook) {

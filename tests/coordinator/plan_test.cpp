@@ -394,7 +394,11 @@ void editShape(config::Configuration& configuration, config::Compound& compound,
         default:
             for (config::Frame& frame : compound.outputFrames) {
                 frame.viewport.height = anyNumber(random);
-                frame.zoom.x = anyNumber(random);
+                frame.zoom = fabric::Vec2(anyNumber(random), 1);
+            }
+            for (config::Frame& frame : compound.inputFrames) {
+                frame.viewport.x = anyNumber(random);
+                frame.zoom = fabric::Vec2(1, anyNumber(random));
             }
     }
 }

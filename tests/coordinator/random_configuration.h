@@ -239,7 +239,9 @@ private:
                 often(),
                 fraction(),
                 maybe([&] { return buffers(); }),
-                any({fabric::Vec2(1, 1), fabric::Vec2(share(), 2)}),
+                maybe([&] {
+                    return any({fabric::Vec2(1, 1), fabric::Vec2(share(), 2)});
+                }),
                 {}};
     }
     fabric::Vec2 size() { return fabric::Vec2(whole(1, 99), whole(1, 99)); }

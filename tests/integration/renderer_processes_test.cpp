@@ -1,59 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// Real renderer processes behind a real coordinator: each decomposition, at twenty cameras, must
-// give the picture that one renderer in this process gives.
+// Real renderer processes behind a real coordinator: each layout that is made of them, and each
+// decomposition, at twenty cameras, must give the picture that one renderer in this process gives.
 #include <algorithm>
-#include <cmath>
-#include <random>
 
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "coordinator/coordinator.h"
-#include "renderer/renderer.h"
+#include "tests/support/different_pixels.h"
+#include "tests/support/local_pictures.h"
 #include "tests/support/program.h"
+#include "tests/support/random_views.h"
+#include "tests/support/renderer_farm.h"
 #include "tests/support/temporary_folder.h"
 
 namespace eyrie {
 namespace {
 
 using coordinator::FrameRequest;
-using fabric::Vec3;
 using std::chrono::seconds;
 
-constexpr unsigned kSeed = 20261121;
 constexpr int kCameras = 20;
-
-/// Cameras around and close above the scene, the same ones in every run.
-std::vector<FrameRequest> randomViews(const fabric::Box& bounds) {
-    std::mt19937 random(kSeed);
-    const auto in = [&](double low, double high) {
-        return std::uniform_real_distribution<double>(low, high)(random);
-    };
-    std::vector<FrameRequest> views(kCameras);
-    for (FrameRequest& view : views) {
-        const Vec3 size = bounds.size();
-        view.camera.target = bounds.min + size * Vec3(in(0.2, 0.8), in(0.2, 0.8), in(0.2, 0.8));
-        const double azimuth = in(0, 2 * M_PI);
-        const double height = in(0.1, 1.2);
-        view.camera.eye =
-            view.camera.target + glm::length(size) * in(0.15, 1.2) *
-                                     Vec3(std::cos(azimuth) * std::cos(height),
-                                          std::sin(azimuth) * std::cos(height), std::sin(height));
-        view.camera.fovYDegrees = in(20, 80);
-        view.wantsDepth = true;
-    }
-    return views;
-}
-
-std::size_t differentPixels(const fabric::Image& a, const fabric::Image& b) {
-    if (a.colour.size() != b.colour.size() || a.depth.size() != b.depth.size())
-        return std::max(a.colour.size(), b.colour.size());
-    std::size_t different = 0;
-    for (std::size_t i = 0; i < a.colour.size(); ++i)
-        different += a.colour[i] == b.colour[i] && a.depth[i] == b.depth[i] ? 0 : 1;
-    return different;
-}
 
 class RendererProcesses : public testing::Test {
 protected:
@@ -79,49 +45,19 @@ protected:
         return scene;
     }
 
-    /// What one renderer in this process makes of the views.
-    static std::vector<fabric::Image> expectedPictures(const fabric::Scene& scene,
-                                                       const std::vector<FrameRequest>& views,
-                                                       Renderer& renderer) {
-        std::vector<fabric::Image> pictures;
-        for (const FrameRequest& view : views) {
-            fabric::FrameData frame{
-                .version = 1, .camera = view.camera, .tauPixels = view.tauPixels};
-            fabric::ChannelTask task;
-            task.frameDataVersion = 1;
-            task.viewWidth = view.width;
-            task.viewHeight = view.height;
-            task.pixelViewport = {0, 0, view.width, view.height};
-            task.wantsDepth = true;
-            auto result = renderer.render(frame, task);
-            EXPECT_TRUE(result.ok()) << result.status();
-            pictures.push_back(fabric::makeImage(task.pixelViewport, scene.background, true));
-            if (result.ok())
-                fabric::paste(result->image, pictures.back());
-        }
-        return pictures;
-    }
-
     static void compare(const fabric::Scene& scene, const std::vector<FrameRequest>& views,
                         const std::vector<fabric::Image>& expected, const std::string& layout,
-                        std::size_t count) {
-        auto coordinator = coordinator::Coordinator::start(
-            {.grpcAddresses = {"127.0.0.1:0"}, .layout = layout, .scene = scene});
-        ASSERT_TRUE(coordinator.ok()) << coordinator.status();
-        std::vector<std::unique_ptr<test::Process>> renderers;
-        for (std::size_t i = 0; i < count; ++i)
-            renderers.push_back(std::make_unique<test::Process>(test::eyrieCommand(
-                {"renderer", "--coordinator", (*coordinator)->grpcAddresses().front()})));
-        coordinator::FrameSource& frames = (*coordinator)->frames();
-        ASSERT_TRUE(test::eventually(seconds(30), [&] {
-            return frames.status().renderers.size() == count && frames.status().problem.empty();
-        })) << renderers.front()->errors();
+                        int count) {
+        const auto farm =
+            test::RendererFarm::start(EYRIE_BINARY, count, {.layout = layout, .scene = scene});
+        ASSERT_TRUE(farm.ok()) << farm.status();
+        ASSERT_TRUE((*farm)->awaitAllReady(seconds(30))) << (*farm)->renderer(0).errors();
         std::size_t worst = 0;
         for (std::size_t i = 0; i < views.size(); ++i) {
-            const auto frame = frames.renderFrame(views[i]);
+            const auto frame = (*farm)->frames().renderFrame(views[i]);
             ASSERT_TRUE(frame.ok()) << frame.status();
             EXPECT_TRUE(frame->statistics.complete);
-            const std::size_t different = differentPixels(frame->image, expected[i]);
+            const std::size_t different = test::differentPixels(frame->image, expected[i]);
             worst = std::max(worst, different);
             EXPECT_EQ(different, 0U) << "camera " << i;
         }
@@ -129,18 +65,34 @@ protected:
                    count, worst, views.size());
     }
 
-    static void expectEveryDecompositionEqual(fabric::ObjectKind kind) {
+    static void expectEveryLayoutEqual(fabric::ObjectKind kind) {
         const fabric::Scene scene = RendererProcesses::scene(kind);
-        auto renderer = Renderer::create({});
-        ASSERT_TRUE(renderer.ok()) << renderer.status();
-        const auto info = (*renderer)->openScene(scene);
-        ASSERT_TRUE(info.ok()) << info.status();
-        const auto views = randomViews(info->bounds);
-        const auto expected = expectedPictures(scene, views, **renderer);
+        const auto here = test::LocalPictures::open(scene);
+        ASSERT_TRUE(here.ok()) << here.status();
+        auto views = test::randomViews((*here)->bounds(), kCameras);
+        for (FrameRequest& view : views) view.wantsDepth = true;
+        std::vector<fabric::Image> expected;
+        for (const FrameRequest& view : views) {
+            fabric::ChannelTask task;
+            task.pixelViewport = {0, 0, view.width, view.height};
+            task.wantsDepth = true;
+            const auto picture = (*here)->draw(view, task);
+            ASSERT_TRUE(picture.ok()) << picture.status();
+            expected.push_back(*picture);
+        }
         ASSERT_NO_FATAL_FAILURE(compare(scene, views, expected, "2D", 2));
         ASSERT_NO_FATAL_FAILURE(compare(scene, views, expected, "DB-2D", 4));
         ASSERT_NO_FATAL_FAILURE(compare(scene, views, expected, "DB dynamic", 2));
         ASSERT_NO_FATAL_FAILURE(compare(scene, views, expected, "direct-send", 3));
+    }
+
+    /// Small; bench/decompositions does it at any size.
+    static void expectEveryDecompositionRight(const std::string& data) {
+        const test::Outcome outcome =
+            test::run({EYRIE_DECOMPOSITIONS_BINARY, EYRIE_BINARY, folder_->path(data), "192x108"},
+                      std::chrono::minutes(5));
+        EXPECT_EQ(outcome.exit, (test::Exit{0, 0})) << outcome.errors << outcome.output;
+        fmt::print("{}:\n{}", data, outcome.output);
     }
 
     static std::unique_ptr<test::TemporaryFolder> folder_;
@@ -148,11 +100,19 @@ protected:
 std::unique_ptr<test::TemporaryFolder> RendererProcesses::folder_;
 
 TEST_F(RendererProcesses, DrawATerrainAsOneRendererDoes) {
-    expectEveryDecompositionEqual(fabric::ObjectKind::Terrain);
+    expectEveryLayoutEqual(fabric::ObjectKind::Terrain);
 }
 
 TEST_F(RendererProcesses, DrawAMeshAsOneRendererDoes) {
-    expectEveryDecompositionEqual(fabric::ObjectKind::Mesh);
+    expectEveryLayoutEqual(fabric::ObjectKind::Mesh);
+}
+
+TEST_F(RendererProcesses, DrawATerrainInEveryDecompositionAsItIsDefined) {
+    expectEveryDecompositionRight("dem.eyt");
+}
+
+TEST_F(RendererProcesses, DrawAMeshInEveryDecompositionAsItIsDefined) {
+    expectEveryDecompositionRight("ball.eym");
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ function fillTiles(list) {
 /** [group, [name, value of a run], ...]: rows of the table. */
 function rowGroups() {
   const part = (all) => (field) => (run) => number(all(run)[field]);
-  const [warm, first] = [part((run) => run.frameMs), part((run) => run.firstPassMs)];
+  const [warm, first, latency] = [part((run) => run.frameMs), part((run) => run.firstPassMs), part((run) => run.latencyMs)];
   const measured = (value) => (run) => (run.errorPx ? value(run) : "–");
   const groups = [
     ["Promised", ["error of every frame, at most, px", (run) => number(run.tauAchievedMax)], ["frames that promise more than tau", (run) => number(run.framesBeyondTau)]],
@@ -36,6 +36,7 @@ function rowGroups() {
       ["PSNR of the worst frame, dB", measured((run) => number(run.psnrDb))], ["SSIM of the worst frame", measured((run) => number(run.ssim, 4))], ["FLIP of the worst frame", measured((run) => number(run.flip, 2))]],
     ["Warm, ms a frame", ["median", warm("p50")], ["p95", warm("p95")], ["p99", warm("p99")], ["longest", warm("max")], ["frames a second, median", (run) => number(run.fpsMedian)],
       ["medians of the passes, least to most", (run) => `${number(Math.min(...run.passes.map((pass) => pass.p50)))} – ${number(Math.max(...run.passes.map((pass) => pass.p50)))}`]],
+    ["From a view to its picture, warm, ms", ["median", latency("p50")], ["p95", latency("p95")], ["frames in flight, at most", (run) => number(run.framesInFlight)]],
     ["First pass, ms a frame", ["median", first("p50")], ["p95", first("p95")], ["p99", first("p99")], ["longest", first("max")], ["loaded", (run) => mebibytes(run.bytesLoadedFirstPass)]],
     ["Work", ["triangles a frame, mean", (run) => number(run.trianglesMean)], ["times fewer than uniform decimation", (run) => (run.efficiency ? `${number(run.efficiency, 2)}×` : "–")],
       ["loaded in all passes", (run) => mebibytes(run.bytesLoaded)], ["memory, at most", (run) => mebibytes(run.peakResidentBytes)],
@@ -82,7 +83,8 @@ function sayWhatIsSeen() {
   const broken = measured.filter((one) => one.measuredWithinPromise === false).length;
   if (measured.length > 0)
     say(byId("errors-says"), broken === 0 ? `No pixel of **${number(measured.reduce((sum, one) => sum + one.framesMeasured, 0))} measured frames** is off by more than its frame promised.` : `**${broken} of ${measured.length} runs** have frames off by more than they promised.`);
-  say(byId("strips-says"), `At ${run.label} the slowest frame in a hundred takes **${number(run.frameMs.p99 / run.frameMs.p50, 2)} times** the median. What the bench itself does between frames is in none of them: **${number(Math.max(0, run.overheadPercent), 2)} %** of their time.`);
+  say(byId("strips-says"), `At ${run.label} the slowest frame in a hundred takes **${number(run.frameMs.p99 / run.frameMs.p50, 2)} times** the median. What the bench itself does between frames is in none of them: **${number(Math.max(0, run.overheadPercent), 2)} %** of their time.` +
+    (runs.some((one) => one.framesInFlight > 1) ? " Where several frames are in flight, a frame’s time is that since the one before it." : ""));
   say(byId("stages-says"), run.limitingStage ? `At ${run.label}, **${run.limitingStage}** takes longest.` : "");
   const best = runs.filter((one) => one.efficiency);
   say(byId("triangles-says"), best.length > 0 ? `For the same measured error uniform decimation needs **${number(Math.min(...best.map((one) => one.efficiency)), 2)} to ${number(Math.max(...best.map((one) => one.efficiency)), 2)} times** the triangles.` : `At ${run.label} a frame has **${compact(run.trianglesMean)} triangles**, in the mean.`);

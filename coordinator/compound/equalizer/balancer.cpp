@@ -43,7 +43,7 @@ std::unique_ptr<Balancer> makeBalancer(const config::Equalizer& equalizer,
         case Kind::View:
             return std::make_unique<View>(position, work);
         case Kind::Monitor:
-            return std::make_unique<Monitor>(written, position);
+            return std::make_unique<Monitor>(position);
         case Kind::Framerate:
             return std::make_unique<Framerate>(position, work);
     }

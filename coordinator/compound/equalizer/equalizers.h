@@ -35,8 +35,8 @@ struct EqualizerState {
 /// they learn what it took. No threads, no clock: callers take turns, and times come as numbers.
 ///
 /// Changed are viewport and range of the children of a compound with a load, tree or view
-/// equalizer, zoom (DFR), outputtiles and inputtiles (tile), and frames' zoom and an input frame's
-/// viewport (monitor). A framerate equalizer changes nothing; its report says how often a frame may
+/// equalizer, zoom (DFR), outputtiles and inputtiles (tile), and output frames' zoom (monitor).
+/// A framerate equalizer changes nothing; its report says how often a frame may
 /// be shown. A child without a share gets a viewport or range of no size.
 class Equalizers {
 public:

@@ -36,9 +36,6 @@ bool showsTheSame(const Turn& turn, std::size_t a, std::size_t b) {
 
 }  // namespace
 
-Monitor::Monitor(const config::Compound& written, std::size_t position)
-    : position_(position), written_(written.inputFrames) {}
-
 void Monitor::apply(Turn& turn, const config::Equalizer&, bool isFrozen) {
     const auto own = placeOf(turn, position_);
     if (!own || isFrozen)
@@ -59,7 +56,6 @@ void Monitor::apply(Turn& turn, const config::Equalizer&, bool isFrozen) {
         turn.live[source->position]->outputFrames[source->frame].zoom =
             fabric::Vec2(zoom(to.width / own->width, from.width / place->width),
                          zoom(to.height / own->height, from.height / place->height));
-        turn.live[position_]->inputFrames[i].viewport = config::within(*place, *own);
         if (std::ranges::none_of(zoomed_, [&](const Source& each) {
                 return each.position == source->position && each.frame == source->frame;
             }))
@@ -88,9 +84,6 @@ void Monitor::switchOff(Turn& turn) {
     for (const Source& source : zoomed_)
         turn.live[source.position]->outputFrames[source.frame].zoom = source.written;
     zoomed_.clear();
-    const std::size_t frames = std::min(written_.size(), turn.live[position_]->inputFrames.size());
-    for (std::size_t i = 0; i < frames; ++i)
-        turn.live[position_]->inputFrames[i].viewport = written_[i].viewport;
 }
 
 }  // namespace eyrie::equalizer

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <atomic>
+
+#include <gmock/gmock.h>
+
+#include "cli/bench/flights.h"
+#include "cli/bench/play.h"
+
+namespace eyrie::cli::bench {
+namespace {
+
+/// Whose frames say by their error which camera they are of; drawn by any thread.
+class FakePictures final : public PictureSource {
+public:
+    explicit FakePictures(int atOnce) : atOnce_(atOnce) {}
+
+    absl::StatusOr<coordinator::RenderedFrame> draw(
+        const coordinator::FrameRequest& request) override {
+        if (++drawn == failing)
+            return absl::UnavailableError("no renderer");
+        coordinator::RenderedFrame frame;
+        frame.image = fabric::makeImage({0, 0, request.width, request.height}, {}, false);
+        frame.statistics.nodes = 1;
+        frame.statistics.tauAskedPixels = request.tauPixels;
+        frame.statistics.tauAchievedPixels = request.camera.eye.x;
+        return frame;
+    }
+    int framesAtOnce() const override { return atOnce_; }
+    fabric::SceneInfo sceneInfo() const override { return {}; }
+
+    std::atomic<int> drawn{0};
+    int failing = 0;  ///< which one
+
+private:
+    const int atOnce_;
+};
+
+absl::StatusOr<Played> playWith(FakePictures& pictures) {
+    const auto flight = flightNamed("orbit", fabric::Box{{0, 0, 0}, {10, 10, 5}});
+    PlayOptions options;
+    options.frames = 20;
+    options.repeats = 2;
+    int done = 0;
+    auto played = play(pictures, *flight, options, [&] { ++done; }, {});
+    EXPECT_EQ(done, played.ok() ? 60 : done);
+    return played;
+}
+
+std::vector<std::pair<double, double>> errors(const Played& played) {
+    std::vector<std::pair<double, double>> all;
+    for (const PlayedFrame& frame : played.frames)
+        all.emplace_back(frame.seconds, frame.statistics.tauAchievedPixels);
+    return all;
+}
+
+TEST(BenchPlay, HasTheSameFramesInTheSameOrderHoweverManyAreInFlight) {
+    FakePictures alone(1);
+    FakePictures several(3);
+    const auto expected = playWith(alone);
+    const auto played = playWith(several);
+    ASSERT_TRUE(expected.ok() && played.ok()) << expected.status() << played.status();
+    ASSERT_EQ(expected->frames.size(), 60U);
+    EXPECT_EQ(errors(*played), errors(*expected));
+    EXPECT_EQ(expected->framesInFlight, 1);
+    EXPECT_EQ(played->framesInFlight, 3);
+}
+
+TEST(BenchPlay, FrameTimeAndLatencyAreOneThingWhereOneFrameIsInFlight) {
+    FakePictures alone(1);
+    const auto played = playWith(alone);
+    ASSERT_TRUE(played.ok()) << played.status();
+    for (const PlayedFrame& frame : played->frames)
+        EXPECT_EQ(frame.milliseconds, frame.latencyMilliseconds);
+}
+
+/// Frame times are those from one picture to the next: together the whole pass.
+TEST(BenchPlay, NoTimeIsBetweenFramesWhereSeveralAreInFlight) {
+    FakePictures several(3);
+    const auto played = playWith(several);
+    ASSERT_TRUE(played.ok()) << played.status();
+    EXPECT_NEAR(played->overheadPercent, 0, 1e-6);
+    for (const PlayedFrame& frame : played->frames) {
+        EXPECT_GE(frame.milliseconds, 0);
+        EXPECT_GE(frame.latencyMilliseconds, 0);
+    }
+}
+
+TEST(BenchPlay, AFrameThatCannotBeHadEndsItWithItsSecond) {
+    for (const int atOnce : {1, 3}) {
+        FakePictures pictures(atOnce);
+        pictures.failing = 7;
+        const auto played = playWith(pictures);
+        EXPECT_THAT(
+            std::string(played.status().message()),
+            testing::AllOf(testing::HasSubstr("of the flight"), testing::HasSubstr("no renderer")));
+    }
+}
+
+}  // namespace
+}  // namespace eyrie::cli::bench
