@@ -48,7 +48,7 @@ void addDoorOptions(CLI::App& command, DoorOptions& options) {
     command
         .add_option("--token-file", options.tokenFile,
                     "Who may come in: a role (view, control or admin) and a token a line; for "
-                    "nobody else to read")
+                    "nobody else to read. Read again when it changes")
         ->type_name("FILE");
     command
         .add_option("--tls-cert", options.tls.certificate,
@@ -81,12 +81,13 @@ absl::StatusOr<Doors> doorsOf(const DoorOptions& options) {
     doors.security.peerName = options.tlsName;
     if (options.tokenFile.empty())
         return doors;
-    absl::StatusOr<access::Tokens> tokens = access::Tokens::read(options.tokenFile);
+    absl::StatusOr<std::shared_ptr<access::TokenFile>> tokens =
+        access::TokenFile::open(options.tokenFile);
     if (!tokens.ok())
         return ofOption(tokens.status(), "--token-file");
-    doors.security.token = std::string(tokens->first(access::Role::Admin));
     doors.gate = std::make_shared<access::Gate>(*std::move(tokens));
     doors.security.gate = doors.gate;
+    doors.security.token = [gate = doors.gate] { return gate->tokenOf(access::Role::Admin); };
     return doors;
 }
 
@@ -107,7 +108,7 @@ absl::Status checkWebDoor(const Doors& doors, const std::string& listen, std::st
 }
 
 absl::Status checkGrpcDoor(const Doors& doors, const std::string& listen, std::string_view option) {
-    if (doors.gate != nullptr && doors.security.token.empty())
+    if (doors.gate != nullptr && doors.gate->tokenOf(access::Role::Admin).empty())
         return absl::InvalidArgumentError(
             "--token-file: coordinator and renderers need a token of role admin in it");
     if (isLocal(listen))

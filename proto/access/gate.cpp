@@ -40,9 +40,9 @@ absl::StatusOr<Role> Gate::admit(const Credentials& credentials, std::string_vie
                                  Role needed, Clock::time_point now) {
     std::optional<Role> role;
     if (!credentials.authorization.empty())
-        role = tokens_.roleOf(bearerToken(credentials.authorization));
+        role = tokens()->roleOf(bearerToken(credentials.authorization));
     else if (!credentials.ticket.empty())
-        role = tokens_.roleOfTicket(credentials.ticket, unixSeconds(now));
+        role = tokens()->roleOfTicket(credentials.ticket, unixSeconds(now));
     const std::lock_guard lock(mutex_);
     if (!role && credentials.authorization.empty()) {
         ++(credentials.ticket.empty() ? refusals_.missing : refusals_.wrong);

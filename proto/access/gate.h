@@ -4,12 +4,14 @@
 #include <chrono>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <string_view>
 
 #include <absl/status/statusor.h>
 
+#include "access/token_file.h"
 #include "access/tokens.h"
 
 namespace eyrie::access {
@@ -41,7 +43,9 @@ public:
     static constexpr std::chrono::seconds kWindow{60};
     static constexpr std::chrono::hours kTicketLife{12};
 
-    explicit Gate(Tokens tokens) : tokens_(std::move(tokens)) {}
+    explicit Gate(Tokens tokens) : fixed_(std::make_shared<const Tokens>(std::move(tokens))) {}
+    /// What the file has at each moment.
+    explicit Gate(std::shared_ptr<TokenFile> file) : file_(std::move(file)) {}
 
     /// The role of who asks from `address`, an IP address without a port, when it is at least
     /// `needed`. A right token always passes, whatever others at the same address do: it cannot be
@@ -54,6 +58,9 @@ public:
     static std::string ticketFor(std::string_view authorization,
                                  Clock::time_point now = Clock::now());
 
+    /// The first token of that role, for who shows it to others; empty: there is none.
+    std::string tokenOf(Role role) const { return std::string(tokens()->first(role)); }
+
     Refusals refusals() const;
 
 private:
@@ -64,7 +71,12 @@ private:
     absl::Status refuseWrong(std::string_view address, Clock::time_point now);
     Failures& failuresOf(std::string_view address, Clock::time_point now);
 
-    const Tokens tokens_;
+    std::shared_ptr<const Tokens> tokens() const {
+        return file_ == nullptr ? fixed_ : file_->current();
+    }
+
+    const std::shared_ptr<const Tokens> fixed_;  ///< null: those of the file
+    const std::shared_ptr<TokenFile> file_;
     mutable std::mutex mutex_;  ///< guards what follows
     std::map<std::string, Failures, std::less<>> failures_;
     Refusals refusals_;

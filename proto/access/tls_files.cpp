@@ -41,27 +41,33 @@ absl::Status checkDates(SSL_CTX* context, const std::string& file) {
     return absl::OkStatus();
 }
 
+absl::Status checkOwn(SSL_CTX* context, const TlsFiles& files) {
+    if (SSL_CTX_use_certificate_chain_file(context, files.certificate.c_str()) != 1)
+        return absl::InvalidArgumentError(
+            fmt::format("{}: no certificate in PEM form", files.certificate));
+    if (SSL_CTX_use_PrivateKey_file(context, files.key.c_str(), SSL_FILETYPE_PEM) != 1)
+        return absl::InvalidArgumentError(
+            fmt::format("{}: no private key in PEM form that goes with the certificate in {}",
+                        files.key, files.certificate));
+    return checkDates(context, files.certificate);
+}
+
 }  // namespace
 
 absl::Status checkTlsFiles(const TlsFiles& files) {
-    RETURN_IF_ERROR(checkReadable(files.certificate, false));
-    RETURN_IF_ERROR(checkReadable(files.key, true));
+    if (!files.certificate.empty()) {
+        RETURN_IF_ERROR(checkReadable(files.certificate, false));
+        RETURN_IF_ERROR(checkReadable(files.key, true));
+    }
     if (!files.authority.empty())
         RETURN_IF_ERROR(checkReadable(files.authority, false));
     const std::unique_ptr<SSL_CTX, void (*)(SSL_CTX*)> context(SSL_CTX_new(TLS_method()),
                                                                SSL_CTX_free);
-    if (SSL_CTX_use_certificate_chain_file(context.get(), files.certificate.c_str()) != 1)
-        return absl::InvalidArgumentError(
-            fmt::format("{}: no certificate in PEM form", files.certificate));
-    if (SSL_CTX_use_PrivateKey_file(context.get(), files.key.c_str(), SSL_FILETYPE_PEM) != 1)
-        return absl::InvalidArgumentError(
-            fmt::format("{}: no private key in PEM form that goes with the certificate in {}",
-                        files.key, files.certificate));
     if (!files.authority.empty() &&
         SSL_CTX_load_verify_locations(context.get(), files.authority.c_str(), nullptr) != 1)
         return absl::InvalidArgumentError(
             fmt::format("{}: no certificates in PEM form", files.authority));
-    return checkDates(context.get(), files.certificate);
+    return files.certificate.empty() ? absl::OkStatus() : checkOwn(context.get(), files);
 }
 
 }  // namespace eyrie::access

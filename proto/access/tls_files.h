@@ -9,7 +9,8 @@ namespace eyrie::access {
 
 /// PEM files that a process shows itself with, and by which it knows others.
 struct TlsFiles {
-    std::string certificate;  ///< its own, with what leads to the authority's behind it
+    std::string certificate;  ///< its own, with what leads to the authority's behind it; empty: a
+                              ///< client that shows none
     std::string key;          ///< of that
     std::string authority;    ///< whose certificates others must have; empty: they need none
 

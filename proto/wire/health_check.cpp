@@ -15,7 +15,6 @@
 #include "fabric/status.h"
 #include "wire/listen.h"
 #include "wire/status.h"
-#include "wire/transport.h"
 
 namespace eyrie::wire {
 namespace {
@@ -33,10 +32,11 @@ std::string textOf(const grpc::ByteBuffer& buffer) {
 
 }  // namespace
 
-absl::Status checkHealth(const std::string& address, std::chrono::milliseconds limit) {
+absl::Status checkHealth(const std::string& address, std::chrono::milliseconds limit,
+                         const Security& security) {
     RETURN_IF_ERROR(checkAddress(address));
-    grpc::GenericStub stub(
-        grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), clientArguments()));
+    grpc::GenericStub stub(grpc::CreateCustomChannel(address, channelCredentials(security, address),
+                                                     clientArguments(security)));
     grpc::ClientContext context;
     context.set_deadline(std::chrono::system_clock::now() + limit);
     const grpc::Slice nothing;  // an empty request asks for the whole server

@@ -55,8 +55,10 @@ std::shared_ptr<grpc::ChannelCredentials> channelCredentials(const Security& sec
     if (!security.tls || isUnix(address))
         return grpc::InsecureChannelCredentials();
     tls::TlsChannelCredentialsOptions options;
-    options.set_certificate_provider(watch(*security.tls));
-    options.watch_identity_key_cert_pairs();
+    if (*security.tls != access::TlsFiles())
+        options.set_certificate_provider(watch(*security.tls));
+    if (!security.tls->certificate.empty())
+        options.watch_identity_key_cert_pairs();
     if (!security.tls->authority.empty())
         options.watch_root_certs();
     return tls::TlsCredentials(options);
@@ -70,8 +72,9 @@ grpc::ChannelArguments clientArguments(const Security& security) {
 }
 
 void present(const Security& security, grpc::ClientContext& context) {
-    if (!security.token.empty())
-        context.AddMetadata(kAuthorization, fmt::format("Bearer {}", security.token));
+    const std::string token = security.token ? security.token() : std::string();
+    if (!token.empty())
+        context.AddMetadata(kAuthorization, fmt::format("Bearer {}", token));
 }
 
 absl::Status admit(const Security& security, const grpc::CallbackServerContext& context,

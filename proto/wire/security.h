@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -26,10 +27,11 @@ namespace eyrie::wire {
 struct Security {
     /// Who may call; null: whoever reaches the address.
     std::shared_ptr<access::Gate> gate = {};
-    /// Sent with every call; empty: none.
-    std::string token = {};
+    /// What to send with a call, asked for each, as it may change; null, or empty: none.
+    std::function<std::string()> token = {};
     /// With an authority both ends show certificates of it; without, servers alone do, and clients
-    /// believe the system's authorities. Files that change are used within seconds.
+    /// believe the system's authorities. A client may have no certificate to show. Files that
+    /// change are used within seconds.
     std::optional<access::TlsFiles> tls = {};
     /// What the certificates of others are for, where that is not the host they are reached at.
     std::string peerName = {};

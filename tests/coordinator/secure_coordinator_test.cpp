@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Who is let in between coordinator and renderers, over real sockets.
 #include <atomic>
+#include <filesystem>
 #include <memory>
 #include <thread>
 
@@ -15,6 +16,7 @@
 #include "tests/service/eventually.h"
 #include "tests/support/certificates.h"
 #include "tests/support/identifier.h"
+#include "tests/support/temporary_folder.h"
 
 namespace eyrie::coordinator {
 namespace {
@@ -76,7 +78,15 @@ wire::Security withTokens(const std::string& token = kAdmin) {
     wire::Security security;
     security.gate = std::make_shared<access::Gate>(
         *access::Tokens::parse(fmt::format("admin {}\nview {}\n", kAdmin, kView), "t"));
-    security.token = token;
+    security.token = [token] { return token; };
+    return security;
+}
+
+/// Those of a file, and the one that it has for admins is shown.
+wire::Security withTokensOf(const std::string& file) {
+    wire::Security security;
+    security.gate = std::make_shared<access::Gate>(access::TokenFile::open(file).value());
+    security.token = [gate = security.gate] { return gate->tokenOf(access::Role::Admin); };
     return security;
 }
 
@@ -158,6 +168,26 @@ TEST(GrpcTokens, AreAskedForByTheCoordinator) {
     EXPECT_TRUE(absl::IsUnauthenticated(
         registering(*coordinator, withTokens("wrong-0123456789abcdef0123456789"))));
     EXPECT_TRUE(absl::IsPermissionDenied(registering(*coordinator, withTokens(kView))));
+}
+
+TEST(GrpcTokens, MayBeReplacedInTheFileWhilePicturesAreMade) {
+    constexpr char kOther[] = "other-0123456789abcdef0123456789";
+    const test::TemporaryFolder folder;
+    const auto replaceBy = [&folder](const std::string& token) {
+        const std::string fresh = folder.write("fresh", "admin " + token + "\n");
+        std::filesystem::permissions(fresh, std::filesystem::perms::owner_read);
+        std::filesystem::rename(fresh, folder.path("tokens"));
+        return folder.path("tokens");
+    };
+    const std::string file = replaceBy(kAdmin);
+    const auto coordinator = coordinatorWith(withTokensOf(file));
+    const Node node(coordinator->grpcAddresses().front(), withTokensOf(file));
+    EXPECT_TRUE(eventually([&] { return makesWholePictures(*coordinator); }));
+
+    replaceBy(kOther);
+    EXPECT_TRUE(registering(*coordinator, withTokens(kOther)).ok());
+    EXPECT_TRUE(absl::IsUnauthenticated(registering(*coordinator, withTokens(kAdmin))));
+    EXPECT_TRUE(eventually([&] { return makesWholePictures(*coordinator); }));
 }
 
 TEST(GrpcTokens, AreAskedForByEveryCallOfARenderer) {

@@ -7,6 +7,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include "tests/support/certificates.h"
 #include "tests/support/program.h"
 #include "tests/support/temporary_folder.h"
 
@@ -47,6 +48,52 @@ TEST(Health, IsThatOfACoordinatorByHttpAndByGrpc) {
     for (const std::string& address : {page, grpc})
         EXPECT_EQ(test::eyrie({"health", address, "--limit", "30"}).exit, (test::Exit{1, 0}))
             << address;
+}
+
+TEST(Health, IsAskedByTlsWhereTheCoordinatorEncrypts) {
+    const test::TemporaryFolder folder;
+    ASSERT_TRUE(test::succeeded(
+        {"synth", "mesh", "--size", "100", "--seed", "1", "-o", folder.path("m.ply")}));
+    const test::Authority authority("the authority");
+    test::Authority::Holder viz;
+    viz.name = "viz";
+    const access::TlsFiles files = authority.issue("viz", viz);
+    test::Process coordinator(
+        test::eyrieCommand({"coordinator", folder.path("m.ply"), "--listen", "127.0.0.1:0",
+                            "--grpc", "127.0.0.1:0", "--tls-cert", files.certificate, "--tls-key",
+                            files.key, "--tls-ca", files.authority}),
+        {"XDG_CACHE_HOME=" + folder.path("cache")});
+    ASSERT_TRUE(coordinator.waitForOutput("Renderers register at ", seconds(120)) &&
+                coordinator.waitForOutput("\n", seconds(5)))
+        << coordinator.errors();
+    const std::string page = placeAfter(coordinator.output(), "Eyrie is at https://");
+    const std::string grpc = placeAfter(coordinator.output(), "Renderers register at ");
+
+    const auto health = [](std::vector<std::string> more) {
+        more.insert(more.begin(), {"health", "--limit", "30"});
+        return test::eyrie(more);
+    };
+    const std::vector<std::string> known = {"--tls-ca",        files.authority, "--tls-cert",
+                                            files.certificate, "--tls-key",     files.key};
+    std::vector<std::string> named = known;
+    named.insert(named.end(), {"--tls-name", "viz", "https://" + page, grpc});
+    const test::Outcome both = health(named);
+    EXPECT_EQ(both.exit, (test::Exit{0, 0})) << both.errors;
+    EXPECT_EQ(both.output, fmt::format("https://{}: healthy\n{}: healthy\n", page, grpc));
+
+    for (const std::string& address : {"https://" + page, grpc}) {
+        std::vector<std::string> unnamed = known;
+        unnamed.push_back(address);
+        EXPECT_EQ(health(unnamed).exit, (test::Exit{1, 0})) << address << ": of another name";
+        EXPECT_EQ(health({address, "--tls-name", "viz"}).exit, (test::Exit{1, 0}))
+            << address << ": of an authority that nobody knows";
+    }
+    EXPECT_EQ(health({"http://" + page}).exit, (test::Exit{1, 0})) << "in the clear";
+    EXPECT_EQ(health({grpc, "--tls-name", "viz", "--tls-ca", files.authority}).exit,
+              (test::Exit{1, 0}))
+        << "gRPC wants a certificate of who asks";
+    EXPECT_EQ(health({grpc, "--tls-cert", files.certificate}).exit, (test::Exit{2, 0}));
+    EXPECT_EQ(health({grpc, "--tls-ca", folder.path("none")}).exit, (test::Exit{2, 0}));
 }
 
 TEST(Health, IsNotThatOfAServerThatSaysNothing) {
