@@ -52,6 +52,7 @@ public:
 
     absl::StatusOr<RenderedFrame> renderFrame(const FrameRequest& request) override;
     absl::StatusOr<RenderedFrame> renderLatest(const ChooseFrame& choose) override;
+    absl::StatusOr<fabric::SeenAreas> seen(const FrameRequest& request) override;
     absl::StatusOr<fabric::Picked> pick(const fabric::PickRequest& request) override;
     absl::Status configure(const SwitchLayout& change) override;
     absl::Status withConfiguration(

@@ -16,6 +16,7 @@
 #include "fabric/image.h"
 #include "fabric/pick.h"
 #include "fabric/scene.h"
+#include "fabric/seen_area.h"
 #include "fabric/statistics.h"
 
 namespace eyrie::coordinator {
@@ -48,16 +49,23 @@ struct FrameRequest {
     bool operator==(const FrameRequest&) const = default;
 };
 
+/// What one of a frame's pictures is.
+struct PictureFacts {
+    std::size_t shown = 0;   ///< in FrameRequest::shown
+    fabric::SeenAreas seen;  ///< by which sights
+
+    bool operator==(const PictureFacts&) const = default;
+};
+
 /// A composited picture, or the part asked for: `image.area` is its drawnPart(), or of the same
 /// shape and smaller where a budget is to be kept.
 struct RenderedFrame {
     fabric::Image image;
     fabric::FrameStatistics statistics;
     fabric::DeviceInfo device;  ///< of the first renderer that took part
-    /// Through a wall or by an eye beside the camera: not what a pick's camera sees.
-    bool isThroughWall = false;
     /// Of what else was asked for, in that order; of separate eyes, the second's after the first's.
     std::vector<fabric::Image> further = {};
+    std::vector<PictureFacts> pictures = {};  ///< of `image` and of what is further
 };
 
 enum class RendererCondition {
@@ -133,6 +141,11 @@ public:
             return absl::CancelledError("no frame is wanted any more");
         return renderFrame(*request);
     }
+
+    /// By which sights the first of the pictures asked for would be seen, for picks in it. Errors:
+    /// those of the request; FailedPrecondition before there was a renderer to make a
+    /// configuration of.
+    virtual absl::StatusOr<fabric::SeenAreas> seen(const FrameRequest& request) = 0;
 
     /// What a place of a picture shows, asked of one renderer and, should that fail, of the next;
     /// blocks, but not for frames. Errors: InvalidArgument (the request), Unavailable (no renderer,

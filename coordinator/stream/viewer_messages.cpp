@@ -10,6 +10,7 @@
 #include "wire/camera.h"
 #include "wire/pick.h"
 #include "wire/scene_info.h"
+#include "wire/sight.h"
 #include "wire/statistics.h"
 
 namespace eyrie::stream {
@@ -34,6 +35,20 @@ v1::RendererCondition toMessage(coordinator::RendererCondition condition) {
             break;
     }
     return v1::RENDERER_CONDITION_REFUSED;
+}
+
+void setSeen(const fabric::SeenAreas& areas, v1::Frame& frame) {
+    if (!areas)
+        return;
+    frame.set_through_wall(true);
+    for (const fabric::SeenArea& area : *areas) {
+        v1::SeenArea& message = *frame.add_seen();
+        message.set_x(area.corner.x);
+        message.set_y(area.corner.y);
+        message.set_width(area.size.x);
+        message.set_height(area.size.y);
+        *message.mutable_sight() = wire::toMessage(area.sight);
+    }
 }
 
 FrameAck ackFromMessage(const v1::FrameAck& message) {
@@ -167,7 +182,9 @@ std::string frameMessage(const EncodedFrame& encoded, const coordinator::Rendere
     frame.set_pixel_hash(picture.pixelHash);
     frame.set_quality(picture.quality);
     frame.set_link_bytes_per_second(encoded.linkBytesPerSecond);
-    frame.set_through_wall(rendered.isThroughWall);
+    frame.set_swap(encoded.swap);
+    if (encoded.output < rendered.pictures.size())
+        setSeen(rendered.pictures[encoded.output].seen, frame);
     *frame.mutable_statistics() = wire::toMessage(rendered.statistics);
     frame.mutable_statistics()->set_width(picture.width);
     frame.mutable_statistics()->set_height(picture.height);

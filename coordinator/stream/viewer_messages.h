@@ -95,6 +95,8 @@ struct EncodedFrame {
     std::optional<fabric::Camera> liftedCamera = {};  ///< shown in place of the one asked for
     std::optional<ViewRequest> ledView = {};          ///< that another viewer asked for
     double linkBytesPerSecond = 0;                    ///< 0: not known
+    std::size_t output = 0;                           ///< in RenderedFrame::pictures
+    std::uint64_t swap = 0;  ///< that it waits for; 0: it is shown at once
 };
 
 /// A ViewerResponse with a Frame: `encoded` of what `rendered` shows, with the first `bytes` of its

@@ -46,6 +46,7 @@ inline Status readyStatus() {
 class FakeFrameSource : public FrameSource {
 public:
     using Draw = std::function<absl::StatusOr<RenderedFrame>(const FrameRequest&)>;
+    using Seen = std::function<absl::StatusOr<fabric::SeenAreas>(const FrameRequest&)>;
     using Pick = std::function<absl::StatusOr<fabric::Picked>(const fabric::PickRequest&)>;
 
     FakeFrameSource() : status_(readyStatus()) {
@@ -60,6 +61,11 @@ public:
         const Draw draw = draw_;
         lock.unlock();
         return draw(request);
+    }
+
+    absl::StatusOr<fabric::SeenAreas> seen(const FrameRequest& request) override {
+        const std::lock_guard lock(mutex_);
+        return seen_(request);
     }
 
     absl::StatusOr<fabric::Picked> pick(const fabric::PickRequest& request) override {
@@ -128,6 +134,11 @@ public:
         pick_ = std::move(pick);
     }
 
+    void setSeen(Seen seen) {
+        const std::lock_guard lock(mutex_);
+        seen_ = std::move(seen);
+    }
+
     /// While held, pick waits.
     void holdPicks(bool isHeld) {
         {
@@ -176,6 +187,7 @@ private:
     bool arePicksHeld_ = false;
     Pick pick_ = [](const fabric::PickRequest&) { return fabric::Picked(); };
     std::vector<fabric::PickRequest> picks_;
+    Seen seen_ = [](const FrameRequest&) { return fabric::SeenAreas(); };
 
     mutable std::mutex listenersMutex_;  // held while listeners run, so that unsubscribe waits
     std::map<int, std::function<void()>> listeners_;
