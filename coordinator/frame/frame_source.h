@@ -5,10 +5,12 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <absl/status/statusor.h>
 
+#include "coordinator/config/swap_barriers.h"
 #include "coordinator/frame/shown.h"
 #include "fabric/camera.h"
 #include "fabric/channel_task.h"
@@ -68,6 +70,17 @@ struct RenderedFrame {
     std::vector<PictureFacts> pictures = {};  ///< of `image` and of what is further
 };
 
+/// For a person to read, where a frame shows nothing; empty where it shows something.
+inline std::string_view whyEmpty(const RenderedFrame& frame) {
+    for (const PictureFacts& picture : frame.pictures)
+        if (!picture.seen || !picture.seen->empty())
+            return "";
+    return frame.pictures.empty()
+               ? ""
+               : "Nothing is seen here: the eye is not before the wall that it is to look through, "
+                 "or the canvas shows no layout.";
+}
+
 enum class RendererCondition {
     Ready,     ///< draws
     Opening,   ///< reads the scene
@@ -97,6 +110,7 @@ struct CanvasStatus {
     std::vector<std::string> segments;
     std::vector<std::string> layouts;  ///< that it can show
     std::string layout;                ///< that it shows; "OFF": none
+    config::CanvasBarriers barriers = {};  ///< that its screens are shown behind
 
     bool operator==(const CanvasStatus&) const = default;
 };

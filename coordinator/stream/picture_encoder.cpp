@@ -16,9 +16,13 @@ namespace {
 
 constexpr int kFineQuality = 95;
 
+const fabric::Image& imageOf(const Picture& picture, std::size_t output) {
+    return output == 0 ? picture.frame->image : picture.frame->further[output - 1];
+}
+
 /// Nothing where it is no larger than the level asks for.
-std::optional<fabric::Image> shrunkFor(const Picture& picture, int level) {
-    const fabric::Image& image = picture.frame->image;
+std::optional<fabric::Image> shrunkFor(const Picture& picture, const fabric::Image& image,
+                                       int level) {
     const coordinator::FrameRequest wanted =
         drawingOf(picture.view, nullptr, QualityControl::level(level).scale);
     if (wanted.width >= image.area.width || wanted.height >= image.area.height)
@@ -29,10 +33,11 @@ std::optional<fabric::Image> shrunkFor(const Picture& picture, int level) {
 }  // namespace
 
 absl::StatusOr<EncodedPicture> encodePicture(const Picture& picture, const QualityClass& as) {
+    const fabric::Image& drawn = imageOf(picture, as.output);
     std::optional<fabric::Image> smaller;
     if (as.fineness == Fineness::Moving && as.level > picture.level)
-        smaller = shrunkFor(picture, as.level);
-    const fabric::Image& image = smaller ? *smaller : picture.frame->image;
+        smaller = shrunkFor(picture, drawn, as.level);
+    const fabric::Image& image = smaller ? *smaller : drawn;
     EncodedPicture encoded;
     encoded.fineness = as.fineness;
     encoded.width = image.area.width;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <compare>
+#include <cstddef>
 
 #include <absl/status/statusor.h>
 
@@ -13,7 +14,8 @@ namespace eyrie::stream {
 /// What is encoded once for all browsers that are to have it so.
 struct QualityClass {
     Fineness fineness = Fineness::Moving;
-    int level = 0;  ///< QualityControl's; of still ones 0
+    int level = 0;           ///< QualityControl's; of still ones 0
+    std::size_t output = 0;  ///< in RenderedFrame::pictures
 
     auto operator<=>(const QualityClass&) const = default;
 };

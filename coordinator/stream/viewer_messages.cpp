@@ -105,6 +105,14 @@ absl::StatusOr<Request> parseRequest(std::span<const std::byte> bytes) {
         }
         case v1::ViewerRequest::kFrameAck:
             return ackFromMessage(message.frame_ack());
+        case v1::ViewerRequest::kScreen: {
+            OwnScreen screen;
+            if (message.screen().has_shown())
+                screen.shown = shownFromMessage(message.screen().shown());
+            return screen;
+        }
+        case v1::ViewerRequest::kReady:
+            return SwapReady{message.ready().swap()};
         case v1::ViewerRequest::kPick:
             return ViewerPick{message.pick().sequence(),
                               wire::fromMessage(message.pick().request())};
@@ -130,6 +138,9 @@ std::string stateMessage(const coordinator::Status& status, std::string_view pro
     state.mutable_place()->set_viewers(place.viewers);
     state.mutable_place()->set_leads(place.leads);
     state.mutable_place()->set_led(place.isLed);
+    state.mutable_place()->set_barrier(sanitised(place.barrier));
+    state.mutable_place()->set_together(place.together);
+    state.mutable_place()->set_behind(place.behind);
     return response.SerializeAsString();
 }
 
@@ -203,6 +214,12 @@ std::string framePartMessage(std::uint64_t frameNumber, std::size_t offset,
     part.set_frame_number(frameNumber);
     part.set_offset(offset);
     part.set_bytes(bytes.data(), bytes.size());
+    return response.SerializeAsString();
+}
+
+std::string swapMessage(std::uint64_t swap) {
+    v1::ViewerResponse response;
+    response.mutable_swap()->set_swap(swap);
     return response.SerializeAsString();
 }
 

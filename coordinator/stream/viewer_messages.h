@@ -48,6 +48,16 @@ struct ViewerProfile {
 /// Takes the lead of the session.
 struct TakeLead {};
 
+/// Which picture a viewer shows, whoever leads.
+struct OwnScreen {
+    std::optional<coordinator::Shown> shown;  ///< nothing: what the leader asks for
+};
+
+/// The picture of that swap has been decoded.
+struct SwapReady {
+    std::uint64_t swap = 0;
+};
+
 /// How near to the server's picture one is sent.
 enum class Fineness {
     Moving,  ///< JPEG, as the link allows
@@ -60,7 +70,7 @@ enum class Fineness {
 /// A pick or profile that cannot be made is parsed, with what is wrong: it has an answer of its
 /// own.
 using Request = std::variant<ViewRequest, FrameAck, ViewerPick, ViewerProfile,
-                             coordinator::SwitchLayout, TakeLead>;
+                             coordinator::SwitchLayout, TakeLead, OwnScreen, SwapReady>;
 absl::StatusOr<Request> parseRequest(std::span<const std::byte> bytes);
 
 /// A viewer among those that see the same.
@@ -69,6 +79,9 @@ struct Place {
     int viewers = 1;      ///< this one among them
     bool leads = true;    ///< this one moves the view
     bool isLed = true;    ///< somebody does
+    std::string barrier = {};  ///< that it shows its pictures behind, with others; empty: none
+    int together = 0;          ///< those behind it, this one among them
+    int behind = 0;            ///< those of them that are not waited for
 };
 
 v1::SessionState sessionState(const coordinator::Status& status, std::string_view problem);
@@ -107,6 +120,9 @@ std::string frameMessage(const EncodedFrame& encoded, const coordinator::Rendere
 /// A ViewerResponse with a FramePart: `bytes` of a picture from `offset` on.
 std::string framePartMessage(std::uint64_t frameNumber, std::size_t offset,
                              std::span<const std::byte> bytes);
+
+/// A ViewerResponse with a ViewerSwap.
+std::string swapMessage(std::uint64_t swap);
 
 /// A ViewerResponse with a ViewerPicked.
 std::string pickedMessage(std::uint64_t sequence, const absl::StatusOr<fabric::Picked>& picked);

@@ -13,10 +13,16 @@
 
 namespace eyrie::coordinator {
 
-/// A picture of one colour, as large as asked for.
+/// Pictures of one colour, as large as asked for; of further ones, each has a little more red.
 inline RenderedFrame plainFrame(const FrameRequest& request, fabric::Rgba colour) {
     RenderedFrame frame;
     frame.image = fabric::makeImage({0, 0, request.width, request.height}, colour, false);
+    frame.pictures.emplace_back();
+    for (std::size_t i = 1; i < request.shown.size(); ++i) {
+        colour.r = static_cast<std::uint8_t>(colour.r + 40);
+        frame.further.push_back(fabric::makeImage(frame.image.area, colour, false));
+        frame.pictures.push_back({.shown = i, .seen = {}});
+    }
     frame.statistics.tauAskedPixels = request.tauPixels;
     frame.statistics.tauAchievedPixels = request.tauPixels;
     frame.statistics.triangles = 1000;

@@ -8,6 +8,8 @@ export interface CanvasEvents {
   drawn(frameNumber: number, time: number, isExact: boolean): void;
   /** This frame's picture could not be decoded. */
   failed(frameNumber: number): void;
+  /** This frame's picture has been decoded, and is kept until it is presented; `time` as of drawn(). */
+  ready(frameNumber: number, time: number): void;
   /** The canvas has another size, in CSS pixels, and has kept it for a moment. */
   resized(size: Size): void;
 }
@@ -40,9 +42,22 @@ export class PictureCanvas {
     return { width: this.element.clientWidth, height: this.element.clientHeight };
   }
 
-  /** Shows a picture soon, unless a newer one comes first. Takes the bytes' buffer away. */
-  show(frameNumber: number, picture: EncodedPicture): void {
-    this.post({ kind: "picture", frameNumber, picture }, [picture.bytes.buffer]);
+  /**
+   * Shows a picture soon, or, where it `waits`, once it is presented; unless a newer one comes first.
+   * Takes the bytes' buffer away.
+   */
+  show(frameNumber: number, picture: EncodedPicture, waits = false): void {
+    this.post({ kind: "picture", frameNumber, picture, waits }, [picture.bytes.buffer]);
+  }
+
+  /** Shows the picture that waits, if it still does. */
+  present(frameNumber: number): void {
+    this.post({ kind: "present", frameNumber }, []);
+  }
+
+  /** What waits to be presented never will be, and numbers begin anew. */
+  forget(): void {
+    this.post({ kind: "forget" }, []);
   }
 
   close(): void {
@@ -56,8 +71,10 @@ export class PictureCanvas {
   }
 
   private reported(report: FromWorker): void {
+    const time = report.time - performance.timeOrigin;
     if (report.kind === "failed") this.events.failed(report.frameNumber);
-    else this.events.drawn(report.frameNumber, report.time - performance.timeOrigin, report.exact);
+    else if (report.kind === "ready") this.events.ready(report.frameNumber, time);
+    else this.events.drawn(report.frameNumber, time, report.exact);
   }
 
   private resizeSoon(): void {

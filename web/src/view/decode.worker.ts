@@ -5,23 +5,30 @@
 // says of its own.
 import type { EncodedPicture } from "../protocol/parts";
 import { pixelHash } from "./pixel_hash";
+import { Presenter } from "./presenter";
 
 /** To the worker: the canvas once, then pictures. Their bytes are transferred. */
 export type ToWorker =
   | { kind: "canvas"; canvas: OffscreenCanvas }
-  | { kind: "picture"; frameNumber: number; picture: EncodedPicture };
+  /** `waits`: it is kept until it is presented. */
+  | { kind: "picture"; frameNumber: number; picture: EncodedPicture; waits: boolean }
+  | { kind: "present"; frameNumber: number }
+  /** Numbers begin anew. */
+  | { kind: "forget" };
 
 /** From the worker: `time` is when, in ms since 1970. */
 export type FromWorker =
   | { kind: "failed"; frameNumber: number; time: number }
+  | { kind: "ready"; frameNumber: number; time: number }
   /** `exact`: its pixels are the server's, as compared here. */
   | { kind: "drawn"; frameNumber: number; time: number; exact: boolean };
 
-type Work = Extract<ToWorker, { kind: "picture" }>;
+interface Decoded {
+  bitmap: ImageBitmap;
+  isExact: boolean;
+}
 
 let context: ImageBitmapRenderingContext | null = null;
-let newest: Work | null = null;
-let isBusy = false;
 
 /** The pixels of a picture, read back from another canvas: this one's cannot be. */
 function hashOf(bitmap: ImageBitmap): number {
@@ -33,38 +40,33 @@ function hashOf(bitmap: ImageBitmap): number {
   );
 }
 
-/** Whether it is exact. */
-async function draw({ type, bytes, pixelHash: wanted }: EncodedPicture): Promise<boolean> {
+async function decode({ type, bytes, pixelHash: wanted }: EncodedPicture): Promise<Decoded> {
   const bitmap = await createImageBitmap(new Blob([bytes], { type }), {
     colorSpaceConversion: type === "image/png" ? "none" : "default",
   });
-  const isExact = wanted !== undefined && hashOf(bitmap) === wanted;
-  context?.transferFromImageBitmap(bitmap);
-  return isExact;
+  return { bitmap, isExact: wanted !== undefined && hashOf(bitmap) === wanted };
 }
 
-async function drawNewest(): Promise<void> {
-  if (isBusy) return;
-  isBusy = true;
-  while (newest !== null) {
-    const { frameNumber, picture } = newest;
-    newest = null;
-    const exact = await draw(picture).catch(() => null);
-    const time = performance.timeOrigin + performance.now();
-    const report: FromWorker =
-      exact === null
-        ? { kind: "failed", frameNumber, time }
-        : { kind: "drawn", frameNumber, time, exact };
-    self.postMessage(report);
-  }
-  isBusy = false;
+function report(told: FromWorker): void {
+  self.postMessage(told);
 }
 
-self.addEventListener("message", (event: MessageEvent<ToWorker>) => {
-  if (event.data.kind === "canvas") {
-    context = event.data.canvas.getContext("bitmaprenderer");
-  } else {
-    newest = event.data;
-    void drawNewest();
-  }
+const now = (): number => performance.timeOrigin + performance.now();
+
+const presenter = new Presenter<EncodedPicture, Decoded>({
+  decode,
+  draw: (frameNumber, { bitmap, isExact }) => {
+    context?.transferFromImageBitmap(bitmap);
+    report({ kind: "drawn", frameNumber, time: now(), exact: isExact });
+  },
+  drop: ({ bitmap }) => bitmap.close(),
+  ready: (frameNumber) => report({ kind: "ready", frameNumber, time: now() }),
+  failed: (frameNumber) => report({ kind: "failed", frameNumber, time: now() }),
+});
+
+self.addEventListener("message", ({ data }: MessageEvent<ToWorker>) => {
+  if (data.kind === "canvas") context = data.canvas.getContext("bitmaprenderer");
+  else if (data.kind === "present") presenter.present(data.frameNumber);
+  else if (data.kind === "forget") presenter.forget();
+  else presenter.show(data.frameNumber, data.picture, data.waits);
 });
