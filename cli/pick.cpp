@@ -105,8 +105,7 @@ absl::Status pick(const Options& options) {
     const StopSignal stop;
     ASSIGN_OR_RETURN(const fabric::PickRequest request, requestOf(options));
     ASSIGN_OR_RETURN(const fabric::SeenAreas areas, areasOf(options, request));
-    ASSIGN_OR_RETURN(const std::optional<fabric::PickRequest> seen,
-                     fabric::pickIn(areas, request));
+    ASSIGN_OR_RETURN(const std::optional<fabric::PickRequest> seen, fabric::pickIn(areas, request));
     ASSIGN_OR_RETURN(const fabric::Scene scene,
                      loadScene(options.scene, options.source, stop.token()));
     ASSIGN_OR_RETURN(const RemoteData remote, remoteDataOf(options.source.cache));

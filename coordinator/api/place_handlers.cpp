@@ -37,8 +37,7 @@ absl::StatusOr<v1::PickPointResponse> pickPoint(coordinator::FrameSource& frames
             "shown.stereo puts two pictures into one of another size; name the eye, and pick in "
             "its picture");
     ASSIGN_OR_RETURN(const fabric::SeenAreas areas, frames.seen(picture));
-    ASSIGN_OR_RETURN(const std::optional<fabric::PickRequest> seen,
-                     fabric::pickIn(areas, request));
+    ASSIGN_OR_RETURN(const std::optional<fabric::PickRequest> seen, fabric::pickIn(areas, request));
     v1::PickPointResponse response;
     if (!seen)
         return response;

@@ -23,8 +23,8 @@ fabric::Sight sightOf(const fabric::ChannelTask& task, double fovYDegrees) {
     if (task.sight)
         return *task.sight;
     fabric::Sight ahead;
-    ahead.frustum = fabric::symmetricFrustum(
-        fovYDegrees, static_cast<double>(task.viewWidth) / task.viewHeight);
+    ahead.frustum = fabric::symmetricFrustum(fovYDegrees,
+                                             static_cast<double>(task.viewWidth) / task.viewHeight);
     return ahead;
 }
 

@@ -108,8 +108,8 @@ struct RendererStatus {
 struct CanvasStatus {
     std::string name;
     std::vector<std::string> segments;
-    std::vector<std::string> layouts;  ///< that it can show
-    std::string layout;                ///< that it shows; "OFF": none
+    std::vector<std::string> layouts;      ///< that it can show
+    std::string layout;                    ///< that it shows; "OFF": none
     config::CanvasBarriers barriers = {};  ///< that its screens are shown behind
 
     bool operator==(const CanvasStatus&) const = default;

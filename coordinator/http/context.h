@@ -49,8 +49,8 @@ struct Context {
     /// Ends viewers, which may mean to wait for a frame being rendered.
     boost::asio::thread_pool reaper{1};
     /// What viewers see, by themselves or together.
-    stream::Sessions viewing{
-        frames, {.swapPatience = options.swapPatience, .telemetry = telemetry}};
+    stream::Sessions viewing{frames,
+                             {.swapPatience = options.swapPatience, .telemetry = telemetry}};
 };
 
 /// A connection's place, and its viewer's; held until that, too, has ended.

@@ -20,9 +20,9 @@ struct OutgoingFrame {
     Clock::time_point started;  ///< its rendering, or the encoding of one that was drawn before
 };
 
-/// What waits to be sent to one browser, and what is under way to it: at most one word (of a picture
-/// that is there, so there is no other before it is taken), one state, one frame,
-/// and the rest of one still picture.
+/// What waits to be sent to one browser, and what is under way to it: at most one word (of a
+/// picture that is there, so there is no other before it is taken), one state, one frame, and the
+/// rest of one still picture.
 ///
 /// Moving frames go whole, as many at once as the Pacer says and no more than would take half a
 /// second on a link that has become ten times slower. Still pictures go in parts, a tenth of a

@@ -72,9 +72,9 @@ public:
     /// A screen of its own, which it shows whoever leads.
     struct Screen {
         coordinator::Shown shown;
-        bool isChecked = false;    ///< whether it can be shown
-        bool isToBeChecked = true; ///< as it is now
-        std::string problem = {};  ///< why it cannot; empty where it can
+        bool isChecked = false;     ///< whether it can be shown
+        bool isToBeChecked = true;  ///< as it is now
+        std::string problem = {};   ///< why it cannot; empty where it can
     };
     std::optional<Screen> screen;
     std::string barrier = {};  ///< that its pictures are shown behind; empty: none

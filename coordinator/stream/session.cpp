@@ -144,13 +144,13 @@ public:
 
     void show(Seat& seat, OwnScreen screen) {
         const std::lock_guard lock(mutex_);
-        if (isDraining_ || (seat.screen ? std::optional(seat.screen->shown) : std::nullopt) ==
-                               screen.shown)
+        if (isDraining_ ||
+            (seat.screen ? std::optional(seat.screen->shown) : std::nullopt) == screen.shown)
             return;
         seat.screen.reset();
         if (screen.shown)
             seat.screen = Seat::Screen{.shown = *std::move(screen.shown)};
-        progress_.sourceChanged();
+        drawForAll();
         isStateStale_ = true;
         changed_.notify_all();
     }
@@ -312,6 +312,17 @@ private:
         changed_.notify_all();
     }
 
+    /// Once more, where the newest picture was drawn without somebody's screen.
+    void drawForAll() {
+        const std::shared_ptr<const Picture>& newest = progress_.newest();
+        if (newest == nullptr)
+            return;
+        for (const auto& seat : seats_)
+            if (const auto shown = seat->shown(newest->view.frame.shown.front());
+                shown && std::ranges::find(newest->shown, *shown) == newest->shown.end())
+                return progress_.sourceChanged();
+    }
+
     std::shared_ptr<Seat> uncheckedScreen() const {
         const auto found = std::ranges::find_if(seats_, [](const std::shared_ptr<Seat>& seat) {
             return seat->screen && seat->screen->isToBeChecked;
@@ -333,13 +344,9 @@ private:
         lock.lock();
         if (!seat->screen || seat->screen->shown != shown)
             return;  // it is another by now
-        const coordinator::Shown asked =
-            progress_.wanted() ? progress_.wanted()->frame.shown.front() : coordinator::Shown{};
-        const auto before = seat->shown(asked);
         seat->screen->isChecked = true;
         seat->screen->problem = status.ok() ? "" : sanitised(text(status));
-        if (before != seat->shown(asked))
-            progress_.sourceChanged();
+        drawForAll();
         isStateStale_ = true;
         changed_.notify_all();
     }
@@ -429,6 +436,7 @@ private:
             if (!(begun.request.camera == begun.view.frame.camera))
                 picture.liftedCamera = begun.request.camera;
             progress_.rendered(std::move(picture), now);
+            drawForAll();
             encodings_.clear();
         } else {
             setProblem(renderProblem_, sanitised(text(frame.status())));
@@ -452,8 +460,8 @@ private:
             else if (const std::optional<QualityClass> next = nextClass(now))
                 serve(lock, *next);
             else
-                waitForChange(
-                    lock, sooner(isDraining_ ? std::nullopt : progress_.nextFiner(now), deadline()));
+                waitForChange(lock, sooner(isDraining_ ? std::nullopt : progress_.nextFiner(now),
+                                           deadline()));
         }
     }
 
@@ -704,7 +712,8 @@ private:
             return;
         for (const auto& seat : seats_) {
             const bool isOfClass = seat->movingClass(picture) == as;
-            if (seat->isServed || groupOf(*seat) != nullptr || isInSwap(*seat) || !seat->outbox.isWaiting() || !isOfClass ||
+            if (seat->isServed || groupOf(*seat) != nullptr || isInSwap(*seat) ||
+                !seat->outbox.isWaiting() || !isOfClass ||
                 seat->delivered.picture >= picture.number)
                 continue;
             seat->delivered = {picture.number, as.fineness};
@@ -799,8 +808,8 @@ private:
     bool isDraining_ = false;
     bool isStarting_ = false;  ///< a render thread waits for its frame's turn
     Clock::time_point lastRendered_{};
-    Seats seats_;             ///< in the order in which they came
-    Seat* leader_ = nullptr;  ///< one of them
+    Seats seats_;                              ///< in the order in which they came
+    Seat* leader_ = nullptr;                   ///< one of them
     std::map<std::string, SwapGroup> groups_;  ///< of the seats' barriers
     std::uint64_t lastSeat_ = 0;
     Progress progress_;

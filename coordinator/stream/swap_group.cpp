@@ -99,8 +99,8 @@ void SwapGroup::endSwap() {
 }
 
 std::vector<SwapGroup::Word> SwapGroup::takeWords(Clock::time_point now) {
-    const bool isHeld = swap_ && std::ranges::any_of(
-                                     swapping_, [this](Member member) { return isHeldBy(member); });
+    const bool isHeld =
+        swap_ && std::ranges::any_of(swapping_, [this](Member member) { return isHeldBy(member); });
     const std::optional<Clock::time_point> last = deadline();
     if (swap_ && (!isHeld || (last && now >= *last)))
         endSwap();

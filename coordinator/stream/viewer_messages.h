@@ -75,10 +75,10 @@ absl::StatusOr<Request> parseRequest(std::span<const std::byte> bytes);
 
 /// A viewer among those that see the same.
 struct Place {
-    std::string session;  ///< empty: it is alone
-    int viewers = 1;      ///< this one among them
-    bool leads = true;    ///< this one moves the view
-    bool isLed = true;    ///< somebody does
+    std::string session;       ///< empty: it is alone
+    int viewers = 1;           ///< this one among them
+    bool leads = true;         ///< this one moves the view
+    bool isLed = true;         ///< somebody does
     std::string barrier = {};  ///< that it shows its pictures behind, with others; empty: none
     int together = 0;          ///< those behind it, this one among them
     int behind = 0;            ///< those of them that are not waited for
@@ -109,7 +109,7 @@ struct EncodedFrame {
     std::optional<ViewRequest> ledView = {};          ///< that another viewer asked for
     double linkBytesPerSecond = 0;                    ///< 0: not known
     std::size_t output = 0;                           ///< in RenderedFrame::pictures
-    std::uint64_t swap = 0;  ///< that it waits for; 0: it is shown at once
+    std::uint64_t swap = 0;                           ///< that it waits for; 0: it is shown at once
 };
 
 /// A ViewerResponse with a Frame: `encoded` of what `rendered` shows, with the first `bytes` of its

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The door for browsers with pictures made up here: for tests of the page, and work on it, without
 // renderers. Prints the line with the URL that `eyrie serve` prints, and serves until its standard
-// input ends; a line "no renderer" or "renderer" on it takes the renderer away or brings it back, and
-// "wall" hangs the picture on two screens that share a swap barrier.
+// input ends; a line "no renderer" or "renderer" on it takes the renderer away or brings it back,
+// and "wall" hangs the picture on two screens that share a swap barrier.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -82,9 +82,8 @@ void paint(const coordinator::FrameRequest& request, const std::optional<fabric:
     std::size_t i = 0;
     for (int y = 0; y < request.height; ++y)
         for (int x = 0; x < request.width; ++x) {
-            const Line line =
-                lineThrough(request.camera, sight, aspect,
-                            {(x + 0.5) / request.width, (y + 0.5) / request.height});
+            const Line line = lineThrough(request.camera, sight, aspect,
+                                          {(x + 0.5) / request.width, (y + 0.5) / request.height});
             image.colour[i++] = colourAlong(line.eye, line.direction);
         }
 }

@@ -12,10 +12,10 @@
 #include <utility>
 #include <vector>
 
-#include <gmock/gmock.h>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "coordinator/compound/compose.h"
@@ -146,10 +146,11 @@ void expectSameRay(const WallRay& a, const WallRay& b) {
 TEST(Plan, PicksFollowTheRaysThroughTheCornersOfWalls) {
     const config::Wall wall{{-2, -1, -2}, {2, -1, -2}, {-2, 1, -2}, false};
     PlanRequest request;
-    for (const char* compounds : {"", "compound { channel ( segment 0 ) compound { channel \"c\" "
-                                      "pixel [ 0 0 2 1 ] outputframe { name \"f\" } } compound { "
-                                      "channel \"d\" pixel [ 1 0 2 1 ] outputframe { name \"g\" } } "
-                                      "inputframe { name \"f\" } inputframe { name \"g\" } }"})
+    for (const char* compounds : {"",
+                                  "compound { channel ( segment 0 ) compound { channel \"c\" "
+                                  "pixel [ 0 0 2 1 ] outputframe { name \"f\" } } compound { "
+                                  "channel \"d\" pixel [ 1 0 2 1 ] outputframe { name \"g\" } } "
+                                  "inputframe { name \"f\" } inputframe { name \"g\" } }"})
         for (const Eye eye : {Eye::Left, Eye::Cyclop, Eye::Right})
             for (std::size_t segment : {0U, 1U}) {
                 request.outputs = {Output{.segment = segment, .eye = eye}};
@@ -181,10 +182,10 @@ TEST(Plan, PicksInOneOfTwoPicturesBesideEachOtherAreOfItsEye) {
 }
 
 TEST(Plan, PicksInAPartOfThePictureWithoutAWallAreOfThatPart) {
-    const config::Configuration configuration =
-        room("layout { view { } } canvas { layout 0 "
-             "segment { channel \"a\" viewport [ 0 0 .5 1 ] }"
-             "segment { channel \"b\" viewport [ .5 0 .5 1 ] } }");
+    const config::Configuration configuration = room(
+        "layout { view { } } canvas { layout 0 "
+        "segment { channel \"a\" viewport [ 0 0 .5 1 ] }"
+        "segment { channel \"b\" viewport [ .5 0 .5 1 ] } }");
     EXPECT_EQ(planned(room("layout { view { } } canvas { layout 0 segment { channel \"a\" } }"),
                       canvasOf(640, 480))
                   .pictures.front()

@@ -21,7 +21,9 @@ using Word = SwapGroup::Word;
 
 constexpr milliseconds kPatience{100};
 
-Clock::time_point at(int ms) { return Clock::time_point(std::chrono::seconds(1000)) + milliseconds(ms); }
+Clock::time_point at(int ms) {
+    return Clock::time_point(std::chrono::seconds(1000)) + milliseconds(ms);
+}
 
 /// Two members who have been given the picture of swap 1 at 0 ms.
 SwapGroup two() {

@@ -105,7 +105,8 @@ public:
         EXPECT_LE(glm::length(glm::cross(from, along)), 1e-11 * (1 + glm::length(from)))
             << "beside the ray";
         // A pixel of the wall, seen from where its point is picked.
-        const double pixels = (request.sight->frustum.top - request.sight->frustum.bottom) / kHeight;
+        const double pixels =
+            (request.sight->frustum.top - request.sight->frustum.bottom) / kHeight;
         EXPECT_NEAR((*picked)->pixelMetres, judge.depth((*picked)->worldMetres) * pixels,
                     1e-9 * (*picked)->pixelMetres);
     }
@@ -328,8 +329,8 @@ TEST(HardCase22, PicksOfExaggeratedTerrainAreWhereRaysMeetTheSource) {
 TEST(HardCase22, PicksThroughObliqueWallsAreWhereRaysMeetTheSource) {
     const test::TemporaryFolder folder;
     test::Dice dice(27);
-    const Pair mesh = meshPair(folder, import::synthesizeMesh(6000, 3), fabric::Mat4(1),
-                               {.leafTriangles = 500});
+    const Pair mesh =
+        meshPair(folder, import::synthesizeMesh(6000, 3), fabric::Mat4(1), {.leafTriangles = 500});
     const terrain::HeightGrid grid = test::hardGrid(GridKind::Smooth, 161, 150, 5);
     const Pair terrain = terrainPair(folder, grid);
     const fabric::Vec2 middle = grid.origin + grid.perColumn * 80.3 + grid.perRow * 70.6;
