@@ -38,26 +38,26 @@ absl::Status showLayout(const ConfigOptions& options, config::Configuration& con
 
 }  // namespace
 
+CLI::Option* addConfigFile(CLI::App& command, ConfigOptions& options) {
+    return command
+        .add_option("--config", options.file,
+                    "How renderers share the work and what is seen: an .eqc file of Equalizer, or "
+                    ".json (`eyrie check` explains it)")
+        ->type_name("FILE");
+}
+
 void addConfigOptions(CLI::App& command, ConfigOptions& options) {
-    CLI::Option* const file =
-        command
-            .add_option("--config", options.file,
-                        "How renderers share the work and what is seen: an .eqc file of Equalizer, "
-                        "or .json (`eyrie check` explains it)")
-            ->type_name("FILE");
+    CLI::Option* const file = addConfigFile(command, options);
     command.add_option("--compound", options.compound, kCompoundHelp)
         ->check(CLI::IsMember(compoundNames()).description(""))
         ->type_name("2D|DB|DB-static|direct-send|DB-2D")
         ->excludes(file);
 }
 
-void addShownOptions(CLI::App& command, ConfigOptions& options) {
+void addScreenOptions(CLI::App& command, ConfigOptions& options) {
     // Not of std::optional<Eye>, which CLI11 would turn into no text at all.
     static const std::map<std::string, Eye> kEyes = {
         {"cyclop", Eye::Cyclop}, {"left", Eye::Left}, {"right", Eye::Right}};
-    static const std::map<std::string, Stereo> kStereo = {{"anaglyph", Stereo::Anaglyph},
-                                                          {"side-by-side", Stereo::SideBySide},
-                                                          {"top-bottom", Stereo::TopBottom}};
     command
         .add_option("--canvas", options.shown.canvas,
                     "Which of the configuration's canvases, by name or position [the first]")
@@ -73,6 +73,13 @@ void addShownOptions(CLI::App& command, ConfigOptions& options) {
     command.add_option("--eye", options.shown.eye, "What one eye sees [what the view shows]")
         ->transform(CLI::CheckedTransformer(kEyes).description(""))
         ->type_name("left|right|cyclop");
+}
+
+void addShownOptions(CLI::App& command, ConfigOptions& options) {
+    static const std::map<std::string, Stereo> kStereo = {{"anaglyph", Stereo::Anaglyph},
+                                                          {"side-by-side", Stereo::SideBySide},
+                                                          {"top-bottom", Stereo::TopBottom}};
+    addScreenOptions(command, options);
     command
         .add_option("--stereo", options.shown.stereo,
                     "How two eyes are put into one picture [as the configuration says]")

@@ -21,10 +21,16 @@ struct ConfigOptions {
     bool oneChannel = false;  ///< without its compounds: each destination by its own channel
 };
 
-/// --config and --compound.
+/// --config.
+CLI::Option* addConfigFile(CLI::App& command, ConfigOptions& options);
+
+/// That and --compound.
 void addConfigOptions(CLI::App& command, ConfigOptions& options);
 
-/// What of it is seen: --canvas, --segment, --layout, --eye, --stereo, --one-channel.
+/// Which screen of it is seen, and by whom: --canvas, --segment, --layout, --eye.
+void addScreenOptions(CLI::App& command, ConfigOptions& options);
+
+/// Those, --stereo and --one-channel.
 void addShownOptions(CLI::App& command, ConfigOptions& options);
 
 /// The configuration that the file says; nothing without one. Warnings go to standard error unless

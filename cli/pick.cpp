@@ -1,17 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "cli/commands.h"
+#include "cli/config_options.h"
 #include "cli/json_object.h"
 #include "cli/picture_source.h"
 #include "cli/scene_files.h"
 #include "cli/stop_signal.h"
 #include "cli/values.h"
+#include "coordinator/config/default_config.h"
+#include "coordinator/frame/active_configuration.h"
+#include "fabric/seen_area.h"
 #include "fabric/status.h"
 #include "renderer/pick/picker.h"
 #include "wire/json.h"
@@ -42,6 +48,25 @@ absl::StatusOr<fabric::PickRequest> requestOf(const Options& options) {
     request.exaggeration = options.exaggeration;
     RETURN_IF_ERROR(fabric::validate(request));
     return request;
+}
+
+/// By which sights the picture is seen.
+absl::StatusOr<fabric::SeenAreas> areasOf(const Options& options,
+                                          const fabric::PickRequest& inPicture) {
+    ASSIGN_OR_RETURN(const auto configuration,
+                     configurationOf(options.source.config, options.source.quiet));
+    const bool isPlain = options.source.config.shown == coordinator::Shown{};
+    if (!configuration && isPlain)
+        return fabric::SeenAreas();
+    coordinator::FrameRequest picture;
+    picture.camera = inPicture.camera;
+    picture.width = inPicture.viewWidth;
+    picture.height = inPicture.viewHeight;
+    picture.shown = {options.source.config.shown};
+    const std::vector<config::RendererFacts> oneRenderer{{"", "", ""}};
+    const coordinator::ActiveConfiguration active(
+        configuration ? *configuration : config::defaultConfiguration(oneRenderer));
+    return active.seen(picture);
 }
 
 JsonObject vectorJson(const fabric::Vec3& v) {
@@ -79,13 +104,18 @@ void print(const fabric::PickedPoint& point, const std::string& object) {
 absl::Status pick(const Options& options) {
     const StopSignal stop;
     ASSIGN_OR_RETURN(const fabric::PickRequest request, requestOf(options));
+    ASSIGN_OR_RETURN(const fabric::SeenAreas areas, areasOf(options, request));
+    ASSIGN_OR_RETURN(const std::optional<fabric::PickRequest> seen, fabric::pickIn(areas, request));
     ASSIGN_OR_RETURN(const fabric::Scene scene,
                      loadScene(options.scene, options.source, stop.token()));
     ASSIGN_OR_RETURN(const RemoteData remote, remoteDataOf(options.source.cache));
     ASSIGN_OR_RETURN(
         const auto picker,
         pick::Picker::open(scene, page::sourceOptions(remote.cacheFolder, remote.cacheBytes)));
-    ASSIGN_OR_RETURN(const fabric::Picked picked, picker->pick(request));
+    fabric::Picked picked;
+    if (seen) {
+        ASSIGN_OR_RETURN(picked, picker->pick(*seen));
+    }
     const std::string object =
         picked ? scene.objects[static_cast<std::size_t>(picked->object)].name : "";
     if (options.json)
@@ -117,12 +147,18 @@ void addPick(CLI::App& app, Run& run) {
         ->required();
     command->add_option("--exaggeration", options->exaggeration, "Terrain's heights times this")
         ->capture_default_str();
+    addConfigFile(*command, options->source.config);
+    addScreenOptions(*command, options->source.config);
     addCacheOptions(*command, options->source.cache);
     command->add_flag("--quiet", options->source.quiet, "Only errors, beside the answer");
     command->add_flag("--json", options->json, "Print it as JSON; {} where nothing is");
     command->footer(
         "In double precision, in the finest data, with bounds on the error (docs/errors.md).\n"
-        "Example:\n  eyrie pick dem.eyt --camera cam.json --size 1920x1080 --pixel 960,540 --json");
+        "With --config the picture is what that canvas, segment or eye shows, seen through its "
+        "wall;\nwhere two eyes are shown in one place, the left one's.\n"
+        "Examples:\n"
+        "  eyrie pick dem.eyt --camera cam.json --size 1920x1080 --pixel 960,540 --json\n"
+        "  eyrie pick dem.eyt --camera cam.json --pixel 640,360 --config cave.eqc --segment left");
     command->callback([options, &run] { run = [options] { return pick(*options); }; });
 }
 

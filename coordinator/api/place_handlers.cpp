@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <optional>
+
 #include "coordinator/api/asked_view.h"
 #include "coordinator/api/handler_list.h"
 #include "coordinator/api/handlers.h"
@@ -6,6 +8,7 @@
 #include "coordinator/stream/viewer_messages.h"
 #include "eyrie/v1/eyrie_service.pb.h"
 #include "fabric/pick.h"
+#include "fabric/seen_area.h"
 #include "fabric/status.h"
 #include "wire/pick.h"
 
@@ -22,8 +25,23 @@ absl::StatusOr<v1::PickPointResponse> pickPoint(coordinator::FrameSource& frames
     if (message.has_exaggeration())
         request.exaggeration = message.exaggeration();
     RETURN_IF_ERROR(fabric::validate(request));
-    ASSIGN_OR_RETURN(const fabric::Picked picked, frames.pick(request));
+    coordinator::FrameRequest picture;
+    picture.camera = request.camera;
+    picture.width = request.viewWidth;
+    picture.height = request.viewHeight;
+    picture.shown = {stream::shownFromMessage(message.shown())};
+    using compound::Stereo;
+    const Stereo stereo = picture.shown.front().stereo;
+    if (stereo == Stereo::SideBySide || stereo == Stereo::TopBottom)
+        return absl::InvalidArgumentError(
+            "shown.stereo puts two pictures into one of another size; name the eye, and pick in "
+            "its picture");
+    ASSIGN_OR_RETURN(const fabric::SeenAreas areas, frames.seen(picture));
+    ASSIGN_OR_RETURN(const std::optional<fabric::PickRequest> seen, fabric::pickIn(areas, request));
     v1::PickPointResponse response;
+    if (!seen)
+        return response;
+    ASSIGN_OR_RETURN(const fabric::Picked picked, frames.pick(*seen));
     if (!picked)
         return response;
     *response.mutable_point() = wire::toMessage(*picked);

@@ -7,6 +7,7 @@
 
 #include "coordinator/compound/needs.h"
 #include "coordinator/compound/pictures.h"
+#include "coordinator/compound/seen_areas.h"
 #include "coordinator/compound/shares.h"
 #include "coordinator/compound/steps.h"
 #include "coordinator/compound/work.h"
@@ -147,8 +148,10 @@ absl::StatusOr<Plan> makePlan(const config::Configuration& configuration,
         RETURN_IF_ERROR(addWork(configuration, shown, request, pass, list));
     Plan plan;
     for (std::size_t i = 0; i < request.outputs.size(); ++i)
-        for (Picture& picture : picturesOf(configuration, shown, request.outputs[i], i, list))
+        for (Picture& picture : picturesOf(configuration, shown, request.outputs[i], i, list)) {
+            picture.seen = seenAreas(picture, list, request.fovYDegrees);
             plan.pictures.push_back(std::move(picture));
+        }
     ASSIGN_OR_RETURN(const std::vector<Work> works, inOrder(list));
     ASSIGN_OR_RETURN(plan.steps, stepsOf(shown, works, list));
     plan.frames = list.frames.size();

@@ -14,6 +14,7 @@
 #include "coordinator/config/resolved.h"
 #include "fabric/channel_task.h"
 #include "fabric/regridding.h"
+#include "fabric/seen_area.h"
 
 /// A frame of a configuration as a list: what is drawn, and what is done with it until the pictures
 /// are there. After Eilemann, Makhinya, Pajarola: "Equalizer: A Scalable Parallel Rendering
@@ -152,6 +153,8 @@ struct Picture {
     Stereo stereo = Stereo::Separate;  ///< how two eyes are put together; Separate: one eye
     std::vector<PicturePart> parts;    ///< of that eye, or the left; later ones lie above
     std::vector<PicturePart> right;    ///< empty where there is one eye
+    /// By which sights it is seen. Of two eyes in the same place, the left one's.
+    fabric::SeenAreas seen;
     config::ColourMask leftMask{true, false, false};
     config::ColourMask rightMask{false, true, true};
 };

@@ -6,6 +6,7 @@
 
 #include "coordinator/config/findings.h"
 #include "coordinator/config/named.h"
+#include "coordinator/config/one_channel.h"
 #include "fabric/status.h"
 
 namespace eyrie::coordinator {
@@ -137,17 +138,34 @@ absl::StatusOr<compound::Output> ActiveConfiguration::outputOf(const Shown& show
     return output;
 }
 
-absl::StatusOr<compound::Plan> ActiveConfiguration::plan(const FrameRequest& request,
-                                                         std::uint64_t frameNumber,
-                                                         const std::vector<bool>& isFree) {
+absl::StatusOr<compound::PlanRequest> ActiveConfiguration::planRequestOf(
+    const FrameRequest& request) const {
     compound::PlanRequest asked;
-    asked.frameNumber = frameNumber;
     asked.display = display_;
     asked.fovYDegrees = request.camera.fovYDegrees;
     for (const Shown& shown : request.shown) {
         ASSIGN_OR_RETURN(compound::Output output, outputOf(shown, request));
         asked.outputs.push_back(output);
     }
+    return asked;
+}
+
+absl::StatusOr<fabric::SeenAreas> ActiveConfiguration::seen(const FrameRequest& request) const {
+    ASSIGN_OR_RETURN(const compound::PlanRequest asked, planRequestOf(request));
+    // Of the configuration without what drives its compounds: those that draw in turn, a frame
+    // each, see the same.
+    ASSIGN_OR_RETURN(const compound::Plan plan,
+                     compound::makePlan(config::oneChannel(shown_), asked));
+    if (plan.pictures.empty())
+        return absl::InvalidArgumentError("no picture is asked for");
+    return plan.pictures.front().seen;
+}
+
+absl::StatusOr<compound::Plan> ActiveConfiguration::plan(const FrameRequest& request,
+                                                         std::uint64_t frameNumber,
+                                                         const std::vector<bool>& isFree) {
+    ASSIGN_OR_RETURN(compound::PlanRequest asked, planRequestOf(request));
+    asked.frameNumber = frameNumber;
     equalizers_.apply(live_, {frameNumber, resolved_, gone(isFree)});
     return compound::makePlan(live_, asked);
 }

@@ -54,6 +54,9 @@ public:
     absl::StatusOr<compound::Plan> plan(const FrameRequest& request, std::uint64_t frameNumber,
                                         const std::vector<bool>& isFree);
 
+    /// By which sights the first picture of the request would be seen. Errors: as of plan().
+    absl::StatusOr<fabric::SeenAreas> seen(const FrameRequest& request) const;
+
     /// Which renderer, of `renderers`, is to do each of the plan's draws.
     Takers takersOf(const compound::Plan& plan, std::size_t renderers) const;
 
@@ -72,6 +75,7 @@ public:
                 std::span<const Taken> taken);
 
 private:
+    absl::StatusOr<compound::PlanRequest> planRequestOf(const FrameRequest& request) const;
     absl::StatusOr<compound::Output> outputOf(const Shown& shown,
                                               const FrameRequest& request) const;
     std::size_t positionOf(const config::ChannelIndex& channel) const;

@@ -39,8 +39,8 @@ RenderedFrame composedFrame(const PlannedFrame& frame, const compound::Plan& pla
     RenderedFrame result;
     if (!drawn.empty())
         result.device = drawn.front().device;
-    result.isThroughWall = std::ranges::any_of(
-        frame.plan.draws, [](const auto& draw) { return draw.task.sight.has_value(); });
+    for (const compound::Picture& picture : frame.plan.pictures)
+        result.pictures.push_back({picture.output, picture.seen});
     std::vector<fabric::Image> images;
     for (Dispatch::Drawn& part : drawn) {
         fabric::accumulate(result.statistics, part.result.statistics);

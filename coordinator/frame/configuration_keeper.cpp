@@ -32,6 +32,7 @@ std::vector<CanvasStatus> canvasesOf(const ActiveConfiguration& active) {
         for (const auto& layout : canvas.layouts)
             status.layouts.push_back(layoutName(configuration, layout));
         status.layout = layoutName(configuration, active.state().layouts[i]);
+        status.barriers = config::swapBarriers(configuration, i, active.state().layouts[i]);
     }
     return canvases;
 }

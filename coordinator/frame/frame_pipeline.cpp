@@ -150,6 +150,16 @@ absl::StatusOr<DrawnFrame> FramePipeline::drawCentrally(const PlannedFrame& fram
     return whole;
 }
 
+absl::StatusOr<fabric::SeenAreas> FramePipeline::seen(const FrameRequest& request) {
+    RETURN_IF_ERROR(check(request));
+    fabric::SeenAreas areas;
+    RETURN_IF_ERROR(planner_.withConfiguration([&](ActiveConfiguration& active) -> absl::Status {
+        ASSIGN_OR_RETURN(areas, active.seen(request));
+        return absl::OkStatus();
+    }));
+    return areas;
+}
+
 /// All renderers have all the data: any may answer. That one is slow or cannot read a page is not
 /// held against it; heartbeats find out who is gone.
 absl::StatusOr<fabric::Picked> FramePipeline::pick(const fabric::PickRequest& request) {

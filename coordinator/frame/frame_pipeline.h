@@ -53,6 +53,7 @@ public:
     absl::StatusOr<RenderedFrame> renderFrame(const FrameRequest& request) override;
     absl::StatusOr<RenderedFrame> renderLatest(const ChooseFrame& choose) override;
     int framesAtOnce() const override { return planner_.framesUnderWay(); }
+    absl::StatusOr<fabric::SeenAreas> seen(const FrameRequest& request) override;
     absl::StatusOr<fabric::Picked> pick(const fabric::PickRequest& request) override;
     absl::Status configure(const SwitchLayout& change) override;
     absl::Status withConfiguration(

@@ -5,10 +5,12 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <absl/status/statusor.h>
 
+#include "coordinator/config/swap_barriers.h"
 #include "coordinator/frame/shown.h"
 #include "fabric/camera.h"
 #include "fabric/channel_task.h"
@@ -16,6 +18,7 @@
 #include "fabric/image.h"
 #include "fabric/pick.h"
 #include "fabric/scene.h"
+#include "fabric/seen_area.h"
 #include "fabric/statistics.h"
 
 namespace eyrie::coordinator {
@@ -48,17 +51,35 @@ struct FrameRequest {
     bool operator==(const FrameRequest&) const = default;
 };
 
+/// What one of a frame's pictures is.
+struct PictureFacts {
+    std::size_t shown = 0;   ///< in FrameRequest::shown
+    fabric::SeenAreas seen;  ///< by which sights
+
+    bool operator==(const PictureFacts&) const = default;
+};
+
 /// A composited picture, or the part asked for: `image.area` is its drawnPart(), or of the same
 /// shape and smaller where a budget is to be kept.
 struct RenderedFrame {
     fabric::Image image;
     fabric::FrameStatistics statistics;
     fabric::DeviceInfo device;  ///< of the first renderer that took part
-    /// Through a wall or by an eye beside the camera: not what a pick's camera sees.
-    bool isThroughWall = false;
     /// Of what else was asked for, in that order; of separate eyes, the second's after the first's.
     std::vector<fabric::Image> further = {};
+    std::vector<PictureFacts> pictures = {};  ///< of `image` and of what is further
 };
+
+/// For a person to read, where a frame shows nothing; empty where it shows something.
+inline std::string_view whyEmpty(const RenderedFrame& frame) {
+    for (const PictureFacts& picture : frame.pictures)
+        if (!picture.seen || !picture.seen->empty())
+            return "";
+    return frame.pictures.empty()
+               ? ""
+               : "Nothing is seen here: the eye is not before the wall that it is to look through, "
+                 "or the canvas shows no layout.";
+}
 
 enum class RendererCondition {
     Ready,     ///< draws
@@ -87,8 +108,9 @@ struct RendererStatus {
 struct CanvasStatus {
     std::string name;
     std::vector<std::string> segments;
-    std::vector<std::string> layouts;  ///< that it can show
-    std::string layout;                ///< that it shows; "OFF": none
+    std::vector<std::string> layouts;      ///< that it can show
+    std::string layout;                    ///< that it shows; "OFF": none
+    config::CanvasBarriers barriers = {};  ///< that its screens are shown behind
 
     bool operator==(const CanvasStatus&) const = default;
 };
@@ -136,6 +158,11 @@ public:
 
     /// How many frames it is worth to ask for at the same time: more would only wait.
     virtual int framesAtOnce() const { return 1; }
+
+    /// By which sights the first of the pictures asked for would be seen, for picks in it. Errors:
+    /// those of the request; FailedPrecondition before there was a renderer to make a
+    /// configuration of.
+    virtual absl::StatusOr<fabric::SeenAreas> seen(const FrameRequest& request) = 0;
 
     /// What a place of a picture shows, asked of one renderer and, should that fail, of the next;
     /// blocks, but not for frames. Errors: InvalidArgument (the request), Unavailable (no renderer,

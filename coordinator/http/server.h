@@ -41,6 +41,7 @@ struct ServerOptions {
     std::optional<access::TlsFiles> tls = {};  ///< HTTPS instead of HTTP
     /// How long viewers may go on when the server stops, to get the pictures they asked for.
     std::chrono::milliseconds drainTimeout{2'500};
+    std::chrono::milliseconds swapPatience{1000};  ///< as stream::SessionOptions has it
     /// What it tells of itself, and what /metrics and /api/v1/trace show; null: of its own.
     observe::SharedTelemetry telemetry = nullptr;
     /// Codes moving pictures for viewers of slow links that can show H.264; null: all get JPEGs.

@@ -138,6 +138,10 @@ public:
     }
 
     void viewers(int change) { viewers_.Increment(change); }
+    void swapped(int together, int cutShort) {
+        together_.Increment(together);
+        cutShort_.Increment(cutShort);
+    }
     void taskReissued(bool wasLate) { (wasLate ? late_ : afterFailure_).Increment(); }
     void refused(int status) {
         if (status >= 400)
@@ -229,6 +233,10 @@ private:
     Family<Counter>& received_ = counters("eyrie_received_bytes_total", "Bytes received.");
     Family<Counter>& sent_ = counters("eyrie_sent_bytes_total", "Bytes sent.");
     Gauge& viewers_ = gauge("eyrie_viewers", "Browsers that are connected.");
+    Family<Counter>& swaps_ =
+        counters("eyrie_swaps_total", "Pictures that screens behind a swap barrier have shown.");
+    Counter& together_ = swaps_.Add({{"result", "together"}});
+    Counter& cutShort_ = swaps_.Add({{"result", "without_late"}});
     Family<Gauge>& renderers_ = gauges("eyrie_renderers", "Renderers by their condition.");
     Family<Counter>& reissued_ =
         counters("eyrie_tasks_reissued_total", "Channel tasks given to another renderer as well.");
@@ -258,6 +266,7 @@ void Metrics::bytes(Peer peer, Direction direction, std::size_t count) {
     impl_->bytes(peer, direction, count);
 }
 void Metrics::viewers(int change) { impl_->viewers(change); }
+void Metrics::swapped(int together, int cutShort) { impl_->swapped(together, cutShort); }
 void Metrics::taskReissued(bool wasLate) { impl_->taskReissued(wasLate); }
 void Metrics::refused(int status) { impl_->refused(status); }
 void Metrics::rendererHolds(const std::string& name, std::uint64_t deviceBytes,

@@ -47,6 +47,9 @@ public:
     void took(Stage stage, std::chrono::duration<double> time);
     void bytes(Peer peer, Direction direction, std::size_t count);
     void viewers(int change);
+    /// Pictures that screens behind a swap barrier have shown: all of them together, or without
+    /// some that were too late.
+    void swapped(int together, int cutShort);
     void taskReissued(bool wasLate);  ///< else the renderer before had failed
     /// By HTTP status, 400 or more; others are not counted.
     void refused(int status);

@@ -56,10 +56,12 @@ bool Outbox::mayTakePart(Clock::time_point now) const {
 }
 
 bool Outbox::hasMessage(Clock::time_point now) const {
-    return state_ || mayTakePart(now) || mayTakeFrame(now);
+    return word_ || state_ || mayTakePart(now) || mayTakeFrame(now);
 }
 
 std::optional<std::string> Outbox::take(Clock::time_point now) {
+    if (word_)
+        return std::exchange(word_, std::nullopt);
     if (state_)
         return std::exchange(state_, std::nullopt);
     if (mayTakePart(now))

@@ -20,8 +20,9 @@ struct OutgoingFrame {
     Clock::time_point started;  ///< its rendering, or the encoding of one that was drawn before
 };
 
-/// What waits to be sent to one browser, and what is under way to it: at most one state, one frame,
-/// and the rest of one still picture.
+/// What waits to be sent to one browser, and what is under way to it: at most one word (of a
+/// picture that is there, so there is no other before it is taken), one state, one frame, and the
+/// rest of one still picture.
 ///
 /// Moving frames go whole, as many at once as the Pacer says and no more than would take half a
 /// second on a link that has become ten times slower. Still pictures go in parts, a tenth of a
@@ -35,19 +36,21 @@ public:
     /// Replaces one that has not been taken.
     void putState(std::string message) { state_ = std::move(message); }
     void putFrame(OutgoingFrame frame);
+    /// The word to show the picture of a swap: goes before anything else.
+    void putWord(std::string message) { word_ = std::move(message); }
 
     /// The view is no longer wanted: what is left of a still picture, or one that waits, is
     /// dropped.
     void dropStill();
 
     bool hasMessage(Clock::time_point now) const;
-    /// The next message: the state, else a part of a still picture, else the frame.
+    /// The next message: the word, else the state, else a part of a still picture, else the frame.
     std::optional<std::string> take(Clock::time_point now);
 
     /// A frame has not been taken yet: a finer one of the same view would only take its place.
     bool isWaiting() const { return waiting_.has_value(); }
-    /// A frame, or the rest of one, has not been taken yet.
-    bool hasUnsent() const { return waiting_.has_value() || rest_.has_value(); }
+    /// A word, a frame, or the rest of one, has not been taken yet.
+    bool hasUnsent() const { return word_ || waiting_ || rest_; }
 
     /// Whether one more frame may be started while `underWay` are being made.
     bool hasRoom(int underWay) const;
@@ -66,6 +69,7 @@ private:
 
     Pacer pacer_;
     LinkEstimate link_;
+    std::optional<std::string> word_;
     std::optional<std::string> state_;
     std::optional<OutgoingFrame> waiting_;
     struct Rest {

@@ -15,10 +15,14 @@ constexpr int kFineQuality = 95;
 
 }  // namespace
 
+const fabric::Image& imageOf(const Picture& picture, const QualityClass& as) {
+    return as.output == 0 ? picture.frame->image : picture.frame->further[as.output - 1];
+}
+
 std::optional<fabric::Image> shrunkFor(const Picture& picture, const QualityClass& as) {
     if (as.fineness != Fineness::Moving || as.level <= picture.level)
         return std::nullopt;
-    const fabric::Image& image = picture.frame->image;
+    const fabric::Image& image = imageOf(picture, as);
     const coordinator::FrameRequest wanted =
         drawingOf(picture.view, nullptr, QualityControl::level(as.level).scale);
     if (wanted.width >= image.area.width || wanted.height >= image.area.height)
@@ -28,7 +32,7 @@ std::optional<fabric::Image> shrunkFor(const Picture& picture, const QualityClas
 
 absl::StatusOr<EncodedPicture> encodePicture(const Picture& picture, const QualityClass& as) {
     const std::optional<fabric::Image> smaller = shrunkFor(picture, as);
-    const fabric::Image& image = smaller ? *smaller : picture.frame->image;
+    const fabric::Image& image = smaller ? *smaller : imageOf(picture, as);
     EncodedPicture encoded;
     encoded.fineness = as.fineness;
     encoded.width = image.area.width;

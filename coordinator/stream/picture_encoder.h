@@ -2,6 +2,7 @@
 #pragma once
 
 #include <compare>
+#include <cstddef>
 #include <optional>
 
 #include <absl/status/statusor.h>
@@ -17,9 +18,13 @@ struct QualityClass {
     Fineness fineness = Fineness::Moving;
     int level = 0;              ///< QualityControl's; of still ones 0
     Codec codec = Codec::Jpeg;  ///< of moving ones
+    std::size_t output = 0;     ///< in RenderedFrame::pictures
 
     auto operator<=>(const QualityClass&) const = default;
 };
+
+/// Of the pictures of one moment the one that a class gets.
+const fabric::Image& imageOf(const Picture& picture, const QualityClass& as);
 
 /// The pixels of `picture` as a class gets them: shrunk to its scale where it was drawn larger,
 /// and nothing where they are its own.

@@ -12,7 +12,12 @@ constexpr std::chrono::milliseconds kFarAway{8};
 }  // namespace
 
 bool Seat::mayGetVideo() const {
-    return showsVideo && outbox.link().shortestRoundTrip() >= kFarAway;
+    return showsVideo && !screen && barrier.empty() &&
+           outbox.link().shortestRoundTrip() >= kFarAway;
+}
+
+bool Seat::getsVideo() const {
+    return quality.codec() == Codec::H264 && !screen && barrier.empty();
 }
 
 std::optional<QualityClass> Seat::due(const Progress& progress, Clock::time_point now) const {
@@ -21,27 +26,57 @@ std::optional<QualityClass> Seat::due(const Progress& progress, Clock::time_poin
     const std::optional<Fineness> fineness = progress.next(delivered, now);
     if (!fineness)
         return std::nullopt;
-    if (*fineness == Fineness::Moving && quality.codec() == Codec::H264) {
+    const std::optional<QualityClass> moving = movingClass(*progress.newest());
+    if (!moving)
+        return std::nullopt;
+    if (*fineness == Fineness::Moving && getsVideo()) {
         // The next one needs the one that waits, which is not to be replaced.
         if (outbox.isWaiting())
             return std::nullopt;
-        const int level = std::max(quality.index(), progress.newest()->level);
-        return QualityClass{*fineness, QualityControl::streamLevel(level), Codec::H264};
+        return QualityClass{*fineness, QualityControl::streamLevel(moving->level), Codec::H264,
+                            moving->output};
     }
     if (*fineness == Fineness::Moving)
-        return QualityClass{*fineness, std::max(quality.index(), progress.newest()->level)};
+        return moving;
     // A finer one of the same view would only take the place of one that waits.
-    return outbox.isWaiting() ? std::nullopt : std::optional(QualityClass{*fineness, 0});
+    return outbox.isWaiting() ? std::nullopt
+                              : std::optional(QualityClass{*fineness, 0, Codec::Jpeg, moving->output});
+}
+
+std::optional<QualityClass> Seat::movingClass(const Picture& picture) const {
+    const auto wanted = shown(picture.view.frame.shown.front());
+    const auto asked = wanted ? std::ranges::find(picture.shown, *wanted) : picture.shown.end();
+    if (asked == picture.shown.end())
+        return std::nullopt;
+    const auto position = static_cast<std::size_t>(asked - picture.shown.begin());
+    // Of separate eyes, the first.
+    const auto& pictures = picture.frame->pictures;
+    const auto made = std::ranges::find(pictures, position, &coordinator::PictureFacts::shown);
+    if (made == pictures.end())
+        return std::nullopt;
+    return QualityClass{Fineness::Moving, std::max(quality.index(), picture.level), Codec::Jpeg,
+                        static_cast<std::size_t>(made - pictures.begin())};
+}
+
+std::optional<coordinator::Shown> Seat::shown(const coordinator::Shown& asked) const {
+    if (!screen)
+        return asked;
+    if (!screen->isChecked)
+        return std::nullopt;
+    return screen->problem.empty() ? screen->shown : asked;
 }
 
 bool Seat::isReadyForMore(const Progress& progress) const {
+    const std::shared_ptr<const Picture>& newest = progress.newest();
+    // One that is not of its screen is not for it.
     const bool hasNewest =
-        progress.newest() == nullptr || delivered.picture == progress.newest()->number;
+        newest == nullptr || delivered.picture == newest->number || !movingClass(*newest);
     return hasNewest && outbox.hasRoom(progress.rendering() + (isServed ? 1 : 0));
 }
 
 void Seat::give(std::shared_ptr<const EncodedPicture> encoded, const QualityClass& as,
-                const Picture& picture, const Progress& progress, Clock::time_point now) {
+                const Picture& picture, const Progress& progress, Clock::time_point now,
+                std::uint64_t swap) {
     const double pixels = static_cast<double>(picture.view.frame.width) * picture.view.frame.height;
     // Keys are larger than what follows, and few.
     if (as.fineness == Fineness::Moving && !(encoded->video && encoded->video->isKey))
@@ -54,6 +89,8 @@ void Seat::give(std::shared_ptr<const EncodedPicture> encoded, const QualityClas
     EncodedFrame frame;
     frame.frameNumber = ++lastFrameNumber_;
     frame.picture = std::move(encoded);
+    frame.output = as.output;
+    frame.swap = swap;
     frame.liftedCamera = picture.liftedCamera;
     const ViewRequest& view = progress.answered(picture);
     if (view.viewer == id)

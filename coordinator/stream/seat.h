@@ -35,19 +35,31 @@ public:
           outbox(framesInFlight),
           messageReady_(std::move(messageReady)) {}
 
-    /// What it is to get of the newest picture now; nothing while it has no room, or all there is.
+    /// What it is to get of the newest picture now; nothing while it has no room, or all there is,
+    /// or the picture is not of its screen.
     std::optional<QualityClass> due(const Progress& progress, Clock::time_point now) const;
+
+    /// The same of a picture that moves, however its screen has it.
+    std::optional<QualityClass> movingClass(const Picture& picture) const;
 
     /// A picture drawn now would go to it at once: it has the newest, and room for one more.
     bool isReadyForMore(const Progress& progress) const;
 
-    /// It says that it can show H.264, and is so far away that a link which looks slow is not just
-    /// a busy machine.
+    /// It says that it can show H.264, shows what the leader does, behind no barrier, and is so far
+    /// away that a link which looks slow is not just a busy machine.
     bool mayGetVideo() const;
+    /// Moving pictures go to it as H.264.
+    bool getsVideo() const;
 
-    /// Hands `encoded` of `picture` over, in place of one that waits.
+    /// Hands `encoded` of `picture` over, in place of one that waits; to be shown at once, or at
+    /// the word for `swap`.
     void give(std::shared_ptr<const EncodedPicture> encoded, const QualityClass& as,
-              const Picture& picture, const Progress& progress, Clock::time_point now);
+              const Picture& picture, const Progress& progress, Clock::time_point now,
+              std::uint64_t swap = 0);
+
+    /// What it shows while `asked` is what the leader asks for; nothing before it is known whether
+    /// there is what it wants.
+    std::optional<coordinator::Shown> shown(const coordinator::Shown& asked) const;
 
     /// Says that there may be a message; not any more once close() has returned.
     void tell();
@@ -65,6 +77,15 @@ public:
     bool isAwaiting = false;          ///< the picture that is being drawn will go to it at once
     int timesPassedOver = 0;          ///< others came before it since it was served
     std::string problem = {};         ///< what was wrong with its last request
+    /// A screen of its own, which it shows whoever leads.
+    struct Screen {
+        coordinator::Shown shown;
+        bool isChecked = false;     ///< whether it can be shown
+        bool isToBeChecked = true;  ///< as it is now
+        std::string problem = {};   ///< why it cannot; empty where it can
+    };
+    std::optional<Screen> screen;
+    std::string barrier = {};  ///< that its pictures are shown behind; empty: none
     std::string lastState = {};
 
 private:

@@ -18,6 +18,8 @@
 
 #include "coordinator/observe/stage_timer.h"
 #include "coordinator/stream/drawing.h"
+#include "coordinator/stream/swap_barrier.h"
+#include "coordinator/stream/swap_group.h"
 #include "coordinator/stream/video_streams.h"
 #include "coordinator/stream/viewer_messages.h"
 
@@ -48,6 +50,12 @@ double pixelsOf(const ViewRequest& view) {
 
 using Seats = std::vector<std::shared_ptr<Seat>>;
 
+/// The sooner, of what there is.
+std::optional<Clock::time_point> sooner(const std::optional<Clock::time_point>& a,
+                                        const std::optional<Clock::time_point>& b) {
+    return a && b ? std::min(a, b) : a ? a : b;
+}
+
 }  // namespace
 
 class Session::Impl {
@@ -56,6 +64,7 @@ public:
         : frames_(frames),
           name_(std::move(name)),
           framesInFlight_(options.framesInFlight),
+          swapPatience_(options.swapPatience),
           telemetry_(options.telemetry),
           videos_(options.video),
           progress_(
@@ -97,6 +106,7 @@ public:
             const auto heir = std::ranges::find(seats_, Role::Lead, &Seat::role);
             leader_ = heir == seats_.end() ? nullptr : heir->get();
         }
+        leaveGroup(*seat);
         isStateStale_ = true;
         isStopping_ = seats_.empty();
         changed_.notify_all();
@@ -108,6 +118,11 @@ public:
         if (leader_ != &seat || isDraining_)
             return;
         setProblem(seat.problem, "");
+        // Who leads shows what it asks for: the next picture has it.
+        if (seat.screen && seat.screen->shown != view.frame.shown.front()) {
+            seat.screen->shown = view.frame.shown.front();
+            seat.screen->isToBeChecked = true;
+        }
         view.viewer = seat.id;
         if (progress_.want(view, Clock::now()))
             for (const auto& each : seats_) each->outbox.dropStill();
@@ -128,6 +143,35 @@ public:
             setProblem(seat.problem, "This viewer may not take the lead.");
         }
         changed_.notify_all();
+    }
+
+    void show(Seat& seat, OwnScreen screen) {
+        const std::lock_guard lock(mutex_);
+        if (isDraining_ ||
+            (seat.screen ? std::optional(seat.screen->shown) : std::nullopt) == screen.shown)
+            return;
+        seat.screen.reset();
+        if (screen.shown)
+            seat.screen = Seat::Screen{.shown = *std::move(screen.shown)};
+        drawForAll();
+        isStateStale_ = true;
+        changed_.notify_all();
+    }
+
+    void ready(Seat& seat, std::uint64_t swap) {
+        Seats told;
+        {
+            const std::lock_guard lock(mutex_);
+            const auto group = groups_.find(seat.barrier);
+            if (group == groups_.end())
+                return;
+            const int behind = group->second.behind();
+            group->second.ready(seat.id, swap, Clock::now());
+            told = sayWords(group->second);
+            isStateStale_ = isStateStale_ || behind != group->second.behind();
+        }
+        changed_.notify_all();
+        for (const auto& each : told) each->tell();
     }
 
     void switchLayout(Seat& seat, coordinator::SwitchLayout change) {
@@ -196,7 +240,7 @@ public:
         const std::lock_guard lock(mutex_);
         const Clock::time_point now = Clock::now();
         return !progress_.owesPicture(now) && progress_.rendering() == 0 && !seat.isServed &&
-               !dueNow(seat, now) && !seat.outbox.hasUnsent();
+               !dueNow(seat, now) && !awaitsSwap(seat) && !seat.outbox.hasUnsent();
     }
 
     SessionCounts counts() const {
@@ -255,6 +299,8 @@ private:
         while (!isStopping_) {
             if (switch_)
                 switchLayout(lock);
+            else if (const std::shared_ptr<Seat> unchecked = uncheckedScreen())
+                checkScreen(lock, unchecked);
             else if (mayRender())
                 renderOne(lock);
             else
@@ -273,6 +319,55 @@ private:
         if (leader_ != nullptr)
             setProblem(leader_->problem, status.ok() ? "" : sanitised(text(status)));
         changed_.notify_all();
+    }
+
+    /// Once more, where the newest picture was drawn without somebody's screen.
+    void drawForAll() {
+        const std::shared_ptr<const Picture>& newest = progress_.newest();
+        if (newest == nullptr)
+            return;
+        for (const auto& seat : seats_)
+            if (const auto shown = seat->shown(newest->view.frame.shown.front());
+                shown && std::ranges::find(newest->shown, *shown) == newest->shown.end())
+                return progress_.sourceChanged();
+    }
+
+    std::shared_ptr<Seat> uncheckedScreen() const {
+        const auto found = std::ranges::find_if(seats_, [](const std::shared_ptr<Seat>& seat) {
+            return seat->screen && seat->screen->isToBeChecked;
+        });
+        return found == seats_.end() ? nullptr : *found;
+    }
+
+    /// Whether there is such a screen: one that there is not would leave all without a picture.
+    /// Waits for frames that are being planned.
+    void checkScreen(std::unique_lock<std::mutex>& lock, const std::shared_ptr<Seat>& seat) {
+        seat->screen->isToBeChecked = false;
+        const coordinator::Shown shown = seat->screen->shown;
+        coordinator::FrameRequest request;
+        if (progress_.wanted())
+            request = progress_.wanted()->frame;
+        request.shown = {shown};
+        lock.unlock();
+        const absl::Status status = frames_.seen(request).status();
+        lock.lock();
+        if (!seat->screen || seat->screen->shown != shown)
+            return;  // it is another by now
+        seat->screen->isChecked = true;
+        seat->screen->problem = status.ok() ? "" : sanitised(text(status));
+        drawForAll();
+        isStateStale_ = true;
+        changed_.notify_all();
+    }
+
+    /// The pictures that are seen, each once.
+    std::vector<coordinator::Shown> screens(const coordinator::Shown& asked) const {
+        std::vector<coordinator::Shown> screens;
+        for (const auto& seat : seats_)
+            if (const auto shown = seat->shown(asked);
+                shown && std::ranges::find(screens, *shown) == screens.end())
+                screens.push_back(*shown);
+        return screens.empty() ? std::vector{asked} : screens;
     }
 
     /// The best level that a link of the viewers takes: a picture for it serves the others, too.
@@ -306,6 +401,7 @@ private:
                                   isAtRest ? 1 : QualityControl::level(begun.level).scale);
         if (isAtRest)
             begun.request.budgetMilliseconds.reset();
+        begun.request.shown = screens(begun.view.frame.shown.front());
         // Measuring has no place in a limited time.
         begun.request.measuresStages =
             !begun.request.budgetMilliseconds && ++requested_ % kFramesToAMeasurement == 4;
@@ -342,15 +438,17 @@ private:
             // Of frames at the same time each takes what it adds.
             const Clock::time_point from = std::max(begun.at, std::exchange(lastRendered_, now));
             for (const auto& seat : seats_) seat->outbox.rendered(now - from);
-            setProblem(renderProblem_, "");
+            setProblem(renderProblem_, std::string(coordinator::whyEmpty(*frame)));
             tellAtFullSize(frame->statistics, begun.view, begun.request);
             Picture picture{begun.view,
                             std::make_shared<const coordinator::RenderedFrame>(*std::move(frame)),
                             begun.at};
             picture.level = begun.level;
+            picture.shown = begun.request.shown;
             if (!(begun.request.camera == begun.view.frame.camera))
                 picture.liftedCamera = begun.request.camera;
             progress_.rendered(std::move(picture), now);
+            drawForAll();
             encodings_.clear();
         } else {
             setProblem(renderProblem_, sanitised(text(frame.status())));
@@ -364,27 +462,198 @@ private:
         std::unique_lock lock(mutex_);
         while (!isStopping_) {
             const Clock::time_point now = Clock::now();
+            arrangeGroups();
+            if (endLateSwaps(lock))
+                continue;
             if (isStateStale_)
                 composeStates(lock);
+            else if (const std::shared_ptr<Swap> swap = nextSwap(now))
+                serveTogether(lock, *swap);
             else if (const std::optional<QualityClass> next = nextClass(now))
                 serve(lock, *next);
             else
-                waitForChange(lock, isDraining_ ? std::nullopt : progress_.nextFiner(now));
+                waitForChange(lock, sooner(isDraining_ ? std::nullopt : progress_.nextFiner(now),
+                                           deadline()));
+        }
+    }
+
+    // ---- Swap barriers.
+
+    /// Of those whose screens share a barrier; null where it is shown behind none, or alone.
+    const SwapGroup* groupOf(const Seat& seat) const {
+        const auto group = groups_.find(seat.barrier);
+        return group == groups_.end() || group->second.size() < 2 ? nullptr : &group->second;
+    }
+
+    bool isInSwap(const Seat& seat) const {
+        const auto group = groups_.find(seat.barrier);
+        return group != groups_.end() && group->second.isSwapping() &&
+               group->second.isInStep(seat.id);
+    }
+
+    /// There is something that it gets together with others.
+    bool awaitsSwap(const Seat& seat) const {
+        const SwapGroup* const group = groupOf(seat);
+        return isInSwap(seat) || (group != nullptr && group->isInStep(seat.id) && !hasNewest(seat));
+    }
+
+    bool hasNewest(const Seat& seat) const {
+        return progress_.newest() != nullptr &&
+               seat.delivered.picture == progress_.newest()->number;
+    }
+
+    /// What it keeps for a word that will not come is shown now.
+    void leaveGroup(Seat& seat) {
+        const auto group = groups_.find(std::exchange(seat.barrier, ""));
+        if (group == groups_.end())
+            return;
+        group->second.leave(seat.id);
+        seat.outbox.putWord(swapMessage(seat.delivered.picture));
+        if (group->second.size() == 0)
+            groups_.erase(group);
+    }
+
+    /// Each seat joins those behind its barrier.
+    void arrangeGroups() {
+        if (!source_ || !progress_.wanted())
+            return;
+        for (const auto& seat : seats_) {
+            const auto shown = seat->shown(progress_.wanted()->frame.shown.front());
+            const std::string barrier = shown ? swapBarrierOf(source_->canvases, *shown) : "";
+            if (barrier == seat->barrier)
+                continue;
+            leaveGroup(*seat);
+            seat->barrier = barrier;
+            if (!barrier.empty())
+                groups_.try_emplace(barrier, swapPatience_).first->second.join(seat->id);
+            isStateStale_ = true;
+        }
+    }
+
+    /// Puts out the words that a group has to say now; returns who is to be told.
+    Seats sayWords(SwapGroup& group) {
+        Seats told;
+        for (const SwapGroup::Word& word : group.takeWords(Clock::now()))
+            for (const auto& seat : seats_)
+                if (seat->id == word.member) {
+                    seat->outbox.putWord(swapMessage(word.swap));
+                    told.push_back(seat);
+                }
+        const SwapGroup::Ended ended = group.takeEnded();
+        if (telemetry_ != nullptr)
+            telemetry_->metrics.swapped(ended.together, ended.cutShort);
+        return told;
+    }
+
+    /// True where somebody was told, and the lock given up for it.
+    bool endLateSwaps(std::unique_lock<std::mutex>& lock) {
+        bool isAny = false;
+        for (auto& [name, group] : groups_) {
+            const int behind = group.behind();
+            isAny = !sayWords(group).empty() || isAny;
+            isStateStale_ = isStateStale_ || behind != group.behind();
+        }
+        if (isAny)
+            tell(lock);
+        return isAny;
+    }
+
+    std::optional<Clock::time_point> deadline() const {
+        std::optional<Clock::time_point> first;
+        for (const auto& [name, group] : groups_) first = sooner(first, group.deadline());
+        return first;
+    }
+
+    /// A swap that is to begin: to whom each is given what.
+    struct Swap {
+        std::shared_ptr<const Picture> picture;
+        std::string barrier;
+        std::vector<std::pair<std::shared_ptr<Seat>, QualityClass>> seats;
+    };
+
+    std::shared_ptr<Swap> nextSwap(Clock::time_point now) {
+        for (auto& [barrier, group] : groups_)
+            if (group.size() >= 2 && !group.isSwapping())
+                if (auto swap = swapOf(barrier, group, now))
+                    return swap;
+        return nullptr;
+    }
+
+    /// Of the newest picture, with all in step that lack it; null while it is not of all screens.
+    std::shared_ptr<Swap> swapOf(const std::string& barrier, SwapGroup& group,
+                                 Clock::time_point now) {
+        const std::shared_ptr<const Picture> picture = progress_.newest();
+        if (picture == nullptr)
+            return nullptr;
+        std::vector<SwapGroup::Candidate> candidates;
+        auto swap = std::make_shared<Swap>(Swap{picture, barrier, {}});
+        for (const auto& seat : seats_) {
+            if (seat->barrier != barrier || !group.isInStep(seat->id) ||
+                seat->delivered.picture == picture->number)
+                continue;
+            const auto as = seat->movingClass(*picture);
+            if (!as) {
+                group.gather({}, now);
+                return nullptr;
+            }
+            seat->outbox.dropStill();  // what is left of it is of the picture before
+            candidates.push_back({seat->id, seat->outbox.hasRoom(0)});
+            swap->seats.emplace_back(seat, *as);
+        }
+        const int behind = group.behind();
+        const std::vector<SwapGroup::Member> members = group.gather(candidates, now);
+        isStateStale_ = isStateStale_ || behind != group.behind();
+        if (members.empty())
+            return nullptr;
+        std::erase_if(swap->seats, [&](const auto& each) {
+            return std::ranges::find(members, each.first->id) == members.end();
+        });
+        group.begin(picture->number, members);
+        return swap;
+    }
+
+    /// Encodes its picture for each class, and hands it to all of them.
+    void serveTogether(std::unique_lock<std::mutex>& lock, const Swap& swap) {
+        std::map<QualityClass, Seats> classes;
+        for (const auto& [seat, as] : swap.seats) {
+            seat->delivered = {swap.picture->number, as.fineness};
+            seat->isServed = true;
+            seat->timesPassedOver = 0;
+            classes[as].push_back(seat);
+        }
+        for (const auto& [as, seats] : classes) {
+            const auto encoded = encodingOf(lock, swap.picture, as, seats);
+            if (!encoded.ok())
+                setProblem(renderProblem_, sanitised(text(encoded.status())));
+            for (const auto& seat : seats) {
+                seat->isServed = false;
+                const auto group = groups_.find(swap.barrier);
+                if (group == groups_.end() || seat->barrier != swap.barrier)
+                    continue;  // it has left meanwhile
+                if (encoded.ok()) {
+                    give(*seat, *encoded, as, *swap.picture, swap.picture->number);
+                    group->second.given(seat->id, swap.picture->number, Clock::now());
+                } else {
+                    group->second.withheld(seat->id);
+                }
+            }
+            tell(lock);
         }
     }
 
     /// At the end nothing is sent finer than it was asked for.
     std::optional<QualityClass> dueNow(const Seat& seat, Clock::time_point now) const {
-        const bool hasNewest =
-            progress_.newest() != nullptr && seat.delivered.picture == progress_.newest()->number;
-        const auto due = isDraining_ && hasNewest ? std::nullopt : seat.due(progress_, now);
+        if ((isDraining_ && hasNewest(seat)) || awaitsSwap(seat))
+            return std::nullopt;
+        const auto due = seat.due(progress_, now);
         const bool isLost =
             due && due->codec == Codec::H264 &&
             !videos_.mayFollow(due->level, seat.video, progress_.newest()->number, now);
         if (!isLost)
             return due;
         return QualityClass{due->fineness,
-                            std::max(seat.quality.jpegIndex(), progress_.newest()->level)};
+                            std::max(seat.quality.jpegIndex(), progress_.newest()->level),
+                            Codec::Jpeg, due->output};
     }
 
     /// Who waits for long first, then moving pictures before still ones, and better links, which
@@ -418,8 +687,12 @@ private:
     }
 
     void serve(std::unique_lock<std::mutex>& lock, const QualityClass& as) {
-        const Seats served = takeDue(as, Clock::now());
         const std::shared_ptr<const Picture> picture = progress_.newest();
+        Seats behind;  // for whom it is new: they are to say when it is there
+        for (const auto& seat : seats_)
+            if (groupOf(*seat) != nullptr && seat->delivered.picture != picture->number)
+                behind.push_back(seat);
+        const Seats served = takeDue(as, Clock::now());
         const absl::StatusOr<std::shared_ptr<const EncodedPicture>> encoded =
             encodingOf(lock, picture, as, served);
         for (const auto& seat : served) seat->isServed = false;
@@ -428,7 +701,14 @@ private:
             for (const auto& seat : served) seat->delivered.fineness = Fineness::Exact;  // given up
         } else if (as.fineness == Fineness::Moving || isStillBest(*picture)) {
             // A still picture that is no longer wanted would only stand in the way of the next.
-            for (const auto& seat : served) give(*seat, *encoded, as, *picture);
+            for (const auto& seat : served) {
+                const auto group = groups_.find(seat->barrier);
+                const bool waits = std::ranges::find(behind, seat) != behind.end() &&
+                                   group != groups_.end() && !group->second.isInStep(seat->id);
+                give(*seat, *encoded, as, *picture, waits ? picture->number : 0);
+                if (waits)
+                    group->second.given(seat->id, picture->number, Clock::now());
+            }
             replaceWaiting(*encoded, as, *picture);
         }
         tell(lock);
@@ -440,9 +720,9 @@ private:
     }
 
     void give(Seat& seat, const std::shared_ptr<const EncodedPicture>& encoded,
-              const QualityClass& as, const Picture& picture) {
+              const QualityClass& as, const Picture& picture, std::uint64_t swap = 0) {
         ++counts_.given;
-        seat.give(encoded, as, picture, progress_, Clock::now());
+        seat.give(encoded, as, picture, progress_, Clock::now(), swap);
     }
 
     /// A picture that has not gone out yet is older than this one, which is there already.
@@ -451,10 +731,11 @@ private:
         if (as.fineness != Fineness::Moving || as.codec != Codec::Jpeg)
             return;
         for (const auto& seat : seats_) {
-            if (seat->quality.codec() != Codec::Jpeg)
+            if (seat->getsVideo())
                 continue;
-            const bool isOfClass = std::max(seat->quality.index(), picture.level) == as.level;
-            if (seat->isServed || !seat->outbox.isWaiting() || !isOfClass ||
+            const bool isOfClass = seat->movingClass(picture) == as;
+            if (seat->isServed || groupOf(*seat) != nullptr || isInSwap(*seat) ||
+                !seat->outbox.isWaiting() || !isOfClass ||
                 seat->delivered.picture >= picture.number)
                 continue;
             seat->delivered = {picture.number, as.fineness};
@@ -502,7 +783,7 @@ private:
     absl::StatusOr<EncodedPicture> encodeVideo(const Picture& picture, const QualityClass& as,
                                                bool asKey, int jpegLevel, Clock::time_point now) {
         const std::optional<fabric::Image> smaller = shrunkFor(picture, as);
-        const fabric::Image& image = smaller ? *smaller : picture.frame->image;
+        const fabric::Image& image = smaller ? *smaller : imageOf(picture, as);
         absl::StatusOr<std::optional<VideoStreams::Coded>> coded =
             videos_.encode(as.level, image, QualityControl::level(as.level).rateFactor, asKey, now);
         if (!coded.ok()) {
@@ -511,7 +792,7 @@ private:
             videos_.giveUp();
         }
         if (!coded.ok() || !*coded)
-            return encodePicture(picture, {as.fineness, jpegLevel});
+            return encodePicture(picture, {as.fineness, jpegLevel, Codec::Jpeg, as.output});
         EncodedPicture encoded;
         encoded.width = image.area.width;
         encoded.height = image.area.height;
@@ -531,8 +812,12 @@ private:
         // A view that came before the first state was drawn without knowing the ground.
         const bool isOther =
             source_.has_value() ? !(*source_ == source) : source.sceneInfo.ground != nullptr;
-        if (isOther)
+        if (isOther) {
             progress_.sourceChanged();
+            for (const auto& seat : seats_)
+                if (seat->screen)
+                    seat->screen->isToBeChecked = true;
+        }
         source_ = std::move(source);
         for (const auto& seat : seats_) putState(*seat, status);
         tell(lock);
@@ -541,15 +826,23 @@ private:
     void putState(Seat& seat, const coordinator::Status& status) {
         const bool isExplained = seat.problem.empty() && !status.problem.empty();
         const std::string& problem = isExplained            ? status.problem
-                                     : seat.problem.empty() ? renderProblem_
+                                     : seat.problem.empty() ? ownProblem(seat)
                                                             : seat.problem;
-        std::string message = stateMessage(
-            status, problem,
-            {name_, static_cast<int>(seats_.size()), leader_ == &seat, leader_ != nullptr});
+        Place place{name_, static_cast<int>(seats_.size()), leader_ == &seat, leader_ != nullptr};
+        if (const SwapGroup* const group = groupOf(seat)) {
+            place.barrier = seat.barrier;
+            place.together = group->size();
+            place.behind = group->behind();
+        }
+        std::string message = stateMessage(status, problem, place);
         if (message == seat.lastState)
             return;
         seat.lastState = message;
         seat.outbox.putState(std::move(message));
+    }
+
+    const std::string& ownProblem(const Seat& seat) const {
+        return renderProblem_.empty() && seat.screen ? seat.screen->problem : renderProblem_;
     }
 
     // ---- Threads of the frame source.
@@ -565,6 +858,7 @@ private:
     coordinator::FrameSource& frames_;
     const std::string name_;
     const std::optional<int> framesInFlight_;
+    const std::chrono::milliseconds swapPatience_;
     const observe::SharedTelemetry telemetry_;
     const std::string encoding_ = fmt::format("encodes for session {}", ++sessionsSoFar);
 
@@ -574,8 +868,9 @@ private:
     bool isDraining_ = false;
     bool isStarting_ = false;  ///< a render thread waits for its frame's turn
     Clock::time_point lastRendered_{};
-    Seats seats_;             ///< in the order in which they came
-    Seat* leader_ = nullptr;  ///< one of them
+    Seats seats_;                              ///< in the order in which they came
+    Seat* leader_ = nullptr;                   ///< one of them
+    std::map<std::string, SwapGroup> groups_;  ///< of the seats' barriers
     std::uint64_t lastSeat_ = 0;
     VideoStreams videos_;
     Progress progress_;
@@ -600,6 +895,8 @@ std::shared_ptr<Seat> Session::join(Role role, bool mayControl,
                                     std::function<void()> messageReady) {
     return impl_->join(role, mayControl, std::move(messageReady));
 }
+void Session::show(Seat& seat, OwnScreen screen) { impl_->show(seat, std::move(screen)); }
+void Session::ready(Seat& seat, std::uint64_t swap) { impl_->ready(seat, swap); }
 bool Session::leave(const std::shared_ptr<Seat>& seat) { return impl_->leave(seat); }
 void Session::want(Seat& seat, const ViewRequest& view) { impl_->want(seat, view); }
 void Session::takeLead(Seat& seat) { impl_->takeLead(seat); }

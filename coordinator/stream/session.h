@@ -29,6 +29,8 @@ struct SessionOptions {
     std::chrono::milliseconds loadingDelay{30};
     /// The same when all that is missing could not be read, and may be readable later.
     std::chrono::milliseconds missingDelay{5000};
+    /// How long the screens behind a swap barrier wait for one of them.
+    std::chrono::milliseconds swapPatience{1000};
     observe::SharedTelemetry telemetry = nullptr;  ///< is told how long pictures take to encode
     const video::Module* video = nullptr;  ///< codes H.264 for slow links; null: nothing does
 };
@@ -53,6 +55,11 @@ struct SessionCounts {
 /// the server's picture bit for bit. Nothing is rendered or sent while neither the view nor the
 /// scene nor the renderers change and all viewers have the last picture.
 ///
+/// A viewer may have a screen of its own, another picture of the configuration than the leader's:
+/// all that are seen are drawn in one frame, of one version of the frame data. Those whose screens
+/// share a swap barrier are given moving pictures by swaps (SwapGroup), and finer ones of what they
+/// all show each by itself.
+///
 /// All functions may be called from any thread.
 class Session {
 public:
@@ -73,6 +80,8 @@ public:
 
     void want(Seat& seat, const ViewRequest& view);  ///< nothing where another leads
     void takeLead(Seat& seat);                       ///< refused to who may not control
+    void show(Seat& seat, OwnScreen screen);
+    void ready(Seat& seat, std::uint64_t swap);  ///< the picture that it was given with that
     /// Refused where another leads, and to who may not control.
     void switchLayout(Seat& seat, coordinator::SwitchLayout change);
     void acknowledged(Seat& seat, const FrameAck& ack);

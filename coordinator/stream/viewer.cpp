@@ -42,6 +42,10 @@ absl::Status Viewer::receive(std::span<const std::byte> message) {
                 session->takeLead(*seat);
             else if constexpr (std::is_same_v<Kind, Abilities>)
                 session->able(*seat, one);
+            else if constexpr (std::is_same_v<Kind, OwnScreen>)
+                session->show(*seat, std::move(one));
+            else if constexpr (std::is_same_v<Kind, SwapReady>)
+                session->ready(*seat, one.swap);
             else if (!isDraining_)
                 picks_.ask(std::move(one));
         },

@@ -10,6 +10,7 @@
 #include "wire/camera.h"
 #include "wire/pick.h"
 #include "wire/scene_info.h"
+#include "wire/sight.h"
 #include "wire/statistics.h"
 
 namespace eyrie::stream {
@@ -34,6 +35,20 @@ v1::RendererCondition toMessage(coordinator::RendererCondition condition) {
             break;
     }
     return v1::RENDERER_CONDITION_REFUSED;
+}
+
+void setSeen(const fabric::SeenAreas& areas, v1::Frame& frame) {
+    if (!areas)
+        return;
+    frame.set_through_wall(true);
+    for (const fabric::SeenArea& area : *areas) {
+        v1::SeenArea& message = *frame.add_seen();
+        message.set_x(area.corner.x);
+        message.set_y(area.corner.y);
+        message.set_width(area.size.x);
+        message.set_height(area.size.y);
+        *message.mutable_sight() = wire::toMessage(area.sight);
+    }
 }
 
 FrameAck ackFromMessage(const v1::FrameAck& message) {
@@ -90,6 +105,14 @@ absl::StatusOr<Request> parseRequest(std::span<const std::byte> bytes) {
         }
         case v1::ViewerRequest::kFrameAck:
             return ackFromMessage(message.frame_ack());
+        case v1::ViewerRequest::kScreen: {
+            OwnScreen screen;
+            if (message.screen().has_shown())
+                screen.shown = shownFromMessage(message.screen().shown());
+            return screen;
+        }
+        case v1::ViewerRequest::kReady:
+            return SwapReady{message.ready().swap()};
         case v1::ViewerRequest::kPick:
             return ViewerPick{message.pick().sequence(),
                               wire::fromMessage(message.pick().request())};
@@ -117,6 +140,9 @@ std::string stateMessage(const coordinator::Status& status, std::string_view pro
     state.mutable_place()->set_viewers(place.viewers);
     state.mutable_place()->set_leads(place.leads);
     state.mutable_place()->set_led(place.isLed);
+    state.mutable_place()->set_barrier(sanitised(place.barrier));
+    state.mutable_place()->set_together(place.together);
+    state.mutable_place()->set_behind(place.behind);
     return response.SerializeAsString();
 }
 
@@ -176,7 +202,9 @@ std::string frameMessage(const EncodedFrame& encoded, const coordinator::Rendere
         frame.mutable_video()->set_key(picture.video->isKey);
     }
     frame.set_link_bytes_per_second(encoded.linkBytesPerSecond);
-    frame.set_through_wall(rendered.isThroughWall);
+    frame.set_swap(encoded.swap);
+    if (encoded.output < rendered.pictures.size())
+        setSeen(rendered.pictures[encoded.output].seen, frame);
     *frame.mutable_statistics() = wire::toMessage(rendered.statistics);
     frame.mutable_statistics()->set_width(picture.width);
     frame.mutable_statistics()->set_height(picture.height);
@@ -195,6 +223,12 @@ std::string framePartMessage(std::uint64_t frameNumber, std::size_t offset,
     part.set_frame_number(frameNumber);
     part.set_offset(offset);
     part.set_bytes(bytes.data(), bytes.size());
+    return response.SerializeAsString();
+}
+
+std::string swapMessage(std::uint64_t swap) {
+    v1::ViewerResponse response;
+    response.mutable_swap()->set_swap(swap);
     return response.SerializeAsString();
 }
 

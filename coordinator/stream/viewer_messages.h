@@ -51,6 +51,14 @@ struct TakeLead {};
 /// What a browser can show beside JPEG and PNG.
 struct Abilities {
     bool h264 = false;
+/// Which picture a viewer shows, whoever leads.
+struct OwnScreen {
+    std::optional<coordinator::Shown> shown;  ///< nothing: what the leader asks for
+};
+
+/// The picture of that swap has been decoded.
+struct SwapReady {
+    std::uint64_t swap = 0;
 };
 
 /// How near to the server's picture one is sent.
@@ -65,15 +73,18 @@ enum class Fineness {
 /// A pick or profile that cannot be made is parsed, with what is wrong: it has an answer of its
 /// own.
 using Request = std::variant<ViewRequest, FrameAck, ViewerPick, ViewerProfile,
-                             coordinator::SwitchLayout, TakeLead, Abilities>;
+                             coordinator::SwitchLayout, TakeLead, Abilities, OwnScreen, SwapReady>;
 absl::StatusOr<Request> parseRequest(std::span<const std::byte> bytes);
 
 /// A viewer among those that see the same.
 struct Place {
-    std::string session;  ///< empty: it is alone
-    int viewers = 1;      ///< this one among them
-    bool leads = true;    ///< this one moves the view
-    bool isLed = true;    ///< somebody does
+    std::string session;       ///< empty: it is alone
+    int viewers = 1;           ///< this one among them
+    bool leads = true;         ///< this one moves the view
+    bool isLed = true;         ///< somebody does
+    std::string barrier = {};  ///< that it shows its pictures behind, with others; empty: none
+    int together = 0;          ///< those behind it, this one among them
+    int behind = 0;            ///< those of them that are not waited for
 };
 
 v1::SessionState sessionState(const coordinator::Status& status, std::string_view problem);
@@ -110,6 +121,8 @@ struct EncodedFrame {
     std::optional<fabric::Camera> liftedCamera = {};  ///< shown in place of the one asked for
     std::optional<ViewRequest> ledView = {};          ///< that another viewer asked for
     double linkBytesPerSecond = 0;                    ///< 0: not known
+    std::size_t output = 0;                           ///< in RenderedFrame::pictures
+    std::uint64_t swap = 0;                           ///< that it waits for; 0: it is shown at once
 };
 
 /// A ViewerResponse with a Frame: `encoded` of what `rendered` shows, with the first `bytes` of its
@@ -120,6 +133,9 @@ std::string frameMessage(const EncodedFrame& encoded, const coordinator::Rendere
 /// A ViewerResponse with a FramePart: `bytes` of a picture from `offset` on.
 std::string framePartMessage(std::uint64_t frameNumber, std::size_t offset,
                              std::span<const std::byte> bytes);
+
+/// A ViewerResponse with a ViewerSwap.
+std::string swapMessage(std::uint64_t swap);
 
 /// A ViewerResponse with a ViewerPicked.
 std::string pickedMessage(std::uint64_t sequence, const absl::StatusOr<fabric::Picked>& picked);

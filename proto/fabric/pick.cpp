@@ -13,6 +13,8 @@ namespace eyrie::fabric {
 
 absl::Status validate(const PickRequest& request) {
     RETURN_IF_ERROR(validate(request.camera));
+    if (request.sight)
+        RETURN_IF_ERROR(validate(*request.sight));
     const auto isSide = [](std::int32_t side) { return side >= 1 && side <= kMaxViewPixels; };
     if (!isSide(request.viewWidth) || !isSide(request.viewHeight))
         return absl::InvalidArgumentError(

@@ -7,6 +7,7 @@
 #include <absl/status/status.h>
 
 #include "fabric/camera.h"
+#include "fabric/sight.h"
 #include "fabric/vec.h"
 
 namespace eyrie::fabric {
@@ -20,12 +21,14 @@ struct PickRequest {
     /// height; the middle of its first pixel is (0.5, 0.5).
     Vec2 place{0, 0};
     double exaggeration = 1;  ///< that terrains are drawn with, see Look
+    /// What the picture is seen by; nothing: straight ahead, by the camera's field of view.
+    std::optional<Sight> sight = {};
 
     bool operator==(const PickRequest&) const = default;
 };
 
-/// InvalidArgument, naming the field: what validate says of cameras, a size or exaggeration out of
-/// range, a place outside the picture.
+/// InvalidArgument, naming the field: what validate says of cameras and sights, a size or
+/// exaggeration out of range, a place outside the picture.
 absl::Status validate(const PickRequest& request);
 
 /// Where the line of sight through a place first meets a scene's data at their finest, and how far
@@ -43,7 +46,7 @@ struct PickedPoint {
     /// where the source may be missed.
     double nearestMetres = 0;
     double farthestMetres = 0;
-    double pixelMetres = 0;  ///< width of a pixel at its distance
+    double pixelMetres = 0;  ///< height of a pixel at its distance
     /// Of terrain: its height in its own object space, metres, as not exaggerated.
     std::optional<double> elevationMetres;
 

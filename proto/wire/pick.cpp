@@ -6,9 +6,11 @@
 #include <fmt/format.h>
 
 #include "eyrie/v1/camera.pb.h"
+#include "eyrie/v1/frame.pb.h"
 #include "eyrie/v1/pick.pb.h"
 #include "fabric/status.h"
 #include "wire/camera.h"
+#include "wire/sight.h"
 
 namespace eyrie::wire {
 namespace {
@@ -58,6 +60,8 @@ v1::PickRequest toMessage(const fabric::PickRequest& request) {
     message.set_x(request.place.x);
     message.set_y(request.place.y);
     message.set_exaggeration(request.exaggeration);
+    if (request.sight)
+        *message.mutable_sight() = toMessage(*request.sight);
     return message;
 }
 
@@ -69,6 +73,9 @@ absl::StatusOr<fabric::PickRequest> fromMessage(const v1::PickRequest& message) 
     request.place = {message.x(), message.y()};
     if (message.has_exaggeration())
         request.exaggeration = message.exaggeration();
+    if (message.has_sight()) {
+        ASSIGN_OR_RETURN(request.sight, fromMessage(message.sight()));
+    }
     RETURN_IF_ERROR(fabric::validate(request));
     return request;
 }

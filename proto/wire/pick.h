@@ -13,7 +13,7 @@ class PickRequest;
 namespace eyrie::wire {
 
 v1::PickRequest toMessage(const fabric::PickRequest& request);
-/// InvalidArgument for what a camera's fromMessage or fabric::validate refuses.
+/// InvalidArgument for what a camera's or sight's fromMessage or fabric::validate refuses.
 absl::StatusOr<fabric::PickRequest> fromMessage(const v1::PickRequest& message);
 
 v1::PickedPoint toMessage(const fabric::PickedPoint& point);

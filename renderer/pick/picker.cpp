@@ -48,8 +48,8 @@ fabric::PickedPoint pointOf(const fabric::PickRequest& request, const Ray& ray, 
     point.errorMetres = hit.errorMetres + rounding;
     point.nearestMetres = std::min(source.begin, hit.t) * metresPerT - rounding;
     point.farthestMetres = std::max(source.end, hit.t) * metresPerT + rounding;
-    point.pixelMetres =
-        2 * hit.t * std::tan(request.camera.fovYDegrees * M_PI / 360) / request.viewHeight;
+    const fabric::Frustum frustum = frustumOf(request);
+    point.pixelMetres = hit.t * (frustum.top - frustum.bottom) / request.viewHeight;
     point.elevationMetres = hit.elevationMetres;
     return point;
 }

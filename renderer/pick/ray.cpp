@@ -8,21 +8,30 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "fabric/frustum.h"
-
 namespace eyrie::pick {
 
 using fabric::Vec3;
 
+fabric::Frustum frustumOf(const fabric::PickRequest& request) {
+    if (request.sight)
+        return request.sight->frustum;
+    return fabric::symmetricFrustum(request.camera.fovYDegrees,
+                                    static_cast<double>(request.viewWidth) / request.viewHeight);
+}
+
 Ray rayThrough(const fabric::PickRequest& request) {
-    const double width = request.viewWidth;
-    const double height = request.viewHeight;
-    const fabric::Frustum frustum =
-        fabric::symmetricFrustum(request.camera.fovYDegrees, width / height);
-    const Vec3 inView(frustum.right * (2 * request.place.x / width - 1),
-                      frustum.top * (2 * request.place.y / height - 1), -1);
-    const fabric::Mat3 rotation = fabric::viewFromWorldRotation(request.camera);
-    return {request.camera.eye, glm::transpose(rotation) * inView};
+    const fabric::Frustum frustum = frustumOf(request);
+    const double x = request.place.x / request.viewWidth;
+    const double y = request.place.y / request.viewHeight;
+    // Weighted ends, so that the middle of a frustum straight ahead is straight ahead to the bit.
+    const Vec3 inView((1 - x) * frustum.left + x * frustum.right,
+                      (1 - y) * frustum.bottom + y * frustum.top, -1);
+    const fabric::Mat3 worldFromCamera =
+        glm::transpose(fabric::viewFromWorldRotation(request.camera));
+    if (!request.sight)
+        return {request.camera.eye, worldFromCamera * inView};
+    return {request.camera.eye + worldFromCamera * request.sight->eye,
+            worldFromCamera * (glm::transpose(request.sight->viewFromCamera) * inView)};
 }
 
 /// Translations may be thousands of kilometres: they are taken off first, not multiplied.

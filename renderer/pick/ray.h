@@ -2,6 +2,7 @@
 #pragma once
 
 #include "fabric/box.h"
+#include "fabric/frustum.h"
 #include "fabric/pick.h"
 #include "fabric/vec.h"
 
@@ -22,6 +23,9 @@ struct Span {
 
     bool isEmpty() const { return !(begin <= end); }
 };
+
+/// What the picture asked for spans at unit distance, by its sight or the camera's field of view.
+fabric::Frustum frustumOf(const fabric::PickRequest& request);
 
 /// In world space, through the place asked for; t is the depth along the view's axis, metres.
 /// Precondition: fabric::validate(request) is ok.

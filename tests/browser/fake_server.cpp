@@ -2,21 +2,26 @@
 // The door for browsers with pictures made up here: for tests of the page, and work on it, without
 // renderers. Prints the line with the URL that `eyrie serve` prints, and serves until its standard
 // input ends, with --h264 as the program's option; a line "no renderer" or "renderer" on it takes
-// the renderer away or brings it back.
+// the renderer away or brings it back, and "wall" hangs the picture on two screens that share a
+// swap barrier.
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
+#include <glm/matrix.hpp>
 
+#include "coordinator/config/screen.h"
 #include "coordinator/http/server.h"
+#include "fabric/frustum.h"
 #include "tests/coordinator/fake_frame_source.h"
 #include "video/load.h"
 
@@ -41,18 +46,59 @@ fabric::Rgba colourAlong(const fabric::Vec3& eye, const fabric::Vec3& direction)
     return isDark ? fabric::Rgba{red, green, 60, 255} : fabric::Rgba{green, 150, red, 255};
 }
 
-coordinator::RenderedFrame draw(const coordinator::FrameRequest& request) {
-    coordinator::RenderedFrame frame = coordinator::plainFrame(request, {});
-    const fabric::Camera& camera = request.camera;
-    const fabric::Mat3 worldFromView = glm::transpose(fabric::viewFromWorldRotation(camera));
-    const double pixel = 2 * std::tan(glm::radians(camera.fovYDegrees / 2)) / request.height;
+/// The screens, in the camera's axes: they meet in a corner ahead.
+const config::Wall kLeft{{-1.7, -0.6, -0.2}, {0, -0.6, -1.2}, {-1.7, 0.6, -0.2}, false};
+const config::Wall kRight{{0, -0.6, -1.2}, {1.7, -0.6, -0.2}, {0, 0.6, -1.2}, false};
+constexpr double kEye = 0.1;  ///< of two eyes, beside the middle
+
+/// By which sight a picture is seen; nothing: the camera's own.
+std::optional<fabric::Sight> sightOf(const coordinator::Shown& shown) {
+    if (shown.segment.empty())
+        return std::nullopt;
+    const double x = shown.eye == compound::Eye::Left    ? -kEye
+                     : shown.eye == compound::Eye::Right ? kEye
+                                                         : 0;
+    return config::sightThrough(shown.segment == "left" ? kLeft : kRight, {x, 0, 0});
+}
+
+/// From the eye through a place of a picture, in shares of it; in the world.
+struct Line {
+    fabric::Vec3 eye;
+    fabric::Vec3 direction;
+};
+Line lineThrough(const fabric::Camera& camera, const std::optional<fabric::Sight>& sight,
+                 double aspect, const fabric::Vec2& at) {
+    const fabric::Frustum frustum =
+        sight ? sight->frustum : fabric::symmetricFrustum(camera.fovYDegrees, aspect);
+    const fabric::Vec3 inView(frustum.left + at.x * (frustum.right - frustum.left),
+                              frustum.bottom + at.y * (frustum.top - frustum.bottom), -1);
+    const fabric::Mat3 worldFromCamera = glm::transpose(fabric::viewFromWorldRotation(camera));
+    if (!sight)
+        return {camera.eye, worldFromCamera * inView};
+    return {camera.eye + worldFromCamera * sight->eye,
+            worldFromCamera * (glm::transpose(sight->viewFromCamera) * inView)};
+}
+
+void paint(const coordinator::FrameRequest& request, const std::optional<fabric::Sight>& sight,
+           fabric::Image& image) {
+    const double aspect = static_cast<double>(request.width) / request.height;
     std::size_t i = 0;
     for (int y = 0; y < request.height; ++y)
         for (int x = 0; x < request.width; ++x) {
-            const fabric::Vec3 ray{(x - request.width / 2 + 0.5) * pixel,
-                                   (y - request.height / 2 + 0.5) * pixel, -1};
-            frame.image.colour[i++] = colourAlong(camera.eye, worldFromView * ray);
+            const Line line = lineThrough(request.camera, sight, aspect,
+                                          {(x + 0.5) / request.width, (y + 0.5) / request.height});
+            image.colour[i++] = colourAlong(line.eye, line.direction);
         }
+}
+
+coordinator::RenderedFrame draw(const coordinator::FrameRequest& request) {
+    coordinator::RenderedFrame frame = coordinator::plainFrame(request, {});
+    for (std::size_t k = 0; k < frame.pictures.size(); ++k) {
+        const std::optional<fabric::Sight> sight = sightOf(request.shown[k]);
+        paint(request, sight, k == 0 ? frame.image : frame.further[k - 1]);
+        if (sight)
+            frame.pictures[k].seen = {{{0, 0}, {1, 1}, *sight}};
+    }
     if (request.look.saturation == 0)
         for (fabric::Rgba& one : frame.image.colour) one.r = one.b = one.g;
     // As renderers do: half the error costs four times the triangles, and the data end somewhere.
@@ -65,22 +111,21 @@ coordinator::RenderedFrame draw(const coordinator::FrameRequest& request) {
 
 /// The same plain, picked.
 fabric::Picked pick(const fabric::PickRequest& request) {
-    const double pixel =
-        2 * std::tan(glm::radians(request.camera.fovYDegrees / 2)) / request.viewHeight;
-    const fabric::Vec3 inView{(request.place.x - request.viewWidth / 2.0) * pixel,
-                              (request.place.y - request.viewHeight / 2.0) * pixel, -1};
-    const fabric::Vec3 ray = glm::transpose(fabric::viewFromWorldRotation(request.camera)) * inView;
-    const double t = -request.camera.eye.z / ray.z;
-    const fabric::Vec3 hit = request.camera.eye + ray * t;
+    const double aspect = static_cast<double>(request.viewWidth) / request.viewHeight;
+    const Line line =
+        lineThrough(request.camera, request.sight, aspect,
+                    {request.place.x / request.viewWidth, request.place.y / request.viewHeight});
+    const double t = -line.eye.z / line.direction.z;
+    const fabric::Vec3 hit = line.eye + line.direction * t;
     if (!(t > 0) || hit.x < 0 || hit.x > 100 || hit.y < 0 || hit.y > 100)
         return std::nullopt;
     fabric::PickedPoint point;
     point.worldMetres = hit;
-    point.distanceMetres = t * glm::length(ray);
+    point.distanceMetres = t * glm::length(line.direction);
     point.errorMetres = 0.25;
     point.nearestMetres = point.distanceMetres - 1.5;
     point.farthestMetres = point.distanceMetres + 2.5;
-    point.pixelMetres = t * pixel;
+    point.pixelMetres = 0.1;
     point.elevationMetres = 1234.56;
     return point;
 }
@@ -101,7 +146,7 @@ coordinator::RenderedFrame drawInTime(const coordinator::FrameRequest& request) 
     return frame;
 }
 
-coordinator::Status statusWith(bool hasRenderer) {
+coordinator::Status statusWith(bool hasRenderer, bool hasWall) {
     coordinator::Status status = coordinator::readyStatus();
     status.renderers[0].device.renderer = "made-up pictures (no renderer)";
     fabric::GroundGrid plain;
@@ -110,11 +155,28 @@ coordinator::Status statusWith(bool hasRenderer) {
     plain.columns = plain.rows = 1;
     plain.highest = {0};
     status.sceneInfo.ground = std::make_shared<const std::vector<fabric::GroundGrid>>(1, plain);
+    if (hasWall)
+        status.canvases = {{.name = "wall",
+                            .segments = {"left", "right"},
+                            .layouts = {"1"},
+                            .layout = "1",
+                            .barriers = {"corner", {"corner", "corner"}}}};
     if (!hasRenderer) {
         status.renderers.clear();
         status.problem = "No renderer has registered.";
     }
     return status;
+}
+
+absl::StatusOr<fabric::SeenAreas> seen(const coordinator::FrameRequest& request) {
+    const coordinator::Shown& shown = request.shown.front();
+    if (!shown.segment.empty() && shown.segment != "left" && shown.segment != "right")
+        return absl::NotFoundError(fmt::format(
+            "no segment is called \"{}\"; there are \"left\", \"right\"", shown.segment));
+    const std::optional<fabric::Sight> sight = sightOf(shown);
+    if (!sight)
+        return fabric::SeenAreas();
+    return fabric::SeenAreas{{{{0, 0}, {1, 1}, *sight}}};
 }
 
 }  // namespace
@@ -130,7 +192,8 @@ int main(int argc, char** argv) {
     coordinator::FakeFrameSource frames;
     frames.setDraw(drawInTime);
     frames.setPick(pick);
-    frames.setStatus(statusWith(true));
+    frames.setSeen(seen);
+    frames.setStatus(statusWith(true, false));
     http::ServerOptions options;
     options.port = argc == 3 ? static_cast<std::uint16_t>(std::stoi(argv[2])) : std::uint16_t{0};
     options.webFolder = argv[1];
@@ -142,6 +205,7 @@ int main(int argc, char** argv) {
         }
         options.video = *module;
     }
+    options.swapPatience = std::chrono::minutes(2);  // however busy the machine is
     auto server = http::Server::start(options, frames);
     if (!server.ok()) {
         std::cerr << server.status() << '\n';
@@ -149,8 +213,10 @@ int main(int argc, char** argv) {
     }
     fmt::print("Eyrie is at {}\n", (*server)->url());
     std::fflush(stdout);
+    bool hasWall = false;
     for (std::string line; std::getline(std::cin, line);) {
-        frames.setStatus(statusWith(line != "no renderer"));
+        hasWall = hasWall || line == "wall";
+        frames.setStatus(statusWith(line != "no renderer", hasWall));
         frames.setDraw(line == "no renderer"
                            ? [](const coordinator::FrameRequest&)
                                  -> absl::StatusOr<coordinator::RenderedFrame> {

@@ -13,10 +13,16 @@
 
 namespace eyrie::coordinator {
 
-/// A picture of one colour, as large as asked for.
+/// Pictures of one colour, as large as asked for; of further ones, each has a little more red.
 inline RenderedFrame plainFrame(const FrameRequest& request, fabric::Rgba colour) {
     RenderedFrame frame;
     frame.image = fabric::makeImage({0, 0, request.width, request.height}, colour, false);
+    frame.pictures.emplace_back();
+    for (std::size_t i = 1; i < request.shown.size(); ++i) {
+        colour.r = static_cast<std::uint8_t>(colour.r + 40);
+        frame.further.push_back(fabric::makeImage(frame.image.area, colour, false));
+        frame.pictures.push_back({.shown = i, .seen = {}});
+    }
     frame.statistics.tauAskedPixels = request.tauPixels;
     frame.statistics.tauAchievedPixels = request.tauPixels;
     frame.statistics.triangles = 1000;
@@ -46,6 +52,7 @@ inline Status readyStatus() {
 class FakeFrameSource : public FrameSource {
 public:
     using Draw = std::function<absl::StatusOr<RenderedFrame>(const FrameRequest&)>;
+    using Seen = std::function<absl::StatusOr<fabric::SeenAreas>(const FrameRequest&)>;
     using Pick = std::function<absl::StatusOr<fabric::Picked>(const fabric::PickRequest&)>;
 
     FakeFrameSource() : status_(readyStatus()) {
@@ -60,6 +67,11 @@ public:
         const Draw draw = draw_;
         lock.unlock();
         return draw(request);
+    }
+
+    absl::StatusOr<fabric::SeenAreas> seen(const FrameRequest& request) override {
+        const std::lock_guard lock(mutex_);
+        return seen_(request);
     }
 
     absl::StatusOr<fabric::Picked> pick(const fabric::PickRequest& request) override {
@@ -128,6 +140,11 @@ public:
         pick_ = std::move(pick);
     }
 
+    void setSeen(Seen seen) {
+        const std::lock_guard lock(mutex_);
+        seen_ = std::move(seen);
+    }
+
     /// While held, pick waits.
     void holdPicks(bool isHeld) {
         {
@@ -176,6 +193,7 @@ private:
     bool arePicksHeld_ = false;
     Pick pick_ = [](const fabric::PickRequest&) { return fabric::Picked(); };
     std::vector<fabric::PickRequest> picks_;
+    Seen seen_ = [](const FrameRequest&) { return fabric::SeenAreas(); };
 
     mutable std::mutex listenersMutex_;  // held while listeners run, so that unsubscribe waits
     std::map<int, std::function<void()>> listeners_;

@@ -2,8 +2,9 @@
 eyrie_test(jpeg_test LABEL unit SOURCES jpeg_test.cpp png_test.cpp LINK eyrie::jpeg eyrie::png PNG::PNG)
 eyrie_test(viewer_test LABEL unit
            SOURCES encoding_test.cpp home_camera_test.cpp link_test.cpp pacer_test.cpp
-                   session_fairness_test.cpp session_test.cpp viewer_pick_test.cpp
-                   video_streams_test.cpp viewer_test.cpp viewer_view_test.cpp
+                   session_fairness_test.cpp session_test.cpp swap_barrier_test.cpp
+                   swap_group_test.cpp video_streams_test.cpp viewer_pick_test.cpp
+                   viewer_test.cpp viewer_view_test.cpp
            LINK eyrie::stream eyrie::jpeg eyrie::png eyrie::proto)
 eyrie_test(shared_session_test LABEL unit LINK eyrie::http eyrie::test_viewer)
 eyrie_test(http_server_test LABEL unit LINK eyrie::http eyrie::jpeg eyrie::proto Boost::headers

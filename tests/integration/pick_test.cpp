@@ -24,6 +24,7 @@
 #include "renderer/pick/picker.h"
 #include "renderer/truth/mesh_ray_caster.h"
 #include "renderer/truth/terrain_ray_caster.h"
+#include "tests/renderer/lod/wall.h"
 #include "tests/renderer/terrain/hard_grids.h"
 #include "tests/support/temporary_folder.h"
 
@@ -78,6 +79,36 @@ public:
             ++tally.missed;
         else
             ++tally.slipped;
+    }
+
+    /// The same through a wall, both in the camera's axes: the judge looks through its corners.
+    void holdThrough(const test::Wall& wall, const Vec3& eye, const Camera& camera,
+                     const Vec2& place, Tally& tally) const {
+        fabric::PickRequest request{camera, kWidth, kHeight, place, exaggeration_};
+        request.sight = test::sightThrough(wall, eye);
+        const auto picked = picker_->pick(request);
+        ASSERT_TRUE(picked.ok()) << picked.status();
+        const test::Wall inWorld = test::inWorld(camera, wall);
+        const truth::Pinhole judge(test::inWorld(camera, eye),
+                                   {inWorld.lowerLeft, inWorld.lowerRight, inWorld.upperLeft},
+                                   kWidth, kHeight);
+        const truth::Ray ray = judge.rayThrough(place.x, place.y);
+        const auto hits = source_->hitRange(ray);
+        const double metresPerT = glm::length(ray.direction);
+        if (!picked->has_value()) {
+            ++(hits.last == truth::kNoHit ? tally.missed : tally.slipped);
+            return;
+        }
+        holdPoint(**picked, hits.first * metresPerT, hits.last * metresPerT, tally);
+        const Vec3 along = ray.direction / metresPerT;
+        const Vec3 from = (*picked)->worldMetres - ray.origin;
+        EXPECT_LE(glm::length(glm::cross(from, along)), 1e-11 * (1 + glm::length(from)))
+            << "beside the ray";
+        // A pixel of the wall, seen from where its point is picked.
+        const double pixels =
+            (request.sight->frustum.top - request.sight->frustum.bottom) / kHeight;
+        EXPECT_NEAR((*picked)->pixelMetres, judge.depth((*picked)->worldMetres) * pixels,
+                    1e-9 * (*picked)->pixelMetres);
     }
 
     /// Of those readings that there are, one is within the error.
@@ -291,6 +322,36 @@ TEST(HardCase22, PicksOfExaggeratedTerrainAreWhereRaysMeetTheSource) {
         const auto level = pair.pick({ground + Vec3(0, -1, 5000), ground}, {640, 360});
         ASSERT_TRUE(level.ok() && level->has_value());
         EXPECT_NEAR(*(*level)->elevationMetres, grid.at(45, 45), 0.1);
+    }
+}
+
+/// Walls that stand aslant, seen by an eye beside the camera.
+TEST(HardCase22, PicksThroughObliqueWallsAreWhereRaysMeetTheSource) {
+    const test::TemporaryFolder folder;
+    test::Dice dice(27);
+    const Pair mesh =
+        meshPair(folder, import::synthesizeMesh(6000, 3), fabric::Mat4(1), {.leafTriangles = 500});
+    const terrain::HeightGrid grid = test::hardGrid(GridKind::Smooth, 161, 150, 5);
+    const Pair terrain = terrainPair(folder, grid);
+    const fabric::Vec2 middle = grid.origin + grid.perColumn * 80.3 + grid.perRow * 70.6;
+    const Vec3 ground(middle.x, middle.y, static_cast<double>(grid.at(80, 70)));
+    Tally ofMesh;
+    Tally ofTerrain;
+    for (int i = 0; i < 300; ++i) {
+        const test::Wall wall = test::randomWall(dice);
+        const Vec3 eye = test::randomEye(dice);
+        for (int k = 0; k < 8; ++k) {
+            const Vec2 place(dice.in(0, kWidth), dice.in(0, kHeight));
+            mesh.holdThrough(wall, eye, {dice.direction() * 2.5, {0, 0, 0}}, place, ofMesh);
+            const Camera over{ground + Vec3(dice.in(-400, 400), dice.in(-400, 400), 500), ground};
+            terrain.holdThrough(wall, eye, over, place, ofTerrain);
+        }
+    }
+    for (const Tally& tally : {ofMesh, ofTerrain}) {
+        fmt::print("through walls: {} picked, {} missed, {} slipped, {} uncertain\n", tally.picked,
+                   tally.missed, tally.slipped, tally.mayBeMissed);
+        EXPECT_EQ(tally.slipped, 0);
+        EXPECT_GT(tally.picked, 400);
     }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Camera } from "./camera/camera";
 import type { State } from "./state";
-import type { Viewer } from "./viewer";
+import type { Swap, Viewer } from "./viewer";
 
 /** What `window.eyrie` tells, for tests and for pages that embed this one. Read only. */
 export interface Hooks {
@@ -30,6 +30,8 @@ export interface Hooks {
   readonly inputToDrawnMilliseconds: number;
   readonly connection: "connecting" | "connected" | "lost";
   readonly camera: Camera | null;
+  /** The last pictures behind a swap barrier; what is drawn at 0 has been decoded only. */
+  readonly swaps: readonly Swap[];
 }
 
 declare global {
@@ -88,6 +90,9 @@ export function exposeHooks(state: State, viewer: Viewer): void {
     },
     get camera() {
       return viewer.camera;
+    },
+    get swaps() {
+      return viewer.swaps;
     },
   };
   Object.defineProperty(window, "eyrie", { value: Object.freeze(hooks) });

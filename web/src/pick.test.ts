@@ -7,12 +7,13 @@ import { clickAfter } from "./camera/controls";
 import { lookAt } from "./camera/orbit";
 import { coordinate, lengthText } from "./panel/format";
 import { markOf, textOf } from "./panel/pick";
-import { pickOf, placeOf } from "./pick";
-import { ViewerPickedSchema, ViewerRequestSchema } from "./protocol/gen/eyrie/v1/viewer_pb";
+import { pickOf, placeOf, seenPlace } from "./pick";
+import { SightSchema } from "./protocol/gen/eyrie/v1/frame_pb";
+import { SeenAreaSchema, ViewerPickedSchema, ViewerRequestSchema } from "./protocol/gen/eyrie/v1/viewer_pb";
 import { encodePick } from "./protocol/messages";
 
 const camera: Camera = { eye: [0, -10, 5], target: [0, 0, 0], up: [0, 0, 1], fovyDegrees: 45 };
-const shown = { camera, width: 640, height: 480, exaggeration: 1, throughWall: false };
+const shown = { camera, width: 640, height: 480, exaggeration: 1, seen: null };
 
 const answer = create(ViewerPickedSchema, {
   sequence: 3n,
@@ -43,11 +44,43 @@ describe("a click", () => {
   });
 
   it("is asked with what the picture shows", () => {
-    const { request } = fromBinary(ViewerRequestSchema, encodePick(7, shown, { x: 5, y: 6 }));
+    const place = seenPlace(shown, { x: 5, y: 6 });
+    if (place === undefined) throw new Error("no place");
+    const { request } = fromBinary(ViewerRequestSchema, encodePick(7, shown, place));
     if (request.case !== "pick") throw new Error("no pick");
     expect(request.value.sequence).toBe(7n);
     expect(request.value.request).toMatchObject({ viewWidth: 640, viewHeight: 480, x: 5, y: 6 });
     expect(request.value.request?.camera?.eye).toEqual([0, -10, 5]);
+    expect(request.value.request?.sight).toBeUndefined();
+  });
+
+  it("through a wall is asked with the sight of where it falls", () => {
+    const sight = (left: number) =>
+      create(SightSchema, { eye: [left, 0, 0], frustum: { left, right: 1, bottom: -1, top: 1 } });
+    const area = (x: number, width: number, left: number) =>
+      create(SeenAreaSchema, { x, y: 0.25, width, height: 0.5, sight: sight(left) });
+    const seen = { ...shown, seen: [area(0, 0.5, -1), area(0.25, 0.75, -2)] };
+    // Of the first area, by itself; of both, where the second lies above; of neither.
+    expect(seenPlace(seen, { x: 80, y: 240 })).toEqual({
+      x: 80,
+      y: 120,
+      width: 320,
+      height: 240,
+      sight: sight(-1),
+    });
+    expect(seenPlace(seen, { x: 280, y: 360 })).toMatchObject({
+      x: 120,
+      y: 240,
+      width: 480,
+      sight: sight(-2),
+    });
+    expect(seenPlace(seen, { x: 280, y: 361 })).toBeUndefined();
+    const place = seenPlace(seen, { x: 80, y: 240 });
+    if (place === undefined) throw new Error("no place");
+    const { request } = fromBinary(ViewerRequestSchema, encodePick(1, seen, place));
+    if (request.case !== "pick") throw new Error("no pick");
+    expect(request.value.request).toMatchObject({ viewWidth: 320, viewHeight: 240, x: 80, y: 120 });
+    expect(request.value.request?.sight?.eye).toEqual([-1, 0, 0]);
   });
 });
 

@@ -2,7 +2,7 @@
 // From a click to a place of the picture, and from the answer to what the page says of it.
 import type { Point } from "./camera/touch";
 import type { Vec3 } from "./camera/camera";
-import type { ViewerPicked, ViewerProfiled } from "./protocol/messages";
+import type { Place, Shown, ViewerPicked, ViewerProfiled } from "./protocol/messages";
 import type { Pick, ProfileState } from "./state";
 import type { Size } from "./view/size";
 
@@ -16,6 +16,35 @@ export function placeOf(at: Point, canvas: Size, picture: Size): Point {
   return {
     x: share(at.x, canvas.width) * picture.width,
     y: (1 - share(at.y, canvas.height)) * picture.height,
+  };
+}
+
+/**
+ * A place of a picture as one of what it is seen by there; undefined where nothing is shown. As
+ * fabric::pickIn.
+ */
+export function seenPlace(shown: Shown, place: Point): Place | undefined {
+  const { width, height, seen } = shown;
+  if (seen === null) return { ...place, width, height, sight: undefined };
+  const x = place.x / width;
+  const y = place.y / height;
+  const area = [...seen]
+    .reverse()
+    .find(
+      (each) => x >= each.x && y >= each.y && x <= each.x + each.width && y <= each.y + each.height,
+    );
+  if (area?.sight === undefined) return undefined;
+  const view = {
+    width: Math.max(1, Math.round(area.width * width)),
+    height: Math.max(1, Math.round(area.height * height)),
+  };
+  const within = (share: number, pixels: number): number =>
+    Math.min(pixels, Math.max(0, share * pixels));
+  return {
+    x: within((x - area.x) / area.width, view.width),
+    y: within((y - area.y) / area.height, view.height),
+    ...view,
+    sight: area.sight,
   };
 }
 

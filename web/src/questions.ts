@@ -2,7 +2,7 @@
 // What the page asks of the scene's data: points under the pointer, and heights along a line.
 import type { Vec3 } from "./camera/camera";
 import type { Point } from "./camera/touch";
-import { pickOf, placeOf, profileOf } from "./pick";
+import { pickOf, placeOf, profileOf, seenPlace } from "./pick";
 import type { ViewerPicked, ViewerProfiled } from "./protocol/messages";
 import type { Socket } from "./protocol/socket";
 import type { State } from "./state";
@@ -33,13 +33,13 @@ export class Questions {
   pick(at: Point, canvas: Size, turns: boolean): boolean {
     const shown = this.state.shown.value;
     if (shown === null) return false;
-    if (shown.throughWall) {
-      const text = "Points cannot be picked in pictures through walls: show one without";
-      this.state.pick.set({ kind: "problem", text });
+    const place = seenPlace(shown, placeOf(at, canvas, shown));
+    if (place === undefined) {
+      this.state.pick.set({ kind: "nothing" });
       return false;
     }
     const sequence = this.pickSequence + 1;
-    if (!this.socket.pick(sequence, shown, placeOf(at, canvas, shown))) return false;
+    if (!this.socket.pick(sequence, shown, place)) return false;
     this.pickSequence = sequence;
     if (turns) this.turnTo = sequence;
     this.state.pick.set({ kind: "asking" });

@@ -16,6 +16,7 @@ import { ledViewOf } from "./protocol/led_view";
 import { cameraOf } from "./protocol/messages";
 import type { EncodedPicture } from "./protocol/parts";
 import { Socket } from "./protocol/socket";
+import { queryOf } from "./output";
 import { groundOf } from "./profile";
 import { Questions } from "./questions";
 import type { SharedView } from "./share";
@@ -34,6 +35,19 @@ interface Arrived {
   at: number;
   picture: Blob | undefined;
 }
+
+/** Null: by the camera alone. */
+const seenOf = (frame: Frame) => (frame.throughWall ? frame.seen : null);
+
+/** A picture behind a swap barrier: when it was decoded and drawn (0: not yet), in ms since 1970. */
+export interface Swap {
+  /** The same on all screens of the session. */
+  swap: number;
+  ready: number;
+  drawn: number;
+}
+
+const swapsKept = 256;
 
 /** A view without its picture for so long is stale. */
 const staleAfter = 2000;
@@ -62,6 +76,9 @@ export class Viewer implements CameraHolder {
   /** The picture on the canvas as the server's PNG, while it is exact. */
   exactPicture: Blob | undefined;
 
+  /** The last pictures that were shown behind a swap barrier. */
+  readonly swaps: Swap[] = [];
+
   /** How often the camera was moved, by whomever. */
   movements = 0;
 
@@ -73,6 +90,8 @@ export class Viewer implements CameraHolder {
   private readonly sentViews = new Map<number, Shown>();
   /** Of the last view, as text; empty before any on this connection. */
   private sentContent = "";
+  /** The screen that the server knows of, as a query. */
+  private sentScreen = "";
   /** What the last frame said of the camera of its view. */
   private lifted: { camera: Camera | undefined; sequence: number } = {
     camera: undefined,
@@ -91,7 +110,8 @@ export class Viewer implements CameraHolder {
   ) {
     this.canvas = new PictureCanvas(canvas, {
       drawn: (frameNumber, time, isExact) => this.drawn(frameNumber, time, isExact),
-      failed: (frameNumber) => this.acknowledge(frameNumber, performance.now()),
+      failed: (frameNumber) => this.failed(frameNumber),
+      ready: (frameNumber, time) => this.ready(frameNumber, time),
       videoFailed: () => this.setVideo(false),
       resized: () => this.resize(),
     });
@@ -104,6 +124,7 @@ export class Viewer implements CameraHolder {
       frame: (frame, picture) => this.frameArrived(frame, picture),
       picked: (answer) => this.questions.picked(answer),
       profiled: (answer) => this.questions.profiled(answer),
+      swap: (swap) => this.swap(swap),
     });
     this.questions = new Questions(this.socket, state, (to) => {
       if (this.camera !== null) this.move(lookAt(this.camera, to));
@@ -124,7 +145,10 @@ export class Viewer implements CameraHolder {
     state.budget.watch(() => this.requestView(performance.now()));
     state.shading.watch(() => this.requestView(performance.now()));
     state.look.watch(() => this.requestView(performance.now()));
-    state.output.watch(() => this.requestView(performance.now()));
+    state.output.watch(() => {
+      this.requestView(performance.now());
+      this.sendScreen();
+    });
     this.ticker = window.setInterval(() => this.tick(), 250);
     void canShowVideo().then((can) => this.setVideo(can));
   }
@@ -229,7 +253,7 @@ export class Viewer implements CameraHolder {
   /** Goes on from what is seen now. */
   takeLead(): void {
     if (this.led !== undefined) {
-      this.state.output.set(this.led.output);
+      if (queryOf(this.state.output.value) === "") this.state.output.set(this.led.output);
       this.showSettings(this.led);
     }
     this.socket.takeLead();
@@ -317,7 +341,7 @@ export class Viewer implements CameraHolder {
       camera: view.camera,
       ...this.size,
       exaggeration: view.look.exaggeration,
-      throughWall: false,
+      seen: null,
     });
     this.latency.sent(this.sequence, performance.now(), inputTime);
   }
@@ -326,6 +350,15 @@ export class Viewer implements CameraHolder {
   private seenLook(): Look {
     const look = this.state.look.value;
     return this.isWalking ? { ...look, underground: true } : look;
+  }
+
+  /** Whoever leads, this page shows what its address says; where that says nothing, what is led. */
+  private sendScreen(): void {
+    const { value } = this.state.output;
+    const text = queryOf(value);
+    if (text === this.sentScreen || this.state.connection.value.kind !== "connected") return;
+    this.sentScreen = text;
+    this.socket.sendScreen(text === "" ? null : value);
   }
 
   private wantedSize(): Size {
@@ -347,12 +380,15 @@ export class Viewer implements CameraHolder {
   private opened(): void {
     this.state.connection.set({ kind: "connected" });
     if (this.showsVideo) this.socket.tellAbilities(true);
+    this.sentScreen = "";
+    this.sendScreen();
     this.requestView();
   }
 
   private lost(): void {
     this.latency.reset();
     this.frames.clear();
+    this.canvas.forget();
     this.questions.lost();
     this.inputTime = undefined;
     this.sentContent = "";
@@ -398,7 +434,25 @@ export class Viewer implements CameraHolder {
     // The worker takes the bytes; those of an exact picture may be saved as a file.
     const kept = picture.type === "image/png" ? new Blob([picture.bytes], picture) : undefined;
     this.frames.set(frameNumber, { frame, at: performance.now(), picture: kept });
-    this.canvas.show(frameNumber, picture);
+    this.canvas.show(frameNumber, picture, frame.swap !== 0n);
+  }
+
+  private failed(frameNumber: number): void {
+    this.ready(frameNumber, performance.now()); // the other screens need not wait
+    this.acknowledge(frameNumber, performance.now());
+  }
+
+  private ready(frameNumber: number, time: number): void {
+    const swap = this.frames.get(frameNumber)?.frame.swap ?? 0n;
+    if (swap === 0n) return;
+    this.socket.ready(swap);
+    this.swaps.push({ swap: Number(swap), ready: performance.timeOrigin + time, drawn: 0 });
+    if (this.swaps.length > swapsKept) this.swaps.shift();
+  }
+
+  private swap(swap: bigint): void {
+    for (const [frameNumber, { frame }] of this.frames)
+      if (frame.swap === swap) this.canvas.present(frameNumber);
   }
 
   private acknowledge(frameNumber: number, time: number): void {
@@ -415,6 +469,7 @@ export class Viewer implements CameraHolder {
     this.acknowledge(frameNumber, time);
     this.exactPicture = undefined;
     if (frame === undefined) return; // of a connection that is gone
+    this.noteSwap(frame, time);
     this.rate.drawn(time);
     this.latency.drawn(Number(frame.viewSequence), time);
     this.lifted = { camera: cameraOf(frame.liftedCamera), sequence: Number(frame.viewSequence) };
@@ -430,6 +485,11 @@ export class Viewer implements CameraHolder {
     if (isExact) this.exactPicture = arrived?.picture;
   }
 
+  private noteSwap({ swap }: Frame, time: number): void {
+    const last = this.swaps.at(-1);
+    if (last?.swap === Number(swap)) last.drawn = performance.timeOrigin + time;
+  }
+
   private noteShown(frame: Frame): void {
     this.led = frame.ledView && ledViewOf(frame.ledView);
     if (this.led !== undefined) {
@@ -441,15 +501,16 @@ export class Viewer implements CameraHolder {
     for (const known of this.sentViews.keys()) if (known < sequence) this.sentViews.delete(known);
     if (sent === undefined) return;
     const camera = cameraOf(frame.liftedCamera) ?? sent.camera;
-    const { throughWall, width, height } = frame;
-    this.state.shown.set({ ...sent, camera, width, height, throughWall });
+    const { width, height } = frame;
+    this.state.shown.set({ ...sent, camera, width, height, seen: seenOf(frame) });
   }
 
   private noteLed({ camera: asked, look }: LedView, frame: Frame): void {
     const camera = cameraOf(frame.liftedCamera) ?? asked;
     if (this.isWatching) this.camera = camera;
-    const { throughWall, width, height } = frame;
-    this.state.shown.set({ camera, width, height, exaggeration: look.exaggeration, throughWall });
+    const { width, height } = frame;
+    const { exaggeration } = look;
+    this.state.shown.set({ camera, width, height, exaggeration, seen: seenOf(frame) });
   }
 
   // ---- Picks

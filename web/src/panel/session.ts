@@ -8,10 +8,17 @@ import { copyText } from "./clipboard";
 import { byId, make, setText } from "./element";
 import { plural } from "./format";
 
+/** Of those that show pictures together with this one; "" where none do. */
+function togetherText({ together, behind }: ViewerPlace): string {
+  if (together < 2) return "";
+  if (behind === 0) return ` · ${together} screens together`;
+  return ` · ${behind} of ${together} screens late, not waited for`;
+}
+
 /** "2 viewers · you lead". */
 export function placeText(place: ViewerPlace): string {
   const who = place.leads ? "you lead" : place.led ? "you watch" : "nobody leads";
-  return `${plural(place.viewers, "viewer")} · ${who}`;
+  return `${plural(place.viewers, "viewer")} · ${who}${togetherText(place)}`;
 }
 
 function button(id: string, text: string, title: string, action: () => void): HTMLButtonElement {

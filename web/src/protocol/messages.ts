@@ -4,6 +4,7 @@ import { create, fromBinary, toBinary } from "@bufbuild/protobuf";
 import type { Camera, Vec3 } from "../camera/camera";
 import { CameraSchema } from "./gen/eyrie/v1/camera_pb";
 import { Vector3Schema } from "./gen/eyrie/v1/geometry_pb";
+import type { Sight } from "./gen/eyrie/v1/frame_pb";
 import { Shading } from "./gen/eyrie/v1/frame_pb";
 import type { Look } from "../look";
 import type { Output } from "../output";
@@ -26,8 +27,10 @@ import {
   ViewerLeadSchema,
   ViewerPickSchema,
   ViewerProfileSchema,
+  ViewerReadySchema,
   ViewerRequestSchema,
   ViewerResponseSchema,
+  ViewerScreenSchema,
   ViewerSwitchSchema,
   ViewRequestSchema,
 } from "./gen/eyrie/v1/viewer_pb";
@@ -36,6 +39,7 @@ import type {
   Frame,
   FramePart,
   RendererState,
+  SeenArea,
   SessionState,
   ViewerPicked,
   ViewerPlace,
@@ -50,6 +54,7 @@ export type {
   Frame,
   FramePart,
   RendererState,
+  SeenArea,
   SessionState,
   ViewerPicked,
   ViewerPlace,
@@ -79,8 +84,21 @@ export interface Shown {
   width: number;
   height: number;
   exaggeration: number;
-  /** Seen through a wall or by an eye beside the camera. */
-  throughWall: boolean;
+  /**
+   * By which sights, later ones above earlier: through walls, or by eyes beside the camera. Null: the
+   * picture is the camera's own.
+   */
+  seen: readonly SeenArea[] | null;
+}
+
+/** A place in what one sight spans, in pixels from its lower left corner, y upwards. */
+export interface Place {
+  x: number;
+  y: number;
+  width: number;
+  height: number;
+  /** Undefined: the camera's own. */
+  sight: Sight | undefined;
 }
 
 /** A buffer of its own, as toBinary makes it. */
@@ -176,6 +194,17 @@ export function encodeAbilities(h264: boolean): Uint8Array<ArrayBuffer> {
   return bytesOf({ case: "abilities", value: create(ViewerAbilitiesSchema, { h264 }) });
 }
 
+/** Which picture this viewer shows, whoever leads; null: what the leader asks for. */
+export function encodeScreen(output: Output | null): Uint8Array<ArrayBuffer> {
+  const shown = output === null ? {} : { shown: shownMessage(output) };
+  return bytesOf({ case: "screen", value: create(ViewerScreenSchema, shown) });
+}
+
+/** The picture with that swap has been decoded. */
+export function encodeReady(swap: bigint): Uint8Array<ArrayBuffer> {
+  return bytesOf({ case: "ready", value: create(ViewerReadySchema, { swap }) });
+}
+
 /** `decodeMilliseconds`: from a picture's arrival until it was drawn. */
 export function encodeAck(frameNumber: number, decodeMilliseconds = 0): Uint8Array<ArrayBuffer> {
   const value = create(FrameAckSchema, { frameNumber: BigInt(frameNumber), decodeMilliseconds });
@@ -188,18 +217,19 @@ export function encodePartAck(frameNumber: bigint, bytes: number): Uint8Array<Ar
   return bytesOf({ case: "frameAck", value });
 }
 
-/** `place`: pixels of the picture from its lower left corner, y upwards. */
 export function encodePick(
   sequence: number,
   shown: Shown,
-  place: { x: number; y: number },
+  { x, y, width, height, sight }: Place,
 ): Uint8Array<ArrayBuffer> {
   const request = create(PickRequestSchema, {
     camera: cameraMessage(shown.camera),
-    viewWidth: shown.width,
-    viewHeight: shown.height,
-    ...place,
+    viewWidth: width,
+    viewHeight: height,
+    x,
+    y,
     exaggeration: shown.exaggeration,
+    ...(sight === undefined ? {} : { sight }),
   });
   return bytesOf({
     case: "pick",

@@ -1,6 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Vec3 } from "../camera/camera";
-import type { Frame, SessionState, Shown, View, ViewerPicked, ViewerProfiled } from "./messages";
+import type { Output } from "../output";
+import type {
+  Frame,
+  Place,
+  SessionState,
+  Shown,
+  View,
+  ViewerPicked,
+  ViewerProfiled,
+} from "./messages";
 import {
   decodeResponse,
   encodeAbilities,
@@ -9,6 +18,8 @@ import {
   encodePartAck,
   encodePick,
   encodeProfile,
+  encodeReady,
+  encodeScreen,
   encodeSwitch,
   encodeView,
 } from "./messages";
@@ -23,6 +34,8 @@ export interface SocketEvents {
   frame(frame: Frame, picture: EncodedPicture): void;
   picked(picked: ViewerPicked): void;
   profiled(profiled: ViewerProfiled): void;
+  /** The picture with that swap is to be shown now. */
+  swap(swap: bigint): void;
 }
 
 /**
@@ -64,7 +77,7 @@ export class Socket {
   }
 
   /** False when it could not be sent; who clicks may click again. */
-  pick(sequence: number, shown: Shown, place: { x: number; y: number }): boolean {
+  pick(sequence: number, shown: Shown, place: Place): boolean {
     if (!this.canSend()) return false;
     this.socket?.send(encodePick(sequence, shown, place));
     return true;
@@ -79,6 +92,15 @@ export class Socket {
 
   switchLayout(canvas: string, layout: string): void {
     if (this.isOpen) this.socket?.send(encodeSwitch(canvas, layout));
+  }
+
+  /** Null: what the leader asks for. */
+  sendScreen(output: Output | null): void {
+    if (this.isOpen) this.socket?.send(encodeScreen(output));
+  }
+
+  ready(swap: bigint): void {
+    if (this.isOpen) this.socket?.send(encodeReady(swap));
   }
 
   takeLead(): void {
@@ -126,6 +148,7 @@ export class Socket {
       else if (response.case === "state") this.events.state(response.value);
       else if (response.case === "picked") this.events.picked(response.value);
       else if (response.case === "profiled") this.events.profiled(response.value);
+      else if (response.case === "swap") this.events.swap(response.value.swap);
     } catch (error) {
       // Another protocol, most likely of a newer server: only loading the page again can help.
       console.error("Eyrie: not understood:", error);

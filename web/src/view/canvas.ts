@@ -10,6 +10,8 @@ export interface CanvasEvents {
   failed(frameNumber: number): void;
   /** Nor will those of any other stream of H.264 be. */
   videoFailed(): void;
+  /** This frame's picture has been decoded, and is kept until it is presented; `time` as of drawn(). */
+  ready(frameNumber: number, time: number): void;
   /** The canvas has another size, in CSS pixels, and has kept it for a moment. */
   resized(size: Size): void;
 }
@@ -42,9 +44,22 @@ export class PictureCanvas {
     return { width: this.element.clientWidth, height: this.element.clientHeight };
   }
 
-  /** Shows a picture soon, unless a newer one comes first. Takes the bytes' buffer away. */
-  show(frameNumber: number, picture: EncodedPicture): void {
-    this.post({ kind: "picture", frameNumber, picture }, [picture.bytes.buffer]);
+  /**
+   * Shows a picture soon, or, where it `waits`, once it is presented; unless a newer one comes first.
+   * Takes the bytes' buffer away.
+   */
+  show(frameNumber: number, picture: EncodedPicture, waits = false): void {
+    this.post({ kind: "picture", frameNumber, picture, waits }, [picture.bytes.buffer]);
+  }
+
+  /** Shows the picture that waits, if it still does. */
+  present(frameNumber: number): void {
+    this.post({ kind: "present", frameNumber }, []);
+  }
+
+  /** What waits to be presented never will be, and numbers begin anew. */
+  forget(): void {
+    this.post({ kind: "forget" }, []);
   }
 
   close(): void {
@@ -58,11 +73,12 @@ export class PictureCanvas {
   }
 
   private reported(report: FromWorker): void {
+    const time = report.time - performance.timeOrigin;
     if (report.kind === "failed") {
       if (report.isVideo) this.events.videoFailed();
       this.events.failed(report.frameNumber);
-    } else
-      this.events.drawn(report.frameNumber, report.time - performance.timeOrigin, report.exact);
+    } else if (report.kind === "ready") this.events.ready(report.frameNumber, time);
+    else this.events.drawn(report.frameNumber, time, report.exact);
   }
 
   private resizeSoon(): void {

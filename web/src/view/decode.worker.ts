@@ -6,26 +6,25 @@
 // the same way.
 import type { EncodedPicture } from "../protocol/parts";
 import { pixelHash } from "./pixel_hash";
+import { Presenter } from "./presenter";
 import { VideoPictures } from "./video";
 
 /** To the worker: the canvas once, then pictures. Their bytes are transferred. */
 export type ToWorker =
   | { kind: "canvas"; canvas: OffscreenCanvas }
-  | { kind: "picture"; frameNumber: number; picture: EncodedPicture };
+  /** `waits`: it is kept until it is presented. */
+  | { kind: "picture"; frameNumber: number; picture: EncodedPicture; waits: boolean }
+  | { kind: "present"; frameNumber: number }
+  /** Numbers begin anew. */
+  | { kind: "forget" };
 
 /** From the worker: `time` is when, in ms since 1970. */
 export type FromWorker =
   /** `isVideo`: and no other of a stream will be decoded. */
   | { kind: "failed"; frameNumber: number; time: number; isVideo: boolean }
+  | { kind: "ready"; frameNumber: number; time: number }
   /** `exact`: its pixels are the server's, as compared here. */
   | { kind: "drawn"; frameNumber: number; time: number; exact: boolean };
-
-/** What to show next; `order`: of its arrival, over all connections. */
-interface Work {
-  order: number;
-  frameNumber: number;
-  picture: EncodedPicture | DecodedVideo;
-}
 
 /** Of which the first columns and rows are seen. */
 interface DecodedVideo {
@@ -35,14 +34,17 @@ interface DecodedVideo {
   height: number;
 }
 
+interface Decoded {
+  bitmap: ImageBitmap;
+  isExact: boolean;
+}
+
 let context: ImageBitmapRenderingContext | null = null;
-let newest: Work | null = null;
-let isBusy = false;
 let arrivals = 0;
 /** The order of the newest that was ever to be shown. */
 let newestOrder = 0;
 let videos: VideoPictures | null = null;
-/** Pictures of streams that are being decoded, by their order. */
+/** Pictures of streams that are being decoded, by the order of their arrival. */
 const decoding = new Map<number, { frameNumber: number; width: number; height: number }>();
 
 /** The pixels of a picture, read back from another canvas: this one's cannot be. */
@@ -66,43 +68,47 @@ async function bitmapOf(picture: EncodedPicture | DecodedVideo): Promise<ImageBi
   });
 }
 
-/** Whether it is exact. */
-async function draw(picture: EncodedPicture | DecodedVideo): Promise<boolean> {
+async function decode(picture: EncodedPicture | DecodedVideo): Promise<Decoded> {
   const bitmap = await bitmapOf(picture);
   const wanted = picture.type === "decoded" ? undefined : picture.pixelHash;
-  const isExact = wanted !== undefined && hashOf(bitmap) === wanted;
-  context?.transferFromImageBitmap(bitmap);
-  return isExact;
+  return { bitmap, isExact: wanted !== undefined && hashOf(bitmap) === wanted };
 }
 
-async function drawNewest(): Promise<void> {
-  if (isBusy) return;
-  isBusy = true;
-  while (newest !== null) {
-    const { frameNumber, picture } = newest;
-    newest = null;
-    const exact = await draw(picture).catch(() => null);
-    const time = performance.timeOrigin + performance.now();
-    const report: FromWorker =
-      exact === null
-        ? { kind: "failed", frameNumber, time, isVideo: false }
-        : { kind: "drawn", frameNumber, time, exact };
-    self.postMessage(report);
-  }
-  isBusy = false;
+function report(told: FromWorker): void {
+  self.postMessage(told);
 }
 
-/** In place of one that has not been shown yet. */
-function show(work: Work): void {
-  const picture = work.picture;
-  if (work.order < newestOrder) {
-    if (picture.type === "decoded") picture.frame.close();
+const now = (): number => performance.timeOrigin + performance.now();
+
+function skip(picture: EncodedPicture | DecodedVideo): void {
+  if (picture.type === "decoded") picture.frame.close();
+}
+
+const presenter = new Presenter<EncodedPicture | DecodedVideo, Decoded>({
+  decode,
+  skip,
+  draw: (frameNumber, { bitmap, isExact }) => {
+    context?.transferFromImageBitmap(bitmap);
+    report({ kind: "drawn", frameNumber, time: now(), exact: isExact });
+  },
+  drop: ({ bitmap }) => bitmap.close(),
+  ready: (frameNumber) => report({ kind: "ready", frameNumber, time: now() }),
+  failed: (frameNumber) => report({ kind: "failed", frameNumber, time: now(), isVideo: false }),
+});
+
+/** Unless a later one has come before it; `order`: of its arrival, over all connections. */
+function show(
+  order: number,
+  frameNumber: number,
+  picture: EncodedPicture | DecodedVideo,
+  waits: boolean,
+): void {
+  if (order < newestOrder) {
+    skip(picture);
     return;
   }
-  if (newest?.picture.type === "decoded") newest.picture.frame.close();
-  newestOrder = work.order;
-  newest = work;
-  void drawNewest();
+  newestOrder = order;
+  presenter.show(frameNumber, picture, waits);
 }
 
 /** What was known of it; of those before it nothing is kept. */
@@ -115,16 +121,13 @@ function takeDecoding(order: number) {
 function videoDecoded(order: number, frame: VideoFrame): void {
   const known = takeDecoding(order);
   if (known === undefined) frame.close();
-  else show({ order, ...known, picture: { type: "decoded", frame, ...known } });
+  else show(order, known.frameNumber, { type: "decoded", frame, ...known }, false);
 }
 
 function videoFailed(order: number): void {
   const known = takeDecoding(order);
   if (known === undefined) return;
-  const time = performance.timeOrigin + performance.now();
-  const { frameNumber } = known;
-  const report: FromWorker = { kind: "failed", frameNumber, time, isVideo: true };
-  self.postMessage(report);
+  report({ kind: "failed", frameNumber: known.frameNumber, time: now(), isVideo: true });
 }
 
 function decodeVideo(order: number, frameNumber: number, picture: EncodedPicture): void {
@@ -135,14 +138,15 @@ function decodeVideo(order: number, frameNumber: number, picture: EncodedPicture
   videos.decode(order, picture.bytes, picture.video);
 }
 
-self.addEventListener("message", (event: MessageEvent<ToWorker>) => {
-  const message = event.data;
-  if (message.kind === "canvas") {
-    context = message.canvas.getContext("bitmaprenderer");
-    return;
-  }
-  const { frameNumber, picture } = message;
+function take({ frameNumber, picture, waits }: ToWorker & { kind: "picture" }): void {
   const order = ++arrivals;
   if (picture.type === "video/h264") decodeVideo(order, frameNumber, picture);
-  else show({ order, frameNumber, picture });
+  else show(order, frameNumber, picture, waits);
+}
+
+self.addEventListener("message", ({ data }: MessageEvent<ToWorker>) => {
+  if (data.kind === "canvas") context = data.canvas.getContext("bitmaprenderer");
+  else if (data.kind === "present") presenter.present(data.frameNumber);
+  else if (data.kind === "forget") presenter.forget();
+  else take(data);
 });

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/config/swap_barriers.h"
+
+#include <algorithm>
+#include <variant>
+
+#include <fmt/format.h>
+
+namespace eyrie::config {
+namespace {
+
+std::string nameOf(const SwapBarrier& barrier, const std::string& otherwise) {
+    return barrier.name.empty() ? otherwise : barrier.name;
+}
+
+/// Gives segments that have none yet those of compounds, from the roots down.
+class CompoundWalk {
+public:
+    CompoundWalk(std::size_t canvas, const std::optional<std::size_t>& layout,
+                 std::vector<std::string>& segments)
+        : canvas_(canvas), layout_(layout), segments_(segments) {}
+
+    void visit(const std::vector<Compound>& compounds, const std::string& inherited) {
+        for (const Compound& each : compounds) {
+            ++visited_;
+            const std::string own =
+                each.swapBarrier ? nameOf(*each.swapBarrier, fmt::format("compound {}", visited_))
+                                 : inherited;
+            if (const auto* shown = std::get_if<DestinationIndex>(&each.channel);
+                shown != nullptr && shown->canvas == canvas_ && shown->layout == layout_ &&
+                shown->segment < segments_.size() && segments_[shown->segment].empty())
+                segments_[shown->segment] = own;
+            visit(each.children, own);
+        }
+    }
+
+private:
+    const std::size_t canvas_;
+    const std::optional<std::size_t> layout_;
+    std::vector<std::string>& segments_;
+    int visited_ = 0;
+};
+
+}  // namespace
+
+CanvasBarriers swapBarriers(const Configuration& configuration, std::size_t canvas,
+                            const std::optional<std::size_t>& layout) {
+    const Canvas& shown = configuration.canvases[canvas];
+    CanvasBarriers barriers;
+    if (shown.swapBarrier)
+        barriers.whole = nameOf(*shown.swapBarrier, fmt::format("canvas {}", canvas));
+    for (std::size_t i = 0; i < shown.segments.size(); ++i) {
+        const auto& own = shown.segments[i].swapBarrier;
+        barriers.segments.push_back(own ? nameOf(*own, fmt::format("segment {}.{}", canvas, i))
+                                        : barriers.whole);
+    }
+    CompoundWalk(canvas, layout, barriers.segments).visit(configuration.compounds, "");
+    const bool areShared =
+        std::ranges::adjacent_find(barriers.segments, std::ranges::not_equal_to()) ==
+        barriers.segments.end();
+    if (barriers.whole.empty() && areShared && !barriers.segments.empty())
+        barriers.whole = barriers.segments.front();
+    return barriers;
+}
+
+}  // namespace eyrie::config
