@@ -7,6 +7,7 @@
 #include <absl/status/status.h>
 
 #include "fabric/camera.h"
+#include "fabric/hidden_objects.h"
 #include "fabric/vec.h"
 
 namespace eyrie::fabric {
@@ -20,6 +21,7 @@ struct PickRequest {
     /// height; the middle of its first pixel is (0.5, 0.5).
     Vec2 place{0, 0};
     double exaggeration = 1;  ///< that terrains are drawn with, see Look
+    HiddenObjects hidden = {};  ///< that are looked through
 
     bool operator==(const PickRequest&) const = default;
 };

@@ -9,6 +9,7 @@
 #include "eyrie/v1/pick.pb.h"
 #include "fabric/status.h"
 #include "wire/camera.h"
+#include "wire/hidden_objects.h"
 
 namespace eyrie::wire {
 namespace {
@@ -58,6 +59,7 @@ v1::PickRequest toMessage(const fabric::PickRequest& request) {
     message.set_x(request.place.x);
     message.set_y(request.place.y);
     message.set_exaggeration(request.exaggeration);
+    setHidden(request.hidden, *message.mutable_hidden_objects());
     return message;
 }
 
@@ -69,6 +71,7 @@ absl::StatusOr<fabric::PickRequest> fromMessage(const v1::PickRequest& message) 
     request.place = {message.x(), message.y()};
     if (message.has_exaggeration())
         request.exaggeration = message.exaggeration();
+    ASSIGN_OR_RETURN(request.hidden, hiddenObjects(message.hidden_objects(), "hiddenObjects"));
     RETURN_IF_ERROR(fabric::validate(request));
     return request;
 }

@@ -12,7 +12,7 @@ import { ViewerPickedSchema, ViewerRequestSchema } from "./protocol/gen/eyrie/v1
 import { encodePick } from "./protocol/messages";
 
 const camera: Camera = { eye: [0, -10, 5], target: [0, 0, 0], up: [0, 0, 1], fovyDegrees: 45 };
-const shown = { camera, width: 640, height: 480, exaggeration: 1, throughWall: false };
+const shown = { camera, width: 640, height: 480, exaggeration: 1, hidden: [2], throughWall: false };
 
 const answer = create(ViewerPickedSchema, {
   sequence: 3n,
