@@ -16,7 +16,7 @@ namespace eyrie::coordinator {
 /// A picture of one colour, as large as asked for.
 inline RenderedFrame plainFrame(const FrameRequest& request, fabric::Rgba colour) {
     RenderedFrame frame;
-    frame.image = fabric::makeImage({0, 0, request.width, request.height}, colour, false);
+    frame.image = fabric::makeImage(request.drawnPart(), colour, false);
     frame.statistics.tauAskedPixels = request.tauPixels;
     frame.statistics.tauAchievedPixels = request.tauPixels;
     frame.statistics.triangles = 1000;
@@ -39,6 +39,7 @@ inline Status readyStatus() {
     status.scene.objects.push_back(object);
     status.sceneInfo.bounds = {{0, 0, 0}, {100, 100, 10}};
     status.sceneInfo.triangles = 1'000'000;
+    status.sceneInfo.objects = {{status.sceneInfo.bounds, status.sceneInfo.triangles}};
     return status;
 }
 

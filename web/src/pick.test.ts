@@ -47,6 +47,7 @@ describe("a click", () => {
     if (request.case !== "pick") throw new Error("no pick");
     expect(request.value.sequence).toBe(7n);
     expect(request.value.request).toMatchObject({ viewWidth: 640, viewHeight: 480, x: 5, y: 6 });
+    expect(request.value.request?.hiddenObjects).toEqual([2]);
     expect(request.value.request?.camera?.eye).toEqual([0, -10, 5]);
   });
 });

@@ -133,7 +133,7 @@ describe("numbers", () => {
     fps: 1,
     inputToDrawnMilliseconds: 1,
     frozen: false,
-  parts: [],
+    parts: [],
   };
 
   it("explain an error above the one asked for", () => {
