@@ -53,8 +53,8 @@ std::shared_ptr<const std::vector<fabric::GroundGrid>> groundOf(
         return nullptr;
     auto ground = std::make_shared<std::vector<fabric::GroundGrid>>();
     for (std::size_t i = 0; i < objects.size(); ++i)
-        if (auto grid = objects[i].drawable->ground(fabric::kMaxGroundCells /
-                                                    static_cast<int>(terrains))) {
+        if (auto grid =
+                objects[i].drawable->ground(fabric::kMaxGroundCells / static_cast<int>(terrains))) {
             grid->object = static_cast<std::int32_t>(i);
             ground->push_back(*std::move(grid));
         }

@@ -53,7 +53,8 @@ absl::Status checkPart(const coordinator::FrameRequest& request) {
             return absl::InvalidArgumentError(
                 fmt::format("part is of a picture of {}x{} pixels; each side must be from 1 to {}",
                             request.width, request.height, fabric::kMaxViewPixels));
-    if (part.isEmpty() || !fabric::PixelViewport{0, 0, request.width, request.height}.contains(part))
+    if (part.isEmpty() ||
+        !fabric::PixelViewport{0, 0, request.width, request.height}.contains(part))
         return absl::InvalidArgumentError(
             fmt::format("part is {}x{}+{}+{}; it must lie in the picture of {}x{} pixels",
                         part.width, part.height, part.x, part.y, request.width, request.height));

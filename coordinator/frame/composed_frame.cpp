@@ -60,8 +60,7 @@ RenderedFrame composedFrame(const PlannedFrame& frame, const compound::Plan& pla
     for (std::size_t i = 0; i < drawn.size(); ++i) {
         Dispatch::Drawn& part = drawn[i];
         fabric::accumulate(result.statistics, part.result.statistics);
-        result.parts.push_back(
-            partOf(plan.draws[i].task, part.renderer, part.result.statistics));
+        result.parts.push_back(partOf(plan.draws[i].task, part.renderer, part.result.statistics));
         images.push_back(std::move(part.result.image));
     }
     result.statistics.tauAskedPixels = frame.request.tauPixels;

@@ -78,8 +78,7 @@ double ceilingAt(const GroundGrid& grid, double u, double v) {
     return inside - beyond * std::max(cellMetres, relief);
 }
 
-Camera aboveGround(const Camera& camera, const std::vector<GroundGrid>& ground,
-                   const Look& look) {
+Camera aboveGround(const Camera& camera, const std::vector<GroundGrid>& ground, const Look& look) {
     Camera lifted = camera;
     for (const GroundGrid& grid : ground)
         if (!look.hidden.contains(static_cast<std::size_t>(grid.object)))

@@ -18,8 +18,8 @@ struct Lights {
     bool operator==(const Lights&) const = default;
 };
 
-/// World axes, unit: towards the sun, which stands in the north (y) at azimuth 0, in the east (x) at
-/// 90, and overhead at elevation 90.
+/// World axes, unit: towards the sun, which stands in the north (y) at azimuth 0, in the east (x)
+/// at 90, and overhead at elevation 90.
 Vec3 towardsSun(const Sun& sun);
 
 /// The scene's lights, with the sun of the look where it has one: the first distant light shines

@@ -20,7 +20,7 @@ struct PickRequest {
     /// Pixels from the picture's lower left corner, x to the right, y up, 0 to its width and
     /// height; the middle of its first pixel is (0.5, 0.5).
     Vec2 place{0, 0};
-    double exaggeration = 1;  ///< that terrains are drawn with, see Look
+    double exaggeration = 1;    ///< that terrains are drawn with, see Look
     HiddenObjects hidden = {};  ///< that are looked through
 
     bool operator==(const PickRequest&) const = default;

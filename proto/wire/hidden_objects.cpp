@@ -23,8 +23,8 @@ absl::StatusOr<fabric::HiddenObjects> hiddenObjects(
     const auto repeated = std::ranges::unique(hidden.positions);
     hidden.positions.erase(repeated.begin(), repeated.end());
     if (!hidden.positions.empty() && hidden.positions.front() < 0)
-        return absl::InvalidArgumentError(fmt::format(
-            "{} has object {}; positions count from 0", field, hidden.positions.front()));
+        return absl::InvalidArgumentError(fmt::format("{} has object {}; positions count from 0",
+                                                      field, hidden.positions.front()));
     return hidden;
 }
 

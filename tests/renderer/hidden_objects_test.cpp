@@ -51,8 +51,11 @@ protected:
         EXPECT_TRUE(result.ok()) << result.status();
         fabric::Image whole = fabric::makeImage(task.pixelViewport, scene.background, false);
         fabric::paste(result->image, whole);
-        const auto picked = renderer->picker()->pick(
-            {.camera = camera_, .viewWidth = 1, .viewHeight = 1, .place = {0.5, 0.5}, .hidden = hidden});
+        const auto picked = renderer->picker()->pick({.camera = camera_,
+                                                      .viewWidth = 1,
+                                                      .viewHeight = 1,
+                                                      .place = {0.5, 0.5},
+                                                      .hidden = hidden});
         EXPECT_TRUE(picked.ok()) << picked.status();
         return {std::move(whole), result->statistics, *picked};
     }

@@ -11,8 +11,7 @@ namespace eyrie::fabric {
 namespace {
 
 void expectNear(const Vec3& found, const Vec3& expected) {
-    EXPECT_LT(glm::length(found - expected), 1e-12)
-        << found.x << " " << found.y << " " << found.z;
+    EXPECT_LT(glm::length(found - expected), 1e-12) << found.x << " " << found.y << " " << found.z;
 }
 
 TEST(TheSun, StandsWhereACompassSays) {
@@ -44,8 +43,8 @@ TEST(TheSun, IsWhiteWhereTheSceneHasNoneAndNeverOneLightTooMany) {
     Look look;
     look.sun = Sun{90, 0};
     Scene scene;
-    EXPECT_EQ(lightsOf(scene, look).distant, (std::vector{DirectionalLight{
-                                                 -towardsSun(*look.sun), Vec3(1)}}));
+    EXPECT_EQ(lightsOf(scene, look).distant,
+              (std::vector{DirectionalLight{-towardsSun(*look.sun), Vec3(1)}}));
     scene.pointLights.assign(kMaxLights, PointLight{});
     const Lights lights = lightsOf(scene, look);
     EXPECT_EQ(lights.distant.size(), 1U);
