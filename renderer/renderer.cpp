@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "effects/object_block.h"
+#include "fabric/lights.h"
 #include "fabric/status.h"
 #include "renderer/draw/budget_choice.h"
 #include "renderer/draw/drawable.h"
@@ -51,9 +52,12 @@ std::shared_ptr<const std::vector<fabric::GroundGrid>> groundOf(
     if (terrains == 0 || terrains > fabric::kMaxGroundCells)
         return nullptr;
     auto ground = std::make_shared<std::vector<fabric::GroundGrid>>();
-    for (const draw::OpenObject& open : objects)
-        if (auto grid = open.drawable->ground(fabric::kMaxGroundCells / static_cast<int>(terrains)))
+    for (std::size_t i = 0; i < objects.size(); ++i)
+        if (auto grid =
+                objects[i].drawable->ground(fabric::kMaxGroundCells / static_cast<int>(terrains))) {
+            grid->object = static_cast<std::int32_t>(i);
             ground->push_back(*std::move(grid));
+        }
     return ground;
 }
 
@@ -150,8 +154,10 @@ absl::StatusOr<fabric::SceneInfo> Renderer::Impl::openScene(const fabric::Scene&
     fabric::SceneInfo info;
     for (const fabric::SceneObject& object : scene.objects) {
         ASSIGN_OR_RETURN(auto drawable, openObject(object, scene.objects.size()));
-        info.bounds.grow(fabric::transformed(drawable->bounds(), object.worldFromObject));
-        info.triangles += drawable->triangles();
+        info.objects.push_back({fabric::transformed(drawable->bounds(), object.worldFromObject),
+                                drawable->triangles()});
+        info.bounds.grow(info.objects.back().bounds);
+        info.triangles += info.objects.back().triangles;
         info.files.push_back(drawable->file());
         info.bytes += info.files.back().bytes;
         surfaces.push_back(drawable->surface(object));
@@ -173,14 +179,19 @@ double Renderer::Impl::errorPixels(const lod::TaskViews& views, const fabric::Fr
     const fabric::Look& look = frameData.look;
     if (look.cutCamera)
         return std::numeric_limits<double>::infinity();
-    const bool isGroundAlone = objects_.size() == 1 && !look.transfer && !look.tileBounds &&
+    std::vector<std::size_t> shown;
+    for (std::size_t i = 0; i < objects_.size(); ++i)
+        if (!look.hidden.contains(i))
+            shown.push_back(i);
+    const bool isGroundAlone = shown.size() == 1 && !look.transfer && !look.tileBounds &&
                                !look.pageBounds &&
                                frameData.shading != fabric::Shading::Wireframe &&
-                               objects_[0].object.kind == fabric::ObjectKind::Terrain;
+                               objects_[shown[0]].object.kind == fabric::ObjectKind::Terrain;
     const fabric::Frustum channel =
         lod::subFrustum(views.drawn, draw::reach(frameData, task.pixelViewport));
     double worst = 0;
-    for (const draw::OpenObject& open : objects_) {
+    for (const std::size_t i : shown) {
+        const draw::OpenObject& open = objects_[i];
         const fabric::Mat4 worldFromObject = draw::drawnWorldFromObject(open.object, look);
         const lod::ObjectView objectView(views.whole, worldFromObject);
         const lod::ObjectView drawnView(views.drawn, worldFromObject);
@@ -242,7 +253,8 @@ absl::Status Renderer::Impl::drawSelection(const draw::Selection& selection, con
                                            const fabric::ChannelTask& task,
                                            fabric::FrameStatistics& statistics) {
     RETURN_IF_ERROR(framebuffer_.resize(view.width, view.height));
-    const draw::FrameState frame{view,           *scene_,    frameData.shading,
+    const fabric::Lights lights = fabric::lightsOf(*scene_, frameData.look);
+    const draw::FrameState frame{view,           lights,     frameData.shading,
                                  frameData.look, task.range, task.pixelViewport};
     drawn_.clear();
     RETURN_IF_ERROR(occludedDraw_.draw(
@@ -271,7 +283,8 @@ absl::Status Renderer::Impl::measureStages(const draw::Selection& selection, con
                                            const fabric::ChannelTask& task,
                                            fabric::StageMilliseconds& milliseconds) {
     const fabric::PixelViewport pixel{selection.covered.x, selection.covered.y, 1, 1};
-    const draw::FrameState frame{view,           *scene_,    frameData.shading,
+    const fabric::Lights lights = fabric::lightsOf(*scene_, frameData.look);
+    const draw::FrameState frame{view,           lights,     frameData.shading,
                                  frameData.look, task.range, pixel};
     framebuffer_.begin(view.width, view.height, pixel, scene_->background);
     passState(frameData.shading).apply();

@@ -9,7 +9,8 @@
 #include "coordinator/api/asked_view.h"
 #include "coordinator/api/handler_list.h"
 #include "coordinator/api/handlers.h"
-#include "coordinator/stream/viewer_messages.h"
+#include "coordinator/stream/statistics_message.h"
+#include "coordinator/stream/view_message.h"
 #include "eyrie/v1/eyrie_service.pb.h"
 #include "fabric/frame_data.h"
 #include "fabric/frustum.h"
@@ -18,7 +19,6 @@
 #include "wire/frame.h"
 #include "wire/jpeg.h"
 #include "wire/png.h"
-#include "wire/statistics.h"
 
 namespace eyrie::api {
 namespace {
@@ -29,6 +29,7 @@ constexpr std::int64_t kMaxPixels = 1 << 25;
 constexpr std::int64_t kMaxPixelsAtOnce = 1 << 26;
 constexpr int kUsualQuality = 90;
 
+/// Of a whole answer.
 absl::Status checkSize(int width, int height) {
     if (width < 1 || width > kMaxSide)
         return absl::InvalidArgumentError(
@@ -38,10 +39,26 @@ absl::Status checkSize(int width, int height) {
             fmt::format("height is {} pixels; it must be from 1 to {}", height, kMaxSide));
     if (std::int64_t{width} * height > kMaxPixels)
         return absl::InvalidArgumentError(
-            fmt::format("height makes {}x{} pixels, {} in all; at most {} are drawn here, and more "
-                        "by `eyrie render`",
+            fmt::format("height makes {}x{} pixels, {} in all; at most {} are drawn at once, and "
+                        "more part by part or by `eyrie render`",
                         width, height, std::int64_t{width} * height, kMaxPixels));
     return absl::OkStatus();
+}
+
+/// Of a picture that is asked for part by part.
+absl::Status checkPart(const coordinator::FrameRequest& request) {
+    const fabric::PixelViewport& part = request.part;
+    for (const int side : {request.width, request.height})
+        if (side < 1 || side > fabric::kMaxViewPixels)
+            return absl::InvalidArgumentError(
+                fmt::format("part is of a picture of {}x{} pixels; each side must be from 1 to {}",
+                            request.width, request.height, fabric::kMaxViewPixels));
+    if (part.isEmpty() ||
+        !fabric::PixelViewport{0, 0, request.width, request.height}.contains(part))
+        return absl::InvalidArgumentError(
+            fmt::format("part is {}x{}+{}+{}; it must lie in the picture of {}x{} pixels",
+                        part.width, part.height, part.x, part.y, request.width, request.height));
+    return fabric::withContext(checkSize(part.width, part.height), "part");
 }
 
 absl::Status checkFormat(const v1::RenderImageRequest& request) {
@@ -61,7 +78,13 @@ absl::StatusOr<coordinator::FrameRequest> requestOf(const v1::RenderImageRequest
     coordinator::FrameRequest request;
     request.width = message.has_width() ? message.width() : kUsualWidth;
     request.height = message.has_height() ? message.height() : kUsualHeight;
-    RETURN_IF_ERROR(checkSize(request.width, request.height));
+    if (message.has_part()) {
+        request.part = {message.part().x(), message.part().y(), message.part().width(),
+                        message.part().height()};
+        RETURN_IF_ERROR(checkPart(request));
+    } else {
+        RETURN_IF_ERROR(checkSize(request.width, request.height));
+    }
     ASSIGN_OR_RETURN(request.camera, cameraOf(message.camera(), frames));
     v1::FrameData data;
     data.set_version(1);
@@ -129,7 +152,7 @@ absl::StatusOr<v1::RenderImageResponse> renderImage(coordinator::FrameSource& fr
                                                     const v1::RenderImageRequest& request,
                                                     const Call& call) {
     ASSIGN_OR_RETURN(const coordinator::FrameRequest asked, requestOf(request, frames));
-    const PixelShare share(pixelsInUse, std::int64_t{asked.width} * asked.height);
+    const PixelShare share(pixelsInUse, asked.drawnPart().area());
     if (!share.isGranted())
         return absl::ResourceExhaustedError(
             "too many large pictures are being drawn; try again in a bit");
@@ -149,11 +172,8 @@ absl::StatusOr<v1::RenderImageResponse> renderImage(coordinator::FrameSource& fr
             upright(frame.image.depth, frame.image.area, [](float reversed) {
                 return static_cast<float>(fabric::viewDepthMetres(reversed, fabric::kNearMetres));
             });
-    v1::FrameStatistics& statistics = *response.mutable_statistics();
-    statistics = wire::toMessage(frame.statistics);
-    statistics.set_width(frame.image.area.width);
-    statistics.set_height(frame.image.area.height);
-    *statistics.mutable_renderer() = wire::toMessage(frame.device);
+    *response.mutable_statistics() =
+        stream::statisticsMessage(frame, frame.image.area.width, frame.image.area.height);
     return response;
 }
 

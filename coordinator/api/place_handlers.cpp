@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <optional>
+#include <utility>
 
 #include "coordinator/api/asked_view.h"
 #include "coordinator/api/handler_list.h"
@@ -10,6 +11,7 @@
 #include "fabric/pick.h"
 #include "fabric/seen_area.h"
 #include "fabric/status.h"
+#include "wire/hidden_objects.h"
 #include "wire/pick.h"
 
 namespace eyrie::api {
@@ -24,6 +26,8 @@ absl::StatusOr<v1::PickPointResponse> pickPoint(coordinator::FrameSource& frames
     request.place = {message.x(), request.viewHeight - message.y()};  // rows count from the top
     if (message.has_exaggeration())
         request.exaggeration = message.exaggeration();
+    ASSIGN_OR_RETURN(request.hidden,
+                     wire::hiddenObjects(message.hidden_objects(), "hiddenObjects"));
     RETURN_IF_ERROR(fabric::validate(request));
     coordinator::FrameRequest picture;
     picture.camera = request.camera;
@@ -54,9 +58,12 @@ absl::StatusOr<v1::PickPointResponse> pickPoint(coordinator::FrameSource& frames
 absl::StatusOr<v1::MeasureProfileResponse> measureProfile(coordinator::FrameSource& frames,
                                                           const v1::MeasureProfileRequest& message,
                                                           const Call& call) {
+    ASSIGN_OR_RETURN(fabric::HiddenObjects hidden,
+                     wire::hiddenObjects(message.hidden_objects(), "hiddenObjects"));
     const stream::ProfileLine line{{message.from().x(), message.from().y()},
                                    {message.to().x(), message.to().y()},
-                                   message.samples()};
+                                   message.samples(),
+                                   std::move(hidden)};
     RETURN_IF_ERROR(stream::validate(line));
     const fabric::Box bounds = frames.status().sceneInfo.bounds;
     v1::MeasureProfileResponse response;

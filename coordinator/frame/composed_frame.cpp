@@ -34,6 +34,21 @@ std::vector<ActiveConfiguration::Taken> takenBy(const std::vector<Dispatch::Draw
     return taken;
 }
 
+DrawnPart partOf(const fabric::ChannelTask& task, const std::string& renderer,
+                 const fabric::FrameStatistics& statistics) {
+    const fabric::PixelViewport& drawn = task.pixelViewport;
+    const auto share = [](int pixels, int side) { return static_cast<double>(pixels) / side; };
+    const fabric::PixelViewport whole = fabric::pictureOf(task);
+    return {renderer,
+            share(drawn.x, whole.width),
+            share(drawn.y, whole.height),
+            share(drawn.width, whole.width),
+            share(drawn.height, whole.height),
+            task.range,
+            statistics.milliseconds.total,
+            statistics.triangles};
+}
+
 RenderedFrame composedFrame(const PlannedFrame& frame, const compound::Plan& plan,
                             std::vector<Dispatch::Drawn> drawn, std::vector<fabric::Image> more) {
     RenderedFrame result;
@@ -42,8 +57,10 @@ RenderedFrame composedFrame(const PlannedFrame& frame, const compound::Plan& pla
     for (const compound::Picture& picture : frame.plan.pictures)
         result.pictures.push_back({picture.output, picture.seen});
     std::vector<fabric::Image> images;
-    for (Dispatch::Drawn& part : drawn) {
+    for (std::size_t i = 0; i < drawn.size(); ++i) {
+        Dispatch::Drawn& part = drawn[i];
         fabric::accumulate(result.statistics, part.result.statistics);
+        result.parts.push_back(partOf(plan.draws[i].task, part.renderer, part.result.statistics));
         images.push_back(std::move(part.result.image));
     }
     result.statistics.tauAskedPixels = frame.request.tauPixels;

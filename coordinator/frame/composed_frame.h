@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "coordinator/compound/plan.h"
@@ -25,6 +26,10 @@ struct DrawnFrame {
 };
 
 std::vector<ActiveConfiguration::Taken> takenBy(const std::vector<Dispatch::Drawn>& drawn);
+
+/// What came of `task` when `renderer` drew it.
+DrawnPart partOf(const fabric::ChannelTask& task, const std::string& renderer,
+                 const fabric::FrameStatistics& statistics);
 
 /// The pictures of `plan` from those of its draws: `drawn`, and after these `more`.
 RenderedFrame composedFrame(const PlannedFrame& frame, const compound::Plan& plan,

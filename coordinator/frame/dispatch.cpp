@@ -256,7 +256,7 @@ void Dispatch::finish(std::size_t index, const Member& member,
             part.error = result.status();
         } else if (!part.done) {
             part.done = true;
-            part.drawn = {*std::move(result), member.device(), taken};
+            part.drawn = {*std::move(result), member.device(), taken, member.id()};
         }
     }
     changed_.notify_one();

@@ -32,6 +32,7 @@ public:
         fabric::ChannelResult result;
         fabric::DeviceInfo device;                    ///< of the renderer that drew it
         std::chrono::steady_clock::duration taken{};  ///< by it, transmission included
+        std::string renderer = {};                    ///< its id
     };
 
     struct Plan {

@@ -59,6 +59,20 @@ struct PictureFacts {
     bool operator==(const PictureFacts&) const = default;
 };
 
+/// What one renderer drew of a frame.
+struct DrawnPart {
+    std::string renderer;  ///< its id
+    double left = 0;       ///< shares of its view's width and height, from the lower left corner
+    double bottom = 0;
+    double width = 1;
+    double height = 1;
+    fabric::Range range;
+    double milliseconds = 0;  ///< that the renderer took, without the transmission
+    std::uint64_t triangles = 0;
+
+    bool operator==(const DrawnPart&) const = default;
+};
+
 /// A composited picture, or the part asked for: `image.area` is its drawnPart(), or of the same
 /// shape and smaller where a budget is to be kept.
 struct RenderedFrame {
@@ -68,6 +82,7 @@ struct RenderedFrame {
     /// Of what else was asked for, in that order; of separate eyes, the second's after the first's.
     std::vector<fabric::Image> further = {};
     std::vector<PictureFacts> pictures = {};  ///< of `image` and of what is further
+    std::vector<DrawnPart> parts = {};  ///< who drew what
 };
 
 /// For a person to read, where a frame shows nothing; empty where it shows something.

@@ -114,8 +114,11 @@ absl::StatusOr<DrawnFrame> ProgramDrawing::tryToDraw(const PlannedFrame& frame,
     RenderedFrame& picture = whole.picture;
     picture =
         composedFrame(frame, programs.exchange.rest, *std::move(drawn), std::move(result.pictures));
-    for (const ProgramRuns::Result::Draw& each : result.draws)
+    for (const ProgramRuns::Result::Draw& each : result.draws) {
         fabric::accumulate(picture.statistics, each.statistics);
+        picture.parts.push_back(
+            partOf(frame.plan.draws[each.draw].task, each.renderer, each.statistics));
+    }
     picture.statistics.tauAskedPixels = frame.request.tauPixels;
     picture.device = result.device;
     return whole;

@@ -81,7 +81,8 @@ absl::StatusOr<ProgramRuns::Result> ProgramRuns::run(
         for (fabric::ProgramPicture& picture : answer->pictures)
             result.pictures.push_back(std::move(picture.image));
         for (std::size_t draw = 0; draw < answer->draws.size(); ++draw)
-            result.draws.push_back({exchange.programs[i].draws[draw], answer->draws[draw]});
+            result.draws.push_back(
+                {exchange.programs[i].draws[draw], answer->draws[draw], renderers[i]->id()});
     }
     if (stop.stop_requested())
         return failure.ok() ? absl::CancelledError("the programs were ended") : failure;

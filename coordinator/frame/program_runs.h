@@ -38,6 +38,7 @@ public:
         struct Draw {
             std::size_t draw = 0;  ///< of the plan
             fabric::FrameStatistics statistics;
+            std::string renderer;  ///< its id
         };
         std::vector<Draw> draws;
         fabric::DeviceInfo device;  ///< of the first renderer

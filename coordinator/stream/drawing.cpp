@@ -30,8 +30,7 @@ coordinator::FrameRequest drawingOf(const ViewRequest& view, const fabric::Scene
                                     double scale) {
     coordinator::FrameRequest request = view.frame;
     if (scene != nullptr && scene->ground && !view.isUnderground)
-        request.camera =
-            fabric::aboveGround(request.camera, *scene->ground, request.look.exaggeration);
+        request.camera = fabric::aboveGround(request.camera, *scene->ground, request.look);
     if (scale == 1)
         return request;
     const auto scaled = [=](int side) {

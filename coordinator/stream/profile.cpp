@@ -27,6 +27,7 @@ fabric::PickRequest pickFromAbove(const ProfileLine& line, int index, const fabr
     request.camera.up = {0, 1, 0};
     request.viewWidth = request.viewHeight = 1;
     request.place = {0.5, 0.5};
+    request.hidden = line.hidden;
     return request;
 }
 

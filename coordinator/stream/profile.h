@@ -13,7 +13,8 @@ namespace eyrie::stream {
 struct ProfileLine {
     fabric::Vec2 from{0, 0};  ///< world metres, x and y
     fabric::Vec2 to{0, 0};
-    int samples = 0;  ///< 2 to kMaxSamples, both ends among them
+    int samples = 0;                    ///< 2 to kMaxSamples, both ends among them
+    fabric::HiddenObjects hidden = {};  ///< that are looked through
 
     bool operator==(const ProfileLine&) const = default;
 };

@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 #include "coordinator/stream/home_camera.h"
+#include "coordinator/stream/statistics_message.h"
 #include "eyrie/v1/viewer.pb.h"
 #include "fabric/status.h"
 #include "wire/camera.h"
+#include "wire/hidden_objects.h"
 #include "wire/pick.h"
 #include "wire/scene_info.h"
 #include "wire/sight.h"
@@ -51,6 +54,15 @@ void setSeen(const fabric::SeenAreas& areas, v1::Frame& frame) {
     }
 }
 
+v1::ObjectState toMessage(fabric::ObjectKind kind, const fabric::ObjectInfo& info) {
+    v1::ObjectState state;
+    state.set_kind(kind == fabric::ObjectKind::Terrain ? v1::OBJECT_KIND_TERRAIN
+                                                       : v1::OBJECT_KIND_MESH);
+    *state.mutable_bounds() = wire::toMessage(info.bounds);
+    state.set_triangles(info.triangles);
+    return state;
+}
+
 FrameAck ackFromMessage(const v1::FrameAck& message) {
     FrameAck ack{message.frame_number()};
     if (message.has_received_bytes())
@@ -64,9 +76,12 @@ FrameAck ackFromMessage(const v1::FrameAck& message) {
 }
 
 absl::StatusOr<ProfileLine> lineFromMessage(const v1::ViewerProfile& message) {
-    const ProfileLine line{{message.from().x(), message.from().y()},
-                           {message.to().x(), message.to().y()},
-                           message.samples()};
+    ASSIGN_OR_RETURN(fabric::HiddenObjects hidden,
+                     wire::hiddenObjects(message.hidden_objects(), "hiddenObjects"));
+    ProfileLine line{{message.from().x(), message.from().y()},
+                     {message.to().x(), message.to().y()},
+                     message.samples(),
+                     std::move(hidden)};
     RETURN_IF_ERROR(validate(line));
     return line;
 }
@@ -165,6 +180,11 @@ v1::SessionState sessionState(const coordinator::Status& status, std::string_vie
     }
     for (const fabric::SceneObject& object : status.scene.objects)
         state.add_object_names(sanitised(object.name));
+    // Of the scene that is open, which is the one that is to be shown but while it is replaced.
+    if (status.sceneInfo.objects.size() == status.scene.objects.size())
+        for (std::size_t i = 0; i < status.scene.objects.size(); ++i)
+            *state.add_objects() =
+                toMessage(status.scene.objects[i].kind, status.sceneInfo.objects[i]);
     for (const coordinator::CanvasStatus& canvas : status.canvases) {
         v1::CanvasState& message = *state.add_canvases();
         message.set_name(sanitised(canvas.name));
@@ -205,10 +225,7 @@ std::string frameMessage(const EncodedFrame& encoded, const coordinator::Rendere
     frame.set_swap(encoded.swap);
     if (encoded.output < rendered.pictures.size())
         setSeen(rendered.pictures[encoded.output].seen, frame);
-    *frame.mutable_statistics() = wire::toMessage(rendered.statistics);
-    frame.mutable_statistics()->set_width(picture.width);
-    frame.mutable_statistics()->set_height(picture.height);
-    *frame.mutable_statistics()->mutable_renderer() = wire::toMessage(rendered.device);
+    *frame.mutable_statistics() = statisticsMessage(rendered, picture.width, picture.height);
     if (encoded.liftedCamera)
         *frame.mutable_lifted_camera() = wire::toMessage(*encoded.liftedCamera);
     if (encoded.ledView)

@@ -78,10 +78,11 @@ double ceilingAt(const GroundGrid& grid, double u, double v) {
     return inside - beyond * std::max(cellMetres, relief);
 }
 
-Camera aboveGround(const Camera& camera, const std::vector<GroundGrid>& ground,
-                   double exaggeration) {
+Camera aboveGround(const Camera& camera, const std::vector<GroundGrid>& ground, const Look& look) {
     Camera lifted = camera;
-    for (const GroundGrid& grid : ground) lifted.eye += lift(lifted.eye, grid, exaggeration);
+    for (const GroundGrid& grid : ground)
+        if (!look.hidden.contains(static_cast<std::size_t>(grid.object)))
+            lifted.eye += lift(lifted.eye, grid, look.exaggeration);
     if (lifted.eye == camera.eye)
         return camera;
     if (!validate(lifted).ok())

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "fabric/camera.h"
+#include "fabric/look.h"
 #include "fabric/vec.h"
 
 namespace eyrie::fabric {
@@ -16,7 +18,8 @@ struct GroundGrid {
     int rows = 0;
     /// Of the source in each cell, metres; row by row. Cells without data have `lowest`.
     std::vector<float> highest;
-    float lowest = 0;  ///< of all cells
+    float lowest = 0;         ///< of all cells
+    std::int32_t object = 0;  ///< position of the terrain in Scene::objects
 
     bool operator==(const GroundGrid&) const = default;
 };
@@ -34,14 +37,14 @@ double ceilingAt(const GroundGrid& grid, double u, double v);
 /// What a camera keeps above the ceiling, in world metres.
 inline constexpr double kGroundClearanceMetres = 2;
 
-/// `camera` if its eye is above every ceiling by the clearance, bit for bit; otherwise with the eye
-/// lifted there along the terrain's own axis of height (exaggerated, where that is below 0, above
-/// `lowest` times it). Continuous in the eye: a camera that is led into the ground slides along it.
+/// `camera` if its eye is above every ceiling of what `look` shows by the clearance, bit for bit;
+/// otherwise with the eye lifted there along the terrain's own axis of height (exaggerated, where
+/// that is below 0, above `lowest` times it). Continuous in the eye: a camera that is led into the
+/// ground slides along it.
 ///
 /// The target stays, so that what is looked at stays in the middle, unless that would look straight
 /// up or down, or from the target itself: then it is lifted as well. Promises that the eye is above
 /// the source's posts, less a micrometre; what is drawn may be off by its error.
-Camera aboveGround(const Camera& camera, const std::vector<GroundGrid>& ground,
-                   double exaggeration);
+Camera aboveGround(const Camera& camera, const std::vector<GroundGrid>& ground, const Look& look);
 
 }  // namespace eyrie::fabric

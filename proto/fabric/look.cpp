@@ -37,6 +37,10 @@ absl::Status validate(const Look& look) {
     if (look.cutCamera)
         if (const absl::Status status = validate(*look.cutCamera); !status.ok())
             return withContext(status, "look.cutCamera");
+    if (look.sun) {
+        RETURN_IF_ERROR(checkRange(look.sun->azimuthDegrees, -360, 360, "sun.azimuthDegrees"));
+        RETURN_IF_ERROR(checkRange(look.sun->elevationDegrees, -90, 90, "sun.elevationDegrees"));
+    }
     return absl::OkStatus();
 }
 

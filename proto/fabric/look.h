@@ -6,6 +6,7 @@
 #include <absl/status/status.h>
 
 #include "fabric/camera.h"
+#include "fabric/hidden_objects.h"
 #include "fabric/transfer_function.h"
 
 namespace eyrie::fabric {
@@ -16,6 +17,14 @@ struct ContourLines {
     double widthPixels = 1;       ///< 0.25 to 16
 
     bool operator==(const ContourLines&) const = default;
+};
+
+/// Where light comes from, as seen from the scene.
+struct Sun {
+    double azimuthDegrees = 0;    ///< clockwise from north, world y; -360 to 360
+    double elevationDegrees = 0;  ///< above the horizon; -90 to 90
+
+    bool operator==(const Sun&) const = default;
 };
 
 /// How objects, terrain above all, are shown beside their shading. A default one changes nothing
@@ -35,6 +44,9 @@ struct Look {
     bool rangeTint = false;
     /// What is drawn is chosen for this camera, and seen from the frame's: no error is promised.
     std::optional<Camera> cutCamera = {};
+    std::optional<Sun> sun = {};  ///< see lightsOf()
+    /// What is promised, counted and timed is that of the others.
+    HiddenObjects hidden = {};
 
     bool operator==(const Look&) const = default;
 };

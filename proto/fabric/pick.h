@@ -7,6 +7,7 @@
 #include <absl/status/status.h>
 
 #include "fabric/camera.h"
+#include "fabric/hidden_objects.h"
 #include "fabric/sight.h"
 #include "fabric/vec.h"
 
@@ -20,7 +21,8 @@ struct PickRequest {
     /// Pixels from the picture's lower left corner, x to the right, y up, 0 to its width and
     /// height; the middle of its first pixel is (0.5, 0.5).
     Vec2 place{0, 0};
-    double exaggeration = 1;  ///< that terrains are drawn with, see Look
+    double exaggeration = 1;    ///< that terrains are drawn with, see Look
+    HiddenObjects hidden = {};  ///< that are looked through
     /// What the picture is seen by; nothing: straight ahead, by the camera's field of view.
     std::optional<Sight> sight = {};
 

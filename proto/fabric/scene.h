@@ -76,6 +76,14 @@ struct DataFile {
     bool operator==(const DataFile&) const = default;
 };
 
+/// What an object of a scene comes to.
+struct ObjectInfo {
+    Box bounds;                   ///< world space, metres, at true height
+    std::uint64_t triangles = 0;  ///< at full resolution
+
+    bool operator==(const ObjectInfo&) const = default;
+};
+
 /// What a renderer found in a scene.
 struct SceneInfo {
     Box bounds;                   ///< world space, metres
@@ -83,11 +91,12 @@ struct SceneInfo {
     std::uint64_t bytes = 0;      ///< of all files
     /// One for each terrain, at most kMaxGroundCells together; null where there is none.
     std::shared_ptr<const std::vector<GroundGrid>> ground = {};
-    std::vector<DataFile> files = {};  ///< of each object of the scene
+    std::vector<DataFile> files = {};      ///< of each object of the scene
+    std::vector<ObjectInfo> objects = {};  ///< likewise
 
     bool operator==(const SceneInfo& other) const {
         return bounds == other.bounds && triangles == other.triangles && bytes == other.bytes &&
-               files == other.files &&
+               files == other.files && objects == other.objects &&
                (ground == other.ground || (ground && other.ground && *ground == *other.ground));
     }
 };

@@ -17,8 +17,11 @@ struct PixelViewport {
     bool isEmpty() const { return width <= 0 || height <= 0; }
     std::int64_t area() const { return isEmpty() ? 0 : std::int64_t{width} * height; }
     bool contains(const PixelViewport& inner) const {
-        return inner.x >= x && inner.y >= y && inner.x + inner.width <= x + width &&
-               inner.y + inner.height <= y + height;
+        const auto end = [](std::int32_t from, std::int32_t size) {
+            return std::int64_t{from} + size;  // somebody may have asked for anything
+        };
+        return inner.x >= x && inner.y >= y && end(inner.x, inner.width) <= end(x, width) &&
+               end(inner.y, inner.height) <= end(y, height);
     }
     bool operator==(const PixelViewport&) const = default;
 };

@@ -6,6 +6,7 @@
 #include "eyrie/v1/look.pb.h"
 #include "fabric/status.h"
 #include "wire/camera.h"
+#include "wire/hidden_objects.h"
 #include "wire/numbers.h"
 
 namespace eyrie::wire {
@@ -106,6 +107,11 @@ v1::Look toMessage(const fabric::Look& look) {
     message.set_range_tint(look.rangeTint);
     if (look.cutCamera)
         *message.mutable_cut_camera() = toMessage(*look.cutCamera);
+    if (look.sun) {
+        message.mutable_sun()->set_azimuth_degrees(look.sun->azimuthDegrees);
+        message.mutable_sun()->set_elevation_degrees(look.sun->elevationDegrees);
+    }
+    setHidden(look.hidden, *message.mutable_hidden_objects());
     return message;
 }
 
@@ -136,6 +142,9 @@ absl::StatusOr<fabric::Look> fromMessage(const v1::Look& message) {
             return fabric::withContext(camera.status(), "look.cutCamera");
         look.cutCamera = *camera;
     }
+    if (message.has_sun())
+        look.sun = fabric::Sun{message.sun().azimuth_degrees(), message.sun().elevation_degrees()};
+    ASSIGN_OR_RETURN(look.hidden, hiddenObjects(message.hidden_objects(), "look.hiddenObjects"));
     RETURN_IF_ERROR(fabric::validate(look));
     return look;
 }

@@ -10,6 +10,7 @@
 #include "eyrie/v1/pick.pb.h"
 #include "fabric/status.h"
 #include "wire/camera.h"
+#include "wire/hidden_objects.h"
 #include "wire/sight.h"
 
 namespace eyrie::wire {
@@ -62,6 +63,7 @@ v1::PickRequest toMessage(const fabric::PickRequest& request) {
     message.set_exaggeration(request.exaggeration);
     if (request.sight)
         *message.mutable_sight() = toMessage(*request.sight);
+    setHidden(request.hidden, *message.mutable_hidden_objects());
     return message;
 }
 
@@ -76,6 +78,7 @@ absl::StatusOr<fabric::PickRequest> fromMessage(const v1::PickRequest& message) 
     if (message.has_sight()) {
         ASSIGN_OR_RETURN(request.sight, fromMessage(message.sight()));
     }
+    ASSIGN_OR_RETURN(request.hidden, hiddenObjects(message.hidden_objects(), "hiddenObjects"));
     RETURN_IF_ERROR(fabric::validate(request));
     return request;
 }

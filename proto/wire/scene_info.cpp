@@ -33,6 +33,7 @@ v1::GroundGrid toMessage(const fabric::GroundGrid& grid) {
     message.set_rows(grid.rows);
     message.mutable_highest()->Add(grid.highest.begin(), grid.highest.end());
     message.set_lowest(grid.lowest);
+    message.set_object(grid.object);
     return message;
 }
 
@@ -66,10 +67,14 @@ absl::StatusOr<fabric::GroundGrid> fromMessage(const v1::GroundGrid& message) {
     if (!std::isfinite(determinant) || determinant == 0)
         return absl::InvalidArgumentError(
             "ground.world_from_grid is singular; it must have an inverse");
+    if (message.object() < 0)
+        return absl::InvalidArgumentError(
+            fmt::format("ground.object is {}; it must be 0 or more", message.object()));
     grid.columns = message.columns();
     grid.rows = message.rows();
     grid.highest.assign(message.highest().begin(), message.highest().end());
     grid.lowest = message.lowest();
+    grid.object = message.object();
     return grid;
 }
 
@@ -106,6 +111,11 @@ v1::OpenSceneResponse toMessage(const fabric::SceneInfo& info) {
         sent.set_bytes(file.bytes);
         sent.set_checksum(file.checksum);
     }
+    for (const fabric::ObjectInfo& object : info.objects) {
+        v1::ObjectInfo& sent = *message.add_objects();
+        *sent.mutable_bounds() = toMessage(object.bounds);
+        sent.set_triangles(object.triangles);
+    }
     return message;
 }
 
@@ -118,6 +128,10 @@ absl::StatusOr<fabric::SceneInfo> fromMessage(const v1::OpenSceneResponse& messa
     info.bytes = message.bytes();
     for (const v1::DataFile& file : message.files())
         info.files.push_back({file.bytes(), file.checksum()});
+    for (const v1::ObjectInfo& object : message.objects()) {
+        ASSIGN_OR_RETURN(const fabric::Box bounds, fromMessage(object.bounds()));
+        info.objects.push_back({bounds, object.triangles()});
+    }
     std::vector<fabric::GroundGrid> ground;
     for (const v1::GroundGrid& one : message.ground()) {
         ASSIGN_OR_RETURN(fabric::GroundGrid grid, fromMessage(one));

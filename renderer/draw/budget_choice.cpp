@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/draw/budget_choice.h"
 
+#include <cstddef>
 #include <cstdint>
 
 #include "fabric/frame_budget.h"
@@ -10,14 +11,17 @@
 namespace eyrie::draw {
 namespace {
 
-/// Of all objects, in the whole view's cut.
+/// Of all objects that are shown, in the whole view's cut.
 std::uint64_t viewTriangles(std::span<const OpenObject> objects, const lod::View& view,
                             const fabric::FrameData& frameData, const fabric::ChannelTask& task,
                             double tauPixels) {
     const fabric::Look& look = frameData.look;
     const lod::View cutView = cutViewOf(look, task, view);
     std::uint64_t triangles = 0;
-    for (const OpenObject& open : objects) {
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+        if (look.hidden.contains(i))
+            continue;
+        const OpenObject& open = objects[i];
         const lod::ObjectView objectView(cutView, drawnWorldFromObject(open.object, look));
         triangles += open.drawable->viewTriangles({objectView,
                                                    cutView.frustum,
@@ -30,11 +34,14 @@ std::uint64_t viewTriangles(std::span<const OpenObject> objects, const lod::View
     return triangles;
 }
 
-/// Of the view's pixels, those in a rectangle around all objects.
+/// Of the view's pixels, those in a rectangle around them.
 double coveredShare(std::span<const OpenObject> objects, const lod::View& view,
                     const fabric::FrameData& frameData) {
     fabric::PixelViewport covered{};
-    for (const OpenObject& open : objects) {
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+        if (frameData.look.hidden.contains(i))
+            continue;
+        const OpenObject& open = objects[i];
         const lod::ObjectView objectView(view, drawnWorldFromObject(open.object, frameData.look));
         covered = enclosing(covered, objectView.coveredPixels(open.drawable->bounds()));
     }

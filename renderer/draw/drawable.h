@@ -15,6 +15,7 @@
 #include "fabric/frame_data.h"
 #include "fabric/frustum.h"
 #include "fabric/ground.h"
+#include "fabric/lights.h"
 #include "fabric/scene.h"
 #include "fabric/statistics.h"
 #include "renderer/lod/view.h"
@@ -74,7 +75,7 @@ struct MemoryUse {
 /// What is the same for every piece of a frame.
 struct FrameState {
     const lod::View& view;  ///< that is drawn
-    const fabric::Scene& scene;
+    const fabric::Lights& lights;
     fabric::Shading shading;
     const fabric::Look& look;
     const fabric::Range& range;  ///< of the channel

@@ -30,10 +30,10 @@ double conformalScale(const fabric::Mat3& map) {
 }
 
 /// How many lights the shader counts (effects/object.block).
-int countedLights(const fabric::Scene& scene) {
-    if (!scene.pointLights.empty())
+int countedLights(const fabric::Lights& lights) {
+    if (!lights.points.empty())
         return fabric::kMaxLights;
-    return std::max(static_cast<int>(scene.lights.size()), 1);
+    return std::max(static_cast<int>(lights.distant.size()), 1);
 }
 
 /// `shadingFromWorld` turns directions; `snappedEye` is what the vertices are relative to, world
@@ -50,27 +50,27 @@ void setLights(const effects::ObjectBlock& program, const FrameState& frame,
         colours[count] = glm::vec3(colour);
         ++count;
     };
-    for (const fabric::DirectionalLight& light : frame.scene.lights)
+    for (const fabric::DirectionalLight& light : frame.lights.distant)
         add(glm::normalize(-light.direction), 0, light.colour);
-    for (const fabric::PointLight& light : frame.scene.pointLights)
+    for (const fabric::PointLight& light : frame.lights.points)
         add(light.positionMetres - snappedEye, 1 / (light.reachMetres * light.reachMetres),
             light.colour);
     if (count == 0)
         add(glm::normalize(glm::transpose(frame.view.cameraFromWorldRotation) *
                            fabric::Vec3(-0.3, 0.4, 1)),
             0, fabric::Vec3(1));
-    const auto counted = static_cast<std::size_t>(countedLights(frame.scene));
+    const auto counted = static_cast<std::size_t>(countedLights(frame.lights));
     program.lightPlaces(std::span(places).first(counted));
     program.lightFalloffs(std::span(falloffs).first(counted));
     program.lightColours(std::span(colours).first(counted));
-    program.ambient(static_cast<float>(frame.scene.ambient));
+    program.ambient(static_cast<float>(frame.lights.ambient));
 }
 
 }  // namespace
 
 effects::ObjectBlock::Variant variantFor(const FrameState& frame,
                                          const fabric::Mat4& worldFromObject) {
-    return {.lights = countedLights(frame.scene),
+    return {.lights = countedLights(frame.lights),
             .flat = frame.shading == fabric::Shading::Flat,
             .conformal = conformalScale(fabric::Mat3(worldFromObject)) > 0};
 }

@@ -63,6 +63,8 @@ Selection selectPieces(std::span<const OpenObject> objects, const lod::TaskViews
     for (std::uint32_t i = 0; i < objects.size(); ++i) {
         const fabric::Mat4& worldFromObject =
             selection.worldFromObject.emplace_back(drawnWorldFromObject(objects[i].object, look));
+        if (look.hidden.contains(i))
+            continue;
         const lod::ObjectView objectView(views.drawn, worldFromObject);
         const lod::ObjectView cutObjectView(cutView, worldFromObject);
         const Cut cut = objects[i].drawable->selectCut({cutObjectView, cutChannel, task.range,

@@ -86,6 +86,8 @@ absl::StatusOr<fabric::Picked> Picker::pick(const fabric::PickRequest& request,
     std::size_t object = 0;
     double nearest = kNowhere;
     for (std::size_t i = 0; i < surfaces_.size(); ++i) {
+        if (request.hidden.contains(i))
+            continue;
         options.object = static_cast<std::uint32_t>(i);
         ASSIGN_OR_RETURN(const Cast cast, surfaces_[i]->cast(ray, options));
         nearest = std::min(nearest, cast.nearest);

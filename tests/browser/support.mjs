@@ -1,12 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the browser tests share: a server process, a Chromium, and eyes for its pictures.
 import { spawn } from "node:child_process";
+import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { fileURLToPath } from "node:url";
 
 const requireFromWeb = createRequire(
   fileURLToPath(new URL("../../web/package.json", import.meta.url)),
 );
+
+const axe = readFileSync(requireFromWeb.resolve("axe-core/axe.min.js"), "utf8");
+
+/** What axe-core calls serious or worse. */
+export async function seriousFindings(page) {
+  await page.evaluate(axe); // as the debugger: the page's policy forbids it to others
+  const { violations } = await page.evaluate(() => window.axe.run());
+  return violations
+    .filter(({ impact }) => impact === "serious" || impact === "critical")
+    .map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html.slice(0, 120)).join(" ")}`);
+}
 
 const chromiumArguments = [
   "--headless=new",

@@ -2,27 +2,9 @@
 // The page's tools against a server of made-up pictures: views kept and shared, things measured,
 // plots, all by the keyboard; and what axe-core finds.
 import { readFileSync } from "node:fs";
-import { createRequire } from "node:module";
-import { fileURLToPath } from "node:url";
-import { check, environment, run, ServerProcess } from "./support.mjs";
+import { check, environment, run, seriousFindings, ServerProcess } from "./support.mjs";
 
 const web = environment("EYRIE_WEB_FOLDER");
-const axe = readFileSync(
-  createRequire(fileURLToPath(new URL("../../web/package.json", import.meta.url))).resolve(
-    "axe-core/axe.min.js",
-  ),
-  "utf8",
-);
-
-/** What axe-core calls serious or worse. */
-async function seriousFindings(page) {
-  await page.evaluate(axe); // as the debugger: the page's policy forbids it to others
-  const { violations } = await page.evaluate(() => window.axe.run());
-  return violations
-    .filter(({ impact }) => impact === "serious" || impact === "critical")
-    .map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html.slice(0, 120)).join(" ")}`);
-}
-
 await run("tools_test", async (browser, started) => {
   const { page } = browser;
   const server = started(await ServerProcess.start(environment("EYRIE_FAKE_SERVER"), [web], 20));

@@ -192,6 +192,41 @@ TEST_F(Rest, SaysWhichFieldIsWrongAndWhatToDo) {
     EXPECT_THAT(frames_.requests(), IsEmpty());
 }
 
+TEST_F(Rest, PicturesTooLargeForOneAnswerComeInParts) {
+    const RestAnswer part = send("POST", "/image",
+                                 R"({"width":16384,"height":9216,"format":"IMAGE_FORMAT_RAW",
+                                     "part":{"x":8,"y":9000,"width":20,"height":10}})");
+    ASSERT_EQ(part.status, 200) << *part.body;
+    const coordinator::FrameRequest& asked = frames_.requests().back();
+    EXPECT_EQ(asked.width, 16384);
+    EXPECT_EQ(asked.part, (fabric::PixelViewport{8, 9000, 20, 10}));
+    EXPECT_EQ(part.body->size(), 4U * 20 * 10);
+    for (const char* bad : {
+             R"({"width":16385,"height":10,"part":{"width":1,"height":1}})",
+             R"({"width":100,"height":100,"part":{}})",
+             R"({"width":100,"height":100,"part":{"x":99,"width":2,"height":1}})",
+             R"({"width":100,"height":100,"part":{"x":-1,"width":2,"height":1}})",
+             R"({"width":100,"height":100,"part":{"x":2147483647,"width":1,"height":1}})",
+             R"({"width":16384,"height":16384,"part":{"width":8193,"height":1}})",
+             R"({"width":16384,"height":16384,"part":{"width":8192,"height":8192}})",
+         }) {
+        const RestAnswer refused = send("POST", "/image", bad);
+        expectProblem(refused, 400, "INVALID_ARGUMENT");
+        EXPECT_EQ(text(refused, "field"), "part") << bad;
+    }
+    EXPECT_EQ(frames_.requests().size(), 1U);
+}
+
+TEST_F(Rest, PicksAndProfilesLookThroughWhatIsHidden) {
+    ASSERT_EQ(send("POST", "/pick", R"({"x":1,"y":1,"hiddenObjects":[2,0]})").status, 200);
+    EXPECT_EQ(frames_.picks().back().hidden.positions, (std::vector<std::int32_t>{0, 2}));
+    ASSERT_EQ(send("POST", "/profile", R"({"to":{"x":2},"samples":2,"hiddenObjects":[1]})").status,
+              200);
+    EXPECT_EQ(frames_.picks().back().hidden.positions, (std::vector<std::int32_t>{1}));
+    expectProblem(send("POST", "/pick", R"({"x":1,"y":1,"hiddenObjects":[-1]})"), 400,
+                  "INVALID_ARGUMENT");
+}
+
 TEST_F(Rest, RefusesWhatItDoesNotKnow) {
     expectProblem(send("POST", "/image", R"({"witdh":20})"), 400, "INVALID_ARGUMENT");
     expectProblem(send("POST", "/image", "{"), 400, "INVALID_ARGUMENT");

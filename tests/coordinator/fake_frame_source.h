@@ -16,7 +16,7 @@ namespace eyrie::coordinator {
 /// Pictures of one colour, as large as asked for; of further ones, each has a little more red.
 inline RenderedFrame plainFrame(const FrameRequest& request, fabric::Rgba colour) {
     RenderedFrame frame;
-    frame.image = fabric::makeImage({0, 0, request.width, request.height}, colour, false);
+    frame.image = fabric::makeImage(request.drawnPart(), colour, false);
     frame.pictures.emplace_back();
     for (std::size_t i = 1; i < request.shown.size(); ++i) {
         colour.r = static_cast<std::uint8_t>(colour.r + 40);
@@ -45,6 +45,7 @@ inline Status readyStatus() {
     status.scene.objects.push_back(object);
     status.sceneInfo.bounds = {{0, 0, 0}, {100, 100, 10}};
     status.sceneInfo.triangles = 1'000'000;
+    status.sceneInfo.objects = {{status.sceneInfo.bounds, status.sceneInfo.triangles}};
     return status;
 }
 

@@ -87,8 +87,8 @@ TEST_F(ApiExamples, CurlMakesTheCallsMostAskedFor) {
     EXPECT_EQ(outcome.exit.status, 0) << outcome.output << outcome.errors;
     EXPECT_THAT(outcome.output, HasSubstr("scene: 304"));
     EXPECT_THAT(outcome.output, HasSubstr("\"field\""));
-    for (const char* name :
-         {"status.json", "configuration.json", "picture.png", "picture.jpg", "pick.json"})
+    for (const char* name : {"status.json", "configuration.json", "picture.png", "picture.jpg",
+                             "evening.png", "upper.png", "pick.json"})
         EXPECT_GT(std::filesystem::file_size(folder + "/" + name), 10U) << name;
 }
 

@@ -71,6 +71,8 @@ describe("the message", () => {
     expect(message.transfer).toBeUndefined();
     expect(message.contours).toBeUndefined();
     expect(message.cutCamera).toBeUndefined();
+    expect(message.sun).toBeUndefined();
+    expect(message.hiddenObjects).toEqual([]);
     expect([message.exaggeration, message.saturation]).toEqual([1, 1]);
   });
 
@@ -84,7 +86,11 @@ describe("the message", () => {
       frozen,
       pageBounds: true,
       rangeTint: true,
+      sun: { azimuth: 90, elevation: 30 },
+      hidden: [1, 4],
     });
+    expect(message.sun).toMatchObject({ azimuthDegrees: 90, elevationDegrees: 30 });
+    expect(message.hiddenObjects).toEqual([1, 4]);
     expect(message.transfer?.unit).toBe(HeightUnit.RELATIVE);
     expect(message.transfer?.primitives[0]).toMatchObject({
       shape: PrimitiveShape.BOX,

@@ -17,6 +17,12 @@ export interface Primitive {
 
 export type Colouring = "tints" | "edited" | "bare";
 
+/** Where light comes from: degrees clockwise from north, and above the horizon. */
+export interface Sun {
+  azimuth: number;
+  elevation: number;
+}
+
 export interface Look {
   exaggeration: number;
   colouring: Colouring;
@@ -32,6 +38,10 @@ export interface Look {
   /** The camera whose cut is held; null while it follows the view. */
   frozen: Camera | null;
   underground: boolean;
+  /** Null: the scene's lights as they are. */
+  sun: Sun | null;
+  /** Positions in the scene of objects that are not drawn, ascending. */
+  hidden: readonly number[];
 }
 
 /** As displayed; those of the server's built-in tints, from lowest to highest. */
@@ -66,7 +76,22 @@ export const defaultLook: Look = {
   rangeTint: false,
   frozen: null,
   underground: false,
+  sun: null,
+  hidden: [],
 };
+
+/** Where the sun first stands: as maps are lit, from the north-west and half way up. */
+export const usualSun: Sun = { azimuth: 315, elevation: 45 };
+
+/** `hidden` with an object in it, or not. */
+export function withHidden(
+  hidden: readonly number[],
+  object: number,
+  isHidden: boolean,
+): readonly number[] {
+  const others = hidden.filter((one) => one !== object);
+  return isHidden ? [...others, object].sort((a, b) => a - b) : others;
+}
 
 /** Opacity of a primitive at `distance`, in widths, from its centre, 0 to 1. */
 export function shapeAt(shape: Shape, distance: number): number {

@@ -132,7 +132,14 @@ describe("the card of measures", () => {
 
   it("marks points in the picture, and parts the line behind the eye", () => {
     const camera = { eye: [0, -10, 0], target: [0, 0, 0], up: [0, 0, 1], fovyDegrees: 45 } as const;
-    const shown = { camera, width: 100, height: 100, exaggeration: 1, seen: null };
+    const shown = {
+      camera,
+      width: 100,
+      height: 100,
+      exaggeration: 1,
+      hidden: [],
+      seen: null,
+    };
     const runs = overlayRuns([point(0, 0, 0), point(0, -20, 0), point(1, 0, 0)], shown);
     expect(runs.length).toBe(2);
     expect(runs[0]?.[0]?.[0]).toBeCloseTo(50);

@@ -13,7 +13,7 @@ import { SeenAreaSchema, ViewerPickedSchema, ViewerRequestSchema } from "./proto
 import { encodePick } from "./protocol/messages";
 
 const camera: Camera = { eye: [0, -10, 5], target: [0, 0, 0], up: [0, 0, 1], fovyDegrees: 45 };
-const shown = { camera, width: 640, height: 480, exaggeration: 1, seen: null };
+const shown = { camera, width: 640, height: 480, exaggeration: 1, hidden: [2], seen: null };
 
 const answer = create(ViewerPickedSchema, {
   sequence: 3n,
@@ -50,6 +50,7 @@ describe("a click", () => {
     if (request.case !== "pick") throw new Error("no pick");
     expect(request.value.sequence).toBe(7n);
     expect(request.value.request).toMatchObject({ viewWidth: 640, viewHeight: 480, x: 5, y: 6 });
+    expect(request.value.request?.hiddenObjects).toEqual([2]);
     expect(request.value.request?.camera?.eye).toEqual([0, -10, 5]);
     expect(request.value.request?.sight).toBeUndefined();
   });

@@ -29,6 +29,10 @@ export class Questions {
     private readonly turn: (to: Vec3) => void,
   ) {}
 
+  private get hidden(): readonly number[] {
+    return this.state.look.value.hidden;
+  }
+
   /** Asks what is at a point of the canvas; false where it cannot be asked now. */
   pick(at: Point, canvas: Size, turns: boolean): boolean {
     const shown = this.state.shown.value;
@@ -66,7 +70,7 @@ export class Questions {
   ): boolean {
     if (this.ground !== null || this.state.profile.value?.kind === "asking") return false;
     const sequence = this.profileSequence + 1;
-    if (!this.socket.profile(sequence, from, to, samples)) return false;
+    if (!this.socket.profile(sequence, from, to, samples, this.hidden)) return false;
     this.profileSequence = sequence;
     this.ground = { sequence, answered };
     return true;
@@ -82,7 +86,7 @@ export class Questions {
   profile(from: Vec3, to: Vec3): void {
     this.groundAnswered(undefined); // the server answers the newest only
     const sequence = this.profileSequence + 1;
-    if (!this.socket.profile(sequence, from, to, profileSamples)) return;
+    if (!this.socket.profile(sequence, from, to, profileSamples, this.hidden)) return;
     this.profileSequence = sequence;
     this.state.profile.set({ kind: "asking", from, to });
   }

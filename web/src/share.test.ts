@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
 import { addBookmark, readBookmarks, removeBookmark } from "./bookmarks";
-import { cameraJson, renderCommand } from "./command";
+import { cameraJson, curlCommand, imageRequest, pythonScript, renderCommand } from "./command";
 import { defaultLook } from "./look";
+import { usualOutput } from "./output";
 import { Shading } from "./protocol/messages";
 import type { SharedView } from "./share";
 import { decodeView, encodeView } from "./share";
@@ -26,6 +27,8 @@ const special: SharedView = {
     primitives: defaultLook.primitives.slice(0, 2),
     contourMetres: 50,
     underground: true,
+    sun: { azimuth: 200, elevation: 12.5 },
+    hidden: [0, 7],
   },
 };
 
@@ -66,6 +69,11 @@ describe("a link", () => {
       `${good}&look=null`,
       `${good}&look=${encodeURIComponent('{"exaggeration":"2"}')}`,
       `${good}&look=${encodeURIComponent('{"__proto__x":1}')}`,
+      `${good}&look=${encodeURIComponent('{"sun":{"azimuth":0,"elevation":91}}')}`,
+      `${good}&look=${encodeURIComponent('{"sun":{"azimuth":0}}')}`,
+      `${good}&look=${encodeURIComponent('{"hidden":[-1]}')}`,
+      `${good}&look=${encodeURIComponent('{"hidden":[0.5]}')}`,
+      `${good}&look=${encodeURIComponent('{"hidden":{}}')}`,
       `${good}&look=${encodeURIComponent('{"constructor":1}')}`,
       `${good}&look=${encodeURIComponent('{"primitives":[{"shape":"box"}]}')}`,
       `${good.replace("tau=1", "tau=0")}`,
@@ -130,5 +138,44 @@ describe("the command for a picture", () => {
     expect(text).toContain("--look look.json");
     const look: unknown = JSON.parse(/LOOK'\n(.*)\nLOOK/.exec(text)?.[1] ?? "");
     expect(look).toMatchObject({ exaggeration: 2.5, contours: { intervalMetres: 50 } });
+  });
+});
+
+describe("a request for a picture", () => {
+  const size = { width: 640, height: 480 };
+  const page = "http://127.0.0.1:8080/?session=a#eye=1,2,3";
+
+  it("says what makes the picture, and nothing that is as usual", () => {
+    expect(imageRequest(plain, size, usualOutput)).toEqual({
+      camera: plain.camera,
+      ...size,
+      tauPixels: 1,
+      shading: "SHADING_SMOOTH",
+    });
+    const request = imageRequest(special, size, { ...usualOutput, segment: "left", eye: "right" });
+    expect(request).toMatchObject({
+      tauPixels: 0.25,
+      shading: "SHADING_WIREFRAME",
+      look: {
+        exaggeration: 2.5,
+        sun: { azimuthDegrees: 200, elevationDegrees: 12.5 },
+        hiddenObjects: [0, 7],
+      },
+      shown: { segment: "left", eye: "SHOWN_EYE_RIGHT" },
+    });
+  });
+
+  it("is nothing of the shell's, whatever names are in it", () => {
+    const output = { ...usualOutput, canvas: "a'b $(c) `d`" };
+    const text = curlCommand(imageRequest(plain, size, output), page);
+    expect(text).toContain("'http://127.0.0.1:8080/api/v1/image'");
+    expect(text).toContain(`"canvas":"a'\\''b $(c) \`d\`"`);
+  });
+
+  it("is the same in Python", () => {
+    const request = imageRequest(special, size, usualOutput);
+    const text = pythonScript(request, page);
+    expect(JSON.parse(/r"""(.*)"""/.exec(text)?.[1] ?? "")).toEqual(request);
+    expect(text).toContain('Request("http://127.0.0.1:8080/api/v1/image"');
   });
 });

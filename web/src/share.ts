@@ -2,7 +2,7 @@
 // A view as the fragment of a link: "#eye=1,2,3&at=4,5,6&tau=1". What is as usual is left out.
 import type { Camera, Vec3 } from "./camera/camera";
 import { isUsable } from "./camera/camera";
-import type { Look, Primitive, Shape } from "./look";
+import type { Look, Primitive, Shape, Sun } from "./look";
 import { defaultLook, maxPrimitives } from "./look";
 import { Shading } from "./protocol/messages";
 
@@ -84,6 +84,19 @@ function isPrimitive(value: unknown): value is Primitive {
   );
 }
 
+function isSun(value: unknown): value is Sun {
+  const one = value as Partial<Sun> | null;
+  return (
+    typeof one === "object" &&
+    one !== null &&
+    isNumber(one.azimuth, -360, 360) &&
+    isNumber(one.elevation, -90, 90)
+  );
+}
+
+const isPosition = (value: unknown): boolean =>
+  isNumber(value, 0, 2 ** 31 - 1) && Number.isInteger(value);
+
 /** What each part of a look may be. */
 const isPart: Record<keyof Look, (value: unknown) => boolean> = {
   exaggeration: (value) => isNumber(value, -1000, 1000),
@@ -98,6 +111,8 @@ const isPart: Record<keyof Look, (value: unknown) => boolean> = {
   rangeTint: (value) => typeof value === "boolean",
   frozen: (value) => value === null,
   underground: (value) => typeof value === "boolean",
+  sun: (value) => value === null || isSun(value),
+  hidden: (value) => Array.isArray(value) && value.length <= 1000 && value.every(isPosition),
 };
 
 function lookOf(text: string | undefined): Look | undefined {

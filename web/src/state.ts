@@ -5,7 +5,7 @@ import type { Vec3 } from "./camera/camera";
 import type { Output } from "./output";
 import { usualOutput } from "./output";
 import type { Profile } from "./profile";
-import type { SessionState, Shown } from "./protocol/messages";
+import type { PartStatistics, SessionState, Shown } from "./protocol/messages";
 import { Shading } from "./protocol/messages";
 
 /** A value that tells its listeners when it becomes another. */
@@ -82,6 +82,8 @@ export interface Numbers {
   inputToDrawnMilliseconds: number;
   /** It shows a cut that was chosen for another camera. */
   frozen: boolean;
+  /** Who drew what of it. */
+  parts: readonly PartStatistics[];
 }
 
 /** A point of the scene, in world metres, that was clicked at. */

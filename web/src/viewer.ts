@@ -8,12 +8,12 @@ import type { CameraHolder } from "./camera/controls";
 import type { DistanceLimits } from "./camera/orbit";
 import { distanceLimits, lookAt } from "./camera/orbit";
 import type { Point } from "./camera/touch";
-import type { Bounds } from "./camera/standard";
-import { standardCamera, standardViews } from "./camera/standard";
+import type { Bounds, Direction } from "./camera/standard";
+import { directionOfView, standardCamera, standardViews } from "./camera/standard";
 import type { Frame, SessionState, Shown } from "./protocol/messages";
 import type { LedView } from "./protocol/led_view";
 import { ledViewOf } from "./protocol/led_view";
-import { cameraOf } from "./protocol/messages";
+import { boundsOf, cameraOf } from "./protocol/messages";
 import type { EncodedPicture } from "./protocol/parts";
 import { Socket } from "./protocol/socket";
 import { queryOf } from "./output";
@@ -226,12 +226,21 @@ export class Viewer implements CameraHolder {
   /** From where maps and drawings show things; `index` in standardViews. */
   goTo(index: number, inputTime?: number): void {
     const view = standardViews[index];
-    const { min, max } = this.state.session.value?.sceneBounds ?? {};
-    if (view === undefined || min === undefined || max === undefined) return;
+    const bounds = boundsOf(this.state.session.value?.sceneBounds);
+    if (view !== undefined && bounds !== undefined) this.frame(bounds, view, inputTime);
+  }
+
+  /** One object in the middle of the picture, from the direction that it is seen from now. */
+  goToObject(object: number): void {
+    const bounds = boundsOf(this.state.session.value?.objects[object]?.bounds);
+    if (bounds === undefined || this.camera === null) return;
+    this.frame(bounds, directionOfView(this.camera), performance.now());
+  }
+
+  private frame(bounds: Bounds, from: Direction, inputTime: number | undefined): void {
     const { width, height } = this.canvas.size();
-    const bounds: Bounds = { min: [min.x, min.y, min.z], max: [max.x, max.y, max.z] };
     const fovyDegrees = this.camera?.fovyDegrees ?? 45;
-    this.move(standardCamera(view, bounds, width / Math.max(1, height), fovyDegrees), inputTime);
+    this.move(standardCamera(from, bounds, width / Math.max(1, height), fovyDegrees), inputTime);
   }
 
   /** Clicks at the middle of the picture, for those without a pointer. */
@@ -341,6 +350,7 @@ export class Viewer implements CameraHolder {
       camera: view.camera,
       ...this.size,
       exaggeration: view.look.exaggeration,
+      hidden: view.look.hidden,
       seen: null,
     });
     this.latency.sent(this.sequence, performance.now(), inputTime);
@@ -406,6 +416,8 @@ export class Viewer implements CameraHolder {
       // Another scene starts at its own home; after a reconnection the camera stays.
       const isOther = this.sceneKey !== "" && key !== this.sceneKey;
       if (this.camera === null || isOther) this.goHome();
+      // Positions in another scene are of other objects.
+      if (isOther) this.state.look.set({ ...this.state.look.value, hidden: [] });
       this.sceneKey = key;
     }
     this.resize();
@@ -509,8 +521,8 @@ export class Viewer implements CameraHolder {
     const camera = cameraOf(frame.liftedCamera) ?? asked;
     if (this.isWatching) this.camera = camera;
     const { width, height } = frame;
-    const { exaggeration } = look;
-    this.state.shown.set({ camera, width, height, exaggeration, seen: seenOf(frame) });
+    const { exaggeration, hidden } = look;
+    this.state.shown.set({ camera, width, height, exaggeration, hidden, seen: seenOf(frame) });
   }
 
   // ---- Picks

@@ -91,13 +91,13 @@ RC_GTEST_PROP(AboveGround, KeepsItsClearanceAndLeavesAloneWhatHasIt, ()) {
     const GroundGrid grid = anyGrid(random);
     const double exaggeration = *rc::gen::element(1.0, 0.0, -0.0, 1e-3, 10.0, 100.0, -1.0, -3.0);
     const Camera camera = anyCamera(random, grid);
-    const Camera lifted = aboveGround(camera, {grid}, exaggeration);
+    const Camera lifted = aboveGround(camera, {grid}, {.exaggeration = exaggeration});
     RC_ASSERT(heightAboveCeiling(grid, lifted.eye, exaggeration) >= kGroundClearanceMetres - 2e-6);
     if (heightAboveCeiling(grid, camera.eye, exaggeration) >= kGroundClearanceMetres)
         RC_ASSERT(lifted == camera);
     RC_ASSERT(lifted.eye.x == camera.eye.x && lifted.eye.y == camera.eye.y);
     RC_ASSERT(lifted.target == camera.target);
-    RC_ASSERT(aboveGround(lifted, {grid}, exaggeration) == lifted);
+    RC_ASSERT(aboveGround(lifted, {grid}, {.exaggeration = exaggeration}) == lifted);
 }
 
 RC_GTEST_PROP(AboveGround, ACameraLedIntoTheGroundSlidesAlongIt, ()) {
@@ -107,12 +107,12 @@ RC_GTEST_PROP(AboveGround, ACameraLedIntoTheGroundSlidesAlongIt, ()) {
     const Camera to = anyCamera(random, grid);
     constexpr int kSteps = 2000;
     const double step = glm::length(to.eye - from.eye) / kSteps;
-    Vec3 last = aboveGround(from, {grid}, 1).eye;
+    Vec3 last = aboveGround(from, {grid}, {}).eye;
     for (int i = 1; i <= kSteps; ++i) {
         const Vec3 eye =
             aboveGround({.eye = glm::mix(from.eye, to.eye, static_cast<double>(i) / kSteps),
                          .target = to.target + Vec3(1e4, 0, 0)},
-                        {grid}, 1)
+                        {grid}, {})
                 .eye;
         RC_ASSERT(glm::length(eye - last) <=
                   step * (1 + 8 * (1010 + kCellMetres) / kCellMetres) + 1e-5);
@@ -129,11 +129,21 @@ RC_GTEST_PROP(AboveGround, HoldsUnderAnyTransformOfTheTerrain, ()) {
                    Vec3(in(random, 0.1, 5)));
     grid.worldFromGrid = worldFromObject * grid.worldFromGrid;
     const Camera camera = anyCamera(random, grid);
-    const Camera lifted = aboveGround(camera, {grid}, 1);
+    const Camera lifted = aboveGround(camera, {grid}, {});
     const Vec3 place = Vec3(glm::inverse(grid.worldFromGrid) * Vec4(lifted.eye, 1));
     const double above =
         (place.z - ceilingAt(grid, place.x, place.y)) * glm::length(Vec3(grid.worldFromGrid[2]));
     RC_ASSERT(above >= kGroundClearanceMetres - 1e-4);
+}
+
+TEST(AboveGround, DoesNotHinderWhereTheTerrainIsHidden) {
+    GroundGrid grid;
+    grid.columns = grid.rows = 1;
+    grid.highest = {100};
+    grid.object = 3;
+    const Camera camera{.eye = {0.5, 0.5, -50}, .target = {8, 0.5, 0}};
+    EXPECT_EQ(aboveGround(camera, {grid}, {.hidden = {{2}}}).eye.z, 102);
+    EXPECT_EQ(aboveGround(camera, {grid}, {.hidden = {{2, 3}}}), camera);
 }
 
 TEST(AboveGround, LiftsTheTargetTooWhereItWouldBeLookedAtFromItself) {
@@ -141,7 +151,7 @@ TEST(AboveGround, LiftsTheTargetTooWhereItWouldBeLookedAtFromItself) {
     grid.columns = grid.rows = 1;
     grid.highest = {100};
     const Camera camera{.eye = {0.5, 0.5, -50}, .target = {0.5, 0.5, 102}, .up = {0, 1, 0}};
-    const Camera lifted = aboveGround(camera, {grid}, 1);
+    const Camera lifted = aboveGround(camera, {grid}, {});
     EXPECT_EQ(lifted.eye.z, 102);
     EXPECT_EQ(lifted.target.z, 254);
     EXPECT_TRUE(validate(lifted).ok());

@@ -43,6 +43,11 @@ fabric::Look anyLook() {
     look.rangeTint = coin();
     if (coin())
         look.cutCamera = fabric::Camera{.eye = {share(), 2, 3}, .target = {4, 5, 6}};
+    if (coin())
+        look.sun = fabric::Sun{720 * share() - 360, 180 * share() - 90};
+    for (std::int32_t object = 0; object < 5; ++object)
+        if (coin())
+            look.hidden.positions.push_back(object);
     return look;
 }
 
@@ -55,6 +60,14 @@ RC_GTEST_PROP(WireLook, ComesBackAsItWas, ()) {
 TEST(WireLook, OfNothingIsTheDefault) {
     EXPECT_EQ(fromMessage(v1::Look()).value(), fabric::Look());
     EXPECT_EQ(lookFromJson("{}", "look.json").value(), fabric::Look());
+}
+
+TEST(WireLook, HiddenObjectsComeInAnyOrderButNotInAnyNumber) {
+    v1::Look message;
+    for (const std::int32_t object : {4, 1, 4, 0}) message.add_hidden_objects(object);
+    EXPECT_EQ(fromMessage(message)->hidden.positions, (std::vector<std::int32_t>{0, 1, 4}));
+    for (std::int32_t i = 0; i < fabric::kMaxHiddenObjects; ++i) message.add_hidden_objects(i);
+    EXPECT_TRUE(absl::IsInvalidArgument(fromMessage(message).status()));
 }
 
 TEST(WireLook, ARefusalNamesFileAndField) {
@@ -79,6 +92,12 @@ TEST(WireLook, ARefusalNamesFileAndField) {
     EXPECT_THAT(refusal(R"({"transfer":{"unit":7}})"), HasSubstr("look.transfer.unit is 7"));
     EXPECT_THAT(refusal(R"({"cutCamera":{"eye":[0,0,0],"target":[0,0,0]}})"),
                 HasSubstr("look.cutCamera: camera.target"));
+    EXPECT_THAT(refusal(R"({"sun":{"azimuthDegrees":361}})"),
+                HasSubstr("look.sun.azimuthDegrees is 361"));
+    EXPECT_THAT(refusal(R"({"sun":{"elevationDegrees":"NaN"}})"),
+                HasSubstr("look.sun.elevationDegrees is nan"));
+    EXPECT_THAT(refusal(R"({"hiddenObjects":[3,-2]})"),
+                HasSubstr("look.hiddenObjects has object -2"));
     EXPECT_THAT(refusal(R"({"exageration":2})"), HasSubstr("exageration"));
 }
 

@@ -17,7 +17,7 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 fabric::PickedPoint point() { return {3, {1, 2, 3}, {0, 0, 1}, 17, 0.5, 16, 19, 0.02, 412.5}; }
 
 TEST(WirePick, RequestsComeBackAsTheyWere) {
-    const fabric::PickRequest request{{{1, 2, 3}, {4, 5, 6}}, 640, 480, {0.5, 480}, 2.5};
+    const fabric::PickRequest request{{{1, 2, 3}, {4, 5, 6}}, 640, 480, {0.5, 480}, 2.5, {{0, 4}}};
     EXPECT_EQ(fromMessage(toMessage(request)).value(), request);
     v1::PickRequest plain = toMessage(request);
     plain.clear_exaggeration();
@@ -39,6 +39,9 @@ TEST(WirePick, RequestsOutsideThePictureAreRefused) {
     EXPECT_TRUE(absl::IsInvalidArgument(fromMessage(message).status()));
     message = toMessage(inside);
     message.set_exaggeration(kNan);
+    EXPECT_TRUE(absl::IsInvalidArgument(fromMessage(message).status()));
+    message = toMessage(inside);
+    message.add_hidden_objects(-1);
     EXPECT_TRUE(absl::IsInvalidArgument(fromMessage(message).status()));
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Views of a whole scene from where maps and drawings show things.
 import type { Camera, Vec3 } from "./camera";
-import { add, axesOf, directionOf, dot, scale, subtract } from "./camera";
+import { add, axesOf, directionOf, dot, headingOf, scale, subtract } from "./camera";
 
 export interface Bounds {
   min: Vec3;
@@ -9,10 +9,13 @@ export interface Bounds {
 }
 
 /** Degrees: azimuth of the eye as seen from the scene, anticlockwise from east; and above it. */
-export interface StandardView {
-  name: string;
+export interface Direction {
   azimuth: number;
   elevation: number;
+}
+
+export interface StandardView extends Direction {
+  name: string;
 }
 
 /** By the keys 1 to 7. Seen from the north, one looks south. */
@@ -26,12 +29,18 @@ export const standardViews: readonly StandardView[] = [
   { name: "Isometric", azimuth: -45, elevation: 35.26438968275466 },
 ];
 
+/** From where a camera sees what it looks at. */
+export function directionOfView({ eye, target }: Camera): Direction {
+  const { azimuth, elevation } = headingOf(subtract(eye, target));
+  return { azimuth: (azimuth * 180) / Math.PI, elevation: (elevation * 180) / Math.PI };
+}
+
 /** A little of the picture is left around the scene. */
 const slack = 1.04;
 
 /** The nearest eye in that direction from where all of `bounds` is in a picture of that shape. */
 export function standardCamera(
-  { azimuth, elevation }: StandardView,
+  { azimuth, elevation }: Direction,
   { min, max }: Bounds,
   aspect: number,
   fovyDegrees: number,

@@ -5,6 +5,7 @@ import type { State } from "../state";
 import { byId, make, setText } from "./element";
 import { metres, times } from "./format";
 import { sentText } from "./numbers";
+import { azimuthText } from "./scene";
 
 /** Keys, what they do, and how that stands. */
 type Line = readonly [string, string, ((state: State) => string)?];
@@ -69,6 +70,12 @@ const groups: readonly (readonly [string, readonly Line[]])[] = [
         "U",
         "Camera under ground, or above it",
         ({ look }) => (look.value.underground ? "anywhere" : "above"),
+      ],
+      [
+        "J",
+        "Sun of one's own, or the scene's lights",
+        ({ look }) =>
+          look.value.sun === null ? "the scene's" : azimuthText(look.value.sun.azimuth),
       ],
       ["B", "Record a flight; again ends it"],
       ["Y", "Play the flight, or stop"],

@@ -134,6 +134,7 @@ describe("numbers", () => {
     fps: 1,
     inputToDrawnMilliseconds: 1,
     frozen: false,
+    parts: [],
   };
 
   it("explain an error above the one asked for", () => {

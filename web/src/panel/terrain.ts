@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // How terrain is shown: height, colours, contour lines, and what the engine did.
 import { isText } from "../camera/typing";
-import type { Colouring, Look } from "../look";
-import { defaultLook, exaggerationAt, nextInterval, placeOf, suggestedInterval } from "../look";
+import type { Colouring } from "../look";
+import { exaggerationAt, nextInterval, placeOf, suggestedInterval } from "../look";
 import type { State } from "../state";
 import type { Viewer } from "../viewer";
 import { byId, make, setText } from "./element";
 import { metres, times } from "./format";
+import { change, slider, toggles } from "./look_controls";
 import { transferEditor } from "./transfer";
 
 const colourings: readonly (readonly [Colouring, string])[] = [
@@ -20,48 +21,6 @@ const reliefOf = (state: State): number => {
   const { min, max } = state.session.value?.sceneBounds ?? {};
   return min !== undefined && max !== undefined ? max.z - min.z : 1000;
 };
-
-const change = (state: State, by: Partial<Look>): void =>
-  state.look.set({ ...state.look.value, ...by });
-
-interface SliderOptions {
-  id: string;
-  name: string;
-  title: string;
-  min: number;
-  max: number;
-  step: number;
-  placeOf(look: Look): number;
-  text(look: Look): string;
-  change(place: number): Partial<Look>;
-}
-
-function slider(state: State, options: SliderOptions): HTMLElement {
-  const label = make("label", "label", options.name);
-  const output = make("output", "value");
-  const input = make("input", "slider");
-  input.type = "range";
-  input.id = options.id;
-  [input.min, input.max, input.step] = [options.min, options.max, options.step].map(String) as [
-    string,
-    string,
-    string,
-  ];
-  label.htmlFor = output.htmlFor.value = input.id;
-  label.title = options.title;
-  input.addEventListener("input", () => change(state, options.change(Number(input.value))));
-  input.addEventListener("dblclick", () => {
-    const place = options.placeOf(defaultLook);
-    change(state, options.change(place));
-  });
-  state.look.watch((look) => {
-    const place = options.placeOf(look);
-    if (Number(input.value) !== place) input.value = String(place);
-    setText(output, options.text(look));
-    input.setAttribute("aria-valuetext", options.text(look));
-  });
-  return make("div", "field", make("div", "row", label, output), input);
-}
 
 function colouringChoice(state: State): HTMLElement {
   const choice = make("fieldset", "segments", make("legend", "label", "Colours"));
@@ -102,30 +61,6 @@ function contourField(state: State): HTMLElement {
   const less = step("−", "Smaller contour interval", -1);
   const more = step("+", "Larger contour interval", 1);
   return make("div", "field row", label, make("span", "stepper", less, value, more));
-}
-
-interface Toggle {
-  id: string;
-  name: string;
-  title: string;
-  isOn(look: Look): boolean;
-  set(isOn: boolean): void;
-}
-
-function toggles(state: State, name: string, list: readonly Toggle[]): HTMLElement {
-  const group = make("div", "toggles");
-  group.setAttribute("role", "group");
-  group.setAttribute("aria-label", name);
-  for (const toggle of list) {
-    const button = make("button", "toggle", toggle.name);
-    button.type = "button";
-    button.id = toggle.id;
-    button.title = toggle.title;
-    button.addEventListener("click", () => toggle.set(!toggle.isOn(state.look.value)));
-    state.look.watch((look) => button.setAttribute("aria-pressed", String(toggle.isOn(look))));
-    group.append(button);
-  }
-  return group;
 }
 
 export function showTerrain(state: State, viewer: Viewer): void {
@@ -189,13 +124,6 @@ export function showTerrain(state: State, viewer: Viewer): void {
         title: "A colour for each level of detail",
         isOn: (look) => look.levelTint,
         set: (levelTint) => change(state, { levelTint }),
-      },
-      {
-        id: "range-tint",
-        name: "Ranges",
-        title: "A colour for each renderer's range of the data, where a frame is cut by data (DB)",
-        isOn: (look) => look.rangeTint,
-        set: (rangeTint) => change(state, { rangeTint }),
       },
       {
         id: "frozen",

@@ -3,13 +3,15 @@
 // file.
 import { addBookmark, readBookmarks, removeBookmark } from "../bookmarks";
 import { standardViews } from "../camera/standard";
-import { cameraJson, renderCommand } from "../command";
+import { cameraJson, curlCommand, imageRequest, pythonScript, renderCommand } from "../command";
 import { decodeView, encodeView } from "../share";
+import type { SharedView } from "../share";
 import type { State } from "../state";
 import type { Viewer } from "../viewer";
 import { copyText, download } from "./clipboard";
 import { button, byId, make } from "./element";
 import { onKeys } from "./keys";
+import { posterField } from "./poster";
 
 /** How long an exact picture may take to come, when one is to be saved. */
 const exactWithin = 10_000;
@@ -67,11 +69,13 @@ async function exactPicture(viewer: Viewer): Promise<Blob | undefined> {
 function commands(state: State, viewer: Viewer) {
   const copy = async (what: string, text: string): Promise<void> =>
     state.notice.set((await copyText(text)) ? `${what} copied` : `${what}: copying is forbidden`);
-  const withView =
-    (action: (view: NonNullable<ReturnType<Viewer["sharedView"]>>) => Promise<void>) => () => {
-      const view = viewer.sharedView();
-      if (view !== null) void action(view);
-    };
+  const withView = (action: (view: SharedView) => Promise<void>) => () => {
+    const view = viewer.sharedView();
+    if (view !== null) void action(view);
+  };
+  const requestOf = (view: SharedView) =>
+    imageRequest(view, viewer.pictureSize, state.output.value);
+  const page = (): string => window.location.href;
   return {
     link: withView((view) => {
       const url = new URL(window.location.href);
@@ -80,6 +84,8 @@ function commands(state: State, viewer: Viewer) {
     }),
     command: withView((view) => copy("Command", renderCommand(view, viewer.pictureSize))),
     camera: withView((view) => copy("Camera", cameraJson(view.camera))),
+    curl: withView((view) => copy("curl command", curlCommand(requestOf(view), page()))),
+    python: withView((view) => copy("Python script", pythonScript(requestOf(view), page()))),
     save: () =>
       void exactPicture(viewer).then((picture) => {
         if (picture === undefined) state.notice.set("There is no exact picture to save yet");
@@ -107,7 +113,7 @@ export function keepAddress(state: State, viewer: Viewer): void {
 }
 
 export function showViews(state: State, viewer: Viewer): void {
-  const { link, command, camera, save } = commands(state, viewer);
+  const { link, command, camera, curl, python, save } = commands(state, viewer);
   const standard = make("div", "small-buttons");
   standard.setAttribute("role", "group");
   standard.setAttribute("aria-label", "Standard views");
@@ -128,7 +134,10 @@ export function showViews(state: State, viewer: Viewer): void {
       button("Copy link", "A link to this view (L)", link),
       button("Copy command", "eyrie render, for this picture (K)", command),
       button("Copy camera", "As JSON, for --camera", camera),
+      button("Copy as curl", "A request to this server for this picture", curl),
+      button("Copy as Python", "The same as a script", python),
       button("Save picture", "The exact picture as a PNG file (O)", save),
     ),
+    posterField(state, viewer),
   );
 }

@@ -52,6 +52,8 @@ describe("a view that another leads to", () => {
       rangeTint: true,
       frozen: view.camera as unknown as Look["frozen"],
       underground: true,
+      sun: { azimuth: 120, elevation: 0 },
+      hidden: [0, 3],
     };
     expect(led(edited)?.look).toEqual(edited);
     expect(led({ ...defaultLook, colouring: "bare" })?.look.colouring).toBe("bare");

@@ -51,6 +51,11 @@ function lookOf(message: LookMessage | undefined, underground: boolean): Look {
     rangeTint: message.rangeTint,
     frozen: cameraOf(message.cutCamera) ?? null,
     underground,
+    sun:
+      message.sun === undefined
+        ? null
+        : { azimuth: message.sun.azimuthDegrees, elevation: message.sun.elevationDegrees },
+    hidden: message.hiddenObjects,
   };
 }
 

@@ -2,6 +2,7 @@
 // The messages of viewer.proto, to and from bytes.
 import { create, fromBinary, toBinary } from "@bufbuild/protobuf";
 import type { Camera, Vec3 } from "../camera/camera";
+import type { Bounds } from "../camera/standard";
 import { CameraSchema } from "./gen/eyrie/v1/camera_pb";
 import { Vector3Schema } from "./gen/eyrie/v1/geometry_pb";
 import type { Sight } from "./gen/eyrie/v1/frame_pb";
@@ -13,12 +14,14 @@ import {
   HeightUnit,
   LookSchema,
   PrimitiveShape,
+  SunSchema,
   TransferFunctionSchema,
 } from "./gen/eyrie/v1/look_pb";
 import type { Look as LookMessage } from "./gen/eyrie/v1/look_pb";
 import { PickRequestSchema } from "./gen/eyrie/v1/pick_pb";
 import {
   FrameAckSchema,
+  ObjectKind,
   RendererCondition,
   ShownEye,
   ShownPictureSchema,
@@ -38,6 +41,7 @@ import type {
   CanvasState,
   Frame,
   FramePart,
+  ObjectState,
   RendererState,
   SeenArea,
   SessionState,
@@ -47,12 +51,15 @@ import type {
   ViewerRequest,
   ViewerResponse,
 } from "./gen/eyrie/v1/viewer_pb";
+import type { PartStatistics } from "./gen/eyrie/v1/statistics_pb";
 
-export { RendererCondition, Shading };
+export { ObjectKind, RendererCondition, Shading };
 export type {
   CanvasState,
   Frame,
   FramePart,
+  ObjectState,
+  PartStatistics,
   RendererState,
   SeenArea,
   SessionState,
@@ -84,6 +91,8 @@ export interface Shown {
   width: number;
   height: number;
   exaggeration: number;
+  /** Objects that are not in it. */
+  hidden: readonly number[];
   /**
    * By which sights, later ones above earlier: through walls, or by eyes beside the camera. Null: the
    * picture is the camera's own.
@@ -144,6 +153,15 @@ export function lookMessage(look: Look): LookMessage {
     levelTint: look.levelTint,
     rangeTint: look.rangeTint,
     ...(look.frozen === null ? {} : { cutCamera: cameraMessage(look.frozen) }),
+    ...(look.sun === null
+      ? {}
+      : {
+          sun: create(SunSchema, {
+            azimuthDegrees: look.sun.azimuth,
+            elevationDegrees: look.sun.elevation,
+          }),
+        }),
+    hiddenObjects: [...look.hidden],
   });
 }
 
@@ -160,7 +178,7 @@ const stereos = {
   "top-bottom": ShownStereo.TOP_BOTTOM,
 } as const;
 
-const shownMessage = ({ canvas, segment, eye, stereo }: Output) =>
+export const shownMessage = ({ canvas, segment, eye, stereo }: Output) =>
   create(ShownPictureSchema, { canvas, segment, eye: eyes[eye], stereo: stereos[stereo] });
 
 export function encodeView(view: View): Uint8Array<ArrayBuffer> {
@@ -229,6 +247,7 @@ export function encodePick(
     x,
     y,
     exaggeration: shown.exaggeration,
+    hiddenObjects: [...shown.hidden],
     ...(sight === undefined ? {} : { sight }),
   });
   return bytesOf({
@@ -243,6 +262,7 @@ export function encodeProfile(
   from: Vec3,
   to: Vec3,
   samples: number,
+  hidden: readonly number[],
 ): Uint8Array<ArrayBuffer> {
   const vector = ([x, y, z]: Vec3) => create(Vector3Schema, { x, y, z });
   const value = create(ViewerProfileSchema, {
@@ -250,6 +270,7 @@ export function encodeProfile(
     from: vector(from),
     to: vector(to),
     samples,
+    hiddenObjects: [...hidden],
   });
   return bytesOf({ case: "profile", value });
 }
@@ -257,6 +278,13 @@ export function encodeProfile(
 /** Throws when `bytes` is no ViewerResponse. */
 export function decodeResponse(bytes: ArrayBuffer): ViewerResponse {
   return fromBinary(ViewerResponseSchema, new Uint8Array(bytes));
+}
+
+/** The box of a message, or undefined when it lacks something. */
+export function boundsOf(message: SessionState["sceneBounds"]): Bounds | undefined {
+  const { min, max } = message ?? {};
+  if (min === undefined || max === undefined) return undefined;
+  return { min: [min.x, min.y, min.z], max: [max.x, max.y, max.z] };
 }
 
 /** The camera of a message, or undefined when it lacks something. */

@@ -84,9 +84,15 @@ export class Socket {
   }
 
   /** False when it could not be sent. */
-  profile(sequence: number, from: Vec3, to: Vec3, samples: number): boolean {
+  profile(
+    sequence: number,
+    from: Vec3,
+    to: Vec3,
+    samples: number,
+    hidden: readonly number[],
+  ): boolean {
     if (!this.canSend()) return false;
-    this.socket?.send(encodeProfile(sequence, from, to, samples));
+    this.socket?.send(encodeProfile(sequence, from, to, samples, hidden));
     return true;
   }
 

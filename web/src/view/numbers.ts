@@ -35,6 +35,7 @@ export function numbersOf(frame: Frame, seen: Seen, limitedBefore: string): Numb
     cullMilliseconds: stages?.cull ?? 0,
     drawMilliseconds: stages?.draw ?? 0,
     readbackMilliseconds: stages?.readback ?? 0,
+    parts: statistics?.parts ?? [],
     limitedBy: limitingStage(stages) || limitedBefore,
   };
 }

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the page changes of a scene and how it is drawn, in the real program: objects hidden, the sun
+// moved, renderers told apart, equalizers tuned; and the same picture by curl, by Python and as a
+// poster.
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { check, difference, environment, run, seriousFindings, ServerProcess } from "./support.mjs";
+
+await run("scene_test", async (browser, started) => {
+  const { page } = browser;
+  const serve = ["serve", environment("EYRIE_SCENE"), "--listen", "127.0.0.1:0"];
+  const server = started(await ServerProcess.start(environment("EYRIE_BINARY"), serve, 90));
+  const ask = async (path, body) => {
+    const answer = await fetch(`${server.url}api/v1/${path}`, body);
+    check(answer.ok, `${path} is answered`);
+    return answer;
+  };
+
+  await page.goto(server.url);
+  await browser.until(() => window.eyrie?.frameNumber > 0, 60_000);
+  await browser.settled();
+  const all = await browser.picture();
+  const triangles = await browser.hook("triangles");
+
+  const objects = page.locator("#objects input");
+  check((await objects.count()) === 2, "the tree has the scene's objects");
+  check(
+    /Terrain · .* triangles[^]*Mesh · .* triangles/.test(
+      await page.locator("#objects").innerText(),
+    ),
+    "and says what they are",
+  );
+  await objects.nth(1).focus();
+  await page.keyboard.press("Space");
+  await browser.settled();
+  const hidden = await browser.picture();
+  check(difference(all, hidden) > 0.005, "the keyboard hides an object");
+  check((await browser.hook("triangles")) < triangles, "whose triangles are not counted");
+  const link = page.url();
+  await page.goto("about:blank");
+  await page.goto(link);
+  await browser.settled();
+  check(difference(hidden, await browser.picture()) === 0, "a link hides it, too");
+  await page
+    .getByRole("button", { name: /^Show .* alone/ })
+    .nth(1)
+    .click();
+  await browser.settled();
+  check(
+    (await objects.nth(1).isChecked()) && !(await objects.nth(0).isChecked()),
+    "an object can be shown alone",
+  );
+  const from = JSON.stringify(await browser.hook("camera"));
+  await page
+    .getByRole("button", { name: /^Bring / })
+    .nth(1)
+    .click();
+  await browser.settled();
+  check(JSON.stringify(await browser.hook("camera")) !== from, "and brought into view");
+  await page.getByRole("button", { name: "Show all" }).click();
+  await page.locator("canvas#view").focus();
+  await page.keyboard.press("r");
+  await browser.settled();
+  check(difference(all, await browser.picture()) === 0, "all come back");
+
+  await page.keyboard.press("j");
+  await browser.settled();
+  const afternoon = await browser.picture();
+  await page.locator("#sun-elevation").fill("5");
+  await browser.settled();
+  check(difference(afternoon, await browser.picture()) > 0.05, "a low sun is another light");
+
+  await page.context().grantPermissions(["clipboard-read", "clipboard-write"]);
+  const folder = mkdtempSync(join(tmpdir(), "eyrie-scene-test-"));
+  try {
+    const hash = await browser.hook("pixelHash");
+    for (const [name, command] of [
+      ["Copy as curl", ["bash", "-c"]],
+      ["Copy as Python", ["python3", "-c"]],
+    ]) {
+      await page.getByRole("button", { name }).click();
+      await page.locator("#notice", { hasText: "copied" }).waitFor();
+      const text = await page.evaluate(() => navigator.clipboard.readText());
+      const [program, option] = command;
+      rmSync(join(folder, "view.png"), { force: true });
+      execFileSync(program, [option, text], { cwd: folder, stdio: "inherit" });
+      check(
+        (await browser.pngHash(readFileSync(join(folder, "view.png")))) === hash,
+        `${name}: the picture on the page, bit for bit`,
+      );
+      // The next one has a notice of its own.
+      await page.evaluate(() => (document.querySelector("#notice").textContent = ""));
+    }
+  } finally {
+    rmSync(folder, { recursive: true });
+  }
+
+  await page.locator("#poster-side").selectOption("4096");
+  const downloading = page.waitForEvent("download", { timeout: 120_000 });
+  await page.locator("#poster").click();
+  const poster = readFileSync(await (await downloading).path());
+  await page.locator("#notice", { hasText: "Poster saved; its error is at most" }).waitFor();
+  check(poster.readUInt32BE(16) === 4096, "a poster is as wide as was asked for");
+  const height = poster.readUInt32BE(20);
+  const whole = await ask("image", {
+    method: "POST",
+    headers: { "Content-Type": "application/json" },
+    body: JSON.stringify({
+      camera: await browser.hook("camera"),
+      width: 4096,
+      height,
+      look: { sun: { azimuthDegrees: 315, elevationDegrees: 5 } },
+    }),
+  });
+  check(
+    (await browser.pngHash(poster)) ===
+      (await browser.pngHash(Buffer.from(await whole.arrayBuffer()))),
+    "and, drawn in bands, the picture drawn at once, bit for bit",
+  );
+
+  await page.locator(".renderer").nth(1).waitFor();
+  check(/\d ms/.test(await page.locator(".renderer").first().innerText()), "each renderer's time");
+  const plain = await browser.picture();
+  await page.locator("#tint").click();
+  check((await page.locator("#parts .part").count()) >= 2, "tints show who drew which part");
+  await page.locator("#layout").selectOption("DB dynamic");
+  await page.waitForFunction(() => document.querySelectorAll("#parts .part").length === 0);
+  await browser.settled();
+  check(difference(plain, await browser.picture()) > 0.05, "and who drew which data");
+  await page.locator("#tint").click();
+  await browser.settled();
+  check(difference(plain, await browser.picture()) === 0, "and leave nothing behind");
+
+  await page.getByText("Work sharing").click();
+  await page.locator(".equalizer").first().waitFor();
+  const configuration = async () => (await ask("configuration")).json();
+  const tuned = async (key, value) => {
+    for (let i = 0; i < 200; ++i) {
+      const { state } = await configuration();
+      if (JSON.stringify(state.equalizers[0][key]) === value) return true;
+      await page.waitForTimeout(50);
+    }
+    return false;
+  };
+  await page.locator(".equalizer").first().getByLabel("Frozen").check();
+  check(await tuned("frozen", "true"), "an equalizer is frozen");
+  await page.locator(".equalizer").first().getByLabel("Damping").fill("0.25");
+  await page.keyboard.press("Enter");
+  check(await tuned("damping", "0.25"), "and tuned");
+  await page.locator(".equalizer").first().getByLabel("Damping").fill("fast");
+  await page.keyboard.press("Enter");
+  await page.locator("#equalizers", { hasText: "Damping: a number, not “fast”" }).waitFor();
+
+  for (const colorScheme of ["dark", "light"]) {
+    await page.emulateMedia({ colorScheme });
+    const findings = await seriousFindings(page);
+    check(
+      findings.length === 0,
+      `axe finds nothing serious (${colorScheme}) ${findings.join("; ")}`,
+    );
+  }
+});
