@@ -160,7 +160,7 @@ absl::StatusOr<v1::RenderImageResponse> renderImage(coordinator::FrameSource& fr
     if (call.stop.stop_requested())
         return absl::CancelledError("the caller has gone");
     if (const std::string_view why = coordinator::whyEmpty(frame); !why.empty())
-        return absl::FailedPreconditionError(why);
+        return absl::FailedPreconditionError(std::string(why));
     v1::RenderImageResponse response;
     ASSIGN_OR_RETURN(*response.mutable_image(), encoded(frame.image, request));
     response.set_format(request.format() == v1::IMAGE_FORMAT_UNSPECIFIED ? v1::IMAGE_FORMAT_PNG

@@ -153,6 +153,7 @@ public:
         seat.screen.reset();
         if (screen.shown)
             seat.screen = Seat::Screen{.shown = *std::move(screen.shown)};
+        seat.delivered = {};  // what it has is of another screen
         drawForAll();
         isStateStale_ = true;
         changed_.notify_all();
@@ -353,6 +354,8 @@ private:
         lock.lock();
         if (!seat->screen || seat->screen->shown != shown)
             return;  // it is another by now
+        if (seat->screen->problem.empty() != status.ok())
+            seat->delivered = {};  // it shows another from now on
         seat->screen->isChecked = true;
         seat->screen->problem = status.ok() ? "" : sanitised(text(status));
         drawForAll();

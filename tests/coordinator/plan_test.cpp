@@ -153,7 +153,9 @@ TEST(Plan, PicksFollowTheRaysThroughTheCornersOfWalls) {
                                   "inputframe { name \"f\" } inputframe { name \"g\" } }"})
         for (const Eye eye : {Eye::Left, Eye::Cyclop, Eye::Right})
             for (std::size_t segment : {0U, 1U}) {
-                request.outputs = {Output{.segment = segment, .eye = eye}};
+                request.outputs.assign(1, {});
+                request.outputs[0].segment = segment;
+                request.outputs[0].eye = eye;
                 const Plan plan = planned(powerWall(compounds), request);
                 ASSERT_EQ(plan.pictures.size(), 1U);
                 const double x = eye == Eye::Left ? -.05 : eye == Eye::Right ? .05 : 0;
@@ -194,7 +196,8 @@ TEST(Plan, PicksInAPartOfThePictureWithoutAWallAreOfThatPart) {
         << "all of the camera's own picture";
     PlanRequest request;
     request.fovYDegrees = 90;
-    request.outputs = {Output{.segment = 1}};
+    request.outputs.resize(1);
+    request.outputs[0].segment = 1;
     const Picture picture = planned(configuration, request).pictures.front();
     const double aspect = 1280.0 / 480;
     expectSameRay(rayOfPick(picture, .5, .75), {{0, 0, 0}, {aspect / 2, .5, -1}});
