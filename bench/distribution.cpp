@@ -6,8 +6,9 @@
 //                                    [WIDTHxHEIGHT=1280x720] [TAU=1] [REPETITIONS=5] [VIEWERS=2]
 //
 // Draws an orbit, complete frames without depth, by turns in each way; prints medians of the
-// repetitions. VIEWERS ask for frames at the same time: with one, a renderer waits until its last
-// picture has arrived. Exit status 1 when a picture differs from the local one.
+// repetitions, and the processor time of a frame in this process and in the renderers'. VIEWERS ask
+// for frames at the same time: with one, a renderer waits until its last picture has arrived. Exit
+// status 1 when a picture differs from the local one.
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -25,6 +26,7 @@
 #include <glm/geometric.hpp>
 #include <sched.h>
 #include <spdlog/spdlog.h>
+#include <time.h>
 
 #include "coordinator/coordinator.h"
 #include "fabric/status.h"
@@ -67,11 +69,20 @@ FrameRequest viewOf(const fabric::Box& bounds, const Options& options, int frame
     return view;
 }
 
+/// Processor time so far.
+double secondsOf(clockid_t clock) {
+    timespec time{};
+    clock_gettime(clock, &time);
+    return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec) * 1e-9;
+}
+
 /// One way to draw a frame; draw() from as many threads as `viewers`.
 class Way {
 public:
     virtual ~Way() = default;
     virtual absl::StatusOr<RenderedFrame> draw(const FrameRequest& view) = 0;
+    /// Processor time of its renderers that are processes of their own, so far.
+    virtual double secondsElsewhere() const { return 0; }
 };
 
 class InThisProcess final : public Way {
@@ -153,6 +164,16 @@ public:
         return coordinator_->frames().renderFrame(view);
     }
 
+    double secondsElsewhere() const override {
+        double sum = 0;
+        for (const auto& process : processes_) {
+            clockid_t clock{};
+            if (clock_getcpuclockid(process->id(), &clock) == 0)
+                sum += secondsOf(clock);
+        }
+        return sum;
+    }
+
 private:
     Behind() = default;
 
@@ -188,6 +209,8 @@ struct Leg {
     int viewers;
     std::size_t comparedWith;  ///< position of the leg that is 1
     std::vector<double> rates = {};
+    double secondsHere = 0;  ///< of processor time, in this process and its renderers' own
+    double secondsElsewhere = 0;
     double tauAchieved = 0;
     std::uint64_t triangles = 0;
     bool isComplete = true;
@@ -199,6 +222,8 @@ absl::Status fly(Leg& leg, const fabric::Box& bounds, const Options& options, bo
     std::mutex mutex;  // guards the leg and the status
     absl::Status status;
     const auto start = Clock::now();
+    const double here = secondsOf(CLOCK_PROCESS_CPUTIME_ID);
+    const double elsewhere = leg.way->secondsElsewhere();
     const auto view = [&] {
         for (int i = next++; i < options.frames; i = next++) {
             const auto frame = leg.way->draw(viewOf(bounds, options, i));
@@ -217,9 +242,12 @@ absl::Status fly(Leg& leg, const fabric::Box& bounds, const Options& options, bo
         std::vector<std::jthread> viewers;
         for (int i = 0; i < leg.viewers; ++i) viewers.emplace_back(view);
     }
-    if (counts)
+    if (counts) {
         leg.rates.push_back(options.frames /
                             std::chrono::duration<double>(Clock::now() - start).count());
+        leg.secondsHere += secondsOf(CLOCK_PROCESS_CPUTIME_ID) - here;
+        leg.secondsElsewhere += leg.way->secondsElsewhere() - elsewhere;
+    }
     return status;
 }
 
@@ -247,13 +275,15 @@ absl::StatusOr<std::size_t> differentPixels(const std::vector<Leg>& legs, const 
 void print(const std::vector<Leg>& legs, const Options& options) {
     const auto drawn = static_cast<std::uint64_t>(options.frames) *
                        static_cast<std::uint64_t>(options.repetitions);
-    fmt::print("{:42} {:>8} {:>8} {:>8} {:>12} {:>10} {:>7}\n", "", "fps", "least", "most",
-               "achieved px", "triangles", "of it");
+    fmt::print("{:42} {:>8} {:>8} {:>8} {:>12} {:>10} {:>7} {:>9} {:>9}\n", "", "fps", "least",
+               "most", "achieved px", "triangles", "of it", "CPU here", "renderers");
     for (const Leg& leg : legs) {
         const auto [least, most] = std::ranges::minmax(leg.rates);
-        fmt::print("{:42} {:8.2f} {:8.2f} {:8.2f} {:12.3f} {:10} {:7.3f}{}\n", leg.name,
-                   median(leg.rates), least, most, leg.tauAchieved, leg.triangles / drawn,
+        fmt::print("{:42} {:8.2f} {:8.2f} {:8.2f} {:12.3f} {:10} {:7.3f} {:6.2f} ms {:6.2f} ms{}\n",
+                   leg.name, median(leg.rates), least, most, leg.tauAchieved, leg.triangles / drawn,
                    median(leg.rates) / median(legs[leg.comparedWith].rates),
+                   leg.secondsHere * 1e3 / static_cast<double>(drawn),
+                   leg.secondsElsewhere * 1e3 / static_cast<double>(drawn),
                    leg.isComplete ? "" : "  incomplete");
     }
 }

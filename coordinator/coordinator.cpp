@@ -14,6 +14,7 @@
 #include "coordinator/farm/registry.h"
 #include "coordinator/frame/frame_pipeline.h"
 #include "fabric/status.h"
+#include "wire/picture_heap.h"
 
 namespace eyrie::coordinator {
 namespace {
@@ -91,6 +92,7 @@ absl::StatusOr<std::unique_ptr<Coordinator>> Coordinator::start(const Coordinato
     if (options.grpcAddresses.empty())
         return absl::InvalidArgumentError(
             "the coordinator has no address for renderers to register at");
+    wire::keepPictureHeap();
     std::optional<access::DataFolder> dataFolder;
     if (!options.dataFolder.empty()) {
         ASSIGN_OR_RETURN(dataFolder, access::DataFolder::open(options.dataFolder));

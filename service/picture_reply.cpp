@@ -26,19 +26,21 @@ void tell(const ChannelStory& story, v1::ChannelHeader& header) {
 
 class ChannelReply final : public MessageSource<v1::RenderChannelResponse> {
 public:
-    ChannelReply(fabric::ChannelResult result, wire::PixelEncoding encoding,
+    ChannelReply(fabric::ChannelResult result, wire::PixelEncoding encoding, bool inMemory,
                  const ChannelStory& story)
         : result_(std::move(result)),
-          encoding_(encoding),
+          encoding_(inMemory ? wire::PixelEncoding::Raw : encoding),
+          inMemory_(inMemory),
           story_(story),
-          pixels_(result_.image, encoding) {}
+          pixels_(result_.image, encoding_) {}
 
-    bool isDone() const override { return hasHeader_ && pixels_.isDone(); }
+    bool isDone() const override { return hasHeader_ && (inMemory_ || pixels_.isDone()); }
 
     void next(v1::RenderChannelResponse& message) override {
         if (std::exchange(hasHeader_, true))
             return pixels_.next(*message.mutable_chunk());
         wire::describe(result_.image, encoding_, *message.mutable_header());
+        message.mutable_header()->set_is_in_memory(inMemory_);
         *message.mutable_header()->mutable_statistics() = wire::toMessage(result_.statistics);
         tell(story_, *message.mutable_header());
     }
@@ -46,6 +48,7 @@ public:
 private:
     const fabric::ChannelResult result_;
     const wire::PixelEncoding encoding_;
+    const bool inMemory_;
     const ChannelStory story_;
     wire::PictureWriter pixels_;
     bool hasHeader_ = false;
@@ -88,8 +91,9 @@ private:
 
 std::unique_ptr<MessageSource<v1::RenderChannelResponse>> channelReply(fabric::ChannelResult result,
                                                                        wire::PixelEncoding encoding,
+                                                                       bool inMemory,
                                                                        const ChannelStory& story) {
-    return std::make_unique<ChannelReply>(std::move(result), encoding, story);
+    return std::make_unique<ChannelReply>(std::move(result), encoding, inMemory, story);
 }
 
 std::unique_ptr<MessageSource<v1::RunProgramResponse>> programReply(fabric::ProgramResult result,

@@ -22,9 +22,10 @@ struct ChannelStory {
     DrawerMemory memory;
 };
 
-/// The answer to RenderChannel: a header, then the pixels.
+/// The answer to RenderChannel: a header, then the pixels, unless they are `inMemory` already.
 std::unique_ptr<MessageSource<v1::RenderChannelResponse>> channelReply(fabric::ChannelResult result,
                                                                        wire::PixelEncoding encoding,
+                                                                       bool inMemory,
                                                                        const ChannelStory& story);
 
 /// The answer to RunProgram: each picture likewise, then the statistics.

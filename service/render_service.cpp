@@ -2,6 +2,7 @@
 #include "service/render_service.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -29,18 +30,33 @@ absl::Status openScene(ChannelDrawer& drawer, const fabric::Scene& scene, PickTh
     return absl::OkStatus();
 }
 
-void draw(ChannelDrawer& drawer, const fabric::FrameData& frameData,
-          const fabric::ChannelTask& task, wire::PixelEncoding encoding,
-          ChannelStory::Clock::time_point received, ReplyStream<v1::RenderChannelResponse>& reply) {
+/// A channel that is to be drawn, and how its picture is to be handed over.
+struct Asked {
+    fabric::FrameData frameData;
+    fabric::ChannelTask task;
+    wire::PixelEncoding encoding;
+    std::optional<wire::MemoryOffer> memory;
+    ChannelStory::Clock::time_point received;
+};
+
+/// Whether the picture is there now.
+bool putInMemory(const Asked& asked, const fabric::Image& image, PictureMemories& memories) {
+    wire::PictureMemory* const memory = asked.memory ? memories.find(*asked.memory) : nullptr;
+    return memory != nullptr && memory->put(image);
+}
+
+void draw(ChannelDrawer& drawer, const Asked& asked, PictureMemories& memories,
+          ReplyStream<v1::RenderChannelResponse>& reply) {
     const auto begun = ChannelStory::Clock::now();
     if (reply.isCancelled())
         return reply.fail(absl::CancelledError("the coordinator no longer waits for this channel"));
-    absl::StatusOr<fabric::ChannelResult> result = drawer.render(frameData, task);
-    if (result.ok())
-        reply.send(channelReply(*std::move(result), encoding,
-                                {received, begun, ChannelStory::Clock::now(), drawer.memory()}));
-    else
-        reply.fail(result.status());
+    absl::StatusOr<fabric::ChannelResult> result = drawer.render(asked.frameData, asked.task);
+    if (!result.ok())
+        return reply.fail(result.status());
+    const auto drawn = ChannelStory::Clock::now();
+    const bool inMemory = putInMemory(asked, result->image, memories);
+    reply.send(channelReply(*std::move(result), asked.encoding, inMemory,
+                            {asked.received, begun, drawn, drawer.memory()}));
 }
 
 /// Of a caller that may not send any.
@@ -156,10 +172,17 @@ absl::Status RenderService::startDrawing(const v1::RenderChannelRequest& request
     const auto received = ChannelStory::Clock::now();
     RETURN_IF_ERROR(checkReplies());
     ASSIGN_OR_RETURN(const fabric::ChannelTask task, wire::fromMessage(request.task()));
+    if (request.has_frame_data()) {
+        ASSIGN_OR_RETURN(const fabric::FrameData sent, wire::fromMessage(request.frame_data()));
+        frameData_.store(sent);
+    }
     ASSIGN_OR_RETURN(const fabric::FrameData frameData, frameData_.find(task.frameDataVersion));
     ASSIGN_OR_RETURN(const wire::PixelEncoding encoding, wire::fromMessage(request.encoding()));
-    return thread_.post([frameData, task, encoding, received, &reply](ChannelDrawer& drawer) {
-        draw(drawer, frameData, task, encoding, received, reply);
+    Asked asked{frameData, task, encoding, {}, received};
+    if (request.has_memory())
+        asked.memory = wire::fromMessage(request.memory());
+    return thread_.post([this, asked = std::move(asked), &reply](ChannelDrawer& drawer) {
+        draw(drawer, asked, memories_, reply);
     });
 }
 

@@ -8,6 +8,7 @@
 #include "service/frame_data_history.h"
 #include "service/gl_thread.h"
 #include "service/pick_thread.h"
+#include "service/picture_memories.h"
 #include "service/reply_stream.h"
 
 namespace eyrie::service {
@@ -51,6 +52,7 @@ private:
     GlThread& thread_;
     const wire::Security security_;
     PickThread picks_;
+    PictureMemories memories_;  ///< the GL thread's
     FrameDataHistory frameData_;
     Exchange exchange_;
     std::atomic<int> replies_{0};

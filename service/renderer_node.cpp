@@ -8,6 +8,7 @@
 #include "service/registration.h"
 #include "service/render_server.h"
 #include "wire/listen.h"
+#include "wire/picture_heap.h"
 
 namespace eyrie::service {
 namespace {
@@ -21,6 +22,7 @@ absl::StatusOr<std::unique_ptr<RendererNode>> RendererNode::start(
     const RendererNodeOptions& options, const DrawerFactory& create) {
     RETURN_IF_ERROR(wire::checkAddress(options.coordinator));
     RETURN_IF_ERROR(wire::checkAddress(options.listen));
+    wire::keepPictureHeap();
     ASSIGN_OR_RETURN(std::unique_ptr<GlThread> thread, GlThread::start(create));
     ASSIGN_OR_RETURN(std::unique_ptr<RenderServer> server,
                      RenderServer::start(options.listen, *thread, options.security));

@@ -167,7 +167,12 @@ private:
 
     /// As much of `source` as falls on `target`.
     static void pastePart(const Image& source, Image& target) {
-        const PixelViewport part = intersection(source.area, target.area);
+        pastePart(source, target.area, target);
+    }
+
+    /// And as falls on `within`, a part of the target.
+    static void pastePart(const Image& source, const PixelViewport& within, Image& target) {
+        const PixelViewport part = intersection(source.area, within);
         const bool withDepth = source.hasDepth() && target.hasDepth();
         for (int y = part.y; y < part.y + part.height; ++y) {
             const auto from = offset(source, part.x, y);
@@ -281,6 +286,10 @@ private:
             return image;
         }
         Image image = fabric::makeImage(picture.area, background_, picture.withDepth);
+        if (parts.size() == 1 && showings_[parts.front().framebuffer] == 1) {
+            pasteOnly(parts.front(), image);
+            return image;
+        }
         for (const PicturePart& part : parts) {
             Image shown = cut(layers_[part.framebuffer], part.part, picture.withDepth);
             shown.area.x = part.x;
@@ -288,6 +297,16 @@ private:
             pastePart(shown, image);
         }
         return image;
+    }
+
+    /// What nobody looks at afterwards, onto a background.
+    void pasteOnly(const PicturePart& part, Image& image) {
+        Image& shown = layers_[part.framebuffer].image;
+        shown.area.x += part.x - part.part.x;
+        shown.area.y += part.y - part.part.y;
+        const PixelViewport within{part.x, part.y, part.part.width, part.part.height};
+        if (!shown.area.isEmpty())
+            pastePart(shown, intersection(within, image.area), image);
     }
 
     bool isAllOf(const Picture& picture, const PicturePart& part) const {

@@ -39,6 +39,7 @@ void ChannelReport::headerCame(const v1::ChannelHeader& header) {
     header_ = Clock::now();
     if (telemetry_ == nullptr)
         return;
+    telemetry_->metrics.pictureCame(header.is_in_memory());
     if (header.has_memory())
         telemetry_->metrics.rendererHolds(name_, header.memory().device_bytes(),
                                           header.memory().host_bytes());

@@ -14,6 +14,7 @@
 
 #include "coordinator/farm/channel_report.h"
 #include "coordinator/farm/picture_assembly.h"
+#include "coordinator/farm/picture_slots.h"
 #include "coordinator/farm/program_assembly.h"
 #include "eyrie/v1/render_service.grpc.pb.h"
 #include "fabric/status.h"
@@ -84,13 +85,15 @@ bool answersWithDepth(const fabric::ChannelProgram& program) {
 class GrpcRenderer final : public ChannelRenderer {
 public:
     GrpcRenderer(const std::string& address, const wire::Security& security,
-                 observe::SharedTelemetry telemetry)
+                 observe::SharedTelemetry telemetry, bool offersMemory)
         : peer_(fmt::format("renderer at {}", address)),
           address_(address),
           channel_(grpc::CreateCustomChannel(address, wire::channelCredentials(security, address),
                                              wire::clientArguments(security))),
           stub_(v1::RenderService::NewStub(channel_)),
           calls_(security),
+          offersMemory_(offersMemory),
+          slots_(peer_),
           report_(address, std::move(telemetry)) {}
 
     absl::StatusOr<fabric::SceneInfo> openScene(const fabric::Scene& scene,
@@ -120,14 +123,22 @@ public:
     /// Its header comes when the picture has been drawn.
     absl::StatusOr<fabric::ChannelResult> render(const fabric::ChannelTask& task,
                                                  Clock::time_point deadline,
-                                                 const std::function<void()>& drawn) override {
+                                                 const std::function<void()>& drawn,
+                                                 const fabric::FrameData* frameData) override {
         v1::RenderChannelRequest request;
         *request.mutable_task() = wire::toMessage(task);
+        if (frameData != nullptr)
+            *request.mutable_frame_data() = wire::toMessage(*frameData);
         request.set_encoding(wire::toMessage(wire::encodingFor(address_, task.wantsDepth)));
+        std::unique_ptr<wire::PictureMemory> memory;
+        if (offersMemory_)
+            memory = slots_.lend(wire::pixelBytes(task.pixelViewport, task.wantsDepth));
+        if (memory != nullptr)
+            *request.mutable_memory() = wire::toMessage(memory->offer());
         Calls::Call call(calls_, deadline);
         report_.asked(task.frameNumber);
         const auto reader = stub_->RenderChannel(call.context(), request);
-        PictureAssembly assembly(task);
+        PictureAssembly assembly(task, memory.get());
         auto result = receive(call, *reader, assembly,
                               [&, isDrawn = !drawn](const v1::RenderChannelResponse& part) mutable {
                                   if (!std::exchange(isDrawn, true))
@@ -140,6 +151,8 @@ public:
                                   return assembly.takeChunk(part.chunk());
                               });
         report_.ended(result.status());
+        if (result.ok() && memory != nullptr)
+            slots_.giveBack(std::move(memory), assembly.isInMemory());
         return result;
     }
 
@@ -213,6 +226,8 @@ private:
     const std::unique_ptr<v1::RenderService::Stub> stub_;
     std::atomic<bool> wasConnected_{false};
     Calls calls_;
+    const bool offersMemory_;
+    PictureSlots slots_;
     ChannelReport report_;  ///< of render, which one thread at a time calls
 };
 
@@ -220,8 +235,9 @@ private:
 
 std::shared_ptr<ChannelRenderer> connectRenderer(const std::string& address,
                                                  const wire::Security& security,
-                                                 observe::SharedTelemetry telemetry) {
-    return std::make_shared<GrpcRenderer>(address, security, std::move(telemetry));
+                                                 observe::SharedTelemetry telemetry,
+                                                 bool offersMemory) {
+    return std::make_shared<GrpcRenderer>(address, security, std::move(telemetry), offersMemory);
 }
 
 }  // namespace eyrie::coordinator

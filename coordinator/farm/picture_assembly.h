@@ -8,6 +8,7 @@
 
 #include "fabric/channel_task.h"
 #include "wire/picture_bytes.h"
+#include "wire/picture_memory.h"
 
 namespace eyrie::v1 {
 class ChannelHeader;
@@ -19,8 +20,11 @@ namespace eyrie::coordinator {
 /// at most, however large a picture the renderer claims.
 class PictureAssembly {
 public:
-    /// `task` outlives the assembly, which stays where it is.
-    explicit PictureAssembly(const fabric::ChannelTask& task) : task_(task) {}
+    /// `task` and `memory`, which was offered with it, outlive the assembly, which stays where it
+    /// is. Null: none was offered.
+    explicit PictureAssembly(const fabric::ChannelTask& task,
+                             const wire::PictureMemory* memory = nullptr)
+        : task_(task), memory_(memory) {}
     PictureAssembly(const PictureAssembly&) = delete;
     PictureAssembly& operator=(const PictureAssembly&) = delete;
 
@@ -31,10 +35,17 @@ public:
     /// After the last chunk.
     absl::StatusOr<fabric::ChannelResult> finish();
 
+    /// Whether the header says that the picture is in the memory.
+    bool isInMemory() const { return isInMemory_; }
+
 private:
+    absl::Status takeFromMemory(const fabric::PixelViewport& area, bool hasDepth);
+
     const fabric::ChannelTask& task_;
+    const wire::PictureMemory* const memory_;
     fabric::ChannelResult result_;
-    std::optional<wire::PictureReader> pixels_;  ///< once there is a header
+    bool isInMemory_ = false;
+    std::optional<wire::PictureReader> pixels_;  ///< once there is a header, of one in chunks
 };
 
 }  // namespace eyrie::coordinator

@@ -176,15 +176,19 @@ absl::StatusOr<fabric::ProgramResult> Member::runProgram(const fabric::ChannelPr
                                                          std::uint64_t revision,
                                                          std::chrono::milliseconds timeout,
                                                          const std::stop_token& stop) {
+    RETURN_IF_ERROR(checkRevision(revision));
+    return renderer_->runProgram(program, Clock::now() + timeout, stop);
+}
+
+absl::Status Member::checkRevision(std::uint64_t revision) const {
     if (openRevision_ != revision)
         return absl::AbortedError(fmt::format("{} has opened another scene meanwhile", id_));
-    return renderer_->runProgram(program, Clock::now() + timeout, stop);
+    return absl::OkStatus();
 }
 
 absl::Status Member::sendFrameData(const fabric::FrameData& frameData, std::uint64_t revision,
                                    Clock::time_point deadline) {
-    if (openRevision_ != revision)
-        return absl::AbortedError(fmt::format("{} has opened another scene meanwhile", id_));
+    RETURN_IF_ERROR(checkRevision(revision));
     if (sentVersion_ != frameData.version) {
         RETURN_IF_ERROR(renderer_->setFrameData(frameData, deadline));
         sentVersion_ = frameData.version;
@@ -194,12 +198,15 @@ absl::Status Member::sendFrameData(const fabric::FrameData& frameData, std::uint
 
 absl::StatusOr<fabric::ChannelResult> Member::render(const Draw& what, Hold& hold) {
     const Clock::time_point deadline = Clock::now() + what.timeout;
-    RETURN_IF_ERROR(sendFrameData(what.frameData, what.revision, deadline));
-    return renderer_->render(what.task, deadline, [&] {
+    RETURN_IF_ERROR(checkRevision(what.revision));
+    const bool hasIt = sentVersion_ == what.frameData.version;
+    const auto drawn = [&] {
+        sentVersion_ = what.frameData.version;
         hold.release();
         if (what.drawn)
             what.drawn();
-    });
+    };
+    return renderer_->render(what.task, deadline, drawn, hasIt ? nullptr : &what.frameData);
 }
 
 }  // namespace eyrie::coordinator

@@ -126,6 +126,7 @@ private:
     void post(Job job);
     void work();
     void drawNow(const Draw& what, Hold& hold, const DrawDone& done);
+    absl::Status checkRevision(std::uint64_t revision) const;
     absl::Status sendFrameData(const fabric::FrameData& frameData, std::uint64_t revision,
                                Clock::time_point deadline);
     absl::StatusOr<fabric::ChannelResult> render(const Draw& what, Hold& hold);

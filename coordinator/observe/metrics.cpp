@@ -137,6 +137,7 @@ public:
             .Increment(static_cast<double>(count));
     }
 
+    void pictureCame(bool inMemory) { (inMemory ? inMemory_ : inMessages_).Increment(); }
     void viewers(int change) { viewers_.Increment(change); }
     void swapped(int together, int cutShort) {
         together_.Increment(together);
@@ -232,6 +233,11 @@ private:
         gauge("eyrie_pages_unreadable", "Those of the last frame that could not be read.");
     Family<Counter>& received_ = counters("eyrie_received_bytes_total", "Bytes received.");
     Family<Counter>& sent_ = counters("eyrie_sent_bytes_total", "Bytes sent.");
+    Family<Counter>& pictures_ =
+        counters("eyrie_renderer_pictures_total",
+                 "Pictures from renderers: in memory of this machine, or in messages.");
+    Counter& inMemory_ = pictures_.Add({{"way", "memory"}});
+    Counter& inMessages_ = pictures_.Add({{"way", "messages"}});
     Gauge& viewers_ = gauge("eyrie_viewers", "Browsers that are connected.");
     Family<Counter>& swaps_ =
         counters("eyrie_swaps_total", "Pictures that screens behind a swap barrier have shown.");
@@ -265,6 +271,7 @@ void Metrics::took(Stage stage, std::chrono::duration<double> time) { impl_->too
 void Metrics::bytes(Peer peer, Direction direction, std::size_t count) {
     impl_->bytes(peer, direction, count);
 }
+void Metrics::pictureCame(bool inMemory) { impl_->pictureCame(inMemory); }
 void Metrics::viewers(int change) { impl_->viewers(change); }
 void Metrics::swapped(int together, int cutShort) { impl_->swapped(together, cutShort); }
 void Metrics::taskReissued(bool wasLate) { impl_->taskReissued(wasLate); }

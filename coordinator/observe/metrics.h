@@ -46,6 +46,8 @@ public:
     void frameFailed();
     void took(Stage stage, std::chrono::duration<double> time);
     void bytes(Peer peer, Direction direction, std::size_t count);
+    /// From a renderer: in memory that both see, or in messages.
+    void pictureCame(bool inMemory);
     void viewers(int change);
     /// Pictures that screens behind a swap barrier have shown: all of them together, or without
     /// some that were too late.

@@ -10,6 +10,7 @@
 #include "fabric/status.h"
 #include "wire/frame.h"
 #include "wire/picture_bytes.h"
+#include "wire/picture_memory.h"
 
 /// The fields that the messages before pixels have in common: ChannelHeader, ProgramPictureHeader
 /// and FrameHeader. Include it in sources only.
@@ -31,6 +32,20 @@ inline absl::StatusOr<PixelEncoding> fromMessage(v1::PixelEncoding encoding) {
             return absl::InvalidArgumentError(fmt::format(
                 "encoding is {}, which this version does not know", static_cast<int>(encoding)));
     }
+}
+
+inline v1::PictureMemory toMessage(const MemoryOffer& offer) {
+    v1::PictureMemory message;
+    message.set_process(offer.process);
+    message.set_file(offer.descriptor);
+    message.set_bytes(offer.bytes);
+    message.set_key(offer.key);
+    return message;
+}
+
+/// Checked when it is opened.
+inline MemoryOffer fromMessage(const v1::PictureMemory& message) {
+    return {message.process(), message.file(), message.bytes(), message.key()};
 }
 
 inline std::uint64_t pixelBytes(const fabric::PixelViewport& area, bool hasDepth) {

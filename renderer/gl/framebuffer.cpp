@@ -52,12 +52,10 @@ void Framebuffer::begin(int viewWidth, int viewHeight, const fabric::PixelViewpo
 }
 
 fabric::Image Framebuffer::read(const fabric::PixelViewport& part, bool withDepth) {
-    fabric::Image image;
-    image.area = part;
+    fabric::Image image = fabric::makeImage(part, {}, withDepth);
     if (part.isEmpty())
         return image;
     glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_.id());
-    image.colour.resize(static_cast<std::size_t>(part.area()));
     glReadPixels(part.x, part.y, part.width, part.height, GL_RGBA, GL_UNSIGNED_BYTE,
                  image.colour.data());
     if (withDepth)

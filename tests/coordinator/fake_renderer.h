@@ -41,7 +41,10 @@ public:
 
     absl::StatusOr<fabric::ChannelResult> render(
         const fabric::ChannelTask& task, Clock::time_point deadline,
-        const std::function<void()>& isDrawn = {}) override {
+        const std::function<void()>& isDrawn = {},
+        const fabric::FrameData* frameData = nullptr) override {
+        if (frameData != nullptr)
+            static_cast<void>(setFrameData(*frameData, deadline));
         ++begun;
         std::unique_lock lock(mutex_);
         most = std::max(most.load(), ++drawing_);

@@ -3,6 +3,7 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <grpcpp/grpcpp.h>
@@ -25,13 +26,15 @@ public:
         response->mutable_bounds()->mutable_min()->set_x(std::numeric_limits<double>::quiet_NaN());
         return grpc::Status::OK;
     }
-    grpc::Status RenderChannel(grpc::ServerContext*, const v1::RenderChannelRequest*,
+    grpc::Status RenderChannel(grpc::ServerContext*, const v1::RenderChannelRequest* request,
                                Writer* writer) override {
+        keys.push_back(request->memory().key());
         answer(*writer);
         return grpc::Status::OK;
     }
 
     std::function<void(Writer&)> answer;
+    std::vector<std::string> keys;  ///< of the memory that came with each task
 };
 
 class LyingRenderer : public testing::Test {
@@ -83,6 +86,40 @@ TEST_F(LyingRenderer, AStreamWithoutEndIsCutOff) {
         }
     };
     EXPECT_EQ(render().code(), absl::StatusCode::kInternal);
+}
+
+/// What is in the memory then is not known; it is a picture of the size asked for all the same.
+TEST_F(LyingRenderer, ThatAPictureIsInMemoryIsBelievedForWhatFitsTheTask) {
+    v1::RenderChannelResponse good = header(64);
+    good.mutable_header()->set_is_in_memory(true);
+    service_.answer = [&](Writer& writer) { writer.Write(good); };
+    EXPECT_TRUE(render().ok());
+    EXPECT_TRUE(render().ok());
+    EXPECT_EQ(service_.keys[0], service_.keys[1]);
+
+    v1::RenderChannelResponse deep = good;  // twice as large as what was offered
+    deep.mutable_header()->set_has_depth(true);
+    deep.mutable_header()->set_pixel_bytes(64 * 64 * 8);
+    service_.answer = [&](Writer& writer) { writer.Write(deep); };
+    EXPECT_EQ(render().code(), absl::StatusCode::kInternal);
+    service_.answer = [&](Writer& writer) {
+        writer.Write(good);
+        writer.Write(chunk(100));
+    };
+    EXPECT_EQ(render().code(), absl::StatusCode::kInternal);
+}
+
+TEST_F(LyingRenderer, MemoryOfACallThatFailedIsOfferedNoMore) {
+    v1::RenderChannelResponse good = header(64);
+    good.mutable_header()->set_is_in_memory(true);
+    service_.answer = [](Writer&) {};
+    EXPECT_FALSE(render().ok());
+    service_.answer = [&](Writer& writer) { writer.Write(good); };
+    EXPECT_TRUE(render().ok());
+    EXPECT_TRUE(render().ok());
+    ASSERT_EQ(service_.keys.size(), 3U);
+    EXPECT_NE(service_.keys[0], service_.keys[1]);
+    EXPECT_EQ(service_.keys[1], service_.keys[2]);
 }
 
 TEST_F(LyingRenderer, EmptyChunksWithoutEndRunIntoTheDeadline) {

@@ -53,6 +53,49 @@ RC_GTEST_PROP(PictureAssembly, AnyCutIntoChunksGivesThePixels, ()) {
     RC_ASSERT(std::memcmp(result.image.depth.data(), pixels.data() + 7 * 3 * 4, 7 * 3 * 4) == 0);
 }
 
+v1::ChannelHeader inMemory(v1::ChannelHeader message) {
+    message.set_is_in_memory(true);
+    return message;
+}
+
+TEST(PictureAssembly, APictureInMemoryIsCompleteWithItsHeader) {
+    const auto memory = wire::PictureMemory::create(40 * 20 * 8).value();
+    fabric::Image picture = fabric::makeImage({12, 6, 7, 3}, {1, 2, 3, 4}, true);
+    picture.depth[5] = 0.25F;
+    ASSERT_TRUE(wire::PictureMemory::open(memory->offer()).value()->put(picture));
+    PictureAssembly assembly(kTask, memory.get());
+    ASSERT_TRUE(assembly.takeHeader(inMemory(header(12, 6, 7, 3))).ok());
+    EXPECT_TRUE(assembly.isInMemory());
+    EXPECT_TRUE(assembly.finish().value().image == picture);
+}
+
+TEST(PictureAssembly, APictureInMemoryThatWasNotOfferedOrIsSmallerIsRefused) {
+    PictureAssembly none(kTask);
+    EXPECT_EQ(none.takeHeader(inMemory(header(10, 5, 4, 4))).code(), absl::StatusCode::kInternal);
+    const auto memory = wire::PictureMemory::create(4 * 4 * 8 - 1).value();
+    PictureAssembly small(kTask, memory.get());
+    EXPECT_EQ(small.takeHeader(inMemory(header(10, 5, 4, 4))).code(), absl::StatusCode::kInternal);
+    EXPECT_FALSE(small.isInMemory());
+    EXPECT_EQ(small.finish().status().code(), absl::StatusCode::kInternal);
+}
+
+TEST(PictureAssembly, NothingMayComeAfterAPictureInMemory) {
+    const auto memory = wire::PictureMemory::create(40 * 20 * 8).value();
+    PictureAssembly assembly(kTask, memory.get());
+    ASSERT_TRUE(assembly.takeHeader(inMemory(header(10, 5, 4, 4))).ok());
+    EXPECT_EQ(assembly.takeChunk("1234").code(), absl::StatusCode::kInternal);
+    EXPECT_EQ(assembly.takeHeader(header(10, 5, 4, 4)).code(), absl::StatusCode::kInternal);
+}
+
+TEST(PictureAssembly, MemoryThatWasOfferedNeedNotBeUsed) {
+    const auto memory = wire::PictureMemory::create(40 * 20 * 8).value();
+    PictureAssembly assembly(kTask, memory.get());
+    ASSERT_TRUE(assembly.takeHeader(header(10, 5, 2, 1)).ok());
+    ASSERT_TRUE(assembly.takeChunk(std::string(16, 'x')).ok());
+    EXPECT_FALSE(assembly.isInMemory());
+    EXPECT_TRUE(assembly.finish().ok());
+}
+
 TEST(PictureAssembly, AnAreaOutsideTheTaskIsRefused) {
     EXPECT_THAT(refusal(header(9, 5, 10, 10)),
                 testing::HasSubstr("outside the task's 40x20 at 10,5"));

@@ -4,6 +4,8 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/support/different_pixels.h"
@@ -18,6 +20,7 @@ namespace {
 
 using coordinator::FrameRequest;
 using std::chrono::seconds;
+using testing::HasSubstr;
 
 constexpr int kCameras = 20;
 
@@ -61,6 +64,13 @@ protected:
             worst = std::max(worst, different);
             EXPECT_EQ(different, 0U) << "camera " << i;
         }
+        const std::string metrics = (*coordinator)->telemetry()->metrics.text({}, {});
+        EXPECT_THAT(metrics, HasSubstr("\neyrie_renderer_pictures_total{way=\"messages\"} 0\n"));
+        // Of direct-send what renderers finish comes otherwise, and nothing else has to.
+        const bool noneInMemory =
+            metrics.find("\neyrie_renderer_pictures_total{way=\"memory\"} 0\n") !=
+            std::string::npos;
+        EXPECT_FALSE(noneInMemory && layout != "direct-send");
         fmt::print("{} over {} processes: at most {} of 921600 pixels differ, {} cameras\n", layout,
                    count, worst, views.size());
     }

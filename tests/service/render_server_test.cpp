@@ -20,6 +20,7 @@
 #include "tests/service/eventually.h"
 #include "tests/support/temporary_folder.h"
 #include "wire/frame.h"
+#include "wire/picture_header.h"
 #include "wire/transport.h"
 
 namespace eyrie::service {
@@ -111,10 +112,11 @@ fabric::Image checkered(fabric::Image image) {
 }
 
 /// Expected is what was drawn, to the bit: colour and depth, as active runs, and colour alone, over
-/// a Unix socket, raw, and over TCP.
+/// a Unix socket, raw, and over TCP; and in memory, where it fits.
 TEST_F(HardCase24, WhateverBitsWereDrawnArriveInPicturesOfAnyShape) {
     const auto overTcp = RenderServer::start("127.0.0.1:0", *thread_).value();
-    const auto far = coordinator::connectRenderer(overTcp->address());
+    const auto far = coordinator::connectRenderer(overTcp->address(), {}, nullptr, false);
+    const auto near = coordinator::connectRenderer(server_->address(), {}, nullptr, false);
     ASSERT_TRUE(renderer_->setFrameData(frameData(), soon()).ok());
     ASSERT_TRUE(far->setFrameData(frameData(), soon()).ok());
     for (const fabric::Image& drawn :
@@ -131,7 +133,7 @@ TEST_F(HardCase24, WhateverBitsWereDrawnArriveInPicturesOfAnyShape) {
             return std::ranges::equal(std::as_bytes(std::span(one)),
                                       std::as_bytes(std::span(other)));
         };
-        for (ChannelRenderer* renderer : {renderer_.get(), far.get()})
+        for (ChannelRenderer* renderer : {renderer_.get(), near.get(), far.get()})
             for (const bool wantsDepth : {true, false}) {
                 whole.wantsDepth = wantsDepth;
                 if (!wantsDepth)
@@ -144,6 +146,62 @@ TEST_F(HardCase24, WhateverBitsWereDrawnArriveInPicturesOfAnyShape) {
                 control_->image = drawn;
             }
     }
+}
+
+TEST_F(RenderServerTest, WhetherAPictureCameInMemoryOrMessagesIsCounted) {
+    ASSERT_TRUE(renderer_->setFrameData(frameData(), soon()).ok());
+    const auto telemetry = std::make_shared<observe::Telemetry>();
+    for (const bool offersMemory : {true, false})
+        ASSERT_TRUE(coordinator::connectRenderer(server_->address(), {}, telemetry, offersMemory)
+                        ->render(task(640, 360, true), soon())
+                        .ok());
+    const std::string text = telemetry->metrics.text({}, {});
+    EXPECT_THAT(text, testing::HasSubstr("eyrie_renderer_pictures_total{way=\"memory\"} 1"));
+    EXPECT_THAT(text, testing::HasSubstr("eyrie_renderer_pictures_total{way=\"messages\"} 1"));
+}
+
+/// Expected is the message form of what could not go into memory.
+TEST_F(RenderServerTest, MemoryThatIsNotThereIsAnsweredInMessages) {
+    ASSERT_TRUE(renderer_->setFrameData(frameData(), soon()).ok());
+    const auto memory = wire::PictureMemory::create(64 * 64 * 4).value();
+    v1::RenderChannelRequest request;
+    *request.mutable_task() = wire::toMessage(task(64, 64, false));
+    *request.mutable_memory() = wire::toMessage(memory->offer());
+    const auto answer = [&] {
+        grpc::ClientContext context;
+        const auto reader = stub_->RenderChannel(&context, request);
+        v1::RenderChannelResponse part;
+        EXPECT_TRUE(reader->Read(&part));
+        const bool isInMemory = part.header().is_in_memory();
+        std::size_t bytes = 0;
+        while (reader->Read(&part)) bytes += part.chunk().size();
+        EXPECT_TRUE(reader->Finish().ok());
+        EXPECT_EQ(bytes, isInMemory ? 0U : 64U * 64 * 4);
+        return isInMemory;
+    };
+    EXPECT_TRUE(answer());
+    EXPECT_TRUE(memory->take({0, 0, 64, 64}, false).value() ==
+                FakeDrawer::picture(frameData(), task(64, 64, false)).image);
+    request.mutable_memory()->set_bytes(64 * 64 * 4 + 1);
+    EXPECT_FALSE(answer());
+    *request.mutable_memory() = wire::toMessage(memory->offer());
+    request.mutable_memory()->set_key(std::string(32, 'x'));
+    EXPECT_FALSE(answer());
+    const auto small = wire::PictureMemory::create(64 * 64 * 4 - 1).value();
+    *request.mutable_memory() = wire::toMessage(small->offer());
+    EXPECT_FALSE(answer());
+}
+
+TEST_F(RenderServerTest, FrameDataMayComeWithTheTask) {
+    fabric::FrameData second = frameData();
+    second.version = 2;
+    second.tauPixels = 7;
+    fabric::ChannelTask next = task(8, 8, false);
+    next.frameDataVersion = 2;
+    const auto drawn = renderer_->render(next, soon(), {}, &second);
+    ASSERT_TRUE(drawn.ok()) << drawn.status();
+    EXPECT_EQ(drawn->statistics.tauAskedPixels, 7);
+    EXPECT_TRUE(renderer_->render(next, soon()).ok()) << "it is kept";
 }
 
 TEST_F(RenderServerTest, AnUnknownFrameDataVersionIsAFailedPrecondition) {
