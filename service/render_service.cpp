@@ -35,7 +35,8 @@ void draw(ChannelDrawer& drawer, const fabric::FrameData& frameData,
     const auto begun = ChannelStory::Clock::now();
     if (reply.isCancelled())
         return reply.fail(absl::CancelledError("the coordinator no longer waits for this channel"));
-    absl::StatusOr<fabric::ChannelResult> result = drawer.render(frameData, task);
+    absl::StatusOr<fabric::ChannelResult> result =
+        drawer.render(frameData, task, reply.cancellation());
     if (result.ok())
         reply.send(channelReply(*std::move(result), encoding,
                                 {received, begun, ChannelStory::Clock::now(), drawer.memory()}));

@@ -120,11 +120,13 @@ public:
     /// Its header comes when the picture has been drawn.
     absl::StatusOr<fabric::ChannelResult> render(const fabric::ChannelTask& task,
                                                  Clock::time_point deadline,
-                                                 const std::function<void()>& drawn) override {
+                                                 const std::function<void()>& drawn,
+                                                 const std::stop_token& stop) override {
         v1::RenderChannelRequest request;
         *request.mutable_task() = wire::toMessage(task);
         request.set_encoding(wire::toMessage(wire::encodingFor(address_, task.wantsDepth)));
         Calls::Call call(calls_, deadline);
+        const std::stop_callback cancel(stop, [&] { call.context()->TryCancel(); });
         report_.asked(task.frameNumber);
         const auto reader = stub_->RenderChannel(call.context(), request);
         PictureAssembly assembly(task);

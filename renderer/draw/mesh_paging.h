@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <stop_token>
 #include <unordered_set>
 #include <vector>
 
@@ -56,8 +57,10 @@ public:
     /// camera draws back, what lies above.
     Progress approach(const MeshCut& cut);
 
-    /// One round of waiting for `needed`: false when nothing is left that may come.
-    bool reach(const std::vector<CutNode>& needed, page::HostPages::Loads& loaded);
+    /// One round of waiting for `needed`, or until `stop`: false when nothing is left that may
+    /// come.
+    bool reach(const std::vector<CutNode>& needed, page::HostPages::Loads& loaded,
+               const std::stop_token& stop);
 
     /// Null when it is not on the device. Valid until the next approach() or reach().
     const DeviceNode* node(std::uint32_t index) {
