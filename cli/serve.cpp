@@ -21,6 +21,7 @@
 #include "cli/hardware_devices.h"
 #include "cli/local_farm.h"
 #include "cli/log.h"
+#include "cli/program_runs.h"
 #include "cli/scene_files.h"
 #include "cli/stop_signal.h"
 #include "cli/web_door.h"
@@ -41,6 +42,7 @@ struct Options {
     TileDecoding decoding = TileDecoding::Auto;
     ConfigOptions config;
     DoorOptions door;
+    ProgramOptions programs;
     int renderers = 0;  ///< 0: as many as suit this machine
     bool quiet = false;
 };
@@ -91,10 +93,12 @@ absl::Status serve(const Options& options) {
         quietLog();
     ASSIGN_OR_RETURN(const Doors doors, doorsOf(options.door));
     ASSIGN_OR_RETURN(auto configuration, configurationOf(options.config, options.quiet));
+    ASSIGN_OR_RETURN(const api::Programs programs, programsOf(options.programs));
     const int renderers = rendererCount(options, configuration);
-    ASSIGN_OR_RETURN(const auto farm,
-                     LocalFarm::start(std::move(configuration), options.config.compound,
-                                      options.cache, options.decoding, options.dataFolder));
+    ASSIGN_OR_RETURN(
+        const auto farm,
+        LocalFarm::start(std::move(configuration), options.config.compound, options.cache,
+                         options.decoding, options.dataFolder, programs));
     ASSIGN_OR_RETURN(const auto door, openWebDoor(options.listen, doors, farm->coordinator()));
     ASSIGN_OR_RETURN(fabric::Scene scene, loadScene(options, stop.token()));
     RETURN_IF_ERROR(farm->coordinator().setScene(std::move(scene)));
@@ -134,8 +138,10 @@ void addServe(CLI::App& app, Run& run) {
         ->check(CLI::Range(1, RendererProcesses::kMaxCount));
     command
         ->add_option("--data", options->dataFolder,
-                     "Where programs may name imported files, and keep flights [nowhere]")
+                     "Where programs may name imported files, import more, and keep flights "
+                     "[nowhere]")
         ->type_name("DIR");
+    addProgramOptions(*command, options->programs);
     addConfigOptions(*command, options->config);
     addDoorOptions(*command, options->door);
     addDecodeOption(*command, options->decoding);
