@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -36,12 +37,43 @@ std::vector<std::string> mergedEnvironment(const std::vector<std::string>& addit
     return result;
 }
 
+/// Memory that it writes to, and nobody else has. Safe after fork.
+bool limitMemory(std::uint64_t bytes) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)  // those take terabytes
+    bytes = 0;
+#endif
+    const rlimit limit{bytes, bytes};
+    return bytes == 0 || setrlimit(RLIMIT_DATA, &limit) == 0;
+}
+
+/// A descriptor in place of another; safe after fork.
+bool put(int descriptor, int inPlaceOf) {
+    return descriptor < 0 || dup2(descriptor, inPlaceOf) >= 0;
+}
+
+/// What of a setting a child needs, ready before the fork.
+struct Changes {
+    const char* folder = nullptr;
+    const ChildProcess::Setting& setting;
+};
+
+bool make(const Changes& changes) {
+    if (changes.setting.niceness != 0)
+        static_cast<void>(nice(changes.setting.niceness));  // being refused it harms nobody
+    return (changes.folder == nullptr || chdir(changes.folder) == 0) &&
+           put(changes.setting.output, STDOUT_FILENO) &&
+           put(changes.setting.errors, STDERR_FILENO) && limitMemory(changes.setting.memoryBytes);
+}
+
 /// In the child; only calls that are safe after fork in a process with threads.
-[[noreturn]] void become(char* const* arguments, char* const* environment, pid_t parent) {
+[[noreturn]] void become(char* const* arguments, char* const* environment, pid_t parent,
+                         const Changes& changes) {
     setpgid(0, 0);  // Ctrl-C is for the parent, which then ends its children
     prctl(PR_SET_PDEATHSIG, SIGTERM);
     if (getppid() != parent)
         _exit(1);  // it was gone before we asked to be told
+    if (!make(changes))
+        _exit(126);
     unblockStopSignals();
     execve("/proc/self/exe", arguments, environment);
     _exit(127);
@@ -50,7 +82,8 @@ std::vector<std::string> mergedEnvironment(const std::vector<std::string>& addit
 }  // namespace
 
 absl::StatusOr<ChildProcess> ChildProcess::start(const std::vector<std::string>& arguments,
-                                                 const std::vector<std::string>& environment) {
+                                                 const std::vector<std::string>& environment,
+                                                 const Setting& setting) {
     std::vector<std::string> command = {"eyrie"};
     command.insert(command.end(), arguments.begin(), arguments.end());
     std::vector<std::string> variables = mergedEnvironment(environment);
@@ -59,7 +92,8 @@ absl::StatusOr<ChildProcess> ChildProcess::start(const std::vector<std::string>&
     const pid_t parent = getpid();
     const pid_t pid = fork();
     if (pid == 0)
-        become(commandPointers.data(), variablePointers.data(), parent);
+        become(commandPointers.data(), variablePointers.data(), parent,
+               {setting.folder.empty() ? nullptr : setting.folder.c_str(), setting});
     if (pid < 0)
         return absl::UnavailableError(
             fmt::format("cannot start `eyrie {}`: {}", arguments.front(), std::strerror(errno)));

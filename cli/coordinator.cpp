@@ -17,6 +17,7 @@
 #include "cli/data_cache.h"
 #include "cli/door_options.h"
 #include "cli/log.h"
+#include "cli/program_runs.h"
 #include "cli/scene_files.h"
 #include "cli/stop_signal.h"
 #include "cli/video_option.h"
@@ -37,6 +38,7 @@ struct Options {
     ConfigOptions config;
     DoorOptions door;
     bool h264 = false;
+    ProgramOptions programs;
     bool quiet = false;
 };
 
@@ -63,6 +65,7 @@ absl::Status coordinate(const Options& options) {
     ASSIGN_OR_RETURN(settings.configuration, configurationOf(options.config, options.quiet));
     settings.layout = compoundNames().at(options.config.compound);
     settings.dataFolder = options.data;
+    ASSIGN_OR_RETURN(settings.programs, programsOf(options.programs));
     settings.grpcReflection = options.grpcReflection;
     ASSIGN_OR_RETURN(settings.scene, loadScene(options, stop.token()));
     auto coordinator = coordinator::Coordinator::start(settings);
@@ -97,8 +100,10 @@ void addCoordinator(CLI::App& app, Run& run) {
         ->capture_default_str();
     command
         ->add_option("--data", options->data,
-                     "Where programs may name imported files, and keep flights [nowhere]")
+                     "Where programs may name imported files, import more, and keep flights "
+                     "[nowhere]")
         ->type_name("DIR");
+    addProgramOptions(*command, options->programs);
     command->add_flag("--grpc-reflection", options->grpcReflection,
                       "Let gRPC tools ask which calls there are");
     addConfigOptions(*command, options->config);

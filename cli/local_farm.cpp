@@ -20,13 +20,15 @@ constexpr std::chrono::milliseconds kPollInterval{10};
 
 absl::StatusOr<std::unique_ptr<LocalFarm>> LocalFarm::start(
     std::optional<config::Configuration> configuration, const std::string& compound,
-    const CacheOptions& cache, TileDecoding decoding, const std::filesystem::path& dataFolder) {
+    const CacheOptions& cache, TileDecoding decoding, const std::filesystem::path& dataFolder,
+    const api::Programs& programs) {
     ASSIGN_OR_RETURN(TemporaryFolder folder, TemporaryFolder::create());
     coordinator::CoordinatorOptions options;
     options.grpcAddresses = {folder.socket("coordinator")};
     options.configuration = std::move(configuration);
     options.layout = compoundNames().at(compound);
     options.dataFolder = dataFolder;
+    options.programs = programs;
     ASSIGN_OR_RETURN(auto coordinator, coordinator::Coordinator::start(options));
     return std::unique_ptr<LocalFarm>(
         new LocalFarm(std::move(folder), std::move(coordinator), cache, decoding));

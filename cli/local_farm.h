@@ -22,12 +22,12 @@ namespace eyrie::cli {
 class LocalFarm {
 public:
     /// Without renderers yet, and without a scene. `cache` and `decoding` are the renderers',
-    /// `dataFolder` is CoordinatorOptions::dataFolder.
+    /// `dataFolder` and `programs` are CoordinatorOptions'.
     /// Errors: Unavailable.
     static absl::StatusOr<std::unique_ptr<LocalFarm>> start(
         std::optional<config::Configuration> configuration, const std::string& compound,
         const CacheOptions& cache, TileDecoding decoding,
-        const std::filesystem::path& dataFolder = {});
+        const std::filesystem::path& dataFolder = {}, const api::Programs& programs = {});
 
     coordinator::Coordinator& coordinator() { return *coordinator_; }
     coordinator::FrameSource& frames() { return coordinator_->frames(); }

@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "cli/json_object.h"
+
 namespace eyrie::cli {
 namespace {
 
@@ -55,8 +57,12 @@ void ProgressBar::show(std::string_view stage, double fraction, Clock::time_poin
         if (style_ == Style::Lines)
             fmt::print(out_, "{}: {}\n", title_, stage);
     }
-    if (style_ == Style::Bar && (newStage || now - lastDrawn_ >= kRedrawInterval))
+    if (!newStage && now - lastDrawn_ < kRedrawInterval)
+        return;
+    if (style_ == Style::Bar)
         draw(std::clamp(fraction, 0.0, 1.0), now);
+    if (style_ == Style::Json)
+        tell(std::clamp(fraction, 0.0, 1.0), now);
 }
 
 void ProgressBar::draw(double fraction, Clock::time_point now) {
@@ -65,6 +71,12 @@ void ProgressBar::draw(double fraction, Clock::time_point now) {
     std::fflush(out_);
     lastDrawn_ = now;
     lineOpen_ = true;
+}
+
+void ProgressBar::tell(double fraction, Clock::time_point now) {
+    fmt::print(out_, "{}\n", JsonObject().text("stage", stage_).number("fraction", fraction).str());
+    std::fflush(out_);
+    lastDrawn_ = now;
 }
 
 import::Progress ProgressBar::callback(){

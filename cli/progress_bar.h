@@ -12,10 +12,10 @@
 namespace eyrie::cli {
 
 /// Shows how far long work is, on standard error: a bar with rate and time left on a terminal, one
-/// line a stage otherwise, nothing when quiet. Used by one thread at a time.
+/// line a stage otherwise, JSON for programs, nothing when quiet. Used by one thread at a time.
 class ProgressBar {
 public:
-    enum class Style { Quiet, Lines, Bar };
+    enum class Style { Quiet, Lines, Bar, Json };
     using Clock = std::chrono::steady_clock;
 
     /// Bar on a terminal, otherwise Lines; Quiet if asked for.
@@ -36,6 +36,7 @@ public:
 
 private:
     void draw(double fraction, Clock::time_point now);
+    void tell(double fraction, Clock::time_point now);
 
     const std::string title_;
     const double amount_;

@@ -21,6 +21,7 @@
 #include "cli/hardware_devices.h"
 #include "cli/local_farm.h"
 #include "cli/log.h"
+#include "cli/program_runs.h"
 #include "cli/scene_files.h"
 #include "cli/stop_signal.h"
 #include "cli/video_option.h"
@@ -42,6 +43,7 @@ struct Options {
     TileDecoding decoding = TileDecoding::Auto;
     ConfigOptions config;
     DoorOptions door;
+    ProgramOptions programs;
     int renderers = 0;  ///< 0: as many as suit this machine
     bool h264 = false;
     bool quiet = false;
@@ -94,10 +96,12 @@ absl::Status serve(const Options& options) {
     ASSIGN_OR_RETURN(const Doors doors, doorsOf(options.door));
     ASSIGN_OR_RETURN(const video::Module* video, videoModule(options.h264));
     ASSIGN_OR_RETURN(auto configuration, configurationOf(options.config, options.quiet));
+    ASSIGN_OR_RETURN(const api::Programs programs, programsOf(options.programs));
     const int renderers = rendererCount(options, configuration);
-    ASSIGN_OR_RETURN(const auto farm,
-                     LocalFarm::start(std::move(configuration), options.config.compound,
-                                      options.cache, options.decoding, options.dataFolder));
+    ASSIGN_OR_RETURN(
+        const auto farm,
+        LocalFarm::start(std::move(configuration), options.config.compound, options.cache,
+                         options.decoding, options.dataFolder, programs));
     ASSIGN_OR_RETURN(const auto door,
                      openWebDoor(options.listen, doors, video, farm->coordinator()));
     ASSIGN_OR_RETURN(fabric::Scene scene, loadScene(options, stop.token()));
@@ -138,8 +142,10 @@ void addServe(CLI::App& app, Run& run) {
         ->check(CLI::Range(1, RendererProcesses::kMaxCount));
     command
         ->add_option("--data", options->dataFolder,
-                     "Where programs may name imported files, and keep flights [nowhere]")
+                     "Where programs may name imported files, import more, and keep flights "
+                     "[nowhere]")
         ->type_name("DIR");
+    addProgramOptions(*command, options->programs);
     addConfigOptions(*command, options->config);
     addDoorOptions(*command, options->door);
     addVideoOption(*command, options->h264);

@@ -42,7 +42,7 @@ public:
           pipeline_(*registry_, pipelineOptions(options, *door, telemetry_)),
           api_({pipeline_, pipeline_,
                 [this](fabric::Scene scene) { pipeline_.setScene(std::move(scene)); },
-                std::move(dataFolder)}),
+                std::move(dataFolder), options.programs}),
           door_(std::move(door)),
           watcher_([this](const std::stop_token& stop) { watchHeartbeats(*registry_, stop); }) {
         setScene(options.scene);

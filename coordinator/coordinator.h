@@ -9,6 +9,7 @@
 
 #include <absl/status/statusor.h>
 
+#include "coordinator/api/programs.h"
 #include "coordinator/config/configuration.h"
 #include "coordinator/frame/frame_source.h"
 #include "coordinator/observe/telemetry.h"
@@ -29,8 +30,9 @@ struct CoordinatorOptions {
     std::string layout = {};  ///< of that, at first; empty: 2D (config::defaultConfiguration)
     /// How renderers and the coordinator know each other; nothing: whoever reaches the addresses.
     wire::Security security = {};
-    /// Where programs may name files and keep flights; empty: nowhere.
+    /// Where programs may name files, keep flights and have data imported; empty: nowhere.
     std::filesystem::path dataFolder = {};
+    api::Programs programs = {};  ///< what programs may have done by other processes
     bool grpcReflection = false;  ///< tools may ask over gRPC which calls there are
     fabric::Scene scene = {};     ///< of .eyt and .eym files that the renderers can read
 };

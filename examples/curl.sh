@@ -33,5 +33,9 @@ ask "$server/pick" -o "$folder/pick.json" --json '{"width":320,"height":180,"x":
 tag=$(ask --head "$server/scene" | tr -d '\r' | sed -n 's/^[Ee][Tt]ag: //p')
 ask "$server/scene" --header "If-None-Match: $tag" -o /dev/null -w 'scene: %{http_code}\n'
 
+# What data there are for scenes, and what is being imported.
+ask "$server/data-sets" -o "$folder/data-sets.json"
+ask "$server/operations" -o "$folder/operations.json"
+
 # What goes wrong says so, and what to do.
 curl --silent "$server/image?width=0"

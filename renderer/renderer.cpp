@@ -5,6 +5,7 @@
 #include <chrono>
 #include <limits>
 #include <optional>
+#include <stop_token>
 #include <vector>
 
 #include "effects/object_block.h"
@@ -33,6 +34,11 @@ using Clock = std::chrono::steady_clock;
 /// What is drawn so far is handed over, so that llvmpipe fills pixels on other cores while this
 /// thread prepares more triangles: it waits for a frame's end, or megabytes of them, by itself.
 constexpr std::uint64_t kTrianglesABatch = 8192;
+
+absl::Status unlessStopped(const std::stop_token& stop) {
+    return stop.stop_requested() ? absl::CancelledError("nobody wants this picture any more")
+                                 : absl::OkStatus();
+}
 
 double millisecondsSince(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
@@ -70,7 +76,8 @@ public:
     const fabric::DeviceInfo& device() const { return context_->device(); }
     absl::StatusOr<fabric::SceneInfo> openScene(const fabric::Scene& scene);
     absl::StatusOr<fabric::ChannelResult> render(const fabric::FrameData& asked,
-                                                 const fabric::ChannelTask& task);
+                                                 const fabric::ChannelTask& task,
+                                                 const std::stop_token& stop);
     std::shared_ptr<const pick::Picker> picker() const { return picker_; }
     RendererMemory memory() const;
 
@@ -93,11 +100,12 @@ private:
                        const fabric::ChannelTask& task, const fabric::PixelViewport& covered);
     absl::Status drawSelection(const draw::Selection& selection, const lod::View& view,
                                const fabric::FrameData& frameData, const fabric::ChannelTask& task,
-                               fabric::FrameStatistics& statistics);
+                               const std::stop_token& stop, fabric::FrameStatistics& statistics);
     absl::Status drawPieces(const draw::OccludedDraw::Pieces& pieces, const draw::FrameState& frame,
                             fabric::FrameStatistics& statistics);
     absl::Status measureStages(const draw::Selection& selection, const lod::View& view,
                                const fabric::FrameData& frameData, const fabric::ChannelTask& task,
+                               const std::stop_token& stop,
                                fabric::StageMilliseconds& milliseconds);
     absl::Status drawBlended(std::span<const draw::OrderedPiece> pieces, draw::FrameState frame,
                              fabric::FrameStatistics& statistics);
@@ -219,6 +227,7 @@ absl::Status Renderer::Impl::drawPieces(const draw::OccludedDraw::Pieces& pieces
         const bool isBatch = triangles >= kTrianglesABatch;
         if (!isBatch && i + 1 < pieces.size() && pieces[i + 1]->object == pieces[i]->object)
             continue;
+        RETURN_IF_ERROR(unlessStopped(frame.stop));
         RETURN_IF_ERROR(objects_[pieces[i]->object].drawable->draw(run, frame, statistics));
         run.clear();
         if (isBatch) {
@@ -240,9 +249,12 @@ absl::Status Renderer::Impl::drawBlended(std::span<const draw::OrderedPiece> pie
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
     absl::Status drawn;
-    for (std::size_t i = 0; i < pieces.size() && drawn.ok(); ++i)
-        drawn = objects_[pieces[i].object].drawable->draw(std::span(&pieces[i].piece, 1), frame,
-                                                          statistics);
+    for (std::size_t i = 0; i < pieces.size() && drawn.ok(); ++i) {
+        drawn = unlessStopped(frame.stop);
+        if (drawn.ok())
+            drawn = objects_[pieces[i].object].drawable->draw(std::span(&pieces[i].piece, 1), frame,
+                                                              statistics);
+    }
     passState(frame.shading).apply();
     return drawn;
 }
@@ -251,11 +263,18 @@ absl::Status Renderer::Impl::drawBlended(std::span<const draw::OrderedPiece> pie
 absl::Status Renderer::Impl::drawSelection(const draw::Selection& selection, const lod::View& view,
                                            const fabric::FrameData& frameData,
                                            const fabric::ChannelTask& task,
+                                           const std::stop_token& stop,
                                            fabric::FrameStatistics& statistics) {
     RETURN_IF_ERROR(framebuffer_.resize(view.width, view.height));
     const fabric::Lights lights = fabric::lightsOf(*scene_, frameData.look);
-    const draw::FrameState frame{view,           lights,     frameData.shading,
-                                 frameData.look, task.range, task.pixelViewport};
+    const draw::FrameState frame{view,
+                                 lights,
+                                 frameData.shading,
+                                 frameData.look,
+                                 task.range,
+                                 task.pixelViewport,
+                                 draw::Layer::Opaque,
+                                 stop};
     drawn_.clear();
     RETURN_IF_ERROR(occludedDraw_.draw(
         {view, selection.worldFromObject,
@@ -281,11 +300,12 @@ absl::Status Renderer::Impl::drawSelection(const draw::Selection& selection, con
 absl::Status Renderer::Impl::measureStages(const draw::Selection& selection, const lod::View& view,
                                            const fabric::FrameData& frameData,
                                            const fabric::ChannelTask& task,
+                                           const std::stop_token& stop,
                                            fabric::StageMilliseconds& milliseconds) {
     const fabric::PixelViewport pixel{selection.covered.x, selection.covered.y, 1, 1};
     const fabric::Lights lights = fabric::lightsOf(*scene_, frameData.look);
-    const draw::FrameState frame{view,           lights,     frameData.shading,
-                                 frameData.look, task.range, pixel};
+    const draw::FrameState frame{view,       lights, frameData.shading,   frameData.look,
+                                 task.range, pixel,  draw::Layer::Opaque, stop};
     framebuffer_.begin(view.width, view.height, pixel, scene_->background);
     passState(frameData.shading).apply();
     glFinish();
@@ -301,10 +321,12 @@ absl::Status Renderer::Impl::measureStages(const draw::Selection& selection, con
 }
 
 absl::StatusOr<fabric::ChannelResult> Renderer::Impl::render(const fabric::FrameData& asked,
-                                                             const fabric::ChannelTask& task) {
+                                                             const fabric::ChannelTask& task,
+                                                             const std::stop_token& stop) {
     if (!scene_)
         return absl::FailedPreconditionError("no scene is open; open one before rendering");
     RETURN_IF_ERROR(validateTask(asked, task));
+    RETURN_IF_ERROR(unlessStopped(stop));
     fabric::ChannelResult result;
     fabric::FrameStatistics& statistics = result.statistics;
     statistics.tauAskedPixels = asked.tauPixels;
@@ -316,11 +338,13 @@ absl::StatusOr<fabric::ChannelResult> Renderer::Impl::render(const fabric::Frame
     const fabric::FrameData frameData =
         draw::withinBudget(objects_, views.whole, asked, task, statistics);
     const draw::Selection selection =
-        draw::selectPieces(objects_, views, frameData, task, statistics);
+        draw::selectPieces(objects_, views, frameData, task, statistics, stop);
+    RETURN_IF_ERROR(unlessStopped(stop));
     statistics.milliseconds.cull = millisecondsSince(start);
 
     const auto drawStart = Clock::now();
-    RETURN_IF_ERROR(drawSelection(selection, views.drawn, frameData, task, statistics));
+    RETURN_IF_ERROR(drawSelection(selection, views.drawn, frameData, task, stop, statistics));
+    RETURN_IF_ERROR(unlessStopped(stop));
     statistics.milliseconds.draw = millisecondsSince(drawStart);
 
     const auto readStart = Clock::now();
@@ -332,7 +356,7 @@ absl::StatusOr<fabric::ChannelResult> Renderer::Impl::render(const fabric::Frame
     statistics.milliseconds.total = millisecondsSince(start);
     if (task.measuresStages)
         RETURN_IF_ERROR(
-            measureStages(selection, views.drawn, frameData, task, statistics.milliseconds));
+            measureStages(selection, views.drawn, frameData, task, stop, statistics.milliseconds));
     return result;
 }
 
@@ -361,8 +385,9 @@ absl::StatusOr<fabric::SceneInfo> Renderer::openScene(const fabric::Scene& scene
 }
 
 absl::StatusOr<fabric::ChannelResult> Renderer::render(const fabric::FrameData& frameData,
-                                                       const fabric::ChannelTask& task) {
-    return impl_->render(frameData, task);
+                                                       const fabric::ChannelTask& task,
+                                                       const std::stop_token& stop) {
+    return impl_->render(frameData, task, stop);
 }
 
 std::shared_ptr<const pick::Picker> Renderer::picker() const { return impl_->picker(); }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <stop_token>
 
 #include <absl/status/statusor.h>
 
@@ -34,8 +35,10 @@ public:
 
     virtual const fabric::DeviceInfo& device() const = 0;
     virtual absl::StatusOr<fabric::SceneInfo> openScene(const fabric::Scene& scene) = 0;
+    /// Cancelled, soon, after `stop`.
     virtual absl::StatusOr<fabric::ChannelResult> render(const fabric::FrameData& frameData,
-                                                         const fabric::ChannelTask& task) = 0;
+                                                         const fabric::ChannelTask& task,
+                                                         const std::stop_token& stop) = 0;
 
     /// For the scene that is open; null where none is.
     virtual PickFunction pickFunction() const = 0;

@@ -50,7 +50,8 @@ void draw(ChannelDrawer& drawer, const Asked& asked, PictureMemories& memories,
     const auto begun = ChannelStory::Clock::now();
     if (reply.isCancelled())
         return reply.fail(absl::CancelledError("the coordinator no longer waits for this channel"));
-    absl::StatusOr<fabric::ChannelResult> result = drawer.render(asked.frameData, asked.task);
+    absl::StatusOr<fabric::ChannelResult> result =
+        drawer.render(asked.frameData, asked.task, reply.cancellation());
     if (!result.ok())
         return reply.fail(result.status());
     const auto drawn = ChannelStory::Clock::now();

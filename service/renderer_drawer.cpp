@@ -21,8 +21,9 @@ public:
         return renderer_->openScene(scene);
     }
     absl::StatusOr<fabric::ChannelResult> render(const fabric::FrameData& frameData,
-                                                 const fabric::ChannelTask& task) override {
-        return renderer_->render(frameData, task);
+                                                 const fabric::ChannelTask& task,
+                                                 const std::stop_token& stop) override {
+        return renderer_->render(frameData, task, stop);
     }
     DrawerMemory memory() const override {
         const RendererMemory memory = renderer_->memory();

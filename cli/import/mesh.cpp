@@ -27,8 +27,7 @@ absl::StatusOr<import::MeshImportReport> importMeshTo(const std::string& path,
                                                       const MeshImportChoices& choices,
                                                       const import::MeshImportOptions& how,
                                                       const std::stop_token& stop) {
-    ProgressBar bar(choices.title(), sourceMegabytes(choices), "MB",
-                    ProgressBar::styleFor(choices.quiet));
+    ProgressBar bar(choices.title(), sourceMegabytes(choices), "MB", progressStyle(choices));
     return import::importMesh(choices.sources, path, how, {bar.callback(), stop});
 }
 
@@ -36,7 +35,7 @@ absl::StatusOr<MeshTuning> importTuned(const MeshImportChoices& choices,
                                        const import::MeshImportOptions& how,
                                        const std::stop_token& stop) {
     RETURN_IF_ERROR(mesh::OutputFile::create(choices.out).status());
-    ProgressBar bar(choices.out, 0, "", ProgressBar::styleFor(choices.quiet));
+    ProgressBar bar(choices.out, 0, "", progressStyle(choices));
     return tuneMesh(
         choices.out, choices.flight,
         [&](std::uint32_t leafTriangles, const std::string& path) {

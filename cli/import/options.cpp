@@ -10,6 +10,10 @@
 
 namespace eyrie::cli {
 
+ProgressBar::Style progressStyle(const ImportOptions& options) {
+    return options.progressJson ? ProgressBar::Style::Json : ProgressBar::styleFor(options.quiet);
+}
+
 double sourceMegabytes(const ImportOptions& options) {
     double megabytes = 0;
     for (const std::string& source : options.sources) {
@@ -30,6 +34,9 @@ absl::Status checkEnding(const ImportOptions& options, std::string_view ending) 
 void addCommonOptions(CLI::App& command, ImportOptions& options) {
     command.add_option("-o,--output", options.out, "File to write")->type_name("FILE")->required();
     command.add_flag("--quiet", options.quiet, "No progress");
+    command.add_flag("--progress-json", options.progressJson,
+                     "Progress as lines of JSON on standard error, for programs: a stage, and how "
+                     "far that is from 0 to 1");
     command.add_flag("--json", options.json, "Print what was made as JSON");
 }
 

@@ -7,6 +7,8 @@
 
 #include <absl/status/status.h>
 
+#include "cli/progress_bar.h"
+
 namespace CLI {
 class App;
 }
@@ -19,6 +21,7 @@ struct ImportOptions {
     std::string out;
     bool quiet = false;
     bool json = false;
+    bool progressJson = false;
 
     /// For the progress bar and messages.
     std::string title() const {
@@ -27,6 +30,9 @@ struct ImportOptions {
                    : fmt::format("{} and {} more", sources.front(), sources.size() - 1);
     }
 };
+
+/// How progress is told.
+ProgressBar::Style progressStyle(const ImportOptions& options);
 
 /// Of all sources together, as far as they are files here.
 double sourceMegabytes(const ImportOptions& options);

@@ -72,8 +72,7 @@ absl::Status importTerrain(const TerrainOptions& options) {
     const StopWatch watch;
     absl::StatusOr<import::TerrainImportReport> made;
     {
-        ProgressBar bar(options.title(), sourceMegabytes(options), "MB",
-                        ProgressBar::styleFor(options.quiet));
+        ProgressBar bar(options.title(), sourceMegabytes(options), "MB", progressStyle(options));
         made = import::importTerrain(options.sources, options.out, how,
                                      {bar.callback(), stop.token()});
     }
@@ -117,8 +116,7 @@ absl::Status importShard(const TerrainOptions& options) {
     const StopWatch watch;
     absl::StatusOr<import::TerrainShardReport> made;
     {
-        ProgressBar bar(options.title(), sourceMegabytes(options), "MB",
-                        ProgressBar::styleFor(options.quiet));
+        ProgressBar bar(options.title(), sourceMegabytes(options), "MB", progressStyle(options));
         made = import::importTerrainShard(options.sources, options.out, {shard.index, shard.count},
                                           how, {bar.callback(), stop.token()});
     }

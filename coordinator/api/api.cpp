@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "coordinator/api/data_desk.h"
 #include "coordinator/api/handler_list.h"
 #include "coordinator/api/handlers.h"
 #include "coordinator/api/scene_desk.h"
@@ -13,17 +14,21 @@ class Api::Impl {
 public:
     explicit Impl(ApiParts parts)
         : folder(std::move(parts.dataFolder)),
-          scenes(folder, parts.frames, std::move(parts.setScene)) {
+          scenes(folder, parts.frames, std::move(parts.setScene)),
+          data(folder, std::move(parts.programs)) {
         addStatusHandlers(handlers, parts.frames);
         addImageHandlers(handlers, parts.frames);
         addPlaceHandlers(handlers, parts.frames);
         addConfigurationHandlers(handlers, parts.configuration);
         addSceneHandlers(handlers, scenes);
         addFlightHandlers(handlers, folder);
+        addDataHandlers(handlers, data);
+        addOperationHandlers(handlers, data.operations());
     }
 
     const std::optional<access::DataFolder> folder;
     SceneDesk scenes;
+    DataDesk data;
     Handlers handlers;
     const RestDoor rest{handlers};
 };

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "access/data_folder.h"
+#include "coordinator/api/programs.h"
 #include "coordinator/api/rest_door.h"
 #include "coordinator/frame/configuration_access.h"
 #include "coordinator/frame/frame_source.h"
@@ -18,6 +19,7 @@ struct ApiParts {
     coordinator::ConfigurationAccess& configuration;
     std::function<void(fabric::Scene)> setScene;  ///< of a scene that fabric::validate accepts
     std::optional<access::DataFolder> dataFolder = {};
+    Programs programs = {};
 };
 
 /// What programs can ask of a coordinator: the handlers of EyrieService and what these need. All

@@ -45,6 +45,12 @@ public:
     EYRIE_CALL(GetFlight)
     EYRIE_CALL(PutFlight)
     EYRIE_CALL(DeleteFlight)
+    EYRIE_CALL(ListDataSets)
+    EYRIE_CALL(Import)
+    EYRIE_CALL(ListOperations)
+    EYRIE_CALL(GetOperation)
+    EYRIE_CALL(CancelOperation)
+    EYRIE_CALL(DeleteOperation)
 #undef EYRIE_CALL
 
 private:

@@ -12,7 +12,9 @@ namespace eyrie::api {
 /// Where callers may name files; nothing: nowhere.
 using DataFolder = std::optional<access::DataFolder>;
 
+class DataDesk;
 class Handlers;
+class Operations;
 class SceneDesk;
 
 /// Each adds some calls of EyrieService; what they are given outlives the handlers.
@@ -22,5 +24,7 @@ void addPlaceHandlers(Handlers& handlers, coordinator::FrameSource& frames);
 void addConfigurationHandlers(Handlers& handlers, coordinator::ConfigurationAccess& configuration);
 void addSceneHandlers(Handlers& handlers, SceneDesk& scenes);
 void addFlightHandlers(Handlers& handlers, const DataFolder& folder);
+void addDataHandlers(Handlers& handlers, DataDesk& data);
+void addOperationHandlers(Handlers& handlers, Operations& operations);
 
 }  // namespace eyrie::api

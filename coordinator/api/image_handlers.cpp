@@ -151,7 +151,8 @@ absl::StatusOr<v1::RenderImageResponse> renderImage(coordinator::FrameSource& fr
                                                     std::atomic<std::int64_t>& pixelsInUse,
                                                     const v1::RenderImageRequest& request,
                                                     const Call& call) {
-    ASSIGN_OR_RETURN(const coordinator::FrameRequest asked, requestOf(request, frames));
+    ASSIGN_OR_RETURN(coordinator::FrameRequest asked, requestOf(request, frames));
+    asked.stop = call.stop;
     const PixelShare share(pixelsInUse, asked.drawnPart().area());
     if (!share.isGranted())
         return absl::ResourceExhaustedError(

@@ -62,6 +62,19 @@ absl::Status checkContentType(const RestRequest& request) {
         "the body's Content-Type is '{}'; it must be application/json", type.substr(0, 64)));
 }
 
+/// Calls that something comes of more than once have such a field.
+absl::Status setRequestId(const std::string& key, Message& message) {
+    const auto* const field = message.GetDescriptor()->FindFieldByName("request_id");
+    if (key.empty() || field == nullptr)
+        return absl::OkStatus();
+    const std::string given = message.GetReflection()->GetString(message, field);
+    if (!given.empty() && given != key)
+        return absl::InvalidArgumentError(
+            "request_id is not what Idempotency-Key says; give one of them");
+    message.GetReflection()->SetString(&message, field, key);
+    return absl::OkStatus();
+}
+
 absl::Status read(const RestRequest& request, const FoundRoute& found, Message& message) {
     const v1::Rest& rest = found.route->rest;
     const std::size_t question = request.target.find('?');
@@ -75,7 +88,7 @@ absl::Status read(const RestRequest& request, const FoundRoute& found, Message& 
     RETURN_IF_ERROR(setFromBody(request.body, rest.body(), message));
     RETURN_IF_ERROR(setFromQuery(query, message));
     for (const auto& [field, text] : found.fields) RETURN_IF_ERROR(setField(field, text, message));
-    return absl::OkStatus();
+    return setRequestId(request.idempotencyKey, message);
 }
 
 std::string imageType(const Message& message) {

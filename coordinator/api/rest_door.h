@@ -18,7 +18,8 @@ struct RestRequest {
     std::string contentType = {};
     std::string accept = {};
     std::string ifNoneMatch = {};
-    std::stop_token stop = {};  ///< the client has gone
+    std::string idempotencyKey = {};  ///< the same as the request's field request_id
+    std::stop_token stop = {};        ///< the client has gone
 };
 
 struct RestAnswer {

@@ -35,10 +35,12 @@ public:
     ///
     /// The image lies inside the task's pixel viewport, fills its area, and has depth if the task
     /// wants it (and is not empty). Calls `drawn`, if there is one, once at most: when the renderer
-    /// has drawn and can take the next task, while the picture is still on its way.
+    /// has drawn and can take the next task, while the picture is still on its way. `stop` ends
+    /// this call, in the renderer too, with Cancelled.
     virtual absl::StatusOr<fabric::ChannelResult> render(
         const fabric::ChannelTask& task, Clock::time_point deadline,
-        const std::function<void()>& drawn = {}, const fabric::FrameData* frameData = nullptr) = 0;
+        const std::function<void()>& drawn = {}, const fabric::FrameData* frameData = nullptr,
+        const std::stop_token& stop = {}) = 0;
 
     /// Carries out a channel program: draws and exchanges pictures with the renderers that it
     /// names, which run the programs on the other side. Pictures as the program's outputs say. The

@@ -124,7 +124,8 @@ public:
     absl::StatusOr<fabric::ChannelResult> render(const fabric::ChannelTask& task,
                                                  Clock::time_point deadline,
                                                  const std::function<void()>& drawn,
-                                                 const fabric::FrameData* frameData) override {
+                                                 const fabric::FrameData* frameData,
+                                                 const std::stop_token& stop) override {
         v1::RenderChannelRequest request;
         *request.mutable_task() = wire::toMessage(task);
         if (frameData != nullptr)
@@ -136,6 +137,7 @@ public:
         if (memory != nullptr)
             *request.mutable_memory() = wire::toMessage(memory->offer());
         Calls::Call call(calls_, deadline);
+        const std::stop_callback cancel(stop, [&] { call.context()->TryCancel(); });
         report_.asked(task.frameNumber);
         const auto reader = stub_->RenderChannel(call.context(), request);
         PictureAssembly assembly(task, memory.get());

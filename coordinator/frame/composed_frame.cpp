@@ -23,6 +23,7 @@ Dispatch::Plan dispatchOf(const PlannedFrame& frame, const compound::Plan& draws
     plan.kind = frame.kind;
     plan.firstPatience = first;
     plan.takers = std::move(takers);
+    plan.stop = frame.request.stop;
     return plan;
 }
 

@@ -20,8 +20,12 @@ constexpr std::chrono::milliseconds kLookAgain{20};
 Dispatch::Dispatch(Plan plan) : plan_(std::move(plan)), parts_(plan_.tasks.size()) {}
 
 absl::StatusOr<std::vector<Dispatch::Drawn>> Dispatch::run(Crew& crew) {
+    const std::stop_callback wake(plan_.stop, [this] {
+        { const std::lock_guard lock(mutex_); }
+        changed_.notify_one();
+    });
     std::unique_lock lock(mutex_);
-    absl::Status status = assign(crew);
+    absl::Status status = assignUnlessStopped(crew);
     plan_.handedOut();
     while (status.ok() && !isDone()) {
         if (std::exchange(someAreLate_, false)) {
@@ -31,10 +35,10 @@ absl::StatusOr<std::vector<Dispatch::Drawn>> Dispatch::run(Crew& crew) {
         } else {
             changed_.wait_until(lock, nextLook());
         }
-        status = assign(crew);
+        status = assignUnlessStopped(crew);
     }
     hasEnded_ = true;
-    if (!status.ok())
+    if (!status.ok() && !plan_.stop.stop_requested())
         giveUp(crew.ready(plan_.sceneRevision));
     if (std::exchange(someAreLate_, false)) {
         lock.unlock();
@@ -57,6 +61,12 @@ Dispatch::Clock::time_point Dispatch::nextLook() const {
         if (!part.done && part.running != 0 && part.hasBegun && part.late > now)
             next = std::min(next, part.late);
     return next;
+}
+
+absl::Status Dispatch::assignUnlessStopped(Crew& crew) {
+    if (plan_.stop.stop_requested())
+        return absl::CancelledError("nobody wants this frame any more");
+    return assign(crew);
 }
 
 absl::Status Dispatch::assign(Crew& crew) {
@@ -211,7 +221,7 @@ void Dispatch::start(std::size_t index, Member& member, const Members& members, 
     member.draw({plan_.frameData, plan_.tasks[index], plan_.sceneRevision, plan_.kind, patience,
                  plan_.callTimeout,
                  [self, index, &member, patience] { return self->begin(index, member, patience); },
-                 plan_.freed},
+                 plan_.freed, plan_.stop},
                 [self, index, &member, &crew](absl::StatusOr<fabric::ChannelResult> result,
                                               Clock::duration taken) {
                     const bool isLateNoMore = self->endLateness(index, member);
@@ -229,7 +239,7 @@ bool Dispatch::begin(std::size_t index, const Member& member, std::chrono::milli
     {
         const std::lock_guard lock(mutex_);
         Part& part = parts_[index];
-        if (hasEnded_ || part.done)
+        if (hasEnded_ || part.done || plan_.stop.stop_requested())
             return false;
         if (part.asked.back() == member.id()) {
             part.hasBegun = true;

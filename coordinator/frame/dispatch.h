@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -52,13 +53,14 @@ public:
         /// have its next task.
         std::function<void()> freed = [] {};
         observe::SharedTelemetry telemetry = nullptr;  ///< is told of tasks given to another
+        std::stop_token stop = {};                     ///< ends it, and what renderers do for it
     };
 
     explicit Dispatch(Plan plan);
 
     /// One result per task, in their order. `crew` outlives the calls to its renderers that the
     /// dispatch may leave behind. Errors: what the last renderer said about a task, or Unavailable
-    /// when none is ready.
+    /// when none is ready; Cancelled.
     absl::StatusOr<std::vector<Drawn>> run(Crew& crew);
 
 private:
@@ -78,6 +80,7 @@ private:
 
     bool isDone() const;
     Clock::time_point nextLook() const;
+    absl::Status assignUnlessStopped(Crew& crew);
     absl::Status assign(Crew& crew);
     /// OK, too, when the part has to wait for a renderer; the part's error when none is left.
     absl::Status assign(std::size_t index, const Members& members, Crew& crew);

@@ -5,14 +5,22 @@
 
 namespace eyrie::coordinator {
 
-FrameGate::Pass::Pass(FrameGate& gate)
+FrameGate::Pass::Pass(FrameGate& gate, const std::stop_token& stop)
     : gate_(gate), ticket_([&] {
           const std::lock_guard lock(gate.mutex_);
           return gate.issued_++;
       }()) {
     std::unique_lock lock(gate_.mutex_);
-    gate_.changed_.wait(lock, [&] { return gate_.next_ == ticket_ && gate_.mayBegin(); });
-    gate_.underWay_.push_back(ticket_);
+    hasTurn_ =
+        gate_.changed_.wait(lock, stop, [&] { return gate_.next_ == ticket_ && gate_.mayBegin(); });
+    if (hasTurn_) {
+        gate_.underWay_.push_back(ticket_);
+        return;
+    }
+    hasLetNext_ = true;
+    gate_.gone_.insert(ticket_);
+    gate_.moveUp();
+    gate_.changed_.notify_all();
 }
 
 FrameGate::Pass::~Pass() {
@@ -30,6 +38,7 @@ void FrameGate::Pass::letNext() {
     {
         const std::lock_guard lock(gate_.mutex_);
         ++gate_.next_;
+        gate_.moveUp();
     }
     gate_.changed_.notify_all();
 }
@@ -41,6 +50,11 @@ void FrameGate::Pass::awaitEarlier() {
 
 bool FrameGate::mayBegin() const {
     return underWay_.empty() || (underWay_.size() < limit_ && isWorthwhile_());
+}
+
+/// Past those that were given up.
+void FrameGate::moveUp() {
+    while (gone_.erase(next_) != 0) ++next_;
 }
 
 void FrameGate::setLimit(int limit) {

@@ -6,6 +6,8 @@
 #include <deque>
 #include <functional>
 #include <mutex>
+#include <set>
+#include <stop_token>
 
 namespace eyrie::coordinator {
 
@@ -24,12 +26,16 @@ public:
     class Pass {
     public:
         /// Waits for the turn: until those before have let the next and none is under way, or fewer
-        /// than the limit and another is worthwhile.
-        explicit Pass(FrameGate& gate);
+        /// than the limit and another is worthwhile. Or until `stop`: then it has none, and those
+        /// behind it move up.
+        explicit Pass(FrameGate& gate, const std::stop_token& stop = {});
         /// The frame has ended, in order or not.
         ~Pass();
         Pass(const Pass&) = delete;
         Pass& operator=(const Pass&) = delete;
+
+        /// False after `stop` had come before the turn: the frame must not begin.
+        bool hasTurn() const { return hasTurn_; }
 
         /// Of frames under way at the same time no two are the same, nor are their remainders by
         /// the limit or more.
@@ -44,6 +50,7 @@ public:
     private:
         FrameGate& gate_;
         const std::uint64_t ticket_;
+        bool hasTurn_ = false;
         bool hasLetNext_ = false;
     };
 
@@ -55,13 +62,15 @@ public:
 
 private:
     bool mayBegin() const;
+    void moveUp();
 
     const IsWorthwhile isWorthwhile_;
     std::mutex mutex_;  ///< guards what follows; held while isWorthwhile_ is asked
-    std::condition_variable changed_;
+    std::condition_variable_any changed_;
     std::size_t limit_ = 1;
     std::uint64_t issued_ = 0;            ///< tickets
     std::uint64_t next_ = 0;              ///< ticket whose turn it is
+    std::set<std::uint64_t> gone_;        ///< tickets that are later than that and were given up
     std::deque<std::uint64_t> underWay_;  ///< in the order in which they began
 };
 

@@ -48,7 +48,7 @@ FramePipeline::FramePipeline(Registry& registry, FramePipelineOptions options)
 absl::StatusOr<RenderedFrame> FramePipeline::renderFrame(const FrameRequest& request) {
     RETURN_IF_ERROR(check(request));
     const auto asked = FramePlanner::Clock::now();
-    FrameGate::Pass pass(gate_);
+    FrameGate::Pass pass(gate_, request.stop);
     if (telemetry() != nullptr)
         telemetry()->metrics.took(observe::Stage::Turn, FramePlanner::Clock::now() - asked);
     return render(request, pass);
@@ -74,6 +74,8 @@ absl::StatusOr<RenderedFrame> FramePipeline::render(const FrameRequest& asked,
     if (telemetry() != nullptr) {
         if (frame.ok())
             telemetry()->metrics.frameMade(frame->statistics);
+        else if (asked.stop.stop_requested())
+            telemetry()->metrics.frameCancelled();
         else
             telemetry()->metrics.frameFailed();
     }
@@ -85,7 +87,7 @@ absl::StatusOr<RenderedFrame> FramePipeline::renderInTurn(const FrameRequest& as
                                                           const std::string& line,
                                                           observe::StageTimer& total) {
     const auto start = FramePlanner::Clock::now();
-    while (true) {
+    while (pass.hasTurn() && !asked.stop.stop_requested()) {
         const Crew::State state = crew_.state();
         if (const std::string why = problem(state); !why.empty())
             return absl::UnavailableError(why);
@@ -98,6 +100,8 @@ absl::StatusOr<RenderedFrame> FramePipeline::renderInTurn(const FrameRequest& as
         total.setFrame(planned.number);
         gate_.setLimit(planner_.framesUnderWay());
         absl::StatusOr<DrawnFrame> drawn = draw(planned, [&] { pass.letNext(); });
+        if (!drawn.ok() && asked.stop.stop_requested())
+            break;
         if (!drawn.ok() && crew_.state().revision != state.revision)
             continue;  // the scene was replaced meanwhile: draw that one
         RETURN_IF_ERROR(drawn.status());
@@ -109,6 +113,7 @@ absl::StatusOr<RenderedFrame> FramePipeline::renderInTurn(const FrameRequest& as
         planner_.finished(asked, planned, statistics, start);
         return std::move(drawn->picture);
     }
+    return absl::CancelledError("nobody wants this frame any more");
 }
 
 /// Another frame could begin without waiting for those under way.
@@ -123,7 +128,7 @@ absl::StatusOr<DrawnFrame> FramePipeline::draw(const PlannedFrame& frame,
                                                const std::function<void()>& handedOut) {
     if (frame.byPrograms && programs_.mayDraw()) {
         absl::StatusOr<DrawnFrame> drawn = programs_.draw(frame, handedOut);
-        if (drawn.ok())
+        if (drawn.ok() || frame.request.stop.stop_requested())
             return drawn;
     }
     return drawCentrally(frame, handedOut);

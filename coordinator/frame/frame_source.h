@@ -4,6 +4,7 @@
 #include <chrono>
 #include <functional>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -44,6 +45,9 @@ struct FrameRequest {
     /// What of the configuration is seen, each as a picture of that size (of one eye); all with one
     /// version of the frame data.
     std::vector<Shown> shown = {Shown{}};
+    /// Ends it, with Cancelled: nobody wants it any more. What has not begun is not drawn;
+    /// renderers stop at what they are at.
+    std::stop_token stop = {};
 
     fabric::PixelViewport drawnPart() const {
         return part.isEmpty() ? fabric::PixelViewport{0, 0, width, height} : part;
@@ -155,8 +159,8 @@ public:
     /// in turn, a few of them at the same time where the configuration's latency allows it and
     /// renderers would be idle, and end in the order in which they began. A renderer that fails has
     /// its part drawn by another, so an error means that no complete frame can be had:
-    /// InvalidArgument (the request), Unavailable (no renderer, or no scene), or what the last
-    /// renderer said.
+    /// InvalidArgument (the request), Unavailable (no renderer, or no scene), Cancelled (the
+    /// request says so), or what the last renderer said.
     virtual absl::StatusOr<RenderedFrame> renderFrame(const FrameRequest& request) = 0;
 
     /// What to draw; nothing where no frame is wanted any more.

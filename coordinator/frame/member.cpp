@@ -119,8 +119,9 @@ void Member::open(std::shared_ptr<const fabric::Scene> scene, std::uint64_t revi
 void Member::draw(const Draw& what, DrawDone done) {
     post([this, frameData = what.frameData, task = what.task, revision = what.revision,
           kind = what.kind, patience = what.patience, timeout = what.timeout, begins = what.begins,
-          drawn = what.drawn, done = std::move(done)](Hold& hold) {
-        drawNow({frameData, task, revision, kind, patience, timeout, begins, drawn}, hold, done);
+          drawn = what.drawn, stop = what.stop, done = std::move(done)](Hold& hold) {
+        drawNow({frameData, task, revision, kind, patience, timeout, begins, drawn, stop}, hold,
+                done);
     });
 }
 
@@ -131,18 +132,18 @@ void Member::drawNow(const Draw& what, Hold& hold, const DrawDone& done) {
     }
     const Clock::time_point started = Clock::now();
     absl::StatusOr<fabric::ChannelResult> result = render(what, hold);
-    if (absl::IsCancelled(result.status()))  // only retire cancels
+    const bool isStopped = what.stop.stop_requested() && absl::IsCancelled(result.status());
+    if (absl::IsCancelled(result.status()) && !isStopped)  // by retire
         result = absl::UnavailableError(fmt::format("{} was given up", id_));
     const bool ok = result.ok();
     const Clock::duration taken = Clock::now() - started;
     if (ok) {
-        {
-            const std::lock_guard lock(mutex_);
-            patience_.record(what.kind, what.patience,
-                             std::chrono::duration_cast<std::chrono::milliseconds>(taken));
-        }
-        hold.end();
+        const std::lock_guard lock(mutex_);
+        patience_.record(what.kind, what.patience,
+                         std::chrono::duration_cast<std::chrono::milliseconds>(taken));
     }
+    if (ok || isStopped)
+        hold.end();
     // One that failed takes no more work before `done` has decided what becomes of it.
     done(std::move(result), taken);
 }
@@ -206,7 +207,8 @@ absl::StatusOr<fabric::ChannelResult> Member::render(const Draw& what, Hold& hol
         if (what.drawn)
             what.drawn();
     };
-    return renderer_->render(what.task, deadline, drawn, hasIt ? nullptr : &what.frameData);
+    return renderer_->render(what.task, deadline, drawn, hasIt ? nullptr : &what.frameData,
+                             what.stop);
 }
 
 }  // namespace eyrie::coordinator

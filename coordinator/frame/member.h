@@ -11,6 +11,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <thread>
 
@@ -72,6 +73,7 @@ public:
         std::function<bool()> begins = {};
         /// Called once the renderer may have its next job, if that is before `done`.
         std::function<void()> drawn = {};
+        std::stop_token stop = {};  ///< ends it, as Cancelled
     };
     /// Sends the frame data first where the renderer does not have that version. Copies `what`.
     void draw(const Draw& what, DrawDone done);

@@ -63,7 +63,7 @@ std::uint64_t ProgramDrawing::sessionOf(std::uint64_t revision) {
 absl::StatusOr<DrawnFrame> ProgramDrawing::draw(const PlannedFrame& frame,
                                                 const std::function<void()>& handedOut) {
     absl::StatusOr<DrawnFrame> drawn = tryToDraw(frame, handedOut);
-    if (!drawn.ok()) {
+    if (!drawn.ok() && !frame.request.stop.stop_requested()) {
         spdlog::warn("frame {} is put together here: {}", frame.number, drawn.status().ToString());
         const std::lock_guard lock(mutex_);
         restsUntil_ = Clock::now() + kRest;
@@ -86,11 +86,12 @@ absl::StatusOr<DrawnFrame> ProgramDrawing::tryToDraw(const PlannedFrame& frame,
     observe::Telemetry* const telemetry = options_.telemetry.get();
     observe::StageTimer rendering(telemetry, observe::Stage::Render, frame.timeLine, frame.number);
     auto running = std::async(std::launch::async, [&] {
-        return ProgramRuns::run(programs.exchange,
-                                {frame.frameData, frame.scene.revision, session,
-                                 frame.scene.scene->background, frame.request.completeness,
-                                 frame.request.measuresStages, timeout, handedOut, options_.freed},
-                                renderers, addresses);
+        return ProgramRuns::run(
+            programs.exchange,
+            {frame.frameData, frame.scene.revision, session, frame.scene.scene->background,
+             frame.request.completeness, frame.request.measuresStages, timeout, handedOut,
+             options_.freed, frame.request.stop},
+            renderers, addresses);
     });
     Dispatch::Plan others =
         dispatchOf(frame, programs.others, programs.takers, patienceWith(frame.kind));

@@ -55,6 +55,7 @@ absl::StatusOr<ProgramRuns::Result> ProgramRuns::run(
     setting.handedOut();
     RETURN_IF_ERROR(prepareAll(setting, renderers));
     std::stop_source stop;
+    const std::stop_callback unwanted(setting.stop, [&] { stop.request_stop(); });
     using Answer = absl::StatusOr<fabric::ProgramResult>;
     std::vector<std::future<Answer>> answers;
     for (std::size_t i = 0; i < exchange.programs.size(); ++i)

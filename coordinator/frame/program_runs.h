@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,7 @@ public:
         std::chrono::milliseconds timeout{};
         std::function<void()> handedOut;  ///< called when the renderers have been given them
         std::function<void()> freed;      ///< called when one has done with its program
+        std::stop_token stop = {};        ///< ends all
     };
 
     /// What came of them: pictures in the order of Exchange::rest's draws, and of each draw of the

@@ -2,6 +2,7 @@
 #include "coordinator/http/http_session.h"
 
 #include <algorithm>
+#include <chrono>
 #include <optional>
 #include <sstream>
 #include <stop_token>
@@ -10,10 +11,12 @@
 
 #include <boost/asio/ip/address.hpp>
 #include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core/buffers_to_string.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
+#include <poll.h>
 
 #include "coordinator/http/api_calls.h"
 #include "coordinator/http/observe_routes.h"
@@ -42,6 +45,15 @@ constexpr const char* kContentSecurityPolicy =
     "connect-src 'self'; worker-src 'self'; manifest-src 'self'; base-uri 'none'; "
     "form-action 'none'; frame-ancestors 'self'";
 
+/// How often a client that has sent more than its request is looked at.
+constexpr std::chrono::milliseconds kLookAgain{100};
+
+/// Whether nothing more than what lies there will come.
+bool hasHungUp(int socket) {
+    pollfd asked{socket, POLLRDHUP, 0};
+    return ::poll(&asked, 1, 0) > 0;
+}
+
 std::string_view view(beast::string_view text) { return {text.data(), text.size()}; }
 
 api::RestRequest restRequest(const Request& request, std::stop_token gone) {
@@ -53,6 +65,7 @@ api::RestRequest restRequest(const Request& request, std::stop_token gone) {
             header(http::field::content_type),
             header(http::field::accept),
             header(http::field::if_none_match),
+            header("Idempotency-Key"),
             std::move(gone)};
 }
 
@@ -83,6 +96,7 @@ public:
                               : Stream(std::move(socket))),
           buffer_(2 * kMaxHeaderBytes),
           context_(context),
+          looksAgain_(stream_.get_executor()),
           slot_(std::move(slot)) {
         context_.sessions.insert(this);
     }
@@ -216,6 +230,7 @@ private:
             // The session ends on its own thread.
             boost::asio::post(executor, [self = std::move(self), response, keepAlive] {
                 self->isCalling_ = false;
+                self->looksAgain_.cancel();
                 self->reply(response, keepAlive);
             });
         });
@@ -225,19 +240,34 @@ private:
         reply(toResponse(api::busyAnswer()), request.keep_alive());
     }
 
-    /// Notices that the client has gone while its call is being done. One that has sent its next
-    /// request already is not watched.
+    /// Notices that the client has gone while its call is being done.
     void watch() {
         stream_.expires_never();
-        stream_.socket().async_wait(
-            tcp::socket::wait_read, [weak = weak_from_this()](error_code error) {
-                const auto self = weak.lock();
-                if (!self || !self->isCalling_)
-                    return;
-                error_code failed;
-                if (error || self->stream_.socket().available(failed) == 0 || failed)
-                    self->gone_.request_stop();
-            });
+        stream_.socket().async_wait(tcp::socket::wait_read,
+                                    [weak = weak_from_this()](error_code error) {
+                                        const auto self = weak.lock();
+                                        if (!self)
+                                            return;
+                                        if (error)
+                                            self->gone_.request_stop();
+                                        else
+                                            self->look();
+                                    });
+    }
+
+    /// Something came: the end, or, before that, the next request or TLS's own farewell.
+    void look() {
+        if (!isCalling_)
+            return;
+        if (hasHungUp(stream_.socket().native_handle())) {
+            gone_.request_stop();
+            return;
+        }
+        looksAgain_.expires_after(kLookAgain);
+        looksAgain_.async_wait([weak = weak_from_this()](error_code error) {
+            if (const auto self = weak.lock(); self && !error)
+                self->look();
+        });
     }
 
     void reply(const Response& response, bool keepAlive) {
@@ -295,6 +325,7 @@ private:
     bool isCalling_ = false;  ///< a call of the API is being done
     std::stop_source gone_;   ///< its client has
     Context& context_;
+    boost::asio::steady_timer looksAgain_;  ///< at a client whose call is being done
     Slot slot_;
 };
 

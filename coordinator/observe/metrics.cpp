@@ -126,6 +126,7 @@ public:
     }
 
     void frameFailed() { failed_.Increment(); }
+    void frameCancelled() { cancelled_.Increment(); }
 
     void took(Stage stage, std::chrono::duration<double> time) {
         byStage_[static_cast<std::size_t>(stage)]->Observe(time.count());
@@ -215,6 +216,7 @@ private:
     Counter& complete_ = frames_.Add({{"result", "complete"}});
     Counter& degraded_ = frames_.Add({{"result", "degraded"}});
     Counter& failed_ = frames_.Add({{"result", "failed"}});
+    Counter& cancelled_ = frames_.Add({{"result", "cancelled"}});
     Family<Histogram>& stages_ =
         histograms("eyrie_frame_stage_seconds", "Where the time of frames goes.");
     std::vector<Histogram*> byStage_;
@@ -267,6 +269,7 @@ Metrics::~Metrics() = default;
 
 void Metrics::frameMade(const fabric::FrameStatistics& statistics) { impl_->frameMade(statistics); }
 void Metrics::frameFailed() { impl_->frameFailed(); }
+void Metrics::frameCancelled() { impl_->frameCancelled(); }
 void Metrics::took(Stage stage, std::chrono::duration<double> time) { impl_->took(stage, time); }
 void Metrics::bytes(Peer peer, Direction direction, std::size_t count) {
     impl_->bytes(peer, direction, count);

@@ -44,6 +44,7 @@ public:
 
     void frameMade(const fabric::FrameStatistics& statistics);
     void frameFailed();
+    void frameCancelled();  ///< who had asked for it went away
     void took(Stage stage, std::chrono::duration<double> time);
     void bytes(Peer peer, Direction direction, std::size_t count);
     /// From a renderer: in memory that both see, or in messages.

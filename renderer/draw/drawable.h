@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <stop_token>
 #include <vector>
 
 #include <absl/status/status.h>
@@ -53,6 +54,7 @@ struct CutRequest {
     fabric::Completeness completeness = fabric::Completeness::Complete;
     double exaggeration = 1;       ///< of terrain; `view` holds it already
     bool wantsPageBounds = false;  ///< pieces for them, beside the nodes
+    std::stop_token stop = {};     ///< ends the wait for what a complete cut needs
 };
 
 /// What a drawable shows of itself in one channel.
@@ -81,6 +83,7 @@ struct FrameState {
     const fabric::Range& range;  ///< of the channel
     fabric::PixelViewport part;  ///< of its pixels, that may be drawn: the scissor
     Layer layer = Layer::Opaque;
+    std::stop_token stop = {};  ///< nobody wants the picture any more
 };
 
 /// One object of the scene, on the GL thread.

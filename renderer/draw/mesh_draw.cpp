@@ -184,7 +184,7 @@ page::HostPages::Loads MeshDrawable::reach(const CutRequest& request, double tau
     page::HostPages::Loads loaded;
     page::HostPages::Loads round;
     std::vector<CutNode> needed = readable();
-    while (paging_->reach(needed, round)) {
+    while (paging_->reach(needed, round, request.stop) && !request.stop.stop_requested()) {
         loaded.add(round);
         if (round.hasFailed)
             needed = readable();

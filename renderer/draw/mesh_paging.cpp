@@ -171,7 +171,8 @@ MeshPaging::Progress MeshPaging::approach(const MeshCut& cut, const Prefetch& pr
     return progress;
 }
 
-bool MeshPaging::reach(const std::vector<CutNode>& needed, page::HostPages::Loads& loaded) {
+bool MeshPaging::reach(const std::vector<CutNode>& needed, page::HostPages::Loads& loaded,
+                       const std::stop_token& stop) {
     beginFrame();
     rank(needed);
     if (missing_.empty())
@@ -181,7 +182,7 @@ bool MeshPaging::reach(const std::vector<CutNode>& needed, page::HostPages::Load
     const bool hasUploaded = upload(std::chrono::hours(1));
     pages_.wish();
     hasWishes_ = true;
-    return !missing_.empty() && (hasUploaded || arrived.hasFailed || pages_.wait());
+    return !missing_.empty() && (hasUploaded || arrived.hasFailed || pages_.wait(stop));
 }
 
 }  // namespace eyrie::draw

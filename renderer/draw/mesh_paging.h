@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <stop_token>
 #include <unordered_set>
 #include <vector>
 
@@ -61,8 +62,10 @@ public:
     /// nodes that may be needed soon, likely ones first.
     Progress approach(const MeshCut& cut, const Prefetch& prefetch);
 
-    /// One round of waiting for `needed`: false when nothing is left that may come.
-    bool reach(const std::vector<CutNode>& needed, page::HostPages::Loads& loaded);
+    /// One round of waiting for `needed`, or until `stop`: false when nothing is left that may
+    /// come.
+    bool reach(const std::vector<CutNode>& needed, page::HostPages::Loads& loaded,
+               const std::stop_token& stop);
 
     /// Null when it is not on the device. Valid until the next approach() or reach().
     const DeviceNode* node(std::uint32_t index) {

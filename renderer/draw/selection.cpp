@@ -50,7 +50,7 @@ lod::View cutViewOf(const fabric::Look& look, const fabric::ChannelTask& task,
 
 Selection selectPieces(std::span<const OpenObject> objects, const lod::TaskViews& views,
                        const fabric::FrameData& frameData, const fabric::ChannelTask& task,
-                       fabric::FrameStatistics& statistics) {
+                       fabric::FrameStatistics& statistics, const std::stop_token& stop) {
     Selection selection;
     std::vector<OrderedPiece>& pieces = selection.pieces;
     const fabric::Look& look = frameData.look;
@@ -69,7 +69,7 @@ Selection selectPieces(std::span<const OpenObject> objects, const lod::TaskViews
         const lod::ObjectView cutObjectView(cutView, worldFromObject);
         const Cut cut = objects[i].drawable->selectCut({cutObjectView, cutChannel, task.range,
                                                         frameData.tauPixels, task.completeness,
-                                                        look.exaggeration, look.pageBounds});
+                                                        look.exaggeration, look.pageBounds, stop});
         addTo(statistics, cut);
         for (const Piece& piece : cut.pieces) {
             const bool isInRange = task.range.contains(piece.rangePosition);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <stop_token>
 #include <vector>
 
 #include "fabric/channel_task.h"
@@ -42,9 +43,9 @@ struct Selection {
 ///
 /// What is blended falls to every range: of the channels that are composited, that which has the
 /// nearest opaque surface of a pixel wins, and has to have drawn all that is in front of it.
-/// Adds to `statistics` what was loaded and what is missing.
+/// Adds to `statistics` what was loaded and what is missing. After `stop` it is not to be drawn.
 Selection selectPieces(std::span<const OpenObject> objects, const lod::TaskViews& views,
                        const fabric::FrameData& frameData, const fabric::ChannelTask& task,
-                       fabric::FrameStatistics& statistics);
+                       fabric::FrameStatistics& statistics, const std::stop_token& stop = {});
 
 }  // namespace eyrie::draw

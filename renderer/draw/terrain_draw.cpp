@@ -191,7 +191,7 @@ Cut TerrainDrawable::selectCut(const CutRequest& request) {
         imagery_.texturesOf(needed_.leaves(), request.view, texelPixels(choice.step));
     const TerrainPaging::Result result =
         request.completeness == fabric::Completeness::Complete
-            ? paging_->reach(wanted.refinement, needed_, textures, request.view)
+            ? paging_->reach(wanted.refinement, needed_, textures, request.view, request.stop)
             : paging_->approach(wanted.refinement, needed_, textures, request.view, [&] {
                   return prefetch_.nodes(TileTree{index()}, tauPixels, paging_->latency());
               });

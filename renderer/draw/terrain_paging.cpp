@@ -289,11 +289,12 @@ TerrainPaging::Result TerrainPaging::approach(const Refinement& wanted, const Ne
 
 TerrainPaging::Result TerrainPaging::reach(const Refinement& wanted, const NeededTiles& needed,
                                            const std::vector<TextureId>& textures,
-                                           const lod::ObjectView& view) {
+                                           const lod::ObjectView& view,
+                                           const std::stop_token& stop) {
     const auto start = Clock::now();
     page::HostPages::Loads loaded;
     tilesDecodedOnGpu_ = 0;
-    while (true) {
+    while (!stop.stop_requested()) {
         beginFrame();
         Refinement readable = wanted;
         const auto mayCome = [&](const TileId& tile) {
@@ -312,7 +313,7 @@ TerrainPaging::Result TerrainPaging::reach(const Refinement& wanted, const Neede
         const bool hasUploaded = upload(std::chrono::hours(1));
         pages_.wish();
         // What could not be read is replaced by what lies above it: that is still to be wished for.
-        if (missing_.empty() || (!hasUploaded && !arrived.hasFailed && !pages_.wait()))
+        if (missing_.empty() || (!hasUploaded && !arrived.hasFailed && !pages_.wait(stop)))
             break;
     }
     Result result = resultOf(drawable(wanted, needed), needed, textures);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <stop_token>
 #include <variant>
 #include <vector>
 
@@ -64,9 +65,11 @@ public:
                     const std::vector<terrain::TextureId>& textures, const lod::ObjectView& view,
                     const Prefetch& prefetch);
 
-    /// Goes there: waits for every page that can be read, through the first failures of a server.
+    /// Goes there: waits for every page that can be read, through the first failures of a server,
+    /// or until `stop`.
     Result reach(const terrain::Refinement& wanted, const NeededTiles& needed,
-                 const std::vector<terrain::TextureId>& textures, const lod::ObjectView& view);
+                 const std::vector<terrain::TextureId>& textures, const lod::ObjectView& view,
+                 const std::stop_token& stop);
 
     /// Null when it is not on the device. Valid until the next approach() or reach().
     const DeviceTile* tile(const terrain::TileId& id) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <stop_token>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -60,7 +61,7 @@ public:
     void wish() { source_->wish(missing()); }
     void tryWish() { source_->tryWish(missing()); }
     /// Loader::Source::wait.
-    bool wait() { return source_->wait(); }
+    bool wait(const std::stop_token& stop) { return source_->wait(stop); }
 
     /// Null when it is not there. Valid until pages are taken.
     const std::shared_ptr<const void>* find(std::uint32_t page) { return pages_.find(page); }

@@ -282,10 +282,19 @@ std::vector<Arrival> Loader::Source::takeLocked() {
     return arrivals;
 }
 
-bool Loader::Source::wait() {
+bool Loader::Source::wait(const std::stop_token& stop) {
+    // Its end waits for the callback, which wants the lock: so it goes after that.
+    const std::stop_callback wake(stop, [this] {
+        {
+            // Whoever is between asking and waiting must not miss it.
+            const std::lock_guard lock(loader_.mutex);
+        }
+        loader_.arrived.notify_all();
+    });
     std::unique_lock lock(loader_.mutex);
-    loader_.arrived.wait(lock, [this] {
-        return !state_->arrivals.empty() || (state_->loading == 0 && !state_->hasHope());
+    loader_.arrived.wait(lock, [&] {
+        return !state_->arrivals.empty() || (state_->loading == 0 && !state_->hasHope()) ||
+               stop.stop_requested();
     });
     return !state_->arrivals.empty();
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <stop_token>
 #include <vector>
 
 #include <absl/status/statusor.h>
@@ -94,8 +95,8 @@ public:
     std::vector<Arrival> tryTake();
 
     /// Blocks until something can be taken, or no wish is left but for pages that are given up or
-    /// of a source that failed as often. True when something can be taken.
-    bool wait();
+    /// of a source that failed as often, or `stop`. True when something can be taken.
+    bool wait(const std::stop_token& stop = {});
 
     /// Of pages that are being loaded or wait to be taken.
     std::uint64_t bytes() const;

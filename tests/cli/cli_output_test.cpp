@@ -253,6 +253,13 @@ TEST(ProgressBar, WritesALineAStageWhereThereIsNoTerminal) {
     EXPECT_EQ(written(ProgressBar::Style::Lines), "a.ply: reading\na.ply: writing\n");
 }
 
+TEST(ProgressBar, WritesJsonForPrograms) {
+    EXPECT_EQ(written(ProgressBar::Style::Json),
+              "{\"stage\": \"reading\", \"fraction\": 0}\n"
+              "{\"stage\": \"reading\", \"fraction\": 0.5}\n"
+              "{\"stage\": \"writing\", \"fraction\": 0}\n");
+}
+
 TEST(ProgressBar, WritesNothingWhenQuiet) { EXPECT_EQ(written(ProgressBar::Style::Quiet), ""); }
 
 TEST(ProgressBar, RedrawsAtMostTenTimesASecondAndEndsOnAnEmptyLine) {

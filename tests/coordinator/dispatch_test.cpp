@@ -40,7 +40,8 @@ protected:
     }
 
     /// Draws as many columns of the picture as there are preferences, by these.
-    absl::StatusOr<std::vector<Dispatch::Drawn>> draw(std::vector<std::size_t> preferred) {
+    absl::StatusOr<std::vector<Dispatch::Drawn>> draw(std::vector<std::size_t> preferred,
+                                                      const std::stop_token& stop = {}) {
         Dispatch::Plan plan;
         plan.frameData.version = 1;
         const int columns = static_cast<int>(preferred.size());
@@ -54,6 +55,7 @@ protected:
         plan.firstPatience = seconds(50);
         plan.callTimeout = seconds(60);
         plan.takers.preferred = std::move(preferred);
+        plan.stop = stop;
         return std::make_shared<Dispatch>(plan)->run(crew_);
     }
     std::vector<int> drawn() const {
@@ -108,6 +110,33 @@ TEST_F(ImpatientDispatch, ARendererOfWhichNothingIsKnownIsGivenAsLongAsTheOthers
     EXPECT_LT(std::chrono::steady_clock::now() - start, seconds(25));  // half of firstPatience
     EXPECT_EQ(drawn(), (std::vector<int>{3, 0}));
     renderers_[1]->hang(false);
+}
+
+TEST_F(DispatchTest, WhatNobodyWantsIsGivenUpByRenderersAndNotHeldAgainstThem) {
+    openWith(2);
+    renderers_[0]->hang(true);
+    std::stop_source stop;
+    std::jthread stopper([&] {
+        EXPECT_TRUE(eventually([&] { return renderers_[0]->begun == 1; }));
+        stop.request_stop();
+    });
+    // The second part waits behind the first.
+    EXPECT_TRUE(absl::IsCancelled(draw({0, 0}, stop.get_token()).status()));
+    stopper.join();
+    renderers_[0]->hang(false);
+    ASSERT_TRUE(draw({0, 1}).ok());
+    EXPECT_EQ(drawn(), (std::vector<int>{1, 1}));
+    EXPECT_EQ(renderers_[0]->begun, 2);
+    for (const auto& member : crew_.ready(crew_.state().revision)) EXPECT_FALSE(member->isLate());
+    EXPECT_EQ(crew_.state().ready, 2);
+}
+
+TEST_F(DispatchTest, WhatNobodyWantedFromTheBeginningIsNotDrawn) {
+    openWith(1);
+    std::stop_source stop;
+    stop.request_stop();
+    EXPECT_TRUE(absl::IsCancelled(draw({0}, stop.get_token()).status()));
+    EXPECT_EQ(renderers_[0]->begun, 0);
 }
 
 }  // namespace

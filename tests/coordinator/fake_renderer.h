@@ -41,8 +41,8 @@ public:
 
     absl::StatusOr<fabric::ChannelResult> render(
         const fabric::ChannelTask& task, Clock::time_point deadline,
-        const std::function<void()>& isDrawn = {},
-        const fabric::FrameData* frameData = nullptr) override {
+        const std::function<void()>& isDrawn = {}, const fabric::FrameData* frameData = nullptr,
+        const std::stop_token& stop = {}) override {
         if (frameData != nullptr)
             static_cast<void>(setFrameData(*frameData, deadline));
         ++begun;
@@ -50,15 +50,15 @@ public:
         most = std::max(most.load(), ++drawing_);
         frames.push_back(task.frameNumber);
         tasks[task.frameNumber] = task.frameDataVersion;
-        absl::StatusOr<fabric::ChannelResult> result = draw(task, deadline, lock);
+        absl::StatusOr<fabric::ChannelResult> result = draw(task, deadline, stop, lock);
         --drawing_;
         if (isDrawn && result.ok()) {
             lock.unlock();
             isDrawn();
             lock.lock();
         }
-        changed_.wait_until(lock, deadline, [this] { return !holdsPictures_ || cancelled_; });
-        if (cancelled_)
+        changed_.wait_until(lock, stop, deadline, [this] { return !holdsPictures_ || cancelled_; });
+        if (cancelled_ || stop.stop_requested())
             return absl::CancelledError("cancelled");
         return result;
     }
@@ -101,13 +101,14 @@ public:
 private:
     absl::StatusOr<fabric::ChannelResult> draw(const fabric::ChannelTask& task,
                                                Clock::time_point deadline,
+                                               const std::stop_token& stop,
                                                std::unique_lock<std::mutex>& lock) {
         if (std::ranges::find(versions, task.frameDataVersion) == versions.end())
             return absl::FailedPreconditionError("the fake has no such frame data");
         if (takes.load().count() > 0)
-            changed_.wait_for(lock, takes.load(), [this] { return cancelled_; });
-        changed_.wait_until(lock, deadline, [this] { return !hangs_ || cancelled_; });
-        if (cancelled_)
+            changed_.wait_for(lock, stop, takes.load(), [this] { return cancelled_; });
+        changed_.wait_until(lock, stop, deadline, [this] { return !hangs_ || cancelled_; });
+        if (cancelled_ || stop.stop_requested())
             return absl::CancelledError("cancelled");
         if (hangs_)
             return absl::DeadlineExceededError("the fake hung");
@@ -139,7 +140,7 @@ private:
 
     const std::shared_ptr<const LayeredScene> scene_;
     std::mutex mutex_;
-    std::condition_variable changed_;
+    std::condition_variable_any changed_;
     int drawing_ = 0;
     bool hangs_ = false;
     bool holdsPictures_ = false;

@@ -141,5 +141,28 @@ TEST_P(FrameFaults, ASlowRendererIsGivenThreeTimesWhatItTakes) {
     renderers[1]->hang(false);
 }
 
+TEST_P(FrameFaults, AFrameThatNobodyWantsEndsAndCostsTheNextNothing) {
+    const auto renderers = openWith(2);
+    const int begun = renderers[0]->begun;
+    for (const auto& renderer : renderers) renderer->hang(true);
+    std::stop_source stop;
+    FrameRequest unwanted = request();
+    unwanted.stop = stop.get_token();
+    std::vector<std::jthread> asking;  // one is drawn, the others wait for their turns
+    std::atomic<int> cancelled{0};
+    for (int i = 0; i < 4; ++i)
+        asking.emplace_back([&] {
+            cancelled += absl::IsCancelled(pipeline_.renderFrame(unwanted).status()) ? 1 : 0;
+        });
+    EXPECT_TRUE(eventually([&] { return renderers[0]->begun > begun; }));
+    stop.request_stop();
+    asking.clear();
+    EXPECT_EQ(cancelled, 4);
+    for (const auto& renderer : renderers) renderer->hang(false);
+    expectWholePicture();
+    EXPECT_TRUE(isAlive(0) && isAlive(1));
+    EXPECT_EQ(statusOf(0).condition, RendererCondition::Ready);
+}
+
 }  // namespace
 }  // namespace eyrie::coordinator

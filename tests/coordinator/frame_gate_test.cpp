@@ -141,5 +141,27 @@ TEST_F(FrameGateTest, FramesBeginInTheOrderInWhichTheyWereAskedFor) {
     EXPECT_EQ(begun, (std::vector<int>{0, 1, 2, 3, 4}));
 }
 
+TEST_F(FrameGateTest, ThoseBehindOneThatIsGivenUpMoveUp) {
+    auto first = std::make_unique<Frame>(gate_);
+    ASSERT_TRUE(begins(*first));
+    std::stop_source stop;
+    std::atomic<int> without{0};
+    std::vector<std::jthread> givenUp;
+    for (int i = 0; i < 3; ++i)
+        givenUp.emplace_back([&] {
+            const FrameGate::Pass pass(gate_, stop.get_token());
+            without += pass.hasTurn() ? 0 : 1;
+        });
+    waitAWhile();  // they have tickets, before the next one's
+    Frame last(gate_);
+    waitAWhile();
+    stop.request_stop();
+    givenUp.clear();
+    EXPECT_EQ(without, 3);
+    EXPECT_FALSE(last.hasBegun) << "the first is still under way";
+    first.reset();
+    EXPECT_TRUE(begins(last));
+}
+
 }  // namespace
 }  // namespace eyrie::coordinator

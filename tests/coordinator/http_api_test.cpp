@@ -18,6 +18,7 @@
 #include "coordinator/http/access.h"
 #include "coordinator/http/server.h"
 #include "tests/coordinator/fake_frame_source.h"
+#include "tests/service/eventually.h"
 
 namespace eyrie::http {
 namespace {
@@ -124,6 +125,31 @@ TEST_F(HttpApi, CallsEndWithTheirConnection) {
     }
     EXPECT_LT(frames_.picks().size(), 512U);
     EXPECT_EQ(frames_.picks().size(), before);
+}
+
+TEST_F(HttpApi, PicturesEndWithTheirConnection) {
+    frames_.hold(true);
+    {
+        const tcp::socket client =
+            send("GET /api/v1/image?width=20 HTTP/1.1\r\nHost: localhost\r\n\r\n");
+        ASSERT_TRUE(frames_.waitForRequests(1));
+        EXPECT_FALSE(frames_.requests().front().stop.stop_requested());
+    }
+    EXPECT_TRUE(eventually([&] { return frames_.requests().front().stop.stop_requested(); }));
+    frames_.hold(false);
+}
+
+/// As over TLS, which says good-bye before the connection ends.
+TEST_F(HttpApi, PicturesEndWithAConnectionThatSaidMoreBeforeItsEnd) {
+    frames_.hold(true);
+    {
+        tcp::socket client = send("GET /api/v1/image?width=20 HTTP/1.1\r\nHost: localhost\r\n\r\n");
+        ASSERT_TRUE(frames_.waitForRequests(1));
+        boost::asio::write(client, boost::asio::buffer(std::string("GET /healthz HTTP/1.1")));
+        EXPECT_FALSE(frames_.requests().front().stop.stop_requested());
+    }
+    EXPECT_TRUE(eventually([&] { return frames_.requests().front().stop.stop_requested(); }));
+    frames_.hold(false);
 }
 
 TEST_F(HttpApi, ServersStopWhileCallsAreBeingDone) {

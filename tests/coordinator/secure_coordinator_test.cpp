@@ -36,7 +36,8 @@ public:
         return fabric::SceneInfo{{{0, 0, 0}, {1, 1, 1}}, 30, 100};
     }
     absl::StatusOr<fabric::ChannelResult> render(const fabric::FrameData&,
-                                                 const fabric::ChannelTask& task) override {
+                                                 const fabric::ChannelTask& task,
+                                                 const std::stop_token&) override {
         ++drawn_;
         return LayeredScene(4711).draw(task);
     }

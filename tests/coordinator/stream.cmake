@@ -15,7 +15,8 @@ if(EYRIE_SANITIZE MATCHES thread)
     target_compile_options(http_server_test PRIVATE -Wno-tsan)  # as in coordinator/http.cmake
     target_compile_options(http_access_test PRIVATE -Wno-tsan)
 endif()
-eyrie_test(api_test LABEL unit LINK eyrie::api eyrie::frame eyrie::jpeg eyrie::wire eyrie::proto)
+eyrie_test(api_test LABEL unit SOURCES api_data_test.cpp api_test.cpp
+           LINK eyrie::api eyrie::frame eyrie::jpeg eyrie::wire eyrie::proto fmt::fmt)
 eyrie_test(http_api_test LABEL unit LINK eyrie::http eyrie::api eyrie::proto eyrie::wire Boost::headers Threads::Threads
                                          fmt::fmt)
 if(EYRIE_SANITIZE MATCHES thread)

@@ -22,6 +22,9 @@ protected:
     static void SetUpTestSuite() {
         folder_ = new test::TemporaryFolder;
         std::filesystem::create_directory(folder_->path("data"));
+        const test::Outcome made = test::eyrie({"synth", "terrain", "--size", "129", "--seed", "1",
+                                                "-o", folder_->path("data/example.tif")});
+        ASSERT_EQ(made.exit.status, 0) << made.errors;
         server_ =
             new test::Process(test::eyrieCommand({"serve", EYRIE_SOURCE_DIR "/demo/scene.json",
                                                   "--listen", "127.0.0.1:0", "--renderers", "2",
@@ -53,6 +56,14 @@ protected:
         return test::run(command, seconds(200));
     }
 
+    static std::string curl(std::vector<std::string> arguments, const std::string& path) {
+        arguments.insert(arguments.begin(), {"/usr/bin/env", "curl", "--silent"});
+        arguments.push_back(url_ + "/api/v1" + path);
+        const test::Outcome outcome = test::run(arguments, seconds(60));
+        EXPECT_EQ(outcome.exit.status, 0) << outcome.errors;
+        return outcome.output;
+    }
+
     static inline test::TemporaryFolder* folder_ = nullptr;
     static inline test::Process* server_ = nullptr;
     static inline std::string url_;
@@ -81,14 +92,52 @@ TEST_F(ApiExamples, PicturesAreDrawnSeveralAtATime) {
         EXPECT_GT(std::filesystem::file_size(folder + "/" + name), 1000U);
 }
 
+TEST_F(ApiExamples, AFileIsImportedAndCanBeShown) {
+    const test::Outcome outcome =
+        ask("python3", "examples/import_data.py", {"example.tif", "imported.eyt"});
+    EXPECT_EQ(outcome.exit.status, 0) << outcome.output << outcome.errors;
+    EXPECT_THAT(outcome.output, HasSubstr("imported.eyt: "));
+    EXPECT_EQ(test::eyrie({"info", folder_->path("data/imported.eyt"), "--quiet"}).exit.status, 0);
+    const test::Outcome wrong =
+        ask("python3", "examples/import_data.py", {"example.tif", "example.tif"});
+    EXPECT_NE(wrong.exit.status, 0);
+    EXPECT_THAT(wrong.errors, HasSubstr("must end in .eyt"));
+}
+
+TEST_F(ApiExamples, AnImportThatIsCalledOffLeavesNothing) {
+    ASSERT_TRUE(test::succeeded({"synth", "terrain", "--size", "4097", "--seed", "2", "--quiet",
+                                 "-o", folder_->path("data/large.tif")}));
+    const std::string begun =
+        curl({"--json", R"({"sources":["large.tif"],"output":"large.eyt","requestId":"large"})"},
+             "/imports");
+    EXPECT_THAT(begun, HasSubstr("\"id\": \"large\""));
+    const auto told = [] { return curl({}, "/operations/large"); };
+    // In the middle of it, if this machine is not too fast for that.
+    EXPECT_TRUE(test::eventually(seconds(60), [&] {
+        const std::string now = told();
+        return now.find("\"stage\": \"\"") == std::string::npos ||
+               now.find("STATE_DONE") != std::string::npos;
+    }));
+    curl({"--json", "{}"}, "/operations/large/cancel");
+    EXPECT_TRUE(test::eventually(seconds(60), [&] {
+        return told().find("STATE_CANCELLED") != std::string::npos ||
+               told().find("STATE_DONE") != std::string::npos;
+    })) << told();
+    const bool isDone = told().find("STATE_DONE") != std::string::npos;
+    const std::set<std::string> names = test::namesIn(folder_->path("data"));
+    EXPECT_EQ(names.contains("large.eyt"), isDone);
+    for (const std::string& name : names) EXPECT_FALSE(name.starts_with(".eyrie")) << name;
+}
+
 TEST_F(ApiExamples, CurlMakesTheCallsMostAskedFor) {
     const std::string folder = folder_->path("curl");
     const test::Outcome outcome = ask("bash", "examples/curl.sh", {folder});
     EXPECT_EQ(outcome.exit.status, 0) << outcome.output << outcome.errors;
     EXPECT_THAT(outcome.output, HasSubstr("scene: 304"));
     EXPECT_THAT(outcome.output, HasSubstr("\"field\""));
-    for (const char* name : {"status.json", "configuration.json", "picture.png", "picture.jpg",
-                             "evening.png", "upper.png", "pick.json"})
+    for (const char* name :
+         {"status.json", "configuration.json", "picture.png", "picture.jpg", "evening.png",
+          "upper.png", "pick.json", "data-sets.json", "operations.json"})
         EXPECT_GT(std::filesystem::file_size(folder + "/" + name), 10U) << name;
 }
 

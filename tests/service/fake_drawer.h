@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <stop_token>
 #include <thread>
 
 #include "service/channel_drawer.h"
@@ -20,7 +21,7 @@ struct FakeDrawerControl {
     std::atomic<bool> destroyed{false};
     std::atomic<bool> oneThread{true};
 
-    /// The drawer waits in its next call until release.
+    /// The drawer waits in its next call until release, or until nobody wants that any more.
     void hold() {
         const std::lock_guard lock(mutex);
         held = true;
@@ -32,16 +33,16 @@ struct FakeDrawerControl {
         }
         changed.notify_all();
     }
-    void waitWhileHeld() {
+    void waitWhileHeld(const std::stop_token& stop = {}) {
         std::unique_lock lock(mutex);
-        changed.wait(lock, [this] { return !held; });
+        changed.wait(lock, stop, [this] { return !held; });
     }
 
     /// What is drawn in place of a gradient, once it is set; not while a call is under way.
     std::optional<fabric::Image> image;
 
     std::mutex mutex;
-    std::condition_variable changed;
+    std::condition_variable_any changed;
     bool held = false;
 };
 
@@ -66,10 +67,13 @@ public:
     }
 
     absl::StatusOr<fabric::ChannelResult> render(const fabric::FrameData& frameData,
-                                                 const fabric::ChannelTask& task) override {
+                                                 const fabric::ChannelTask& task,
+                                                 const std::stop_token& stop) override {
         checkThread();
         ++control_->begun;
-        control_->waitWhileHeld();
+        control_->waitWhileHeld(stop);
+        if (stop.stop_requested())
+            return absl::CancelledError("stopped");
         ++control_->drawn;
         return control_->image ? fabric::ChannelResult{*control_->image, {}}
                                : picture(frameData, task);

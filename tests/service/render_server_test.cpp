@@ -322,6 +322,43 @@ TEST_F(RenderServerTest, PicksOfNothingAndOfDamagedDataSaySo) {
     EXPECT_TRUE(absl::IsInvalidArgument(pickAt({-5, 0}).status()));
 }
 
+TEST_F(RenderServerTest, AStoppedChannelIsGivenUpByTheDrawerAndTheNextIsWhole) {
+    ASSERT_TRUE(renderer_->setFrameData(frameData(), soon()).ok());
+    control_->hold();
+    std::stop_source stop;
+    std::jthread stopper([&] {
+        EXPECT_TRUE(eventually([&] { return control_->begun == 1; }));
+        stop.request_stop();
+    });
+    EXPECT_TRUE(absl::IsCancelled(
+        renderer_->render(task(8, 8, true), soon(), {}, stop.get_token()).status()));
+    control_->release();
+    const auto next = renderer_->render(task(8, 8, true), soon());
+    ASSERT_TRUE(next.ok()) << next.status();
+    EXPECT_TRUE(next->image == FakeDrawer::picture(frameData(), task(8, 8, true)).image);
+    EXPECT_EQ(control_->begun, 2);
+    EXPECT_EQ(control_->drawn, 1);
+}
+
+TEST_F(RenderServerTest, AStoppedChannelThatWaitsIsNotBegun) {
+    ASSERT_TRUE(renderer_->setFrameData(frameData(), soon()).ok());
+    control_->hold();
+    std::jthread drawing([&] { EXPECT_TRUE(renderer_->render(task(8, 8, false), soon()).ok()); });
+    EXPECT_TRUE(eventually([&] { return control_->begun == 1; }));
+    const auto other = coordinator::connectRenderer(server_->address());
+    std::stop_source stop;
+    std::jthread stopper([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(30));  // it waits behind the other
+        stop.request_stop();
+    });
+    EXPECT_TRUE(
+        absl::IsCancelled(other->render(task(8, 8, false), soon(), {}, stop.get_token()).status()));
+    control_->release();
+    drawing.join();
+    EXPECT_TRUE(renderer_->render(task(8, 8, false), soon()).ok());
+    EXPECT_EQ(control_->begun, 2);
+}
+
 TEST_F(RenderServerTest, StopEndsTheCallInProgress) {
     ASSERT_TRUE(renderer_->setFrameData(frameData(), soon()).ok());
     control_->hold();
@@ -329,12 +366,10 @@ TEST_F(RenderServerTest, StopEndsTheCallInProgress) {
         EXPECT_TRUE(eventually([&] { return control_->begun == 1; }));
         server_->stop(std::chrono::milliseconds(0));
     });
-    // It ends for the caller although the drawer is still held up, and stop waits for the drawer.
+    // It ends for the caller, and the drawer gives it up: stop does not wait for its end.
     EXPECT_FALSE(renderer_->render(task(8, 8, false), soon()).ok());
-    EXPECT_EQ(control_->drawn, 0);
-    control_->release();
     stopper.join();
-    EXPECT_EQ(control_->drawn, 1);
+    EXPECT_EQ(control_->drawn, 0);
     EXPECT_EQ(renderer_->render(task(8, 8, false), soon()).status().code(),
               absl::StatusCode::kUnavailable);
 }

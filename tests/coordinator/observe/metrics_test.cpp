@@ -59,10 +59,12 @@ TEST(Metrics, CountsFramesByWhatBecameOfThem) {
     statistics.pagesMissing = 3;
     metrics.frameMade(statistics);
     metrics.frameFailed();
+    metrics.frameCancelled();
     const std::string text = scraped(metrics);
     EXPECT_THAT(text, HasSubstr("eyrie_frames_total{result=\"complete\"} 1\n"));
     EXPECT_THAT(text, HasSubstr("eyrie_frames_total{result=\"degraded\"} 1\n"));
     EXPECT_THAT(text, HasSubstr("eyrie_frames_total{result=\"failed\"} 1\n"));
+    EXPECT_THAT(text, HasSubstr("eyrie_frames_total{result=\"cancelled\"} 1\n"));
     EXPECT_THAT(text, HasSubstr("eyrie_frame_error_pixels_bucket{le=\"0.5\"} 0\n"));
     EXPECT_THAT(text, HasSubstr("eyrie_frame_error_pixels_bucket{le=\"1\"} 2\n"));
     EXPECT_THAT(text, HasSubstr("eyrie_triangles_total 2000\n"));

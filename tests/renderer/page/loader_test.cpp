@@ -354,5 +354,20 @@ TEST(Loader, ASourceEndsWithoutItsWishesButWaitsForWhatIsBeingLoaded) {
     EXPECT_EQ(pages.begun().size(), begun + 1) << "the ended source's wishes are gone";
 }
 
+TEST(Loader, NobodyWaitsAnyMoreAfterAStop) {
+    FakePages pages;
+    pages.hold(true);
+    Loader loader({.threads = 1});
+    const auto source = loader.open(pages.function(), 1000);
+    source->wish(wishes({1, 2}));
+    pages.awaitBegun(1);
+    std::stop_source stop;
+    std::jthread stopper([&] { stop.request_stop(); });
+    EXPECT_FALSE(source->wait(stop.get_token()));
+    EXPECT_FALSE(source->wait(stop.get_token()));
+    pages.hold(false);
+    EXPECT_EQ(takeAll(*source).size(), 2U) << "what was wished for comes all the same";
+}
+
 }  // namespace
 }  // namespace eyrie::page

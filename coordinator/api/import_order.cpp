@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/api/import_order.h"
+
+#include <cmath>
+#include <random>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <google/protobuf/struct.pb.h>
+#include <google/protobuf/util/json_util.h>
+
+#include "fabric/status.h"
+
+namespace eyrie::api {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kMaxFiles = 1000;
+
+/// The files' names as a program in the data folder has them: no option begins so.
+absl::StatusOr<std::vector<std::string>> filesOf(
+    const google::protobuf::RepeatedPtrField<std::string>& names, const char* field,
+    const access::DataFolder& folder) {
+    if (names.size() > kMaxFiles)
+        return absl::InvalidArgumentError(
+            fmt::format("{} has {} names; at most {} are taken", field, names.size(), kMaxFiles));
+    std::vector<std::string> files;
+    for (int i = 0; i < names.size(); ++i) {
+        const absl::StatusOr<fs::path> path = folder.existing(names[i]);
+        if (!path.ok())
+            return fabric::withContext(path.status(), fmt::format("{}[{}]", field, i));
+        std::error_code error;
+        if (!fs::is_regular_file(*path, error))
+            return absl::InvalidArgumentError(
+                fmt::format("{}[{}] is '{}', which is no file", field, i, names[i]));
+        files.push_back("./" + path->lexically_relative(folder.path()).string());
+    }
+    return files;
+}
+
+absl::StatusOr<v1::OperationKind> kindOf(const fs::path& output) {
+    if (output.extension() == ".eyt")
+        return v1::OPERATION_KIND_IMPORT_TERRAIN;
+    if (output.extension() == ".eym")
+        return v1::OPERATION_KIND_IMPORT_MESH;
+    return absl::InvalidArgumentError(
+        fmt::format("output is '{}'; its name must end in .eyt for a terrain or .eym for a mesh",
+                    output.filename().string()));
+}
+
+absl::Status checkChoices(const v1::ImportRequest& request, v1::OperationKind kind) {
+    if (request.sources().empty())
+        return absl::InvalidArgumentError("sources is empty; name at least one file");
+    if (kind == v1::OPERATION_KIND_IMPORT_TERRAIN && request.orient())
+        return absl::InvalidArgumentError("orient is of meshes, and the output is a terrain");
+    if (kind == v1::OPERATION_KIND_IMPORT_MESH && request.imagery_size() > 0)
+        return absl::InvalidArgumentError("imagery is of terrains, and the output is a mesh");
+    if (kind == v1::OPERATION_KIND_IMPORT_MESH && request.has_error_metres())
+        return absl::InvalidArgumentError("error_metres is of terrains, and the output is a mesh");
+    if (request.has_error_metres() &&
+        !(std::isfinite(request.error_metres()) && request.error_metres() > 0))
+        return absl::InvalidArgumentError(fmt::format(
+            "error_metres is {}; it must be more than 0, and a number", request.error_metres()));
+    return absl::OkStatus();
+}
+
+absl::Status checkOutput(const ImportOrder& order, const std::string& name) {
+    std::error_code error;
+    if (order.replaces || !fs::exists(order.output, error))
+        return absl::OkStatus();
+    return absl::AlreadyExistsError(
+        fmt::format("output '{}' is there already; choose another name, or set replace", name));
+}
+
+/// A folder that goes with this object, and all that is in it.
+class WorkFolder {
+public:
+    static absl::StatusOr<WorkFolder> in(const fs::path& parent) {
+        std::random_device random;
+        fs::path path = parent / fmt::format(".eyrie-import-{:08x}{:08x}", random(), random());
+        std::error_code error;
+        if (!fs::create_directory(path, error))
+            return absl::UnavailableError(
+                "nothing can be written beside the output; see that the data folder is writable "
+                "and not full");
+        return WorkFolder(std::move(path));
+    }
+    WorkFolder(WorkFolder&& other) noexcept : path_(std::exchange(other.path_, {})) {}
+    ~WorkFolder() {
+        std::error_code error;
+        if (!path_.empty())
+            fs::remove_all(path_, error);
+    }
+    WorkFolder& operator=(WorkFolder&&) = delete;
+
+    const fs::path& path() const { return path_; }
+
+private:
+    explicit WorkFolder(fs::path path) : path_(std::move(path)) {}
+    fs::path path_;
+};
+
+/// A line of `--progress-json`: false for any other.
+bool tellProgress(std::string_view line, const Operations::Progress& progress) {
+    google::protobuf::Struct json;
+    if (!line.starts_with('{') ||
+        !google::protobuf::util::JsonStringToMessage(std::string(line), &json).ok())
+        return false;
+    const auto stage = json.fields().find("stage");
+    const auto fraction = json.fields().find("fraction");
+    if (stage == json.fields().end() || fraction == json.fields().end())
+        return false;
+    progress(stage->second.string_value(), fraction->second.number_value());
+    return true;
+}
+
+/// The data and, beside them, what they were made of (cli/source_record.h).
+absl::Status moveInto(const fs::path& made, const fs::path& place) {
+    std::error_code error;
+    for (const char* const ending : {".source", ""}) {
+        fs::rename(made.string() + ending, place.string() + ending, error);
+        if (error)
+            return absl::UnavailableError(
+                fmt::format("what was made cannot be put in its place: {}", error.message()));
+    }
+    return absl::OkStatus();
+}
+
+}  // namespace
+
+absl::StatusOr<ImportOrder> importOrderOf(const v1::ImportRequest& request,
+                                          const access::DataFolder& folder,
+                                          const std::string& memory) {
+    ImportOrder order;
+    const absl::StatusOr<fs::path> output = folder.place(request.output());
+    if (!output.ok())
+        return fabric::withContext(output.status(), "output");
+    order.output = *output;
+    ASSIGN_OR_RETURN(order.kind, kindOf(order.output));
+    order.replaces = request.replace();
+    RETURN_IF_ERROR(checkChoices(request, order.kind));
+    RETURN_IF_ERROR(checkOutput(order, request.output()));
+    ASSIGN_OR_RETURN(std::vector<std::string> sources,
+                     filesOf(request.sources(), "sources", folder));
+    ASSIGN_OR_RETURN(const std::vector<std::string> imagery,
+                     filesOf(request.imagery(), "imagery", folder));
+    const bool isTerrain = order.kind == v1::OPERATION_KIND_IMPORT_TERRAIN;
+    order.arguments = {"import", isTerrain ? "terrain" : "mesh", "--progress-json", "--json",
+                       "--memory=" + memory};
+    for (const std::string& each : imagery) order.arguments.push_back("--imagery=" + each);
+    if (request.has_error_metres())
+        order.arguments.push_back(fmt::format("--error={}", request.error_metres()));
+    if (request.orient())
+        order.arguments.emplace_back("--orient");
+    order.arguments.insert(order.arguments.end(), sources.begin(), sources.end());
+    return order;
+}
+
+absl::Status carryOut(const ImportOrder& order, const access::DataFolder& folder,
+                      const RunProgram& run, const Operations::Progress& progress,
+                      const std::stop_token& stop) {
+    ASSIGN_OR_RETURN(const WorkFolder work, WorkFolder::in(order.output.parent_path()));
+    const fs::path made = work.path() / order.output.filename();
+    std::vector<std::string> arguments = order.arguments;
+    arguments.push_back("--output=" + made.string());
+    LastWords words;
+    ASSIGN_OR_RETURN(const ProgramEnd end, run(
+                                               arguments, folder.path(),
+                                               [&](std::string_view line) {
+                                                   if (!tellProgress(line, progress))
+                                                       words.hear(line);
+                                               },
+                                               stop));
+    if (stop.stop_requested())
+        return absl::CancelledError("the import was called off");
+    RETURN_IF_ERROR(words.statusOf(end));
+    RETURN_IF_ERROR(checkOutput(order, order.output.filename().string()));
+    return moveInto(made, order.output);
+}
+
+}  // namespace eyrie::api

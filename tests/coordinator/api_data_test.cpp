@@ -1,0 +1,414 @@
+// SPDX-License-Identifier: Apache-2.0
+// Operations, and what they do with the data folder; programs are played by functions.
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <filesystem>
+#include <fstream>
+#include <future>
+#include <mutex>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <google/protobuf/struct.pb.h>
+#include <google/protobuf/util/json_util.h>
+
+#include "coordinator/api/api.h"
+#include "coordinator/api/data_sets.h"
+#include "coordinator/api/operations.h"
+#include "tests/coordinator/fake_frame_source.h"
+#include "tests/service/eventually.h"
+#include "tests/support/temporary_folder.h"
+
+namespace eyrie::api {
+namespace {
+
+namespace fs = std::filesystem;
+using std::chrono::seconds;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+/// Work that a test lets go on.
+class Gate {
+public:
+    Operations::Work work() {
+        return [this](const Operations::Progress& progress, const std::stop_token& stop) {
+            progress("reading", 0.25);
+            ++begun;
+            std::unique_lock lock(mutex_);
+            changed_.wait(lock, stop, [this] { return isOpen_; });
+            return stop.stop_requested() ? absl::CancelledError("") : result;
+        };
+    }
+    void open() {
+        {
+            const std::lock_guard lock(mutex_);
+            isOpen_ = true;
+        }
+        changed_.notify_all();
+    }
+
+    std::atomic<int> begun{0};
+    absl::Status result;
+
+private:
+    std::mutex mutex_;
+    std::condition_variable_any changed_;
+    bool isOpen_ = false;
+};
+
+class OperationsTest : public testing::Test {
+protected:
+    Operations::Order order(const std::string& id, const std::string& request = "a") {
+        return {id, v1::OPERATION_KIND_IMPORT_MESH, id + request + ".eym", request, gate_.work()};
+    }
+    bool becomes(const std::string& id, v1::OperationState state) {
+        return eventually([&] { return operations_.find(id)->state() == state; });
+    }
+
+    Gate gate_;
+    std::atomic<int> now_{0};  ///< seconds
+    Operations operations_{{.atOnce = 1, .waiting = 2, .ended = 2},
+                           [this] { return Operations::Clock::time_point(seconds(1000 + now_)); }};
+};
+
+TEST_F(OperationsTest, TellHowFarTheyAreAndHowLongTheyTakeYet) {
+    ASSERT_TRUE(operations_.begin(order("a")).ok());
+    ASSERT_TRUE(eventually([&] { return gate_.begun == 1; }));
+    EXPECT_FALSE(operations_.find("a")->has_stage_seconds_left());
+    now_ = 2;
+    const v1::Operation told = *operations_.find("a");
+    EXPECT_EQ(told.state(), v1::OPERATION_STATE_RUNNING);
+    EXPECT_EQ(told.stage(), "reading");
+    EXPECT_EQ(told.stage_progress(), 0.25);
+    EXPECT_EQ(told.seconds(), 2);
+    EXPECT_EQ(told.stage_seconds_left(), 6);
+    gate_.open();
+    ASSERT_TRUE(becomes("a", v1::OPERATION_STATE_DONE));
+    now_ = 9;
+    EXPECT_EQ(operations_.find("a")->seconds(), 2);
+    EXPECT_EQ(operations_.find("a")->stage(), "");
+}
+
+TEST_F(OperationsTest, AreTheSameForTheSameIdAndRequestOnly) {
+    ASSERT_TRUE(operations_.begin(order("a")).ok());
+    EXPECT_EQ(operations_.begin(order("a"))->id(), "a");
+    EXPECT_TRUE(absl::IsAlreadyExists(operations_.begin(order("a", "b")).status()));
+    EXPECT_EQ(operations_.all().size(), 1U);
+    gate_.open();
+    ASSERT_TRUE(becomes("a", v1::OPERATION_STATE_DONE));
+    EXPECT_EQ(operations_.begin(order("a"))->state(), v1::OPERATION_STATE_DONE);
+    EXPECT_EQ(gate_.begun, 1);
+}
+
+TEST_F(OperationsTest, DoNotMakeTheSameAtTheSameTime) {
+    ASSERT_TRUE(operations_.begin(order("a")).ok());
+    Operations::Order other = order("b");
+    other.output = "aa.eym";
+    EXPECT_TRUE(absl::IsFailedPrecondition(operations_.begin(other).status()));
+    gate_.open();
+    ASSERT_TRUE(becomes("a", v1::OPERATION_STATE_DONE));
+    EXPECT_TRUE(operations_.begin(other).ok());
+}
+
+TEST_F(OperationsTest, WaitAFewAtATime) {
+    ASSERT_TRUE(operations_.begin(order("a")).ok());
+    ASSERT_TRUE(eventually([&] { return gate_.begun == 1; }));
+    ASSERT_TRUE(operations_.begin(order("b")).ok());
+    ASSERT_TRUE(operations_.begin(order("c")).ok());
+    EXPECT_TRUE(absl::IsResourceExhausted(operations_.begin(order("d")).status()));
+    EXPECT_TRUE(absl::IsNotFound(operations_.find("d").status()));
+    EXPECT_EQ(operations_.find("b")->state(), v1::OPERATION_STATE_WAITING);
+}
+
+TEST_F(OperationsTest, AreCalledOffWhetherTheyHaveBegunOrNot) {
+    ASSERT_TRUE(operations_.begin(order("a")).ok());
+    ASSERT_TRUE(operations_.begin(order("b")).ok());
+    ASSERT_TRUE(eventually([&] { return gate_.begun == 1; }));
+    EXPECT_EQ(operations_.cancel("b")->state(), v1::OPERATION_STATE_CANCELLED);
+    ASSERT_TRUE(operations_.cancel("a").ok());
+    EXPECT_TRUE(becomes("a", v1::OPERATION_STATE_CANCELLED));
+    gate_.open();
+    ASSERT_TRUE(operations_.begin(order("c")).ok());
+    EXPECT_TRUE(becomes("c", v1::OPERATION_STATE_DONE));
+    EXPECT_EQ(operations_.cancel("c")->state(), v1::OPERATION_STATE_DONE);
+    EXPECT_EQ(gate_.begun, 2);
+}
+
+TEST_F(OperationsTest, AreForgottenWhenAskedToAndOneByOneWhenThereAreMany) {
+    ASSERT_TRUE(operations_.begin(order("a")).ok());
+    ASSERT_TRUE(eventually([&] { return gate_.begun == 1; }));
+    ASSERT_TRUE(operations_.forget("a").ok());
+    EXPECT_TRUE(absl::IsNotFound(operations_.find("a").status()));
+    EXPECT_TRUE(absl::IsNotFound(operations_.cancel("a").status()));
+    gate_.open();
+    for (const char* id : {"b", "c", "d"}) {
+        ASSERT_TRUE(operations_.begin(order(id)).ok());
+        ASSERT_TRUE(becomes(id, v1::OPERATION_STATE_DONE));
+    }
+    EXPECT_TRUE(absl::IsNotFound(operations_.find("b").status()));
+    EXPECT_EQ(operations_.all().size(), 2U);
+}
+
+TEST_F(OperationsTest, SayWhyTheyFailed) {
+    gate_.result = absl::DataLossError("dem.tif: is damaged");
+    gate_.open();
+    ASSERT_TRUE(operations_.begin(order("a")).ok());
+    ASSERT_TRUE(becomes("a", v1::OPERATION_STATE_FAILED));
+    EXPECT_EQ(operations_.find("a")->problem(), "dem.tif: is damaged");
+}
+
+TEST_F(OperationsTest, HaveNamesThatFitIntoPaths) {
+    for (const std::string& id : {std::string("a/b"), std::string(65, 'a'), std::string("ü")})
+        EXPECT_TRUE(absl::IsInvalidArgument(operations_.begin(order(id)).status())) << id;
+    gate_.open();
+    const absl::StatusOr<v1::Operation> made = operations_.begin(order(""));
+    ASSERT_TRUE(made.ok()) << made.status();
+    EXPECT_EQ(made->id().size(), 16U);
+}
+
+TEST(DataSet, IsWhatTheProgramTellsOfIt) {
+    const auto set = dataSetOf(
+        R"({"kind": "terrain", "bounds": {"min": [1, 2, 3], "max": [4, 5, 6.5]}, "samples": 100,)"
+        R"( "triangles": 162, "levels": 3, "crs": "", "bytes": 4711,)"
+        R"( "errorMetres": {"coarsest": 9.5, "finest": 0.25}})");
+    ASSERT_TRUE(set.ok()) << set.status();
+    EXPECT_EQ(set->kind(), v1::DATA_SET_KIND_TERRAIN);
+    EXPECT_EQ(set->bounds().max().z(), 6.5);
+    EXPECT_EQ(set->samples(), 100);
+    EXPECT_EQ(set->triangles(), 162);
+    EXPECT_EQ(set->bytes(), 4711);
+    EXPECT_EQ(set->finest_error_metres(), 0.25);
+    for (const char* wrong : {"", "[]", "{}", "{\"kind\": \"scene\"}", "{\"kind\": 5}"})
+        EXPECT_TRUE(absl::IsDataLoss(dataSetOf(wrong).status())) << wrong;
+    EXPECT_TRUE(dataSetOf(R"({"kind":"mesh","bytes":-5,"bounds":7,"levels":1e300})").ok());
+}
+
+class NoConfiguration : public coordinator::ConfigurationAccess {
+public:
+    absl::Status withConfiguration(
+        const std::function<absl::Status(coordinator::ActiveConfiguration&)>&) override {
+        return absl::FailedPreconditionError("there is none");
+    }
+};
+
+/// The data folder over REST.
+class RestData : public testing::Test {
+protected:
+    RestData() {
+        fs::create_directories(data() / "survey");
+        std::ofstream(data() / "survey/dem.tif") << "heights";
+        std::ofstream(folder_.path("secret.tif")) << "heights";
+        fs::create_symlink(folder_.path("secret.tif"), data() / "link.tif");
+        makeApi(1);
+    }
+
+    void makeApi(std::size_t imports) {
+        Programs programs;
+        programs.importsAtOnce = imports;
+        programs.run = [this](const auto& arguments, const auto& folder, const auto& heard,
+                              const auto& stop) {
+            const std::lock_guard lock(mutex_);
+            commands_.push_back(arguments);
+            EXPECT_EQ(folder, fs::canonical(data()));
+            return run_(arguments, heard, stop);
+        };
+        api_ = std::make_unique<Api>(ApiParts{frames_, configuration_, [](fabric::Scene) {},
+                                              access::DataFolder::open(data()).value(), programs});
+    }
+
+    fs::path data() const { return folder_.path("data"); }
+
+    RestAnswer ask(const std::string& method, const std::string& target,
+                   const std::string& body = "", const std::string& key = "") const {
+        RestRequest request{method, "/api/v1" + target, body, "application/json"};
+        request.idempotencyKey = key;
+        return api_->rest().answer(request);
+    }
+    static std::string member(const RestAnswer& answer, const std::string& name) {
+        google::protobuf::Struct json;
+        EXPECT_TRUE(google::protobuf::util::JsonStringToMessage(*answer.body, &json).ok());
+        return json.fields().contains(name) ? json.fields().at(name).string_value() : "";
+    }
+    std::string import(const std::string& more = "") const {
+        return fmt::format(R"({{"sources":["survey/dem.tif"],"output":"survey/dem.eyt"{}}})", more);
+    }
+    std::string endOf(const std::string& id) const {
+        const auto state = [&] { return member(ask("GET", "/operations/" + id), "state"); };
+        EXPECT_TRUE(eventually([&] {
+            return state() != "OPERATION_STATE_WAITING" && state() != "OPERATION_STATE_RUNNING";
+        }));
+        return state();
+    }
+    std::vector<std::string> filesOf(const fs::path& folder) const {
+        std::vector<std::string> names;
+        for (const auto& entry : fs::directory_iterator(folder))
+            names.push_back(entry.path().filename().string());
+        std::ranges::sort(names);
+        return names;
+    }
+    static absl::StatusOr<ProgramEnd> writeOutput(const std::vector<std::string>& arguments) {
+        constexpr std::string_view kOutput = "--output=";
+        const std::string path = arguments.back().substr(kOutput.size());
+        EXPECT_TRUE(arguments.back().starts_with(kOutput));
+        std::ofstream(path) << "terrain";
+        std::ofstream(path + ".source") << "dem.tif";
+        return ProgramEnd();
+    }
+
+    using Heard = std::function<void(std::string_view)>;
+    test::TemporaryFolder folder_;
+    coordinator::FakeFrameSource frames_;
+    NoConfiguration configuration_;
+    std::mutex mutex_;
+    std::vector<std::vector<std::string>> commands_;
+    std::function<absl::StatusOr<ProgramEnd>(const std::vector<std::string>&, const Heard&,
+                                             const std::stop_token&)>
+        run_ =
+            [](const auto& arguments, const auto&, const auto&) { return writeOutput(arguments); };
+    std::unique_ptr<Api> api_;
+};
+
+TEST_F(RestData, ImportsIntoTheDataFolder) {
+    const RestAnswer answer = ask("POST", "/imports", import(R"(,"errorMetres":0.5)"), "one");
+    ASSERT_EQ(answer.status, 200) << *answer.body;
+    EXPECT_EQ(member(answer, "id"), "one");
+    EXPECT_EQ(member(answer, "kind"), "OPERATION_KIND_IMPORT_TERRAIN");
+    EXPECT_EQ(endOf("one"), "OPERATION_STATE_DONE");
+    EXPECT_THAT(filesOf(data() / "survey"), ElementsAre("dem.eyt", "dem.eyt.source", "dem.tif"));
+    ASSERT_EQ(commands_.size(), 1U);
+    EXPECT_EQ(commands_[0][1], "terrain");
+    EXPECT_THAT(commands_[0], Contains("--error=0.5"));
+    EXPECT_THAT(commands_[0], Contains("./survey/dem.tif"));
+    EXPECT_THAT(*ask("GET", "/operations").body, HasSubstr("\"one\""));
+    EXPECT_EQ(ask("DELETE", "/operations/one").status, 200);
+    EXPECT_EQ(ask("GET", "/operations/one").status, 404);
+}
+
+TEST_F(RestData, ImportsOnceForOneKey) {
+    ASSERT_EQ(ask("POST", "/imports", import(), "key").status, 200);
+    endOf("key");
+    EXPECT_EQ(member(ask("POST", "/imports", import(), "key"), "state"), "OPERATION_STATE_DONE");
+    EXPECT_EQ(member(ask("POST", "/imports", import(R"(,"requestId":"key")")), "id"), "key");
+    EXPECT_EQ(commands_.size(), 1U);
+    EXPECT_EQ(ask("POST", "/imports", import(R"(,"replace":true)"), "key").status, 409);
+    EXPECT_EQ(ask("POST", "/imports", import(R"(,"requestId":"other")"), "key").status, 400);
+}
+
+TEST_F(RestData, ReplacesNothingUnlessToldTo) {
+    std::ofstream(data() / "survey/dem.eyt") << "old";
+    const RestAnswer refused = ask("POST", "/imports", import());
+    EXPECT_EQ(refused.status, 409);
+    EXPECT_THAT(*refused.body, HasSubstr("set replace"));
+    ASSERT_EQ(ask("POST", "/imports", import(R"(,"replace":true)"), "a").status, 200);
+    EXPECT_EQ(endOf("a"), "OPERATION_STATE_DONE");
+    EXPECT_EQ(fs::file_size(data() / "survey/dem.eyt"), 7U);
+}
+
+TEST_F(RestData, LeavesNothingOfWhatFailed) {
+    const std::vector<std::string> before = filesOf(data() / "survey");
+    const auto fails = [&](const std::string& id, const ProgramEnd& end, const std::string& line) {
+        run_ = [end, line](const auto& arguments, const auto& heard, const auto&) {
+            EXPECT_TRUE(writeOutput(arguments).ok());
+            heard(R"({"stage": "reading", "fraction": 0.5})");
+            heard(line);
+            return end;
+        };
+        ASSERT_EQ(ask("POST", "/imports", import(), id).status, 200);
+        EXPECT_EQ(endOf(id), "OPERATION_STATE_FAILED");
+        EXPECT_EQ(filesOf(data() / "survey"), before);
+    };
+    fails("wrong", {false, 2, ""}, "eyrie: ./survey/dem.tif: is no raster");
+    EXPECT_EQ(member(ask("GET", "/operations/wrong"), "problem"), "./survey/dem.tif: is no raster");
+    fails("json", {false, 1, ""}, R"({"level":"error","message":"the disk is full"})");
+    EXPECT_EQ(member(ask("GET", "/operations/json"), "problem"), "the disk is full");
+    fails("crash", {true, 11, ""}, "");
+    EXPECT_THAT(member(ask("GET", "/operations/crash"), "problem"), HasSubstr("signal 11"));
+}
+
+TEST_F(RestData, LeavesNothingOfWhatIsCalledOff) {
+    std::promise<void> begun;
+    run_ = [&](const auto& arguments, const auto& heard, const auto& stop) {
+        EXPECT_TRUE(writeOutput(arguments).ok());
+        heard(R"({"stage": "reading", "fraction": 0.5})");
+        begun.set_value();
+        EXPECT_TRUE(eventually([&] { return stop.stop_requested(); }));
+        return absl::CancelledError("stopped");
+    };
+    ASSERT_EQ(ask("POST", "/imports", import(), "a").status, 200);
+    begun.get_future().wait();
+    EXPECT_EQ(member(ask("GET", "/operations/a"), "stage"), "reading");
+    EXPECT_EQ(ask("POST", "/operations/a/cancel", "{}").status, 200);
+    EXPECT_EQ(endOf("a"), "OPERATION_STATE_CANCELLED");
+    EXPECT_THAT(filesOf(data() / "survey"), ElementsAre("dem.tif"));
+}
+
+TEST_F(RestData, NamesNothingOutsideTheFolder) {
+    for (const char* source :
+         {"../secret.tif", "/etc/passwd", "link.tif", "survey/../../secret.tif",
+          "https://evil.example/dem.tif", "survey", "nowhere.tif", ""}) {
+        const RestAnswer answer = ask(
+            "POST", "/imports", fmt::format(R"({{"sources":["{}"],"output":"a.eyt"}})", source));
+        EXPECT_TRUE(answer.status >= 400 && answer.status < 500) << source << *answer.body;
+        EXPECT_THAT(*answer.body, HasSubstr("sources[0]")) << source;
+    }
+    for (const char* output : {"../a.eyt", "/tmp/a.eyt", "a.tif", "survey", "none/a.eyt", ""})
+        EXPECT_GE(ask("POST", "/imports",
+                      fmt::format(R"({{"sources":["survey/dem.tif"],"output":"{}"}})", output))
+                      .status,
+                  400)
+            << output;
+    EXPECT_THAT(commands_, IsEmpty());
+}
+
+TEST_F(RestData, RefusesWhatIsNotOfTheKind) {
+    const auto isRefused = [&](const std::string& output, const std::string& more) {
+        return ask("POST", "/imports",
+                   fmt::format(R"({{"sources":["survey/dem.tif"],"output":"{}",{}}})", output,
+                               more))
+                   .status == 400;
+    };
+    EXPECT_TRUE(isRefused("a.eyt", R"("orient":true)"));
+    EXPECT_TRUE(isRefused("a.eym", R"("imagery":["survey/dem.tif"])"));
+    EXPECT_TRUE(isRefused("a.eym", R"("errorMetres":1)"));
+    EXPECT_TRUE(isRefused("a.eyt", R"("errorMetres":-1)"));
+    EXPECT_TRUE(isRefused("a.eyt", R"("errorMetres":"NaN")"));
+    EXPECT_EQ(ask("POST", "/imports", R"({"output":"a.eyt"})").status, 400);
+}
+
+TEST_F(RestData, SaysWhereImportsAreOff) {
+    makeApi(0);
+    const RestAnswer answer = ask("POST", "/imports", import());
+    EXPECT_EQ(answer.status, 409);
+    EXPECT_THAT(member(answer, "remedy"), HasSubstr("--imports"));
+}
+
+TEST_F(RestData, ListsDataSetsAndAsksOnceAboutEach) {
+    std::ofstream(data() / "survey/a.eyt") << "a";
+    std::ofstream(data() / "b.eym") << "bb";
+    fs::create_directory(data() / ".hidden");
+    std::ofstream(data() / ".hidden/c.eym") << "c";
+    fs::create_symlink(folder_.path("secret.tif"), data() / "d.eym");
+    run_ = [](const auto& arguments, const auto& heard, const auto&) {
+        if (arguments.back() == "./b.eym") {
+            heard("eyrie: ./b.eym: is damaged");
+            return ProgramEnd{false, 2, ""};
+        }
+        return ProgramEnd{false, 0, R"({"kind":"terrain","samples":9})"};
+    };
+    const RestAnswer answer = ask("GET", "/data-sets");
+    ASSERT_EQ(answer.status, 200) << *answer.body;
+    EXPECT_THAT(*answer.body, HasSubstr("survey/a.eyt"));
+    EXPECT_THAT(*answer.body, HasSubstr("./b.eym: is damaged"));
+    EXPECT_EQ(commands_.size(), 2U);
+    EXPECT_EQ(*ask("GET", "/data-sets").body, *answer.body);
+    EXPECT_EQ(commands_.size(), 2U);
+    std::ofstream(data() / "survey/a.eyt") << "longer";
+    ask("GET", "/data-sets");
+    EXPECT_EQ(commands_.size(), 3U);
+}
+
+}  // namespace
+}  // namespace eyrie::api
