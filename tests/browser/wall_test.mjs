@@ -28,7 +28,11 @@ const exact = (page) => page.waitForFunction(() => window.eyrie?.exact === true,
 
 // ---- The judge's own walls and rays: three corners of each, as fake_server.cpp has them.
 const walls = {
-  left: { lowerLeft: [-1.7, -0.6, -0.2], lowerRight: [0, -0.6, -1.2], upperLeft: [-1.7, 0.6, -0.2] },
+  left: {
+    lowerLeft: [-1.7, -0.6, -0.2],
+    lowerRight: [0, -0.6, -1.2],
+    upperLeft: [-1.7, 0.6, -0.2],
+  },
   right: { lowerLeft: [0, -0.6, -1.2], lowerRight: [1.7, -0.6, -0.2], upperLeft: [0, 0.6, -1.2] },
 };
 const plus = (a, b, by = 1) => a.map((value, i) => value + by * b[i]);
@@ -105,7 +109,8 @@ await run("wall", async (browser, started) => {
     return drawn > other.ready - slack && other.drawn > ready - slack;
   };
   check(both.every(isTogether), "neither shows a picture before the other has it");
-  const isInStep = ({ swap }, i) => i === 0 || others.get(both[i - 1].swap).drawn < drawnOf(swap) + slack;
+  const isInStep = ({ swap }, i) =>
+    i === 0 || others.get(both[i - 1].swap).drawn < drawnOf(swap) + slack;
   const drawnOf = (swap) => ofLeft.find((each) => each.swap === swap).drawn;
   check(both.every(isInStep), "nor the next one before the other shows this one");
   check(

@@ -9,7 +9,11 @@ import { coordinate, lengthText } from "./panel/format";
 import { markOf, textOf } from "./panel/pick";
 import { pickOf, placeOf, seenPlace } from "./pick";
 import { SightSchema } from "./protocol/gen/eyrie/v1/frame_pb";
-import { SeenAreaSchema, ViewerPickedSchema, ViewerRequestSchema } from "./protocol/gen/eyrie/v1/viewer_pb";
+import {
+  SeenAreaSchema,
+  ViewerPickedSchema,
+  ViewerRequestSchema,
+} from "./protocol/gen/eyrie/v1/viewer_pb";
 import { encodePick } from "./protocol/messages";
 
 const camera: Camera = { eye: [0, -10, 5], target: [0, 0, 0], up: [0, 0, 1], fovyDegrees: 45 };

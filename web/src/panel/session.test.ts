@@ -13,4 +13,13 @@ describe("a place in a session", () => {
     expect(text({ leads: true })).toBe("3 viewers · you lead");
     expect(text({ viewers: 1, led: false })).toBe("1 viewer · nobody leads");
   });
+
+  it("says who shows pictures together with it, and who is too late for that", () => {
+    const place = { session: "wall", viewers: 3, leads: true, led: true, barrier: "b" };
+    const text = (together: number, behind: number) =>
+      placeText(create(ViewerPlaceSchema, { ...place, together, behind }));
+    expect(text(3, 0)).toBe("3 viewers · you lead · 3 screens together");
+    expect(text(3, 1)).toBe("3 viewers · you lead · 1 of 3 screens late, not waited for");
+    expect(text(1, 0)).toBe("3 viewers · you lead");
+  });
 });
