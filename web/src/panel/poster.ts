@@ -55,10 +55,10 @@ export function posterField(state: State, viewer: Viewer): HTMLElement {
     } finally {
       drawing = undefined;
       select.disabled = false;
-      setText(start, "Save poster");
+      setText(start, "Save");
     }
   };
-  const start = button("Save poster", "As a PNG file; again stops it", () =>
+  const start = button("Save", "Save the poster as a PNG file; again stops it", () =>
     drawing === undefined ? void save() : drawing.abort(),
   );
   start.id = "poster";
