@@ -51,6 +51,8 @@ struct TakeLead {};
 /// What a browser can show beside JPEG and PNG.
 struct Abilities {
     bool h264 = false;
+};
+
 /// Which picture a viewer shows, whoever leads.
 struct OwnScreen {
     std::optional<coordinator::Shown> shown;  ///< nothing: what the leader asks for
