@@ -67,7 +67,9 @@ void explain(const CLI::App& app, const CLI::ParseError& error) {
         fmt::print(stderr, "eyrie: '{}' is nothing that {} knows\n", unknown.front(), name);
     else
         fmt::print(stderr, "eyrie: {}\n", error.what());
-    if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr)
+    const bool lacksCommand = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr &&
+                              command->get_require_subcommand_min() > 0;
+    if (lacksCommand)
         fmt::print(stderr, "{}",
                    command->help(parents.substr(0, parents.find_last_not_of(' ') + 1)));
     else

@@ -24,6 +24,7 @@
 #include "cli/stop_signal.h"
 #include "cli/values.h"
 #include "coordinator/frame/frame_source.h"
+#include "coordinator/stream/home_camera.h"
 #include "fabric/frame_data.h"
 #include "fabric/status.h"
 #include "renderer/mesh/output_file.h"
@@ -74,7 +75,7 @@ absl::StatusOr<coordinator::FrameRequest> requestOf(const Options& options) {
         return absl::InvalidArgumentError(fmt::format("--tau is {}; expected {} to {} pixels",
                                                       options.tau, fabric::kMinTauPixels,
                                                       fabric::kMaxTauPixels));
-    if (options.flight.empty()) {
+    if (!options.camera.empty()) {
         ASSIGN_OR_RETURN(const std::string text, readText(options.camera));
         ASSIGN_OR_RETURN(request.camera, wire::cameraFromJson(text, options.camera));
     }
@@ -163,12 +164,20 @@ absl::Status checkOutputs(const Options& options) {
     return absl::OkStatus();
 }
 
+/// Where no camera is named: that of a viewer who has just come.
+void lookAtAll(const PictureSource& pictures, const Options& options,
+               coordinator::FrameRequest& request) {
+    if (options.camera.empty())
+        request.camera = stream::homeCamera(pictures.sceneInfo().bounds);
+}
+
 absl::Status render(const Options& options) {
     const StopSignal stop;
     RETURN_IF_ERROR(checkOutputs(options));
-    ASSIGN_OR_RETURN(const coordinator::FrameRequest request, requestOf(options));
+    ASSIGN_OR_RETURN(coordinator::FrameRequest request, requestOf(options));
     ASSIGN_OR_RETURN(const auto pictures,
                      PictureSource::open(options.scene, options.pictures, stop.token()));
+    lookAtAll(*pictures, options, request);
     ASSIGN_OR_RETURN(Outputs outputs, createOutputs(options, request));
     ASSIGN_OR_RETURN(
         const DrawnBands drawn,
@@ -199,6 +208,7 @@ absl::Status renderAll(const Options& options) {
     for (const NamedPicture& each : asked) request.shown.push_back(each.shown);
     ASSIGN_OR_RETURN(const auto pictures,
                      PictureSource::open(options.scene, options.pictures, stop.token()));
+    lookAtAll(*pictures, options, request);
     ASSIGN_OR_RETURN(const coordinator::RenderedFrame frame, pictures->draw(request));
     if (frame.further.size() + 1 != asked.size())
         return absl::InternalError(fmt::format("{} pictures were asked for, {} were drawn",
@@ -228,7 +238,7 @@ absl::Status renderFlight(const Options& options) {
 }
 
 absl::Status renderAsAsked(const Options& options) {
-    if (options.camera.empty() == options.flight.empty())
+    if (!options.camera.empty() && !options.flight.empty())
         return absl::InvalidArgumentError(
             "name either --camera, for a picture, or --flight, for a video");
     if (!options.flight.empty())
@@ -279,7 +289,8 @@ void addRender(CLI::App& app, Run& run) {
         ->required();
     command
         ->add_option("--camera", options->camera,
-                     R"(JSON: {"eye":[x,y,z],"target":[x,y,z],"up":[0,0,1],"fovyDegrees":45})")
+                     R"(JSON: {"eye":[x,y,z],"target":[x,y,z],"up":[0,0,1],"fovyDegrees":45} )"
+                     "[all of the scene, as viewers see it first]")
         ->type_name("FILE");
     command
         ->add_option("--flight", options->flight,
@@ -315,6 +326,7 @@ void addRender(CLI::App& app, Run& run) {
     command->footer(
         "docs/looks.md explains --look.\n"
         "Examples:\n"
+        "  eyrie render scan.ply -o a.png\n"
         "  eyrie render scene.json --camera cam.json --size 1920x1080 --tau 1 -o a.png\n"
         "  eyrie render dem.eyt --camera cam.json --renderers 3 --compound DB \\\n"
         "      -o a.png --depth a.pfm --stats a.json\n"

@@ -14,7 +14,7 @@
 #include <grpcpp/security/credentials.h>
 #include <spdlog/spdlog.h>
 
-#include "eyrie/v1/coordinator_service.grpc.pb.h"
+#include "eyrie/v1/registry_service.grpc.pb.h"
 #include "fabric/version.h"
 #include "wire/deadline.h"
 #include "wire/protocol.h"
@@ -57,7 +57,7 @@ public:
     explicit Registration(const RegistrationOptions& options)
         : options_(options),
           peer_(fmt::format("coordinator {}", options.coordinator)),
-          stub_(v1::CoordinatorService::NewStub(grpc::CreateCustomChannel(
+          stub_(v1::RegistryService::NewStub(grpc::CreateCustomChannel(
               options.coordinator, wire::channelCredentials(options.security, options.coordinator),
               wire::clientArguments(options.security)))) {}
 
@@ -89,9 +89,8 @@ private:
     bool isRegistered() const { return !id_.empty(); }
 
     template <typename Request, typename Response>
-    absl::Status call(grpc::Status (v1::CoordinatorService::Stub::*method)(grpc::ClientContext*,
-                                                                           const Request&,
-                                                                           Response*),
+    absl::Status call(grpc::Status (v1::RegistryService::Stub::*method)(grpc::ClientContext*,
+                                                                        const Request&, Response*),
                       const Request& request, Response& response, const std::stop_token& stop,
                       std::chrono::milliseconds timeout = kCallTimeout) {
         grpc::ClientContext context;
@@ -111,7 +110,7 @@ private:
         request.set_protocol_checksum(wire::protocolChecksum());
         v1::RegisterRendererResponse response;
         const absl::Status status =
-            call(&v1::CoordinatorService::Stub::RegisterRenderer, request, response, {});
+            call(&v1::RegistryService::Stub::RegisterRenderer, request, response, {});
         if (status.ok()) {
             id_ = response.renderer_id();
             heartbeat_ = std::chrono::milliseconds(
@@ -125,7 +124,7 @@ private:
         v1::HeartbeatRequest request;
         request.set_renderer_id(id_);
         v1::HeartbeatResponse response;
-        return call(&v1::CoordinatorService::Stub::Heartbeat, request, response, stop);
+        return call(&v1::RegistryService::Stub::Heartbeat, request, response, stop);
     }
 
     /// Until the coordinator has forgotten it, which is when nothing is left to do for it.
@@ -135,8 +134,7 @@ private:
         request.set_renderer_id(id_);
         v1::DrainResponse response;
         while (isRegistered() && Clock::now() < limit) {
-            if (!call(&v1::CoordinatorService::Stub::Drain, request, response, {},
-                      kDrainCallTimeout)
+            if (!call(&v1::RegistryService::Stub::Drain, request, response, {}, kDrainCallTimeout)
                      .ok())
                 return;
             std::this_thread::sleep_for(kDrainInterval);
@@ -164,7 +162,7 @@ private:
 
     const RegistrationOptions& options_;
     const std::string peer_;
-    const std::unique_ptr<v1::CoordinatorService::Stub> stub_;
+    const std::unique_ptr<v1::RegistryService::Stub> stub_;
     std::string id_;
     std::chrono::milliseconds heartbeat_{1000};
     Clock::time_point lastSeen_ = Clock::now();

@@ -122,8 +122,7 @@ std::string framesCsv(const std::vector<BenchRun>& runs) {
                 run.label, run.tauPixels, run.renderers, frame.pass, frame.seconds,
                 frame.milliseconds, ms.cull, ms.draw, ms.readback, ms.encode, s.triangles, s.nodes,
                 s.nodesHidden, s.pagesLoaded, s.bytesLoaded, s.tauAchievedPixels,
-                isBeyondTau(frame), s.complete, budgetColumns(s.budget),
-                frame.latencyMilliseconds);
+                isBeyondTau(frame), s.complete, budgetColumns(s.budget), frame.latencyMilliseconds);
         }
     return csv;
 }

@@ -22,8 +22,8 @@ struct ApiParts {
     Programs programs = {};
 };
 
-/// What programs can ask of a coordinator: the handlers of EyrieService and what these need. All
-/// functions may be called from any thread.
+/// What programs can ask of a coordinator: the handlers of CoordinatorService and what these need.
+/// All functions may be called from any thread.
 class Api {
 public:
     explicit Api(ApiParts parts);

@@ -6,8 +6,8 @@
 
 namespace eyrie::api {
 
-/// EyrieService over HTTP for people to read: each call with its fields and a command that makes
-/// it, each kind of error. Made of the schema, as openApiJson() is.
+/// CoordinatorService over HTTP for people to read: each call with its fields and a command that
+/// makes it, each kind of error. Made of the schema, as openApiJson() is.
 std::string apiPage();
 
 /// Its style, and where the page expects it.

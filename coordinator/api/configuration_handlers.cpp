@@ -6,7 +6,7 @@
 #include "coordinator/config/configuration_message.h"
 #include "coordinator/config/state_message.h"
 #include "coordinator/frame/active_configuration.h"
-#include "eyrie/v1/eyrie_service.pb.h"
+#include "eyrie/v1/coordinator_service.pb.h"
 #include "fabric/status.h"
 
 namespace eyrie::api {

@@ -4,7 +4,7 @@
 #include "coordinator/api/data_desk.h"
 #include "coordinator/api/handler_list.h"
 #include "coordinator/api/handlers.h"
-#include "eyrie/v1/eyrie_service.pb.h"
+#include "eyrie/v1/coordinator_service.pb.h"
 #include "fabric/status.h"
 
 namespace eyrie::api {

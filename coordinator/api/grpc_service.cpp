@@ -9,10 +9,10 @@
 #include <grpcpp/health_check_service_interface.h>
 #include <grpcpp/server.h>
 
-#include "coordinator/api/eyrie_service.h"
+#include "coordinator/api/coordinator_service.h"
 #include "coordinator/api/reachable_address.h"
 #include "coordinator/farm/grpc_renderer.h"
-#include "eyrie/v1/coordinator_service.grpc.pb.h"
+#include "eyrie/v1/registry_service.grpc.pb.h"
 #include "fabric/status.h"
 #include "fabric/version.h"
 #include "wire/deadline.h"
@@ -37,9 +37,9 @@ absl::Status checkVersion(const v1::RegisterRendererRequest& request) {
     return absl::OkStatus();
 }
 
-class CoordinatorService final : public v1::CoordinatorService::CallbackService {
+class RegistryService final : public v1::RegistryService::CallbackService {
 public:
-    CoordinatorService(Registry& registry, const GrpcOptions& options)
+    RegistryService(Registry& registry, const GrpcOptions& options)
         : registry_(registry), security_(options.security), telemetry_(options.telemetry) {}
 
     grpc::ServerUnaryReactor* RegisterRenderer(grpc::CallbackServerContext* context,
@@ -127,8 +127,8 @@ public:
     }
 
 private:
-    CoordinatorService service_;
-    api::EyrieService calls_;
+    RegistryService service_;
+    api::CoordinatorService calls_;
     const wire::Security security_;
     wire::Listening listening_;
 };

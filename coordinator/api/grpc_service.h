@@ -23,8 +23,8 @@ struct GrpcOptions {
     observe::SharedTelemetry telemetry = nullptr;  ///< is told what renderers draw
 };
 
-/// The coordinator's gRPC door: CoordinatorService, where renderers register, EyrieService, and the
-/// standard health service. All functions may be called from any thread.
+/// The coordinator's gRPC door: RegistryService, where renderers register, CoordinatorService, and
+/// the standard health service. All functions may be called from any thread.
 class GrpcService {
 public:
     /// Serves on each of `addresses` ("host:port", port 0: the system chooses; "unix:/path").
@@ -40,7 +40,7 @@ public:
     /// Where it listens, with the ports that were chosen.
     const std::vector<std::string>& addresses() const;
 
-    /// EyrieService answers from now on. `handlers` outlive stop().
+    /// CoordinatorService answers from now on. `handlers` outlive stop().
     void use(const api::Handlers& handlers);
 
     /// Takes no more calls, and waits for those in progress. May be called twice.

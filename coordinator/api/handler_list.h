@@ -17,7 +17,7 @@ class Handlers;
 class Operations;
 class SceneDesk;
 
-/// Each adds some calls of EyrieService; what they are given outlives the handlers.
+/// Each adds some calls of CoordinatorService; what they are given outlives the handlers.
 void addStatusHandlers(Handlers& handlers, coordinator::FrameSource& frames);
 void addImageHandlers(Handlers& handlers, coordinator::FrameSource& frames);
 void addPlaceHandlers(Handlers& handlers, coordinator::FrameSource& frames);

@@ -17,8 +17,8 @@ struct Call {
     std::stop_token stop = {};  ///< the caller has gone
 };
 
-/// What the calls of EyrieService do, by their names; the doors, gRPC and REST, have nothing of
-/// their own but how messages come and go. Filled once, then called from any thread.
+/// What the calls of CoordinatorService do, by their names; the doors, gRPC and REST, have nothing
+/// of their own but how messages come and go. Filled once, then called from any thread.
 class Handlers {
 public:
     using Message = google::protobuf::Message;

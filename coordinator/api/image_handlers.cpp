@@ -11,7 +11,7 @@
 #include "coordinator/api/handlers.h"
 #include "coordinator/stream/statistics_message.h"
 #include "coordinator/stream/view_message.h"
-#include "eyrie/v1/eyrie_service.pb.h"
+#include "eyrie/v1/coordinator_service.pb.h"
 #include "fabric/frame_data.h"
 #include "fabric/frustum.h"
 #include "fabric/status.h"

@@ -10,7 +10,7 @@
 #include "access/data_folder.h"
 #include "coordinator/api/operations.h"
 #include "coordinator/api/programs.h"
-#include "eyrie/v1/eyrie_service.pb.h"
+#include "eyrie/v1/coordinator_service.pb.h"
 
 namespace eyrie::api {
 

@@ -6,8 +6,8 @@
 
 namespace eyrie::api {
 
-/// EyrieService over HTTP as an OpenAPI 3.1 document, made of the schema: its calls and messages,
-/// with their comments and examples.
+/// CoordinatorService over HTTP as an OpenAPI 3.1 document, made of the schema: its calls and
+/// messages, with their comments and examples.
 const std::string& openApiJson();
 
 /// Calls, fields and values that the document has without a word about them.

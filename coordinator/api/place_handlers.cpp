@@ -7,7 +7,7 @@
 #include "coordinator/api/handlers.h"
 #include "coordinator/stream/profile.h"
 #include "coordinator/stream/viewer_messages.h"
-#include "eyrie/v1/eyrie_service.pb.h"
+#include "eyrie/v1/coordinator_service.pb.h"
 #include "fabric/pick.h"
 #include "fabric/seen_area.h"
 #include "fabric/status.h"

@@ -15,7 +15,7 @@
 #include "coordinator/api/problem_json.h"
 #include "coordinator/api/rest_request.h"
 #include "coordinator/api/rest_routes.h"
-#include "eyrie/v1/eyrie_service.pb.h"
+#include "eyrie/v1/coordinator_service.pb.h"
 #include "fabric/status.h"
 
 namespace eyrie::api {

@@ -29,9 +29,9 @@ struct RestAnswer {
     std::shared_ptr<const std::string> body = std::make_shared<const std::string>();
 };
 
-/// EyrieService over HTTP, without the network: the calls that gRPC makes, by method and path as
-/// rest.proto says, in protobuf JSON. Errors are application/problem+json. Answers to GET have an
-/// ETag. Any thread may call; calls take as long as what they ask for.
+/// CoordinatorService over HTTP, without the network: the calls that gRPC makes, by method and path
+/// as rest.proto says, in protobuf JSON. Errors are application/problem+json. Answers to GET have
+/// an ETag. Any thread may call; calls take as long as what they ask for.
 class RestDoor {
 public:
     /// `handlers` outlive the door.

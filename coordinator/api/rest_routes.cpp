@@ -7,7 +7,7 @@
 
 #include <google/protobuf/descriptor.h>
 
-#include "eyrie/v1/eyrie_service.pb.h"
+#include "eyrie/v1/coordinator_service.pb.h"
 
 namespace eyrie::api {
 namespace {

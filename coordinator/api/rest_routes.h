@@ -21,7 +21,7 @@ struct Route {
     v1::Rest rest;
 };
 
-/// All ways of EyrieService, in its order.
+/// All ways of CoordinatorService, in its order.
 const std::vector<Route>& restRoutes();
 
 struct FoundRoute {

@@ -26,7 +26,7 @@ const google::protobuf::DescriptorPool& pool() {
 }  // namespace
 
 const google::protobuf::ServiceDescriptor& documentedService() {
-    return *pool().FindServiceByName("eyrie.v1.EyrieService");
+    return *pool().FindServiceByName("eyrie.v1.CoordinatorService");
 }
 
 }  // namespace eyrie::api

@@ -7,8 +7,8 @@
 
 namespace eyrie::api {
 
-/// EyrieService as it is written, comments included; those that programs have compiled in have
-/// none.
+/// CoordinatorService as it is written, comments included; those that programs have compiled in
+/// have none.
 const google::protobuf::ServiceDescriptor& documentedService();
 
 /// The comment before something, as one paragraph.

@@ -2,7 +2,7 @@
 #include "coordinator/api/handler_list.h"
 #include "coordinator/api/handlers.h"
 #include "coordinator/stream/viewer_messages.h"
-#include "eyrie/v1/eyrie_service.pb.h"
+#include "eyrie/v1/coordinator_service.pb.h"
 #include "fabric/version.h"
 
 namespace eyrie::api {

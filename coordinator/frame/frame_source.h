@@ -86,7 +86,7 @@ struct RenderedFrame {
     /// Of what else was asked for, in that order; of separate eyes, the second's after the first's.
     std::vector<fabric::Image> further = {};
     std::vector<PictureFacts> pictures = {};  ///< of `image` and of what is further
-    std::vector<DrawnPart> parts = {};  ///< who drew what
+    std::vector<DrawnPart> parts = {};        ///< who drew what
 };
 
 /// For a person to read, where a frame shows nothing; empty where it shows something.

@@ -49,10 +49,9 @@ struct Context {
     /// Ends viewers, which may mean to wait for a frame being rendered.
     boost::asio::thread_pool reaper{1};
     /// What viewers see, by themselves or together.
-    stream::Sessions viewing{frames,
-                             {.swapPatience = options.swapPatience,
-                              .telemetry = telemetry,
-                              .video = options.video}};
+    stream::Sessions viewing{
+        frames,
+        {.swapPatience = options.swapPatience, .telemetry = telemetry, .video = options.video}};
 };
 
 /// A connection's place, and its viewer's; held until that, too, has ended.

@@ -56,7 +56,8 @@ struct ServerOptions {
 ///   /login     who one is, and a cookie for a token (access.h)
 ///   /healthz   200 while the process lives
 ///   /readyz    200 while a renderer is alive and a scene is open, 503 otherwise; JSON says why
-///   /api       what programs can ask, for people to read; the calls of EyrieService are below
+///   /api       what programs can ask, for people to read; the calls of CoordinatorService are
+///   below
 ///              /api/v1/ (api/rest_door.h)
 ///   /metrics   numbers for Prometheus
 ///   /api/v1/trace?frames=N   the last frames, for Chrome's trace viewer

@@ -39,8 +39,9 @@ std::optional<QualityClass> Seat::due(const Progress& progress, Clock::time_poin
     if (*fineness == Fineness::Moving)
         return moving;
     // A finer one of the same view would only take the place of one that waits.
-    return outbox.isWaiting() ? std::nullopt
-                              : std::optional(QualityClass{*fineness, 0, Codec::Jpeg, moving->output});
+    return outbox.isWaiting()
+               ? std::nullopt
+               : std::optional(QualityClass{*fineness, 0, Codec::Jpeg, moving->output});
 }
 
 std::optional<QualityClass> Seat::movingClass(const Picture& picture) const {

@@ -8,7 +8,7 @@
 #include <google/protobuf/descriptor.pb.h>
 #include <xxhash.h>
 
-#include "eyrie/v1/coordinator_service.pb.h"
+#include "eyrie/v1/registry_service.pb.h"
 #include "eyrie/v1/render_service.pb.h"
 
 namespace eyrie::wire {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// EyrieService without the network: what REST requests become, and what comes back.
+// CoordinatorService without the network: what REST requests become, and what comes back.
 #include "coordinator/api/api.h"
 
 #include <cstring>
@@ -14,7 +14,7 @@
 #include <grpcpp/server.h>
 #include <gtest/gtest.h>
 
-#include "coordinator/api/eyrie_service.h"
+#include "coordinator/api/coordinator_service.h"
 #include "coordinator/api/openapi.h"
 #include "coordinator/api/rest_routes.h"
 #include "coordinator/config/default_config.h"
@@ -423,10 +423,10 @@ TEST(OpenApi, RefersOnlyToWhatItHas) {
 }
 
 TEST_F(Rest, IsTheSameOverGrpc) {
-    EyrieService service;
+    CoordinatorService service;
     const auto listening =
         wire::listen({"unix:" + folder_.path("s")}, std::vector<grpc::Service*>{&service}).value();
-    auto stub = v1::EyrieService::NewStub(
+    auto stub = v1::CoordinatorService::NewStub(
         grpc::CreateChannel("unix:" + folder_.path("s"), grpc::InsecureChannelCredentials()));
     const auto status = [&](auto&& call) {
         grpc::ClientContext context;
@@ -451,11 +451,11 @@ TEST_F(Rest, IsTheSameOverGrpc) {
 }
 
 TEST_F(Rest, TellsTheHandlerThatAGrpcCallerHasGone) {
-    EyrieService service;
+    CoordinatorService service;
     service.use(api_->handlers());
     const auto listening =
         wire::listen({"unix:" + folder_.path("s")}, std::vector<grpc::Service*>{&service}).value();
-    auto stub = v1::EyrieService::NewStub(
+    auto stub = v1::CoordinatorService::NewStub(
         grpc::CreateChannel("unix:" + folder_.path("s"), grpc::InsecureChannelCredentials()));
     frames_.setPick([](const fabric::PickRequest&) {  // 512 of them take longer than anybody waits
         std::this_thread::sleep_for(std::chrono::milliseconds(50));

@@ -39,10 +39,11 @@ public:
         return absl::OkStatus();
     }
 
-    absl::StatusOr<fabric::ChannelResult> render(
-        const fabric::ChannelTask& task, Clock::time_point deadline,
-        const std::function<void()>& isDrawn = {}, const fabric::FrameData* frameData = nullptr,
-        const std::stop_token& stop = {}) override {
+    absl::StatusOr<fabric::ChannelResult> render(const fabric::ChannelTask& task,
+                                                 Clock::time_point deadline,
+                                                 const std::function<void()>& isDrawn = {},
+                                                 const fabric::FrameData* frameData = nullptr,
+                                                 const std::stop_token& stop = {}) override {
         if (frameData != nullptr)
             static_cast<void>(setFrameData(*frameData, deadline));
         ++begun;

@@ -13,7 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "coordinator/api/api.h"
-#include "coordinator/api/eyrie_service.h"
+#include "coordinator/api/coordinator_service.h"
 #include "coordinator/api/rest_routes.h"
 #include "coordinator/http/access.h"
 #include "coordinator/http/server.h"

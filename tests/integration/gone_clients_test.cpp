@@ -9,7 +9,7 @@
 #include <grpcpp/create_channel.h>
 #include <gtest/gtest.h>
 
-#include "eyrie/v1/eyrie_service.grpc.pb.h"
+#include "eyrie/v1/coordinator_service.grpc.pb.h"
 #include "tests/support/http_client.h"
 #include "tests/support/program.h"
 #include "tests/support/temporary_folder.h"
@@ -100,8 +100,8 @@ TEST_F(GoneClients, OfHttpHaveTheirPicturesGivenUp) {
 }
 
 TEST_F(GoneClients, OfGrpcHaveTheirPicturesGivenUpAtTheirDeadlines) {
-    const auto stub =
-        v1::EyrieService::NewStub(grpc::CreateChannel(grpc_, grpc::InsecureChannelCredentials()));
+    const auto stub = v1::CoordinatorService::NewStub(
+        grpc::CreateChannel(grpc_, grpc::InsecureChannelCredentials()));
     EXPECT_TRUE(isGivenUp([&](milliseconds patience) {
         grpc::ClientContext context;
         context.set_deadline(std::chrono::system_clock::now() + patience);

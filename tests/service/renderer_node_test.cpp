@@ -10,7 +10,7 @@
 
 #include "coordinator/api/grpc_service.h"
 #include "coordinator/farm/registry.h"
-#include "eyrie/v1/coordinator_service.grpc.pb.h"
+#include "eyrie/v1/registry_service.grpc.pb.h"
 #include "fabric/version.h"
 #include "fake_drawer.h"
 #include "tests/service/eventually.h"
@@ -38,7 +38,7 @@ int aliveIn(const Registry& registry) {
 }
 
 /// A coordinator that counts what it hears.
-class CountingCoordinator final : public v1::CoordinatorService::Service {
+class CountingCoordinator final : public v1::RegistryService::Service {
 public:
     grpc::Status RegisterRenderer(grpc::ServerContext*, const v1::RegisterRendererRequest*,
                                   v1::RegisterRendererResponse* response) override {
@@ -203,7 +203,7 @@ void expectRefused(const std::string& version, std::uint64_t protocol, const std
     const test::TemporaryFolder folder;
     Registry registry;
     const auto door = GrpcService::start({"unix:" + folder.path("s")}, registry).value();
-    const auto stub = v1::CoordinatorService::NewStub(grpc::CreateCustomChannel(
+    const auto stub = v1::RegistryService::NewStub(grpc::CreateCustomChannel(
         "unix:" + folder.path("s"), grpc::InsecureChannelCredentials(), wire::clientArguments()));
     v1::RegisterRendererRequest request;
     request.set_address("127.0.0.1:1");

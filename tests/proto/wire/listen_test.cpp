@@ -6,23 +6,23 @@
 #include <gmock/gmock.h>
 #include <grpcpp/server.h>
 
-#include "eyrie/v1/coordinator_service.grpc.pb.h"
+#include "eyrie/v1/registry_service.grpc.pb.h"
 
 namespace eyrie::wire {
 namespace {
 
 TEST(Listen, ReportsThePortThatWasChosen) {
-    v1::CoordinatorService::Service service;
+    v1::RegistryService::Service service;
     const absl::StatusOr<Listening> listening = listen({"127.0.0.1:0"}, service);
     ASSERT_TRUE(listening.ok()) << listening.status();
     EXPECT_THAT(listening->addresses[0], testing::MatchesRegex("127\\.0\\.0\\.1:[1-9][0-9]*"));
 }
 
 TEST(Listen, APortInUseIsAnErrorThatNamesIt) {
-    v1::CoordinatorService::Service service;
+    v1::RegistryService::Service service;
     const absl::StatusOr<Listening> first = listen({"127.0.0.1:0"}, service);
     ASSERT_TRUE(first.ok()) << first.status();
-    v1::CoordinatorService::Service other;
+    v1::RegistryService::Service other;
     const absl::StatusOr<Listening> second = listen(first->addresses, other);
     EXPECT_EQ(second.status().code(), absl::StatusCode::kUnavailable);
     EXPECT_THAT(std::string(second.status().message()), testing::HasSubstr(first->addresses[0]));

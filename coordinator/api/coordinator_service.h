@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "coordinator/api/workers.h"
-#include "eyrie/v1/eyrie_service.grpc.pb.h"
+#include "eyrie/v1/coordinator_service.grpc.pb.h"
 #include "wire/security.h"
 
 namespace eyrie::api {
@@ -15,11 +15,11 @@ class Handlers;
 /// What a call's caller has to be; what http::roleFor says of its way over HTTP.
 access::Role roleFor(std::string_view call);
 
-/// EyrieService over gRPC. Calls are done by threads of its own; one that is cancelled, or whose
-/// deadline passes, tells its handler.
-class EyrieService final : public v1::EyrieService::CallbackService {
+/// CoordinatorService over gRPC. Calls are done by threads of its own; one that is cancelled, or
+/// whose deadline passes, tells its handler.
+class CoordinatorService final : public v1::CoordinatorService::CallbackService {
 public:
-    explicit EyrieService(const wire::Security& security = {}) : security_(security) {}
+    explicit CoordinatorService(const wire::Security& security = {}) : security_(security) {}
 
     /// From now on calls are answered; Unavailable before. `handlers` outlive stop(). Any thread.
     void use(const Handlers& handlers) { handlers_ = &handlers; }

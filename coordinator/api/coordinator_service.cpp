@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "coordinator/api/eyrie_service.h"
+#include "coordinator/api/coordinator_service.h"
 
 #include <stop_token>
 
@@ -33,10 +33,10 @@ access::Role roleFor(std::string_view call) {
     return access::Role::Admin;
 }
 
-grpc::ServerUnaryReactor* EyrieService::call(const char* name,
-                                             const grpc::CallbackServerContext& context,
-                                             const google::protobuf::Message& request,
-                                             google::protobuf::Message& answer) {
+grpc::ServerUnaryReactor* CoordinatorService::call(const char* name,
+                                                   const grpc::CallbackServerContext& context,
+                                                   const google::protobuf::Message& request,
+                                                   google::protobuf::Message& answer) {
     auto* const reactor = new Reactor;
     if (const absl::Status status = wire::admit(security_, context, roleFor(name)); !status.ok()) {
         reactor->Finish(wire::toGrpc(status));
