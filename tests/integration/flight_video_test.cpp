@@ -111,7 +111,7 @@ TEST_F(FlightVideo, RefusesWhatItCannotWrite) {
     says(refusal({"--flight", flight, "-o", path("a.mp4"), "--size", "321x180"}), "even");
     says(refusal({"--flight", flight, "--camera", path("last.json"), "-o", path("a.mp4")}),
          "either --camera");
-    says(refusal({"-o", path("a.mp4")}), "either --camera");
+    says(refusal({"-o", path("a.mp4")}), ".png");
     says(refusal({"--flight", flight, "-o", path("a.mp4"), "--json"}), "--json");
 }
 

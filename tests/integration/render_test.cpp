@@ -306,6 +306,22 @@ TEST_F(Render, WritesJpegByItsName) {
     EXPECT_TRUE(content(path("out.jpg")).starts_with("\xff\xd8\xff"));
 }
 
+TEST_F(Render, ShowsAllOfTheSceneWhereNoCameraIsNamed) {
+    ASSERT_TRUE(succeeded({"render", path("ball.eym"), "--size", "80x60", "-o", path("all.png"),
+                           "--depth", path("all.pfm")}));
+    const auto depth = test::readPfm(path("all.pfm"));
+    ASSERT_TRUE(depth.ok()) << depth.status();
+    int covered = 0;
+    for (std::size_t i = 0; i < depth->metres.size(); ++i) {
+        const bool isCovered = std::isfinite(depth->metres[i]);
+        covered += isCovered ? 1 : 0;
+        const std::size_t x = i % 80;
+        const std::size_t y = i / 80;
+        EXPECT_FALSE(isCovered && (x == 0 || x == 79 || y == 0 || y == 59)) << x << ", " << y;
+    }
+    EXPECT_GT(covered, 300);
+}
+
 TEST_F(Render, IsSilentOnStandardOutput) {
     const test::Outcome outcome = eyrie({"render", path("ball.eym"), "--camera", meshCamera(),
                                          "--size", "64x64", "--quiet", "-o", path("quiet.png")});
