@@ -233,9 +233,11 @@ absl::StatusOr<bool> areAllRight(const Options& options) {
     if (findings.hasErrors())
         return absl::InternalError(config::describe(findings, "decompositions"));
     ASSIGN_OR_RETURN(const auto here, LocalPictures::open(options.scene));
+    coordinator::CoordinatorOptions coordinator;
+    coordinator.configuration = configuration;
+    coordinator.scene = options.scene;
     ASSIGN_OR_RETURN(const auto farm, test::RendererFarm::start(options.program, kRenderers,
-                                                                {.configuration = configuration,
-                                                                 .scene = options.scene}));
+                                                                std::move(coordinator)));
     if (!farm->awaitAllReady(kStartLimit))
         return absl::DeadlineExceededError("the renderers do not start: " +
                                            farm->frames().status().problem);

@@ -148,10 +148,11 @@ public:
                                                       const std::vector<int>& cores) {
         std::unique_ptr<Behind> way(new Behind);
         const std::string address = "unix:" + way->folder_.path("c");
-        ASSIGN_OR_RETURN(
-            way->coordinator_,
-            coordinator::Coordinator::start(
-                {.grpcAddresses = {address}, .layout = options.layout, .scene = options.scene}));
+        coordinator::CoordinatorOptions coordinator;
+        coordinator.grpcAddresses = {address};
+        coordinator.layout = options.layout;
+        coordinator.scene = options.scene;
+        ASSIGN_OR_RETURN(way->coordinator_, coordinator::Coordinator::start(coordinator));
         for (std::size_t i = 0; i < cores.size(); ++i)
             way->launch(options.program, address, cores[i], i);
         if (!test::eventually(kStartLimit, [&] { return way->areAllReady(); }))

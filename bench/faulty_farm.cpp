@@ -20,9 +20,11 @@ constexpr milliseconds kLongStop{4000};
 
 absl::StatusOr<std::unique_ptr<FaultyFarm>> FaultyFarm::start(const Options& options) {
     std::unique_ptr<FaultyFarm> farm(new FaultyFarm(options.seed));
-    ASSIGN_OR_RETURN(farm->farm_,
-                     test::RendererFarm::start(options.program, options.renderers,
-                                               {.layout = options.layout, .scene = options.scene}));
+    coordinator::CoordinatorOptions coordinator;
+    coordinator.layout = options.layout;
+    coordinator.scene = options.scene;
+    ASSIGN_OR_RETURN(farm->farm_, test::RendererFarm::start(options.program, options.renderers,
+                                                            std::move(coordinator)));
     farm->slots_.resize(static_cast<std::size_t>(options.renderers));
     return farm;
 }

@@ -172,7 +172,7 @@ absl::StatusOr<api::Programs> programsOf(const ProgramOptions& options) {
             fmt::format("--import-memory is {}; it must be at least 256M", options.importMemory));
     api::Programs programs;
     programs.importsAtOnce = static_cast<std::size_t>(options.imports);
-    programs.importMemory = options.importMemory;
+    programs.importMemoryBytes = bytes;
     programs.run = [limit = bytes + kSlackBytes](const auto& arguments, const auto& folder,
                                                  const auto& heard, const auto& stop) {
         return runProgram(arguments, folder, limit, heard, stop);

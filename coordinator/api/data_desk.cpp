@@ -42,7 +42,7 @@ absl::StatusOr<v1::Operation> DataDesk::import(const v1::ImportRequest& request)
         !absl::IsNotFound(before.status()))
         return before;
     ASSIGN_OR_RETURN(const ImportOrder order,
-                     importOrderOf(request, *folder_, programs_.importMemory));
+                     importOrderOf(request, *folder_, programs_.importMemoryBytes));
     return operations_.begin(
         {request.request_id(), order.kind, request.output(), asked,
          [this, order](const Operations::Progress& progress, const std::stop_token& stop) {

@@ -131,7 +131,7 @@ absl::Status moveInto(const fs::path& made, const fs::path& place) {
 
 absl::StatusOr<ImportOrder> importOrderOf(const v1::ImportRequest& request,
                                           const access::DataFolder& folder,
-                                          const std::string& memory) {
+                                          std::uint64_t memoryBytes) {
     ImportOrder order;
     const absl::StatusOr<fs::path> output = folder.place(request.output());
     if (!output.ok())
@@ -147,7 +147,7 @@ absl::StatusOr<ImportOrder> importOrderOf(const v1::ImportRequest& request,
                      filesOf(request.imagery(), "imagery", folder));
     const bool isTerrain = order.kind == v1::OPERATION_KIND_IMPORT_TERRAIN;
     order.arguments = {"import", isTerrain ? "terrain" : "mesh", "--progress-json", "--json",
-                       "--memory=" + memory};
+                       "--memory=" + std::to_string(memoryBytes)};
     for (const std::string& each : imagery) order.arguments.push_back("--imagery=" + each);
     if (request.has_error_metres())
         order.arguments.push_back(fmt::format("--error={}", request.error_metres()));

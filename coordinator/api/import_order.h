@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -27,7 +28,7 @@ struct ImportOrder {
 /// there and is not to be replaced.
 absl::StatusOr<ImportOrder> importOrderOf(const v1::ImportRequest& request,
                                           const access::DataFolder& folder,
-                                          const std::string& memory);
+                                          std::uint64_t memoryBytes);
 
 /// Carries it out. What it makes is made in a folder of its own beside its place, and moved there
 /// when it is whole; that folder goes, whatever happens to the program.

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -64,7 +63,7 @@ protected:
             worst = std::max(worst, different);
             EXPECT_EQ(different, 0U) << "camera " << i;
         }
-        const std::string metrics = (*coordinator)->telemetry()->metrics.text({}, {});
+        const std::string metrics = (*farm)->coordinator().telemetry()->metrics.text({}, {});
         EXPECT_THAT(metrics, HasSubstr("\neyrie_renderer_pictures_total{way=\"messages\"} 0\n"));
         // Of direct-send what renderers finish comes otherwise, and nothing else has to.
         const bool noneInMemory =

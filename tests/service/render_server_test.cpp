@@ -331,7 +331,7 @@ TEST_F(RenderServerTest, AStoppedChannelIsGivenUpByTheDrawerAndTheNextIsWhole) {
         stop.request_stop();
     });
     EXPECT_TRUE(absl::IsCancelled(
-        renderer_->render(task(8, 8, true), soon(), {}, stop.get_token()).status()));
+        renderer_->render(task(8, 8, true), soon(), {}, nullptr, stop.get_token()).status()));
     control_->release();
     const auto next = renderer_->render(task(8, 8, true), soon());
     ASSERT_TRUE(next.ok()) << next.status();
@@ -351,8 +351,8 @@ TEST_F(RenderServerTest, AStoppedChannelThatWaitsIsNotBegun) {
         std::this_thread::sleep_for(std::chrono::milliseconds(30));  // it waits behind the other
         stop.request_stop();
     });
-    EXPECT_TRUE(
-        absl::IsCancelled(other->render(task(8, 8, false), soon(), {}, stop.get_token()).status()));
+    EXPECT_TRUE(absl::IsCancelled(
+        other->render(task(8, 8, false), soon(), {}, nullptr, stop.get_token()).status()));
     control_->release();
     drawing.join();
     EXPECT_TRUE(renderer_->render(task(8, 8, false), soon()).ok());

@@ -25,6 +25,7 @@ public:
     static absl::StatusOr<std::unique_ptr<RendererFarm>> start(
         const std::string& program, int renderers, coordinator::CoordinatorOptions options);
 
+    coordinator::Coordinator& coordinator() { return *coordinator_; }
     coordinator::FrameSource& frames() { return coordinator_->frames(); }
 
     int size() const { return static_cast<int>(renderers_.size()); }
