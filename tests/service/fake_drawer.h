@@ -18,6 +18,7 @@ namespace eyrie::service {
 struct FakeDrawerControl {
     std::atomic<int> begun{0};
     std::atomic<int> drawn{0};
+    std::atomic<int> givenUp{0};  ///< nobody wanted it any more
     std::atomic<bool> destroyed{false};
     std::atomic<bool> oneThread{true};
 
@@ -72,8 +73,10 @@ public:
         checkThread();
         ++control_->begun;
         control_->waitWhileHeld(stop);
-        if (stop.stop_requested())
+        if (stop.stop_requested()) {
+            ++control_->givenUp;
             return absl::CancelledError("stopped");
+        }
         ++control_->drawn;
         return control_->image ? fabric::ChannelResult{*control_->image, {}}
                                : picture(frameData, task);

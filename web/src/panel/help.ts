@@ -73,7 +73,7 @@ const groups: readonly (readonly [string, readonly Line[]])[] = [
       ],
       [
         "J",
-        "Sun of one's own, or the scene's lights",
+        "The sun moved by hand, or the scene's lights",
         ({ look }) =>
           look.value.sun === null ? "the scene's" : azimuthText(look.value.sun.azimuth),
       ],

@@ -84,7 +84,7 @@ function sunControls(state: State, toggle: () => void): HTMLElement {
   moved.type = "checkbox";
   moved.id = "sun";
   moved.addEventListener("change", toggle);
-  const label = make("label", "object-label", moved, make("span", "", "Sun of one's own"));
+  const label = make("label", "object-label", moved, make("span", "", "Move the sun"));
   label.title = "Light from where the sliders say, in place of the scene's first light (J)";
   const sliders = make(
     "div",
