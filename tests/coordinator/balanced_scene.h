@@ -58,6 +58,7 @@ public:
     explicit Balanced(config::Configuration configuration)
         : written(std::move(configuration)), live(written), equalizers(written) {
         resolve();
+        asWritten = resolved;
     }
 
     /// The milliseconds of each compound that draws, by position; 0 of the others.
@@ -76,7 +77,7 @@ public:
     }
 
     void apply() {
-        equalizers.apply(live, {++number, resolved, gone});
+        equalizers.apply(live, {++number, asWritten, gone});
         resolve();
     }
 
@@ -86,7 +87,8 @@ public:
 
     config::Configuration written;
     config::Configuration live;
-    config::ResolvedConfiguration resolved;
+    config::ResolvedConfiguration resolved;  ///< of live
+    config::ResolvedConfiguration asWritten;
     std::vector<config::ChannelIndex> gone;
     Equalizers equalizers;
     std::uint64_t number = 0;

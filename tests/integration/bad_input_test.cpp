@@ -259,8 +259,7 @@ TEST_F(BadInput, OptionsOutOfRangeAreRefusedByName) {
         expectRefused({"import", "terrain", EYRIE_SOURCE_DIR "/demo/mount_rainier.tif", "--error",
                        metres, "-o", bad("out.eyt")},
                       {"--error"});
-    expectRefused({"render", good("ball.eym"), "--size", "32x32", "-o", bad("out.png")},
-                  {"--camera"});
+    expectRefused({"render", good("ball.eym"), "--camera", good("camera.json")}, {"--output"});
     expectRefused({"render", good("ball.eym"), "--camera", good("camera.json"), "-o",
                    bad("out.xyz"), "--size", "32x32"},
                   {"out.xyz", ".png"});

@@ -45,9 +45,7 @@ void Dfr::apply(Turn& turn, const config::Equalizer& settings, bool isFrozen) {
         zoom_ *= 1 + settings.damping * (std::min(std::sqrt(ratio), kMostAtOnce) - 1);
         milliseconds_ = 0;
     }
-    const fabric::Vec2 zoomed = turn.live[position_]->zoom;
-    const fabric::Vec2 shown(compound->pixelViewport.width / zoomed.x * written_.x,
-                             compound->pixelViewport.height / zoomed.y * written_.y);
+    const fabric::Vec2 shown(compound->pixelViewport.width, compound->pixelViewport.height);
     const double shorter = std::min(shown.x, shown.y);
     if (!compound->destination || !(shorter > 0) || !std::isfinite(shorter))
         return;
