@@ -39,7 +39,7 @@ const plus = (a, b, by = 1) => a.map((value, i) => value + by * b[i]);
 const cross = ([a, b, c], [d, e, f]) => [b * f - c * e, c * d - a * f, a * e - b * d];
 const unit = (v) => v.map((value) => value / Math.hypot(...v));
 
-/** Where the line from an eye through a place of a wall meets the ground z = 0. */
+/** Where the line from an eye through a place of a wall meets the ground z = 0; NaN where nowhere. */
 function groundThrough(camera, eyeX, wall, x, y) {
   const ahead = unit(plus(camera.target, camera.eye, -1));
   const right = unit(cross(ahead, camera.up));
@@ -50,7 +50,20 @@ function groundThrough(camera, eyeX, wall, x, y) {
   const eye = inWorld([eyeX, 0, 0]);
   const onWall = inWorld(plus(plus(wall.lowerLeft, across, x), rising, y));
   const along = plus(onWall, eye, -1);
-  return plus(eye, along, -eye[2] / along[2]);
+  const t = -eye[2] / along[2];
+  return t > 0 ? plus(eye, along, t) : [NaN, NaN, NaN];
+}
+
+/** Two places of a wall through which the plain is seen, well within its borders. */
+function placesOn(camera, eyeX, wall) {
+  const places = [];
+  for (let x = 0.05; x < 1; x += 0.05)
+    for (let y = 0.05; y < 0.8; y += 0.05) {
+      const [east, north] = groundThrough(camera, eyeX, wall, x, y);
+      if (Math.min(east, north) > 5 && Math.max(east, north) < 95) places.push([x, y]);
+    }
+  if (places.length < 2) throw new Error("the plain is not in the picture");
+  return [places[0], places.at(-1)];
 }
 
 /** Clicks at a share of the canvas, and compares the card with the judge. */
@@ -66,7 +79,10 @@ async function pickAt(page, wall, eyeX, x, y) {
   const off = [1, 2, 3].map((i) => Math.abs(Number(numbers[i]) - judged[i - 1]));
   await page.keyboard.press("Escape");
   // A pixel of the canvas, and what the card rounds to.
-  return { isRight: Math.max(...off) < 0.5, text: `${card} ${judged}` };
+  return {
+    isRight: Math.max(...off) < 0.5,
+    text: `${Math.max(...off).toFixed(3)} m beside the judge's`,
+  };
 }
 
 await run("wall", async (browser, started) => {
@@ -122,15 +138,14 @@ await run("wall", async (browser, started) => {
   const hash = (page) => page.evaluate(() => window.eyrie.pixelHash);
   check((await hash(left)) !== (await hash(right)), "and each shows its own wall");
 
-  for (const [x, y] of [
-    [0.5, 0.3],
-    [0.6, 0.15],
-  ]) {
-    const first = await pickAt(left, walls.left, 0, x, y);
-    check(first.isRight, `what is clicked at is picked through the wall (${first.text})`);
+  for (const page of [left, right]) await page.click("#panel-toggle");
+  for (const [x, y] of placesOn(JSON.parse(await camera(left)), 0, walls.left)) {
+    const picked = await pickAt(left, walls.left, 0, x, y);
+    check(picked.isRight, `what is clicked at is picked through the wall, ${picked.text}`);
   }
-  const eyes = await pickAt(right, walls.right, 0.1, 0.4, 0.2);
-  check(eyes.isRight, `and by the eye that sees it (${eyes.text})`);
+  const [[x, y]] = placesOn(JSON.parse(await camera(right)), 0.1, walls.right);
+  const eyes = await pickAt(right, walls.right, 0.1, x, y);
+  check(eyes.isRight, `and by the eye that sees it, ${eyes.text}`);
 
   const attic = await browser.openAnother(at(server.url, "role=watch&segment=attic"));
   await attic.waitForFunction(
