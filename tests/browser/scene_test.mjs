@@ -127,8 +127,16 @@ await run("scene_test", async (browser, started) => {
   check((await page.locator("#parts .part").count()) >= 2, "tints show who drew which part");
   await page.locator("#layout").selectOption("DB dynamic");
   await page.waitForFunction(() => document.querySelectorAll("#parts .part").length === 0);
-  await browser.settled();
-  check(difference(plain, await browser.picture()) > 0.05, "and who drew which data");
+  // The page asks for the tint once a picture says that it was cut by data.
+  const isTinted = async () => {
+    for (let i = 0; i < 60; ++i) {
+      await browser.settled();
+      if (difference(plain, await browser.picture()) > 0.05) return true;
+      await page.waitForTimeout(200);
+    }
+    return false;
+  };
+  check(await isTinted(), "and who drew which data");
   await page.locator("#tint").click();
   await browser.settled();
   check(difference(plain, await browser.picture()) === 0, "and leave nothing behind");

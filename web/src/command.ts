@@ -75,12 +75,13 @@ export const imageAddress = (page: string): string => new URL("api/v1/image", pa
 /** For a shell: nothing of it is the shell's. */
 const quoted = (text: string): string => `'${text.replaceAll("'", "'\\''")}'`;
 
-/** For a shell with curl 7.82 or later; a server with tokens takes one from EYRIE_TOKEN. */
+/** For a shell with curl; a server with tokens takes one from EYRIE_TOKEN. */
 export function curlCommand(request: ImageRequest, page: string): string {
   return [
     "curl --fail-with-body --silent --show-error -o view.png",
     '  ${EYRIE_TOKEN:+--header "Authorization: Bearer $EYRIE_TOKEN"}',
-    `  --json ${quoted(JSON.stringify(request))}`,
+    "  --header 'Content-Type: application/json' --header 'Accept: image/png'",
+    `  --data ${quoted(JSON.stringify(request))}`,
     `  ${quoted(imageAddress(page))}\n`,
   ].join(" \\\n");
 }
