@@ -197,7 +197,7 @@ TEST_F(Rest, PicturesTooLargeForOneAnswerComeInParts) {
                                  R"({"width":16384,"height":9216,"format":"IMAGE_FORMAT_RAW",
                                      "part":{"x":8,"y":9000,"width":20,"height":10}})");
     ASSERT_EQ(part.status, 200) << *part.body;
-    const coordinator::FrameRequest& asked = frames_.requests().back();
+    const coordinator::FrameRequest asked = frames_.requests().back();
     EXPECT_EQ(asked.width, 16384);
     EXPECT_EQ(asked.part, (fabric::PixelViewport{8, 9000, 20, 10}));
     EXPECT_EQ(part.body->size(), 4U * 20 * 10);
