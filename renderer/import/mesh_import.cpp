@@ -10,9 +10,9 @@
 
 #include <absl/status/status.h>
 #include <fmt/format.h>
+#include <oneapi/tbb/parallel_invoke.h>
 
 #include "fabric/status.h"
-#include "renderer/import/meanwhile.h"
 #include "renderer/import/mesh_import_parts.h"
 #include "renderer/import/mesh_reader.h"
 #include "renderer/import/ply_reader.h"
@@ -72,21 +72,23 @@ absl::StatusOr<MeshImportReport> build(TriangleMesh source, mesh::OutputFile& ou
     report.seconds.tree = watch.lap();
 
     control.report("levels", 0);
-    // Levels end in stretches that keep one core only: backs are for the others, then.
+    // The two have stretches that keep one core only.
+    absl::StatusOr<mesh::LodTree> lod;
     mesh::Backs backs;
-    Meanwhile findingBacks([&] { backs = mesh::findBacks(packed, tree); });
-    ASSIGN_OR_RETURN(
-        const mesh::LodTree lod,
-        mesh::buildLodTree(
-            packed, tree, {}, [&control](double share) { control.report("levels", share); },
-            control.stop));
-    findingBacks.wait();
+    oneapi::tbb::parallel_invoke(
+        [&] {
+            lod = mesh::buildLodTree(
+                packed, tree, {}, [&control](double share) { control.report("levels", share); },
+                control.stop);
+        },
+        [&] { backs = mesh::findBacks(packed, tree); });
+    RETURN_IF_ERROR(lod.status());
     control.report("levels", 1);
     report.seconds.levels = watch.lap();
-    report.levels = lod.levels;
+    report.levels = lod->levels;
 
     control.report("writing", 0);
-    RETURN_IF_ERROR(mesh::writeEym(packed, tree, lod, backs,
+    RETURN_IF_ERROR(mesh::writeEym(packed, tree, *lod, backs,
                                    {.isCoded = !options.isRaw, .sourceHash = sourceHash}, out,
                                    control.stop));
     report.seconds.write = watch.lap();
@@ -95,7 +97,7 @@ absl::StatusOr<MeshImportReport> build(TriangleMesh source, mesh::OutputFile& ou
     report.nodes = tree.nodes.size();
     report.stepMetres = packed.lattice.stepMetres;
     report.errorMetres = packed.lattice.errorMetres();
-    report.coarsestErrorMetres = lod.errorMetres.front();
+    report.coarsestErrorMetres = lod->errorMetres.front();
     return report;
 }
 

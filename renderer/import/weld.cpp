@@ -10,13 +10,6 @@ namespace {
 /// Triangles ahead of the one in hand whose places in the table are fetched already.
 constexpr std::size_t kLookAhead = 16;
 
-/// Of the hash table. The tag tells most other keys apart without a look at them, which is a wait
-/// for memory.
-struct Slot {
-    std::uint32_t vertex = kNoVertex;
-    std::uint32_t tag = 0;
-};
-
 /// Murmur3's finaliser: every bit of the key moves every bit of the place.
 std::uint64_t mix(std::uint64_t value) {
     value = (value ^ value >> 33) * 0xFF51AFD7ED558CCDULL;
@@ -35,20 +28,17 @@ Weld weld(std::span<const VertexKey> keys,
           std::span<const std::array<std::uint32_t, 3>> triangles) {
     Weld result;
     result.vertexOf.assign(keys.size(), kNoVertex);
-    std::vector<Slot> table(std::bit_ceil(keys.size() * 2 + 1));
+    std::vector<std::uint32_t> table(std::bit_ceil(keys.size() * 2 + 1), kNoVertex);
     const std::uint64_t mask = table.size() - 1;
     const auto find = [&](std::uint32_t key) {
-        const std::uint64_t hashed = hash(keys[key]);
-        const auto tag = static_cast<std::uint32_t>(hashed >> 32);
-        std::uint64_t at = hashed & mask;
-        while (table[at].vertex != kNoVertex &&
-               (table[at].tag != tag || keys[result.firstKey[table[at].vertex]] != keys[key]))
+        std::uint64_t at = hash(keys[key]) & mask;
+        while (table[at] != kNoVertex && keys[result.firstKey[table[at]]] != keys[key])
             at = (at + 1) & mask;
-        if (table[at].vertex == kNoVertex) {
-            table[at] = {static_cast<std::uint32_t>(result.firstKey.size()), tag};
+        if (table[at] == kNoVertex) {
+            table[at] = static_cast<std::uint32_t>(result.firstKey.size());
             result.firstKey.push_back(key);
         }
-        return table[at].vertex;
+        return table[at];
     };
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         if (i + kLookAhead < triangles.size())
