@@ -24,21 +24,23 @@ std::optional<ProcessFigures> figuresOf(pid_t process, double seconds) {
     }
     std::error_code gone;
     for (std::filesystem::directory_iterator entry(folder / "fd", gone), end; !gone && entry != end;
-         entry.increment(gone))
-        ++figures.descriptors;
+         entry.increment(gone)) {
+        std::error_code closed;  // meanwhile
+        const auto file = std::filesystem::read_symlink(entry->path(), closed).string();
+        ++(file.starts_with("/memfd:") ? figures.memoryFiles : figures.descriptors);
+    }
     if (figures.threads == 0 || gone)
         return std::nullopt;
     return figures;
 }
 
 int growthOf(int ProcessFigures::*of, std::span<const ProcessFigures> samples) {
-    if (samples.size() < 2)
+    if (samples.size() < 3)
         return 0;
-    const auto lowest = [of](std::span<const ProcessFigures> part) {
-        return (*std::ranges::min_element(part, {}, of)).*of;
-    };
-    const std::size_t half = samples.size() / 2;
-    return lowest(samples.subspan(half)) - lowest(samples.first(half));
+    const std::size_t third = samples.size() / 3;
+    const auto first = std::ranges::max_element(samples.first(third), {}, of);
+    const auto last = std::ranges::min_element(samples.last(third), {}, of);
+    return std::max(0, (*last).*of - (*first).*of);
 }
 
 double residentSlope(std::span<const ProcessFigures> samples) {

@@ -12,15 +12,17 @@ namespace eyrie::bench {
 struct ProcessFigures {
     double seconds = 0;  ///< when, by the caller's clock
     double residentMebibytes = 0;
-    int descriptors = 0;
+    int descriptors = 0;  ///< open, but for memory files
+    int memoryFiles = 0;  ///< open ones (memfd_create): pictures that come from renderers
     int threads = 0;
 };
 
 /// As /proc tells; nothing when there is no such process.
 std::optional<ProcessFigures> figuresOf(pid_t process, double seconds);
 
-/// How much `of` grew from the lowest of the first half of the samples to the lowest of the second:
-/// what is held for a while only does not count. 0 with fewer than two samples.
+/// How far the least of `of` in the last third of the samples lies above the most in the first:
+/// what goes up and down does not count, what is left behind time and again does. 0 where it does
+/// not, or with fewer than three samples.
 int growthOf(int ProcessFigures::*of, std::span<const ProcessFigures> samples);
 
 /// MiB an hour of resident memory, by least squares. 0 with fewer than two samples.

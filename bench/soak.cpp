@@ -11,6 +11,7 @@
 // the coordinator's is. Both are looked at whenever all renderers draw. The first third of the time
 // is for warming up. Exit status 1: a picture was wrong or did not come, descriptors or threads
 // grew, or memory by more than MAX_MIB_AN_HOUR. bench/faults measures what a kill costs in time.
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
@@ -36,6 +37,8 @@ using Clock = std::chrono::steady_clock;
 using std::chrono::seconds;
 
 constexpr int kPlaces = 12;
+/// For each renderer: two that wait for the next picture, and those of two frames in flight.
+constexpr int kMemoryFiles = 4;
 constexpr seconds kStartLimit{300};
 constexpr seconds kPictureLimit{60};
 
@@ -185,7 +188,7 @@ void fly(const Server& server, test::ViewerClient& viewer, const Options& option
 
 /// Whether the process stayed as it was.
 bool report(const char* name, const std::vector<ProcessFigures>& samples, const Options& options) {
-    if (samples.size() < 2) {
+    if (samples.size() < 3) {
         fmt::print("{}: seen only {} times with all renderers drawing: let it last longer\n", name,
                    samples.size());
         return false;
@@ -193,13 +196,16 @@ bool report(const char* name, const std::vector<ProcessFigures>& samples, const 
     const ProcessFigures& last = samples.back();
     const int descriptors = growthOf(&ProcessFigures::descriptors, samples);
     const int threads = growthOf(&ProcessFigures::threads, samples);
+    const int memoryFiles =
+        std::ranges::max_element(samples, {}, &ProcessFigures::memoryFiles)->memoryFiles;
     const double slope = residentSlope(samples);
     fmt::print(
-        "{}: {:.1f} MiB resident, {:+.1f} MiB an hour; {} descriptors, grown by {}; {} "
-        "threads, grown by {} ({} samples)\n",
-        name, last.residentMebibytes, slope, last.descriptors, descriptors, last.threads, threads,
-        samples.size());
-    return descriptors <= 0 && threads <= 0 && (options.maxSlope == 0 || slope <= options.maxSlope);
+        "{}: {:.1f} MiB resident, {:+.1f} MiB an hour; {} descriptors, grown by {}; {} memory "
+        "files at most; {} threads, grown by {} ({} samples)\n",
+        name, last.residentMebibytes, slope, last.descriptors, descriptors, memoryFiles,
+        last.threads, threads, samples.size());
+    return descriptors == 0 && threads == 0 && memoryFiles <= kMemoryFiles * options.renderers &&
+           (options.maxSlope == 0 || slope <= options.maxSlope);
 }
 
 int run(const Options& options) {

@@ -5,6 +5,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 #include "bench/process_figures.h"
@@ -29,26 +30,32 @@ TEST(Soak, PicturesDescriptorsAndThreadsStayWhileRenderersAreKilled) {
 TEST(ProcessFigures, CountADescriptorThatIsOpened) {
     const auto before = bench::figuresOf(getpid(), 0);
     const int opened = open("/dev/null", O_RDONLY | O_CLOEXEC);
+    const int memory = memfd_create("picture", MFD_CLOEXEC);
     const auto after = bench::figuresOf(getpid(), 1);
     close(opened);
+    close(memory);
     ASSERT_TRUE(before && after);
     EXPECT_EQ(after->descriptors, before->descriptors + 1);
+    EXPECT_EQ(after->memoryFiles, before->memoryFiles + 1);
     EXPECT_GT(after->residentMebibytes, 1);
     EXPECT_FALSE(bench::figuresOf(-1, 0));
 }
 
 TEST(ProcessFigures, GrowthIsWhatStaysAndNotWhatPasses) {
-    const std::vector<ProcessFigures> passing{
-        {0, 0, 10, 4}, {1, 0, 14, 4}, {2, 0, 13, 4}, {3, 0, 10, 5}};
-    EXPECT_EQ(bench::growthOf(&ProcessFigures::descriptors, passing), 0);
-    const std::vector<ProcessFigures> leaking{
-        {0, 0, 10, 4}, {1, 0, 11, 4}, {2, 0, 12, 4}, {3, 0, 13, 4}};
-    EXPECT_EQ(bench::growthOf(&ProcessFigures::descriptors, leaking), 2);
-    EXPECT_EQ(bench::growthOf(&ProcessFigures::threads, leaking), 0);
+    const auto growth = [](const std::vector<int>& descriptors) {
+        std::vector<ProcessFigures> samples;
+        for (const int held : descriptors) samples.push_back({.descriptors = held});
+        EXPECT_EQ(bench::growthOf(&ProcessFigures::threads, samples), 0);
+        return bench::growthOf(&ProcessFigures::descriptors, samples);
+    };
+    EXPECT_EQ(growth({10, 14, 13, 12, 14, 11}), 0);
+    EXPECT_EQ(growth({14, 13, 12, 11, 10, 9}), 0);
+    EXPECT_EQ(growth({10, 11, 12, 13, 14, 15}), 3);
+    EXPECT_EQ(growth({10, 11}), 0);
 }
 
 TEST(ProcessFigures, SlopeIsThatOfALine) {
-    const std::vector<ProcessFigures> line{{0, 100, 0, 0}, {1800, 101, 0, 0}, {3600, 102, 0, 0}};
+    const std::vector<ProcessFigures> line{{0, 100}, {1800, 101}, {3600, 102}};
     EXPECT_NEAR(bench::residentSlope(line), 2, 1e-9);
     EXPECT_EQ(bench::residentSlope({}), 0);
 }
