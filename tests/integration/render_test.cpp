@@ -355,5 +355,50 @@ TEST_F(Render, WhatAPixelShowsIsWhereItsDepthSays) {
     EXPECT_EQ(picked("1280,0").exit, (test::Exit{2, 0}));
 }
 
+/// Each wall of this CAVE is two metres square, a metre from the head.
+TEST_F(Render, WhatAPixelOfACavesWallShowsIsWhatACameraTurnedToItSees) {
+    const JsonValue bounds = at(info("dem.eyt"), "bounds");
+    const auto middle = [&](int axis) {
+        return (at(bounds, "min").list_value().values(axis).number_value() +
+                at(bounds, "max").list_value().values(axis).number_value()) /
+               2;
+    };
+    const double z = at(bounds, "max").list_value().values(2).number_value() + 100;
+    const auto camera = [&](const std::string& name, double east, double north) {
+        return folder_->write(
+            name,
+            fmt::format(R"({{"eye":[{},{},{}],"target":[{},{},{}],"up":[0,0,1],"fovyDegrees":90}})",
+                        middle(0), middle(1), z, middle(0) + east, middle(1) + north, z));
+    };
+    const std::string ahead = camera("ahead.json", 0, 1);
+    const std::string cave = EYRIE_SOURCE_DIR "/../shared/data/eqc/3-channel.cave.eqc";
+    const auto picked = [&](const std::string& from, const std::string& pixel,
+                            const std::vector<std::string>& more) {
+        std::vector<std::string> arguments = {"pick",    path("dem.eyt"), "--camera",
+                                              from,      "--size",        "400x400",
+                                              "--pixel", pixel,           "--json"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const test::Outcome outcome = eyrie(arguments);
+        EXPECT_EQ(outcome.exit, (test::Exit{0, 0})) << outcome.errors;
+        return parseJson(outcome.output);
+    };
+    const std::vector<std::pair<std::string, std::string>> walls = {
+        {"0", camera("west.json", -1, 0)}, {"1", ahead}, {"2", camera("east.json", 1, 0)}};
+    for (const auto& [segment, turned] : walls)
+        for (const char* pixel : {"57,301", "200,390", "366,330"}) {
+            const JsonValue wall = picked(ahead, pixel, {"--config", cave, "--segment", segment});
+            const JsonValue own = picked(turned, pixel, {});
+            for (const char* axis : {"x", "y", "z"})
+                EXPECT_NEAR(number(at(wall, "position"), axis), number(at(own, "position"), axis),
+                            1e-5)
+                    << "wall " << segment << ", pixel " << pixel;
+            EXPECT_GT(number(wall, "distanceMetres"), 100);
+        }
+    EXPECT_EQ(eyrie({"pick", path("dem.eyt"), "--camera", ahead, "--pixel", "9,9", "--config", cave,
+                     "--segment", "3"})
+                  .exit,
+              (test::Exit{2, 0}));
+}
+
 }  // namespace
 }  // namespace eyrie
