@@ -57,31 +57,36 @@ double TerrainError::pixels(const terrain::TerrainCut& cut) {
         hidden_ = nullptr;
     if (hidden_ != nullptr)
         ground.isHidden = [this](const Box& bounds, double pixels) {
-            return isHidden(bounds, [&] { return hidden_->hides(bounds, pixels); });
+            return isHidden(bounds, [&] { return hidden_->coverOf(bounds, pixels); });
         };
     return terrain::screenSpaceErrorPixels(index_, request_.view, cut, ground);
 }
 
 /// Judges a tile by the triangles that are drawn of it: one of the finest level that does not keep
 /// tau, about which nothing can be done (the eye may well be inside its box), and a few others that
-/// would decide what is promised. The channels that draw a tile that does not keep tau judge it.
+/// would decide what is promised. Where the outline of a hole may be off, the boxes of the tile's
+/// parts do: triangles that mix data and nodata lie in those alone. The channels that draw a tile
+/// that does not keep tau judge it.
 double TerrainError::ofTriangles(const terrain::TileChoice& tile, double pixels, double enough) {
     const terrain::TileRecord& record = index_.tile(tile.id);
     const bool isLimit = tile.id.level == 0 && pixels > request_.tauPixels;
-    if (record.outlineMetres > 0 || (!isLimit && lookedAt_ == kMostLookedAt))
+    if (!isLimit && lookedAt_ == kMostLookedAt)
+        return pixels;
+    const double ofOutlines = terrain::outlineErrorPixels(index_, request_.view, tile.id);
+    if (ofOutlines >= pixels)
         return pixels;
     if (!needed_.contains(tile.id) || record.triangles == 0)
-        return isLimit ? 0 : pixels;
+        return isLimit ? ofOutlines : pixels;
     lookedAt_ += isLimit ? 0 : 1;
     const CornersByError corners = drawnCorners(index_, tile, *paging_.tile(tile.id));
-    double worst = enough;
+    double worst = std::max(enough, ofOutlines);
     for (std::size_t share = 1; share < corners.size(); ++share) {
         const lod::VerticalError error(request_.view, errorMetres(record, share));
         for (std::size_t k = 0; k + 2 < corners[share].size(); k += 3) {
             const std::span<const Vec3, 3> triangle(corners[share].data() + k, 3);
             const double own = error.pixels(triangle);
             if (own > worst && !(hidden_ != nullptr && isHidden(boundsOf(triangle), [&] {
-                                     return hidden_->hidesTriangle(triangle, own);
+                                     return hidden_->coverOf(triangle, own);
                                  })))
                 worst = own;
         }
@@ -89,12 +94,16 @@ double TerrainError::ofTriangles(const terrain::TileChoice& tile, double pixels,
     return std::min(pixels, worst);
 }
 
-/// Whether what lies in `bounds` is hidden, if `covers()` says that it is covered.
-template <typename Covers>
-bool TerrainError::isHidden(const Box& bounds, Covers covers) {
-    if (!covers() || !isEyeAboveGround())
+/// Whether what lies in `bounds` is hidden by what `coverOf()` says covers it. A hole behind that
+/// does not let anyone see it.
+template <typename CoverOf>
+bool TerrainError::isHidden(const Box& bounds, CoverOf coverOf) {
+    const std::optional<fabric::PixelViewport> cover = coverOf();
+    if (!cover || !isEyeAboveGround())
         return false;
-    return !terrain::hasHoleBefore(index_, Vec2(request_.view.objectFromView()[3]), bounds);
+    const Vec2 eye(request_.view.objectFromView()[3]);
+    return !terrain::hasHoleBefore(index_, eye, bounds) ||
+           !terrain::hasHoleBefore(index_, eye, bounds, hidden_->reachOf(*cover));
 }
 
 /// Whether the eye is above or below a cell of the terrain.

@@ -26,8 +26,8 @@ public:
 
 private:
     double ofTriangles(const terrain::TileChoice& tile, double pixels, double enough);
-    template <typename Covers>
-    bool isHidden(const fabric::Box& bounds, Covers covers);
+    template <typename CoverOf>
+    bool isHidden(const fabric::Box& bounds, CoverOf coverOf);
     fabric::Vec3 eyePost() const;
     bool isEyeOverGround() const;
     bool isEyeAboveGround();

@@ -51,6 +51,10 @@ double distanceToTriangle(const Vec2& p, std::span<const Vec3, 3> corners) {
                      distanceToSegment(p, Vec2(corners[2]), Vec2(corners[0]))});
 }
 
+/// Horizontal metres for each by which a pixel looks aside per metre of depth, times its reversed
+/// depth.
+constexpr double kReach = fabric::kNearMetres * (1 + kRasterisationMargin);
+
 /// Where a row of pixels looks: object x and y per metre of depth, of its first and from each to
 /// the next.
 struct Row {
@@ -69,6 +73,18 @@ EYRIE_SIMD_CLONES bool isRowNearer(const float* __restrict depth, int count, con
         farther += x * x + y * y < limit * limit ? 0 : 1;
     }
     return farther == 0;
+}
+
+/// The square of the farthest that a row of pixels shows, in units of kReach.
+double farthestSquared(const float* depth, int count, const Row& row) {
+    double farthest = 0;
+    for (int i = 0; i < count; ++i) {
+        const double x = row.x + i * row.perPixelX;
+        const double y = row.y + i * row.perPixelY;
+        const double d = static_cast<double>(depth[i]);
+        farthest = std::max(farthest, d > 0 ? (x * x + y * y) / (d * d) : kInfinity);
+    }
+    return farthest;
 }
 
 }  // namespace
@@ -94,23 +110,24 @@ HiddenGround::HiddenGround(const lod::ObjectView& view, const PixelViewport& dra
     shape_ = errorFocal / std::max(errorFocal.x, errorFocal.y);
 }
 
-bool HiddenGround::hides(const fabric::Box& bounds, double pixels) {
+std::optional<PixelViewport> HiddenGround::coverOf(const fabric::Box& bounds, double pixels) {
     Rect rect{Vec2(kInfinity), Vec2(-kInfinity)};
     for (int i = 0; i < 8; ++i)
         if (!project(bounds.corner(i), rect))
-            return false;
+            return std::nullopt;
     const Vec2 nearest = glm::clamp(eye_, Vec2(bounds.min), Vec2(bounds.max));
-    return isCovered(rect, pixels, glm::distance(eye_, nearest));
+    return coverOf(rect, pixels, glm::distance(eye_, nearest));
 }
 
-bool HiddenGround::hidesTriangle(std::span<const Vec3, 3> corners, double pixels) {
+std::optional<PixelViewport> HiddenGround::coverOf(std::span<const Vec3, 3> corners,
+                                                   double pixels) {
     Rect rect{Vec2(kInfinity), Vec2(-kInfinity)};
     for (const Vec3& corner : corners)
         if (!project(corner, rect))
-            return false;
+            return std::nullopt;
     rect.low -= pixels / view_.view().step;
     rect.high += pixels / view_.view().step;
-    return isCovered(rect, pixels, distanceToTriangle(eye_, corners));
+    return coverOf(rect, pixels, distanceToTriangle(eye_, corners));
 }
 
 /// False for what is not clearly before the eye.
@@ -147,17 +164,18 @@ bool HiddenGround::raise(Rect& rect, double pixels) const {
     return true;
 }
 
-/// Whether all pixels of a rectangle show ground at a horizontal distance of less than `nearest`;
-/// and those up to `pixels` above, but for what lies at the very edge of the picture.
-bool HiddenGround::isCovered(const Rect& rect, double pixels, double nearest) {
+/// The pixels of a rectangle, and those up to `pixels` above but for what lies at the very edge of
+/// the picture, if all of them show ground at a horizontal distance of less than `nearest`.
+std::optional<PixelViewport> HiddenGround::coverOf(const Rect& rect, double pixels,
+                                                   double nearest) {
     // What is drawn is seen at pixels' centres.
     Rect covered = clipped(rect, 0.5);
     if (covered.isEmpty())
-        return true;
+        return PixelViewport{};
     Rect ofSource = clipped(rect, kEdgePixels);
     if (!ofSource.isEmpty()) {
         if (!raise(ofSource, pixels) || clipped(ofSource, 0) != ofSource)
-            return false;
+            return std::nullopt;
         covered.add(ofSource.low);
         covered.add(ofSource.high);
     }
@@ -172,16 +190,16 @@ bool HiddenGround::isCovered(const Rect& rect, double pixels, double nearest) {
     const std::int32_t top = pixel(covered.high.y, 1 + kPixelMargin, view.height);
     const PixelViewport part{left, bottom, right - left, top - bottom};
     if (!drawn_.contains(part))
-        return false;
+        return std::nullopt;
     // Most of what is seen, and is large, shows in its top row.
     const PixelViewport topRow{part.x, part.y + part.height - 1, part.width, 1};
     if (part.area() > kLargePixels && !seen_.contains(part)) {
         look(topRow);
         if (!allNearer(topRow, nearest))
-            return false;
+            return std::nullopt;
     }
     look(part);
-    return allNearer(part, nearest);
+    return allNearer(part, nearest) ? std::optional(part) : std::nullopt;
 }
 
 /// The part of a rectangle that is `inside` pixels or more from the edge of the picture.
@@ -200,16 +218,35 @@ void HiddenGround::look(const PixelViewport& part) {
     read_(seen_, depth_);
 }
 
-bool HiddenGround::allNearer(const PixelViewport& part, double nearest) {
+template <typename Visit>
+void HiddenGround::forEachRow(const PixelViewport& part, Visit visit) const {
     for (std::int32_t y = part.y; y < part.y + part.height; ++y) {
         const float* depth =
             depth_.data() + std::ptrdiff_t{y - seen_.y} * seen_.width + (part.x - seen_.x);
         const Vec2 first = lowerLeft_ + (part.x + 0.5) * perColumn_ + (y + 0.5) * perRow_;
-        if (!isRowNearer(depth, part.width, {first.x, first.y, perColumn_.x, perColumn_.y},
-                         nearest / (fabric::kNearMetres * (1 + kRasterisationMargin))))
-            return false;
+        if (!visit(depth, part.width, Row{first.x, first.y, perColumn_.x, perColumn_.y}))
+            return;
     }
-    return true;
+}
+
+bool HiddenGround::allNearer(const PixelViewport& part, double nearest) {
+    bool areNearer = true;
+    forEachRow(part, [&](const float* depth, int count, const Row& row) {
+        return areNearer = isRowNearer(depth, count, row, nearest / kReach);
+    });
+    return areNearer;
+}
+
+double HiddenGround::reachOf(const PixelViewport& part) {
+    if (part.area() == 0)
+        return 0;
+    look(part);
+    double farthest = 0;
+    forEachRow(part, [&](const float* depth, int count, const Row& row) {
+        farthest = std::max(farthest, farthestSquared(depth, count, row));
+        return true;
+    });
+    return kReach * std::sqrt(farthest);
 }
 
 }  // namespace eyrie::occlusion

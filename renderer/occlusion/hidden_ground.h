@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -25,20 +26,26 @@ using ReadDepth = std::function<void(const fabric::PixelViewport& part, std::vec
 /// Proof: docs/errors.md#ground-that-hills-hide.
 ///
 /// Preconditions: the picture shows one height field, nothing else, and the eye is above it and its
-/// source; between the eye and what is asked about, nearer than all of it, neither has a hole.
-/// Horizontal distance is that of the object's x and y, so its vertical may stand anyhow in the
-/// world.
+/// source; between the eye and what covers what is asked about, the source has no hole (see
+/// reachOf()). Horizontal distance is that of the object's x and y, so its vertical may stand
+/// anyhow in the world.
 class HiddenGround {
 public:
     /// `view` is the one that is drawn, `drawn` the part of it that the picture shows. Keeps a
     /// reference to `view`.
     HiddenGround(const lod::ObjectView& view, const fabric::PixelViewport& drawn, ReadDepth read);
 
-    /// True only if nothing within `bounds` (object space) is seen, of either, in a picture that
-    /// promises `pixels` (lod::View::step) or less.
-    bool hides(const fabric::Box& bounds, double pixels);
+    /// The pixels that cover what lies within `bounds` (object space) in a picture that promises
+    /// `pixels` (lod::View::step) or less, so that nobody sees it, drawn or of the source. Nothing
+    /// where somebody may; no pixels where it is all beside the picture.
+    std::optional<fabric::PixelViewport> coverOf(const fabric::Box& bounds, double pixels);
     /// The same of a triangle and all that lies up to `pixels` from it in the picture.
-    bool hidesTriangle(std::span<const fabric::Vec3, 3> corners, double pixels);
+    std::optional<fabric::PixelViewport> coverOf(std::span<const fabric::Vec3, 3> corners,
+                                                 double pixels);
+
+    /// No farther from the eye, horizontally and in metres, is what these pixels show: infinity
+    /// where one shows nothing, 0 for no pixels.
+    double reachOf(const fabric::PixelViewport& part);
 
 private:
     /// A rectangle of the picture in pixels, corner to corner.
@@ -54,7 +61,10 @@ private:
     bool project(const fabric::Vec3& point, Rect& rect) const;
     bool raise(Rect& rect, double pixels) const;
     Rect clipped(const Rect& rect, double inside) const;
-    bool isCovered(const Rect& rect, double pixels, double nearest);
+    std::optional<fabric::PixelViewport> coverOf(const Rect& rect, double pixels, double nearest);
+    /// Depths are looked at row by row: visit(depths, how many, where the row looks).
+    template <typename Visit>
+    void forEachRow(const fabric::PixelViewport& part, Visit visit) const;
     bool allNearer(const fabric::PixelViewport& part, double nearest);
     void look(const fabric::PixelViewport& part);
 

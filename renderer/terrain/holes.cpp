@@ -14,11 +14,14 @@ using fabric::Box;
 using fabric::Vec2;
 
 /// What one looks across, seen from above: the triangles of an eye and the sides of a box, as far
-/// as they are nearer than the box.
+/// as they are nearer than the box and than `reach`.
 class Outlook {
 public:
-    Outlook(const Vec2& eye, const Box& target)
-        : eye_(eye), target_(cornersOf(target)), nearest_(distanceTo(target)), around_(target) {
+    Outlook(const Vec2& eye, const Box& target, double reach)
+        : eye_(eye),
+          target_(cornersOf(target)),
+          nearest_(std::min(distanceTo(target), reach)),
+          around_(target) {
         around_.grow(fabric::Vec3(eye, target.min.z));
     }
 
@@ -95,8 +98,9 @@ bool hasHole(const EytIndex& index, const TileId& tile, const Outlook& outlook) 
 
 }  // namespace
 
-bool hasHoleBefore(const EytIndex& index, const Vec2& eye, const Box& target) {
-    return index.nodataPosts > 0 && hasHole(index, index.quadtree.top(), Outlook(eye, target));
+bool hasHoleBefore(const EytIndex& index, const Vec2& eye, const Box& target, double reach) {
+    return index.nodataPosts > 0 &&
+           hasHole(index, index.quadtree.top(), Outlook(eye, target, reach));
 }
 
 }  // namespace eyrie::terrain

@@ -26,6 +26,9 @@ public:
         return std::max(enough, worstOver(tile_, atMost(), levelsDown(), enough));
     }
 
+    /// The same of the parts where an outline may be off, and no others.
+    double ofOutlines() const { return outlinesOver(tile_, levelsDown()); }
+
 private:
     static inline const DrawnGround kNothingKnown;
     static constexpr int kLevelsDown = 2;
@@ -59,6 +62,18 @@ private:
         bounds.min.z = record_.minHeightMetres;
         bounds.max.z = record_.maxHeightMetres;
         return view_.screenSpaceErrorPixels(record_.greatestErrorMetres(), bounds);
+    }
+
+    double outlinesOver(const TileId& part, int levelsDown) const {
+        if (!blursOutline(part))
+            return 0;
+        if (levelsDown == 0)
+            return over(part);
+        double worst = 0;
+        forEachChild(part, [&](const TileId& child) {
+            worst = std::max(worst, outlinesOver(child, levelsDown - 1));
+        });
+        return worst;
     }
 
     /// Of all that is drawn and of the source in a part. An outline is off to any side: it counts.
@@ -137,6 +152,10 @@ std::uint8_t finerEdges(const Refinement& refinement, const TileId& tile) {
 double screenSpaceErrorPixels(const EytIndex& index, const lod::ObjectView& view,
                               const TileId& tile) {
     return TileError(index, view, tile).pixels(0);
+}
+
+double outlineErrorPixels(const EytIndex& index, const lod::ObjectView& view, const TileId& tile) {
+    return TileError(index, view, tile).ofOutlines();
 }
 
 Refinement refineForError(const EytIndex& index, const lod::ObjectView& view, double tauPixels) {

@@ -36,6 +36,9 @@ struct TerrainCut {
 double screenSpaceErrorPixels(const EytIndex& index, const lod::ObjectView& view,
                               const TileId& tile);
 
+/// The same of those parts alone where the outline of a hole may be off; 0 where there are none.
+double outlineErrorPixels(const EytIndex& index, const lod::ObjectView& view, const TileId& tile);
+
 /// What is known of a cut beyond the index. Either may be empty.
 struct DrawnGround {
     /// A bound on the error of a tile that is narrower than `pixels`, where there is one; anything

@@ -191,6 +191,14 @@ TEST_F(TerrainBehindARidge, IsNotPromisedForBecauseOfAHoleElsewhere) {
     checkCamera("ridge and hole", camera_, 640, 360);
 }
 
+TEST_F(TerrainBehindARidge, IsNotPromisedForBecauseOfAHoleBehindTheRidge) {
+    ASSERT_NO_FATAL_FAILURE(open([](std::vector<float>& heights) {
+        for (int j = 312; j < 316; ++j) std::fill_n(heights.begin() + j * 513, 513, std::nanf(""));
+    }));
+    EXPECT_LT(promised(), 0.5 * promisedOfAll());
+    checkCamera("ridge before hole", camera_, 640, 360);
+}
+
 TEST_F(TerrainBehindARidge, CountsFromUnderground) {
     ASSERT_NO_FATAL_FAILURE(open([](auto&) {}));
     camera_.eye.z = camera_.target.z = -40;

@@ -278,7 +278,7 @@ RC_GTEST_PROP(HiddenGround, IsSeenNeitherInThePictureNorInOneOfTheSource, (unsig
         const int cells = 1 + n % 4;
         const Box patch = patchOf(scene, static_cast<int>(dice.in(0, kPosts - 1 - cells)),
                                   static_cast<int>(dice.in(0, kPosts - 1 - cells)), cells);
-        if (!ground.hides(patch, picture.promised()))
+        if (!ground.coverOf(patch, picture.promised()))
             continue;
         ++hidden;
         RC_ASSERT(!picture.showsAnyOf(patch));
@@ -302,7 +302,7 @@ RC_GTEST_PROP(HiddenGround, OfATriangleIsSeenNowhere, (unsigned seed)) {
         const auto first =
             3 * static_cast<std::size_t>(dice.in(0, static_cast<double>(corners.size()) / 3 - 1));
         const std::span<const Vec3, 3> triangle(corners.data() + first, 3);
-        if (!ground.hidesTriangle(triangle, picture.promised()))
+        if (!ground.coverOf(triangle, picture.promised()))
             continue;
         Box bounds;
         for (const Vec3& corner : triangle) bounds.grow(corner);
@@ -328,7 +328,8 @@ RC_GTEST_PROP(HiddenGround, IsNoMoreInAPartOfThePictureThanInTheWhole, (unsigned
     for (int n = 0; n < 40; ++n) {
         const Box patch = patchOf(scene, static_cast<int>(dice.in(0, kPosts - 3)),
                                   static_cast<int>(dice.in(0, kPosts - 3)), 2);
-        RC_ASSERT(!part.hides(patch, picture.promised()) || whole.hides(patch, picture.promised()));
+        RC_ASSERT(!part.coverOf(patch, picture.promised()) ||
+                  whole.coverOf(patch, picture.promised()));
     }
 }
 
@@ -370,27 +371,41 @@ public:
 
 TEST(HiddenGround, IsAsFarBelowTheSkylineAsThePicturePromises) {
     Wall wall(40);
-    EXPECT_TRUE(wall.ground.hides(Wall::upTo(34, 200), 1));
-    EXPECT_TRUE(wall.ground.hides(Wall::upTo(34, 200), 4));
-    EXPECT_FALSE(wall.ground.hides(Wall::upTo(34, 200), 6.5));
-    EXPECT_FALSE(wall.ground.hides(Wall::upTo(39.5, 200), 1));
-    EXPECT_FALSE(wall.ground.hides(Wall::upTo(34, 200), std::numeric_limits<double>::infinity()));
+    EXPECT_TRUE(wall.ground.coverOf(Wall::upTo(34, 200), 1));
+    EXPECT_TRUE(wall.ground.coverOf(Wall::upTo(34, 200), 4));
+    EXPECT_FALSE(wall.ground.coverOf(Wall::upTo(34, 200), 6.5));
+    EXPECT_FALSE(wall.ground.coverOf(Wall::upTo(39.5, 200), 1));
+    EXPECT_FALSE(wall.ground.coverOf(Wall::upTo(34, 200), std::numeric_limits<double>::infinity()));
 }
 
 TEST(HiddenGround, IsBehindWhatIsDrawn) {
     Wall wall(40);
-    EXPECT_TRUE(wall.ground.hides(Wall::upTo(20, 101), 1));
-    EXPECT_FALSE(wall.ground.hides(Wall::upTo(20, 100), 1));
-    EXPECT_FALSE(wall.ground.hides(Wall::upTo(20, 99), 1));
-    EXPECT_FALSE(wall.ground.hides({Vec3(-1), Vec3(1)}, 1)) << "around the eye";
-    EXPECT_FALSE(wall.ground.hides({{-9, -1, -1}, {-8, 1, 1}}, 1)) << "behind it";
+    EXPECT_TRUE(wall.ground.coverOf(Wall::upTo(20, 101), 1));
+    EXPECT_FALSE(wall.ground.coverOf(Wall::upTo(20, 100), 1));
+    EXPECT_FALSE(wall.ground.coverOf(Wall::upTo(20, 99), 1));
+    EXPECT_FALSE(wall.ground.coverOf({Vec3(-1), Vec3(1)}, 1)) << "around the eye";
+    EXPECT_FALSE(wall.ground.coverOf({{-9, -1, -1}, {-8, 1, 1}}, 1)) << "behind it";
+}
+
+TEST(HiddenGround, IsCoveredByWhatIsNoFartherThanReachSays) {
+    Wall wall(40);
+    const auto cover = wall.ground.coverOf(Wall::upTo(20, 200), 1);
+    ASSERT_TRUE(cover);
+    EXPECT_GT(cover->area(), 0);
+    // Seen aside the wall is a little farther.
+    EXPECT_GT(wall.ground.reachOf(*cover), 100);
+    EXPECT_LT(wall.ground.reachOf(*cover), 101);
+    EXPECT_EQ(wall.ground.reachOf({0, 39, 4, 2}), std::numeric_limits<double>::infinity()) << "sky";
+    const auto beside = wall.ground.coverOf({{200, 900, -1}, {201, 901, 1}}, 1);
+    ASSERT_TRUE(beside);
+    EXPECT_EQ(wall.ground.reachOf(*beside), 0);
 }
 
 TEST(HiddenGround, ReachesTheEdgeOfThePictureWherePromisesAreOfAPixel) {
     Wall wall(kHeight);
-    EXPECT_TRUE(wall.ground.hides(Wall::upTo(kHeight + 20, 200), 1));
-    EXPECT_TRUE(wall.ground.hides(Wall::upTo(kHeight - 0.5, 200), 1));
-    EXPECT_FALSE(wall.ground.hides(Wall::upTo(kHeight - 0.5, 200), 1.5))
+    EXPECT_TRUE(wall.ground.coverOf(Wall::upTo(kHeight + 20, 200), 1));
+    EXPECT_TRUE(wall.ground.coverOf(Wall::upTo(kHeight - 0.5, 200), 1));
+    EXPECT_FALSE(wall.ground.coverOf(Wall::upTo(kHeight - 0.5, 200), 1.5))
         << "what is above the picture may be lower in the source";
 }
 

@@ -105,6 +105,8 @@ TEST(HoleBefore, IsNoneBehindTheEyeNorInOrBehindTheTarget) {
     EXPECT_FALSE(hasHoleBefore(index, eye, target));
     mark(3, 1);  // from 2880 to 3120 m
     EXPECT_TRUE(hasHoleBefore(index, eye, target));
+    EXPECT_TRUE(hasHoleBefore(index, eye, target, 881));
+    EXPECT_FALSE(hasHoleBefore(index, eye, target, 879)) << "behind what covers the target";
     EXPECT_FALSE(hasHoleBefore(index, Vec2(3200, 100), target));
 }
 
