@@ -19,13 +19,13 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include "bench/decompositions/ways.h"
 #include "coordinator/compound/jitter.h"
 #include "coordinator/config/eqc_reader.h"
 #include "coordinator/config/one_channel.h"
 #include "coordinator/frame/frame_sequence.h"
+#include "fabric/log.h"
 #include "fabric/status.h"
 #include "tests/support/different_pixels.h"
 #include "tests/support/local_pictures.h"

@@ -25,10 +25,10 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <sched.h>
-#include <spdlog/spdlog.h>
 #include <time.h>
 
 #include "coordinator/coordinator.h"
+#include "fabric/log.h"
 #include "fabric/status.h"
 #include "renderer/renderer.h"
 #include "tests/support/process.h"

@@ -26,10 +26,10 @@
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
-#include <spdlog/spdlog.h>
 
 #include "bench/faulty_farm.h"
 #include "coordinator/frame/frame_sequence.h"
+#include "fabric/log.h"
 #include "tests/support/different_pixels.h"
 
 namespace {

@@ -6,8 +6,8 @@
 
 #include <arpa/inet.h>
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
+#include "fabric/log.h"
 #include "fabric/status.h"
 
 namespace eyrie::cli {

@@ -13,10 +13,10 @@
 #include <spdlog/formatter.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/sinks/stdout_sinks.h>
-#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include "cli/json_object.h"
+#include "fabric/log.h"
 
 namespace eyrie::cli {
 namespace {

@@ -7,13 +7,12 @@
 #include <utility>
 #include <vector>
 
-#include <spdlog/spdlog.h>
-
 #include "cli/data_cache.h"
 #include "cli/local_farm.h"
 #include "cli/progress_bar.h"
 #include "cli/scene_files.h"
 #include "coordinator/frame/budget_keeper.h"
+#include "fabric/log.h"
 #include "fabric/status.h"
 #include "renderer/renderer.h"
 

@@ -5,7 +5,6 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include "cli/cache_options.h"
 #include "cli/commands.h"
@@ -14,6 +13,7 @@
 #include "cli/log.h"
 #include "cli/stop_signal.h"
 #include "cli/values.h"
+#include "fabric/log.h"
 #include "fabric/status.h"
 #include "service/renderer_drawer.h"
 #include "service/renderer_node.h"

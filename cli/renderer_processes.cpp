@@ -6,12 +6,12 @@
 #include <string_view>
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include "cli/child_process.h"
 #include "cli/decode_names.h"
 #include "cli/log.h"
 #include "cli/restart_policy.h"
+#include "fabric/log.h"
 
 namespace eyrie::cli {
 namespace {

@@ -10,7 +10,6 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include "cli/cache_options.h"
 #include "cli/commands.h"
@@ -26,6 +25,7 @@
 #include "cli/stop_signal.h"
 #include "cli/video_option.h"
 #include "cli/web_door.h"
+#include "fabric/log.h"
 #include "fabric/status.h"
 
 namespace eyrie::cli {

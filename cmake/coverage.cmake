@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-# With EYRIE_COVERAGE the libraries of the core logic (CONTRIBUTING.md) count which of their lines
-# are run; tools/coverage.py tells. Nothing else counts, so that it costs little to compile and run.
+# With EYRIE_COVERAGE the project's own libraries count which of their lines are run;
+# tools/coverage.py tells. Neither tests nor generated code count, so that it costs little to compile
+# and run. Counters are plain ones (with -pthread GCC's own choice is atomic ones): threads may lose
+# some of each other's counts, but what counts is whether a line was run.
 
 # eyrie_count_lines(FOLDERS...): the libraries of these folders and below, once all are known.
 function(eyrie_count_lines)
@@ -9,7 +11,7 @@ function(eyrie_count_lines)
         foreach(target IN LISTS targets)
             get_target_property(type ${target} TYPE)
             if(type STREQUAL "STATIC_LIBRARY")
-                target_compile_options(${target} PRIVATE --coverage -fprofile-update=atomic)
+                target_compile_options(${target} PRIVATE --coverage -fprofile-update=single)
                 target_link_options(${target} INTERFACE --coverage)
             endif()
         endforeach()

@@ -5,9 +5,9 @@
 //
 //   NAME CORPUS_FOLDER [INPUT]...     only the inputs, where there are some
 //
-// EYRIE_FUZZ_SECONDS: how long [5]. EYRIE_FUZZ_SEED: another order [1]. An input on which the
-// target dies, takes more than EYRIE_FUZZ_LIMIT_SECONDS of processor time [10] or 256 MiB
-// more than before is left in NAME.crash.
+// EYRIE_FUZZ_SECONDS: how long [5; 1 without the address sanitizer]. EYRIE_FUZZ_SEED: another order
+// [1]. An input on which the target dies, takes more than EYRIE_FUZZ_LIMIT_SECONDS of processor
+// time [10] or 256 MiB more than before is left in NAME.crash.
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -36,6 +36,11 @@ using Input = std::vector<std::uint8_t>;
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kMaxBytes = 64 * 1024;
+#ifdef __SANITIZE_ADDRESS__
+constexpr int kUsualSeconds = 5;
+#else
+constexpr int kUsualSeconds = 1;  // less is seen, and the tests run with sanitizers, too
+#endif
 constexpr long kMaxGrowthKilobytes = 256 * 1024;
 
 // What the signal handler needs, which may touch nothing else.
@@ -190,7 +195,8 @@ int main(int count, char** arguments) {
     }
     for (const Input& input : corpus) play(input);
     play({});
-    const auto end = Clock::now() + std::chrono::seconds(number("EYRIE_FUZZ_SECONDS", 5));
+    const auto end =
+        Clock::now() + std::chrono::seconds(number("EYRIE_FUZZ_SECONDS", kUsualSeconds));
     Mutator mutator(corpus, static_cast<unsigned>(number("EYRIE_FUZZ_SEED", 1)));
     std::size_t runs = 0;
     for (; Clock::now() < end; ++runs) play(mutator.next());

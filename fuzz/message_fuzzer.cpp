@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// What browsers, coordinators and renderers send, of any bytes: values that hold what they promise,
+// What browsers and coordinators send, of any bytes: values that hold what they promise,
 // or a message. The first byte says which of them it is.
 #include <cstdint>
 #include <span>
+#include <string_view>
 
+#include "coordinator/stream/sessions.h"
 #include "coordinator/stream/viewer_messages.h"
 #include "eyrie/v1/render_service.pb.h"
 #include "wire/channel_program.h"
@@ -29,7 +31,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         return 0;
     const std::uint8_t kind = *data++;
     --size;
-    switch (kind % 6) {
+    switch (kind % 7) {
         case 0:
             static_cast<void>(stream::parseRequest(std::as_bytes(std::span(data, size))));
             break;
@@ -51,9 +53,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                 return wire::fromMessage(message.program());
             });
             break;
-        default:
+        case 5:
             parse<v1::PickRequest>(data, size,
                                    [](const auto& message) { return wire::fromMessage(message); });
+            break;
+        default:  // the address of a viewer's stream
+            static_cast<void>(stream::joiningOf({reinterpret_cast<const char*>(data), size}));
     }
     return 0;
 }

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include <spdlog/spdlog.h>
+#include "fabric/log.h"
 
 namespace eyrie::service {
 

@@ -12,9 +12,9 @@
 #include <grpcpp/client_context.h>
 #include <grpcpp/create_channel.h>
 #include <grpcpp/security/credentials.h>
-#include <spdlog/spdlog.h>
 
 #include "eyrie/v1/registry_service.grpc.pb.h"
+#include "fabric/log.h"
 #include "fabric/version.h"
 #include "wire/deadline.h"
 #include "wire/protocol.h"

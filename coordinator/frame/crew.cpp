@@ -5,7 +5,8 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
+
+#include "fabric/log.h"
 
 namespace eyrie::coordinator {
 namespace {

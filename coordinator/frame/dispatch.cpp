@@ -5,8 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include <spdlog/spdlog.h>
-
+#include "fabric/log.h"
 #include "fabric/status.h"
 
 namespace eyrie::coordinator {

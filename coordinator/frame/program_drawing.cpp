@@ -7,10 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include <spdlog/spdlog.h>
-
 #include "coordinator/frame/program_runs.h"
 #include "coordinator/observe/stage_timer.h"
+#include "fabric/log.h"
 #include "fabric/status.h"
 
 namespace eyrie::coordinator {

@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 #include <openssl/ssl.h>
-#include <spdlog/spdlog.h>
 
+#include "fabric/log.h"
 #include "fabric/status.h"
 
 namespace eyrie::http {

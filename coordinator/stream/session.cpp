@@ -14,7 +14,6 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include "coordinator/observe/stage_timer.h"
 #include "coordinator/stream/drawing.h"
@@ -22,6 +21,7 @@
 #include "coordinator/stream/swap_group.h"
 #include "coordinator/stream/video_streams.h"
 #include "coordinator/stream/viewer_messages.h"
+#include "fabric/log.h"
 
 namespace eyrie::stream {
 namespace {

@@ -5,10 +5,10 @@
 #include <optional>
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include "access/printable.h"
 #include "access/ticket.h"
+#include "fabric/log.h"
 
 namespace eyrie::access {
 namespace {

@@ -2,7 +2,6 @@
 #include "access/printable.h"
 
 #include <cstdint>
-#include <iterator>
 
 #include <fmt/format.h>
 
@@ -66,7 +65,7 @@ std::string printable(std::string_view text) {
         if (c >= 0x20 && c < 0x7f)
             result += c;
         else
-            fmt::format_to(std::back_inserter(result), "\\x{:02x}", static_cast<std::uint8_t>(c));
+            result += fmt::format("\\x{:02x}", static_cast<std::uint8_t>(c));
     }
     return result;
 }

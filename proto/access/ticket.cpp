@@ -3,7 +3,6 @@
 
 #include <array>
 #include <charconv>
-#include <iterator>
 
 #include <fmt/format.h>
 #include <openssl/crypto.h>
@@ -31,8 +30,7 @@ std::string makeTicket(std::string_view secret, std::int64_t expires) {
     HMAC(EVP_sha256(), secret.data(), static_cast<int>(secret.size()),
          reinterpret_cast<const unsigned char*>(text.data()), text.size(), digest.data(), nullptr);
     std::string ticket = fmt::format("{}.", expires);
-    for (const unsigned char byte : digest)
-        fmt::format_to(std::back_inserter(ticket), "{:02x}", byte);
+    for (const unsigned char byte : digest) ticket += fmt::format("{:02x}", byte);
     return ticket;
 }
 

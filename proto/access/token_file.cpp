@@ -4,9 +4,9 @@
 #include <string_view>
 #include <utility>
 
-#include <spdlog/spdlog.h>
 #include <sys/stat.h>
 
+#include "fabric/log.h"
 #include "fabric/status.h"
 
 namespace eyrie::access {

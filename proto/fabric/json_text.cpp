@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fabric/json_text.h"
 
-#include <iterator>
-
 #include <fmt/format.h>
 
 namespace eyrie::fabric {
@@ -13,7 +11,7 @@ std::string quotedJson(std::string_view text) {
         if (c == '"' || c == '\\')
             json += {'\\', c};
         else if (static_cast<unsigned char>(c) < 0x20)
-            fmt::format_to(std::back_inserter(json), "\\u{:04x}", static_cast<unsigned>(c));
+            json += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
         else
             json += c;
     }

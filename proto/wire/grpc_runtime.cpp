@@ -5,7 +5,8 @@
 
 #include <grpc/grpc.h>
 #include <grpc/support/log.h>
-#include <spdlog/spdlog.h>
+
+#include "fabric/log.h"
 
 namespace eyrie::wire {
 

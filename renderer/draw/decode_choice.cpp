@@ -6,8 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include <spdlog/spdlog.h>
-
+#include "fabric/log.h"
 #include "fabric/status.h"
 #include "renderer/draw/terrain_tiles.h"
 

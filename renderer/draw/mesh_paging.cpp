@@ -7,8 +7,8 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
+#include "fabric/log.h"
 #include "fabric/status.h"
 #include "renderer/page/remote_name.h"
 

@@ -8,8 +8,8 @@
 #include <string_view>
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
+#include "fabric/log.h"
 #include "renderer/mesh/image_codec.h"
 
 namespace eyrie::draw {

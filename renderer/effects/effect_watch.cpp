@@ -5,8 +5,8 @@
 #include <cstdlib>
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
+#include "fabric/log.h"
 #include "fabric/status.h"
 #include "renderer/effects/language/effect_loader.h"
 #include "renderer/effects/language/glsl_writer.h"

@@ -5,7 +5,8 @@
 #include <cstdlib>
 
 #include <GL/glew.h>
-#include <spdlog/spdlog.h>
+
+#include "fabric/log.h"
 
 namespace eyrie::gl {
 namespace {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include <spdlog/spdlog.h>
+#include "fabric/log.h"
 
 namespace eyrie::page {
 namespace {

@@ -8,10 +8,10 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 #include <unistd.h>
 #include <xxhash.h>
 
+#include "fabric/log.h"
 #include "fabric/status.h"
 #include "renderer/page/remote_name.h"
 

@@ -12,8 +12,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 #include <spdlog/sinks/ostream_sink.h>
-#include <spdlog/spdlog.h>
 
+#include "fabric/log.h"
 #include "renderer/gl/debug_output.h"
 #include "renderer/import/terrain_import.h"
 #include "renderer/import/terrain_synth.h"

@@ -8,8 +8,8 @@
 #include <thread>
 
 #include <gtest/gtest.h>
-#include <spdlog/spdlog.h>
 
+#include "fabric/log.h"
 #include "renderer/gl/debug_output.h"
 #include "renderer/renderer.h"
 #include "tests/renderer/sample_scene.h"

@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 #include <spdlog/sinks/ostream_sink.h>
-#include <spdlog/spdlog.h>
 
+#include "fabric/log.h"
 #include "renderer/renderer.h"
 #include "tests/renderer/sample_scene.h"
 #include "tests/support/temporary_folder.h"

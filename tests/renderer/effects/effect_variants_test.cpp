@@ -10,10 +10,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <spdlog/sinks/ostream_sink.h>
-#include <spdlog/spdlog.h>
 
 #include "effects/mesh_effect.h"
 #include "effects/terrain_effect.h"
+#include "fabric/log.h"
 #include "renderer/gl/debug_output.h"
 #include "renderer/gl/egl_context.h"
 #include "tests/support/temporary_folder.h"

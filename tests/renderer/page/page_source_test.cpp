@@ -11,9 +11,9 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <spdlog/spdlog.h>
 #include <xxhash.h>
 
+#include "fabric/log.h"
 #include "tests/support/page_server.h"
 #include "tests/support/temporary_folder.h"
 

@@ -51,6 +51,11 @@ export function messageFor({ connection, session, hasPicture }: Situation): Mess
   if (session.problem !== "") return { title: "There is no picture", text: session.problem };
   if (session.sceneBounds === undefined)
     return { title: "Opening the scene", text: "The renderers are reading it." };
+  if (session.place?.led === false)
+    return {
+      title: "Nobody leads",
+      text: "The picture appears when somebody who may steer joins this session and leads it.",
+    };
   return { title: "Drawing the first picture", text: "It appears in a moment." };
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { create } from "@bufbuild/protobuf";
 import { describe, expect, it } from "vitest";
-import { SessionStateSchema } from "../protocol/gen/eyrie/v1/viewer_pb";
+import { SessionStateSchema, ViewerPlaceSchema } from "../protocol/gen/eyrie/v1/viewer_pb";
 import { RendererCondition } from "../protocol/messages";
 import type { SessionState } from "../protocol/messages";
 import type { Connection, Numbers } from "../state";
@@ -85,6 +85,14 @@ describe("the message in place of a picture", () => {
     expect(titleOf(connected, session(1, 0, "bad file"))).toBe("There is no picture");
     expect(titleOf(connected, session(1, 0, "", false))).toBe("Opening the scene");
     expect(titleOf(connected, session(1))).toBe("Drawing the first picture");
+  });
+
+  it("does not promise a picture where nobody leads", () => {
+    const shared = session(1);
+    shared.place = create(ViewerPlaceSchema, { session: "review", viewers: 1, led: false });
+    expect(titleOf(connected, shared)).toBe("Nobody leads");
+    shared.place.led = true;
+    expect(titleOf(connected, shared)).toBe("Drawing the first picture");
   });
 
   it("gives the command that starts a renderer", () => {

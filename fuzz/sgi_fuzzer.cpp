@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures on models in Silicon Graphics' format, of any bytes: refused, or as many texels as their
+// sides say. Other formats of pictures are read by stb, in a process of its own.
+#include <cstdint>
+#include <cstdlib>
+#include <span>
+
+#include "renderer/import/sgi_image.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    using namespace eyrie;
+    const auto bytes = std::as_bytes(std::span(data, size));
+    static_cast<void>(import::looksLikeSgi(bytes));
+    mesh::ImageShape shape;
+    const auto texels = import::decodeSgi(bytes, shape);
+    if (texels.ok() ? texels->size() != std::size_t{shape.width} * shape.height
+                    : texels.status().code() != absl::StatusCode::kInvalidArgument)
+        std::abort();
+    return 0;
+}
