@@ -41,6 +41,7 @@ struct Options {
     std::string out;
     bool hasTaus = false;  ///< were given
     bool json = false;
+    bool progressJson = false;
     std::vector<std::string> compared;
     bool force = false;
 };
@@ -88,8 +89,8 @@ bench::RunPlan planOf(const Options& options, const PictureSize& size) {
     play.request.height = size.height;
     play.request.occlusion = options.occlusion;
     play.request.shown = {options.pictures.config.shown};
-    return {options.scene,     options.flight, askedOf(options),
-            options.renderers, play,           options.pictures};
+    return {options.scene, options.flight,   askedOf(options),    options.renderers,
+            play,          options.pictures, options.progressJson};
 }
 
 absl::Status runCompare(const Options& options) {
@@ -219,6 +220,9 @@ void addBench(CLI::App& app, Run& run) {
     addCacheOptions(*command, options->pictures.cache);
     command->add_flag("--quiet", options->pictures.quiet, "Only errors");
     command->add_flag("--json", options->json, "Print the summary as JSON");
+    command->add_flag("--progress-json", options->progressJson,
+                      "Progress as lines of JSON on standard error, for programs: a run, and how "
+                      "far that is from 0 to 1");
     command->footer(
         "The report is index.html to look at, summary.json and frames.csv to work with. Processes\n"
         "have as many frames in flight as the configuration's latency and one (two without one): "

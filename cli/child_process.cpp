@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/child_process.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <string_view>
 #include <thread>
 
 #include <fmt/format.h>
@@ -28,9 +30,16 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
     return result;
 }
 
-std::vector<std::string> mergedEnvironment(const std::vector<std::string>& additions) {
+std::string_view nameOf(std::string_view variable) {
+    return variable.substr(0, variable.find('='));
+}
+
+std::vector<std::string> mergedEnvironment(const std::vector<std::string>& additions,
+                                           const std::vector<std::string>& without) {
     std::vector<std::string> result;
-    for (char** entry = environ; *entry != nullptr; ++entry) result.emplace_back(*entry);
+    for (char** entry = environ; *entry != nullptr; ++entry)
+        if (std::ranges::find(without, nameOf(*entry)) == without.end())
+            result.emplace_back(*entry);
     for (const std::string& addition : additions)
         if (std::getenv(addition.substr(0, addition.find('=')).c_str()) == nullptr)
             result.push_back(addition);
@@ -86,7 +95,7 @@ absl::StatusOr<ChildProcess> ChildProcess::start(const std::vector<std::string>&
                                                  const Setting& setting) {
     std::vector<std::string> command = {"eyrie"};
     command.insert(command.end(), arguments.begin(), arguments.end());
-    std::vector<std::string> variables = mergedEnvironment(environment);
+    std::vector<std::string> variables = mergedEnvironment(environment, setting.without);
     const std::vector<char*> commandPointers = pointers(command);
     const std::vector<char*> variablePointers = pointers(variables);
     const pid_t parent = getpid();

@@ -26,6 +26,7 @@ public:
         int errors = -1;                    ///< and error; -1: this one's
         std::uint64_t memoryBytes = 0;      ///< of its own, that it may have; 0: no limit
         int niceness = 0;                   ///< added to this one's: it gives way to others
+        std::vector<std::string> without = {};  ///< variables of this process's environment
     };
 
     /// `arguments` follow the program's name; `environment` ("NAME=value") adds to this process's,

@@ -17,6 +17,7 @@
 #include "cli/door_options.h"
 #include "cli/log.h"
 #include "cli/program_runs.h"
+#include "cli/quota_options.h"
 #include "cli/scene_files.h"
 #include "cli/stop_signal.h"
 #include "cli/video_option.h"
@@ -39,6 +40,7 @@ struct Options {
     DoorOptions door;
     bool h264 = false;
     ProgramOptions programs;
+    QuotaOptions quotas;
     bool quiet = false;
 };
 
@@ -66,6 +68,7 @@ absl::Status coordinate(const Options& options) {
     settings.layout = compoundNames().at(options.config.compound);
     settings.dataFolder = options.data;
     ASSIGN_OR_RETURN(settings.programs, programsOf(options.programs));
+    ASSIGN_OR_RETURN(settings.quotas, quotasOf(options.quotas));
     settings.grpcReflection = options.grpcReflection;
     ASSIGN_OR_RETURN(settings.scene, loadScene(options, stop.token()));
     auto coordinator = coordinator::Coordinator::start(settings);
@@ -73,7 +76,8 @@ absl::Status coordinate(const Options& options) {
         return fabric::withContext(absl::InvalidArgumentError(coordinator.status().message()),
                                    "--grpc");
     RETURN_IF_ERROR(coordinator.status());
-    ASSIGN_OR_RETURN(const auto door, openWebDoor(options.listen, doors, video, **coordinator));
+    ASSIGN_OR_RETURN(const auto door, openWebDoor(options.listen, doors, video,
+                                                  options.quotas.crowd, **coordinator));
     fmt::print("Eyrie is at {}\n", door->url());
     for (const std::string& address : (*coordinator)->grpcAddresses())
         fmt::print("Renderers register at {}\n", address);
@@ -104,6 +108,7 @@ void addCoordinator(CLI::App& app, Run& run) {
                      "[nowhere]")
         ->type_name("DIR");
     addProgramOptions(*command, options->programs);
+    addQuotaOptions(*command, options->quotas);
     command->add_flag("--grpc-reflection", options->grpcReflection,
                       "Let gRPC tools ask which calls there are");
     addConfigOptions(*command, options->config);

@@ -21,7 +21,7 @@ constexpr std::chrono::milliseconds kPollInterval{10};
 absl::StatusOr<std::unique_ptr<LocalFarm>> LocalFarm::start(
     std::optional<config::Configuration> configuration, const std::string& compound,
     const CacheOptions& cache, TileDecoding decoding, const std::filesystem::path& dataFolder,
-    const api::Programs& programs) {
+    const api::Programs& programs, const api::Quotas& quotas) {
     ASSIGN_OR_RETURN(TemporaryFolder folder, TemporaryFolder::create());
     coordinator::CoordinatorOptions options;
     options.grpcAddresses = {folder.socket("coordinator")};
@@ -29,6 +29,7 @@ absl::StatusOr<std::unique_ptr<LocalFarm>> LocalFarm::start(
     options.layout = compoundNames().at(compound);
     options.dataFolder = dataFolder;
     options.programs = programs;
+    options.quotas = quotas;
     ASSIGN_OR_RETURN(auto coordinator, coordinator::Coordinator::start(options));
     return std::unique_ptr<LocalFarm>(
         new LocalFarm(std::move(folder), std::move(coordinator), cache, decoding));

@@ -22,12 +22,13 @@ namespace eyrie::cli {
 class LocalFarm {
 public:
     /// Without renderers yet, and without a scene. `cache` and `decoding` are the renderers',
-    /// `dataFolder` and `programs` are CoordinatorOptions'.
+    /// `dataFolder`, `programs` and `quotas` are CoordinatorOptions'.
     /// Errors: Unavailable.
     static absl::StatusOr<std::unique_ptr<LocalFarm>> start(
         std::optional<config::Configuration> configuration, const std::string& compound,
         const CacheOptions& cache, TileDecoding decoding,
-        const std::filesystem::path& dataFolder = {}, const api::Programs& programs = {});
+        const std::filesystem::path& dataFolder = {}, const api::Programs& programs = {},
+        const api::Quotas& quotas = {});
 
     coordinator::Coordinator& coordinator() { return *coordinator_; }
     coordinator::FrameSource& frames() { return coordinator_->frames(); }

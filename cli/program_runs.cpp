@@ -129,10 +129,14 @@ absl::StatusOr<api::ProgramEnd> runProgram(const std::vector<std::string>& argum
                                            const std::stop_token& stop) {
     ASSIGN_OR_RETURN(Pipe output, makePipe());
     ASSIGN_OR_RETURN(Pipe errors, makePipe());
-    ASSIGN_OR_RETURN(ChildProcess child,
-                     ChildProcess::start(arguments, {},
-                                         {folder, output.write.number(), errors.write.number(),
-                                          memoryBytes, kNiceness}));
+    // How the server shares its work is nothing to what it has done.
+    ASSIGN_OR_RETURN(ChildProcess child, ChildProcess::start(arguments, {},
+                                                             {folder,
+                                                              output.write.number(),
+                                                              errors.write.number(),
+                                                              memoryBytes,
+                                                              kNiceness,
+                                                              {"EYRIE_CONFIG", "EYRIE_COMPOUND"}}));
     output.write.close();
     errors.write.close();
     api::ProgramEnd end;
@@ -153,8 +157,8 @@ absl::StatusOr<api::ProgramEnd> runProgram(const std::vector<std::string>& argum
 void addProgramOptions(CLI::App& command, ProgramOptions& options) {
     command
         .add_option("--imports", options.imports,
-                    "Imports into --data that programs with the role admin may have done at a "
-                    "time; 0: none")
+                    "Imports into --data, and bench runs, that programs with the role admin may "
+                    "have done at a time; 0: none")
         ->check(CLI::Range(0, 16))
         ->capture_default_str();
     command

@@ -21,6 +21,7 @@
 #include "cli/local_farm.h"
 #include "cli/log.h"
 #include "cli/program_runs.h"
+#include "cli/quota_options.h"
 #include "cli/scene_files.h"
 #include "cli/stop_signal.h"
 #include "cli/video_option.h"
@@ -44,6 +45,7 @@ struct Options {
     ConfigOptions config;
     DoorOptions door;
     ProgramOptions programs;
+    QuotaOptions quotas;
     int renderers = 0;  ///< 0: as many as suit this machine
     bool h264 = false;
     bool quiet = false;
@@ -97,13 +99,14 @@ absl::Status serve(const Options& options) {
     ASSIGN_OR_RETURN(const video::Module* video, videoModule(options.h264));
     ASSIGN_OR_RETURN(auto configuration, configurationOf(options.config, options.quiet));
     ASSIGN_OR_RETURN(const api::Programs programs, programsOf(options.programs));
+    ASSIGN_OR_RETURN(const api::Quotas quotas, quotasOf(options.quotas));
     const int renderers = rendererCount(options, configuration);
     ASSIGN_OR_RETURN(
         const auto farm,
         LocalFarm::start(std::move(configuration), options.config.compound, options.cache,
-                         options.decoding, options.dataFolder, programs));
-    ASSIGN_OR_RETURN(const auto door,
-                     openWebDoor(options.listen, doors, video, farm->coordinator()));
+                         options.decoding, options.dataFolder, programs, quotas));
+    ASSIGN_OR_RETURN(const auto door, openWebDoor(options.listen, doors, video,
+                                                  options.quotas.crowd, farm->coordinator()));
     ASSIGN_OR_RETURN(fabric::Scene scene, loadScene(options, stop.token()));
     RETURN_IF_ERROR(farm->coordinator().setScene(std::move(scene)));
     farm->startRenderers(renderers);
@@ -146,6 +149,7 @@ void addServe(CLI::App& app, Run& run) {
                      "[nowhere]")
         ->type_name("DIR");
     addProgramOptions(*command, options->programs);
+    addQuotaOptions(*command, options->quotas);
     addConfigOptions(*command, options->config);
     addDoorOptions(*command, options->door);
     addVideoOption(*command, options->h264);

@@ -32,6 +32,7 @@ std::filesystem::path webFolder() {
 absl::StatusOr<std::unique_ptr<http::Server>> openWebDoor(const std::string& listen,
                                                           const Doors& doors,
                                                           const video::Module* video,
+                                                          const http::CrowdLimits& limits,
                                                           coordinator::Coordinator& coordinator) {
     ASSIGN_OR_RETURN(const HostPort address, parseHostPort(listen, "--listen"));
     RETURN_IF_ERROR(checkWebDoor(doors,
@@ -48,6 +49,8 @@ absl::StatusOr<std::unique_ptr<http::Server>> openWebDoor(const std::string& lis
     options.api = &coordinator.api().rest();
     options.telemetry = coordinator.telemetry();
     options.video = video;
+    options.limits = limits;
+    options.sessions = coordinator.api().sessions();
     auto server = http::Server::start(options, coordinator.frames());
     if (server.ok())
         return server;

@@ -13,11 +13,12 @@
 namespace eyrie::cli {
 
 /// Starts the HTTP server on what --listen says, with the page that was built beside this program,
-/// for whom `doors` lets in; `video` is ServerOptions::video.
+/// for whom `doors` lets in; `video` is ServerOptions::video, `limits` its limits.
 /// Errors: InvalidArgument, naming --listen and a remedy.
 absl::StatusOr<std::unique_ptr<http::Server>> openWebDoor(const std::string& listen,
                                                           const Doors& doors,
                                                           const video::Module* video,
+                                                          const http::CrowdLimits& limits,
                                                           coordinator::Coordinator& coordinator);
 
 /// Stops the door: viewers get what they have asked for, for some seconds at most, after which

@@ -42,7 +42,7 @@ public:
           pipeline_(*registry_, pipelineOptions(options, *door, telemetry_)),
           api_({pipeline_, pipeline_,
                 [this](fabric::Scene scene) { pipeline_.setScene(std::move(scene)); },
-                std::move(dataFolder), options.programs}),
+                std::move(dataFolder), options.programs, options.quotas, telemetry_}),
           door_(std::move(door)),
           watcher_([this](const std::stop_token& stop) { watchHeartbeats(*registry_, stop); }) {
         setScene(options.scene);
@@ -57,7 +57,10 @@ public:
         pipeline_.setScene(std::move(scene));
     }
     const observe::SharedTelemetry& telemetry() const { return telemetry_; }
-    void stop() { door_->stop(); }
+    void stop() {
+        api_.endStreams();
+        door_->stop();
+    }
 
     void abandonFrames() {
         stop();

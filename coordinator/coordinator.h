@@ -10,6 +10,7 @@
 #include <absl/status/statusor.h>
 
 #include "coordinator/api/programs.h"
+#include "coordinator/api/quotas.h"
 #include "coordinator/config/configuration.h"
 #include "coordinator/frame/frame_source.h"
 #include "coordinator/observe/telemetry.h"
@@ -33,6 +34,7 @@ struct CoordinatorOptions {
     /// Where programs may name files, keep flights and have data imported; empty: nowhere.
     std::filesystem::path dataFolder = {};
     api::Programs programs = {};  ///< what programs may have done by other processes
+    api::Quotas quotas = {};      ///< what they may ask for
     bool grpcReflection = false;  ///< tools may ask over gRPC which calls there are
     fabric::Scene scene = {};     ///< of .eyt and .eym files that the renderers can read
 };

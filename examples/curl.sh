@@ -33,6 +33,12 @@ ask "$server/pick" -o "$folder/pick.json" --json '{"width":320,"height":180,"x":
 tag=$(ask --head "$server/scene" | tr -d '\r' | sed -n 's/^[Ee][Tt]ag: //p')
 ask "$server/scene" --header "If-None-Match: $tag" -o /dev/null -w 'scene: %{http_code}\n'
 
+# Who is looking, and at what; examples/sessions.py moves their camera.
+ask "$server/sessions" -o "$folder/sessions.json"
+
+# What the last frame took: the first event of a stream of them, which curl would go on reading.
+ask --no-buffer --max-time 2 "$server/statistics?perSecond=1" | head -n 1 > "$folder/frame.txt" || true
+
 # What data there are for scenes, and what is being imported.
 ask "$server/data-sets" -o "$folder/data-sets.json"
 ask "$server/operations" -o "$folder/operations.json"

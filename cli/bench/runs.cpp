@@ -56,7 +56,9 @@ std::string drawnBy(int renderers, const std::string& compound) {
 
 absl::StatusOr<std::vector<BenchRun>> playRuns(const RunPlan& plan, const std::stop_token& stop) {
     const int frames = plan.play.frames * (plan.play.repeats + 1);
-    ProgressBar bar("bench", frames, "frames", ProgressBar::styleFor(plan.pictures.quiet));
+    ProgressBar bar(
+        "bench", frames, "frames",
+        plan.progressJson ? ProgressBar::Style::Json : ProgressBar::styleFor(plan.pictures.quiet));
     const import::Progress progress = bar.callback();
     std::vector<BenchRun> runs;
     for (const int renderers : plan.renderers)

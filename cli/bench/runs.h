@@ -43,6 +43,7 @@ struct RunPlan {
     std::vector<int> renderers{0};
     PlayOptions play;  ///< tau and budget are each run's own
     PictureSourceOptions pictures;
+    bool progressJson = false;  ///< tell progress as JSON, quiet or not
 };
 
 /// Plays all runs, one after another, each with renderers of its own that have loaded nothing yet:

@@ -7,6 +7,7 @@
 #include "coordinator/api/handler_list.h"
 #include "coordinator/api/handlers.h"
 #include "coordinator/api/scene_desk.h"
+#include "coordinator/stream/session_book.h"
 
 namespace eyrie::api {
 
@@ -14,22 +15,29 @@ class Api::Impl {
 public:
     explicit Impl(ApiParts parts)
         : folder(std::move(parts.dataFolder)),
-          scenes(folder, parts.frames, std::move(parts.setScene)),
-          data(folder, std::move(parts.programs)) {
+          quotas(parts.quotas, std::move(parts.telemetry)),
+          sessions(std::make_shared<stream::SessionBook>(parts.quotas.readers)),
+          data(folder, std::move(parts.programs), quotas),
+          scenes(folder, data, quotas, parts.frames, std::move(parts.setScene)) {
         addStatusHandlers(handlers, parts.frames);
-        addImageHandlers(handlers, parts.frames);
+        addSessionHandlers(handlers, *sessions);
+        addStatisticsHandlers(handlers, sessions->statistics(), quotas);
+        addImageHandlers(handlers, parts.frames, sessions->statistics(), quotas);
         addPlaceHandlers(handlers, parts.frames);
         addConfigurationHandlers(handlers, parts.configuration);
         addSceneHandlers(handlers, scenes);
         addFlightHandlers(handlers, folder);
         addDataHandlers(handlers, data);
+        addBenchHandlers(handlers, data, scenes, folder);
         addOperationHandlers(handlers, data.operations());
     }
 
     const std::optional<access::DataFolder> folder;
-    SceneDesk scenes;
+    QuotaKeeper quotas;
+    const std::shared_ptr<stream::SessionBook> sessions;
     DataDesk data;
-    Handlers handlers;
+    SceneDesk scenes;
+    Handlers handlers{quotas};
     const RestDoor rest{handlers};
 };
 
@@ -38,6 +46,8 @@ Api::~Api() = default;
 
 const Handlers& Api::handlers() const { return impl_->handlers; }
 const RestDoor& Api::rest() const { return impl_->rest; }
+const std::shared_ptr<stream::SessionBook>& Api::sessions() const { return impl_->sessions; }
+void Api::endStreams() { impl_->sessions->statistics().stop(); }
 void Api::allow(const fabric::Scene& scene) { impl_->scenes.allow(scene); }
 
 }  // namespace eyrie::api

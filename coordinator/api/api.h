@@ -7,9 +7,14 @@
 
 #include "access/data_folder.h"
 #include "coordinator/api/programs.h"
+#include "coordinator/api/quotas.h"
 #include "coordinator/api/rest_door.h"
 #include "coordinator/frame/configuration_access.h"
 #include "coordinator/frame/frame_source.h"
+
+namespace eyrie::stream {
+class SessionBook;
+}
 
 namespace eyrie::api {
 
@@ -20,6 +25,8 @@ struct ApiParts {
     std::function<void(fabric::Scene)> setScene;  ///< of a scene that fabric::validate accepts
     std::optional<access::DataFolder> dataFolder = {};
     Programs programs = {};
+    Quotas quotas = {};
+    observe::SharedTelemetry telemetry = nullptr;  ///< counts what is beyond them; null: nothing
 };
 
 /// What programs can ask of a coordinator: the handlers of CoordinatorService and what these need.
@@ -33,6 +40,12 @@ public:
 
     const Handlers& handlers() const;
     const RestDoor& rest() const;
+
+    /// Where viewers' sessions are to be entered, for programs to see them.
+    const std::shared_ptr<stream::SessionBook>& sessions() const;
+
+    /// Ends the answers that go on; other calls are answered as before.
+    void endStreams();
 
     /// Programs may show the scene's files, wherever they are.
     void allow(const fabric::Scene& scene);

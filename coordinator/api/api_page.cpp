@@ -85,7 +85,9 @@ std::string commandOf(const v1::Rest& rest) {
     if (const std::size_t field = path.find('{'); field != std::string::npos)
         path.replace(field, path.find('}') - field + 1, rest.example_name());
     const std::string url = "http://127.0.0.1:8080/api/v1" + path;
-    const std::string output = rest.bytes().empty() ? "" : " -o picture.png";
+    const std::string output = rest.bytes() == "image" ? " -o picture.png"
+                               : rest.bytes().empty()  ? ""
+                                                       : " -o file";
     if (rest.method() == "GET")
         return fmt::format("curl{} '{}{}{}'", output, url, rest.example().empty() ? "" : "?",
                            rest.example());
@@ -106,6 +108,9 @@ std::string callSection(const Route& route, bool isFirst, Types& types) {
                         route.rest.path(), escaped(commandOf(route.rest)));
     if (!isFirst)
         return html;
+    if (call.server_streaming())
+        html +=
+            "<p>The answer is <code>text/event-stream</code>: one event for each message below.\n";
     html += "<h4>Asked</h4>\n" + fieldTable(*call.input_type(), types);
     return html + "<h4>Answered</h4>\n" + fieldTable(*call.output_type(), types);
 }

@@ -3,7 +3,10 @@
 
 #include <stop_token>
 
+#include "coordinator/api/call_roles.h"
 #include "coordinator/api/handlers.h"
+#include "coordinator/api/stream_reactor.h"
+#include "fabric/status.h"
 #include "wire/status.h"
 
 namespace eyrie::api {
@@ -23,14 +26,23 @@ private:
 
 }  // namespace
 
-access::Role roleFor(std::string_view call) {
-    const auto isOne = [call](auto... names) { return ((call == names) || ...); };
-    if (call.starts_with("Get") || call.starts_with("List") ||
-        isOne("RenderImage", "PickPoint", "MeasureProfile"))
-        return access::Role::View;
-    if (isOne("SetScene", "ChangeConfiguration", "PutFlight", "DeleteFlight"))
-        return access::Role::Control;
-    return access::Role::Admin;
+absl::Status CoordinatorService::admit(const char* name,
+                                       const grpc::CallbackServerContext& context) const {
+    RETURN_IF_ERROR(wire::admit(security_, context, roleFor(name)));
+    const Handlers* const handlers = handlers_;
+    if (handlers == nullptr)
+        return absl::UnavailableError("the server is starting; try again");
+    return handlers->admit(wire::peerAddress(context.peer()));
+}
+
+grpc::ServerWriteReactor<v1::WatchStatisticsResponse>* CoordinatorService::WatchStatistics(
+    grpc::CallbackServerContext* context, const v1::WatchStatisticsRequest* request) {
+    auto* const reactor = new StreamReactor<v1::WatchStatisticsResponse>;
+    if (const absl::Status status = admit("WatchStatistics", *context); !status.ok())
+        reactor->begin(status);
+    else
+        reactor->begin(handlers_.load()->open("WatchStatistics", *request));
+    return reactor;
 }
 
 grpc::ServerUnaryReactor* CoordinatorService::call(const char* name,
@@ -38,16 +50,11 @@ grpc::ServerUnaryReactor* CoordinatorService::call(const char* name,
                                                    const google::protobuf::Message& request,
                                                    google::protobuf::Message& answer) {
     auto* const reactor = new Reactor;
-    if (const absl::Status status = wire::admit(security_, context, roleFor(name)); !status.ok()) {
+    if (const absl::Status status = admit(name, context); !status.ok()) {
         reactor->Finish(wire::toGrpc(status));
         return reactor;
     }
-    const Handlers* const handlers = handlers_;
-    if (handlers == nullptr) {
-        reactor->Finish(wire::toGrpc(absl::UnavailableError("the server is starting; try again")));
-        return reactor;
-    }
-    const bool isTaken = workers_.post([=, &request, &answer] {
+    const bool isTaken = workers_.post([=, handlers = handlers_.load(), &request, &answer] {
         reactor->Finish(wire::toGrpc(handlers->handle(name, request, answer, {reactor->stop()})));
     });
     if (!isTaken)

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <atomic>
-#include <string_view>
 
 #include "coordinator/api/workers.h"
 #include "eyrie/v1/coordinator_service.grpc.pb.h"
@@ -11,9 +10,6 @@
 namespace eyrie::api {
 
 class Handlers;
-
-/// What a call's caller has to be; what http::roleFor says of its way over HTTP.
-access::Role roleFor(std::string_view call);
 
 /// CoordinatorService over gRPC. Calls are done by threads of its own; one that is cancelled, or
 /// whose deadline passes, tells its handler.
@@ -41,22 +37,35 @@ public:
     EYRIE_CALL(MeasureProfile)
     EYRIE_CALL(GetConfiguration)
     EYRIE_CALL(ChangeConfiguration)
+    EYRIE_CALL(ListSessions)
+    EYRIE_CALL(GetSession)
+    EYRIE_CALL(ChangeSession)
+    EYRIE_CALL(CloseSession)
     EYRIE_CALL(ListFlights)
     EYRIE_CALL(GetFlight)
     EYRIE_CALL(PutFlight)
     EYRIE_CALL(DeleteFlight)
     EYRIE_CALL(ListDataSets)
     EYRIE_CALL(Import)
+    EYRIE_CALL(Bench)
+    EYRIE_CALL(GetReport)
     EYRIE_CALL(ListOperations)
     EYRIE_CALL(GetOperation)
     EYRIE_CALL(CancelOperation)
     EYRIE_CALL(DeleteOperation)
 #undef EYRIE_CALL
 
+    grpc::ServerWriteReactor<v1::WatchStatisticsResponse>* WatchStatistics(
+        grpc::CallbackServerContext* context, const v1::WatchStatisticsRequest* request) override;
+
 private:
     grpc::ServerUnaryReactor* call(const char* name, const grpc::CallbackServerContext& context,
                                    const google::protobuf::Message& request,
                                    google::protobuf::Message& answer);
+
+    /// Whether a call may be made at all. Errors: those of admit(), Unavailable before use(),
+    /// ResourceExhausted.
+    absl::Status admit(const char* name, const grpc::CallbackServerContext& context) const;
 
     const wire::Security security_;
 

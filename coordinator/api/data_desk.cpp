@@ -4,14 +4,18 @@
 #include <algorithm>
 #include <utility>
 
+#include "coordinator/api/bench_order.h"
 #include "coordinator/api/import_order.h"
+#include "coordinator/api/quotas.h"
 #include "fabric/status.h"
 
 namespace eyrie::api {
 
-DataDesk::DataDesk(const std::optional<access::DataFolder>& folder, Programs programs)
+DataDesk::DataDesk(const std::optional<access::DataFolder>& folder, Programs programs,
+                   const QuotaKeeper& quotas)
     : folder_(folder),
       programs_(std::move(programs)),
+      quotas_(quotas),
       operations_({.atOnce = std::max<std::size_t>(1, programs_.importsAtOnce)}) {
     if (folder_)
         sets_.emplace(*folder_, programs_.run);
@@ -31,11 +35,31 @@ absl::StatusOr<std::vector<v1::DataSet>> DataDesk::dataSets(const std::stop_toke
     return sets_->list(stop);
 }
 
-absl::StatusOr<v1::Operation> DataDesk::import(const v1::ImportRequest& request) {
+absl::StatusOr<std::uint64_t> DataDesk::trianglesOf(const std::string& name,
+                                                    const std::stop_token& stop) {
+    if (!sets_ || !programs_.run)
+        return 0;
+    ASSIGN_OR_RETURN(const v1::DataSet set, sets_->look(name, stop));
+    return static_cast<std::uint64_t>(std::max<std::int64_t>(0, set.triangles()));
+}
+
+absl::Status DataDesk::checkOperations() const {
     RETURN_IF_ERROR(check());
     if (programs_.importsAtOnce == 0)
         return absl::FailedPreconditionError(
-            "this server does no imports; start it with --imports 1");
+            "this server does no imports and no bench runs; start it with --imports 1");
+    return absl::OkStatus();
+}
+
+absl::StatusOr<v1::Operation> DataDesk::begin(Operations::Order order) {
+    absl::StatusOr<v1::Operation> begun = operations_.begin(std::move(order));
+    if (absl::IsResourceExhausted(begun.status()))
+        return quotas_.counted(observe::Quota::Operations, begun.status());
+    return begun;
+}
+
+absl::StatusOr<v1::Operation> DataDesk::import(const v1::ImportRequest& request) {
+    RETURN_IF_ERROR(checkOperations());
     const std::string asked = request.SerializeAsString();
     // Asked for again, its output may be there by now.
     if (absl::StatusOr<v1::Operation> before = operations_.begun(request.request_id(), asked);
@@ -43,11 +67,25 @@ absl::StatusOr<v1::Operation> DataDesk::import(const v1::ImportRequest& request)
         return before;
     ASSIGN_OR_RETURN(const ImportOrder order,
                      importOrderOf(request, *folder_, programs_.importMemoryBytes));
-    return operations_.begin(
-        {request.request_id(), order.kind, request.output(), asked,
-         [this, order](const Operations::Progress& progress, const std::stop_token& stop) {
-             return carryOut(order, *folder_, programs_.run, progress, stop);
-         }});
+    return begin({request.request_id(), order.kind, request.output(), asked,
+                  [this, order](const Operations::Progress& progress, const std::stop_token& stop) {
+                      return carryOut(order, *folder_, programs_.run, progress, stop);
+                  }});
+}
+
+absl::StatusOr<v1::Operation> DataDesk::bench(
+    const v1::BenchRequest& request, const std::function<absl::StatusOr<BenchOrder>()>& order) {
+    RETURN_IF_ERROR(checkOperations());
+    const std::string asked = request.GetTypeName() + request.SerializeAsString();
+    if (absl::StatusOr<v1::Operation> before = operations_.begun(request.request_id(), asked);
+        !absl::IsNotFound(before.status()))
+        return before;
+    ASSIGN_OR_RETURN(BenchOrder made, order());
+    return begin({request.request_id(), v1::OPERATION_KIND_BENCH, request.output(), asked,
+                  [this, made = std::move(made)](const Operations::Progress& progress,
+                                                 const std::stop_token& stop) {
+                      return carryOut(made, programs_.run, progress, stop);
+                  }});
 }
 
 }  // namespace eyrie::api

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <optional>
 #include <stop_token>
+#include <string>
 #include <vector>
 
 #include <absl/status/statusor.h>
@@ -15,12 +18,16 @@
 
 namespace eyrie::api {
 
+struct BenchOrder;
+class QuotaKeeper;
+
 /// What data there are for scenes, and how more come to be. All functions may be called from any
 /// thread.
 class DataDesk {
 public:
-    /// `folder` outlives the desk; nothing: there are no data.
-    DataDesk(const std::optional<access::DataFolder>& folder, Programs programs);
+    /// `folder` and `quotas` outlive the desk; no folder: there are no data.
+    DataDesk(const std::optional<access::DataFolder>& folder, Programs programs,
+             const QuotaKeeper& quotas);
 
     /// Those of DataSets; FailedPrecondition: the server has no data folder, or runs no programs.
     absl::StatusOr<std::vector<v1::DataSet>> dataSets(const std::stop_token& stop);
@@ -29,13 +36,25 @@ public:
     /// the server does no imports.
     absl::StatusOr<v1::Operation> import(const v1::ImportRequest& request);
 
+    /// At full resolution, of the file of that name; 0 where it cannot be read, or the server runs
+    /// no programs. Errors: those of DataSets.
+    absl::StatusOr<std::uint64_t> trianglesOf(const std::string& name, const std::stop_token& stop);
+
+    /// Begins a bench run; `order` is asked for what it is unless it has begun before. Errors: its
+    /// own, and those of import().
+    absl::StatusOr<v1::Operation> bench(const v1::BenchRequest& request,
+                                        const std::function<absl::StatusOr<BenchOrder>()>& order);
+
     Operations& operations() { return operations_; }
 
 private:
     absl::Status check() const;
+    absl::Status checkOperations() const;
+    absl::StatusOr<v1::Operation> begin(Operations::Order order);
 
     const std::optional<access::DataFolder>& folder_;
     const Programs programs_;
+    const QuotaKeeper& quotas_;
     std::optional<DataSets> sets_;
     Operations operations_;  ///< last: what it does ends before the rest goes
 };

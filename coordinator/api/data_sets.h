@@ -34,6 +34,9 @@ public:
     /// what is new. Cancelled after `stop`.
     absl::StatusOr<std::vector<v1::DataSet>> list(const std::stop_token& stop);
 
+    /// Of the file of that name. Errors as list().
+    absl::StatusOr<v1::DataSet> look(const std::string& name, const std::stop_token& stop);
+
 private:
     struct Version {
         std::uintmax_t bytes = 0;
@@ -46,7 +49,6 @@ private:
     };
 
     std::vector<std::string> names() const;
-    absl::StatusOr<v1::DataSet> look(const std::string& name, const std::stop_token& stop);
     absl::StatusOr<v1::DataSet> ask(const std::string& name, const std::stop_token& stop) const;
 
     const access::DataFolder& folder_;

@@ -1,38 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <string_view>
-#include <system_error>
+#include <utility>
 
-#include <fmt/format.h>
-#include <google/protobuf/util/json_util.h>
-
+#include "coordinator/api/flight_files.h"
 #include "coordinator/api/handler_list.h"
 #include "coordinator/api/handlers.h"
 #include "eyrie/v1/coordinator_service.pb.h"
 #include "fabric/status.h"
-#include "wire/flight.h"
-#include "wire/json.h"
 
 namespace eyrie::api {
 namespace {
-
-namespace fs = std::filesystem;
-
-constexpr std::size_t kMaxNameBytes = 64;
-constexpr int kMaxKeys = 10'000;
-constexpr std::size_t kMaxFlights = 10'000;
-constexpr std::string_view kFolder = "flights";
-constexpr std::string_view kEnding = ".json";
-
-bool isName(std::string_view name) {
-    return !name.empty() && name.size() <= kMaxNameBytes && std::ranges::all_of(name, [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-               c == '-' || c == '_';
-    });
-}
 
 absl::Status check(const DataFolder& folder) {
     if (folder)
@@ -41,113 +17,44 @@ absl::Status check(const DataFolder& folder) {
         "the server has no data folder, and so keeps no flights; start it with --data DIR");
 }
 
-absl::StatusOr<fs::path> pathOf(const DataFolder& folder, const std::string& name) {
-    if (!isName(name))
-        return absl::InvalidArgumentError(
-            fmt::format("name is '{}'; it must be 1 to {} of a-z, A-Z, 0-9, '-' and '_'",
-                        name.substr(0, kMaxNameBytes), kMaxNameBytes));
-    RETURN_IF_ERROR(check(folder));
-    std::error_code error;  // what is amiss with it, place() tells
-    fs::create_directory(folder->path() / kFolder, error);
-    return folder->place(fmt::format("{}/{}{}", kFolder, name, kEnding));
-}
-
-absl::Status noFlight(const std::string& name) {
-    return absl::NotFoundError(fmt::format("there is no flight '{}'", name));
-}
-
-absl::StatusOr<v1::ListFlightsResponse> listFlights(const DataFolder& folder) {
-    RETURN_IF_ERROR(check(folder));
-    std::vector<std::string> names;
-    std::error_code error;
-    for (fs::directory_iterator entry(folder->path() / kFolder, error);
-         !error && entry != fs::directory_iterator(); entry.increment(error))
-        if (const fs::path& path = entry->path(); path.extension() == kEnding &&
-                                                  isName(path.stem().string()) &&
-                                                  names.size() < kMaxFlights)
-            names.push_back(path.stem().string());
-    std::ranges::sort(names);
-    v1::ListFlightsResponse response;
-    for (std::string& name : names) response.add_names(std::move(name));
-    return response;
-}
-
-absl::StatusOr<v1::Flight> readFlight(const DataFolder& folder, const std::string& name) {
-    ASSIGN_OR_RETURN(const fs::path path, pathOf(folder, name));
-    std::ifstream file(path);
-    if (!file)
-        return noFlight(name);
-    const std::string text(std::istreambuf_iterator<char>(file), {});
-    RETURN_IF_ERROR(wire::flightFromJson(text, path.filename().string()).status());
-    v1::Flight flight;
-    const auto status = google::protobuf::util::JsonStringToMessage(text, &flight);
-    if (!status.ok())
-        return absl::DataLossError(fmt::format("the flight '{}' cannot be read", name));
-    return flight;
-}
-
-absl::Status writeFlight(const DataFolder& folder, const std::string& name,
-                         const v1::Flight& flight) {
-    ASSIGN_OR_RETURN(const fs::path path, pathOf(folder, name));
-    if (flight.keys_size() > kMaxKeys)
-        return absl::InvalidArgumentError(fmt::format(
-            "flight.keys has {} keys; at most {} are kept", flight.keys_size(), kMaxKeys));
-    if (const absl::Status status = wire::fromMessage(flight).status(); !status.ok())
-        return fabric::withContext(status, "flight");
-    std::error_code error;
-    // Whole or not at all, whoever reads meanwhile.
-    const fs::path partial = fmt::format("{}.partial", path.string());
-    std::ofstream file(partial, std::ios::trunc);
-    file << wire::toJson(flight);
-    file.close();
-    if (file.fail())
-        return absl::UnavailableError(
-            "the flight cannot be written; see that the data folder is writable and not full");
-    fs::rename(partial, path, error);
-    if (error)
-        return absl::UnavailableError(
-            fmt::format("the flight cannot be written: {}", error.message()));
-    return absl::OkStatus();
-}
-
-absl::StatusOr<v1::DeleteFlightResponse> deleteFlight(const DataFolder& folder,
-                                                      const std::string& name) {
-    ASSIGN_OR_RETURN(const fs::path path, pathOf(folder, name));
-    std::error_code error;
-    if (!fs::remove(path, error) && !error)
-        return noFlight(name);
-    if (error)
-        return absl::UnavailableError(
-            fmt::format("the flight cannot be removed: {}", error.message()));
-    return v1::DeleteFlightResponse();
-}
-
 }  // namespace
 
 void addFlightHandlers(Handlers& handlers, const DataFolder& folder) {
     handlers.add<v1::ListFlightsRequest, v1::ListFlightsResponse>(
         "ListFlights",
-        [&folder](const v1::ListFlightsRequest&, const Call&) { return listFlights(folder); });
+        [&folder](const v1::ListFlightsRequest&,
+                  const Call&) -> absl::StatusOr<v1::ListFlightsResponse> {
+            RETURN_IF_ERROR(check(folder));
+            v1::ListFlightsResponse response;
+            for (std::string& name : flightNames(*folder)) response.add_names(std::move(name));
+            return response;
+        });
     handlers.add<v1::GetFlightRequest, v1::GetFlightResponse>(
         "GetFlight",
         [&folder](const v1::GetFlightRequest& request,
                   const Call&) -> absl::StatusOr<v1::GetFlightResponse> {
+            RETURN_IF_ERROR(check(folder));
             v1::GetFlightResponse response;
-            ASSIGN_OR_RETURN(*response.mutable_flight(), readFlight(folder, request.name()));
+            ASSIGN_OR_RETURN(*response.mutable_flight(), readFlight(*folder, request.name()));
             return response;
         });
     handlers.add<v1::PutFlightRequest, v1::PutFlightResponse>(
         "PutFlight",
         [&folder](const v1::PutFlightRequest& request,
                   const Call&) -> absl::StatusOr<v1::PutFlightResponse> {
-            RETURN_IF_ERROR(writeFlight(folder, request.name(), request.flight()));
+            RETURN_IF_ERROR(check(folder));
+            RETURN_IF_ERROR(writeFlight(*folder, request.name(), request.flight()));
             v1::PutFlightResponse response;
             *response.mutable_flight() = request.flight();
             return response;
         });
     handlers.add<v1::DeleteFlightRequest, v1::DeleteFlightResponse>(
-        "DeleteFlight", [&folder](const v1::DeleteFlightRequest& request, const Call&) {
-            return deleteFlight(folder, request.name());
+        "DeleteFlight",
+        [&folder](const v1::DeleteFlightRequest& request,
+                  const Call&) -> absl::StatusOr<v1::DeleteFlightResponse> {
+            RETURN_IF_ERROR(check(folder));
+            RETURN_IF_ERROR(deleteFlight(*folder, request.name()));
+            return v1::DeleteFlightResponse();
         });
 }
 

@@ -7,6 +7,14 @@
 
 namespace eyrie::api {
 
+absl::StatusOr<std::unique_ptr<MessageStream>> Handlers::open(std::string_view name,
+                                                              const Message& request) const {
+    const auto found = streams_.find(name);
+    if (found == streams_.end())
+        return absl::UnimplementedError(fmt::format("this server has no {}", name));
+    return found->second(request);
+}
+
 absl::Status Handlers::handle(std::string_view name, const Message& request, Message& response,
                               const Call& call) const {
     const auto found = table_.find(name);

@@ -3,12 +3,17 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <stop_token>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include <absl/status/statusor.h>
 #include <google/protobuf/message.h>
+
+#include "coordinator/api/message_stream.h"
+#include "coordinator/api/quotas.h"
 
 namespace eyrie::api {
 
@@ -22,6 +27,14 @@ struct Call {
 class Handlers {
 public:
     using Message = google::protobuf::Message;
+
+    /// `quotas` outlives the handlers.
+    explicit Handlers(QuotaKeeper& quotas) : quotas_(quotas) {}
+
+    /// Before a call from an address, an IP address without a port, is made. ResourceExhausted: it
+    /// makes too many.
+    absl::Status admit(std::string_view address) const { return quotas_.admit(address); }
+
     /// `request` and `response` are those of the call.
     using Handler =
         std::function<absl::Status(const Message& request, Message& response, const Call& call)>;
@@ -38,13 +51,30 @@ public:
         };
     }
 
+    /// `handler` makes a MessageStream from a Request.
+    template <typename Request, typename Function>
+    void addStream(std::string name, Function handler) {
+        streams_[std::move(name)] = [handler = std::move(handler)](const Message& request) {
+            return handler(static_cast<const Request&>(request));
+        };
+    }
+
+    /// The answer of a call that goes on. Does not block. Errors: Unimplemented, and the handler's.
+    absl::StatusOr<std::unique_ptr<MessageStream>> open(std::string_view name,
+                                                        const Message& request) const;
+
     /// Unimplemented: there is no such call here. Cancelled: the caller has gone. What a handler
     /// throws, for want of memory, is ResourceExhausted.
     absl::Status handle(std::string_view name, const Message& request, Message& response,
                         const Call& call) const;
 
 private:
+    using Opener =
+        std::function<absl::StatusOr<std::unique_ptr<MessageStream>>(const Message& request)>;
+
+    QuotaKeeper& quotas_;
     std::map<std::string, Handler, std::less<>> table_;
+    std::map<std::string, Opener, std::less<>> streams_;
 };
 
 }  // namespace eyrie::api

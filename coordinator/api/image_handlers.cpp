@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <atomic>
 #include <bit>
 #include <cstring>
@@ -9,6 +10,7 @@
 #include "coordinator/api/asked_view.h"
 #include "coordinator/api/handler_list.h"
 #include "coordinator/api/handlers.h"
+#include "coordinator/stream/statistics_feed.h"
 #include "coordinator/stream/statistics_message.h"
 #include "coordinator/stream/view_message.h"
 #include "eyrie/v1/coordinator_service.pb.h"
@@ -24,29 +26,26 @@ namespace eyrie::api {
 namespace {
 
 constexpr int kMaxSide = 8192;
-constexpr std::int64_t kMaxPixels = 1 << 25;
-/// Of all pictures in the making; each pixel takes some 20 bytes.
-constexpr std::int64_t kMaxPixelsAtOnce = 1 << 26;
 constexpr int kUsualQuality = 90;
 
 /// Of a whole answer.
-absl::Status checkSize(int width, int height) {
+absl::Status checkSize(int width, int height, std::int64_t mostPixels) {
     if (width < 1 || width > kMaxSide)
         return absl::InvalidArgumentError(
             fmt::format("width is {} pixels; it must be from 1 to {}", width, kMaxSide));
     if (height < 1 || height > kMaxSide)
         return absl::InvalidArgumentError(
             fmt::format("height is {} pixels; it must be from 1 to {}", height, kMaxSide));
-    if (std::int64_t{width} * height > kMaxPixels)
+    if (std::int64_t{width} * height > mostPixels)
         return absl::InvalidArgumentError(
             fmt::format("height makes {}x{} pixels, {} in all; at most {} are drawn at once, and "
                         "more part by part or by `eyrie render`",
-                        width, height, std::int64_t{width} * height, kMaxPixels));
+                        width, height, std::int64_t{width} * height, mostPixels));
     return absl::OkStatus();
 }
 
 /// Of a picture that is asked for part by part.
-absl::Status checkPart(const coordinator::FrameRequest& request) {
+absl::Status checkPart(const coordinator::FrameRequest& request, std::int64_t mostPixels) {
     const fabric::PixelViewport& part = request.part;
     for (const int side : {request.width, request.height})
         if (side < 1 || side > fabric::kMaxViewPixels)
@@ -58,7 +57,7 @@ absl::Status checkPart(const coordinator::FrameRequest& request) {
         return absl::InvalidArgumentError(
             fmt::format("part is {}x{}+{}+{}; it must lie in the picture of {}x{} pixels",
                         part.width, part.height, part.x, part.y, request.width, request.height));
-    return fabric::withContext(checkSize(part.width, part.height), "part");
+    return fabric::withContext(checkSize(part.width, part.height, mostPixels), "part");
 }
 
 absl::Status checkFormat(const v1::RenderImageRequest& request) {
@@ -73,17 +72,20 @@ absl::Status checkFormat(const v1::RenderImageRequest& request) {
 }
 
 absl::StatusOr<coordinator::FrameRequest> requestOf(const v1::RenderImageRequest& message,
-                                                    const coordinator::FrameSource& frames) {
+                                                    const coordinator::FrameSource& frames,
+                                                    const QuotaKeeper& quotas) {
     RETURN_IF_ERROR(checkFormat(message));
+    const std::int64_t mostPixels = quotas.most().imagePixels;
     coordinator::FrameRequest request;
     request.width = message.has_width() ? message.width() : kUsualWidth;
     request.height = message.has_height() ? message.height() : kUsualHeight;
     if (message.has_part()) {
         request.part = {message.part().x(), message.part().y(), message.part().width(),
                         message.part().height()};
-        RETURN_IF_ERROR(checkPart(request));
+        RETURN_IF_ERROR(quotas.counted(observe::Quota::Image, checkPart(request, mostPixels)));
     } else {
-        RETURN_IF_ERROR(checkSize(request.width, request.height));
+        RETURN_IF_ERROR(quotas.counted(observe::Quota::Image,
+                                       checkSize(request.width, request.height, mostPixels)));
     }
     ASSIGN_OR_RETURN(request.camera, cameraOf(message.camera(), frames));
     v1::FrameData data;
@@ -130,36 +132,54 @@ absl::StatusOr<std::string> encoded(const fabric::Image& image,
     return std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size());
 }
 
-/// A picture's share of kMaxPixelsAtOnce, while it is being made.
-class PixelShare {
+/// Who draws pictures for programs.
+class Painter {
 public:
-    PixelShare(std::atomic<std::int64_t>& used, std::int64_t pixels)
-        : used_(used), pixels_(pixels), isGranted_((used += pixels) <= kMaxPixelsAtOnce) {}
-    ~PixelShare() { used_ -= pixels_; }
-    PixelShare(const PixelShare&) = delete;
-    PixelShare& operator=(const PixelShare&) = delete;
+    Painter(coordinator::FrameSource& frames, stream::StatisticsFeed& statistics,
+            const QuotaKeeper& quotas)
+        : frames_(frames), statistics_(statistics), quotas_(quotas) {}
 
-    bool isGranted() const { return isGranted_; }
+    absl::StatusOr<v1::RenderImageResponse> render(const v1::RenderImageRequest& request,
+                                                   const Call& call);
 
 private:
-    std::atomic<std::int64_t>& used_;
-    const std::int64_t pixels_;
-    const bool isGranted_;
+    /// A picture's share of the pixels in the making, of which each takes some 20 bytes.
+    class PixelShare {
+    public:
+        PixelShare(std::atomic<std::int64_t>& used, std::int64_t pixels, std::int64_t most)
+            : used_(used), pixels_(pixels), isGranted_((used += pixels) <= most) {}
+        ~PixelShare() { used_ -= pixels_; }
+        PixelShare(const PixelShare&) = delete;
+        PixelShare& operator=(const PixelShare&) = delete;
+
+        bool isGranted() const { return isGranted_; }
+
+    private:
+        std::atomic<std::int64_t>& used_;
+        const std::int64_t pixels_;
+        const bool isGranted_;
+    };
+
+    coordinator::FrameSource& frames_;
+    stream::StatisticsFeed& statistics_;
+    const QuotaKeeper& quotas_;
+    std::atomic<std::int64_t> pixelsInUse_ = 0;
 };
 
-absl::StatusOr<v1::RenderImageResponse> renderImage(coordinator::FrameSource& frames,
-                                                    std::atomic<std::int64_t>& pixelsInUse,
-                                                    const v1::RenderImageRequest& request,
-                                                    const Call& call) {
-    ASSIGN_OR_RETURN(coordinator::FrameRequest asked, requestOf(request, frames));
+absl::StatusOr<v1::RenderImageResponse> Painter::render(const v1::RenderImageRequest& request,
+                                                        const Call& call) {
+    ASSIGN_OR_RETURN(coordinator::FrameRequest asked, requestOf(request, frames_, quotas_));
     asked.stop = call.stop;
-    const PixelShare share(pixelsInUse, asked.drawnPart().area());
+    const PixelShare share(pixelsInUse_, asked.drawnPart().area(),
+                           std::min(2 * quotas_.most().imagePixels, Quotas::kMostImagePixels));
     if (!share.isGranted())
-        return absl::ResourceExhaustedError(
-            "too many large pictures are being drawn; try again in a bit");
-    ASSIGN_OR_RETURN(const coordinator::RenderedFrame frame, frames.renderFrame(asked));
+        return quotas_.counted(observe::Quota::Image,
+                               absl::ResourceExhaustedError(
+                                   "too many large pictures are being drawn; try again in a bit"));
+    ASSIGN_OR_RETURN(const coordinator::RenderedFrame frame, frames_.renderFrame(asked));
     if (call.stop.stop_requested())
         return absl::CancelledError("the caller has gone");
+    statistics_.drawn("", frame);
     if (const std::string_view why = coordinator::whyEmpty(frame); !why.empty())
         return absl::FailedPreconditionError(std::string(why));
     v1::RenderImageResponse response;
@@ -180,11 +200,12 @@ absl::StatusOr<v1::RenderImageResponse> renderImage(coordinator::FrameSource& fr
 
 }  // namespace
 
-void addImageHandlers(Handlers& handlers, coordinator::FrameSource& frames) {
+void addImageHandlers(Handlers& handlers, coordinator::FrameSource& frames,
+                      stream::StatisticsFeed& statistics, const QuotaKeeper& quotas) {
     handlers.add<v1::RenderImageRequest, v1::RenderImageResponse>(
-        "RenderImage", [&frames, pixels = std::make_shared<std::atomic<std::int64_t>>(0)](
+        "RenderImage", [painter = std::make_shared<Painter>(frames, statistics, quotas)](
                            const v1::RenderImageRequest& request, const Call& call) {
-            return renderImage(frames, *pixels, request, call);
+            return painter->render(request, call);
         });
 }
 

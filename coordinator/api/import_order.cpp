@@ -2,13 +2,11 @@
 #include "coordinator/api/import_order.h"
 
 #include <cmath>
-#include <random>
 #include <system_error>
 
 #include <fmt/format.h>
-#include <google/protobuf/struct.pb.h>
-#include <google/protobuf/util/json_util.h>
 
+#include "coordinator/api/work_folder.h"
 #include "fabric/status.h"
 
 namespace eyrie::api {
@@ -73,48 +71,6 @@ absl::Status checkOutput(const ImportOrder& order, const std::string& name) {
         fmt::format("output '{}' is there already; choose another name, or set replace", name));
 }
 
-/// A folder that goes with this object, and all that is in it.
-class WorkFolder {
-public:
-    static absl::StatusOr<WorkFolder> in(const fs::path& parent) {
-        std::random_device random;
-        fs::path path = parent / fmt::format(".eyrie-import-{:08x}{:08x}", random(), random());
-        std::error_code error;
-        if (!fs::create_directory(path, error))
-            return absl::UnavailableError(
-                "nothing can be written beside the output; see that the data folder is writable "
-                "and not full");
-        return WorkFolder(std::move(path));
-    }
-    WorkFolder(WorkFolder&& other) noexcept : path_(std::exchange(other.path_, {})) {}
-    ~WorkFolder() {
-        std::error_code error;
-        if (!path_.empty())
-            fs::remove_all(path_, error);
-    }
-    WorkFolder& operator=(WorkFolder&&) = delete;
-
-    const fs::path& path() const { return path_; }
-
-private:
-    explicit WorkFolder(fs::path path) : path_(std::move(path)) {}
-    fs::path path_;
-};
-
-/// A line of `--progress-json`: false for any other.
-bool tellProgress(std::string_view line, const Operations::Progress& progress) {
-    google::protobuf::Struct json;
-    if (!line.starts_with('{') ||
-        !google::protobuf::util::JsonStringToMessage(std::string(line), &json).ok())
-        return false;
-    const auto stage = json.fields().find("stage");
-    const auto fraction = json.fields().find("fraction");
-    if (stage == json.fields().end() || fraction == json.fields().end())
-        return false;
-    progress(stage->second.string_value(), fraction->second.number_value());
-    return true;
-}
-
 /// The data and, beside them, what they were made of (cli/source_record.h).
 absl::Status moveInto(const fs::path& made, const fs::path& place) {
     std::error_code error;
@@ -160,21 +116,11 @@ absl::StatusOr<ImportOrder> importOrderOf(const v1::ImportRequest& request,
 absl::Status carryOut(const ImportOrder& order, const access::DataFolder& folder,
                       const RunProgram& run, const Operations::Progress& progress,
                       const std::stop_token& stop) {
-    ASSIGN_OR_RETURN(const WorkFolder work, WorkFolder::in(order.output.parent_path()));
+    ASSIGN_OR_RETURN(const WorkFolder work, WorkFolder::in(order.output.parent_path(), "import"));
     const fs::path made = work.path() / order.output.filename();
     std::vector<std::string> arguments = order.arguments;
     arguments.push_back("--output=" + made.string());
-    LastWords words;
-    ASSIGN_OR_RETURN(const ProgramEnd end, run(
-                                               arguments, folder.path(),
-                                               [&](std::string_view line) {
-                                                   if (!tellProgress(line, progress))
-                                                       words.hear(line);
-                                               },
-                                               stop));
-    if (stop.stop_requested())
-        return absl::CancelledError("the import was called off");
-    RETURN_IF_ERROR(words.statusOf(end));
+    RETURN_IF_ERROR(runToItsEnd(arguments, folder.path(), run, progress, stop));
     RETURN_IF_ERROR(checkOutput(order, order.output.filename().string()));
     return moveInto(made, order.output);
 }

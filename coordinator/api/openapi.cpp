@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "coordinator/api/json_text.h"
+#include "coordinator/api/media_types.h"
 #include "coordinator/api/rest_routes.h"
 #include "coordinator/api/schema.h"
 #include "fabric/json_text.h"
@@ -222,9 +223,9 @@ private:
             rest.answer().empty() ? nullptr : response.FindFieldByName(rest.answer());
         JsonMembers content;
         if (!rest.bytes().empty())
-            for (const char* type : {"image/png", "image/jpeg", "application/octet-stream"})
-                content.raw(type, "{}");
-        content.raw("application/json",
+            for (const std::string_view type : mediaTypesOf(response)) content.raw(type, "{}");
+        // Of a server-sent event the schema is that of its data.
+        content.raw(call.server_streaming() ? "text/event-stream" : "application/json",
                     JsonMembers()
                         .raw("schema", refTo(part == nullptr ? response : *part->message_type()))
                         .str());
@@ -232,7 +233,7 @@ private:
         responses.raw(
             "200",
             JsonMembers().text("description", "The answer").raw("content", content.str()).str());
-        if (rest.method() == "GET")
+        if (rest.method() == "GET" && !call.server_streaming())
             responses.raw("304", R"({"description":"It is as If-None-Match has it"})");
         return responses
             .raw("default",

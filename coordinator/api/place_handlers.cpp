@@ -65,7 +65,11 @@ absl::StatusOr<v1::MeasureProfileResponse> measureProfile(coordinator::FrameSour
                                    message.samples(),
                                    std::move(hidden)};
     RETURN_IF_ERROR(stream::validate(line));
-    const fabric::Box bounds = frames.status().sceneInfo.bounds;
+    const coordinator::Status status = frames.status();
+    const fabric::Box bounds = status.sceneInfo.bounds;
+    if (bounds.isEmpty())
+        return absl::UnavailableError(status.problem.empty() ? "no scene is open yet"
+                                                             : status.problem);
     v1::MeasureProfileResponse response;
     for (int i = 0; i < line.samples; ++i) {
         if (call.stop.stop_requested())

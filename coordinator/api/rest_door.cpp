@@ -10,7 +10,9 @@
 #include <xxhash.h>
 
 #include "coordinator/api/api_page.h"
+#include "coordinator/api/bench_reports.h"
 #include "coordinator/api/handlers.h"
+#include "coordinator/api/media_types.h"
 #include "coordinator/api/openapi.h"
 #include "coordinator/api/problem_json.h"
 #include "coordinator/api/rest_request.h"
@@ -41,9 +43,9 @@ std::unique_ptr<Message> newMessage(const google::protobuf::Descriptor* type) {
     return std::unique_ptr<Message>(MessageFactory::generated_factory()->GetPrototype(type)->New());
 }
 
-std::string jsonOf(const Message& message, bool isSparse) {
+std::string jsonOf(const Message& message, bool isSparse, bool isOneLine = false) {
     google::protobuf::util::JsonPrintOptions options;
-    options.add_whitespace = true;
+    options.add_whitespace = !isOneLine;
     options.always_print_primitive_fields = !isSparse;
     std::string text;
     return google::protobuf::util::MessageToJsonString(message, &text, options).ok() ? text : "{}";
@@ -91,15 +93,13 @@ absl::Status read(const RestRequest& request, const FoundRoute& found, Message& 
     return setRequestId(request.idempotencyKey, message);
 }
 
-std::string imageType(const Message& message) {
-    const auto* image = dynamic_cast<const v1::RenderImageResponse*>(&message);
-    if (image == nullptr || image->format() == v1::IMAGE_FORMAT_RAW)
-        return "application/octet-stream";
-    return image->format() == v1::IMAGE_FORMAT_JPEG ? "image/jpeg" : "image/png";
-}
-
-/// What of a picture's facts fits into a line.
+/// What of a picture's facts fits into a line; pages of others are saved, not shown as this
+/// server's own.
 void describe(const Message& message, RestAnswer& answer) {
+    if (const auto* report = dynamic_cast<const v1::GetReportResponse*>(&message))
+        answer.headers.emplace_back(
+            "Content-Disposition",
+            fmt::format("attachment; filename=\"{}\"", fileNameOf(report->file())));
     if (const auto* image = dynamic_cast<const v1::RenderImageResponse*>(&message)) {
         answer.headers.emplace_back("Eyrie-Tau-Achieved",
                                     fmt::format("{}", image->statistics().tau_achieved()));
@@ -111,7 +111,7 @@ void describe(const Message& message, RestAnswer& answer) {
 RestAnswer bytesOf(Message& message, const std::string& field) {
     const auto* descriptor = message.GetDescriptor()->FindFieldByName(field);
     RestAnswer answer;
-    answer.contentType = imageType(message);
+    answer.contentType = mediaTypeOf(message);
     describe(message, answer);
     std::string scratch;
     answer.body = std::make_shared<const std::string>(
@@ -184,6 +184,8 @@ RestAnswer RestDoor::answer(const RestRequest& request) const {
     if (found.route == nullptr)
         return notThere(request, found);
     const auto asked = newMessage(found.route->call->input_type());
+    if (found.route->call->server_streaming())
+        return stream(request, found, *asked);
     const auto made = newMessage(found.route->call->output_type());
     absl::Status status = read(request, found, *asked);
     if (status.ok())
@@ -197,6 +199,31 @@ RestAnswer RestDoor::answer(const RestRequest& request) const {
     if (rest.method() == "GET")
         tag(request, answer);
     return answer;
+}
+
+RestAnswer RestDoor::stream(const RestRequest& request, const FoundRoute& found,
+                            Message& asked) const {
+    absl::Status status = read(request, found, asked);
+    RestAnswer answer;
+    answer.contentType = "text/event-stream";
+    if (status.ok() && request.method != "HEAD") {
+        absl::StatusOr<std::unique_ptr<MessageStream>> messages =
+            handlers_.open(found.route->call->name(), asked);
+        status = messages.status();
+        if (status.ok())
+            answer.events = *std::move(messages);
+    }
+    return status.ok() ? answer
+                       : problem(status, httpStatusOf(status.code()), asked.GetDescriptor());
+}
+
+std::optional<RestAnswer> RestDoor::refusal(std::string_view address) const {
+    const absl::Status status = handlers_.admit(address);
+    return status.ok() ? std::nullopt : std::optional(problem(status, httpStatusOf(status.code())));
+}
+
+std::string eventOf(const Message& message) {
+    return fmt::format("data: {}\n\n", jsonOf(message, false, true));
 }
 
 RestAnswer busyAnswer() {

@@ -2,14 +2,22 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <stop_token>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
+
+namespace google::protobuf {
+class Message;
+}
 
 namespace eyrie::api {
 
 class Handlers;
+class MessageStream;
+struct FoundRoute;
 
 struct RestRequest {
     std::string method = {};
@@ -27,6 +35,8 @@ struct RestAnswer {
     std::string contentType = "application/json";
     std::vector<std::pair<std::string, std::string>> headers = {};
     std::shared_ptr<const std::string> body = std::make_shared<const std::string>();
+    /// Not null: the answer goes on, with an eventOf() for each message.
+    std::shared_ptr<MessageStream> events = {};
 };
 
 /// CoordinatorService over HTTP, without the network: the calls that gRPC makes, by method and path
@@ -39,11 +49,21 @@ public:
 
     RestAnswer answer(const RestRequest& request) const;
 
+    /// To be asked before answer(), and quick: the answer to who makes too many calls from
+    /// `address`, an IP address without a port; nothing: it is to be answered.
+    std::optional<RestAnswer> refusal(std::string_view address) const;
+
 private:
+    RestAnswer stream(const RestRequest& request, const FoundRoute& found,
+                      google::protobuf::Message& asked) const;
+
     const Handlers& handlers_;
 };
 
 /// The answer to a request that is not taken at all.
 RestAnswer busyAnswer();
+
+/// A message as a server-sent event: "data: {…}" and an empty line.
+std::string eventOf(const google::protobuf::Message& message);
 
 }  // namespace eyrie::api

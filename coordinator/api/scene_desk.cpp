@@ -7,13 +7,13 @@
 
 #include <fmt/format.h>
 
+#include "coordinator/api/data_desk.h"
+#include "coordinator/api/quotas.h"
 #include "fabric/status.h"
 #include "wire/scene.h"
 
 namespace eyrie::api {
 namespace {
-
-constexpr int kMaxObjects = 1000;
 
 absl::Status atObject(int index, const absl::Status& status) {
     return fabric::withContext(status, fmt::format("scene.objects[{}]", index));
@@ -21,9 +21,14 @@ absl::Status atObject(int index, const absl::Status& status) {
 
 }  // namespace
 
-SceneDesk::SceneDesk(const std::optional<access::DataFolder>& folder,
-                     coordinator::FrameSource& frames, std::function<void(fabric::Scene)> setScene)
-    : folder_(folder), frames_(frames), setScene_(std::move(setScene)) {}
+SceneDesk::SceneDesk(const std::optional<access::DataFolder>& folder, DataDesk& data,
+                     const QuotaKeeper& quotas, coordinator::FrameSource& frames,
+                     std::function<void(fabric::Scene)> setScene)
+    : folder_(folder),
+      data_(data),
+      quotas_(quotas),
+      frames_(frames),
+      setScene_(std::move(setScene)) {}
 
 void SceneDesk::allow(const fabric::Scene& scene) {
     const std::lock_guard lock(mutex_);
@@ -65,11 +70,45 @@ absl::StatusOr<std::string> SceneDesk::pathOf(const std::string& name, const cha
     return path.string();
 }
 
-absl::Status SceneDesk::show(v1::Scene message) {
-    if (message.objects_size() == 0 || message.objects_size() > kMaxObjects)
+absl::Status SceneDesk::checkSize(const std::vector<std::string>& names,
+                                  const std::stop_token& stop) const {
+    const Quotas& most = quotas_.most();
+    std::uint64_t bytes = 0;
+    for (const std::string& name : names) {
+        std::error_code error;
+        const std::uintmax_t size = std::filesystem::file_size(folder_->path() / name, error);
+        bytes += error ? 0 : size;
+    }
+    if (bytes > most.sceneBytes)
         return absl::InvalidArgumentError(
-            fmt::format("scene.objects has {} objects; it must have 1 to {}",
-                        message.objects_size(), kMaxObjects));
+            fmt::format("scene.objects have files of {} bytes; at most {} are drawn at a time",
+                        bytes, most.sceneBytes));
+    if (most.sceneTriangles == 0)
+        return absl::OkStatus();
+    std::uint64_t triangles = 0;
+    for (const std::string& name : names) {
+        ASSIGN_OR_RETURN(const std::uint64_t of, data_.trianglesOf(name, stop));
+        triangles += of;
+    }
+    if (triangles <= most.sceneTriangles)
+        return absl::OkStatus();
+    return absl::InvalidArgumentError(
+        fmt::format("scene.objects have {} triangles; at most {} are drawn at a time", triangles,
+                    most.sceneTriangles));
+}
+
+absl::StatusOr<fabric::Scene> SceneDesk::resolved(v1::Scene message,
+                                                  const std::stop_token& stop) const {
+    const int most = quotas_.most().sceneObjects;
+    if (message.objects_size() == 0)
+        return absl::InvalidArgumentError(
+            fmt::format("scene.objects is empty; it must have 1 to {}", most));
+    if (message.objects_size() > most)
+        return quotas_.counted(observe::Quota::Scene,
+                               absl::InvalidArgumentError(
+                                   fmt::format("scene.objects has {} objects; it must have 1 to {}",
+                                               message.objects_size(), most)));
+    std::vector<std::string> names;  // of the data folder
     for (int i = 0; i < message.objects_size(); ++i) {
         v1::SceneObject& object = *message.mutable_objects(i);
         if (object.imagery_size() > 0)
@@ -85,9 +124,20 @@ absl::Status SceneDesk::show(v1::Scene message) {
         absl::StatusOr<std::string> path = pathOf(name, object.has_terrain() ? ".eyt" : ".eym");
         if (!path.ok())
             return atObject(i, path.status());
+        if (*path != name)
+            names.push_back(
+                std::filesystem::path(*path).lexically_relative(folder_->path()).string());
         name = *std::move(path);
     }
-    ASSIGN_OR_RETURN(fabric::Scene scene, wire::fromMessage(message));
+    if (absl::Status status = checkSize(names, stop); absl::IsInvalidArgument(status))
+        return quotas_.counted(observe::Quota::Scene, status);
+    else if (!status.ok())
+        return status;
+    return wire::fromMessage(message);
+}
+
+absl::Status SceneDesk::show(v1::Scene message, const std::stop_token& stop) {
+    ASSIGN_OR_RETURN(fabric::Scene scene, resolved(std::move(message), stop));
     setScene_(std::move(scene));
     return absl::OkStatus();
 }

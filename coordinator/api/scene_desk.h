@@ -5,7 +5,9 @@
 #include <mutex>
 #include <optional>
 #include <set>
+#include <stop_token>
 #include <string>
+#include <vector>
 
 #include <absl/status/statusor.h>
 
@@ -15,12 +17,16 @@
 
 namespace eyrie::api {
 
+class DataDesk;
+class QuotaKeeper;
+
 /// Scenes as callers name them: files by paths that begin in the data folder. Files that the
 /// server was started with may be named, too, as scene() names them. Any thread may call.
 class SceneDesk {
 public:
-    /// `folder` and `frames` outlive it.
-    SceneDesk(const std::optional<access::DataFolder>& folder, coordinator::FrameSource& frames,
+    /// All but `setScene` outlive it.
+    SceneDesk(const std::optional<access::DataFolder>& folder, DataDesk& data,
+              const QuotaKeeper& quotas, coordinator::FrameSource& frames,
               std::function<void(fabric::Scene)> setScene);
 
     /// The scene's files may be named from now on.
@@ -28,13 +34,24 @@ public:
 
     v1::Scene scene() const;
 
-    /// Errors: InvalidArgument, naming the object and field; NotFound (a file).
-    absl::Status show(v1::Scene scene);
+    /// Errors: those of resolved().
+    absl::Status show(v1::Scene scene, const std::stop_token& stop);
+
+    /// `scene` by where its files lie. Errors: InvalidArgument, naming the object and field, or as
+    /// it is larger than the quotas allow; NotFound (a file); Cancelled after `stop`.
+    absl::StatusOr<fabric::Scene> resolved(v1::Scene scene, const std::stop_token& stop) const;
+
+    /// What is drawn now.
+    fabric::Scene shown() const { return frames_.status().scene; }
 
 private:
     absl::StatusOr<std::string> pathOf(const std::string& name, const char* ending) const;
+    absl::Status checkSize(const std::vector<std::string>& names,
+                           const std::stop_token& stop) const;
 
     const std::optional<access::DataFolder>& folder_;
+    DataDesk& data_;
+    const QuotaKeeper& quotas_;
     coordinator::FrameSource& frames_;
     const std::function<void(fabric::Scene)> setScene_;
     mutable std::mutex mutex_;  ///< guards allowed_

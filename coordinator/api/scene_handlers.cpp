@@ -18,8 +18,8 @@ void addSceneHandlers(Handlers& handlers, SceneDesk& scenes) {
     handlers.add<v1::SetSceneRequest, v1::SetSceneResponse>(
         "SetScene",
         [&scenes](const v1::SetSceneRequest& request,
-                  const Call&) -> absl::StatusOr<v1::SetSceneResponse> {
-            RETURN_IF_ERROR(scenes.show(request.scene()));
+                  const Call& call) -> absl::StatusOr<v1::SetSceneResponse> {
+            RETURN_IF_ERROR(scenes.show(request.scene(), call.stop));
             v1::SetSceneResponse response;
             *response.mutable_scene() = scenes.scene();
             return response;

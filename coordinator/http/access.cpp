@@ -2,11 +2,11 @@
 #include "coordinator/http/access.h"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "coordinator/api/call_roles.h"
 #include "coordinator/http/origin.h"
 #include "coordinator/http/problem.h"
 #include "coordinator/http/status_json.h"
@@ -17,27 +17,9 @@ namespace {
 using access::Role;
 
 constexpr std::string_view kCookie = "eyrie_ticket";
-constexpr std::string_view kApi = "/api/v1/";
+constexpr std::string_view kApi = "/api/v1";
 
 bool reads(std::string_view method) { return method == "GET" || method == "HEAD"; }
-
-/// Calls that make something of what there is, and change nothing, but need a body.
-constexpr std::array<std::string_view, 3> kLooks = {"image", "pick", "profile"};
-/// What everybody sees, and can be changed while it is shown.
-constexpr std::array<std::string_view, 3> kShown = {"scene", "configuration", "flights"};
-
-template <std::size_t N>
-bool isOneOf(std::string_view name, const std::array<std::string_view, N>& names) {
-    return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-Role roleForApi(std::string_view method, std::string_view path) {
-    path.remove_prefix(kApi.size());
-    const std::string_view resource = path.substr(0, path.find('/'));
-    if (reads(method) || (method == "POST" && isOneOf(resource, kLooks)))
-        return Role::View;
-    return isOneOf(resource, kShown) ? Role::Control : Role::Admin;
-}
 
 Response jsonResponse(int status, std::string text) {
     Response response;
@@ -67,8 +49,8 @@ Response refusalOf(const absl::Status& status) {
 std::optional<Role> roleFor(std::string_view method, std::string_view path) {
     if (path == "/ws" || path == "/metrics")
         return Role::View;
-    if (path.starts_with(kApi))
-        return roleForApi(method, path);
+    if (path.starts_with(kApi) && path.substr(kApi.size()).starts_with('/'))
+        return api::roleForRest(method, path.substr(kApi.size()));
     return reads(method) ? std::nullopt : std::optional(Role::Admin);
 }
 

@@ -51,7 +51,8 @@ struct Context {
     /// What viewers see, by themselves or together.
     stream::Sessions viewing{
         frames,
-        {.swapPatience = options.swapPatience, .telemetry = telemetry, .video = options.video}};
+        {.swapPatience = options.swapPatience, .telemetry = telemetry, .video = options.video},
+        options.sessions};
 };
 
 /// A connection's place, and its viewer's; held until that, too, has ended.

@@ -54,23 +54,47 @@ void Crowd::await(Waiting& waiting, const std::string& address, std::function<vo
     waiting.at_ = std::prev(waiting_.end());
 }
 
-Crowd::Place Crowd::seat(const std::string& address) {
-    const std::lock_guard lock(taken_->mutex);
-    std::size_t& here = taken_->viewersOf[address];
-    if (taken_->viewers >= limits_.viewers ||
-        (limits_.viewersPerAddress != 0 && here >= limits_.viewersPerAddress)) {
-        if (here == 0)
-            taken_->viewersOf.erase(address);
-        return nullptr;
-    }
-    ++here;
-    ++taken_->viewers;
-    return {taken_.get(), [taken = taken_, address](void*) {
+bool Crowd::Count::isFull(std::size_t most, std::size_t mostOfOne,
+                          const std::string& address) const {
+    const auto here = of.find(address);
+    return all >= most || (mostOfOne != 0 && here != of.end() && here->second >= mostOfOne);
+}
+
+void Crowd::Count::leave(const std::string& address) {
+    --all;
+    if (--of[address] == 0)
+        of.erase(address);
+}
+
+Crowd::Place Crowd::take(Count Taken::*count, const std::string& address) const {
+    ++(taken_.get()->*count).all;
+    ++(taken_.get()->*count).of[address];
+    return {taken_.get(), [taken = taken_, count, address](void*) {
                 const std::lock_guard guard(taken->mutex);
-                --taken->viewers;
-                if (--taken->viewersOf[address] == 0)
-                    taken->viewersOf.erase(address);
+                (taken.get()->*count).leave(address);
             }};
+}
+
+absl::StatusOr<Crowd::Place> Crowd::seat(const std::string& address, const std::string& session) {
+    // Before the lock is taken: the last who holds a place takes it, too.
+    std::erase_if(named_, [](const auto& known) { return known.second.expired(); });
+    Place joined;
+    if (const auto known = named_.find(session); known != named_.end())
+        joined = known->second.lock();
+    const std::lock_guard lock(taken_->mutex);
+    if (taken_->viewers.isFull(limits_.viewers, limits_.viewersPerAddress, address))
+        return absl::ResourceExhaustedError("too many viewers; close some, or try again later");
+    if (joined == nullptr &&
+        taken_->sessions.isFull(limits_.sessions, limits_.sessionsPerAddress, address))
+        return absl::ResourceExhaustedError(
+            "too many sessions; close one, join another's, or try again later");
+    if (joined == nullptr) {
+        joined = take(&Taken::sessions, address);
+        if (!session.empty())
+            named_[session] = joined;
+    }
+    return std::make_shared<std::pair<Place, Place>>(take(&Taken::viewers, address),
+                                                     std::move(joined));
 }
 
 }  // namespace eyrie::http

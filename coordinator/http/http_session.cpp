@@ -19,6 +19,7 @@
 #include <poll.h>
 
 #include "coordinator/http/api_calls.h"
+#include "coordinator/http/event_stream.h"
 #include "coordinator/http/observe_routes.h"
 #include "coordinator/http/origin.h"
 #include "coordinator/http/problem.h"
@@ -88,6 +89,20 @@ std::string addressOf(tcp::socket& socket) {
     return boost::asio::ip::address_v6(bytes).to_string();
 }
 
+/// What every answer says, and what this one does.
+Reply headersOf(const Response& response) {
+    namespace http = beast::http;
+    Reply reply(static_cast<http::status>(response.status), 11);
+    reply.set(http::field::content_type, response.contentType);
+    reply.set(http::field::cache_control, response.cacheControl);
+    reply.set("Content-Security-Policy", kContentSecurityPolicy);
+    reply.set("X-Content-Type-Options", "nosniff");
+    reply.set("Referrer-Policy", "no-referrer");
+    reply.set("Cross-Origin-Resource-Policy", "same-origin");
+    for (const auto& [name, value] : response.headers) reply.set(name, value);
+    return reply;
+}
+
 class HttpSession : public Session, public std::enable_shared_from_this<HttpSession> {
 public:
     HttpSession(tcp::socket socket, Context& context, Slot slot)
@@ -152,9 +167,11 @@ private:
             return;
         waiting_.end();
         if (error == http::error::header_limit)
-            return reply(textResponse(431, "The request's header is longer than 16 KiB."), false);
+            return reply(problemResponse(431, "the header is longer than 16 KiB; make it shorter"),
+                         false);
         if (error == http::error::body_limit)
-            return reply(textResponse(413, "The request's body is longer than 1 MiB."), false);
+            return reply(problemResponse(413, "the body is longer than 1 MiB; make it shorter"),
+                         false);
         if (isMalformed(error))
             return reply(textResponse(400, "This is not HTTP/1.1."), false);
         if (error)
@@ -201,15 +218,18 @@ private:
         if (!joining.ok())
             return reply(problemResponse(400, std::string(joining.status().message())), false);
         joining->mayControl = role >= access::Role::Control;
-        Crowd::Place seat = context_.crowd.seat(address_);
-        if (seat == nullptr)
-            return reply(problemResponse(503, "too many viewers; close some, or try again later"),
-                         false);
+        absl::StatusOr<Crowd::Place> seat = context_.crowd.seat(address_, joining->session);
+        if (!seat.ok()) {
+            context_.telemetry->metrics.overQuota(observe::Quota::Viewers);
+            Response refused = problemResponse(seat.status());
+            refused.headers.emplace_back("Retry-After", "5");
+            return reply(refused, false);
+        }
         std::ostringstream received;
         received << request << beast::buffers_to_string(buffer_.data());
         stream_.expires_never();
         openWebSocket(std::move(stream_), received.str(), *joining, context_,
-                      std::make_shared<std::pair<Slot, Slot>>(std::move(slot_), std::move(seat)));
+                      std::make_shared<std::pair<Slot, Slot>>(std::move(slot_), *std::move(seat)));
     }
 
     /// On a thread of its own; what ends the connection ends the call.
@@ -219,19 +239,24 @@ private:
                              context_.isLoopback))
             return reply(problemResponse(403, "pages of other sites may not call this server"),
                          false);
+        if (const auto refused = context_.options.api->refusal(address_))
+            return reply(toResponse(*refused), request.keep_alive());
         gone_ = std::stop_source();
         isCalling_ = true;
         watch();
         const bool isTaken = context_.callers.post([self = shared_from_this(),
                                                     asked = restRequest(request, gone_.get_token()),
                                                     keepAlive = request.keep_alive()]() mutable {
-            const Response response = toResponse(self->context_.options.api->answer(asked));
+            api::RestAnswer answer = self->context_.options.api->answer(asked);
             const auto executor = self->stream_.get_executor();
             // The session ends on its own thread.
-            boost::asio::post(executor, [self = std::move(self), response, keepAlive] {
+            boost::asio::post(executor, [self = std::move(self), answer, keepAlive] {
                 self->isCalling_ = false;
                 self->looksAgain_.cancel();
-                self->reply(response, keepAlive);
+                if (answer.events == nullptr)
+                    return self->reply(toResponse(answer), keepAlive);
+                openEventStream(std::move(self->stream_), headersOf(toResponse(answer)),
+                                answer.events, self->context_, std::move(self->slot_));
             });
         });
         if (isTaken)
@@ -273,14 +298,7 @@ private:
     void reply(const Response& response, bool keepAlive) {
         namespace http = beast::http;
         context_.telemetry->metrics.refused(response.status);
-        reply_ = Reply(static_cast<http::status>(response.status), 11);
-        reply_.set(http::field::content_type, response.contentType);
-        reply_.set(http::field::cache_control, response.cacheControl);
-        reply_.set("Content-Security-Policy", kContentSecurityPolicy);
-        reply_.set("X-Content-Type-Options", "nosniff");
-        reply_.set("Referrer-Policy", "no-referrer");
-        reply_.set("Cross-Origin-Resource-Policy", "same-origin");
-        for (const auto& [name, value] : response.headers) reply_.set(name, value);
+        reply_ = headersOf(response);
         if (response.status == 405 && reply_.count(http::field::allow) == 0)
             reply_.set(http::field::allow, "GET, HEAD");
         if (response.status == 426)

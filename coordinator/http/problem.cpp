@@ -17,7 +17,9 @@ absl::StatusCode codeOf(int status) {
             return absl::StatusCode::kPermissionDenied;
         case 405:
             return absl::StatusCode::kUnimplemented;
+        case 413:
         case 429:
+        case 431:
             return absl::StatusCode::kResourceExhausted;
         case 503:
             return absl::StatusCode::kUnavailable;

@@ -21,6 +21,9 @@
 namespace eyrie::api {
 class RestDoor;
 }
+namespace eyrie::stream {
+class SessionBook;
+}
 
 namespace eyrie::http {
 
@@ -30,7 +33,9 @@ struct ServerOptions {
     std::filesystem::path webFolder;  ///< the built UI; a page says how to build it where missing
     /// What is below /api/v1/, but for nothing: 404 then. Outlives the server.
     const api::RestDoor* api = nullptr;
-    CrowdLimits limits;  ///< who comes above them is answered 503 and closed
+    CrowdLimits limits;  ///< who comes above them is answered 503, viewers 429, and closed
+    /// Where programs see the viewers' sessions; null: nowhere.
+    std::shared_ptr<stream::SessionBook> sessions = {};
     std::chrono::milliseconds headerTimeout{
         10'000};  ///< for a whole request; also between requests
     /// For one message to a viewer, and for the viewer to acknowledge a picture.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <utility>
@@ -31,6 +32,8 @@ constexpr std::chrono::seconds kIdleTimeout{30};
 /// While pictures are under way, the round trip is measured so often.
 constexpr std::chrono::milliseconds kPulse{1000};
 constexpr char kPulsePayload[] = "pulse";
+/// A program has closed the session: viewer.proto.
+constexpr std::uint16_t kSessionClosed = 4001;
 /// How soon the end of what a viewer had asked for is noticed.
 constexpr std::chrono::milliseconds kDrainPoll{5};
 
@@ -172,7 +175,11 @@ private:
 
     /// Sends what the viewer has, one message at a time, so that nothing piles up here.
     void write() {
-        if (isWriting_ || isClosing_ || viewer_ == nullptr)
+        if (isClosing_ || viewer_ == nullptr)
+            return;
+        if (viewer_->isClosed())
+            return closedByProgram();
+        if (isWriting_)
             return;
         std::optional<std::string> message = viewer_->takeMessage();
         if (!message.has_value())
@@ -241,6 +248,12 @@ private:
     }
 
     std::chrono::milliseconds writeTimeout() const { return context_.options.writeTimeout; }
+
+    void closedByProgram() {
+        websocket::close_reason reason(kSessionClosed);
+        reason.reason = "this session was closed";
+        close(reason);
+    }
 
     void close(const websocket::close_reason& reason) {
         if (std::exchange(isClosing_, true))

@@ -88,9 +88,29 @@ std::string_view nameOf(Stage stage) {
     return "";
 }
 
+std::string_view nameOf(Quota quota) {
+    switch (quota) {
+        case Quota::Image:
+            return "image";
+        case Quota::Scene:
+            return "scene";
+        case Quota::Rate:
+            return "rate";
+        case Quota::Viewers:
+            return "viewers";
+        case Quota::Readers:
+            return "readers";
+        case Quota::Operations:
+            return "operations";
+    }
+    return "";
+}
+
 class Metrics::Impl {
 public:
     Impl() {
+        for (int quota = 0; quota <= static_cast<int>(kLastQuota); ++quota)
+            overQuota_.Add({{"quota", std::string(nameOf(static_cast<Quota>(quota)))}});
         for (int stage = 0; stage <= static_cast<int>(kLastStage); ++stage)
             byStage_.push_back(&stages_.Add(
                 {{"stage", std::string(nameOf(static_cast<Stage>(stage)))}}, kSeconds));
@@ -145,6 +165,9 @@ public:
         cutShort_.Increment(cutShort);
     }
     void taskReissued(bool wasLate) { (wasLate ? late_ : afterFailure_).Increment(); }
+    void overQuota(Quota quota) {
+        overQuota_.Add({{"quota", std::string(nameOf(quota))}}).Increment();
+    }
     void refused(int status) {
         if (status >= 400)
             refused_.Add({{"reason", reasonOf(status)}}).Increment();
@@ -253,6 +276,8 @@ private:
     Family<Gauge>& memory_ =
         gauges("eyrie_renderer_memory_bytes", "What a renderer holds for its scene.");
     Family<Counter>& refused_ = counters("eyrie_requests_refused_total", "HTTP requests refused.");
+    Family<Counter>& overQuota_ =
+        counters("eyrie_over_quota_total", "Calls and viewers refused as they ask for too much.");
     Counter& cpu_ = counter("process_cpu_seconds_total", "User and system time of this process.");
     Gauge& resident_ = gauge("process_resident_memory_bytes", "Memory in use by this process.");
     Gauge& virtual_ = gauge("process_virtual_memory_bytes", "Address space of this process.");
@@ -278,6 +303,7 @@ void Metrics::pictureCame(bool inMemory) { impl_->pictureCame(inMemory); }
 void Metrics::viewers(int change) { impl_->viewers(change); }
 void Metrics::swapped(int together, int cutShort) { impl_->swapped(together, cutShort); }
 void Metrics::taskReissued(bool wasLate) { impl_->taskReissued(wasLate); }
+void Metrics::overQuota(Quota quota) { impl_->overQuota(quota); }
 void Metrics::refused(int status) { impl_->refused(status); }
 void Metrics::rendererHolds(const std::string& name, std::uint64_t deviceBytes,
                             std::uint64_t hostBytes) {

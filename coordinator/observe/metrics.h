@@ -30,6 +30,11 @@ enum class Stage {
 std::string_view nameOf(Stage stage);
 inline constexpr Stage kLastStage = Stage::Send;
 
+/// What may be asked for only so much of; docs/security.md says how much.
+enum class Quota { Image, Scene, Rate, Viewers, Readers, Operations };
+std::string_view nameOf(Quota quota);
+inline constexpr Quota kLastQuota = Quota::Operations;
+
 enum class Peer { Http, WebSocket, Renderer };
 enum class Direction { In, Out };
 
@@ -54,6 +59,7 @@ public:
     /// some that were too late.
     void swapped(int together, int cutShort);
     void taskReissued(bool wasLate);  ///< else the renderer before had failed
+    void overQuota(Quota quota);      ///< a call, or a viewer, was refused for it
     /// By HTTP status, 400 or more; others are not counted.
     void refused(int status);
     /// What a renderer holds for its scene.

@@ -87,6 +87,10 @@ void Seat::give(std::shared_ptr<const EncodedPicture> encoded, const QualityClas
         video = encoded->video;
     else if (outbox.isWaiting())
         video.reset();  // what waits is replaced, and may be of a stream
+    last = {encoded->width, encoded->height,
+            encoded->video                         ? SentAs::H264
+            : encoded->fineness == Fineness::Exact ? SentAs::Png
+                                                   : SentAs::Jpeg};
     EncodedFrame frame;
     frame.frameNumber = ++lastFrameNumber_;
     frame.picture = std::move(encoded);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -20,6 +21,16 @@ namespace eyrie::stream {
 enum class Role {
     Lead,   ///< leads where nobody does, now or when who leads has left
     Watch,  ///< only when it takes the lead
+};
+
+/// What a picture was sent as.
+enum class SentAs { Nothing, Jpeg, Png, H264 };
+
+/// The last picture that a browser was given.
+struct LastGiven {
+    int width = 0;  ///< pixels
+    int height = 0;
+    SentAs as = SentAs::Nothing;
 };
 
 /// One browser in a session: its link, what it has been given and what it is to be given next.
@@ -68,6 +79,7 @@ public:
     const std::uint64_t id;  ///< among those of the session, from 1
     const Role role;
     const bool mayControl;
+    const std::chrono::system_clock::time_point joined = std::chrono::system_clock::now();
     Outbox outbox;
     QualityControl quality;
     bool showsVideo = false;          ///< it says that it can
@@ -87,6 +99,10 @@ public:
     std::optional<Screen> screen;
     std::string barrier = {};  ///< that its pictures are shown behind; empty: none
     std::string lastState = {};
+    LastGiven last;
+
+    /// Pictures that it was given.
+    std::uint64_t given() const { return lastFrameNumber_; }
 
 private:
     std::uint64_t lastFrameNumber_ = 0;

@@ -17,6 +17,7 @@
 
 #include "coordinator/observe/stage_timer.h"
 #include "coordinator/stream/drawing.h"
+#include "coordinator/stream/statistics_feed.h"
 #include "coordinator/stream/swap_barrier.h"
 #include "coordinator/stream/swap_group.h"
 #include "coordinator/stream/video_streams.h"
@@ -60,9 +61,12 @@ std::optional<Clock::time_point> sooner(const std::optional<Clock::time_point>& 
 
 class Session::Impl {
 public:
-    Impl(coordinator::FrameSource& frames, std::string name, const SessionOptions& options)
+    Impl(coordinator::FrameSource& frames, std::string name, const SessionOptions& options,
+         std::string id)
         : frames_(frames),
           name_(std::move(name)),
+          id_(std::move(id)),
+          statistics_(options.statistics),
           framesInFlight_(options.framesInFlight),
           swapPatience_(options.swapPatience),
           telemetry_(options.telemetry),
@@ -118,15 +122,71 @@ public:
         if (leader_ != &seat || isDraining_)
             return;
         setProblem(seat.problem, "");
-        // Who leads shows what it asks for: the next picture has it.
-        if (seat.screen && seat.screen->shown != view.frame.shown.front()) {
-            seat.screen->shown = view.frame.shown.front();
-            seat.screen->isToBeChecked = true;
-        }
         view.viewer = seat.id;
-        if (progress_.want(view, Clock::now()))
-            for (const auto& each : seats_) each->outbox.dropStill();
-        changed_.notify_all();
+        wantNow(view);
+    }
+
+    absl::Status change(const ViewChange& change) {
+        const std::lock_guard lock(mutex_);
+        if (isStopping_ || isClosed_)
+            return absl::NotFoundError("the session has just ended");
+        if (isDraining_)
+            return absl::UnavailableError("the server is shutting down");
+        if (!progress_.wanted() && !change.camera)
+            return absl::FailedPreconditionError(
+                "change.camera is absent, and nobody has asked for a view yet; give one");
+        ViewRequest view = progress_.wanted().value_or(ViewRequest());
+        if (!progress_.wanted())
+            view.frame.completeness = fabric::Completeness::Interactive;
+        view.viewer = 0;
+        view.sequence = 0;
+        if (change.camera)
+            view.frame.camera = *change.camera;
+        if (change.tauPixels)
+            view.frame.tauPixels = *change.tauPixels;
+        if (change.shading)
+            view.frame.shading = *change.shading;
+        if (change.look)
+            view.frame.look = *change.look;
+        if (change.isUnderground)
+            view.isUnderground = *change.isUnderground;
+        if (change.shown)
+            view.frame.shown = {*change.shown};
+        wantNow(view);
+        return absl::OkStatus();
+    }
+
+    void close() {
+        Seats all;
+        {
+            const std::lock_guard lock(mutex_);
+            isClosed_ = true;
+            all = seats_;
+        }
+        for (const auto& seat : all) seat->tell();
+    }
+
+    bool isClosed() const {
+        const std::lock_guard lock(mutex_);
+        return isClosed_;
+    }
+
+    bool hasViewers() const {
+        const std::lock_guard lock(mutex_);
+        return !isClosed_ && !seats_.empty();
+    }
+
+    SessionFacts facts() const {
+        const std::lock_guard lock(mutex_);
+        SessionFacts facts{created_, {}, progress_.wanted(), nullptr, counts_};
+        if (progress_.newest() != nullptr)
+            facts.frame = progress_.newest()->frame;
+        const Clock::time_point now = Clock::now();
+        for (const auto& seat : seats_)
+            facts.viewers.push_back({seat->id, seat->joined, leader_ == seat.get(), seat->role,
+                                     seat->mayControl, seat->last, seat->given(),
+                                     seat->outbox.link().bytesPerSecond(now)});
+        return facts;
     }
 
     void takeLead(Seat& seat) {
@@ -250,9 +310,22 @@ public:
     }
 
     const std::string& name() const { return name_; }
+    const std::string& id() const { return id_; }
 
 private:
     // ---- With mutex_ held.
+
+    void wantNow(const ViewRequest& view) {
+        // Who leads shows what is asked for: the next picture has it.
+        if (leader_ != nullptr && leader_->screen &&
+            leader_->screen->shown != view.frame.shown.front()) {
+            leader_->screen->shown = view.frame.shown.front();
+            leader_->screen->isToBeChecked = true;
+        }
+        if (progress_.want(view, Clock::now()))
+            for (const auto& each : seats_) each->outbox.dropStill();
+        changed_.notify_all();
+    }
 
     void setProblem(std::string& problem, std::string value) {
         if (problem == value)
@@ -443,6 +516,8 @@ private:
             for (const auto& seat : seats_) seat->outbox.rendered(now - from);
             setProblem(renderProblem_, std::string(coordinator::whyEmpty(*frame)));
             tellAtFullSize(frame->statistics, begun.view, begun.request);
+            if (statistics_ != nullptr)
+                statistics_->drawn(id_, *frame);
             Picture picture{begun.view,
                             std::make_shared<const coordinator::RenderedFrame>(*std::move(frame)),
                             begun.at};
@@ -860,6 +935,9 @@ private:
 
     coordinator::FrameSource& frames_;
     const std::string name_;
+    const std::string id_;
+    const std::chrono::system_clock::time_point created_ = std::chrono::system_clock::now();
+    StatisticsFeed* const statistics_;
     const std::optional<int> framesInFlight_;
     const std::chrono::milliseconds swapPatience_;
     const observe::SharedTelemetry telemetry_;
@@ -869,6 +947,7 @@ private:
     std::condition_variable changed_;
     bool isStopping_ = false;
     bool isDraining_ = false;
+    bool isClosed_ = false;
     bool isStarting_ = false;  ///< a render thread waits for its frame's turn
     Clock::time_point lastRendered_{};
     Seats seats_;                              ///< in the order in which they came
@@ -890,8 +969,9 @@ private:
     std::array<std::thread, kRenderThreads> renderers_;
 };
 
-Session::Session(coordinator::FrameSource& frames, std::string name, const SessionOptions& options)
-    : impl_(std::make_unique<Impl>(frames, std::move(name), options)) {}
+Session::Session(coordinator::FrameSource& frames, std::string name, const SessionOptions& options,
+                 std::string id)
+    : impl_(std::make_unique<Impl>(frames, std::move(name), options, std::move(id))) {}
 Session::~Session() = default;
 
 std::shared_ptr<Seat> Session::join(Role role, bool mayControl,
@@ -918,5 +998,11 @@ void Session::drain() { impl_->drain(); }
 bool Session::hasDrained(Seat& seat) { return impl_->hasDrained(seat); }
 SessionCounts Session::counts() const { return impl_->counts(); }
 const std::string& Session::name() const { return impl_->name(); }
+const std::string& Session::id() const { return impl_->id(); }
+SessionFacts Session::facts() const { return impl_->facts(); }
+absl::Status Session::change(const ViewChange& change) { return impl_->change(change); }
+void Session::close() { impl_->close(); }
+bool Session::isClosed() const { return impl_->isClosed(); }
+bool Session::hasViewers() const { return impl_->hasViewers(); }
 
 }  // namespace eyrie::stream

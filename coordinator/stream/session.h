@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <absl/status/status.h>
 
@@ -16,6 +17,8 @@
 #include "video/module.h"
 
 namespace eyrie::stream {
+
+class StatisticsFeed;
 
 struct SessionOptions {
     /// Frames that may be under way to a viewer at once; absent leaves it to the Pacer's rule.
@@ -33,6 +36,7 @@ struct SessionOptions {
     std::chrono::milliseconds swapPatience{1000};
     observe::SharedTelemetry telemetry = nullptr;  ///< is told how long pictures take to encode
     const video::Module* video = nullptr;  ///< codes H.264 for slow links; null: nothing does
+    StatisticsFeed* statistics = nullptr;  ///< is told of each frame; outlives the session
 };
 
 /// What a session has done so far.
@@ -40,6 +44,37 @@ struct SessionCounts {
     std::uint64_t drawn = 0;    ///< frames
     std::uint64_t encoded = 0;  ///< pictures, each for all viewers of a quality class
     std::uint64_t given = 0;    ///< pictures to viewers
+};
+
+/// A browser of a session, for programs.
+struct ViewerFacts {
+    std::uint64_t id = 0;  ///< Seat::id
+    std::chrono::system_clock::time_point joined = {};
+    bool leads = false;
+    Role role = Role::Lead;  ///< that it came with
+    bool mayControl = false;
+    LastGiven last = {};
+    std::uint64_t given = 0;                    ///< pictures
+    std::optional<double> bytesPerSecond = {};  ///< of its link; absent: not known
+};
+
+/// A session, for programs.
+struct SessionFacts {
+    std::chrono::system_clock::time_point created = {};
+    std::vector<ViewerFacts> viewers = {};  ///< in the order in which they came
+    std::optional<ViewRequest> view = {};   ///< that is wanted; nothing: nobody has asked yet
+    std::shared_ptr<const coordinator::RenderedFrame> frame = {};  ///< drawn last; null: none
+    SessionCounts counts = {};
+};
+
+/// What of a view is to be otherwise.
+struct ViewChange {
+    std::optional<fabric::Camera> camera = {};
+    std::optional<double> tauPixels = {};
+    std::optional<fabric::Shading> shading = {};
+    std::optional<fabric::Look> look = {};
+    std::optional<bool> isUnderground = {};
+    std::optional<coordinator::Shown> shown = {};
 };
 
 /// One view, which one viewer moves and any number see.
@@ -64,7 +99,9 @@ struct SessionCounts {
 class Session {
 public:
     /// `frames` outlives the session. `name` is for viewers to read; empty where it has but one.
-    Session(coordinator::FrameSource& frames, std::string name, const SessionOptions& options);
+    /// `id` is what programs know it by.
+    Session(coordinator::FrameSource& frames, std::string name, const SessionOptions& options,
+            std::string id = {});
 
     /// Waits for the frame being rendered.
     ~Session();
@@ -103,6 +140,21 @@ public:
 
     SessionCounts counts() const;
     const std::string& name() const;
+
+    // ---- For programs.
+
+    const std::string& id() const;
+    SessionFacts facts() const;
+    /// In place of what was wanted, for all viewers; who leads is told and goes on from there.
+    /// Where nobody has asked for anything yet, a view of 1280x720 pixels. Errors:
+    /// FailedPrecondition (a camera is needed), NotFound (the last viewer has left), Unavailable
+    /// (the server is ending).
+    absl::Status change(const ViewChange& change);
+    /// From now on viewers are to be sent away (isClosed), and are told.
+    void close();
+    bool isClosed() const;
+    /// Before close(), and until the last has left.
+    bool hasViewers() const;
 
 private:
     class Impl;

@@ -45,17 +45,33 @@ absl::StatusOr<Joining> joiningOf(std::string_view target) {
     return joining;
 }
 
+Sessions::Sessions(coordinator::FrameSource& frames, const SessionOptions& options,
+                   std::shared_ptr<SessionBook> book)
+    : frames_(frames), book_(std::move(book)), options_([&] {
+          SessionOptions own = options;
+          own.statistics = book_ == nullptr ? nullptr : &book_->statistics();
+          return own;
+      }()) {}
+
+std::shared_ptr<Session> Sessions::begin(const std::string& name) const {
+    if (book_ == nullptr)
+        return std::make_shared<Session>(frames_, name, options_);
+    auto session = std::make_shared<Session>(frames_, name, options_, book_->idFor(name));
+    book_->add(session);
+    return session;
+}
+
 Sessions::Joined Sessions::join(const Joining& joining, std::function<void()> messageReady) {
     if (joining.session.empty()) {
         // Alone, there is nobody else to lead.
-        auto own = std::make_shared<Session>(frames_, "", options_);
+        auto own = begin("");
         return {own, own->join(Role::Lead, joining.mayControl, std::move(messageReady))};
     }
     const std::lock_guard lock(mutex_);
     std::weak_ptr<Session>& known = named_[joining.session];
     std::shared_ptr<Session> session = known.lock();
-    if (session == nullptr) {
-        session = std::make_shared<Session>(frames_, joining.session, options_);
+    if (session == nullptr || session->isClosed()) {
+        session = begin(joining.session);
         known = session;
     }
     const Role role = joining.mayControl ? joining.role : Role::Watch;
@@ -67,7 +83,10 @@ void Sessions::leave(const Joined& joined) {
     const std::string& name = joined.session->name();
     if (!joined.session->leave(joined.seat) || name.empty())
         return;
-    named_.erase(name);
+    // Another may have begun under the name of one that was closed.
+    if (const auto known = named_.find(name);
+        known != named_.end() && known->second.lock() == joined.session)
+        named_.erase(known);
     const SessionCounts counts = joined.session->counts();
     spdlog::info("session {} has ended: {} frames drawn, {} pictures encoded, {} sent", name,
                  counts.drawn, counts.encoded, counts.given);

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "coordinator/stream/session.h"
+#include "coordinator/stream/session_book.h"
 
 namespace eyrie::stream {
 
@@ -28,9 +29,9 @@ absl::StatusOr<Joining> joiningOf(std::string_view target);
 /// functions may be called from any thread.
 class Sessions {
 public:
-    /// `frames` outlives this and all viewers.
-    explicit Sessions(coordinator::FrameSource& frames, SessionOptions options = {})
-        : frames_(frames), options_(options) {}
+    /// `frames` outlives this and all viewers. They are told of in `book`; null: nowhere.
+    explicit Sessions(coordinator::FrameSource& frames, const SessionOptions& options = {},
+                      std::shared_ptr<SessionBook> book = nullptr);
 
     struct Joined {
         std::shared_ptr<Session> session;
@@ -42,7 +43,10 @@ public:
     coordinator::FrameSource& frames() { return frames_; }
 
 private:
+    std::shared_ptr<Session> begin(const std::string& name) const;
+
     coordinator::FrameSource& frames_;
+    const std::shared_ptr<SessionBook> book_;
     const SessionOptions options_;
     std::mutex mutex_;                                     ///< guards the names
     std::map<std::string, std::weak_ptr<Session>> named_;  ///< those that have viewers

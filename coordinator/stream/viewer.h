@@ -58,6 +58,9 @@ public:
     /// Whether all of that has been taken.
     bool hasDrained() const;
 
+    /// Its session was closed by a program: the connection is to end. messageReady is called then.
+    bool isClosed() const { return joined_.session->isClosed(); }
+
     /// Leaves the session; makes threads end soon, without waiting for them.
     void stop();
 

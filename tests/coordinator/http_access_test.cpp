@@ -297,13 +297,46 @@ TEST_F(HttpAccess, OneAddressCannotTakeAllSeats) {
         EXPECT_THAT(answerOn(viewers.back()), HasSubstr("HTTP/1.1 101"));
     }
     const std::string refused = ask(upgrade, "127.0.0.2");
-    EXPECT_THAT(refused, HasSubstr("HTTP/1.1 503"));
+    EXPECT_THAT(refused, HasSubstr("HTTP/1.1 429"));
+    EXPECT_THAT(refused, HasSubstr("application/problem+json"));
+    EXPECT_THAT(refused, HasSubstr("Retry-After"));
     EXPECT_THAT(refused, HasSubstr("too many viewers"));
     EXPECT_THAT(ask(upgrade, "127.0.0.3"), HasSubstr("HTTP/1.1 101"));
     viewers.clear();
     const auto end = std::chrono::steady_clock::now() + seconds(20);
-    while (ask(upgrade, "127.0.0.2").starts_with("HTTP/1.1 503")) {
+    while (ask(upgrade, "127.0.0.2").starts_with("HTTP/1.1 429")) {
         ASSERT_LT(std::chrono::steady_clock::now(), end) << "no seat is given up";
+        std::this_thread::sleep_for(milliseconds(20));
+    }
+}
+
+TEST_F(HttpAccess, OneAddressCannotBeginAllSessions) {
+    ServerOptions options;
+    options.limits.sessions = 3;
+    options.limits.sessionsPerAddress = 2;
+    start(options, false);
+    std::deque<tcp::socket> viewers;
+    const auto join = [&](const char* address, const std::string& session) {
+        viewers.push_back(connect(address));
+        asio::write(viewers.back(),
+                    asio::buffer(fmt::format("GET /ws{} HTTP/1.1\r\nHost: 127.0.0.1:{}\r\n{}\r\n",
+                                             session, port_, kUpgrade)));
+        return answerOn(viewers.back()).substr(0, 12);
+    };
+    const std::string yes = "HTTP/1.1 101";
+    const std::string no = "HTTP/1.1 429";
+    EXPECT_EQ(join("127.0.0.2", "?session=a"), yes);
+    EXPECT_EQ(join("127.0.0.2", ""), yes);
+    EXPECT_EQ(join("127.0.0.2", ""), no);
+    EXPECT_EQ(join("127.0.0.2", "?session=b"), no);
+    for (int i = 0; i < 5; ++i) EXPECT_EQ(join("127.0.0.2", "?session=a"), yes) << "it is there";
+    EXPECT_EQ(join("127.0.0.3", "?session=a"), yes);
+    EXPECT_EQ(join("127.0.0.3", "?session=b"), yes);
+    EXPECT_EQ(join("127.0.0.4", "?session=c"), no) << "three of all";
+    viewers.clear();
+    const auto end = std::chrono::steady_clock::now() + seconds(20);
+    while (join("127.0.0.4", "?session=c") != yes) {
+        ASSERT_LT(std::chrono::steady_clock::now(), end) << "no place is given up";
         std::this_thread::sleep_for(milliseconds(20));
     }
 }

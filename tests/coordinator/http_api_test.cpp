@@ -6,6 +6,7 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/read.hpp>
+#include <boost/asio/read_until.hpp>
 #include <boost/asio/write.hpp>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -13,10 +14,12 @@
 #include <gtest/gtest.h>
 
 #include "coordinator/api/api.h"
+#include "coordinator/api/call_roles.h"
 #include "coordinator/api/coordinator_service.h"
 #include "coordinator/api/rest_routes.h"
 #include "coordinator/http/access.h"
 #include "coordinator/http/server.h"
+#include "coordinator/stream/session_book.h"
 #include "tests/coordinator/fake_frame_source.h"
 #include "tests/service/eventually.h"
 
@@ -42,6 +45,8 @@ protected:
         ServerOptions options;
         options.port = 0;
         options.api = &api_.rest();
+        options.sessions = api_.sessions();
+        options.writeTimeout = milliseconds(1500);
         server_ = Server::start(options, frames_).value();
         const std::string url = server_->url();
         port_ = static_cast<std::uint16_t>(std::stoi(url.substr(url.rfind(':') + 1)));
@@ -161,6 +166,65 @@ TEST_F(HttpApi, ServersStopWhileCallsAreBeingDone) {
     ASSERT_TRUE(frames_.waitForPicks(1));
     server_->stop();
     EXPECT_LT(frames_.picks().size(), 512U);
+}
+
+/// Reads until `text` has come; what has come so far.
+std::string readUntil(tcp::socket& socket, const std::string& text) {
+    std::string answer;
+    boost::system::error_code end;
+    boost::asio::read_until(socket, boost::asio::dynamic_buffer(answer), text, end);
+    return answer;
+}
+
+TEST_F(HttpApi, StatisticsAreEventsThatGoOn) {
+    tcp::socket client = send("GET /api/v1/statistics HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    const std::string head = readUntil(client, "\r\n\r\n");
+    EXPECT_THAT(head, StartsWith("HTTP/1.1 200"));
+    EXPECT_THAT(head, HasSubstr("Content-Type: text/event-stream"));
+    EXPECT_THAT(head, HasSubstr("Transfer-Encoding: chunked"));
+    EXPECT_THAT(head, HasSubstr("Content-Security-Policy"));
+    for (int i = 1; i <= 3; ++i) {
+        EXPECT_THAT(ask("GET /api/v1/image?width=20&height=10"), StartsWith("HTTP/1.1 200"));
+        EXPECT_THAT(readUntil(client, "}\n\n"), HasSubstr(fmt::format("\"frame\":\"{}\"", i)));
+    }
+    server_->stop();
+    EXPECT_THAT(receive(std::move(client)), testing::EndsWith("0\r\n\r\n")) << "a whole answer";
+}
+
+TEST_F(HttpApi, StatisticsEndWithTheirConnection) {
+    for (int i = 0; i < 100; ++i) {  // there are places for 64
+        tcp::socket client = send("GET /api/v1/statistics HTTP/1.1\r\nHost: localhost\r\n\r\n");
+        const std::string head = readUntil(client, "\r\n\r\n");
+        ASSERT_THAT(head, testing::AnyOf(StartsWith("HTTP/1.1 200"), StartsWith("HTTP/1.1 429")));
+        client.close();
+    }
+    EXPECT_TRUE(eventually([this] {
+        tcp::socket client = send("GET /api/v1/statistics HTTP/1.1\r\nHost: localhost\r\n\r\n");
+        return readUntil(client, "\r\n\r\n").starts_with("HTTP/1.1 200");
+    }));
+}
+
+TEST_F(HttpApi, WhoTakesNoStatisticsIsCutOff) {
+    tcp::socket client = send("GET /api/v1/statistics HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    readUntil(client, "\r\n\r\n");
+    coordinator::FrameRequest request;
+    request.width = request.height = 1;
+    coordinator::RenderedFrame frame = coordinator::plainFrame(request, {});
+    coordinator::DrawnPart part;
+    part.renderer = std::string(60, 'r');
+    frame.parts.resize(20'000, part);
+    // Until the system takes no more of it, and then for the write's time.
+    std::jthread drawing([&](const std::stop_token& stop) {
+        while (!stop.stop_requested()) {
+            api_.sessions()->statistics().drawn("", frame);
+            std::this_thread::sleep_for(milliseconds(5));
+        }
+    });
+    EXPECT_TRUE(eventually([&] {
+        boost::system::error_code error;
+        boost::asio::write(client, boost::asio::buffer("x", 1), error);
+        return bool(error);
+    }));
 }
 
 TEST_F(HttpApi, PagesOfOtherSitesGetNothing) {

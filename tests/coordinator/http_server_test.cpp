@@ -24,6 +24,8 @@
 
 #include "coordinator/http/origin.h"
 #include "coordinator/http/server.h"
+#include "coordinator/stream/session.h"
+#include "coordinator/stream/session_book.h"
 #include "eyrie/v1/viewer.pb.h"
 #include "tests/coordinator/fake_frame_source.h"
 
@@ -535,6 +537,23 @@ TEST_F(HttpServer, SurvivesViewersThatVanish) {
     EXPECT_EQ(get("/healthz").result_int(), 200u);
     server_->stop();
     EXPECT_EQ(frames_.listenerCount(), 0u);
+}
+
+TEST_F(HttpServer, SendsViewersAwayWhoseSessionAProgramCloses) {
+    ServerOptions options;
+    options.sessions = std::make_shared<stream::SessionBook>();
+    start(options);
+    const auto socket = openSocket();
+    const auto other = openSocket();
+    socket->write(asio::buffer(viewBytes(1)));
+    readFrame(*socket);
+    read(*other);
+    const auto sessions = options.sessions->all();
+    ASSERT_EQ(sessions.size(), 2u);
+    sessions.front()->close();
+    EXPECT_EQ(closeCode(*socket), 4001);
+    other->write(asio::buffer(viewBytes(1)));
+    EXPECT_EQ(readFrame(*other).view_sequence(), 1u) << "the other session goes on";
 }
 
 TEST_F(HttpServer, TellsViewersThatItShutsDown) {

@@ -2,7 +2,8 @@
 eyrie_test(jpeg_test LABEL unit SOURCES jpeg_test.cpp png_test.cpp LINK eyrie::jpeg eyrie::png PNG::PNG)
 eyrie_test(viewer_test LABEL unit
            SOURCES encoding_test.cpp home_camera_test.cpp link_test.cpp pacer_test.cpp
-                   session_fairness_test.cpp session_test.cpp swap_barrier_test.cpp
+                   session_fairness_test.cpp session_programs_test.cpp session_test.cpp statistics_feed_test.cpp
+                   swap_barrier_test.cpp
                    swap_group_test.cpp video_streams_test.cpp viewer_pick_test.cpp
                    viewer_test.cpp viewer_view_test.cpp
            LINK eyrie::stream eyrie::jpeg eyrie::png eyrie::proto)
@@ -15,7 +16,7 @@ if(EYRIE_SANITIZE MATCHES thread)
     target_compile_options(http_server_test PRIVATE -Wno-tsan)  # as in coordinator/http.cmake
     target_compile_options(http_access_test PRIVATE -Wno-tsan)
 endif()
-eyrie_test(api_test LABEL unit SOURCES api_data_test.cpp api_test.cpp
+eyrie_test(api_test LABEL unit SOURCES api_bench_test.cpp api_data_test.cpp api_quota_test.cpp api_session_test.cpp api_test.cpp
            LINK eyrie::api eyrie::frame eyrie::jpeg eyrie::wire eyrie::proto fmt::fmt)
 eyrie_test(http_api_test LABEL unit LINK eyrie::http eyrie::api eyrie::proto eyrie::wire Boost::headers Threads::Threads
                                          fmt::fmt)

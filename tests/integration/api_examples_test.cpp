@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Programs that ask a running `eyrie serve`: the examples, and every call of the API's document.
+#include <atomic>
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
+#include <set>
+#include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,6 +13,7 @@
 #include "tests/support/http_client.h"
 #include "tests/support/program.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/viewer_client.h"
 
 namespace eyrie {
 namespace {
@@ -36,9 +41,8 @@ protected:
         const std::string line = server_->output();
         url_ = line.substr(line.find("http://"));
         url_ = url_.substr(0, url_.find("/\n"));
-        const auto port = static_cast<std::uint16_t>(std::atoi(&url_[url_.rfind(':') + 1]));
         ASSERT_TRUE(test::eventually(seconds(120), [&] {
-            const auto ready = test::httpGet(port, "/readyz");
+            const auto ready = test::httpGet(port(), "/readyz");
             return ready.ok() && ready->status == 200;
         })) << server_->errors();
     }
@@ -56,6 +60,10 @@ protected:
         return test::run(command, seconds(200));
     }
 
+    static std::uint16_t port() {
+        return static_cast<std::uint16_t>(std::atoi(&url_[url_.rfind(':') + 1]));
+    }
+
     static std::string curl(std::vector<std::string> arguments, const std::string& path) {
         arguments.insert(arguments.begin(), {"/usr/bin/env", "curl", "--silent"});
         arguments.push_back(url_ + "/api/v1" + path);
@@ -69,7 +77,44 @@ protected:
     static inline std::string url_;
 };
 
+/// Somebody who looks, and takes what comes, in the session of that name.
+class Somebody {
+public:
+    Somebody(std::uint16_t port, const std::string& session)
+        : client_(test::ViewerClient::connect(port, "?session=" + session).value()),
+          reading_([this](const std::stop_token& stop) {
+              v1::ViewRequest view;
+              view.set_sequence(1);
+              view.set_width(64);
+              view.set_height(48);
+              view.set_tau_pixels(4);
+              for (const double metres : {10.0, -10.0, 5.0}) view.mutable_camera()->add_eye(metres);
+              for (int i = 0; i < 3; ++i) view.mutable_camera()->add_target(0);
+              v1::ViewerRequest request;
+              *request.mutable_view() = view;
+              bool isOpen = client_->send(request).ok();
+              while (isOpen && !stop.stop_requested()) {
+                  const auto message = client_->receive(std::chrono::milliseconds(100));
+                  isOpen = message.ok() || absl::IsDeadlineExceeded(message.status());
+                  if (message.ok() && message->has_frame()) {
+                      v1::ViewerRequest ack;
+                      ack.mutable_frame_ack()->set_frame_number(message->frame().frame_number());
+                      isOpen = client_->send(ack).ok();
+                  }
+              }
+              wasSentAway_ = !isOpen;
+          }) {}
+
+    bool wasSentAway() const { return wasSentAway_; }
+
+private:
+    std::atomic<bool> wasSentAway_ = false;
+    std::unique_ptr<test::ViewerClient> client_;
+    std::jthread reading_;
+};
+
 TEST_F(ApiExamples, EveryCallAnswersAsDocumented) {
+    const Somebody somebody(port(), "example");
     const test::Outcome outcome = ask("python3", "tests/integration/check_api.py", {});
     EXPECT_EQ(outcome.exit.status, 0) << outcome.output << outcome.errors;
     EXPECT_THAT(outcome.output, HasSubstr(" 0 answers that are not as documented"));
@@ -82,6 +127,57 @@ TEST_F(ApiExamples, AStillComesWithDepthAndAPick) {
     EXPECT_THAT(outcome.output, HasSubstr("of the pixels show something"));
     EXPECT_THAT(outcome.output, HasSubstr("in the middle: "));
     EXPECT_GT(std::filesystem::file_size(picture), 1000U);
+}
+
+TEST_F(ApiExamples, StatisticsAreToldAsFramesAreDrawn) {
+    const Somebody somebody(port(), "told");
+    const test::Outcome outcome = ask("python3", "examples/watch_statistics.py", {"1"});
+    EXPECT_EQ(outcome.exit.status, 0) << outcome.output << outcome.errors;
+    EXPECT_THAT(outcome.output, HasSubstr("triangles, error at most"));
+}
+
+TEST_F(ApiExamples, SessionsAreSeenMovedAndClosed) {
+    const Somebody somebody(port(), "tour");
+    EXPECT_TRUE(test::eventually(seconds(60), [&] {
+        return ask("python3", "examples/sessions.py", {}).output.find("tour: from 10, -10, 5") !=
+               std::string::npos;
+    }));
+    const test::Outcome moved =
+        ask("python3", "examples/sessions.py", {"tour", "0,-20,3", "0,0,0"});
+    EXPECT_EQ(moved.exit.status, 0) << moved.errors;
+    EXPECT_THAT(moved.output, HasSubstr("tour: from 0, -20, 3"));
+    EXPECT_THAT(moved.output, HasSubstr("viewer 1 leads"));
+    EXPECT_FALSE(somebody.wasSentAway());
+    EXPECT_EQ(ask("python3", "examples/sessions.py", {"tour", "close"}).exit.status, 0);
+    EXPECT_TRUE(test::eventually(seconds(20), [&] { return somebody.wasSentAway(); }));
+    const test::Outcome gone = ask("python3", "examples/sessions.py", {"tour", "close"});
+    EXPECT_THAT(gone.errors, HasSubstr("there is no session 'tour'"));
+}
+
+TEST_F(ApiExamples, ABenchRunLeavesAReport) {
+    const std::string page = folder_->path("report.html");
+    const test::Outcome outcome =
+        ask("python3", "examples/run_bench.py", {"measured.bench", page, "4"});
+    EXPECT_EQ(outcome.exit.status, 0) << outcome.output << outcome.errors;
+    EXPECT_THAT(outcome.output, HasSubstr("4 px: "));
+    EXPECT_GT(std::filesystem::file_size(page), 10'000U);
+    const std::set<std::string> names = test::namesIn(folder_->path("data/measured.bench"));
+    for (const char* name : {"summary.json", "frames.csv", "index.html", "scene.json"})
+        EXPECT_TRUE(names.contains(name)) << name;
+}
+
+TEST_F(ApiExamples, ABenchRunThatIsCalledOffLeavesNothing) {
+    curl({"--json", R"({"output":"long.bench","frames":10000,"requestId":"long"})"}, "/bench-runs");
+    const auto told = [] { return curl({}, "/operations/long"); };
+    EXPECT_TRUE(test::eventually(seconds(120), [&] {
+        return told().find("\"stage\": \"0.5 px, one process\"") != std::string::npos;
+    })) << told();
+    curl({"--json", "{}"}, "/operations/long/cancel");
+    EXPECT_TRUE(test::eventually(seconds(60), [&] {
+        return told().find("STATE_CANCELLED") != std::string::npos;
+    })) << told();
+    for (const std::string& name : test::namesIn(folder_->path("data")))
+        EXPECT_FALSE(name.starts_with(".eyrie") || name == "long.bench") << name;
 }
 
 TEST_F(ApiExamples, PicturesAreDrawnSeveralAtATime) {
@@ -135,9 +231,9 @@ TEST_F(ApiExamples, CurlMakesTheCallsMostAskedFor) {
     EXPECT_EQ(outcome.exit.status, 0) << outcome.output << outcome.errors;
     EXPECT_THAT(outcome.output, HasSubstr("scene: 304"));
     EXPECT_THAT(outcome.output, HasSubstr("\"field\""));
-    for (const char* name :
-         {"status.json", "configuration.json", "picture.png", "picture.jpg", "evening.png",
-          "upper.png", "pick.json", "data-sets.json", "operations.json"})
+    for (const char* name : {"status.json", "configuration.json", "picture.png", "picture.jpg",
+                             "evening.png", "upper.png", "pick.json", "data-sets.json",
+                             "operations.json", "sessions.json", "frame.txt"})
         EXPECT_GT(std::filesystem::file_size(folder + "/" + name), 10U) << name;
 }
 

@@ -28,7 +28,7 @@ export interface Hooks {
   readonly fps: number;
   /** Median of the last ones; NaN before any. */
   readonly inputToDrawnMilliseconds: number;
-  readonly connection: "connecting" | "connected" | "lost";
+  readonly connection: "connecting" | "connected" | "lost" | "closed";
   readonly camera: Camera | null;
   /** The last pictures behind a swap barrier; what is drawn at 0 has been decoded only. */
   readonly swaps: readonly Swap[];

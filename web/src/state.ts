@@ -36,7 +36,9 @@ export type Connection =
   | { kind: "connecting" }
   | { kind: "connected" }
   /** `since`: when it was lost, or was first tried in vain, in ms of performance.now(). */
-  | { kind: "lost"; since: number };
+  | { kind: "lost"; since: number }
+  /** By a program, for good. */
+  | { kind: "closed" };
 
 /** What the last drawn frame was, and how frames come. */
 export interface Numbers {

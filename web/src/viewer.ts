@@ -97,8 +97,10 @@ export class Viewer implements CameraHolder {
     camera: undefined,
     sequence: 0,
   };
-  /** What who leads the session has asked for, while that is another. */
+  /** What who leads the session, or a program, has asked for, while that is not this page. */
   private led: LedView | undefined;
+  /** What a program has asked for in this page's place, as text, once it has been adopted. */
+  private followed = "";
   private sendAt: number | undefined;
   private inputTime: number | undefined;
   private sceneKey = "";
@@ -120,6 +122,10 @@ export class Viewer implements CameraHolder {
     this.socket = new Socket(url, {
       opened: () => this.opened(),
       lost: () => this.lost(),
+      closed: () => {
+        this.lost();
+        this.state.connection.set({ kind: "closed" });
+      },
       state: (session) => this.sessionChanged(session),
       frame: (frame, picture) => this.frameArrived(frame, picture),
       picked: (answer) => this.questions.picked(answer),
@@ -508,6 +514,7 @@ export class Viewer implements CameraHolder {
       this.noteLed(this.led, frame);
       return;
     }
+    this.followed = "";
     const sequence = Number(frame.viewSequence);
     const sent = this.sentViews.get(sequence);
     for (const known of this.sentViews.keys()) if (known < sequence) this.sentViews.delete(known);
@@ -517,9 +524,21 @@ export class Viewer implements CameraHolder {
     this.state.shown.set({ ...sent, camera, width, height, seen: seenOf(frame) });
   }
 
-  private noteLed({ camera: asked, look }: LedView, frame: Frame): void {
+  /** A program has moved the view: this page goes on from there, unless its user has by now. */
+  private follow(view: LedView): void {
+    const content = JSON.stringify(view);
+    if (content === this.followed || this.controls.isDragging) return;
+    this.followed = content;
+    this.sentContent = "";
+    if (queryOf(view.output) !== queryOf(this.state.output.value))
+      this.state.output.set(view.output);
+    this.show(view);
+  }
+
+  private noteLed({ camera: asked, look, ...rest }: LedView, frame: Frame): void {
     const camera = cameraOf(frame.liftedCamera) ?? asked;
     if (this.isWatching) this.camera = camera;
+    else this.follow({ camera: asked, look, ...rest });
     const { width, height } = frame;
     const { exaggeration, hidden } = look;
     this.state.shown.set({ camera, width, height, exaggeration, hidden, seen: seenOf(frame) });

@@ -20,6 +20,9 @@ export interface Situation {
 const startServer = "eyrie serve scene.json";
 const startRenderer = "eyrie renderer --coordinator HOST:PORT";
 
+const closedText =
+  "Somebody who looks after this server has closed it. Load the page again to come back.";
+
 const hasRenderer = (session: SessionState): boolean =>
   session.renderers.some((renderer) => renderer.alive);
 
@@ -38,6 +41,7 @@ export function messageFor({ connection, session, hasPicture }: Situation): Mess
       text: "No server answers at this address. The page connects by itself as soon as one is running:",
       command: startServer,
     };
+  if (connection.kind === "closed") return { title: "This session was closed", text: closedText };
   if (connection.kind === "connecting" || session === null)
     return { title: "Connecting", text: "Asking the server for the scene." };
   if (!hasRenderer(session))
@@ -64,6 +68,7 @@ export function bannerFor({ connection, session, hasPicture }: Situation): strin
   if (!hasPicture) return null;
   if (connection.kind === "lost")
     return `Connection lost. This is the last picture; the page connects again by itself. If that lasts, see that the server runs: ${startServer}`;
+  if (connection.kind === "closed") return `This session was closed. ${closedText}`;
   if (session === null) return null;
   if (!hasRenderer(session))
     return `No renderer is left; this is the last picture. ${session.problem || `Start one with: ${startRenderer}`}`;

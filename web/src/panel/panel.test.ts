@@ -13,6 +13,7 @@ import { degradedText, missingText, rendererLine, statusOf } from "./status";
 
 const connected: Connection = { kind: "connected" };
 const lost: Connection = { kind: "lost", since: 1000 };
+const closed: Connection = { kind: "closed" };
 
 function session(alive: number, dead = 0, problem = "", isOpen = true): SessionState {
   const device = { device: "llvmpipe (LLVM 15.0.6, 256 bits)", software: true };
@@ -64,6 +65,7 @@ describe("the status chip", () => {
   it("is never good without a live picture", () => {
     for (const [connection, state, stale] of [
       [lost, session(1), false],
+      [closed, session(1), false],
       [{ kind: "connecting" }, null, false],
       [connected, null, false],
       [connected, session(0), false],
@@ -81,6 +83,7 @@ describe("the message in place of a picture", () => {
   it("says what is missing, whatever it is", () => {
     expect(titleOf({ kind: "connecting" }, null)).toBe("Connecting");
     expect(titleOf(lost, null)).toBe("Eyrie does not answer");
+    expect(titleOf(closed, null)).toBe("This session was closed");
     expect(titleOf(connected, session(0))).toBe("No renderer is running");
     expect(titleOf(connected, session(1, 0, "bad file"))).toBe("There is no picture");
     expect(titleOf(connected, session(1, 0, "", false))).toBe("Opening the scene");
@@ -105,6 +108,7 @@ describe("the message in place of a picture", () => {
     expect(messageFor(situation)).toBeNull();
     expect(bannerFor(situation)).toContain("Connection lost");
     expect(lossText(lost, 4200)).toBe("3 s");
+    expect(bannerFor({ ...situation, connection: closed })).toContain("Load the page again");
     expect(bannerFor({ ...situation, connection: connected })).toBeNull();
     expect(bannerFor({ ...situation, connection: connected, session: session(0, 2) })).toContain(
       "No renderer is left",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { create, fromBinary, toBinary } from "@bufbuild/protobuf";
-import { describe, expect, it } from "vitest";
+import { afterEach, describe, expect, it, vi } from "vitest";
 import { defaultLook } from "../look";
 import {
   ShownEye,
@@ -9,11 +9,53 @@ import {
   ViewerResponseSchema,
 } from "./gen/eyrie/v1/viewer_pb";
 import { cameraOf, decodeResponse, encodeAck, encodeView, Shading } from "./messages";
-import { reconnectDelay } from "./socket";
+import type { SocketEvents } from "./socket";
+import { reconnectDelay, Socket } from "./socket";
 
 describe("reconnectDelay", () => {
   it("is none at first and never more than half a second", () => {
     expect([0, 1, 2, 3, 4, 100].map(reconnectDelay)).toEqual([0, 250, 500, 500, 500, 500]);
+  });
+});
+
+describe("a socket", () => {
+  afterEach(() => {
+    vi.useRealTimers();
+    vi.unstubAllGlobals();
+  });
+
+  /** How often it has connected a second after its connection ended so, and what it told. */
+  function after(code: number): { connections: number; told: string[] } {
+    const made: FakeSocket[] = [];
+    const told: string[] = [];
+    class FakeSocket {
+      onclose: ((event: { code: number }) => void) | null = null;
+      constructor() {
+        made.push(this);
+      }
+      close(): void {
+        this.onclose = null;
+      }
+    }
+    vi.useFakeTimers();
+    vi.stubGlobal("window", globalThis);
+    vi.stubGlobal("WebSocket", FakeSocket);
+    const tells = new Proxy({} as SocketEvents, {
+      get: (_, name) => () => told.push(String(name)),
+    });
+    const socket = new Socket("ws://host/ws", tells);
+    made[0]?.onclose?.({ code });
+    vi.advanceTimersByTime(1000);
+    socket.close();
+    return { connections: made.length, told };
+  }
+
+  it("connects again when the connection is lost", () => {
+    expect(after(1006)).toEqual({ connections: 2, told: ["lost"] });
+  });
+
+  it("stays away when its session was closed", () => {
+    expect(after(4001)).toEqual({ connections: 1, told: ["closed"] });
   });
 });
 

@@ -30,6 +30,8 @@ export interface SocketEvents {
   opened(): void;
   /** Called once per loss, not per failed attempt to connect again. */
   lost(): void;
+  /** A program has closed the session: there will be no other attempt to connect. */
+  closed(): void;
   state(state: SessionState): void;
   frame(frame: Frame, picture: EncodedPicture): void;
   picked(picked: ViewerPicked): void;
@@ -45,6 +47,9 @@ export interface SocketEvents {
 export function reconnectDelay(attempt: number): number {
   return attempt === 0 ? 0 : Math.min(500, 250 * attempt);
 }
+
+/** How a WebSocket ends whose session a program has closed (viewer.proto). */
+const sessionClosed = 4001;
 
 /** So much unsent means that the network stalls; views are coalesced meanwhile. */
 const maxBufferedBytes = 16 * 1024;
@@ -141,7 +146,11 @@ export class Socket {
       this.isLossTold = false;
       this.events.opened();
     };
-    socket.onclose = () => this.reconnect();
+    socket.onclose = ({ code }) => {
+      if (code !== sessionClosed) return this.reconnect();
+      this.detach();
+      this.events.closed();
+    };
     socket.onmessage = (event: MessageEvent<unknown>) => this.received(event.data);
   }
 

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/api/bench_order.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <fstream>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "coordinator/api/flight_files.h"
+#include "coordinator/api/work_folder.h"
+#include "fabric/frame_data.h"
+#include "fabric/status.h"
+#include "wire/json.h"
+#include "wire/scene.h"
+
+namespace eyrie::api {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kMaxRuns = 16;
+constexpr std::array<std::string_view, 3> kBuiltInFlights = {"orbit", "walkthrough", "worst"};
+
+/// `given` or, where it is absent, `usual`.
+absl::StatusOr<int> number(bool isGiven, int given, int usual, const char* field, int least,
+                           int most) {
+    const int value = isGiven ? given : usual;
+    if (value >= least && value <= most)
+        return value;
+    return absl::InvalidArgumentError(
+        fmt::format("{} is {}; it must be from {} to {}", field, value, least, most));
+}
+
+using Numbers = google::protobuf::RepeatedField<double>;
+
+absl::StatusOr<std::string> listOf(const Numbers& numbers, const char* field, double least,
+                                   double most) {
+    if (numbers.size() > kMaxRuns)
+        return absl::InvalidArgumentError(fmt::format("{} has {} numbers; at most {} are taken",
+                                                      field, numbers.size(), kMaxRuns));
+    std::string list;
+    for (int i = 0; i < numbers.size(); ++i) {
+        if (!(numbers[i] >= least && numbers[i] <= most))
+            return absl::InvalidArgumentError(fmt::format("{}[{}] is {}; it must be from {} to {}",
+                                                          field, i, numbers[i], least, most));
+        list += fmt::format("{}{}", list.empty() ? "" : ",", numbers[i]);
+    }
+    return list;
+}
+
+/// Of what is measured, for the command line.
+absl::Status addFigures(const v1::BenchRequest& request, std::vector<std::string>& arguments) {
+    ASSIGN_OR_RETURN(const std::string taus, listOf(request.tau_pixels(), "tau_pixels",
+                                                    fabric::kMinTauPixels, fabric::kMaxTauPixels));
+    ASSIGN_OR_RETURN(const std::string budgets,
+                     listOf(request.budget_milliseconds(), "budget_milliseconds", 1, 10'000));
+    ASSIGN_OR_RETURN(const int width,
+                     number(request.has_width(), request.width(), 1280, "width", 16, 4096));
+    ASSIGN_OR_RETURN(const int height,
+                     number(request.has_height(), request.height(), 720, "height", 16, 4096));
+    ASSIGN_OR_RETURN(const int frames,
+                     number(request.has_frames(), request.frames(), 120, "frames", 1, 10'000));
+    ASSIGN_OR_RETURN(const int repeats,
+                     number(request.has_repeats(), request.repeats(), 5, "repeats", 1, 100));
+    ASSIGN_OR_RETURN(const int renderers, number(true, request.renderers(), 0, "renderers", 0, 8));
+    if (!taus.empty())
+        arguments.push_back("--tau=" + taus);
+    if (!budgets.empty())
+        arguments.push_back("--budget-ms=" + budgets);
+    arguments.push_back(fmt::format("--size={}x{}", width, height));
+    arguments.push_back(fmt::format("--frames={}", frames));
+    arguments.push_back(fmt::format("--repeats={}", repeats));
+    arguments.push_back(fmt::format("--renderers={}", renderers));
+    return absl::OkStatus();
+}
+
+absl::Status addFlight(const std::string& name, const access::DataFolder& folder,
+                       BenchOrder& order) {
+    if (name.empty() || std::ranges::find(kBuiltInFlights, name) != kBuiltInFlights.end()) {
+        order.arguments.push_back("--flight=" + (name.empty() ? "orbit" : name));
+        return absl::OkStatus();
+    }
+    const absl::StatusOr<v1::Flight> flight = readFlight(folder, name);
+    if (!flight.ok())
+        return fabric::withContext(flight.status(), "flight");
+    order.flightName = fmt::format("flight-{}.json", name);
+    order.flightJson = wire::toJson(*flight);
+    order.arguments.push_back("--flight=" + order.flightName);
+    return absl::OkStatus();
+}
+
+absl::StatusOr<fs::path> placeOf(const v1::BenchRequest& request,
+                                 const access::DataFolder& folder) {
+    if (fs::path(request.output()).extension() != kReportEnding)
+        return absl::InvalidArgumentError(
+            fmt::format("output is '{}'; its name must end in {}",
+                        fs::path(request.output()).filename().string(), kReportEnding));
+    const absl::StatusOr<fs::path> before = folder.existing(request.output());
+    std::error_code error;
+    if (!before.ok() || !fs::is_directory(*before, error)) {
+        const absl::StatusOr<fs::path> place = folder.place(request.output());
+        return place.ok() ? place : fabric::withContext(place.status(), "output");
+    }
+    if (!request.replace())
+        return absl::AlreadyExistsError(fmt::format(
+            "output '{}' is there already; choose another name, or set replace", request.output()));
+    return *before;
+}
+
+absl::Status write(const fs::path& path, const std::string& text) {
+    std::ofstream file(path, std::ios::trunc);
+    file << text;
+    file.close();
+    return file.fail() ? absl::UnavailableError(
+                             "nothing can be written beside the output; see that the data folder "
+                             "is writable and not full")
+                       : absl::OkStatus();
+}
+
+/// `made` into its place, and what was there into `work`.
+absl::Status moveInto(const fs::path& made, const BenchOrder& order, const fs::path& work) {
+    std::error_code error;
+    const bool isThere = fs::exists(order.output, error);
+    if (isThere && !order.replaces)
+        return absl::AlreadyExistsError(
+            fmt::format("output '{}' is there by now; choose another name, or set replace",
+                        order.output.filename().string()));
+    if (isThere)
+        fs::rename(order.output, work / "before", error);
+    if (!error)
+        fs::rename(made, order.output, error);
+    return error ? absl::UnavailableError(
+                       fmt::format("the report cannot be put in its place: {}", error.message()))
+                 : absl::OkStatus();
+}
+
+}  // namespace
+
+absl::StatusOr<BenchOrder> benchOrderOf(const v1::BenchRequest& request,
+                                        const access::DataFolder& folder,
+                                        const fabric::Scene& scene) {
+    BenchOrder order;
+    ASSIGN_OR_RETURN(order.output, placeOf(request, folder));
+    order.replaces = request.replace();
+    if (scene.objects.empty())
+        return absl::FailedPreconditionError("scene is absent, and nothing is drawn now; name one");
+    order.sceneJson = wire::toJson(wire::toMessage(scene));
+    order.arguments = {"bench", "scene.json", "--quiet", "--progress-json", "--output=."};
+    RETURN_IF_ERROR(addFlight(request.flight(), folder, order));
+    RETURN_IF_ERROR(addFigures(request, order.arguments));
+    return order;
+}
+
+absl::Status carryOut(const BenchOrder& order, const RunProgram& run,
+                      const Operations::Progress& progress, const std::stop_token& stop) {
+    ASSIGN_OR_RETURN(const WorkFolder work, WorkFolder::in(order.output.parent_path(), "bench"));
+    const fs::path report = work.path() / "report";
+    std::error_code error;
+    fs::create_directory(report, error);
+    RETURN_IF_ERROR(write(report / "scene.json", order.sceneJson));
+    if (!order.flightName.empty())
+        RETURN_IF_ERROR(write(report / order.flightName, order.flightJson));
+    RETURN_IF_ERROR(runToItsEnd(order.arguments, report, run, progress, stop));
+    return moveInto(report, order, work.path());
+}
+
+}  // namespace eyrie::api

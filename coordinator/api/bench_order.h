@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <absl/status/statusor.h>
+
+#include "access/data_folder.h"
+#include "coordinator/api/operations.h"
+#include "coordinator/api/programs.h"
+#include "eyrie/v1/coordinator_service.pb.h"
+#include "fabric/scene.h"
+
+namespace eyrie::api {
+
+/// What a bench run's report is called.
+inline constexpr std::string_view kReportEnding = ".bench";
+
+/// A bench run that may be begun: all that it names lies in the data folder, or is drawn already.
+struct BenchOrder {
+    /// Of `eyrie`, run in the folder that becomes the report.
+    std::vector<std::string> arguments = {};
+    std::string sceneJson = {};   ///< what it draws: scene.json there
+    std::string flightName = {};  ///< its file there; empty: it needs none
+    std::string flightJson = {};
+    std::filesystem::path output = {};  ///< the report's place
+    bool replaces = false;              ///< the report that is there already
+};
+
+/// `scene` names files by where they lie. Errors: InvalidArgument, NotFound or PermissionDenied,
+/// naming the field; AlreadyExists: the output is there and is not to be replaced.
+absl::StatusOr<BenchOrder> benchOrderOf(const v1::BenchRequest& request,
+                                        const access::DataFolder& folder,
+                                        const fabric::Scene& scene);
+
+/// Carries it out. The report is made in a folder beside its place, and moved there when it is
+/// whole; that folder goes, whatever happens to the program.
+absl::Status carryOut(const BenchOrder& order, const RunProgram& run,
+                      const Operations::Progress& progress, const std::stop_token& stop);
+
+}  // namespace eyrie::api

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include <absl/status/statusor.h>
+
+#include "access/data_folder.h"
+#include "eyrie/v1/coordinator_service.pb.h"
+
+namespace eyrie::api {
+
+/// What `eyrie bench` calls it: "summary.json".
+std::string_view fileNameOf(v1::ReportFile file);
+
+/// The content of a file of the report of that name. Errors: InvalidArgument (the name is none of a
+/// report, or there is no such file), NotFound, PermissionDenied, ResourceExhausted (too large).
+absl::StatusOr<std::string> readReport(const access::DataFolder& folder, const std::string& name,
+                                       v1::ReportFile file);
+
+}  // namespace eyrie::api

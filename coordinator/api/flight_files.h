@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <absl/status/statusor.h>
+
+#include "access/data_folder.h"
+#include "eyrie/v1/flight.pb.h"
+
+/// Flights that are kept in a data folder, each under a name of 1 to 64 of a-z, A-Z, 0-9, '-' and
+/// '_'. Errors of all: InvalidArgument (the name), NotFound, Unavailable (it cannot be written).
+namespace eyrie::api {
+
+/// By name.
+std::vector<std::string> flightNames(const access::DataFolder& folder);
+
+/// DataLoss: the file is none.
+absl::StatusOr<v1::Flight> readFlight(const access::DataFolder& folder, const std::string& name);
+
+/// InvalidArgument: the flight cannot be flown, or has too many keys.
+absl::Status writeFlight(const access::DataFolder& folder, const std::string& name,
+                         const v1::Flight& flight);
+
+absl::Status deleteFlight(const access::DataFolder& folder, const std::string& name);
+
+}  // namespace eyrie::api

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/api/media_types.h"
+
+#include "eyrie/v1/coordinator_service.pb.h"
+
+namespace eyrie::api {
+namespace {
+
+/// Not plain JSON, which is how all of the answer comes.
+constexpr std::string_view kSummary = "application/vnd.eyrie.summary+json";
+constexpr std::string_view kTable = "text/csv";
+constexpr std::string_view kPage = "text/html";
+constexpr std::string_view kPng = "image/png";
+constexpr std::string_view kJpeg = "image/jpeg";
+constexpr std::string_view kRaw = "application/octet-stream";
+
+std::string_view typeOf(const v1::GetReportResponse& report) {
+    return report.file() == v1::REPORT_FILE_FRAMES ? kTable
+           : report.file() == v1::REPORT_FILE_PAGE ? kPage
+                                                   : kSummary;
+}
+
+std::string_view typeOf(const v1::RenderImageResponse& image) {
+    return image.format() == v1::IMAGE_FORMAT_RAW    ? kRaw
+           : image.format() == v1::IMAGE_FORMAT_JPEG ? kJpeg
+                                                     : kPng;
+}
+
+}  // namespace
+
+std::string mediaTypeOf(const google::protobuf::Message& answer) {
+    if (const auto* report = dynamic_cast<const v1::GetReportResponse*>(&answer))
+        return std::string(typeOf(*report));
+    if (const auto* image = dynamic_cast<const v1::RenderImageResponse*>(&answer))
+        return std::string(typeOf(*image));
+    return std::string(kRaw);
+}
+
+std::vector<std::string_view> mediaTypesOf(const google::protobuf::Descriptor& answer) {
+    if (answer.full_name() == v1::GetReportResponse::descriptor()->full_name())
+        return {kSummary, kTable, kPage};
+    return {kPng, kJpeg, kRaw};
+}
+
+}  // namespace eyrie::api

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace google::protobuf {
+class Descriptor;
+class Message;
+}  // namespace google::protobuf
+
+namespace eyrie::api {
+
+/// What the bytes of a picture or a report's file are.
+std::string mediaTypeOf(const google::protobuf::Message& answer);
+
+/// What they may be, of all answers of that type.
+std::vector<std::string_view> mediaTypesOf(const google::protobuf::Descriptor& answer);
+
+}  // namespace eyrie::api
