@@ -11,6 +11,7 @@
 #include "effects/object_block.h"
 #include "fabric/lights.h"
 #include "fabric/status.h"
+#include "renderer/draw/batches.h"
 #include "renderer/draw/budget_choice.h"
 #include "renderer/draw/drawable.h"
 #include "renderer/draw/mesh_draw.h"
@@ -30,10 +31,6 @@ namespace eyrie {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-/// What is drawn so far is handed over, so that llvmpipe fills pixels on other cores while this
-/// thread prepares more triangles: it waits for a frame's end, or megabytes of them, by itself.
-constexpr std::uint64_t kTrianglesABatch = 8192;
 
 absl::Status unlessStopped(const std::stop_token& stop) {
     return stop.stop_requested() ? absl::CancelledError("nobody wants this picture any more")
@@ -77,7 +74,7 @@ public:
     absl::StatusOr<fabric::SceneInfo> openScene(const fabric::Scene& scene);
     absl::StatusOr<fabric::ChannelResult> render(const fabric::FrameData& asked,
                                                  const fabric::ChannelTask& task,
-                                                 const std::stop_token& stop);
+                                                 const fabric::Delivery& delivery);
     std::shared_ptr<const pick::Picker> picker() const { return picker_; }
     RendererMemory memory() const;
 
@@ -100,9 +97,12 @@ private:
                        const fabric::ChannelTask& task, const fabric::PixelViewport& covered);
     absl::Status drawSelection(const draw::Selection& selection, const lod::View& view,
                                const fabric::FrameData& frameData, const fabric::ChannelTask& task,
-                               const std::stop_token& stop, fabric::FrameStatistics& statistics);
+                               const fabric::Delivery& delivery,
+                               fabric::FrameStatistics& statistics);
     absl::Status drawPieces(const draw::OccludedDraw::Pieces& pieces, const draw::FrameState& frame,
                             fabric::FrameStatistics& statistics);
+    fabric::Image readBack(const fabric::PixelViewport& covered, bool withDepth,
+                           const fabric::Delivery& delivery);
     absl::Status measureStages(const draw::Selection& selection, const lod::View& view,
                                const fabric::FrameData& frameData, const fabric::ChannelTask& task,
                                const std::stop_token& stop,
@@ -115,6 +115,7 @@ private:
     effects::EffectVariants<effects::MeshEffect> meshPrograms_;
     gl::Framebuffer framebuffer_;
     draw::OccludedDraw occludedDraw_;
+    draw::Batches batches_;
     RendererOptions options_;
     draw::DecodeChoice decoding_;
     page::Loader loader_;
@@ -219,21 +220,18 @@ absl::Status Renderer::Impl::drawPieces(const draw::OccludedDraw::Pieces& pieces
                                         const draw::FrameState& frame,
                                         fabric::FrameStatistics& statistics) {
     std::vector<draw::Piece> run;
-    std::uint64_t triangles = 0;
+    std::uint64_t triangles = 0;  // of the run
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         run.push_back(pieces[i]->piece);
         triangles += run.back().triangles;
         statistics.nodes += run.back().isNode ? 1 : 0;
-        const bool isBatch = triangles >= kTrianglesABatch;
+        const bool isBatch = triangles >= draw::Batches::kTriangles;
         if (!isBatch && i + 1 < pieces.size() && pieces[i + 1]->object == pieces[i]->object)
             continue;
         RETURN_IF_ERROR(unlessStopped(frame.stop));
         RETURN_IF_ERROR(objects_[pieces[i]->object].drawable->draw(run, frame, statistics));
         run.clear();
-        if (isBatch) {
-            glFlush();
-            triangles = 0;
-        }
+        batches_.add(std::exchange(triangles, 0));
     }
     return absl::OkStatus();
 }
@@ -263,7 +261,7 @@ absl::Status Renderer::Impl::drawBlended(std::span<const draw::OrderedPiece> pie
 absl::Status Renderer::Impl::drawSelection(const draw::Selection& selection, const lod::View& view,
                                            const fabric::FrameData& frameData,
                                            const fabric::ChannelTask& task,
-                                           const std::stop_token& stop,
+                                           const fabric::Delivery& delivery,
                                            fabric::FrameStatistics& statistics) {
     RETURN_IF_ERROR(framebuffer_.resize(view.width, view.height));
     const fabric::Lights lights = fabric::lightsOf(*scene_, frameData.look);
@@ -273,9 +271,11 @@ absl::Status Renderer::Impl::drawSelection(const draw::Selection& selection, con
                                  frameData.look,
                                  task.range,
                                  task.pixelViewport,
+                                 task.pixelViewport,
                                  draw::Layer::Opaque,
-                                 stop};
+                                 delivery.stop};
     drawn_.clear();
+    batches_.begin(delivery.nearlyDrawn != nullptr);
     RETURN_IF_ERROR(occludedDraw_.draw(
         {view, selection.worldFromObject,
          [&](const draw::OrderedPiece& one) {
@@ -291,8 +291,23 @@ absl::Status Renderer::Impl::drawSelection(const draw::Selection& selection, con
         },
         statistics));
     RETURN_IF_ERROR(drawBlended(selection.blended, frame, statistics));
+    if (delivery.nearlyDrawn) {
+        batches_.awaitMost();
+        delivery.nearlyDrawn();
+    }
     glFinish();
     return absl::OkStatus();
+}
+
+/// To where it is to go: less is copied.
+fabric::Image Renderer::Impl::readBack(const fabric::PixelViewport& covered, bool withDepth,
+                                       const fabric::Delivery& delivery) {
+    const auto room =
+        delivery.room && !covered.isEmpty() ? delivery.room(covered, withDepth) : std::nullopt;
+    if (!room)
+        return framebuffer_.read(covered, withDepth);
+    framebuffer_.read(covered, *room);
+    return {covered, {}, {}};
 }
 
 /// Draws what the frame drew once more, into a single pixel: a driver may leave out vertices that
@@ -304,12 +319,14 @@ absl::Status Renderer::Impl::measureStages(const draw::Selection& selection, con
                                            fabric::StageMilliseconds& milliseconds) {
     const fabric::PixelViewport pixel{selection.covered.x, selection.covered.y, 1, 1};
     const fabric::Lights lights = fabric::lightsOf(*scene_, frameData.look);
-    const draw::FrameState frame{view,       lights, frameData.shading,   frameData.look,
-                                 task.range, pixel,  draw::Layer::Opaque, stop};
+    const draw::FrameState frame{view,       lights, frameData.shading,  frameData.look,
+                                 task.range, pixel,  task.pixelViewport, draw::Layer::Opaque,
+                                 stop};
     framebuffer_.begin(view.width, view.height, pixel, scene_->background);
     passState(frameData.shading).apply();
     glFinish();
     const auto start = Clock::now();
+    batches_.begin(false);
     fabric::FrameStatistics ignored;
     for (const draw::OccludedDraw::Pieces& pieces : drawn_)
         RETURN_IF_ERROR(drawPieces(pieces, frame, ignored));
@@ -322,7 +339,8 @@ absl::Status Renderer::Impl::measureStages(const draw::Selection& selection, con
 
 absl::StatusOr<fabric::ChannelResult> Renderer::Impl::render(const fabric::FrameData& asked,
                                                              const fabric::ChannelTask& task,
-                                                             const std::stop_token& stop) {
+                                                             const fabric::Delivery& delivery) {
+    const std::stop_token& stop = delivery.stop;
     if (!scene_)
         return absl::FailedPreconditionError("no scene is open; open one before rendering");
     RETURN_IF_ERROR(validateTask(asked, task));
@@ -343,12 +361,12 @@ absl::StatusOr<fabric::ChannelResult> Renderer::Impl::render(const fabric::Frame
     statistics.milliseconds.cull = millisecondsSince(start);
 
     const auto drawStart = Clock::now();
-    RETURN_IF_ERROR(drawSelection(selection, views.drawn, frameData, task, stop, statistics));
+    RETURN_IF_ERROR(drawSelection(selection, views.drawn, frameData, task, delivery, statistics));
     RETURN_IF_ERROR(unlessStopped(stop));
     statistics.milliseconds.draw = millisecondsSince(drawStart);
 
     const auto readStart = Clock::now();
-    result.image = framebuffer_.read(selection.covered, task.wantsDepth);
+    result.image = readBack(selection.covered, task.wantsDepth, delivery);
     statistics.milliseconds.readback = millisecondsSince(readStart);
     const auto errorStart = Clock::now();
     statistics.tauAchievedPixels = errorPixels(views, frameData, task, selection.covered);
@@ -386,8 +404,8 @@ absl::StatusOr<fabric::SceneInfo> Renderer::openScene(const fabric::Scene& scene
 
 absl::StatusOr<fabric::ChannelResult> Renderer::render(const fabric::FrameData& frameData,
                                                        const fabric::ChannelTask& task,
-                                                       const std::stop_token& stop) {
-    return impl_->render(frameData, task, stop);
+                                                       const fabric::Delivery& delivery) {
+    return impl_->render(frameData, task, delivery);
 }
 
 std::shared_ptr<const pick::Picker> Renderer::picker() const { return impl_->picker(); }

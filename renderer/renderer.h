@@ -3,11 +3,11 @@
 
 #include <filesystem>
 #include <memory>
-#include <stop_token>
 
 #include <absl/status/statusor.h>
 
 #include "fabric/channel_task.h"
+#include "fabric/delivery.h"
 #include "fabric/frame_data.h"
 #include "fabric/scene.h"
 #include "fabric/statistics.h"
@@ -74,12 +74,12 @@ public:
     /// Draws one channel. A page of terrain that cannot be read is no error: coarser data stand in
     /// for it, the statistics count it and the log names it. Errors: InvalidArgument (the task or
     /// frame data), FailedPrecondition (no scene open), ResourceExhausted, DataLoss (of a mesh),
-    /// Cancelled: `stop` came before the picture was there, within a batch of triangles or at once
-    /// where it waited for pages. What has come of those stays; later pictures are what they would
-    /// have been.
+    /// Cancelled: `delivery.stop` came before the picture was there, within a batch of triangles or
+    /// at once where it waited for pages. What has come of those stays; later pictures are what
+    /// they would have been.
     absl::StatusOr<fabric::ChannelResult> render(const fabric::FrameData& frameData,
                                                  const fabric::ChannelTask& task,
-                                                 const std::stop_token& stop = {});
+                                                 const fabric::Delivery& delivery = {});
 
     /// Finds what places of the open scene's pictures show (renderer/pick/picker.h), on any thread
     /// and as long as one likes, whatever becomes of this. Null before a scene is open.

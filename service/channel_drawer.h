@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <stop_token>
 
 #include <absl/status/statusor.h>
 
 #include "fabric/channel_task.h"
+#include "fabric/delivery.h"
 #include "fabric/frame_data.h"
 #include "fabric/pick.h"
 #include "fabric/scene.h"
@@ -35,10 +35,10 @@ public:
 
     virtual const fabric::DeviceInfo& device() const = 0;
     virtual absl::StatusOr<fabric::SceneInfo> openScene(const fabric::Scene& scene) = 0;
-    /// Cancelled, soon, after `stop`.
+    /// Cancelled, soon, after `delivery.stop`; the rest of that it may leave alone.
     virtual absl::StatusOr<fabric::ChannelResult> render(const fabric::FrameData& frameData,
                                                          const fabric::ChannelTask& task,
-                                                         const std::stop_token& stop) = 0;
+                                                         const fabric::Delivery& delivery) = 0;
 
     /// For the scene that is open; null where none is.
     virtual PickFunction pickFunction() const = 0;

@@ -24,23 +24,48 @@ void tell(const ChannelStory& story, v1::ChannelHeader& header) {
     header.mutable_memory()->set_host_bytes(story.memory.hostBytes);
 }
 
+class MemoryReply final : public MessageSource<v1::RenderChannelResponse> {
+public:
+    MemoryReply(const fabric::ChannelResult& result, bool hasDepth, const ChannelStory& story)
+        : area_(result.image.area),
+          hasDepth_(hasDepth),
+          statistics_(result.statistics),
+          story_(story) {}
+
+    bool isDone() const override { return isDone_; }
+
+    void next(v1::RenderChannelResponse& message) override {
+        v1::ChannelHeader& header = *message.mutable_header();
+        wire::describe(area_, hasDepth_, wire::PixelEncoding::Raw, header);
+        header.set_is_in_memory(true);
+        *header.mutable_statistics() = wire::toMessage(statistics_);
+        tell(story_, header);
+        isDone_ = true;
+    }
+
+private:
+    const fabric::PixelViewport area_;
+    const bool hasDepth_;
+    const fabric::FrameStatistics statistics_;
+    const ChannelStory story_;
+    bool isDone_ = false;
+};
+
 class ChannelReply final : public MessageSource<v1::RenderChannelResponse> {
 public:
-    ChannelReply(fabric::ChannelResult result, wire::PixelEncoding encoding, bool inMemory,
+    ChannelReply(fabric::ChannelResult result, wire::PixelEncoding encoding,
                  const ChannelStory& story)
         : result_(std::move(result)),
-          encoding_(inMemory ? wire::PixelEncoding::Raw : encoding),
-          inMemory_(inMemory),
+          encoding_(encoding),
           story_(story),
           pixels_(result_.image, encoding_) {}
 
-    bool isDone() const override { return hasHeader_ && (inMemory_ || pixels_.isDone()); }
+    bool isDone() const override { return hasHeader_ && pixels_.isDone(); }
 
     void next(v1::RenderChannelResponse& message) override {
         if (std::exchange(hasHeader_, true))
             return pixels_.next(*message.mutable_chunk());
         wire::describe(result_.image, encoding_, *message.mutable_header());
-        message.mutable_header()->set_is_in_memory(inMemory_);
         *message.mutable_header()->mutable_statistics() = wire::toMessage(result_.statistics);
         tell(story_, *message.mutable_header());
     }
@@ -48,7 +73,6 @@ public:
 private:
     const fabric::ChannelResult result_;
     const wire::PixelEncoding encoding_;
-    const bool inMemory_;
     const ChannelStory story_;
     wire::PictureWriter pixels_;
     bool hasHeader_ = false;
@@ -89,11 +113,15 @@ private:
 
 }  // namespace
 
+std::unique_ptr<MessageSource<v1::RenderChannelResponse>> replyInMemory(
+    const fabric::ChannelResult& result, bool hasDepth, const ChannelStory& story) {
+    return std::make_unique<MemoryReply>(result, hasDepth, story);
+}
+
 std::unique_ptr<MessageSource<v1::RenderChannelResponse>> channelReply(fabric::ChannelResult result,
                                                                        wire::PixelEncoding encoding,
-                                                                       bool inMemory,
                                                                        const ChannelStory& story) {
-    return std::make_unique<ChannelReply>(std::move(result), encoding, inMemory, story);
+    return std::make_unique<ChannelReply>(std::move(result), encoding, story);
 }
 
 std::unique_ptr<MessageSource<v1::RunProgramResponse>> programReply(fabric::ProgramResult result,

@@ -22,10 +22,14 @@ struct ChannelStory {
     DrawerMemory memory;
 };
 
-/// The answer to RenderChannel: a header, then the pixels, unless they are `inMemory` already.
+/// The answer to RenderChannel where the pixels are in the caller's memory, whatever of them the
+/// result has: a header.
+std::unique_ptr<MessageSource<v1::RenderChannelResponse>> replyInMemory(
+    const fabric::ChannelResult& result, bool hasDepth, const ChannelStory& story);
+
+/// Where they are not: a header, then the pixels.
 std::unique_ptr<MessageSource<v1::RenderChannelResponse>> channelReply(fabric::ChannelResult result,
                                                                        wire::PixelEncoding encoding,
-                                                                       bool inMemory,
                                                                        const ChannelStory& story);
 
 /// The answer to RunProgram: each picture likewise, then the statistics.

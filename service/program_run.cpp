@@ -84,7 +84,7 @@ private:
             tools_.thread.post([draw, frameData, task, stop = stop_](ChannelDrawer& drawer) {
                 draw->done(stop.stop_requested()
                                ? absl::CancelledError("nobody waits for this channel any more")
-                               : drawer.render(frameData, task, stop));
+                               : drawer.render(frameData, task, {.stop = stop}));
             }));
         ASSIGN_OR_RETURN(fabric::ChannelResult drawn, draw->await(deadline_, stop_));
         result_.draws.push_back(drawn.statistics);

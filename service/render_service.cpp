@@ -13,6 +13,7 @@
 #include "wire/channel_program.h"
 #include "wire/deadline.h"
 #include "wire/frame.h"
+#include "wire/nearly_drawn.h"
 #include "wire/pick.h"
 #include "wire/picture_header.h"
 #include "wire/scene.h"
@@ -39,25 +40,32 @@ struct Asked {
     ChannelStory::Clock::time_point received;
 };
 
-/// Whether the picture is there now.
-bool putInMemory(const Asked& asked, const fabric::Image& image, PictureMemories& memories) {
-    wire::PictureMemory* const memory = asked.memory ? memories.find(*asked.memory) : nullptr;
-    return memory != nullptr && memory->put(image);
-}
-
 void draw(ChannelDrawer& drawer, const Asked& asked, PictureMemories& memories,
           ReplyStream<v1::RenderChannelResponse>& reply) {
     const auto begun = ChannelStory::Clock::now();
     if (reply.isCancelled())
         return reply.fail(absl::CancelledError("the coordinator no longer waits for this channel"));
+    wire::PictureMemory* const memory = asked.memory ? memories.find(*asked.memory) : nullptr;
+    fabric::Delivery delivery{reply.cancellation(),
+                              [&] { reply.sendEarly(wire::kNearlyDrawnKey); }};
+    bool isInMemory = false;
+    if (memory != nullptr)
+        delivery.room = [&](const fabric::PixelViewport& area, bool withDepth) {
+            const auto room = memory->room(area, withDepth);
+            isInMemory = room.has_value();
+            return room;
+        };
     absl::StatusOr<fabric::ChannelResult> result =
-        drawer.render(asked.frameData, asked.task, reply.cancellation());
+        drawer.render(asked.frameData, asked.task, delivery);
     if (!result.ok())
         return reply.fail(result.status());
-    const auto drawn = ChannelStory::Clock::now();
-    const bool inMemory = putInMemory(asked, result->image, memories);
-    reply.send(channelReply(*std::move(result), asked.encoding, inMemory,
-                            {asked.received, begun, drawn, drawer.memory()}));
+    const ChannelStory story{asked.received, begun, ChannelStory::Clock::now(), drawer.memory()};
+    if (isInMemory)
+        return reply.send(
+            replyInMemory(*result, asked.task.wantsDepth && !result->image.area.isEmpty(), story));
+    if (memory != nullptr && memory->put(result->image))
+        return reply.send(replyInMemory(*result, result->image.hasDepth(), story));
+    reply.send(channelReply(*std::move(result), asked.encoding, story));
 }
 
 /// Of a caller that may not send any.
@@ -112,7 +120,7 @@ grpc::ServerUnaryReactor* RenderService::SetFrameData(grpc::CallbackServerContex
 grpc::ServerWriteReactor<v1::RenderChannelResponse>* RenderService::RenderChannel(
     grpc::CallbackServerContext* context, const v1::RenderChannelRequest* request) {
     ++replies_;
-    auto* reply = new ChannelReplyStream([this] { --replies_; });
+    auto* reply = new ChannelReplyStream(*context, [this] { --replies_; });
     absl::Status status = wire::admit(security_, *context);
     if (status.ok())
         status = startDrawing(*request, *reply);
@@ -124,7 +132,7 @@ grpc::ServerWriteReactor<v1::RenderChannelResponse>* RenderService::RenderChanne
 grpc::ServerWriteReactor<v1::RunProgramResponse>* RenderService::RunProgram(
     grpc::CallbackServerContext* context, const v1::RunProgramRequest* request) {
     ++replies_;
-    auto* reply = new ProgramReplyStream([this] { --replies_; });
+    auto* reply = new ProgramReplyStream(*context, [this] { --replies_; });
     absl::Status status = wire::admit(security_, *context);
     if (status.ok())
         status = startProgram(*request, deadlineOf(*context), *reply);

@@ -22,8 +22,8 @@ public:
     }
     absl::StatusOr<fabric::ChannelResult> render(const fabric::FrameData& frameData,
                                                  const fabric::ChannelTask& task,
-                                                 const std::stop_token& stop) override {
-        return renderer_->render(frameData, task, stop);
+                                                 const fabric::Delivery& delivery) override {
+        return renderer_->render(frameData, task, delivery);
     }
     DrawerMemory memory() const override {
         const RendererMemory memory = renderer_->memory();

@@ -4,9 +4,11 @@
 #include <functional>
 #include <memory>
 #include <stop_token>
+#include <string>
 #include <utility>
 
 #include <absl/status/status.h>
+#include <grpcpp/server_context.h>
 #include <grpcpp/support/server_callback.h>
 
 #include "wire/status.h"
@@ -34,11 +36,19 @@ template <typename Message>
 class ReplyStream final : public grpc::ServerWriteReactor<Message> {
 public:
     /// Calls `onGone` when the answer has left or was given up.
-    explicit ReplyStream(std::function<void()> onGone) : onGone_(std::move(onGone)) {}
+    ReplyStream(grpc::CallbackServerContext& context, std::function<void()> onGone)
+        : context_(context), onGone_(std::move(onGone)) {}
 
     /// True once nobody waits for the answer any more.
     bool isCancelled() const { return cancelled_.stop_requested(); }
     std::stop_token cancellation() const { return cancelled_.get_token(); }
+
+    /// Sends the initial metadata, with `key` among them, before there is an answer: once at most,
+    /// before send or fail, by the thread that calls one of these.
+    void sendEarly(const std::string& key) {
+        context_.AddInitialMetadata(key, "");
+        this->StartSendInitialMetadata();
+    }
 
     void send(std::unique_ptr<MessageSource<Message>> source) {
         source_ = std::move(source);
@@ -69,6 +79,7 @@ private:
             this->StartWrite(&message_);
     }
 
+    grpc::CallbackServerContext& context_;
     std::function<void()> onGone_;
     std::stop_source cancelled_;
     std::unique_ptr<MessageSource<Message>> source_;

@@ -150,11 +150,44 @@ private:
     }
 
     Image whole(const Image& frame, const PixelViewport& part) const {
-        if (frame.area == part)
-            return frame;
-        Image image = fabric::makeImage(part, background_, frame.hasDepth());
-        pastePart(frame, image);
+        return frame.area == part ? frame : framed(frame, part, part, frame.hasDepth());
+    }
+
+    /// As much of `source` as falls on `within` and `area`, and all of `area` that is left as
+    /// background. Row by row: no pixel is written twice.
+    Image framed(const Image& source, const PixelViewport& within, const PixelViewport& area,
+                 bool withDepth) const {
+        const PixelViewport part = intersection(intersection(source.area, within), area);
+        if (part.isEmpty())
+            return fabric::makeImage(area, background_, withDepth);
+        const std::vector<fabric::Rgba> colour(static_cast<std::size_t>(area.width), background_);
+        const std::vector<float> depth(withDepth ? colour.size() : 0, 0.0F);
+        Image image{area, {}, {}};
+        image.colour.reserve(static_cast<std::size_t>(area.area()));
+        image.depth.reserve(withDepth ? static_cast<std::size_t>(area.area()) : 0);
+        const bool copiesDepth = withDepth && source.hasDepth();
+        for (int y = area.y; y < area.y + area.height; ++y) {
+            const bool isInside = y >= part.y && y < part.y + part.height;
+            const std::ptrdiff_t from = isInside ? offset(source, part.x, y) : 0;
+            appendRow(isInside ? &source.colour[from] : nullptr, part, colour, area, image.colour);
+            appendRow(isInside && copiesDepth ? &source.depth[from] : nullptr, part, depth, area,
+                      image.depth);
+        }
         return image;
+    }
+
+    /// A row of `area`: as much as `part` has of it `from` there, if that is not null, in `empty`.
+    template <typename T>
+    static void appendRow(const T* from, const PixelViewport& part, const std::vector<T>& empty,
+                          const PixelViewport& area, std::vector<T>& row) {
+        if (from == nullptr || empty.empty()) {
+            row.insert(row.end(), empty.begin(), empty.end());
+            return;
+        }
+        const std::ptrdiff_t before = part.x - area.x;
+        row.insert(row.end(), empty.begin(), empty.begin() + before);
+        row.insert(row.end(), from, from + part.width);
+        row.insert(row.end(), empty.begin() + before + part.width, empty.end());
     }
 
     static Image cropped(Image frame, const PixelViewport& part) {
@@ -224,10 +257,8 @@ private:
     void makeRoom(const PixelViewport& part, Layer& layer) const {
         if (layer.image.area.contains(part))
             return;
-        Image larger =
-            fabric::makeImage(enclosing(layer.area, part), background_, layer.image.hasDepth());
-        pastePart(layer.image, larger);
-        layer.image = std::move(larger);
+        layer.image = framed(layer.image, layer.image.area, enclosing(layer.area, part),
+                             layer.image.hasDepth());
     }
 
     void place(const Assemble& step, Image frame, Layer& layer) const {
@@ -285,11 +316,9 @@ private:
                 image.depth.clear();
             return image;
         }
+        if (parts.size() == 1 && showings_[parts.front().framebuffer] == 1)
+            return only(parts.front(), picture);
         Image image = fabric::makeImage(picture.area, background_, picture.withDepth);
-        if (parts.size() == 1 && showings_[parts.front().framebuffer] == 1) {
-            pasteOnly(parts.front(), image);
-            return image;
-        }
         for (const PicturePart& part : parts) {
             Image shown = cut(layers_[part.framebuffer], part.part, picture.withDepth);
             shown.area.x = part.x;
@@ -299,14 +328,13 @@ private:
         return image;
     }
 
-    /// What nobody looks at afterwards, onto a background.
-    void pasteOnly(const PicturePart& part, Image& image) {
+    /// What nobody looks at afterwards, on a background.
+    Image only(const PicturePart& part, const Picture& picture) {
         Image& shown = layers_[part.framebuffer].image;
         shown.area.x += part.x - part.part.x;
         shown.area.y += part.y - part.part.y;
         const PixelViewport within{part.x, part.y, part.part.width, part.part.height};
-        if (!shown.area.isEmpty())
-            pastePart(shown, intersection(within, image.area), image);
+        return framed(shown, within, picture.area, picture.withDepth);
     }
 
     bool isAllOf(const Picture& picture, const PicturePart& part) const {

@@ -15,10 +15,19 @@
 
 namespace eyrie::coordinator {
 
+/// Whom to tell of a channel before its picture is here: on the thread that asked, each once at
+/// most.
+struct ChannelNews {
+    /// The renderer can take the next task, for it has drawn or does the last of it.
+    std::function<void()> drawn = {};
+    /// So long the task waited at the renderer, behind what that had to do before.
+    std::function<void(std::chrono::nanoseconds)> waited = {};
+};
+
 /// A renderer as the coordinator sees it: one behind gRPC, or one in this process.
 ///
 /// openScene, setFrameData and render are called by one thread at a time and block, but for a
-/// render that has called its `drawn`: the others may be called beside that. runProgram and pick
+/// render that has told of `drawn`: the others may be called beside that. runProgram and pick
 /// block, too, but may be called beside them from any thread, as may cancel. Of errors, Unavailable
 /// and DeadlineExceeded say that the renderer is gone.
 class ChannelRenderer {
@@ -34,13 +43,10 @@ public:
     /// `frameData` is what the task names, where setFrameData has not sent it: one call less.
     ///
     /// The image lies inside the task's pixel viewport, fills its area, and has depth if the task
-    /// wants it (and is not empty). Calls `drawn`, if there is one, once at most: when the renderer
-    /// has drawn and can take the next task, while the picture is still on its way. `stop` ends
-    /// this call, in the renderer too, with Cancelled.
+    /// wants it (and is not empty). `stop` ends this call, in the renderer too, with Cancelled.
     virtual absl::StatusOr<fabric::ChannelResult> render(
-        const fabric::ChannelTask& task, Clock::time_point deadline,
-        const std::function<void()>& drawn = {}, const fabric::FrameData* frameData = nullptr,
-        const std::stop_token& stop = {}) = 0;
+        const fabric::ChannelTask& task, Clock::time_point deadline, const ChannelNews& news = {},
+        const fabric::FrameData* frameData = nullptr, const std::stop_token& stop = {}) = 0;
 
     /// Carries out a channel program: draws and exchanges pictures with the renderers that it
     /// names, which run the programs on the other side. Pictures as the program's outputs say. The

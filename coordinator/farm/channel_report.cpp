@@ -25,24 +25,26 @@ bool isInOrder(const v1::ChannelTimes& times) {
 
 }  // namespace
 
-ChannelReport::ChannelReport(const std::string& address, observe::SharedTelemetry telemetry)
+ReportedRenderer::ReportedRenderer(const std::string& address, observe::SharedTelemetry telemetry)
     : name_(observe::rendererName(address)), telemetry_(std::move(telemetry)) {}
 
-void ChannelReport::asked(std::uint64_t frame) {
-    frame_ = frame;
-    header_.reset();
-    bytes_ = 0;
-    asked_ = Clock::now();
+std::optional<observe::ClockMap::Offset> ReportedRenderer::note(const observe::Exchange& exchange) {
+    const std::lock_guard lock(mutex_);
+    return clock_.note(exchange);
 }
+
+ChannelReport::ChannelReport(ReportedRenderer& renderer, std::uint64_t frame)
+    : renderer_(renderer), frame_(frame), asked_(Clock::now()) {}
 
 void ChannelReport::headerCame(const v1::ChannelHeader& header) {
     header_ = Clock::now();
-    if (telemetry_ == nullptr)
+    if (renderer_.telemetry() == nullptr)
         return;
-    telemetry_->metrics.pictureCame(header.is_in_memory());
+    observe::Metrics& metrics = renderer_.telemetry()->metrics;
+    metrics.pictureCame(header.is_in_memory());
     if (header.has_memory())
-        telemetry_->metrics.rendererHolds(name_, header.memory().device_bytes(),
-                                          header.memory().host_bytes());
+        metrics.rendererHolds(renderer_.name(), header.memory().device_bytes(),
+                              header.memory().host_bytes());
     const v1::ChannelTimes& times = header.times();
     if (!header.has_times() || !isInOrder(times))
         return;
@@ -51,7 +53,7 @@ void ChannelReport::headerCame(const v1::ChannelHeader& header) {
                       nanoseconds(times.drawn()),       nanoseconds(times.sent()),
                       ofMilliseconds(stages.cull()),    ofMilliseconds(stages.draw()),
                       ofMilliseconds(stages.readback())};
-    if (const auto offset = clock_.note({asked_, there.received, there.sent, *header_}))
+    if (const auto offset = renderer_.note({asked_, there.received, there.sent, *header_}))
         tellThere(there, *offset);
 }
 
@@ -59,8 +61,9 @@ void ChannelReport::headerCame(const v1::ChannelHeader& header) {
 /// if it came with the rest of it.
 void ChannelReport::tellThere(const There& there, const observe::ClockMap::Offset& offset) {
     const auto tell = [&](const char* name, nanoseconds begin, nanoseconds end) {
-        telemetry_->traces.add({name_, "channels", name, frame_, offset.here(begin),
-                                offset.here(std::max(begin, end)), offset.bound});
+        renderer_.telemetry()->traces.add({renderer_.name(), "channels", name, frame_,
+                                           offset.here(begin), offset.here(std::max(begin, end)),
+                                           offset.bound});
     };
     tell("channel", there.received, there.sent);
     tell("queue", there.received, there.begun);
@@ -75,19 +78,20 @@ void ChannelReport::tellThere(const There& there, const observe::ClockMap::Offse
 }
 
 void ChannelReport::ended(const absl::Status& status) {
-    if (telemetry_ == nullptr)
+    const observe::SharedTelemetry& telemetry = renderer_.telemetry();
+    if (telemetry == nullptr)
         return;
     const Clock::time_point now = Clock::now();
-    const std::string thread = "asks " + name_;
+    const std::string thread = "asks " + renderer_.name();
     observe::Span call{"coordinator", thread, "channel", frame_, asked_, now};
     if (!status.ok())
         call.note = absl::StatusCodeToString(status.code());
-    telemetry_->traces.add(std::move(call));
+    telemetry->traces.add(std::move(call));
     if (header_) {
-        telemetry_->metrics.took(observe::Stage::Receive, now - *header_);
-        telemetry_->traces.add({"coordinator", thread, "receive", frame_, *header_, now});
+        telemetry->metrics.took(observe::Stage::Receive, now - *header_);
+        telemetry->traces.add({"coordinator", thread, "receive", frame_, *header_, now});
     }
-    telemetry_->metrics.bytes(observe::Peer::Renderer, observe::Direction::In, bytes_);
+    telemetry->metrics.bytes(observe::Peer::Renderer, observe::Direction::In, bytes_);
 }
 
 }  // namespace eyrie::coordinator

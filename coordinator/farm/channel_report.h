@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <mutex>
 #include <optional>
 #include <string>
 
@@ -17,15 +18,30 @@ class ChannelHeader;
 
 namespace eyrie::coordinator {
 
-/// Tells of the channels that one renderer draws: where their time goes, there and on the way, on
-/// this process's clock, and what the renderer holds. For one thread at a time.
+/// Whom the channels of one renderer are told to, and its clock. Thread-safe.
+class ReportedRenderer {
+public:
+    /// The renderer at `address`. Without telemetry nothing is told.
+    ReportedRenderer(const std::string& address, observe::SharedTelemetry telemetry);
+
+    const std::string& name() const { return name_; }
+    const observe::SharedTelemetry& telemetry() const { return telemetry_; }
+    std::optional<observe::ClockMap::Offset> note(const observe::Exchange& exchange);
+
+private:
+    const std::string name_;
+    const observe::SharedTelemetry telemetry_;
+    std::mutex mutex_;  ///< guards clock_
+    observe::ClockMap clock_;
+};
+
+/// Tells of one channel that a renderer draws: where its time goes, there and on the way, on this
+/// process's clock, and what the renderer holds.
 class ChannelReport {
 public:
-    /// Of the renderer at `address`. Without telemetry it tells nothing.
-    ChannelReport(const std::string& address, observe::SharedTelemetry telemetry);
+    /// The call is about to be made. `renderer` outlives this.
+    ChannelReport(ReportedRenderer& renderer, std::uint64_t frame);
 
-    /// The call is about to be made.
-    void asked(std::uint64_t frame);
     void headerCame(const v1::ChannelHeader& header);
     void chunkCame(std::size_t bytes) { bytes_ += bytes; }
     /// The call has ended.
@@ -45,11 +61,9 @@ private:
 
     void tellThere(const There& there, const observe::ClockMap::Offset& offset);
 
-    const std::string name_;
-    const observe::SharedTelemetry telemetry_;
-    observe::ClockMap clock_;
-    std::uint64_t frame_ = 0;
-    observe::Clock::time_point asked_;
+    ReportedRenderer& renderer_;
+    const std::uint64_t frame_;
+    const observe::Clock::time_point asked_;
     std::optional<observe::Clock::time_point> header_;
     std::size_t bytes_ = 0;
 };

@@ -21,6 +21,7 @@
 #include "wire/channel_program.h"
 #include "wire/deadline.h"
 #include "wire/frame.h"
+#include "wire/nearly_drawn.h"
 #include "wire/pick.h"
 #include "wire/picture_header.h"
 #include "wire/scene.h"
@@ -82,6 +83,11 @@ bool answersWithDepth(const fabric::ChannelProgram& program) {
     return false;
 }
 
+std::chrono::nanoseconds waitedBy(const v1::ChannelTimes& times) {
+    const bool isBelievable = 0 <= times.received() && times.received() <= times.begun();
+    return std::chrono::nanoseconds(isBelievable ? times.begun() - times.received() : 0);
+}
+
 class GrpcRenderer final : public ChannelRenderer {
 public:
     GrpcRenderer(const std::string& address, const wire::Security& security,
@@ -94,7 +100,7 @@ public:
           calls_(security),
           offersMemory_(offersMemory),
           slots_(peer_),
-          report_(address, std::move(telemetry)) {}
+          reported_(address, std::move(telemetry)) {}
 
     absl::StatusOr<fabric::SceneInfo> openScene(const fabric::Scene& scene,
                                                 Clock::time_point deadline) override {
@@ -120,10 +126,10 @@ public:
         return wire::fromGrpc(stub_->SetFrameData(call.context(), request, &response), peer_);
     }
 
-    /// Its header comes when the picture has been drawn.
+    /// Its header comes when the picture has been drawn; metadata may come when most of it has.
     absl::StatusOr<fabric::ChannelResult> render(const fabric::ChannelTask& task,
                                                  Clock::time_point deadline,
-                                                 const std::function<void()>& drawn,
+                                                 const ChannelNews& news,
                                                  const fabric::FrameData* frameData,
                                                  const std::stop_token& stop) override {
         v1::RenderChannelRequest request;
@@ -138,21 +144,29 @@ public:
             *request.mutable_memory() = wire::toMessage(memory->offer());
         Calls::Call call(calls_, deadline);
         const std::stop_callback cancel(stop, [&] { call.context()->TryCancel(); });
-        report_.asked(task.frameNumber);
+        ChannelReport report(reported_, task.frameNumber);
         const auto reader = stub_->RenderChannel(call.context(), request);
+        bool isDrawn = !news.drawn;
+        const auto noteDrawn = [&] {
+            if (!std::exchange(isDrawn, true))
+                news.drawn();
+        };
+        reader->WaitForInitialMetadata();
+        if (call.context()->GetServerInitialMetadata().contains(wire::kNearlyDrawnKey))
+            noteDrawn();
         PictureAssembly assembly(task, memory.get());
-        auto result = receive(call, *reader, assembly,
-                              [&, isDrawn = !drawn](const v1::RenderChannelResponse& part) mutable {
-                                  if (!std::exchange(isDrawn, true))
-                                      drawn();
-                                  if (part.has_header()) {
-                                      report_.headerCame(part.header());
-                                      return assembly.takeHeader(part.header());
-                                  }
-                                  report_.chunkCame(part.chunk().size());
-                                  return assembly.takeChunk(part.chunk());
-                              });
-        report_.ended(result.status());
+        auto result = receive(call, *reader, assembly, [&](const v1::RenderChannelResponse& part) {
+            noteDrawn();
+            if (part.has_header()) {
+                report.headerCame(part.header());
+                if (news.waited)
+                    news.waited(waitedBy(part.header().times()));
+                return assembly.takeHeader(part.header());
+            }
+            report.chunkCame(part.chunk().size());
+            return assembly.takeChunk(part.chunk());
+        });
+        report.ended(result.status());
         if (result.ok() && memory != nullptr)
             slots_.giveBack(std::move(memory), assembly.isInMemory());
         return result;
@@ -230,7 +244,7 @@ private:
     Calls calls_;
     const bool offersMemory_;
     PictureSlots slots_;
-    ChannelReport report_;  ///< of render, which one thread at a time calls
+    ReportedRenderer reported_;
 };
 
 }  // namespace

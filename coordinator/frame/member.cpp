@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/frame/member.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -131,12 +132,15 @@ void Member::drawNow(const Draw& what, Hold& hold, const DrawDone& done) {
         return done(absl::CancelledError("it is not needed any more"), {});
     }
     const Clock::time_point started = Clock::now();
-    absl::StatusOr<fabric::ChannelResult> result = render(what, hold);
+    Clock::duration waited{};
+    absl::StatusOr<fabric::ChannelResult> result = render(what, hold, waited);
     const bool isStopped = what.stop.stop_requested() && absl::IsCancelled(result.status());
     if (absl::IsCancelled(result.status()) && !isStopped)  // by retire
         result = absl::UnavailableError(fmt::format("{} was given up", id_));
     const bool ok = result.ok();
-    const Clock::duration taken = Clock::now() - started;
+    // What it waited for was another's. A renderer may say anything.
+    const Clock::duration all = Clock::now() - started;
+    const Clock::duration taken = all - std::clamp(waited, Clock::duration(), all);
     if (ok) {
         const std::lock_guard lock(mutex_);
         patience_.record(what.kind, what.patience,
@@ -197,7 +201,8 @@ absl::Status Member::sendFrameData(const fabric::FrameData& frameData, std::uint
     return absl::OkStatus();
 }
 
-absl::StatusOr<fabric::ChannelResult> Member::render(const Draw& what, Hold& hold) {
+absl::StatusOr<fabric::ChannelResult> Member::render(const Draw& what, Hold& hold,
+                                                     Clock::duration& waited) {
     const Clock::time_point deadline = Clock::now() + what.timeout;
     RETURN_IF_ERROR(checkRevision(what.revision));
     const bool hasIt = sentVersion_ == what.frameData.version;
@@ -207,8 +212,9 @@ absl::StatusOr<fabric::ChannelResult> Member::render(const Draw& what, Hold& hol
         if (what.drawn)
             what.drawn();
     };
-    return renderer_->render(what.task, deadline, drawn, hasIt ? nullptr : &what.frameData,
-                             what.stop);
+    return renderer_->render(what.task, deadline,
+                             {drawn, [&](std::chrono::nanoseconds time) { waited = time; }},
+                             hasIt ? nullptr : &what.frameData, what.stop);
 }
 
 }  // namespace eyrie::coordinator

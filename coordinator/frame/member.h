@@ -28,7 +28,8 @@ class Member {
 public:
     using Clock = ChannelRenderer::Clock;
     using OpenDone = std::function<void(absl::StatusOr<fabric::SceneInfo>)>;
-    /// `taken` from the renderer being asked to the picture being here.
+    /// `taken` from the renderer being asked to the picture being here, but for what it drew before
+    /// meanwhile.
     using DrawDone =
         std::function<void(absl::StatusOr<fabric::ChannelResult>, Clock::duration taken)>;
 
@@ -43,8 +44,8 @@ public:
     const std::string& id() const { return id_; }
     const fabric::DeviceInfo& device() const { return device_; }
 
-    /// Nothing to draw or to open: a job given now starts now. True already when Draw::drawn, or
-    /// `done` where there was none, is called, but for a failure.
+    /// Nothing, or but the last of something, to draw or to open: a job given now starts now. True
+    /// already when Draw::drawn, or `done` where there was none, is called, but for a failure.
     bool isIdle() const;
 
     /// How long it may take for a channel of a frame of `kind`: Patience::limit, by those it has
@@ -131,7 +132,8 @@ private:
     absl::Status checkRevision(std::uint64_t revision) const;
     absl::Status sendFrameData(const fabric::FrameData& frameData, std::uint64_t revision,
                                Clock::time_point deadline);
-    absl::StatusOr<fabric::ChannelResult> render(const Draw& what, Hold& hold);
+    absl::StatusOr<fabric::ChannelResult> render(const Draw& what, Hold& hold,
+                                                 Clock::duration& waited);
 
     const std::string id_;
     const fabric::DeviceInfo device_;

@@ -53,11 +53,17 @@ inline std::uint64_t pixelBytes(const fabric::PixelViewport& area, bool hasDepth
 }
 
 template <typename Header>
-void describe(const fabric::Image& image, PixelEncoding encoding, Header& header) {
-    *header.mutable_area() = toMessage(image.area);
-    header.set_has_depth(image.hasDepth());
-    header.set_pixel_bytes(pixelBytes(image.area, image.hasDepth()));
+void describe(const fabric::PixelViewport& area, bool hasDepth, PixelEncoding encoding,
+              Header& header) {
+    *header.mutable_area() = toMessage(area);
+    header.set_has_depth(hasDepth);
+    header.set_pixel_bytes(pixelBytes(area, hasDepth));
     header.set_encoding(toMessage(encoding));
+}
+
+template <typename Header>
+void describe(const fabric::Image& image, PixelEncoding encoding, Header& header) {
+    describe(image.area, image.hasDepth(), encoding, header);
 }
 
 /// What a header announces, as far as that can be believed: the area lies within `whole` or is

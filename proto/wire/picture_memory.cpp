@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "wire/picture_memory.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cerrno>
 #include <cstring>
@@ -167,15 +168,22 @@ absl::StatusOr<std::unique_ptr<PictureMemory>> PictureMemory::open(const MemoryO
 
 std::byte* PictureMemory::pixels() const { return begin_ + kPixelsBegin; }
 
-bool PictureMemory::put(const fabric::Image& picture) {
-    const std::size_t colour = picture.colour.size() * sizeof(fabric::Rgba);
-    const std::size_t depth = picture.depth.size() * sizeof(float);
+std::optional<fabric::PixelRoom> PictureMemory::room(const fabric::PixelViewport& area,
+                                                     bool withDepth) const {
+    const std::size_t colour = pixelsOf(area) * sizeof(fabric::Rgba);
+    const std::size_t depth = withDepth ? pixelsOf(area) * sizeof(float) : 0;
     if (colour + depth > offer_.bytes)
+        return std::nullopt;
+    return fabric::PixelRoom{reinterpret_cast<fabric::Rgba*>(pixels()),
+                             withDepth ? reinterpret_cast<float*>(pixels() + colour) : nullptr};
+}
+
+bool PictureMemory::put(const fabric::Image& picture) {
+    const auto to = room(picture.area, picture.hasDepth());
+    if (!to)
         return false;
-    if (colour != 0)
-        std::memcpy(pixels(), picture.colour.data(), colour);
-    if (depth != 0)
-        std::memcpy(pixels() + colour, picture.depth.data(), depth);
+    std::ranges::copy(picture.colour, to->colour);
+    std::ranges::copy(picture.depth, to->depth);
     return true;
 }
 

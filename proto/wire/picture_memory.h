@@ -4,11 +4,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
 #include <absl/status/statusor.h>
 
+#include "fabric/delivery.h"
 #include "fabric/image.h"
 
 namespace eyrie::wire {
@@ -46,6 +48,10 @@ public:
 
     /// Valid while this lives; of one that was opened, what it was opened by.
     const MemoryOffer& offer() const { return offer_; }
+
+    /// Where a picture's pixels go; nothing where they are more than it holds. Of one that was
+    /// opened: whoever made it may read only.
+    std::optional<fabric::PixelRoom> room(const fabric::PixelViewport& area, bool withDepth) const;
 
     /// Copies a picture in. False, and nothing done, where it is larger than the memory.
     bool put(const fabric::Image& picture);

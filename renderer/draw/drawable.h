@@ -82,6 +82,8 @@ struct FrameState {
     const fabric::Look& look;
     const fabric::Range& range;  ///< of the channel
     fabric::PixelViewport part;  ///< of its pixels, that may be drawn: the scissor
+    /// What falls on none of these may be left out: the same as `part` but where time is measured.
+    fabric::PixelViewport channel;
     Layer layer = Layer::Opaque;
     std::stop_token stop = {};  ///< nobody wants the picture any more
 };

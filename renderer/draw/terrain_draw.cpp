@@ -57,6 +57,43 @@ struct TileTree {
     }
 };
 
+/// What a channel sees of a tile, as far as that is known at little cost.
+class SeenBlocks {
+public:
+    SeenBlocks(const lod::ObjectView& view, const FrameState& frame)
+        : view_(view),
+          channel_(frame.channel),
+          isKnown_(frame.shading != fabric::Shading::Wireframe) {}
+
+    /// Calls `draw` with those stretches of `tile`'s part `part` that may be seen, in their order.
+    template <typename Draw>
+    void forEach(const terrain::EytIndex& index, const terrain::TileId& id, const DeviceTile& tile,
+                 int part, const Draw& draw) const {
+        const terrain::IndexRange& range = tile.parts[static_cast<std::size_t>(part)];
+        auto block =
+            std::ranges::lower_bound(tile.blocks, range.first, {}, &terrain::TriangleBlock::first);
+        for (; block != tile.blocks.end() && block->first < range.first + range.count; ++block)
+            if (sees(terrain::bounds(index, id, *block)))
+                draw(terrain::IndexRange{block->first, block->count});
+    }
+
+    /// Not so for certain of what reaches the edge of the view, and maybe beyond.
+    bool seesAll(const fabric::Box& bounds) const {
+        const fabric::PixelViewport pixels = view_.coveredPixels(bounds);
+        const fabric::PixelViewport inside{1, 1, view_.view().width - 2, view_.view().height - 2};
+        return !isKnown_ || (channel_.contains(pixels) && inside.contains(pixels));
+    }
+
+private:
+    bool sees(const fabric::Box& bounds) const {
+        return !intersection(view_.coveredPixels(bounds), channel_).isEmpty();
+    }
+
+    const lod::ObjectView& view_;
+    const fabric::PixelViewport channel_;
+    const bool isKnown_;
+};
+
 class TerrainDrawable : public Drawable {
 public:
     TerrainDrawable(const fabric::SceneObject& object, TerrainPrograms& programs,
@@ -122,7 +159,7 @@ private:
                                                     PicturePrograms& programs);
     void useNormals(const TerrainEffect& program, const terrain::TileId& tile);
     std::uint64_t drawTile(const TerrainEffect& program, const terrain::TileChoice& choice,
-                           const DeviceTile& tile) const;
+                           const DeviceTile& tile, const SeenBlocks& seen);
 
     TerrainPrograms& programs_;
     fabric::Mat4 worldFromObject_;
@@ -140,6 +177,8 @@ private:
     TauChoice tau_;
     std::map<double, Wanted> wanted_;  ///< of the view that is about to be drawn, by tau
     terrain::TerrainCut drawn_;        ///< the last cut; pieces index its tiles
+    std::vector<GLsizei> runCounts_;   ///< what drawTile draws; keep their memory
+    std::vector<const void*> runOffsets_;
 };
 
 std::uint64_t TerrainDrawable::bytesOf(const lod::ObjectView& view, const terrain::TerrainCut& cut,
@@ -255,10 +294,11 @@ void TerrainDrawable::useNormals(const TerrainEffect& program, const terrain::Ti
     program.normalMap(*paging_->tile(id)->normalMap);
 }
 
-/// Draws the interior and one form of each edge; returns the triangles.
+/// Draws the interior and one form of each edge, but for what the channel does not see; returns the
+/// triangles of all of that.
 std::uint64_t TerrainDrawable::drawTile(const TerrainEffect& program,
-                                        const terrain::TileChoice& choice,
-                                        const DeviceTile& tile) const {
+                                        const terrain::TileChoice& choice, const DeviceTile& tile,
+                                        const SeenBlocks& seen) {
     const terrain::TileId& id = choice.id;
     program.tileOrigin({id.x * terrain::Quadtree::side(id.level),
                         id.y * terrain::Quadtree::side(id.level), tile.baseHeight});
@@ -273,25 +313,34 @@ std::uint64_t TerrainDrawable::drawTile(const TerrainEffect& program,
     packedVertex.source(array, tile.buffer, 0);
     glVertexArrayElementBuffer(array.id(), tile.buffer.id());
 
-    // Parts that follow each other are drawn as one: without finer neighbours, all of the tile.
-    std::array<GLsizei, 1 + terrain::kEdges> counts{};
-    std::array<const void*, 1 + terrain::kEdges> offsets{};
-    GLsizei runs = 0;
+    // Stretches that follow each other are drawn as one: without finer neighbours, all of the tile.
+    runCounts_.clear();
+    runOffsets_.clear();
     std::uint32_t end = 0;  // of the last run
-    std::uint64_t indices = 0;
-    const auto add = [&](int part) {
-        const terrain::IndexRange& range = tile.parts[static_cast<std::size_t>(part)];
+    const auto add = [&](const terrain::IndexRange& range) {
         if (range.count == 0)
             return;
-        if (runs == 0 || range.first != end)
-            offsets[static_cast<std::size_t>(runs++)] = reinterpret_cast<const void*>(
-                tile.indexOffset + static_cast<GLintptr>(range.first) * 2);
-        counts[static_cast<std::size_t>(runs - 1)] += static_cast<GLsizei>(range.count);
+        if (runCounts_.empty() || range.first != end) {
+            runOffsets_.push_back(reinterpret_cast<const void*>(
+                tile.indexOffset + static_cast<GLintptr>(range.first) * 2));
+            runCounts_.push_back(0);
+        }
+        runCounts_.back() += static_cast<GLsizei>(range.count);
         end = range.first + range.count;
-        indices += range.count;
     };
-    for (const int part : drawnParts(choice)) add(part);
-    glMultiDrawElements(GL_TRIANGLES, counts.data(), GL_UNSIGNED_SHORT, offsets.data(), runs);
+    const bool isAllSeen = tile.blocks.empty() || seen.seesAll(index().bounds(id));
+    std::uint64_t indices = 0;
+    for (const int part : drawnParts(choice)) {
+        const terrain::IndexRange& range = tile.parts[static_cast<std::size_t>(part)];
+        indices += range.count;
+        if (isAllSeen)
+            add(range);
+        else
+            seen.forEach(index(), id, tile, part, add);
+    }
+    if (!runCounts_.empty())
+        glMultiDrawElements(GL_TRIANGLES, runCounts_.data(), GL_UNSIGNED_SHORT, runOffsets_.data(),
+                            static_cast<GLsizei>(runCounts_.size()));
     return indices / 3;
 }
 
@@ -317,6 +366,9 @@ absl::Status TerrainDrawable::draw(std::span<const Piece> pieces, const FrameSta
         RETURN_IF_ERROR(boxLines_.begin(
             frame.view, fabric::exaggerated(worldFromObject_, frame.look.exaggeration)));
     leaveOutBacks(frame);
+    const lod::ObjectView view(frame.view,
+                               fabric::exaggerated(worldFromObject_, frame.look.exaggeration));
+    const SeenBlocks seen(view, frame);
     for (const Piece& piece : pieces) {
         if (!piece.isNode) {
             boxLines_.draw(piece.bounds, kPageColour);
@@ -330,7 +382,7 @@ absl::Status TerrainDrawable::draw(std::span<const Piece> pieces, const FrameSta
                                                           : rangeColour(frame.range));
             useNormals(*program, choice.id);
             imagery_.use(*program, choice.id, part);
-            statistics.triangles += drawTile(*program, choice, *paging_->tile(choice.id));
+            statistics.triangles += drawTile(*program, choice, *paging_->tile(choice.id), seen);
         }
         // At once, so that where depths tie the lower range wins as in compositing.
         if (frame.look.tileBounds)

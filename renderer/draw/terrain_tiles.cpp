@@ -57,6 +57,7 @@ DeviceTile::DeviceTile(const terrain::TileGeometry& geometry, const TileDecoder*
     : indexOffset(static_cast<GLintptr>(geometry.wordBytes())),
       vertexStride(4 * geometry.wordsPerVertex),
       parts(geometry.parts),
+      blocks(terrain::triangleBlocks(geometry)),
       baseHeight(geometry.baseHeight),
       heightMultiplier(geometry.heightMultiplier) {
     const auto words = static_cast<GLsizeiptr>(geometry.wordBytes());

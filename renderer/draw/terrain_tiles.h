@@ -10,6 +10,7 @@
 #include "renderer/gl/object.h"
 #include "renderer/terrain/eyt_format.h"
 #include "renderer/terrain/terrain_cut.h"
+#include "renderer/terrain/triangle_blocks.h"
 
 namespace eyrie::draw {
 
@@ -26,6 +27,7 @@ struct DeviceTile {
     GLintptr indexOffset = 0;
     GLsizei vertexStride = 4;
     std::array<terrain::IndexRange, terrain::kTileParts> parts;
+    std::vector<terrain::TriangleBlock> blocks;  ///< none of one that `decoder` made
     std::int32_t baseHeight = 0;
     std::int32_t heightMultiplier = 1;
 };

@@ -53,14 +53,18 @@ void Framebuffer::begin(int viewWidth, int viewHeight, const fabric::PixelViewpo
 
 fabric::Image Framebuffer::read(const fabric::PixelViewport& part, bool withDepth) {
     fabric::Image image = fabric::makeImage(part, {}, withDepth);
-    if (part.isEmpty())
-        return image;
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_.id());
-    glReadPixels(part.x, part.y, part.width, part.height, GL_RGBA, GL_UNSIGNED_BYTE,
-                 image.colour.data());
-    if (withDepth)
-        readDepth(part, image.depth);
+    read(part, {image.colour.data(), withDepth ? image.depth.data() : nullptr});
     return image;
+}
+
+void Framebuffer::read(const fabric::PixelViewport& part, const fabric::PixelRoom& room) {
+    if (part.isEmpty())
+        return;
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_.id());
+    glReadPixels(part.x, part.y, part.width, part.height, GL_RGBA, GL_UNSIGNED_BYTE, room.colour);
+    if (room.depth != nullptr)
+        glReadPixels(part.x, part.y, part.width, part.height, GL_DEPTH_COMPONENT, GL_FLOAT,
+                     room.depth);
 }
 
 void Framebuffer::readDepth(const fabric::PixelViewport& part, std::vector<float>& depth) {

@@ -5,6 +5,7 @@
 
 #include <absl/status/status.h>
 
+#include "fabric/delivery.h"
 #include "fabric/image.h"
 #include "renderer/gl/object.h"
 
@@ -27,6 +28,9 @@ public:
 
     /// Reads `part` back, depth only where asked for; waits for drawing to finish.
     fabric::Image read(const fabric::PixelViewport& part, bool withDepth);
+
+    /// The same into `room`.
+    void read(const fabric::PixelViewport& part, const fabric::PixelRoom& room);
 
     /// The depth of `part` so far, as fabric::Image has it; waits for drawing. Drawing may go on.
     void readDepth(const fabric::PixelViewport& part, std::vector<float>& depth);

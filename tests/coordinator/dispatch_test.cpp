@@ -89,6 +89,21 @@ TEST_F(DispatchTest, PreferencesBeginAgainAfterTheLastRenderer) {
     EXPECT_EQ(drawn(), (std::vector<int>{3, 2}));
 }
 
+/// Expected: what it waited for does not count, however long a renderer says that was.
+TEST_F(DispatchTest, WhatARendererHadToDoBeforeDoesNotCountAsTheTasksTime) {
+    openWith(1);
+    renderers_[0]->takes = milliseconds(60);
+    const auto timeIf = [&](std::chrono::nanoseconds waited) {
+        renderers_[0]->saysItWaited = waited;
+        return draw({0}).value().at(0).taken;
+    };
+    EXPECT_GE(timeIf(milliseconds(0)), milliseconds(60));
+    EXPECT_GE(timeIf(milliseconds(-70)), milliseconds(60));
+    const auto rest = timeIf(milliseconds(50));
+    EXPECT_GE(rest, milliseconds(10));
+    EXPECT_EQ(timeIf(std::chrono::hours(24 * 365 * 200)), milliseconds(0));
+}
+
 TEST_F(ImpatientDispatch, APreferredRendererThatHangsIsNotWaitedFor) {
     openWith(2);
     ASSERT_TRUE(draw({0, 1}).ok());  // it is known how long they take

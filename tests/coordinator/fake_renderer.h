@@ -41,7 +41,7 @@ public:
 
     absl::StatusOr<fabric::ChannelResult> render(const fabric::ChannelTask& task,
                                                  Clock::time_point deadline,
-                                                 const std::function<void()>& isDrawn = {},
+                                                 const ChannelNews& news = {},
                                                  const fabric::FrameData* frameData = nullptr,
                                                  const std::stop_token& stop = {}) override {
         if (frameData != nullptr)
@@ -53,9 +53,12 @@ public:
         tasks[task.frameNumber] = task.frameDataVersion;
         absl::StatusOr<fabric::ChannelResult> result = draw(task, deadline, stop, lock);
         --drawing_;
-        if (isDrawn && result.ok()) {
+        if (result.ok()) {
             lock.unlock();
-            isDrawn();
+            if (news.waited)
+                news.waited(saysItWaited.load());
+            if (news.drawn)
+                news.drawn();
             lock.lock();
         }
         changed_.wait_until(lock, stop, deadline, [this] { return !holdsPictures_ || cancelled_; });
@@ -87,11 +90,12 @@ public:
 
     std::vector<fabric::DataFile> files;             ///< that it finds
     std::atomic<std::chrono::milliseconds> takes{};  ///< really, for a channel
-    std::vector<std::string> opened;                 ///< names of the scenes' first objects
-    std::vector<std::uint64_t> versions;             ///< of the frame data received
-    std::vector<std::uint64_t> frames;               ///< numbers of those it began to draw
-    std::map<std::uint64_t, std::uint64_t> tasks;    ///< versions of the frame data, by frames
-    std::atomic<int> most{0};                        ///< channels that it was drawing at once
+    std::atomic<std::chrono::nanoseconds> saysItWaited{};
+    std::vector<std::string> opened;               ///< names of the scenes' first objects
+    std::vector<std::uint64_t> versions;           ///< of the frame data received
+    std::vector<std::uint64_t> frames;             ///< numbers of those it began to draw
+    std::map<std::uint64_t, std::uint64_t> tasks;  ///< versions of the frame data, by frames
+    std::atomic<int> most{0};                      ///< channels that it was drawing at once
     std::atomic<int> begun{0};
     std::atomic<int> drawn{0};
     std::atomic<double> share{0};               ///< of the frame, that the last channel was

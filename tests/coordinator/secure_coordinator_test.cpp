@@ -37,7 +37,7 @@ public:
     }
     absl::StatusOr<fabric::ChannelResult> render(const fabric::FrameData&,
                                                  const fabric::ChannelTask& task,
-                                                 const std::stop_token&) override {
+                                                 const fabric::Delivery&) override {
         ++drawn_;
         return LayeredScene(4711).draw(task);
     }

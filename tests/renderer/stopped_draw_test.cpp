@@ -50,7 +50,8 @@ TEST_P(StoppedDraw, BeforeItBeginsCostsNothing) {
     std::stop_source stop;
     stop.request_stop();
     const std::uint64_t before = renderer->memory().deviceBytes;
-    EXPECT_TRUE(absl::IsCancelled(renderer->render(frame_, task_, stop.get_token()).status()));
+    EXPECT_TRUE(
+        absl::IsCancelled(renderer->render(frame_, task_, {.stop = stop.get_token()}).status()));
     EXPECT_EQ(renderer->memory().deviceBytes, before);
 }
 
@@ -66,7 +67,7 @@ TEST_P(StoppedDraw, AnywhereLeavesTheNextPictureAsItIs) {
             std::this_thread::sleep_for(std::chrono::microseconds(i * i * 50));
             stop.request_stop();
         });
-        const auto result = renderer->render(frame_, task_, stop.get_token());
+        const auto result = renderer->render(frame_, task_, {.stop = stop.get_token()});
         whole += result.ok() ? 1 : 0;
         if (result.ok())
             EXPECT_TRUE(result->image == reference->image) << i;

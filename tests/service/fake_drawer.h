@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <condition_variable>
 #include <limits>
@@ -39,6 +40,10 @@ struct FakeDrawerControl {
         changed.wait(lock, stop, [this] { return !held; });
     }
 
+    std::atomic<bool> saysNearlyDrawn{false};  ///< before it waits
+    std::atomic<bool> usesRoom{false};         ///< that it is given for its pixels
+    std::atomic<bool> fails{false};
+
     /// What is drawn in place of a gradient, once it is set; not while a call is under way.
     std::optional<fabric::Image> image;
 
@@ -69,17 +74,29 @@ public:
 
     absl::StatusOr<fabric::ChannelResult> render(const fabric::FrameData& frameData,
                                                  const fabric::ChannelTask& task,
-                                                 const std::stop_token& stop) override {
+                                                 const fabric::Delivery& delivery) override {
+        const std::stop_token& stop = delivery.stop;
         checkThread();
         ++control_->begun;
+        if (control_->saysNearlyDrawn && delivery.nearlyDrawn)
+            delivery.nearlyDrawn();
         control_->waitWhileHeld(stop);
         if (stop.stop_requested()) {
             ++control_->givenUp;
             return absl::CancelledError("stopped");
         }
+        if (control_->fails)
+            return absl::DataLossError("page 7 is damaged");
         ++control_->drawn;
-        return control_->image ? fabric::ChannelResult{*control_->image, {}}
-                               : picture(frameData, task);
+        fabric::ChannelResult result = control_->image ? fabric::ChannelResult{*control_->image, {}}
+                                                       : picture(frameData, task);
+        if (control_->usesRoom && delivery.room)
+            if (const auto room = delivery.room(result.image.area, task.wantsDepth)) {
+                std::ranges::copy(result.image.colour, room->colour);
+                std::ranges::copy(result.image.depth, room->depth);
+                result.image = {result.image.area, {}, {}};
+            }
+        return result;
     }
 
     /// Picks what is at the place asked for, as far away as that is from the left.

@@ -134,7 +134,9 @@ TEST_F(HardCase24, WhateverBitsWereDrawnArriveInPicturesOfAnyShape) {
                                       std::as_bytes(std::span(other)));
         };
         for (ChannelRenderer* renderer : {renderer_.get(), near.get(), far.get()})
-            for (const bool wantsDepth : {true, false}) {
+            for (const auto& [wantsDepth, usesRoom] :
+                 {std::pair(true, false), {false, false}, {true, true}, {false, true}}) {
+                control_->usesRoom = usesRoom;
                 whole.wantsDepth = wantsDepth;
                 if (!wantsDepth)
                     control_->image->depth.clear();
@@ -190,6 +192,77 @@ TEST_F(RenderServerTest, MemoryThatIsNotThereIsAnsweredInMessages) {
     const auto small = wire::PictureMemory::create(64 * 64 * 4 - 1).value();
     *request.mutable_memory() = wire::toMessage(small->offer());
     EXPECT_FALSE(answer());
+}
+
+TEST_F(RenderServerTest, PixelsDrawnIntoTheMemoryAreInItAndThoseThatDoNotFitAreInMessages) {
+    ASSERT_TRUE(renderer_->setFrameData(frameData(), soon()).ok());
+    control_->usesRoom = true;
+    const fabric::Image drawn = FakeDrawer::picture(frameData(), task(64, 64, true)).image;
+    for (const bool fits : {true, false}) {
+        const auto memory = wire::PictureMemory::create(64 * 64 * 8 - (fits ? 0 : 1)).value();
+        v1::RenderChannelRequest request;
+        *request.mutable_task() = wire::toMessage(task(64, 64, true));
+        *request.mutable_memory() = wire::toMessage(memory->offer());
+        grpc::ClientContext context;
+        const auto reader = stub_->RenderChannel(&context, request);
+        v1::RenderChannelResponse part;
+        ASSERT_TRUE(reader->Read(&part));
+        EXPECT_EQ(part.header().is_in_memory(), fits);
+        EXPECT_TRUE(part.header().has_depth());
+        std::size_t bytes = 0;
+        while (reader->Read(&part)) bytes += part.chunk().size();
+        EXPECT_TRUE(reader->Finish().ok());
+        EXPECT_EQ(bytes, fits ? 0U : 64U * 64 * 8);
+        if (fits) {
+            EXPECT_TRUE(memory->take(drawn.area, true).value() == drawn);
+        }
+    }
+}
+
+/// Expected: the second task is at the renderer while the first is drawn, and says how long it
+/// waited there.
+TEST_F(RenderServerTest, OneThatHasNearlyDrawnTakesTheNextTask) {
+    ASSERT_TRUE(renderer_->setFrameData(frameData(), soon()).ok());
+    control_->saysNearlyDrawn = true;
+    control_->hold();
+    std::atomic<int> told{0};
+    std::atomic<std::chrono::nanoseconds> waited{};
+    std::jthread first([&] {
+        const auto drawn = renderer_->render(task(8, 8, true), soon(), {[&] { ++told; }, {}});
+        ASSERT_TRUE(drawn.ok()) << drawn.status();
+        EXPECT_TRUE(drawn->image == FakeDrawer::picture(frameData(), task(8, 8, true)).image);
+    });
+    ASSERT_TRUE(eventually([&] { return told == 1; }));
+    EXPECT_EQ(control_->drawn, 0);
+    std::jthread second([&] {
+        const auto note = [&](std::chrono::nanoseconds time) { waited = time; };
+        const auto drawn = renderer_->render(task(9, 7, false), soon(), {[&] { ++told; }, note});
+        ASSERT_TRUE(drawn.ok()) << drawn.status();
+        EXPECT_TRUE(drawn->image == FakeDrawer::picture(frameData(), task(9, 7, false)).image);
+    });
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    EXPECT_EQ(control_->begun, 1);
+    control_->release();
+    first.join();
+    second.join();
+    EXPECT_EQ(told, 2) << "each once";
+    EXPECT_GT(waited.load(), std::chrono::nanoseconds(0));
+    EXPECT_LT(waited.load(), std::chrono::seconds(20));
+}
+
+TEST_F(RenderServerTest, OneThatFailsAfterItHadNearlyDrawnSaysWhy) {
+    ASSERT_TRUE(renderer_->setFrameData(frameData(), soon()).ok());
+    control_->saysNearlyDrawn = true;
+    control_->fails = true;
+    int told = 0;
+    const auto drawn = renderer_->render(task(8, 8, true), soon(), {[&] { ++told; }, {}});
+    EXPECT_TRUE(absl::IsDataLoss(drawn.status())) << drawn.status();
+    EXPECT_EQ(told, 1);
+    control_->saysNearlyDrawn = false;
+    EXPECT_FALSE(renderer_->render(task(8, 8, true), soon(), {[&] { ++told; }, {}}).ok());
+    EXPECT_EQ(told, 1) << "an error is no picture";
+    control_->fails = false;
+    EXPECT_TRUE(renderer_->render(task(8, 8, true), soon()).ok());
 }
 
 TEST_F(RenderServerTest, FrameDataMayComeWithTheTask) {

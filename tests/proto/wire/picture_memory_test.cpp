@@ -94,6 +94,23 @@ TEST(PictureMemory, APictureOfAnyBitsComesOutAsItWentIn) {
         }
 }
 
+TEST(PictureMemory, WhatIsWrittenIntoItsRoomComesOut) {
+    const auto memory = memoryOf(64 * 64 * 8);
+    const auto there = PictureMemory::open(memory->offer()).value();
+    for (const bool hasDepth : {true, false}) {
+        const fabric::Image picture = noise({5, 6, 64, 64}, hasDepth, 11);
+        const auto room = there->room(picture.area, hasDepth);
+        ASSERT_TRUE(room.has_value());
+        EXPECT_EQ(room->depth != nullptr, hasDepth);
+        std::ranges::copy(picture.colour, room->colour);
+        std::ranges::copy(picture.depth, room->depth);
+        EXPECT_TRUE(isSame(memory->take(picture.area, hasDepth).value(), picture));
+    }
+    EXPECT_FALSE(there->room({0, 0, 65, 64}, true).has_value());
+    EXPECT_TRUE(there->room({0, 0, 128, 64}, false).has_value());
+    EXPECT_FALSE(there->room({0, 0, 16384, 16384}, false).has_value());
+}
+
 TEST(PictureMemory, WhatIsTakenStaysWhateverIsWrittenAfterwards) {
     const auto memory = memoryOf(1 << 16);
     const auto there = PictureMemory::open(memory->offer()).value();
