@@ -59,14 +59,14 @@ public:
     }
     absl::StatusOr<fabric::ChannelResult> render(const fabric::ChannelTask& task,
                                                  Clock::time_point deadline,
-                                                 const std::function<void()>& isDrawn,
+                                                 const ChannelNews& news,
                                                  const fabric::FrameData* frameData,
                                                  const std::stop_token&) override {
         if (frameData != nullptr)
             RETURN_IF_ERROR(setFrameData(*frameData, deadline));
         ++channels;
-        if (isDrawn)
-            isDrawn();
+        if (news.drawn)
+            news.drawn();
         return scene_->draw(task);
     }
     absl::StatusOr<fabric::ProgramResult> runProgram(const fabric::ChannelProgram& program,
