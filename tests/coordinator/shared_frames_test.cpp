@@ -167,8 +167,9 @@ TEST_P(QueueOf, ASlowRendererGetsFewer) {
     open(queued(GetParam()), 3);
     renderers_[2]->takes = milliseconds(200);
     expectWholePicture();
-    EXPECT_LT(renderers_[2]->drawn, renderers_[0]->drawn);
-    EXPECT_LT(renderers_[2]->drawn, renderers_[1]->drawn);
+    // Of about 20; how the others share theirs is the scheduler's.
+    EXPECT_GE(renderers_[2]->drawn, 1);
+    EXPECT_LE(renderers_[2]->drawn, 3);
 }
 
 TEST_P(QueueOf, WhatADyingRendererHadIsDrawnByTheOthers) {
