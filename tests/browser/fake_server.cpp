@@ -66,27 +66,41 @@ struct Line {
     fabric::Vec3 eye;
     fabric::Vec3 direction;
 };
-Line lineThrough(const fabric::Camera& camera, const std::optional<fabric::Sight>& sight,
-                 double aspect, const fabric::Vec2& at) {
-    const fabric::Frustum frustum =
-        sight ? sight->frustum : fabric::symmetricFrustum(camera.fovYDegrees, aspect);
-    const fabric::Vec3 inView(frustum.left + at.x * (frustum.right - frustum.left),
-                              frustum.bottom + at.y * (frustum.top - frustum.bottom), -1);
-    const fabric::Mat3 worldFromCamera = glm::transpose(fabric::viewFromWorldRotation(camera));
-    if (!sight)
-        return {camera.eye, worldFromCamera * inView};
-    return {camera.eye + worldFromCamera * sight->eye,
-            worldFromCamera * (glm::transpose(sight->viewFromCamera) * inView)};
-}
+
+/// The lines of sight of a picture.
+class Lines {
+public:
+    Lines(const fabric::Camera& camera, const std::optional<fabric::Sight>& sight, double aspect)
+        : frustum_(sight ? sight->frustum : fabric::symmetricFrustum(camera.fovYDegrees, aspect)),
+          eye_(camera.eye),
+          worldFromView_(glm::transpose(fabric::viewFromWorldRotation(camera))) {
+        if (!sight)
+            return;
+        eye_ += worldFromView_ * sight->eye;
+        worldFromView_ = worldFromView_ * glm::transpose(sight->viewFromCamera);
+    }
+
+    /// `at` from (0, 0), the lower left corner, to (1, 1).
+    Line through(const fabric::Vec2& at) const {
+        const fabric::Vec3 inView(frustum_.left + at.x * (frustum_.right - frustum_.left),
+                                  frustum_.bottom + at.y * (frustum_.top - frustum_.bottom), -1);
+        return {eye_, worldFromView_ * inView};
+    }
+
+private:
+    fabric::Frustum frustum_;
+    fabric::Vec3 eye_;
+    fabric::Mat3 worldFromView_;
+};
 
 void paint(const coordinator::FrameRequest& request, const std::optional<fabric::Sight>& sight,
            fabric::Image& image) {
-    const double aspect = static_cast<double>(request.width) / request.height;
+    const Lines lines(request.camera, sight, static_cast<double>(request.width) / request.height);
     std::size_t i = 0;
     for (int y = 0; y < request.height; ++y)
         for (int x = 0; x < request.width; ++x) {
-            const Line line = lineThrough(request.camera, sight, aspect,
-                                          {(x + 0.5) / request.width, (y + 0.5) / request.height});
+            const Line line =
+                lines.through({(x + 0.5) / request.width, (y + 0.5) / request.height});
             image.colour[i++] = colourAlong(line.eye, line.direction);
         }
 }
@@ -113,8 +127,8 @@ coordinator::RenderedFrame draw(const coordinator::FrameRequest& request) {
 fabric::Picked pick(const fabric::PickRequest& request) {
     const double aspect = static_cast<double>(request.viewWidth) / request.viewHeight;
     const Line line =
-        lineThrough(request.camera, request.sight, aspect,
-                    {request.place.x / request.viewWidth, request.place.y / request.viewHeight});
+        Lines(request.camera, request.sight, aspect)
+            .through({request.place.x / request.viewWidth, request.place.y / request.viewHeight});
     const double t = -line.eye.z / line.direction.z;
     const fabric::Vec3 hit = line.eye + line.direction * t;
     if (!(t > 0) || hit.x < 0 || hit.x > 100 || hit.y < 0 || hit.y > 100)
