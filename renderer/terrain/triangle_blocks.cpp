@@ -6,8 +6,7 @@
 namespace eyrie::terrain {
 namespace {
 
-/// About a 36th of what a tile has that is drawn as coarsely as it may be. It takes some 0.1 us to
-/// look at a block, and 10 to draw one.
+/// About a 36th of what a tile has that is drawn as coarsely as it may be.
 constexpr std::uint32_t kIndices = 3 * 64;
 
 void grow(TriangleBlock& block, const TileVertex& vertex) {
