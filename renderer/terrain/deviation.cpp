@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <numbers>
 #include <type_traits>
 
 #include <glm/geometric.hpp>
@@ -57,6 +58,18 @@ private:
     std::int64_t sign_ = 1;
 };
 
+/// Whether its sides run along rows, columns and cells' diagonals, so that they leave no part of a
+/// cell but a half.
+bool crossesCellsAtPosts(const Triangle& t) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::int32_t di = std::abs(t[k].i - t[(k + 1) % 3].i);
+        const std::int32_t dj = std::abs(t[k].j - t[(k + 1) % 3].j);
+        if (di != 0 && dj != 0 && di != dj)
+            return false;
+    }
+    return true;
+}
+
 }  // namespace
 
 std::vector<std::byte> ElevationModel::state() const {
@@ -106,24 +119,80 @@ float SourceSurface::farHeightAt(std::int32_t i, std::int32_t j) {
         .at(i, j);
 }
 
+/// On the ground.
+double SourceSurface::metresAside(const Corner& a, const Corner& b) const {
+    return glm::length(model_.frame.perColumn * static_cast<double>(b.i - a.i) +
+                       model_.frame.perRow * static_cast<double>(b.j - a.j));
+}
+
 double SourceSurface::longestEdgeMetres(const Triangle& triangle) const {
     double longest = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const Corner& a = triangle[k];
-        const Corner& b = triangle[(k + 1) % 3];
-        const fabric::Vec2 along = model_.frame.perColumn * static_cast<double>(b.i - a.i) +
-                                   model_.frame.perRow * static_cast<double>(b.j - a.j);
-        longest = std::max(longest, glm::length(along));
-    }
+    for (std::size_t k = 0; k < 3; ++k)
+        longest = std::max(longest, metresAside(triangle[k], triangle[(k + 1) % 3]));
     return longest;
 }
 
-double SourceSurface::outlineMetres(const Triangle& triangle) {
+double SourceSurface::drawnOutlineMetres(const Triangle& triangle) {
+    double rounded = 0;
+    double longest = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Corner& corner = triangle[k];
+        rounded = std::max(rounded,
+                           std::abs(static_cast<double>(heightAt(corner.i, corner.j)) - corner.z));
+        const Corner& next = triangle[(k + 1) % 3];
+        longest = std::max(longest, std::hypot(metresAside(corner, next), corner.z - next.z));
+    }
+    return std::max(longest / std::numbers::sqrt3 + rounded,
+                    farthestDataMetres(triangle, triangle, 0));
+}
+
+double SourceSurface::farthestDataMetres(const Triangle& triangle, std::span<const Corner> drawn,
+                                         double atLeast) {
     const Bounds box(triangle);
-    const bool hasDataCorner = std::any_of(
-        triangle.begin(), triangle.end(),
-        [&](const Corner& corner) { return !std::isnan(heightAt(corner.i, corner.j)); });
-    const std::int32_t around = hasDataCorner ? 1 : std::max(box.i1 - box.i0, box.j1 - box.j0);
+    const Overlap overlap(triangle);
+    const bool endsAtPosts = crossesCellsAtPosts(triangle);
+    double farthest = atLeast;
+    std::size_t last = 0;  // near one cell, and mostly near the next
+    for (std::int32_t j = box.j0; j < box.j1; ++j)
+        for (std::int32_t i = box.i0; i < box.i1; ++i) {
+            if (!overlap.meets(i, j, 1))
+                continue;
+            std::array<Corner, 4> posts;
+            std::size_t count = 0;
+            for (const std::int32_t row : {j, j + 1})
+                for (const std::int32_t column : {i, i + 1})
+                    posts[count++] = {column, row, static_cast<double>(heightAt(column, row))};
+            // Three make half a cell of ground.
+            if (std::ranges::count_if(posts, [](const Corner& p) { return std::isnan(p.z); }) > 1)
+                continue;
+            const auto farthestFrom = [&](const Corner& corner) {
+                double aside = 0;
+                double up = 0;
+                for (const Corner& post : posts) {
+                    if (!endsAtPosts || overlap.meets(post.i, post.j, 0))
+                        aside = std::max(aside, metresAside(post, corner));
+                    if (const double by = std::abs(post.z - corner.z); by > up)  // not of nodata
+                        up = by;
+                }
+                return std::hypot(aside, up);
+            };
+            double nearest = std::numeric_limits<double>::infinity();
+            for (std::size_t k = 0; k < drawn.size() && nearest > farthest; ++k) {
+                const std::size_t at = (last + k) % drawn.size();
+                if (const double metres = farthestFrom(drawn[at]); metres < nearest) {
+                    nearest = metres;
+                    if (metres <= farthest)
+                        last = at;
+                }
+            }
+            farthest = std::max(farthest, nearest);
+        }
+    return farthest;
+}
+
+double SourceSurface::aroundMetres(const Triangle& triangle) {
+    const Bounds box(triangle);
+    const std::int32_t around = std::max(box.i1 - box.i0, box.j1 - box.j0);
     float lowest = std::numeric_limits<float>::infinity();
     float highest = -lowest;
     for (std::int32_t j = std::max(0, box.j0 - around);
@@ -134,7 +203,7 @@ double SourceSurface::outlineMetres(const Triangle& triangle) {
             lowest = height < lowest ? height : lowest;
             highest = height > highest ? height : highest;
         }
-    const double aside = longestEdgeMetres(triangle) * (hasDataCorner ? 1 : 2);
+    const double aside = 2 * longestEdgeMetres(triangle);
     return highest > lowest
                ? std::hypot(aside, static_cast<double>(highest) - static_cast<double>(lowest))
                : aside;

@@ -107,11 +107,20 @@ public:
     const GridFrame& frame() const { return model_.frame; }
     bool hasNodata() const { return model_.hasNodata(); }
     double longestEdgeMetres(const Triangle& triangle) const;
-    /// How far a triangle that mixes data and nodata may bring an outline off, about: to a corner
-    /// that has data, as far aside as its longest edge and as far up or down as data in it differ;
-    /// where no corner has data, to a corner of the next triangle.
-    double outlineMetres(const Triangle& triangle);
-    /// Whether that is what it counts as: it holds both data and nodata or, not being aligned,
+    // How far triangles that mix data and nodata may bring an outline off. What is drawn, or there,
+    // over the one side is no farther from what is there, or drawn, on the other:
+    /// Of one that is drawn, all of its corners having data: to one of them. No point of a triangle
+    /// is farther from all three than its longest side / sqrt(3): the sides seen from it make a
+    /// full turn, so one of them is seen under 120 degrees or more.
+    double drawnOutlineMetres(const Triangle& triangle);
+    /// Of one that is not: from data in it to the nearest of `drawn`, one at least; no less than
+    /// `atLeast`. A cell's surface, split or not, is nowhere higher or lower than its posts.
+    double farthestDataMetres(const Triangle& triangle, std::span<const Corner> drawn,
+                              double atLeast);
+    /// Of one that is not, where nothing else is drawn near that is known of: about, to a corner
+    /// of the next triangle. No bound.
+    double aroundMetres(const Triangle& triangle);
+    /// Whether it counts as one: it holds both data and nodata or, not being aligned,
     /// has an edge that crosses a cell with nodata.
     bool mixes(const Triangle& triangle, bool isAligned);
     /// 1/2048 of a post, 5 cm at most: far below what any level's threshold resolves.
@@ -120,6 +129,7 @@ public:
 private:
     enum class Contents { Data, Nodata, Mixed };
 
+    double metresAside(const Corner& a, const Corner& b) const;
     const HeightPatch& tilePatch(std::int32_t x, std::int32_t y);
     const HeightPatch* onlyTile(const Triangle& triangle);
     float farHeightAt(std::int32_t i, std::int32_t j);

@@ -62,9 +62,9 @@ struct TileRecord {
     /// diagonals of every cell and so the bilinear surface too, quantisation included. Of triangles
     /// without nodata. Not below that of any tile under it.
     float errorMetres = 0;
-    /// How far the outline of a hole may be off, to any side: SourceSurface::outlineMetres of
-    /// triangles, drawn or left out, that mix data and nodata. 0 where each post decides, as at the
-    /// levels that draw every post. Not below that of any tile under it either.
+    /// How far the outline of a hole may be off, to any side: what SourceSurface says of triangles,
+    /// drawn or left out, that mix data and nodata. 0 where each post decides, as at the levels
+    /// that draw every post. Not below that of any tile under it either.
     float outlineMetres = 0;
     float minHeightMetres = 0;  ///< of what is drawn and of the source
     float maxHeightMetres = 0;

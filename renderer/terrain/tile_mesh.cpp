@@ -9,6 +9,9 @@
 namespace eyrie::terrain {
 namespace {
 
+/// Vertices around a hole that are looked at: more than there are around one point.
+constexpr std::size_t kFewCorners = 16;
+
 /// The first half spacing that lies `posts` posts or more from the tile's first post.
 std::int32_t limit(std::int32_t posts, int shift, std::int32_t side) {
     std::int32_t half = std::min(side, posts * 2 >> shift);
@@ -19,6 +22,18 @@ std::int32_t limit(std::int32_t posts, int shift, std::int32_t side) {
 inline PartErrors::Rectangle extent(TilePoint a, TilePoint b, TilePoint c) {
     return {std::min({a.x(), b.x(), c.x()}), std::min({a.y(), b.y(), c.y()}),
             std::max({a.x(), b.x(), c.x()}), std::max({a.y(), b.y(), c.y()})};
+}
+
+/// The few of `corners` that are nearest to a triangle's middle, from the nearest.
+std::vector<Corner> nearest(const std::vector<Corner>& corners, const Triangle& t) {
+    const auto posts = [&t](const Corner& corner) {
+        const std::int64_t di = 3 * std::int64_t{corner.i} - t[0].i - t[1].i - t[2].i;
+        const std::int64_t dj = 3 * std::int64_t{corner.j} - t[0].j - t[1].j - t[2].j;
+        return di * di + dj * dj;
+    };
+    std::vector<Corner> few(std::min(corners.size(), kFewCorners));
+    std::ranges::partial_sort_copy(corners, few, {}, posts, posts);
+    return few;
 }
 
 inline std::size_t at(const TileSamples& samples, TilePoint p) { return samples.at(p.x(), p.y()); }
@@ -78,6 +93,7 @@ void TileMesher::begin(const TileId& tile) {
             shape.finerEdges = static_cast<std::uint8_t>(shape.finerEdges | 1 << edge);
     for (BoundedList<std::uint16_t>& part : partIndices_) part.clear();
     moved_.clear();
+    dropped_.clear();
 }
 
 /// Numbers by vertex that is used, kAbsentPoint for the others, which are dropped.
@@ -111,8 +127,58 @@ std::vector<std::uint16_t> TileMesher::dropUnused() {
     return numbers;
 }
 
+/// By vertex, before any is dropped: whether a triangle of the interior uses it, or of each form of
+/// some border.
+std::vector<bool> TileMesher::alwaysDrawn() const {
+    const auto usedBy = [this](int part) {
+        std::vector<bool> used(mesh_.vertices.size());
+        for (const std::uint16_t index : partIndices_[static_cast<std::size_t>(part)])
+            used[index] = true;
+        return used;
+    };
+    std::vector<bool> drawn = usedBy(kInteriorPart);
+    for (int edge = 0; edge < kEdges; ++edge) {
+        const std::vector<bool> own = usedBy(kOwnPart + edge);
+        const std::vector<bool> finer =
+            (mesh_.shape.finerEdges >> edge & 1) != 0 ? usedBy(kFinerPart + edge) : own;
+        for (std::size_t k = 0; k < drawn.size(); ++k) drawn[k] = drawn[k] || (own[k] && finer[k]);
+    }
+    return drawn;
+}
+
+/// Triangles that are not drawn are as far off as their data are from something that is.
+void TileMesher::measureDropped() {
+    if (dropped_.empty())
+        return;
+    const std::vector<bool> isDrawn = alwaysDrawn();
+    std::vector<Corner> drawn;
+    for (std::size_t k = 0; k < isDrawn.size(); ++k)
+        if (isDrawn[k])
+            drawn.push_back(corner(mesh_.vertices[k]));
+    std::vector<Corner> around;  // of the one before: the next is mostly beside it
+    for (const auto& [triangle, numbers] : dropped_) {
+        if (drawn.empty()) {
+            mesh_.outlineMetres = std::max(mesh_.outlineMetres, surface_.aroundMetres(triangle));
+            continue;
+        }
+        std::vector<Corner> near;
+        for (std::size_t k = 0; k < 3; ++k)
+            if (numbers[k] != kAbsentPoint && isDrawn[numbers[k]])
+                near.push_back(triangle[k]);
+        if (near.empty())
+            near = around;
+        // Few tell more than those before, and for those few it pays to look around.
+        if (!near.empty() &&
+            surface_.farthestDataMetres(triangle, near, mesh_.outlineMetres) <= mesh_.outlineMetres)
+            continue;
+        around = nearest(drawn, triangle);
+        mesh_.outlineMetres = surface_.farthestDataMetres(triangle, around, mesh_.outlineMetres);
+    }
+}
+
 /// Puts the parts together and measures what is used.
 void TileMesher::finish() {
+    measureDropped();
     std::vector<std::uint16_t> numbers;
     if (mayHaveUnused_) {
         numbers = dropUnused();
@@ -173,6 +239,12 @@ void TileMesher::finerTriangle(int part, TilePoint apex, TilePoint from, TilePoi
     addTriangle(part, apex, from, to);
 }
 
+Corner TileMesher::corner(const TileVertex& vertex) const {
+    return {std::min(firstColumn_ + (vertex.x << shift_ >> 1), quadtree_.columns() - 1),
+            std::min(firstRow_ + (vertex.y << shift_ >> 1), quadtree_.rows() - 1),
+            vertex.q * stepMetres_};
+}
+
 Corner TileMesher::corner(TilePoint p) const {
     return {std::min(column(p), quadtree_.columns() - 1), std::min(row(p), quadtree_.rows() - 1),
             p.isAbsent() ? std::numeric_limits<double>::quiet_NaN()
@@ -220,7 +292,11 @@ void TileMesher::measure(const PartErrors::Rectangle& covered, TilePoint a, Tile
     // A mixed triangle counts as its longest edge.
     if (const double edge = surface_.hasNodata() ? surface_.longestEdgeMetres(triangle) : 0;
         surface_.hasNodata() && deviation >= edge && surface_.mixes(triangle, isAligned)) {
-        mesh_.outlineMetres = std::max(mesh_.outlineMetres, surface_.outlineMetres(triangle));
+        if (a.isAbsent() || b.isAbsent() || c.isAbsent())
+            dropped_.push_back({triangle, {a.number, b.number, c.number}});
+        else
+            mesh_.outlineMetres =
+                std::max(mesh_.outlineMetres, surface_.drawnOutlineMetres(triangle));
         markNodata(covered);
         return;
     }

@@ -99,6 +99,9 @@ private:
 
     std::uint16_t add(TilePoint p, WalkStep step);
     void addTriangle(int part, TilePoint a, TilePoint b, TilePoint c);
+    std::vector<bool> alwaysDrawn() const;
+    void measureDropped();
+    Corner corner(const TileVertex& vertex) const;
     Corner corner(TilePoint p) const;
     bool isHalfCell(const PartErrors::Rectangle& covered) const;
     bool mayBeWorst(const PartErrors::Rectangle& covered, TilePoint apex, TilePoint left,
@@ -127,6 +130,12 @@ private:
     std::vector<BoundedList<std::uint16_t>> partIndices_;
     BoundedList<double> moved_;  ///< by how many metres each vertex added was, for the lattice
     std::vector<std::uint16_t> slots_;
+    /// That mixes data and nodata.
+    struct DroppedTriangle {
+        Triangle triangle;
+        std::array<std::uint16_t, 3> numbers;  ///< of vertices
+    };
+    std::vector<DroppedTriangle> dropped_;
 };
 
 }  // namespace eyrie::terrain
