@@ -96,9 +96,9 @@ absl::Status addFlight(const std::string& name, const access::DataFolder& folder
 absl::StatusOr<fs::path> placeOf(const v1::BenchRequest& request,
                                  const access::DataFolder& folder) {
     if (fs::path(request.output()).extension() != kReportEnding)
-        return absl::InvalidArgumentError(
-            fmt::format("output is '{}'; its name must end in {}",
-                        fs::path(request.output()).filename().string(), kReportEnding));
+        return absl::InvalidArgumentError(fmt::format(
+            "output is '{}'; it must be a name and {}, such as orbit{}",
+            fs::path(request.output()).filename().string(), kReportEnding, kReportEnding));
     const absl::StatusOr<fs::path> before = folder.existing(request.output());
     std::error_code error;
     if (!before.ok() || !fs::is_directory(*before, error)) {
