@@ -117,8 +117,8 @@ public:
     /// `atLeast`. A cell's surface, split or not, is nowhere higher or lower than its posts.
     double farthestDataMetres(const Triangle& triangle, std::span<const Corner> drawn,
                               double atLeast);
-    /// Of one that is not, where nothing else is drawn near that is known of: about, to a corner
-    /// of the next triangle. No bound.
+    /// Of one that is not, where nothing is known of that is drawn: about, to a corner of the next
+    /// triangle. No bound on that, but on how far data in it are from nodata.
     double aroundMetres(const Triangle& triangle);
     /// Whether it counts as one: it holds both data and nodata or, not being aligned,
     /// has an edge that crosses a cell with nodata.
