@@ -155,6 +155,25 @@ void compare(const char* what, const std::vector<double>& cold, const std::vecto
         quantile(ratios, 1), slow, ratios.size());
 }
 
+/// Frames longer than 1.5 times the median that are not when all is loaded, `again` being a second
+/// such flight: what the machine does by itself.
+void tellOfLoading(const Flight& cold, const Flight& warm, const Flight& again) {
+    const double tooLong = 1.5 * quantile(times(warm), 0.5);
+    int loading = 0, late = 0, lateByItself = 0;
+    for (std::size_t i = 0; i < cold.frames.size(); ++i) {
+        const bool isLongWarm = warm.frames[i].milliseconds.total > tooLong;
+        const bool isLoading = cold.frames[i].pagesLoaded > 0;
+        loading += isLoading ? 1 : 0;
+        late += isLoading && !isLongWarm && cold.frames[i].milliseconds.total > tooLong ? 1 : 0;
+        lateByItself += !isLongWarm && again.frames[i].milliseconds.total > tooLong ? 1 : 0;
+    }
+    fmt::print(
+        "of {} frames that loaded pages {} are longer than 1.5 times the median, {:.1f} ms, and "
+        "not "
+        "once all is loaded; of {} that load nothing {}\n",
+        loading, late, tooLong, again.frames.size(), lateByItself);
+}
+
 /// Frames of one view until nothing has been loaded for a while.
 absl::Status rest(Renderer& renderer, const fabric::Box& bounds, const Options& options) {
     std::uint64_t loaded = 0;
@@ -202,6 +221,10 @@ absl::Status run(const Options& options) {
     print("warm", *warm);
     compare("wall clock", times(*cold), times(*warm));
     compare("processor", cold->processorMilliseconds, warm->processorMilliseconds);
+    auto again = fly(**renderer, info->bounds, options);
+    if (!again.ok())
+        return again.status();
+    tellOfLoading(*cold, *warm, *again);
     return rest(**renderer, info->bounds, options);
 }
 
