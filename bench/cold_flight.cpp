@@ -155,8 +155,8 @@ void compare(const char* what, const std::vector<double>& cold, const std::vecto
         quantile(ratios, 1), slow, ratios.size());
 }
 
-/// Frames longer than 1.5 times the median that are not when all is loaded, `again` being a second
-/// such flight: what the machine does by itself.
+/// Frames longer than 1.5 times the median that are not when all is loaded. `again` is a second
+/// flight with all loaded: what the machine does by itself.
 void tellOfLoading(const Flight& cold, const Flight& warm, const Flight& again) {
     const double tooLong = 1.5 * quantile(times(warm), 0.5);
     int loading = 0, late = 0, lateByItself = 0;
@@ -167,11 +167,10 @@ void tellOfLoading(const Flight& cold, const Flight& warm, const Flight& again) 
         late += isLoading && !isLongWarm && cold.frames[i].milliseconds.total > tooLong ? 1 : 0;
         lateByItself += !isLongWarm && again.frames[i].milliseconds.total > tooLong ? 1 : 0;
     }
-    fmt::print(
-        "of {} frames that loaded pages {} are longer than 1.5 times the median, {:.1f} ms, and "
-        "not "
-        "once all is loaded; of {} that load nothing {}\n",
-        loading, late, tooLong, again.frames.size(), lateByItself);
+    fmt::print("longer than 1.5 times the median, {:.1f} ms, and not once all is loaded: {} of {} ",
+               tooLong, late, loading);
+    fmt::print("frames that loaded pages, {} of {} that load nothing\n", lateByItself,
+               again.frames.size());
 }
 
 /// Frames of one view until nothing has been loaded for a while.
