@@ -29,6 +29,7 @@ struct Options {
     int device = -1;
     TileDecoding decoding = TileDecoding::Auto;
     std::vector<std::string> allowedUrls;
+    std::vector<std::string> dataAt;
     CacheOptions cache;
     DoorOptions door;
     bool exitWithCoordinator = false;
@@ -49,6 +50,8 @@ absl::Status run(const Options& options) {
     settings.memoryBytes = memory;
     settings.decoding = options.decoding;
     ASSIGN_OR_RETURN(settings.remote, remoteDataOf(options.cache));
+    auto places = service::DataPlaces::parse(options.dataAt);
+    RETURN_IF_ERROR(fabric::withContext(places.status(), "--data-at"));
     service::RendererNodeOptions node;
     node.coordinator = options.coordinator;
     node.listen = options.listen;
@@ -57,7 +60,8 @@ absl::Status run(const Options& options) {
     ASSIGN_OR_RETURN(
         const auto renderer,
         service::RendererNode::start(
-            node, service::rendererDrawer(settings, page::AllowedUrls(options.allowedUrls))));
+            node, service::rendererDrawer(settings, page::AllowedUrls(options.allowedUrls),
+                                          *std::move(places))));
     const fabric::DeviceInfo& device = renderer->device();
     spdlog::info("drawing with {} ({}, {}) at {}", device.renderer, device.platform,
                  device.software ? "software" : "hardware", renderer->address());
@@ -82,6 +86,13 @@ void addRenderer(CLI::App& app, Run& run) {
         ->type_name("BYTES[K|M|G|T]")
         ->capture_default_str();
     command
+        ->add_option(
+            "--data-at", options->dataAt,
+            "Where this machine has a file, folder or URL that scenes name, such as "
+            "/data=/mnt/fast/data; may be given several times, and the longest FROM counts")
+        ->type_name("FROM=TO")
+        ->allow_extra_args(false);
+    command
         ->add_option("--allow-url", options->allowedUrls,
                      "Beginning of the URLs that scenes may name, such as https://data.example/; "
                      "may be given several times; any: all [none]")
@@ -98,9 +109,11 @@ void addRenderer(CLI::App& app, Run& run) {
         "Example, on each machine that draws:\n"
         "  eyrie renderer --coordinator viz:9090 --listen 0.0.0.0:0 --memory 8G --token-file "
         "tokens\n"
-        "The data must be readable under the paths that the coordinator names. URLs are read only\n"
-        "where --allow-url says so: else whoever reaches this port could have this machine ask\n"
-        "servers that only it can reach. Redirections of an allowed server are followed.\n"
+        "The data must be readable under the paths that the coordinator names, or where --data-at\n"
+        "says, and the same as the other renderers'. URLs are read only where --allow-url says "
+        "so:\n"
+        "else whoever reaches this port could have this machine ask servers that only it can\n"
+        "reach. Redirections of an allowed server are followed.\n"
         "EYRIE_EFFECTS=FOLDER takes shaders from there, also while drawing: docs/effects.md.");
     command->callback([options, &run] { run = [options] { return cli::run(*options); }; });
 }

@@ -11,14 +11,19 @@ namespace {
 
 class RendererDrawer final : public ChannelDrawer {
 public:
-    RendererDrawer(std::unique_ptr<Renderer> renderer, page::AllowedUrls allowed)
-        : renderer_(std::move(renderer)), allowed_(std::move(allowed)) {}
+    RendererDrawer(std::unique_ptr<Renderer> renderer, page::AllowedUrls allowed, DataPlaces places)
+        : renderer_(std::move(renderer)),
+          allowed_(std::move(allowed)),
+          places_(std::move(places)) {}
 
     const fabric::DeviceInfo& device() const override { return renderer_->device(); }
     absl::StatusOr<fabric::SceneInfo> openScene(const fabric::Scene& scene) override {
-        for (const fabric::SceneObject& object : scene.objects)
+        fabric::Scene placed = scene;
+        for (fabric::SceneObject& object : placed.objects) {
+            object.path = places_.placed(object.path);
             RETURN_IF_ERROR(allowed_.check(object.path));
-        return renderer_->openScene(scene);
+        }
+        return renderer_->openScene(placed);
     }
     absl::StatusOr<fabric::ChannelResult> render(const fabric::FrameData& frameData,
                                                  const fabric::ChannelTask& task,
@@ -42,14 +47,16 @@ public:
 private:
     std::unique_ptr<Renderer> renderer_;
     page::AllowedUrls allowed_;
+    DataPlaces places_;
 };
 
 }  // namespace
 
-DrawerFactory rendererDrawer(const RendererOptions& options, const page::AllowedUrls& allowed) {
-    return [options, allowed]() -> absl::StatusOr<std::unique_ptr<ChannelDrawer>> {
+DrawerFactory rendererDrawer(const RendererOptions& options, const page::AllowedUrls& allowed,
+                             const DataPlaces& places) {
+    return [options, allowed, places]() -> absl::StatusOr<std::unique_ptr<ChannelDrawer>> {
         ASSIGN_OR_RETURN(std::unique_ptr<Renderer> renderer, Renderer::create(options));
-        return std::make_unique<RendererDrawer>(std::move(renderer), allowed);
+        return std::make_unique<RendererDrawer>(std::move(renderer), allowed, places);
     };
 }
 

@@ -2,6 +2,7 @@
 // Real renderer processes behind a real coordinator: each layout that is made of them, and each
 // decomposition, at twenty cameras, must give the picture that one renderer in this process gives.
 #include <algorithm>
+#include <filesystem>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -114,6 +115,46 @@ TEST_F(RendererProcesses, DrawATerrainAsOneRendererDoes) {
 
 TEST_F(RendererProcesses, DrawAMeshAsOneRendererDoes) {
     expectEveryLayoutEqual(fabric::ObjectKind::Mesh);
+}
+
+/// Machines that have the data in different places, none of which is where the scene says.
+TEST_F(RendererProcesses, ReadWhatASceneNamesWhereEachHasIt) {
+    std::filesystem::create_directories(folder_->path("copies/b"));
+    std::filesystem::copy_file(folder_->path("ball.eym"), folder_->path("copies/b/ball.eym"));
+    std::filesystem::copy_file(folder_->path("dem.eyt"), folder_->path("copies/other.eyt"));
+    fabric::Scene scene = RendererProcesses::scene(fabric::ObjectKind::Mesh);
+    scene.objects[0].path = "/nowhere/data/ball.eym";
+    const auto farm =
+        test::RendererFarm::start(EYRIE_BINARY, 3, {.layout = "DB dynamic", .scene = scene},
+                                  {{"--data-at", "/nowhere/data=" + folder_->path().string()},
+                                   {"--data-at", "/nowhere=/elsewhere", "--data-at",
+                                    "/nowhere/data=" + folder_->path("copies/b")},
+                                   {"--data-at", "/nowhere=" + folder_->path("copies")}});
+    ASSERT_TRUE(farm.ok()) << farm.status();
+    const auto ready = [&] {
+        const coordinator::Status status = (*farm)->frames().status();
+        return (*farm)->conditionOf(0, status) == coordinator::RendererCondition::Ready &&
+               (*farm)->conditionOf(1, status) == coordinator::RendererCondition::Ready;
+    };
+    ASSERT_TRUE(test::eventually(seconds(30), ready)) << (*farm)->renderer(1).errors();
+    // The third has none of that name.
+    EXPECT_TRUE(test::eventually(seconds(10), [&] {
+        const coordinator::Status status = (*farm)->frames().status();
+        return std::ranges::any_of(status.renderers, [&](const coordinator::RendererStatus& one) {
+            return one.why.find(folder_->path("copies/data/ball.eym")) != std::string::npos;
+        });
+    }));
+    const auto here = test::LocalPictures::open(RendererProcesses::scene(fabric::ObjectKind::Mesh));
+    ASSERT_TRUE(here.ok()) << here.status();
+    FrameRequest view = test::randomViews((*here)->bounds(), 1).front();
+    view.wantsDepth = true;
+    fabric::ChannelTask task;
+    task.pixelViewport = {0, 0, view.width, view.height};
+    task.wantsDepth = true;
+    const auto expected = (*here)->draw(view, task);
+    const auto frame = (*farm)->frames().renderFrame(view);
+    ASSERT_TRUE(expected.ok() && frame.ok()) << expected.status() << frame.status();
+    EXPECT_EQ(test::differentPixels(frame->image, *expected), 0U);
 }
 
 TEST_F(RendererProcesses, DrawATerrainInEveryDecompositionAsItIsDefined) {

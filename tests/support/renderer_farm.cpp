@@ -12,8 +12,10 @@ namespace eyrie::test {
 using coordinator::RendererCondition;
 
 absl::StatusOr<std::unique_ptr<RendererFarm>> RendererFarm::start(
-    const std::string& program, int renderers, coordinator::CoordinatorOptions options) {
+    const std::string& program, int renderers, coordinator::CoordinatorOptions options,
+    std::vector<std::vector<std::string>> words) {
     std::unique_ptr<RendererFarm> farm(new RendererFarm(program));
+    farm->words_ = std::move(words);
     options.grpcAddresses = {"unix:" + farm->folder_.path("c")};
     ASSIGN_OR_RETURN(farm->coordinator_, coordinator::Coordinator::start(options));
     farm->renderers_.resize(static_cast<std::size_t>(renderers));
@@ -25,10 +27,13 @@ void RendererFarm::restart(std::size_t index) {
     Renderer& renderer = renderers_[index];
     renderer.address =
         fmt::format("unix:{}", folder_.path(fmt::format("r{}-{}", index, renderer.generation++)));
-    renderer.process = std::make_unique<Process>(
-        std::vector<std::string>{program_, "renderer", "--coordinator", "unix:" + folder_.path("c"),
-                                 "--listen", renderer.address, "--quiet"},
-        std::vector<std::string>{"LP_NUM_THREADS=1"});
+    std::vector<std::string> command = {
+        program_,   "renderer",       "--coordinator", "unix:" + folder_.path("c"),
+        "--listen", renderer.address, "--quiet"};
+    if (index < words_.size())
+        command.insert(command.end(), words_[index].begin(), words_[index].end());
+    renderer.process =
+        std::make_unique<Process>(command, std::vector<std::string>{"LP_NUM_THREADS=1"});
 }
 
 std::optional<RendererCondition> RendererFarm::conditionOf(

@@ -21,9 +21,10 @@ namespace eyrie::test {
 class RendererFarm {
 public:
     /// `program` is the path of `eyrie`. Where the renderers register is chosen here, whatever
-    /// `options` say.
+    /// `options` say. `words` are further options of each renderer's; none for those without.
     static absl::StatusOr<std::unique_ptr<RendererFarm>> start(
-        const std::string& program, int renderers, coordinator::CoordinatorOptions options);
+        const std::string& program, int renderers, coordinator::CoordinatorOptions options,
+        std::vector<std::vector<std::string>> words = {});
 
     coordinator::Coordinator& coordinator() { return *coordinator_; }
     coordinator::FrameSource& frames() { return coordinator_->frames(); }
@@ -52,6 +53,7 @@ private:
     TemporaryFolder folder_;
     std::unique_ptr<coordinator::Coordinator> coordinator_;
     std::vector<Renderer> renderers_;
+    std::vector<std::vector<std::string>> words_;
 };
 
 }  // namespace eyrie::test

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "service/data_places.h"
+
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace eyrie::service {
+namespace {
+
+DataPlaces parsed(const std::vector<std::string>& rules) {
+    auto places = DataPlaces::parse(rules);
+    EXPECT_TRUE(places.ok()) << places.status();
+    return *std::move(places);
+}
+
+TEST(DataPlaces, LeavePathsAloneWithoutARule) {
+    EXPECT_EQ(DataPlaces().placed("/data/dem.eyt"), "/data/dem.eyt");
+    EXPECT_EQ(parsed({"/data=/mnt"}).placed("/other/dem.eyt"), "/other/dem.eyt");
+}
+
+TEST(DataPlaces, ReplaceFoldersAndNotWhatBeginsLikeThem) {
+    const DataPlaces places = parsed({"/data=/mnt/fast", "https://a.example/=/srv/"});
+    EXPECT_EQ(places.placed("/data/alps/dem.eyt"), "/mnt/fast/alps/dem.eyt");
+    EXPECT_EQ(places.placed("/data"), "/mnt/fast");
+    EXPECT_EQ(places.placed("/database/dem.eyt"), "/database/dem.eyt");
+    EXPECT_EQ(places.placed("https://a.example/dem.eyt"), "/srv/dem.eyt");
+    EXPECT_EQ(places.placed("https://a.example.org/dem.eyt"), "https://a.example.org/dem.eyt");
+}
+
+TEST(DataPlaces, TakeTheLongestOnce) {
+    const DataPlaces places =
+        parsed({"/data=/a", "/data/alps/dem.eyt=/b.eyt", "/data/alps=/data/new"});
+    EXPECT_EQ(places.placed("/data/alps/dem.eyt"), "/b.eyt");
+    EXPECT_EQ(places.placed("/data/alps/other.eyt"), "/data/new/other.eyt");
+    EXPECT_EQ(places.placed("/data/x.eyt"), "/a/x.eyt");
+}
+
+TEST(DataPlaces, KeepWhatComesAfterTheFirstEquals) {
+    EXPECT_EQ(parsed({"/data=https://a.example/?v=2&f="}).placed("/data/x"),
+              "https://a.example/?v=2&f=/x");
+}
+
+TEST(DataPlaces, OfHalfARuleOrTwoForOneAreRefusedByName) {
+    for (const char* rule : {"", "=", "/data", "/data=", "=/mnt"}) {
+        const auto places = DataPlaces::parse(std::vector<std::string>{"/a=/b", rule});
+        EXPECT_EQ(places.status().code(), absl::StatusCode::kInvalidArgument) << rule;
+        EXPECT_NE(places.status().message().find("FROM=TO"), std::string::npos);
+    }
+    const auto twice = DataPlaces::parse(std::vector<std::string>{"/a=/b", "/a=/c"});
+    EXPECT_NE(twice.status().message().find("/a has a place already"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace eyrie::service
