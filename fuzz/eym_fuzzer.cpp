@@ -31,9 +31,11 @@ struct Sample {
     std::vector<std::byte> page;
 };
 
-Sample sampleOf(const mesh::PackedMesh& soup) {
+Sample sampleOf(const mesh::PackedMesh& soup, bool isOfPoints = false) {
     const std::array<std::span<const mesh::Triangle>, 1> whole{soup.triangles};
-    const mesh::PackedNode node = mesh::gatherNode(soup, whole);
+    mesh::PackedNode node = mesh::gatherNode(soup, whole);
+    if (isOfPoints)
+        node.indices.clear();
     return {{static_cast<std::uint32_t>(node.positions.size()),
              static_cast<std::uint32_t>(node.indices.size()), !node.colours.empty(),
              !node.textureCoordinates.empty()},
@@ -54,6 +56,7 @@ std::vector<Sample> realPages() {
             samples.push_back(sampleOf(soup));
         }
     samples.push_back(sampleOf(test::texturedSoup(120, 1)));
+    samples.push_back(sampleOf(test::randomSoup(120, 70, 3000, 1, true), true));
     return samples;
 }
 
@@ -115,6 +118,11 @@ void checkTables(const std::uint8_t* data, std::size_t size) {
     if (levels.ok() && mesh::checkMaterials(header, nodes, {materials, images, ranges}).ok())
         for (const mesh::ImageRecord& image : images)
             if (image.offset + image.bytes > file.size())
+                std::abort();
+    const auto points = tableOf(std::vector<mesh::PointRange>(header.pointRangeCount));
+    if (levels.ok() && mesh::checkPointRanges(nodes, points).ok())
+        for (const mesh::PointRange& range : points)
+            if (range.points > nodes[range.node].vertexCount)
                 std::abort();
 }
 

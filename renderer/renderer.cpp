@@ -112,7 +112,8 @@ private:
 
     std::unique_ptr<gl::EglContext> context_;  // first: everything below needs it current
     effects::EffectVariants<effects::TerrainEffect> terrainPrograms_;
-    effects::EffectVariants<effects::MeshEffect> meshPrograms_;
+    draw::MeshPrograms meshPrograms_;
+    draw::PointPrograms pointPrograms_;
     gl::Framebuffer framebuffer_;
     draw::OccludedDraw occludedDraw_;
     draw::Batches batches_;
@@ -151,7 +152,7 @@ absl::StatusOr<std::unique_ptr<draw::Drawable>> Renderer::Impl::openObject(
             object, terrainPrograms_, sources_, loaderFor(object),
             {options_.memoryBytes / objects, options_.hostMemoryBytes / objects}, textureFormat(),
             decoding_);
-    return draw::openMesh(object, meshPrograms_, sources_, loaderFor(object),
+    return draw::openMesh(object, meshPrograms_, pointPrograms_, sources_, loaderFor(object),
                           {options_.memoryBytes / objects, options_.hostMemoryBytes / objects},
                           textureFormat());
 }
@@ -351,6 +352,7 @@ absl::StatusOr<fabric::ChannelResult> Renderer::Impl::render(const fabric::Frame
     const auto start = Clock::now();
     terrainPrograms_.reloadChanged(start);
     meshPrograms_.reloadChanged(start);
+    pointPrograms_.reloadChanged(start);
 
     const lod::TaskViews views(asked.camera, task);
     const fabric::FrameData frameData =

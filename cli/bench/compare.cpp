@@ -86,6 +86,8 @@ std::vector<Figure> figuresOf(const WrittenRun& a, const WrittenRun& b, double c
         exact("error promised", "px", a.tauAchievedMax, b.tauAchievedMax),
         exact("frames over tau", "", a.framesBeyond, b.framesBeyond),
         counted("triangles, mean", countNoise, a.trianglesMean, b.trianglesMean)};
+    if (a.pointsMean > 0 || b.pointsMean > 0)
+        figures.push_back(counted("points, mean", countNoise, a.pointsMean, b.pointsMean));
     if (a.errorP99 && b.errorP99)
         figures.push_back(exact("error measured, p99", "px", *a.errorP99, *b.errorP99));
     if (a.errorMax && b.errorMax)

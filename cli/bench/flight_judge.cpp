@@ -113,7 +113,7 @@ absl::StatusOr<FlightJudge::Judged> FlightJudge::judge(Frame& frame, PictureSour
                     .psnrDb = truth::psnrDb(*frame.finest, drawn.image),
                     .ssim = truth::ssim(*frame.finest, drawn.image),
                     .flip = truth::meanFlip(*frame.finest, drawn.image),
-                    .triangles = drawn.statistics.triangles};
+                    .triangles = drawn.statistics.triangles + drawn.statistics.points};
     result.picture = std::move(drawn.image);
     return result;
 }

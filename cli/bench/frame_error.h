@@ -24,8 +24,8 @@ struct FrameError {
     /// Colour, against a picture of the same view drawn at kFinestTauPixels (flight_judge.h).
     double psnrDb = 0;
     double ssim = 1;
-    double flip = 0;  ///< mean of FLIP (Andersson et al. 2020), 0 to 1
-    std::size_t triangles = 0;
+    double flip = 0;            ///< mean of FLIP (Andersson et al. 2020), 0 to 1
+    std::size_t triangles = 0;  ///< and points
 };
 
 /// Whether a frame's surface is nowhere farther off than it promises, but for the 1/256 pixel that

@@ -87,7 +87,8 @@ std::vector<JsonObject> worstOf(const MeasuredErrors& measured) {
 
 std::string tableHead() {
     return "asked    drawn by         promised px  frames/s  median ms   p95 ms   p99 ms  in "
-           "flight  latency ms  first pass ms   triangles   loaded    memory  overhead  limited "
+           "flight  latency ms  first pass ms   triangles    points   loaded    memory  overhead  "
+           "limited "
            "by\n";
 }
 
@@ -95,11 +96,11 @@ std::string tableLine(const BenchRun& run, const RunSummary& s) {
     return fmt::format(
         "{:<8} {:<15}  {:>11.3f}  {:>8.1f}  {:>9.1f}  {:>7.1f}  {:>7.1f}  {:>9}  {:>10.1f}  "
         "{:>13.1f}  "
-        "{:>10.0f}  "
+        "{:>10.0f}  {:>8.0f}  "
         "{:>4} MiB  {:>4} MiB  {:>6.2f} %  {}\n",
         run.label, drawnBy(run.renderers, run.compound), s.tauAchievedMax, s.fpsMedian, s.frame.p50,
         s.frame.p95, s.frame.p99, run.played.framesInFlight, s.latency.p50, s.firstPass.p50,
-        s.trianglesMean, s.bytesLoaded >> 20, run.played.peakResidentBytes >> 20,
+        s.trianglesMean, s.pointsMean, s.bytesLoaded >> 20, run.played.peakResidentBytes >> 20,
         run.played.overheadPercent, fabric::limitingStage(s.stages));
 }
 
@@ -109,7 +110,8 @@ std::string summaryJson(const Report& report) { return summaryOf(report).str() +
 
 std::string framesCsv(const std::vector<BenchRun>& runs) {
     std::string csv =
-        "asked,tau,renderers,pass,seconds,milliseconds,cull,draw,readback,encode,triangles,nodes,"
+        "asked,tau,renderers,pass,seconds,milliseconds,cull,draw,readback,encode,triangles,points,"
+        "nodes,"
         "nodesHidden,pagesLoaded,bytesLoaded,tauAchieved,beyondTau,complete,budgetMs,predictedMs,"
         "budgetTau,latency\n";
     for (const BenchRun& run : runs)
@@ -117,11 +119,12 @@ std::string framesCsv(const std::vector<BenchRun>& runs) {
             const fabric::FrameStatistics& s = frame.statistics;
             const fabric::StageMilliseconds& ms = s.milliseconds;
             csv += fmt::format(
-                "{},{},{},{},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{},{},{},{},{},{},{:d},{:d},{},"
+                "{},{},{},{},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{},{},{},{},{},{},{},{:d},{:d},"
+                "{},"
                 "{:.3f}\n",
                 run.label, run.tauPixels, run.renderers, frame.pass, frame.seconds,
-                frame.milliseconds, ms.cull, ms.draw, ms.readback, ms.encode, s.triangles, s.nodes,
-                s.nodesHidden, s.pagesLoaded, s.bytesLoaded, s.tauAchievedPixels,
+                frame.milliseconds, ms.cull, ms.draw, ms.readback, ms.encode, s.triangles, s.points,
+                s.nodes, s.nodesHidden, s.pagesLoaded, s.bytesLoaded, s.tauAchievedPixels,
                 isBeyondTau(frame), s.complete, budgetColumns(s.budget), frame.latencyMilliseconds);
         }
     return csv;

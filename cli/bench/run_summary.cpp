@@ -102,6 +102,7 @@ void count(const PlayedFrame& frame, RunSummary& summary) {
     summary.framesBeyond += isBeyondTau(frame) ? 1 : 0;
     summary.framesEmpty += showsSomething(frame) ? 0 : 1;
     summary.trianglesMean += static_cast<double>(statistics.triangles);
+    summary.pointsMean += static_cast<double>(statistics.points);
 }
 
 /// Of the line through both, logarithms on both axes. Precondition: the errors differ.
@@ -148,6 +149,7 @@ RunSummary summarize(const Played& played) {
     summary.passes = ofEachPass(played);
     for (const PlayedFrame& frame : played.frames) count(frame, summary);
     summary.trianglesMean /= static_cast<double>(played.frames.size());
+    summary.pointsMean /= static_cast<double>(played.frames.size());
     return summary;
 }
 

@@ -34,6 +34,7 @@ struct RunSummary {
     fabric::StageMilliseconds means;
     double fpsMedian = 0;
     double trianglesMean = 0;
+    double pointsMean = 0;  ///< drawn in place of triangles
     std::uint64_t pagesLoaded = 0;
     std::uint64_t bytesLoaded = 0;           ///< as stored
     std::uint64_t bytesLoadedFirstPass = 0;  ///< of these

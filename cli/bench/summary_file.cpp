@@ -96,6 +96,8 @@ WrittenRun runOf(const Field& field) {
     for (const Field& pass : field.at("passes").list()) run.passes.push_back(percentilesOf(pass));
     run.firstPassMedian = field.at("firstPassMs").at("p50").number();
     run.trianglesMean = field.at("trianglesMean").number();
+    if (field.has("pointsMean"))
+        run.pointsMean = field.at("pointsMean").number();
     run.tauAchievedMax = field.at("tauAchievedMax").number();
     run.framesBeyond = field.at("framesBeyondTau").number();
     run.bytesLoaded = field.at("bytesLoaded").number();

@@ -22,6 +22,7 @@ struct WrittenRun {
     std::vector<Percentiles> passes;
     double firstPassMedian = 0;
     double trianglesMean = 0;
+    double pointsMean = 0;
     double tauAchievedMax = 0;
     double framesBeyond = 0;
     double bytesLoaded = 0;

@@ -78,6 +78,7 @@ JsonObject toJson(const BenchRun& run, const std::vector<UniformLevel>& uniform)
         .text("limitingStage", std::string(fabric::limitingStage(summary.stages)))
         .number("overheadPercent", run.played.overheadPercent)
         .number("trianglesMean", summary.trianglesMean)
+        .number("pointsMean", summary.pointsMean)
         .count("pagesLoaded", summary.pagesLoaded)
         .count("bytesLoaded", summary.bytesLoaded)
         .count("bytesLoadedFirstPass", summary.bytesLoadedFirstPass)
@@ -93,7 +94,8 @@ JsonObject toJson(const BenchRun& run, const std::vector<UniformLevel>& uniform)
         return json;
     const ErrorSummary errors = summarize(*run.measured);
     addMeasured(errors, run.measured->frames.size(), json);
-    if (const auto factor = efficiency(uniform, errors.p99Pixels, summary.trianglesMean))
+    if (const auto factor =
+            efficiency(uniform, errors.p99Pixels, summary.trianglesMean + summary.pointsMean))
         json.number("efficiency", *factor);
     return json;
 }

@@ -45,7 +45,8 @@ void BudgetKeeper::record(const FrameRequest& request, const fabric::FrameStatis
         return;
     // Until its data are there a frame is drawn with others, mostly fewer, triangles.
     const std::uint64_t drawn =
-        statistics.complete ? use.triangles : std::min(use.triangles, statistics.triangles);
+        statistics.complete ? use.triangles
+                            : std::min(use.triangles, statistics.triangles + statistics.points);
     const bool isOfNewView = view_.isCut(request.camera);
     view_.follow(request.camera);
     if (isOfNewView)

@@ -135,6 +135,7 @@ public:
         else
             unbounded_.Increment();
         triangles_.Increment(static_cast<double>(statistics.triangles));
+        points_.Increment(static_cast<double>(statistics.points));
         pages_.Increment(static_cast<double>(statistics.pagesLoaded));
         pageBytes_.Increment(static_cast<double>(statistics.bytesLoaded));
         missing_.Set(static_cast<double>(statistics.pagesMissing));
@@ -249,6 +250,7 @@ private:
     Counter& unbounded_ =
         counter("eyrie_frames_unbounded_total", "Frames without a finite bound on their error.");
     Counter& triangles_ = counter("eyrie_triangles_total", "Triangles drawn.");
+    Counter& points_ = counter("eyrie_points_total", "Points drawn, in place of triangles.");
     Counter& pages_ = counter("eyrie_pages_loaded_total", "Pages that renderers loaded.");
     Counter& pageBytes_ =
         counter("eyrie_page_bytes_loaded_total", "Of the pages that renderers loaded, as stored.");

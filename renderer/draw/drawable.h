@@ -39,7 +39,9 @@ struct Piece {
     bool isNode = true;        ///< false for what is drawn beside the nodes
     /// About: what leaving it out saves.
     std::uint64_t triangles = 0;
-    bool hasBlended = false;  ///< parts of it belong to Layer::Blended
+    bool hasBlended = false;   ///< parts of it belong to Layer::Blended
+    std::uint32_t points = 0;  ///< that it is drawn as, in place of triangles
+    double pointRadiusPixels = 0;
 };
 
 /// What is drawn at one time: all that hides what is behind it, and then what lets it through.

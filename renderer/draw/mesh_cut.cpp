@@ -25,8 +25,11 @@ private:
     using Error = std::optional<double>;
 
     bool visit(std::uint32_t index, int level, Error error, bool hasStandIn);
+    bool visitChildren(std::uint32_t index, int level, Error error, bool hasStandIn);
+    bool draw(const CutNode& self, bool hasStandIn);
+    std::optional<CutNode> asPoints(std::uint32_t index, int level) const;
     bool drawFiner(std::uint32_t index, int level, double error, bool hasStandIn);
-    bool isDrawable(std::uint32_t index) const {
+    bool mayStandIn(std::uint32_t index) const {
         return file_.nodes()[index].indexCount > 0 && isThere_(index);
     }
     void moveBetween(std::size_t firstAbove) {
@@ -43,6 +46,20 @@ private:
     MeshCut cut_;
 };
 
+/// The node drawn as no more of its points than are enough; nothing where these leave gaps.
+std::optional<CutNode> CutMaker::asPoints(std::uint32_t index, int level) const {
+    const fabric::Box box = file_.bounds(index);
+    std::optional<CutNode> drawn;
+    for (const mesh::PointRange& range : file_.pointRanges(index)) {
+        const double error = view_.screenSpaceErrorPixels(range.errorMetres, box);
+        if (error <= std::min(kMostPointPixels, tauPixels_))
+            drawn = CutNode{index, level, error, range.points};
+        if (error <= kEnoughPointPixels)
+            break;
+    }
+    return drawn;
+}
+
 /// Depth first, so pieces come in the order of the range. A node's error bound covers its whole
 /// subtree: below a node that keeps tau and has nothing to be drawn itself it is not computed
 /// again. Returns whether something is drawn for all that is seen of the node.
@@ -51,37 +68,50 @@ bool CutMaker::visit(std::uint32_t index, int level, Error error, bool hasStandI
     const fabric::Box box = file_.bounds(index);
     if (!view_.isVisible(box))
         return true;
+    if (node.isOfPoints()) {
+        const std::optional<CutNode> points = asPoints(index, level);
+        return points ? draw(*points, hasStandIn)
+                      : visitChildren(index, level, std::nullopt, hasStandIn);
+    }
     const bool wasKept = error.has_value();
     if (!wasKept)
         error = view_.screenSpaceErrorPixels(node.errorMetres, box);
     const bool isKept = wasKept || node.isLeaf() || *error <= tauPixels_;
     const CutNode self{index, level, *error};
-    if (isKept && node.indexCount > 0) {
-        cut_.wanted.push_back(self);
-        if (!isThere_(index))
-            return drawFiner(index, level, *error, hasStandIn);
-        cut_.drawn.push_back(self);
-        return true;
-    }
-    const bool mayStandIn = !isKept && isDrawable(index);
+    if (isKept && node.hasGeometry())
+        return draw(self, hasStandIn);
+    const bool standsIn = !isKept && mayStandIn(index);
     const std::size_t firstDrawn = cut_.drawn.size();
-    if (!isKept && node.indexCount > 0)
+    if (!isKept && node.hasGeometry())
         cut_.above.push_back(self);
     const std::size_t firstAbove = cut_.above.size();
-    const Error known = isKept ? error : std::nullopt;
-    const bool left =
-        visit(static_cast<std::uint32_t>(node.left), level + 1, known, hasStandIn || mayStandIn);
-    const bool right =
-        visit(static_cast<std::uint32_t>(node.right), level + 1, known, hasStandIn || mayStandIn);
-    if ((left && right) || !mayStandIn)
-        return left && right;
+    const bool isWhole =
+        visitChildren(index, level, isKept ? error : std::nullopt, hasStandIn || standsIn);
+    if (isWhole || !standsIn)
+        return isWhole;
     cut_.drawn.resize(firstDrawn);
     cut_.drawn.push_back(self);
     moveBetween(firstAbove);
     return true;
 }
 
-/// Errors are those of the node: they bound what lies under it.
+bool CutMaker::visitChildren(std::uint32_t index, int level, Error error, bool hasStandIn) {
+    const mesh::Node& node = file_.nodes()[index];
+    const bool left = visit(static_cast<std::uint32_t>(node.left), level + 1, error, hasStandIn);
+    const bool right = visit(static_cast<std::uint32_t>(node.right), level + 1, error, hasStandIn);
+    return left && right;
+}
+
+bool CutMaker::draw(const CutNode& self, bool hasStandIn) {
+    cut_.wanted.push_back(self);
+    if (!isThere_(self.node))
+        return drawFiner(self.node, self.level, self.errorPixels, hasStandIn);
+    cut_.drawn.push_back(self);
+    return true;
+}
+
+/// Errors are those of the node: they bound what lies under it. Finer points than those of a node
+/// that may be drawn so may be, too.
 bool CutMaker::drawFiner(std::uint32_t index, int level, double error, bool hasStandIn) {
     const mesh::Node& node = file_.nodes()[index];
     if (node.isLeaf())
@@ -91,7 +121,9 @@ bool CutMaker::drawFiner(std::uint32_t index, int level, double error, bool hasS
         const auto child = static_cast<std::uint32_t>(next);
         if (!view_.isVisible(file_.bounds(child)))
             continue;
-        if (isDrawable(child))
+        if (const auto points = asPoints(child, level + 1); points && isThere_(child))
+            cut_.drawn.push_back(*points);
+        else if (mayStandIn(child))
             cut_.drawn.push_back({child, level + 1, error});
         else
             isWhole = drawFiner(child, level + 1, error, hasStandIn) && isWhole;

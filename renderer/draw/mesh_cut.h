@@ -10,11 +10,19 @@
 
 namespace eyrie::draw {
 
+/// Points are drawn for a node where each point of its surface has one within this, in pixels of
+/// the view, and within tau; each then draws the pixels of which the middle is as near. So no pixel
+/// of the surface is missed, and none is drawn that is farther from it.
+inline constexpr double kMostPointPixels = 0.25;
+/// No more points are drawn than make it this: what is thin looks thicker by as much.
+inline constexpr double kEnoughPointPixels = 0.125;
+
 /// A node in a view.
 struct CutNode {
     std::uint32_t node = 0;
-    int level = 0;           ///< 0: the root
-    double errorPixels = 0;  ///< bound on what drawing it moves in the picture
+    int level = 0;             ///< 0: the root
+    double errorPixels = 0;    ///< bound on what drawing it moves in the picture
+    std::uint32_t points = 0;  ///< of a node of points: how many of them are enough
 };
 
 /// What a view wants of a mesh, and what of it can be drawn with the nodes that are there.
@@ -30,6 +38,7 @@ struct MeshCut {
     double errorPixels() const;
 };
 
+/// Nodes of points are chosen where points may be drawn for them, and stand in for nothing else.
 /// For a wanted node that is not there its children stand in if they are there, or theirs; else
 /// the nearest node above that is. Without one, whatever there is of the children is drawn.
 MeshCut cutOf(const mesh::EymFile& file, const lod::ObjectView& view, double tauPixels,

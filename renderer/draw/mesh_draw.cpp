@@ -8,7 +8,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
 
 #include "fabric/status.h"
@@ -38,18 +37,19 @@ std::uint32_t packedSrgb(const fabric::Vec3& linear) {
     return byte(linear.x) | byte(linear.y) << 8 | byte(linear.z) << 16 | 0xFF000000U;
 }
 
-bool isTinted(const fabric::Look& look) { return look.levelTint || look.rangeTint; }
-
 /// For Prefetch::nodes.
 struct NodeTree {
     using Node = std::uint32_t;
 
     const mesh::EymFile& file;
+    double tauPixels;
 
     Node root() const { return 0; }
     fabric::Box bounds(Node node) const { return file.bounds(node); }
     double errorMetres(Node node) const {
         const mesh::Node& at = file.nodes()[node];
+        if (at.isOfPoints())
+            return at.errorMetres * std::max(tauPixels / kMostPointPixels, 1.0);
         return at.indexCount > 0 ? at.errorMetres : std::numeric_limits<double>::infinity();
     }
     template <typename Visit>
@@ -65,19 +65,18 @@ struct NodeTree {
 class MeshDrawable : public Drawable {
 public:
     MeshDrawable(const fabric::SceneObject& object, MeshPrograms& programs,
-                 std::shared_ptr<const mesh::EymFile> file, MeshTextures textures,
-                 std::unique_ptr<MeshPaging> paging)
+                 PointPrograms& pointPrograms, std::shared_ptr<const mesh::EymFile> file,
+                 MeshTextures textures, std::unique_ptr<MeshPaging> paging)
         : programs_(programs),
           worldFromObject_(object.worldFromObject),
           uniformColour_(packedSrgb(object.colour)),
           singleSided_(object.singleSided),
           file_(std::move(file)),
           lids_(file_->lids()),
+          objectFromLattice_(file_->lattice().objectFromLattice()),
           textures_(std::move(textures)),
+          points_(pointPrograms, *file_, object),
           paging_(std::move(paging)) {
-        const mesh::Lattice& lattice = file_->lattice();
-        objectFromLattice_ = glm::scale(glm::translate(fabric::Mat4(1.0), lattice.originMetres),
-                                        fabric::Vec3(lattice.stepMetres));
         defineVertexFormat();
     }
 
@@ -108,10 +107,12 @@ private:
     std::uint64_t bytesOf(const MeshCut& cut) const;
     std::uint64_t countMissing(const MeshCut& cut) const;
     page::HostPages::Loads reach(const CutRequest& request, double tauPixels);
+    std::uint64_t costOf(const CutNode& node) const;
     bool hasBlended(std::uint32_t node) const;
     void source(const DeviceNode& node) const;
     void bind(const FrameState& frame) const;
     void use(const Program& program, const FrameState& frame) const;
+    std::uint32_t colourOf(const Piece& piece, const FrameState& frame) const;
     void colour(const Piece& piece, const FrameState& frame) const;
     int levelOf(std::uint32_t node) const;
     absl::Status drawWhole(std::span<const Piece> pieces, const FrameState& frame,
@@ -122,19 +123,22 @@ private:
                          Prepared& prepared);
     absl::Status drawByMaterial(std::span<const Piece> pieces, const FrameState& frame,
                                 fabric::FrameStatistics& statistics);
+    absl::Status drawPoints(const Piece& piece, const FrameState& frame,
+                            fabric::FrameStatistics& statistics);
     void drawRange(const DeviceNode& node, GLsizei first, const mesh::MaterialRange& range,
                    const Piece& piece, const HiddenBacks& backs) const;
 
     MeshPrograms& programs_;
     fabric::Mat4 worldFromObject_;
-    fabric::Mat4 objectFromLattice_;
     std::uint32_t uniformColour_;
     bool singleSided_;
     std::shared_ptr<const mesh::EymFile> file_;
     std::vector<fabric::Box> lids_;
+    fabric::Mat4 objectFromLattice_;
     MeshTextures textures_;
     double errorPixels_ = 0;  ///< of the last cut
     gl::VertexArray vertexArray_;
+    MeshPoints points_;
     BoxLines boxLines_;
     std::unique_ptr<MeshPaging> paging_;
     Prefetch prefetch_;
@@ -194,11 +198,16 @@ page::HostPages::Loads MeshDrawable::reach(const CutRequest& request, double tau
     return loaded;
 }
 
+/// In triangles: a point takes about as long as one.
+std::uint64_t MeshDrawable::costOf(const CutNode& node) const {
+    return node.points > 0 ? node.points : file_->nodes()[node.node].indexCount / 3;
+}
+
 std::uint64_t MeshDrawable::viewTriangles(const CutRequest& request) {
     std::uint64_t triangles = 0;
     const MeshCut cut =
         cutOf(*file_, request.view, request.tauPixels, [](std::uint32_t) { return true; });
-    for (const CutNode& node : cut.wanted) triangles += file_->nodes()[node.node].indexCount / 3;
+    for (const CutNode& node : cut.wanted) triangles += costOf(node);
     return triangles;
 }
 
@@ -214,7 +223,7 @@ Cut MeshDrawable::selectCut(const CutRequest& request) {
         progress.loaded = reach(request, tauPixels);
     } else {
         progress = paging_->approach(cutAt(choice.step, request), [&] {
-            return prefetch_.nodes(NodeTree{*file_}, tauPixels, paging_->latency());
+            return prefetch_.nodes(NodeTree{*file_, tauPixels}, tauPixels, paging_->latency());
         });
     }
     if (progress.hasUploaded)
@@ -236,8 +245,8 @@ Cut MeshDrawable::selectCut(const CutRequest& request) {
     for (const CutNode& one : drawn.drawn) {
         const mesh::Node& node = file_->nodes()[one.node];
         cut.pieces.push_back({one.node, static_cast<double>(node.triangleBegin) / total,
-                              file_->bounds(one.node), true, node.indexCount / 3,
-                              hasBlended(one.node)});
+                              file_->bounds(one.node), true, costOf(one), hasBlended(one.node),
+                              one.points, one.errorPixels});
     }
     return cut;
 }
@@ -284,20 +293,33 @@ int MeshDrawable::levelOf(std::uint32_t node) const {
     return level;
 }
 
-void MeshDrawable::colour(const Piece& piece, const FrameState& frame) const {
-    std::uint32_t colour = uniformColour_;
+/// In place of the mesh's own.
+std::uint32_t MeshDrawable::colourOf(const Piece& piece, const FrameState& frame) const {
     if (frame.look.levelTint)
-        colour = packedSrgb(fabric::Vec3(levelColour(levelOf(piece.index))));
-    else if (frame.look.rangeTint)
-        colour = packedSrgb(fabric::Vec3(rangeColour(frame.range)));
-    glVertexAttribI4ui(Program::kPackedColour.location, colour, 0, 0, 0);
+        return packedSrgb(fabric::Vec3(levelColour(levelOf(piece.index))));
+    if (frame.look.rangeTint)
+        return packedSrgb(fabric::Vec3(rangeColour(frame.range)));
+    return uniformColour_;
+}
+
+void MeshDrawable::colour(const Piece& piece, const FrameState& frame) const {
+    glVertexAttribI4ui(Program::kPackedColour.location, colourOf(piece, frame), 0, 0, 0);
+}
+
+absl::Status MeshDrawable::drawPoints(const Piece& piece, const FrameState& frame,
+                                      fabric::FrameStatistics& statistics) {
+    RETURN_IF_ERROR(
+        points_.draw(piece, *paging_->node(piece.index), colourOf(piece, frame), frame));
+    statistics.points += piece.points;
+    return absl::OkStatus();
 }
 
 absl::Status MeshDrawable::drawWhole(std::span<const Piece> pieces, const FrameState& frame,
                                      fabric::FrameStatistics& statistics) {
-    Program::Variant variant{variantFor(frame, worldFromObject_)};
+    Program::Variant variant{variantFor(frame, worldFromObject_), {}};
     variant.gouraud = frame.shading == fabric::Shading::Gouraud;
     ASSIGN_OR_RETURN(const Program* program, programs_.find(variant));
+    points_.begin();
     if (frame.look.tileBounds)
         RETURN_IF_ERROR(boxLines_.begin(frame.view, worldFromObject_));
     use(*program, frame);
@@ -308,10 +330,15 @@ absl::Status MeshDrawable::drawWhole(std::span<const Piece> pieces, const FrameS
     for (const Piece& piece : pieces) {
         const DeviceNode* node = paging_->node(piece.index);
         const auto fronts = static_cast<GLsizei>(file_->nodes()[piece.index].frontIndexCount);
-        source(*node);
-        colour(piece, frame);
-        backs.draw(*node, piece, 0, node->indexCount, fronts, singleSided_);
-        statistics.triangles += piece.triangles;
+        if (piece.points > 0) {
+            RETURN_IF_ERROR(drawPoints(piece, frame, statistics));
+            use(*program, frame);
+        } else {
+            source(*node);
+            colour(piece, frame);
+            backs.draw(*node, piece, 0, node->indexCount, fronts, singleSided_);
+            statistics.triangles += piece.triangles;
+        }
         if (frame.look.tileBounds) {
             // At once, so that where depths tie the lower range wins as in compositing.
             boxLines_.draw(piece.bounds, levelColour(levelOf(piece.index)));
@@ -343,7 +370,7 @@ void MeshDrawable::drawRange(const DeviceNode& node, GLsizei first,
 /// Uses the program that draws a material.
 absl::Status MeshDrawable::prepare(const mesh::Material& material, const FrameState& frame,
                                    Prepared& prepared) {
-    Program::Variant variant{variantFor(frame, worldFromObject_)};
+    Program::Variant variant{variantFor(frame, worldFromObject_), {}};
     variant.gouraud = frame.shading == fabric::Shading::Gouraud;
     variant.textured = !material.hasImage() ? 0 : frame.view.step == fabric::Vec2(1) ? 1 : 2;
     variant.seeThrough = material.isBlended() ? 2 : material.alphaCutoff > 0 ? 1 : 0;
@@ -365,6 +392,7 @@ absl::Status MeshDrawable::prepare(const mesh::Material& material, const FrameSt
 absl::Status MeshDrawable::drawByMaterial(std::span<const Piece> pieces, const FrameState& frame,
                                           fabric::FrameStatistics& statistics) {
     Prepared prepared;
+    points_.begin();
     const lod::ObjectView view(frame.view, worldFromObject_);
     const HiddenBacks backs(mayHideBacks(bounds(), frame, worldFromObject_), lids_, view,
                             frame.part);
@@ -375,7 +403,13 @@ absl::Status MeshDrawable::drawByMaterial(std::span<const Piece> pieces, const F
     glVertexAttribI4ui(Program::kPackedColour.location, uniformColour_, 0, 0, 0);
     for (const Piece& piece : pieces) {
         const DeviceNode& node = *paging_->node(piece.index);
-        source(node);
+        if (piece.points == 0) {
+            source(node);
+        } else if (frame.layer == Layer::Opaque) {
+            RETURN_IF_ERROR(drawPoints(piece, frame, statistics));
+            bind(frame);
+            glVertexAttribI4ui(Program::kPackedColour.location, uniformColour_, 0, 0, 0);
+        }
         GLsizei first = 0;
         for (const mesh::MaterialRange& range : file_->ranges(piece.index)) {
             const mesh::Material& material = file_->materials()[range.material];
@@ -407,6 +441,7 @@ absl::Status MeshDrawable::draw(std::span<const Piece> pieces, const FrameState&
 
 absl::StatusOr<std::unique_ptr<Drawable>> openMesh(const fabric::SceneObject& object,
                                                    MeshPrograms& programs,
+                                                   PointPrograms& pointPrograms,
                                                    const page::SourceOptions& sources,
                                                    page::Loader& loader, const MeshMemory& memory,
                                                    TextureFormat format) {
@@ -421,8 +456,8 @@ absl::StatusOr<std::unique_ptr<Drawable>> openMesh(const fabric::SceneObject& ob
     ASSIGN_OR_RETURN(
         auto paging,
         MeshPaging::open(file, loader, {memory.deviceBytes - textures.bytes(), memory.hostBytes}));
-    return std::make_unique<MeshDrawable>(object, programs, std::move(file), std::move(textures),
-                                          std::move(paging));
+    return std::make_unique<MeshDrawable>(object, programs, pointPrograms, std::move(file),
+                                          std::move(textures), std::move(paging));
 }
 
 }  // namespace eyrie::draw

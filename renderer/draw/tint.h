@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "fabric/look.h"
 #include "fabric/range.h"
 #include "fabric/vec.h"
 
 namespace eyrie::draw {
+
+/// Whether colours of levels or of ranges stand in for the data's own.
+inline bool isTinted(const fabric::Look& look) { return look.levelTint || look.rangeTint; }
 
 /// Colours of levels of detail, linear. Neighbours differ clearly.
 glm::vec3 levelColour(int level);

@@ -31,7 +31,7 @@ PartSurface surfaceOf(const PartMesh& own, mesh::LodPart lod, const mesh::KdNode
     PartSurface surface;
     surface.boxMin = box.boxMin;
     surface.boxMax = box.boxMax;
-    surface.boundSteps = lod.patch.error();
+    surface.boundSteps = lod.errorSteps;
     surface.lod.height = lod.height;
     surface.mesh.lattice = own.mesh.lattice;
     surface.isEndless =
@@ -187,6 +187,7 @@ absl::StatusOr<WrittenPart> writeAbove(const PartWork& work, const SplitNode& no
     tree.order.resize(both.mesh.triangles.size());
     std::iota(tree.order.begin(), tree.order.end(), 0U);
     lod.geometry = {{}};
+    lod.points.resize(1);
     lod.errorMetres.resize(1);
     ASSIGN_OR_RETURN(written.offset, appendEym(work, both.mesh, tree, lod,
                                                {{written.surface.pockets}, {}}, control.stop));

@@ -136,20 +136,19 @@ absl::Status NodeCheck::checkGeometry(std::uint32_t index) const {
                        fmt::format("three for each of {} triangles{}", triangles,
                                    node.isLeaf() ? "" : ", or of fewer"));
     if (node.vertexCount > kMaxLeafVertices || node.indexCount > 3 * kMaxNodeTriangles ||
-        (node.vertexCount == 0) != (node.indexCount == 0) || node.vertexCount > node.indexCount)
+        (node.vertexCount == 0 && node.indexCount != 0) ||
+        (node.vertexCount > node.indexCount && !node.isOfPoints()))
         return damaged(fmt::format("node {}: vertexCount and indexCount", index),
                        fmt::format("{} and {}", node.vertexCount, node.indexCount),
-                       fmt::format("at most {} and {}, each vertex used", kMaxLeafVertices,
-                                   3 * kMaxNodeTriangles));
+                       fmt::format("at most {} and {}, each vertex used, or points alone",
+                                   kMaxLeafVertices, 3 * kMaxNodeTriangles));
     if (node.frontIndexCount % 3 != 0 || node.frontIndexCount > node.indexCount)
         return damaged(fmt::format("node {}: frontIndexCount", index), node.frontIndexCount,
                        fmt::format("a multiple of 3, at most {}", node.indexCount));
-    if (node.indexCount == 0)
+    if (!node.hasGeometry())
         return absl::OkStatus();
     RETURN_IF_ERROR(checkPage(index, "page", node.pageOffset, node.pageBytes));
-    const std::uint64_t block =
-        blockBytes({node.vertexCount, node.indexCount, (header_.flags & kHasColours) != 0,
-                    (header_.flags & kHasTextures) != 0});
+    const std::uint64_t block = blockBytes(shapeOf(node, header_.flags));
     if ((header_.flags & kIsCoded) == 0 && (node.pageBytes != block || node.pageOffset % 8 != 0))
         return damaged(fmt::format("node {}: page", index),
                        fmt::format("{} bytes at {}", node.pageBytes, node.pageOffset),
@@ -231,10 +230,47 @@ absl::StatusOr<int> NodeCheck::run() {
     return levels;
 }
 
+/// `before` is the one before it of the same node, if there is one.
+absl::Status checkPointRange(std::size_t index, const Node& node, const PointRange& range,
+                             const PointRange* before) {
+    const bool isNext = before == nullptr ||
+                        (range.points > before->points && range.errorMetres <= before->errorMetres);
+    if (isNext && range.points > 0 && range.points <= node.vertexCount &&
+        std::isfinite(range.errorMetres) && range.errorMetres >= 0)
+        return absl::OkStatus();
+    return damaged(fmt::format("point range {}: points and errorMetres", index),
+                   fmt::format("{} and {}", range.points, range.errorMetres),
+                   fmt::format("1 to {}, ascending, and a length, descending", node.vertexCount));
+}
+
 }  // namespace
 
+absl::Status checkPointRanges(std::span<const Node> nodes, std::span<const PointRange> ranges) {
+    std::size_t at = 0;
+    for (std::uint32_t index = 0; index < nodes.size(); ++index) {
+        const Node& node = nodes[index];
+        const PointRange* last = nullptr;
+        for (; node.isOfPoints() && at < ranges.size() && ranges[at].node == index; ++at) {
+            RETURN_IF_ERROR(checkPointRange(at, node, ranges[at], last));
+            last = &ranges[at];
+        }
+        if (node.isOfPoints() && (last == nullptr || last->points != node.vertexCount ||
+                                  last->errorMetres != node.errorMetres))
+            return damaged(
+                fmt::format("node {}: its point ranges", index),
+                last == nullptr
+                    ? "none"
+                    : fmt::format("{} points within {}", last->points, last->errorMetres),
+                fmt::format("all {} points, within {}", node.vertexCount, node.errorMetres));
+    }
+    if (at != ranges.size())
+        return damaged(fmt::format("point range {}: node", at), ranges[at].node,
+                       "a node of points, ascending");
+    return absl::OkStatus();
+}
+
 std::uint64_t endOfTables(const EymHeader& header) {
-    return endOfLids(header) + materialTableBytes(header);
+    return endOfMaterials(header) + std::uint64_t{header.pointRangeCount} * sizeof(PointRange);
 }
 
 absl::Status checkHeader(std::span<const std::byte> beginning, std::uint64_t fileBytes) {

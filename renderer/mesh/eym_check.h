@@ -31,6 +31,10 @@ struct MaterialTables {
 absl::Status checkMaterials(const EymHeader& header, std::span<const Node> nodes,
                             const MaterialTables& tables);
 
+/// That each node of points has ranges, ascending, of which the last has all of it, and that there
+/// are no others. Errors: DataLoss. Precondition: checkNodes is ok.
+absl::Status checkPointRanges(std::span<const Node> nodes, std::span<const PointRange> ranges);
+
 /// Bytes from the file's start to its first page.
 std::uint64_t endOfTables(const EymHeader& header);
 

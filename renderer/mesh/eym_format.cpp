@@ -74,7 +74,9 @@ absl::Status EymFile::readTables() {
     levels_ = *levels;
     if (header_.lidCount > 0)
         RETURN_IF_ERROR(readLids());
-    return header_.materialCount > 0 ? readMaterials() : absl::OkStatus();
+    if (header_.materialCount > 0)
+        RETURN_IF_ERROR(readMaterials());
+    return readPointRanges();
 }
 
 absl::Status EymFile::readLids() {
@@ -107,6 +109,21 @@ absl::Status EymFile::readMaterials() {
     return absl::OkStatus();
 }
 
+absl::Status EymFile::readPointRanges() {
+    pointRanges_.resize(header_.pointRangeCount);
+    const auto bytes = std::as_writable_bytes(std::span(pointRanges_));
+    if (!bytes.empty())
+        RETURN_IF_ERROR(
+            source_->read({endOfMaterials(header_), bytes.size(), header_.pointRangesChecksum},
+                          bytes, "the point ranges"));
+    return fabric::withContext(checkPointRanges(nodes_, pointRanges_), path());
+}
+
+std::span<const PointRange> EymFile::pointRanges(std::uint32_t node) const {
+    const auto range = std::ranges::equal_range(pointRanges_, node, {}, &PointRange::node);
+    return {range.begin(), range.end()};
+}
+
 std::vector<fabric::Box> EymFile::lids() const {
     std::vector<fabric::Box> boxes;
     for (const Lid& lid : lids_)
@@ -134,7 +151,7 @@ absl::Status EymFile::inNode(std::uint32_t node, const absl::Status& status) con
 absl::StatusOr<NodeGeometry> EymFile::readBlock(std::uint32_t index) const {
     const Node& node = nodes_[index];
     const NodeShape shape = this->shape(index);
-    if (node.indexCount == 0)
+    if (!node.hasGeometry())
         return NodeGeometry{};
     if (mapped_)
         return geometryIn(mapped_->bytes().subspan(node.pageOffset, node.pageBytes), shape,
@@ -156,7 +173,7 @@ absl::StatusOr<NodeGeometry> EymFile::readBlock(std::uint32_t index) const {
 absl::StatusOr<NodeGeometry> EymFile::geometry(std::uint32_t index) const {
     ASSIGN_OR_RETURN(NodeGeometry geometry, readBlock(index));
     const Node& node = nodes_[index];
-    if (node.indexCount > 0 && contentHash(geometry.block) != node.blockChecksum)
+    if (node.hasGeometry() && contentHash(geometry.block) != node.blockChecksum)
         return inNode(index, absl::DataLossError("the checksum of its vertices and indices does "
                                                  "not match; import the mesh again"));
     const auto largest = std::max_element(geometry.indices.begin(), geometry.indices.end());

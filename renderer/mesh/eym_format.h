@@ -21,7 +21,7 @@
 #include "renderer/mesh/node_block.h"
 #include "renderer/page/page_source.h"
 
-/// The .eym file, version 3: a mesh as a kd-tree of LOD nodes, each with pages of its own.
+/// The .eym file, version 4: a mesh as a kd-tree of LOD nodes, each with pages of its own.
 ///
 /// Little-endian:
 ///   EymHeader                       256 bytes
@@ -29,7 +29,8 @@
 ///   Lid         [lidCount]
 ///   Material    [materialCount]     ... where something is textured, see-through or two-sided
 ///   ImageRecord [imageCount]
-///   MaterialRange [rangeCount]      of the nodes that have geometry, in their order
+///   MaterialRange [rangeCount]      of the nodes that have triangles, in their order
+///   PointRange  [pointRangeCount]   of the nodes that are drawn as points, in their order
 ///   pages                           of the nodes that have geometry, in their order: that of what
 ///                                   is drawn, and then, where kept, that of source positions
 ///   images                          (material.h)
@@ -37,13 +38,15 @@
 /// multiple of 8 bytes. Coded (kIsCoded) it is that of codec/page_codec.h, and gives the same block
 /// to the bit. Source positions are always coded (codec/exact_codec.h); only leaves have them.
 /// A node's geometry is self-contained: 16-bit indices count from its own first vertex. Leaves have
-/// geometry; inner nodes may: a simplification of their subtree.
+/// geometry; inner nodes may: a simplification of their subtree, or points on it
+/// (lod/point_sample.h), which are vertices without indices, with colours where the mesh has
+/// colours or textures.
 namespace eyrie::mesh {
 
 static_assert(std::endian::native == std::endian::little, ".eym files are mapped as they are");
 
 inline constexpr std::array<char, 8> kEymMagic = {'E', 'Y', 'M', 'E', 'S', 'H', '\0', '\x01'};
-inline constexpr std::uint32_t kEymVersion = 3;
+inline constexpr std::uint32_t kEymVersion = 4;
 
 /// In EymHeader::flags.
 inline constexpr std::uint32_t kHasColours = 1;
@@ -79,8 +82,9 @@ struct EymHeader {
     std::uint32_t materialCount = 0;
     std::uint32_t imageCount = 0;
     std::uint32_t rangeCount = 0;
-    std::uint32_t reserved32 = 0;
-    std::array<std::uint64_t, 11> reserved{};
+    std::uint32_t pointRangeCount = 0;
+    std::uint64_t pointRangesChecksum = 0;  ///< xxh64 of the point ranges
+    std::array<std::uint64_t, 10> reserved{};
 };
 static_assert(sizeof(EymHeader) == 256);
 
@@ -103,7 +107,7 @@ struct Node {
     std::uint32_t pageBytes = 0;
     std::uint32_t exactBytes = 0;
     std::uint32_t vertexCount = 0;  ///< at most 65,535
-    std::uint32_t indexCount = 0;   ///< three a triangle; 0 without geometry
+    std::uint32_t indexCount = 0;   ///< three a triangle; 0 of points, and without geometry
     /// Upper bound on the distance between the source surface and what is drawn for this node: its
     /// own geometry or, where it has none, its children. Never below its children's.
     float errorMetres = 0;
@@ -113,9 +117,31 @@ struct Node {
     std::uint32_t frontIndexCount = 0;
 
     bool isLeaf() const { return left < 0; }
+    bool hasGeometry() const { return vertexCount > 0; }
+    bool isOfPoints() const { return vertexCount > 0 && indexCount == 0; }
     bool operator==(const Node&) const = default;
 };
 static_assert(sizeof(Node) == 112);
+
+/// The first points of a node, and what Node::errorMetres is of these alone. Ranges of a node have
+/// more points and less error one after the other; the last has all of both.
+struct PointRange {
+    std::uint32_t node = 0;
+    std::uint32_t points = 0;
+    float errorMetres = 0;
+    std::uint32_t reserved = 0;
+
+    bool operator==(const PointRange&) const = default;
+};
+static_assert(sizeof(PointRange) == 16);
+
+/// What the geometry of a node is of, in a file with these EymHeader::flags.
+inline NodeShape shapeOf(const Node& node, std::uint32_t flags) {
+    const bool hasColours = (flags & kHasColours) != 0;
+    const bool hasTextures = (flags & kHasTextures) != 0;
+    return {node.vertexCount, node.indexCount, hasColours || (node.isOfPoints() && hasTextures),
+            hasTextures && !node.isOfPoints()};
+}
 
 /// Holds what closes a hole of the source's surface in thought (lids.h). Lattice, closed.
 struct Lid {
@@ -165,9 +191,7 @@ public:
     /// Through these only an eye outside sees backs of what need not be drawn from behind. Object
     /// space, metres.
     std::vector<fabric::Box> lids() const;
-    NodeShape shape(std::uint32_t node) const {
-        return {nodes_[node].vertexCount, nodes_[node].indexCount, hasColours(), hasTextures()};
-    }
+    NodeShape shape(std::uint32_t node) const { return shapeOf(nodes_[node], header_.flags); }
 
     bool hasTextures() const { return (header_.flags & kHasTextures) != 0; }
     std::span<const Material> materials() const { return materials_; }
@@ -179,6 +203,8 @@ public:
         return std::span(ranges_).subspan(firstRange_[node],
                                           firstRange_[node + 1] - firstRange_[node]);
     }
+    /// Of a node that is drawn as points, and otherwise none.
+    std::span<const PointRange> pointRanges(std::uint32_t node) const;
     /// Image::blocks of an image. Precondition: image < images().size(). Errors: as of geometry().
     absl::StatusOr<std::vector<std::byte>> imageBlocks(std::uint32_t image) const;
 
@@ -198,6 +224,7 @@ private:
     absl::Status readTables();
     absl::Status readLids();
     absl::Status readMaterials();
+    absl::Status readPointRanges();
     absl::StatusOr<NodeGeometry> readBlock(std::uint32_t node) const;
     absl::Status inNode(std::uint32_t node, const absl::Status& status) const;
 
@@ -211,6 +238,7 @@ private:
     std::vector<ImageRecord> images_;
     std::vector<MaterialRange> ranges_;
     std::vector<std::uint32_t> firstRange_;  ///< of each node, and the end
+    std::vector<PointRange> pointRanges_;
     int levels_ = 0;
 };
 
@@ -232,6 +260,11 @@ inline std::uint64_t endOfNodes(const EymHeader& header) {
 /// Where the lids end and the tables of materials begin.
 inline std::uint64_t endOfLids(const EymHeader& header) {
     return endOfNodes(header) + header.lidCount * sizeof(Lid);
+}
+
+/// Where the tables of materials end and the point ranges begin.
+inline std::uint64_t endOfMaterials(const EymHeader& header) {
+    return endOfLids(header) + materialTableBytes(header);
 }
 
 /// xxh64 of bytes, as all checksums of the file are.

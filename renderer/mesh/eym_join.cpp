@@ -7,6 +7,7 @@
 #include <glm/common.hpp>
 
 #include "fabric/status.h"
+#include "renderer/mesh/eym_check.h"
 #include "renderer/mesh/eym_format.h"
 
 namespace eyrie::mesh {
@@ -38,6 +39,7 @@ private:
     std::span<const JoinedNode> joined_;
     EymHeader header_;  ///< of the last file
     std::vector<Node> nodes_;
+    std::vector<PointRange> pointRanges_;
     std::vector<Region> regions_;
     std::uint64_t pageBytes_ = 0;
     std::uint64_t triangles_ = 0;
@@ -50,7 +52,13 @@ absl::Status Joiner::addFile(std::uint64_t offset, std::uint64_t triangleBegin) 
     nodes_.resize(first + header_.nodeCount);
     const std::span<Node> added = std::span(nodes_).subspan(first);
     RETURN_IF_ERROR(parts_.readAt(offset + sizeof(EymHeader), std::as_writable_bytes(added)));
-    const std::uint64_t pagesBegin = sizeof(EymHeader) + added.size_bytes();
+    const std::size_t firstRange = pointRanges_.size();
+    pointRanges_.resize(firstRange + header_.pointRangeCount);
+    const std::span<PointRange> ranges = std::span(pointRanges_).subspan(firstRange);
+    RETURN_IF_ERROR(
+        parts_.readAt(offset + endOfMaterials(header_), std::as_writable_bytes(ranges)));
+    for (PointRange& range : ranges) range.node += static_cast<std::uint32_t>(first);
+    const std::uint64_t pagesBegin = endOfMaterials(header_) + ranges.size_bytes();
     for (Node& node : added) {
         if (!node.isLeaf()) {
             node.left += static_cast<std::int32_t>(first);
@@ -110,23 +118,26 @@ absl::Status Joiner::copyPages(OutputFile& out, const std::stop_token& stop) con
 
 absl::Status Joiner::write(std::uint64_t vertexCount, OutputFile& out,
                            const std::stop_token& stop) {
-    const std::uint64_t pagesBegin = sizeof(EymHeader) + nodes_.size() * sizeof(Node);
+    header_.nodeCount = static_cast<std::uint32_t>(nodes_.size());
+    header_.lidCount = 0;
+    header_.pointRangeCount = static_cast<std::uint32_t>(pointRanges_.size());
+    const std::uint64_t pagesBegin = endOfTables(header_);
     for (Node& node : nodes_) {
         node.pageOffset += node.pageBytes > 0 ? pagesBegin : 0;
         node.exactOffset += node.exactBytes > 0 ? pagesBegin : 0;
     }
     header_.lidsChecksum = contentHash(std::span<const std::byte>());
-    header_.lidCount = 0;
+    header_.pointRangesChecksum = contentHash(std::as_bytes(std::span(pointRanges_)));
     header_.nodesChecksum = contentHash(std::as_bytes(std::span(nodes_)));
     header_.triangleCount = triangles_;
     header_.sourceVertexCount = vertexCount;
-    header_.nodeCount = static_cast<std::uint32_t>(nodes_.size());
     header_.coarsestErrorMetres = nodes_.front().errorMetres;
     header_.finestErrorMetres = nodes_.back().errorMetres;
     header_.fileBytes = pagesBegin + pageBytes_;
     header_.checksum = headerChecksum(header_);
     RETURN_IF_ERROR(out.write(std::as_bytes(std::span(&header_, 1))));
     RETURN_IF_ERROR(out.write(std::as_bytes(std::span(nodes_))));
+    RETURN_IF_ERROR(out.write(std::as_bytes(std::span(pointRanges_))));
     return copyPages(out, stop);
 }
 

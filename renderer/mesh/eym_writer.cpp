@@ -104,6 +104,11 @@ std::vector<std::byte> blockOf(const PackedNode& node) {
     return {bytes.begin(), bytes.end()};
 }
 
+/// Null where a node is not drawn as points.
+const PointSample* pointsOf(const LodTree& lod, std::size_t node) {
+    return node < lod.points.size() && lod.points[node] ? &*lod.points[node] : nullptr;
+}
+
 class PageMaker {
 public:
     PageMaker(const PackedMesh& mesh, const KdTree& tree, const LodTree& lod,
@@ -118,19 +123,29 @@ public:
     ExactForm exactForm() const { return exactForm_; }
 
     Pages make(std::size_t index) const {
+        if (const PointSample* points = pointsOf(lod_, index))
+            return withPage({points->positions, points->normals, points->colours, {}, {}, {}});
         const KdNode& node = tree_.nodes[index];
         Parts parts = inDrawingOrder(
             mesh_, node.isLeaf() ? trianglesOf(mesh_, tree_, node) : lod_.geometry[index],
             pockets_[index], lod_.errorMetres[index] / mesh_.lattice.stepMetres);
         const PackedNode packed = gatherNode(mesh_, parts.parts);
-        Pages pages;
-        pages.shape = shapeOf(packed);
         if (packed.indices.empty())
-            return pages;
+            return {};
+        Pages pages = withPage(packed);
         if (mesh_.materials.empty())
             pages.frontIndexCount = parts.ranges.front().frontIndexCount;
         else
             pages.ranges = std::move(parts.ranges);
+        if (node.isLeaf() && !packed.exact.empty())
+            pages.exact = encodeExact(packed.exact, packed.positions, mesh_.lattice, exactForm_);
+        return pages;
+    }
+
+private:
+    Pages withPage(const PackedNode& packed) const {
+        Pages pages;
+        pages.shape = shapeOf(packed);
         pages.page = blockOf(packed);
         pages.blockChecksum = contentHash(pages.page);
         if (isCoded_)
@@ -141,12 +156,9 @@ public:
                                      packed.indices,
                                      {},
                                      nullptr});
-        if (node.isLeaf() && !packed.exact.empty())
-            pages.exact = encodeExact(packed.exact, packed.positions, mesh_.lattice, exactForm_);
         return pages;
     }
 
-private:
     const PackedMesh& mesh_;
     const KdTree& tree_;
     const LodTree& lod_;
@@ -199,7 +211,7 @@ std::vector<Node> layOutNodes(const KdTree& tree, const LodTree& lod,
         node.indexCount = pages[i].shape.indexCount;
         node.errorMetres = roundedUp(lod.errorMetres[i]);
         node.frontIndexCount = pages[i].frontIndexCount;
-        if (node.indexCount == 0)
+        if (!node.hasGeometry())
             continue;
         place(pages[i].page, node.pageOffset, node.pageBytes, node.pageChecksum);
         node.blockChecksum = pages[i].blockChecksum;
@@ -216,6 +228,19 @@ std::vector<MaterialRange> rangesOf(const std::vector<Pages>& pages) {
             range.node = static_cast<std::uint32_t>(node);
             ranges.push_back(range);
         }
+    return ranges;
+}
+
+std::vector<PointRange> pointRangesOf(const PackedMesh& mesh, const LodTree& lod) {
+    std::vector<PointRange> ranges;
+    for (std::uint32_t node = 0; node < lod.geometry.size(); ++node)
+        if (const PointSample* sample = pointsOf(lod, node))
+            for (const PointPrefix& prefix : sample->prefixes)
+                ranges.push_back(
+                    {node, prefix.points,
+                     roundedUp(std::max(lod.errorMetres[node],
+                                        mesh.lattice.errorMetres() +
+                                            prefix.errorSteps * mesh.lattice.stepMetres))});
     return ranges;
 }
 
@@ -297,6 +322,7 @@ absl::Status writeEym(const PackedMesh& mesh, const KdTree& tree, const LodTree&
     const PageMaker maker(mesh, tree, lod, backs.pockets, options);
     const std::vector<Pages> pages = makePages(tree, maker, stop);
     const std::vector<MaterialRange> ranges = rangesOf(pages);
+    const std::vector<PointRange> pointRanges = pointRangesOf(mesh, lod);
     const std::vector<Lid> lids = stored(backs.lids);
     EymHeader sizes;
     sizes.nodeCount = static_cast<std::uint32_t>(tree.nodes.size());
@@ -304,12 +330,14 @@ absl::Status writeEym(const PackedMesh& mesh, const KdTree& tree, const LodTree&
     sizes.materialCount = static_cast<std::uint32_t>(mesh.materials.size());
     sizes.imageCount = static_cast<std::uint32_t>(mesh.images.size());
     sizes.rangeCount = static_cast<std::uint32_t>(ranges.size());
+    sizes.pointRangeCount = static_cast<std::uint32_t>(pointRanges.size());
     std::uint64_t end = endOfTables(sizes);
     const std::vector<Node> nodes = layOutNodes(tree, lod, pages, end);
     const std::vector<std::byte> tables =
         tableBytes(mesh.materials, layOutImages(mesh.images, end), ranges);
     EymHeader header = makeHeader(mesh, nodes, lids, sizes);
     header.materialsChecksum = contentHash(tables);
+    header.pointRangesChecksum = contentHash(std::as_bytes(std::span(pointRanges)));
     header.flags = flagsOf(mesh, options, maker.exactForm());
     header.sourceHash = options.sourceHash;
     header.fileBytes = end;
@@ -318,6 +346,7 @@ absl::Status writeEym(const PackedMesh& mesh, const KdTree& tree, const LodTree&
     RETURN_IF_ERROR(out.write(std::as_bytes(std::span(nodes))));
     RETURN_IF_ERROR(out.write(std::as_bytes(std::span(lids))));
     RETURN_IF_ERROR(out.write(tables));
+    RETURN_IF_ERROR(out.write(std::as_bytes(std::span(pointRanges))));
     return writePages(pages, mesh.images, out, stop);
 }
 

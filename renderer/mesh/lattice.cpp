@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 
 namespace eyrie::mesh {
 namespace {
@@ -42,6 +43,10 @@ glm::uvec3 Lattice::nearest(const fabric::Vec3& position) const {
         point[axis] = static_cast<std::uint32_t>(nearestStep(position[axis], stepMetres) -
                                                  originMetres[axis] / stepMetres);
     return point;
+}
+
+fabric::Mat4 Lattice::objectFromLattice() const {
+    return glm::scale(glm::translate(fabric::Mat4(1.0), originMetres), fabric::Vec3(stepMetres));
 }
 
 double Lattice::errorMetres() const { return stepMetres * (std::sqrt(3.0) / 2.0); }

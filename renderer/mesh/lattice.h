@@ -7,6 +7,7 @@
 #include <glm/vec3.hpp>
 
 #include "fabric/box.h"
+#include "fabric/vec.h"
 
 namespace eyrie::mesh {
 
@@ -33,6 +34,8 @@ struct Lattice {
     fabric::Vec3 metres(const glm::uvec3& point) const {
         return originMetres + fabric::Vec3(point) * stepMetres;
     }
+    /// The same as a map. Exact.
+    fabric::Mat4 objectFromLattice() const;
     /// The lattice point nearest to `metres`, which must lie in the box the lattice was fitted to.
     glm::uvec3 nearest(const fabric::Vec3& metres) const;
 

@@ -8,27 +8,17 @@
 #include <glm/vec3.hpp>
 
 #include "renderer/mesh/codec/open_edges.h"
+#include "renderer/mesh/morton.h"
 #include "renderer/mesh/vertex_packing.h"
 
 namespace eyrie::mesh {
 namespace {
 
-/// The 21 low bits of `value`, two zeros before each.
-std::uint64_t spread(std::uint64_t value) {
-    value &= kMaxLatticeCoordinate;
-    value = (value | value << 32) & 0x001F00000000FFFFULL;
-    value = (value | value << 16) & 0x001F0000FF0000FFULL;
-    value = (value | value << 8) & 0x100F00F00F00F00FULL;
-    value = (value | value << 4) & 0x10C30C30C30C30C3ULL;
-    return (value | value << 2) & 0x1249249249249249ULL;
-}
-
-std::uint64_t mortonKey(const PackedMesh& mesh, const Triangle& corners) {
-    const glm::uvec3 centroid =
-        (unpackPosition(mesh.positions[corners[0]]) + unpackPosition(mesh.positions[corners[1]]) +
-         unpackPosition(mesh.positions[corners[2]])) /
-        3U;
-    return spread(centroid.x) | spread(centroid.y) << 1 | spread(centroid.z) << 2;
+std::uint64_t keyOf(const PackedMesh& mesh, const Triangle& corners) {
+    return mortonKey((unpackPosition(mesh.positions[corners[0]]) +
+                      unpackPosition(mesh.positions[corners[1]]) +
+                      unpackPosition(mesh.positions[corners[2]])) /
+                     3U);
 }
 
 std::vector<Triangle> alongMortonCurve(const PackedMesh& mesh,
@@ -36,7 +26,7 @@ std::vector<Triangle> alongMortonCurve(const PackedMesh& mesh,
     std::vector<std::pair<std::uint64_t, std::uint32_t>> keys;
     keys.reserve(triangles.size());
     for (const Triangle& triangle : triangles)
-        keys.emplace_back(mortonKey(mesh, triangle), static_cast<std::uint32_t>(keys.size()));
+        keys.emplace_back(keyOf(mesh, triangle), static_cast<std::uint32_t>(keys.size()));
     std::sort(keys.begin(), keys.end());
     std::vector<Triangle> order;
     order.reserve(keys.size());

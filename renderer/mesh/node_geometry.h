@@ -26,7 +26,6 @@ struct PackedNode {
 /// through its centroids, vertices in the order of first use: neighbours in space lie close in
 /// memory.
 /// Precondition: at most kMaxLeafVertices unique vertices.
-/// G. M. Morton, "A Computer Oriented Geodetic Data Base", 1966.
 PackedNode gatherNode(const PackedMesh& mesh, std::span<const std::span<const Triangle>> parts);
 
 }  // namespace eyrie::mesh

@@ -22,7 +22,8 @@ PlayedFrame frame(int pass, double milliseconds, double tauAchieved = 0.5) {
     PlayedFrame frame{pass, 0.25, milliseconds, {}, milliseconds};
     frame.statistics.tauAskedPixels = 1;
     frame.statistics.tauAchievedPixels = tauAchieved;
-    frame.statistics.triangles = 100;
+    frame.statistics.triangles = 80;
+    frame.statistics.points = 20;
     frame.statistics.bytesLoaded = 7;
     return frame;
 }
@@ -55,7 +56,8 @@ TEST(RunSummary, TheFirstPassCountsForItselfOnly) {
     EXPECT_EQ(summary.fpsMedian, 50);
     EXPECT_EQ(summary.firstPass.max, 500);
     EXPECT_EQ(summary.bytesLoaded, 28u);
-    EXPECT_DOUBLE_EQ(summary.trianglesMean, 100);
+    EXPECT_DOUBLE_EQ(summary.trianglesMean, 80);
+    EXPECT_DOUBLE_EQ(summary.pointsMean, 20);
 }
 
 TEST(RunSummary, TheErrorIsThatOfTheWorstFrame) {
@@ -148,7 +150,8 @@ TEST(BenchReport, TheSummaryHasTheFieldsOfTheContract) {
     EXPECT_EQ(number(run, "frameMs.p50"), 20);
     EXPECT_EQ(number(run, "frameMs.p95"), 40);
     EXPECT_EQ(number(run, "frameMs.p99"), 40);
-    EXPECT_EQ(number(run, "trianglesMean"), 100);
+    EXPECT_EQ(number(run, "trianglesMean"), 80);
+    EXPECT_EQ(number(run, "pointsMean"), 20);
     EXPECT_EQ(number(run, "bytesLoaded"), 28);
     EXPECT_EQ(number(run, "peakResidentBytes"), 1 << 20);
     EXPECT_EQ(number(run, "tauAchievedMax"), 0.5);

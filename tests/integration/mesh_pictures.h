@@ -60,25 +60,37 @@ protected:
         return fabric::makeImage({0, 0, width_, height_}, scene_.background, true);
     }
 
-    fabric::ChannelResult draw(const fabric::Camera& camera, double tauPixels = 1,
-                               const fabric::Range& range = {}) {
-        fabric::FrameData frame;
-        frame.camera = camera;
-        frame.tauPixels = tauPixels;
+    /// Of the picture, with depth.
+    fabric::ChannelTask wholeTask() const {
         fabric::ChannelTask task;
         task.viewWidth = width_;
         task.viewHeight = height_;
         task.pixelViewport = {0, 0, width_, height_};
-        task.range = range;
         task.wantsDepth = true;
+        return task;
+    }
+
+    fabric::ChannelResult render(const fabric::Camera& camera, const fabric::ChannelTask& task,
+                                 double tauPixels = 1) {
+        fabric::FrameData frame;
+        frame.camera = camera;
+        frame.tauPixels = tauPixels;
         auto result = renderer_->render(frame, task);
         EXPECT_TRUE(result.ok()) << result.status();
         if (!result.ok())
             return {blank(), {}};
-        fabric::Image whole = blank();
-        fabric::paste(result->image, whole);
-        result->image = std::move(whole);
         return *std::move(result);
+    }
+
+    fabric::ChannelResult draw(const fabric::Camera& camera, double tauPixels = 1,
+                               const fabric::Range& range = {}) {
+        fabric::ChannelTask task = wholeTask();
+        task.range = range;
+        fabric::ChannelResult result = render(camera, task, tauPixels);
+        fabric::Image whole = blank();
+        fabric::paste(result.image, whole);
+        result.image = std::move(whole);
+        return result;
     }
 
     /// View-space metres of the pixels of a picture.

@@ -20,7 +20,7 @@ function fillTiles(list) {
     list.append(tile(number(run.errorPx.max), "px", run.measuredWithinPromise ? `worst pixel measured against the source, ${number((100 * run.errorPx.max) / run.tauAchievedMax, 2)} % of the promise` : "worst pixel measured: the promise was broken",
                      run.measuredWithinPromise ? "truth" : "bad"));
   if (run.efficiency) list.append(tile(`${number(run.efficiency, 2)}×`, "fewer", "triangles than uniform decimation at the same measured p99 error", "truth"));
-  else list.append(tile(compact(run.trianglesMean), "", "triangles a frame, in the mean"));
+  else list.append(tile(compact(run.trianglesMean + run.pointsMean), "", run.pointsMean > 0 ? "triangles and points a frame, in the mean" : "triangles a frame, in the mean"));
 }
 
 /** [group, [name, value of a run], ...]: rows of the table. */
@@ -38,7 +38,7 @@ function rowGroups() {
       ["medians of the passes, least to most", (run) => `${number(Math.min(...run.passes.map((pass) => pass.p50)))} – ${number(Math.max(...run.passes.map((pass) => pass.p50)))}`]],
     ["From a view to its picture, warm, ms", ["median", latency("p50")], ["p95", latency("p95")], ["frames in flight, at most", (run) => number(run.framesInFlight)]],
     ["First pass, ms a frame", ["median", first("p50")], ["p95", first("p95")], ["p99", first("p99")], ["longest", first("max")], ["loaded", (run) => mebibytes(run.bytesLoadedFirstPass)]],
-    ["Work", ["triangles a frame, mean", (run) => number(run.trianglesMean)], ["times fewer than uniform decimation", (run) => (run.efficiency ? `${number(run.efficiency, 2)}×` : "–")],
+    ["Work", ["triangles a frame, mean", (run) => number(run.trianglesMean)], ["points a frame, mean", (run) => number(run.pointsMean)], ["times fewer than uniform decimation", (run) => (run.efficiency ? `${number(run.efficiency, 2)}×` : "–")],
       ["loaded in all passes", (run) => mebibytes(run.bytesLoaded)], ["memory, at most", (run) => mebibytes(run.peakResidentBytes)],
       ["takes longest", (run) => run.limitingStage || "–"], ["the bench itself, of the frames’ time", (run) => `${number(Math.max(0, run.overheadPercent), 2)} %`]],
   ];

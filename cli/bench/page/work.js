@@ -41,9 +41,9 @@ function drawStages(place) {
 function trianglePoints() {
   const measured = runs.filter((run) => run.errorPx && run.errorPx.p99 > 0);
   const chosen = measured.length > 0 ? measured : runs.filter((run) => run.tauAchievedMax > 0);
-  const first = chosen.filter((run) => run.renderers === chosen[0].renderers && run.trianglesMean > 0);
+  const first = chosen.filter((run) => run.renderers === chosen[0].renderers && run.trianglesMean + run.pointsMean > 0);
   return { isMeasured: measured.length > 0, points: first.map((run) => ({
-    run, error: measured.length > 0 ? run.errorPx.p99 : run.tauAchievedMax, triangles: run.trianglesMean })) };
+    run, error: measured.length > 0 ? run.errorPx.p99 : run.tauAchievedMax, triangles: run.trianglesMean + run.pointsMean })) };
 }
 
 /** From a run down from what uniform decimation needs for the same error. */

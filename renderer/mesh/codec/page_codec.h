@@ -19,16 +19,17 @@
 /// Vertices, in the order of first use: what is left of a position after the parallelogram with the
 /// triangle across the edge (C. Touma, C. Gotsman, "Triangle Mesh Compression", 1998), of a normal
 /// after the one that the node's own triangles give (normal_forecast.h), of a colour after the mean
-/// of the edge's ends, and of texture coordinates after the same parallelogram. Each number is an
-/// entropy-coded size and plain bits (page_model.h).
+/// of the edge's ends, and of texture coordinates after the same parallelogram. Without triangles
+/// each vertex is foreseen to be like the one before it. Each number is an entropy-coded size and
+/// plain bits (page_model.h).
 ///
 /// A page, little-endian: uint32 bytes of the bits, even; uint32 words of the triangles' symbols;
 /// the bits (shares of all contexts, then plain bits in order of use); the triangles' symbols, then
 /// the vertices', as 16-bit words (codec/rans.h).
 namespace eyrie::mesh {
 
-/// Precondition: vertices come in the order in which the indices first use them, all used; indices
-/// come in threes.
+/// Precondition: there are vertices; they come in the order in which the indices first use them,
+/// all used, unless there are no indices; indices come in threes.
 std::vector<std::byte> encodePage(const NodeGeometry& geometry);
 
 /// Fills `arrays`, which has the node's shape. Safe on any bytes: DataLoss where these are no page

@@ -183,6 +183,10 @@ bool PageDecoder::takeThird(std::uint32_t age, const OpenEdge& edge, std::uint16
 }
 
 bool PageDecoder::takeTriangles() {
+    if (arrays_.indices.empty()) {
+        originsOfPoints(origins_);
+        return triangles_.isAtEnd();
+    }
     for (std::size_t i = 0; i < arrays_.indices.size(); i += 3) {
         const std::span<std::uint16_t, 3> corners(arrays_.indices.data() + i, 3);
         const std::uint32_t met = triangles_.take(kMetEdge);
@@ -269,8 +273,12 @@ void PageDecoder::takeTextureCoordinates(std::uint32_t v, const std::uint8_t* sy
 
 void PageDecoder::addForecast() {
     std::vector<std::uint32_t> forecast(arrays_.normals.size());
-    forecastNormals(arrays_.positions, arrays_.indices, forecast);
+    const bool areOfPoints = arrays_.indices.empty();
+    if (!areOfPoints)
+        forecastNormals(arrays_.positions, arrays_.indices, forecast);
     for (std::size_t v = 0; v < forecast.size(); ++v) {
+        if (areOfPoints && v > 0)
+            forecast[v] = arrays_.normals[v - 1];
         const std::uint32_t left = arrays_.normals[v];
         arrays_.normals[v] =
             ((forecast[v] + left) & 0xFFFFU) | ((forecast[v] & 0xFFFF0000U) + (left & 0xFFFF0000U));

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <utility>
@@ -109,6 +110,8 @@ void PageEncoder::addThird(std::uint32_t age, const OpenEdge& edge, std::uint16_
 }
 
 void PageEncoder::addTriangles() {
+    if (geometry_.indices.empty())
+        originsOfPoints(origins_);
     for (std::size_t i = 0; i < geometry_.indices.size(); i += 3) {
         const std::span<const std::uint16_t, 3> corners(geometry_.indices.data() + i, 3);
         std::uint32_t turn = 0;
@@ -127,7 +130,10 @@ void PageEncoder::addTriangles() {
 
 void PageEncoder::addVertices() {
     std::vector<std::uint32_t> forecast(geometry_.normals.size());
-    forecastNormals(geometry_.positions, geometry_.indices, forecast);
+    if (geometry_.indices.empty())
+        std::copy(geometry_.normals.begin(), geometry_.normals.end() - 1, forecast.begin() + 1);
+    else
+        forecastNormals(geometry_.positions, geometry_.indices, forecast);
     const auto position = [this](std::uint32_t v) {
         return unpackPosition(geometry_.positions[v]);
     };

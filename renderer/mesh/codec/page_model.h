@@ -2,7 +2,9 @@
 #pragma once
 
 #include <bit>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -100,6 +102,14 @@ void originsOfLoose(std::span<const std::uint16_t, 3> corners, std::uint32_t fir
             ++firstNew;
         }
         known = corner;
+    }
+}
+
+/// Of vertices without triangles: each is foreseen where the one before it is.
+inline void originsOfPoints(std::span<Origin> origins) {
+    for (std::size_t v = 1; v < origins.size(); ++v) {
+        const auto before = static_cast<std::uint16_t>(v - 1);
+        origins[v] = {before, before, before};
     }
 }
 

@@ -24,6 +24,9 @@ constexpr double kWorthwhile = 0.8;
 constexpr double kSmallPiece = 1.0 / 256;
 /// Of the same: a larger error shows that what had to give way should not have.
 constexpr double kTooFar = 1.0 / 32;
+/// Points are drawn where they are at most half a pixel apart, triangles up to tau: a sample is the
+/// better if its error is this part of the triangles'.
+constexpr double kWorthPoints = 0.5;
 
 template <typename T>
 void append(std::vector<T>& to, const std::vector<T>& from) {
@@ -53,8 +56,10 @@ public:
           options_(options),
           progress_(progress),
           stop_(stop),
-          parts_(parts) {
+          parts_(parts),
+          colours_(mesh) {
         lod_.geometry.resize(tree.nodes.size());
+        lod_.points.resize(tree.nodes.size());
         errorSteps_.resize(tree.nodes.size());
     }
 
@@ -65,7 +70,8 @@ private:
     LodPart finest(std::size_t index) const;
     const Components& components();
     Simplified simplified(const Patch& patch, const KdNode& node, std::size_t target);
-    void simplifyPart(LodPart& part, std::size_t index);
+    std::optional<Simplified> simplifiedOrNothing(const LodPart& part, const KdNode& node);
+    void standFor(LodPart& part, std::size_t index);
     void record(const LodPart& part, std::size_t before, double borderShare);
 
     const PackedMesh& mesh_;
@@ -74,6 +80,7 @@ private:
     const std::function<void(double)>& progress_;
     const std::stop_token& stop_;
     LodParts* parts_;
+    const SurfaceColours colours_;
     LodTree lod_;
     std::vector<double> errorSteps_;
     std::once_flag componentsMade_;
@@ -108,8 +115,8 @@ LodPart Builder::visit(std::size_t index) {
     append(left.patch.triangles, right.patch.triangles);
     append(left.patch.shifts, right.patch.shifts);
     left.height = std::max(left.height, right.height);
-    simplifyPart(left, index);
-    errorSteps_[index] = left.patch.error();
+    left.errorSteps = std::max(left.errorSteps, right.errorSteps);
+    standFor(left, index);
     return left;
 }
 
@@ -143,21 +150,43 @@ Simplified Builder::simplified(const Patch& patch, const KdNode& node, std::size
     return isSparseBetter ? sparse : plain;
 }
 
-/// Leaves the part as it is where that does not pay: the node is then drawn by its children.
-void Builder::simplifyPart(LodPart& part, std::size_t index) {
+/// Nothing where that does not pay.
+std::optional<Simplified> Builder::simplifiedOrNothing(const LodPart& part, const KdNode& node) {
     const std::size_t before = part.patch.triangles.size();
     if (before > kMostUnsimplified * options_.nodeTriangles)
-        return;
-    auto [patch, share] = simplified(part.patch, tree_.nodes[index],
-                                     std::min<std::size_t>(before / 2, options_.nodeTriangles));
-    if (patch.triangles.size() > kMaxNodeTriangles ||
-        hasMoreVerticesThan(kMaxLeafVertices, patch.triangles) ||
-        static_cast<double>(patch.triangles.size()) > kWorthwhile * static_cast<double>(before))
-        return;
-    part.patch = std::move(patch);
-    ++part.height;
-    lod_.geometry[index] = part.patch.triangles;
-    record(part, before, share);
+        return std::nullopt;
+    Simplified result =
+        simplified(part.patch, node, std::min<std::size_t>(before / 2, options_.nodeTriangles));
+    const std::vector<Triangle>& triangles = result.patch.triangles;
+    if (triangles.size() > kMaxNodeTriangles || hasMoreVerticesThan(kMaxLeafVertices, triangles) ||
+        static_cast<double>(triangles.size()) > kWorthwhile * static_cast<double>(before))
+        return std::nullopt;
+    return result;
+}
+
+/// Finds what is drawn for a node: fewer triangles, which then stand for it further up; or points,
+/// where there are none, or worse ones; or neither, and the node is drawn by its children. Without
+/// triangles of its own the part stays as it is.
+void Builder::standFor(LodPart& part, std::size_t index) {
+    const KdNode& node = tree_.nodes[index];
+    std::optional<Simplified> fewer = simplifiedOrNothing(part, node);
+    const std::size_t before = part.patch.triangles.size();
+    const double diagonal = glm::length(glm::dvec3(node.boxMax) - glm::dvec3(node.boxMin));
+    const bool mayBeBetter = !fewer || fewer->patch.error() > kSmallPiece * diagonal;
+    if (before >= options_.sampledTriangles && mayBeBetter)
+        lod_.points[index] = samplePoints(
+            mesh_, part.patch, colours_, options_.nodePoints,
+            fewer ? kWorthPoints * fewer->patch.error() : std::numeric_limits<double>::infinity());
+    if (lod_.points[index]) {
+        part.errorSteps = std::max(part.errorSteps, lod_.points[index]->errorSteps());
+    } else if (fewer) {
+        part.patch = std::move(fewer->patch);
+        ++part.height;
+        lod_.geometry[index] = part.patch.triangles;
+        record(part, before, fewer->borderShare);
+    }
+    part.errorSteps = std::max(part.errorSteps, part.patch.error());
+    errorSteps_[index] = part.errorSteps;
 }
 
 void Builder::record(const LodPart& part, std::size_t before, double borderShare) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <stop_token>
 #include <vector>
@@ -11,6 +12,7 @@
 
 #include "renderer/mesh/kd_tree.h"
 #include "renderer/mesh/lod/patch.h"
+#include "renderer/mesh/lod/point_sample.h"
 #include "renderer/mesh/packed_mesh.h"
 
 namespace eyrie::mesh {
@@ -22,12 +24,17 @@ struct LodOptions {
     /// Vertices where the mesh goes on beyond the tree, of which it is a part: what touches one is
     /// no component to be left out.
     std::span<const std::uint32_t> goesOnAt = {};
+    /// Where triangles cannot stand for a node, or not well, points do, if it has as many triangles
+    /// as this.
+    std::size_t sampledTriangles = 8192;
+    std::size_t nodePoints = 4096;  ///< how many, at most
 };
 
 /// A node's surface on its way up.
 struct LodPart {
     Patch patch;
     std::size_t height = 0;  ///< of the tree of simplifications under it
+    double errorSteps = 0;   ///< the largest of what is drawn for the node and those under it
 };
 
 /// How trees of parts of a mesh become one.
@@ -48,9 +55,10 @@ struct LodLevel {
 
 /// What stands for the nodes of a kd-tree when they are drawn coarser, node by node.
 struct LodTree {
-    /// Triangles of the mesh's own vertices; empty for leaves, and for nodes that are drawn by
-    /// their children.
+    /// Triangles of the mesh's own vertices; empty for leaves, and for nodes that are drawn as
+    /// points or by their children.
     std::vector<std::vector<Triangle>> geometry;
+    std::vector<std::optional<PointSample>> points;  ///< only of nodes without triangles
     /// Bound on the distance of any point of the source's surface under the node to what stands for
     /// it, and of any point of that to the source; what the lattice rounds included. Measured,
     /// never below the children's.

@@ -54,6 +54,7 @@ TEST(Metrics, CountsFramesByWhatBecameOfThem) {
     fabric::FrameStatistics statistics;
     statistics.tauAchievedPixels = 0.75;
     statistics.triangles = 1000;
+    statistics.points = 30;
     metrics.frameMade(statistics);
     statistics.complete = false;
     statistics.pagesMissing = 3;
@@ -68,6 +69,7 @@ TEST(Metrics, CountsFramesByWhatBecameOfThem) {
     EXPECT_THAT(text, HasSubstr("eyrie_frame_error_pixels_bucket{le=\"0.5\"} 0\n"));
     EXPECT_THAT(text, HasSubstr("eyrie_frame_error_pixels_bucket{le=\"1\"} 2\n"));
     EXPECT_THAT(text, HasSubstr("eyrie_triangles_total 2000\n"));
+    EXPECT_THAT(text, HasSubstr("eyrie_points_total 60\n"));
     EXPECT_THAT(text, HasSubstr("eyrie_pages_missing 3\n"));
     EXPECT_THAT(text, HasSubstr("eyrie_renderers{condition=\"ready\"} 2\n"));
 }

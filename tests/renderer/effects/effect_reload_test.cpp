@@ -23,7 +23,8 @@ using Clock = std::chrono::steady_clock;
 class EffectReload : public testing::Test {
 protected:
     void SetUp() override {
-        for (const char* name : {"mesh.effect", "terrain.effect", "object.block"})
+        for (const char* name : {"mesh.effect", "mesh_points.effect", "mesh_vertex.block",
+                                 "terrain.effect", "object.block"})
             std::filesystem::copy_file(
                 std::filesystem::path(EYRIE_SOURCE_DIR "/renderer/effects") / name,
                 folder_.path(name));

@@ -12,6 +12,7 @@
 #include <spdlog/sinks/ostream_sink.h>
 
 #include "effects/mesh_effect.h"
+#include "effects/mesh_points_effect.h"
 #include "effects/terrain_effect.h"
 #include "fabric/log.h"
 #include "renderer/gl/debug_output.h"
@@ -104,10 +105,13 @@ TEST_F(EffectVariantsTest, EveryBuiltInVariantCompilesAndSetsWhatTheDriverKept) 
                     terrain->worldFromNormal(glm::mat3(1.0F));
                     terrain->lineWidth(1.0F);
                 }
+                const auto points = MeshPointsEffect::create({object, {}});
+                ASSERT_TRUE(points.ok()) << points.status();
+                points->pointRadius(0.25F);
                 for (const bool gouraud : {false, true}) {
                     for (int surface = lights == 1 ? 5 : 0; surface >= 0; --surface) {
-                        const auto mesh =
-                            MeshEffect::create({object, gouraud, surface % 2 == 1, surface / 2});
+                        const auto mesh = MeshEffect::create(
+                            {object, {}, gouraud, surface % 2 == 1, surface / 2});
                         ASSERT_TRUE(mesh.ok()) << mesh.status();
                         mesh->worldFromNormal(glm::mat3(1.0F));
                         mesh->alphaCutoff(0.5F);

@@ -22,13 +22,15 @@ namespace {
 std::string makeSmallFile(bool isCoded) {
     const test::TemporaryFolder folder;
     PackedMesh mesh = test::texturedSoup(40, 1);
+    mesh.materials[2].flags = 0;  // points stand for nothing that is blended
     for (const std::uint64_t position : mesh.positions)
         mesh.exact.push_back(mesh.lattice.metres(unpackPosition(position)) + 0.01);
     auto tree = buildKdTree(mesh.positions, mesh.triangles, {10});
     auto out = OutputFile::create(folder.file("m.eym"));
     EXPECT_TRUE(tree.ok() && out.ok());
-    auto lod = buildLodTree(mesh, *tree);
-    EXPECT_TRUE(lod.ok());
+    auto lod =
+        buildLodTree(mesh, *tree, {.nodeTriangles = 10, .sampledTriangles = 20, .nodePoints = 16});
+    EXPECT_TRUE(lod.ok() && lod->points[0].has_value());
     EXPECT_TRUE(
         writeEym(mesh, *tree, *lod, findBacks(mesh, *tree), {.isCoded = isCoded}, *out).ok());
     EXPECT_TRUE(out->commit().ok());
@@ -55,6 +57,8 @@ absl::Status readAll(const std::string& path) {
             sum += geometry->positions[index] + geometry->normals[index] +
                    geometry->colours[index] +
                    static_cast<std::uint32_t>(geometry->textureCoordinates[index].x);
+        for (const PointRange& range : file->pointRanges(node))
+            sum += geometry->colours[range.points - 1] + geometry->positions[range.points - 1];
         for (const MaterialRange& range : file->ranges(node))
             sum += file->materials()[range.material].flags + range.indexCount;
         EXPECT_NE(sum, std::numeric_limits<std::uint64_t>::max());  // keeps the reads
@@ -69,6 +73,15 @@ absl::Status readAll(const std::string& path) {
     return absl::OkStatus();
 }
 
+/// The second range of a node.
+template <typename Ranges>
+auto& laterRange(Ranges& ranges) {
+    const auto at = std::ranges::adjacent_find(
+        ranges, [](const PointRange& a, const PointRange& b) { return a.node == b.node; });
+    EXPECT_NE(at, ranges.end());
+    return *std::next(at);
+}
+
 /// A file's header and tables, to be changed and sealed with the checksum that then is right.
 struct Tables {
     explicit Tables(const std::string& bytes) {
@@ -78,6 +91,7 @@ struct Tables {
         materials.resize(header.materialCount);
         images.resize(header.imageCount);
         ranges.resize(header.rangeCount);
+        pointRanges.resize(header.pointRangeCount);
         const char* at = bytes.data() + sizeof header;
         forAll([&at](auto table) {
             std::memcpy(table.data(), at, table.size());
@@ -94,8 +108,11 @@ struct Tables {
             std::memcpy(at, table.data(), table.size());
             at += table.size();
         });
-        header.materialsChecksum = contentHash(
-            std::as_bytes(std::span(materialsAt, static_cast<std::size_t>(at - materialsAt))));
+        header.pointRangesChecksum = contentHash(std::as_bytes(std::span(pointRanges)));
+        const auto materialBytes = static_cast<std::size_t>(at - materialsAt) -
+                                   std::as_bytes(std::span(pointRanges)).size();
+        header.materialsChecksum =
+            contentHash(std::as_bytes(std::span(materialsAt, materialBytes)));
         header.checksum = headerChecksum(header);
         std::memcpy(bytes.data(), &header, sizeof header);
         return bytes;
@@ -107,8 +124,11 @@ struct Tables {
         visit(std::as_writable_bytes(std::span(materials)));
         visit(std::as_writable_bytes(std::span(images)));
         visit(std::as_writable_bytes(std::span(ranges)));
+        visit(std::as_writable_bytes(std::span(pointRanges)));
     }
-    std::size_t endOfTables() const { return endOfLids(header) + materialTableBytes(header); }
+    std::size_t endOfTables() const {
+        return endOfMaterials(header) + pointRanges.size() * sizeof(PointRange);
+    }
 
     EymHeader header;
     std::vector<Node> nodes;
@@ -116,6 +136,7 @@ struct Tables {
     std::vector<Material> materials;
     std::vector<ImageRecord> images;
     std::vector<MaterialRange> ranges;
+    std::vector<PointRange> pointRanges;
 };
 
 TEST(EymDamage, OfTheLengthIsAlwaysNoticed) {
@@ -172,7 +193,19 @@ TEST(EymDamage, WithARightChecksumIsStillRefused) {
         {"too many vertices", [](Tables& t) { t.nodes.back().vertexCount = 65536; }},
         {"vertices that none uses",
          [](Tables& t) { t.nodes.back().vertexCount = t.nodes.back().indexCount + 1; }},
-        {"vertices without triangles", [](Tables& t) { t.nodes[0].vertexCount = 3; }},
+        {"a leaf of points", [](Tables& t) { t.nodes.back().indexCount = 0; }},
+        {"points without ranges", [](Tables& t) { t.pointRanges[0].node = 1U << 20; }},
+        {"ranges of a node without points", [](Tables& t) { t.pointRanges.back().node += 1; }},
+        {"more points than there are", [](Tables& t) { t.pointRanges[0].points = 1000; }},
+        {"no points", [](Tables& t) { t.pointRanges[0].points = 0; }},
+        {"as many points again", [](Tables& t) { laterRange(t.pointRanges).points = 1; }},
+        {"ranges of too few points", [](Tables& t) { t.nodes[0].vertexCount += 1; }},
+        {"an error of more points that is greater",
+         [](Tables& t) { laterRange(t.pointRanges).errorMetres *= 100; }},
+        {"an error of points that is not finite",
+         [](Tables& t) { t.pointRanges[0].errorMetres = std::numeric_limits<float>::quiet_NaN(); }},
+        {"an error of all points that is not the node's",
+         [](Tables& t) { t.nodes[0].errorMetres *= 2; }},
         {"more triangles than a node stands for",
          [](Tables& t) {
              t.nodes[0].indexCount = 3 * (kMaxNodeTriangles + 1);

@@ -97,6 +97,41 @@ INSTANTIATE_TEST_SUITE_P(WithAndWithoutColours, EymFormat,
                          testing::Values(Form{false, false}, Form{false, true}, Form{true, false},
                                          Form{true, true}));
 
+TEST(EymFile, GivesPointsBack) {
+    const test::TemporaryFolder folder;
+    const PackedMesh mesh = test::randomSoup(600, 300, 3000, 1);
+    const auto tree = buildKdTree(mesh.positions, mesh.triangles, {100});
+    ASSERT_TRUE(tree.ok());
+    const auto lod = buildLodTree(
+        mesh, *tree, {.nodeTriangles = 100, .sampledTriangles = 200, .nodePoints = 40});
+    ASSERT_TRUE(lod.ok() && lod->points[0]);
+    for (const bool isCoded : {false, true}) {
+        auto out = OutputFile::create(folder.file("m.eym"));
+        ASSERT_TRUE(out.ok());
+        ASSERT_TRUE(
+            writeEym(mesh, *tree, *lod, findBacks(mesh, *tree), {.isCoded = isCoded}, *out).ok());
+        ASSERT_TRUE(out->commit().ok());
+        const auto file = EymFile::open(folder.file("m.eym"));
+        ASSERT_TRUE(file.ok()) << file.status();
+        const PointSample& root = *lod->points[0];
+        EXPECT_TRUE(file->nodes()[0].isOfPoints());
+        const auto geometry = file->geometry(0);
+        ASSERT_TRUE(geometry.ok()) << geometry.status();
+        EXPECT_TRUE(std::ranges::equal(geometry->positions, root.positions));
+        EXPECT_TRUE(std::ranges::equal(geometry->normals, root.normals));
+        EXPECT_TRUE(geometry->colours.empty() && geometry->indices.empty());
+        const auto ranges = file->pointRanges(0);
+        ASSERT_EQ(ranges.size(), root.prefixes.size());
+        for (std::size_t i = 0; i < ranges.size(); ++i) {
+            EXPECT_EQ(ranges[i].points, root.prefixes[i].points);
+            EXPECT_GE(ranges[i].errorMetres,
+                      static_cast<float>(root.prefixes[i].errorSteps * mesh.lattice.stepMetres));
+        }
+        const auto leaf = static_cast<std::uint32_t>(file->nodes().size() - 1);
+        EXPECT_TRUE(file->pointRanges(leaf).empty());
+    }
+}
+
 /// What is sent to the device is the same bytes, so pictures are.
 TEST(EymFile, GivesTheSameBlocksCodedAndRaw) {
     const test::TemporaryFolder folder;

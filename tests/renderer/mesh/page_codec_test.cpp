@@ -27,7 +27,7 @@ PackedNode gathered(const PackedMesh& mesh) {
 }
 
 /// Any triangles at all: repeated, without area, flipped, with corners in common.
-PackedNode anyNode() {
+PackedNode anyTriangles() {
     if (*rc::gen::arbitrary<bool>())
         return gathered(test::texturedSoup(*rc::gen::inRange<std::uint32_t>(1, 300),
                                            *rc::gen::arbitrary<std::uint32_t>()));
@@ -38,6 +38,14 @@ PackedNode anyNode() {
     const PackedMesh soup =
         test::randomSoup(triangles, vertices, extent, seed, *rc::gen::arbitrary<bool>());
     return gathered(soup);
+}
+
+/// These, or points alone.
+PackedNode anyNode() {
+    PackedNode node = anyTriangles();
+    if (*rc::gen::arbitrary<bool>())
+        node.indices.clear();
+    return node;
 }
 
 /// A hilly square of `side` * `side` vertices.

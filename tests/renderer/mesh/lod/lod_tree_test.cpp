@@ -27,10 +27,12 @@ struct Levels {
     LodTree lod;
 };
 
-Levels levelsOf(PackedMesh mesh, std::uint32_t nodeTriangles = kNodeTriangles) {
+Levels levelsOf(PackedMesh mesh, std::uint32_t nodeTriangles = kNodeTriangles,
+                std::size_t sampledTriangles = LodOptions().sampledTriangles) {
     auto tree = buildKdTree(mesh.positions, mesh.triangles, {nodeTriangles / 4});
     EXPECT_TRUE(tree.ok());
-    auto lod = buildLodTree(mesh, *tree, {.nodeTriangles = nodeTriangles});
+    auto lod = buildLodTree(mesh, *tree,
+                            {.nodeTriangles = nodeTriangles, .sampledTriangles = sampledTriangles});
     EXPECT_TRUE(lod.ok());
     return {std::move(mesh), *std::move(tree), *std::move(lod)};
 }
@@ -40,7 +42,7 @@ const Levels& bumpyBall() {
         import::PackCounts counts;
         auto mesh = import::packMesh(import::synthesizeMesh(20000, 5), counts);
         EXPECT_TRUE(mesh.ok());
-        return levelsOf(*std::move(mesh));
+        return levelsOf(*std::move(mesh), kNodeTriangles, kNodeTriangles);
     }();
     return levels;
 }
@@ -145,6 +147,62 @@ TEST(LodTree, OfASoupLosesPiecesAndStillKeepsItsPromise) {
     // Without its pieces' going the root has no simpler form: none of them can be simplified.
     EXPECT_LE(levels.lod.geometry[0].size(), kNodeTriangles);
     EXPECT_FALSE(levels.lod.geometry[0].empty());
+}
+
+/// Ladders, which are border all over: nothing of them can be simplified.
+PackedMesh ladders() {
+    PackedMesh mesh;
+    mesh.lattice = {{0, 0, 0}, 0.25};
+    std::mt19937 random(3);
+    for (std::uint32_t row = 0; row < 60; ++row)
+        for (std::uint32_t i = 0; i <= 50; ++i)
+            for (const std::uint32_t side : {0U, 900U}) {
+                mesh.positions.push_back(
+                    packPosition({i * 1000, row * 1000 + side, random() % 3000}));
+                mesh.normals.push_back(packNormal({0, 0, 1}));
+                const auto last = static_cast<std::uint32_t>(mesh.positions.size() - 1);
+                if (i > 0 && side > 0) {
+                    mesh.triangles.push_back({last - 3, last - 1, last});
+                    mesh.triangles.push_back({last - 3, last, last - 2});
+                }
+            }
+    return mesh;
+}
+
+TEST(LodTree, WhatDoesNotSimplifyIsPoints) {
+    const PackedMesh mesh = ladders();
+    const auto tree = buildKdTree(mesh.positions, mesh.triangles, {kNodeTriangles / 4});
+    ASSERT_TRUE(tree.ok());
+    const auto lod = buildLodTree(
+        mesh, *tree,
+        {.nodeTriangles = kNodeTriangles, .sampledTriangles = kNodeTriangles, .nodePoints = 300});
+    ASSERT_TRUE(lod.ok());
+    const truth::MeshRayCaster source = surface(mesh, mesh.triangles);
+    std::size_t sampled = 0;
+    for (std::size_t i = 0; i < tree->nodes.size(); ++i) {
+        const KdNode& node = tree->nodes[i];
+        if (!lod->points[i])
+            continue;
+        ++sampled;
+        EXPECT_FALSE(node.isLeaf());
+        EXPECT_TRUE(lod->geometry[i].empty());
+        EXPECT_LE(lod->points[i]->positions.size(), 300U);
+        EXPECT_GE(
+            lod->errorMetres[i] + 1e-9,
+            mesh.lattice.errorMetres() + lod->points[i]->errorSteps() * mesh.lattice.stepMetres);
+        for (const std::int32_t child : {node.left, node.right})
+            EXPECT_GE(lod->errorMetres[i], lod->errorMetres[static_cast<std::size_t>(child)]);
+        for (const std::uint64_t position : lod->points[i]->positions) {
+            const fabric::Vec3 at = mesh.lattice.metres(unpackPosition(position));
+            EXPECT_LE(glm::distance(*source.counterpart(at), at), lod->errorMetres[i]);
+        }
+    }
+    EXPECT_GE(sampled, 8U);
+    EXPECT_TRUE(lod->points[0].has_value());
+}
+
+TEST(LodTree, ScansNeedNoPoints) {
+    for (const auto& points : bumpyBall().lod.points) EXPECT_FALSE(points.has_value());
 }
 
 TEST(LodTree, HalvesTheTrianglesFromLevelToLevel) {

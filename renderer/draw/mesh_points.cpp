@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/draw/mesh_points.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fabric/status.h"
+#include "renderer/draw/object_program.h"
+#include "renderer/draw/tint.h"
+
+namespace eyrie::draw {
+namespace {
+
+using Program = effects::MeshPointsEffect;
+
+/// Alphas of points (mesh::PointSides) below this are not seen from behind.
+float leastAlpha(bool isSingleSided) { return isSingleSided ? 0.75F : 0.25F; }
+
+}  // namespace
+
+MeshPoints::MeshPoints(PointPrograms& programs, const mesh::EymFile& file,
+                       const fabric::SceneObject& object)
+    : programs_(programs),
+      worldFromObject_(object.worldFromObject),
+      objectFromLattice_(file.lattice().objectFromLattice()),
+      singleSided_(object.singleSided),
+      hasColours_(file.hasColours() || file.hasTextures()) {
+    Program::kPackedPosition.define(vertexArray_);
+    Program::kPackedNormal.define(vertexArray_);
+    Program::kPackedColour.define(vertexArray_, hasColours_);
+}
+
+absl::Status MeshPoints::prepare(const FrameState& frame) {
+    Program::Variant variant{variantFor(frame, worldFromObject_), {}};
+    variant.flat = false;  // points have no faces
+    ASSIGN_OR_RETURN(prepared_, programs_.find(variant));
+    prepared_->use();
+    setObject(*prepared_, frame, worldFromObject_, objectFromLattice_);
+    // No less than a pixel of the view, nor of the picture; the shader cuts it to size.
+    const fabric::Vec2& step = frame.view.step;
+    const auto side = static_cast<float>(std::ceil(1 / std::min({step.x, step.y, 1.0})));
+    prepared_->pointSide(side);
+    prepared_->leastAlpha(leastAlpha(singleSided_));
+    glPointSize(side);
+    return absl::OkStatus();
+}
+
+absl::Status MeshPoints::draw(const Piece& piece, const DeviceNode& node, std::uint32_t colour,
+                              const FrameState& frame) {
+    if (prepared_ == nullptr)
+        RETURN_IF_ERROR(prepare(frame));
+    prepared_->use();
+    prepared_->pointRadius(static_cast<float>(piece.pointRadiusPixels));
+    glBindVertexArray(vertexArray_.id());
+    Program::kPackedPosition.source(vertexArray_, node.buffer, 0);
+    Program::kPackedNormal.source(vertexArray_, node.buffer, node.normalOffset);
+    if (hasColours_)
+        Program::kPackedColour.source(vertexArray_, node.buffer, node.colourOffset);
+    if (hasColours_ && !isTinted(frame.look))
+        glEnableVertexArrayAttrib(vertexArray_.id(), Program::kPackedColour.location);
+    else
+        glDisableVertexArrayAttrib(vertexArray_.id(), Program::kPackedColour.location);
+    glVertexAttribI4ui(Program::kPackedColour.location, colour, 0, 0, 0);
+    glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(piece.points));
+    return absl::OkStatus();
+}
+
+}  // namespace eyrie::draw

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/draw/mesh_cut.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <random>
+#include <set>
+#include <string>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "renderer/import/mesh_import.h"
+#include "tests/support/ladders.h"
+#include "tests/support/temporary_folder.h"
+
+namespace eyrie::draw {
+namespace {
+
+using NodeTest = std::function<bool(std::uint32_t)>;
+
+class MeshCutOfPoints : public testing::Test {
+protected:
+    void SetUp() override {
+        const auto report = import::importMesh(test::ladders(300, 80), folder_.path("m.eym"));
+        ASSERT_TRUE(report.ok()) << report.status();
+        auto opened = mesh::EymFile::open(folder_.path("m.eym"));
+        ASSERT_TRUE(opened.ok()) << opened.status();
+        file_.emplace(*std::move(opened));
+        ASSERT_TRUE(file_->nodes()[0].isOfPoints());
+    }
+
+    /// From above, so that the whole is about so many pixels large.
+    lod::ObjectView viewOf(double pixels) const {
+        fabric::Camera camera;
+        camera.target = file_->bounds().centre();
+        camera.up = {0, 1, 0};
+        camera.fovYDegrees = 45;
+        const double metresAPixel = glm::length(file_->bounds().size()) / pixels;
+        camera.eye =
+            camera.target + fabric::Vec3(0, 0, metresAPixel * 720 / 2 / std::tan(M_PI / 8));
+        return {lod::View(camera, 1280, 720), fabric::Mat4(1.0)};
+    }
+
+    /// That each leaf has exactly one drawn node at or above it.
+    void checkWhole(const MeshCut& cut) const {
+        std::uint64_t at = 0;
+        for (const CutNode& one : cut.drawn) {
+            const mesh::Node& node = file_->nodes()[one.node];
+            EXPECT_EQ(node.triangleBegin, at);
+            at = node.triangleEnd;
+        }
+        EXPECT_EQ(at, file_->triangleCount());
+        EXPECT_TRUE(cut.isWhole);
+    }
+
+    test::TemporaryFolder folder_;
+    std::optional<mesh::EymFile> file_;
+};
+
+const NodeTest kAllThere = [](std::uint32_t) { return true; };
+
+TEST_F(MeshCutOfPoints, DrawsPointsOnlyWhereTheyFillTheirPixels) {
+    std::set<std::uint32_t> counts;
+    for (const double tau : {0.1, 0.5, 1.0, 8.0})
+        for (double pixels = 2; pixels < 700; pixels *= 1.2) {
+            const lod::ObjectView view = viewOf(pixels);
+            const MeshCut cut = cutOf(*file_, view, tau, kAllThere);
+            checkWhole(cut);
+            for (const CutNode& one : cut.drawn) {
+                const auto ranges = file_->pointRanges(one.node);
+                EXPECT_EQ(one.points > 0, !ranges.empty());
+                if (ranges.empty())
+                    continue;
+                const auto range = std::ranges::find(ranges, one.points, &mesh::PointRange::points);
+                ASSERT_NE(range, ranges.end());
+                EXPECT_EQ(one.errorPixels,
+                          view.screenSpaceErrorPixels(range->errorMetres, file_->bounds(one.node)));
+                EXPECT_LE(one.errorPixels, std::min(tau, kMostPointPixels));
+                counts.insert(one.points);
+            }
+        }
+    EXPECT_GE(counts.size(), 8U);
+}
+
+TEST_F(MeshCutOfPoints, TakesFewerPointsTheFartherItIs) {
+    std::uint64_t before = std::numeric_limits<std::uint64_t>::max();
+    for (const double pixels : {16.0, 4.0, 1.5, 0.5}) {
+        const MeshCut cut = cutOf(*file_, viewOf(pixels), 1, kAllThere);
+        ASSERT_EQ(cut.drawn.size(), 1U);
+        EXPECT_LT(cut.drawn[0].points, before);
+        before = cut.drawn[0].points;
+    }
+    EXPECT_LT(before, 1000U);
+    // Nearby it is drawn by its leaves.
+    for (const CutNode& one : cutOf(*file_, viewOf(4000), 1, kAllThere).drawn)
+        EXPECT_TRUE(file_->nodes()[one.node].isLeaf());
+}
+
+TEST_F(MeshCutOfPoints, StandInForNothingAndHaveStandIns) {
+    // Points that are there, but leave gaps: they are not drawn for leaves that are not there.
+    const NodeTest noLeaf = [this](std::uint32_t node) { return !file_->nodes()[node].isLeaf(); };
+    const MeshCut gaps = cutOf(*file_, viewOf(4000), 1, noLeaf);
+    EXPECT_FALSE(gaps.isWhole);
+    EXPECT_TRUE(gaps.drawn.empty());
+    EXPECT_TRUE(std::isinf(gaps.errorPixels()));
+    // The root's that are not there: finer points are, or leaves.
+    for (const int missingLevels : {1, 2, 100}) {
+        const NodeTest isThere = [&](std::uint32_t node) {
+            return file_->nodes()[node].isLeaf() ||
+                   node >= static_cast<std::uint32_t>(missingLevels);
+        };
+        const MeshCut cut = cutOf(*file_, viewOf(8), 1, isThere);
+        checkWhole(cut);
+        ASSERT_EQ(cut.wanted.size(), 1U);
+        EXPECT_EQ(cut.wanted[0].node, 0U);
+        EXPECT_GT(cut.drawn.size(), 1U);
+        EXPECT_LE(cut.errorPixels(), kMostPointPixels);
+    }
+}
+
+}  // namespace
+}  // namespace eyrie::draw
