@@ -123,14 +123,14 @@ TEST_F(HardCase18OfPoints, ComeWithoutHolesAndWithoutAJumpInBrightness) {
     struct Case {
         const char* name;
         Mesh mesh;
-        double mostJump;   ///< measured: 0.027 and 0.143, of pictures of as few as 47 pixels
-        double mostShift;  ///< on average; measured: 0.003 and 0.062
+        double mostJump;   ///< measured: 0.028 and 0.130, of pictures of as few as 47 pixels
+        double mostShift;  ///< on average; measured: 0.004 and 0.071
     };
     scene_.ambient = 0.1;
     scene_.lights = {{.direction = {-0.5, 0.3, -0.8}, .colour = {1, 1, 1}}};
     // What is finer than a pixel and stands out covers more than its share: decision 66.
     for (const Case& c :
-         {Case{"ground", test::ladders(400, 200), 0.04, 0.01}, Case{"town", town(), 0.2, 0.08}}) {
+         {Case{"ground", test::ladders(400, 200), 0.04, 0.01}, Case{"town", town(), 0.2, 0.1}}) {
         scene_.objects = {import(c.mesh, c.name)};
         ASSERT_NO_FATAL_FAILURE(open());
         std::mt19937 random(3);

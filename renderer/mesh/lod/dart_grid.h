@@ -4,7 +4,6 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include <glm/common.hpp>
@@ -31,8 +30,8 @@ public:
         points_.push_back(point);
     }
 
-    /// The squared distance of a point within the radius; infinite without one.
-    double near(const glm::dvec3& point) const {
+    /// Whether one of them is within the radius.
+    bool hasNear(const glm::dvec3& point) const {
         const glm::dvec3 place = point / cell_;
         const glm::i64vec3 own(glm::floor(place));
         const glm::i64vec3 beside =
@@ -43,12 +42,11 @@ public:
                                     (corner & 4) != 0 ? beside.z : own.z);
             for (std::uint32_t at = heads_[slotOf(cell)]; at != kNone; at = next_[at]) {
                 const glm::dvec3 way = points_[at] - point;
-                const double distance2 = glm::dot(way, way);
-                if (distance2 <= radius2_)
-                    return distance2;
+                if (glm::dot(way, way) <= radius2_)
+                    return true;
             }
         }
-        return std::numeric_limits<double>::infinity();
+        return false;
     }
 
 private:

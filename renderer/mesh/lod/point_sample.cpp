@@ -28,7 +28,7 @@ constexpr double kCoarse = 4;
 /// Darts of a radius in those of 1: a little more than on a plane, where the first have no edge.
 constexpr double kRoom = 1.1;
 /// Times a radius that was too small for the points there may be, and again.
-constexpr double kNarrower = 1.15;
+constexpr double kWider = 1.15;
 /// How far texels are apart, in least radii: in pictures about a pixel.
 constexpr double kTexels = 3;
 /// More, besides one for each triangle, are not looked at: a surface of needles may need any
@@ -81,8 +81,7 @@ private:
     std::array<Corner, 3> cornersOf(const Triangle& triangle) const;
     bool makeCandidates(double reach);
     double leastRadius();
-    void choose(double radius, PointSample& sample);
-    void add(double radius, PointSample& sample) const;
+    std::vector<PointPrefix> choose(double radius);
     std::size_t mostCandidates() const { return kMostCandidates + patch_.triangles.size(); }
     void add(const Corner& at, std::uint32_t triangle, double farthest);
     void addAlong(const Corner& from, const Corner& to, double width, std::uint32_t triangle,
@@ -90,6 +89,9 @@ private:
     void cut(const std::array<Corner, 3>& corners, std::uint32_t triangle, double reach);
     void putInOrder();
     bool throwDarts(double radius);
+    using Chosen = std::vector<std::uint32_t>;
+    void alongCurve(Chosen::iterator begin, Chosen::iterator end) const;
+    std::size_t putForward(std::size_t first, double radius);
     void addPoint(const Candidate& candidate, PointSample& sample) const;
     std::uint32_t normalAt(const Triangle& triangle, const glm::dvec3& weights,
                            bool isOneSided) const;
@@ -99,10 +101,9 @@ private:
     const SurfaceColours& colours_;
     const std::size_t mostPoints_;
     std::vector<Candidate> candidates_;
-    std::vector<double> nearest2_;       ///< by candidate: square of the way to one that is in
-    std::vector<std::uint32_t> chosen_;  ///< candidates, as they went in
-    double reach_ = 0;                   ///< of a candidate, and how far the patch is off
-    double spacing_ = 0;                 ///< of texels that are looked at
+    Chosen chosen_;       ///< candidates, as they went in
+    double reach_ = 0;    ///< of a candidate, and how far the patch is off
+    double spacing_ = 0;  ///< of texels that are looked at
 };
 
 bool Sampler::hasBlended() const {
@@ -212,39 +213,48 @@ void Sampler::putInOrder() {
     ordered.reserve(order.size());
     for (const auto& [lot, index] : order) ordered.push_back(candidates_[index]);
     candidates_ = std::move(ordered);
-    nearest2_.assign(candidates_.size(), std::numeric_limits<double>::infinity());
 }
 
-/// Chooses further candidates until each has one within `radius`; not if these are too many.
+/// Chooses candidates until each has one within `radius`; not if these are too many.
 bool Sampler::throwDarts(double radius) {
     DartGrid grid(mostPoints_, radius);
-    for (const std::uint32_t one : chosen_) grid.add(candidates_[one].point);
-    const std::size_t before = chosen_.size();
-    std::vector<double> nearestBefore = nearest2_;
+    chosen_.clear();
     for (std::uint32_t i = 0; i < candidates_.size(); ++i) {
-        if (nearest2_[i] <= radius * radius)
-            continue;
         const glm::dvec3& point = candidates_[i].point;
-        nearest2_[i] = grid.near(point);
-        if (nearest2_[i] <= radius * radius)
+        if (grid.hasNear(point))
             continue;
-        if (chosen_.size() == mostPoints_) {
-            chosen_.resize(before);
-            nearest2_ = std::move(nearestBefore);
+        if (chosen_.size() == mostPoints_)
             return false;
-        }
-        nearest2_[i] = 0;
         grid.add(point);
         chosen_.push_back(i);
     }
-    std::sort(chosen_.begin() + static_cast<std::ptrdiff_t>(before), chosen_.end(),
-              [this](std::uint32_t a, std::uint32_t b) {
-                  const auto key = [this](std::uint32_t i) {
-                      return mortonKey(glm::uvec3(glm::round(candidates_[i].point)));
-                  };
-                  return std::pair(key(a), a) < std::pair(key(b), b);
-              });
     return true;
+}
+
+void Sampler::alongCurve(Chosen::iterator begin, Chosen::iterator end) const {
+    std::sort(begin, end, [this](std::uint32_t a, std::uint32_t b) {
+        const auto key = [this](std::uint32_t i) {
+            return mortonKey(glm::uvec3(glm::round(candidates_[i].point)));
+        };
+        return std::pair(key(a), a) < std::pair(key(b), b);
+    });
+}
+
+/// Puts chosen candidates that have none before them within `radius` before the others, beginning
+/// with the `first`-th, and says how many there are before these then.
+std::size_t Sampler::putForward(std::size_t first, double radius) {
+    DartGrid grid(chosen_.size(), radius);
+    for (std::size_t i = 0; i < first; ++i) grid.add(candidates_[chosen_[i]].point);
+    const auto begin = chosen_.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto end = std::stable_partition(begin, chosen_.end(), [&](std::uint32_t one) {
+        const glm::dvec3& point = candidates_[one].point;
+        const bool isFar = !grid.hasNear(point);
+        if (isFar)
+            grid.add(point);
+        return isFar;
+    });
+    alongCurve(begin, end);
+    return static_cast<std::size_t>(end - chosen_.begin());
 }
 
 std::uint32_t Sampler::normalAt(const Triangle& triangle, const glm::dvec3& weights,
@@ -288,38 +298,35 @@ double Sampler::leastRadius() {
     if (!makeCandidates(coarse * kCandidateReach) || !throwDarts(coarse) || chosen_.empty())
         return byArea;
     const double share = static_cast<double>(chosen_.size()) / static_cast<double>(mostPoints_);
-    chosen_.clear();
     return std::min(byArea, coarse * std::sqrt(kRoom * share));
 }
 
-/// Candidates from the farthest apart to those that `radius` leaves room for, or fewer.
-void Sampler::choose(double radius, PointSample& sample) {
+/// As many as `radius` leaves room for, or fewer: those farthest apart first.
+std::vector<PointPrefix> Sampler::choose(double radius) {
+    while (!throwDarts(radius)) radius *= kWider;
     glm::dvec3 low = candidates_.front().point;
     glm::dvec3 high = low;
     for (const Candidate& one : candidates_)
         low = glm::min(low, one.point), high = glm::max(high, one.point);
-    const double across = std::max(glm::distance(low, high), radius);
-    double next = radius * std::exp2(std::ceil(std::log2(across / radius)));
-    for (; next >= radius; next /= 2) {
-        if (!throwDarts(next))
+    const double across = glm::distance(low, high);
+    const double lost = reach_ + kRounding;
+    std::vector<PointPrefix> prefixes;
+    std::size_t count = 0;
+    for (double next = std::exp2(std::ceil(std::log2(std::max(across / radius, 1.0)))) * radius;
+         next > radius; next /= 2) {
+        const std::size_t before = std::exchange(count, putForward(count, next));
+        if (count == chosen_.size())
             break;
-        add(next, sample);
+        // Each candidate has a chosen one within the radius, and that one of these within `next`.
+        const PointPrefix prefix{static_cast<std::uint32_t>(count), next + radius + lost};
+        if (count == before)
+            prefixes.back() = prefix;
+        else
+            prefixes.push_back(prefix);
     }
-    // Too many of the last: fewer, but more than those of twice the radius.
-    for (double between = next * kNarrower; between < 2 * next && next >= radius;
-         between *= kNarrower)
-        if (throwDarts(between))
-            return add(between, sample);
-}
-
-/// What was chosen until now.
-void Sampler::add(double radius, PointSample& sample) const {
-    const PointPrefix prefix{static_cast<std::uint32_t>(chosen_.size()),
-                             radius + reach_ + kRounding};
-    if (!sample.prefixes.empty() && sample.prefixes.back().points == prefix.points)
-        sample.prefixes.back() = prefix;
-    else
-        sample.prefixes.push_back(prefix);
+    alongCurve(chosen_.begin() + static_cast<std::ptrdiff_t>(count), chosen_.end());
+    prefixes.push_back({static_cast<std::uint32_t>(chosen_.size()), radius + lost});
+    return prefixes;
 }
 
 std::optional<PointSample> Sampler::run(double mostErrorSteps) {
@@ -334,7 +341,7 @@ std::optional<PointSample> Sampler::run(double mostErrorSteps) {
     if (candidates_.empty())
         return std::nullopt;
     PointSample sample;
-    choose(least, sample);
+    sample.prefixes = choose(least);
     if (sample.errorSteps() > mostErrorSteps)
         return std::nullopt;
     for (const std::uint32_t one : chosen_) addPoint(candidates_[one], sample);

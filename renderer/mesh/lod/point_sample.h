@@ -42,10 +42,9 @@ enum PointSides : std::uint8_t {
 /// all of it is holes, and where the sample's error would be above `mostErrorSteps`.
 ///
 /// Points are chosen out of a dense set by throwing darts: each goes in that has none within a
-/// radius, which then shrinks to half. A point's normal is the surface's own, that
-/// of shading, but for one-sided materials the triangle's.
-/// R. L. Cook, "Stochastic Sampling in Computer Graphics", 1986; M. McCool, E. Fiume,
-/// "Hierarchical Poisson Disk Sampling Distributions", 1992 (the shrinking radius).
+/// radius; of those in turn that have none within larger ones the first come first. A point's
+/// normal is the surface's own, that of shading, but for one-sided materials the triangle's. R. L.
+/// Cook, "Stochastic Sampling in Computer Graphics", 1986.
 std::optional<PointSample> samplePoints(const PackedMesh& mesh, const Patch& patch,
                                         const SurfaceColours& colours, std::size_t mostPoints,
                                         double mostErrorSteps);

@@ -83,12 +83,12 @@ TEST_F(MeshCutOfPoints, DrawsPointsOnlyWhereTheyFillTheirPixels) {
                 counts.insert(one.points);
             }
         }
-    EXPECT_GE(counts.size(), 8U);
+    EXPECT_GE(counts.size(), 7U);
 }
 
 TEST_F(MeshCutOfPoints, TakesFewerPointsTheFartherItIs) {
     std::uint64_t before = std::numeric_limits<std::uint64_t>::max();
-    for (const double pixels : {16.0, 4.0, 1.5, 0.5}) {
+    for (const double pixels : {16.0, 3.0, 1.0, 0.4}) {
         const MeshCut cut = cutOf(*file_, viewOf(pixels), 1, kAllThere);
         ASSERT_EQ(cut.drawn.size(), 1U);
         EXPECT_LT(cut.drawn[0].points, before);
