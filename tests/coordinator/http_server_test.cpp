@@ -525,8 +525,9 @@ TEST_F(HttpServer, GivesEachViewerItsOwnViewAndPace) {
 
 TEST_F(HttpServer, SurvivesViewersThatVanish) {
     ServerOptions options;
-    options.limits.viewersPerAddress = 0;  // they go as fast as this machine lets them
-    options.limits.viewers = 128;
+    // They go as fast as this machine lets them.
+    options.limits.viewersPerAddress = options.limits.sessionsPerAddress = 0;
+    options.limits.viewers = options.limits.sessions = 128;
     start(options);
     for (int i = 0; i < 100; ++i) {
         const auto socket = openSocket();
