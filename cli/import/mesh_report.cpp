@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/import/mesh_report.h"
 
+#include <string>
 #include <vector>
 
 #include <fmt/format.h>
@@ -47,6 +48,7 @@ void printJson(const MeshImportChoices& choices, const import::MeshImportReport&
         .count("duplicateTriangles", made.counts.duplicateTriangles)
         .count("turnedTriangles", made.counts.orient.turnedTriangles)
         .count("nodes", made.nodes)
+        .count("pointNodes", made.pointNodes)
         .count("bytes", made.bytes)
         .number("stepMetres", made.stepMetres)
         .number("errorMetres", made.errorMetres)
@@ -71,8 +73,10 @@ void printText(const MeshImportChoices& choices, const import::MeshImportReport&
         fmt::print(stderr, "{}: turned {} triangles of {} surfaces, {} of which are closed\n",
                    choices.title(), counts.orient.turnedTriangles, counts.orient.components,
                    counts.orient.closedComponents);
-    fmt::print(stderr, "{}: {} triangles, {} vertices, {} simpler levels, {:.1f} MB, {:.2f} s\n",
-               choices.out, made.triangles, made.vertices, made.levels.size(),
+    const std::string points =
+        made.pointNodes > 0 ? fmt::format(", {} nodes as points from afar", made.pointNodes) : "";
+    fmt::print(stderr, "{}: {} triangles, {} vertices, {} simpler levels{}, {:.1f} MB, {:.2f} s\n",
+               choices.out, made.triangles, made.vertices, made.levels.size(), points,
                static_cast<double>(made.bytes) / 1e6, made.seconds.total);
 }
 

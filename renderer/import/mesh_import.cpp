@@ -95,6 +95,7 @@ absl::StatusOr<MeshImportReport> build(TriangleMesh source, mesh::OutputFile& ou
     report.triangles = packed.triangles.size();
     report.vertices = packed.positions.size();
     report.nodes = tree.nodes.size();
+    report.pointNodes = lod->pointNodes();
     report.stepMetres = packed.lattice.stepMetres;
     report.errorMetres = packed.lattice.errorMetres();
     report.coarsestErrorMetres = lod->errorMetres.front();

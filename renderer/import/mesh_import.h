@@ -42,6 +42,7 @@ struct MeshImportReport {
     std::uint64_t droppedFaces = 0;  ///< of the sources, with fewer than three corners
     PackCounts counts;
     std::uint64_t nodes = 0;
+    std::uint64_t pointNodes = 0;        ///< of these, that are drawn as points
     std::uint64_t sourceBytes = 0;       ///< of the files named
     std::vector<std::string> notes;      ///< what was odd in the sources; a line each
     std::uint64_t bytes = 0;             ///< of the .eym file

@@ -96,6 +96,7 @@ absl::StatusOr<PartSurface> PartWalk::visit(std::size_t index) {
     const SplitNode& node = work_.split.nodes[index];
     joined_[index] = {node.left, node.right, written.offset};
     report_.nodes += written.nodes;
+    report_.pointNodes += written.pointNodes;
     report_.vertices += written.vertices;
     report_.coarsestErrorMetres = written.errorMetres;  // in the end that of the root
     report_.counts.normalsComputed = report_.counts.normalsComputed || written.computedNormals;

@@ -138,6 +138,7 @@ absl::StatusOr<WrittenPart> writePart(const PartWork& work, std::uint32_t part,
     written.vertices = own.newVertices;
     written.computedNormals = own.computedNormals;
     written.levels = lod.levels;
+    written.pointNodes = lod.pointNodes();
     written.errorMetres = lod.errorMetres.front();
     written.surface = surfaceOf(own, std::move(parts.root), tree.nodes.front(), options);
     written.surface.pockets = backs.pockets.front();
@@ -173,6 +174,7 @@ absl::StatusOr<WrittenPart> writeAbove(const PartWork& work, const SplitNode& no
         ASSIGN_OR_RETURN(lod,
                          mesh::buildLodTree(both.mesh, tree, options, {}, control.stop, &parts));
         written.levels = lod.levels;
+        written.pointNodes = lod.pointNodes();
         written.surface = surfaceOf(both, std::move(parts.root), tree.nodes[0], options);
     }
     written.surface.pockets.add(left.pockets);

@@ -48,6 +48,7 @@ struct WrittenPart {
     std::uint64_t nodes = 0;
     std::uint64_t vertices = 0;  ///< that are in no part before it
     bool computedNormals = false;
+    std::uint64_t pointNodes = 0;
     std::vector<mesh::LodLevel> levels;
     double errorMetres = 0;  ///< of the root
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -64,6 +65,12 @@ struct LodTree {
     /// never below the children's.
     std::vector<double> errorMetres;
     std::vector<LodLevel> levels;  ///< from the finest
+
+    /// Nodes that points stand for.
+    std::uint64_t pointNodes() const {
+        return static_cast<std::uint64_t>(
+            std::ranges::count_if(points, [](const auto& one) { return one.has_value(); }));
+    }
 };
 
 /// More triangles than this, times LodOptions::nodeTriangles, are not simplified.

@@ -118,6 +118,7 @@ void expectSameByParts(const TriangleMesh& source, const MeshImportOptions& opti
     EXPECT_EQ(parted->counts, whole->counts);
     EXPECT_EQ(parted->vertices, whole->vertices);
     EXPECT_EQ(parted->nodes, whole->nodes);
+    EXPECT_EQ(parted->pointNodes, whole->pointNodes);
     EXPECT_EQ(parted->levels.size(), whole->levels.size());
     EXPECT_EQ(parted->coarsestErrorMetres, whole->coarsestErrorMetres);
     expectSame(folder.file("parts.eym"), folder.file("whole.eym"));
@@ -171,6 +172,20 @@ TEST(MeshImport, ByPartsGivesTheSameBytesWithCreasesAndSourcePositions) {
         soup(8, 5000),
         {.leafTriangles = 1000,
          .pack = {.keepsExact = true, .normals = NormalSource::Crease, .creaseDegrees = 20}});
+}
+
+TEST(MeshImport, CountsTheNodesThatPointsStandFor) {
+    const test::TemporaryFolder folder;
+    const auto report = importMesh(
+        soup(8, 5000), folder.file("m.eym"),
+        {.leafTriangles = 1000, .pack = {.normals = NormalSource::Crease, .creaseDegrees = 20}});
+    ASSERT_TRUE(report.ok()) << report.status();
+    const auto file = mesh::EymFile::open(folder.file("m.eym"));
+    ASSERT_TRUE(file.ok()) << file.status();
+    EXPECT_GT(report->pointNodes, 0U);
+    EXPECT_EQ(
+        static_cast<std::size_t>(report->pointNodes),
+        static_cast<std::size_t>(std::ranges::count_if(file->nodes(), &mesh::Node::isOfPoints)));
 }
 
 TEST(MeshImport, ByPartsGivesTheSameWithTheFilesNormalsAndMappedPages) {
