@@ -226,6 +226,22 @@ absl::StatusOr<TriangleMesh> SceneMeshes::gather() {
     return std::move(result_);
 }
 
+/// What of a file is no part of a mesh, for TriangleMesh::notes.
+std::vector<std::string> leftOut(const aiScene& scene) {
+    std::vector<std::string> notes;
+    if (scene.mNumLights > 0)
+        notes.push_back(
+            fmt::format("left out its lights, {} of them: a scene has its own, "
+                        "\"lights\" and \"pointLights\"",
+                        scene.mNumLights));
+    if (scene.mNumAnimations > 0)
+        notes.push_back(
+            fmt::format("left out its animations, {} of them: everything stays where "
+                        "the file's nodes put it",
+                        scene.mNumAnimations));
+    return notes;
+}
+
 /// What Assimp is known to get wrong in a file, for TriangleMesh::notes.
 std::vector<std::string> caveats(std::span<const std::byte> bytes, const AssimpFormat& format) {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -271,8 +287,11 @@ absl::StatusOr<TriangleMesh> read(const std::string& path, const AssimpFormat& f
     try {
         Assimp::Importer importer;
         const aiScene* scene = parse(importer, path, format);
-        if (scene != nullptr)
-            return SceneMeshes(*scene, format).gather();
+        if (scene != nullptr) {
+            ASSIGN_OR_RETURN(TriangleMesh mesh, SceneMeshes(*scene, format).gather());
+            mesh.notes = leftOut(*scene);
+            return mesh;
+        }
         const std::string why = importer.GetErrorString();
         if (why.find("bad_alloc") != std::string::npos)
             throw std::bad_alloc();
@@ -314,7 +333,8 @@ absl::StatusOr<TriangleMesh> readWithAssimp(const std::string& path, const Readi
     control.report("reading", 1);
     if (!result.ok())
         return fabric::withContext(result.status(), path);
-    result->notes = caveats(file.bytes(), *format);
+    for (std::string& caveat : caveats(file.bytes(), *format))
+        result->notes.push_back(std::move(caveat));
     return result;
 }
 

@@ -181,6 +181,25 @@ TEST(AssimpReader, TakesTransformsInDoublePrecisionAndTurnsMirroredFaces) {
         EXPECT_EQ(colour, (fabric::Rgba{128, 255, 0, 255}));
 }
 
+TEST(AssimpReader, SaysThatItLeavesLightsOut) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("plain.gltf"), kGltf);
+    std::string lit = kGltf;
+    lit.replace(0, 1, R"({"extensionsUsed":["KHR_lights_punctual"],"extensions":
+{"KHR_lights_punctual":{"lights":[{"type":"point"},{"type":"directional"}]}},)");
+    const std::string node = R"({"mesh":0},)";
+    lit.replace(lit.find(node), node.size(),
+                R"({"mesh":0,"extensions":{"KHR_lights_punctual":{"light":1}}},)");
+    test::writeFile(folder.file("lit.gltf"), lit);
+    const auto plain = readWithAssimp(folder.file("plain.gltf"));
+    const auto mesh = readWithAssimp(folder.file("lit.gltf"));
+    ASSERT_TRUE(plain.ok() && mesh.ok()) << plain.status() << mesh.status();
+    EXPECT_THAT(plain->notes, testing::IsEmpty());
+    EXPECT_THAT(mesh->notes,
+                testing::ElementsAre(testing::HasSubstr("left out its lights, 1 of them")));
+    EXPECT_EQ(mesh->positions, plain->positions);
+}
+
 /// Three triangles: of glass with an image, cut out of it, and of neither.
 constexpr const char* kTexturedGltf =
     R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
