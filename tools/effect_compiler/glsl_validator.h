@@ -9,9 +9,10 @@
 
 namespace eyrie::effects {
 
-/// Runs glslangValidator at path `validator` on every variant of `effect`, both stages linked.
-/// InvalidArgument with what it says of the first variant that fails, each line of it beginning
-/// with the effect file and line it is about; FailedPrecondition when it cannot be run.
+/// Runs glslangValidator at path `validator` on every variant of `effect`, with the stages linked
+/// of as many as have each value of each parameter. InvalidArgument with what it says of the first
+/// variant that fails, each line of it beginning with the effect file and line it is about;
+/// FailedPrecondition when it cannot be run.
 absl::Status validateGlsl(const Effect& effect, const std::string& validator);
 
 }  // namespace eyrie::effects

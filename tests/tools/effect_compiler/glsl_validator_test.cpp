@@ -69,6 +69,16 @@ TEST(GlslValidator, RefusesStagesThatDoNotFitTogether) {
     EXPECT_NE(messageOf(status).find("passed"), std::string::npos) << status;
 }
 
+TEST(GlslValidator, RefusesStagesThatDoNotFitTogetherInOneVariant) {
+    const absl::Status status = validate(
+        "variant int N 1..4;\nvariant bool OTHER;\n"
+        "stage vertex {\n#if N == 3\nout vec3 passed;\n#else\nout vec2 passed;\n#endif\n"
+        "void main() { passed.x = 1.0; }\n}\n"
+        "stage fragment { in vec2 passed; out vec4 c; void main() { c = passed.xyxy; }}");
+    EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument) << status;
+    EXPECT_NE(messageOf(status).find("N=3"), std::string::npos) << status;
+}
+
 TEST(GlslValidator, JudgesAComputeStage) {
     const std::string head = "uniform int n;\nstage compute {\nlayout(local_size_x = 4) in;\n";
     EXPECT_EQ(validate(head + "layout(std430, binding = 0) buffer B { int b[]; };\n"
