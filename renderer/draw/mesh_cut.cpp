@@ -29,8 +29,9 @@ private:
     bool draw(const CutNode& self, bool hasStandIn);
     std::optional<CutNode> asPoints(std::uint32_t index, int level) const;
     bool drawFiner(std::uint32_t index, int level, double error, bool hasStandIn);
-    bool mayStandIn(std::uint32_t index) const {
-        return file_.nodes()[index].indexCount > 0 && isThere_(index);
+    bool mayStandIn(const CutNode& node) const {
+        return file_.nodes()[node.node].hasGeometry() && isThere_(node.node) &&
+               (node.points == 0 || node.errorPixels <= kMostStandInPixels);
     }
     void moveBetween(std::size_t firstAbove) {
         cut_.between.insert(cut_.between.end(),
@@ -68,19 +69,16 @@ bool CutMaker::visit(std::uint32_t index, int level, Error error, bool hasStandI
     const fabric::Box box = file_.bounds(index);
     if (!view_.isVisible(box))
         return true;
-    if (node.isOfPoints()) {
-        const std::optional<CutNode> points = asPoints(index, level);
-        return points ? draw(*points, hasStandIn)
-                      : visitChildren(index, level, std::nullopt, hasStandIn);
-    }
-    const bool wasKept = error.has_value();
+    if (const std::optional<CutNode> points = asPoints(index, level))
+        return draw(*points, hasStandIn);
+    const bool wasKept = error.has_value() && !node.isOfPoints();
     if (!wasKept)
         error = view_.screenSpaceErrorPixels(node.errorMetres, box);
-    const bool isKept = wasKept || node.isLeaf() || *error <= tauPixels_;
-    const CutNode self{index, level, *error};
+    const bool isKept = wasKept || node.isLeaf() || (*error <= tauPixels_ && !node.isOfPoints());
+    const CutNode self{index, level, *error, node.isOfPoints() ? node.vertexCount : 0};
     if (isKept && node.hasGeometry())
         return draw(self, hasStandIn);
-    const bool standsIn = !isKept && mayStandIn(index);
+    const bool standsIn = !isKept && mayStandIn(self);
     const std::size_t firstDrawn = cut_.drawn.size();
     if (!isKept && node.hasGeometry())
         cut_.above.push_back(self);
@@ -123,7 +121,7 @@ bool CutMaker::drawFiner(std::uint32_t index, int level, double error, bool hasS
             continue;
         if (const auto points = asPoints(child, level + 1); points && isThere_(child))
             cut_.drawn.push_back(*points);
-        else if (mayStandIn(child))
+        else if (file_.nodes()[child].indexCount > 0 && isThere_(child))
             cut_.drawn.push_back({child, level + 1, error});
         else
             isWhole = drawFiner(child, level + 1, error, hasStandIn) && isWhole;

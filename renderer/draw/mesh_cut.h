@@ -14,6 +14,8 @@ namespace eyrie::draw {
 /// the view, and within tau; each then draws the pixels of which the middle is as near. So no pixel
 /// of the surface is missed, and none is drawn that is farther from it.
 inline constexpr double kMostPointPixels = 0.25;
+/// Where finer nodes are not there yet, points stand in for them up to this.
+inline constexpr double kMostStandInPixels = 64;
 /// No more points are drawn than make it this: what is thin looks thicker by as much.
 inline constexpr double kEnoughPointPixels = 0.125;
 
@@ -38,7 +40,6 @@ struct MeshCut {
     double errorPixels() const;
 };
 
-/// Nodes of points are chosen where points may be drawn for them, and stand in for nothing else.
 /// For a wanted node that is not there its children stand in if they are there, or theirs; else
 /// the nearest node above that is. Without one, whatever there is of the children is drawn.
 MeshCut cutOf(const mesh::EymFile& file, const lod::ObjectView& view, double tauPixels,

@@ -50,7 +50,7 @@ page::PageFacts factsOf(const std::shared_ptr<const mesh::EymFile>& file) {
 }
 
 std::unique_ptr<DeviceNode> uploadRoot(const mesh::EymFile& file) {
-    if (file.nodes()[0].indexCount == 0)
+    if (!file.nodes()[0].hasGeometry())
         return nullptr;
     const absl::StatusOr<mesh::NodeGeometry> geometry = file.geometry(0);
     if (geometry.ok())

@@ -16,6 +16,13 @@ using Program = effects::MeshPointsEffect;
 /// Alphas of points (mesh::PointSides) below this are not seen from behind.
 float leastAlpha(bool isSingleSided) { return isSingleSided ? 0.75F : 0.25F; }
 
+/// Of a square that holds all pixels of a picture whose middles are within `radiusPixels` of a
+/// point: where that is half a pixel at most, one pixel. The shader cuts it to size.
+float sideOf(double radiusPixels, const fabric::Vec2& step) {
+    const double view = radiusPixels <= 0.5 ? 1 : 2 * radiusPixels + 1;
+    return static_cast<float>(std::ceil(view / std::min({step.x, step.y, 1.0})));
+}
+
 }  // namespace
 
 MeshPoints::MeshPoints(PointPrograms& programs, const mesh::EymFile& file,
@@ -36,12 +43,7 @@ absl::Status MeshPoints::prepare(const FrameState& frame) {
     ASSIGN_OR_RETURN(prepared_, programs_.find(variant));
     prepared_->use();
     setObject(*prepared_, frame, worldFromObject_, objectFromLattice_);
-    // No less than a pixel of the view, nor of the picture; the shader cuts it to size.
-    const fabric::Vec2& step = frame.view.step;
-    const auto side = static_cast<float>(std::ceil(1 / std::min({step.x, step.y, 1.0})));
-    prepared_->pointSide(side);
     prepared_->leastAlpha(leastAlpha(singleSided_));
-    glPointSize(side);
     return absl::OkStatus();
 }
 
@@ -50,6 +52,9 @@ absl::Status MeshPoints::draw(const Piece& piece, const DeviceNode& node, std::u
     if (prepared_ == nullptr)
         RETURN_IF_ERROR(prepare(frame));
     prepared_->use();
+    const float side = sideOf(piece.pointRadiusPixels, frame.view.step);
+    glPointSize(side);
+    prepared_->pointSide(side);
     prepared_->pointRadius(static_cast<float>(piece.pointRadiusPixels));
     glBindVertexArray(vertexArray_.id());
     Program::kPackedPosition.source(vertexArray_, node.buffer, 0);

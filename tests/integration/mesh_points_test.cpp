@@ -158,6 +158,35 @@ TEST_F(HardCase18OfPoints, ComeWithoutHolesAndWithoutAJumpInBrightness) {
     }
 }
 
+/// The root's are there from the start: until finer nodes come they stand for them, as large as it
+/// takes to leave no gaps.
+TEST_F(HardCase18OfPoints, StandInWhileFinerNodesCome) {
+    const Mesh mesh = town();
+    const truth::MeshRayCaster source({mesh.positions, mesh.triangles});
+    scene_.objects = {import(mesh, "town")};
+    std::mt19937 random(8);
+    for (const double pixels : {60.0, 120.0, 250.0}) {
+        ASSERT_NO_FATAL_FAILURE(open());
+        const fabric::Camera camera = farAway(random, pixels);
+        fabric::ChannelTask task = wholeTask();
+        task.completeness = fabric::Completeness::Interactive;
+        fabric::ChannelResult first = render(camera, task);
+        EXPECT_FALSE(first.statistics.complete);
+        EXPECT_GT(first.statistics.pagesMissing, 0U);
+        EXPECT_GT(first.statistics.points, 1000U);
+        EXPECT_EQ(first.statistics.triangles, 0U);
+        const double promised = first.statistics.tauAchievedPixels;
+        EXPECT_GT(promised, 0.25);
+        EXPECT_LT(promised, 20);
+        Image standIn = blank();
+        fabric::paste(first.image, standIn);
+        first.image = standIn;
+        check(source, camera, first, promised, fmt::format("{} pixels large", pixels));
+        EXPECT_EQ(lost(draw(camera).image, standIn), 0U) << pixels;
+        fmt::print("{} pixels: promised {:.1f} until finer nodes come\n", pixels, promised);
+    }
+}
+
 /// Whatever the picture is put together of.
 TEST_F(HardCase18OfPoints, AreTheSameInPartsAndRanges) {
     scene_.objects = {import(town(), "town")};

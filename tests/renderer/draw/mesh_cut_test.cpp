@@ -100,12 +100,22 @@ TEST_F(MeshCutOfPoints, TakesFewerPointsTheFartherItIs) {
         EXPECT_TRUE(file_->nodes()[one.node].isLeaf());
 }
 
-TEST_F(MeshCutOfPoints, StandInForNothingAndHaveStandIns) {
-    // Points that are there, but leave gaps: they are not drawn for leaves that are not there.
+TEST_F(MeshCutOfPoints, StandInWhereTheyAreNotFarApartAndHaveStandIns) {
     const NodeTest noLeaf = [this](std::uint32_t node) { return !file_->nodes()[node].isLeaf(); };
-    const MeshCut gaps = cutOf(*file_, viewOf(4000), 1, noLeaf);
+    const lod::ObjectView near = viewOf(400);
+    const MeshCut coarse = cutOf(*file_, near, 1, noLeaf);
+    checkWhole(coarse);
+    ASSERT_FALSE(coarse.drawn.empty());
+    for (const CutNode& one : coarse.drawn) {
+        EXPECT_EQ(one.points, file_->nodes()[one.node].vertexCount);
+        EXPECT_EQ(one.errorPixels, near.screenSpaceErrorPixels(file_->nodes()[one.node].errorMetres,
+                                                               file_->bounds(one.node)));
+    }
+    EXPECT_GT(coarse.errorPixels(), 1);
+    EXPECT_LE(coarse.errorPixels(), kMostStandInPixels);
+    EXPECT_FALSE(coarse.between.empty() && coarse.above.empty());
+    const MeshCut gaps = cutOf(*file_, viewOf(40000), 1, noLeaf);
     EXPECT_FALSE(gaps.isWhole);
-    EXPECT_TRUE(gaps.drawn.empty());
     EXPECT_TRUE(std::isinf(gaps.errorPixels()));
     // The root's that are not there: finer points are, or leaves.
     for (const int missingLevels : {1, 2, 100}) {
