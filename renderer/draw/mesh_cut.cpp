@@ -11,8 +11,12 @@ namespace {
 class CutMaker {
 public:
     CutMaker(const mesh::EymFile& file, const lod::ObjectView& view, double tauPixels,
-             const std::function<bool(std::uint32_t)>& isThere)
-        : file_(file), view_(view), tauPixels_(tauPixels), isThere_(isThere) {}
+             const std::function<bool(std::uint32_t)>& isThere, bool mayBePoints)
+        : file_(file),
+          view_(view),
+          tauPixels_(tauPixels),
+          isThere_(isThere),
+          mayBePoints_(mayBePoints) {}
 
     MeshCut make() && {
         cut_.isWhole = visit(0, 0, std::nullopt, false);
@@ -31,7 +35,7 @@ private:
     bool drawFiner(std::uint32_t index, int level, double error, bool hasStandIn);
     bool mayStandIn(const CutNode& node) const {
         return file_.nodes()[node.node].hasGeometry() && isThere_(node.node) &&
-               (node.points == 0 || node.errorPixels <= kMostStandInPixels);
+               (node.points == 0 || (mayBePoints_ && node.errorPixels <= kMostStandInPixels));
     }
     void moveBetween(std::size_t firstAbove) {
         cut_.between.insert(cut_.between.end(),
@@ -44,6 +48,7 @@ private:
     const lod::ObjectView& view_;
     const double tauPixels_;
     const std::function<bool(std::uint32_t)>& isThere_;
+    const bool mayBePoints_;
     MeshCut cut_;
 };
 
@@ -51,8 +56,10 @@ private:
 std::optional<CutNode> CutMaker::asPoints(std::uint32_t index, int level) const {
     const fabric::Box box = file_.bounds(index);
     std::optional<CutNode> drawn;
+    if (!mayBePoints_)
+        return drawn;
     for (const mesh::PointRange& range : file_.pointRanges(index)) {
-        const double error = view_.screenSpaceErrorPixels(range.errorMetres, box);
+        const double error = view_.screenSpaceErrorPixels(range.errorMetres, box) + kPointRounding;
         if (error <= std::min(kMostPointPixels, tauPixels_))
             drawn = CutNode{index, level, error, range.points};
         if (error <= kEnoughPointPixels)
@@ -75,12 +82,14 @@ bool CutMaker::visit(std::uint32_t index, int level, Error error, bool hasStandI
     if (!wasKept)
         error = view_.screenSpaceErrorPixels(node.errorMetres, box);
     const bool isKept = wasKept || node.isLeaf() || (*error <= tauPixels_ && !node.isOfPoints());
-    const CutNode self{index, level, *error, node.isOfPoints() ? node.vertexCount : 0};
+    const CutNode self = node.isOfPoints()
+                             ? CutNode{index, level, *error + kPointRounding, node.vertexCount}
+                             : CutNode{index, level, *error};
     if (isKept && node.hasGeometry())
         return draw(self, hasStandIn);
     const bool standsIn = !isKept && mayStandIn(self);
     const std::size_t firstDrawn = cut_.drawn.size();
-    if (!isKept && node.hasGeometry())
+    if (!isKept && node.hasGeometry() && (mayBePoints_ || !node.isOfPoints()))
         cut_.above.push_back(self);
     const std::size_t firstAbove = cut_.above.size();
     const bool isWhole =
@@ -140,8 +149,8 @@ double MeshCut::errorPixels() const {
 }
 
 MeshCut cutOf(const mesh::EymFile& file, const lod::ObjectView& view, double tauPixels,
-              const std::function<bool(std::uint32_t)>& isThere) {
-    return CutMaker(file, view, tauPixels, isThere).make();
+              const std::function<bool(std::uint32_t)>& isThere, bool mayBePoints) {
+    return CutMaker(file, view, tauPixels, isThere, mayBePoints).make();
 }
 
 }  // namespace eyrie::draw

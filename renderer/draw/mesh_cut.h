@@ -14,6 +14,9 @@ namespace eyrie::draw {
 /// the view, and within tau; each then draws the pixels of which the middle is as near. So no pixel
 /// of the surface is missed, and none is drawn that is farther from it.
 inline constexpr double kMostPointPixels = 0.25;
+/// Added to what points are apart, for what rounding to a device's subpixels moves: 1/512 pixel
+/// each way, of up to three of the view's pixels.
+inline constexpr double kPointRounding = 1.0 / 128;
 /// Where finer nodes are not there yet, points stand in for them up to this.
 inline constexpr double kMostStandInPixels = 64;
 /// No more points are drawn than make it this: what is thin looks thicker by as much.
@@ -42,7 +45,8 @@ struct MeshCut {
 
 /// For a wanted node that is not there its children stand in if they are there, or theirs; else
 /// the nearest node above that is. Without one, whatever there is of the children is drawn.
+/// Without `mayBePoints` nodes of points are drawn by what is below them.
 MeshCut cutOf(const mesh::EymFile& file, const lod::ObjectView& view, double tauPixels,
-              const std::function<bool(std::uint32_t)>& isThere);
+              const std::function<bool(std::uint32_t)>& isThere, bool mayBePoints = true);
 
 }  // namespace eyrie::draw

@@ -43,12 +43,13 @@ struct NodeTree {
 
     const mesh::EymFile& file;
     double tauPixels;
+    bool mayBePoints;
 
     Node root() const { return 0; }
     fabric::Box bounds(Node node) const { return file.bounds(node); }
     double errorMetres(Node node) const {
         const mesh::Node& at = file.nodes()[node];
-        if (at.isOfPoints())
+        if (at.isOfPoints() && mayBePoints)
             return at.errorMetres * std::max(tauPixels / kMostPointPixels, 1.0);
         return at.indexCount > 0 ? at.errorMetres : std::numeric_limits<double>::infinity();
     }
@@ -102,6 +103,8 @@ public:
     }
 
 private:
+    /// Points are lit as their triangles, but do not know which way these face.
+    bool mayBePoints() const { return !singleSided_; }
     void defineVertexFormat();
     const MeshCut& cutAt(int step, const CutRequest& request);
     std::uint64_t bytesOf(const MeshCut& cut) const;
@@ -158,9 +161,10 @@ const MeshCut& MeshDrawable::cutAt(int step, const CutRequest& request) {
     if (known != cuts_.end())
         return known->second;
     return cuts_
-        .emplace(step,
-                 cutOf(*file_, request.view, request.tauPixels * page::TauLadder::factor(step),
-                       [this](std::uint32_t node) { return paging_->isResident(node); }))
+        .emplace(step, cutOf(
+                           *file_, request.view, request.tauPixels * page::TauLadder::factor(step),
+                           [this](std::uint32_t node) { return paging_->isResident(node); },
+                           mayBePoints()))
         .first->second;
 }
 
@@ -181,8 +185,9 @@ std::uint64_t MeshDrawable::countMissing(const MeshCut& cut) const {
 page::HostPages::Loads MeshDrawable::reach(const CutRequest& request, double tauPixels) {
     const auto start = page::HostPages::Clock::now();
     const auto readable = [&] {
-        return cutOf(*file_, request.view, tauPixels,
-                     [&](std::uint32_t node) { return paging_->mayCome(node, start); })
+        return cutOf(
+                   *file_, request.view, tauPixels,
+                   [&](std::uint32_t node) { return paging_->mayCome(node, start); }, mayBePoints())
             .drawn;
     };
     page::HostPages::Loads loaded;
@@ -205,8 +210,8 @@ std::uint64_t MeshDrawable::costOf(const CutNode& node) const {
 
 std::uint64_t MeshDrawable::viewTriangles(const CutRequest& request) {
     std::uint64_t triangles = 0;
-    const MeshCut cut =
-        cutOf(*file_, request.view, request.tauPixels, [](std::uint32_t) { return true; });
+    const MeshCut cut = cutOf(
+        *file_, request.view, request.tauPixels, [](std::uint32_t) { return true; }, mayBePoints());
     for (const CutNode& node : cut.wanted) triangles += costOf(node);
     return triangles;
 }
@@ -223,7 +228,8 @@ Cut MeshDrawable::selectCut(const CutRequest& request) {
         progress.loaded = reach(request, tauPixels);
     } else {
         progress = paging_->approach(cutAt(choice.step, request), [&] {
-            return prefetch_.nodes(NodeTree{*file_, tauPixels}, tauPixels, paging_->latency());
+            return prefetch_.nodes(NodeTree{*file_, tauPixels, mayBePoints()}, tauPixels,
+                                   paging_->latency());
         });
     }
     if (progress.hasUploaded)

@@ -13,9 +13,6 @@ namespace {
 
 using Program = effects::MeshPointsEffect;
 
-/// Alphas of points (mesh::PointSides) below this are not seen from behind.
-float leastAlpha(bool isSingleSided) { return isSingleSided ? 0.75F : 0.25F; }
-
 /// Of a square that holds all pixels of a picture whose middles are within `radiusPixels` of a
 /// point: where that is half a pixel at most, one pixel. The shader cuts it to size.
 float sideOf(double radiusPixels, const fabric::Vec2& step) {
@@ -30,7 +27,6 @@ MeshPoints::MeshPoints(PointPrograms& programs, const mesh::EymFile& file,
     : programs_(programs),
       worldFromObject_(object.worldFromObject),
       objectFromLattice_(file.lattice().objectFromLattice()),
-      singleSided_(object.singleSided),
       hasColours_(file.hasColours() || file.hasTextures()) {
     Program::kPackedPosition.define(vertexArray_);
     Program::kPackedNormal.define(vertexArray_);
@@ -43,7 +39,6 @@ absl::Status MeshPoints::prepare(const FrameState& frame) {
     ASSIGN_OR_RETURN(prepared_, programs_.find(variant));
     prepared_->use();
     setObject(*prepared_, frame, worldFromObject_, objectFromLattice_);
-    prepared_->leastAlpha(leastAlpha(singleSided_));
     return absl::OkStatus();
 }
 

@@ -37,7 +37,6 @@ private:
     PointPrograms& programs_;
     fabric::Mat4 worldFromObject_;
     fabric::Mat4 objectFromLattice_;
-    bool singleSided_;
     bool hasColours_;
     gl::VertexArray vertexArray_;
     const effects::MeshPointsEffect* prepared_ = nullptr;  ///< of this frame

@@ -168,9 +168,7 @@ void Sampler::addPoint(const SamplePiece& candidate, PointSample& sample) const 
         return;
     fabric::Rgba colour =
         colours_.at(triangle, candidate.weights, colours_.levelFor(triangle, spacing_));
-    colour.a = material.isOneSided()                              ? kSeenFromFront
-               : material.isTwoSided() || material.isSeeThrough() ? kSeenFromBoth
-                                                                  : kSeenAsObjectHas;
+    colour.a = material.isOneSided() ? kSeenFromFront : kSeenFromBoth;
     sample.colours.push_back(packColour(colour));
 }
 
@@ -217,7 +215,9 @@ std::vector<PointPrefix> Sampler::choose(double radius) {
 std::optional<PointSample> Sampler::run(double mostErrorSteps) {
     const double byArea =
         std::sqrt(kDensity * areaOf(mesh_, patch_) / static_cast<double>(mostPoints_));
-    if (kMostShared * byArea > mostErrorSteps || hasBlended())
+    const bool canSaySides =
+        colours_.areAny() || std::ranges::none_of(mesh_.materials, &Material::isOneSided);
+    if (kMostShared * byArea > mostErrorSteps || !canSaySides || hasBlended())
         return std::nullopt;
     // Less than a step is lost by the lattice anyway.
     double least = std::max(leastRadius(byArea), 1.0);

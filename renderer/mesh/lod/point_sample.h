@@ -33,8 +33,7 @@ struct PointSample {
 
 /// What alpha says of a point: whether it is seen from behind.
 enum PointSides : std::uint8_t {
-    kSeenFromFront = 0,      ///< its material is one-sided
-    kSeenAsObjectHas = 128,  ///< from behind unless the object is drawn single-sided
+    kSeenFromFront = 0,  ///< its material is one-sided
     kSeenFromBoth = 255,
 };
 

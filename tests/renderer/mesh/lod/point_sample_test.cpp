@@ -213,7 +213,16 @@ TEST(PointSample, SaysFromWhichSidesItsPointsAreSeen) {
     EXPECT_TRUE(hasOne && hasBoth);
     const auto plain = sampled(picture({}, {.image = 0}), 100);
     ASSERT_TRUE(plain.has_value());
-    EXPECT_EQ(unpackColour(plain->colours[0]).a, kSeenAsObjectHas);
+    EXPECT_EQ(unpackColour(plain->colours[0]).a, kSeenFromBoth);
+}
+
+TEST(PointSample, IsNotMadeWhereNothingCouldSayThatItHasOneSide) {
+    PackedMesh mesh = wallAndHair();
+    mesh.materials = {{.flags = kIsOneSided}};
+    mesh.materialOf.assign(mesh.positions.size(), 0);
+    EXPECT_FALSE(sampled(mesh, 100).has_value());
+    mesh.colours.assign(mesh.positions.size(), 0xFFFFFFFF);
+    EXPECT_TRUE(sampled(mesh, 100).has_value());
 }
 
 TEST(PointSample, IsNotMadeOfWhatIsBlendedNorOfHolesAlone) {
