@@ -27,6 +27,9 @@ constexpr double kTooFar = 1.0 / 32;
 /// Points are drawn where they are at most half a pixel apart, triangles up to tau: a sample is the
 /// better if its error is this part of the triangles'.
 constexpr double kWorthPoints = 0.5;
+/// Nodes of more triangles have no points, but those below them: sampling takes some hundred bytes
+/// a triangle.
+constexpr std::size_t kMostSampled = std::size_t{1} << 18;
 
 template <typename T>
 void append(std::vector<T>& to, const std::vector<T>& from) {
@@ -173,7 +176,7 @@ void Builder::standFor(LodPart& part, std::size_t index) {
     const std::size_t before = part.patch.triangles.size();
     const double diagonal = glm::length(glm::dvec3(node.boxMax) - glm::dvec3(node.boxMin));
     const bool mayBeBetter = !fewer || fewer->patch.error() > kSmallPiece * diagonal;
-    if (before >= options_.sampledTriangles && mayBeBetter)
+    if (before >= options_.sampledTriangles && before <= kMostSampled && mayBeBetter)
         lod_.points[index] = samplePoints(
             mesh_, part.patch, colours_, options_.nodePoints,
             fewer ? kWorthPoints * fewer->patch.error() : std::numeric_limits<double>::infinity());

@@ -34,7 +34,7 @@ constexpr double kWider = 1.15;
 constexpr double kTexels = 3;
 /// More, besides one for each triangle, are not looked at: a surface of needles may need any
 /// number.
-constexpr std::size_t kMostCandidates = std::size_t{1} << 20;
+constexpr std::size_t kMostCandidates = std::size_t{1} << 18;
 /// Half a cell's diagonal, in steps: what rounding to the lattice moves.
 constexpr double kRounding = std::numbers::sqrt3 / 2;
 
