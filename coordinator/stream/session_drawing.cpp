@@ -28,9 +28,9 @@ bool Session::Impl::mayRender() const {
 void Session::Impl::renderLoop() {
     std::unique_lock lock(mutex_);
     while (!isStopping_) {
-        if (switch_)
+        if (switch_ && !isAsking_)
             switchLayout(lock);
-        else if (const std::shared_ptr<Seat> unchecked = uncheckedScreen())
+        else if (const std::shared_ptr<Seat> unchecked = isAsking_ ? nullptr : uncheckedScreen())
             checkScreen(lock, unchecked);
         else if (mayRender())
             renderOne(lock);
@@ -40,12 +40,15 @@ void Session::Impl::renderLoop() {
     }
 }
 
-/// Waits for frames of others, so it is done here and not where messages arrive.
+/// Waits for frames of others, so it is done here and not where messages arrive. The last that is
+/// asked for decides what is shown, and its problem is the one that is told.
 void Session::Impl::switchLayout(std::unique_lock<std::mutex>& lock) {
     const coordinator::SwitchLayout change = *std::exchange(switch_, std::nullopt);
+    isAsking_ = true;
     lock.unlock();
     const absl::Status status = frames_.configure(change);
     lock.lock();
+    isAsking_ = false;
     if (leader_ != nullptr)
         setProblem(leader_->problem, status.ok() ? "" : problemOf(status));
     changed_.notify_all();
@@ -79,9 +82,12 @@ void Session::Impl::checkScreen(std::unique_lock<std::mutex>& lock,
     if (progress_.wanted())
         request = progress_.wanted()->frame;
     request.shown = {shown};
+    isAsking_ = true;
     lock.unlock();
     const absl::Status status = frames_.seen(request).status();
     lock.lock();
+    isAsking_ = false;
+    changed_.notify_all();
     if (!seat->screen || seat->screen->shown != shown)
         return;  // it is another by now
     if (seat->screen->problem.empty() != status.ok())
@@ -90,7 +96,6 @@ void Session::Impl::checkScreen(std::unique_lock<std::mutex>& lock,
     seat->screen->problem = status.ok() ? "" : problemOf(status);
     drawForAll();
     isStateStale_ = true;
-    changed_.notify_all();
 }
 
 /// The pictures that are seen, each once.

@@ -173,7 +173,8 @@ private:
     Progress progress_;
     std::map<QualityClass, std::shared_ptr<const EncodedPicture>> encodings_;  ///< of the newest
     std::optional<PictureSource> source_;
-    std::optional<coordinator::SwitchLayout> switch_;  ///< asked for and not done yet
+    std::optional<coordinator::SwitchLayout> switch_;  ///< asked for and not begun yet
+    bool isAsking_ = false;  ///< a render thread switches or checks a screen: one at a time
     std::uint64_t requested_ = 0;
     SessionCounts counts_;
     bool isStateStale_ = true;

@@ -71,8 +71,11 @@ public:
     }
 
     absl::StatusOr<fabric::SeenAreas> seen(const FrameRequest& request) override {
-        const std::lock_guard lock(mutex_);
-        return seen_(request);
+        const Seen seen = [this] {
+            const std::lock_guard lock(mutex_);
+            return seen_;
+        }();
+        return seen(request);
     }
 
     absl::StatusOr<fabric::Picked> pick(const fabric::PickRequest& request) override {
@@ -94,6 +97,8 @@ public:
             canvas.layout = change.layout;
         }
         setStatus(status);
+        std::unique_lock lock(mutex_);
+        changed_.wait(lock, [this] { return !areSwitchesHeld_; });
         return absl::OkStatus();
     }
 
@@ -155,6 +160,15 @@ public:
         changed_.notify_all();
     }
 
+    /// While held, configure does not return, though the layout is shown.
+    void holdSwitches(bool isHeld) {
+        {
+            const std::lock_guard lock(mutex_);
+            areSwitchesHeld_ = isHeld;
+        }
+        changed_.notify_all();
+    }
+
     std::vector<fabric::PickRequest> picks() const {
         const std::lock_guard lock(mutex_);
         return picks_;
@@ -192,6 +206,7 @@ private:
     bool isHeld_ = false;
     std::vector<FrameRequest> requests_;
     bool arePicksHeld_ = false;
+    bool areSwitchesHeld_ = false;
     Pick pick_ = [](const fabric::PickRequest&) { return fabric::Picked(); };
     std::vector<fabric::PickRequest> picks_;
     Seen seen_ = [](const FrameRequest&) { return fabric::SeenAreas(); };

@@ -2,7 +2,9 @@
 // Viewers of one session, each with a screen of its own, that show their pictures together.
 #include "coordinator/stream/swap_barrier.h"
 
+#include <atomic>
 #include <chrono>
+#include <future>
 #include <memory>
 #include <optional>
 #include <string>
@@ -317,6 +319,34 @@ TEST_F(SwapBarrier, TellsWhoAsksForAScreenThatIsNotThereAndDisturbsNobody) {
     EXPECT_EQ(left_->state().problem(), "");
     for (const FrameRequest& request : frames_.requests())
         for (const Shown& shown : request.shown) EXPECT_NE(shown.segment, "nowhere");
+}
+
+/// What is found last is what is told, however long it took to find what was so before.
+TEST_F(SwapBarrier, LooksForAScreenAgainWhereTheSourceHasChangedMeanwhile) {
+    std::promise<void> mayAnswer;
+    std::atomic<int> asked = 0;
+    frames_.setSeen([&, answer = mayAnswer.get_future().share()](
+                        const FrameRequest& request) -> absl::StatusOr<fabric::SeenAreas> {
+        if (request.shown.front().segment != "later")
+            return fabric::SeenAreas();
+        if (++asked > 1)
+            return fabric::SeenAreas();
+        answer.wait();
+        return absl::NotFoundError("no segment is called \"later\"");
+    });
+    right_->send(screenMessage("later"));
+    ASSERT_TRUE(comes([&] { return asked == 1; }));
+    coordinator::Status status = wallStatus();
+    status.canvases.front().segments.emplace_back("later");
+    frames_.setStatus(status);
+    const auto pumpFor = [&](milliseconds time) {
+        for (const auto end = Clock::now() + time; Clock::now() < end;) right_->pump();
+    };
+    pumpFor(milliseconds(50));
+    mayAnswer.set_value();
+    ASSERT_TRUE(comes([&] { return asked == 2; }));
+    pumpFor(milliseconds(50));
+    EXPECT_EQ(right_->state().problem(), "");
 }
 
 TEST(SwapBarrierOf, FindsScreensByNameAndPosition) {

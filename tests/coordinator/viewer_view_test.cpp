@@ -4,6 +4,8 @@
 #include <chrono>
 #include <limits>
 #include <memory>
+#include <string>
+#include <thread>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -184,11 +186,22 @@ TEST(Viewer, AsksForThePictureOfTheConfigurationThatTheViewNames) {
                   {"cave", "2", compound::Eye::Right, compound::Stereo::TopBottom}}));
 }
 
-TEST(Viewer, SwitchesLayoutsAndDrawsWhatThenIsShown) {
-    FakeFrameSource frames;
+void haveAWall(FakeFrameSource& frames) {
     coordinator::Status status = coordinator::readyStatus();
     status.canvases = {{"wall", {"left", "right"}, {"2D", "DB", "OFF"}, "2D"}};
     frames.setStatus(status);
+}
+
+v1::ViewerRequest switchTo(const std::string& layout) {
+    v1::ViewerRequest request;
+    request.mutable_switch_layout()->set_canvas("wall");
+    request.mutable_switch_layout()->set_layout(layout);
+    return request;
+}
+
+TEST(Viewer, SwitchesLayoutsAndDrawsWhatThenIsShown) {
+    FakeFrameSource frames;
+    haveAWall(frames);
     Browser browser(frames, moving(2));
     ASSERT_TRUE(browser.stateWhere([](const v1::SessionState& state) {
         return state.canvases_size() == 1 && state.canvases(0).layouts_size() == 3 &&
@@ -196,17 +209,32 @@ TEST(Viewer, SwitchesLayoutsAndDrawsWhatThenIsShown) {
     }));
     browser.look(1);
     ASSERT_TRUE(browser.nextFrame().has_value());
-    v1::ViewerRequest request;
-    request.mutable_switch_layout()->set_canvas("wall");
-    request.mutable_switch_layout()->set_layout("DB");
-    browser.send(request);
+    browser.send(switchTo("DB"));
     EXPECT_TRUE(browser.stateWhere(
         [](const v1::SessionState& state) { return state.canvases(0).layout() == "DB"; }));
-    request.mutable_switch_layout()->set_layout("attic");
-    browser.send(request);
+    browser.send(switchTo("attic"));
     EXPECT_TRUE(browser.stateWhere([](const v1::SessionState& state) {
         return state.problem() == "there is no layout attic";
     }));
+}
+
+TEST(Viewer, SwitchesOneLayoutAfterTheOther) {
+    FakeFrameSource frames;
+    haveAWall(frames);
+    Browser browser(frames, moving(2));
+    frames.holdSwitches(true);
+    browser.send(switchTo("DB"));
+    ASSERT_TRUE(browser.stateWhere([](const v1::SessionState& state) {
+        return state.canvases_size() == 1 && state.canvases(0).layout() == "DB";
+    }));
+    browser.send(switchTo("attic"));
+    std::this_thread::sleep_for(milliseconds(30));
+    frames.holdSwitches(false);
+    std::string problem;
+    while (const auto response = browser.next(milliseconds(300)))
+        if (response->has_state())
+            problem = response->state().problem();
+    EXPECT_EQ(problem, "there is no layout attic") << "the first did not end after the second";
 }
 
 }  // namespace
