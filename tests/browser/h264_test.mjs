@@ -59,8 +59,9 @@ function likenessAtRest(page) {
   });
 }
 
-/** Whether a message is a Frame with a picture of a stream: its fields 2 and, therein, 16. */
-function isOfStream(message) {
+/** The fields of a protobuf message by their numbers: numbers, or bytes of what has a length. */
+function fieldsOf(message) {
+  const fields = new Map();
   let at = 0;
   const varint = () => {
     let value = 0;
@@ -70,16 +71,26 @@ function isOfStream(message) {
       if (byte < 128) return value;
     }
   };
-  if (varint() !== (2 << 3) + 2) return false;
-  varint();
   while (at < message.length) {
     const tag = varint();
-    if (tag === (16 << 3) + 2) return true;
     const type = tag & 7;
-    if (type === 0) varint();
-    else at += type === 1 ? 8 : type === 5 ? 4 : varint();
+    const number = Math.floor(tag / 8);
+    if (type === 0) {
+      fields.set(number, varint());
+    } else {
+      const length = type === 2 ? varint() : type === 1 ? 8 : 4;
+      fields.set(number, message.subarray(at, at + length));
+      at += length;
+    }
   }
-  return false;
+  return fields;
+}
+
+/** The VideoPlace (a Frame's field 17) of a message with a picture of a stream (16); null for others. */
+function placeInStream(message) {
+  const frame = fieldsOf(message).get(2);
+  const fields = frame && fieldsOf(frame);
+  return fields?.has(16) ? fieldsOf(fields.get(17)) : null;
 }
 
 await run("h264_test", async (browser, started) => {
@@ -93,13 +104,20 @@ await run("h264_test", async (browser, started) => {
   );
   const { url, close } = await slowLink(server.url, { megabits: 12, delay: 10 });
 
-  // Loses a picture of a stream, when told to.
+  // Loses a picture of a stream, when told to, and tells whether the next can be decoded without it.
   let drops = 0;
+  let next = null;
   await page.routeWebSocket(/\/ws/, (socket) => {
     const upstream = socket.connectToServer();
     upstream.onMessage((message) => {
-      if (drops > 0 && typeof message !== "string" && isOfStream(message)) drops -= 1;
-      else socket.send(message);
+      const place = typeof message === "string" ? null : placeInStream(message);
+      if (drops > 0 && place !== null) {
+        drops -= 1;
+        next = null; // not known yet
+        return;
+      }
+      if (place !== null) next ??= { isKey: place.get(3) === 1 };
+      socket.send(message);
     });
   });
   await page.goto(url);
@@ -125,23 +143,31 @@ await run("h264_test", async (browser, started) => {
     "the picture at rest is the server's, bit for bit",
   );
 
-  check(await turnUntil(page, () => window.eyrie.video), "the stream goes on after that");
-  drops = 1;
-  check(
-    await turnUntil(page, () => {
-      const { video, still, quality } = window.eyrie;
-      return !video && !still && quality > 0;
-    }),
-    "where a picture of the stream is lost, JPEGs come in its place",
-  );
-  check(drops === 0, "one was lost");
   await page.evaluate(() => {
-    window.sawVideo = false;
     setInterval(() => (window.sawVideo ||= window.eyrie.video), 1);
   });
-  await page.evaluate(() => (window.turnsUntil = performance.now() + 1500));
-  await turnUntil(page, () => performance.now() > window.turnsUntil);
-  check(!(await page.evaluate(() => window.sawVideo)), "and no stream again");
+  let endsStream = false;
+  // Where a stream happens to begin anew right after the picture that is lost, it goes on.
+  for (let i = 0; i < 5 && !endsStream; ++i) {
+    check(await turnUntil(page, () => window.eyrie.video), "the stream goes on");
+    [drops, next] = [1, { isKey: false }];
+    check(
+      await turnUntil(page, () => {
+        const { video, still, quality } = window.eyrie;
+        return !video && !still && quality > 0;
+      }),
+      "where a picture of the stream is lost, JPEGs come in its place",
+    );
+    if (drops > 0) continue; // they came for another reason
+    await page.evaluate(() => {
+      window.sawVideo = false;
+      window.turnsUntil = performance.now() + 1500;
+    });
+    await turnUntil(page, () => performance.now() > window.turnsUntil);
+    endsStream = !(await page.evaluate(() => window.sawVideo));
+    check(endsStream || next?.isKey, "nothing more of it is shown but from a key on");
+  }
+  check(endsStream, "and no stream again");
   await browser.settled();
   check(await browser.hook("exact"), "and the picture at rest is exact");
 
