@@ -12,6 +12,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "renderer/mesh/lod/piece_points.h"
 #include "renderer/mesh/vertex_packing.h"
 
 namespace eyrie::mesh {
@@ -20,10 +21,8 @@ namespace {
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Cells along the longest axis of the grid in which neighbours are looked for, and how many of
-/// them to each side: what has no neighbour that near stays.
-constexpr int kCells = 128;
-constexpr int kReach = 8;
+/// Share of the patch's longest side: what has no neighbour as near stays.
+constexpr double kReach = 1.0 / 16;
 
 class DisjointSets {
 public:
@@ -44,96 +43,21 @@ private:
     std::vector<std::uint32_t> parent_;
 };
 
-/// A vertex of a patch.
-struct Point {
-    glm::dvec3 position;
-    std::uint32_t piece;
-    std::uint32_t triangle;  ///< one that it is a corner of
-};
-
-/// Points in cells of a grid.
-class Grid {
-public:
-    explicit Grid(std::vector<Point> points) : points_(std::move(points)) {
-        glm::dvec3 high(-kInfinity);
-        low_ = glm::dvec3(kInfinity);
-        for (const Point& point : points_) {
-            low_ = glm::min(low_, point.position);
-            high = glm::max(high, point.position);
-        }
-        const glm::dvec3 size = high - low_;
-        cell_ = std::max(1.0, std::max({size.x, size.y, size.z}) / kCells);
-        counts_ = glm::ivec3(size / cell_) + 1;
-        const auto cells = static_cast<std::size_t>(counts_.x) *
-                           static_cast<std::size_t>(counts_.y) *
-                           static_cast<std::size_t>(counts_.z);
-        end_.assign(cells + 1, 0);
-        for (const Point& point : points_) ++end_[indexOf(cellOf(point.position)) + 1];
-        std::partial_sum(end_.begin(), end_.end(), end_.begin());
-        order_.resize(points_.size());
-        for (std::uint32_t i = 0; i < points_.size(); ++i)
-            order_[end_[indexOf(cellOf(points_[i].position))]++] = i;
-    }
-
-    /// The nearest point to `at` of a piece that is `isThere` and not `own`; null where there is
-    /// none within reach.
-    const Point* nearest(const glm::dvec3& at, std::uint32_t own,
-                         const std::vector<bool>& isThere) const {
-        const glm::ivec3 middle = cellOf(at);
-        const Point* best = nullptr;
-        double distance = kInfinity;
-        for (int reach = 0; reach <= kReach && (reach - 1) * cell_ <= distance; ++reach) {
-            const glm::ivec3 from = glm::max(middle - reach, glm::ivec3(0));
-            const glm::ivec3 to = glm::min(middle + reach, counts_ - 1);
-            for (int z = from.z; z <= to.z; ++z)
-                for (int y = from.y; y <= to.y; ++y)
-                    for (int x = from.x; x <= to.x; ++x) {
-                        const glm::ivec3 away = glm::abs(glm::ivec3(x, y, z) - middle);
-                        if (std::max({away.x, away.y, away.z}) == reach)
-                            lookIn(indexOf({x, y, z}), at, own, isThere, best, distance);
-                    }
-        }
-        return best;
-    }
-
-private:
-    void lookIn(std::size_t cell, const glm::dvec3& at, std::uint32_t own,
-                const std::vector<bool>& isThere, const Point*& best, double& distance) const {
-        for (std::size_t i = cell == 0 ? 0 : end_[cell - 1]; i < end_[cell]; ++i) {
-            const Point& point = points_[order_[i]];
-            if (point.piece == own || !isThere[point.piece])
-                continue;
-            if (const double far = glm::distance(point.position, at); far < distance) {
-                distance = far;
-                best = &point;
-            }
-        }
-    }
-    glm::ivec3 cellOf(const glm::dvec3& at) const {
-        return glm::clamp(glm::ivec3((at - low_) / cell_), glm::ivec3(0), counts_ - 1);
-    }
-    std::size_t indexOf(const glm::ivec3& cell) const {
-        return (static_cast<std::size_t>(cell.z) * static_cast<std::size_t>(counts_.y) +
-                static_cast<std::size_t>(cell.y)) *
-                   static_cast<std::size_t>(counts_.x) +
-               static_cast<std::size_t>(cell.x);
-    }
-
-    std::vector<Point> points_;
-    glm::dvec3 low_;
-    double cell_ = 1;
-    glm::ivec3 counts_;
-    std::vector<std::uint32_t> end_;
-    std::vector<std::uint32_t> order_;
-};
-
 /// A patch taken apart, from which pieces go.
 class Dropper {
 public:
     Dropper(const PackedMesh& mesh, const Components& components, const KdNode& node, Patch& patch)
         : mesh_(mesh), patch_(patch) {
         gather(components, node);
-        grid_.emplace(points());
+        std::vector<PiecePoint> all = points();
+        glm::dvec3 low(kInfinity);
+        glm::dvec3 high(-kInfinity);
+        for (const PiecePoint& point : all) {
+            low = glm::min(low, point.position);
+            high = glm::max(high, point.position);
+        }
+        reach_ = kReach * std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+        there_.emplace(std::move(all));
     }
 
     void run(std::size_t target, double limitSteps);
@@ -155,7 +79,7 @@ private:
     };
 
     void gather(const Components& components, const KdNode& node);
-    std::vector<Point> points() const;
+    std::vector<PiecePoint> points() const;
     Way wayOf(std::uint32_t piece) const;
     glm::dvec3 position(std::uint32_t vertex) const {
         return glm::dvec3(unpackPosition(mesh_.positions[vertex]));
@@ -166,7 +90,8 @@ private:
     std::vector<Piece> pieces_;
     std::vector<std::uint32_t> pieceOf_;  ///< of a triangle
     std::vector<bool> isThere_;           ///< of a piece
-    std::optional<Grid> grid_;
+    std::optional<PiecePoints> there_;
+    double reach_ = 0;  ///< steps
 };
 
 /// Pieces by their least positions, which is the same whatever else there is in the mesh.
@@ -193,12 +118,12 @@ void Dropper::gather(const Components& components, const KdNode& node) {
 }
 
 /// Each vertex once.
-std::vector<Point> Dropper::points() const {
+std::vector<PiecePoint> Dropper::points() const {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> corners;
     for (std::uint32_t i = 0; i < patch_.triangles.size(); ++i)
         for (const std::uint32_t vertex : patch_.triangles[i]) corners.emplace_back(vertex, i);
     std::sort(corners.begin(), corners.end());
-    std::vector<Point> result;
+    std::vector<PiecePoint> result;
     for (std::size_t i = 0; i < corners.size(); ++i)
         if (i == 0 || corners[i].first != corners[i - 1].first)
             result.push_back(
@@ -214,8 +139,8 @@ Dropper::Way Dropper::wayOf(std::uint32_t index) const {
         for (const std::uint32_t vertex : patch_.triangles[triangle]) sum += position(vertex);
         before = std::max(before, double{patch_.shifts[triangle].longest()});
     }
-    const Point* to =
-        grid_->nearest(sum / (3.0 * static_cast<double>(piece.triangles.size())), index, isThere_);
+    const PiecePoint* to =
+        there_->nearest(sum / (3.0 * static_cast<double>(piece.triangles.size())), index, reach_);
     if (to == nullptr)
         return {};
     double farthest = 0;  // of a triangle's points a corner is the farthest
@@ -245,6 +170,7 @@ void Dropper::run(std::size_t target, double limitSteps) {
             continue;
         }
         isThere_[way.piece] = false;
+        there_->remove(way.piece);
         left -= pieces_[way.piece].triangles.size();
         patch_.shifts[way.receiver].hold(Shifts().andThen(static_cast<float>(way.bound)));
     }
