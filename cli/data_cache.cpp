@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 
 /// Raise either when an importer makes something else of the same source.
 constexpr int kMeshImporterVersion = 6;
-constexpr int kTerrainImporterVersion = 7;
+constexpr int kTerrainImporterVersion = 8;
 
 /// Files beside a raster that say where it lies: a change of one is a change of the source.
 constexpr std::array<std::string_view, 4> kSidecars = {".hdr", ".prj", ".tfw", ".aux.xml"};

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <utility>
 
@@ -94,7 +93,8 @@ absl::StatusOr<Candidate> findSource(const fabric::SceneObject& object, const Fi
             continue;
         ASSIGN_OR_RETURN(const truth::SourceFacts facts, truth::inspectSource(object.kind, files));
         if (facts.hash == kept)
-            return Candidate{{object.path, object.kind, files}, facts.neededBytes};
+            return Candidate{{object.path, object.kind, object.singleSided, files},
+                             facts.neededBytes};
         if (absl::IsNotFound(refused))
             refused = absl::InvalidArgumentError(
                 fmt::format("{}: is not what {} was imported from: its hash is {:016x}, that of "
@@ -105,15 +105,6 @@ absl::StatusOr<Candidate> findSource(const fabric::SceneObject& object, const Fi
     return refused;
 }
 
-absl::Status checkSides(const fabric::SceneObject& object) {
-    if (!object.singleSided)
-        return absl::OkStatus();
-    return absl::InvalidArgumentError(
-        fmt::format("{}: is drawn from one side only, and a reference shows both; take "
-                    "singleSided out of the scene to measure it",
-                    object.name));
-}
-
 }  // namespace
 
 absl::StatusOr<std::vector<FoundSource>> findSources(const fabric::Scene& scene, const Files& given,
@@ -122,8 +113,7 @@ absl::StatusOr<std::vector<FoundSource>> findSources(const fabric::Scene& scene,
     std::vector<FoundSource> found;
     std::uint64_t needed = 0;
     for (const fabric::SceneObject& object : scene.objects) {
-        RETURN_IF_ERROR(checkSides(object));
-        if (std::ranges::find(found, object.path, &FoundSource::imported) != found.end())
+        if (std::ranges::any_of(found, [&](const FoundSource& one) { return one.isOf(object); }))
             continue;
         ASSIGN_OR_RETURN(Candidate one, findSource(object, given, remote));
         needed += one.neededBytes;
@@ -139,15 +129,19 @@ absl::StatusOr<std::vector<FoundSource>> findSources(const fabric::Scene& scene,
 
 absl::StatusOr<ReferenceScene> readSources(const fabric::Scene& scene,
                                            const std::vector<FoundSource>& found) {
-    std::map<std::string, truth::SourceSurface> sources;
+    std::vector<truth::SourceSurface> sources;
     for (const FoundSource& one : found) {
-        ASSIGN_OR_RETURN(sources[one.imported], truth::readSource(one.kind, one.files));
+        ASSIGN_OR_RETURN(sources.emplace_back(),
+                         truth::readSource(one.kind, one.files, one.isOneSided));
     }
     ReferenceScene reference;
     std::vector<truth::PlacedSurface> placed;
     for (const fabric::SceneObject& object : scene.objects) {
-        reference.objects.push_back({sources[object.path], object.path, object.worldFromObject});
-        placed.push_back({sources[object.path].surface(), object.worldFromObject});
+        const auto one = std::ranges::find_if(
+            found, [&](const FoundSource& source) { return source.isOf(object); });
+        const truth::SourceSurface& source = sources[static_cast<std::size_t>(one - found.begin())];
+        reference.objects.push_back({source, object.path, object.worldFromObject});
+        placed.push_back({source.surface(), object.worldFromObject});
     }
     reference.surface = std::make_shared<truth::PlacedSurfaces>(placed);
     return reference;

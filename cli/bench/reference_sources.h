@@ -20,17 +20,21 @@ namespace eyrie::cli::bench {
 struct FoundSource {
     std::string imported;  ///< the .eyt or .eym
     fabric::ObjectKind kind = fabric::ObjectKind::Mesh;
+    bool isOneSided = false;  ///< as its object is drawn
     std::vector<std::string> files;
+
+    bool isOf(const fabric::SceneObject& object) const {
+        return imported == object.path && isOneSided == object.singleSided;
+    }
 };
 
 /// Finds the source files of each of the scene's imports: those of `given` (of the names that the
 /// import's record has, or all of them where it has none), or where the record says, or beside the
 /// import. Their hash must be the one that the import keeps, and all of them together must not need
 /// more than `memoryBytes`. Nothing is read but for the hashes. One for each file, whichever
-/// objects show it.
+/// objects show it, or two where some show one side of it and some both.
 ///
-/// Errors: NotFound (no file, nor a record), InvalidArgument (another hash; an object of one side,
-/// whose backs the reference would show), ResourceExhausted.
+/// Errors: NotFound (no file, nor a record), InvalidArgument (another hash), ResourceExhausted.
 absl::StatusOr<std::vector<FoundSource>> findSources(const fabric::Scene& scene,
                                                      const std::vector<std::string>& given,
                                                      std::uint64_t memoryBytes,
@@ -47,7 +51,7 @@ struct ReferenceScene {
     std::shared_ptr<const truth::PlacedSurfaces> surface;
 };
 
-/// Errors: those of readSource.
+/// Precondition: `found` is what findSources gave for it. Errors: those of readSource.
 absl::StatusOr<ReferenceScene> readSources(const fabric::Scene& scene,
                                            const std::vector<FoundSource>& found);
 

@@ -5,17 +5,8 @@
 #include "renderer/terrain/eyt_format.h"
 #include "renderer/truth/drawn_mesh.h"
 #include "renderer/truth/drawn_terrain.h"
-#include "renderer/truth/drawn_triangles.h"
 
 namespace eyrie::cli::bench {
-namespace {
-
-/// As truth::TerrainPromise has it: an edge-on triangle covers pixels whose centres it misses by up
-/// to what its corners are rounded to.
-constexpr double kReachPixels = 1.0 / 128;
-
-}  // namespace
-
 void ShownTriangles::add(const ReferenceScene::Object& object) {
     if (object.source.terrain) {
         const auto file = terrain::EytFile::open(object.imported, remote_);
@@ -37,15 +28,13 @@ void ShownTriangles::add(const ReferenceScene::Object& object) {
 }
 
 void ShownTriangles::read() {
-    isRead_ = true;
     for (const ReferenceScene::Object& object : scene_.objects) add(object);
+    surface_.emplace(triangles_, camera_);
 }
 
 std::optional<fabric::Vec3> ShownTriangles::at(double x, double y, double depthMetres) {
-    if (!isRead_)
-        read();
-    const auto shown = truth::shownAt(triangles_, camera_, x, y, depthMetres, kReachPixels);
-    return shown ? std::optional(shown->point) : std::nullopt;
+    std::call_once(isRead_, [this] { read(); });
+    return surface_->at(x, y, depthMetres);
 }
 
 }  // namespace eyrie::cli::bench

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "renderer/lod/view.h"
 #include "renderer/page/page_source.h"
 #include "renderer/truth/pinhole.h"
+#include "renderer/truth/shown_surface.h"
 #include "renderer/truth/triangle.h"
 
 namespace eyrie::cli::bench {
@@ -21,7 +23,8 @@ public:
                    double tauPixels, const page::SourceOptions& remote)
         : scene_(scene), camera_(camera), view_(view), tauPixels_(tauPixels), remote_(remote) {}
 
-    /// Nothing where no triangle covers the picture point, or the import cannot be read.
+    /// Any thread may ask. Nothing where no triangle covers the picture point, or the import cannot
+    /// be read.
     std::optional<fabric::Vec3> at(double x, double y, double depthMetres);
 
 private:
@@ -33,8 +36,9 @@ private:
     const lod::View view_;
     const double tauPixels_;
     const page::SourceOptions& remote_;
-    bool isRead_ = false;
+    std::once_flag isRead_;
     std::vector<truth::Triangle> triangles_;
+    std::optional<truth::ShownSurface> surface_;  ///< of those
 };
 
 }  // namespace eyrie::cli::bench

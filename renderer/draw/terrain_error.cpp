@@ -55,10 +55,16 @@ double TerrainError::pixels(const terrain::TerrainCut& cut) {
     };
     if (!isEyeOverGround())
         hidden_ = nullptr;
-    if (hidden_ != nullptr)
+    if (hidden_ != nullptr) {
+        for (const auto* tiles : {&cut.tiles, &cut.holes})
+            for (const terrain::TileChoice& tile : *tiles)
+                if (index_.tile(tile.id).outlineMetres > 0)
+                    blurred_.push_back(index_.quadtree.tileIndex(tile.id));
+        std::ranges::sort(blurred_);
         ground.isHidden = [this](const Box& bounds, double pixels) {
             return isHidden(bounds, [&] { return hidden_->coverOf(bounds, pixels); });
         };
+    }
     return terrain::screenSpaceErrorPixels(index_, request_.view, cut, ground);
 }
 
@@ -102,8 +108,8 @@ bool TerrainError::isHidden(const Box& bounds, CoverOf coverOf) {
     if (!cover || !isEyeAboveGround())
         return false;
     const Vec2 eye(request_.view.objectFromView()[3]);
-    return !terrain::hasHoleBefore(index_, eye, bounds) ||
-           !terrain::hasHoleBefore(index_, eye, bounds, hidden_->reachOf(*cover));
+    return !terrain::hasHoleBefore(index_, eye, bounds, blurred_) ||
+           !terrain::hasHoleBefore(index_, eye, bounds, blurred_, hidden_->reachOf(*cover));
 }
 
 /// Whether the eye is above or below a cell of the terrain.

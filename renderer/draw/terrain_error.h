@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "renderer/draw/drawable.h"
 #include "renderer/draw/needed_tiles.h"
@@ -38,6 +40,8 @@ private:
     const NeededTiles& needed_;
     const CutRequest& request_;
     occlusion::HiddenGround* hidden_;
+    /// Tiles of the cut whose outlines may be off, by their places in the index.
+    std::vector<std::uint32_t> blurred_;
     int lookedAt_ = 0;  ///< tiles that keep tau whose triangles were
     std::optional<bool> isEyeAboveGround_;
 };

@@ -23,7 +23,7 @@ namespace {
 /// What a pixel value has to go through to be metres.
 struct ValueRule {
     std::optional<float> nodata;
-    bool lowestIsNodata = false;  ///< -32768, in 16-bit rasters
+    bool lowestIsNodata = false;  ///< -32768, in 16-bit rasters, said or not
     double scale = 1;
     double offset = 0;
 };
@@ -113,13 +113,13 @@ absl::StatusOr<ValueRule> valueRule(const std::string& path, GDALRasterBandH ban
     return rule;
 }
 
-float heightOf(float value, const ValueRule& rule) {
+bool isSaidToBeNodata(float value, const ValueRule& rule) {
+    return value != value || (rule.nodata && value == *rule.nodata);
+}
+
+bool isPossible(float value, const ValueRule& rule) {
     constexpr float kImpossible = 1e30F;
-    const bool isNodata = (rule.nodata && value == *rule.nodata) ||
-                          (rule.lowestIsNodata && value == -32768.0F) ||
-                          !(std::abs(value) < kImpossible);
-    return isNodata ? terrain::kNodata
-                    : static_cast<float>(static_cast<double>(value) * rule.scale + rule.offset);
+    return std::abs(value) < kImpossible && !(rule.lowestIsNodata && value == -32768.0F);
 }
 
 absl::StatusOr<Georeference> georeferenceOf(const std::string& path, GDALDatasetH dataset,
@@ -143,8 +143,11 @@ absl::StatusOr<Georeference> georeferenceOf(const std::string& path, GDALDataset
 /// The heights of another dataset's first band, turned to metres block by block.
 class HeightBand : public GDALRasterBand {
 public:
-    HeightBand(GDALDataset* owner, GDALRasterBand* source, const ValueRule& rule)
-        : source_(source), rule_(rule) {
+    using Impossible = std::shared_ptr<std::optional<ImpossibleHeight>>;
+
+    HeightBand(GDALDataset* owner, GDALRasterBand* source, const ValueRule& rule,
+               Impossible impossible)
+        : source_(source), rule_(rule), impossible_(std::move(impossible)) {
         poDS = owner;
         nBand = 1;
         eDataType = GDT_Float32;
@@ -175,41 +178,50 @@ protected:
         if (source_->RasterIO(GF_Read, i, j, columns, rows, heights, columns, rows, GDT_Float32,
                               sizeof(float), line, nullptr) != CE_None)
             return CE_Failure;
+        if (hasMask_ && !readMask(i, j, columns, rows))
+            return CE_Failure;
         for (int v = 0; v < rows; ++v)
             for (int u = 0; u < columns; ++u) {
                 float& height = heights[v * std::ptrdiff_t{nBlockXSize} + u];
-                height = heightOf(height, rule_);
+                height = hasMask_ && mask_[static_cast<std::size_t>(v * columns + u)] == 0
+                             ? terrain::kNodata
+                             : heightOf(height, i + u, j + v);
             }
-        return hasMask_ ? applyMask(i, j, columns, rows, heights) : CE_None;
+        return CE_None;
     }
 
 private:
-    CPLErr applyMask(int i, int j, int columns, int rows, float* heights) {
+    bool readMask(int i, int j, int columns, int rows) {
         mask_.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
-        if (source_->GetMaskBand()->RasterIO(GF_Read, i, j, columns, rows, mask_.data(), columns,
-                                             rows, GDT_Byte, 0, 0, nullptr) != CE_None)
-            return CE_Failure;
-        for (int v = 0; v < rows; ++v)
-            for (int u = 0; u < columns; ++u)
-                if (mask_[static_cast<std::size_t>(v) * static_cast<std::size_t>(columns) +
-                          static_cast<std::size_t>(u)] == 0)
-                    heights[v * std::ptrdiff_t{nBlockXSize} + u] = terrain::kNodata;
-        return CE_None;
+        return source_->GetMaskBand()->RasterIO(GF_Read, i, j, columns, rows, mask_.data(), columns,
+                                                rows, GDT_Byte, 0, 0, nullptr) == CE_None;
+    }
+
+    float heightOf(float value, int column, int row) {
+        if (isSaidToBeNodata(value, rule_))
+            return terrain::kNodata;
+        if (isPossible(value, rule_))
+            return static_cast<float>(static_cast<double>(value) * rule_.scale + rule_.offset);
+        if (!*impossible_)
+            *impossible_ = {column, row, value};
+        return terrain::kNodata;
     }
 
     GDALRasterBand* source_;
     ValueRule rule_;
+    Impossible impossible_;
     bool hasMask_ = false;
     std::vector<unsigned char> mask_;
 };
 
 class HeightDataset : public GDALDataset {
 public:
-    HeightDataset(Dataset source, const ValueRule& rule) : source_(std::move(source)) {
+    HeightDataset(Dataset source, const ValueRule& rule, HeightBand::Impossible impossible)
+        : source_(std::move(source)) {
         GDALDataset* const dataset = GDALDataset::FromHandle(source_.get());
         nRasterXSize = dataset->GetRasterXSize();
         nRasterYSize = dataset->GetRasterYSize();
-        SetBand(1, new HeightBand(this, dataset->GetRasterBand(1), rule));
+        SetBand(1, new HeightBand(this, dataset->GetRasterBand(1), rule, std::move(impossible)));
     }
     ~HeightDataset() override { FlushCache(true); }
 
@@ -263,7 +275,10 @@ absl::StatusOr<DemFile> openDemFile(const std::string& path, QuietGdal& gdal) {
     if (const OGRSpatialReferenceH crs = GDALGetSpatialRef(dataset.get()))
         file.crs.reset(OSRClone(crs));
     ASSIGN_OR_RETURN(file.hash, hashFiles(path, dataset.get()));
-    file.dataset.reset(GDALDataset::ToHandle(new HeightDataset(std::move(dataset), rule)));
+    const auto impossible = std::make_shared<std::optional<ImpossibleHeight>>();
+    file.impossible = impossible;
+    file.dataset.reset(
+        GDALDataset::ToHandle(new HeightDataset(std::move(dataset), rule, impossible)));
     return file;
 }
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +12,13 @@
 #include "renderer/import/gdal_handles.h"
 
 namespace eyrie::import {
+
+/// A pixel that cannot be a height, in a file that does not call it nodata.
+struct ImpossibleHeight {
+    int column = 0;
+    int row = 0;
+    float value = 0;  ///< as the file has it
+};
 
 /// One file of heights, as it lies on disk.
 struct DemFile {
@@ -24,6 +33,8 @@ struct DemFile {
     SpatialReference crs;    ///< null: none
     std::uint64_t hash = 0;  ///< XXH64 of the file's bytes, and of the files that it names
     std::vector<std::string> notes;
+    /// The first of those read so far; they become nodata. Never null.
+    std::shared_ptr<const std::optional<ImpossibleHeight>> impossible;
 
     bool isGeographic() const;
 };

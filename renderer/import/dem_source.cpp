@@ -84,7 +84,23 @@ public:
         return absl::OkStatus();
     }
 
+    std::vector<std::string> findings() const override {
+        std::vector<std::string> findings = findings_;
+        for (const Layer& layer : layers_)
+            if (const auto& found = *layer.file.impossible)
+                findings.push_back(fmt::format(
+                    "{} in column {} and row {} of {} can be no height; it is taken for nodata, "
+                    "and so is what else is like it",
+                    found->value, found->column, found->row, layer.file.path));
+        return findings;
+    }
+
+    void foundBefore(std::vector<std::string> findings) override {
+        findings_ = std::move(findings);
+    }
+
     std::uint64_t release() override {
+        findings_ = findings();
         layers_.clear();
         buffer_ = {};
         malloc_trim(0);          // blocks are small: the heap would keep them
@@ -129,6 +145,7 @@ private:
     bool isFlipped_;
     terrain::GridFrame frame_;
     std::vector<float> buffer_;
+    std::vector<std::string> findings_;  ///< before, and in layers that have been released
 };
 
 absl::Status checkSize(const std::string& path, std::int64_t columns, std::int64_t rows) {

@@ -36,7 +36,8 @@ struct DemSource {
 /// last. What none covers is nodata.
 ///
 /// Each raster's own scale, offset and foot units are applied. Nodata: the band's tag, its mask,
-/// NaN, infinities, magnitudes from 1e30, and -32768 in 16-bit rasters.
+/// NaN, infinities, magnitudes from 1e30, and -32768 in 16-bit rasters; what of this the file does
+/// not itself call nodata is among the posts' findings.
 ///
 /// Reports as "checking" while it reads the files for their hash. Errors, naming file and field:
 /// NotFound, InvalidArgument (no raster, not heights, less than 2 x 2 posts, no usable

@@ -2,8 +2,12 @@
 #include "renderer/import/elevation_reading.h"
 
 #include <algorithm>
+#include <cstring>
+#include <iterator>
 #include <memory>
 #include <mutex>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <tbb/parallel_pipeline.h>
@@ -162,6 +166,36 @@ absl::Status readElevation(HeightSource& source, const terrain::Scratch& scratch
                            const ImportControl& control, terrain::ElevationModel& model,
                            const ReadingShare& share) {
     return Reading(source, scratch, control, model, share).run();
+}
+
+/// First the findings, a line each, to a zero; then the model.
+TerrainStages::State readingState(HeightSource& source, terrain::ElevationModel& model) {
+    const auto save = [&] {
+        std::string lines;
+        for (const std::string& finding : source.findings()) lines += finding + '\n';
+        lines += '\0';
+        std::vector<std::byte> state(lines.size());
+        std::memcpy(state.data(), lines.data(), lines.size());
+        const std::vector<std::byte> ofModel = model.state();
+        state.insert(state.end(), ofModel.begin(), ofModel.end());
+        return state;
+    };
+    const auto restore = [&](const std::vector<std::byte>& state) {
+        const auto end = std::ranges::find(state, std::byte{0});
+        if (end == state.end() || !model.restore({end + 1, state.end()}))
+            return false;
+        std::vector<std::string> findings;
+        for (auto from = state.begin(); from != end;) {
+            const auto to = std::find(from, end, std::byte{'\n'});
+            std::string& finding = findings.emplace_back();
+            std::transform(from, to, std::back_inserter(finding),
+                           [](std::byte b) { return static_cast<char>(b); });
+            from = to == end ? end : to + 1;
+        }
+        source.foundBefore(std::move(findings));
+        return true;
+    };
+    return {save, restore};
 }
 
 void countTile(const terrain::GridFrame& frame, std::int32_t x, std::int32_t y, const float* posts,

@@ -8,6 +8,7 @@
 
 #include "renderer/import/height_source.h"
 #include "renderer/import/progress.h"
+#include "renderer/import/terrain_stages.h"
 #include "renderer/terrain/deviation.h"
 
 namespace eyrie::import {
@@ -26,6 +27,10 @@ struct ReadingShare {
 absl::Status readElevation(HeightSource& source, const terrain::Scratch& scratch,
                            const ImportControl& control, terrain::ElevationModel& model,
                            const ReadingShare& share = {});
+
+/// What reading leaves in memory: of `model`, and what was found in the posts of `source`. Refers
+/// to both.
+TerrainStages::State readingState(HeightSource& source, terrain::ElevationModel& model);
 
 /// Adds up the posts of a tile of `frame` but for those that a next tile has, too: over all tiles
 /// each post counts once. Rows of `posts` are `stride` apart.

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include <absl/status/status.h>
 
@@ -22,6 +24,11 @@ public:
     /// The heights of a window of the frame, in metres, row by row; NaN is nodata, and there are no
     /// infinities. Errors: DataLoss.
     virtual absl::Status read(const terrain::PostRect& window, float* out) = 0;
+    /// What was found in the posts read so far, for people.
+    virtual std::vector<std::string> findings() const { return {}; }
+    /// What an earlier job found in posts that need not be read again: among the findings from now
+    /// on.
+    virtual void foundBefore(std::vector<std::string> /*findings*/) {}
     /// Gives back what reading holds in memory, for about as many bytes; nothing is read again.
     virtual std::uint64_t release() { return 0; }
 };

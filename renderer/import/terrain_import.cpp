@@ -2,6 +2,7 @@
 #include "renderer/import/terrain_import.h"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cmath>
 #include <csignal>
@@ -31,6 +32,26 @@
 namespace eyrie::import {
 namespace {
 
+/// What heights look like that a file should have called nodata, and did not.
+std::vector<std::string> notesOnHeights(const terrain::EytIndex& index) {
+    std::vector<std::string> notes;
+    constexpr std::array<float, 4> kOftenNodata = {-9999, -99999, -32767, -32768};
+    const float lowest = index.tile(index.quadtree.top()).minHeightMetres;
+    if (std::ranges::count(kOftenNodata, lowest) != 0)
+        notes.push_back(fmt::format(
+            "the lowest height is {} m, which often means nodata; if it does, the file must say so "
+            "(gdal_edit.py -a_nodata {})",
+            lowest, lowest));
+    // Steps of more than a metre come of heights of thousands of kilometres alone.
+    constexpr double kFewestSteps = 1 << 22;  // to the highest, or the step were half as large
+    if (const double step = index.heightStepMetres(); step > 1)
+        notes.push_back(fmt::format(
+            "heights reach beyond {:.3g} m, so all are kept in steps of {} m; if those are none, "
+            "the file must call them nodata (gdal_edit.py -a_nodata)",
+            step * kFewestSteps, step));
+    return notes;
+}
+
 TerrainImportReport reportOf(const terrain::EytIndex& index, double postMetres,
                              std::uint64_t sizeBytes) {
     return {
@@ -45,7 +66,13 @@ TerrainImportReport reportOf(const terrain::EytIndex& index, double postMetres,
         .finestErrorMetres = index.finestErrorMetres(),
         .coarsestErrorMetres = index.coarsestErrorMetres(),
         .imagery = index.imagery ? std::optional(terrain::summaryOf(*index.imagery)) : std::nullopt,
-        .notes = {}};
+        .notes = notesOnHeights(index)};
+}
+
+absl::Status explained(const absl::Status& error, const std::vector<std::string>& findings) {
+    std::string message(error.message());
+    for (const std::string& finding : findings) message += "; " + finding;
+    return absl::Status(error.code(), message);
 }
 
 /// Removes what killed imports into `out` have left: EytWriter's unfinished files.
@@ -142,7 +169,7 @@ private:
                 return parts_ ? parts_->gatherHeights(scratch_, control_, model_)
                               : readElevation(posts_, scratch_, control_, model_);
             },
-            {[&] { return model_.state(); }, [&](const auto& s) { return model_.restore(s); }}));
+            readingState(posts_, model_)));
         if (imagery_ == nullptr)  // which is read through the same cache
             scratch_.grow(posts_.release());
         if (model_.statistics.min > model_.statistics.max)
@@ -170,7 +197,7 @@ private:
         return reportOf(index, postMetres, sizeBytes);
     }
 
-    static constexpr int kImportVersion = 3;  ///< raise it when scratch or journal change
+    static constexpr int kImportVersion = 4;  ///< raise it when scratch or journal change
 
     HeightSource& posts_;
     ImagerySource* imagery_;
@@ -218,7 +245,9 @@ absl::StatusOr<TerrainImportReport> importTerrain(HeightSource& posts, const Ter
                          .run());
     if (parts)
         parts->remove();
-    report.notes = std::move(imagery.notes);
+    const std::vector<std::string> findings = posts.findings();
+    report.notes.insert(report.notes.begin(), findings.begin(), findings.end());
+    report.notes.insert(report.notes.end(), imagery.notes.begin(), imagery.notes.end());
     return report;
 }
 
@@ -238,10 +267,12 @@ absl::StatusOr<TerrainImportReport> importTerrain(const std::vector<std::string>
     const std::string name = dems.size() == 1
                                  ? dems.front()
                                  : fmt::format("{} and {} more", dems.front(), dems.size() - 1);
-    ASSIGN_OR_RETURN(
-        TerrainImportReport report,
-        importTerrain(*source.posts, {name, source.crsWkt, source.hash}, out, options, control));
-    report.notes.insert(report.notes.begin(), source.notes.begin(), source.notes.end());
+    absl::StatusOr<TerrainImportReport> report =
+        importTerrain(*source.posts, {name, source.crsWkt, source.hash}, out, options, control);
+    if (absl::IsInvalidArgument(report.status()))  // no data, which the findings may explain
+        return explained(report.status(), source.posts->findings());
+    RETURN_IF_ERROR(report.status());
+    report->notes.insert(report->notes.begin(), source.notes.begin(), source.notes.end());
     return report;
 }
 

@@ -67,7 +67,7 @@ public:
 
 private:
     std::uint64_t key() const {
-        constexpr std::uint64_t kVersion = 1;  // raise it when scratch or journal change
+        constexpr std::uint64_t kVersion = 2;  // raise it when scratch or journal change
         const std::uint64_t seed = kVersion << 32 | shard_.index;
         return XXH64(&identity_, sizeof identity_, seed);
     }
@@ -106,9 +106,7 @@ private:
     }
 
     absl::StatusOr<std::uint64_t> runStages(TerrainStages& stages) {
-        RETURN_IF_ERROR(stages.run(
-            [&] { return read(); },
-            {[&] { return model_.state(); }, [&](const auto& s) { return model_.restore(s); }}));
+        RETURN_IF_ERROR(stages.run([&] { return read(); }, readingState(posts_, model_)));
         ASSIGN_OR_RETURN(model_.statistics, shareFacts(out_, identity_, plan_, shard_,
                                                        model_.statistics, posts_, control_));
         if (model_.statistics.min > model_.statistics.max)
@@ -223,6 +221,8 @@ absl::StatusOr<TerrainShardReport> importTerrainShard(const std::vector<std::str
                      importTerrainShard(*source.posts, {name, source.crsWkt, source.hash}, out,
                                         shard, options, control));
     report.notes = std::move(source.notes);
+    const std::vector<std::string> findings = source.posts->findings();
+    report.notes.insert(report.notes.end(), findings.begin(), findings.end());
     return report;
 }
 

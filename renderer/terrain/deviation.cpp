@@ -5,69 +5,20 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <numbers>
 #include <type_traits>
 
 #include <glm/geometric.hpp>
 
 #include "renderer/terrain/deviation_scan.h"
 #include "renderer/terrain/small_triangle.h"
+#include "renderer/terrain/triangle_cells.h"
 
 namespace eyrie::terrain {
 namespace {
 
-struct Bounds {
-    explicit Bounds(const Triangle& t)
-        : i0(std::min({t[0].i, t[1].i, t[2].i})),
-          j0(std::min({t[0].j, t[1].j, t[2].j})),
-          i1(std::max({t[0].i, t[1].i, t[2].i})),
-          j1(std::max({t[0].j, t[1].j, t[2].j})) {}
-
-    std::int32_t i0, j0, i1, j1;
-};
-
 /// The last block with a cell of posts up to `post`, blocks of `cells`.
 std::int32_t lastBlock(std::int32_t first, std::int32_t post, std::int32_t cells) {
     return std::max(first, (post - 1) / cells);
-}
-
-/// Whether a triangle's inside or border may meet a block: not wholly beyond one of its sides.
-class Overlap {
-public:
-    explicit Overlap(const Triangle& t) : t_(t) {
-        const std::int64_t area = std::int64_t{t[1].i - t[0].i} * (t[2].j - t[0].j) -
-                                  std::int64_t{t[2].i - t[0].i} * (t[1].j - t[0].j);
-        sign_ = area < 0 ? -1 : 1;
-    }
-    bool meets(std::int32_t i0, std::int32_t j0, std::int32_t cells) const {
-        for (std::size_t e = 0; e < 3; ++e) {
-            const Corner& a = t_[e];
-            const Corner& b = t_[(e + 1) % 3];
-            const std::int64_t nx = -sign_ * std::int64_t{b.j - a.j};
-            const std::int64_t ny = sign_ * std::int64_t{b.i - a.i};
-            const std::int64_t inmost =
-                nx * (i0 + (nx > 0 ? cells : 0) - a.i) + ny * (j0 + (ny > 0 ? cells : 0) - a.j);
-            if (inmost < 0)
-                return false;
-        }
-        return true;
-    }
-
-private:
-    const Triangle& t_;
-    std::int64_t sign_ = 1;
-};
-
-/// Whether its sides run along rows, columns and cells' diagonals, so that they leave no part of a
-/// cell but a half.
-bool crossesCellsAtPosts(const Triangle& t) {
-    for (std::size_t k = 0; k < 3; ++k) {
-        const std::int32_t di = std::abs(t[k].i - t[(k + 1) % 3].i);
-        const std::int32_t dj = std::abs(t[k].j - t[(k + 1) % 3].j);
-        if (di != 0 && dj != 0 && di != dj)
-            return false;
-    }
-    return true;
 }
 
 }  // namespace
@@ -119,7 +70,6 @@ float SourceSurface::farHeightAt(std::int32_t i, std::int32_t j) {
         .at(i, j);
 }
 
-/// On the ground.
 double SourceSurface::metresAside(const Corner& a, const Corner& b) const {
     return glm::length(model_.frame.perColumn * static_cast<double>(b.i - a.i) +
                        model_.frame.perRow * static_cast<double>(b.j - a.j));
@@ -132,88 +82,11 @@ double SourceSurface::longestEdgeMetres(const Triangle& triangle) const {
     return longest;
 }
 
-double SourceSurface::drawnOutlineMetres(const Triangle& triangle) {
-    double rounded = 0;
-    double longest = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const Corner& corner = triangle[k];
-        rounded = std::max(rounded,
-                           std::abs(static_cast<double>(heightAt(corner.i, corner.j)) - corner.z));
-        const Corner& next = triangle[(k + 1) % 3];
-        longest = std::max(longest, std::hypot(metresAside(corner, next), corner.z - next.z));
-    }
-    return std::max(longest / std::numbers::sqrt3 + rounded,
-                    farthestDataMetres(triangle, triangle, 0));
-}
-
-double SourceSurface::farthestDataMetres(const Triangle& triangle, std::span<const Corner> drawn,
-                                         double atLeast) {
-    const Bounds box(triangle);
-    const Overlap overlap(triangle);
-    const bool endsAtPosts = crossesCellsAtPosts(triangle);
-    double farthest = atLeast;
-    std::size_t last = 0;  // near one cell, and mostly near the next
-    for (std::int32_t j = box.j0; j < box.j1; ++j)
-        for (std::int32_t i = box.i0; i < box.i1; ++i) {
-            if (!overlap.meets(i, j, 1))
-                continue;
-            std::array<Corner, 4> posts;
-            std::size_t count = 0;
-            for (const std::int32_t row : {j, j + 1})
-                for (const std::int32_t column : {i, i + 1})
-                    posts[count++] = {column, row, static_cast<double>(heightAt(column, row))};
-            // Three make half a cell of ground.
-            if (std::ranges::count_if(posts, [](const Corner& p) { return std::isnan(p.z); }) > 1)
-                continue;
-            const auto farthestFrom = [&](const Corner& corner) {
-                double aside = 0;
-                double up = 0;
-                for (const Corner& post : posts) {
-                    if (!endsAtPosts || overlap.meets(post.i, post.j, 0))
-                        aside = std::max(aside, metresAside(post, corner));
-                    if (const double by = std::abs(post.z - corner.z); by > up)  // not of nodata
-                        up = by;
-                }
-                return std::hypot(aside, up);
-            };
-            double nearest = std::numeric_limits<double>::infinity();
-            for (std::size_t k = 0; k < drawn.size() && nearest > farthest; ++k) {
-                const std::size_t at = (last + k) % drawn.size();
-                if (const double metres = farthestFrom(drawn[at]); metres < nearest) {
-                    nearest = metres;
-                    if (metres <= farthest)
-                        last = at;
-                }
-            }
-            farthest = std::max(farthest, nearest);
-        }
-    return farthest;
-}
-
-double SourceSurface::aroundMetres(const Triangle& triangle) {
-    const Bounds box(triangle);
-    const std::int32_t around = std::max(box.i1 - box.i0, box.j1 - box.j0);
-    float lowest = std::numeric_limits<float>::infinity();
-    float highest = -lowest;
-    for (std::int32_t j = std::max(0, box.j0 - around);
-         j <= std::min(model_.frame.rows - 1, box.j1 + around); ++j)
-        for (std::int32_t i = std::max(0, box.i0 - around);
-             i <= std::min(model_.frame.columns - 1, box.i1 + around); ++i) {
-            const float height = heightAt(i, j);
-            lowest = height < lowest ? height : lowest;
-            highest = height > highest ? height : highest;
-        }
-    const double aside = 2 * longestEdgeMetres(triangle);
-    return highest > lowest
-               ? std::hypot(aside, static_cast<double>(highest) - static_cast<double>(lowest))
-               : aside;
-}
-
 /// The tile that holds all of a triangle, null if none does.
 const HeightPatch* SourceSurface::onlyTile(const Triangle& t) {
     if (patch_.has(t[0].i, t[0].j) && patch_.has(t[1].i, t[1].j) && patch_.has(t[2].i, t[2].j))
         return &patch_;
-    const Bounds box(t);
+    const PostBounds box(t);
     const std::int32_t x = box.i0 / kRasterTileCells;
     const std::int32_t y = box.j0 / kRasterTileCells;
     if (lastBlock(x, box.i1, kRasterTileCells) > x || lastBlock(y, box.j1, kRasterTileCells) > y)
@@ -226,7 +99,7 @@ const HeightPatch* SourceSurface::onlyTile(const Triangle& t) {
 /// triangle meets, tile by tile, while it returns true.
 template <typename Visit>
 void SourceSurface::forEachBlock(const Triangle& triangle, Visit visit) {
-    const Bounds box(triangle);
+    const PostBounds box(triangle);
     const Overlap overlap(triangle);
     const std::int32_t cells = model_.relief.blockCells();
     const std::int32_t perTile = kRasterTileCells / cells;

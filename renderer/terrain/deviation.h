@@ -106,20 +106,9 @@ public:
     }
     const GridFrame& frame() const { return model_.frame; }
     bool hasNodata() const { return model_.hasNodata(); }
+    /// On the ground.
+    double metresAside(const Corner& a, const Corner& b) const;
     double longestEdgeMetres(const Triangle& triangle) const;
-    // How far triangles that mix data and nodata may bring an outline off. What is drawn, or there,
-    // over the one side is no farther from what is there, or drawn, on the other:
-    /// Of one that is drawn, all of its corners having data: to one of them. No point of a triangle
-    /// is farther from all three than its longest side / sqrt(3): the sides seen from it make a
-    /// full turn, so one of them is seen under 120 degrees or more.
-    double drawnOutlineMetres(const Triangle& triangle);
-    /// Of one that is not: from data in it to the nearest of `drawn`, one at least; no less than
-    /// `atLeast`. A cell's surface, split or not, is nowhere higher or lower than its posts.
-    double farthestDataMetres(const Triangle& triangle, std::span<const Corner> drawn,
-                              double atLeast);
-    /// Of one that is not, where nothing is known of that is drawn: about, to a corner of the next
-    /// triangle. No bound on that, but on how far data in it are from nodata.
-    double aroundMetres(const Triangle& triangle);
     /// Whether it counts as one: it holds both data and nodata or, not being aligned,
     /// has an edge that crosses a cell with nodata.
     bool mixes(const Triangle& triangle, bool isAligned);
@@ -129,7 +118,6 @@ public:
 private:
     enum class Contents { Data, Nodata, Mixed };
 
-    double metresAside(const Corner& a, const Corner& b) const;
     const HeightPatch& tilePatch(std::int32_t x, std::int32_t y);
     const HeightPatch* onlyTile(const Triangle& triangle);
     float farHeightAt(std::int32_t i, std::int32_t j);

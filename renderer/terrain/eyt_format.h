@@ -62,7 +62,7 @@ struct TileRecord {
     /// diagonals of every cell and so the bilinear surface too, quantisation included. Of triangles
     /// without nodata. Not below that of any tile under it.
     float errorMetres = 0;
-    /// How far the outline of a hole may be off, to any side: what SourceSurface says of triangles,
+    /// How far the outline of a hole may be off, to any side: what OutlineError says of triangles,
     /// drawn or left out, that mix data and nodata. 0 where each post decides, as at the levels
     /// that draw every post. Not below that of any tile under it either.
     float outlineMetres = 0;

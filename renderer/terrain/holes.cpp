@@ -67,27 +67,29 @@ private:
     Box around_;
 };
 
-/// Of a tile of level 0.
+/// Of one of a tile's 4 x 4 parts; heights are of no meaning.
 Box boundsOfPart(const EytIndex& index, const TileId& tile, int x, int y) {
-    constexpr int kPosts = kFinestTileCells / kTilePartsPerSide;
+    const int posts = Quadtree::side(tile.level) / kTilePartsPerSide;
     Box box;
     for (const int u : {x, x + 1})
         for (const int v : {y, y + 1})
-            box.grow(fabric::Vec3(index.objectFromLattice *
-                                  fabric::Vec4(tile.x * kFinestTileCells + u * kPosts,
-                                               tile.y * kFinestTileCells + v * kPosts, 0, 1)));
+            box.grow(
+                fabric::Vec3(index.objectFromLattice *
+                             fabric::Vec4(tile.x * Quadtree::side(tile.level) + u * posts,
+                                          tile.y * Quadtree::side(tile.level) + v * posts, 0, 1)));
     return box;
 }
 
-bool hasHole(const EytIndex& index, const TileId& tile, const Outlook& outlook) {
+bool hasHole(const EytIndex& index, const TileId& tile, std::span<const std::uint32_t> blurred,
+             const Outlook& outlook) {
     if (!index.quadtree.contains(tile) || index.tile(tile).nodataParts == 0 ||
         !outlook.crosses(index.bounds(tile)))
         return false;
-    if (tile.level > 0)
-        return hasHole(index, Quadtree::child(tile, 0), outlook) ||
-               hasHole(index, Quadtree::child(tile, 1), outlook) ||
-               hasHole(index, Quadtree::child(tile, 2), outlook) ||
-               hasHole(index, Quadtree::child(tile, 3), outlook);
+    if (tile.level > 0 && !std::ranges::binary_search(blurred, index.quadtree.tileIndex(tile)))
+        return hasHole(index, Quadtree::child(tile, 0), blurred, outlook) ||
+               hasHole(index, Quadtree::child(tile, 1), blurred, outlook) ||
+               hasHole(index, Quadtree::child(tile, 2), blurred, outlook) ||
+               hasHole(index, Quadtree::child(tile, 3), blurred, outlook);
     for (int y = 0; y < kTilePartsPerSide; ++y)
         for (int x = 0; x < kTilePartsPerSide; ++x)
             if (index.tile(tile).hasNodataIn(x, y, 1) &&
@@ -98,9 +100,10 @@ bool hasHole(const EytIndex& index, const TileId& tile, const Outlook& outlook) 
 
 }  // namespace
 
-bool hasHoleBefore(const EytIndex& index, const Vec2& eye, const Box& target, double reach) {
+bool hasHoleBefore(const EytIndex& index, const Vec2& eye, const Box& target,
+                   std::span<const std::uint32_t> blurred, double reach) {
     return index.nodataPosts > 0 &&
-           hasHole(index, index.quadtree.top(), Outlook(eye, target, reach));
+           hasHole(index, index.quadtree.top(), blurred, Outlook(eye, target, reach));
 }
 
 }  // namespace eyrie::terrain

@@ -54,14 +54,22 @@ private:
         return record_.blursOutlineIn(x, y, count);
     }
 
-    double over(const TileId& part) const {
+    /// Of the source in a part, and of what is drawn there but for its error.
+    fabric::Box boundsOf(const TileId& part) const {
         fabric::Box bounds = index_.bounds(part);
-        if (!blursOutline(part))
-            return lod::VerticalError(view_, errorMetres(part)).pixels(bounds);
-        // What is drawn over a hole is as high as corners that may lie in any part.
-        bounds.min.z = record_.minHeightMetres;
-        bounds.max.z = record_.maxHeightMetres;
-        return view_.screenSpaceErrorPixels(record_.greatestErrorMetres(), bounds);
+        if (blursOutline(part)) {
+            // What is drawn over a hole is as high as corners that may lie in any part.
+            bounds.min.z = record_.minHeightMetres;
+            bounds.max.z = record_.maxHeightMetres;
+        }
+        return bounds;
+    }
+
+    double over(const TileId& part) const {
+        const fabric::Box bounds = boundsOf(part);
+        return blursOutline(part)
+                   ? view_.screenSpaceErrorPixels(record_.greatestErrorMetres(), bounds)
+                   : lod::VerticalError(view_, errorMetres(part)).pixels(bounds);
     }
 
     double outlinesOver(const TileId& part, int levelsDown) const {
@@ -76,11 +84,11 @@ private:
         return worst;
     }
 
-    /// Of all that is drawn and of the source in a part. An outline is off to any side: it counts.
+    /// Of all that is drawn and of the source in a part.
     bool isHidden(const TileId& part, double pixels) const {
-        if (blursOutline(part) || !ground_.isHidden)
+        if (!ground_.isHidden)
             return false;
-        fabric::Box bounds = index_.bounds(part);
+        fabric::Box bounds = boundsOf(part);
         bounds.min.z -= errorMetres(part);
         bounds.max.z += errorMetres(part);
         return ground_.isHidden(bounds, pixels);

@@ -6,11 +6,10 @@
 #include <limits>
 #include <utility>
 
+#include "renderer/terrain/always_drawn.h"
+
 namespace eyrie::terrain {
 namespace {
-
-/// Vertices around a hole that are looked at: more than there are around one point.
-constexpr std::size_t kFewCorners = 16;
 
 /// The first half spacing that lies `posts` posts or more from the tile's first post.
 std::int32_t limit(std::int32_t posts, int shift, std::int32_t side) {
@@ -22,18 +21,6 @@ std::int32_t limit(std::int32_t posts, int shift, std::int32_t side) {
 inline PartErrors::Rectangle extent(TilePoint a, TilePoint b, TilePoint c) {
     return {std::min({a.x(), b.x(), c.x()}), std::min({a.y(), b.y(), c.y()}),
             std::max({a.x(), b.x(), c.x()}), std::max({a.y(), b.y(), c.y()})};
-}
-
-/// The few of `corners` that are nearest to a triangle's middle, from the nearest.
-std::vector<Corner> nearest(const std::vector<Corner>& corners, const Triangle& t) {
-    const auto posts = [&t](const Corner& corner) {
-        const std::int64_t di = 3 * std::int64_t{corner.i} - t[0].i - t[1].i - t[2].i;
-        const std::int64_t dj = 3 * std::int64_t{corner.j} - t[0].j - t[1].j - t[2].j;
-        return di * di + dj * dj;
-    };
-    std::vector<Corner> few(std::min(corners.size(), kFewCorners));
-    std::ranges::partial_sort_copy(corners, few, {}, posts, posts);
-    return few;
 }
 
 inline std::size_t at(const TileSamples& samples, TilePoint p) { return samples.at(p.x(), p.y()); }
@@ -54,6 +41,7 @@ void TileMesh::clear() {
 TileMesher::TileMesher(SourceSurface& surface, TileSamples& samples, const HeightLattice& lattice,
                        const Quadtree& quadtree)
     : surface_(surface),
+      outline_(surface),
       samples_(samples),
       stepMetres_(lattice.stepMetres),
       stepsPerMetre_(lattice.stepsPerMetre()),
@@ -127,52 +115,28 @@ std::vector<std::uint16_t> TileMesher::dropUnused() {
     return numbers;
 }
 
-/// By vertex, before any is dropped: whether a triangle of the interior uses it, or of each form of
-/// some border.
-std::vector<bool> TileMesher::alwaysDrawn() const {
-    const auto usedBy = [this](int part) {
-        std::vector<bool> used(mesh_.vertices.size());
-        for (const std::uint16_t index : partIndices_[static_cast<std::size_t>(part)])
-            used[index] = true;
-        return used;
-    };
-    std::vector<bool> drawn = usedBy(kInteriorPart);
-    for (int edge = 0; edge < kEdges; ++edge) {
-        const std::vector<bool> own = usedBy(kOwnPart + edge);
-        const std::vector<bool> finer =
-            (mesh_.shape.finerEdges >> edge & 1) != 0 ? usedBy(kFinerPart + edge) : own;
-        for (std::size_t k = 0; k < drawn.size(); ++k) drawn[k] = drawn[k] || (own[k] && finer[k]);
-    }
-    return drawn;
-}
-
 /// Triangles that are not drawn are as far off as their data are from something that is.
 void TileMesher::measureDropped() {
     if (dropped_.empty())
         return;
-    const std::vector<bool> isDrawn = alwaysDrawn();
-    std::vector<Corner> drawn;
-    for (std::size_t k = 0; k < isDrawn.size(); ++k)
-        if (isDrawn[k])
-            drawn.push_back(corner(mesh_.vertices[k]));
-    std::vector<Corner> around;  // of the one before: the next is mostly beside it
+    std::vector<Corner> corners;
+    for (const TileVertex& vertex : mesh_.vertices) corners.push_back(corner(vertex));
+    const AlwaysDrawn drawn(partIndices_, mesh_.shape.finerEdges, std::move(corners));
+    double& outline = mesh_.outlineMetres;
+    std::vector<DrawnSide> around;  // of the one before: the next is mostly beside it
     for (const auto& [triangle, numbers] : dropped_) {
         if (drawn.empty()) {
-            mesh_.outlineMetres = std::max(mesh_.outlineMetres, surface_.aroundMetres(triangle));
+            outline = std::max(outline, outline_.around(triangle));
             continue;
         }
-        std::vector<Corner> near;
-        for (std::size_t k = 0; k < 3; ++k)
-            if (numbers[k] != kAbsentPoint && isDrawn[numbers[k]])
-                near.push_back(triangle[k]);
+        std::vector<DrawnSide> near = drawn.of(numbers);
         if (near.empty())
             near = around;
         // Few tell more than those before, and for those few it pays to look around.
-        if (!near.empty() &&
-            surface_.farthestDataMetres(triangle, near, mesh_.outlineMetres) <= mesh_.outlineMetres)
+        if (!near.empty() && outline_.ofDropped(triangle, near, outline) <= outline)
             continue;
-        around = nearest(drawn, triangle);
-        mesh_.outlineMetres = surface_.farthestDataMetres(triangle, around, mesh_.outlineMetres);
+        around = drawn.around(triangle);
+        outline = outline_.ofDropped(triangle, around, outline);
     }
 }
 
@@ -295,8 +259,7 @@ void TileMesher::measure(const PartErrors::Rectangle& covered, TilePoint a, Tile
         if (a.isAbsent() || b.isAbsent() || c.isAbsent())
             dropped_.push_back({triangle, {a.number, b.number, c.number}});
         else
-            mesh_.outlineMetres =
-                std::max(mesh_.outlineMetres, surface_.drawnOutlineMetres(triangle));
+            mesh_.outlineMetres = outline_.ofDrawn(triangle, mesh_.outlineMetres);
         markNodata(covered);
         return;
     }

@@ -10,6 +10,7 @@
 #include "renderer/terrain/codec/tile_model.h"
 #include "renderer/terrain/deviation.h"
 #include "renderer/terrain/eyt_format.h"
+#include "renderer/terrain/outline_error.h"
 #include "renderer/terrain/part_errors.h"
 #include "renderer/terrain/quadtree.h"
 #include "renderer/terrain/tile_samples.h"
@@ -99,7 +100,6 @@ private:
 
     std::uint16_t add(TilePoint p, WalkStep step);
     void addTriangle(int part, TilePoint a, TilePoint b, TilePoint c);
-    std::vector<bool> alwaysDrawn() const;
     void measureDropped();
     Corner corner(const TileVertex& vertex) const;
     Corner corner(TilePoint p) const;
@@ -115,6 +115,7 @@ private:
     void measureVertices(const std::vector<std::uint16_t>& numbers);
 
     SourceSurface& surface_;
+    OutlineError outline_;
     TileSamples& samples_;
     const double stepMetres_;
     const double stepsPerMetre_;

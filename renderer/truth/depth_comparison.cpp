@@ -15,6 +15,10 @@ constexpr double kSnapPixels = 1.0 / 256;
 constexpr int kFineRays = 16;  ///< a pixel's side
 /// To explain the pixels of one picture; a few seconds. More are no exceptions.
 constexpr std::size_t kMostRaysAround = 1'000'000;
+/// Beside a pixel's centre a seam between triangles may open. More than what corners are rounded
+/// by, for a surface may be seen at an angle.
+constexpr double kSeamPixels = 1.0 / 64;
+constexpr int kMostSeams = 64;  ///< of one picture
 
 template <typename Function>
 void forEachRow(int rows, Function function) {
@@ -38,13 +42,9 @@ public:
     DepthComparison run(LookAround lookAround) {
         const double above = lookAround == LookAround::All ? kSnapPixels : farthestOnly();
         forEachRow(camera_.height(), [&](int y) { lookAroundRow(y, above); });
+        judgeSuspects();
         for (int y = 0; y < camera_.height(); ++y)
-            for (int x = 0; x < camera_.width(); ++x) {
-                classify(x, y);
-                if (displacement_[index(x, y)] > suspects_.abovePixels &&
-                    result_.suspects < Suspects::kMost)
-                    judgeShown(x, y);
-            }
+            for (int x = 0; x < camera_.width(); ++x) classify(x, y);
         finishDisplacements();
         return result_;
     }
@@ -81,12 +81,22 @@ private:
         return surface_.displacement(camera_, camera_.rayThrough(x, y).at(depth));
     }
 
-    void judgeShown(int x, int y) {
-        const auto point = suspects_.shown(x + 0.5, y + 0.5, depth_[index(x, y)]);
-        ++result_.suspects;
-        if (!point)
-            return;
-        displacement_[index(x, y)] = surface_.displacement(camera_, *point).pixels;
+    void judgeSuspects() {
+        std::vector<std::size_t> suspects;
+        for (std::size_t i = 0; i < displacement_.size(); ++i)
+            if (displacement_[i] > suspects_.abovePixels)
+                suspects.push_back(i);
+        result_.suspects = suspects.size();
+        tbb::parallel_for(std::size_t{0}, suspects.size(),
+                          [&](std::size_t i) { judgeShown(suspects[i]); });
+    }
+
+    void judgeShown(std::size_t pixel) {
+        const auto width = static_cast<std::size_t>(camera_.width());
+        const auto point = suspects_.shown(static_cast<double>(pixel % width) + 0.5,
+                                           static_cast<double>(pixel / width) + 0.5, depth_[pixel]);
+        if (point)
+            displacement_[pixel] = surface_.displacement(camera_, *point).pixels;
     }
 
     /// The least displacement around a point that has one; none where the surface lies on both
@@ -130,13 +140,16 @@ private:
         return around;
     }
 
+    double slack(double tested) const {
+        return kDepthSlack * edge_ * tested / camera_.focalPixels();
+    }
+
     std::size_t DepthComparison::*faultOf(double tested, const Surroundings& around) const {
         if (!std::isfinite(tested))
             return around.anyMiss ? nullptr : &DepthComparison::holes;
         if (!around.anyHit)
             return &DepthComparison::falseHits;
-        const double slack = kDepthSlack * edge_ * tested / camera_.focalPixels();
-        return tested < around.nearest - slack || tested > around.farthest + slack
+        return tested < around.nearest - slack(tested) || tested > around.farthest + slack(tested)
                    ? &DepthComparison::misplaced
                    : nullptr;
     }
@@ -150,6 +163,24 @@ private:
             fault = faultEverywhereAround(x, y, tested);
         if (fault != nullptr)
             ++(result_.*fault);
+    }
+
+    /// Whether the source has what is drawn before everything that rays hit: something too thin for
+    /// them.
+    bool isThin(int x, int y, double tested, const Surroundings& around) const {
+        if (!(displacement_[index(x, y)] <= std::min<double>(edge_, suspects_.abovePixels)))
+            return false;
+        const auto source = surface_.counterpart(camera_.rayThrough(x + 0.5, y + 0.5).at(tested));
+        return source && camera_.depth(*source) < around.nearest - slack(tested);
+    }
+
+    /// Whether what is drawn, or nothing, is what is seen through seams.
+    bool isThroughSeams(int x, int y, double tested) {
+        if (++seams_ > kMostSeams)
+            return false;
+        const auto seen = surface_.throughSeams(camera_.rayThrough(x + 0.5, y + 0.5),
+                                                kSeamPixels / camera_.focalPixels());
+        return std::isfinite(tested) ? tested <= seen.last + slack(tested) : seen.last == kNoHit;
     }
 
     /// The same by rays through the whole area, for what is too thin for pixels' centres; until
@@ -168,7 +199,10 @@ private:
             if (fault == nullptr)
                 return nullptr;
         }
-        return fault;
+        const bool isInFront = tested < around.nearest;
+        const bool isExplained =
+            isInFront ? isThin(x, y, tested, around) : isThroughSeams(x, y, tested);
+        return isExplained ? nullptr : fault;
     }
 
     void finishDisplacements() {
@@ -195,6 +229,7 @@ private:
     const std::vector<ReferenceSurface::HitRange>& reference_;
     std::vector<double> displacement_;  ///< NaN for none
     std::size_t raysAround_ = 0;        ///< cast by faultEverywhereAround
+    int seams_ = 0;                     ///< looked through
     DepthComparison result_;
 };
 

@@ -25,14 +25,14 @@ struct DepthComparison {
     std::size_t suspects = 0;  ///< judged by the drawn point instead of by the depth
 };
 
-/// The point of the drawn surface that a picture point of some depth shows, where known.
+/// The point of the drawn surface that a picture point of some depth shows, where known. Any thread
+/// may ask.
 using ShownPoint =
     std::function<std::optional<fabric::Vec3>(double x, double y, double depthMetres)>;
 
 struct Suspects {
     double abovePixels = kNoHit;
     ShownPoint shown;
-    static constexpr std::size_t kMost = 512;  ///< of a picture; more are no exceptions
 };
 
 /// What a camera sees of a reference: where the ray through each pixel's centre hits, in rows from
@@ -69,7 +69,9 @@ inline constexpr double kDepthSlack = 4;
 /// holes and falseHits, and depths are compared with the range of those within that distance, and
 /// kDepthSlack times that many pixels' size more: a surface moved by up to that much is no mistake.
 /// What the reference shows there is told by a ray per pixel, and where that does not explain a
-/// pixel by 256, which miss no more of a spire or gap than a width of 1/16 pixel.
+/// pixel by 256, which miss no more of a spire or gap than a width of 1/16 pixel. What is drawn
+/// before all of that is thin, and no mistake, if the source has it there; what is seen behind it
+/// is none where all that is before it has a seam there (ReferenceSurface::throughSeams).
 ///
 /// `depth`: view-space metres, infinity for nothing; rows from the bottom up, width * height of
 /// `camera`. Uses all cores.

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <type_traits>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -56,39 +58,97 @@ double distanceSquared(const Box& box, const Vec3& point) {
 
 MeshRayCaster::MeshRayCaster(TriangleMesh mesh) : mesh_(std::move(mesh)) {
     nodes_.reserve(mesh_.triangles.size());
-    build(0, static_cast<std::uint32_t>(mesh_.triangles.size()));
+    Order order(mesh_.triangles.size());
+    std::iota(order.begin(), order.end(), 0U);
+    build(order, 0, static_cast<std::uint32_t>(order.size()));
+    putInOrder(order);
 }
 
-Box MeshRayCaster::boundsOf(std::uint32_t begin, std::uint32_t end) const {
+Box MeshRayCaster::boundsOf(const Order& order, std::uint32_t begin, std::uint32_t end) const {
     Box box;
     for (std::uint32_t i = begin; i < end; ++i)
-        for (const Vec3& corner : corners(mesh_, i)) box.grow(corner);
+        for (const Vec3& corner : corners(mesh_, order[i])) box.grow(corner);
     return box;
 }
 
-std::uint32_t MeshRayCaster::build(std::uint32_t begin, std::uint32_t end) {
+std::uint32_t MeshRayCaster::build(Order& order, std::uint32_t begin, std::uint32_t end) {
     const auto index = static_cast<std::uint32_t>(nodes_.size());
-    nodes_.push_back({boundsOf(begin, end), begin, end, 0});
+    nodes_.push_back({boundsOf(order, begin, end), begin, end, 0});
     if (end - begin <= kLeafTriangles)
         return index;
     const Vec3 size = nodes_[index].bounds.size();
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     const std::uint32_t middle = begin + (end - begin) / 2;
-    const auto centre = [&](const std::array<std::uint32_t, 3>& t) {
-        return mesh_.positions[t[0]][axis] + mesh_.positions[t[1]][axis] +
-               mesh_.positions[t[2]][axis];
+    const auto centre = [&](std::uint32_t triangle) {
+        const auto& [a, b, c] = mesh_.triangles[triangle];
+        return mesh_.positions[a][axis] + mesh_.positions[b][axis] + mesh_.positions[c][axis];
     };
-    const auto first = mesh_.triangles.begin();
+    const auto first = order.begin();
     std::nth_element(first + begin, first + middle, first + end,
-                     [&](const auto& a, const auto& b) { return centre(a) < centre(b); });
-    build(begin, middle);
-    nodes_[index].right = build(middle, end);
+                     [&](std::uint32_t a, std::uint32_t b) { return centre(a) < centre(b); });
+    build(order, begin, middle);
+    nodes_[index].right = build(order, middle, end);
     return index;
 }
 
-double MeshRayCaster::firstHit(const Ray& ray) const {
+void MeshRayCaster::putInOrder(const Order& order) {
+    const auto ordered = [&](const auto& values) {
+        std::decay_t<decltype(values)> result;
+        result.reserve(values.size());
+        for (const std::uint32_t i : order) result.push_back(values[i]);
+        return result;
+    };
+    mesh_.triangles = ordered(mesh_.triangles);
+    if (!mesh_.sights.empty())
+        mesh_.sights = ordered(mesh_.sights);
+}
+
+bool MeshRayCaster::isSure(std::size_t triangle, const Ray& ray) const {
+    if (mesh_.sights.empty() || mesh_.sights[triangle] == Sight::Sure)
+        return true;
+    if (mesh_.sights[triangle] == Sight::Unsure)
+        return false;
+    const auto [a, b, c] = corners(mesh_, triangle);
+    return glm::dot(glm::cross(b - a, c - a), ray.direction) < 0;
+}
+
+/// Whether triangles go on from the edge between these places to both sides, seen from `eye`.
+bool MeshRayCaster::goesOn(const Vec3& a, const Vec3& b, const Vec3& eye) const {
+    const Vec3 across = glm::cross(a - eye, b - eye);
+    bool isLeft = false;
+    bool isRight = false;
+    for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
+        const Triangle triangle = corners(mesh_, i);
+        if (std::ranges::find(triangle, a) == triangle.end() ||
+            std::ranges::find(triangle, b) == triangle.end())
+            continue;
+        for (const Vec3& corner : triangle) {
+            const double side = corner == a || corner == b ? 0 : glm::dot(across, corner - eye);
+            isLeft = isLeft || side > 0;
+            isRight = isRight || side < 0;
+        }
+    }
+    return isLeft && isRight;
+}
+
+bool MeshRayCaster::isAtSeam(std::size_t triangle, const Ray& ray, double hit, double reach) const {
+    const Vec3 point = ray.at(hit);
+    const Triangle at = corners(mesh_, triangle);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3& a = at[k];
+        const Vec3& b = at[(k + 1) % 3];
+        const double square = glm::dot(b - a, b - a);
+        const double t =
+            square > 0 ? std::clamp(glm::dot(point - a, b - a) / square, 0.0, 1.0) : 0.0;
+        if (glm::distance(point, a + t * (b - a)) <= reach * hit && !goesOn(a, b, ray.origin))
+            return true;
+    }
+    return false;
+}
+
+ReferenceSurface::HitRange MeshRayCaster::cast(const Ray& ray, double reach) const {
     const WatertightRay prepared(ray);
-    double first = kNoHit;
+    HitRange range;
     std::array<std::uint32_t, 64> stack;
     std::size_t depth = 0;
     stack[depth++] = 0;
@@ -96,11 +156,16 @@ double MeshRayCaster::firstHit(const Ray& ray) const {
         const std::uint32_t index = stack[--depth];
         const Node& node = nodes_[index];
         const double enters = entry(node.bounds, ray);
-        if (enters == kNoHit || enters > first)
+        if (enters == kNoHit || enters > range.last)
             continue;
         if (node.right == 0) {
-            for (std::uint32_t i = node.begin; i < node.end; ++i)
-                first = std::min(first, prepared.hit(corners(mesh_, i)));
+            for (std::uint32_t i = node.begin; i < node.end; ++i) {
+                const double hit = prepared.hit(corners(mesh_, i));
+                range.first = std::min(range.first, hit);
+                if (hit < range.last && isSure(i, ray) &&
+                    !(reach > 0 && isAtSeam(i, ray, hit, reach)))
+                    range.last = hit;
+            }
             continue;
         }
         const bool rightFirst =
@@ -108,7 +173,7 @@ double MeshRayCaster::firstHit(const Ray& ray) const {
         stack[depth++] = rightFirst ? index + 1 : node.right;
         stack[depth++] = rightFirst ? node.right : index + 1;
     }
-    return first;
+    return range;
 }
 
 std::optional<Vec3> MeshRayCaster::counterpart(const Vec3& point) const {

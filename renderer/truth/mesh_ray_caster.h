@@ -10,25 +10,33 @@
 
 namespace eyrie::truth {
 
+/// How surely a triangle is seen where nothing is before it.
+enum class Sight : std::uint8_t {
+    Sure,
+    SureFromFront,  ///< counter-clockwise; from behind it may be seen or not
+    Unsure,         ///< an image or a veil decides, which the truth does not look at
+};
+
 /// Triangles in world space: positions in metres, three vertex indices a triangle.
 struct TriangleMesh {
     std::vector<fabric::Vec3> positions;
     std::vector<std::array<std::uint32_t, 3>> triangles;
+    std::vector<Sight> sights = {};  ///< each triangle's; empty: all are sure
 };
 
-/// Casts rays at the full-resolution triangles, both sides of which are seen; a ray through a
-/// shared edge or vertex never slips between the triangles.
+/// Casts rays at the full-resolution triangles; a ray through a shared edge or vertex never slips
+/// between the triangles.
 class MeshRayCaster final : public ReferenceSurface {
 public:
     /// Precondition: at least one triangle, indices within positions, positions finite.
     explicit MeshRayCaster(TriangleMesh mesh);
 
-    /// The ray's parameter at its first hit, or kNoHit.
-    double firstHit(const Ray& ray) const;
-    HitRange hitRange(const Ray& ray) const override {
-        const double hit = firstHit(ray);
-        return {hit, hit};
-    }
+    /// The ray's parameter at its first hit, seen or not, or kNoHit.
+    double firstHit(const Ray& ray) const { return hitRange(ray).first; }
+    /// From there to where something is surely seen.
+    HitRange hitRange(const Ray& ray) const override { return cast(ray, 0); }
+    /// Goes through all triangles for each edge that may be a seam.
+    HitRange throughSeams(const Ray& ray, double reach) const override { return cast(ray, reach); }
     /// The closest point of the mesh.
     std::optional<fabric::Vec3> counterpart(const fabric::Vec3& point) const override;
 
@@ -38,7 +46,8 @@ public:
     /// Bytes that `triangles` with `vertices` take here.
     static constexpr std::uint64_t bytesFor(std::uint64_t vertices, std::uint64_t triangles) {
         return vertices * sizeof(fabric::Vec3) +
-               triangles * (sizeof(Node) + sizeof(std::array<std::uint32_t, 3>));
+               triangles * (sizeof(Node) + sizeof(std::array<std::uint32_t, 3>) +
+                            sizeof(std::uint32_t) + sizeof(Sight));
     }
 
 private:
@@ -49,8 +58,15 @@ private:
         std::uint32_t right = 0;  ///< second child; the first follows its parent. 0 in leaves
     };
 
-    std::uint32_t build(std::uint32_t begin, std::uint32_t end);
-    fabric::Box boundsOf(std::uint32_t begin, std::uint32_t end) const;
+    /// Of triangles in the order of their numbers.
+    using Order = std::vector<std::uint32_t>;
+    std::uint32_t build(Order& order, std::uint32_t begin, std::uint32_t end);
+    fabric::Box boundsOf(const Order& order, std::uint32_t begin, std::uint32_t end) const;
+    void putInOrder(const Order& order);
+    HitRange cast(const Ray& ray, double reach) const;
+    bool isSure(std::size_t triangle, const Ray& ray) const;
+    bool isAtSeam(std::size_t triangle, const Ray& ray, double hit, double reach) const;
+    bool goesOn(const fabric::Vec3& a, const fabric::Vec3& b, const fabric::Vec3& eye) const;
 
     TriangleMesh mesh_;
     std::vector<Node> nodes_;

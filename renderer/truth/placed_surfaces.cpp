@@ -25,12 +25,26 @@ PlacedSurfaces::PlacedSurfaces(const std::vector<PlacedSurface>& surfaces) {
 }
 
 ReferenceSurface::HitRange PlacedSurfaces::hitRange(const Ray& ray) const {
+    return nearest(ray, [](const ReferenceSurface& surface, const Ray& inObject) {
+        return surface.hitRange(inObject);
+    });
+}
+
+ReferenceSurface::HitRange PlacedSurfaces::throughSeams(const Ray& ray, double reach) const {
+    return nearest(ray, [&](const ReferenceSurface& surface, const Ray& inObject) {
+        const double scale = glm::length(inObject.direction) / glm::length(ray.direction);
+        return surface.throughSeams(inObject, reach * scale);
+    });
+}
+
+template <typename Cast>
+ReferenceSurface::HitRange PlacedSurfaces::nearest(const Ray& ray, const Cast& cast) const {
     HitRange nearest;
     for (const Placed& placed : placed_) {
         // Parameters are the same in either space.
         const Ray inObject{transformed(placed.objectFromWorld, ray.origin),
                            Vec3(placed.objectFromWorld * Vec4(ray.direction, 0))};
-        const HitRange hit = placed.surface->hitRange(placed.isWhereItIs ? ray : inObject);
+        const HitRange hit = cast(*placed.surface, placed.isWhereItIs ? ray : inObject);
         nearest.first = std::min(nearest.first, hit.first);
         nearest.last = std::min(nearest.last, hit.last);
     }

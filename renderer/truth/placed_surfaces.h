@@ -24,6 +24,7 @@ public:
     explicit PlacedSurfaces(const std::vector<PlacedSurface>& surfaces);
 
     HitRange hitRange(const Ray& ray) const override;
+    HitRange throughSeams(const Ray& ray, double reach) const override;
     /// In world space the closest of the sources' counterparts.
     std::optional<fabric::Vec3> counterpart(const fabric::Vec3& point) const override;
     Displacement displacement(const Pinhole& camera, const fabric::Vec3& point) const override;
@@ -36,6 +37,9 @@ private:
         fabric::Mat4 objectFromWorld{1.0};
     };
 
+    /// Of what `cast` says of each, given its surface and the ray in its space.
+    template <typename Cast>
+    HitRange nearest(const Ray& ray, const Cast& cast) const;
     static Displacement displacement(const Placed& placed, const Pinhole& camera,
                                      const fabric::Vec3& point);
 

@@ -32,6 +32,12 @@ public:
     /// Where a ray first hits: a range where the source allows several surfaces (TerrainRayCaster).
     virtual HitRange hitRange(const Ray& ray) const = 0;
 
+    /// The same where seams may open: beside an edge from which no triangle goes on to the other
+    /// side, the next surface may be parted from it by the rounding of corners on the screen.
+    /// Looked through are triangles with such an edge no farther from the ray than `reach` times
+    /// its parameter there.
+    virtual HitRange throughSeams(const Ray& ray, double /*reach*/) const { return hitRange(ray); }
+
     /// The point of the source to hold `point` against: for terrain the one in the same column, for
     /// meshes the closest. Nothing where there is none.
     virtual std::optional<fabric::Vec3> counterpart(const fabric::Vec3& point) const = 0;

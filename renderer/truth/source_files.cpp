@@ -68,11 +68,29 @@ absl::StatusOr<SourceSurface> readTerrain(const std::vector<std::string>& paths)
     return SourceSurface{std::make_shared<TerrainRayCaster>(std::move(grid)), nullptr};
 }
 
-absl::StatusOr<SourceSurface> readMesh(const std::vector<std::string>& paths) {
+Sight sightOf(const mesh::Material& material, bool isOneSided) {
+    if (material.isSeeThrough() || (material.flags & import::kAlphaByImage) != 0)
+        return Sight::Unsure;
+    return material.isOneSided() || (isOneSided && !material.isTwoSided()) ? Sight::SureFromFront
+                                                                           : Sight::Sure;
+}
+
+std::vector<Sight> sightsOf(const import::TriangleMesh& mesh, bool isOneSided) {
+    if (mesh.materials.empty())
+        return isOneSided ? std::vector(mesh.triangles.size(), Sight::SureFromFront)
+                          : std::vector<Sight>();
+    std::vector<Sight> sights;
+    for (const auto& triangle : mesh.triangles)
+        sights.push_back(sightOf(mesh.materials[mesh.materialOf[triangle[0]]], isOneSided));
+    return sights;
+}
+
+absl::StatusOr<SourceSurface> readMesh(const std::vector<std::string>& paths, bool isOneSided) {
     ASSIGN_OR_RETURN(import::TriangleMesh mesh, import::readMeshes(paths));
     if (mesh.triangles.empty())
         return absl::InvalidArgumentError(fmt::format("{}: has no triangles", paths.front()));
-    TriangleMesh triangles{std::move(mesh.positions), std::move(mesh.triangles)};
+    std::vector<Sight> sights = sightsOf(mesh, isOneSided);
+    TriangleMesh triangles{std::move(mesh.positions), std::move(mesh.triangles), std::move(sights)};
     mesh = {};
     return SourceSurface{nullptr, std::make_shared<MeshRayCaster>(std::move(triangles))};
 }
@@ -85,8 +103,8 @@ absl::StatusOr<SourceFacts> inspectSource(fabric::ObjectKind kind,
 }
 
 absl::StatusOr<SourceSurface> readSource(fabric::ObjectKind kind,
-                                         const std::vector<std::string>& paths) {
-    return kind == fabric::ObjectKind::Mesh ? readMesh(paths) : readTerrain(paths);
+                                         const std::vector<std::string>& paths, bool isOneSided) {
+    return kind == fabric::ObjectKind::Mesh ? readMesh(paths, isOneSided) : readTerrain(paths);
 }
 
 }  // namespace eyrie::truth

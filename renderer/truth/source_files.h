@@ -38,9 +38,11 @@ struct SourceSurface {
     }
 };
 
-/// Reads all of it. Errors: those of openDems and readMeshes; InvalidArgument (no triangles, no
-/// post with data).
+/// Reads all of it. `isOneSided`: a mesh's triangles are drawn from their fronts only, but where
+/// their material has two sides. Errors: those of openDems and readMeshes; InvalidArgument (no
+/// triangles, no post with data).
 absl::StatusOr<SourceSurface> readSource(fabric::ObjectKind kind,
-                                         const std::vector<std::string>& paths);
+                                         const std::vector<std::string>& paths,
+                                         bool isOneSided = false);
 
 }  // namespace eyrie::truth

@@ -10,7 +10,7 @@
 #include "fabric/image.h"
 #include "fabric/status.h"
 #include "renderer/truth/drawn_terrain.h"
-#include "renderer/truth/drawn_triangles.h"
+#include "renderer/truth/shown_surface.h"
 
 namespace eyrie::truth {
 namespace {
@@ -53,9 +53,9 @@ absl::StatusOr<PromiseKept> TerrainPromise::hold(const fabric::Camera& camera, d
 
     const lod::View view = lod::TaskViews(camera, task).whole;
     ASSIGN_OR_RETURN(const DrawnTerrain triangles, DrawnTerrain::of(*file_, view, tauPixels));
-    const ShownPoint shown = [&](double x, double y, double depth) -> std::optional<fabric::Vec3> {
-        const auto found = shownAt(triangles.triangles(), judge, x, y, depth, kReachPixels);
-        return found ? std::optional(found->point) : std::nullopt;
+    const ShownSurface surface(triangles.triangles(), judge);
+    const ShownPoint shown = [&](double x, double y, double depth) {
+        return surface.at(x, y, depth);
     };
     // An outline may have moved by as much as everything else.
     const fabric::Vec2 step = task.raster ? task.raster->step : fabric::Vec2(1);

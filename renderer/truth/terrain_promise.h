@@ -49,11 +49,6 @@ public:
     absl::StatusOr<PromiseKept> hold(const fabric::Camera& camera, double tauPixels,
                                      fabric::ChannelTask task, const Pinhole& judge) const;
 
-    /// Pixels whose depth seems to break the promise are judged by the point of the drawn triangle
-    /// that covers them: at its very edge a triangle that is seen edge-on may cover a pixel whose
-    /// centre it misses, by up to the 1/256 pixel to which its corners are rounded, and its plane
-    /// has any depth there.
-    static constexpr double kReachPixels = 1.0 / 128;
     /// What rasterisation may add to what is promised: the 1/256 pixel that corners are rounded to.
     static constexpr double kRasterPixels = 1.0 / 256;
     /// The same of a raster's pixels.

@@ -139,11 +139,10 @@ fabric::Vec2 inCells(const HeightGrid& grid, double dx, double dy) {
 struct TerrainRayCaster::Traversal {
     Ray ray;  ///< in grid space: post (i, j) is at x = i, y = j; z stays metres
     std::array<double, kCellSurfaces> hits{kNoHit, kNoHit, kNoHit};
-    double upper = kNoHit;  ///< with the higher of the two diagonals in each cell
-    double lower = kNoHit;
+    double through = kNoHit;  ///< where it first has gone through both diagonals of one cell
 
     double farthest() const {
-        return std::max({*std::max_element(hits.begin(), hits.end()), upper, lower});
+        return std::max(through, *std::max_element(hits.begin(), hits.end()));
     }
     /// The part of the ray inside a box of cells and heights.
     Span within(double x0, double x1, double y0, double y1, double z0, double z1) const {
@@ -272,9 +271,7 @@ void TerrainRayCaster::visitCell(Traversal& traversal, int i, int j) const {
     keep(traversal.hits[static_cast<std::size_t>(CellSurface::OtherDiagonal)], other);
     keep(traversal.hits[static_cast<std::size_t>(CellSurface::Bilinear)],
          hitBilinear(cell, local, part));
-    const bool isMainHigher = cell.h00 + cell.h11 > cell.h10 + cell.h01;
-    keep(traversal.upper, isMainHigher ? main : other);
-    keep(traversal.lower, isMainHigher ? other : main);
+    keep(traversal.through, std::max(main, other));
 }
 
 std::array<double, kCellSurfaces> TerrainRayCaster::heightsAt(double x, double y) const {
@@ -293,9 +290,7 @@ std::array<double, kCellSurfaces> TerrainRayCaster::heightsAt(double x, double y
 
 ReferenceSurface::HitRange TerrainRayCaster::hitRange(const Ray& ray) const {
     const Traversal hit = cast(ray);
-    const auto [nearest, farthest] = std::minmax_element(hit.hits.begin(), hit.hits.end());
-    return {std::min({hit.upper, hit.lower, *nearest}),
-            std::max({hit.upper, hit.lower, *farthest})};
+    return {*std::min_element(hit.hits.begin(), hit.hits.end()), hit.farthest()};
 }
 
 std::optional<fabric::Vec3> TerrainRayCaster::counterpart(const fabric::Vec3& point) const {

@@ -40,8 +40,10 @@ public:
     /// Heights of each reading over a world (x, y); NaN outside the posts and in holes.
     std::array<double, kCellSurfaces> heightsAt(double x, double y) const;
 
-    /// Between the first hits with the three readings and with the upper and the lower side of the
-    /// cells' tetrahedra: any surface that reads each cell in some way of its own is hit in there.
+    /// From the first hit with any reading to where the ray first has gone through both diagonals
+    /// of one cell, and so through its whole tetrahedron: any surface that reads each cell in some
+    /// way of its own is hit in there. (Not at the first hits with the upper and the lower sides of
+    /// all cells: through a hole a ray gets below the ground, and meets the lower side first.)
     HitRange hitRange(const Ray& ray) const override;
     /// The point of the same column; of the readings, the nearest.
     std::optional<fabric::Vec3> counterpart(const fabric::Vec3& point) const override;

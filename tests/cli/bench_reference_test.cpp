@@ -2,6 +2,7 @@
 // What `eyrie bench --reference` holds pictures against.
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <memory>
 
@@ -16,6 +17,7 @@
 #include "renderer/import/mesh_import.h"
 #include "renderer/import/mesh_synth.h"
 #include "renderer/import/ply_writer.h"
+#include "renderer/truth/source_files.h"
 #include "tests/support/temporary_folder.h"
 
 namespace eyrie::cli::bench {
@@ -104,9 +106,22 @@ TEST_F(ReferenceSources, ThatMemoryCannotHoldAreRefusedWithWhatTheyTake) {
     EXPECT_TRUE(find({}, facts->neededBytes).ok()) << "two of the same are read once";
 }
 
-TEST_F(ReferenceSources, OfAnObjectOfOneSideAreRefused) {
-    scene_.objects[0].singleSided = true;
-    EXPECT_TRUE(absl::IsInvalidArgument(find().status()));
+/// From inside one may see through a ball that is drawn from outside only.
+TEST_F(ReferenceSources, OfAnObjectOfOneSideMayBeSeenThroughFromBehind) {
+    scene_.objects.push_back(scene_.objects[0]);
+    scene_.objects[1].singleSided = true;
+    scene_.objects[1].worldFromObject = glm::translate(fabric::Mat4(1), fabric::Vec3(10, 0, 0));
+    const auto found = find();
+    ASSERT_TRUE(found.ok()) << found.status();
+    const auto reference = readSources(scene_, *found);
+    ASSERT_TRUE(reference.ok()) << reference.status();
+    const auto rangeFrom = [&](double x, double z) {
+        return reference->surface->hitRange({{x, 0, z}, {0, 0, -1}});
+    };
+    for (const double x : {0.0, 10.0}) EXPECT_EQ(rangeFrom(x, 100).first, rangeFrom(x, 100).last);
+    EXPECT_LT(rangeFrom(0, 0).last, 100);
+    EXPECT_EQ(rangeFrom(10, 0).first, rangeFrom(0, 0).first);
+    EXPECT_EQ(rangeFrom(10, 0).last, truth::kNoHit);
 }
 
 TEST_F(ReferenceSources, StandWhereTheSceneHasThem) {
@@ -123,6 +138,19 @@ TEST_F(ReferenceSources, StandWhereTheSceneHasThem) {
     EXPECT_LT(hitAt(0), 100);
     EXPECT_NEAR(hitAt(10), hitAt(0), 1e-9);
     EXPECT_EQ(hitAt(5), truth::kNoHit);
+}
+
+/// What an image or a veil leaves of a triangle, the truth does not know.
+TEST_F(ReferenceSources, SayWhichTrianglesMayBeSeenThrough) {
+    std::ofstream(folder_.path("veil.mtl")) << "newmtl wall\nKd 1 1 1\nnewmtl veil\nd 0.5\n";
+    const std::string path = folder_.path("veil.obj");
+    std::ofstream(path) << "mtllib veil.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\n"
+                           "v 0 1 1\nusemtl wall\nf 1 2 3\nusemtl veil\nf 4 5 6\n";
+    const auto source = truth::readSource(fabric::ObjectKind::Mesh, {path});
+    ASSERT_TRUE(source.ok()) << source.status();
+    const auto range = source->mesh->hitRange({{0.2, 0.2, 5}, {0, 0, -1}});
+    EXPECT_NEAR(range.first, 4, 1e-12);
+    EXPECT_NEAR(range.last, 5, 1e-12);
 }
 
 TEST_F(ReferenceSources, DecimatedUniformlyAreWorseTheFewerTrianglesTheyHave) {

@@ -119,38 +119,57 @@ TEST_F(TerrainTruth, HoldsInTheSanGabrielMountains) {
     checkTwentyCameras();
 }
 
-/// A plain, and broken ground behind a ridge across it; `inFront` is done to the plain.
-terrain::HeightGrid plainBeforeARidge(const std::function<void(std::vector<float>&)>& inFront) {
-    constexpr int kSide = 513;
-    terrain::HeightGrid grid = import::synthesizeTerrain(kSide, 3);
-    for (int j = 0; j < kSide; ++j)
-        for (int i = 0; i < kSide; ++i) {
-            float& height = grid.heights[static_cast<std::size_t>(j * kSide + i)];
+/// Walls a thousand times as high as wide, seen along their planes and from between them, and gaps
+/// through which one sees below the ground: what a judge gets wrong first.
+TEST_F(TerrainTruth, HoldsBetweenSpiresAndVoids) {
+    terrain::HeightGrid grid = import::synthesizeTerrain(257, 3);
+    for (int j = 0; j < 257; ++j)
+        for (int i = 0; i < 257; ++i)
+            grid.heights[static_cast<std::size_t>(j * 257 + i)] =
+                i % 3 == 0 && j % 3 == 0   ? std::nanf("")
+                : i % 7 == 3 && j % 5 == 2 ? 30'000.0F
+                                           : 0.0F;
+    const std::string dem = folder_.path("spires.tif");
+    ASSERT_TRUE(import::writeGeoTiff(grid, dem).ok());
+    ASSERT_NO_FATAL_FAILURE(open(dem, dem));
+    TerrainCameras cameras(*ground_, bounds_, kSeed);
+    for (int kind = 0; kind < TerrainCameras::kKinds; ++kind)
+        checkCamera(std::string(TerrainCameras::kNames[static_cast<std::size_t>(kind)]),
+                    cameras.make(static_cast<TerrainCameras::Kind>(kind)), 640, 360);
+}
+
+/// A plain, and broken ground behind a ridge across it; `change` is done to the heights.
+terrain::HeightGrid plainBeforeARidge(const std::function<void(std::vector<float>&)>& change,
+                                      int side) {
+    terrain::HeightGrid grid = import::synthesizeTerrain(side, 3);
+    for (int j = 0; j < side; ++j)
+        for (int i = 0; i < side; ++i) {
+            float& height = grid.heights[static_cast<std::size_t>(j * side + i)];
             if (j < 310)
                 height = j > 270 ? 3000 : 0;
         }
-    inFront(grid.heights);
+    change(grid.heights);
     return grid;
 }
 
 /// What is promised looking north over the plain from its middle.
 class TerrainBehindARidge : public TerrainTruth {
 protected:
-    void open(const std::function<void(std::vector<float>&)>& inFront) {
+    void open(const std::function<void(std::vector<float>&)>& change, int side = 513) {
         const std::string dem = folder_.path("ridge.tif");
-        ASSERT_TRUE(import::writeGeoTiff(plainBeforeARidge(inFront), dem).ok());
+        ASSERT_TRUE(import::writeGeoTiff(plainBeforeARidge(change, side), dem).ok());
         ASSERT_NO_FATAL_FAILURE(TerrainTruth::open(dem, dem));
         const fabric::Vec3 size = bounds_.size();
-        camera_.eye = {bounds_.min.x + size.x / 2, bounds_.min.y + size.y / 4, 40};
+        camera_.eye = {bounds_.min.x + size.x / 2, bounds_.min.y + size.y * 128 / side, 40};
         camera_.target = camera_.eye + fabric::Vec3(0, 1, 0);
         camera_.fovYDegrees = 40;
     }
 
     double promised(const fabric::Look& look = {}) {
-        fabric::FrameData frame{.version = 1, .camera = camera_, .tauPixels = kTauPixels};
+        fabric::FrameData frame{.version = ++version_, .camera = camera_, .tauPixels = tauPixels_};
         frame.look = look;
         fabric::ChannelTask task;
-        task.frameDataVersion = 1;
+        task.frameDataVersion = version_;
         task.viewWidth = 640;
         task.viewHeight = 360;
         task.pixelViewport = {0, 0, 640, 360};
@@ -167,6 +186,8 @@ protected:
     }
 
     Camera camera_;
+    double tauPixels_ = kTauPixels;
+    std::uint64_t version_ = 0;
 };
 
 TEST_F(TerrainBehindARidge, IsNotPromisedFor) {
@@ -197,6 +218,20 @@ TEST_F(TerrainBehindARidge, IsNotPromisedForBecauseOfAHoleBehindTheRidge) {
     }));
     EXPECT_LT(promised(), 0.5 * promisedOfAll());
     checkCamera("ridge before hole", camera_, 640, 360);
+}
+
+TEST_F(TerrainBehindARidge, IsNotPromisedForNorAreItsOutlines) {
+    constexpr int kSide = 1025;
+    const auto pierce = [](std::vector<float>& heights) {
+        for (int j = 704; j < kSide; ++j)
+            for (int i = 0; i < kSide; ++i)
+                if (i / 5 % 3 == 0 && j / 5 % 3 == 0)
+                    heights[static_cast<std::size_t>(j * kSide + i)] = std::nanf("");
+    };
+    ASSERT_NO_FATAL_FAILURE(open(pierce, kSide));
+    tauPixels_ = 8;  // levels that blur outlines are drawn
+    EXPECT_LT(promised(), 0.6 * promisedOfAll());
+    checkCamera("ridge before holes", camera_, 640, 360);
 }
 
 TEST_F(TerrainBehindARidge, CountsFromUnderground) {

@@ -71,6 +71,7 @@ TEST_F(DemSource, PutsTheSouthernRowFirstAndPostsOnPixelCentres) {
     EXPECT_EQ(dem->grid.at(0, 0), 3);
     EXPECT_EQ(dem->grid.at(2, 1), 2);
     EXPECT_TRUE(std::isnan(dem->grid.at(2, 0)));
+    EXPECT_THAT(dem->findings, testing::IsEmpty());
     EXPECT_EQ(dem->grid.origin, fabric::Vec2(1005, 2005));
     EXPECT_EQ(dem->grid.perColumn, fabric::Vec2(10, 0));
     EXPECT_EQ(dem->grid.perRow, fabric::Vec2(0, 10));
@@ -136,6 +137,8 @@ TEST_F(DemSource, ReadsEverythingThatIsNoHeightAsNodata) {
     std::string pattern;
     for (const float h : dem->grid.heights) pattern += std::isnan(h) ? '-' : 'x';
     EXPECT_EQ(pattern, "--xxx---");  // -32768 is a height unless the raster has 16 bits
+    EXPECT_THAT(dem->findings,
+                testing::ElementsAre(HasSubstr("3.4028235e+38 in column 2 and row 0")));
 }
 
 TEST_F(DemSource, ReadsTheLowest16BitValueAsNodata) {

@@ -52,6 +52,9 @@ absl::StatusOr<Dem> readDems(const std::vector<std::string>& paths) {
         source->posts->read({0, 0, frame.columns, frame.rows}, dem.grid.heights.data());
     if (!read.ok())
         return read;
+    dem.findings = source->posts->findings();
+    source->posts->release();
+    EXPECT_EQ(source->posts->findings(), dem.findings);
     return dem;
 }
 

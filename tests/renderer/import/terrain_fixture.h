@@ -34,6 +34,7 @@ struct Dem {
     std::string crsWkt;
     std::uint64_t sourceHash = 0;
     std::vector<std::string> notes;
+    std::vector<std::string> findings;
 };
 absl::StatusOr<Dem> readDem(const std::string& path);
 absl::StatusOr<Dem> readDems(const std::vector<std::string>& paths);

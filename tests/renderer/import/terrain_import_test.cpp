@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "renderer/import/geotiff_writer.h"
@@ -83,6 +84,20 @@ TEST(TerrainImport, ReportsWhatTheFileSays) {
     EXPECT_EQ(index.bounds().max.y, 5200000 + 199 * 30);
 }
 
+TEST(TerrainImport, SaysWhatHeightsThatAreNoneDoToTheOthers) {
+    const TemporaryFolder folder;
+    terrain::HeightGrid grid = synthesizeTerrain(40, 1);
+    const auto notes = [&] {
+        const auto report = importTerrain(grid, {"grid", "", 0}, folder.path("t.eyt"), {});
+        return report.ok() ? report->notes : std::vector{report.status().ToString()};
+    };
+    EXPECT_THAT(notes(), testing::IsEmpty());
+    grid.heights[820] = -9999;
+    EXPECT_THAT(notes(), testing::ElementsAre(testing::HasSubstr("-a_nodata -9999)")));
+    grid.heights[820] = 1e12F;
+    EXPECT_THAT(notes(), testing::ElementsAre(testing::HasSubstr("steps of 131072 m")));
+}
+
 TEST(TerrainImport, LeavesNothingBehindWhenCalledOff) {
     const TemporaryFolder folder;
     const terrain::HeightGrid grid = synthesizeTerrain(600, 3);
@@ -124,6 +139,18 @@ TEST(TerrainImport, RefusesAGridWithoutAnyDataOrTriangle) {
 }
 
 /// Level 0 may leave out what the others may not.
+TEST(TerrainImport, SaysWhyThereAreNoData) {
+    const TemporaryFolder folder;
+    terrain::HeightGrid grid = synthesizeTerrain(40, 1);
+    std::ranges::fill(grid.heights, 1e30F);
+    ASSERT_TRUE(writeGeoTiff(grid, folder.path("all.tif")).ok());
+    const auto report = importTerrain({folder.path("all.tif")}, folder.path("t.eyt"), {}, {});
+    EXPECT_EQ(report.status().code(), absl::StatusCode::kInvalidArgument);
+    EXPECT_THAT(
+        std::string(report.status().message()),
+        testing::AllOf(testing::HasSubstr("nodata"), testing::HasSubstr("1e+30 in column 0")));
+}
+
 TEST(TerrainImport, KeepsTheErrorAskedForAtTheFinestLevel) {
     for (const double asked : {0.5, 3.0, 40.0}) {
         const TemporaryFolder folder;

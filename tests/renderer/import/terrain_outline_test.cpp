@@ -8,15 +8,14 @@
 #include <functional>
 #include <limits>
 #include <map>
-#include <set>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "renderer/truth/triangle.h"
 #include "tests/renderer/import/terrain_fixture.h"
 #include "tests/renderer/terrain/hard_grids.h"
 
@@ -31,6 +30,7 @@ using test::GridKind;
 constexpr double kPostMetres = 10;  ///< of hard grids
 
 Vec3 place(double i, double j, double z) { return {kPostMetres * i, kPostMetres * j, z}; }
+Vec3 place(const terrain::Corner& corner) { return place(corner.i, corner.j, corner.z); }
 
 /// Whether the source has ground in the cell that a post begins, or ends at the grid's edge: three
 /// posts make half a cell.
@@ -50,25 +50,27 @@ public:
     DrawnTile(const terrain::EytFile& file, const TileId& id, std::uint8_t finerEdges) {
         for (const test::DrawnTriangle& triangle : test::drawnTile(file, id, finerEdges)) {
             triangles_.push_back(test::inMetres(file, triangle));
-            for (const terrain::Corner& corner : triangles_.back())
-                corners_.insert({corner.i, corner.j, corner.z});
             cover(triangles_.back());
+        }
+        for (const terrain::Triangle& t : triangles_) {
+            const auto [low, high] = std::minmax({t[0].i, t[1].i, t[2].i});
+            byFirstColumn_.insert({low, truth::Triangle{place(t[0]), place(t[1]), place(t[2])}});
+            widest_ = std::max(widest_, high - low);
         }
     }
 
     const std::vector<terrain::Triangle>& triangles() const { return triangles_; }
 
-    /// Whether a corner is.
+    /// Whether a point of a triangle is.
     bool isWithin(double metres, const Vec3& point) const {
-        const double first = (point.x - metres) / kPostMetres - 1;
+        const double first = (point.x - metres) / kPostMetres - widest_ - 1;
         const double last = (point.x + metres) / kPostMetres + 1;
-        for (auto at = corners_.lower_bound({static_cast<std::int32_t>(first), 0, 0});
-             at != corners_.end() && std::get<0>(*at) <= last; ++at) {
-            const auto& [i, j, z] = *at;
-            if (glm::distance(place(i, j, z), point) <= metres)
-                return true;
-        }
-        return false;
+        const auto end = byFirstColumn_.upper_bound(static_cast<std::int32_t>(last));
+        return std::any_of(byFirstColumn_.lower_bound(static_cast<std::int32_t>(first)), end,
+                           [&](const auto& triangle) {
+                               const Vec3 nearest = truth::closestPoint(triangle.second, point);
+                               return glm::distance(nearest, point) <= metres;
+                           });
     }
 
     /// At a post; infinite where nothing is.
@@ -94,7 +96,8 @@ private:
     }
 
     std::vector<terrain::Triangle> triangles_;
-    std::set<std::tuple<std::int32_t, std::int32_t, double>> corners_;
+    std::multimap<std::int32_t, truth::Triangle> byFirstColumn_;
+    std::int32_t widest_ = 0;
     std::map<std::pair<std::int32_t, std::int32_t>, double> heights_;
 };
 
@@ -111,8 +114,8 @@ bool isNodataWithin(double metres, const HeightGrid& grid, std::int32_t i, std::
     return false;
 }
 
-/// Posts of a tile's ground that are farther from what it draws: from right above or below, and
-/// from its corners. Where its inside draws nothing: from nodata.
+/// Posts of a tile's ground that are farther from what it draws. Where its inside draws nothing:
+/// from nodata.
 std::size_t groundBeyond(double metres, const HeightGrid& grid, const TileId& id,
                          const DrawnTile& tile, bool isInsideEmpty) {
     const std::int32_t side = terrain::Quadtree::side(id.level);
@@ -136,8 +139,22 @@ std::size_t groundBeyond(double metres, const HeightGrid& grid, const TileId& id
     return beyond;
 }
 
-/// Points of what a tile draws over no ground that are farther from ground: from corners of their
-/// triangle.
+/// Whether a post with data is.
+bool isDataWithin(double metres, const HeightGrid& grid, const Vec3& point) {
+    const auto at = [](double value, double last) {
+        return static_cast<std::int32_t>(std::clamp(value / kPostMetres, 0.0, last));
+    };
+    for (std::int32_t j = at(point.y - metres, grid.rows - 1);
+         j <= at(point.y + metres, grid.rows - 1); ++j)
+        for (std::int32_t i = at(point.x - metres, grid.columns - 1);
+             i <= at(point.x + metres, grid.columns - 1); ++i)
+            if (glm::distance(point, place(i, j, grid.at(i, j))) <= metres)
+                return true;
+    return false;
+}
+
+/// Points of what a tile draws over no ground, and posts where it draws, that are farther from
+/// posts with data.
 std::size_t drawnBeyond(double metres, const HeightGrid& grid, const DrawnTile& tile) {
     constexpr int kSteps = 8;
     std::size_t beyond = 0;
@@ -149,13 +166,12 @@ std::size_t drawnBeyond(double metres, const HeightGrid& grid, const DrawnTile& 
                 const double y = t[0].j + u * (t[1].j - t[0].j) + v * (t[2].j - t[0].j);
                 const Vec3 point =
                     place(x, y, t[0].z + u * (t[1].z - t[0].z) + v * (t[2].z - t[0].z));
-                const bool isNear = std::ranges::any_of(t, [&](const terrain::Corner& corner) {
-                    return glm::distance(point, place(corner.i, corner.j,
-                                                      grid.at(corner.i, corner.j))) <= metres;
-                });
-                if (!isNear && !hasGround(grid, static_cast<std::int32_t>(std::floor(x)),
-                                          static_cast<std::int32_t>(std::floor(y))))
-                    ++beyond;
+                const auto i = static_cast<std::int32_t>(std::floor(x));
+                const auto j = static_cast<std::int32_t>(std::floor(y));
+                const bool isPost = x == i && y == j;
+                if (isPost ? std::abs(grid.at(i, j) - point.z) <= metres : hasGround(grid, i, j))
+                    continue;
+                beyond += isDataWithin(metres, grid, point) ? 0 : 1;
             }
     return beyond;
 }

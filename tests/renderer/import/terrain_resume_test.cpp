@@ -74,6 +74,31 @@ TEST_F(TerrainResume, GivesTheSameBytesAfterAnAbortInEachStage) {
     }
 }
 
+TEST_F(TerrainResume, SaysAgainWhatWasFoundInPostsThatAreNotReadAgain) {
+    const std::string dem = folder_.path("dem.tif");
+    const std::string out = folder_.path("a.eyt");
+    terrain::HeightGrid grid = largeGrid();
+    grid.heights[5] = 3e37F;
+    ASSERT_TRUE(writeGeoTiff(grid, dem).ok());
+    std::stop_source stop;
+    ImportControl control;
+    control.stop = stop.get_token();
+    std::vector<std::string> begun;
+    control.progress = [&](std::string_view stage, double) {
+        begun.emplace_back(stage);
+        if (stage == "building")
+            stop.request_stop();
+    };
+    const std::vector<std::string> dems{dem};
+    ASSERT_FALSE(importTerrain(dems, out, {.memoryBytes = 1}, control).ok());
+    control.stop = {};
+    begun.clear();
+    const auto report = importTerrain(dems, out, {.memoryBytes = 1}, control);
+    ASSERT_TRUE(report.ok()) << report.status();
+    EXPECT_THAT(begun, testing::Not(testing::Contains("reading")));
+    EXPECT_THAT(report->notes, testing::ElementsAre(HasSubstr("can be no height")));
+}
+
 TEST_F(TerrainResume, StartsOverForOtherOptionsOrWhenToldSo) {
     const std::string out = folder_.path("a.eyt");
     ASSERT_FALSE(importUntil("building", out).ok());

@@ -105,9 +105,14 @@ TEST(HoleBefore, IsNoneBehindTheEyeNorInOrBehindTheTarget) {
     EXPECT_FALSE(hasHoleBefore(index, eye, target));
     mark(3, 1);  // from 2880 to 3120 m
     EXPECT_TRUE(hasHoleBefore(index, eye, target));
-    EXPECT_TRUE(hasHoleBefore(index, eye, target, 881));
-    EXPECT_FALSE(hasHoleBefore(index, eye, target, 879)) << "behind what covers the target";
+    EXPECT_TRUE(hasHoleBefore(index, eye, target, {}, 881));
+    EXPECT_FALSE(hasHoleBefore(index, eye, target, {}, 879)) << "behind what covers the target";
     EXPECT_FALSE(hasHoleBefore(index, Vec2(3200, 100), target));
+
+    mark(3, 1 << 12);  // from 720 m north: beside what one looks across
+    EXPECT_FALSE(hasHoleBefore(index, eye, target));
+    const std::uint32_t blurred[] = {index.quadtree.tileIndex({1, 1, 0})};
+    EXPECT_TRUE(hasHoleBefore(index, eye, target, blurred)) << "a part of 480 m, drawn coarsely";
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "renderer/truth/mesh_ray_caster.h"
 #include "renderer/truth/terrain_ray_caster.h"
 
 namespace eyrie::truth {
@@ -120,6 +121,60 @@ TEST(CompareDepth, SeesThatTheGroundBehindAMissingRidgeIsWrongAlthoughItIsReal) 
     const DepthComparison result =
         compareDepth(camera, depthOf(TerrainRayCaster(flat), camera), reference, 1);
     EXPECT_GT(result.misplaced, 200U);
+}
+
+/// Seen from the origin to the north: a wall 20 m away; before it, 10 m away, one of a left half
+/// and of two right quarters that share no corner with it, which meet just right of the centres of
+/// column 100; and 5 m away a wire, thinner than anything, just right of those of column 60.
+MeshRayCaster wallsAndWire(double focalPixels) {
+    const auto across = [&](double column, double metres) {
+        return (column - kWidth / 2.0) / focalPixels * metres;
+    };
+    TriangleMesh mesh;
+    const auto add = [&](double left, double right, double low, double high, double metres) {
+        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+        for (const fabric::Vec3& corner :
+             {fabric::Vec3(left, metres, low), fabric::Vec3(right, metres, low),
+              fabric::Vec3(right, metres, high), fabric::Vec3(left, metres, high)})
+            mesh.positions.push_back(corner);
+        mesh.triangles.push_back({first, first + 1, first + 2});
+        mesh.triangles.push_back({first, first + 2, first + 3});
+    };
+    const double seam = across(100.5 + 1.0 / 512, 10);
+    const double wire = across(60.5 + 1.0 / 300, 5);
+    add(-30, 30, -30, 30, 20);
+    add(-20, seam, -20, 20, 10);
+    add(seam, 20, -20, 0.1, 10);
+    add(seam, 20, 0.1, 20, 10);
+    add(wire, wire + 1e-6, -9, 9, 5);
+    return MeshRayCaster(std::move(mesh));
+}
+
+TEST(CompareDepth, KnowsWhatIsSeenThroughSeamsAndOfWiresBetweenRays) {
+    const Pinhole camera({.eye = {0, 0, 0}, .target = {0, 1, 0}, .fovYDegrees = 45}, kWidth,
+                         kHeight);
+    const MeshRayCaster reference = wallsAndWire(camera.focalPixels());
+    const std::vector<float> depth = depthOf(reference, camera);
+    const auto faultsWith = [&](int x, int y, float metres) {
+        std::vector<float> changed = depth;
+        changed[static_cast<std::size_t>(y) * kWidth + static_cast<std::size_t>(x)] = metres;
+        const DepthComparison result = compareDepth(camera, changed, reference, 1);
+        return result.holes + result.falseHits + result.misplaced;
+    };
+    EXPECT_EQ(faultsWith(100, 40, 10), 0U);
+    EXPECT_EQ(faultsWith(100, 40, 20), 0U) << "through the seam";
+    EXPECT_EQ(faultsWith(100, 40, std::numeric_limits<float>::infinity()), 1U);
+    EXPECT_EQ(faultsWith(98, 40, 20), 1U) << "there is none";
+    EXPECT_EQ(faultsWith(60, 40, 5), 0U) << "the wire";
+    EXPECT_EQ(faultsWith(58, 40, 5), 1U) << "beside it";
+    EXPECT_EQ(faultsWith(60, 40, 6), 1U) << "behind it";
+    // The halves of a wall share their diagonal: no seam.
+    const double seam = (100.5 + 1.0 / 512 - kWidth / 2.0) / camera.focalPixels() * 10;
+    const Ray onDiagonal{{0, 0, 0}, {-20 + 0.25 * (seam + 20), 10, -10}};
+    EXPECT_NEAR(reference.throughSeams(onDiagonal, 1e-4).last, 1, 1e-12);
+    const Ray onSeam{{0, 0, 0}, {seam - 1e-5, 10, -10}};
+    EXPECT_NEAR(reference.throughSeams(onSeam, 1e-4).last, 2, 1e-12);
+    EXPECT_NEAR(reference.hitRange(onSeam).last, 1, 1e-12);
 }
 
 }  // namespace

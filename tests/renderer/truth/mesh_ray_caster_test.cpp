@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/truth/mesh_ray_caster.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -54,6 +55,43 @@ TEST(MeshRayCaster, HitsASphereWhereItIs) {
         EXPECT_GE(hit, 4 - 1e-9);
         EXPECT_LE(hit, 4 + sag + 1e-9);
     }
+}
+
+/// Brute force says the same of the nearest triangle and of the nearest that is surely seen.
+TEST(MeshRayCaster, SaysWhereSomethingMayBeSeenAndWhereItSurelyIs) {
+    std::mt19937 random(9);
+    std::uniform_real_distribution<double> place(-1, 1);
+    std::uniform_int_distribution<int> sight(0, 2);
+    const auto corner = [&] { return Vec3(place(random), place(random), place(random)); };
+    TriangleMesh mesh;
+    for (std::uint32_t i = 0; i < 60; ++i) {
+        for (int k = 0; k < 3; ++k) mesh.positions.push_back(corner());
+        mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+        mesh.sights.push_back(static_cast<Sight>(sight(random)));
+    }
+    const MeshRayCaster caster(mesh);
+    int apart = 0;
+    for (int n = 0; n < 2000; ++n) {
+        const Vec3 direction = randomDirection(random);
+        const Ray ray{corner() - 3.0 * direction, direction};
+        const WatertightRay watertight(ray);
+        ReferenceSurface::HitRange expected;
+        for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+            const Triangle triangle{mesh.positions[3 * i], mesh.positions[3 * i + 1],
+                                    mesh.positions[3 * i + 2]};
+            const Vec3 normal = glm::cross(triangle[1] - triangle[0], triangle[2] - triangle[0]);
+            const double hit = watertight.hit(triangle);
+            expected.first = std::min(expected.first, hit);
+            if (mesh.sights[i] == Sight::Sure ||
+                (mesh.sights[i] == Sight::SureFromFront && glm::dot(normal, direction) < 0))
+                expected.last = std::min(expected.last, hit);
+        }
+        const ReferenceSurface::HitRange range = caster.hitRange(ray);
+        EXPECT_EQ(range.first, expected.first) << "seed 9, ray " << n;
+        EXPECT_EQ(range.last, expected.last) << "seed 9, ray " << n;
+        apart += range.first < range.last ? 1 : 0;
+    }
+    EXPECT_GT(apart, 200);
 }
 
 TEST(MeshRayCaster, NeverSlipsBetweenTriangles) {

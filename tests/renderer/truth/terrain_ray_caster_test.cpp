@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/truth/terrain_ray_caster.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <random>
+#include <vector>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+
+#include "renderer/truth/triangle.h"
 
 namespace eyrie::truth {
 namespace {
@@ -142,6 +147,51 @@ TEST(TerrainRayCaster, HitRangeHoldsEveryMixtureOfReadings) {
         EXPECT_GE(marched, range.first - 1e-9);
         EXPECT_LE(marched, range.last + 1.0 / kSteps + 1e-9);
     }
+}
+
+/// The triangles of cells that are each cut along the main diagonal or the other; none at holes.
+std::vector<Triangle> cutCells(const HeightGrid& grid,
+                               const std::function<bool(int, int)>& isMain) {
+    const auto post = [&](int i, int j) {
+        return world(i, j, grid.heights[static_cast<std::size_t>(j * grid.columns + i)]);
+    };
+    std::vector<Triangle> triangles;
+    for (int j = 0; j + 1 < grid.rows; ++j)
+        for (int i = 0; i + 1 < grid.columns; ++i) {
+            const std::array<Vec3, 4> around{post(i, j), post(i + 1, j), post(i + 1, j + 1),
+                                             post(i, j + 1)};
+            const std::size_t from = isMain(i, j) ? 0 : 1;
+            for (const std::size_t k : {from, from + 2}) {
+                const Triangle triangle{around[k], around[(k + 1) % 4], around[(k + 2) % 4]};
+                if (!std::isnan(triangle[0].z + triangle[1].z + triangle[2].z))
+                    triangles.push_back(triangle);
+            }
+        }
+    return triangles;
+}
+
+/// Also from below, where holes let rays through.
+TEST(TerrainRayCaster, HitRangeHoldsEveryMixtureOfDiagonalsAboveAndBelowTheGround) {
+    std::mt19937 random(6);
+    std::uniform_real_distribution<double> height(0, 100), coordinate(0, 8), level(-60, 160);
+    std::uniform_int_distribution<int> one(0, 4);
+    const HeightGrid grid =
+        gridOf(9, 9, [&](int, int) { return one(random) == 0 ? kNoData : height(random); });
+    const TerrainRayCaster caster(grid);
+    int between = 0;
+    for (int n = 0; n < 4000; ++n) {
+        const auto triangles = cutCells(grid, [&](int, int) { return one(random) < 2; });
+        const Ray ray = rayTo(world(coordinate(random), coordinate(random), level(random)),
+                              world(coordinate(random), coordinate(random), level(random)));
+        const WatertightRay watertight(ray);
+        double hit = kNoHit;
+        for (const Triangle& triangle : triangles) hit = std::min(hit, watertight.hit(triangle));
+        const ReferenceSurface::HitRange range = caster.hitRange(ray);
+        ASSERT_GE(hit, range.first - 1e-9) << "seed 6, ray " << n;
+        ASSERT_TRUE(hit == range.last || hit <= range.last + 1e-9) << "seed 6, ray " << n;
+        between += hit > range.first && hit < range.last ? 1 : 0;
+    }
+    EXPECT_GT(between, 100) << "the mixtures are some";
 }
 
 TEST(TerrainRayCaster, LooksThroughHolesInTheData) {

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "renderer/truth/pinhole.h"
+#include "renderer/truth/triangle.h"
+
+namespace eyrie::truth {
+
+/// Drawn triangles, by where on the screen they are. Refers to both. Any thread may ask.
+///
+/// At its very edge a triangle that is seen edge-on may cover a pixel whose centre it misses, by up
+/// to the 1/256 pixel to which its corners are rounded, and its plane has any depth there. What
+/// such a pixel shows is a point beside its centre.
+class ShownSurface {
+public:
+    ShownSurface(std::span<const Triangle> triangles, const Pinhole& camera);
+
+    /// How far beside a picture point a triangle may be that is shown there.
+    static constexpr double kReachPixels = 1.0 / 128;
+
+    /// The point that picture point (x, y) shows: of what lies within reach, of the triangle whose
+    /// plane is nearest to `depth` there, the point next to it. Nothing where there is none.
+    std::optional<fabric::Vec3> at(double x, double y, double depth) const;
+
+private:
+    std::size_t tileOf(double x, double y) const;
+    void add(std::uint32_t triangle);
+
+    std::span<const Triangle> triangles_;
+    const Pinhole& camera_;
+    int columns_;  ///< of tiles
+    int rows_;
+    std::vector<std::vector<std::uint32_t>> tiles_;  ///< the triangles that may reach into each
+};
+
+}  // namespace eyrie::truth

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/truth/shown_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "renderer/truth/reference_surface.h"
+
+namespace eyrie::truth {
+namespace {
+
+using fabric::Vec3;
+
+constexpr int kWidth = 64;
+constexpr int kHeight = 48;
+
+/// At the origin, looking north; 64 pixels to a unit of tangent.
+Pinhole northward() {
+    fabric::Camera camera;
+    camera.eye = {0, 0, 0};
+    camera.target = {0, 1, 0};
+    camera.up = {0, 0, 1};
+    camera.fovYDegrees = 2 * std::atan(kHeight / 2.0 / 64) * 180 / M_PI;
+    return Pinhole(camera, kWidth, kHeight);
+}
+
+TEST(ShownSurface, ShowsWhatIsBesideAPixelAndEdgeOn) {
+    // Seen along its plane, which is half a reach to the right of the picture's middle.
+    const double aside = ShownSurface::kReachPixels / 2 / 64;
+    const std::vector<Triangle> wall{
+        {Vec3(10 * aside, 10, -2), Vec3(30 * aside, 30, -2), Vec3(20 * aside, 20, 9)}};
+    const Pinhole camera = northward();
+    const ShownSurface shown(wall, camera);
+    const auto point = shown.at(kWidth / 2.0, kHeight / 2.0, 20);
+    ASSERT_TRUE(point);
+    EXPECT_NEAR(point->x, aside * point->y, 1e-9);
+    EXPECT_NEAR(point->z, 0, 1e-9);
+    EXPECT_FALSE(shown.at(kWidth / 2.0 + 0.1, kHeight / 2.0, 20));
+}
+
+TEST(ShownSurface, ShowsWhatReachesBehindTheEye) {
+    const std::vector<Triangle> roof{{Vec3(-100, 200, 5), Vec3(100, 200, 5), Vec3(0, -500, 5)},
+                                     {Vec3(-100, -2, 5), Vec3(100, -2, 5), Vec3(0, -500, 5)}};
+    const Pinhole camera = northward();
+    const ShownSurface shown(roof, camera);
+    const auto point = shown.at(kWidth / 2.0, kHeight / 2.0 + 16, 20);
+    ASSERT_TRUE(point);
+    EXPECT_NEAR(glm::distance(*point, Vec3(0, 20, 5)), 0, 1e-9);
+    EXPECT_FALSE(shown.at(kWidth / 2.0, kHeight / 2.0 - 16, 20)) << "nothing below the horizon";
+}
+
+TEST(ShownSurface, ShowsWhatARayHitsAtItsDepth) {
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> aside(-30, 30), along(-20, 40);
+    const auto corner = [&] { return Vec3(aside(random), along(random), aside(random)); };
+    std::vector<Triangle> triangles;
+    for (int i = 0; i < 300; ++i) triangles.push_back({corner(), corner(), corner()});
+    const Pinhole camera = northward();
+    const ShownSurface shown(triangles, camera);
+    std::uniform_real_distribution<double> column(0, kWidth), row(0, kHeight);
+    int hits = 0;
+    for (int n = 0; n < 500; ++n) {
+        const double x = column(random), y = row(random);
+        const Ray ray = camera.rayThrough(x, y);
+        const WatertightRay watertight(ray);
+        for (const Triangle& triangle : triangles) {
+            const double depth = watertight.hit(triangle);
+            if (depth < 0.01 || depth == kNoHit)
+                continue;
+            ++hits;
+            const auto point = shown.at(x, y, depth);
+            ASSERT_TRUE(point) << "seed 11, point " << n;
+            EXPECT_LT(glm::distance(*point, ray.at(depth)), 1e-6 * depth) << "seed 11, point " << n;
+        }
+    }
+    EXPECT_GT(hits, 5000);
+}
+
+}  // namespace
+}  // namespace eyrie::truth
