@@ -154,12 +154,33 @@ await run("scene_test", async (browser, started) => {
   };
   await page.locator(".equalizer").first().getByLabel("Frozen").check();
   check(await tuned("frozen", "true"), "an equalizer is frozen");
-  await page.locator(".equalizer").first().getByLabel("Damping").fill("0.25");
+  // What is read of it after a change comes while the next is typed in.
+  const damping = page.locator(".equalizer").first().getByLabel("Damping");
+  let read = () => {};
+  const isTypedIn = new Promise((resolve) => (read = resolve));
+  await page.route("**/api/v1/configuration", async (route) => {
+    if (route.request().method() === "GET") await isTypedIn;
+    await route.continue();
+  });
+  const isRead = page.waitForResponse(
+    (response) =>
+      response.url().endsWith("/configuration") && response.request().method() === "GET",
+  );
+  await damping.fill("0.25");
   await page.keyboard.press("Enter");
   check(await tuned("damping", "0.25"), "and tuned");
-  await page.locator(".equalizer").first().getByLabel("Damping").fill("fast");
+  await damping.fill("fast");
+  read();
+  await (await isRead).finished();
+  await page.waitForTimeout(100);
+  check((await damping.inputValue()) === "fast", "what is typed in stays");
   await page.keyboard.press("Enter");
   await page.locator("#equalizers", { hasText: "Damping: a number, not “fast”" }).waitFor();
+  await damping.blur();
+  await page.waitForFunction(
+    () => document.querySelector(".equalizer .equalizer-number").value === "0.25",
+  );
+  check(true, "until it is left, refused");
 
   for (const colorScheme of ["dark", "light"]) {
     await page.emulateMedia({ colorScheme });

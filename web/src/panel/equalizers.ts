@@ -116,12 +116,13 @@ function numberField(
   input.type = "text";
   input.inputMode = "decimal";
   const value = settings[field.key];
-  input.value = typeof value === "object" ? value.join(" ") : String(value ?? "");
+  input.defaultValue = typeof value === "object" ? value.join(" ") : String(value ?? "");
   input.placeholder = field.usual;
   input.addEventListener("change", () => {
     const change = changeOf(field, input.value);
-    if (typeof change === "string") complain(change);
-    else tune(position, change);
+    if (typeof change === "string") return complain(change);
+    input.defaultValue = input.value;
+    tune(position, change);
   });
   const label = make("label", "row", make("span", "label", field.name), input);
   label.title = field.title;
@@ -180,6 +181,16 @@ function compoundItem(
   return item;
 }
 
+/** Whether something is typed in that has not been entered yet. */
+function isTyping(tree: HTMLElement): boolean {
+  const input = document.activeElement;
+  return (
+    input instanceof HTMLInputElement &&
+    tree.contains(input) &&
+    input.value !== input.defaultValue
+  );
+}
+
 export function showEqualizers(state: State): void {
   const details = make("details", "plots", make("summary", "heading", "Work sharing"));
   details.title = "The compounds of the configuration, and their equalizers; for everybody";
@@ -192,10 +203,13 @@ export function showEqualizers(state: State): void {
   const complain = (why: unknown): void => {
     problem.textContent = why instanceof Error ? why.message : String(why);
   };
+  let isOutdated = false;
   const show = async (): Promise<void> => {
     try {
       const compounds = compoundsOf(await readConfiguration());
-      // What was typed in stays, and has the focus.
+      isOutdated = isTyping(tree);
+      if (isOutdated) return;
+      // What has the focus keeps it.
       const focused = [...tree.querySelectorAll("input, select")].indexOf(
         document.activeElement as Element,
       );
@@ -213,6 +227,9 @@ export function showEqualizers(state: State): void {
   details.addEventListener("toggle", () => {
     problem.textContent = "";
     if (details.open) void show();
+  });
+  tree.addEventListener("focusout", () => {
+    if (isOutdated) void show();
   });
   // Layouts may bring other compounds; the first picture brings the first.
   let shown = "";
