@@ -13,80 +13,25 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include "renderer/mesh/edges.h"
 #include "renderer/mesh/vertex_packing.h"
 
 namespace eyrie::mesh {
 namespace {
 
-/// Triangles for each slot that edges are added up in.
-constexpr std::size_t kTrianglesPerSlot = 4;
 /// Edges that may be looked at one by one: one for so many triangles, and a few.
 constexpr std::size_t kTrianglesPerOpenEdge = 4;
 constexpr std::size_t kFewEdges = 1024;
 
-/// As a triangle passes it.
-struct Edge {
-    std::uint64_t from;  ///< positions
-    std::uint64_t to;
-    std::uint32_t fromVertex;
-    std::uint32_t toVertex;
-
-    std::pair<std::uint64_t, std::uint64_t> ends() const { return std::minmax(from, to); }
-};
-
-/// The finalizer of Austin Appleby's MurmurHash3.
-std::uint64_t mixed(std::uint64_t value) {
-    value = (value ^ value >> 33) * 0xFF51AFD7ED558CCDULL;
-    value = (value ^ value >> 33) * 0xC4CEB9FE1A85EC53ULL;
-    return value ^ value >> 33;
-}
-
-std::uint64_t hashOf(std::uint64_t from, std::uint64_t to) {
-    return mixed(mixed(std::min(from, to)) + std::max(from, to));
-}
-
-std::uint64_t hashOf(const Edge& edge) { return hashOf(edge.from, edge.to); }
-
-template <typename Visit>
-void forEdges(const PackedMesh& mesh, const Visit& visit) {
-    for (const Triangle& triangle : mesh.triangles)
-        for (std::size_t i = 0; i < 3; ++i) {
-            const std::uint32_t from = triangle[i];
-            const std::uint32_t to = triangle[(i + 1) % 3];
-            if (mesh.positions[from] != mesh.positions[to])
-                visit(Edge{mesh.positions[from], mesh.positions[to], from, to});
-        }
-}
-
-/// Each edge adds its hash to its slot where it is passed one way, and takes it off where the
-/// other: slots with something left hold the open ones.
-std::vector<std::uint64_t> addedUp(const PackedMesh& mesh) {
-    std::vector<std::uint64_t> slots(std::bit_ceil(mesh.triangles.size() / kTrianglesPerSlot + 1));
-    forEdges(mesh, [&](const Edge& edge) {
-        const std::uint64_t hash = hashOf(edge);
-        slots[hash & (slots.size() - 1)] += edge.from < edge.to ? hash : 0 - hash;
-    });
-    return slots;
-}
-
 /// Edges passed more often this way than back, as often as that; nothing where they are too many.
 std::optional<std::vector<Edge>> openEdges(const PackedMesh& mesh) {
-    const std::vector<std::uint64_t> slots = addedUp(mesh);
-    const std::size_t most = mesh.triangles.size() / kTrianglesPerOpenEdge + kFewEdges;
-    std::vector<Edge> candidates;
-    forEdges(mesh, [&](const Edge& edge) {
-        if (slots[hashOf(edge) & (slots.size() - 1)] != 0 && candidates.size() <= most)
-            candidates.push_back(edge);
-    });
-    if (candidates.size() > most)
+    const auto candidates =
+        edgesLeftOver(mesh, mesh.triangles.size() / kTrianglesPerOpenEdge + kFewEdges);
+    if (!candidates)
         return std::nullopt;
-    std::sort(candidates.begin(), candidates.end(), [](const Edge& a, const Edge& b) {
-        return std::tuple(a.ends(), a.from, a.fromVertex, a.toVertex) <
-               std::tuple(b.ends(), b.from, b.fromVertex, b.toVertex);
-    });
     std::vector<Edge> open;
-    for (auto at = candidates.begin(); at != candidates.end();) {
-        const auto end = std::find_if(at, candidates.end(),
+    for (auto at = candidates->begin(); at != candidates->end();) {
+        const auto end = std::find_if(at, candidates->end(),
                                       [&](const Edge& edge) { return edge.ends() != at->ends(); });
         const auto turn = std::find_if(at, end, [&](const Edge& e) { return e.from != at->from; });
         const auto there = turn - at;
@@ -185,7 +130,7 @@ std::uint64_t edgeSum(const std::array<std::uint64_t, 3>& positions) {
         const std::uint64_t from = positions[i];
         const std::uint64_t to = positions[(i + 1) % 3];
         if (from != to)
-            sum += from < to ? hashOf(from, to) : 0 - hashOf(from, to);
+            sum += from < to ? hashOfEdge(from, to) : 0 - hashOfEdge(from, to);
     }
     return sum;
 }

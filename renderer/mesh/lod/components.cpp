@@ -12,6 +12,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "renderer/mesh/lod/closing_pieces.h"
 #include "renderer/mesh/lod/piece_points.h"
 #include "renderer/mesh/vertex_packing.h"
 
@@ -103,7 +104,7 @@ void Dropper::gather(const Components& components, const KdNode& node) {
     for (std::size_t i = 0; i < byComponent.size(); ++i) {
         const auto [component, triangle] = byComponent[i];
         if (i == 0 || component != byComponent[i - 1].first)
-            pieces_.push_back({.triangles = {}, .mayGo = components.isWholeIn(component, node)});
+            pieces_.push_back({.triangles = {}, .mayGo = components.mayGo(component, node)});
         Piece& piece = pieces_.back();
         piece.triangles.push_back(triangle);
         for (const std::uint32_t vertex : patch_.triangles[triangle])
@@ -187,7 +188,7 @@ void Dropper::run(std::size_t target, double limitSteps) {
 
 }  // namespace
 
-Components::Components(const PackedMesh& mesh, const KdTree& tree,
+Components::Components(const PackedMesh& mesh, const KdTree& tree, const SheetEnds& ends,
                        std::span<const std::uint32_t> goesOnAt) {
     DisjointSets sets(mesh.positions.size());
     std::vector<std::uint32_t> byPosition(mesh.positions.size());
@@ -221,6 +222,7 @@ Components::Components(const PackedMesh& mesh, const KdTree& tree,
     }
     for (const std::uint32_t vertex : goesOnAt)
         last_[of(vertex)] = std::numeric_limits<std::uint64_t>::max();
+    isClosing_ = closingPieces(mesh, ends, ofVertex_, count());
 }
 
 void dropComponents(const PackedMesh& mesh, const Components& components, const KdNode& node,

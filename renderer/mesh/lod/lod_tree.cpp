@@ -12,6 +12,7 @@
 #include <oneapi/tbb/parallel_invoke.h>
 
 #include "renderer/mesh/lod/components.h"
+#include "renderer/mesh/lod/sheet_ends.h"
 #include "renderer/mesh/lod/simplify.h"
 
 namespace eyrie::mesh {
@@ -60,7 +61,9 @@ public:
           progress_(progress),
           stop_(stop),
           parts_(parts),
-          colours_(mesh) {
+          colours_(mesh),
+          ends_(mesh, options.goesOnAt),
+          staying_(whereOthersEnd(mesh, ends_)) {
         lod_.geometry.resize(tree.nodes.size());
         lod_.points.resize(tree.nodes.size());
         errorSteps_.resize(tree.nodes.size());
@@ -84,6 +87,8 @@ private:
     const std::stop_token& stop_;
     LodParts* parts_;
     const SurfaceColours colours_;
+    const SheetEnds ends_;
+    const std::vector<std::uint8_t> staying_;  ///< vertices
     LodTree lod_;
     std::vector<double> errorSteps_;
     std::once_flag componentsMade_;
@@ -126,7 +131,7 @@ LodPart Builder::visit(std::size_t index) {
 /// Only what surfaces of one piece do not need.
 const Components& Builder::components() {
     std::call_once(componentsMade_,
-                   [this] { components_.emplace(mesh_, tree_, options_.goesOnAt); });
+                   [this] { components_.emplace(mesh_, tree_, ends_, options_.goesOnAt); });
     return *components_;
 }
 
@@ -134,14 +139,14 @@ const Components& Builder::components() {
 /// goes too far, without its smallest pieces first.
 Simplified Builder::simplified(const Patch& patch, const KdNode& node, std::size_t target) {
     const double diagonal = glm::length(glm::dvec3(node.boxMax) - glm::dvec3(node.boxMin));
-    Simplified plain = simplify(mesh_, patch, target);
+    Simplified plain = simplify(mesh_, patch, target, staying_);
     const double error = plain.patch.error();
     if ((plain.patch.triangles.size() <= target && error <= kTooFar * diagonal) ||
         components().count() == 1)
         return plain;
     Patch fewer = patch;
     dropComponents(mesh_, components(), node, target, kSmallPiece * diagonal, fewer);
-    Simplified sparse = simplify(mesh_, fewer, target);
+    Simplified sparse = simplify(mesh_, fewer, target, staying_);
     dropComponents(mesh_, components(), node, target, std::numeric_limits<double>::infinity(),
                    sparse.patch);
     const bool areBothDone =

@@ -38,7 +38,7 @@ struct Collapse {
 
 class Simplifier {
 public:
-    Simplifier(const PackedMesh& mesh, const Patch& patch);
+    Simplifier(const PackedMesh& mesh, const Patch& patch, std::span<const std::uint8_t> staying);
 
     Simplified run(std::size_t target);
 
@@ -101,7 +101,8 @@ private:
     std::vector<Corners> around_;    ///< of a point; some may be of faces that are gone
     std::vector<Collapse> best_;     ///< of a point
     std::vector<bool> isStale_;      ///< whether something changed around it since
-    std::vector<bool> isInner_;      ///< whether it had a closed ring at first
+    std::vector<bool> isStaying_;    ///< of a point
+    std::vector<bool> isInner_;      ///< whether it had a closed ring at first, and may go
     std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> queue_;
     std::vector<std::uint32_t> mark_;
     std::uint32_t marking_ = 0;
@@ -110,7 +111,8 @@ private:
     std::size_t left_;
 };
 
-Simplifier::Simplifier(const PackedMesh& mesh, const Patch& patch)
+Simplifier::Simplifier(const PackedMesh& mesh, const Patch& patch,
+                       std::span<const std::uint8_t> staying)
     : shifts_(patch.shifts), left_(patch.triangles.size()) {
     faces_.reserve(left_);
     for (std::size_t i = 0; i < left_; ++i) {
@@ -120,6 +122,12 @@ Simplifier::Simplifier(const PackedMesh& mesh, const Patch& patch)
         faces_.push_back(face);
     }
     link(mesh);
+    isStaying_.resize(points_.size(), false);
+    if (!staying.empty())
+        for (const Face& face : faces_)
+            for (const Corner& corner : face.corners)
+                if (staying[corner.vertex] != 0)
+                    isStaying_[corner.point] = true;
 }
 
 /// Vertices at one position are one point of the surface: numbered as they come, with an open hash
@@ -302,7 +310,7 @@ std::pair<std::size_t, double> Simplifier::cheapest(std::uint32_t point, const S
 
 /// Few collapses are not simple, so most are asked only once it is their turn.
 Collapse Simplifier::bestCollapse(std::uint32_t point, bool mustBeSimple) {
-    if (!gatherRing(point))
+    if (!gatherRing(point) || isStaying_[point])
         return {};
     const Star star = this->star(point);
     if (!star.isFlat())
@@ -371,7 +379,7 @@ Simplified Simplifier::run(std::size_t target) {
     };
     for (std::uint32_t point = 0; point < points_.size(); ++point) {
         look(point);
-        isInner_.push_back(isRing_);
+        isInner_.push_back(isRing_ && !isStaying_[point]);
     }
     while (left_ > target && !queue_.empty()) {
         const std::uint32_t point = pointOf(queue_.top());
@@ -396,8 +404,9 @@ Simplified Simplifier::run(std::size_t target) {
 
 }  // namespace
 
-Simplified simplify(const PackedMesh& mesh, const Patch& patch, std::size_t target) {
-    return Simplifier(mesh, patch).run(target);
+Simplified simplify(const PackedMesh& mesh, const Patch& patch, std::size_t target,
+                    std::span<const std::uint8_t> staying) {
+    return Simplifier(mesh, patch, staying).run(target);
 }
 
 }  // namespace eyrie::mesh

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
 
 #include "renderer/mesh/lod/patch.h"
 
@@ -18,8 +20,10 @@ struct Simplified {
 ///
 /// Stay: vertices on the border, so that the patch fits its neighbours whatever is done to them;
 /// those where more than two sheets meet, or normals, colours, texture coordinates or materials are
-/// broken; and those whose star is no graph (star.h). A vertex that is left keeps all that it has.
-/// R. Klein, G. Liebich, W. Straßer, "Mesh Reduction with Error Control", 1996.
-Simplified simplify(const PackedMesh& mesh, const Patch& patch, std::size_t target);
+/// broken; those of `staying`, which has a 1 for each, if anything; and those whose star is no
+/// graph (star.h). A vertex that is left keeps all that it has. R. Klein, G. Liebich, W. Straßer,
+/// "Mesh Reduction with Error Control", 1996.
+Simplified simplify(const PackedMesh& mesh, const Patch& patch, std::size_t target,
+                    std::span<const std::uint8_t> staying = {});
 
 }  // namespace eyrie::mesh

@@ -169,6 +169,61 @@ PackedMesh ladders() {
     return mesh;
 }
 
+/// Hills, and a fence whose foot is a step above every post of one row of theirs.
+PackedMesh hillsAndFence() {
+    constexpr std::uint32_t kPosts = 100;
+    PackedMesh mesh;
+    mesh.lattice = {{0, 0, 0}, 0.25};
+    std::mt19937 random(5);
+    const auto add = [&](const glm::uvec3& at) {
+        mesh.positions.push_back(packPosition(at));
+        mesh.normals.push_back(packNormal({0, 0, 1}));
+    };
+    const auto rectangle = [&](std::uint32_t a, std::uint32_t across) {
+        mesh.triangles.push_back({a, a + 1, a + across + 1});
+        mesh.triangles.push_back({a, a + across + 1, a + across});
+    };
+    for (std::uint32_t y = 0; y < kPosts; ++y)
+        for (std::uint32_t x = 0; x < kPosts; ++x) {
+            add({x * 1000, y * 1000, 5000 + random() % 800});
+            if (x + 1 < kPosts && y + 1 < kPosts)
+                rectangle(y * kPosts + x, kPosts);
+        }
+    for (const std::uint32_t above : {1U, 2001U})
+        for (std::uint32_t x = 0; x < kPosts; ++x)
+            add(unpackPosition(mesh.positions[50 * kPosts + x]) + glm::uvec3(0, 0, above));
+    for (std::uint32_t x = 0; x + 1 < kPosts; ++x) rectangle(kPosts * kPosts + x, kPosts);
+    return mesh;
+}
+
+/// However much else of the hills goes, no slit opens under the fence.
+TEST(LodTree, KeepsSheetsTogetherThatTouchWithoutSharingPoints) {
+    const Levels levels = levelsOf(hillsAndFence());
+    std::size_t simpler = 0;
+    for (std::size_t i = 0; i < levels.tree.nodes.size(); ++i) {
+        std::vector<Triangle> hills;
+        for (const Triangle& triangle : levels.lod.geometry[i])
+            if (triangle[0] < 10'000)
+                hills.push_back(triangle);
+        if (hills.empty())
+            continue;
+        ++simpler;
+        const truth::MeshRayCaster surface = mesh::surface(levels.mesh, hills);
+        for (const Triangle& triangle : sourceOf(levels, levels.tree.nodes[i]))
+            for (const std::uint32_t vertex : triangle)
+                if (vertex >= 10'000 && vertex < 10'100) {
+                    const fabric::Vec3 foot =
+                        levels.mesh.lattice.metres(unpackPosition(levels.mesh.positions[vertex]));
+                    // The hill right under it may be another node's.
+                    const double away = glm::distance(*surface.counterpart(foot), foot);
+                    EXPECT_TRUE(away <= levels.mesh.lattice.stepMetres || away >= 100)
+                        << "node " << i << ", " << away;
+                }
+    }
+    EXPECT_GT(simpler, 20U);
+    EXPECT_LE(levels.lod.geometry[0].size(), kNodeTriangles * 3);
+}
+
 TEST(LodTree, WhatDoesNotSimplifyIsPoints) {
     const PackedMesh mesh = ladders();
     const auto tree = buildKdTree(mesh.positions, mesh.triangles, {kNodeTriangles / 4});

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/mesh/lod/closing_pieces.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <tuple>
+
+#include <glm/geometric.hpp>
+
+#include "renderer/mesh/vertex_packing.h"
+
+namespace eyrie::mesh {
+namespace {
+
+/// Share of a piece's width within which it touches others.
+constexpr double kTouch = 1.0 / 4;
+/// Lattice steps: what touched in the source still does.
+constexpr double kLeastTouch = 3;
+
+glm::dvec3 pointOf(std::uint64_t packed) { return glm::dvec3(unpackPosition(packed)); }
+
+/// A point where a piece ends.
+struct PieceEnd {
+    std::uint32_t piece;
+    glm::vec3 at;
+
+    auto key() const { return std::tuple(piece, at.x, at.y, at.z); }
+    bool operator==(const PieceEnd& other) const { return key() == other.key(); }
+    bool operator<(const PieceEnd& other) const { return key() < other.key(); }
+};
+
+double distance(const glm::dvec3& at, const SheetEnds::End& end) {
+    const glm::dvec3 from(end.from);
+    const glm::dvec3 along = glm::dvec3(end.to) - from;
+    const double share = glm::dot(at - from, along) / glm::dot(along, along);
+    return glm::distance(from + std::clamp(share, 0.0, 1.0) * along, at);
+}
+
+/// Of each piece, as of a strip: its area over half of the length of its ends.
+std::vector<double> widthsOf(const PackedMesh& mesh, const SheetEnds& ends,
+                             std::span<const std::uint32_t> pieceOf, std::size_t count) {
+    std::vector<double> areas(count, 0.0);
+    for (const Triangle& triangle : mesh.triangles) {
+        const glm::dvec3 first = pointOf(mesh.positions[triangle[0]]);
+        areas[pieceOf[triangle[0]]] +=
+            0.5 * glm::length(glm::cross(pointOf(mesh.positions[triangle[1]]) - first,
+                                         pointOf(mesh.positions[triangle[2]]) - first));
+    }
+    std::vector<double> lengths(count, 0.0);
+    for (const SheetEnds::End& end : ends.all())
+        lengths[pieceOf[mesh.triangles[end.triangle][0]]] +=
+            glm::distance(glm::dvec3(end.from), glm::dvec3(end.to));
+    for (std::size_t i = 0; i < count; ++i)
+        areas[i] = lengths[i] > 0 ? 2 * areas[i] / lengths[i] : 0.0;
+    return areas;
+}
+
+}  // namespace
+
+std::vector<bool> closingPieces(const PackedMesh& mesh, const SheetEnds& ends,
+                                std::span<const std::uint32_t> pieceOf, std::size_t count) {
+    const auto pieceOfEnd = [&](const SheetEnds::End& end) {
+        return pieceOf[mesh.triangles[end.triangle][0]];
+    };
+    std::vector<PieceEnd> points;
+    for (const SheetEnds::End& end : ends.all())
+        for (const glm::vec3& at : {end.from, end.to}) points.push_back({pieceOfEnd(end), at});
+    std::sort(points.begin(), points.end());
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+
+    const std::vector<double> widths = widthsOf(mesh, ends, pieceOf, count);
+    std::vector<bool> isClosing(count, false);
+    for (std::size_t i = 0; i < points.size();) {
+        const std::uint32_t piece = points[i].piece;
+        const double reach = std::max(kLeastTouch, kTouch * widths[piece]);
+        const auto isOtherNear = [&](const glm::vec3& at) {
+            return ends.anyNear(
+                at, at, static_cast<float>(reach) + 1, [&](const SheetEnds::End& end) {
+                    return pieceOfEnd(end) != piece && distance(glm::dvec3(at), end) <= reach;
+                });
+        };
+        std::size_t all = 0;
+        std::size_t touching = 0;
+        for (; i < points.size() && points[i].piece == piece; ++i, ++all)
+            touching += isOtherNear(points[i].at) ? 1 : 0;
+        isClosing[piece] = 3 * touching >= 2 * all;
+    }
+    return isClosing;
+}
+
+}  // namespace eyrie::mesh
