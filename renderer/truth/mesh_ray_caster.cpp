@@ -112,7 +112,8 @@ bool MeshRayCaster::isSure(std::size_t triangle, const Ray& ray) const {
     return glm::dot(glm::cross(b - a, c - a), ray.direction) < 0;
 }
 
-/// Whether triangles go on from the edge between these places to both sides, seen from `eye`.
+/// Whether triangles that are sure to be seen go on from the edge between these places to both
+/// sides, seen from `eye`.
 bool MeshRayCaster::goesOn(const Vec3& a, const Vec3& b, const Vec3& eye) const {
     const Vec3 across = glm::cross(a - eye, b - eye);
     bool isLeft = false;
@@ -120,7 +121,7 @@ bool MeshRayCaster::goesOn(const Vec3& a, const Vec3& b, const Vec3& eye) const 
     for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
         const Triangle triangle = corners(mesh_, i);
         if (std::ranges::find(triangle, a) == triangle.end() ||
-            std::ranges::find(triangle, b) == triangle.end())
+            std::ranges::find(triangle, b) == triangle.end() || !isSure(i, {eye, a - eye}))
             continue;
         for (const Vec3& corner : triangle) {
             const double side = corner == a || corner == b ? 0 : glm::dot(across, corner - eye);
@@ -142,8 +143,23 @@ bool MeshRayCaster::isAtSeam(std::size_t triangle, const Ray& ray, double hit, d
             square > 0 ? std::clamp(glm::dot(point - a, b - a) / square, 0.0, 1.0) : 0.0;
         if (glm::distance(point, a + t * (b - a)) <= reach * hit && !goesOn(a, b, ray.origin))
             return true;
+        if (glm::distance(point, a) <= reach * hit && !goesOnAround(a, ray.origin))
+            return true;
     }
     return false;
+}
+
+/// The same for every edge that ends here: beside a corner a seam may open between two others.
+bool MeshRayCaster::goesOnAround(const Vec3& corner, const Vec3& eye) const {
+    for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
+        const Triangle triangle = corners(mesh_, i);
+        if (std::ranges::find(triangle, corner) == triangle.end())
+            continue;
+        for (const Vec3& other : triangle)
+            if (other != corner && !goesOn(corner, other, eye))
+                return false;
+    }
+    return true;
 }
 
 ReferenceSurface::HitRange MeshRayCaster::cast(const Ray& ray, double reach) const {

@@ -67,6 +67,7 @@ private:
     bool isSure(std::size_t triangle, const Ray& ray) const;
     bool isAtSeam(std::size_t triangle, const Ray& ray, double hit, double reach) const;
     bool goesOn(const fabric::Vec3& a, const fabric::Vec3& b, const fabric::Vec3& eye) const;
+    bool goesOnAround(const fabric::Vec3& corner, const fabric::Vec3& eye) const;
 
     TriangleMesh mesh_;
     std::vector<Node> nodes_;

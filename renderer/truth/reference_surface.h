@@ -34,8 +34,8 @@ public:
 
     /// The same where seams may open: beside an edge from which no triangle goes on to the other
     /// side, the next surface may be parted from it by the rounding of corners on the screen.
-    /// Looked through are triangles with such an edge no farther from the ray than `reach` times
-    /// its parameter there.
+    /// Looked through are triangles with such an edge, or a corner of one, no farther from the ray
+    /// than `reach` times its parameter there.
     virtual HitRange throughSeams(const Ray& ray, double /*reach*/) const { return hitRange(ray); }
 
     /// The point of the source to hold `point` against: for terrain the one in the same column, for

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <utility>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -156,6 +157,36 @@ TEST(MeshRayCaster, FindsTheClosestPointBesideTrianglesWithoutArea) {
         EXPECT_EQ(*caster.counterpart({0.25, 0.25, 2}), Vec3(0.25, 0.25, 0));
         EXPECT_EQ(*caster.counterpart({-1, 0, 0}), Vec3(0, 0, 0));
     }
+}
+
+/// Beside a corner where three triangles hang together, a seam opens past the first and the last of
+/// them, and what a ray hits may be the one between, of which both edges go on.
+TEST(MeshRayCaster, LooksThroughSeamsBesideCorners) {
+    TriangleMesh mesh;
+    mesh.positions = {{0, 10, 0},  {-10, 10, 0}, {-5, 10, 10}, {5, 10, 10},
+                      {10, 10, 0}, {-9, 20, -9}, {9, 20, -9},  {0, 20, 9}};
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {5, 6, 7}};
+    const MeshRayCaster fan(std::move(mesh));
+    EXPECT_NEAR(fan.throughSeams({{0, 0, 0}, {0, 10, 5e-4}}, 1e-3).last, 2, 1e-12);
+    EXPECT_NEAR(fan.throughSeams({{0, 0, 0}, {0, 10, 2e-3}}, 1e-3).last, 1, 1e-12);
+    EXPECT_NEAR(fan.hitRange({{0, 0, 0}, {0, 10, 5e-4}}).last, 1, 1e-12);
+}
+
+TEST(MeshRayCaster, LooksThroughWhereWhatGoesOnIsSeenFromBehind) {
+    // A triangle, one on its lower side that is drawn from the front alone, and a wall behind.
+    const auto hung = [](bool isFront) {
+        TriangleMesh mesh;
+        mesh.positions = {{-9, 10, 0},  {9, 10, 0},  {0, 10, 9}, {0, 10, -9},
+                          {-9, 20, -9}, {9, 20, -9}, {0, 20, 9}};
+        mesh.triangles = {{0, 1, 2}, {0, 3, 1}, {4, 5, 6}};
+        if (!isFront)
+            std::swap(mesh.triangles[1][0], mesh.triangles[1][1]);
+        mesh.sights = {Sight::Sure, Sight::SureFromFront, Sight::Sure};
+        return MeshRayCaster(std::move(mesh));
+    };
+    const Ray above{{0, 0, 0}, {0, 10, 5e-4}};
+    EXPECT_NEAR(hung(true).throughSeams(above, 1e-3).last, 1, 1e-12);
+    EXPECT_NEAR(hung(false).throughSeams(above, 1e-3).last, 2, 1e-12);
 }
 
 }  // namespace
