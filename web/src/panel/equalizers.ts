@@ -185,9 +185,7 @@ function compoundItem(
 function isTyping(tree: HTMLElement): boolean {
   const input = document.activeElement;
   return (
-    input instanceof HTMLInputElement &&
-    tree.contains(input) &&
-    input.value !== input.defaultValue
+    input instanceof HTMLInputElement && tree.contains(input) && input.value !== input.defaultValue
   );
 }
 
