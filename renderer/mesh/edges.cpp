@@ -48,6 +48,7 @@ std::uint64_t hashOfEdge(std::uint64_t from, std::uint64_t to) {
 std::optional<std::vector<Edge>> edgesLeftOver(const PackedMesh& mesh, std::size_t most) {
     const std::vector<std::uint64_t> slots = addedUp(mesh);
     std::vector<Edge> edges;
+    edges.reserve(std::min(most, 3 * mesh.triangles.size()));  // no memory until it is written
     forEdges(mesh, [&](const Edge& edge) {
         if (slots[hashOfEdge(edge.from, edge.to) & (slots.size() - 1)] != 0 && edges.size() <= most)
             edges.push_back(edge);

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <numeric>
 #include <tuple>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
@@ -19,15 +21,9 @@ constexpr double kLeastTouch = 3;
 
 glm::dvec3 pointOf(std::uint64_t packed) { return glm::dvec3(unpackPosition(packed)); }
 
-/// A point where a piece ends.
-struct PieceEnd {
-    std::uint32_t piece;
-    glm::vec3 at;
-
-    auto key() const { return std::tuple(piece, at.x, at.y, at.z); }
-    bool operator==(const PieceEnd& other) const { return key() == other.key(); }
-    bool operator<(const PieceEnd& other) const { return key() < other.key(); }
-};
+bool comesFirst(const glm::vec3& a, const glm::vec3& b) {
+    return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+}
 
 double distance(const glm::dvec3& at, const SheetEnds::End& end) {
     const glm::dvec3 from(end.from);
@@ -62,28 +58,30 @@ std::vector<bool> closingPieces(const PackedMesh& mesh, const SheetEnds& ends,
     const auto pieceOfEnd = [&](const SheetEnds::End& end) {
         return pieceOf[mesh.triangles[end.triangle][0]];
     };
-    std::vector<PieceEnd> points;
-    for (const SheetEnds::End& end : ends.all())
-        for (const glm::vec3& at : {end.from, end.to}) points.push_back({pieceOfEnd(end), at});
-    std::sort(points.begin(), points.end());
-    points.erase(std::unique(points.begin(), points.end()), points.end());
+    const std::span<const SheetEnds::End> all = ends.all();
+    std::vector<std::uint32_t> byPiece(all.size());
+    std::iota(byPiece.begin(), byPiece.end(), 0U);
+    std::ranges::sort(byPiece, {},
+                      [&](std::uint32_t i) { return std::pair(pieceOfEnd(all[i]), i); });
 
     const std::vector<double> widths = widthsOf(mesh, ends, pieceOf, count);
     std::vector<bool> isClosing(count, false);
-    for (std::size_t i = 0; i < points.size();) {
-        const std::uint32_t piece = points[i].piece;
+    std::vector<glm::vec3> points;  // where a piece ends
+    for (std::size_t i = 0; i < byPiece.size();) {
+        const std::uint32_t piece = pieceOfEnd(all[byPiece[i]]);
+        points.clear();
+        for (; i < byPiece.size() && pieceOfEnd(all[byPiece[i]]) == piece; ++i)
+            points.insert(points.end(), {all[byPiece[i]].from, all[byPiece[i]].to});
+        std::sort(points.begin(), points.end(), comesFirst);
+        points.erase(std::unique(points.begin(), points.end()), points.end());
         const double reach = std::max(kLeastTouch, kTouch * widths[piece]);
-        const auto isOtherNear = [&](const glm::vec3& at) {
+        const auto touching = std::ranges::count_if(points, [&](const glm::vec3& at) {
             return ends.anyNear(
                 at, at, static_cast<float>(reach) + 1, [&](const SheetEnds::End& end) {
                     return pieceOfEnd(end) != piece && distance(glm::dvec3(at), end) <= reach;
                 });
-        };
-        std::size_t all = 0;
-        std::size_t touching = 0;
-        for (; i < points.size() && points[i].piece == piece; ++i, ++all)
-            touching += isOtherNear(points[i].at) ? 1 : 0;
-        isClosing[piece] = 3 * touching >= 2 * all;
+        });
+        isClosing[piece] = 3 * static_cast<std::size_t>(touching) >= 2 * points.size();
     }
     return isClosing;
 }

@@ -62,8 +62,7 @@ public:
           stop_(stop),
           parts_(parts),
           colours_(mesh),
-          ends_(mesh, options.goesOnAt),
-          staying_(whereOthersEnd(mesh, ends_)) {
+          staying_(whereOthersEnd(mesh, SheetEnds(mesh, options.goesOnAt))) {
         lod_.geometry.resize(tree.nodes.size());
         lod_.points.resize(tree.nodes.size());
         errorSteps_.resize(tree.nodes.size());
@@ -87,7 +86,6 @@ private:
     const std::stop_token& stop_;
     LodParts* parts_;
     const SurfaceColours colours_;
-    const SheetEnds ends_;
     const std::vector<std::uint8_t> staying_;  ///< vertices
     LodTree lod_;
     std::vector<double> errorSteps_;
@@ -128,10 +126,12 @@ LodPart Builder::visit(std::size_t index) {
     return left;
 }
 
-/// Only what surfaces of one piece do not need.
+/// Only what surfaces of one piece do not need. Where sheets end is found once more: of a soup that
+/// is more than could be kept.
 const Components& Builder::components() {
-    std::call_once(componentsMade_,
-                   [this] { components_.emplace(mesh_, tree_, ends_, options_.goesOnAt); });
+    std::call_once(componentsMade_, [this] {
+        components_.emplace(mesh_, tree_, SheetEnds(mesh_, options_.goesOnAt), options_.goesOnAt);
+    });
     return *components_;
 }
 

@@ -20,6 +20,7 @@ namespace {
 
 /// Lattice steps within which two sheets touch.
 constexpr float kTouch = 3;
+constexpr std::uint32_t kLeafEnds = 8;
 
 glm::vec3 pointOf(std::uint64_t packed) { return glm::vec3(unpackPosition(packed)); }
 
@@ -105,43 +106,58 @@ private:
     glm::dvec3 normal_{0.0};
 };
 
+/// Edges that one triangle has alone.
+std::vector<Edge> edgesAlone(const PackedMesh& mesh) {
+    std::vector<Edge> edges = edgesLeftOver(mesh, std::numeric_limits<std::size_t>::max()).value();
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < edges.size();) {
+        const std::size_t first = i;
+        while (i < edges.size() && edges[i].ends() == edges[first].ends()) ++i;
+        if (i == first + 1)
+            edges[kept++] = edges[first];
+    }
+    edges.resize(kept);
+    return edges;
+}
+
 }  // namespace
 
 SheetEnds::SheetEnds(const PackedMesh& mesh, std::span<const std::uint32_t> goesOnAt) {
-    std::vector<bool> goesOn(goesOnAt.empty() ? 0 : mesh.positions.size());
+    std::vector<bool> goesOn(mesh.positions.size());
     for (const std::uint32_t vertex : goesOnAt) goesOn[vertex] = true;
-    const std::vector<Edge> edges =
-        edgesLeftOver(mesh, std::numeric_limits<std::size_t>::max()).value();
-    for (std::size_t i = 0; i < edges.size();) {
-        const Edge& edge = edges[i];
-        std::size_t times = 0;
-        for (; i < edges.size() && edges[i].ends() == edge.ends(); ++i) ++times;
-        if (times == 1 && (goesOn.empty() || !goesOn[edge.fromVertex] || !goesOn[edge.toVertex]))
-            ends_.push_back({pointOf(edge.from), pointOf(edge.to), edge.triangle});
+    {
+        const std::vector<Edge> edges = edgesAlone(mesh);
+        ends_.reserve(edges.size());
+        for (const Edge& edge : edges)
+            if (!goesOn[edge.fromVertex] || !goesOn[edge.toVertex])
+                ends_.push_back({pointOf(edge.from), pointOf(edge.to), edge.triangle});
     }
-    boxes_.resize(ends_.size());
-    build(0, ends_.size());
+    if (!ends_.empty())
+        build(0, static_cast<std::uint32_t>(ends_.size()));
 }
 
-void SheetEnds::build(std::size_t begin, std::size_t end) {
-    if (begin == end)
-        return;
+std::uint32_t SheetEnds::build(std::uint32_t begin, std::uint32_t end) {
     Box box = boxOf(ends_[begin]);
-    for (std::size_t i = begin; i < end; ++i) {
+    for (std::uint32_t i = begin; i < end; ++i) {
         box.low = glm::min(box.low, boxOf(ends_[i]).low);
         box.high = glm::max(box.high, boxOf(ends_[i]).high);
     }
+    const auto index = static_cast<std::uint32_t>(nodes_.size());
+    nodes_.push_back({box, begin, end, 0});
+    if (end - begin <= kLeafEnds)
+        return index;
     const glm::vec3 size = box.high - box.low;
     const int wider = size.y > size.x ? 1 : 0;
     const int axis = size.z > size[wider] ? 2 : wider;
-    const auto at = [&](std::size_t i) { return ends_.begin() + static_cast<std::ptrdiff_t>(i); };
-    const std::size_t middle = begin + (end - begin) / 2;
-    std::nth_element(at(begin), at(middle), at(end), [axis](const End& a, const End& b) {
-        return a.from[axis] + a.to[axis] < b.from[axis] + b.to[axis];
-    });
-    boxes_[middle] = box;
+    const std::uint32_t middle = begin + (end - begin) / 2;
+    std::nth_element(ends_.begin() + begin, ends_.begin() + middle, ends_.begin() + end,
+                     [axis](const End& a, const End& b) {
+                         return a.from[axis] + a.to[axis] < b.from[axis] + b.to[axis];
+                     });
     build(begin, middle);
-    build(middle + 1, end);
+    const std::uint32_t right = build(middle, end);
+    nodes_[index].right = right;
+    return index;
 }
 
 std::vector<std::uint8_t> whereOthersEnd(const PackedMesh& mesh, const SheetEnds& ends) {

@@ -35,7 +35,7 @@ public:
     template <typename IsSuch>
     bool anyNear(const glm::vec3& low, const glm::vec3& high, float reach,
                  const IsSuch& isSuch) const {
-        return search(0, ends_.size(), {low - reach, high + reach}, isSuch);
+        return !nodes_.empty() && search(0, {low - reach, high + reach}, isSuch);
     }
 
 private:
@@ -52,22 +52,30 @@ private:
     static Box boxOf(const End& end) {
         return {glm::min(end.from, end.to), glm::max(end.from, end.to)};
     }
-    void build(std::size_t begin, std::size_t end);
+    std::uint32_t build(std::uint32_t begin, std::uint32_t end);
+
+    struct Node {
+        Box box;
+        std::uint32_t begin;  ///< of its ends
+        std::uint32_t end;
+        std::uint32_t right;  ///< 0 for a leaf; the left one comes right after it
+    };
 
     template <typename IsSuch>
-    bool search(std::size_t begin, std::size_t end, const Box& where, const IsSuch& isSuch) const {
-        if (begin == end)
+    bool search(std::uint32_t index, const Box& where, const IsSuch& isSuch) const {
+        const Node& node = nodes_[index];
+        if (!node.box.meets(where))
             return false;
-        const std::size_t middle = begin + (end - begin) / 2;
-        if (!boxes_[middle].meets(where))
-            return false;
-        const End& here = ends_[middle];
-        return (boxOf(here).meets(where) && isSuch(here)) || search(begin, middle, where, isSuch) ||
-               search(middle + 1, end, where, isSuch);
+        if (node.right != 0)
+            return search(index + 1, where, isSuch) || search(node.right, where, isSuch);
+        for (std::uint32_t i = node.begin; i < node.end; ++i)
+            if (boxOf(ends_[i]).meets(where) && isSuch(ends_[i]))
+                return true;
+        return false;
     }
 
-    std::vector<End> ends_;   ///< that of a tree [begin, end) is in its middle
-    std::vector<Box> boxes_;  ///< around all of that tree
+    std::vector<End> ends_;
+    std::vector<Node> nodes_;
 };
 
 /// Of each vertex, whether it is a corner of a triangle that another sheet ends at, to within what
