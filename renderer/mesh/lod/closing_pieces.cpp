@@ -18,6 +18,8 @@ namespace {
 constexpr double kTouch = 1.0 / 4;
 /// Lattice steps: what touched in the source still does.
 constexpr double kLeastTouch = 3;
+/// Ends that may be looked at for one point: one with more around it touches some.
+constexpr int kMostLooks = 256;
 
 glm::dvec3 pointOf(std::uint64_t packed) { return glm::dvec3(unpackPosition(packed)); }
 
@@ -76,9 +78,11 @@ std::vector<bool> closingPieces(const PackedMesh& mesh, const SheetEnds& ends,
         points.erase(std::unique(points.begin(), points.end()), points.end());
         const double reach = std::max(kLeastTouch, kTouch * widths[piece]);
         const auto touching = std::ranges::count_if(points, [&](const glm::vec3& at) {
+            int looks = 0;
             return ends.anyNear(
                 at, at, static_cast<float>(reach) + 1, [&](const SheetEnds::End& end) {
-                    return pieceOfEnd(end) != piece && distance(glm::dvec3(at), end) <= reach;
+                    return ++looks > kMostLooks ||
+                           (pieceOfEnd(end) != piece && distance(glm::dvec3(at), end) <= reach);
                 });
         });
         isClosing[piece] = 3 * static_cast<std::size_t>(touching) >= 2 * points.size();

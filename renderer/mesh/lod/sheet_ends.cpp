@@ -21,6 +21,8 @@ namespace {
 /// Lattice steps within which two sheets touch.
 constexpr float kTouch = 3;
 constexpr std::uint32_t kLeafEnds = 8;
+/// Ends that may be looked at for one triangle: one with more around it counts as touched.
+constexpr int kMostLooks = 1024;
 
 glm::vec3 pointOf(std::uint64_t packed) { return glm::vec3(unpackPosition(packed)); }
 
@@ -160,17 +162,39 @@ std::uint32_t SheetEnds::build(std::uint32_t begin, std::uint32_t end) {
     return index;
 }
 
-std::vector<std::uint8_t> whereOthersEnd(const PackedMesh& mesh, const SheetEnds& ends) {
+namespace {
+
+/// Of each vertex, whether its own sheet ends there: 1, else 0.
+std::vector<std::uint8_t> whereItEnds(const PackedMesh& mesh, const SheetEnds& ends) {
     std::vector<std::uint8_t> result(mesh.positions.size(), 0);
+    for (const SheetEnds::End& end : ends.all())
+        for (const std::uint32_t vertex : mesh.triangles[end.triangle]) {
+            const glm::vec3 at = pointOf(mesh.positions[vertex]);
+            if (at == end.from || at == end.to)
+                result[vertex] = 1;
+        }
+    return result;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> whereOthersEnd(const PackedMesh& mesh, const SheetEnds& ends) {
     if (ends.all().empty())
-        return result;
+        return std::vector<std::uint8_t>(mesh.positions.size(), 0);
+    const std::vector<std::uint8_t> isEnd = whereItEnds(mesh, ends);
+    std::vector<std::uint8_t> result = isEnd;
     tbb::parallel_for(std::size_t{0}, mesh.triangles.size(), [&](std::size_t i) {
         const Triangle& triangle = mesh.triangles[i];
+        if (std::ranges::all_of(triangle, [&](std::uint32_t vertex) { return isEnd[vertex] != 0; }))
+            return;
         const Touched touched({pointOf(mesh.positions[triangle[0]]),
                                pointOf(mesh.positions[triangle[1]]),
                                pointOf(mesh.positions[triangle[2]])});
-        if (!ends.anyNear(touched.low(), touched.high(), kTouch,
-                          [&](const SheetEnds::End& end) { return touched.isBy(end); }))
+        int looks = 0;
+        const auto touches = [&](const SheetEnds::End& end) {
+            return ++looks > kMostLooks || touched.isBy(end);
+        };
+        if (!ends.anyNear(touched.low(), touched.high(), kTouch, touches))
             return;
         for (const std::uint32_t vertex : triangle)
             std::atomic_ref(result[vertex]).store(1, std::memory_order_relaxed);

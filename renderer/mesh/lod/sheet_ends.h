@@ -78,9 +78,10 @@ private:
     std::vector<Node> nodes_;
 };
 
-/// Of each vertex, whether it is a corner of a triangle that another sheet ends at, to within what
-/// roundings of the source and of the lattice may part: 1, else 0. Were it moved, one could see
-/// through between the two.
+/// Of each vertex, whether a sheet ends there, or it is a corner of a triangle that another sheet
+/// ends at, to within what roundings of the source and of the lattice may part: 1, else 0. Were it
+/// moved, one could see through between the two. Triangles with thousands of ends around them count
+/// as touched.
 std::vector<std::uint8_t> whereOthersEnd(const PackedMesh& mesh, const SheetEnds& ends);
 
 }  // namespace eyrie::mesh
