@@ -16,8 +16,9 @@ constexpr int kFineRays = 16;  ///< a pixel's side
 /// To explain the pixels of one picture; a few seconds. More are no exceptions.
 constexpr std::size_t kMostRaysAround = 1'000'000;
 /// Beside a pixel's centre a seam between triangles may open. More than what corners are rounded
-/// by, for a surface may be seen at an angle.
+/// by, for a surface may be seen at an angle; and what is promised, but no slit that shows.
 constexpr double kSeamPixels = 1.0 / 64;
+constexpr double kMostSlitPixels = 1.0 / 16;
 constexpr int kMostSeams = 64;  ///< of one picture
 
 template <typename Function>
@@ -178,8 +179,9 @@ private:
     bool isThroughSeams(int x, int y, double tested) {
         if (++seams_ > kMostSeams)
             return false;
+        const double reach = kSeamPixels + std::min(suspects_.abovePixels, kMostSlitPixels);
         const auto seen = surface_.throughSeams(camera_.rayThrough(x + 0.5, y + 0.5),
-                                                kSeamPixels / camera_.focalPixels());
+                                                reach / camera_.focalPixels());
         return std::isfinite(tested) ? tested <= seen.last + slack(tested) : seen.last == kNoHit;
     }
 
