@@ -8,7 +8,8 @@ namespace eyrie::wire {
 /// What it would print on standard error goes to our log, at level debug: whatever matters of it
 /// comes back as a status, and is told once, in words for people. And it stays initialised until
 /// the process ends, because the shutdown of gRPC 1.51 after the last server or channel may wait
-/// 10 seconds for a poller that watches a connection which is gone.
+/// 10 seconds for a poller that watches a connection which is gone. Its threads therefore outlive
+/// main(): neither the log nor OpenSSL is taken from under them.
 void startGrpc();
 
 }  // namespace eyrie::wire
