@@ -24,15 +24,19 @@ namespace {
 /// 59), and where corners have normals of their own or source positions are kept (71 to 180).
 constexpr std::uint64_t kTriangleBytes = 64;
 constexpr std::uint64_t kRichTriangleBytes = 200;
+/// More of each vertex beyond one of two triangles: loose triangles have two and a half such.
+constexpr std::uint64_t kLooseVertexBytes = 96;
 /// The program, buffers of rows, and the cache of positions.
 constexpr std::uint64_t kFixedBytes = std::uint64_t{160} << 20;
 /// More of a part's, which is gathered before it is imported.
 constexpr std::uint64_t kGatherBytes = 64;
 
-std::uint64_t bytesPerTriangle(const MeshImportOptions& options) {
-    return options.pack.keepsExact || options.pack.normals != NormalSource::Smooth
-               ? kRichTriangleBytes
-               : kTriangleBytes;
+std::uint64_t bytesPerTriangle(std::uint64_t triangles, std::uint64_t vertices,
+                               const MeshImportOptions& options) {
+    const bool isRich = options.pack.keepsExact || options.pack.normals != NormalSource::Smooth;
+    const std::uint64_t looseVertices = vertices - std::min(vertices, triangles / 2);
+    return (isRich ? kRichTriangleBytes : kTriangleBytes) +
+           looseVertices * kLooseVertexBytes / std::max<std::uint64_t>(triangles, 1);
 }
 
 void addLevels(std::vector<mesh::LodLevel>& to, const std::vector<mesh::LodLevel>& from) {
@@ -126,7 +130,7 @@ absl::StatusOr<std::optional<mesh::ExactForm>> exactFormOf(const MeshSpool& spoo
 
 std::uint64_t importBytes(std::uint64_t triangles, std::uint64_t vertices,
                           std::uint64_t sourceBytes, const MeshImportOptions& options) {
-    return sourceBytes + triangles * bytesPerTriangle(options) + vertices;
+    return sourceBytes + triangles * bytesPerTriangle(triangles, vertices, options) + vertices;
 }
 
 std::uint64_t trianglesAtOnce(std::uint64_t memoryBytes, std::uint64_t triangles,
@@ -134,7 +138,8 @@ std::uint64_t trianglesAtOnce(std::uint64_t memoryBytes, std::uint64_t triangles
     const std::uint64_t fixed = kFixedBytes + triangles / 8 + vertices / 4;
     return memoryBytes <= fixed
                ? 0
-               : (memoryBytes - fixed) / (bytesPerTriangle(options) + kGatherBytes);
+               : (memoryBytes - fixed) /
+                     (bytesPerTriangle(triangles, vertices, options) + kGatherBytes);
 }
 
 absl::StatusOr<MeshImportReport> importInParts(std::span<const std::string> paths,

@@ -53,9 +53,11 @@ public:
             cover(triangles_.back());
         }
         for (const terrain::Triangle& t : triangles_) {
-            const auto [low, high] = std::minmax({t[0].i, t[1].i, t[2].i});
-            byFirstColumn_.insert({low, truth::Triangle{place(t[0]), place(t[1]), place(t[2])}});
-            widest_ = std::max(widest_, high - low);
+            const auto [i0, i1] = std::minmax({t[0].i, t[1].i, t[2].i});
+            const auto [j0, j1] = std::minmax({t[0].j, t[1].j, t[2].j});
+            for (std::int32_t j = j0 / kBin; j <= j1 / kBin; ++j)
+                for (std::int32_t i = i0 / kBin; i <= i1 / kBin; ++i)
+                    bins_[{i, j}].push_back({place(t[0]), place(t[1]), place(t[2])});
         }
     }
 
@@ -63,14 +65,16 @@ public:
 
     /// Whether a point of a triangle is.
     bool isWithin(double metres, const Vec3& point) const {
-        const double first = (point.x - metres) / kPostMetres - widest_ - 1;
-        const double last = (point.x + metres) / kPostMetres + 1;
-        const auto end = byFirstColumn_.upper_bound(static_cast<std::int32_t>(last));
-        return std::any_of(byFirstColumn_.lower_bound(static_cast<std::int32_t>(first)), end,
-                           [&](const auto& triangle) {
-                               const Vec3 nearest = truth::closestPoint(triangle.second, point);
-                               return glm::distance(nearest, point) <= metres;
-                           });
+        const auto binOf = [](double place) {
+            return static_cast<std::int32_t>(std::floor(place / (kPostMetres * kBin)));
+        };
+        const std::int32_t reach = binOf(metres) + 1;
+        for (std::int32_t ring = 0; ring <= reach; ++ring)
+            for (std::int32_t j = -ring; j <= ring; ++j)
+                for (std::int32_t i = -ring; i <= ring; i += std::abs(j) == ring ? 1 : 2 * ring)
+                    if (isWithin(metres, point, {binOf(point.x) + i, binOf(point.y) + j}))
+                        return true;
+        return false;
     }
 
     /// At a post; infinite where nothing is.
@@ -80,6 +84,19 @@ public:
     }
 
 private:
+    using Place = std::pair<std::int32_t, std::int32_t>;
+    static constexpr std::int32_t kBin = 4;  ///< posts a side
+
+    bool isWithin(double metres, const Vec3& point, const Place& bin) const {
+        const auto found = bins_.find(bin);
+        return found != bins_.end() &&
+               std::any_of(found->second.begin(), found->second.end(),
+                           [&](const truth::Triangle& triangle) {
+                               return glm::distance(truth::closestPoint(triangle, point), point) <=
+                                      metres;
+                           });
+    }
+
     void cover(const terrain::Triangle& t) {
         const auto [i0, i1] = std::minmax({t[0].i, t[1].i, t[2].i});
         const auto [j0, j1] = std::minmax({t[0].j, t[1].j, t[2].j});
@@ -96,9 +113,8 @@ private:
     }
 
     std::vector<terrain::Triangle> triangles_;
-    std::multimap<std::int32_t, truth::Triangle> byFirstColumn_;
-    std::int32_t widest_ = 0;
-    std::map<std::pair<std::int32_t, std::int32_t>, double> heights_;
+    std::map<Place, std::vector<truth::Triangle>> bins_;  ///< where its box reaches
+    std::map<Place, double> heights_;                     ///< of posts
 };
 
 /// Whether a post without data is.
@@ -130,8 +146,8 @@ std::size_t groundBeyond(double metres, const HeightGrid& grid, const TileId& id
                                               std::pair(i, j + 1), std::pair(i + 1, j + 1)}) {
                 const double height = grid.at(column, row);
                 if (std::isnan(height) || std::abs(tile.heightAt(column, row) - height) <= metres ||
-                    tile.isWithin(metres, place(column, row, height)) ||
-                    (isInsideEmpty && isNodataWithin(metres, grid, column, row)))
+                    (isInsideEmpty && isNodataWithin(metres, grid, column, row)) ||
+                    tile.isWithin(metres, place(column, row, height)))
                     continue;
                 ++beyond;
             }
