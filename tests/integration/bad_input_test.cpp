@@ -366,7 +366,7 @@ TEST_F(BadInput, ARendererWithoutACoordinatorSaysSoAndCanBeEnded) {
         return renderer.errors().find("127.0.0.1:1") != std::string::npos;
     })) << renderer.errors();
     renderer.send(SIGTERM);
-    EXPECT_EQ(renderer.waitFor(seconds(5)), (test::Exit{0, 0})) << renderer.errors();
+    EXPECT_EQ(renderer.waitFor(seconds(30)), (test::Exit{0, 0})) << renderer.errors();
     expectRefused({"renderer", "--coordinator", "nowhere"}, {"nowhere"});
     expectRefused({"renderer"}, {"--coordinator"});
 }

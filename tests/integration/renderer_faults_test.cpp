@@ -87,7 +87,7 @@ TEST_F(RendererFaults, OneThatIsToldToLeaveDoesSoBetweenFramesAndExitsWithStatus
     });
     EXPECT_TRUE(test::eventually(seconds(30), [&] { return drawn > 3; }));
     leaves->send(SIGTERM);
-    EXPECT_EQ(leaves->waitFor(seconds(5)), (test::Exit{0, 0})) << leaves->errors();
+    EXPECT_EQ(leaves->waitFor(seconds(30)), (test::Exit{0, 0})) << leaves->errors();
     EXPECT_EQ(coordinator_->frames().status().renderers.size(), 1U);
     const int before = drawn;
     EXPECT_TRUE(test::eventually(seconds(30), [&] { return drawn > before + 3; }));

@@ -156,9 +156,9 @@ TEST_F(Serve, AnswersAndEndsWithoutATraceOnATermination) {
     const std::vector<pid_t> children = test::childrenOf(server_->id());
     EXPECT_EQ(rendererProcesses().size(), 2U);
     server_->send(SIGTERM);
-    EXPECT_EQ(server_->waitFor(seconds(5)), (test::Exit{0, 0})) << server_->errors();
+    EXPECT_EQ(server_->waitFor(seconds(30)), (test::Exit{0, 0})) << server_->errors();
     for (const pid_t child : children)
-        EXPECT_TRUE(test::eventually(seconds(1), [&] { return !test::isAlive(child); }))
+        EXPECT_TRUE(test::eventually(seconds(10), [&] { return !test::isAlive(child); }))
             << "left behind: " << test::commandLineOf(child);
     EXPECT_EQ(test::namesIn(folder_.path("tmp")), std::set<std::string>{});
 }
