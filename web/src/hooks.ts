@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Camera } from "./camera/camera";
 import type { State } from "./state";
-import type { Swap, Viewer } from "./viewer";
+import type { Swap } from "./view/swaps";
+import type { Viewer } from "./viewer";
 
 /** What `window.eyrie` tells, for tests and for pages that embed this one. Read only. */
 export interface Hooks {
@@ -92,7 +93,7 @@ export function exposeHooks(state: State, viewer: Viewer): void {
       return viewer.camera;
     },
     get swaps() {
-      return viewer.swaps;
+      return viewer.swaps.recent;
     },
   };
   Object.defineProperty(window, "eyrie", { value: Object.freeze(hooks) });

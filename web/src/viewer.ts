@@ -10,7 +10,7 @@ import { distanceLimits, lookAt } from "./camera/orbit";
 import type { Point } from "./camera/touch";
 import type { Bounds, Direction } from "./camera/standard";
 import { directionOfView, standardCamera, standardViews } from "./camera/standard";
-import type { Frame, SessionState, Shown } from "./protocol/messages";
+import type { Frame, SessionState } from "./protocol/messages";
 import type { LedView } from "./protocol/led_view";
 import { ledViewOf } from "./protocol/led_view";
 import { boundsOf, cameraOf } from "./protocol/messages";
@@ -23,11 +23,14 @@ import type { SharedView } from "./share";
 import type { State } from "./state";
 import { PictureCanvas } from "./view/canvas";
 import { Walker } from "./walker";
-import { FrameRate, Latency } from "./view/measure";
+import { FrameRate } from "./view/measure";
 import { numbersOf } from "./view/numbers";
+import type { WantedView } from "./view/sender";
+import { ViewSender } from "./view/sender";
 import type { Size } from "./view/size";
-import { canShowVideo } from "./view/video";
 import { pictureSize, softwarePixels } from "./view/size";
+import { Swaps } from "./view/swaps";
+import { canShowVideo } from "./view/video";
 
 /** A frame on its way to the canvas; `at`: when it arrived, in ms of performance.now(). */
 interface Arrived {
@@ -38,16 +41,6 @@ interface Arrived {
 
 /** Null: by the camera alone. */
 const seenOf = (frame: Frame) => (frame.throughWall ? frame.seen : null);
-
-/** A picture behind a swap barrier: when it was decoded and drawn (0: not yet), in ms since 1970. */
-export interface Swap {
-  /** The same on all screens of the session. */
-  swap: number;
-  ready: number;
-  drawn: number;
-}
-
-const swapsKept = 256;
 
 /** A view without its picture for so long is stale. */
 const staleAfter = 2000;
@@ -69,15 +62,18 @@ export class Viewer implements CameraHolder {
   readonly questions: Questions;
   private readonly walker: Walker;
   private readonly rate = new FrameRate();
-  private readonly latency = new Latency();
+  private readonly sender = new ViewSender({
+    wantedView: () => this.wantedView(),
+    sendView: (view) => this.socket.sendView(view),
+    isConnected: () => this.state.connection.value.kind === "connected",
+  });
   private readonly frames = new Map<number, Arrived>();
   private readonly ticker: number;
 
   /** The picture on the canvas as the server's PNG, while it is exact. */
   exactPicture: Blob | undefined;
 
-  /** The last pictures that were shown behind a swap barrier. */
-  readonly swaps: Swap[] = [];
+  readonly swaps = new Swaps();
 
   /** How often the camera was moved, by whomever. */
   movements = 0;
@@ -85,11 +81,6 @@ export class Viewer implements CameraHolder {
   /** H.264 can be decoded, and none has failed to be. */
   private showsVideo = false;
   private size: Size;
-  private sequence = 0;
-  /** Views that were sent and not drawn yet. */
-  private readonly sentViews = new Map<number, Shown>();
-  /** Of the last view, as text; empty before any on this connection. */
-  private sentContent = "";
   /** The screen that the server knows of, as a query. */
   private sentScreen = "";
   /** What the last frame said of the camera of its view. */
@@ -101,8 +92,6 @@ export class Viewer implements CameraHolder {
   private led: LedView | undefined;
   /** What a program has asked for in this page's place, as text, once it has been adopted. */
   private followed = "";
-  private sendAt: number | undefined;
-  private inputTime: number | undefined;
   private sceneKey = "";
 
   constructor(
@@ -147,12 +136,12 @@ export class Viewer implements CameraHolder {
       },
     });
     state.walking.watch((isWalking) => this.walkingChanged(isWalking));
-    state.tau.watch(() => this.requestView(performance.now()));
-    state.budget.watch(() => this.requestView(performance.now()));
-    state.shading.watch(() => this.requestView(performance.now()));
-    state.look.watch(() => this.requestView(performance.now()));
+    state.tau.watch(() => this.sender.request(performance.now()));
+    state.budget.watch(() => this.sender.request(performance.now()));
+    state.shading.watch(() => this.sender.request(performance.now()));
+    state.look.watch(() => this.sender.request(performance.now()));
     state.output.watch(() => {
-      this.requestView(performance.now());
+      this.sender.request(performance.now());
       this.sendScreen();
     });
     this.ticker = window.setInterval(() => this.tick(), 250);
@@ -197,7 +186,7 @@ export class Viewer implements CameraHolder {
   private walkingChanged(isWalking: boolean): void {
     if (isWalking && this.camera !== null) this.walker.begin(this.camera);
     else this.walker.end();
-    this.requestView();
+    this.sender.request();
   }
 
   move(camera: Camera, inputTime?: number): void {
@@ -217,9 +206,8 @@ export class Viewer implements CameraHolder {
     }
     this.camera = camera;
     this.movements += 1;
-    this.requestView(inputTime);
-    // While no picture is on its way there is nothing to wait for.
-    if (this.latency.waitingSince() === undefined) this.sendNow();
+    this.sender.request(inputTime);
+    this.sender.sendUnlessWaiting();
   }
 
   goHome(inputTime?: number): void {
@@ -296,8 +284,8 @@ export class Viewer implements CameraHolder {
 
   /** The exact picture of what is wanted now, once it is on the canvas. */
   exactNow(): Blob | undefined {
-    const isNewest = this.state.numbers.value?.viewSequence === this.sequence;
-    return isNewest && this.sendAt === undefined ? this.exactPicture : undefined;
+    const isNewest = this.sender.isNewest(this.state.numbers.value?.viewSequence);
+    return isNewest ? this.exactPicture : undefined;
   }
 
   show(view: SharedView): void {
@@ -312,27 +300,10 @@ export class Viewer implements CameraHolder {
     this.state.look.set(view.look);
   }
 
-  /**
-   * Sends the view with the next animation frame, or before that with an acknowledgement: the
-   * newest one then. `inputTime` is of the input that caused it, if one did.
-   */
-  private requestView(inputTime?: number): void {
-    this.inputTime ??= inputTime;
-    this.sendAt ??= requestAnimationFrame(() => this.sendView());
-  }
-
-  private sendNow(): void {
-    if (this.sendAt === undefined) return;
-    cancelAnimationFrame(this.sendAt);
-    this.sendView();
-  }
-
-  private sendView(): void {
-    this.sendAt = undefined;
-    const inputTime = this.inputTime;
-    this.inputTime = undefined;
-    if (this.camera === null || this.isWatching) return;
-    const view = {
+  /** Null before there is a camera, and while another moves it. */
+  private wantedView(): WantedView | null {
+    if (this.camera === null || this.isWatching) return null;
+    return {
       camera: this.camera,
       ...this.size,
       tauPixels: this.state.tau.value,
@@ -341,25 +312,6 @@ export class Viewer implements CameraHolder {
       look: this.seenLook(),
       output: this.state.output.value,
     };
-    // The server draws what has changed: it would not answer the same view again.
-    const content = JSON.stringify(view);
-    if (content === this.sentContent) return;
-    const isSent = this.socket.sendView({ sequence: this.sequence + 1, ...view });
-    // A view that cannot go now goes when the connection opens, or with the next frame.
-    if (!isSent) {
-      if (this.state.connection.value.kind === "connected") this.requestView(inputTime);
-      return;
-    }
-    this.sentContent = content;
-    this.sequence += 1;
-    this.sentViews.set(this.sequence, {
-      camera: view.camera,
-      ...this.size,
-      exaggeration: view.look.exaggeration,
-      hidden: view.look.hidden,
-      seen: null,
-    });
-    this.latency.sent(this.sequence, performance.now(), inputTime);
   }
 
   /** Nothing lifts a walk out of the ground: it is above it, and nearer than the server would let. */
@@ -388,7 +340,7 @@ export class Viewer implements CameraHolder {
     const size = this.wantedSize();
     if (size.width === this.size.width && size.height === this.size.height) return;
     this.size = size;
-    this.requestView();
+    this.sender.request();
   }
 
   // ---- The server
@@ -398,16 +350,14 @@ export class Viewer implements CameraHolder {
     if (this.showsVideo) this.socket.tellAbilities(true);
     this.sentScreen = "";
     this.sendScreen();
-    this.requestView();
+    this.sender.request();
   }
 
   private lost(): void {
-    this.latency.reset();
+    this.sender.lost();
     this.frames.clear();
     this.canvas.forget();
     this.questions.lost();
-    this.inputTime = undefined;
-    this.sentContent = "";
     this.state.connection.set({ kind: "lost", since: performance.now() });
   }
 
@@ -432,11 +382,10 @@ export class Viewer implements CameraHolder {
   /** What was sent while another leads is not answered; who leads now has to say where to. */
   private placeChanged(): void {
     if (this.isWatching) {
-      this.latency.reset();
-      this.sentContent = "";
+      this.sender.forgetAll();
     } else if (this.led !== undefined) {
       this.led = undefined;
-      this.requestView();
+      this.sender.request();
     }
   }
 
@@ -464,8 +413,7 @@ export class Viewer implements CameraHolder {
     const swap = this.frames.get(frameNumber)?.frame.swap ?? 0n;
     if (swap === 0n) return;
     this.socket.ready(swap);
-    this.swaps.push({ swap: Number(swap), ready: performance.timeOrigin + time, drawn: 0 });
-    if (this.swaps.length > swapsKept) this.swaps.shift();
+    this.swaps.ready(swap, time);
   }
 
   private swap(swap: bigint): void {
@@ -475,7 +423,7 @@ export class Viewer implements CameraHolder {
 
   private acknowledge(frameNumber: number, time: number): void {
     // The server may start a frame for each that is acknowledged: it is to be of the newest view.
-    this.sendNow();
+    this.sender.sendNow();
     const arrived = this.frames.get(frameNumber)?.at ?? time;
     this.socket.acknowledge(frameNumber, Math.max(0, time - arrived));
     for (const known of this.frames.keys()) if (known <= frameNumber) this.frames.delete(known);
@@ -487,25 +435,20 @@ export class Viewer implements CameraHolder {
     this.acknowledge(frameNumber, time);
     this.exactPicture = undefined;
     if (frame === undefined) return; // of a connection that is gone
-    this.noteSwap(frame, time);
+    this.swaps.drawn(frame.swap, time);
     this.rate.drawn(time);
-    this.latency.drawn(Number(frame.viewSequence), time);
+    this.sender.drawn(Number(frame.viewSequence), time);
     this.lifted = { camera: cameraOf(frame.liftedCamera), sequence: Number(frame.viewSequence) };
     this.adoptLifted();
     this.noteShown(frame);
     const seen = {
       exact: isExact,
       fps: this.rate.perSecond(time),
-      inputToDrawnMilliseconds: this.latency.median(),
+      inputToDrawnMilliseconds: this.sender.medianLatency(),
       frozen: this.state.look.value.frozen !== null,
     };
     this.state.numbers.set(numbersOf(frame, seen, this.state.numbers.value?.limitedBy ?? ""));
     if (isExact) this.exactPicture = arrived?.picture;
-  }
-
-  private noteSwap({ swap }: Frame, time: number): void {
-    const last = this.swaps.at(-1);
-    if (last?.swap === Number(swap)) last.drawn = performance.timeOrigin + time;
   }
 
   private noteShown(frame: Frame): void {
@@ -515,9 +458,7 @@ export class Viewer implements CameraHolder {
       return;
     }
     this.followed = "";
-    const sequence = Number(frame.viewSequence);
-    const sent = this.sentViews.get(sequence);
-    for (const known of this.sentViews.keys()) if (known < sequence) this.sentViews.delete(known);
+    const sent = this.sender.shownBy(Number(frame.viewSequence));
     if (sent === undefined) return;
     const camera = cameraOf(frame.liftedCamera) ?? sent.camera;
     const { width, height } = frame;
@@ -529,7 +470,7 @@ export class Viewer implements CameraHolder {
     const content = JSON.stringify(view);
     if (content === this.followed || this.controls.isDragging) return;
     this.followed = content;
-    this.sentContent = "";
+    this.sender.forgetLast();
     if (queryOf(view.output) !== queryOf(this.state.output.value))
       this.state.output.set(view.output);
     this.show(view);
@@ -570,7 +511,7 @@ export class Viewer implements CameraHolder {
    */
   private adoptLifted(): void {
     const { camera, sequence } = this.lifted;
-    const isNewest = sequence === this.sequence && this.sendAt === undefined;
+    const isNewest = this.sender.isNewest(sequence);
     if (camera !== undefined && isNewest && !this.controls.isDragging) this.camera = camera;
   }
 
@@ -585,7 +526,7 @@ export class Viewer implements CameraHolder {
     const numbers = this.state.numbers.value;
     const fps = this.rate.perSecond(now);
     if (numbers !== null && numbers.fps !== fps) this.state.numbers.set({ ...numbers, fps });
-    const waitingSince = this.latency.waitingSince();
+    const waitingSince = this.sender.waitingSince();
     this.state.stale.set(waitingSince !== undefined && now - waitingSince > staleAfter);
   }
 }
