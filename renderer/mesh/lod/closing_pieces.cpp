@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <glm/geometric.hpp>
+#include <oneapi/tbb/parallel_for.h>
 
 #include "renderer/mesh/vertex_packing.h"
 
@@ -19,7 +20,7 @@ constexpr double kTouch = 1.0 / 4;
 /// Lattice steps: what touched in the source still does.
 constexpr double kLeastTouch = 3;
 /// Ends that may be looked at for one point: one with more around it touches some.
-constexpr int kMostLooks = 256;
+constexpr int kMostLooks = 64;
 
 glm::dvec3 pointOf(std::uint64_t packed) { return glm::dvec3(unpackPosition(packed)); }
 
@@ -66,13 +67,18 @@ std::vector<bool> closingPieces(const PackedMesh& mesh, const SheetEnds& ends,
     std::ranges::sort(byPiece, {},
                       [&](std::uint32_t i) { return std::pair(pieceOfEnd(all[i]), i); });
 
+    std::vector<std::size_t> firsts;  // of each piece that ends anywhere
+    for (std::size_t i = 0; i < byPiece.size(); ++i)
+        if (i == 0 || pieceOfEnd(all[byPiece[i]]) != pieceOfEnd(all[byPiece[i - 1]]))
+            firsts.push_back(i);
+    firsts.push_back(byPiece.size());
+
     const std::vector<double> widths = widthsOf(mesh, ends, pieceOf, count);
-    std::vector<bool> isClosing(count, false);
-    std::vector<glm::vec3> points;  // where a piece ends
-    for (std::size_t i = 0; i < byPiece.size();) {
-        const std::uint32_t piece = pieceOfEnd(all[byPiece[i]]);
-        points.clear();
-        for (; i < byPiece.size() && pieceOfEnd(all[byPiece[i]]) == piece; ++i)
+    std::vector<std::uint8_t> isClosing(count, 0);
+    tbb::parallel_for(std::size_t{1}, firsts.size(), [&](std::size_t k) {
+        const std::uint32_t piece = pieceOfEnd(all[byPiece[firsts[k - 1]]]);
+        std::vector<glm::vec3> points;  // where it ends
+        for (std::size_t i = firsts[k - 1]; i < firsts[k]; ++i)
             points.insert(points.end(), {all[byPiece[i]].from, all[byPiece[i]].to});
         std::sort(points.begin(), points.end(), comesFirst);
         points.erase(std::unique(points.begin(), points.end()), points.end());
@@ -85,9 +91,9 @@ std::vector<bool> closingPieces(const PackedMesh& mesh, const SheetEnds& ends,
                            (pieceOfEnd(end) != piece && distance(glm::dvec3(at), end) <= reach);
                 });
         });
-        isClosing[piece] = 3 * static_cast<std::size_t>(touching) >= 2 * points.size();
-    }
-    return isClosing;
+        isClosing[piece] = 3 * static_cast<std::size_t>(touching) >= 2 * points.size() ? 1 : 0;
+    });
+    return {isClosing.begin(), isClosing.end()};
 }
 
 }  // namespace eyrie::mesh
