@@ -185,6 +185,14 @@ private:
         return std::isfinite(tested) ? tested <= seen.last + slack(tested) : seen.last == kNoHit;
     }
 
+    /// Whether the drawn surface itself is where the source is: a triangle seen edge-on gives a
+    /// pixel beside it any depth of its plane.
+    bool isShownRightly(int x, int y, double tested, const Surroundings& around) const {
+        const auto point =
+            suspects_.shown ? suspects_.shown(x + 0.5, y + 0.5, tested) : std::nullopt;
+        return point && faultOf(camera_.depth(*point), around) == nullptr;
+    }
+
     /// The same by rays through the whole area, for what is too thin for pixels' centres; until
     /// they explain the pixel.
     std::size_t DepthComparison::*faultEverywhereAround(int x, int y, double tested) {
@@ -204,7 +212,7 @@ private:
         const bool isInFront = tested < around.nearest;
         const bool isExplained =
             isInFront ? isThin(x, y, tested, around) : isThroughSeams(x, y, tested);
-        return isExplained ? nullptr : fault;
+        return isExplained || isShownRightly(x, y, tested, around) ? nullptr : fault;
     }
 
     void finishDisplacements() {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -121,6 +122,24 @@ TEST(CompareDepth, SeesThatTheGroundBehindAMissingRidgeIsWrongAlthoughItIsReal) 
     const DepthComparison result =
         compareDepth(camera, depthOf(TerrainRayCaster(flat), camera), reference, 1);
     EXPECT_GT(result.misplaced, 200U);
+}
+
+TEST(CompareDepth, JudgesMisplacedPixelsByTheDrawnPointWhereOneIsKnown) {
+    const TerrainRayCaster reference = ridge(0);
+    const Pinhole camera = southernView();
+    auto depth = depthOf(reference, camera);
+    const std::size_t pixel = 30U * kWidth + 80U;
+    const double right = depth[pixel];
+    depth[pixel] = static_cast<float>(0.5 * right);  // a plane's depth beside its triangle
+    const auto misplacedWhereIs = [&](double shownDepth) {
+        const Suspects suspects{.shown = [&](double x, double y, double) {
+            return std::optional(camera.rayThrough(x, y).at(shownDepth));
+        }};
+        return compareDepth(camera, depth, reference, 1, suspects).misplaced;
+    };
+    EXPECT_EQ(compareDepth(camera, depth, reference, 1).misplaced, 1U);
+    EXPECT_EQ(misplacedWhereIs(right), 0U);
+    EXPECT_EQ(misplacedWhereIs(0.6 * right), 1U) << "what is drawn is there";
 }
 
 /// Seen from the origin to the north: a wall 20 m away; before it, 10 m away, one of a left half
