@@ -76,8 +76,8 @@ inline constexpr double kDepthSlack = 4;
 /// `depth`: view-space metres, infinity for nothing; rows from the bottom up, width * height of
 /// `camera`. Uses all cores.
 ///
-/// A pixel displaced by more than `suspects.abovePixels`, or misplaced, is judged by the drawn point
-/// that `suspects.shown` names for it, if any, instead of by its depth.
+/// A pixel displaced by more than `suspects.abovePixels`, or misplaced, is judged by the drawn
+/// point that `suspects.shown` names for it, if any, instead of by its depth.
 DepthComparison compareDepth(const Pinhole& camera, std::span<const float> depth,
                              const ReferenceSurface& reference, int edgePixels,
                              const Suspects& suspects = {});
