@@ -40,6 +40,7 @@ struct Facts {
     std::uint64_t materials = 0;  ///< of a mesh, that are more than a colour
     std::uint64_t textures = 0;
     double textureRmsError = 0;  ///< of the worst of them, of 255
+    std::uint64_t lights = 0;    ///< of a mesh
 };
 
 absl::StatusOr<Facts> terrainFacts(const std::string& path, const page::SourceOptions& sources) {
@@ -77,11 +78,11 @@ absl::StatusOr<Facts> meshFacts(const std::string& path, const page::SourceOptio
                  .coarsestErrorMetres = file.coarsestErrorMetres(),
                  .finestErrorMetres = file.finestErrorMetres(),
                  .tunedLeafTriangles = file.tunedLeafTriangles(),
-
                  .imagery = {},
                  .materials = file.materials().size(),
                  .textures = file.images().size(),
-                 .textureRmsError = worst};
+                 .textureRmsError = worst,
+                 .lights = file.lights().count()};
 }
 
 absl::StatusOr<Facts> dataFacts(const std::string& path, const page::SourceOptions& sources) {
@@ -116,6 +117,8 @@ JsonObject toJson(const Facts& facts) {
         json.count("materials", facts.materials)
             .count("textures", facts.textures)
             .number("textureRmsError", facts.textureRmsError);
+    if (facts.lights > 0)
+        json.count("lights", facts.lights);
     if (facts.imagery)
         json.object("imagery", imageryJson(*facts.imagery));
     return json;
@@ -147,6 +150,9 @@ void printFacts(const std::string& name, const Facts& facts) {
     if (facts.materials > 0)
         fmt::print("  materials   {}, {} textures within {:.2g} of 255 (RMS)\n", facts.materials,
                    facts.textures, facts.textureRmsError);
+    if (facts.lights > 0)
+        fmt::print("  lights      {}, which shine in scenes without lights of their own\n",
+                   facts.lights);
     if (facts.imagery)
         fmt::print("  imagery     {}\n", imageryText(*facts.imagery));
 }

@@ -124,6 +124,11 @@ void checkTables(const std::uint8_t* data, std::size_t size) {
         for (const mesh::PointRange& range : points)
             if (range.points > nodes[range.node].vertexCount)
                 std::abort();
+    const auto lights = tableOf(std::vector<mesh::Light>(header.lightCount));
+    if (mesh::checkLights(lights).ok())
+        for (const mesh::Light& light : lights)
+            if (!(light.reachMetres >= 0))
+                std::abort();
 }
 
 }  // namespace

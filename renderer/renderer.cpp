@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "effects/object_block.h"
-#include "fabric/lights.h"
 #include "fabric/status.h"
 #include "renderer/draw/batches.h"
 #include "renderer/draw/budget_choice.h"
@@ -17,6 +16,7 @@
 #include "renderer/draw/mesh_draw.h"
 #include "renderer/draw/occluded_draw.h"
 #include "renderer/draw/open_object.h"
+#include "renderer/draw/scene_lights.h"
 #include "renderer/draw/selection.h"
 #include "renderer/draw/terrain_draw.h"
 #include "renderer/gl/egl_context.h"
@@ -265,7 +265,7 @@ absl::Status Renderer::Impl::drawSelection(const draw::Selection& selection, con
                                            const fabric::Delivery& delivery,
                                            fabric::FrameStatistics& statistics) {
     RETURN_IF_ERROR(framebuffer_.resize(view.width, view.height));
-    const fabric::Lights lights = fabric::lightsOf(*scene_, frameData.look);
+    const fabric::Lights lights = draw::lightsOf(*scene_, objects_, frameData.look);
     const draw::FrameState frame{view,
                                  lights,
                                  frameData.shading,
@@ -319,7 +319,7 @@ absl::Status Renderer::Impl::measureStages(const draw::Selection& selection, con
                                            const std::stop_token& stop,
                                            fabric::StageMilliseconds& milliseconds) {
     const fabric::PixelViewport pixel{selection.covered.x, selection.covered.y, 1, 1};
-    const fabric::Lights lights = fabric::lightsOf(*scene_, frameData.look);
+    const fabric::Lights lights = draw::lightsOf(*scene_, objects_, frameData.look);
     const draw::FrameState frame{view,       lights, frameData.shading,  frameData.look,
                                  task.range, pixel,  task.pixelViewport, draw::Layer::Opaque,
                                  stop};

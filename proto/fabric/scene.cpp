@@ -44,10 +44,10 @@ absl::Status validateLights(const Scene& scene) {
             return absl::InvalidArgumentError(fmt::format(
                 "scene.pointLights.position must be three finite numbers, at most {} metres away",
                 kMaxCoordinateMetres));
-        if (!(light.reachMetres >= 1e-6 && light.reachMetres <= 1e12))
+        if (!(light.reachMetres >= kLeastReachMetres && light.reachMetres <= kMostReachMetres))
             return absl::InvalidArgumentError(
-                fmt::format("scene.pointLights.reach is {}; it must be from 1e-6 to 1e12 metres",
-                            light.reachMetres));
+                fmt::format("scene.pointLights.reach is {}; it must be from {} to {} metres",
+                            light.reachMetres, kLeastReachMetres, kMostReachMetres));
     }
     return absl::OkStatus();
 }

@@ -39,12 +39,15 @@ struct DirectionalLight {
     bool operator==(const DirectionalLight&) const = default;
 };
 
+inline constexpr double kLeastReachMetres = 1e-6;
+inline constexpr double kMostReachMetres = 1e12;
+
 /// A light at a point of the world, shining all around. At a distance d it is
 /// colour / (1 + (d / reach)^2).
 struct PointLight {
     Vec3 positionMetres{0, 0, 0};
     Vec3 colour{1, 1, 1};
-    double reachMetres = 1;  ///< where half of it arrives; 1e-6 to 1e12
+    double reachMetres = 1;  ///< where half of it arrives; kLeast- to kMostReachMetres
 
     bool operator==(const PointLight&) const = default;
 };
@@ -52,7 +55,8 @@ struct PointLight {
 /// Everything that is drawn: the init data of a session.
 struct Scene {
     std::vector<SceneObject> objects;
-    /// At most kMaxLights together; none of either kind means one at the camera.
+    /// At most kMaxLights together; none of either kind means those of its files (fabric/lights.h)
+    /// or, where these have none either, one at the camera.
     std::vector<DirectionalLight> lights;
     std::vector<PointLight> pointLights = {};
     double ambient = 0.25;  ///< 0 to 1

@@ -129,6 +129,9 @@ public:
     virtual std::unique_ptr<const pick::Surface> surface(
         const fabric::SceneObject& object) const = 0;
 
+    /// That its file brings along. Object space.
+    virtual fabric::FileLights lights() const { return {}; }
+
     virtual MemoryUse memory() const { return {}; }
 
     /// How high it reaches, if it is terrain, in at most `maxCells` cells.

@@ -96,6 +96,7 @@ public:
     }
     absl::Status draw(std::span<const Piece> pieces, const FrameState& frame,
                       fabric::FrameStatistics& statistics) override;
+    fabric::FileLights lights() const override { return file_->lights(); }
     MemoryUse memory() const override {
         MemoryUse use = paging_->memory();
         use.deviceBytes += textures_.bytes();

@@ -25,7 +25,9 @@
 #include <glm/matrix.hpp>
 
 #include "fabric/status.h"
+#include "renderer/import/assimp_lights.h"
 #include "renderer/import/assimp_materials.h"
+#include "renderer/import/assimp_values.h"
 #include "renderer/import/polygon.h"
 #include "renderer/mesh/mapped_file.h"
 
@@ -49,11 +51,6 @@ const aiColor4D kPlain{0.8F, 0.8F, 0.8F, 1.0F};
 
 /// x stays, y goes to z, z to -y.
 const glm::dmat4 kZUpFromYUp(1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1);
-
-glm::dmat4 toDouble(const aiMatrix4x4& m) {
-    return {m.a1, m.b1, m.c1, m.d1, m.a2, m.b2, m.c2, m.d2,
-            m.a3, m.b3, m.c3, m.d3, m.a4, m.b4, m.c4, m.d4};
-}
 
 std::uint8_t byteOf(float value, bool isLinear) {
     double shown = std::isfinite(value) ? std::clamp(double{value}, 0.0, 1.0) : 1.0;
@@ -203,10 +200,11 @@ absl::StatusOr<TriangleMesh> SceneMeshes::gather() {
         const aiNode* node;
         glm::dmat4 worldFromNode;
     };
+    const glm::dmat4 worldFromScene = format_.isYUp ? kZUpFromYUp : glm::dmat4(1);
     std::vector<Placed> waiting;
     if (scene_.mRootNode != nullptr)
-        waiting.push_back({scene_.mRootNode, (format_.isYUp ? kZUpFromYUp : glm::dmat4(1)) *
-                                                 toDouble(scene_.mRootNode->mTransformation)});
+        waiting.push_back(
+            {scene_.mRootNode, worldFromScene * toDouble(scene_.mRootNode->mTransformation)});
     while (!waiting.empty()) {
         const auto [node, worldFromNode] = waiting.back();
         waiting.pop_back();
@@ -223,23 +221,13 @@ absl::StatusOr<TriangleMesh> SceneMeshes::gather() {
                         "least one; export the mesh again with its faces",
                         result_.droppedFaces));
     materials_.moveTo(result_);
-    return std::move(result_);
-}
-
-/// What of a file is no part of a mesh, for TriangleMesh::notes.
-std::vector<std::string> leftOut(const aiScene& scene) {
-    std::vector<std::string> notes;
-    if (scene.mNumLights > 0)
-        notes.push_back(
-            fmt::format("left out its lights, {} of them: a scene has its own, "
-                        "\"lights\" and \"pointLights\"",
-                        scene.mNumLights));
-    if (scene.mNumAnimations > 0)
-        notes.push_back(
+    result_.lights = lightsOf(scene_, worldFromScene, result_.notes);
+    if (scene_.mNumAnimations > 0)
+        result_.notes.push_back(
             fmt::format("left out its animations, {} of them: everything stays where "
                         "the file's nodes put it",
-                        scene.mNumAnimations));
-    return notes;
+                        scene_.mNumAnimations));
+    return std::move(result_);
 }
 
 /// What Assimp is known to get wrong in a file, for TriangleMesh::notes.
@@ -287,11 +275,8 @@ absl::StatusOr<TriangleMesh> read(const std::string& path, const AssimpFormat& f
     try {
         Assimp::Importer importer;
         const aiScene* scene = parse(importer, path, format);
-        if (scene != nullptr) {
-            ASSIGN_OR_RETURN(TriangleMesh mesh, SceneMeshes(*scene, format).gather());
-            mesh.notes = leftOut(*scene);
-            return mesh;
-        }
+        if (scene != nullptr)
+            return SceneMeshes(*scene, format).gather();
         const std::string why = importer.GetErrorString();
         if (why.find("bad_alloc") != std::string::npos)
             throw std::bad_alloc();

@@ -31,7 +31,7 @@ const AssimpFormat* findAssimpFormat(const std::string& path);
 /// z is. Materials' diffuse colours, times those of vertices, become vertex colours, with the
 /// opacity as alpha; diffuse textures are named, or given where the file has them in it, for
 /// loadTextures. glTF's alpha modes are kept; in other formats a texture's alpha says what it is
-/// for. Lights and animations are left out, which notes say, and bones. Polygons are cut by
+/// for. Animations are left out, which notes say, and bones. Polygons are cut by
 /// triangulatePolygon. Points and lines count as dropped faces.
 ///
 /// Assimp runs in a process of its own (reading_process.h) within `limits`.

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <iterator>
@@ -15,7 +14,9 @@
 #include <fmt/format.h>
 
 #include "fabric/status.h"
+#include "renderer/import/jdn_lights.h"
 #include "renderer/import/jdn_materials.h"
+#include "renderer/import/jdn_text.h"
 
 namespace eyrie::import {
 namespace {
@@ -25,17 +26,8 @@ constexpr std::uint64_t kPollInterval = 65536;  // lines between looks at the st
 constexpr std::size_t kLeastElementBytes = 11;
 
 /// Known, and of no use here.
-constexpr std::array<std::string_view, 11> kIgnoredKeys = {
-    "Ambient", "Specular", "Shine",     "Shine Strength", "Pos",        "Direction",
-    "Colour",  "Fall",     "Intensity", "Type",           "Face Normal"};
-
-bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
-
-std::string_view trimmed(std::string_view text) {
-    while (!text.empty() && isBlank(text.front())) text.remove_prefix(1);
-    while (!text.empty() && isBlank(text.back())) text.remove_suffix(1);
-    return text;
-}
+constexpr std::array<std::string_view, 6> kIgnoredKeys = {
+    "Ambient", "Specular", "Shine", "Shine Strength", "Fall", "Face Normal"};
 
 /// With single blanks between words.
 std::string plainKey(std::string_view text) {
@@ -53,21 +45,6 @@ std::string shown(std::string_view text) {
     std::replace_if(
         result.begin(), result.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
     return result;
-}
-
-/// As many numbers as `values` holds, no more and no less.
-template <typename Number>
-bool parseNumbers(std::string_view text, std::span<Number> values) {
-    for (Number& value : values) {
-        text = trimmed(text);
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        if (error != std::errc())
-            return false;
-        text.remove_prefix(static_cast<std::size_t>(end - text.data()));
-        if (!text.empty() && !isBlank(text.front()))
-            return false;
-    }
-    return trimmed(text).empty();
 }
 
 std::uint8_t byteOf(double value) {
@@ -116,7 +93,9 @@ private:
     std::uint64_t materialsExpected_ = 0;
     JdnMaterials materials_;
 
-    std::uint64_t lights_ = 0;
+    std::uint64_t lightsExpected_ = 0;
+    JdnLights lights_;
+
     std::uint64_t objects_ = 0;  // begun
     std::uint64_t objectsExpected_ = 0;
     bool isInObject_ = false;
@@ -292,11 +271,13 @@ absl::Status JdnParser::readValue(const std::string& key, std::string_view value
     if (key == "Number of Materials")
         return openSection(Section::Materials, value, materialsExpected_);
     if (key == "Number of Lights")
-        return openSection(Section::Lights, value, lights_);
+        return openSection(Section::Lights, value, lightsExpected_);
     if (key == "Number of Objects")
         return openSection(Section::Objects, value, objectsExpected_);
     if (key == "Material ID" && section_ != Section::Lights)
         return readMaterialId(value);
+    if (section_ == Section::Lights && lights_.take(key, value))
+        return absl::OkStatus();
     if (section_ == Section::Materials && key == "Material Name") {
         materials_.begin();
         return absl::OkStatus();
@@ -378,6 +359,7 @@ absl::StatusOr<TriangleMesh> JdnParser::parse() {
     if (materials_.count() == 0)
         mesh_.colours.clear();
     addNotes();
+    mesh_.lights = lights_.lights(lightsExpected_, mesh_.notes);
     control_.report("reading", 1);
     return std::move(mesh_);
 }

@@ -17,6 +17,7 @@
 #include "renderer/import/assimp_reader.h"
 #include "renderer/import/jdn_reader.h"
 #include "renderer/import/ply_reader.h"
+#include "renderer/import/source_lights.h"
 #include "renderer/import/texture_files.h"
 #include "renderer/mesh/eym_format.h"
 #include "renderer/mesh/mapped_file.h"
@@ -94,6 +95,7 @@ absl::Status append(TriangleMesh& whole, TriangleMesh part, const std::string& p
         for (std::uint32_t& corner : triangle) corner += static_cast<std::uint32_t>(first);
         whole.triangles.push_back(triangle);
     }
+    fabric::append(whole.lights, part.lights);
     whole.droppedFaces += part.droppedFaces;
     for (const std::string& note : part.notes)
         whole.notes.push_back(fmt::format("{}: {}", path, note));
@@ -202,6 +204,7 @@ absl::StatusOr<TriangleMesh> readMesh(const std::string& path, const ImportContr
     if (endsWith(path, ".obj"))
         noteMissingMaterials(text, path, mesh);
     RETURN_IF_ERROR(loadTextures(mesh, path, control));
+    limitLights(mesh);
     return mesh;
 }
 
@@ -214,6 +217,7 @@ absl::StatusOr<TriangleMesh> readMeshes(std::span<const std::string> paths,
         ASSIGN_OR_RETURN(TriangleMesh part, readMesh(paths[i], shareOf(control, i, paths.size())));
         RETURN_IF_ERROR(append(whole, std::move(part), paths[i]));
     }
+    limitLights(whole);
     return whole;
 }
 

@@ -322,6 +322,7 @@ absl::StatusOr<mesh::PackedMesh> packMesh(TriangleMesh source, PackCounts& count
     counts.weldedVertices = vertices > left ? vertices - left : 0;  // creases make more
     mesh::PackedMesh packed =
         gather(welded, packing.keys, hasColours, lattice, std::move(packing.source.triangles));
+    packed.lights = std::move(packing.source.lights);
     if (hasMaterials)
         gatherTextures(welded, packing, packed);
     if (options.keepsExact)

@@ -64,6 +64,8 @@ struct ResultHeader {
     std::uint64_t textureCoordinates = 0;
     std::uint64_t materialOf = 0;
     std::uint64_t materials = 0;
+    std::uint64_t distantLights = 0;
+    std::uint64_t pointLights = 0;
     std::uint64_t pictureBytes = 0;  ///< textures and images, one after the other
     std::uint64_t textures = 0;
     std::uint64_t images = 0;
@@ -178,6 +180,8 @@ bool writeResult(int fd, const absl::StatusOr<TriangleMesh>& result) {
     header.textureCoordinates = result->textureCoordinates.size();
     header.materialOf = result->materialOf.size();
     header.materials = result->materials.size();
+    header.distantLights = result->lights.distant.size();
+    header.pointLights = result->lights.points.size();
     const std::vector<std::byte> pictures = packPictures(*result);
     header.pictureBytes = pictures.size();
     header.textures = result->textures.size();
@@ -187,7 +191,8 @@ bool writeResult(int fd, const absl::StatusOr<TriangleMesh>& result) {
            writeArray(fd, result->positions) && writeArray(fd, result->triangles) &&
            writeArray(fd, result->normals) && writeArray(fd, result->colours) &&
            writeArray(fd, result->textureCoordinates) && writeArray(fd, result->materialOf) &&
-           writeArray(fd, result->materials) && writeArray(fd, pictures);
+           writeArray(fd, result->materials) && writeArray(fd, result->lights.distant) &&
+           writeArray(fd, result->lights.points) && writeArray(fd, pictures);
 }
 
 /// False when the file is not as long as its header says.
@@ -201,7 +206,9 @@ bool hasItsLength(int fd, const ResultHeader& header) {
                        Wide{header.colours} * sizeof(fabric::Rgba) +
                        Wide{header.textureCoordinates} * sizeof(glm::vec2) +
                        Wide{header.materialOf} * sizeof(std::uint16_t) +
-                       Wide{header.materials} * sizeof(mesh::Material) + header.pictureBytes;
+                       Wide{header.materials} * sizeof(mesh::Material) +
+                       Wide{header.distantLights} * sizeof(fabric::DirectionalLight) +
+                       Wide{header.pointLights} * sizeof(fabric::PointLight) + header.pictureBytes;
     return fstat(fd, &status) == 0 && bytes == static_cast<Wide>(status.st_size);
 }
 
@@ -221,6 +228,8 @@ absl::StatusOr<TriangleMesh> readResult(int fd, bool& isWhole) {
         readArray(fd, mesh.textureCoordinates, header.textureCoordinates) &&
         readArray(fd, mesh.materialOf, header.materialOf) &&
         readArray(fd, mesh.materials, header.materials) &&
+        readArray(fd, mesh.lights.distant, header.distantLights) &&
+        readArray(fd, mesh.lights.points, header.pointLights) &&
         readArray(fd, pictures, header.pictureBytes) && unpackPictures(pictures, header, mesh);
     if (header.code != 0)
         return absl::Status(static_cast<absl::StatusCode>(header.code), message);

@@ -10,6 +10,7 @@
 #include <glm/vec3.hpp>
 
 #include "fabric/image.h"
+#include "fabric/lights.h"
 #include "fabric/vec.h"
 #include "renderer/mesh/material.h"
 
@@ -47,6 +48,7 @@ struct TriangleMesh {
     std::vector<mesh::Material> materials;  ///< the first is plain, where there are any
     std::vector<TextureSource> textures;
     std::vector<mesh::Image> images;
+    fabric::FileLights lights;       ///< as source_lights.h has them
     std::uint64_t droppedFaces = 0;  ///< faces of the source with fewer than three corners
     std::vector<std::string> notes;  ///< what was odd in the source; a line each
 

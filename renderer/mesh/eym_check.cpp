@@ -24,6 +24,9 @@ namespace {
 absl::Status checkCounts(const EymHeader& header) {
     if (header.lidCount > kMostLids)
         return damaged("header.lidCount", header.lidCount, fmt::format("at most {}", kMostLids));
+    if (header.lightCount > fabric::kMaxLights)
+        return damaged("header.lightCount", header.lightCount,
+                       fmt::format("at most {}", fabric::kMaxLights));
     if (header.nodeCount == 0 || header.nodeCount > 2 * kMaxTriangles ||
         endOfTables(header) > header.fileBytes)
         return damaged("header.nodeCount", header.nodeCount, "at least 1, and room for them");
@@ -269,8 +272,33 @@ absl::Status checkPointRanges(std::span<const Node> nodes, std::span<const Point
     return absl::OkStatus();
 }
 
+absl::Status checkLights(std::span<const Light> lights) {
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        const Light& light = lights[i];
+        const double away =
+            glm::length(fabric::Vec3(light.place[0], light.place[1], light.place[2]));
+        if (!(away <= fabric::kMaxCoordinateMetres) || (light.isDistant() && away == 0))
+            return damaged(
+                fmt::format("light {}: place", i),
+                fmt::format("({}, {}, {})", light.place[0], light.place[1], light.place[2]),
+                "a place on the lattice's scale, or a direction");
+        const auto isColour = [](float c) { return c >= 0 && std::isfinite(c); };
+        if (!std::ranges::all_of(light.colour, isColour))
+            return damaged(
+                fmt::format("light {}: colour", i),
+                fmt::format("({}, {}, {})", light.colour[0], light.colour[1], light.colour[2]),
+                "three numbers, 0 or more");
+        if (!light.isDistant() && !(light.reachMetres >= fabric::kLeastReachMetres &&
+                                    light.reachMetres <= fabric::kMostReachMetres))
+            return damaged(
+                fmt::format("light {}: reachMetres", i), light.reachMetres,
+                fmt::format("0, or {} to {}", fabric::kLeastReachMetres, fabric::kMostReachMetres));
+    }
+    return absl::OkStatus();
+}
+
 std::uint64_t endOfTables(const EymHeader& header) {
-    return endOfMaterials(header) + std::uint64_t{header.pointRangeCount} * sizeof(PointRange);
+    return endOfPointRanges(header) + header.lightCount * sizeof(Light);
 }
 
 absl::Status checkHeader(std::span<const std::byte> beginning, std::uint64_t fileBytes) {

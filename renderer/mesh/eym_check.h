@@ -35,6 +35,9 @@ absl::Status checkMaterials(const EymHeader& header, std::span<const Node> nodes
 /// are no others. Errors: DataLoss. Precondition: checkNodes is ok.
 absl::Status checkPointRanges(std::span<const Node> nodes, std::span<const PointRange> ranges);
 
+/// That they shine, from somewhere. Errors: DataLoss.
+absl::Status checkLights(std::span<const Light> lights);
+
 /// Bytes from the file's start to its first page.
 std::uint64_t endOfTables(const EymHeader& header);
 

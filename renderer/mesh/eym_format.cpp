@@ -76,7 +76,8 @@ absl::Status EymFile::readTables() {
         RETURN_IF_ERROR(readLids());
     if (header_.materialCount > 0)
         RETURN_IF_ERROR(readMaterials());
-    return readPointRanges();
+    RETURN_IF_ERROR(readPointRanges());
+    return header_.lightCount > 0 ? readLights() : absl::OkStatus();
 }
 
 absl::Status EymFile::readLids() {
@@ -117,6 +118,23 @@ absl::Status EymFile::readPointRanges() {
             source_->read({endOfMaterials(header_), bytes.size(), header_.pointRangesChecksum},
                           bytes, "the point ranges"));
     return fabric::withContext(checkPointRanges(nodes_, pointRanges_), path());
+}
+
+absl::Status EymFile::readLights() {
+    std::vector<Light> lights(header_.lightCount);
+    const auto bytes = std::as_writable_bytes(std::span(lights));
+    RETURN_IF_ERROR(source_->read({endOfPointRanges(header_), bytes.size(), header_.lightsChecksum},
+                                  bytes, "the lights"));
+    RETURN_IF_ERROR(fabric::withContext(checkLights(lights), path()));
+    for (const Light& light : lights) {
+        const fabric::Vec3 place(light.place[0], light.place[1], light.place[2]);
+        const fabric::Vec3 colour(light.colour[0], light.colour[1], light.colour[2]);
+        if (light.isDistant())
+            lights_.distant.push_back({place, colour});
+        else
+            lights_.points.push_back({place, colour, light.reachMetres});
+    }
+    return absl::OkStatus();
 }
 
 std::span<const PointRange> EymFile::pointRanges(std::uint32_t node) const {

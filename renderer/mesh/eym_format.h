@@ -14,6 +14,7 @@
 #include <glm/vec3.hpp>
 
 #include "fabric/box.h"
+#include "fabric/lights.h"
 #include "renderer/mesh/codec/exact_codec.h"
 #include "renderer/mesh/lattice.h"
 #include "renderer/mesh/mapped_file.h"
@@ -31,6 +32,7 @@
 ///   ImageRecord [imageCount]
 ///   MaterialRange [rangeCount]      of the nodes that have triangles, in their order
 ///   PointRange  [pointRangeCount]   of the nodes that are drawn as points, in their order
+///   Light       [lightCount]
 ///   pages                           of the nodes that have geometry, in their order: that of what
 ///                                   is drawn, and then, where kept, that of source positions
 ///   images                          (material.h)
@@ -84,7 +86,9 @@ struct EymHeader {
     std::uint32_t rangeCount = 0;
     std::uint32_t pointRangeCount = 0;
     std::uint64_t pointRangesChecksum = 0;  ///< xxh64 of the point ranges
-    std::array<std::uint64_t, 10> reserved{};
+    std::uint64_t lightsChecksum = 0;       ///< xxh64 of the lights, if any
+    std::uint64_t lightCount = 0;           ///< at most fabric::kMaxLights
+    std::array<std::uint64_t, 8> reserved{};
 };
 static_assert(sizeof(EymHeader) == 256);
 
@@ -152,6 +156,18 @@ struct Lid {
 };
 static_assert(sizeof(Lid) == 24);
 
+/// What the source has as a light (fabric/scene.h), object space.
+struct Light {
+    /// Metres; where it is or, without a reach, from the light into the scene.
+    std::array<double, 3> place{};
+    std::array<float, 3> colour{};  ///< linear
+    float reachMetres = 0;          ///< 0: it is a distant one
+
+    bool isDistant() const { return reachMetres == 0; }
+    bool operator==(const Light&) const = default;
+};
+static_assert(sizeof(Light) == 40);
+
 /// An open .eym file. Any thread may call any function.
 ///
 /// open() checks the header and every node; geometry() and exactPositions() check what they read.
@@ -205,6 +221,8 @@ public:
     }
     /// Of a node that is drawn as points, and otherwise none.
     std::span<const PointRange> pointRanges(std::uint32_t node) const;
+    /// Object space.
+    const fabric::FileLights& lights() const { return lights_; }
     /// Image::blocks of an image. Precondition: image < images().size(). Errors: as of geometry().
     absl::StatusOr<std::vector<std::byte>> imageBlocks(std::uint32_t image) const;
 
@@ -225,6 +243,7 @@ private:
     absl::Status readLids();
     absl::Status readMaterials();
     absl::Status readPointRanges();
+    absl::Status readLights();
     absl::StatusOr<NodeGeometry> readBlock(std::uint32_t node) const;
     absl::Status inNode(std::uint32_t node, const absl::Status& status) const;
 
@@ -239,6 +258,7 @@ private:
     std::vector<MaterialRange> ranges_;
     std::vector<std::uint32_t> firstRange_;  ///< of each node, and the end
     std::vector<PointRange> pointRanges_;
+    fabric::FileLights lights_;
     int levels_ = 0;
 };
 
@@ -265,6 +285,11 @@ inline std::uint64_t endOfLids(const EymHeader& header) {
 /// Where the tables of materials end and the point ranges begin.
 inline std::uint64_t endOfMaterials(const EymHeader& header) {
     return endOfLids(header) + materialTableBytes(header);
+}
+
+/// Where the point ranges end and the lights begin.
+inline std::uint64_t endOfPointRanges(const EymHeader& header) {
+    return endOfMaterials(header) + std::uint64_t{header.pointRangeCount} * sizeof(PointRange);
 }
 
 /// xxh64 of bytes, as all checksums of the file are.

@@ -21,7 +21,7 @@ struct JoinedNode {
 /// Appends to the empty `out` one .eym file made of several, which lie one after the other in the
 /// unnamed `parts`, each from a multiple of 8 on: their pages as they are, one table of nodes.
 /// `vertexCount`: of all, each counted once. Preconditions: they have one lattice and the same
-/// options. Errors: Cancelled, those of OutputFile.
+/// options, and no materials or lights. Errors: Cancelled, those of OutputFile.
 absl::Status joinEym(const OutputFile& parts, std::span<const JoinedNode> nodes,
                      std::uint64_t vertexCount, OutputFile& out, const std::stop_token& stop = {});
 

@@ -266,6 +266,21 @@ std::vector<std::byte> tableBytes(const std::vector<Material>& materials,
     return bytes;
 }
 
+std::vector<Light> stored(const fabric::FileLights& lights) {
+    std::vector<Light> records;
+    const auto add = [&](const fabric::Vec3& place, const fabric::Vec3& colour, double reach) {
+        records.push_back({{place.x, place.y, place.z},
+                           {static_cast<float>(colour.x), static_cast<float>(colour.y),
+                            static_cast<float>(colour.z)},
+                           static_cast<float>(reach)});
+    };
+    for (const fabric::DirectionalLight& light : lights.distant)
+        add(light.direction, light.colour, 0);
+    for (const fabric::PointLight& light : lights.points)
+        add(light.positionMetres, light.colour, light.reachMetres);
+    return records;
+}
+
 std::uint64_t countUsedVertices(const PackedMesh& mesh) {
     std::vector<bool> used(mesh.positions.size());
     for (const Triangle& triangle : mesh.triangles)
@@ -324,6 +339,7 @@ absl::Status writeEym(const PackedMesh& mesh, const KdTree& tree, const LodTree&
     const std::vector<MaterialRange> ranges = rangesOf(pages);
     const std::vector<PointRange> pointRanges = pointRangesOf(mesh, lod);
     const std::vector<Lid> lids = stored(backs.lids);
+    const std::vector<Light> lights = stored(mesh.lights);
     EymHeader sizes;
     sizes.nodeCount = static_cast<std::uint32_t>(tree.nodes.size());
     sizes.lidCount = lids.size();
@@ -331,6 +347,7 @@ absl::Status writeEym(const PackedMesh& mesh, const KdTree& tree, const LodTree&
     sizes.imageCount = static_cast<std::uint32_t>(mesh.images.size());
     sizes.rangeCount = static_cast<std::uint32_t>(ranges.size());
     sizes.pointRangeCount = static_cast<std::uint32_t>(pointRanges.size());
+    sizes.lightCount = lights.size();
     std::uint64_t end = endOfTables(sizes);
     const std::vector<Node> nodes = layOutNodes(tree, lod, pages, end);
     const std::vector<std::byte> tables =
@@ -338,6 +355,8 @@ absl::Status writeEym(const PackedMesh& mesh, const KdTree& tree, const LodTree&
     EymHeader header = makeHeader(mesh, nodes, lids, sizes);
     header.materialsChecksum = contentHash(tables);
     header.pointRangesChecksum = contentHash(std::as_bytes(std::span(pointRanges)));
+    if (!lights.empty())
+        header.lightsChecksum = contentHash(std::as_bytes(std::span(lights)));
     header.flags = flagsOf(mesh, options, maker.exactForm());
     header.sourceHash = options.sourceHash;
     header.fileBytes = end;
@@ -347,6 +366,7 @@ absl::Status writeEym(const PackedMesh& mesh, const KdTree& tree, const LodTree&
     RETURN_IF_ERROR(out.write(std::as_bytes(std::span(lids))));
     RETURN_IF_ERROR(out.write(tables));
     RETURN_IF_ERROR(out.write(std::as_bytes(std::span(pointRanges))));
+    RETURN_IF_ERROR(out.write(std::as_bytes(std::span(lights))));
     return writePages(pages, mesh.images, out, stop);
 }
 

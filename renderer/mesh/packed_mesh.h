@@ -7,6 +7,7 @@
 
 #include <glm/vec2.hpp>
 
+#include "fabric/lights.h"
 #include "fabric/vec.h"
 #include "renderer/mesh/lattice.h"
 #include "renderer/mesh/material.h"
@@ -28,6 +29,7 @@ struct PackedMesh {
     std::vector<Triangle> triangles;
     std::vector<Material> materials;
     std::vector<Image> images;
+    fabric::FileLights lights;  ///< object space; at most fabric::kMaxLights
     /// Where the source had each vertex, metres; empty unless that is to be kept. Vertices that
     /// differ in it only are not the same.
     std::vector<fabric::Vec3> exact;

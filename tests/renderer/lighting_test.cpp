@@ -16,24 +16,26 @@ namespace eyrie {
 namespace {
 
 using fabric::Vec3;
+using TriangleMesh = eyrie::import::TriangleMesh;
 
 constexpr int kSize = 96;
 constexpr double kEyeHeight = 10;
 
 /// A white square of 16 metres around the origin, facing up, of cells of `cellMetres`.
-import::TriangleMesh floorOf(double cellMetres){import::TriangleMesh mesh;
-const auto cells = static_cast<std::uint32_t>(16 / cellMetres);
-for (std::uint32_t y = 0; y <= cells; ++y)
-    for (std::uint32_t x = 0; x <= cells; ++x)
-        mesh.positions.emplace_back(x* cellMetres - 8, y* cellMetres - 8, 0);
-for (std::uint32_t y = 0; y < cells; ++y)
-    for (std::uint32_t x = 0; x < cells; ++x) {
-        const std::uint32_t at = y * (cells + 1) + x;
-        mesh.triangles.push_back({at, at + 1, at + cells + 2});
-        mesh.triangles.push_back({at, at + cells + 2, at + cells + 1});
-    }
-return mesh;
-}  // namespace
+TriangleMesh floorOf(double cellMetres) {
+    TriangleMesh mesh;
+    const auto cells = static_cast<std::uint32_t>(16 / cellMetres);
+    for (std::uint32_t y = 0; y <= cells; ++y)
+        for (std::uint32_t x = 0; x <= cells; ++x)
+            mesh.positions.emplace_back(x * cellMetres - 8, y * cellMetres - 8, 0);
+    for (std::uint32_t y = 0; y < cells; ++y)
+        for (std::uint32_t x = 0; x < cells; ++x) {
+            const std::uint32_t at = y * (cells + 1) + x;
+            mesh.triangles.push_back({at, at + 1, at + cells + 2});
+            mesh.triangles.push_back({at, at + cells + 2, at + cells + 1});
+        }
+    return mesh;
+}
 
 class Lighting : public testing::Test {
 protected:
@@ -41,9 +43,12 @@ protected:
 
     /// The floor from straight above its middle.
     fabric::Image draw(fabric::Scene scene, double cellMetres, fabric::Shading shading,
-                       const fabric::Mat4& transform = fabric::Mat4(1.0)) {
+                       const fabric::Mat4& transform = fabric::Mat4(1.0),
+                       const fabric::FileLights& ofFile = {}) {
         const std::string path = folder_.file("floor.eym");
-        EXPECT_TRUE(import::importMesh(floorOf(cellMetres), path).ok());
+        TriangleMesh mesh = floorOf(cellMetres);
+        mesh.lights = ofFile;
+        EXPECT_TRUE(import::importMesh(mesh, path).ok());
         fabric::SceneObject object;
         object.name = "floor";
         object.path = path;
@@ -155,5 +160,17 @@ TEST_F(Lighting, OfBothKindsAddsUp) {
     }
 }
 
-}  // namespace eyrie
+TEST_F(Lighting, OfFilesShinesWhereTheSceneHasNone) {
+    const fabric::FileLights ofFile{{}, {{Vec3(2, -1, 1.5), Vec3(1), 3}}};
+    fabric::Mat4 turned = glm::rotate(fabric::Mat4(1.0), glm::radians(90.0), Vec3(0, 0, 1));
+    turned = glm::scale(turned, Vec3(2));
+    expectPointLit(draw({}, 4, fabric::Shading::Smooth, turned, ofFile),
+                   {Vec3(2, 4, 3), Vec3(1), 6}, 1.5);
+
+    fabric::Scene lit;
+    lit.pointLights = {{Vec3(-2, 1, 2), Vec3(1), 4}};
+    expectPointLit(draw(lit, 4, fabric::Shading::Smooth, turned, ofFile), lit.pointLights[0], 1.5);
+}
+
+}  // namespace
 }  // namespace eyrie

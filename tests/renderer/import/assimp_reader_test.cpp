@@ -7,13 +7,16 @@
 #include <vector>
 
 #include <assimp/Exporter.hpp>
+#include <assimp/light.h>
 #include <assimp/material.h>
 #include <assimp/mesh.h>
 #include <assimp/scene.h>
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "renderer/import/assimp_lights.h"
 #include "tests/renderer/import/mesh_text.h"
 #include "tests/renderer/mesh/temporary_folder.h"
 
@@ -181,23 +184,58 @@ TEST(AssimpReader, TakesTransformsInDoublePrecisionAndTurnsMirroredFaces) {
         EXPECT_EQ(colour, (fabric::Rgba{128, 255, 0, 255}));
 }
 
-TEST(AssimpReader, SaysThatItLeavesLightsOut) {
-    const test::TemporaryFolder folder;
-    test::writeFile(folder.file("plain.gltf"), kGltf);
+/// kGltf with a light of `type` at its first node, which is where `place` says.
+std::string litGltf(const std::string& light, const std::string& place) {
     std::string lit = kGltf;
-    lit.replace(0, 1, R"({"extensionsUsed":["KHR_lights_punctual"],"extensions":
-{"KHR_lights_punctual":{"lights":[{"type":"point"},{"type":"directional"}]}},)");
+    lit.replace(0, 1,
+                R"({"extensionsUsed":["KHR_lights_punctual"],"extensions":
+{"KHR_lights_punctual":{"lights":[)" +
+                    light + "]}},");
     const std::string node = R"({"mesh":0},)";
     lit.replace(lit.find(node), node.size(),
-                R"({"mesh":0,"extensions":{"KHR_lights_punctual":{"light":1}}},)");
-    test::writeFile(folder.file("lit.gltf"), lit);
-    const auto plain = readWithAssimp(folder.file("plain.gltf"));
-    const auto mesh = readWithAssimp(folder.file("lit.gltf"));
-    ASSERT_TRUE(plain.ok() && mesh.ok()) << plain.status() << mesh.status();
-    EXPECT_THAT(plain->notes, testing::IsEmpty());
-    EXPECT_THAT(mesh->notes,
-                testing::ElementsAre(testing::HasSubstr("left out its lights, 1 of them")));
-    EXPECT_EQ(mesh->positions, plain->positions);
+                R"({"mesh":0,"extensions":{"KHR_lights_punctual":{"light":0}})" + place + "},");
+    return lit;
+}
+
+absl::StatusOr<TriangleMesh> readLitGltf(const std::string& light, const std::string& place = "") {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("lit.gltf"), litGltf(light, place));
+    return readWithAssimp(folder.file("lit.gltf"));
+}
+
+TEST(AssimpReader, HasLightsWhereTheirNodesPutThem) {
+    const auto point = readLitGltf(R"({"type":"point","intensity":4,"color":[1,0.5,0]})",
+                                   R"(,"translation":[1,2,3])");
+    ASSERT_TRUE(point.ok()) << point.status();
+    EXPECT_THAT(point->notes, testing::IsEmpty());
+    EXPECT_THAT(point->lights.distant, testing::IsEmpty());
+    // Of four candela: as bright as 1 at two metres, where half of 4 / (d/2)^2 arrives.
+    EXPECT_THAT(point->lights.points,
+                ElementsAre(fabric::PointLight{{1000001, -3, 2}, {1, 0.5, 0}, 2}));
+
+    const auto distant = readLitGltf(R"({"type":"directional","intensity":100000})");
+    ASSERT_TRUE(distant.ok()) << distant.status();
+    EXPECT_THAT(distant->lights.points, testing::IsEmpty());
+    ASSERT_EQ(distant->lights.distant.size(), 1U);
+    // Along -z of a model in which y is up.
+    EXPECT_LT(glm::distance(distant->lights.distant[0].direction, fabric::Vec3(0, 1, 0)), 1e-12);
+    EXPECT_EQ(distant->lights.distant[0].colour, fabric::Vec3(1));
+}
+
+TEST(AssimpReader, SaysWhichLightsAreNotAsTheFileHasThem) {
+    const auto spot = readLitGltf(R"({"type":"spot","spot":{"outerConeAngle":0.5}})");
+    ASSERT_TRUE(spot.ok()) << spot.status();
+    EXPECT_THAT(spot->notes, ElementsAre(HasSubstr("1 of 1 lights are spots")));
+    EXPECT_EQ(spot->lights.points.size(), 1U);
+
+    std::unique_ptr<aiScene> scene = tetrahedron();
+    scene->mNumLights = 1;
+    scene->mLights = new aiLight* [1] { new aiLight };
+    scene->mLights[0]->mName = "root";
+    scene->mLights[0]->mType = aiLightSource_AMBIENT;
+    std::vector<std::string> notes;
+    EXPECT_EQ(lightsOf(*scene, glm::dmat4(1), notes).count(), 0U);
+    EXPECT_THAT(notes, ElementsAre(HasSubstr("left out 1 of 1 lights")));
 }
 
 /// Three triangles: of glass with an image, cut out of it, and of neither.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -97,6 +98,43 @@ TEST(JdnReader, RefusesTextureCoordinatesThatAreNotThere) {
                 HasSubstr("found 1, expected a vertex from 0 to 0"));
     EXPECT_THAT(messageOf(with("Textured Face = 0 0 0\n", "")),
                 HasSubstr("found 1 lines Textured Face, expected 2"));
+}
+
+TEST(JdnReader, HasTheLights) {
+    const auto mesh = parseJdn(sample(), "s.jdn");
+    ASSERT_TRUE(mesh.ok());
+    EXPECT_THAT(mesh->lights.distant, testing::IsEmpty());
+    EXPECT_THAT(mesh->lights.points, testing::ElementsAre(fabric::PointLight{
+                                         {-54, 455, 0}, {1, 1, 1}, fabric::kMostReachMetres}));
+
+    const auto distant = parseJdn(with("Type = 2", "Type = 1"), "s.jdn");
+    ASSERT_TRUE(distant.ok() && distant->lights.distant.size() == 1);
+    const fabric::Vec3 toOrigin = glm::normalize(fabric::Vec3(54, -455, 0));
+    EXPECT_LT(glm::distance(distant->lights.distant[0].direction, toOrigin), 1e-12);
+
+    std::string text = with("Intensity = 1", "Intensity = 0.5");
+    const std::string direction = "Direction = 0 0 0";
+    text.replace(text.find("Type = 2"), 8, "Type = 1");
+    text.replace(text.find(direction), direction.size(), "Direction = 0 0 -3");
+    const auto directed = parseJdn(text, "s.jdn");
+    ASSERT_TRUE(directed.ok());
+    EXPECT_THAT(directed->lights.distant,
+                testing::ElementsAre(fabric::DirectionalLight{{0, 0, -1}, {0.5, 0.5, 0.5}}));
+}
+
+TEST(JdnReader, CountsLightsThatAreNone) {
+    const auto notesOf = [](const std::string& text) {
+        const auto mesh = parseJdn(text, "s.jdn");
+        EXPECT_TRUE(mesh.ok()) << mesh.status();
+        return mesh->notes;
+    };
+    using testing::Contains;
+    EXPECT_THAT(notesOf(with("Pos = -54", "Pos = nan")), Contains(HasSubstr("left out 1 of 1")));
+    EXPECT_THAT(notesOf(with("Colour = 1 1 1", "Colour = red")),
+                Contains(HasSubstr("left out 1 of 1")));
+    EXPECT_THAT(notesOf(with("Type = 2", "Type = 3")), Contains(HasSubstr("neither 1 nor 2")));
+    EXPECT_THAT(notesOf(with("Lights = 1", "Lights = 2")),
+                Contains(HasSubstr("found 1 lights, expected 2")));
 }
 
 TEST(JdnReader, CountsWhatItDoesNotKnow) {

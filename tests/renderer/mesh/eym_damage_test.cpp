@@ -25,6 +25,7 @@ std::string makeSmallFile(bool isCoded) {
     mesh.materials[2].flags = 0;  // points stand for nothing that is blended
     for (const std::uint64_t position : mesh.positions)
         mesh.exact.push_back(mesh.lattice.metres(unpackPosition(position)) + 0.01);
+    mesh.lights = {{{{0, 0, -1}, {1, 1, 1}}}, {{{1, 2, 3}, {1, 0.5, 0}, 10}}};
     auto tree = buildKdTree(mesh.positions, mesh.triangles, {10});
     auto out = OutputFile::create(folder.file("m.eym"));
     EXPECT_TRUE(tree.ok() && out.ok());
@@ -92,6 +93,7 @@ struct Tables {
         images.resize(header.imageCount);
         ranges.resize(header.rangeCount);
         pointRanges.resize(header.pointRangeCount);
+        lights.resize(header.lightCount);
         const char* at = bytes.data() + sizeof header;
         forAll([&at](auto table) {
             std::memcpy(table.data(), at, table.size());
@@ -109,8 +111,10 @@ struct Tables {
             at += table.size();
         });
         header.pointRangesChecksum = contentHash(std::as_bytes(std::span(pointRanges)));
+        header.lightsChecksum = contentHash(std::as_bytes(std::span(lights)));
         const auto materialBytes = static_cast<std::size_t>(at - materialsAt) -
-                                   std::as_bytes(std::span(pointRanges)).size();
+                                   std::as_bytes(std::span(pointRanges)).size() -
+                                   std::as_bytes(std::span(lights)).size();
         header.materialsChecksum =
             contentHash(std::as_bytes(std::span(materialsAt, materialBytes)));
         header.checksum = headerChecksum(header);
@@ -125,9 +129,10 @@ struct Tables {
         visit(std::as_writable_bytes(std::span(images)));
         visit(std::as_writable_bytes(std::span(ranges)));
         visit(std::as_writable_bytes(std::span(pointRanges)));
+        visit(std::as_writable_bytes(std::span(lights)));
     }
     std::size_t endOfTables() const {
-        return endOfMaterials(header) + pointRanges.size() * sizeof(PointRange);
+        return endOfPointRanges(header) + lights.size() * sizeof(Light);
     }
 
     EymHeader header;
@@ -137,6 +142,7 @@ struct Tables {
     std::vector<ImageRecord> images;
     std::vector<MaterialRange> ranges;
     std::vector<PointRange> pointRanges;
+    std::vector<Light> lights;
 };
 
 TEST(EymDamage, OfTheLengthIsAlwaysNoticed) {
@@ -249,6 +255,12 @@ TEST(EymDamage, WithARightChecksumIsStillRefused) {
         {"many lids", [huge](Tables& t) { t.header.lidCount = huge; }},
         {"lid upside down", [](Tables& t) { t.lids[0].boxMin.x = t.lids[0].boxMax.x + 1; }},
         {"lid off the lattice", [](Tables& t) { t.lids[0].boxMax.y = 1U << 21; }},
+        {"many lights", [huge](Tables& t) { t.header.lightCount = huge; }},
+        {"a distant light from nowhere", [](Tables& t) { t.lights[0].place = {}; }},
+        {"a light that is nowhere",
+         [](Tables& t) { t.lights[1].place[2] = std::numeric_limits<double>::infinity(); }},
+        {"a light that takes light", [](Tables& t) { t.lights[1].colour[0] = -1; }},
+        {"a light of no reach", [](Tables& t) { t.lights[1].reachMetres = -1; }},
         {"unknown flag", [](Tables& t) { t.header.flags |= 1U << 7; }},
         {"step no power of two", [](Tables& t) { t.header.stepMetres = 0.3; }},
         {"error of the file", [](Tables& t) { t.header.coarsestErrorMetres = -1; }},
