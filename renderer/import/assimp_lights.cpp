@@ -31,9 +31,9 @@ SourceLight sourceLight(const aiLight& light, const glm::dmat4& worldFromNode) {
         return result;
     }
     result.place = fabric::Vec3(worldFromNode * glm::dvec4(toDouble(light.mPosition), 1));
-    const bool isSaid = light.mAttenuationConstant != 0 || light.mAttenuationLinear != 1 ||
-                        light.mAttenuationQuadratic != 0;
-    if (isSaid) {  // otherwise it is what Assimp has before a reader says anything
+    // The linear part is 1 where none of Assimp's readers has said anything, and means nothing
+    // then.
+    if (light.mAttenuationLinear != 1 || light.mAttenuationQuadratic != 0) {
         result.constant = double{light.mAttenuationConstant};
         result.linear = double{light.mAttenuationLinear};
         result.quadratic = double{light.mAttenuationQuadratic};

@@ -12,6 +12,7 @@
 
 #include <assimp/GltfMaterial.h>
 #include <assimp/material.h>
+#include <fmt/format.h>
 #include <glm/vec3.hpp>
 
 namespace eyrie::import {
@@ -113,6 +114,10 @@ AssimpMaterials::Entry AssimpMaterials::read(const aiMaterial& material) {
     const int sides = hasSides_ ? sidesOf(material) : 0;
     drawn.flags = sides == 2 ? mesh::kIsTwoSided : sides == 1 ? mesh::kIsOneSided : 0;
     const AlphaMode mode = alphaModeOf(material);
+    if (mode == AlphaMode::Unknown && entry.colour.a <= 0) {
+        ++takenForOpaque_;
+        entry.colour.a = 1;
+    }
     entry.isOpaque = mode == AlphaMode::Opaque;
     if (mode == AlphaMode::Blend || (mode == AlphaMode::Unknown && entry.colour.a < 1))
         drawn.flags |= mesh::kIsBlended;
@@ -166,6 +171,11 @@ glm::vec2 AssimpMaterials::textureCoordinates(const aiMesh& mesh, unsigned int v
 }
 
 void AssimpMaterials::moveTo(TriangleMesh& mesh) {
+    if (takenForOpaque_ > 0)
+        mesh.notes.push_back(fmt::format(
+            "{} of {} materials have no opacity at all, and nobody would see them: they "
+            "are taken for opaque",
+            takenForOpaque_, entries_.size()));
     if (!areAny())
         return;
     mesh.materials = std::move(materials_);

@@ -31,7 +31,8 @@ public:
     bool isOpaque(const aiMesh& mesh) const;
     glm::vec2 textureCoordinates(const aiMesh& mesh, unsigned int vertex) const;
 
-    /// Hands materials and textures over; nothing else may be asked from then on.
+    /// Hands materials and textures over, with a note of what was odd; nothing else may be asked
+    /// from then on.
     void moveTo(TriangleMesh& mesh);
 
 private:
@@ -56,6 +57,8 @@ private:
     /// they have not are seen from one only: outlines are such hulls, turned inside out. Where it
     /// says that of all, it means nothing by it.
     bool hasSides_;
+    /// Exporters disagree on whether 0 is opaque or nothing; but for glTF's it is opaque.
+    std::size_t takenForOpaque_ = 0;
     std::vector<Entry> entries_;
     std::vector<mesh::Material> materials_{mesh::Material()};
     std::vector<TextureSource> textures_;

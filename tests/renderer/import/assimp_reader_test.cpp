@@ -136,6 +136,29 @@ refs 3
 kids 0
 )";
 
+TEST(AssimpReader, TakesMaterialsThatNobodyWouldSeeForOpaque) {
+    const test::TemporaryFolder folder;
+    std::string unseen = kAc3d;
+    unseen.replace(unseen.find("trans 0"), 7, "trans 1");
+    test::writeFile(folder.file("m.ac"), unseen);
+    const auto mesh = readWithAssimp(folder.file("m.ac"));
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    EXPECT_THAT(mesh->notes, testing::Contains(HasSubstr("1 of 2 materials have no opacity")));
+    for (const fabric::Rgba& colour : mesh->colours) EXPECT_EQ(colour.a, 255);
+    for (const mesh::Material& material : mesh->materials) EXPECT_FALSE(material.isBlended());
+}
+
+TEST(AssimpReader, TakesLightsOfWhichNothingElseIsSaidForOnesThatReachEverywhere) {
+    const test::TemporaryFolder folder;
+    std::string lit = kAc3d;
+    lit.replace(lit.find("kids 2"), 6, "kids 3\nOBJECT light\nloc 0 5 0\nkids 0");
+    test::writeFile(folder.file("m.ac"), lit);
+    const auto mesh = readWithAssimp(folder.file("m.ac"));
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    EXPECT_THAT(mesh->lights.points,
+                ElementsAre(fabric::PointLight{{0, 0, 5}, {1, 1, 1}, fabric::kMostReachMetres}));
+}
+
 TEST(AssimpReader, PutsObjectsAtTheirPlacesInTheColoursOfTheirMaterials) {
     const test::TemporaryFolder folder;
     test::writeFile(folder.file("m.ac"), kAc3d);
