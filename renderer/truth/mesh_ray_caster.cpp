@@ -19,6 +19,7 @@ using fabric::Box;
 using fabric::Vec3;
 
 constexpr std::uint32_t kLeafTriangles = 4;
+constexpr double kRounding = 1.0 / (1 << 20);  ///< of coordinates, to a lattice of 2^20 steps or so
 
 Triangle corners(const TriangleMesh& mesh, std::size_t index) {
     const auto& [a, b, c] = mesh.triangles[index];
@@ -112,6 +113,18 @@ bool MeshRayCaster::isSure(std::size_t triangle, const Ray& ray) const {
     return glm::dot(glm::cross(b - a, c - a), ray.direction) < 0;
 }
 
+/// Whether it is no higher than what the rounding of coordinates may make of a line: nothing is
+/// drawn of it that closes a seam.
+bool MeshRayCaster::hasNoArea(const Triangle& triangle) const {
+    const auto [a, b, c] = triangle;
+    const double longest =
+        std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
+    const Box& bounds = nodes_.front().bounds;
+    const Vec3 farthest = glm::max(glm::abs(bounds.min), glm::abs(bounds.max));
+    const double rounding = kRounding * std::max({farthest.x, farthest.y, farthest.z});
+    return glm::length(glm::cross(b - a, c - a)) <= longest * rounding;
+}
+
 /// Whether triangles that are sure to be seen go on from the edge between these places to both
 /// sides, seen from `eye`.
 bool MeshRayCaster::goesOn(const Vec3& a, const Vec3& b, const Vec3& eye) const {
@@ -121,7 +134,8 @@ bool MeshRayCaster::goesOn(const Vec3& a, const Vec3& b, const Vec3& eye) const 
     for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
         const Triangle triangle = corners(mesh_, i);
         if (std::ranges::find(triangle, a) == triangle.end() ||
-            std::ranges::find(triangle, b) == triangle.end() || !isSure(i, {eye, a - eye}))
+            std::ranges::find(triangle, b) == triangle.end() || !isSure(i, {eye, a - eye}) ||
+            hasNoArea(triangle))
             continue;
         for (const Vec3& corner : triangle) {
             const double side = corner == a || corner == b ? 0 : glm::dot(across, corner - eye);

@@ -35,7 +35,8 @@ public:
     double firstHit(const Ray& ray) const { return hitRange(ray).first; }
     /// From there to where something is surely seen.
     HitRange hitRange(const Ray& ray) const override { return cast(ray, 0); }
-    /// Goes through all triangles for each edge that may be a seam.
+    /// Goes through all triangles for each edge that may be a seam. Those without area, which some
+    /// modellers put where an edge ends inside another, close none.
     HitRange throughSeams(const Ray& ray, double reach) const override { return cast(ray, reach); }
     /// The closest point of the mesh.
     std::optional<fabric::Vec3> counterpart(const fabric::Vec3& point) const override;
@@ -66,6 +67,7 @@ private:
     HitRange cast(const Ray& ray, double reach) const;
     bool isSure(std::size_t triangle, const Ray& ray) const;
     bool isAtSeam(std::size_t triangle, const Ray& ray, double hit, double reach) const;
+    bool hasNoArea(const std::array<fabric::Vec3, 3>& triangle) const;
     bool goesOn(const fabric::Vec3& a, const fabric::Vec3& b, const fabric::Vec3& eye) const;
     bool goesOnAround(const fabric::Vec3& corner, const fabric::Vec3& eye) const;
 

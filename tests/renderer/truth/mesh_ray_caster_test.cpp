@@ -172,6 +172,19 @@ TEST(MeshRayCaster, LooksThroughSeamsBesideCorners) {
     EXPECT_NEAR(fan.hitRange({{0, 0, 0}, {0, 10, 5e-4}}).last, 1, 1e-12);
 }
 
+TEST(MeshRayCaster, LooksThroughSeamsThatTrianglesWithoutAreaClose) {
+    // A wall above an edge and two below it, that meet inside of it; the triangle between these
+    // three corners is a line but for rounding. A wall behind.
+    TriangleMesh mesh;
+    mesh.positions = {{-9, 10, 0}, {9, 10, 0},   {0, 10, 9},  {1.1, 10, -1e-7}, {-5, 10, -9},
+                      {5, 10, -9}, {-9, 20, -9}, {9, 20, -9}, {0, 20, 9}};
+    mesh.triangles = {{0, 1, 2}, {0, 4, 3}, {3, 5, 1}, {0, 3, 1}, {6, 7, 8}};
+    const Ray above{{0, 0, 0}, {0.1, 10, 5e-4}};
+    EXPECT_NEAR(MeshRayCaster(mesh).throughSeams(above, 1e-3).last, 2, 1e-12);
+    mesh.positions[3].z = -0.5;
+    EXPECT_NEAR(MeshRayCaster(mesh).throughSeams(above, 1e-3).last, 1, 1e-12);
+}
+
 TEST(MeshRayCaster, LooksThroughWhereWhatGoesOnIsSeenFromBehind) {
     // A triangle, one on its lower side that is drawn from the front alone, and a wall behind.
     const auto hung = [](bool isFront) {
