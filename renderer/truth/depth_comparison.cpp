@@ -185,11 +185,10 @@ private:
         return std::isfinite(tested) ? tested <= seen.last + slack(tested) : seen.last == kNoHit;
     }
 
-    /// Whether the drawn surface itself is where the source is: a triangle seen edge-on gives a
-    /// pixel beside it any depth of its plane.
-    bool isShownRightly(int x, int y, double tested, const Surroundings& around) const {
+    /// Whether the drawn surface itself, nearest to a depth, is where the source is.
+    bool isShownRightly(int x, int y, double depth, const Surroundings& around) const {
         const auto point =
-            suspects_.shown ? suspects_.shown(x + 0.5, y + 0.5, tested) : std::nullopt;
+            suspects_.shown ? suspects_.shown(x + 0.5, y + 0.5, depth) : std::nullopt;
         return point && faultOf(camera_.depth(*point), around) == nullptr;
     }
 
@@ -209,10 +208,18 @@ private:
             if (fault == nullptr)
                 return nullptr;
         }
-        const bool isInFront = tested < around.nearest;
-        const bool isExplained =
-            isInFront ? isThin(x, y, tested, around) : isThroughSeams(x, y, tested);
-        return isExplained || isShownRightly(x, y, tested, around) ? nullptr : fault;
+        return isExplained(x, y, tested, around) ? nullptr : fault;
+    }
+
+    /// By other than where the pixel's depth is. A triangle seen edge-on gives a pixel beside it
+    /// any depth of its plane; and one whose side is next to a pixel's centre leaves it to what is
+    /// behind, where the source has a slit that something hid.
+    bool isExplained(int x, int y, double tested, const Surroundings& around) {
+        if (isShownRightly(x, y, tested, around))
+            return true;
+        return tested < around.nearest
+                   ? isThin(x, y, tested, around)
+                   : isThroughSeams(x, y, tested) || isShownRightly(x, y, around.farthest, around);
     }
 
     void finishDisplacements() {

@@ -77,7 +77,9 @@ inline constexpr double kDepthSlack = 4;
 /// `camera`. Uses all cores.
 ///
 /// A pixel displaced by more than `suspects.abovePixels`, or misplaced, is judged by the drawn
-/// point that `suspects.shown` names for it, if any, instead of by its depth.
+/// point that `suspects.shown` names for it, if any, instead of by its depth. What is seen behind
+/// all of the source is no mistake where what is drawn before it comes so near to the pixel's
+/// centre that `suspects.shown` names it.
 DepthComparison compareDepth(const Pinhole& camera, std::span<const float> depth,
                              const ReferenceSurface& reference, int edgePixels,
                              const Suspects& suspects = {});

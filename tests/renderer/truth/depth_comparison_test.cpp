@@ -142,6 +142,26 @@ TEST(CompareDepth, JudgesMisplacedPixelsByTheDrawnPointWhereOneIsKnown) {
     EXPECT_EQ(misplacedWhereIs(0.6 * right), 1U) << "what is drawn is there";
 }
 
+TEST(CompareDepth, LooksThroughSlitsBesideWhatIsDrawnOnly) {
+    const TerrainRayCaster reference = ridge(0);
+    const Pinhole camera = southernView();
+    auto depth = depthOf(reference, camera);
+    const std::size_t pixel = 30U * kWidth + 80U;
+    const double right = depth[pixel];
+    const auto misplacedAt = [&](double seen, double drawn) {
+        depth[pixel] = static_cast<float>(seen);
+        // Of what is drawn here, it names what is nearest to the depth it is asked for.
+        const Suspects suspects{.shown = [&](double x, double y, double asked) {
+            const double nearest = std::abs(asked - seen) < std::abs(asked - drawn) ? seen : drawn;
+            return std::optional(camera.rayThrough(x, y).at(nearest));
+        }};
+        return compareDepth(camera, depth, reference, 1, suspects).misplaced;
+    };
+    EXPECT_EQ(misplacedAt(2 * right, right), 0U);
+    EXPECT_EQ(misplacedAt(2 * right, 0.5 * right), 1U) << "there is nothing beside it";
+    EXPECT_EQ(misplacedAt(0.5 * right, right), 1U) << "it hides what is there";
+}
+
 /// Seen from the origin to the north: a wall 20 m away; before it, 10 m away, one of a left half
 /// and of two right quarters that share no corner with it, which meet just right of the centres of
 /// column 100; and 5 m away a wire, thinner than anything, just right of those of column 60.
