@@ -112,6 +112,11 @@ absl::StatusOr<ColourPlace> placeOf(const ColourFile& file, const TexelGrid& gri
         }
     if (cells == 0)
         return cannotBeBrought(file, gdal);
+    if (isAroundTheEarth(file.dataset.get())) {
+        // Where its rims lie within the terrain there is more of it between the points.
+        place.low = glm::min(place.low, fabric::Vec2(-0.5));
+        place.high = glm::max(place.high, fabric::Vec2(frame.columns, frame.rows) - 0.5);
+    }
     // Sides may bulge between the points that were looked at.
     const fabric::Vec2 margin = (place.high - place.low) / static_cast<double>(kSteps * kSteps);
     place.low -= margin;

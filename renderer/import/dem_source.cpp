@@ -13,6 +13,7 @@
 #include "fabric/status.h"
 #include "renderer/import/dem_file.h"
 #include "renderer/import/dem_warp.h"
+#include "renderer/import/local_projection.h"
 #include "renderer/terrain/quadtree.h"
 
 namespace eyrie::import {
@@ -220,9 +221,8 @@ private:
                 crs_.reset(OSRClone(crs));
             return absl::OkStatus();
         }
-        constexpr double kMaxDegrees = 30;
-        Vec2 low(std::numeric_limits<double>::infinity());
-        Vec2 high = -low;
+        GeographicBox box{Vec2(std::numeric_limits<double>::infinity()),
+                          Vec2(-std::numeric_limits<double>::infinity())};
         for (const DemFile& file : files_) {
             const Vec2 reach =
                 (glm::abs(file.reference.perColumn * static_cast<double>(file.columns)) +
@@ -231,20 +231,14 @@ private:
             // The same longitude may be called 180 here and -180 there: the way round is short.
             Vec2 middle = centreOf(file);
             middle.x -= 360 * std::round((middle.x - centreOf(files_.front()).x) / 360);
-            low = glm::min(low, middle - reach);
-            high = glm::max(high, middle + reach);
+            box.low = glm::min(box.low, middle - reach);
+            box.high = glm::max(box.high, middle + reach);
         }
-        const Vec2 span = high - low;
-        const Vec2 centre = (low + high) * 0.5;
-        const bool isPolar = std::abs(centre.y) > kUtmLimitDegrees;
-        if ((span.x > kMaxDegrees && !isPolar) || span.y > kMaxDegrees || std::abs(centre.y) > 90)
-            return invalid(name_,
-                           fmt::format("spans {:.1f} x {:.1f} degrees around latitude {:.1f}, too "
-                                       "much for one UTM zone (at most {}); reproject it with "
-                                       "gdalwarp -t_srs first",
-                                       span.x, span.y, centre.y, kMaxDegrees));
-        ASSIGN_OR_RETURN(crs_,
-                         localProjection(name_, files_.front().crs.get(), centre.x, centre.y));
+        ASSIGN_OR_RETURN(LocalProjection local,
+                         localProjection(name_, files_.front().crs.get(), box));
+        crs_ = std::move(local.crs);
+        aroundTheEarth_ = local.aroundTheEarth;
+        caveat_ = std::move(local.caveat);
         return absl::OkStatus();
     }
 
@@ -256,8 +250,8 @@ private:
             grid_ = gridOf(finest.reference);
             return absl::OkStatus();
         }
-        ASSIGN_OR_RETURN(const Dataset suggested, reprojected(finest, wkt_, gdal_));
-        grid_ = gridOf(referenceOf(suggested.get()));
+        ASSIGN_OR_RETURN(const Suggested suggested, suggestedFor(finest));
+        grid_ = gridOf(suggested.reference);
         return absl::OkStatus();
     }
 
@@ -267,10 +261,27 @@ private:
                g.perColumn.x > 0 && g.perRow.y < 0;
     }
 
-    static Georeference referenceOf(GDALDatasetH dataset) {
+    /// Where a raster comes to lie in the CRS, with posts as GDAL suggests them.
+    struct Suggested {
+        Georeference reference;
+        int columns;
+        int rows;
+    };
+
+    absl::StatusOr<Suggested> suggestedFor(const DemFile& file) {
+        ASSIGN_OR_RETURN(const Dataset dataset, reprojected(file, wkt_, gdal_));
         std::array<double, 6> t{};
-        GDALGetGeoTransform(dataset, t.data());
-        return {{t[0], t[3]}, {t[1], t[4]}, {t[2], t[5]}};
+        GDALGetGeoTransform(dataset.get(), t.data());
+        Suggested suggested{{{t[0], t[3]}, {t[1], t[4]}, {t[2], t[5]}},
+                            GDALGetRasterXSize(dataset.get()),
+                            GDALGetRasterYSize(dataset.get())};
+        if (aroundTheEarth_ > 0 && isAroundTheEarth(file.dataset.get())) {
+            // GDAL looks at places 17 degrees apart, and a rim may lie between two of them.
+            suggested.reference.origin.x = -aroundTheEarth_ / 2;
+            suggested.columns =
+                static_cast<int>(std::lround(aroundTheEarth_ / suggested.reference.perColumn.x));
+        }
+        return suggested;
     }
 
     static PixelGrid gridOf(const Georeference& g) {
@@ -323,10 +334,9 @@ private:
         if (isNorthUp(source)) {
             ASSIGN_OR_RETURN(box, boxOf(source, source.reference, source.columns, source.rows));
         } else {
-            ASSIGN_OR_RETURN(const Dataset suggested, reprojected(source, wkt_, gdal_));
-            ASSIGN_OR_RETURN(box, boxOf(source, referenceOf(suggested.get()),
-                                        GDALGetRasterXSize(suggested.get()),
-                                        GDALGetRasterYSize(suggested.get())));
+            ASSIGN_OR_RETURN(const Suggested suggested, suggestedFor(source));
+            ASSIGN_OR_RETURN(box,
+                             boxOf(source, suggested.reference, suggested.columns, suggested.rows));
         }
         if (!box) {
             notes_.push_back(
@@ -369,6 +379,8 @@ private:
         notes_.push_back(fmt::format("brought to {}: {} x {} posts, {:.4g} m apart",
                                      crs_ ? OSRGetName(crs_.get()) : "one grid", columns, rows,
                                      reference.perColumn.x));
+        if (!caveat_.empty())
+            notes_.push_back(caveat_);
         return DemSource{
             std::make_unique<LayeredSource>(std::move(layers), reference, columns, rows), wkt_, 0,
             std::move(notes_)};
@@ -379,6 +391,8 @@ private:
     QuietGdal& gdal_;
     std::vector<std::size_t> order_;  ///< best first
     SpatialReference crs_;
+    double aroundTheEarth_ = 0;  ///< LocalProjection::aroundTheEarth
+    std::string caveat_;         ///< of the CRS, for people
     std::string wkt_;
     PixelGrid grid_;
     std::vector<std::string> notes_;

@@ -25,12 +25,12 @@ struct DemSource {
 /// read when posts are asked for, so what is held in memory does not grow with the files.
 ///
 /// Posts are pixel centres. One raster in a projected CRS, or none, keeps its grid, rotation
-/// included, with units turned to metres. A geographic one is reprojected to the UTM zone of its
-/// centre (beyond 84 degrees to polar stereographic, of any longitudes), bilinearly, at the spacing
-/// GDAL suggests.
+/// included, with units turned to metres. A geographic one is reprojected to what suits
+/// its size and place (local_projection.h; the UTM zone of its centre up to 30 degrees),
+/// bilinearly, at the spacing GDAL suggests.
 ///
-/// Several are laid over each other: the CRS is that of the finest projected one, or the UTM zone
-/// of all their middle where all are geographic, the short way round; the grid is that of the
+/// Several are laid over each other: the CRS is that of the finest projected one, or what
+/// suits all of them where all are geographic, the short way round; the grid is that of the
 /// finest. Those on that grid already keep their posts as they are; the others are resampled
 /// bilinearly. Where some overlap the finest with data wins, among equally fine ones the one named
 /// last. What none covers is nodata.

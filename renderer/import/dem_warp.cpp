@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/import/dem_warp.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include <cpl_string.h>
 #include <fmt/format.h>
 #include <gdal_utils.h>
@@ -11,12 +8,23 @@
 namespace eyrie::import {
 namespace {
 
+/// GDAL widens its kernel by how much smaller a block is than what of the raster it needs, which
+/// beside the seam of a raster of all longitudes seems to be all of it: posts were off by a tenth
+/// of a pixel's fall.
+std::vector<std::string> seamWarpOptions(GDALDatasetH raster) {
+    if (!isAroundTheEarth(raster))
+        return {};
+    return {"XSCALE=1", "YSCALE=1"};
+}
+
 absl::StatusOr<Dataset> warped(const DemFile& file, const std::string& targetWkt,
                                const std::vector<std::string>& more, QuietGdal& gdal) {
     std::vector<std::string> arguments = {"-of", "VRT", "-r",   "bilinear", "-dstnodata",
                                           "nan", "-et", "0.01", "-wo",      "NUM_THREADS=ALL_CPUS"};
-    for (const std::string& option : polarWarpOptions(file.dataset.get()))
-        arguments.insert(arguments.end(), {"-wo", option});
+    for (const auto& options :
+         {polarWarpOptions(file.dataset.get()), seamWarpOptions(file.dataset.get())})
+        for (const std::string& option : options)
+            arguments.insert(arguments.end(), {"-wo", option});
     if (!targetWkt.empty())
         arguments.insert(arguments.end(), {"-t_srs", targetWkt});
     arguments.insert(arguments.end(), more.begin(), more.end());
@@ -36,30 +44,6 @@ absl::StatusOr<Dataset> warped(const DemFile& file, const std::string& targetWkt
 }
 
 }  // namespace
-
-/// The projected CRS for data around a longitude and latitude of `geographic`.
-absl::StatusOr<SpatialReference> localProjection(const std::string& path,
-                                                 OGRSpatialReferenceH geographic, double longitude,
-                                                 double latitude) {
-    SpatialReference local(OSRNewSpatialReference(nullptr));
-    OGRErr error = OGRERR_NONE;
-    if (std::abs(latitude) > kUtmLimitDegrees) {
-        error = OSRImportFromEPSG(local.get(), latitude > 0 ? 32661 : 32761);
-    } else {
-        const double wrapped = longitude - 360 * std::floor((longitude + 180) / 360);
-        const int zone = std::clamp(static_cast<int>((wrapped + 180) / 6) + 1, 1, 60);
-        OSRSetProjCS(local.get(),
-                     fmt::format("UTM zone {}{}", zone, latitude < 0 ? 'S' : 'N').c_str());
-        error = OSRCopyGeogCSFrom(local.get(), geographic);
-        if (error == OGRERR_NONE)
-            error = OSRSetUTM(local.get(), zone, latitude >= 0 ? 1 : 0);
-    }
-    if (error != OGRERR_NONE)
-        return invalid(path,
-                       "its geographic CRS has no UTM zone; reproject it with gdalwarp first");
-    OSRSetAxisMappingStrategy(local.get(), OAMS_TRADITIONAL_GIS_ORDER);
-    return local;
-}
 
 absl::StatusOr<Dataset> reprojected(const DemFile& file, const std::string& targetWkt,
                                     QuietGdal& gdal) {

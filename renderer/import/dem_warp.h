@@ -10,11 +10,6 @@
 
 namespace eyrie::import {
 
-/// The projected CRS for data around a longitude and latitude of `geographic`.
-absl::StatusOr<SpatialReference> localProjection(const std::string& path,
-                                                 OGRSpatialReferenceH geographic, double longitude,
-                                                 double latitude);
-
 /// A north-up grid of pixels in some CRS.
 struct PixelGrid {
     double x = 0;  ///< outer corner of the first pixel

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <optional>
 
 #include <cpl_conv.h>
 #include <fmt/format.h>
@@ -42,14 +43,32 @@ std::string wktOf(OGRSpatialReferenceH reference) {
     return wkt;
 }
 
-std::vector<std::string> polarWarpOptions(GDALDatasetH raster) {
+namespace {
+
+/// Of a raster in degrees.
+std::optional<std::array<double, 6>> degreesOf(GDALDatasetH raster) {
     const OGRSpatialReferenceH crs = GDALGetSpatialRef(raster);
     std::array<double, 6> t{};
     if (crs == nullptr || OSRIsGeographic(crs) == 0 ||
         GDALGetGeoTransform(raster, t.data()) != CE_None)
+        return std::nullopt;
+    return t;
+}
+
+}  // namespace
+
+bool isAroundTheEarth(GDALDatasetH raster) {
+    constexpr double kLeastDegrees = 355;
+    const auto t = degreesOf(raster);
+    return t && std::abs((*t)[1]) * GDALGetRasterXSize(raster) >= kLeastDegrees;
+}
+
+std::vector<std::string> polarWarpOptions(GDALDatasetH raster) {
+    const auto t = degreesOf(raster);
+    if (!t)
         return {};
-    const double last = t[3] + t[5] * GDALGetRasterYSize(raster);
-    if (std::max(std::abs(t[3]), std::abs(last)) <= kUtmLimitDegrees)
+    const double last = (*t)[3] + (*t)[5] * GDALGetRasterYSize(raster);
+    if (std::max(std::abs((*t)[3]), std::abs(last)) <= kUtmLimitDegrees)
         return {};
     return {"SAMPLE_GRID=YES", "SAMPLE_STEPS=129"};  // every row of a block of 128
 }

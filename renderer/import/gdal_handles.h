@@ -67,6 +67,10 @@ inline constexpr double kUtmLimitDegrees = 84;
 /// pixels beside it were missed and stayed open. With these it looks at the block's inside.
 std::vector<std::string> polarWarpOptions(GDALDatasetH raster);
 
+/// Whether a raster in degrees has all longitudes, to a few: where one of its rims lies on the map
+/// its other does too, and what is between two of its points need not lie between them there.
+bool isAroundTheEarth(GDALDatasetH raster);
+
 /// InvalidArgument "path: what".
 absl::Status invalid(const std::string& path, const std::string& what);
 

@@ -384,6 +384,77 @@ TEST_F(HardCase26, PolarCapsHaveEveryPlaceWhereSnydersFormulasHaveIt) {
     }
 }
 
+/// Continents, oceans and the earth, of pixels of half a degree as above; a post on another grid
+/// than the raster's is interpolated once more.
+TEST_F(HardCase26, WideLandsHaveEveryPlaceWhereProjHasIt) {
+    struct Case {
+        const char* name;
+        double west, north;
+        int columns, rows;
+        const char* projection;
+    };
+    for (const Case& one :
+         {Case{"Europe", -12, 72, 110, 76, "Lambert azimuthal equal-area around 15.5, 53"},
+          Case{"the Pacific's islands", 150, 10, 120, 60,
+               "Lambert azimuthal equal-area around -180"},
+          Case{"Antarctica", -180, -60, 720, 60, "Lambert azimuthal equal-area around 0, -90"},
+          Case{"the Americas", -170, 75, 280, 260, "Equidistant cylindrical"},
+          Case{"the earth", -180, 90, 720, 360, "Equidistant cylindrical"},
+          Case{"the earth from Greenwich", 0, 90, 720, 360, "Equidistant cylindrical"}}) {
+        const auto dem = test::readDem(write({.epsg = kDegrees,
+                                              .west = one.west,
+                                              .north = one.north,
+                                              .pixel = 0.5,
+                                              .columns = one.columns,
+                                              .rows = one.rows,
+                                              .height = deep}));
+        ASSERT_TRUE(dem.ok()) << one.name << dem.status();
+        EXPECT_THAT(dem->crsWkt, HasSubstr(one.projection)) << one.name;
+        const double east = one.west + 0.5 * one.columns, south = one.north - 0.5 * one.rows;
+        const Checked found = check(*dem, fromCrs(dem->crsWkt), [&](const Place& at) {
+            const double turns = std::floor((at.longitude - one.west) / 360);
+            const double longitude = at.longitude - 360 * turns;
+            return longitude > one.west + 0.6 && longitude < east - 0.6 &&
+                   at.latitude < std::min(one.north, 89.9) - 0.6 &&
+                   at.latitude > std::max(south, -89.9) + 0.6;
+        });
+        EXPECT_GT(found.posts, 5000) << one.name;
+        EXPECT_EQ(found.open, 0) << one.name;
+        EXPECT_LE(found.worst, 2.6) << one.name;
+    }
+}
+
+/// Pixels of a degree and of two, from a degree farther west: where the finer raster is open, the
+/// coarser one is interpolated, which leaves 16 times what half a degree does.
+TEST_F(HardCase26, TwoRastersOfTheEarthFillEachOther) {
+    const auto west = [](double longitude, double latitude) {
+        return longitude > 20 ? -9999 : deep(longitude, latitude);
+    };
+    const std::string fine = write({.epsg = kDegrees,
+                                    .west = -180,
+                                    .north = 90,
+                                    .pixel = 1,
+                                    .columns = 360,
+                                    .rows = 180,
+                                    .height = west});
+    const std::string coarse = write({.epsg = kDegrees,
+                                      .west = -181,
+                                      .north = 90,
+                                      .pixel = 2,
+                                      .columns = 180,
+                                      .rows = 90,
+                                      .height = deep});
+    const auto dem = test::readDems({fine, coarse});
+    ASSERT_TRUE(dem.ok()) << dem.status();
+    const Checked found = check(*dem, fromCrs(dem->crsWkt), [](const Place& at) {
+        return std::abs(at.latitude) < 88 && std::abs(at.longitude) < 177 &&
+               std::abs(at.longitude - 20) > 1;  // the rim of what the finer one has
+    });
+    EXPECT_GT(found.posts, 50000);
+    EXPECT_EQ(found.open, 0);
+    EXPECT_LE(found.worst, 26);
+}
+
 /// Pixels of a hundredth of a degree, over which the ground falls by 3 m at most. Rasters that
 /// count to 180 degrees and from -180 are beside each other; half a pixel is to their rim.
 TEST_F(HardCase26, AcrossTheAntimeridianEveryPlaceIsWhereProjHasIt) {
