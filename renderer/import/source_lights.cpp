@@ -13,6 +13,8 @@
 namespace eyrie::import {
 namespace {
 
+constexpr double kBlack = 1e-12;  ///< what is darker, of the brightest
+
 double brightnessOf(const fabric::Vec3& colour) { return std::max({colour.x, colour.y, colour.z}); }
 
 bool isSound(const SourceLight& light) {
@@ -56,7 +58,7 @@ fabric::FileLights lightsFrom(std::span<const SourceLight> lights,
     for (const SourceLight& light : lights) {
         if (!isSound(light))
             ++unsound;
-        else if (brightnessOf(light.colour) == 0)
+        else if (brightnessOf(light.colour) < kBlack * brightest)
             continue;
         else if (light.kind == SourceLight::Kind::Distant)
             result.distant.push_back({glm::normalize(light.place), light.colour / brightest});

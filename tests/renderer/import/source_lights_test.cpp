@@ -70,6 +70,11 @@ TEST(SourceLights, KeepTheirShareWhereOneIsTooBright) {
 
 TEST(SourceLights, OfNoLightAreLeftOut) {
     EXPECT_EQ(lightsFrom({{Kind::Point, Vec3(0), Vec3(0)}}).count(), 0U);
+    EXPECT_EQ(lightsFrom({{Kind::Point, Vec3(0), Vec3(1e-320), 0, 0, 1}}).count(), 0U);
+    EXPECT_EQ(lightsFrom({{Kind::Point, Vec3(0), Vec3(1), 0, 0, 1},
+                          {Kind::Distant, Vec3(0, 0, -1), Vec3(1e300)}})
+                  .count(),
+              1U);
     const double none = std::numeric_limits<double>::quiet_NaN();
     const double endless = std::numeric_limits<double>::infinity();
     for (const SourceLight& unsound : {SourceLight{Kind::Point, Vec3(none), Vec3(1)},
