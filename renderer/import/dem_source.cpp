@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <glm/trigonometric.hpp>
 #include <malloc.h>
 
 #include "fabric/status.h"
@@ -275,13 +276,32 @@ private:
         Suggested suggested{{{t[0], t[3]}, {t[1], t[4]}, {t[2], t[5]}},
                             GDALGetRasterXSize(dataset.get()),
                             GDALGetRasterYSize(dataset.get())};
-        if (aroundTheEarth_ > 0 && isAroundTheEarth(file.dataset.get())) {
+        if (!isAroundTheEarth(file.dataset.get()))
+            return suggested;
+        if (aroundTheEarth_ > 0) {
             // GDAL looks at places 17 degrees apart, and a rim may lie between two of them.
             suggested.reference.origin.x = -aroundTheEarth_ / 2;
             suggested.columns =
                 static_cast<int>(std::lround(aroundTheEarth_ / suggested.reference.perColumn.x));
+        } else if (const double coarser = postsAtRim(file) / suggested.reference.perColumn.x;
+                   coarser > 1) {
+            // And for posts as many on the map's diagonal as on the raster's, which is unrolled.
+            suggested.reference.perColumn *= coarser;
+            suggested.reference.perRow *= coarser;
+            suggested.columns = std::max(2, static_cast<int>(suggested.columns / coarser));
+            suggested.rows = std::max(2, static_cast<int>(suggested.rows / coarser));
         }
         return suggested;
+    }
+
+    /// The smaller of a geographic raster's spacings where they are widest, in units of the CRS.
+    double postsAtRim(const DemFile& file) const {
+        const Georeference& g = file.reference;
+        const double last = g.origin.y + g.perRow.y * file.rows;
+        const double rim = glm::radians(std::min(std::abs(g.origin.y), std::abs(last)));
+        const double degree = glm::radians(OSRGetSemiMajor(crs_.get(), nullptr)) /
+                              OSRGetLinearUnits(crs_.get(), nullptr);
+        return degree * std::min(std::abs(g.perColumn.x) * std::cos(rim), std::abs(g.perRow.y));
     }
 
     static PixelGrid gridOf(const Georeference& g) {
