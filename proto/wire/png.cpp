@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // PNG (Portable Network Graphics Specification, Third Edition, W3C 2025), as plain as it can be:
-// IHDR, one IDAT, IEND. Rows are filtered by Sub and compressed with zlib's level 1 looking for
-// runs only: of zlib's ways the one that makes least of rendered terrain, and among the fastest.
+// IHDR, one IDAT, IEND. Rows are filtered by Sub and compressed with libdeflate's level 2:
 // docs/decisions/0043-still-pictures-bit-for-bit.md has what others take.
 #include "wire/png.h"
 
 #include <cstdint>
+#include <cstring>
+#include <memory>
 #include <string_view>
 
 #include <fmt/format.h>
-#include <zlib.h>
+#include <libdeflate.h>
 
 #include "fabric/status.h"
 
@@ -20,6 +21,13 @@ using Bytes = std::vector<std::byte>;
 
 constexpr std::size_t kChannels = 3;
 constexpr std::byte kSubFilter{1};
+constexpr int kLevel = 2;
+
+struct FreeCompressor {
+    void operator()(libdeflate_compressor* compressor) const {
+        libdeflate_free_compressor(compressor);
+    }
+};
 
 void putBigEndian(Bytes& bytes, std::uint32_t value) {
     for (const int shift : {24, 16, 8, 0}) bytes.push_back(static_cast<std::byte>(value >> shift));
@@ -37,51 +45,54 @@ void endChunk(Bytes& bytes, std::size_t start) {
     const std::size_t length = bytes.size() - start - 8;
     for (std::size_t i = 0; i < 4; ++i)
         bytes[start + i] = static_cast<std::byte>(length >> (24 - 8 * i));
-    const auto* typeAndData = reinterpret_cast<const Bytef*>(&bytes[start + 4]);
-    putBigEndian(bytes,
-                 static_cast<std::uint32_t>(crc32(0, typeAndData, static_cast<uInt>(length + 4))));
+    putBigEndian(bytes, libdeflate_crc32(0, &bytes[start + 4], length + 4));
+}
+
+/// What is to be added to each of four bytes of `before` for `pixel`, without carries between them.
+std::uint32_t difference(std::uint32_t pixel, std::uint32_t before) {
+    constexpr std::uint32_t kHigh = 0x80808080u;
+    return ((pixel | kHigh) - (before & ~kHigh)) ^ ((pixel ^ ~before) & kHigh);
 }
 
 /// Rows from the top, each a filter's number and the differences from the pixel before.
 Bytes filtered(const fabric::Image& image) {
     const auto width = static_cast<std::size_t>(image.area.width);
     const auto height = static_cast<std::size_t>(image.area.height);
-    Bytes rows(height * (1 + kChannels * width));
+    // A pixel is written with its alpha, which the next one writes over.
+    Bytes rows(height * (1 + kChannels * width) + 1);
     std::byte* out = rows.data();
     for (std::size_t y = height; y-- > 0;) {
         *out++ = kSubFilter;
-        fabric::Rgba before{0, 0, 0, 0};
+        std::uint32_t before = 0;
         for (std::size_t x = 0; x < width; ++x) {
-            const fabric::Rgba pixel = image.colour[y * width + x];
-            *out++ = static_cast<std::byte>(pixel.r - before.r);
-            *out++ = static_cast<std::byte>(pixel.g - before.g);
-            *out++ = static_cast<std::byte>(pixel.b - before.b);
+            std::uint32_t pixel;
+            static_assert(sizeof pixel == sizeof(fabric::Rgba));
+            std::memcpy(&pixel, &image.colour[y * width + x], sizeof pixel);
+            const std::uint32_t step = difference(pixel, before);
+            std::memcpy(out, &step, sizeof step);
+            out += kChannels;
             before = pixel;
         }
     }
+    rows.pop_back();
     return rows;
 }
 
 absl::Status appendCompressed(const Bytes& rows, Bytes& bytes) {
-    z_stream stream{};
-    if (deflateInit2(&stream, 1, Z_DEFLATED, 15, 9, Z_RLE) != Z_OK)
+    const std::unique_ptr<libdeflate_compressor, FreeCompressor> compressor(
+        libdeflate_alloc_compressor(kLevel));
+    if (compressor == nullptr)
         return absl::ResourceExhaustedError("png: no memory for a compressor");
     const std::size_t start = bytes.size();
-    bytes.resize(start + deflateBound(&stream, static_cast<uLong>(rows.size())));
-    // zlib's interface is not const; it only reads.
-    stream.next_in = reinterpret_cast<Bytef*>(const_cast<std::byte*>(rows.data()));
-    stream.avail_in = static_cast<uInt>(rows.size());
-    stream.next_out = reinterpret_cast<Bytef*>(&bytes[start]);
-    stream.avail_out = static_cast<uInt>(bytes.size() - start);
-    const int result = deflate(&stream, Z_FINISH);
-    bytes.resize(start + stream.total_out);
-    deflateEnd(&stream);
-    return result == Z_STREAM_END ? absl::OkStatus()
-                                  : absl::InternalError(fmt::format("png: zlib says {}", result));
+    bytes.resize(start + libdeflate_zlib_compress_bound(compressor.get(), rows.size()));
+    const std::size_t size = libdeflate_zlib_compress(compressor.get(), rows.data(), rows.size(),
+                                                      &bytes[start], bytes.size() - start);
+    bytes.resize(start + size);
+    return size > 0 ? absl::OkStatus() : absl::InternalError("png: libdeflate found no room");
 }
 
 absl::Status checkEncodable(const fabric::Image& image) {
-    constexpr std::int64_t kMaxPixels = std::int64_t{1} << 30;  // zlib counts bytes in 32 bits
+    constexpr std::int64_t kMaxPixels = std::int64_t{1} << 29;  // a chunk has 2^31 bytes at most
     const fabric::PixelViewport& area = image.area;
     if (area.isEmpty() || area.area() > kMaxPixels)
         return absl::InvalidArgumentError(

@@ -14,7 +14,7 @@ namespace eyrie::wire {
 /// red, green and blue come back bit for bit. Alpha and depth are left out, and nothing is said of
 /// colour spaces, so that no browser converts anything. May be called from any thread.
 ///
-/// Made for speed: 1280x720 of terrain takes some 35 ms on one core (docs/benchmarks.md).
+/// Made for speed: 1280x720 of terrain takes some 8 ms on one core (docs/benchmarks.md).
 /// Errors: InvalidArgument (an empty image, or colour that does not fill the area),
 /// ResourceExhausted (no memory for the compressor).
 absl::StatusOr<std::vector<std::byte>> encodePng(const fabric::Image& image);
