@@ -89,8 +89,8 @@ std::int32_t AssimpMaterials::readTexture(const aiMaterial& material, Entry& ent
     aiTextureMapMode modes[2] = {aiTextureMapMode_Wrap, aiTextureMapMode_Wrap};
     if (material.GetTexture(aiTextureType_DIFFUSE, 0, &path, nullptr, &entry.channel, nullptr,
                             nullptr, modes) != AI_SUCCESS ||
-        path.length == 0)
-        return -1;
+        path.length == 0 || std::string_view(path.C_Str()).starts_with("$texture_dummy"))
+        return -1;  // Quake's formats name none
     aiUVTransform transform;
     if (material.Get(AI_MATKEY_UVTRANSFORM_DIFFUSE(0), transform) == AI_SUCCESS)
         entry.placeFromSource = matrixOf(transform);

@@ -37,13 +37,23 @@ namespace {
 /// AC3D multiplies, but with emissive and ambient parts that are not drawn here and make up for
 /// what the diffuse colour lacks.
 constexpr std::array kFormats = {
-    AssimpFormat{".3ds", true, false, true},   AssimpFormat{".ac", true, false, true},
-    AssimpFormat{".ac3d", true, false, true},  AssimpFormat{".acc", true, false, true},
-    AssimpFormat{".dae", true, false, true},   AssimpFormat{".fbx", true, false, true},
-    AssimpFormat{".glb", true, true, false},   AssimpFormat{".gltf", true, true, false},
-    AssimpFormat{".ifc", true, false, false},  AssimpFormat{".obj", false, false, false},
-    AssimpFormat{".off", false, false, false}, AssimpFormat{".stl", false, false, false},
-    AssimpFormat{".x3d", true, false, true},
+    AssimpFormat{".3ds", true, false, true},     AssimpFormat{".3mf", false, false, true},
+    AssimpFormat{".ac", true, false, true},      AssimpFormat{".ac3d", true, false, true},
+    AssimpFormat{".acc", true, false, true},     AssimpFormat{".amf", false, false, true},
+    AssimpFormat{".ase", true, false, true},     AssimpFormat{".b3d", true, false, false},
+    AssimpFormat{".blend", false, false, true},  AssimpFormat{".cob", false, false, true},
+    AssimpFormat{".dae", true, false, true},     AssimpFormat{".dxf", true, false, true},
+    AssimpFormat{".fbx", true, false, true},     AssimpFormat{".glb", true, true, false},
+    AssimpFormat{".gltf", true, true, false},    AssimpFormat{".ifc", true, false, false},
+    AssimpFormat{".ifczip", true, false, false}, AssimpFormat{".iqm", true, false, true},
+    AssimpFormat{".lwo", true, false, true},     AssimpFormat{".lxo", true, false, true},
+    AssimpFormat{".md2", true, false, true},     AssimpFormat{".md3", true, false, true},
+    AssimpFormat{".md5mesh", true, false, true}, AssimpFormat{".mdc", true, false, true},
+    AssimpFormat{".ms3d", true, false, false},   AssimpFormat{".obj", false, false, false},
+    AssimpFormat{".off", false, false, false},   AssimpFormat{".sib", true, false, true},
+    AssimpFormat{".smd", false, false, true},    AssimpFormat{".stl", false, false, false},
+    AssimpFormat{".x", true, false, false},      AssimpFormat{".x3d", true, false, true},
+    AssimpFormat{".zae", true, false, true},
 };
 
 /// Of surfaces without a material, where others have one.
@@ -58,6 +68,12 @@ std::uint8_t byteOf(float value, bool isLinear) {
         shown = shown <= 0.0031308 ? 12.92 * shown : 1.055 * std::pow(shown, 1 / 2.4) - 0.055;
     return static_cast<std::uint8_t>(std::lround(255 * shown));
 }
+
+bool isBelowZero(const aiColor4D& colour) {
+    return !(colour.r >= 0 && colour.g >= 0 && colour.b >= 0 && colour.a >= 0);
+}
+
+bool isNothing(const aiColor4D& colour) { return colour == aiColor4D(0, 0, 0, 0); }
 
 bool hasOwnMaterial(const aiMaterial& material) {
     aiString name;
@@ -75,17 +91,19 @@ public:
         for (unsigned int i = 0; i < scene.mNumMeshes; ++i) {
             const aiMesh& mesh = *scene.mMeshes[i];
             hasNormals_ = hasNormals_ || mesh.mNormals != nullptr;
-            hasColours_ = hasColours_ || mesh.mColors[0] != nullptr || materialOf(mesh) != nullptr;
+            lookAtColours(mesh);
+            hasColours_ = hasColours_ || colours_.back() != nullptr || materialOf(mesh) != nullptr;
         }
     }
 
     absl::StatusOr<TriangleMesh> gather();
 
 private:
+    void lookAtColours(const aiMesh& mesh);
     const aiMaterial* materialOf(const aiMesh& mesh) const;
-    absl::Status add(const aiMesh& mesh, const glm::dmat4& worldFromMesh);
+    absl::Status add(unsigned int number, const glm::dmat4& worldFromMesh);
     absl::Status addVertices(const aiMesh& mesh, const glm::dmat4& worldFromMesh);
-    void addColours(const aiMesh& mesh);
+    void addColours(const aiMesh& mesh, const aiColor4D* colours);
     void addTextureCoordinates(const aiMesh& mesh);
     absl::Status addFaces(const aiMesh& mesh, std::uint32_t first, bool isMirrored);
     absl::Status addFace(const aiFace& face, std::uint32_t first);
@@ -93,11 +111,26 @@ private:
     const aiScene& scene_;
     const AssimpFormat& format_;
     AssimpMaterials materials_;
+    std::vector<const aiColor4D*> colours_;  // of each mesh's vertices, or null
+    std::size_t wrongColours_ = 0;           // meshes of which they are left out
     bool hasNormals_ = false;
     bool hasColours_ = false;
     TriangleMesh result_;
     std::vector<std::uint32_t> corners_;  // of the face being added
 };
+
+/// Assimp gives AMF's vertices the colour 0, 0, 0, 0 where the file has none, and takes Blender's
+/// bytes for signed ones. glTF's mean what they say.
+void SceneMeshes::lookAtColours(const aiMesh& mesh) {
+    colours_.push_back(mesh.mColors[0]);
+    if (mesh.mColors[0] == nullptr || format_.hasLinearColours)
+        return;
+    const std::span colours(mesh.mColors[0], mesh.mNumVertices);
+    const bool isWrong = std::ranges::any_of(colours, isBelowZero);
+    wrongColours_ += isWrong ? 1 : 0;
+    if (isWrong || std::ranges::all_of(colours, isNothing))
+        colours_.back() = nullptr;
+}
 
 const aiMaterial* SceneMeshes::materialOf(const aiMesh& mesh) const {
     if (mesh.mMaterialIndex >= scene_.mNumMaterials)
@@ -125,14 +158,13 @@ absl::Status SceneMeshes::addVertices(const aiMesh& mesh, const glm::dmat4& worl
     return absl::OkStatus();
 }
 
-void SceneMeshes::addColours(const aiMesh& mesh) {
+void SceneMeshes::addColours(const aiMesh& mesh, const aiColor4D* colours) {
     const aiMaterial* material = materialOf(mesh);
-    aiColor4D diffuse = mesh.mColors[0] != nullptr ? aiColor4D(1, 1, 1, 1) : kPlain;
+    aiColor4D diffuse = colours != nullptr ? aiColor4D(1, 1, 1, 1) : kPlain;
     if (material != nullptr)
         diffuse = materials_.colourOf(mesh);
     for (unsigned int i = 0; i < mesh.mNumVertices; ++i) {
-        const aiColor4D own =
-            mesh.mColors[0] != nullptr ? mesh.mColors[0][i] : aiColor4D(1, 1, 1, 1);
+        const aiColor4D own = colours != nullptr ? colours[i] : aiColor4D(1, 1, 1, 1);
         const auto shown = [this](float value) { return byteOf(value, format_.hasLinearColours); };
         result_.colours.push_back(
             {shown(diffuse.r * own.r), shown(diffuse.g * own.g), shown(diffuse.b * own.b),
@@ -181,14 +213,15 @@ absl::Status SceneMeshes::addFaces(const aiMesh& mesh, std::uint32_t first, bool
     return absl::OkStatus();
 }
 
-absl::Status SceneMeshes::add(const aiMesh& mesh, const glm::dmat4& worldFromMesh) {
+absl::Status SceneMeshes::add(unsigned int number, const glm::dmat4& worldFromMesh) {
+    const aiMesh& mesh = *scene_.mMeshes[number];
     const std::size_t first = result_.positions.size();
     if (first + mesh.mNumVertices >= std::numeric_limits<std::uint32_t>::max())
         return absl::InvalidArgumentError(
             "found more than 2^32 vertices, all instances of meshes counted; import it in parts");
     RETURN_IF_ERROR(addVertices(mesh, worldFromMesh));
     if (hasColours_)
-        addColours(mesh);
+        addColours(mesh, colours_[number]);
     if (materials_.areAny())
         addTextureCoordinates(mesh);
     return addFaces(mesh, static_cast<std::uint32_t>(first),
@@ -210,7 +243,7 @@ absl::StatusOr<TriangleMesh> SceneMeshes::gather() {
         waiting.pop_back();
         for (unsigned int i = 0; i < node->mNumMeshes; ++i)
             if (node->mMeshes[i] < scene_.mNumMeshes)
-                RETURN_IF_ERROR(add(*scene_.mMeshes[node->mMeshes[i]], worldFromNode));
+                RETURN_IF_ERROR(add(node->mMeshes[i], worldFromNode));
         for (unsigned int i = node->mNumChildren; i-- > 0;)
             waiting.push_back({node->mChildren[i],
                                worldFromNode * toDouble(node->mChildren[i]->mTransformation)});
@@ -222,6 +255,10 @@ absl::StatusOr<TriangleMesh> SceneMeshes::gather() {
                         result_.droppedFaces));
     materials_.moveTo(result_);
     result_.lights = lightsOf(scene_, worldFromScene, result_.notes);
+    if (wrongColours_ > 0)
+        result_.notes.push_back(
+            fmt::format("left out vertices' colours of {} of {} meshes, which are below 0",
+                        wrongColours_, scene_.mNumMeshes));
     if (scene_.mNumAnimations > 0)
         result_.notes.push_back(
             fmt::format("left out its animations, {} of them: everything stays where "
@@ -274,6 +311,7 @@ const aiScene* parse(Assimp::Importer& importer, const std::string& path,
 absl::StatusOr<TriangleMesh> read(const std::string& path, const AssimpFormat& format) {
     try {
         Assimp::Importer importer;
+        importer.SetPropertyInteger(AI_CONFIG_IMPORT_MD3_HANDLE_MULTIPART, 0);  // this file alone
         const aiScene* scene = parse(importer, path, format);
         if (scene != nullptr)
             return SceneMeshes(*scene, format).gather();

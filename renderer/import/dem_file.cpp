@@ -260,7 +260,12 @@ absl::StatusOr<DemFile> openDemFile(const std::string& path, QuietGdal& gdal) {
     file.path = path;
     if (VSIStatBufL status; VSIStatL(path.c_str(), &status) != 0)
         return absl::NotFoundError(fmt::format("{}: no such file, or not readable", path));
-    ASSIGN_OR_RETURN(Dataset dataset, openRaster(path, "a DEM such as a GeoTIFF", gdal));
+    ASSIGN_OR_RETURN(
+        Dataset dataset,
+        openRaster(path,
+                   "a DEM such as a GeoTIFF, or a mesh whose name ends in .ply, .obj, .glb or "
+                   "as README.md lists",
+                   gdal));
     const GDALRasterBandH band = GDALGetRasterBand(dataset.get(), 1);
     RETURN_IF_ERROR(checkBand(path, band));
     file.columns = GDALGetRasterXSize(dataset.get());
