@@ -86,7 +86,7 @@ public:
     /// From the root at `first`; returns where the next tree begins.
     absl::StatusOr<std::size_t> walk(std::size_t first) {
         findQueues(first);
-        ASSIGN_OR_RETURN(const std::size_t next, visit(first, std::nullopt));
+        ASSIGN_OR_RETURN(const std::size_t next, visit(first));
         for (const Waiting& waiting : waiting_) match(waiting);
         return next;
     }
@@ -111,21 +111,18 @@ private:
         std::size_t compound;
     };
 
-    absl::StatusOr<std::size_t> visit(std::size_t index, std::optional<config::Wall> wall) {
+    absl::StatusOr<std::size_t> visit(std::size_t index) {
         const ResolvedCompound& own = resolved_.compounds[index];
         std::size_t next = index + 1;
         if (!isActive(own)) {
             while (isBelow(next, own)) ++next;
             return next;
         }
-        if (own.compound != nullptr)
-            if (const auto other = config::wallOf(own.compound->surface))
-                wall = other;
         const bool isLeaf = !isBelow(next, own);
         levels_.push_back({own.channel, framebufferOf(own), {}, list_.works.size()});
-        RETURN_IF_ERROR(begin(index, isLeaf, wall));
+        RETURN_IF_ERROR(begin(index, isLeaf));
         while (isBelow(next, own)) {
-            ASSIGN_OR_RETURN(next, visit(next, wall));
+            ASSIGN_OR_RETURN(next, visit(next));
         }
         end(index);
         return next;
@@ -191,7 +188,7 @@ private:
                    : own.area;
     }
 
-    absl::Status begin(std::size_t index, bool isLeaf, const std::optional<config::Wall>& wall) {
+    absl::Status begin(std::size_t index, bool isLeaf) {
         const ResolvedCompound& own = resolved_.compounds[index];
         const std::optional<std::size_t> framebuffer = levels_.back().framebuffer;
         if (!framebuffer)
@@ -199,15 +196,14 @@ private:
         if (own.tasks.clear)
             add(Work::Kind::Clear, *framebuffer, areaOnFramebuffer(own));
         if (own.tasks.draw && isLeaf)
-            return addDraw(index, *framebuffer, wall);
+            return addDraw(index, *framebuffer);
         return absl::OkStatus();
     }
 
-    absl::Status addDraw(std::size_t index, std::size_t framebuffer,
-                         const std::optional<config::Wall>& wall) {
+    absl::Status addDraw(std::size_t index, std::size_t framebuffer) {
         const ResolvedCompound& own = resolved_.compounds[index];
         const config::Destination& destination = resolved_.destinations[*own.destination];
-        const Surroundings surroundings = surroundingsOf(destination, wall);
+        const Surroundings surroundings = surroundingsOf(destination, own.wall);
         const Seen what =
             seen(configuration_, request_, destination, surroundings, pass_.sight,
                  focusRatio(configuration_, request_.display, resolved_, destination));

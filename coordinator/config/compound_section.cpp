@@ -43,6 +43,7 @@ Frame readFrame(const Statement& block, std::string_view what, ValueReader& read
           }},
          {"viewport", [&](const auto& each) { reader.fraction(each, frame.viewport); }},
          {"buffer", [&](const auto& each) { frame.buffers = readBuffers(each, reader); }},
+         {"buffers", [&](const auto& each) { frame.buffers = readBuffers(each, reader); }},
          {"zoom", [&](const auto& each) { readZoom(each, reader, frame.zoom); }}});
     return frame;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -348,6 +349,12 @@ struct Compound {
 
     bool operator==(const Compound&) const = default;
 };
+
+/// Whether the compound, or one within it, draws what a view shows on a segment.
+inline bool namesDestination(const Compound& compound) {
+    return std::holds_alternative<DestinationIndex>(compound.channel) ||
+           std::ranges::any_of(compound.children, namesDestination);
+}
 
 struct Configuration {
     std::string version;  ///< of the file's form; empty: the newest

@@ -16,8 +16,7 @@ void keepDestinations(const std::vector<Compound>& from, const Compound& inherit
                       std::vector<Compound>& to) {
     for (const Compound& each : from) {
         Compound own = inherited;
-        if (!std::holds_alternative<std::monostate>(each.surface))
-            own.surface = each.surface;
+        inherit(each.eyes, own.eyes);
         inherit(each.stereoMode, own.stereoMode);
         inherit(each.anaglyphLeft, own.anaglyphLeft);
         inherit(each.anaglyphRight, own.anaglyphRight);
@@ -26,10 +25,9 @@ void keepDestinations(const std::vector<Compound>& from, const Compound& inherit
             continue;
         }
         own.channel = each.channel;
-        own.eyes = each.eyes;
         // A wall that an only child has is what is seen.
-        if (each.children.size() == 1 && std::holds_alternative<std::monostate>(own.surface))
-            own.surface = each.children.front().surface;
+        if (each.children.size() == 1)
+            own.children.emplace_back().surface = each.children.front().surface;
         to.push_back(own);
     }
 }

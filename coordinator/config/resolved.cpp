@@ -128,7 +128,6 @@ private:
         served_[*own.destination] = true;
         own.pixelViewport = found->pixelViewport;
         own.area = {0, 0, found->pixelViewport.width, found->pixelViewport.height};
-        own.eyes = both(own.eyes, found->eyes);
     }
 
     void inherit(const Compound& compound, ResolvedCompound& own, bool isPartOfPicture) {
@@ -150,11 +149,25 @@ private:
         own.phase = compound.phase.value_or(own.phase);
         own.buffers = compound.buffers.value_or(own.buffers);
         if (compound.eyes)
-            own.eyes = both(own.eyes, *compound.eyes);
+            own.eyes = isPartOfPicture ? both(own.eyes, *compound.eyes) : *compound.eyes;
+        if (own.destination && !isPartOfPicture)
+            own.eyes = both(own.eyes, resolved_.destinations[*own.destination].eyes);
+        takeWall(compound, own, isPartOfPicture);
         if (own.phase >= own.period)
             findings_.error(compound.place, fmt::format("phase {} of a period of {} frames: it "
                                                         "must be less",
                                                         own.phase, own.period));
+    }
+
+    /// Within a destination's picture a compound may see another wall; the destination itself shows
+    /// its view's or segment's.
+    void takeWall(const Compound& compound, ResolvedCompound& own, bool isPartOfPicture) {
+        const std::optional<Wall> wall = wallOf(compound.surface);
+        if (wall && isPartOfPicture)
+            own.wall = wall;
+        else if (wall && namesDestination(compound))
+            findings_.warning(compound.place,
+                              "the compound's wall has no effect: views and segments have theirs");
     }
 
     void takeShares(const Compound& compound, ResolvedCompound& own) {
@@ -268,10 +281,7 @@ private:
         if (!own.destination)
             return;
         const Destination& destination = resolved_.destinations[*own.destination];
-        std::optional<Wall> wall = destination.wall;
-        for (const Compound* const each : path_)
-            if (const auto other = wallOf(each->surface))
-                wall = other;
+        const std::optional<Wall>& wall = own.wall ? own.wall : destination.wall;
         if (!wall)
             return;
         const Wall seen = config::part(*wall, own.viewport);

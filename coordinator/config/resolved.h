@@ -81,6 +81,7 @@ struct ResolvedCompound {
     std::int64_t phase = 0;
     Eyes eyes;
     Buffers buffers;
+    std::optional<Wall> wall;  ///< instead of its destination's
     Tasks tasks;
     std::vector<ResolvedFrame> outputFrames;
     std::vector<ResolvedFrame> inputFrames;

@@ -8,19 +8,18 @@
 namespace eyrie::config {
 namespace {
 
-bool hasDestination(const Compound& compound) {
-    return std::holds_alternative<DestinationIndex>(compound.channel) ||
-           std::ranges::any_of(compound.children, hasDestination);
+/// Either eye, and not the one between them, which views have that are not stereo.
+bool areTwo(const std::optional<Eyes>& eyes) {
+    return eyes && (eyes->left || eyes->right) && !eyes->cyclop;
 }
 
 bool showsBothEyes(const Compound& compound) {
-    return (compound.eyes && (compound.eyes->left || compound.eyes->right)) ||
-           std::ranges::any_of(compound.children, showsBothEyes);
+    return areTwo(compound.eyes) || std::ranges::any_of(compound.children, showsBothEyes);
 }
 
 /// Whether it draws into a channel that no view names.
 bool isBare(const Compound& compound) {
-    return std::holds_alternative<ChannelIndex>(compound.channel) && !hasDestination(compound);
+    return std::holds_alternative<ChannelIndex>(compound.channel) && !namesDestination(compound);
 }
 
 class DestinationAdder {
@@ -28,9 +27,17 @@ public:
     explicit DestinationAdder(Configuration& configuration)
         : configuration_(configuration), first_(configuration.canvases.size()) {}
 
-    void add(Compound& compound) {
+    /// What groups say for those in them that do not.
+    struct Said {
+        Surface surface;
+        std::optional<Eyes> eyes;
+    };
+
+    void add(Compound& compound, const Said& above = {}) {
+        const Said said{isSaid(compound.surface) ? compound.surface : above.surface,
+                        compound.eyes ? compound.eyes : above.eyes};
         if (isBare(compound))
-            return addAlone(compound);
+            return addAlone(compound, said);
         if (!std::holds_alternative<std::monostate>(compound.channel))
             return;
         std::vector<Compound*> parts;
@@ -38,68 +45,77 @@ public:
             if (isBare(child))
                 parts.push_back(&child);
             else
-                add(child);
+                add(child, said);
         if (!parts.empty())
-            addTogether(compound, parts);
+            addTogether(compound, said, parts);
     }
 
 private:
+    static bool isSaid(const Surface& surface) {
+        return !std::holds_alternative<std::monostate>(surface);
+    }
+
     /// Trees of one channel and wall, such as each eye's, make one picture.
-    void addAlone(Compound& compound) {
+    void addAlone(Compound& compound, const Said& said) {
         const ChannelIndex channel = std::get<ChannelIndex>(compound.channel);
         std::size_t canvas = first_;
         const auto isIts = [&](const Canvas& made) {
             return made.segments.size() == 1 && made.segments[0].channel == channel &&
-                   viewOf(made).surface == compound.surface;
+                   viewOf(made).surface == said.surface;
         };
         while (canvas < configuration_.canvases.size() && !isIts(configuration_.canvases[canvas]))
             ++canvas;
-        if (canvas == configuration_.canvases.size()) {
-            View& view = viewOf(addCanvas(compound));
-            view.surface = compound.surface;
-            segmentOf(configuration_.canvases[canvas], channel, {}, {}, compound.place);
-        }
-        showOn(canvas, 0, compound);
-        compound.surface = {};
+        if (canvas == configuration_.canvases.size())
+            viewOf(addCanvas(compound)).surface = said.surface;
+        Compound alone = compound;
+        alone.viewport = {};
+        alone.surface = {};
+        const std::size_t segment = segmentOf(configuration_.canvases[canvas], alone, said.eyes);
+        showOn(canvas, segment, compound, said.eyes);
     }
 
     /// The parts of a group share its wall: each is a segment with its own share of it.
-    void addTogether(const Compound& group, const std::vector<Compound*>& parts) {
+    void addTogether(Compound& group, const Said& said, const std::vector<Compound*>& parts) {
         const std::size_t canvas = configuration_.canvases.size();
         Canvas& made = addCanvas(group);
-        made.surface = group.surface;
+        made.surface = said.surface;
         for (Compound* part : parts) {
-            const std::size_t segment = segmentOf(made, std::get<ChannelIndex>(part->channel),
-                                                  part->viewport, part->surface, part->place);
-            showOn(canvas, segment, *part);
-            part->surface = {};
+            const std::optional<Eyes> eyes = part->eyes ? part->eyes : said.eyes;
+            showOn(canvas, segmentOf(made, *part, eyes), *part, eyes);
         }
+        group.surface = {};
     }
 
-    /// That which there is already, if there is such.
-    static std::size_t segmentOf(Canvas& canvas, const ChannelIndex& channel,
-                                 const Viewport& viewport, const Surface& surface,
-                                 const Place& place) {
-        const auto found = std::ranges::find_if(canvas.segments, [&](const Segment& segment) {
-            return segment.channel == channel && segment.viewport == viewport &&
-                   segment.surface == surface;
+    /// That which there is already, if there is such. It shows the eyes of all of its trees, and
+    /// the one between them.
+    static std::size_t segmentOf(Canvas& canvas, const Compound& tree,
+                                 const std::optional<Eyes>& eyes) {
+        Segment segment;
+        segment.channel = std::get<ChannelIndex>(tree.channel);
+        segment.viewport = tree.viewport;
+        segment.surface = tree.surface;
+        segment.place = tree.place;
+        if (eyes)
+            segment.eyes = {true, eyes->left, eyes->right};
+        const auto found = std::ranges::find_if(canvas.segments, [&](const Segment& other) {
+            return other.channel == segment.channel && other.viewport == segment.viewport &&
+                   other.surface == segment.surface;
         });
-        const auto index = static_cast<std::size_t>(found - canvas.segments.begin());
         if (found == canvas.segments.end()) {
-            Segment segment;
-            segment.channel = channel;
-            segment.viewport = viewport;
-            segment.surface = surface;
-            segment.place = place;
             canvas.segments.push_back(segment);
+            return canvas.segments.size() - 1;
         }
-        return index;
+        found->eyes.left = found->eyes.left || segment.eyes.left;
+        found->eyes.right = found->eyes.right || segment.eyes.right;
+        return static_cast<std::size_t>(found - canvas.segments.begin());
     }
 
-    void showOn(std::size_t canvas, std::size_t segment, Compound& compound) {
+    void showOn(std::size_t canvas, std::size_t segment, Compound& compound,
+                const std::optional<Eyes>& eyes) {
         const Canvas& made = configuration_.canvases[canvas];
-        viewOf(made).isStereo = viewOf(made).isStereo || showsBothEyes(compound);
+        viewOf(made).isStereo = viewOf(made).isStereo || areTwo(eyes) || showsBothEyes(compound);
         compound.viewport = {};
+        compound.surface = {};
         compound.channel = DestinationIndex{canvas, segment, *made.layouts[0], 0};
     }
 

@@ -14,7 +14,8 @@ namespace eyrie::config {
 ///   wall share them.
 /// - Where such trees have a group above them, they are segments of one canvas, which has the
 ///   group's wall; each shows its share, the tree's viewport, in the whole of its channel.
-/// - Where the trees have eyes LEFT or RIGHT the view is stereo.
+/// - Where the trees, or groups above them, have eyes LEFT or RIGHT and not CYCLOP the view is
+///   stereo; a segment shows the eyes of its trees.
 /// - Where no observer is, there is one of usual values, and each view has it.
 ///
 /// That a view without compound is drawn plainly holds for all versions, and is resolve()'s.

@@ -291,6 +291,40 @@ TEST(EqcUpgrade, MakesSegmentsOfOneCanvasOfAGroup) {
     for (const std::size_t part : {1U, 2U})
         EXPECT_EQ(old.resolved.compounds[part].pixelViewport,
                   (fabric::PixelViewport{0, 0, 480, 300}));
+    // Each sees through its own share, not through the group's wall.
+    EXPECT_NEAR(old.resolved.compounds[1].sights.at(0).sight->frustum.right, -0.32, 1e-12);
+    EXPECT_NEAR(old.resolved.compounds[2].sights.at(0).sight->frustum.left, -0.32, 1e-12);
+}
+
+/// Two channels under one group, each as `left` and `right` say.
+std::string oldGroup(const std::string& group, const std::string& left, const std::string& right) {
+    return "#Equalizer 1.0 ascii\n config { node { pipe { window { channel { name \"a\" }"
+           " channel { name \"b\" } } } } compound { wall {} " +
+           group + " compound { channel \"a\" viewport [ 0 0 .5 1 ] " + left +
+           " } compound { channel \"b\" viewport [ .5 0 .5 1 ] " + right + " } } }";
+}
+
+TEST(EqcUpgrade, TakesEyesFromGroups) {
+    const Read old(oldGroup("eye [ LEFT RIGHT ]", "", ""));
+    EXPECT_EQ(describe(old.findings, "f"), "");
+    ASSERT_EQ(old.resolved.destinations.size(), 2U);
+    for (const Destination& destination : old.resolved.destinations)
+        EXPECT_EQ(destination.eyes, (Eyes{false, true, true}));
+    for (const std::size_t part : {1U, 2U})
+        EXPECT_EQ(old.resolved.compounds[part].sights.size(), 2U);
+}
+
+TEST(EqcUpgrade, ShowsTheEyesOfItsTreesOnASegment) {
+    const Read old(oldGroup("", "eye [ LEFT ]", "eye [ RIGHT ]"));
+    ASSERT_EQ(old.resolved.destinations.size(), 2U);
+    EXPECT_EQ(old.resolved.destinations[0].eyes, (Eyes{false, true, false}));
+    EXPECT_EQ(old.resolved.destinations[1].eyes, (Eyes{false, false, true}));
+}
+
+TEST(EqcUpgrade, LeavesViewsThatHaveTheEyeBetweenAsTheyAre) {
+    const Read old(oldGroup("eye [ CYCLOP LEFT RIGHT ]", "", ""));
+    for (const Destination& destination : old.resolved.destinations)
+        EXPECT_EQ(destination.eyes, (Eyes{true, false, false}));
 }
 
 TEST(EqcUpgrade, GivesTreesOfEachEyeOneView) {
@@ -351,6 +385,49 @@ TEST(Resolve, MultipliesWhatChildrenInherit) {
     EXPECT_TRUE(leaf.outputFrames.front().isMatched);
     const ResolvedCompound& middle = read.resolved.compounds[1];
     EXPECT_EQ(middle.tasks, (Tasks{true, false, true, false}));
+}
+
+/// Equalizer's lexer takes 'buffers' for 'buffer', wherever it stands, and its files have both.
+TEST(Resolve, TakesBuffersOfFramesHoweverTheyAreSpelt) {
+    for (const char* word : {"buffer", "buffers"}) {
+        const Read read(withCompounds(fmt::format(
+            "compound {{ channel ( segment 0 view 0 ) compound {{ channel \"b\" outputframe {{ "
+            "{} [ COLOR DEPTH ] }} }} inputframe {{ name \"frame.b\" }} }}",
+            word)));
+        EXPECT_THAT(read.findings.all(), testing::IsEmpty()) << describe(read.findings, "f");
+        ASSERT_EQ(read.resolved.compounds.size(), 2U);
+        EXPECT_EQ(read.resolved.compounds[1].outputFrames.front().frame->buffers,
+                  (Buffers{true, true}));
+    }
+}
+
+/// As in Equalizer, a destination has the frustum of its view or segment.
+TEST(Resolve, TakesWallsOfCompoundsWithinADestinationOnly) {
+    const std::string wall =
+        "wall { bottom_left [ -5 -5 -1 ] bottom_right [ 5 -5 -1 ] top_left [ -5 5 -1 ] }";
+    const auto right = [](const Read& read) {
+        return read.resolved.compounds.back().sights.at(0).sight->frustum.right;
+    };
+    for (const std::string& tree :
+         {"compound { channel ( segment 0 view 0 ) " + wall + " }",
+          "compound { " + wall + " compound { channel ( segment 0 view 0 ) } }"}) {
+        const Read read(withCompounds(tree));
+        EXPECT_THAT(describe(read.findings, "f"), HasSubstr("the compound's wall has no effect"));
+        EXPECT_NEAR(right(read), .8, 1e-12);
+    }
+    const Read within(
+        withCompounds("compound { channel ( segment 0 view 0 ) compound { " + wall + " } }"));
+    EXPECT_EQ(describe(within.findings, "f"), "");
+    EXPECT_NEAR(right(within), 5, 1e-12);
+}
+
+TEST(Resolve, TakesTheEyesOfTheInnermostCompoundAboveADestination) {
+    const Read read(
+        withCompounds("compound { eye [ LEFT ] compound { channel ( segment 0 view 0 ) "
+                      "eye [ CYCLOP ] compound { eye [ CYCLOP RIGHT ] } } }"));
+    ASSERT_EQ(read.resolved.compounds.size(), 3U);
+    EXPECT_EQ(read.resolved.compounds[1].eyes, (Eyes{true, false, false}));
+    EXPECT_EQ(read.resolved.compounds[2].eyes, (Eyes{true, false, false}));
 }
 
 TEST(Resolve, ClearsAChannelOnceAndDropsTasksWithoutFrames) {
