@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "cli/check/report.h"
@@ -74,6 +76,9 @@ std::string display(const Checked& checked) {
     return text;
 }
 
+/// Nothing where rounding left almost nothing.
+double shown(double edge) { return std::abs(edge) < 1e-12 ? 0 : edge; }
+
 /// What a compound does otherwise than all of the picture.
 std::string shareOf(const config::ResolvedCompound& compound) {
     std::string text =
@@ -124,8 +129,8 @@ std::string compounds(const Checked& checked) {
                 text += fmt::format(
                     "{}  {} eye: left {:.4g}, right {:.4g}, bottom {:.4g}, top "
                     "{:.4g} at distance 1\n",
-                    indent, word(sight.eye), frustum.left, frustum.right, frustum.bottom,
-                    frustum.top);
+                    indent, word(sight.eye), shown(frustum.left), shown(frustum.right),
+                    shown(frustum.bottom), shown(frustum.top));
             }
     }
     return text;

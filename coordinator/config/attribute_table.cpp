@@ -39,6 +39,7 @@ constexpr std::array kKnown{
     Known{Scope::Pipe, "hint_affinity", Type::Setting, true},
     Known{Scope::Pipe, "hint_cuda_gl_interop", Type::Setting, true},
     Known{Scope::View, "deflect_host", Type::Text, true},
+    Known{Scope::View, "displaycluster", Type::Text, true},  // its name before
     Known{Scope::Window, "hint_core_profile", Type::Setting},
     Known{Scope::Window, "hint_opengl_major", Type::Setting},
     Known{Scope::Window, "hint_opengl_minor", Type::Setting},
@@ -209,7 +210,10 @@ void read(const Statement& statement, const Known& known, ValueReader& reader,
         return;
     if (known.isOnScreen)
         reader.findings().onScreen(
-            statement.place, fmt::format("'{}' has no effect without a screen", statement.keyword));
+            statement.place,
+            fmt::format("'{}' has no effect {}", statement.keyword,
+                        known.name.starts_with("launch_") ? "where renderers are services"
+                                                          : "without a screen"));
     const auto before = std::ranges::find(attributes, attribute.name, &Attribute::name);
     if (before == attributes.end())
         attributes.push_back(std::move(attribute));
