@@ -15,10 +15,10 @@ namespace eyrie::import {
 
 /// What reading one file may cost.
 struct ReadingLimits {
-    std::uint64_t memoryBytes = 1ULL << 30;   ///< besides what the process has already
-    std::chrono::seconds processorTime{120};  ///< of one core
+    std::uint64_t memoryBytes = 1ULL << 30;  ///< besides what the process has already
+    std::chrono::seconds processorTime{30};  ///< of one core
 
-    /// A gigabyte and two minutes, and more for large files: what real ones need ten times over.
+    /// A gigabyte and half a minute, and more for large files: what real ones need ten times over.
     static ReadingLimits forFile(std::uint64_t bytes);
 };
 
