@@ -312,6 +312,7 @@ absl::StatusOr<TriangleMesh> read(const std::string& path, const AssimpFormat& f
     try {
         Assimp::Importer importer;
         importer.SetPropertyInteger(AI_CONFIG_IMPORT_MD3_HANDLE_MULTIPART, 0);  // this file alone
+        importer.SetPropertyInteger(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, 1);  // none made of bones
         const aiScene* scene = parse(importer, path, format);
         if (scene != nullptr)
             return SceneMeshes(*scene, format).gather();

@@ -329,6 +329,17 @@ INSTANTIATE_TEST_SUITE_P(
                     Written{".smd", smd, asItIs}),
     [](const auto& test) { return std::string("As_") + (test.param.extension + 1); });
 
+/// Where there are bones alone Assimp makes spikes of them, which nobody modelled.
+TEST(WrittenFormats, OfBonesAloneHaveNoFace) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("t.smd"),
+                    "version 1\nnodes\n0 \"root\" -1\n1 \"arm\" 0\nend\nskeleton\ntime 0\n"
+                    "0 0 0 0 0 0 0\n1 1 2 3 0 0 0\nend\n");
+    const auto mesh = readWithAssimp(folder.file("t.smd"));
+    ASSERT_FALSE(mesh.ok());
+    EXPECT_THAT(std::string(mesh.status().message()), testing::HasSubstr("found no face"));
+}
+
 TEST(WrittenFormats, OfAmfWithoutColoursIsPlain) {
     const test::TemporaryFolder folder;
     test::writeFile(folder.file("t.amf"), amf());
