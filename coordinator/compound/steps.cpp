@@ -70,13 +70,15 @@ private:
     }
 
     /// How what covers `content` comes over what it meets. `isComplete`: nothing of that is nearer.
+    /// At equal depth the lower data are seen; of two that begin alike both know which those are,
+    /// unless one has less of them at a pixel, as what children have left there.
     static Combine combineWith(const std::optional<fabric::Range>& met, const Content& content,
                                bool isComplete, bool hasDepth) {
         if (!met)
             return Combine::Over;
         if (isComplete || !hasDepth)
             return Combine::Replace;
-        return content.range.begin < met->begin ? Combine::NearerOrEqual : Combine::Nearer;
+        return content.range.begin <= met->begin ? Combine::NearerOrEqual : Combine::Nearer;
     }
 
     absl::Status assemble(const Work& work) {

@@ -193,11 +193,23 @@ private:
         const std::optional<std::size_t> framebuffer = levels_.back().framebuffer;
         if (!framebuffer)
             return absl::OkStatus();
-        if (own.tasks.clear)
+        if (own.tasks.clear && (isClearAsked(own) || !isBegunAbove(*framebuffer)))
             add(Work::Kind::Clear, *framebuffer, areaOnFramebuffer(own));
         if (own.tasks.draw && isLeaf)
             return addDraw(index, *framebuffer);
         return absl::OkStatus();
+    }
+
+    static bool isClearAsked(const ResolvedCompound& own) {
+        return own.compound != nullptr && own.compound->tasks.has_value();
+    }
+
+    /// Whether a compound above draws there too: clearing again would lose what its other children
+    /// have drawn (as it does in Equalizer, whose 4-window.DB.2D.lb.eqc shows half of its model).
+    bool isBegunAbove(std::size_t framebuffer) const {
+        return std::ranges::any_of(
+            levels_.begin(), std::prev(levels_.end()),
+            [&](const Level& each) { return each.framebuffer == framebuffer; });
     }
 
     absl::Status addDraw(std::size_t index, std::size_t framebuffer) {

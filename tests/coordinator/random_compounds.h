@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <numeric>
 #include <random>
 #include <string>
@@ -120,6 +121,22 @@ private:
             &RandomCompounds::stream};
         (this->*kKinds[static_cast<std::size_t>(below(std::size(kKinds)))])(self, channels, depth,
                                                                             byDepth);
+        if (below(3) == 0)
+            bundle(self);
+    }
+
+    /// Puts some of the children into a group that says nothing; their frames go where they went.
+    void bundle(config::Compound& self) {
+        const int count = static_cast<int>(self.children.size());
+        if (count == 0)
+            return;
+        const int begin = below(count);
+        const int end = begin + 1 + below(count - begin);
+        config::Compound group;
+        const auto first = self.children.begin() + begin;
+        const auto last = self.children.begin() + end;
+        group.children.assign(std::make_move_iterator(first), std::make_move_iterator(last));
+        self.children.insert(self.children.erase(first, last), std::move(group));
     }
 
     /// On a channel of its own, from which `self` gets a frame, or perhaps on that of `self`, into
