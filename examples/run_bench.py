@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Has a running Eyrie measure speed against error, tells how far it is, and prints what came of it.
 
-    run_bench.py http://127.0.0.1:8080 survey.bench FILE.html [TAU,TAU...]
+    run_bench.py http://127.0.0.1:8080 survey.bench FILE.html [TAU,TAU...] [--reference]
 
 The report stays in the server's data folder under the name given; its page is saved to FILE.html.
+With --reference errors are measured, too, against what the data were imported from.
 Ctrl-C calls the run off. A server with tokens wants one of the role admin, in EYRIE_TOKEN.
 """
 import json
@@ -46,13 +47,15 @@ def ended(server, operation):
 
 
 def main():
-    server, output, file = sys.argv[1].rstrip("/"), sys.argv[2], sys.argv[3]
-    taus = [float(tau) for tau in (sys.argv[4] if len(sys.argv) > 4 else "1,4").split(",")]
+    arguments = [each for each in sys.argv[1:] if each != "--reference"]
+    server, output, file = arguments[0].rstrip("/"), arguments[1], arguments[2]
+    taus = [float(tau) for tau in (arguments[3] if len(arguments) > 3 else "1,4").split(",")]
     # Of what is shown now. The key makes it safe to ask again where an answer got lost.
     operation = json.loads(ask(
         server, "POST", "/bench-runs",
         {"output": output, "tauPixels": taus, "width": 320, "height": 180, "frames": 12,
-         "repeats": 1, "replace": True}, {"Idempotency-Key": uuid.uuid4().hex}))
+         "repeats": 1, "replace": True, "withReference": "--reference" in sys.argv},
+        {"Idempotency-Key": uuid.uuid4().hex}))
     try:
         operation = ended(server, operation)
     except KeyboardInterrupt:
@@ -62,13 +65,14 @@ def main():
         raise SystemExit(operation["problem"] or operation["state"])
     report = "/reports/" + urllib.parse.quote(output)
     for run in json.loads(ask(server, "GET", report))["runs"]:
+        measured = f", measured {run['errorPx']['max']:.3g}" if "errorPx" in run else ""
         print(f"{run['label']}: {run['frameMs']['p50']:.1f} ms a frame, promised error at most "
-              f"{run['tauAchievedMax']:.3g} pixels")
+              f"{run['tauAchievedMax']:.3g} pixels{measured}")
     with open(file, "wb") as page:
         page.write(ask(server, "GET", report + "?file=REPORT_FILE_PAGE"))
 
 
 if __name__ == "__main__":
-    if len(sys.argv) not in (4, 5):
+    if len(sys.argv) not in (4, 5, 6):
         raise SystemExit(__doc__)
     main()

@@ -16,12 +16,12 @@ void addBenchHandlers(Handlers& handlers, DataDesk& data, SceneDesk& scenes,
         "Bench",
         [&data, &scenes, &folder](const v1::BenchRequest& request,
                                   const Call& call) -> absl::StatusOr<v1::BenchResponse> {
-            const auto order = [&]() -> absl::StatusOr<BenchOrder> {
+            const auto order = [&](std::uint64_t memoryBytes) -> absl::StatusOr<BenchOrder> {
                 if (!request.has_scene())
-                    return benchOrderOf(request, *folder, scenes.shown());
+                    return benchOrderOf(request, *folder, scenes.shown(), memoryBytes);
                 ASSIGN_OR_RETURN(const fabric::Scene scene,
                                  scenes.resolved(request.scene(), call.stop));
-                return benchOrderOf(request, *folder, scene);
+                return benchOrderOf(request, *folder, scene, memoryBytes);
             };
             v1::BenchResponse response;
             ASSIGN_OR_RETURN(*response.mutable_operation(), data.bench(request, order));

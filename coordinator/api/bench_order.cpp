@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "coordinator/api/bench_reports.h"
 #include "coordinator/api/flight_files.h"
 #include "coordinator/api/work_folder.h"
 #include "fabric/frame_data.h"
@@ -78,6 +79,23 @@ absl::Status addFigures(const v1::BenchRequest& request, std::vector<std::string
     return absl::OkStatus();
 }
 
+absl::Status addReference(const v1::BenchRequest& request, std::uint64_t memoryBytes,
+                          BenchOrder& order) {
+    ASSIGN_OR_RETURN(const int frames,
+                     number(request.has_reference_frames(), request.reference_frames(), 6,
+                            "reference_frames", 1, 1000));
+    order.measuresErrors = request.with_reference();
+    if (!order.measuresErrors)
+        return absl::OkStatus();
+    if (!request.budget_milliseconds().empty())
+        return absl::InvalidArgumentError(
+            "with_reference is of the errors asked for; leave budget_milliseconds out");
+    order.arguments.emplace_back("--reference");
+    order.arguments.push_back(fmt::format("--reference-frames={}", frames));
+    order.arguments.push_back(fmt::format("--reference-memory={}", memoryBytes));
+    return absl::OkStatus();
+}
+
 absl::Status addFlight(const std::string& name, const access::DataFolder& folder,
                        BenchOrder& order) {
     if (name.empty() || std::ranges::find(kBuiltInFlights, name) != kBuiltInFlights.end()) {
@@ -142,7 +160,7 @@ absl::Status moveInto(const fs::path& made, const BenchOrder& order, const fs::p
 
 absl::StatusOr<BenchOrder> benchOrderOf(const v1::BenchRequest& request,
                                         const access::DataFolder& folder,
-                                        const fabric::Scene& scene) {
+                                        const fabric::Scene& scene, std::uint64_t memoryBytes) {
     BenchOrder order;
     ASSIGN_OR_RETURN(order.output, placeOf(request, folder));
     order.replaces = request.replace();
@@ -152,6 +170,7 @@ absl::StatusOr<BenchOrder> benchOrderOf(const v1::BenchRequest& request,
     order.arguments = {"bench", "scene.json", "--quiet", "--progress-json", "--output=."};
     RETURN_IF_ERROR(addFlight(request.flight(), folder, order));
     RETURN_IF_ERROR(addFigures(request, order.arguments));
+    RETURN_IF_ERROR(addReference(request, memoryBytes, order));
     return order;
 }
 
@@ -164,8 +183,13 @@ absl::Status carryOut(const BenchOrder& order, const RunProgram& run,
     RETURN_IF_ERROR(write(report / "scene.json", order.sceneJson));
     if (!order.flightName.empty())
         RETURN_IF_ERROR(write(report / order.flightName, order.flightJson));
-    RETURN_IF_ERROR(runToItsEnd(order.arguments, report, run, progress, stop));
-    return moveInto(report, order, work.path());
+    const absl::Status end = runToItsEnd(order.arguments, report, run, progress, stop);
+    const bool isWhole =  // the summary is written last
+        end.ok() || (order.measuresErrors && !stop.stop_requested() &&
+                     fs::exists(report / fileNameOf(v1::REPORT_FILE_SUMMARY), error));
+    if (isWhole)
+        RETURN_IF_ERROR(moveInto(report, order, work.path()));
+    return end;
 }
 
 }  // namespace eyrie::api

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -27,16 +28,19 @@ struct BenchOrder {
     std::string flightJson = {};
     std::filesystem::path output = {};  ///< the report's place
     bool replaces = false;              ///< the report that is there already
+    bool measuresErrors = false;        ///< a broken promise leaves a report, too
 };
 
-/// `scene` names files by where they lie. Errors: InvalidArgument, NotFound or PermissionDenied,
-/// naming the field; AlreadyExists: the output is there and is not to be replaced.
+/// `scene` names files by where they lie; `memoryBytes` is what a reference may take. Errors:
+/// InvalidArgument, NotFound or PermissionDenied, naming the field; AlreadyExists: the output is
+/// there and is not to be replaced.
 absl::StatusOr<BenchOrder> benchOrderOf(const v1::BenchRequest& request,
                                         const access::DataFolder& folder,
-                                        const fabric::Scene& scene);
+                                        const fabric::Scene& scene, std::uint64_t memoryBytes);
 
 /// Carries it out. The report is made in a folder beside its place, and moved there when it is
-/// whole; that folder goes, whatever happens to the program.
+/// whole; that folder goes, whatever happens to the program. Errors: those of runToItsEnd(), also
+/// of one whose report was moved, since the source is where its pictures do not promise it.
 absl::Status carryOut(const BenchOrder& order, const RunProgram& run,
                       const Operations::Progress& progress, const std::stop_token& stop);
 

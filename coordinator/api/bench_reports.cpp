@@ -21,9 +21,10 @@ constexpr std::uintmax_t kMaxBytes = 256 << 20;
 }  // namespace
 
 std::string_view fileNameOf(v1::ReportFile file) {
-    return file == v1::REPORT_FILE_FRAMES ? "frames.csv"
-           : file == v1::REPORT_FILE_PAGE ? "index.html"
-                                          : "summary.json";
+    return file == v1::REPORT_FILE_FRAMES   ? "frames.csv"
+           : file == v1::REPORT_FILE_PAGE   ? "index.html"
+           : file == v1::REPORT_FILE_ERRORS ? "errors.csv"
+                                            : "summary.json";
 }
 
 absl::StatusOr<std::string> readReport(const access::DataFolder& folder, const std::string& name,
@@ -41,7 +42,8 @@ absl::StatusOr<std::string> readReport(const access::DataFolder& folder, const s
         return fabric::withContext(path.status(), "name");
     std::error_code error;
     if (!fs::is_regular_file(*path, error))
-        return absl::NotFoundError(fmt::format("there is no report '{}'", name.substr(0, 64)));
+        return absl::NotFoundError(fmt::format("there is no report '{}' with a file {}",
+                                               name.substr(0, 64), fileNameOf(file)));
     if (fs::file_size(*path, error) > kMaxBytes)
         return absl::ResourceExhaustedError("the file is larger than 256 MiB; copy it instead");
     std::ifstream stream(*path, std::ios::binary);

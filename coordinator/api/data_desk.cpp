@@ -73,14 +73,14 @@ absl::StatusOr<v1::Operation> DataDesk::import(const v1::ImportRequest& request)
                   }});
 }
 
-absl::StatusOr<v1::Operation> DataDesk::bench(
-    const v1::BenchRequest& request, const std::function<absl::StatusOr<BenchOrder>()>& order) {
+absl::StatusOr<v1::Operation> DataDesk::bench(const v1::BenchRequest& request,
+                                              const MakeBenchOrder& order) {
     RETURN_IF_ERROR(checkOperations());
     const std::string asked = request.GetTypeName() + request.SerializeAsString();
     if (absl::StatusOr<v1::Operation> before = operations_.begun(request.request_id(), asked);
         !absl::IsNotFound(before.status()))
         return before;
-    ASSIGN_OR_RETURN(BenchOrder made, order());
+    ASSIGN_OR_RETURN(BenchOrder made, order(programs_.importMemoryBytes));
     return begin({request.request_id(), v1::OPERATION_KIND_BENCH, request.output(), asked,
                   [this, made = std::move(made)](const Operations::Progress& progress,
                                                  const std::stop_token& stop) {

@@ -40,10 +40,13 @@ public:
     /// no programs. Errors: those of DataSets.
     absl::StatusOr<std::uint64_t> trianglesOf(const std::string& name, const std::stop_token& stop);
 
+    /// What a bench run of programs that may take so much memory is.
+    using MakeBenchOrder = std::function<absl::StatusOr<BenchOrder>(std::uint64_t memoryBytes)>;
+
     /// Begins a bench run; `order` is asked for what it is unless it has begun before. Errors: its
     /// own, and those of import().
     absl::StatusOr<v1::Operation> bench(const v1::BenchRequest& request,
-                                        const std::function<absl::StatusOr<BenchOrder>()>& order);
+                                        const MakeBenchOrder& order);
 
     Operations& operations() { return operations_; }
 

@@ -15,9 +15,15 @@ constexpr std::string_view kJpeg = "image/jpeg";
 constexpr std::string_view kRaw = "application/octet-stream";
 
 std::string_view typeOf(const v1::GetReportResponse& report) {
-    return report.file() == v1::REPORT_FILE_FRAMES ? kTable
-           : report.file() == v1::REPORT_FILE_PAGE ? kPage
-                                                   : kSummary;
+    switch (report.file()) {
+        case v1::REPORT_FILE_FRAMES:
+        case v1::REPORT_FILE_ERRORS:
+            return kTable;
+        case v1::REPORT_FILE_PAGE:
+            return kPage;
+        default:
+            return kSummary;
+    }
 }
 
 std::string_view typeOf(const v1::RenderImageResponse& image) {

@@ -30,9 +30,10 @@ using RunProgram = std::function<absl::StatusOr<ProgramEnd>(
 
 /// What the API may have done by other processes: readers of files are code that files can break.
 struct Programs {
-    RunProgram run = {};                          ///< null: none are run
-    std::size_t importsAtOnce = 0;                ///< 0: there are no imports
-    std::uint64_t importMemoryBytes = 512 << 20;  ///< `eyrie import --memory`
+    RunProgram run = {};            ///< null: none are run
+    std::size_t importsAtOnce = 0;  ///< 0: there are no imports
+    /// `eyrie import --memory`, `eyrie bench --reference-memory`.
+    std::uint64_t importMemoryBytes = 512 << 20;
 };
 
 /// The last of what a program said, for people: what it failed with.

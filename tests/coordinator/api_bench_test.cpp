@@ -125,6 +125,55 @@ TEST_F(ApiBench, DrawsDataOfTheFolderAlongAFlightThatIsKeptThere) {
     EXPECT_THAT(scene_, HasSubstr(fs::canonical(data() / "a.eyt").string()));
 }
 
+TEST_F(ApiBench, MeasuresErrorsWhereTheyAreAskedFor) {
+    run_ = [](const fs::path& folder, const Heard& heard, const std::stop_token& stop) {
+        std::ofstream(folder / "errors.csv") << "asked,max\n";
+        return writeReport(folder, heard, stop);
+    };
+    EXPECT_EQ(run("one", R"(,"withReference":true,"referenceFrames":3)"), v1::OPERATION_STATE_DONE);
+    for (const char* argument :
+         {"--reference", "--reference-frames=3", "--reference-memory=536870912"})
+        EXPECT_THAT(commands_[0], Contains(argument));
+    const RestAnswer errors = ask("GET", "/reports/one.bench?file=REPORT_FILE_ERRORS");
+    EXPECT_EQ(*errors.body, "asked,max\n");
+    EXPECT_EQ(errors.contentType, "text/csv");
+
+    run_ = writeReport;
+    EXPECT_EQ(run("two", R"(,"replace":true)"), v1::OPERATION_STATE_DONE);
+    EXPECT_THAT(commands_[1], Not(Contains(StartsWith("--reference"))));
+    const RestAnswer none = ask("GET", "/reports/one.bench?file=REPORT_FILE_ERRORS");
+    EXPECT_EQ(none.status, 404);
+    EXPECT_THAT(*none.body, HasSubstr("errors.csv"));
+    for (const char* wrong :
+         {R"("withReference":true,"budgetMilliseconds":[33])", R"("referenceFrames":0)",
+          R"("withReference":true,"referenceFrames":1001)"})
+        EXPECT_EQ(statusOf(fmt::format(R"({{"output":"o.bench",{}}})", wrong)), 400) << wrong;
+}
+
+TEST_F(ApiBench, ABrokenPromiseFailsAndLeavesItsReport) {
+    const auto end = [](const fs::path& folder, const Heard& heard, const std::stop_token& stop) {
+        EXPECT_TRUE(writeReport(folder, heard, stop).ok());
+        heard("eyrie: tau 1: a surface is 1.5 px from where the source has it, and 1 was promised");
+        return absl::StatusOr<ProgramEnd>(ProgramEnd{false, 1, ""});
+    };
+    run_ = end;
+    EXPECT_EQ(run("one", R"(,"withReference":true)"), v1::OPERATION_STATE_FAILED);
+    EXPECT_THAT(ended("one").problem(), HasSubstr("1.5 px from where the source has it"));
+    EXPECT_EQ(ask("GET", "/reports/one.bench").status, 200);
+
+    // Without one, what a program that failed has left is no report.
+    EXPECT_EQ(run("two", R"(,"replace":true)"), v1::OPERATION_STATE_FAILED);
+    EXPECT_THAT(names(), ElementsAre("a.eyt", "one.bench"));
+    // Nor is what it has left before it came to the end.
+    run_ = [](const fs::path& folder, const Heard&, const std::stop_token&) {
+        std::ofstream(folder / "frames.csv") << "asked\n";
+        return absl::StatusOr<ProgramEnd>(ProgramEnd{false, 1, ""});
+    };
+    fs::remove_all(data() / "one.bench");
+    EXPECT_EQ(run("three", R"(,"withReference":true)"), v1::OPERATION_STATE_FAILED);
+    EXPECT_THAT(names(), ElementsAre("a.eyt"));
+}
+
 TEST_F(ApiBench, NamesNothingOutsideTheDataFolder) {
     std::ofstream(folder_.path("secret.eyt")) << "x";
     fs::create_symlink(folder_.path("secret.eyt"), data() / "link.eyt");

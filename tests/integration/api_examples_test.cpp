@@ -157,12 +157,13 @@ TEST_F(ApiExamples, SessionsAreSeenMovedAndClosed) {
 TEST_F(ApiExamples, ABenchRunLeavesAReport) {
     const std::string page = folder_->path("report.html");
     const test::Outcome outcome =
-        ask("python3", "examples/run_bench.py", {"measured.bench", page, "4"});
+        ask("python3", "examples/run_bench.py", {"measured.bench", page, "4", "--reference"});
     EXPECT_EQ(outcome.exit.status, 0) << outcome.output << outcome.errors;
-    EXPECT_THAT(outcome.output, HasSubstr("4 px: "));
+    EXPECT_THAT(outcome.output, testing::ContainsRegex("4 px: .* pixels, measured [0-9]"));
     EXPECT_GT(std::filesystem::file_size(page), 10'000U);
     const std::set<std::string> names = test::namesIn(folder_->path("data/measured.bench"));
-    for (const char* name : {"summary.json", "frames.csv", "index.html", "scene.json"})
+    for (const char* name :
+         {"summary.json", "frames.csv", "errors.csv", "index.html", "scene.json"})
         EXPECT_TRUE(names.contains(name)) << name;
 }
 
