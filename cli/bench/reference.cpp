@@ -62,8 +62,9 @@ absl::Status checkCompared(const std::vector<BenchRun>& runs) {
             if (error.compared > 0)
                 return absl::OkStatus();
     return absl::FailedPreconditionError(
-        "nothing was measured: no frame that was held against the source shows anything of it that "
-        "is not see-through; take another flight, or more --reference-frames");
+        "nothing was measured: no frame that was held against the source shows anything of it "
+        "(what "
+        "is see-through does not count); take another flight, or more --reference-frames");
 }
 
 double largestP99(const std::vector<BenchRun>& runs) {

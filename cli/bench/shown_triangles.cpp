@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/bench/shown_triangles.h"
 
+#include <algorithm>
+
 #include "renderer/mesh/eym_format.h"
 #include "renderer/terrain/eyt_format.h"
 #include "renderer/truth/drawn_mesh.h"
@@ -28,13 +30,20 @@ void ShownTriangles::add(const ReferenceScene::Object& object) {
 }
 
 void ShownTriangles::read() {
-    for (const ReferenceScene::Object& object : scene_.objects) add(object);
+    for (const ReferenceScene::Object& object : scene_.objects) {
+        add(object);
+        ends_.push_back(triangles_.size());
+    }
     surface_.emplace(triangles_, camera_);
 }
 
-std::optional<fabric::Vec3> ShownTriangles::at(double x, double y, double depthMetres) {
+std::optional<truth::DrawnPoint> ShownTriangles::at(double x, double y, double depthMetres) {
     std::call_once(isRead_, [this] { read(); });
-    return surface_->at(x, y, depthMetres);
+    const auto found = surface_->at(x, y, depthMetres);
+    if (!found)
+        return std::nullopt;
+    const auto object = std::ranges::upper_bound(ends_, found->triangle);
+    return truth::DrawnPoint{found->point, static_cast<std::size_t>(object - ends_.begin())};
 }
 
 }  // namespace eyrie::cli::bench

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <mutex>
 #include <optional>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "cli/bench/reference_sources.h"
 #include "renderer/lod/view.h"
 #include "renderer/page/page_source.h"
+#include "renderer/truth/depth_comparison.h"
 #include "renderer/truth/pinhole.h"
 #include "renderer/truth/shown_surface.h"
 #include "renderer/truth/triangle.h"
@@ -23,9 +25,9 @@ public:
                    double tauPixels, const page::SourceOptions& remote)
         : scene_(scene), camera_(camera), view_(view), tauPixels_(tauPixels), remote_(remote) {}
 
-    /// Any thread may ask. Nothing where no triangle covers the picture point, or the import cannot
-    /// be read.
-    std::optional<fabric::Vec3> at(double x, double y, double depthMetres);
+    /// Its source is its object's place in the scene. Any thread may ask. Nothing where no triangle
+    /// covers the picture point, or the import cannot be read.
+    std::optional<truth::DrawnPoint> at(double x, double y, double depthMetres);
 
 private:
     void read();
@@ -38,6 +40,7 @@ private:
     const page::SourceOptions& remote_;
     std::once_flag isRead_;
     std::vector<truth::Triangle> triangles_;
+    std::vector<std::size_t> ends_;               ///< of each object's triangles
     std::optional<truth::ShownSurface> surface_;  ///< of those
 };
 

@@ -8,6 +8,8 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "fabric/frustum.h"
+
 namespace eyrie::truth {
 namespace {
 
@@ -20,12 +22,25 @@ constexpr std::size_t kMostRaysAround = 1'000'000;
 constexpr double kSeamPixels = 1.0 / 64;
 constexpr double kMostSlitPixels = 1.0 / 16;
 constexpr int kMostSeams = 64;  ///< of one picture
+constexpr int kMostEnds = 256;  ///< the same
 
 template <typename Function>
 void forEachRow(int rows, Function function) {
     tbb::parallel_for(tbb::blocked_range<int>(0, rows), [&](const auto& some) {
         for (int y = some.begin(); y != some.end(); ++y) function(y);
     });
+}
+
+/// Where a ray first hits of what the near plane leaves.
+ReferenceSurface::HitRange seenAlong(const Ray& ray, const ReferenceSurface& surface) {
+    constexpr double kNear = fabric::kNearMetres;
+    const ReferenceSurface::HitRange hit = surface.hitRange(ray);
+    if (hit.first >= kNear)
+        return hit;
+    if (hit.last >= kNear)
+        return {kNear, hit.last};
+    const ReferenceSurface::HitRange beyond = surface.hitRange({ray.at(kNear), ray.direction});
+    return {kNear + beyond.first, kNear + beyond.last};
 }
 
 class Comparison {
@@ -94,10 +109,11 @@ private:
 
     void judgeShown(std::size_t pixel) {
         const auto width = static_cast<std::size_t>(camera_.width());
-        const auto point = suspects_.shown(static_cast<double>(pixel % width) + 0.5,
+        const auto drawn = suspects_.shown(static_cast<double>(pixel % width) + 0.5,
                                            static_cast<double>(pixel / width) + 0.5, depth_[pixel]);
-        if (point)
-            displacement_[pixel] = surface_.displacement(camera_, *point).pixels;
+        if (drawn)
+            displacement_[pixel] =
+                surface_.displacementFrom(drawn->source, camera_, drawn->point).pixels;
     }
 
     /// The least displacement around a point that has one; none where the surface lies on both
@@ -185,11 +201,27 @@ private:
         return std::isfinite(tested) ? tested <= seen.last + slack(tested) : seen.last == kNoHit;
     }
 
+    /// Whether the source ends beside what it shows here, be it where something hides that: what a
+    /// picture leaves out there may lie before what hides it.
+    bool isBesideAnEnd(int x, int y) {
+        const double depth = reference_[index(x, y)].first;
+        if (depth == kNoHit || ++ends_ > kMostEnds)
+            return false;
+        constexpr double kSlant = 8;  // as far across ground seen at 7 degrees
+        const double reach = kSlant * (edge_ + 0.5) * depth / camera_.focalPixels();
+        const auto isThere = [&](const fabric::Vec3& end) {
+            const auto at = camera_.project(end);
+            return at && std::abs(at->x - x - 0.5) <= edge_ + 0.5 &&
+                   std::abs(at->y - y - 0.5) <= edge_ + 0.5;
+        };
+        return surface_.endsWithin(camera_.rayThrough(x + 0.5, y + 0.5).at(depth), reach, isThere);
+    }
+
     /// Whether the drawn surface itself, nearest to a depth, is where the source is.
     bool isShownRightly(int x, int y, double depth, const Surroundings& around) const {
-        const auto point =
+        const auto drawn =
             suspects_.shown ? suspects_.shown(x + 0.5, y + 0.5, depth) : std::nullopt;
-        return point && faultOf(camera_.depth(*point), around) == nullptr;
+        return drawn && faultOf(camera_.depth(drawn->point), around) == nullptr;
     }
 
     /// The same by rays through the whole area, for what is too thin for pixels' centres; until
@@ -200,9 +232,10 @@ private:
         const int reach = (2 * edge_ + 1) * kFineRays;
         for (int dy = 0; dy <= reach; ++dy) {
             for (int dx = 0; dx <= reach; ++dx)
-                around.add(surface_.hitRange(
-                    camera_.rayThrough(x - edge_ + static_cast<double>(dx) / kFineRays,
-                                       y - edge_ + static_cast<double>(dy) / kFineRays)));
+                around.add(
+                    seenAlong(camera_.rayThrough(x - edge_ + static_cast<double>(dx) / kFineRays,
+                                                 y - edge_ + static_cast<double>(dy) / kFineRays),
+                              surface_));
             raysAround_ += static_cast<std::size_t>(reach) + 1;
             fault = faultOf(tested, around);
             if (fault == nullptr)
@@ -219,7 +252,8 @@ private:
             return true;
         return tested < around.nearest
                    ? isThin(x, y, tested, around)
-                   : isThroughSeams(x, y, tested) || isShownRightly(x, y, around.farthest, around);
+                   : isThroughSeams(x, y, tested) ||
+                         isShownRightly(x, y, around.farthest, around) || isBesideAnEnd(x, y);
     }
 
     void finishDisplacements() {
@@ -247,6 +281,7 @@ private:
     std::vector<double> displacement_;  ///< NaN for none
     std::size_t raysAround_ = 0;        ///< cast by faultEverywhereAround
     int seams_ = 0;                     ///< looked through
+    int ends_ = 0;                      ///< looked for
     DepthComparison result_;
 };
 
@@ -286,7 +321,7 @@ ReferenceView castView(const Pinhole& camera, const ReferenceSurface& reference)
     forEachRow(camera.height(), [&](int y) {
         auto hit = view.hits.begin() + static_cast<std::ptrdiff_t>(width) * y;
         for (int x = 0; x < camera.width(); ++x)
-            *hit++ = reference.hitRange(camera.rayThrough(x + 0.5, y + 0.5));
+            *hit++ = seenAlong(camera.rayThrough(x + 0.5, y + 0.5), reference);
     });
     return view;
 }

@@ -25,18 +25,22 @@ struct DepthComparison {
     std::size_t suspects = 0;  ///< judged by the drawn point instead of by the depth
 };
 
-/// The point of the drawn surface that a picture point of some depth shows, where known. Any thread
-/// may ask.
-using ShownPoint =
-    std::function<std::optional<fabric::Vec3>(double x, double y, double depthMetres)>;
+/// A point of the drawn surface.
+struct DrawnPoint {
+    fabric::Vec3 point{0};
+    std::size_t source = 0;  ///< which of the reference's it was made of (ReferenceSurface)
+};
+
+/// That which a picture point of some depth shows, where known. Any thread may ask.
+using ShownPoint = std::function<std::optional<DrawnPoint>(double x, double y, double depthMetres)>;
 
 struct Suspects {
     double abovePixels = kNoHit;
     ShownPoint shown;
 };
 
-/// What a camera sees of a reference: where the ray through each pixel's centre hits, in rows from
-/// the bottom up. Refers to the reference.
+/// What a camera sees of a reference: where the ray through each pixel's centre hits beyond the
+/// near plane, in rows from the bottom up. Refers to the reference.
 struct ReferenceView {
     Pinhole camera;
     const ReferenceSurface* surface;
@@ -71,13 +75,16 @@ inline constexpr double kDepthSlack = 4;
 /// What the reference shows there is told by a ray per pixel, and where that does not explain a
 /// pixel by 256, which miss no more of a spire or gap than a width of 1/16 pixel. What is drawn
 /// before all of that is thin, and no mistake, if the source has it there; what is seen behind it
-/// is none where all that is before it has a seam there (ReferenceSurface::throughSeams).
+/// is none where all that is before it has a seam there (ReferenceSurface::throughSeams), or where
+/// the source ends within `edgePixels`, hidden or not (ReferenceSurface::endsWithin): what a
+/// picture has left out beside a hole behind a crest may be the crest.
 ///
 /// `depth`: view-space metres, infinity for nothing; rows from the bottom up, width * height of
 /// `camera`. Uses all cores.
 ///
 /// A pixel displaced by more than `suspects.abovePixels`, or misplaced, is judged by the drawn
-/// point that `suspects.shown` names for it, if any, instead of by its depth. What is seen behind
+/// point that `suspects.shown` names for it, if any, instead of by its depth, and held against that
+/// point's own source. What is seen behind
 /// all of the source is no mistake where what is drawn before it comes so near to the pixel's
 /// centre that `suspects.shown` names it.
 DepthComparison compareDepth(const Pinhole& camera, std::span<const float> depth,

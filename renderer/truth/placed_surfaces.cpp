@@ -16,6 +16,12 @@ using fabric::Vec4;
 
 Vec3 transformed(const Mat4& matrix, const Vec3& point) { return Vec3(matrix * Vec4(point, 1)); }
 
+/// No vector becomes longer by more.
+double stretchOf(const Mat4& matrix) {
+    return std::sqrt(glm::dot(matrix[0], matrix[0]) + glm::dot(matrix[1], matrix[1]) +
+                     glm::dot(matrix[2], matrix[2]));
+}
+
 }  // namespace
 
 PlacedSurfaces::PlacedSurfaces(const std::vector<PlacedSurface>& surfaces) {
@@ -51,6 +57,17 @@ ReferenceSurface::HitRange PlacedSurfaces::nearest(const Ray& ray, const Cast& c
     return nearest;
 }
 
+bool PlacedSurfaces::endsWithin(const Vec3& point, double reach,
+                                const std::function<bool(const Vec3&)>& isThere) const {
+    return std::ranges::any_of(placed_, [&](const Placed& placed) {
+        const double scale = stretchOf(placed.objectFromWorld);
+        return placed.surface->endsWithin(
+            transformed(placed.objectFromWorld, point), reach * scale, [&](const Vec3& inObject) {
+                return isThere(transformed(placed.worldFromObject, inObject));
+            });
+    });
+}
+
 std::optional<Vec3> PlacedSurfaces::counterpart(const Vec3& point) const {
     std::optional<Vec3> closest;
     for (const Placed& placed : placed_) {
@@ -79,6 +96,11 @@ Displacement PlacedSurfaces::displacement(const Placed& placed, const Pinhole& c
         return {};
     return {camera.pixelsBetween(*p, *q), fabric::Vec2(inObject) == fabric::Vec2(*other),
             inObject.z < other->z};
+}
+
+Displacement PlacedSurfaces::displacementFrom(std::size_t source, const Pinhole& camera,
+                                              const Vec3& point) const {
+    return displacement(placed_[source], camera, point);
 }
 
 Displacement PlacedSurfaces::displacement(const Pinhole& camera, const Vec3& point) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -16,8 +17,9 @@ struct PlacedSurface {
 };
 
 /// Several sources in one world: the nearest is seen. A drawn point is held against each source's
-/// counterpart in that source's own space, and the least displacement counts: that the point
-/// belongs to another source does not show in it, but in its depth (DepthComparison::misplaced).
+/// counterpart in that source's own space, and the least displacement counts, unless its source is
+/// known: that the point belongs to another does not show in it, but in its depth
+/// (DepthComparison::misplaced). A point over a terrain's nodata has no counterpart there.
 class PlacedSurfaces final : public ReferenceSurface {
 public:
     /// Precondition: there is one.
@@ -25,9 +27,14 @@ public:
 
     HitRange hitRange(const Ray& ray) const override;
     HitRange throughSeams(const Ray& ray, double reach) const override;
+    bool endsWithin(const fabric::Vec3& point, double reach,
+                    const std::function<bool(const fabric::Vec3&)>& isThere) const override;
     /// In world space the closest of the sources' counterparts.
     std::optional<fabric::Vec3> counterpart(const fabric::Vec3& point) const override;
     Displacement displacement(const Pinhole& camera, const fabric::Vec3& point) const override;
+    /// `source`: its place among those given.
+    Displacement displacementFrom(std::size_t source, const Pinhole& camera,
+                                  const fabric::Vec3& point) const override;
 
 private:
     struct Placed {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
+#include <functional>
 #include <limits>
 #include <optional>
 
@@ -38,12 +40,25 @@ public:
     /// than `reach` times its parameter there.
     virtual HitRange throughSeams(const Ray& ray, double /*reach*/) const { return hitRange(ray); }
 
+    /// Whether the source ends, at nodata or at its rim, at a point that `isThere` takes: all those
+    /// within `reach` metres of `point` across the ground are asked about, seen or not.
+    virtual bool endsWithin(const fabric::Vec3& /*point*/, double /*reach*/,
+                            const std::function<bool(const fabric::Vec3&)>& /*isThere*/) const {
+        return false;
+    }
+
     /// The point of the source to hold `point` against: for terrain the one in the same column, for
     /// meshes the closest. Nothing where there is none.
     virtual std::optional<fabric::Vec3> counterpart(const fabric::Vec3& point) const = 0;
 
     /// Of `point` from its counterpart, seen by `camera`.
     virtual Displacement displacement(const Pinhole& camera, const fabric::Vec3& point) const;
+
+    /// The same of a point that was made of one of several sources, from that one.
+    virtual Displacement displacementFrom(std::size_t /*source*/, const Pinhole& camera,
+                                          const fabric::Vec3& point) const {
+        return displacement(camera, point);
+    }
 };
 
 }  // namespace eyrie::truth

@@ -148,8 +148,8 @@ void ShownSurface::add(std::uint32_t triangle) {
             tiles_[row * columns + column].push_back(triangle);
 }
 
-std::optional<Vec3> ShownSurface::at(double x, double y, double depth) const {
-    std::optional<Vec3> best;
+std::optional<ShownSurface::Point> ShownSurface::at(double x, double y, double depth) const {
+    std::optional<Point> best;
     double least = std::numeric_limits<double>::infinity();
     const Ray ray = camera_.rayThrough(x, y);
     for (const std::uint32_t index : tiles_[tileOf(x, y)]) {
@@ -162,7 +162,7 @@ std::optional<Vec3> ShownSurface::at(double x, double y, double depth) const {
         const double atCentre =
             glm::dot(normal, triangle[0] - ray.origin) / glm::dot(normal, ray.direction);
         if (!best || std::abs(atCentre - depth) < least) {
-            best = shown.point;
+            best = Point{shown.point, index};
             least = std::abs(atCentre - depth);
         }
     }

@@ -24,9 +24,14 @@ public:
     /// How far beside a picture point a triangle may be that is shown there.
     static constexpr double kReachPixels = 1.0 / 128;
 
+    struct Point {
+        fabric::Vec3 point{0};
+        std::size_t triangle = 0;  ///< of those given
+    };
+
     /// The point that picture point (x, y) shows: of what lies within reach, of the triangle whose
     /// plane is nearest to `depth` there, the point next to it. Nothing where there is none.
-    std::optional<fabric::Vec3> at(double x, double y, double depth) const;
+    std::optional<Point> at(double x, double y, double depth) const;
 
 private:
     std::size_t tileOf(double x, double y) const;

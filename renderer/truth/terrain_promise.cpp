@@ -54,8 +54,9 @@ absl::StatusOr<PromiseKept> TerrainPromise::hold(const fabric::Camera& camera, d
     const lod::View view = lod::TaskViews(camera, task).whole;
     ASSIGN_OR_RETURN(const DrawnTerrain triangles, DrawnTerrain::of(*file_, view, tauPixels));
     const ShownSurface surface(triangles.triangles(), judge);
-    const ShownPoint shown = [&](double x, double y, double depth) {
-        return surface.at(x, y, depth);
+    const ShownPoint shown = [&](double x, double y, double depth) -> std::optional<DrawnPoint> {
+        const auto found = surface.at(x, y, depth);
+        return found ? std::optional(DrawnPoint{found->point, 0}) : std::nullopt;
     };
     // An outline may have moved by as much as everything else.
     const fabric::Vec2 step = task.raster ? task.raster->step : fabric::Vec2(1);

@@ -293,6 +293,44 @@ ReferenceSurface::HitRange TerrainRayCaster::hitRange(const Ray& ray) const {
     return {*std::min_element(hit.hits.begin(), hit.hits.end()), hit.farthest()};
 }
 
+bool TerrainRayCaster::isEnd(int i, int j) const {
+    const auto isData = [&](int column, int row) {
+        return column >= 0 && row >= 0 && column < grid_.columns && row < grid_.rows &&
+               !std::isnan(post(column, row));
+    };
+    if (!isData(i, j))
+        return false;
+    for (int row = j - 1; row <= j + 1; ++row)
+        for (int column = i - 1; column <= i + 1; ++column)
+            if (!isData(column, row))
+                return true;
+    return false;
+}
+
+bool TerrainRayCaster::endsWithin(const fabric::Vec3& point, double reach,
+                                  const std::function<bool(const fabric::Vec3&)>& isThere) const {
+    constexpr double kMostPosts = 512;
+    const fabric::Vec2 centre = toGrid(point.x, point.y);
+    const auto reachAlong = [&](const fabric::Vec2& step) {
+        return std::min(reach / glm::length(step), kMostPosts);
+    };
+    const fabric::Vec2 posts(reachAlong(grid_.perColumn), reachAlong(grid_.perRow));
+    const auto first = [](double from) { return static_cast<int>(std::max(0.0, std::ceil(from))); };
+    const auto last = [](double to, int count) {
+        return static_cast<int>(std::min<double>(count - 1, std::floor(to)));
+    };
+    for (int j = first(centre.y - posts.y); j <= last(centre.y + posts.y, grid_.rows); ++j)
+        for (int i = first(centre.x - posts.x); i <= last(centre.x + posts.x, grid_.columns); ++i) {
+            if (!isEnd(i, j))
+                continue;
+            const fabric::Vec2 place = grid_.origin + static_cast<double>(i) * grid_.perColumn +
+                                       static_cast<double>(j) * grid_.perRow;
+            if (isThere({place.x, place.y, post(i, j)}))
+                return true;
+        }
+    return false;
+}
+
 std::optional<fabric::Vec3> TerrainRayCaster::counterpart(const fabric::Vec3& point) const {
     std::optional<fabric::Vec3> best;
     for (const double height : heightsAt(point.x, point.y))

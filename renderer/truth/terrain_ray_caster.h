@@ -45,6 +45,9 @@ public:
     /// way of its own is hit in there. (Not at the first hits with the upper and the lower sides of
     /// all cells: through a hole a ray gets below the ground, and meets the lower side first.)
     HitRange hitRange(const Ray& ray) const override;
+    /// Asked about are posts beside nodata or at the rim; no more than 512 posts away.
+    bool endsWithin(const fabric::Vec3& point, double reach,
+                    const std::function<bool(const fabric::Vec3&)>& isThere) const override;
     /// The point of the same column; of the readings, the nearest.
     std::optional<fabric::Vec3> counterpart(const fabric::Vec3& point) const override;
 
@@ -73,6 +76,8 @@ private:
     struct Traversal;
 
     double post(int i, int j) const;
+    /// Whether there is a post, with data, beside one that is not or has none.
+    bool isEnd(int i, int j) const;
     Extent blockExtent(int column, int row) const;
     void buildLevels();
     void visit(Traversal& traversal, int level, int column, int row) const;

@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "renderer/truth/mesh_ray_caster.h"
+#include "renderer/truth/placed_surfaces.h"
 #include "renderer/truth/terrain_ray_caster.h"
 
 namespace eyrie::truth {
@@ -102,6 +104,52 @@ TEST(CompareDepth, CountsHoles) {
     EXPECT_EQ(compareDepth(camera, depth, reference, 1).holes, 2U);
 }
 
+/// A gap in the data right behind the crest, which hides it: its outline moved is no mistake.
+TEST(CompareDepth, AllowsForHolesThatAreHidden) {
+    const Pinhole camera = southernView();
+    HeightGrid grid = ridge(0).grid();
+    for (const int j : {48, 49})
+        for (int i = 48; i < 53; ++i)
+            grid.heights[static_cast<std::size_t>(j * grid.columns + i)] =
+                std::numeric_limits<float>::quiet_NaN();
+    const TerrainRayCaster reference(grid);
+    auto depth = depthOf(reference, camera);
+    const auto crest = camera.project({500, 500, 148});
+    ASSERT_TRUE(crest);
+    const auto pixel = [&](int dx, int dy) {
+        return static_cast<std::size_t>(crest->y + dy) * kWidth +
+               static_cast<std::size_t>(crest->x + dx);
+    };
+    for (int dy = -3; dy <= 0; ++dy)
+        ASSERT_TRUE(std::isfinite(depth[pixel(0, dy)])) << "nothing of the gap is seen";
+    const auto holesWithout = [&](int dx, int dy) {
+        auto drawn = depth;
+        drawn[pixel(dx, dy)] = std::numeric_limits<float>::infinity();
+        return compareDepth(camera, drawn, reference, 2).holes;
+    };
+    EXPECT_EQ(holesWithout(0, -2), 0U);
+    EXPECT_EQ(holesWithout(0, -9), 1U) << "too far below";
+    EXPECT_EQ(holesWithout(15, -6), 1U) << "too far beside";
+    EXPECT_EQ(compareDepth(camera, depth, reference, 2).holes, 0U);
+}
+
+TEST(CompareDepth, LooksForWhatTheNearPlaneLeaves) {
+    const auto plateAt = [](double y) {
+        return TriangleMesh{{{-9, y, -9}, {9, y, -9}, {0, y, 9}}, {{0, 1, 2}}};
+    };
+    TriangleMesh plates = plateAt(0.0005);
+    plates.positions.insert(plates.positions.end(), {{-9, 4, -9}, {9, 4, -9}, {0, 4, 9}});
+    plates.triangles.push_back({3, 4, 5});
+    const MeshRayCaster reference(plates);
+    const Pinhole camera({.eye = {0, 0, 0}, .target = {0, 1, 0}, .fovYDegrees = 45}, kWidth,
+                         kHeight);
+    const auto behind = depthOf(MeshRayCaster(plateAt(4)), camera);
+    EXPECT_EQ(compareDepth(camera, behind, reference, 1).misplaced, 0U);
+    EXPECT_EQ(compareDepth(camera, behind, reference, 1).holes, 0U);
+    const auto farther = depthOf(MeshRayCaster(plateAt(6)), camera);
+    EXPECT_GT(compareDepth(camera, farther, reference, 1).misplaced, 1000U);
+}
+
 TEST(CompareDepth, CountsPixelsDrawnInTheSky) {
     const TerrainRayCaster reference = ridge(0);
     const Pinhole camera = southernView();
@@ -133,13 +181,36 @@ TEST(CompareDepth, JudgesMisplacedPixelsByTheDrawnPointWhereOneIsKnown) {
     depth[pixel] = static_cast<float>(0.5 * right);  // a plane's depth beside its triangle
     const auto misplacedWhereIs = [&](double shownDepth) {
         const Suspects suspects{.shown = [&](double x, double y, double) {
-            return std::optional(camera.rayThrough(x, y).at(shownDepth));
+            return std::optional(DrawnPoint{camera.rayThrough(x, y).at(shownDepth)});
         }};
         return compareDepth(camera, depth, reference, 1, suspects).misplaced;
     };
     EXPECT_EQ(compareDepth(camera, depth, reference, 1).misplaced, 1U);
     EXPECT_EQ(misplacedWhereIs(right), 0U);
     EXPECT_EQ(misplacedWhereIs(0.6 * right), 1U) << "what is drawn is there";
+}
+
+/// Over a terrain's nodata there is nothing to hold its triangles against, but their outline.
+TEST(CompareDepth, HoldsADrawnPointAgainstItsOwnSource) {
+    const auto ground = std::make_shared<TerrainRayCaster>(ridge(0));
+    const auto elsewhere = std::make_shared<MeshRayCaster>(
+        TriangleMesh{{{500, 900, 400}, {510, 900, 400}, {500, 910, 400}}, {{0, 1, 2}}});
+    const PlacedSurfaces reference({{ground, fabric::Mat4(1)}, {elsewhere, fabric::Mat4(1)}});
+    const Pinhole camera = southernView();
+    auto depth = depthOf(reference, camera);
+    const fabric::Vec3 overhang(500, -10, 0);  // ten metres beyond the posts
+    const auto at = camera.project(overhang);
+    ASSERT_TRUE(at);
+    depth[static_cast<std::size_t>(at->y) * kWidth + static_cast<std::size_t>(at->x)] =
+        static_cast<float>(camera.depth(overhang));
+    const auto maxFrom = [&](std::size_t source) {
+        const Suspects suspects{.abovePixels = 1, .shown = [&](double, double, double) {
+                                    return std::optional(DrawnPoint{overhang, source});
+                                }};
+        return compareDepth(camera, depth, reference, 1, suspects).maxPixels;
+    };
+    EXPECT_LT(maxFrom(0), 1);
+    EXPECT_GT(maxFrom(1), 20);
 }
 
 TEST(CompareDepth, LooksThroughSlitsBesideWhatIsDrawnOnly) {
@@ -153,7 +224,7 @@ TEST(CompareDepth, LooksThroughSlitsBesideWhatIsDrawnOnly) {
         // Of what is drawn here, it names what is nearest to the depth it is asked for.
         const Suspects suspects{.shown = [&](double x, double y, double asked) {
             const double nearest = std::abs(asked - seen) < std::abs(asked - drawn) ? seen : drawn;
-            return std::optional(camera.rayThrough(x, y).at(nearest));
+            return std::optional(DrawnPoint{camera.rayThrough(x, y).at(nearest)});
         }};
         return compareDepth(camera, depth, reference, 1, suspects).misplaced;
     };

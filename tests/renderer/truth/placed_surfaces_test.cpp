@@ -48,6 +48,17 @@ TEST(PlacedSurfaces, APointIsHeldAgainstWhatItIsNearestTo) {
     EXPECT_EQ(*scene.counterpart({0.5, 0, 1}), Vec3(0.5, 0, 0));
 }
 
+TEST(PlacedSurfaces, EndsAreFoundWhereTheyStand) {
+    const Mat4 placed = glm::scale(glm::translate(Mat4(1), Vec3(1000, 0, 2)), Vec3(2, 2, 1));
+    const PlacedSurfaces scene({{square(), Mat4(1)}, {plain(), placed}});
+    const auto isAt = [](const Vec3& wanted) {
+        return [wanted](const Vec3& end) { return glm::distance(end, wanted) < 1e-9; };
+    };
+    EXPECT_TRUE(scene.endsWithin({1190, 190, 7}, 20, isAt({1200, 200, 7})));
+    EXPECT_FALSE(scene.endsWithin({1190, 190, 7}, 20, isAt({1000, 0, 7}))) << "beyond reach";
+    EXPECT_FALSE(scene.endsWithin({0, 0, 0}, 20, [](const auto&) { return true; }));
+}
+
 /// Seen from the side, a metre up is as many pixels for a scene as for its parts.
 TEST(PlacedSurfaces, DisplacementsAreThoseOnTheScreenOfTheWorld) {
     const Pinhole camera({.eye = {50, -100, 5}, .target = {50, 50, 5}, .fovYDegrees = 45}, 160,
@@ -73,6 +84,9 @@ TEST(PlacedSurfaces, DisplacementsAreThoseOnTheScreenOfTheWorld) {
                     .pixels,
                 1e-9)
         << "only one of them has a counterpart";
+    EXPECT_NEAR(both.displacementFrom(0, camera, point).pixels, pixels, 1e-9);
+    EXPECT_NEAR(both.displacementFrom(1, camera, point).pixels, pixels / 4, 1e-9);
+    EXPECT_TRUE(std::isnan(both.displacementFrom(0, camera, {5000, 0, 0}).pixels));
 }
 
 }  // namespace

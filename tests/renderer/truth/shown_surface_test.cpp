@@ -36,10 +36,10 @@ TEST(ShownSurface, ShowsWhatIsBesideAPixelAndEdgeOn) {
         {Vec3(10 * aside, 10, -2), Vec3(30 * aside, 30, -2), Vec3(20 * aside, 20, 9)}};
     const Pinhole camera = northward();
     const ShownSurface shown(wall, camera);
-    const auto point = shown.at(kWidth / 2.0, kHeight / 2.0, 20);
-    ASSERT_TRUE(point);
-    EXPECT_NEAR(point->x, aside * point->y, 1e-9);
-    EXPECT_NEAR(point->z, 0, 1e-9);
+    const auto found = shown.at(kWidth / 2.0, kHeight / 2.0, 20);
+    ASSERT_TRUE(found);
+    EXPECT_NEAR(found->point.x, aside * found->point.y, 1e-9);
+    EXPECT_NEAR(found->point.z, 0, 1e-9);
     EXPECT_FALSE(shown.at(kWidth / 2.0 + 0.1, kHeight / 2.0, 20));
 }
 
@@ -48,9 +48,9 @@ TEST(ShownSurface, ShowsWhatReachesBehindTheEye) {
                                      {Vec3(-100, -2, 5), Vec3(100, -2, 5), Vec3(0, -500, 5)}};
     const Pinhole camera = northward();
     const ShownSurface shown(roof, camera);
-    const auto point = shown.at(kWidth / 2.0, kHeight / 2.0 + 16, 20);
-    ASSERT_TRUE(point);
-    EXPECT_NEAR(glm::distance(*point, Vec3(0, 20, 5)), 0, 1e-9);
+    const auto found = shown.at(kWidth / 2.0, kHeight / 2.0 + 16, 20);
+    ASSERT_TRUE(found);
+    EXPECT_NEAR(glm::distance(found->point, Vec3(0, 20, 5)), 0, 1e-9);
     EXPECT_FALSE(shown.at(kWidth / 2.0, kHeight / 2.0 - 16, 20)) << "nothing below the horizon";
 }
 
@@ -73,9 +73,11 @@ TEST(ShownSurface, ShowsWhatARayHitsAtItsDepth) {
             if (depth < 0.01 || depth == kNoHit)
                 continue;
             ++hits;
-            const auto point = shown.at(x, y, depth);
-            ASSERT_TRUE(point) << "seed 11, point " << n;
-            EXPECT_LT(glm::distance(*point, ray.at(depth)), 1e-6 * depth) << "seed 11, point " << n;
+            const auto found = shown.at(x, y, depth);
+            ASSERT_TRUE(found) << "seed 11, point " << n;
+            EXPECT_LT(glm::distance(found->point, ray.at(depth)), 1e-6 * depth)
+                << "seed 11, point " << n;
+            EXPECT_NEAR(watertight.hit(triangles[found->triangle]), depth, 1e-6 * depth);
         }
     }
     EXPECT_GT(hits, 5000);

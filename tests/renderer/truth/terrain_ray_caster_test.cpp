@@ -204,6 +204,32 @@ TEST(TerrainRayCaster, LooksThroughHolesInTheData) {
     EXPECT_FALSE(caster.counterpart(world(2, 2, 0)));
 }
 
+TEST(TerrainRayCaster, EndsAtNodataAndAtItsRim) {
+    HeightGrid grid{.columns = 41,
+                    .rows = 31,
+                    .heights = std::vector<float>(41 * 31, 7),
+                    .origin = {100, 1000},
+                    .perColumn = {10, 0},
+                    .perRow = {0, -20}};
+    grid.heights[15 * 41 + 20] = std::numeric_limits<float>::quiet_NaN();
+    const TerrainRayCaster terrain(grid);
+    const auto endsOf = [&](double x, double y, double reach) {
+        std::vector<fabric::Vec3> ends;
+        EXPECT_FALSE(terrain.endsWithin({x, y, 7}, reach, [&](const fabric::Vec3& end) {
+            ends.push_back(end);
+            return false;
+        }));
+        return ends;
+    };
+    EXPECT_EQ(endsOf(300, 700, 20).size(), 8U) << "around the gap, the middle one has no height";
+    EXPECT_TRUE(endsOf(250, 700, 39).empty());
+    EXPECT_EQ(endsOf(250, 700, 40).size(), 3U);
+    EXPECT_EQ(endsOf(100, 600, 5).size(), 1U);
+    EXPECT_EQ(endsOf(100, 600, 5)[0], fabric::Vec3(100, 600, 7));
+    EXPECT_TRUE(endsOf(-1000, -1000, 50).empty()) << "far outside";
+    EXPECT_TRUE(terrain.endsWithin({300, 700, 7}, 1e9, [](const auto&) { return true; }));
+}
+
 TEST(TerrainRayCaster, MissesBesideAndAboveThePosts) {
     const TerrainRayCaster caster(gridOf(20, 20, [](int, int) { return 10.0; }));
     for (const Ray& ray : {Ray{world(-0.01, 5, 100), {0, 0, -1}}, Ray{world(5, 5, 100), {0, 0, 1}},
