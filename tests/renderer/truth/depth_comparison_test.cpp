@@ -198,7 +198,7 @@ TEST(CompareDepth, HoldsADrawnPointAgainstItsOwnSource) {
     const PlacedSurfaces reference({{ground, fabric::Mat4(1)}, {elsewhere, fabric::Mat4(1)}});
     const Pinhole camera = southernView();
     auto depth = depthOf(reference, camera);
-    const fabric::Vec3 overhang(500, -10, 0);  // ten metres beyond the posts
+    const fabric::Vec3 overhang(500, 1010, 100);  // beyond the posts
     const auto at = camera.project(overhang);
     ASSERT_TRUE(at);
     depth[static_cast<std::size_t>(at->y) * kWidth + static_cast<std::size_t>(at->x)] =
