@@ -21,8 +21,6 @@ namespace eyrie::cli::bench {
 namespace {
 
 constexpr double kRasterPixels = 1.0 / 256;
-/// Beyond, looking whether something else explains a pixel takes too long.
-constexpr int kMostEdgePixels = 9;
 
 std::vector<float> depthMetres(const fabric::Image& image) {
     std::vector<float> metres;
@@ -34,9 +32,9 @@ std::vector<float> depthMetres(const fabric::Image& image) {
 }
 
 /// An outline may have moved by as much as everything else.
-int edgePixels(double promisedPixels) {
+int edgePixels(double promisedPixels, const truth::Pinhole& camera) {
     return static_cast<int>(
-        std::min<double>(std::ceil(promisedPixels) + 1, static_cast<double>(kMostEdgePixels)));
+        std::min<double>(std::ceil(promisedPixels) + 1, std::max(camera.width(), camera.height())));
 }
 
 std::string bytesOf(const std::vector<std::byte>& bytes) {
@@ -96,7 +94,7 @@ absl::StatusOr<FlightJudge::Judged> FlightJudge::judge(Frame& frame, PictureSour
                          remote_);
     Judged result;
     const truth::DepthComparison found = truth::compareDepth(
-        *frame.view, depth, edgePixels(promised),
+        *frame.view, depth, edgePixels(promised, frame.view->camera),
         {promised + kRasterPixels,
          [&](double x, double y, double metres) { return shown.at(x, y, metres); }},
         truth::LookAround::Farthest, &result.displacements);

@@ -104,10 +104,12 @@ void addImportMesh(CLI::App& parent, Run& run) {
         ->excludes(leaf);
     addCommonOptions(*command, *choices);
     command
-        ->add_option("--bits", choices->how.pack.latticeBits,
-                     "Bits of a coordinate: positions are rounded to a power of two, of which the "
-                     "longest side has 2^(bits-1) or more. Fewer make a smaller file; what they "
-                     "round is in the error that is promised")
+        ->add_option(
+            "--bits", choices->how.pack.latticeBits,
+            "Bits of a coordinate: positions are rounded to a power of two, of which the "
+            "longest side has 2^(bits-1) or more. Fewer make a smaller file; what they "
+            "round is in the error that is promised, but sheets that touch without sharing "
+            "points may then gape")
         ->check(CLI::Range(mesh::kMinLatticeBits, mesh::kLatticeBits))
         ->capture_default_str();
     command->add_flag("--raw", choices->how.isRaw,

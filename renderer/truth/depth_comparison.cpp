@@ -9,12 +9,14 @@
 #include <tbb/parallel_for.h>
 
 #include "fabric/frustum.h"
+#include "renderer/truth/surroundings.h"
 
 namespace eyrie::truth {
 namespace {
 
 constexpr double kSnapPixels = 1.0 / 256;
-constexpr int kFineRays = 16;  ///< a pixel's side
+constexpr int kFineRays = 16;       ///< a pixel's side
+constexpr int kMostFinePixels = 9;  ///< to each side; what lies farther off is seen at centres
 /// To explain the pixels of one picture; a few seconds. More are no exceptions.
 constexpr std::size_t kMostRaysAround = 1'000'000;
 /// Beside a pixel's centre a seam between triangles may open. More than what corners are rounded
@@ -53,6 +55,7 @@ public:
           edge_(edgePixels),
           suspects_(suspects),
           reference_(view.hits),
+          around_(surroundings(view.hits, camera_.width(), edgePixels)),
           displacement_(truth::displacements(camera_, depth, surface_)) {}
 
     DepthComparison run(LookAround lookAround) {
@@ -133,30 +136,6 @@ private:
         return least;
     }
 
-    /// What the reference shows around a pixel.
-    struct Surroundings {
-        double nearest = kNoHit;
-        double farthest = 0;
-        bool anyHit = false;
-        bool anyMiss = false;
-
-        void add(const ReferenceSurface::HitRange& hit) {
-            anyHit = anyHit || hit.first != kNoHit;
-            anyMiss = anyMiss || hit.last == kNoHit;
-            nearest = std::min(nearest, hit.first);
-            farthest = std::max(farthest, hit.last);
-        }
-    };
-
-    Surroundings atCentresAround(int x, int y) const {
-        Surroundings around;
-        for (int dy = -edge_; dy <= edge_; ++dy)
-            for (int dx = -edge_; dx <= edge_; ++dx)
-                around.add(reference_[index(std::clamp(x + dx, 0, camera_.width() - 1),
-                                            std::clamp(y + dy, 0, camera_.height() - 1))]);
-        return around;
-    }
-
     double slack(double tested) const {
         return kDepthSlack * edge_ * tested / camera_.focalPixels();
     }
@@ -173,11 +152,14 @@ private:
 
     void classify(int x, int y) {
         const double tested = depth_[index(x, y)];
-        auto fault = faultOf(tested, atCentresAround(x, y));
+        const Surroundings& around = around_[index(x, y)];
+        auto fault = faultOf(tested, around);
         if (fault == nullptr)
             return;
         if (raysAround_ < kMostRaysAround)
             fault = faultEverywhereAround(x, y, tested);
+        else if (isExplained(x, y, tested, around))
+            fault = nullptr;
         if (fault != nullptr)
             ++(result_.*fault);
     }
@@ -227,14 +209,15 @@ private:
     /// The same by rays through the whole area, for what is too thin for pixels' centres; until
     /// they explain the pixel.
     std::size_t DepthComparison::*faultEverywhereAround(int x, int y, double tested) {
-        Surroundings around;
+        Surroundings around = around_[index(x, y)];
         std::size_t DepthComparison::*fault = nullptr;
-        const int reach = (2 * edge_ + 1) * kFineRays;
+        const int pixels = std::min(edge_, kMostFinePixels);
+        const int reach = (2 * pixels + 1) * kFineRays;
         for (int dy = 0; dy <= reach; ++dy) {
             for (int dx = 0; dx <= reach; ++dx)
                 around.add(
-                    seenAlong(camera_.rayThrough(x - edge_ + static_cast<double>(dx) / kFineRays,
-                                                 y - edge_ + static_cast<double>(dy) / kFineRays),
+                    seenAlong(camera_.rayThrough(x - pixels + static_cast<double>(dx) / kFineRays,
+                                                 y - pixels + static_cast<double>(dy) / kFineRays),
                               surface_));
             raysAround_ += static_cast<std::size_t>(reach) + 1;
             fault = faultOf(tested, around);
@@ -278,6 +261,7 @@ private:
     int edge_;
     const Suspects& suspects_;
     const std::vector<ReferenceSurface::HitRange>& reference_;
+    std::vector<Surroundings> around_;  ///< of pixels' centres within `edge_` pixels
     std::vector<double> displacement_;  ///< NaN for none
     std::size_t raysAround_ = 0;        ///< cast by faultEverywhereAround
     int seams_ = 0;                     ///< looked through
