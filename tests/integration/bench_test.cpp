@@ -3,6 +3,7 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <random>
 
 #include <gmock/gmock.h>
 
@@ -136,6 +137,37 @@ TEST_F(Bench, MeasuresWhatASceneShowsAgainstItsSources) {
     }
     EXPECT_LE(number(runs[0], "errorPx.p99"), number(runs[1], "errorPx.p99"));
     EXPECT_GE(test::list(summary, "uniform").size(), 1U);
+}
+
+/// What a picture shows is held against the source that it was made of, wherever things meet. The
+/// terrain has gaps, some of them behind its crests.
+TEST_F(Bench, ScenesOfManyThingsKeepTheirPromise) {
+    ASSERT_TRUE(succeeded({"import", "terrain",
+                           EYRIE_SOURCE_DIR "/../shared/data/terrain/mt_rainier_90m.tif.gz", "-o",
+                           path("gaps.eyt")}));
+    ASSERT_TRUE(succeeded({"synth", "mesh", "--size", "9000", "--seed", "8", "-o", path("m.ply")}));
+    ASSERT_TRUE(succeeded({"import", "mesh", path("m.ply"), "-o", path("m.eym")}));
+    for (const unsigned seed : {1U, 2U, 3U, 4U}) {
+        std::mt19937 random(seed);
+        std::uniform_real_distribution<double> share(-1, 1);
+        const auto placed = [&](const std::string& data, double scale) {
+            return "{" + data + R"(,"transform":{"scale":)" + std::to_string(scale) +
+                   R"(,"axisDegrees":[0.6,0,0.8,)" + std::to_string(90 * share(random)) +
+                   R"(],"translation":[)" + std::to_string(615000 + 30000 * share(random)) + "," +
+                   std::to_string(5150000 + 30000 * share(random)) + "," +
+                   std::to_string(3000 + 3000 * share(random)) + "]}}";
+        };
+        const std::string mesh = R"("mesh":"m.eym")";
+        folder_->write("many.json", R"({"objects":[{"terrain":"gaps.eyt"},)" + placed(mesh, 20000) +
+                                        "," + placed(mesh, 9000) + "]}");
+        const std::string report = path("many");
+        EXPECT_TRUE(succeeded({"bench", path("many.json"), "--tau", "2", "--size", "200x150",
+                               "--frames", "6", "--repeats", "1", "--reference", "-o", report}))
+            << "seed " << seed;
+        const auto runs = test::list(summaryOf(report), "runs");
+        ASSERT_EQ(runs.size(), 1U);
+        EXPECT_LE(number(runs[0], "errorPx.max"), 2 + 1.0 / 256) << "seed " << seed;
+    }
 }
 
 /// Of triangles seen edge-on the depth is their planes', beyond them: it is no broken promise.
