@@ -7,7 +7,7 @@ import type { MeasuredPoint } from "./measure";
 import { mapArea, mapLength, pathLength, rise } from "./measure";
 import { axis, bandOf, logAxis } from "./panel/chart";
 import { overlayRuns, rowsOf } from "./panel/measure";
-import { errorDrawing, stagesDrawing } from "./panel/plots";
+import { errorDrawing, speedErrorDrawing, stagesDrawing } from "./panel/plots";
 import { chartOf, heightAlong } from "./profile";
 import { bandwidth } from "./view/history";
 
@@ -154,6 +154,7 @@ describe("charts", () => {
     expect(axis(3, 3, 64)(3)).toBe(32);
     expect(logAxis(1, 100, 64)(10)).toBeCloseTo(32);
     expect(logAxis(1, 100, 64)(0)).toBe(0);
+    expect(logAxis(1, 100, 64)(Infinity)).toBe(64);
   });
 
   it("close the area between two lines", () => {
@@ -193,6 +194,13 @@ describe("plots", () => {
     expect(fine).toBeGreaterThan(same ?? 0);
     expect(same).toBeGreaterThan(coarse ?? 64);
     expect(text).toBe("8.00 px of 1.00 px asked");
+  });
+
+  it("show errors without a bound at the top", () => {
+    const entries = [entry(10, 0.1), entry(10, Infinity)];
+    expect(heights(errorDrawing(entries).parts[1])[1]).toBe(0);
+    expect(speedErrorDrawing(entries).parts[1]?.attributes.cy).toBe("3.0");
+    expect(errorDrawing(entries).text).toBe("∞ px of 1.00 px asked");
   });
 
   it("pile stages up to the whole", () => {

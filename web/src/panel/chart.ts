@@ -21,10 +21,10 @@ export function axis(low: number, high: number, size: number): (value: number) =
   return (value) => (width !== 0 ? ((value - low) / width) * size : size / 2);
 }
 
-/** The same by orders of magnitude; what is not above 0 is at the low end. */
+/** The same by orders of magnitude; what is beyond an end, such as infinity, is at that end. */
 export function logAxis(low: number, high: number, size: number): (value: number) => number {
   const linear = axis(Math.log(low), Math.log(high), size);
-  return (value) => linear(Math.log(Math.max(value, low)));
+  return (value) => linear(Math.log(Math.min(Math.max(value, low), high)));
 }
 
 /** "M0,1L2,3" of points, with tenths of a unit. */
