@@ -8,6 +8,10 @@ const web = environment("EYRIE_WEB_FOLDER");
 
 const apart = (a, b) => Math.hypot(...a.map((value, i) => value - b[i]));
 
+/** Whatever moved with the frame that is due has moved. */
+const twoFrames = () =>
+  new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
+
 /** The names and contents of a ZIP of stored files. */
 function filesOf(zip) {
   const end = zip.length - 22;
@@ -44,6 +48,8 @@ await run("flight_test", async (browser, started) => {
   const start = await camera();
   for (let i = 0; i < 12; ++i) await page.keyboard.press("ArrowRight", { delay: 30 });
   await page.keyboard.press("w", { delay: 200 });
+  // Flying takes one more step after its key.
+  await page.evaluate(twoFrames);
   const end = await camera();
   await canvas.focus();
   await page.keyboard.press("b");

@@ -54,6 +54,8 @@ export class FlightDeck {
   readonly seconds = new Value(0);
   readonly activity = new Value<Activity>(idle);
   private views: FlightKey[] = [];
+  /** In ms of performance.now(). */
+  private recordedSince = 0;
   private frame: number | undefined;
   private expected = 0;
 
@@ -107,12 +109,9 @@ export class FlightDeck {
     this.stop();
     this.views = [];
     this.activity.set({ kind: "recording" });
-    const start = performance.now();
+    this.recordedSince = performance.now();
     const step = (): void => {
-      const seconds = (performance.now() - start) / 1000;
-      const before = this.views[this.views.length - 1]?.seconds ?? -1;
-      if (this.stage.camera !== null && seconds > before)
-        this.views.push({ seconds, camera: this.stage.camera });
+      const seconds = this.recordView();
       this.seconds.set(seconds);
       if (seconds > longestSeconds) this.stop();
       else this.frame = requestAnimationFrame(step);
@@ -120,7 +119,18 @@ export class FlightDeck {
     step();
   }
 
+  /** Of now; returns its time. */
+  private recordView(): number {
+    const seconds = (performance.now() - this.recordedSince) / 1000;
+    const before = this.views[this.views.length - 1]?.seconds ?? -1;
+    if (this.stage.camera !== null && seconds > before)
+      this.views.push({ seconds, camera: this.stage.camera });
+    return seconds;
+  }
+
   private finishRecording(): void {
+    // What moved since the last animation frame is part of it.
+    this.recordView();
     const views = trimmed(this.views);
     this.views = [];
     if (views.length < 2) {
