@@ -273,7 +273,7 @@ void addLookOptions(CLI::App& command, Options& options) {
         ->type_name("smooth|gouraud|flat|wireframe");
     command
         .add_option("--look", options.look,
-                    R"(JSON: how terrain is shown, such as {"contours":{"intervalMetres":100}})")
+                    R"(JSON: how objects are shown, such as {"contours":{"intervalMetres":100}})")
         ->type_name("FILE");
     command.add_option("--exaggeration", options.exaggeration,
                        "Terrain's heights times this, before what --look says [1]");

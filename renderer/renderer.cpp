@@ -193,10 +193,10 @@ double Renderer::Impl::errorPixels(const lod::TaskViews& views, const fabric::Fr
     for (std::size_t i = 0; i < objects_.size(); ++i)
         if (!look.hidden.contains(i))
             shown.push_back(i);
-    const bool isGroundAlone = shown.size() == 1 && !look.transfer && !look.tileBounds &&
-                               !look.pageBounds &&
-                               frameData.shading != fabric::Shading::Wireframe &&
-                               objects_[shown[0]].object.kind == fabric::ObjectKind::Terrain;
+    const bool isGroundAlone =
+        shown.size() == 1 && !look.transfer && !look.tileBounds && !look.pageBounds &&
+        look.objects.shadingOf(shown[0], frameData.shading) != fabric::Shading::Wireframe &&
+        objects_[shown[0]].object.kind == fabric::ObjectKind::Terrain;
     const fabric::Frustum channel =
         lod::subFrustum(views.drawn, draw::reach(frameData, task.pixelViewport));
     double worst = 0;
@@ -222,6 +222,11 @@ absl::Status Renderer::Impl::drawPieces(const draw::OccludedDraw::Pieces& pieces
                                         fabric::FrameStatistics& statistics) {
     std::vector<draw::Piece> run;
     std::uint64_t triangles = 0;  // of the run
+    const gl::PassState* state = &passState(frame.shading);
+    const auto change = [&state](const gl::PassState& wanted) {
+        if (std::exchange(state, &wanted) != &wanted)
+            wanted.apply();
+    };
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         run.push_back(pieces[i]->piece);
         triangles += run.back().triangles;
@@ -230,20 +235,25 @@ absl::Status Renderer::Impl::drawPieces(const draw::OccludedDraw::Pieces& pieces
         if (!isBatch && i + 1 < pieces.size() && pieces[i + 1]->object == pieces[i]->object)
             continue;
         RETURN_IF_ERROR(unlessStopped(frame.stop));
-        RETURN_IF_ERROR(objects_[pieces[i]->object].drawable->draw(run, frame, statistics));
+        const draw::FrameState own = draw::frameOf(frame, pieces[i]->object);
+        change(passState(own.shading));
+        RETURN_IF_ERROR(objects_[pieces[i]->object].drawable->draw(run, own, statistics));
         run.clear();
         batches_.add(std::exchange(triangles, 0));
     }
+    change(passState(frame.shading));
     return absl::OkStatus();
 }
 
-/// Tested against the opaque surfaces' depth, which stays: what is not opaque has none.
+/// Surfaces, never lines. Tested against the opaque surfaces' depth, which stays: what is not
+/// opaque has none.
 absl::Status Renderer::Impl::drawBlended(std::span<const draw::OrderedPiece> pieces,
                                          draw::FrameState frame,
                                          fabric::FrameStatistics& statistics) {
     if (pieces.empty())
         return absl::OkStatus();
     frame.layer = draw::Layer::Blended;
+    effects::ObjectBlock::kSolid.apply();
     glDepthMask(GL_FALSE);
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
@@ -251,8 +261,8 @@ absl::Status Renderer::Impl::drawBlended(std::span<const draw::OrderedPiece> pie
     for (std::size_t i = 0; i < pieces.size() && drawn.ok(); ++i) {
         drawn = unlessStopped(frame.stop);
         if (drawn.ok())
-            drawn = objects_[pieces[i].object].drawable->draw(std::span(&pieces[i].piece, 1), frame,
-                                                              statistics);
+            drawn = objects_[pieces[i].object].drawable->draw(
+                std::span(&pieces[i].piece, 1), draw::frameOf(frame, pieces[i].object), statistics);
     }
     passState(frame.shading).apply();
     return drawn;

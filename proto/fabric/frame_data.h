@@ -7,16 +7,9 @@
 #include "fabric/camera.h"
 #include "fabric/frame_budget.h"
 #include "fabric/look.h"
+#include "fabric/shading.h"
 
 namespace eyrie::fabric {
-
-/// How surfaces are drawn.
-enum class Shading {
-    Smooth,   ///< light in every pixel, normals interpolated (Phong)
-    Gouraud,  ///< light at vertices, interpolated; terrain, whose normals are a map, stays smooth
-    Flat,     ///< one normal a triangle
-    Wireframe
-};
 
 /// Whether what is hidden behind something is found and left out. It changes no pixel.
 enum class Occlusion {

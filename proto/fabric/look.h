@@ -7,6 +7,7 @@
 
 #include "fabric/camera.h"
 #include "fabric/hidden_objects.h"
+#include "fabric/object_look.h"
 #include "fabric/transfer_function.h"
 
 namespace eyrie::fabric {
@@ -47,6 +48,7 @@ struct Look {
     std::optional<Sun> sun = {};  ///< see lightsOf()
     /// What is promised, counted and timed is that of the others.
     HiddenObjects hidden = {};
+    ObjectLooks objects = {};
 
     bool operator==(const Look&) const = default;
 };

@@ -8,42 +8,11 @@
 #include "fabric/status.h"
 #include "wire/camera.h"
 #include "wire/look.h"
+#include "wire/shading.h"
 #include "wire/sight.h"
 
 namespace eyrie::wire {
 namespace {
-
-v1::Shading toMessage(fabric::Shading shading) {
-    switch (shading) {
-        case fabric::Shading::Smooth:
-            return v1::SHADING_SMOOTH;
-        case fabric::Shading::Gouraud:
-            return v1::SHADING_GOURAUD;
-        case fabric::Shading::Flat:
-            return v1::SHADING_FLAT;
-        case fabric::Shading::Wireframe:
-            return v1::SHADING_WIREFRAME;
-    }
-    return v1::SHADING_UNSPECIFIED;
-}
-
-absl::StatusOr<fabric::Shading> fromMessage(v1::Shading shading) {
-    switch (shading) {
-        case v1::SHADING_UNSPECIFIED:
-        case v1::SHADING_SMOOTH:
-            return fabric::Shading::Smooth;
-        case v1::SHADING_GOURAUD:
-            return fabric::Shading::Gouraud;
-        case v1::SHADING_FLAT:
-            return fabric::Shading::Flat;
-        case v1::SHADING_WIREFRAME:
-            return fabric::Shading::Wireframe;
-        default:
-            return absl::InvalidArgumentError(
-                fmt::format("frame_data.shading is {}, which this version does not know",
-                            static_cast<int>(shading)));
-    }
-}
 
 v1::Occlusion toMessage(fabric::Occlusion occlusion) {
     switch (occlusion) {
@@ -149,7 +118,7 @@ absl::StatusOr<fabric::FrameData> fromMessage(const v1::FrameData& message) {
         return absl::InvalidArgumentError(
             fmt::format("frame_data.tau_pixels is {}; it must be from {} to {}",
                         frameData.tauPixels, fabric::kMinTauPixels, fabric::kMaxTauPixels));
-    ASSIGN_OR_RETURN(frameData.shading, fromMessage(message.shading()));
+    ASSIGN_OR_RETURN(frameData.shading, shadingFrom(message.shading(), "frame_data.shading"));
     ASSIGN_OR_RETURN(frameData.look, fromMessage(message.look()));
     ASSIGN_OR_RETURN(frameData.occlusion, fromMessage(message.occlusion()));
     if (message.has_budget()) {

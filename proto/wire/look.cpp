@@ -8,6 +8,7 @@
 #include "wire/camera.h"
 #include "wire/hidden_objects.h"
 #include "wire/numbers.h"
+#include "wire/object_look.h"
 
 namespace eyrie::wire {
 namespace {
@@ -112,6 +113,7 @@ v1::Look toMessage(const fabric::Look& look) {
         message.mutable_sun()->set_elevation_degrees(look.sun->elevationDegrees);
     }
     setHidden(look.hidden, *message.mutable_hidden_objects());
+    setObjectLooks(look.objects, *message.mutable_objects());
     return message;
 }
 
@@ -145,6 +147,7 @@ absl::StatusOr<fabric::Look> fromMessage(const v1::Look& message) {
     if (message.has_sun())
         look.sun = fabric::Sun{message.sun().azimuth_degrees(), message.sun().elevation_degrees()};
     ASSIGN_OR_RETURN(look.hidden, hiddenObjects(message.hidden_objects(), "look.hiddenObjects"));
+    ASSIGN_OR_RETURN(look.objects, objectLooks(message.objects()));
     RETURN_IF_ERROR(fabric::validate(look));
     return look;
 }

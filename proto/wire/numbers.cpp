@@ -32,6 +32,15 @@ absl::StatusOr<fabric::Vec3> threeNumbersOr(const Numbers& numbers, const fabric
     return threeNumbers(numbers, field);
 }
 
+absl::StatusOr<fabric::Vec3> colourFrom(const Numbers& numbers, std::string_view field) {
+    ASSIGN_OR_RETURN(const fabric::Vec3 colour, threeNumbers(numbers, field));
+    for (int i = 0; i < 3; ++i)
+        if (!(colour[i] >= 0 && colour[i] <= 1))
+            return absl::InvalidArgumentError(
+                fmt::format("{}[{}] is {}; it must be from 0 to 1 (sRGB)", field, i, colour[i]));
+    return colour;
+}
+
 void setNumbers(const fabric::Vec3& value, Numbers& numbers) {
     numbers.Clear();
     for (int i = 0; i < 3; ++i) numbers.Add(value[i]);

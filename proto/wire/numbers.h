@@ -23,6 +23,9 @@ absl::StatusOr<fabric::Vec3> threeNumbers(const Numbers& numbers, std::string_vi
 absl::StatusOr<fabric::Vec3> threeNumbersOr(const Numbers& numbers, const fabric::Vec3& absent,
                                             std::string_view field);
 
+/// Three numbers from 0 to 1: a colour as displayed.
+absl::StatusOr<fabric::Vec3> colourFrom(const Numbers& numbers, std::string_view field);
+
 void setNumbers(const fabric::Vec3& value, Numbers& numbers);
 
 }  // namespace eyrie::wire

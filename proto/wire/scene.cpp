@@ -21,15 +21,6 @@ fabric::Vec3 perChannel(const fabric::Vec3& colour, double (*convert)(double)) {
     return {convert(colour.x), convert(colour.y), convert(colour.z)};
 }
 
-absl::StatusOr<fabric::Vec3> colourFrom(const Numbers& numbers, std::string_view field) {
-    ASSIGN_OR_RETURN(const fabric::Vec3 colour, threeNumbers(numbers, field));
-    for (int i = 0; i < 3; ++i)
-        if (!(colour[i] >= 0 && colour[i] <= 1))
-            return absl::InvalidArgumentError(
-                fmt::format("{}[{}] is {}; it must be from 0 to 1 (sRGB)", field, i, colour[i]));
-    return colour;
-}
-
 std::uint8_t toByte(double fraction) {
     return static_cast<std::uint8_t>(std::lround(fraction * 255));
 }

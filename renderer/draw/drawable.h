@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -88,7 +89,12 @@ struct FrameState {
     fabric::PixelViewport channel;
     Layer layer = Layer::Opaque;
     std::stop_token stop = {};  ///< nobody wants the picture any more
+    /// Linear; in place of all colours of the object's data.
+    std::optional<fabric::Vec3> colour = {};
 };
+
+/// The frame as an object of the scene is drawn in it.
+FrameState frameOf(const FrameState& frame, std::size_t object);
 
 /// One object of the scene, on the GL thread.
 class Drawable {

@@ -274,11 +274,11 @@ void MeshDrawable::source(const DeviceNode& node) const {
     glVertexArrayElementBuffer(vertexArray_.id(), node.buffer.id());
 }
 
-/// Demonstration colours stand in for the mesh's own, which an array that is not enabled lets them.
+/// Colours that stand in for the mesh's own do so by an array that is not enabled.
 void MeshDrawable::bind(const FrameState& frame) const {
     glFrontFace(glm::determinant(fabric::Mat3(worldFromObject_)) < 0 ? GL_CW : GL_CCW);
     glBindVertexArray(vertexArray_.id());
-    if (file_->hasColours() && !isTinted(frame.look))
+    if (file_->hasColours() && !isTinted(frame))
         glEnableVertexArrayAttrib(vertexArray_.id(), Program::kPackedColour.location);
     else
         glDisableVertexArrayAttrib(vertexArray_.id(), Program::kPackedColour.location);
@@ -306,7 +306,7 @@ std::uint32_t MeshDrawable::colourOf(const Piece& piece, const FrameState& frame
         return packedSrgb(fabric::Vec3(levelColour(levelOf(piece.index))));
     if (frame.look.rangeTint)
         return packedSrgb(fabric::Vec3(rangeColour(frame.range)));
-    return uniformColour_;
+    return frame.colour ? packedSrgb(*frame.colour) : uniformColour_;
 }
 
 void MeshDrawable::colour(const Piece& piece, const FrameState& frame) const {
@@ -438,7 +438,7 @@ absl::Status MeshDrawable::drawByMaterial(std::span<const Piece> pieces, const F
 absl::Status MeshDrawable::draw(std::span<const Piece> pieces, const FrameState& frame,
                                 fabric::FrameStatistics& statistics) {
     const bool isWhole = file_->materials().empty() ||
-                         frame.shading == fabric::Shading::Wireframe || isTinted(frame.look);
+                         frame.shading == fabric::Shading::Wireframe || isTinted(frame);
     if (!isWhole)
         return drawByMaterial(pieces, frame, statistics);
     return frame.layer == Layer::Opaque ? drawWhole(pieces, frame, statistics) : absl::OkStatus();

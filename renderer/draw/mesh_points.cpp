@@ -56,7 +56,7 @@ absl::Status MeshPoints::draw(const Piece& piece, const DeviceNode& node, std::u
     Program::kPackedNormal.source(vertexArray_, node.buffer, node.normalOffset);
     if (hasColours_)
         Program::kPackedColour.source(vertexArray_, node.buffer, node.colourOffset);
-    if (hasColours_ && !isTinted(frame.look))
+    if (hasColours_ && !isTinted(frame))
         glEnableVertexArrayAttrib(vertexArray_.id(), Program::kPackedColour.location);
     else
         glDisableVertexArrayAttrib(vertexArray_.id(), Program::kPackedColour.location);

@@ -32,8 +32,11 @@ void sortBackToFront(std::vector<OrderedPiece>& pieces, const lod::View& view,
 }  // namespace
 
 bool hasLines(const fabric::FrameData& frameData) {
-    return frameData.shading == fabric::Shading::Wireframe || frameData.look.tileBounds ||
-           frameData.look.pageBounds;
+    const fabric::Look& look = frameData.look;
+    return frameData.shading == fabric::Shading::Wireframe || look.tileBounds || look.pageBounds ||
+           std::ranges::any_of(look.objects.looks, [](const fabric::ObjectLook& one) {
+               return one.shading == fabric::Shading::Wireframe;
+           });
 }
 
 fabric::PixelViewport reach(const fabric::FrameData& frameData, const fabric::PixelViewport& part) {
@@ -54,7 +57,6 @@ Selection selectPieces(std::span<const OpenObject> objects, const lod::TaskViews
     Selection selection;
     std::vector<OrderedPiece>& pieces = selection.pieces;
     const fabric::Look& look = frameData.look;
-    const bool hasLayers = frameData.shading != fabric::Shading::Wireframe;
     const fabric::Frustum channel =
         lod::subFrustum(views.drawn, reach(frameData, task.pixelViewport));
     // A cut that was frozen is brought whole: this view may see all of it.
@@ -71,6 +73,8 @@ Selection selectPieces(std::span<const OpenObject> objects, const lod::TaskViews
                                                         frameData.tauPixels, task.completeness,
                                                         look.exaggeration, look.pageBounds, stop});
         addTo(statistics, cut);
+        const bool hasLayers =
+            look.objects.shadingOf(i, frameData.shading) != fabric::Shading::Wireframe;
         for (const Piece& piece : cut.pieces) {
             const bool isInRange = task.range.contains(piece.rangePosition);
             const bool isBlended = piece.hasBlended && hasLayers;

@@ -270,7 +270,7 @@ void TerrainDrawable::use(const TerrainEffect& program, const FrameState& frame)
     program.use();
     setObject(program, frame, fabric::exaggerated(worldFromObject_, frame.look.exaggeration),
               index().objectFromLattice);
-    look_.use(program, worldFromObject_, frame.look);
+    look_.use(program, worldFromObject_, frame);
     program.lastPost({index().quadtree.columns() - 1, index().quadtree.rows() - 1});
     program.lowestHeight(static_cast<float>(lowest));
     program.bandsPerHeight(static_cast<float>(kElevationBands / heights));
@@ -377,9 +377,7 @@ absl::Status TerrainDrawable::draw(std::span<const Piece> pieces, const FrameSta
         const terrain::TileChoice& choice = drawn_.tiles[piece.index];
         for (const terrain::ImageryPart& part : imagery_.partsOf(choice.id)) {
             ASSIGN_OR_RETURN(const TerrainEffect* program, programFor(part, frame, programs));
-            if (frame.look.levelTint || frame.look.rangeTint)
-                program->levelColour(frame.look.levelTint ? levelColour(choice.id.level)
-                                                          : rangeColour(frame.range));
+            TerrainLook::tint(*program, frame, choice.id.level);
             useNormals(*program, choice.id);
             imagery_.use(*program, choice.id, part);
             statistics.triangles += drawTile(*program, choice, *paging_->tile(choice.id), seen);

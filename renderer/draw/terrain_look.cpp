@@ -8,6 +8,7 @@
 #include <glm/gtc/matrix_inverse.hpp>
 
 #include "renderer/draw/object_program.h"
+#include "renderer/draw/tint.h"
 #include "renderer/draw/transfer_table.h"
 
 namespace eyrie::draw {
@@ -15,6 +16,11 @@ namespace {
 
 /// Every fifth contour line is stronger.
 constexpr int kLinesPerStrongOne = 5;
+
+/// Of the colours of levels and ranges, in the ground's.
+constexpr float kTintShare = 0.6F;
+/// As in effects/terrain.effect.
+constexpr float kLightened = 1.35F;
 
 }  // namespace
 
@@ -31,24 +37,34 @@ effects::TerrainEffect::Variant TerrainLook::variantFor(const FrameState& frame,
         draw::variantFor(frame, fabric::exaggerated(worldFromObject, look.exaggeration));
     variant.transfer = look.transfer.has_value();
     variant.contours = look.contours.has_value();
-    variant.adjusted =
-        look.slopeShading != 1 || look.saturation != 1 || look.levelTint || look.rangeTint;
+    variant.adjusted = look.slopeShading != 1 || look.saturation != 1 || isTinted(frame);
     return variant;
 }
 
 void TerrainLook::use(const effects::TerrainEffect& program, const fabric::Mat4& worldFromObject,
-                      const fabric::Look& look) {
+                      const FrameState& frame) {
+    const fabric::Look& look = frame.look;
     // Upside down, the side that was below faces up.
     if (look.exaggeration < 0)
         program.worldFromNormal(-glm::mat3(glm::inverseTranspose(
             fabric::Mat3(fabric::exaggerated(worldFromObject, look.exaggeration)))));
     program.slopeShading(static_cast<float>(look.slopeShading));
     program.saturation(static_cast<float>(look.saturation));
-    program.levelShare(look.levelTint || look.rangeTint ? 0.6F : 0.0F);
+    program.tintShare(look.levelTint || look.rangeTint ? kTintShare : frame.colour ? 1.0F : 0.0F);
     if (look.contours)
         setContours(program, *look.contours);
     if (look.transfer)
         setTransfer(program, *look.transfer);
+}
+
+/// Grounds are drawn lighter than they are, and so are the colours of levels and ranges.
+void TerrainLook::tint(const effects::TerrainEffect& program, const FrameState& frame, int level) {
+    if (frame.look.levelTint)
+        program.tintColour(kLightened * levelColour(level));
+    else if (frame.look.rangeTint)
+        program.tintColour(kLightened * rangeColour(frame.range));
+    else if (frame.colour)
+        program.tintColour(glm::vec3(*frame.colour));
 }
 
 /// Lines are counted from a height in the middle, so that float32 has digits left between them.

@@ -23,7 +23,10 @@ public:
     /// Sets the uniforms of the look, after setObject. `worldFromObject` is not exaggerated. Of a
     /// transfer function it keeps the table.
     void use(const effects::TerrainEffect& program, const fabric::Mat4& worldFromObject,
-             const fabric::Look& look);
+             const FrameState& frame);
+
+    /// Sets the colour that stands in for that of a tile, where one does.
+    static void tint(const effects::TerrainEffect& program, const FrameState& frame, int level);
 
 private:
     void setContours(const effects::TerrainEffect& program,

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "fabric/look.h"
 #include "fabric/range.h"
 #include "fabric/vec.h"
+#include "renderer/draw/drawable.h"
 
 namespace eyrie::draw {
 
-/// Whether colours of levels or of ranges stand in for the data's own.
-inline bool isTinted(const fabric::Look& look) { return look.levelTint || look.rangeTint; }
+/// Whether a colour stands in for the data's own.
+inline bool isTinted(const FrameState& frame) {
+    return frame.look.levelTint || frame.look.rangeTint || frame.colour;
+}
 
 /// Colours of levels of detail, linear. Neighbours differ clearly.
 glm::vec3 levelColour(int level);

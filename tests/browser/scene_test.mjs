@@ -24,7 +24,7 @@ await run("scene_test", async (browser, started) => {
   const all = await browser.picture();
   const triangles = await browser.hook("triangles");
 
-  const objects = page.locator("#objects input");
+  const objects = page.locator("#objects .object > .object-label input");
   check((await objects.count()) === 2, "the tree has the scene's objects");
   check(
     /Terrain · .* triangles[^]*Mesh · .* triangles/.test(
@@ -65,6 +65,15 @@ await run("scene_test", async (browser, started) => {
   await browser.settled();
   check(difference(all, await browser.picture()) === 0, "all come back");
 
+  await page.locator("#objects summary").nth(1).click();
+  await page.getByRole("combobox", { name: /^Shading of / }).selectOption("Wireframe");
+  await browser.settled();
+  const wired = await browser.picture();
+  check(difference(all, wired) > 0.0005, "an object has a shading of its own");
+  await page.getByRole("checkbox", { name: "One colour" }).check();
+  await browser.settled();
+  check(difference(wired, await browser.picture()) > 0.0005, "and a colour");
+
   await page.keyboard.press("j");
   await browser.settled();
   const afternoon = await browser.picture();
@@ -96,6 +105,17 @@ await run("scene_test", async (browser, started) => {
   } finally {
     rmSync(folder, { recursive: true });
   }
+
+  const ownLink = page.url();
+  const own = await browser.picture();
+  await page.goto("about:blank");
+  await page.goto(ownLink);
+  await browser.settled();
+  check(difference(own, await browser.picture()) === 0, "a link has looks of objects, too");
+  await page.locator("#objects summary").nth(1).click();
+  await page.getByRole("combobox", { name: /^Shading of / }).selectOption("As all");
+  await page.getByRole("checkbox", { name: "One colour" }).uncheck();
+  await browser.settled();
 
   await page.locator("#poster-side").selectOption("4096");
   const downloading = page.waitForEvent("download", { timeout: 120_000 });

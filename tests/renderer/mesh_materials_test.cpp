@@ -196,6 +196,56 @@ TEST_F(MeshMaterials, WhatIsBlendedIsDrawnFromBackToFront) {
     EXPECT_EQ(draw(), image);
 }
 
+/// One colour stands in for pictures, holes and what shows through.
+TEST_F(MeshMaterials, AColourOfAnObjectIsAllThatIsSeenOfIt) {
+    std::vector<Rgba> texels = quarters(16);
+    for (int i = 0; i < 128; ++i) texels[static_cast<std::size_t>(i)].a = 0;
+    import::TriangleMesh floor, pane, holed;
+    floor.materials = {{}, {.image = 0}};
+    floor.images = {mesh::encodeImage({16, 16, 0}, quarters(16))};
+    addSquare(floor, 8, -1, kWhite, 1);
+    pane.materials = {{}, {.flags = mesh::kIsBlended}};
+    addSquare(pane, 4, 0, {0, 0, 255, 128}, 1);
+    holed.materials = {{}, {.image = 0, .alphaCutoff = 0.5F}};
+    holed.images = {mesh::encodeImage({16, 16, mesh::kHasAlpha}, texels)};
+    addSquare(holed, 2, 1, kWhite, 1);
+    add(std::move(floor));
+    add(std::move(pane));
+    add(std::move(holed));
+    const fabric::Image plain = draw();
+    EXPECT_NE(at(plain, 1.5, 0), kGreen);
+    frame_.look.objects = {{{1, Vec3(0, 1, 0)}, {2, Vec3(1, 0, 0)}}};
+    const fabric::Image own = draw();
+    EXPECT_EQ(at(own, 1.5, 0), kGreen);
+    EXPECT_EQ(at(own, 0.3, 0.3), kRed) << "where the picture has a hole";
+    EXPECT_EQ(at(own, -3.2, -3.2), kBlue) << "the floor has its picture";
+    frame_.look.objects = {{{0, Vec3(1, 1, 0)}}};
+    EXPECT_EQ(at(draw(), -3.2, -3.2), (Rgba{255, 255, 0, 255}));
+    expectNear(at(draw(), 1.5, 0), over({0, 0, 255, 128}, {255, 255, 0, 255}), 1);
+}
+
+/// A pane of 6 metres before a floor of 8, one of them as lines, whatever the picture is.
+TEST_F(MeshMaterials, WhatIsBlendedIsNoLinesWhereTheRestIs) {
+    const Rgba blue{0, 0, 255, 128};
+    import::TriangleMesh floor, pane;
+    addSquare(floor, 8, -1, kRed, 0);
+    floor.textureCoordinates.clear();
+    floor.materialOf.clear();
+    pane.materials = {{}, {.flags = mesh::kIsBlended}};
+    addSquare(pane, 6, 0, blue, 1);
+    add(std::move(floor));
+    add(std::move(pane));
+    for (const auto whole : {fabric::Shading::Smooth, fabric::Shading::Wireframe}) {
+        frame_.shading = whole;
+        frame_.look.objects = {
+            {{0, {}, fabric::Shading::Wireframe}, {1, {}, fabric::Shading::Smooth}}};
+        expectNear(at(draw(), 1, -2), over(blue, kBackground), 1);
+        frame_.look.objects = {
+            {{0, {}, fabric::Shading::Smooth}, {1, {}, fabric::Shading::Wireframe}}};
+        EXPECT_EQ(at(draw(), 1, -2), kRed);
+    }
+}
+
 TEST_F(MeshMaterials, OneAndTwoSidesAreAsTheMaterialSays) {
     import::TriangleMesh mesh;
     mesh.materials = {{}, {.flags = mesh::kIsTwoSided}, {.flags = mesh::kIsOneSided}};

@@ -17,7 +17,7 @@ import type { Primitive, Shape } from "./look";
 import { metres, times } from "./panel/format";
 import { edited, stripPixels } from "./panel/transfer";
 import { HeightUnit, PrimitiveShape } from "./protocol/gen/eyrie/v1/look_pb";
-import { lookMessage } from "./protocol/messages";
+import { lookMessage, Shading } from "./protocol/messages";
 
 const shapes: readonly Shape[] = ["blend", "box", "tent", "smooth"];
 const red: Primitive = { shape: "box", centre: 0.25, width: 0.25, colour: [1, 0, 0], opacity: 0.5 };
@@ -88,7 +88,16 @@ describe("the message", () => {
       rangeTint: true,
       sun: { azimuth: 90, elevation: 30 },
       hidden: [1, 4],
+      objects: [
+        { object: 0, colour: [0, 0.5, 1], shading: null },
+        { object: 2, colour: null, shading: Shading.WIREFRAME },
+      ],
     });
+    expect(message.objects).toMatchObject([
+      { object: 0, colour: [0, 0.5, 1] },
+      { object: 2, colour: [], shading: Shading.WIREFRAME },
+    ]);
+    expect(message.objects[0]?.shading).toBeUndefined();
     expect(message.sun).toMatchObject({ azimuthDegrees: 90, elevationDegrees: 30 });
     expect(message.hiddenObjects).toEqual([1, 4]);
     expect(message.transfer?.unit).toBe(HeightUnit.RELATIVE);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How terrain is shown: the page's side of look.proto.
 import type { Camera } from "./camera/camera";
+import type { Shading } from "./protocol/gen/eyrie/v1/shading_pb";
 
 export type Shape = "blend" | "box" | "tent" | "smooth";
 
@@ -23,6 +24,16 @@ export interface Sun {
   elevation: number;
 }
 
+/** How one object is shown. */
+export interface ObjectLook {
+  /** Its position in the scene. */
+  readonly object: number;
+  /** As displayed, 0 to 1; null: those of its data. */
+  readonly colour: readonly [number, number, number] | null;
+  /** Null: the picture's. */
+  readonly shading: Shading | null;
+}
+
 export interface Look {
   exaggeration: number;
   colouring: Colouring;
@@ -42,6 +53,8 @@ export interface Look {
   sun: Sun | null;
   /** Positions in the scene of objects that are not drawn, ascending. */
   hidden: readonly number[];
+  /** Of single objects, ascending. */
+  objects: readonly ObjectLook[];
 }
 
 /** As displayed; those of the server's built-in tints, from lowest to highest. */
@@ -78,6 +91,7 @@ export const defaultLook: Look = {
   underground: false,
   sun: null,
   hidden: [],
+  objects: [],
 };
 
 /** Where the sun first stands: as maps are lit, from the north-west and half way up. */
@@ -91,6 +105,21 @@ export function withHidden(
 ): readonly number[] {
   const others = hidden.filter((one) => one !== object);
   return isHidden ? [...others, object].sort((a, b) => a - b) : others;
+}
+
+/** Of an object, whether `looks` have it or not. */
+export function objectLook(looks: readonly ObjectLook[], object: number): ObjectLook {
+  return looks.find((one) => one.object === object) ?? { object, colour: null, shading: null };
+}
+
+/** `looks` with that one; without it where it says nothing. */
+export function withObjectLook(
+  looks: readonly ObjectLook[],
+  look: ObjectLook,
+): readonly ObjectLook[] {
+  const others = looks.filter((one) => one.object !== look.object);
+  if (look.colour === null && look.shading === null) return others;
+  return [...others, look].sort((a, b) => a.object - b.object);
 }
 
 /** Opacity of a primitive at `distance`, in widths, from its centre, 0 to 1. */

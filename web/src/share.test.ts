@@ -29,6 +29,10 @@ const special: SharedView = {
     underground: true,
     sun: { azimuth: 200, elevation: 12.5 },
     hidden: [0, 7],
+    objects: [
+      { object: 1, colour: [1, 0.5, 0], shading: null },
+      { object: 4, colour: null, shading: Shading.FLAT },
+    ],
   },
 };
 
@@ -74,6 +78,9 @@ describe("a link", () => {
       `${good}&look=${encodeURIComponent('{"hidden":[-1]}')}`,
       `${good}&look=${encodeURIComponent('{"hidden":[0.5]}')}`,
       `${good}&look=${encodeURIComponent('{"hidden":{}}')}`,
+      `${good}&look=${encodeURIComponent('{"objects":[{"object":0,"colour":null}]}')}`,
+      `${good}&look=${encodeURIComponent('{"objects":[{"object":0,"colour":[2,0,0],"shading":null}]}')}`,
+      `${good}&look=${encodeURIComponent('{"objects":[{"object":0,"colour":null,"shading":9}]}')}`,
       `${good}&look=${encodeURIComponent('{"constructor":1}')}`,
       `${good}&look=${encodeURIComponent('{"primitives":[{"shape":"box"}]}')}`,
       `${good.replace("tau=1", "tau=0")}`,

@@ -2,7 +2,7 @@
 // A view as the fragment of a link: "#eye=1,2,3&at=4,5,6&tau=1". What is as usual is left out.
 import type { Camera, Vec3 } from "./camera/camera";
 import { isUsable } from "./camera/camera";
-import type { Look, Primitive, Shape, Sun } from "./look";
+import type { Look, ObjectLook, Primitive, Shape, Sun } from "./look";
 import { defaultLook, maxPrimitives } from "./look";
 import { Shading } from "./protocol/messages";
 
@@ -78,9 +78,7 @@ function isPrimitive(value: unknown): value is Primitive {
     isNumber(one.centre, -10, 10) &&
     isNumber(one.width, 1e-6, 10) &&
     isNumber(one.opacity, 0, 1) &&
-    Array.isArray(one.colour) &&
-    one.colour.length === 3 &&
-    one.colour.every((channel) => isNumber(channel, 0, 1))
+    isColour(one.colour)
   );
 }
 
@@ -94,8 +92,29 @@ function isSun(value: unknown): value is Sun {
   );
 }
 
+const isColour = (value: unknown): boolean =>
+  Array.isArray(value) && value.length === 3 && value.every((channel) => isNumber(channel, 0, 1));
+
 const isPosition = (value: unknown): boolean =>
   isNumber(value, 0, 2 ** 31 - 1) && Number.isInteger(value);
+
+function isObjectLook(value: unknown): value is ObjectLook {
+  const one = value as Partial<ObjectLook> | null;
+  return (
+    typeof one === "object" &&
+    one !== null &&
+    isPosition(one.object) &&
+    (one.colour === null || isColour(one.colour)) &&
+    (one.shading === null || shadings.some(([, shading]) => shading === one.shading))
+  );
+}
+
+/** Ascending, none twice. */
+const areObjectLooks = (value: unknown): boolean =>
+  Array.isArray(value) &&
+  value.length <= 1000 &&
+  value.every(isObjectLook) &&
+  value.every(({ object }, i) => i === 0 || (value[i - 1]?.object ?? object) < object);
 
 /** What each part of a look may be. */
 const isPart: Record<keyof Look, (value: unknown) => boolean> = {
@@ -113,6 +132,7 @@ const isPart: Record<keyof Look, (value: unknown) => boolean> = {
   underground: (value) => typeof value === "boolean",
   sun: (value) => value === null || isSun(value),
   hidden: (value) => Array.isArray(value) && value.length <= 1000 && value.every(isPosition),
+  objects: areObjectLooks,
 };
 
 function lookOf(text: string | undefined): Look | undefined {

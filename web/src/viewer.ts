@@ -20,6 +20,7 @@ import { queryOf } from "./output";
 import { groundOf } from "./profile";
 import { Questions } from "./questions";
 import type { SharedView } from "./share";
+import { ShownScene } from "./shown_scene";
 import type { State } from "./state";
 import { PictureCanvas } from "./view/canvas";
 import { Walker } from "./walker";
@@ -92,7 +93,7 @@ export class Viewer implements CameraHolder {
   private led: LedView | undefined;
   /** What a program has asked for in this page's place, as text, once it has been adopted. */
   private followed = "";
-  private sceneKey = "";
+  private readonly scene = new ShownScene();
 
   constructor(
     canvas: HTMLCanvasElement,
@@ -365,17 +366,11 @@ export class Viewer implements CameraHolder {
     this.state.session.set(session);
     this.placeChanged();
     const { min, max } = session.sceneBounds ?? {};
-    if (min !== undefined && max !== undefined) {
-      const diagonal = Math.hypot(max.x - min.x, max.y - min.y, max.z - min.z);
-      this.limits = distanceLimits(diagonal);
-      const key = [min.x, min.y, min.z, max.x, max.y, max.z].join();
-      // Another scene starts at its own home; after a reconnection the camera stays.
-      const isOther = this.sceneKey !== "" && key !== this.sceneKey;
-      if (this.camera === null || isOther) this.goHome();
-      // Positions in another scene are of other objects.
-      if (isOther) this.state.look.set({ ...this.state.look.value, hidden: [] });
-      this.sceneKey = key;
-    }
+    if (min !== undefined && max !== undefined)
+      this.limits = distanceLimits(Math.hypot(max.x - min.x, max.y - min.y, max.z - min.z));
+    const { isElsewhere, hasOtherObjects } = this.scene.next(session);
+    if (this.camera === null || isElsewhere) this.goHome();
+    if (hasOtherObjects) this.state.look.set({ ...this.state.look.value, hidden: [], objects: [] });
     this.resize();
   }
 

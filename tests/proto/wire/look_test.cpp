@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "wire/look.h"
 
+#include <cstddef>
+#include <limits>
+
 #include <gmock/gmock.h>
 #include <rapidcheck/gtest.h>
 
@@ -28,6 +31,16 @@ fabric::TransferFunction anyTransfer() {
     return function;
 }
 
+fabric::ObjectLook anyObjectLook(std::int32_t object) {
+    fabric::ObjectLook look{object};
+    if (coin())
+        look.colour = fabric::Vec3(share(), share(), share());
+    if (coin())
+        look.shading = *rc::gen::element(fabric::Shading::Smooth, fabric::Shading::Gouraud,
+                                         fabric::Shading::Flat, fabric::Shading::Wireframe);
+    return look;
+}
+
 fabric::Look anyLook() {
     fabric::Look look;
     look.exaggeration = 2000 * share() - 1000;
@@ -48,6 +61,9 @@ fabric::Look anyLook() {
     for (std::int32_t object = 0; object < 5; ++object)
         if (coin())
             look.hidden.positions.push_back(object);
+    for (std::int32_t object = 0; object < 5; ++object)
+        if (coin())
+            look.objects.looks.push_back(anyObjectLook(object));
     return look;
 }
 
@@ -67,6 +83,18 @@ TEST(WireLook, HiddenObjectsComeInAnyOrderButNotInAnyNumber) {
     for (const std::int32_t object : {4, 1, 4, 0}) message.add_hidden_objects(object);
     EXPECT_EQ(fromMessage(message)->hidden.positions, (std::vector<std::int32_t>{0, 1, 4}));
     for (std::int32_t i = 0; i < fabric::kMaxHiddenObjects; ++i) message.add_hidden_objects(i);
+    EXPECT_TRUE(absl::IsInvalidArgument(fromMessage(message).status()));
+}
+
+TEST(WireLook, LooksOfObjectsComeInAnyOrder) {
+    v1::Look message;
+    for (const std::int32_t object : {4, 1, 9}) message.add_objects()->set_object(object);
+    const fabric::Look look = fromMessage(message).value();
+    EXPECT_EQ(look.objects.of(4), &look.objects.looks[1]);
+    EXPECT_EQ(look.objects.of(5), nullptr);
+    EXPECT_EQ(look.objects.of(std::numeric_limits<std::size_t>::max()), nullptr);
+    while (message.objects_size() <= fabric::kMaxObjectLooks)
+        message.add_objects()->set_object(100 + message.objects_size());
     EXPECT_TRUE(absl::IsInvalidArgument(fromMessage(message).status()));
 }
 
@@ -98,6 +126,18 @@ TEST(WireLook, ARefusalNamesFileAndField) {
                 HasSubstr("look.sun.elevationDegrees is nan"));
     EXPECT_THAT(refusal(R"({"hiddenObjects":[3,-2]})"),
                 HasSubstr("look.hiddenObjects has object -2"));
+    EXPECT_THAT(refusal(R"({"objects":[{},{"object":-1}]})"),
+                HasSubstr("look.objects[1].object is -1"));
+    EXPECT_THAT(refusal(R"({"objects":[{"object":3},{"object":3}]})"),
+                HasSubstr("look.objects has object 3 twice"));
+    EXPECT_THAT(refusal(R"({"objects":[{"colour":[0,1]}]})"),
+                HasSubstr("look.objects[0].colour has 2 numbers"));
+    EXPECT_THAT(refusal(R"({"objects":[{"colour":[0,1,1.5]}]})"),
+                HasSubstr("look.objects[0].colour[2] is 1.5"));
+    EXPECT_THAT(refusal(R"({"objects":[{"colour":[0,1,"NaN"]}]})"),
+                HasSubstr("look.objects[0].colour[2] is nan"));
+    EXPECT_THAT(refusal(R"({"objects":[{"shading":17}]})"),
+                HasSubstr("look.objects[0].shading is 17"));
     EXPECT_THAT(refusal(R"({"exageration":2})"), HasSubstr("exageration"));
 }
 

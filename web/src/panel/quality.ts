@@ -10,7 +10,7 @@ const minLog = -2;
 const maxLog = 4;
 const stepLog = 0.25;
 
-const shadings: readonly (readonly [Shading, string])[] = [
+export const shadings: readonly (readonly [Shading, string])[] = [
   [Shading.SMOOTH, "Smooth"],
   [Shading.GOURAUD, "Gouraud"],
   [Shading.FLAT, "Flat"],

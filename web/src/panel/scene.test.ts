@@ -2,12 +2,13 @@
 import { create } from "@bufbuild/protobuf";
 import { describe, expect, it } from "vitest";
 import { directionOfView, standardCamera } from "../camera/standard";
-import { withHidden } from "../look";
+import { objectLook, withHidden, withObjectLook } from "../look";
 import { PartStatisticsSchema } from "../protocol/gen/eyrie/v1/statistics_pb";
 import { ObjectStateSchema } from "../protocol/gen/eyrie/v1/viewer_pb";
-import { ObjectKind } from "../protocol/messages";
+import { ObjectKind, Shading } from "../protocol/messages";
 import { hasPlaces, hasRanges, rangeColour, sharesOf } from "./renderers";
-import { alone, azimuthText, objectText } from "./scene";
+import { alone, objectText } from "./objects";
+import { azimuthText } from "./scene";
 
 describe("objects of a scene", () => {
   it("are hidden and shown one by one, in order", () => {
@@ -22,6 +23,16 @@ describe("objects of a scene", () => {
     expect(alone([0, 2], 1, 3)).toEqual([]);
     expect(alone([0, 2], 0, 3)).toEqual([1, 2]);
     expect(alone([0, 1, 2], 1, 3)).toEqual([0, 2]);
+  });
+
+  it("have looks of their own while these say anything", () => {
+    const red = { object: 2, colour: [1, 0, 0], shading: null } as const;
+    const flat = { object: 0, colour: null, shading: Shading.FLAT } as const;
+    const both = withObjectLook(withObjectLook([], red), flat);
+    expect(both).toEqual([flat, red]);
+    expect(objectLook(both, 2)).toEqual(red);
+    expect(objectLook(both, 1)).toEqual({ object: 1, colour: null, shading: null });
+    expect(withObjectLook(both, { ...red, colour: null })).toEqual([flat]);
   });
 
   it("say what they are", () => {

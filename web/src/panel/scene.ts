@@ -1,72 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the scene is made of: each object shown or left out, alone, or brought into view; and where
-// its light comes from.
-import { usualSun, withHidden } from "../look";
+// What the scene is made of, and where its light comes from.
+import { usualSun } from "../look";
 import type { Sun } from "../look";
-import type { ObjectState } from "../protocol/messages";
-import { ObjectKind } from "../protocol/messages";
 import type { State } from "../state";
 import type { Viewer } from "../viewer";
 import { button, byId, make, setText } from "./element";
-import { count } from "./format";
 import { onKeys } from "./keys";
 import { change, slider } from "./look_controls";
-
-/** "Terrain · 1.74 M triangles"; "" while that is not known. */
-export function objectText(object: ObjectState | undefined): string {
-  if (object === undefined) return "";
-  const kind = object.kind === ObjectKind.TERRAIN ? "Terrain" : "Mesh";
-  return `${kind} · ${count(Number(object.triangles))} triangles`;
-}
-
-/** All but one; what is alone already brings the others back. */
-export function alone(hidden: readonly number[], object: number, objects: number): number[] {
-  const others = Array.from({ length: objects }, (_, i) => i).filter((i) => i !== object);
-  const isAlone = !hidden.includes(object) && others.every((one) => hidden.includes(one));
-  return isAlone ? [] : others;
-}
-
-function objectRow(state: State, viewer: Viewer, object: number): HTMLElement {
-  const { objectNames = [], objects = [] } = state.session.value ?? {};
-  const name = objectNames[object] ?? "";
-  const isShown = make("input", "");
-  isShown.type = "checkbox";
-  isShown.addEventListener("change", () =>
-    change(state, { hidden: withHidden(state.look.value.hidden, object, !isShown.checked) }),
-  );
-  isShown.checked = !state.look.value.hidden.includes(object);
-  const title = make("span", "object-name", name);
-  title.title = name;
-  const label = make("label", "object-label", isShown, title);
-  const only = button("Only", `Show ${name} alone, or all again`, () =>
-    change(state, { hidden: alone(state.look.value.hidden, object, objectNames.length) }),
-  );
-  const go = button("Go to", `Bring ${name} into view`, () => viewer.goToObject(object));
-  only.ariaLabel = only.title;
-  go.ariaLabel = go.title;
-  const facts = make("span", "note object-facts", objectText(objects[object]));
-  return make("li", "object", label, only, go, facts);
-}
-
-function objectTree(state: State, viewer: Viewer): HTMLElement {
-  const list = make("ul", "objects");
-  list.id = "objects";
-  list.ariaLabel = "Objects of the scene";
-  let shown = "";
-  state.session.watch((session) => {
-    const { objectNames = [], objects = [] } = session ?? {};
-    const key = JSON.stringify([objectNames, objects.map(objectText)]);
-    if (key === shown) return;
-    shown = key;
-    list.replaceChildren(...objectNames.map((_, i) => objectRow(state, viewer, i)));
-  });
-  state.look.watch(({ hidden }) =>
-    list.querySelectorAll<HTMLInputElement>("input").forEach((input, i) => {
-      input.checked = !hidden.includes(i);
-    }),
-  );
-  return list;
-}
+import { objectTree } from "./objects";
 
 const compass = ["N", "NE", "E", "SE", "S", "SW", "W", "NW"] as const;
 

@@ -54,6 +54,10 @@ describe("a view that another leads to", () => {
       underground: true,
       sun: { azimuth: 120, elevation: 0 },
       hidden: [0, 3],
+      objects: [
+        { object: 1, colour: [0, 0.25, 1], shading: Shading.GOURAUD },
+        { object: 2, colour: null, shading: Shading.WIREFRAME },
+      ],
     };
     expect(led(edited)?.look).toEqual(edited);
     expect(led({ ...defaultLook, colouring: "bare" })?.look.colouring).toBe("bare");

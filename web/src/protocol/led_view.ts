@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The view that another viewer leads to, from its message: the inverse of messages.ts.
-import type { Colouring, Look, Primitive, Shape } from "../look";
+import type { Colouring, Look, ObjectLook, Primitive, Shape } from "../look";
 import { defaultLook } from "../look";
 import type { Output } from "../output";
 import type { SharedView } from "../share";
-import type { Look as LookMessage } from "./gen/eyrie/v1/look_pb";
+import type { Look as LookMessage, ObjectLook as ObjectLookMessage } from "./gen/eyrie/v1/look_pb";
 import { PrimitiveShape } from "./gen/eyrie/v1/look_pb";
 import type { ShownPicture, ViewRequest } from "./gen/eyrie/v1/viewer_pb";
 import { ShownEye, ShownStereo } from "./gen/eyrie/v1/viewer_pb";
@@ -22,6 +22,15 @@ const shapes: Record<PrimitiveShape, Shape> = {
   [PrimitiveShape.TENT]: "tent",
   [PrimitiveShape.SMOOTH]: "smooth",
 };
+
+function objectLookOf({ object, colour, shading }: ObjectLookMessage): ObjectLook {
+  const [red, green = 0, blue = 0] = colour;
+  return {
+    object,
+    colour: red === undefined ? null : [red, green, blue],
+    shading: shading ?? null,
+  };
+}
 
 function lookOf(message: LookMessage | undefined, underground: boolean): Look {
   if (message === undefined) return { ...defaultLook, underground };
@@ -56,6 +65,7 @@ function lookOf(message: LookMessage | undefined, underground: boolean): Look {
         ? null
         : { azimuth: message.sun.azimuthDegrees, elevation: message.sun.elevationDegrees },
     hidden: message.hiddenObjects,
+    objects: message.objects.map(objectLookOf),
   };
 }
 

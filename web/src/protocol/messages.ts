@@ -6,13 +6,14 @@ import type { Bounds } from "../camera/standard";
 import { CameraSchema } from "./gen/eyrie/v1/camera_pb";
 import { Vector3Schema } from "./gen/eyrie/v1/geometry_pb";
 import type { Sight } from "./gen/eyrie/v1/frame_pb";
-import { Shading } from "./gen/eyrie/v1/frame_pb";
+import { Shading } from "./gen/eyrie/v1/shading_pb";
 import type { Look } from "../look";
 import type { Output } from "../output";
 import {
   ContourLinesSchema,
   HeightUnit,
   LookSchema,
+  ObjectLookSchema,
   PrimitiveShape,
   SunSchema,
   TransferFunctionSchema,
@@ -162,6 +163,13 @@ export function lookMessage(look: Look): LookMessage {
           }),
         }),
     hiddenObjects: [...look.hidden],
+    objects: look.objects.map(({ object, colour, shading }) =>
+      create(ObjectLookSchema, {
+        object,
+        colour: colour === null ? [] : [...colour],
+        ...(shading === null ? {} : { shading }),
+      }),
+    ),
   });
 }
 
