@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+import type { Camera } from "../camera/camera";
+import type { Stage } from "./deck";
+import { FlightDeck } from "./deck";
+
+const cameraAt = (x: number): Camera => ({
+  eye: [x, 0, 5],
+  target: [x, 10, 4],
+  up: [0, 0, 1],
+  fovyDegrees: 45,
+});
+
+class StageOfTest implements Stage {
+  camera: Camera | null = cameraAt(0);
+  movements = 0;
+  readonly pictureSize = { width: 64, height: 36 };
+  move(camera: Camera): void {
+    this.camera = camera;
+    this.movements += 1;
+  }
+  exactNow(): Blob | undefined {
+    return undefined;
+  }
+}
+
+describe("A flight deck", () => {
+  const [told, stage] = [vi.fn(), new StageOfTest()];
+  const deck = new FlightDeck(stage, told);
+  const frameMs = 20;
+  const frame = () => vi.advanceTimersByTime(frameMs);
+
+  beforeEach(() => {
+    vi.useFakeTimers({ toFake: ["setTimeout", "clearTimeout", "performance"] });
+    vi.stubGlobal("requestAnimationFrame", (step: () => void) => setTimeout(step, frameMs));
+    vi.stubGlobal("cancelAnimationFrame", clearTimeout);
+    stage.move(cameraAt(0));
+    deck.load({ name: "", keys: [] });
+  });
+  afterEach(() => {
+    deck.stop();
+    vi.useRealTimers();
+    vi.unstubAllGlobals();
+  });
+
+  it("records from the first movement to what moved last, at the moment it is stopped", () => {
+    deck.record();
+    for (let i = 0; i < 5; ++i) frame();
+    for (let x = 1; x <= 10; ++x) {
+      stage.move(cameraAt(x));
+      frame();
+    }
+    vi.advanceTimersByTime(frameMs / 2);
+    stage.move(cameraAt(11));
+    deck.stop();
+    const { keys } = deck.flight.value;
+    expect(keys[0]?.camera).toEqual(cameraAt(0));
+    expect(keys[keys.length - 1]?.camera).toEqual(cameraAt(11));
+    expect(deck.length).toBeCloseTo(0.21, 9);
+  });
+
+  it("keeps its flight where nothing moved while it recorded", () => {
+    const kept = { name: "kept", keys: [{ seconds: 0, camera: cameraAt(3) }] };
+    deck.load(kept);
+    deck.record();
+    for (let i = 0; i < 5; ++i) frame();
+    deck.stop();
+    expect(deck.flight.value).toEqual(kept);
+    expect(told).toHaveBeenLastCalledWith("Nothing moved: the flight stays as it was");
+  });
+
+  it("plays until a hand steers", () => {
+    const keys = [0, 1, 2].map((i) => ({ seconds: i, camera: cameraAt(10 * i) }));
+    deck.load({ name: "", keys });
+    deck.play();
+    for (let i = 0; i < 25; ++i) frame();
+    expect(deck.activity.value.kind).toBe("playing");
+    expect(stage.camera?.eye[0]).toBeCloseTo(5, 0);
+    stage.move(cameraAt(-1));
+    for (let i = 0; i < 25; ++i) frame();
+    expect(deck.activity.value.kind).toBe("idle");
+    expect(stage.camera).toEqual(cameraAt(-1));
+  });
+});
