@@ -74,7 +74,8 @@ await run("page_test", async (browser, started) => {
   ]) {
     const before = JSON.stringify(await browser.hook("camera"));
     await page.keyboard.press(key, { delay: 60 });
-    check(JSON.stringify(await browser.hook("camera")) !== before, name);
+    await page.waitForFunction((old) => JSON.stringify(window.eyrie.camera) !== old, before);
+    check(true, name);
   }
   check(await page.locator("#mode").isVisible(), "flying says how to end it");
   await page.keyboard.press("Escape");

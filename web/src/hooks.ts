@@ -93,7 +93,7 @@ export function exposeHooks(state: State, viewer: Viewer): void {
       return viewer.camera;
     },
     get swaps() {
-      return viewer.swaps.recent;
+      return viewer.arrivals.swaps.recent;
     },
   };
   Object.defineProperty(window, "eyrie", { value: Object.freeze(hooks) });

@@ -14,7 +14,6 @@ import type { Frame, SessionState } from "./protocol/messages";
 import type { LedView } from "./protocol/led_view";
 import { ledViewOf } from "./protocol/led_view";
 import { boundsOf, cameraOf } from "./protocol/messages";
-import type { EncodedPicture } from "./protocol/parts";
 import { Socket } from "./protocol/socket";
 import { queryOf } from "./output";
 import { groundOf } from "./profile";
@@ -22,6 +21,7 @@ import { Questions } from "./questions";
 import type { SharedView } from "./share";
 import { ShownScene } from "./shown_scene";
 import type { State } from "./state";
+import { Arrivals } from "./view/arrivals";
 import { PictureCanvas } from "./view/canvas";
 import { Walker } from "./walker";
 import { FrameRate } from "./view/measure";
@@ -30,15 +30,7 @@ import type { WantedView } from "./view/sender";
 import { ViewSender } from "./view/sender";
 import type { Size } from "./view/size";
 import { pictureSize, softwarePixels } from "./view/size";
-import { Swaps } from "./view/swaps";
 import { canShowVideo } from "./view/video";
-
-/** A frame on its way to the canvas; `at`: when it arrived, in ms of performance.now(). */
-interface Arrived {
-  frame: Frame;
-  at: number;
-  picture: Blob | undefined;
-}
 
 /** Null: by the camera alone. */
 const seenOf = (frame: Frame) => (frame.throughWall ? frame.seen : null);
@@ -68,13 +60,11 @@ export class Viewer implements CameraHolder {
     sendView: (view) => this.socket.sendView(view),
     isConnected: () => this.state.connection.value.kind === "connected",
   });
-  private readonly frames = new Map<number, Arrived>();
+  readonly arrivals: Arrivals;
   private readonly ticker: number;
 
   /** The picture on the canvas as the server's PNG, while it is exact. */
   exactPicture: Blob | undefined;
-
-  readonly swaps = new Swaps();
 
   /** How often the camera was moved, by whomever. */
   movements = 0;
@@ -102,10 +92,18 @@ export class Viewer implements CameraHolder {
   ) {
     this.canvas = new PictureCanvas(canvas, {
       drawn: (frameNumber, time, isExact) => this.drawn(frameNumber, time, isExact),
-      failed: (frameNumber) => this.failed(frameNumber),
-      ready: (frameNumber, time) => this.ready(frameNumber, time),
+      failed: (frameNumber) => this.arrivals.failed(frameNumber),
+      ready: (frameNumber, time) => this.arrivals.ready(frameNumber, time),
       videoFailed: () => this.setVideo(false),
       resized: () => this.resize(),
+    });
+    this.arrivals = new Arrivals(this.canvas, {
+      acknowledge: (frameNumber, decodeMilliseconds) => {
+        // The server may start a frame for each that is acknowledged: it is to be of the newest view.
+        this.sender.sendNow();
+        this.socket.acknowledge(frameNumber, decodeMilliseconds);
+      },
+      ready: (swap) => this.socket.ready(swap),
     });
     this.size = this.wantedSize();
     this.controls = new Controls(canvas, this);
@@ -117,10 +115,10 @@ export class Viewer implements CameraHolder {
         this.state.connection.set({ kind: "closed" });
       },
       state: (session) => this.sessionChanged(session),
-      frame: (frame, picture) => this.frameArrived(frame, picture),
+      frame: (frame, picture) => this.arrivals.arrived(frame, picture),
       picked: (answer) => this.questions.picked(answer),
       profiled: (answer) => this.questions.profiled(answer),
-      swap: (swap) => this.swap(swap),
+      swap: (swap) => this.arrivals.swap(swap),
     });
     this.questions = new Questions(this.socket, state, (to) => {
       if (this.camera !== null) this.move(lookAt(this.camera, to));
@@ -356,8 +354,7 @@ export class Viewer implements CameraHolder {
 
   private lost(): void {
     this.sender.lost();
-    this.frames.clear();
-    this.canvas.forget();
+    this.arrivals.forget();
     this.questions.lost();
     this.state.connection.set({ kind: "lost", since: performance.now() });
   }
@@ -390,47 +387,11 @@ export class Viewer implements CameraHolder {
     this.socket.tellAbilities(isShown);
   }
 
-  private frameArrived(frame: Frame, picture: EncodedPicture): void {
-    const frameNumber = Number(frame.frameNumber);
-    frame.picture = { case: undefined };
-    // The worker takes the bytes; those of an exact picture may be saved as a file.
-    const kept = picture.type === "image/png" ? new Blob([picture.bytes], picture) : undefined;
-    this.frames.set(frameNumber, { frame, at: performance.now(), picture: kept });
-    this.canvas.show(frameNumber, picture, frame.swap !== 0n);
-  }
-
-  private failed(frameNumber: number): void {
-    this.ready(frameNumber, performance.now()); // the other screens need not wait
-    this.acknowledge(frameNumber, performance.now());
-  }
-
-  private ready(frameNumber: number, time: number): void {
-    const swap = this.frames.get(frameNumber)?.frame.swap ?? 0n;
-    if (swap === 0n) return;
-    this.socket.ready(swap);
-    this.swaps.ready(swap, time);
-  }
-
-  private swap(swap: bigint): void {
-    for (const [frameNumber, { frame }] of this.frames)
-      if (frame.swap === swap) this.canvas.present(frameNumber);
-  }
-
-  private acknowledge(frameNumber: number, time: number): void {
-    // The server may start a frame for each that is acknowledged: it is to be of the newest view.
-    this.sender.sendNow();
-    const arrived = this.frames.get(frameNumber)?.at ?? time;
-    this.socket.acknowledge(frameNumber, Math.max(0, time - arrived));
-    for (const known of this.frames.keys()) if (known <= frameNumber) this.frames.delete(known);
-  }
-
   private drawn(frameNumber: number, time: number, isExact: boolean): void {
-    const arrived = this.frames.get(frameNumber);
-    const frame = arrived?.frame;
-    this.acknowledge(frameNumber, time);
+    const arrived = this.arrivals.drawn(frameNumber, time);
     this.exactPicture = undefined;
-    if (frame === undefined) return; // of a connection that is gone
-    this.swaps.drawn(frame.swap, time);
+    if (arrived === undefined) return;
+    const { frame, picture } = arrived;
     this.rate.drawn(time);
     this.sender.drawn(Number(frame.viewSequence), time);
     this.lifted = { camera: cameraOf(frame.liftedCamera), sequence: Number(frame.viewSequence) };
@@ -443,7 +404,7 @@ export class Viewer implements CameraHolder {
       frozen: this.state.look.value.frozen !== null,
     };
     this.state.numbers.set(numbersOf(frame, seen, this.state.numbers.value?.limitedBy ?? ""));
-    if (isExact) this.exactPicture = arrived?.picture;
+    if (isExact) this.exactPicture = picture;
   }
 
   private noteShown(frame: Frame): void {
