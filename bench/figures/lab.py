@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Where figures are measured: the programs of a build, and data that are made once and kept."""
+import dataclasses
+import json
+import os
+import pathlib
+import shlex
+import subprocess
+import time
+
+MIB = 1 << 20
+
+
+@dataclasses.dataclass
+class Figure:
+    """One line of the table."""
+    what: str
+    asked: str
+    reached: str
+    error: str  # at which it was reached; empty where there is none to state
+    met: bool
+    command: str
+
+
+@dataclasses.dataclass
+class Run:
+    output: str
+    seconds: float
+    peak_bytes: int  # largest resident set of the process, not of those it started
+
+
+class Lab:
+    def __init__(self, build, work):
+        self.build = pathlib.Path(build).resolve()
+        self.work = pathlib.Path(work).resolve()
+        self.work.mkdir(parents=True, exist_ok=True)
+        self.eyrie = self.build / "bin/eyrie"
+        self.commands = []  # as a reader would type them, since the figure began
+
+    def tool(self, name):
+        return self.build / "bench" / name
+
+    def shown(self, command):
+        """`command` without the folders of this machine."""
+        text = shlex.join(str(part) for part in command)
+        for folder, name in ((self.eyrie, "eyrie"), (self.work, "."), (self.build, "build/release"),
+                             (pathlib.Path.cwd(), ".")):
+            text = text.replace(str(folder), name)
+        return text.replace("././", "./").replace(" ./", " ")
+
+    def run(self, *command, environment=None, is_shown=True):
+        if is_shown:
+            self.commands.append(self.shown(command))
+        begin = time.perf_counter()
+        process = subprocess.Popen([str(part) for part in command], cwd=self.work,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                                   env={**os.environ, **(environment or {})})
+        output, errors = process.communicate()
+        if process.returncode != 0:
+            raise RuntimeError(f"{self.shown(command)} ended with {process.returncode}: "
+                               f"{errors.strip()[-2000:]}")
+        return Run(output, time.perf_counter() - begin, 0)
+
+    def timed(self, *command):
+        """The same, with the process's own peak of resident memory."""
+        self.commands.append(self.shown(command))
+        begin = time.perf_counter()
+        with open(self.work / "log.txt", "w+", encoding="utf-8") as log:
+            process = subprocess.Popen([str(part) for part in command], cwd=self.work, stdout=log,
+                                       stderr=log)
+            _, status, usage = os.wait4(process.pid, 0)
+            process.returncode = os.waitstatus_to_exitcode(status)
+            log.seek(0)
+            output = log.read()
+        if process.returncode != 0:
+            raise RuntimeError(f"{self.shown(command)} ended with {process.returncode}: {output}")
+        return Run(output, time.perf_counter() - begin, usage.ru_maxrss * 1024)
+
+    def bench(self, scene, *options):
+        """`summary.json` of `eyrie bench`, of its only run."""
+        self.run(self.eyrie, "bench", scene, *options, "--quiet", "-o", "report")
+        summary = json.loads((self.work / "report/summary.json").read_text())
+        return summary["runs"][0]
+
+    def info(self, path):
+        return json.loads(self.run(self.eyrie, "info", path, "--json", is_shown=False).output)
+
+    # --- Data ------------------------------------------------------------------------------------
+
+    def made(self, name, *command):
+        """The file `name`, by `command` where it is not there yet."""
+        path = self.work / name
+        if not path.exists():
+            self.run(*command, is_shown=False)
+        return path
+
+    def elevations(self, side):
+        name = f"t{side}.tif"
+        return self.made(name, self.eyrie, "synth", "terrain", "--size", side, "--seed", 1, "-o",
+                         name, "--quiet")
+
+    def terrain(self, side):
+        name = f"t{side}.eyt"
+        return self.made(name, self.eyrie, "import", "terrain", self.elevations(side), "-o", name,
+                         "--quiet")
+
+    def ball(self, triangles):
+        """Noise down to single triangles: nothing of it simplifies easily."""
+        name = f"ball{triangles}.ply"
+        return self.made(name, self.eyrie, "synth", "mesh", "--size", triangles, "--seed", 1, "-o",
+                         name, "--quiet")
+
+    def scan(self, subdivisions):
+        """The demo's scan with each triangle cut into 4^subdivisions and noise on it."""
+        name = f"scan{subdivisions}.ply"
+        demo = pathlib.Path(__file__).resolve().parents[2] / "demo/rocker_arm.ply"
+        return self.made(name, self.eyrie, "synth", "mesh", "--from", demo, "--subdivide",
+                         subdivisions, "--displace", 0.0001, "-o", name, "--quiet")
+
+    def mesh(self, source):
+        name = source.stem + ".eym"
+        return self.made(name, self.eyrie, "import", "mesh", source, "-o", name, "--quiet")

@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What viewers in a browser see: Debian's Chromium on the same cores as all else."""
+import pathlib
+import re
+
+from lab import Figure
+
+SOURCES = pathlib.Path(__file__).resolve().parents[2]
+
+
+def environment(lab):
+    return {"EYRIE_BINARY": str(lab.eyrie), "EYRIE_SCENE": str(SOURCES / "demo/scene.json"),
+            "EYRIE_FAKE_SERVER": str(lab.build / "tests/fake_server"),
+            "EYRIE_WEB_FOLDER": str(lab.build / "share/eyrie/web"),
+            "EYRIE_TEST_OUTPUT": str(lab.work)}
+
+
+def links(lab):
+    output = lab.run("node", SOURCES / "tests/browser/link_figures.mjs",
+                     environment=environment(lab)).output
+    figures = []
+    for name, most, least in (("20 Mbit/s, 50 ms", 90, 30), ("5 Mbit/s, 50 ms", 150, 15)):
+        rate, latency, gap, kinds = re.search(
+            rf"^{name}: ([\d.]+) frames/s, input to drawn (\d+) ms median, longest gap (\d+) ms, "
+            r"width/quality (.*)$", output, re.M).groups()
+        figures.append(Figure(f"the page over {name} of round trip: input to drawn",
+                              f"≤ {most} ms, ≥ {least} frames/s, never 0.5 s late",
+                              f"{latency} ms, {float(rate):.0f} frames/s, longest gap {gap} ms",
+                              f"pixels/quality {kinds}",
+                              int(latency) <= most and float(rate) >= least and int(gap) <= 500,
+                              lab.commands[-1]))
+    exact = re.search(r"^loopback:.*\n +from a key: drawn (\d+) ms, nearly exact (\d+) ms, exact "
+                      r"(\d+) ms", output, re.M)
+    drawn, fine, last = map(int, exact.groups())
+    figures.append(Figure("from a key to quality 95 and to the exact picture",
+                          "≤ 200 and 500 ms, and the render time (15 ms)",
+                          f"{fine} and {last} ms (first drawn after {drawn})", "exact: lossless",
+                          fine <= 215 and last <= 515, lab.commands[-1]))
+    return figures
+
+
+def start(lab):
+    output = lab.run("node", SOURCES / "tests/browser/demo_test.mjs",
+                     environment=environment(lab)).output
+    time = int(re.search(r"first picture after (\d+) ms", output).group(1))
+    return [Figure("the demo: first picture after the page opens", "≤ 1 s", f"{time} ms", "",
+                   time <= 1000, lab.commands[-1])]
+
+
+def idle(lab):
+    output = lab.run("node", SOURCES / "tests/browser/idle_figures.mjs",
+                     environment=environment(lab)).output
+    shares = [float(share) for share in re.findall(r"([\d.]+) %", output)]
+    return [Figure("the demo at rest: the busiest process", "≤ 2 % of a core",
+                   f"{max(shares):.2f} %", "", max(shares) <= 2, lab.commands[-1])]
