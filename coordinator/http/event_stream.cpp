@@ -188,9 +188,9 @@ private:
 
 }  // namespace
 
-void openEventStream(Stream stream, const beast::http::response<beast::http::string_body>& head,
+void openEventStream(Stream stream, const beast::http::response_header<>& head,
                      std::shared_ptr<api::MessageStream> messages, Context& context, Slot slot) {
-    beast::http::response<beast::http::empty_body> begun(head.base());
+    beast::http::response<beast::http::empty_body> begun(head);
     begun.chunked(true);
     begun.keep_alive(false);
     begun.set("X-Accel-Buffering", "no");  // nginx would hold events back

@@ -4,7 +4,6 @@
 #include <memory>
 
 #include <boost/beast/http/message.hpp>
-#include <boost/beast/http/string_body.hpp>
 
 #include "coordinator/api/message_stream.h"
 #include "coordinator/http/context.h"
@@ -16,8 +15,7 @@ namespace eyrie::http {
 /// nothing for writeTimeout, or there are no more. `head` is what the answer begins with. Between
 /// messages a comment now and then keeps proxies from closing the connection. Lives as long as the
 /// connection.
-void openEventStream(Stream stream,
-                     const boost::beast::http::response<boost::beast::http::string_body>& head,
+void openEventStream(Stream stream, const boost::beast::http::response_header<>& head,
                      std::shared_ptr<api::MessageStream> messages, Context& context, Slot slot);
 
 }  // namespace eyrie::http

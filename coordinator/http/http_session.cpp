@@ -15,8 +15,11 @@
 #include <boost/beast/core/buffers_to_string.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/http.hpp>
+#include <boost/beast/http/span_body.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
+#include <netinet/tcp.h>
 #include <poll.h>
+#include <sys/socket.h>
 
 #include "coordinator/http/api_calls.h"
 #include "coordinator/http/event_stream.h"
@@ -26,6 +29,7 @@
 #include "coordinator/http/router.h"
 #include "coordinator/http/stream.h"
 #include "coordinator/http/web_socket.h"
+#include "coordinator/http/write_pace.h"
 
 namespace eyrie::http {
 namespace {
@@ -34,7 +38,8 @@ namespace beast = boost::beast;
 using beast::error_code;
 using boost::asio::ip::tcp;
 using Request = beast::http::request<beast::http::string_body>;
-using Reply = beast::http::response<beast::http::string_body>;
+/// Its body belongs to a Response.
+using Reply = beast::http::response<beast::http::span_body<const char>>;
 
 constexpr std::uint32_t kMaxHeaderBytes = 16 * 1024;
 constexpr std::uint64_t kMaxBodyBytes = 1024 * 1024;
@@ -45,6 +50,15 @@ constexpr const char* kContentSecurityPolicy =
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; "
     "connect-src 'self'; worker-src 'self'; manifest-src 'self'; base-uri 'none'; "
     "form-action 'none'; frame-ancestors 'self'";
+
+/// The system says that it has room for more only when a third of what it holds, of up to some
+/// megabytes, has gone: over a slow link that takes longer than a reader has. So it is not given
+/// more than this that it cannot send yet.
+constexpr int kUnsentBytes = 256 * 1024;
+
+void limitUnsent(int socket) {
+    ::setsockopt(socket, IPPROTO_TCP, TCP_NOTSENT_LOWAT, &kUnsentBytes, sizeof(kUnsentBytes));
+}
 
 /// How often a client that has sent more than its request is looked at.
 constexpr std::chrono::milliseconds kLookAgain{100};
@@ -255,7 +269,7 @@ private:
                 self->looksAgain_.cancel();
                 if (answer.events == nullptr)
                     return self->reply(toResponse(answer), keepAlive);
-                openEventStream(std::move(self->stream_), headersOf(toResponse(answer)),
+                openEventStream(std::move(self->stream_), headersOf(toResponse(answer)).base(),
                                 answer.events, self->context_, std::move(self->slot_));
             });
         });
@@ -303,20 +317,39 @@ private:
             reply_.set(http::field::allow, "GET, HEAD");
         if (response.status == 426)
             reply_.set(http::field::upgrade, "websocket");
-        reply_.content_length(response.body->size());
+        body_ = response.body;
+        reply_.content_length(body_->size());
         if (!isHead_)
-            reply_.body() = *response.body;
+            reply_.body() = {body_->data(), body_->size()};
         reply_.keep_alive(keepAlive);
-        stream_.expires_after(context_.options.headerTimeout);
-        http::async_write(
-            stream_, reply_,
-            [self = shared_from_this(), keepAlive](error_code error, std::size_t bytes) {
+        limitUnsent(stream_.socket().native_handle());
+        serializer_.emplace(reply_);
+        pace_.emplace(WritePace::Clock::now(), context_.options.writeTimeout);
+        write();
+    }
+
+    /// What the peer has room for, and then the rest.
+    void write() {
+        stream_.expires_at(pace_->deadline(WritePace::Clock::now()));
+        beast::http::async_write_some(
+            stream_, *serializer_,
+            [self = shared_from_this()](error_code error, std::size_t bytes) {
                 self->count(observe::Direction::Out, bytes);
-                if (error || !keepAlive)
-                    return self->finish();
-                self->await();
-                self->read();
+                self->pace_->took(bytes);
+                if (!error && !self->serializer_->is_done())
+                    return self->write();
+                self->written(error);
             });
+    }
+
+    void written(error_code error) {
+        if (error == beast::error::timeout)
+            context_.telemetry->metrics.refused(408);
+        body_.reset();
+        if (error || !reply_.keep_alive())
+            return finish();
+        await();
+        read();
     }
 
     void count(observe::Direction direction, std::size_t bytes) {
@@ -339,6 +372,9 @@ private:
     beast::flat_buffer buffer_;
     std::optional<beast::http::request_parser<beast::http::string_body>> parser_;
     Reply reply_;
+    std::shared_ptr<const std::string> body_;  ///< the reply's
+    std::optional<beast::http::serializer<false, Reply::body_type>> serializer_;
+    std::optional<WritePace> pace_;
     bool isHead_ = false;
     bool isCalling_ = false;  ///< a call of the API is being done
     std::stop_source gone_;   ///< its client has

@@ -38,7 +38,8 @@ struct ServerOptions {
     std::shared_ptr<stream::SessionBook> sessions = {};
     std::chrono::milliseconds headerTimeout{
         10'000};  ///< for a whole request; also between requests
-    /// For one message to a viewer, and for the viewer to acknowledge a picture.
+    /// For one message to a viewer, for the viewer to acknowledge a picture, and for any of an
+    /// answer to be taken (write_pace.h).
     std::chrono::milliseconds writeTimeout{10'000};
     int messagesPerSecond = 400;  ///< of one viewer; more wait (message_rate.h)
     /// Who comes in; null: everybody who can reach the address.

@@ -34,6 +34,7 @@ public:
     executor_type get_executor() { return tcp_->get_executor(); }
     boost::asio::ip::tcp::socket& socket() { return tcp_->socket(); }
     void expires_after(std::chrono::milliseconds time) { tcp_->expires_after(time); }
+    void expires_at(std::chrono::steady_clock::time_point time) { tcp_->expires_at(time); }
     void expires_never() { tcp_->expires_never(); }
     void cancel() { tcp_->cancel(); }
     void close() { tcp_->close(); }

@@ -47,12 +47,12 @@ public:
 
     fs::path path() const { return root_ / "web"; }
 
-private:
     void write(const fs::path& name, std::string_view text) const {
         fs::create_directories((root_ / name).parent_path());
         std::ofstream(root_ / name) << text;
     }
 
+private:
     fs::path root_;
 };
 
@@ -79,6 +79,15 @@ protected:
     tcp::socket connect() {
         tcp::socket socket(io_);
         socket.connect({asio::ip::make_address("127.0.0.1"), port()});
+        return socket;
+    }
+
+    /// One that has sent `bytes` and takes no more of the answer than that at a time.
+    tcp::socket connect(const std::string& bytes, int receiveBytes) {
+        tcp::socket socket(io_, tcp::v4());
+        socket.set_option(asio::socket_base::receive_buffer_size(receiveBytes));
+        socket.connect({asio::ip::make_address("127.0.0.1"), port()});
+        asio::write(socket, asio::buffer(bytes));
         return socket;
     }
 

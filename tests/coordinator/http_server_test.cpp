@@ -8,6 +8,7 @@
 
 #include <gmock/gmock.h>
 
+#include "coordinator/http/write_pace.h"
 #include "tests/coordinator/http_server_fixture.h"
 #include "tests/service/eventually.h"
 
@@ -154,6 +155,56 @@ TEST_F(HttpServer, CutsOffAPeerThatNeverFinishesItsRequest) {
     asio::read(socket, asio::buffer(&byte, 1), error);
     EXPECT_TRUE(error == asio::error::eof || error == asio::error::connection_reset)
         << error.message();
+}
+
+/// More than the systems at both ends hold.
+constexpr std::size_t kLongAnswer = 16 << 20;
+
+TEST_F(HttpServer, LongAnswersTakeAsLongAsTheirReadersNeed) {
+    web_.write("web/long.bin", std::string(kLongAnswer, 'x'));
+    ServerOptions options;
+    options.headerTimeout = options.writeTimeout = milliseconds(2000);
+    start(options);
+    tcp::socket socket = connect("GET /long.bin HTTP/1.1\r\nConnection: close\r\n\r\n", 64 * 1024);
+    std::string piece(512 * 1024, '\0');
+    std::size_t bytes = 0;
+    beast::error_code end;
+    while (!end) {
+        bytes += asio::read(socket, asio::buffer(piece), end);
+        std::this_thread::sleep_for(milliseconds(150));  // 32 times
+    }
+    EXPECT_EQ(end, asio::error::eof) << end.message();
+    EXPECT_GT(bytes, kLongAnswer);
+}
+
+TEST_F(HttpServer, CutsOffAndCountsAPeerThatTakesNoAnswer) {
+    web_.write("web/long.bin", std::string(kLongAnswer, 'x'));
+    ServerOptions options;
+    options.writeTimeout = milliseconds(50);
+    start(options);
+    tcp::socket socket = connect("GET /long.bin HTTP/1.1\r\n\r\n", 64 * 1024);
+    EXPECT_TRUE(eventually([&] {
+        return get("/metrics")
+                   .body()
+                   .find("eyrie_requests_refused_total{reason=\"too_slow\"} 1\n") !=
+               std::string::npos;
+    }));
+    std::string taken;
+    beast::error_code end;
+    asio::read(socket, asio::dynamic_buffer(taken), end);
+    EXPECT_LT(taken.size(), kLongAnswer);
+}
+
+TEST(WritePace, EndsWithSilenceAndWithATrickleAndNotWithLength) {
+    const WritePace::Clock::time_point begin{std::chrono::hours(1)};
+    const auto after = [&](int seconds) { return begin + std::chrono::seconds(seconds); };
+    WritePace pace(begin, std::chrono::seconds(10));
+    EXPECT_EQ(pace.deadline(begin), after(10));
+    pace.took(100 * WritePace::kSlowestBytesPerSecond);
+    EXPECT_EQ(pace.deadline(after(90)), after(100)) << "as long from now as ever";
+    EXPECT_EQ(pace.deadline(after(105)), after(110)) << "behind what the slowest have";
+    pace.took(1);
+    EXPECT_EQ(pace.deadline(after(115)), after(110)) << "for all that a byte comes now and then";
 }
 
 TEST_F(HttpServer, AnswersConnectionsAboveTheLimitWith503AndRecovers) {
