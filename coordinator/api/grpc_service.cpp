@@ -10,6 +10,7 @@
 #include <grpcpp/server.h>
 
 #include "coordinator/api/coordinator_service.h"
+#include "coordinator/api/quotas.h"
 #include "coordinator/api/reachable_address.h"
 #include "coordinator/farm/grpc_renderer.h"
 #include "eyrie/v1/registry_service.grpc.pb.h"
@@ -113,7 +114,8 @@ public:
         if (withReflection)
             grpc::reflection::InitProtoReflectionServerBuilderPlugin();
         grpc::EnableDefaultHealthCheckService(true);
-        ASSIGN_OR_RETURN(listening_, wire::listen(addresses, {&service_, &calls_}, security_));
+        ASSIGN_OR_RETURN(listening_, wire::listen(addresses, {&service_, &calls_}, security_,
+                                                  api::Quotas::kMostAnswerBytes));
         return absl::OkStatus();
     }
 

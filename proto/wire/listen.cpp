@@ -11,7 +11,6 @@
 #include <grpcpp/server_builder.h>
 
 #include "fabric/status.h"
-#include "wire/transport.h"
 
 namespace eyrie::wire {
 namespace {
@@ -75,9 +74,10 @@ absl::StatusOr<Listening> listen(const std::vector<std::string>& addresses, grpc
 
 absl::StatusOr<Listening> listen(const std::vector<std::string>& addresses,
                                  const std::vector<grpc::Service*>& services,
-                                 const Security& security) {
+                                 const Security& security, int mostSentBytes) {
     grpc::ServerBuilder builder;
     configureServer(builder);
+    builder.SetMaxSendMessageSize(mostSentBytes);
     for (grpc::Service* service : services) builder.RegisterService(service);
     std::vector<int> ports(addresses.size(), 0);
     for (std::size_t i = 0; i < addresses.size(); ++i) {

@@ -8,6 +8,7 @@
 #include <absl/status/statusor.h>
 
 #include "wire/security.h"
+#include "wire/transport.h"
 
 namespace grpc {
 class Server;
@@ -22,12 +23,14 @@ struct Listening {
 };
 
 /// Serves `services` on "host:port" (port 0: the system chooses) and "unix:/path" addresses, with
-/// the limits of transport.h. They outlive the server, and ask for tokens themselves (admit).
+/// the limits of transport.h, but for answers, where they may be of `mostSentBytes`. They outlive
+/// the server, and ask for tokens themselves (admit).
 /// Errors: InvalidArgument (an address of another form), Unavailable (one that cannot be listened
 /// on, such as a port in use).
 absl::StatusOr<Listening> listen(const std::vector<std::string>& addresses,
                                  const std::vector<grpc::Service*>& services,
-                                 const Security& security = {});
+                                 const Security& security = {},
+                                 int mostSentBytes = kMaxMessageBytes);
 
 /// The same for one.
 absl::StatusOr<Listening> listen(const std::vector<std::string>& addresses, grpc::Service& service,

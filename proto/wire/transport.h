@@ -15,7 +15,7 @@ namespace eyrie::wire {
 /// Unix sockets, and three times as fast as one message of a whole picture.
 inline constexpr std::size_t kChunkBytes = std::size_t{1} << 20;
 
-/// No message is larger, neither sent nor accepted.
+/// No message is larger, neither sent nor accepted, but for what a coordinator answers programs.
 inline constexpr int kMaxMessageBytes = 4 << 20;
 
 /// Of a connection to a coordinator or renderer: direct (no HTTP proxy), tried again within a

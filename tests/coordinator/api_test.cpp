@@ -12,9 +12,11 @@
 #include <google/protobuf/util/json_util.h>
 #include <grpcpp/create_channel.h>
 #include <grpcpp/server.h>
+#include <grpcpp/support/channel_arguments.h>
 #include <gtest/gtest.h>
 
 #include "coordinator/api/coordinator_service.h"
+#include "coordinator/api/grpc_service.h"
 #include "coordinator/api/openapi.h"
 #include "coordinator/api/rest_routes.h"
 #include "coordinator/config/default_config.h"
@@ -448,6 +450,34 @@ TEST_F(Rest, IsTheSameOverGrpc) {
     EXPECT_EQ(status(render).error_code(), grpc::StatusCode::INVALID_ARGUMENT);
     listening.server->Shutdown();
     service.stop();
+}
+
+TEST_F(Rest, PicturesAreAsLargeOverGrpc) {
+    frames_.setDraw([](const coordinator::FrameRequest& request) {
+        coordinator::RenderedFrame frame = coordinator::plainFrame(request, {1, 2, 3, 255});
+        frame.image = fabric::makeImage(request.drawnPart(), {1, 2, 3, 255}, true);
+        return frame;
+    });
+    coordinator::Registry registry;
+    const auto door =
+        coordinator::GrpcService::start({"unix:" + folder_.path("s")}, registry).value();
+    door->use(api_->handlers());
+    grpc::ChannelArguments arguments;
+    arguments.SetMaxReceiveMessageSize(-1);
+    auto stub = v1::CoordinatorService::NewStub(grpc::CreateCustomChannel(
+        "unix:" + folder_.path("s"), grpc::InsecureChannelCredentials(), arguments));
+    v1::RenderImageRequest request;
+    request.set_width(1920);
+    request.set_height(1080);
+    request.set_format(v1::IMAGE_FORMAT_RAW);
+    request.set_with_depth(true);
+    v1::RenderImageResponse response;
+    grpc::ClientContext context;
+    context.set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(30));
+    const grpc::Status status = stub->RenderImage(&context, request, &response);
+    ASSERT_TRUE(status.ok()) << status.error_message();
+    EXPECT_EQ(response.image().size(), 4U * 1920 * 1080);
+    EXPECT_EQ(response.depth().size(), 4U * 1920 * 1080);
 }
 
 TEST_F(Rest, TellsTheHandlerThatAGrpcCallerHasGone) {
