@@ -16,7 +16,7 @@
 namespace eyrie::cli {
 namespace {
 
-/// How long a door may take to close before the frames in progress are given up: longer than
+/// How long the doors may take to close before the frames in progress are given up: longer than
 /// viewers are given, and so that the process ends within 5 seconds.
 constexpr std::chrono::milliseconds kPatience{3'000};
 
@@ -62,7 +62,9 @@ absl::StatusOr<std::unique_ptr<http::Server>> openWebDoor(const std::string& lis
 
 void closeWebDoor(http::Server& door, coordinator::Coordinator& coordinator) {
     const StopLimit limit(kPatience, [&] { coordinator.abandonFrames(); });
+    coordinator.drain();  // beside what comes by HTTP
     door.stop();
+    coordinator.stop();
 }
 
 }  // namespace eyrie::cli

@@ -21,8 +21,8 @@ absl::StatusOr<std::unique_ptr<http::Server>> openWebDoor(const std::string& lis
                                                           const http::CrowdLimits& limits,
                                                           coordinator::Coordinator& coordinator);
 
-/// Stops the door: viewers get what they have asked for, for some seconds at most, after which
-/// `coordinator` gives up the frames in progress.
+/// Stops the door, and that of `coordinator` for gRPC: viewers and programs get what they have
+/// asked for, for some seconds at most, after which the frames in progress are given up.
 void closeWebDoor(http::Server& door, coordinator::Coordinator& coordinator);
 
 }  // namespace eyrie::cli

@@ -57,19 +57,29 @@ public:
         pipeline_.setScene(std::move(scene));
     }
     const observe::SharedTelemetry& telemetry() const { return telemetry_; }
-    void stop() {
+    void drain() {
         api_.endStreams();
+        door_->drain();
+    }
+
+    void stop() {
+        drain();
         door_->stop();
     }
 
     void abandonFrames() {
+        cancelFrames();  // what stop() may be waiting for
         stop();
+        cancelFrames();  // of renderers that came meanwhile
+    }
+
+private:
+    void cancelFrames() {
         for (const Registry::Entry& entry : registry_->entries())
             if (entry.renderer)
                 entry.renderer->cancel();
     }
 
-private:
     static FramePipelineOptions pipelineOptions(const CoordinatorOptions& options,
                                                 const GrpcService& door,
                                                 observe::SharedTelemetry telemetry) {
@@ -128,6 +138,7 @@ absl::Status Coordinator::setScene(fabric::Scene scene) {
     return absl::OkStatus();
 }
 
+void Coordinator::drain() { impl_->drain(); }
 void Coordinator::stop() { impl_->stop(); }
 void Coordinator::abandonFrames() { impl_->abandonFrames(); }
 

@@ -67,7 +67,12 @@ public:
     /// refuses it.
     absl::Status setScene(fabric::Scene scene);
 
-    /// Takes no more registrations; frames can still be made with the renderers there are, until
+    /// Takes no more calls of programs over gRPC; those in progress go on, and renderers are heard
+    /// as before. Streams of statistics end.
+    void drain();
+
+    /// drain(), a wait for calls in progress, of some seconds since then at most, and no more
+    /// registrations. Frames can still be made with the renderers there are, until
     /// their heartbeats are missed. May be called twice.
     void stop();
 

@@ -29,6 +29,8 @@ private:
 absl::Status CoordinatorService::admit(const char* name,
                                        const grpc::CallbackServerContext& context) const {
     RETURN_IF_ERROR(wire::admit(security_, context, roleFor(name)));
+    if (isDraining_)
+        return absl::UnavailableError("this server is stopping; ask again in a bit");
     const Handlers* const handlers = handlers_;
     if (handlers == nullptr)
         return absl::UnavailableError("the server is starting; try again");

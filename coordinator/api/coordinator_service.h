@@ -20,6 +20,9 @@ public:
     /// From now on calls are answered; Unavailable before. `handlers` outlive stop(). Any thread.
     void use(const Handlers& handlers) { handlers_ = &handlers; }
 
+    /// From now on no more calls are taken (Unavailable); those in progress go on. Any thread.
+    void drain() { isDraining_ = true; }
+
     /// Waits for the calls in progress. Once the server takes no more.
     void stop() { workers_.stop(); }
 
@@ -63,13 +66,14 @@ private:
                                    const google::protobuf::Message& request,
                                    google::protobuf::Message& answer);
 
-    /// Whether a call may be made at all. Errors: those of admit(), Unavailable before use(),
-    /// ResourceExhausted.
+    /// Whether a call may be made at all. Errors: those of admit(), Unavailable before use() and
+    /// after drain(), ResourceExhausted.
     absl::Status admit(const char* name, const grpc::CallbackServerContext& context) const;
 
     const wire::Security security_;
 
     std::atomic<const Handlers*> handlers_ = nullptr;
+    std::atomic<bool> isDraining_ = false;
     Workers workers_{8, 64};
 };
 

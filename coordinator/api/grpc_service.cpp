@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/api/grpc_service.h"
 
+#include <mutex>
 #include <utility>
 
 #include <fmt/format.h>
@@ -123,8 +124,18 @@ public:
 
     void use(const api::Handlers& handlers) { calls_.use(handlers); }
 
+    void drain() {
+        std::call_once(drained_, [this] {
+            calls_.drain();
+            listening_.server->GetHealthCheckService()->SetServingStatus(false);
+            deadline_ = wire::deadlineIn(kDrainTimeout);
+        });
+    }
+
     void stop() {
-        listening_.server->Shutdown(wire::deadlineIn(std::chrono::seconds(0)));
+        drain();
+        const std::lock_guard lock(stopMutex_);
+        listening_.server->Shutdown(deadline_);
         calls_.stop();
     }
 
@@ -133,6 +144,9 @@ private:
     api::CoordinatorService calls_;
     const wire::Security security_;
     wire::Listening listening_;
+    std::mutex stopMutex_;
+    std::once_flag drained_;
+    gpr_timespec deadline_{};  ///< of calls in progress; from drain() on
 };
 
 absl::StatusOr<std::unique_ptr<GrpcService>> GrpcService::start(
@@ -147,6 +161,7 @@ GrpcService::~GrpcService() { stop(); }
 
 const std::vector<std::string>& GrpcService::addresses() const { return impl_->addresses(); }
 void GrpcService::use(const api::Handlers& handlers) { impl_->use(handlers); }
+void GrpcService::drain() { impl_->drain(); }
 void GrpcService::stop() { impl_->stop(); }
 
 }  // namespace eyrie::coordinator

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <string>
 #include <vector>
@@ -43,8 +44,15 @@ public:
     /// CoordinatorService answers from now on. `handlers` outlive stop().
     void use(const api::Handlers& handlers);
 
-    /// Takes no more calls, and waits for those in progress. May be called twice.
+    /// Health checks say from now on that it does not serve, and CoordinatorService takes no more
+    /// calls; renderers are heard as before.
+    void drain();
+
+    /// Takes no more calls, of renderers neither, and waits for those in progress, which are
+    /// cancelled kDrainTimeout after drain(). May be called twice.
     void stop();
+
+    static constexpr std::chrono::milliseconds kDrainTimeout{2'500};
 
 private:
     class Impl;

@@ -126,6 +126,7 @@ public:
           buffer_(2 * kMaxHeaderBytes),
           context_(context),
           looksAgain_(stream_.get_executor()),
+          drained_(stream_.get_executor()),
           slot_(std::move(slot)) {
         context_.sessions.insert(this);
     }
@@ -135,9 +136,16 @@ public:
         context_.sessionEnded();
     }
 
+    /// What has been asked for is still answered, for drainTimeout at most.
     void shutDown() override {
-        gone_.request_stop();
-        stream_.cancel();
+        isEnding_ = true;
+        if (!isCalling_ && body_ == nullptr)
+            return stream_.cancel();
+        drained_.expires_after(context_.options.drainTimeout);
+        drained_.async_wait([weak = weak_from_this()](error_code error) {
+            if (const auto self = weak.lock(); self && !error)
+                self->giveUp();
+        });
     }
     void abandon() override {}
 
@@ -265,9 +273,10 @@ private:
             const auto executor = self->stream_.get_executor();
             // The session ends on its own thread.
             boost::asio::post(executor, [self = std::move(self), answer, keepAlive] {
-                self->isCalling_ = false;
+                if (!std::exchange(self->isCalling_, false))
+                    return;  // it was too late
                 self->looksAgain_.cancel();
-                if (answer.events == nullptr)
+                if (answer.events == nullptr || self->isEnding_)
                     return self->reply(toResponse(answer), keepAlive);
                 openEventStream(std::move(self->stream_), headersOf(toResponse(answer)).base(),
                                 answer.events, self->context_, std::move(self->slot_));
@@ -277,6 +286,17 @@ private:
             return;
         isCalling_ = false;
         reply(toResponse(api::busyAnswer()), request.keep_alive());
+    }
+
+    /// The server ends before its call does.
+    void giveUp() {
+        if (!std::exchange(isCalling_, false))
+            return;  // what is being written has a second more, as viewers' good-byes have
+        looksAgain_.cancel();
+        gone_.request_stop();
+        Response response = problemResponse(503, "this server is stopping; ask again in a bit");
+        response.headers.emplace_back("Retry-After", "1");
+        reply(response, false);
     }
 
     /// Notices that the client has gone while its call is being done.
@@ -321,7 +341,7 @@ private:
         reply_.content_length(body_->size());
         if (!isHead_)
             reply_.body() = {body_->data(), body_->size()};
-        reply_.keep_alive(keepAlive);
+        reply_.keep_alive(keepAlive && !isEnding_);
         limitUnsent(stream_.socket().native_handle());
         serializer_.emplace(reply_);
         pace_.emplace(WritePace::Clock::now(), context_.options.writeTimeout);
@@ -346,7 +366,7 @@ private:
         if (error == beast::error::timeout)
             context_.telemetry->metrics.refused(408);
         body_.reset();
-        if (error || !reply_.keep_alive())
+        if (error || isEnding_ || !reply_.keep_alive())
             return finish();
         await();
         read();
@@ -378,8 +398,10 @@ private:
     bool isHead_ = false;
     bool isCalling_ = false;  ///< a call of the API is being done
     std::stop_source gone_;   ///< its client has
+    bool isEnding_ = false;   ///< the server is
     Context& context_;
     boost::asio::steady_timer looksAgain_;  ///< at a client whose call is being done
+    boost::asio::steady_timer drained_;     ///< when the server waits no longer for its call
     Slot slot_;
 };
 

@@ -45,7 +45,7 @@ struct ServerOptions {
     /// Who comes in; null: everybody who can reach the address.
     std::shared_ptr<access::Gate> gate = {};
     std::optional<access::TlsFiles> tls = {};  ///< HTTPS instead of HTTP
-    /// How long viewers may go on when the server stops, to get the pictures they asked for.
+    /// How long viewers and calls may go on when the server stops, to get what they asked for.
     std::chrono::milliseconds drainTimeout{2'500};
     std::chrono::milliseconds swapPatience{1000};  ///< as stream::SessionOptions has it
     /// What it tells of itself, and what /metrics and /api/v1/trace show; null: of its own.
@@ -83,10 +83,10 @@ public:
     /// Where it listens: "http://127.0.0.1:8080/", with the port that was chosen.
     std::string url() const;
 
-    /// Takes no more connections and no more views, sends viewers what they have asked for, for
-    /// drainTimeout at most, and tells them that it goes away (close code 1001); then ends every
-    /// connection and thread. Returns when that is done; waits for a frame being rendered. May be
-    /// called twice.
+    /// Takes no more connections, calls and views, sends what has been asked for, for drainTimeout
+    /// at most, and tells viewers that it goes away (close code 1001), and calls that are not done
+    /// that they are to be made again (503); then ends every connection and thread. Returns when
+    /// that is done; waits for a frame being rendered. May be called twice.
     void stop();
 
 private:

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <future>
 #include <thread>
 
 #include <gmock/gmock.h>
@@ -478,6 +479,32 @@ TEST_F(Rest, PicturesAreAsLargeOverGrpc) {
     ASSERT_TRUE(status.ok()) << status.error_message();
     EXPECT_EQ(response.image().size(), 4U * 1920 * 1080);
     EXPECT_EQ(response.depth().size(), 4U * 1920 * 1080);
+}
+
+TEST_F(Rest, GrpcCallsInProgressAreAnsweredByAServerThatStops) {
+    coordinator::Registry registry;
+    const auto door =
+        coordinator::GrpcService::start({"unix:" + folder_.path("s")}, registry).value();
+    door->use(api_->handlers());
+    auto stub = v1::CoordinatorService::NewStub(
+        grpc::CreateChannel("unix:" + folder_.path("s"), grpc::InsecureChannelCredentials()));
+    const auto render = [&] {
+        grpc::ClientContext context;
+        context.set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(30));
+        v1::RenderImageRequest request;
+        request.set_width(20);
+        request.set_height(10);
+        v1::RenderImageResponse response;
+        return stub->RenderImage(&context, request, &response).error_code();
+    };
+    frames_.hold(true);
+    auto picture = std::async(std::launch::async, render);
+    ASSERT_TRUE(frames_.waitForRequests(1));
+    door->drain();
+    EXPECT_EQ(render(), grpc::StatusCode::UNAVAILABLE);
+    std::jthread stopping([&] { door->stop(); });
+    frames_.hold(false);
+    EXPECT_EQ(picture.get(), grpc::StatusCode::OK);
 }
 
 TEST_F(Rest, TellsTheHandlerThatAGrpcCallerHasGone) {

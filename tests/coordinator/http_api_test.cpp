@@ -41,8 +41,9 @@ public:
 
 class HttpApi : public testing::Test {
 protected:
-    HttpApi() {
-        ServerOptions options;
+    HttpApi() { start(); }
+
+    void start(ServerOptions options = {}) {
         options.port = 0;
         options.api = &api_.rest();
         options.sessions = api_.sessions();
@@ -57,6 +58,13 @@ protected:
         socket.connect({boost::asio::ip::make_address("127.0.0.1"), port_});
         boost::asio::write(socket, boost::asio::buffer(request));
         return socket;
+    }
+
+    bool isListening() {
+        tcp::socket socket(io_);
+        boost::system::error_code error;
+        socket.connect({boost::asio::ip::make_address("127.0.0.1"), port_}, error);
+        return !error;
     }
 
     static std::string receive(tcp::socket socket) {
@@ -157,15 +165,39 @@ TEST_F(HttpApi, PicturesEndWithAConnectionThatSaidMoreBeforeItsEnd) {
     frames_.hold(false);
 }
 
-TEST_F(HttpApi, ServersStopWhileCallsAreBeingDone) {
+TEST_F(HttpApi, CallsInProgressAreAnsweredByAServerThatStops) {
+    ServerOptions options;
+    options.drainTimeout = std::chrono::seconds(30);
+    start(options);
+    frames_.hold(true);
+    tcp::socket client = send("GET /api/v1/image?width=20 HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    ASSERT_TRUE(frames_.waitForRequests(1));
+    std::jthread stopping([this] { server_->stop(); });
+    EXPECT_TRUE(eventually([this] { return !isListening(); }));
+    frames_.hold(false);
+    const std::string answer = receive(std::move(client));
+    EXPECT_THAT(answer, StartsWith("HTTP/1.1 200"));
+    EXPECT_THAT(answer, HasSubstr("Content-Type: image/png"));
+    EXPECT_THAT(answer, HasSubstr("Connection: close"));
+}
+
+TEST_F(HttpApi, CallsThatAServerCannotWaitForAreToBeMadeAgain) {
+    ServerOptions options;
+    options.drainTimeout = milliseconds(300);
+    start(options);
     frames_.setPick([](const fabric::PickRequest&) {
         std::this_thread::sleep_for(milliseconds(50));
         return fabric::Picked();
     });
-    const tcp::socket client = send(profile());
+    tcp::socket client = send(profile());
     ASSERT_TRUE(frames_.waitForPicks(1));
     server_->stop();
     EXPECT_LT(frames_.picks().size(), 512U);
+    const std::string answer = receive(std::move(client));
+    EXPECT_THAT(answer, StartsWith("HTTP/1.1 503"));
+    EXPECT_THAT(answer, HasSubstr("Retry-After: "));
+    EXPECT_THAT(answer, HasSubstr("Connection: close"));
+    EXPECT_THAT(answer, HasSubstr("this server is stopping"));
 }
 
 /// Reads until `text` has come; what has come so far.
