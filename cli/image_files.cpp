@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// PFM: P. Debevec's portable float map; a negative scale says that the bytes are little-endian.
 #include "cli/image_files.h"
 
 #include <algorithm>
-#include <bit>
 #include <filesystem>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "cli/png_file.h"
-#include "fabric/frustum.h"
+#include "fabric/depth_metres.h"
 #include "fabric/status.h"
 #include "wire/jpeg.h"
 
@@ -80,18 +78,13 @@ absl::StatusOr<std::unique_ptr<PictureFile>> PictureFile::create(const std::stri
 
 absl::StatusOr<DepthFile> DepthFile::create(const std::string& path, int width, int height) {
     ASSIGN_OR_RETURN(mesh::OutputFile file, mesh::OutputFile::create(path));
-    const std::string header = fmt::format("Pf\n{} {}\n-1.0\n", width, height);
+    const std::string header = fabric::floatMapHead(width, height);
     RETURN_IF_ERROR(file.write(std::as_bytes(std::span(header))));
     return DepthFile(std::move(file));
 }
 
 absl::Status DepthFile::put(const fabric::Image& rows) {
-    static_assert(std::endian::native == std::endian::little);
-    std::vector<float> metres;
-    metres.reserve(rows.depth.size());
-    for (const float reversed : rows.depth)
-        metres.push_back(
-            static_cast<float>(fabric::viewDepthMetres(reversed, fabric::kNearMetres)));
+    const std::vector<float> metres = fabric::depthMetres(rows);
     const auto before =
         static_cast<std::uint64_t>(rows.area.y) * static_cast<std::uint64_t>(rows.area.width);
     return file_.writeAt(file_.size() + before * sizeof(float), std::as_bytes(std::span(metres)));

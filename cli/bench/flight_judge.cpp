@@ -10,7 +10,7 @@
 
 #include "cli/bench/shown_triangles.h"
 #include "cli/png_file.h"
-#include "fabric/frustum.h"
+#include "fabric/depth_metres.h"
 #include "fabric/status.h"
 #include "renderer/truth/flip.h"
 #include "renderer/truth/heat_map.h"
@@ -21,15 +21,6 @@ namespace eyrie::cli::bench {
 namespace {
 
 constexpr double kRasterPixels = 1.0 / 256;
-
-std::vector<float> depthMetres(const fabric::Image& image) {
-    std::vector<float> metres;
-    metres.reserve(image.depth.size());
-    for (const float reversed : image.depth)
-        metres.push_back(
-            static_cast<float>(fabric::viewDepthMetres(reversed, fabric::kNearMetres)));
-    return metres;
-}
 
 /// An outline may have moved by as much as everything else.
 int edgePixels(double promisedPixels, const truth::Pinhole& camera) {
@@ -88,7 +79,7 @@ absl::StatusOr<FlightJudge::Judged> FlightJudge::judge(Frame& frame, PictureSour
     request.wantsDepth = true;
     ASSIGN_OR_RETURN(coordinator::RenderedFrame drawn, pictures.draw(request));
     const double promised = drawn.statistics.tauAchievedPixels;
-    const std::vector<float> depth = depthMetres(drawn.image);
+    const std::vector<float> depth = fabric::depthMetres(drawn.image);
     ShownTriangles shown(reference_, frame.view->camera,
                          lod::View(frame.camera, how_.width, how_.height), request.tauPixels,
                          remote_);

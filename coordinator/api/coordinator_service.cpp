@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/api/coordinator_service.h"
 
+#include <memory>
 #include <stop_token>
 
 #include "coordinator/api/call_roles.h"
@@ -15,13 +16,15 @@ namespace {
 /// One call; ends itself.
 class Reactor final : public grpc::ServerUnaryReactor {
 public:
-    std::stop_token stop() const { return stop_.get_token(); }
+    /// What its handler is given beside the request.
+    Call call() { return {stop_.get_token(), false, &room_}; }
 
 private:
     void OnCancel() override { stop_.request_stop(); }
     void OnDone() override { delete this; }
 
     std::stop_source stop_;
+    std::shared_ptr<void> room_;  ///< until the answer has been sent
 };
 
 }  // namespace
@@ -57,7 +60,7 @@ grpc::ServerUnaryReactor* CoordinatorService::call(const char* name,
         return reactor;
     }
     const bool isTaken = workers_.post([=, handlers = handlers_.load(), &request, &answer] {
-        reactor->Finish(wire::toGrpc(handlers->handle(name, request, answer, {reactor->stop()})));
+        reactor->Finish(wire::toGrpc(handlers->handle(name, request, answer, reactor->call())));
     });
     if (!isTaken)
         reactor->Finish(

@@ -20,6 +20,10 @@ namespace eyrie::api {
 /// What a call comes with beside its message.
 struct Call {
     std::stop_token stop = {};  ///< the caller has gone
+    bool asText = false;  ///< the answer's bytes become text, which takes several times as much
+    /// Where a handler leaves what its answer takes up of what there is for all, to be given back
+    /// when the answer has been sent. Null: it ends with the call.
+    std::shared_ptr<void>* room = nullptr;
 };
 
 /// What the calls of CoordinatorService do, by their names; the doors, gRPC and REST, have nothing

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstring>
 #include <memory>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -14,8 +15,8 @@
 #include "coordinator/stream/statistics_message.h"
 #include "coordinator/stream/view_message.h"
 #include "eyrie/v1/coordinator_service.pb.h"
+#include "fabric/depth_metres.h"
 #include "fabric/frame_data.h"
-#include "fabric/frustum.h"
 #include "fabric/status.h"
 #include "wire/camera.h"
 #include "wire/frame.h"
@@ -27,6 +28,8 @@ namespace {
 
 constexpr int kMaxSide = 8192;
 constexpr int kUsualQuality = 90;
+/// How many pixels take as much memory as one whose colours and depths become text.
+constexpr int kTextShare = 4;
 
 /// Of a whole answer.
 absl::Status checkSize(int width, int height, std::int64_t mostPixels) {
@@ -60,6 +63,18 @@ absl::Status checkPart(const coordinator::FrameRequest& request, std::int64_t mo
     return fabric::withContext(checkSize(part.width, part.height, mostPixels), "part");
 }
 
+/// Of an answer as JSON.
+absl::Status checkTextSize(const coordinator::FrameRequest& request) {
+    const fabric::PixelViewport drawn = request.drawnPart();
+    if (drawn.area() <= Quotas::kMostTextPixels)
+        return absl::OkStatus();
+    return absl::InvalidArgumentError(fmt::format(
+        "{} makes {}x{} pixels, {} in all, of which JSON has at most {}; ask for the picture's own "
+        "bytes, for depths by IMAGE_FORMAT_DEPTH, or part by part",
+        request.part.isEmpty() ? "height" : "part", drawn.width, drawn.height, drawn.area(),
+        Quotas::kMostTextPixels));
+}
+
 absl::Status checkFormat(const v1::RenderImageRequest& request) {
     if (!v1::ImageFormat_IsValid(request.format()))
         return absl::InvalidArgumentError(
@@ -73,7 +88,7 @@ absl::Status checkFormat(const v1::RenderImageRequest& request) {
 
 absl::StatusOr<coordinator::FrameRequest> requestOf(const v1::RenderImageRequest& message,
                                                     const coordinator::FrameSource& frames,
-                                                    const QuotaKeeper& quotas) {
+                                                    const QuotaKeeper& quotas, bool asText) {
     RETURN_IF_ERROR(checkFormat(message));
     const std::int64_t mostPixels = quotas.most().imagePixels;
     coordinator::FrameRequest request;
@@ -87,6 +102,8 @@ absl::StatusOr<coordinator::FrameRequest> requestOf(const v1::RenderImageRequest
         RETURN_IF_ERROR(quotas.counted(observe::Quota::Image,
                                        checkSize(request.width, request.height, mostPixels)));
     }
+    if (asText)
+        RETURN_IF_ERROR(quotas.counted(observe::Quota::Image, checkTextSize(request)));
     ASSIGN_OR_RETURN(request.camera, cameraOf(message.camera(), frames));
     v1::FrameData data;
     data.set_version(1);
@@ -99,7 +116,7 @@ absl::StatusOr<coordinator::FrameRequest> requestOf(const v1::RenderImageRequest
     request.shading = frameData.shading;
     request.look = frameData.look;
     request.shown = {stream::shownFromMessage(message.shown())};
-    request.wantsDepth = message.with_depth();
+    request.wantsDepth = message.with_depth() || message.format() == v1::IMAGE_FORMAT_DEPTH;
     return request;
 }
 
@@ -120,10 +137,23 @@ std::string upright(const std::vector<Pixel>& pixels, const fabric::PixelViewpor
     return bytes;
 }
 
+absl::StatusOr<std::string> floatMap(const fabric::Image& image) {
+    if (!image.hasDepth())
+        return absl::FailedPreconditionError(
+            "format is IMAGE_FORMAT_DEPTH, and what is shown has no depths, as of two eyes in one "
+            "picture; ask for colours or for one eye");
+    std::string map = fabric::floatMapHead(image.area.width, image.area.height);
+    const std::vector<float> metres = fabric::depthMetres(image);
+    map.append(reinterpret_cast<const char*>(metres.data()), metres.size() * sizeof(float));
+    return map;
+}
+
 absl::StatusOr<std::string> encoded(const fabric::Image& image,
                                     const v1::RenderImageRequest& request) {
     if (request.format() == v1::IMAGE_FORMAT_RAW)
         return upright(image.colour, image.area, [](fabric::Rgba pixel) { return pixel; });
+    if (request.format() == v1::IMAGE_FORMAT_DEPTH)
+        return floatMap(image);
     const int quality = request.has_jpeg_quality() ? request.jpeg_quality() : kUsualQuality;
     auto bytes = request.format() == v1::IMAGE_FORMAT_JPEG
                      ? wire::encodeJpeg(image, quality, wire::ChromaSubsampling::None)
@@ -143,39 +173,50 @@ public:
                                                    const Call& call);
 
 private:
-    /// A picture's share of the pixels in the making, of which each takes some 20 bytes.
+    using PixelCount = std::atomic<std::int64_t>;
+
+    /// A picture's share of the pixels that are being made or sent, each of which takes up to some
+    /// 25 bytes. One that is alone gets it in any case. May outlive the painter.
     class PixelShare {
     public:
-        PixelShare(std::atomic<std::int64_t>& used, std::int64_t pixels, std::int64_t most)
-            : used_(used), pixels_(pixels), isGranted_((used += pixels) <= most) {}
-        ~PixelShare() { used_ -= pixels_; }
+        PixelShare(std::shared_ptr<PixelCount> used, std::int64_t pixels, std::int64_t most)
+            : used_(std::move(used)), pixels_(pixels) {
+            const std::int64_t before = used_->fetch_add(pixels);
+            isGranted_ = before == 0 || before + pixels <= most;
+        }
+        ~PixelShare() { *used_ -= pixels_; }
         PixelShare(const PixelShare&) = delete;
         PixelShare& operator=(const PixelShare&) = delete;
 
         bool isGranted() const { return isGranted_; }
 
     private:
-        std::atomic<std::int64_t>& used_;
+        const std::shared_ptr<PixelCount> used_;
         const std::int64_t pixels_;
-        const bool isGranted_;
+        bool isGranted_ = false;
     };
 
     coordinator::FrameSource& frames_;
     stream::StatisticsFeed& statistics_;
     const QuotaKeeper& quotas_;
-    std::atomic<std::int64_t> pixelsInUse_ = 0;
+    const std::shared_ptr<PixelCount> pixelsInUse_ = std::make_shared<PixelCount>(0);
 };
 
 absl::StatusOr<v1::RenderImageResponse> Painter::render(const v1::RenderImageRequest& request,
                                                         const Call& call) {
-    ASSIGN_OR_RETURN(coordinator::FrameRequest asked, requestOf(request, frames_, quotas_));
+    ASSIGN_OR_RETURN(coordinator::FrameRequest asked,
+                     requestOf(request, frames_, quotas_, call.asText));
     asked.stop = call.stop;
-    const PixelShare share(pixelsInUse_, asked.drawnPart().area(),
-                           std::min(2 * quotas_.most().imagePixels, Quotas::kMostImagePixels));
-    if (!share.isGranted())
-        return quotas_.counted(observe::Quota::Image,
-                               absl::ResourceExhaustedError(
-                                   "too many large pictures are being drawn; try again in a bit"));
+    const auto share = std::make_shared<PixelShare>(
+        pixelsInUse_, asked.drawnPart().area() * (call.asText ? kTextShare : 1),
+        std::min(2 * quotas_.most().imagePixels, Quotas::kMostImagePixels));
+    if (!share->isGranted())
+        return quotas_.counted(
+            observe::Quota::Image,
+            absl::ResourceExhaustedError(
+                "too many large pictures are being drawn or sent; try again in a bit"));
+    if (call.room != nullptr)
+        *call.room = share;
     ASSIGN_OR_RETURN(const coordinator::RenderedFrame frame, frames_.renderFrame(asked));
     if (call.stop.stop_requested())
         return absl::CancelledError("the caller has gone");
@@ -188,11 +229,9 @@ absl::StatusOr<v1::RenderImageResponse> Painter::render(const v1::RenderImageReq
                                                                          : request.format());
     response.set_width(frame.image.area.width);
     response.set_height(frame.image.area.height);
-    if (asked.wantsDepth && frame.image.hasDepth())
-        *response.mutable_depth() =
-            upright(frame.image.depth, frame.image.area, [](float reversed) {
-                return static_cast<float>(fabric::viewDepthMetres(reversed, fabric::kNearMetres));
-            });
+    if (request.with_depth() && frame.image.hasDepth())
+        *response.mutable_depth() = upright(fabric::depthMetres(frame.image), frame.image.area,
+                                            [](float metres) { return metres; });
     *response.mutable_statistics() =
         stream::statisticsMessage(frame, frame.image.area.width, frame.image.area.height);
     return response;

@@ -12,6 +12,7 @@ constexpr std::string_view kTable = "text/csv";
 constexpr std::string_view kPage = "text/html";
 constexpr std::string_view kPng = "image/png";
 constexpr std::string_view kJpeg = "image/jpeg";
+constexpr std::string_view kFloatMap = "image/x-portable-floatmap";
 constexpr std::string_view kRaw = "application/octet-stream";
 
 std::string_view typeOf(const v1::GetReportResponse& report) {
@@ -27,9 +28,16 @@ std::string_view typeOf(const v1::GetReportResponse& report) {
 }
 
 std::string_view typeOf(const v1::RenderImageResponse& image) {
-    return image.format() == v1::IMAGE_FORMAT_RAW    ? kRaw
-           : image.format() == v1::IMAGE_FORMAT_JPEG ? kJpeg
-                                                     : kPng;
+    switch (image.format()) {
+        case v1::IMAGE_FORMAT_RAW:
+            return kRaw;
+        case v1::IMAGE_FORMAT_DEPTH:
+            return kFloatMap;
+        case v1::IMAGE_FORMAT_JPEG:
+            return kJpeg;
+        default:
+            return kPng;
+    }
 }
 
 }  // namespace
@@ -45,7 +53,7 @@ std::string mediaTypeOf(const google::protobuf::Message& answer) {
 std::vector<std::string_view> mediaTypesOf(const google::protobuf::Descriptor& answer) {
     if (answer.full_name() == v1::GetReportResponse::descriptor()->full_name())
         return {kSummary, kTable, kPage};
-    return {kPng, kJpeg, kRaw};
+    return {kPng, kJpeg, kRaw, kFloatMap};
 }
 
 }  // namespace eyrie::api

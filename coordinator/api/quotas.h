@@ -20,11 +20,14 @@ namespace eyrie::api {
 struct Quotas {
     static constexpr std::int64_t kMostImagePixels = std::int64_t{8192} * 8192;
 
+    /// Of one that comes as JSON.
+    static constexpr std::int64_t kMostTextPixels = std::int64_t{1} << 23;
+
     /// Over gRPC, where an answer is one message: colours and depths of as many pixels, or a
     /// report's file, and what is said of them.
     static constexpr int kMostAnswerBytes = static_cast<int>(8 * kMostImagePixels) + (1 << 20);
 
-    /// Of one picture, and of those in the making at the same time twice as many, up to
+    /// Of one picture, and of those being made and sent at the same time twice as many, up to
     /// kMostImagePixels; 1 to kMostImagePixels.
     std::int64_t imagePixels = 1 << 25;
     int sceneObjects = 1000;

@@ -2,6 +2,7 @@
 #include "coordinator/api/rest_door.h"
 
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 #include <google/protobuf/descriptor.h>
@@ -39,8 +40,8 @@ RestAnswer problem(const absl::Status& status, int httpStatus,
     return answer;
 }
 
-std::unique_ptr<Message> newMessage(const google::protobuf::Descriptor* type) {
-    return std::unique_ptr<Message>(MessageFactory::generated_factory()->GetPrototype(type)->New());
+std::shared_ptr<Message> newMessage(const google::protobuf::Descriptor* type) {
+    return std::shared_ptr<Message>(MessageFactory::generated_factory()->GetPrototype(type)->New());
 }
 
 std::string jsonOf(const Message& message, bool isSparse, bool isOneLine = false) {
@@ -48,7 +49,9 @@ std::string jsonOf(const Message& message, bool isSparse, bool isOneLine = false
     options.add_whitespace = !isOneLine;
     options.always_print_primitive_fields = !isSparse;
     std::string text;
-    return google::protobuf::util::MessageToJsonString(message, &text, options).ok() ? text : "{}";
+    if (!google::protobuf::util::MessageToJsonString(message, &text, options).ok())
+        return "{}";
+    return text;
 }
 
 bool wantsJson(std::string_view accept) {
@@ -108,24 +111,35 @@ void describe(const Message& message, RestAnswer& answer) {
     }
 }
 
-RestAnswer bytesOf(Message& message, const std::string& field) {
-    const auto* descriptor = message.GetDescriptor()->FindFieldByName(field);
+/// `bytes`, which lie in `owner`, as a body: with it go both, and the room that the answer takes
+/// up.
+std::shared_ptr<const std::string> bodyIn(std::shared_ptr<const void> owner,
+                                          const std::string& bytes, std::shared_ptr<void> room) {
+    using Held = std::pair<std::shared_ptr<const void>, std::shared_ptr<void>>;
+    return {std::make_shared<const Held>(std::move(owner), std::move(room)), &bytes};
+}
+
+RestAnswer bytesOf(const std::shared_ptr<const Message>& message, const std::string& field,
+                   std::shared_ptr<void> room) {
+    const auto* descriptor = message->GetDescriptor()->FindFieldByName(field);
     RestAnswer answer;
-    answer.contentType = mediaTypeOf(message);
-    describe(message, answer);
-    std::string scratch;
-    answer.body = std::make_shared<const std::string>(
-        message.GetReflection()->GetStringReference(message, descriptor, &scratch));
+    answer.contentType = mediaTypeOf(*message);
+    describe(*message, answer);
+    std::string unused;  // generated messages have their strings
+    const std::string& bytes =
+        message->GetReflection()->GetStringReference(*message, descriptor, &unused);
+    answer.body = bodyIn(message, bytes, std::move(room));
     return answer;
 }
 
-RestAnswer jsonAnswer(const Message& message, const v1::Rest& rest) {
+RestAnswer jsonAnswer(const Message& message, const v1::Rest& rest, std::shared_ptr<void> room) {
     const Message* part = &message;
     if (!rest.answer().empty())
         part = &message.GetReflection()->GetMessage(
             message, message.GetDescriptor()->FindFieldByName(rest.answer()));
     RestAnswer answer;
-    answer.body = std::make_shared<const std::string>(jsonOf(*part, rest.sparse()));
+    const auto text = std::make_shared<const std::string>(jsonOf(*part, rest.sparse()));
+    answer.body = bodyIn(text, *text, std::move(room));
     return answer;
 }
 
@@ -187,15 +201,16 @@ RestAnswer RestDoor::answer(const RestRequest& request) const {
     if (found.route->call->server_streaming())
         return stream(request, found, *asked);
     const auto made = newMessage(found.route->call->output_type());
+    const v1::Rest& rest = found.route->rest;
+    const bool asText = rest.bytes().empty() || wantsJson(request.accept);
+    std::shared_ptr<void> room;
     absl::Status status = read(request, found, *asked);
     if (status.ok())
-        status = handlers_.handle(found.route->call->name(), *asked, *made, {request.stop});
+        status = handlers_.handle(found.route->call->name(), *asked, *made,
+                                  {request.stop, asText, &room});
     if (!status.ok())
         return problem(status, httpStatusOf(status.code()), asked->GetDescriptor());
-    const v1::Rest& rest = found.route->rest;
-    RestAnswer answer = !rest.bytes().empty() && !wantsJson(request.accept)
-                            ? bytesOf(*made, rest.bytes())
-                            : jsonAnswer(*made, rest);
+    RestAnswer answer = asText ? jsonAnswer(*made, rest, room) : bytesOf(made, rest.bytes(), room);
     if (rest.method() == "GET")
         tag(request, answer);
     return answer;

@@ -34,6 +34,7 @@ struct RestAnswer {
     int status = 200;
     std::string contentType = "application/json";
     std::vector<std::pair<std::string, std::string>> headers = {};
+    /// With it goes what the answer takes up of what there is for all (Call::room).
     std::shared_ptr<const std::string> body = std::make_shared<const std::string>();
     /// Not null: the answer goes on, with an eventOf() for each message.
     std::shared_ptr<MessageStream> events = {};

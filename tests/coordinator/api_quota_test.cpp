@@ -82,6 +82,46 @@ TEST_F(ApiQuotas, OfPixelsInTheMaking) {
     frames_.hold(false);
 }
 
+TEST_F(ApiQuotas, OfPixelsUntilTheyHaveBeenSent) {
+    makeApi({.imagePixels = 200});
+    const std::string picture = "/image?width=20&height=10";
+    RestAnswer one = ask("GET", picture);
+    RestAnswer two = ask("GET", picture + "&format=IMAGE_FORMAT_RAW");
+    ASSERT_EQ(two.status, 200);
+    expectRefused(ask("GET", picture), 429, "being drawn or sent");
+    one = {};
+    RestAnswer text = ask("GET", picture, "", "application/json");
+    EXPECT_EQ(text.status, 429) << "text takes more";
+    two = {};
+    text = ask("GET", picture, "", "application/json");
+    EXPECT_EQ(text.status, 200) << *text.body;
+    expectRefused(ask("GET", picture), 429, "being drawn or sent");
+    text = {};
+    EXPECT_EQ(ask("GET", picture).status, 200);
+    EXPECT_EQ(render(20, 10).error_code(), grpc::StatusCode::OK);
+}
+
+TEST_F(ApiQuotas, OfPixelsInText) {
+    makeApi();
+    frames_.setDraw([](const coordinator::FrameRequest&) {
+        coordinator::FrameRequest small;
+        small.width = small.height = 2;
+        return coordinator::plainFrame(small, {1, 2, 3, 255});
+    });
+    const std::string large = R"({"width":4096,"height":2049)";
+    const std::string json = "application/json";
+    expectRefused(ask("POST", "/image", large + "}", json), 400, "JSON has at most 8388608");
+    expectRefused(ask("POST", "/image", large + R"(,"withDepth":true})", json), 400,
+                  "for depths by IMAGE_FORMAT_DEPTH");
+    expectRefused(ask("POST", "/image",
+                      R"({"width":8192,"height":8192,"part":{"width":4096,"height":2049}})", json),
+                  400, "part makes 4096x2049 pixels");
+    EXPECT_THAT(frames_.requests(), IsEmpty()) << "nothing was drawn";
+    EXPECT_EQ(refusals("image"), 3);
+    EXPECT_EQ(ask("POST", "/image", R"({"width":4096,"height":2048})", json).status, 200);
+    EXPECT_EQ(ask("POST", "/image", large + "}").status, 200);
+}
+
 TEST_F(ApiQuotas, OfASceneByObjectsBytesAndTriangles) {
     std::ofstream(data() / "a.eyt") << std::string(1000, 'x');
     Programs programs;

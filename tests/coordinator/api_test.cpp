@@ -180,6 +180,33 @@ TEST_F(Rest, DepthComesInMetresAndItsTopRowFirst) {
     EXPECT_TRUE(frames_.requests().back().wantsDepth);
 }
 
+TEST_F(Rest, DepthComesAsAFloatMap) {
+    frames_.setDraw([](const coordinator::FrameRequest& request) {
+        coordinator::RenderedFrame frame = coordinator::plainFrame(request, {1, 2, 3, 255});
+        frame.image = fabric::makeImage({0, 0, 1, 2}, {}, request.wantsDepth);
+        if (request.wantsDepth)
+            frame.image.depth = {static_cast<float>(fabric::kNearMetres / 5), 0};  // below, above
+        return frame;
+    });
+    const RestAnswer answer = get("/image?width=1&height=2&format=IMAGE_FORMAT_DEPTH");
+    ASSERT_EQ(answer.status, 200) << *answer.body;
+    EXPECT_EQ(answer.contentType, "image/x-portable-floatmap");
+    const std::string head = "Pf\n1 2\n-1.0\n";
+    ASSERT_THAT(*answer.body, StartsWith(head));
+    ASSERT_EQ(answer.body->size(), head.size() + 8);
+    float metres[2];
+    std::memcpy(metres, answer.body->data() + head.size(), 8);
+    EXPECT_NEAR(metres[0], 5, 1e-5) << "the lowest row is first";
+    EXPECT_TRUE(std::isinf(metres[1]));
+
+    frames_.setDraw([](const coordinator::FrameRequest& request) {
+        return coordinator::plainFrame(request, {1, 2, 3, 255});
+    });
+    const RestAnswer without = get("/image?width=1&height=2&format=IMAGE_FORMAT_DEPTH");
+    expectProblem(without, 409, "FAILED_PRECONDITION");
+    EXPECT_EQ(text(without, "field"), "format");
+}
+
 TEST_F(Rest, SaysWhichFieldIsWrongAndWhatToDo) {
     const RestAnswer tau = send("POST", "/image", R"({"tauPixels":0})");
     expectProblem(tau, 400, "INVALID_ARGUMENT");
