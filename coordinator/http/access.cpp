@@ -80,6 +80,13 @@ Role Access::roleOf(const Asked& asked) {
 
 std::optional<Response> Access::answer(const Asked& asked, const coordinator::FrameSource& frames) {
     const std::string_view path = pathOf(asked.target);
+    // A page whose name leads here reads what this server answers as its own. Browsers say the
+    // name.
+    if (path != "/healthz" && !asked.host.empty() && !isAllowedOrigin("", asked.host, isLoopback_))
+        return problemResponse(
+            absl::PermissionDeniedError("Host is the name of another machine, and this server is "
+                                        "for its own machine; ask under "
+                                        "its address or as localhost"));
     // A cookie comes with what any page asks for: only this server's own may change something.
     if (!reads(asked.method) && !isAllowedOrigin(asked.origin, asked.host, isLoopback_))
         return problemResponse(

@@ -44,7 +44,8 @@ public:
     Access(std::shared_ptr<access::Gate> gate, bool isLoopback, bool isSecure)
         : gate_(std::move(gate)), isLoopback_(isLoopback), isSecure_(isSecure) {}
 
-    /// The answer to a request that is turned away (401, 403, 429), or to one that is answered
+    /// The answer to a request that is turned away (401, 403, also on loopback to one under a
+    /// stranger's name, 429), or to one that is answered
     /// here: /login, and, to strangers, /readyz without what only `view` may know.
     std::optional<Response> answer(const Asked& asked, const coordinator::FrameSource& frames);
 

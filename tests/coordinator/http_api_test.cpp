@@ -267,6 +267,27 @@ TEST_F(HttpApi, PagesOfOtherSitesGetNothing) {
     EXPECT_TRUE(frames_.requests().empty());
 }
 
+/// As a page gets whose name its owner has pointed at this machine after it was loaded.
+TEST_F(HttpApi, NothingIsReadUnderAStrangersName) {
+    std::vector<std::string> targets = {
+        "/", "/api", "/api/v1/openapi.json", "/login", "/metrics", "/none", "/readyz", "/ws"};
+    for (const api::Route& route : api::restRoutes())
+        if (route.rest.method() == "GET")
+            targets.push_back("/api/v1" + route.rest.path());
+    const auto asked = [this](const std::string& target, const std::string& host) {
+        return receive(send(
+            fmt::format("GET {} HTTP/1.1\r\nHost: {}\r\nConnection: close\r\n\r\n", target, host)));
+    };
+    for (const std::string& target : targets) {
+        const std::string answer = asked(target, "evil.example");
+        EXPECT_THAT(answer, StartsWith("HTTP/1.1 403")) << target;
+        EXPECT_THAT(answer, HasSubstr("as localhost")) << target;
+    }
+    EXPECT_THAT(asked("/healthz", "evil.example"), StartsWith("HTTP/1.1 200"));
+    EXPECT_THAT(asked("/metrics", "localhost"), StartsWith("HTTP/1.1 200"));
+    EXPECT_THAT(asked("/readyz", "127.0.0.1:80"), StartsWith("HTTP/1.1 200"));
+}
+
 TEST_F(HttpApi, ErrorsAreProblems) {
     const std::string wrong = ask("GET /api/v1/image?width=0");
     EXPECT_THAT(wrong, StartsWith("HTTP/1.1 400"));
