@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/api/api.h"
 
+#include <memory>
 #include <utility>
 
 #include "coordinator/api/data_desk.h"
@@ -15,13 +16,16 @@ class Api::Impl {
 public:
     explicit Impl(ApiParts parts)
         : folder(std::move(parts.dataFolder)),
-          quotas(parts.quotas, std::move(parts.telemetry)),
+          telemetry(parts.telemetry ? std::move(parts.telemetry)
+                                    : std::make_shared<observe::Telemetry>()),
+          quotas(parts.quotas, telemetry),
           sessions(std::make_shared<stream::SessionBook>(parts.quotas.readers)),
           data(folder, std::move(parts.programs), quotas),
           scenes(folder, data, quotas, parts.frames, std::move(parts.setScene)) {
         addStatusHandlers(handlers, parts.frames);
         addSessionHandlers(handlers, *sessions);
         addStatisticsHandlers(handlers, sessions->statistics(), quotas);
+        addTraceHandlers(handlers, telemetry);
         addImageHandlers(handlers, parts.frames, sessions->statistics(), quotas);
         addPlaceHandlers(handlers, parts.frames);
         addConfigurationHandlers(handlers, parts.configuration);
@@ -33,6 +37,7 @@ public:
     }
 
     const std::optional<access::DataFolder> folder;
+    const observe::SharedTelemetry telemetry;
     QuotaKeeper quotas;
     const std::shared_ptr<stream::SessionBook> sessions;
     DataDesk data;

@@ -26,7 +26,8 @@ struct ApiParts {
     std::optional<access::DataFolder> dataFolder = {};
     Programs programs = {};
     Quotas quotas = {};
-    observe::SharedTelemetry telemetry = nullptr;  ///< counts what is beyond them; null: nothing
+    /// Counts what is beyond them, and has the traces; null: of its own.
+    observe::SharedTelemetry telemetry = nullptr;
 };
 
 /// What programs can ask of a coordinator: the handlers of CoordinatorService and what these need.

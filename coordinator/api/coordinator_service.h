@@ -44,6 +44,7 @@ public:
     EYRIE_CALL(GetSession)
     EYRIE_CALL(ChangeSession)
     EYRIE_CALL(CloseSession)
+    EYRIE_CALL(GetTrace)
     EYRIE_CALL(ListFlights)
     EYRIE_CALL(GetFlight)
     EYRIE_CALL(PutFlight)

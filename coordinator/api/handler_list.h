@@ -6,6 +6,7 @@
 #include "access/data_folder.h"
 #include "coordinator/frame/configuration_access.h"
 #include "coordinator/frame/frame_source.h"
+#include "coordinator/observe/telemetry.h"
 
 namespace eyrie::stream {
 class SessionBook;
@@ -32,6 +33,7 @@ void addConfigurationHandlers(Handlers& handlers, coordinator::ConfigurationAcce
 void addSessionHandlers(Handlers& handlers, stream::SessionBook& sessions);
 void addStatisticsHandlers(Handlers& handlers, stream::StatisticsFeed& statistics,
                            const QuotaKeeper& quotas);
+void addTraceHandlers(Handlers& handlers, observe::SharedTelemetry telemetry);
 void addSceneHandlers(Handlers& handlers, SceneDesk& scenes);
 void addFlightHandlers(Handlers& handlers, const DataFolder& folder);
 void addDataHandlers(Handlers& handlers, DataDesk& data);

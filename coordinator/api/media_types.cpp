@@ -13,6 +13,7 @@ constexpr std::string_view kPage = "text/html";
 constexpr std::string_view kPng = "image/png";
 constexpr std::string_view kJpeg = "image/jpeg";
 constexpr std::string_view kFloatMap = "image/x-portable-floatmap";
+constexpr std::string_view kTrace = "application/vnd.eyrie.trace+json";
 constexpr std::string_view kRaw = "application/octet-stream";
 
 std::string_view typeOf(const v1::GetReportResponse& report) {
@@ -47,12 +48,14 @@ std::string mediaTypeOf(const google::protobuf::Message& answer) {
         return std::string(typeOf(*report));
     if (const auto* image = dynamic_cast<const v1::RenderImageResponse*>(&answer))
         return std::string(typeOf(*image));
-    return std::string(kRaw);
+    return std::string(kTrace);
 }
 
 std::vector<std::string_view> mediaTypesOf(const google::protobuf::Descriptor& answer) {
     if (answer.full_name() == v1::GetReportResponse::descriptor()->full_name())
         return {kSummary, kTable, kPage};
+    if (answer.full_name() == v1::GetTraceResponse::descriptor()->full_name())
+        return {kTrace};
     return {kPng, kJpeg, kRaw, kFloatMap};
 }
 

@@ -12,7 +12,7 @@ class Message;
 
 namespace eyrie::api {
 
-/// What the bytes of a picture or a report's file are.
+/// What the bytes of a picture, a report's file or a trace are.
 std::string mediaTypeOf(const google::protobuf::Message& answer);
 
 /// What they may be, of all answers of that type.

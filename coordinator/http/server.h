@@ -48,7 +48,7 @@ struct ServerOptions {
     /// How long viewers and calls may go on when the server stops, to get what they asked for.
     std::chrono::milliseconds drainTimeout{2'500};
     std::chrono::milliseconds swapPatience{1000};  ///< as stream::SessionOptions has it
-    /// What it tells of itself, and what /metrics and /api/v1/trace show; null: of its own.
+    /// What it tells of itself, and what /metrics shows; null: of its own.
     observe::SharedTelemetry telemetry = nullptr;
     /// Codes moving pictures for viewers of slow links that can show H.264; null: all get JPEGs.
     const video::Module* video = nullptr;
@@ -66,7 +66,6 @@ struct ServerOptions {
 ///   below
 ///              /api/v1/ (api/rest_door.h)
 ///   /metrics   numbers for Prometheus
-///   /api/v1/trace?frames=N   the last frames, for Chrome's trace viewer
 ///
 /// All functions may be called from any thread.
 class Server {

@@ -171,6 +171,39 @@ TEST_F(ApiSessions, StatisticsStreamOverGrpcUntilTheCallerHasGone) {
     }
 }
 
+TEST_F(ApiSessions, TracesHaveAsManyFramesAsAreAskedFor) {
+    const auto now = observe::Clock::now();
+    for (std::uint64_t frame = 1; frame <= 20; ++frame)
+        telemetry_->traces.add({"coordinator", "frames", "frame", frame,
+                                now + std::chrono::milliseconds(frame),
+                                now + std::chrono::milliseconds(frame + 1)});
+    const auto count = [](const std::string& text) {
+        std::size_t spans = 0;
+        for (auto at = text.find("\"ph\":\"X\""); at != std::string::npos;
+             at = text.find("\"ph\":\"X\"", at + 1))
+            ++spans;
+        return spans;
+    };
+    const RestAnswer answer = ask("GET", "/trace");
+    EXPECT_EQ(answer.contentType, "application/vnd.eyrie.trace+json");
+    EXPECT_EQ(count(*answer.body), 10U);
+    EXPECT_EQ(count(*ask("GET", "/trace?frames=3").body), 3U);
+    EXPECT_EQ(count(*ask("GET", "/trace?frames=1000").body), 20U);
+    for (const char* wrong : {"frames=0", "frames=-1", "frames=1001", "frames=x", "frame=3",
+                              "frames=99999999999999999999"}) {
+        const RestAnswer refused = ask("GET", std::string("/trace?") + wrong);
+        EXPECT_EQ(refused.status, 400) << wrong;
+        EXPECT_EQ(refused.contentType, "application/problem+json");
+    }
+    EXPECT_EQ(ask("POST", "/trace", "{}").status, 405);
+    v1::GetTraceRequest request;
+    request.set_frames(3);
+    v1::GetTraceResponse response;
+    ASSERT_TRUE(
+        call([&](auto& context) { return stub_->GetTrace(&context, request, &response); }).ok());
+    EXPECT_EQ(count(response.content()), 3U);
+}
+
 TEST_F(ApiSessions, ProfilesWaitForAScene) {
     coordinator::Status opening = coordinator::readyStatus();
     opening.sceneInfo = {};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is asked for by HTTP: the page, readiness, metrics, traces, and what is refused.
+// What is asked for by HTTP: the page, readiness, metrics, and what is refused.
 #include <algorithm>
 #include <chrono>
 #include <string>
@@ -109,9 +109,8 @@ TEST_F(HttpServer, IsReadyOnlyWithARendererAndAScene) {
 TEST_F(HttpServer, AnswersHeadWithoutABodyAndRefusesOtherMethods) {
     start();
     tcp::socket socket = connect();
-    asio::write(
-        socket,
-        asio::buffer(std::string("HEAD / HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n")));
+    asio::write(socket, asio::buffer(std::string(
+                            "HEAD / HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n")));
     std::string received;
     beast::error_code error;
     asio::read(socket, asio::dynamic_buffer(received), error);
@@ -271,30 +270,6 @@ TEST_F(HttpServer, TellsPrometheusOfViewersBytesAndRefusals) {
                 Not(HasSubstr("\neyrie_sent_bytes_total{peer=\"websocket\"} 0\n")));
     EXPECT_THAT(response.body(),
                 Not(HasSubstr("eyrie_frame_stage_seconds_count{stage=\"encode\"} 0\n")));
-}
-
-TEST_F(HttpServer, GivesTracesOfAsManyFramesAsAskedFor) {
-    ServerOptions options;
-    options.telemetry = std::make_shared<observe::Telemetry>();
-    const auto now = observe::Clock::now();
-    for (std::uint64_t frame = 1; frame <= 20; ++frame)
-        options.telemetry->traces.add({"coordinator", "frames", "frame", frame,
-                                       now + milliseconds(frame), now + milliseconds(frame + 1)});
-    start(options);
-    const auto count = [](const std::string& text) {
-        std::size_t spans = 0;
-        for (auto at = text.find("\"ph\":\"X\""); at != std::string::npos;
-             at = text.find("\"ph\":\"X\"", at + 1))
-            ++spans;
-        return spans;
-    };
-    EXPECT_EQ(get("/api/v1/trace")[beast::http::field::content_type], "application/json");
-    EXPECT_EQ(count(get("/api/v1/trace").body()), 10u);
-    EXPECT_EQ(count(get("/api/v1/trace?frames=3").body()), 3u);
-    EXPECT_EQ(count(get("/api/v1/trace?frames=1000").body()), 20u);
-    for (const char* wrong : {"0", "-1", "1001", "x", "", "3x", "99999999999999999999"})
-        EXPECT_EQ(get(std::string("/api/v1/trace?frames=") + wrong).result_int(), 400u) << wrong;
-    EXPECT_EQ(get("/api/v1/trace?frame=3").result_int(), 400u);
 }
 
 }  // namespace
