@@ -93,8 +93,24 @@ double metresPerUnit(const std::string& unit, std::vector<std::string>& notes) {
     return 1;
 }
 
+/// Of the band's unit tag or, where it has none, of the heights of its CRS (null: none): some
+/// formats keep the one, some the other.
+double metresPerUnit(GDALRasterBandH band, OGRSpatialReferenceH crs,
+                     std::vector<std::string>& notes) {
+    const std::string unit = GDALGetRasterUnitType(band);
+    if (!unit.empty() || crs == nullptr)
+        return metresPerUnit(unit, notes);
+    char* name = nullptr;
+    const double metres = OSRGetTargetLinearUnits(crs, "VERT_CS", &name);
+    if (metres == 1 || !(metres > 0) || !std::isfinite(metres))
+        return 1;
+    notes.push_back(
+        fmt::format("heights in {} turned to metres, by the vertical unit of its CRS", name));
+    return metres;
+}
+
 absl::StatusOr<ValueRule> valueRule(const std::string& path, GDALRasterBandH band,
-                                    std::vector<std::string>& notes) {
+                                    OGRSpatialReferenceH crs, std::vector<std::string>& notes) {
     ValueRule rule;
     int isSet = 0;
     const double nodata = GDALGetRasterNoDataValue(band, &isSet);
@@ -107,7 +123,7 @@ absl::StatusOr<ValueRule> valueRule(const std::string& path, GDALRasterBandH ban
         return invalid(path, fmt::format("band 1 has scale {} and offset {}; both must be finite "
                                          "and the scale not 0",
                                          scale, offset));
-    const double unit = metresPerUnit(GDALGetRasterUnitType(band), notes);
+    const double unit = metresPerUnit(band, crs, notes);
     rule.scale = scale * unit;
     rule.offset = offset * unit;
     return rule;
@@ -273,11 +289,12 @@ absl::StatusOr<DemFile> openDemFile(const std::string& path, QuietGdal& gdal) {
     if (GDALGetRasterCount(dataset.get()) > 1)
         file.notes.push_back(
             fmt::format("band 1 of {} taken for heights", GDALGetRasterCount(dataset.get())));
-    ASSIGN_OR_RETURN(const ValueRule rule, valueRule(path, band, file.notes));
+    const OGRSpatialReferenceH crs = GDALGetSpatialRef(dataset.get());
+    ASSIGN_OR_RETURN(const ValueRule rule, valueRule(path, band, crs, file.notes));
     std::array<double, 6> ignored{};
     file.isGeoreferenced = GDALGetGeoTransform(dataset.get(), ignored.data()) == CE_None;
     ASSIGN_OR_RETURN(file.reference, georeferenceOf(path, dataset.get(), file.notes));
-    if (const OGRSpatialReferenceH crs = GDALGetSpatialRef(dataset.get()))
+    if (crs != nullptr)
         file.crs.reset(OSRClone(crs));
     ASSIGN_OR_RETURN(file.hash, hashFiles(path, dataset.get()));
     const auto impossible = std::make_shared<std::optional<ImpossibleHeight>>();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -211,7 +212,27 @@ private:
                                            "-a_srs)",
                                            file.crs ? "has" : "has not", files_.front().path));
         }
+        noteVerticalDatums();
         return absl::OkStatus();
+    }
+
+    void noteVerticalDatums() {
+        std::map<std::string, std::string> files;  // one of each datum
+        for (const DemFile& file : files_) {
+            const char* const datum =
+                file.crs ? OSRGetAttrValue(file.crs.get(), "VERT_DATUM", 0) : nullptr;
+            if (datum != nullptr)
+                files.emplace(datum, file.path);
+        }
+        if (files.size() < 2)
+            return;
+        std::vector<std::string> found;
+        for (const auto& [datum, path] : files)
+            found.push_back(fmt::format("'{}' ({})", datum, path));
+        notes_.push_back(
+            fmt::format("heights above {} are taken as they are; bring them to one "
+                        "vertical datum (gdalwarp) if their difference matters",
+                        fmt::join(found, " and ")));
     }
 
     absl::Status chooseCrs() {

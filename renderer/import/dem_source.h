@@ -35,7 +35,9 @@ struct DemSource {
 /// bilinearly. Where some overlap the finest with data wins, among equally fine ones the one named
 /// last. What none covers is nodata.
 ///
-/// Each raster's own scale, offset and foot units are applied. Nodata: the band's tag, its mask,
+/// Each raster's own scale, offset and foot units (the band's or, where it has none, those of its
+/// CRS's heights) are applied; vertical datums are left as they are, with a note where they differ.
+/// Nodata: the band's tag, its mask,
 /// NaN, infinities, magnitudes from 1e30, and -32768 in 16-bit rasters; what of this the file does
 /// not itself call nodata is among the posts' findings.
 ///

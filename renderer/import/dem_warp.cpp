@@ -19,8 +19,12 @@ std::vector<std::string> seamWarpOptions(GDALDatasetH raster) {
 
 absl::StatusOr<Dataset> warped(const DemFile& file, const std::string& targetWkt,
                                const std::vector<std::string>& more, QuietGdal& gdal) {
-    std::vector<std::string> arguments = {"-of", "VRT", "-r",   "bilinear", "-dstnodata",
-                                          "nan", "-et", "0.01", "-wo",      "NUM_THREADS=ALL_CPUS"};
+    // Heights are metres already: by the CRS's vertical unit GDAL would turn them once more, and
+    // by its vertical datum where PROJ happens to have the grid.
+    std::vector<std::string> arguments = {
+        "-of",      "VRT", "-r",   "bilinear", "-dstnodata",
+        "nan",      "-et", "0.01", "-wo",      "NUM_THREADS=ALL_CPUS",
+        "-novshift"};
     for (const auto& options :
          {polarWarpOptions(file.dataset.get()), seamWarpOptions(file.dataset.get())})
         for (const std::string& option : options)

@@ -25,6 +25,8 @@ constexpr int kDegrees = 4326;
 /// A raster whose pixels are `height` of their centres' coordinates.
 struct Raster {
     int epsg = kUtm32;
+    const char* crs = nullptr;  ///< instead, such as EPSG:26910+6360
+    const char* driver = "GTiff";
     double west = 0;
     double north = 0;
     double pixel = 10;
@@ -41,19 +43,25 @@ protected:
     std::string write(const Raster& raster) {
         GDALAllRegister();
         const std::string path = folder_.path(fmt::format("{}.tif", files_++));
-        const GDALDatasetUniquePtr file(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
-            path.c_str(), raster.columns, raster.rows, 1, GDT_Float32, nullptr));
+        const GDALDatasetUniquePtr file(
+            GetGDALDriverManager()
+                ->GetDriverByName(raster.driver)
+                ->Create(path.c_str(), raster.columns, raster.rows, 1, GDT_Float32, nullptr));
         std::array<double, 6> transform{raster.west, raster.pixel, 0, raster.north,
                                         0,           -raster.pixel};
         file->SetGeoTransform(transform.data());
         if (raster.epsg != 0) {
             OGRSpatialReference crs;
-            crs.importFromEPSG(raster.epsg);
+            if (raster.crs != nullptr)
+                crs.SetFromUserInput(raster.crs);
+            else
+                crs.importFromEPSG(raster.epsg);
             file->SetSpatialRef(&crs);
         }
         GDALRasterBand* const band = file->GetRasterBand(1);
         band->SetNoDataValue(raster.nodata);
-        band->SetUnitType(raster.unit);
+        if (*raster.unit != 0)
+            band->SetUnitType(raster.unit);
         band->SetScale(raster.scale);
         std::vector<float> row(static_cast<std::size_t>(raster.columns));
         for (int j = 0; j < raster.rows; ++j) {
@@ -209,6 +217,65 @@ TEST_F(DemMosaic, TurnsEachRastersOwnUnitToMetres) {
     EXPECT_FLOAT_EQ(dem->grid.at(5, 5), 100);
     EXPECT_FLOAT_EQ(dem->grid.at(15, 5), 304.8F);
     EXPECT_FLOAT_EQ(dem->grid.at(25, 5), 21);
+}
+
+constexpr double kFeetPerMetre = 3937.0 / 1200;  // of US survey feet, EPSG:6360's
+
+TEST_F(DemMosaic, HeightsInFeetByTheirCrsAreMetresAfterAReprojectionToo) {
+    const std::string degrees = write({.crs = "EPSG:4269+6360",
+                                       .west = -123,
+                                       .north = 47,
+                                       .pixel = 0.001,
+                                       .columns = 20,
+                                       .rows = 20,
+                                       .height = constant(100 * kFeetPerMetre)});
+    const auto dem = test::readDems({degrees});
+    ASSERT_TRUE(dem.ok()) << dem.status();
+    EXPECT_NEAR(dem->grid.at(dem->grid.columns / 2, dem->grid.rows / 2), 100, 1e-3);
+    EXPECT_THAT(dem->notes, testing::Contains(HasSubstr("US survey foot")));
+}
+
+TEST_F(DemMosaic, JoinsHeightsInFeetByTheirCrsToThoseInMetres) {
+    const std::string metres = write(
+        {.crs = "EPSG:26910+5703", .west = 500000, .north = 5200100, .height = constant(100)});
+    for (const double pixel : {10, 11}) {  // on the grid of the other, and resampled
+        const std::string feet = write({.crs = "EPSG:26910+6360",
+                                        .west = 500100,
+                                        .north = 5200100,
+                                        .pixel = pixel,
+                                        .height = constant(100 * kFeetPerMetre)});
+        const auto dem = test::readDems({metres, feet});
+        ASSERT_TRUE(dem.ok()) << dem.status();
+        EXPECT_GE(dem->grid.columns, 20);
+        for (std::int32_t i = 0; i < 20; ++i) EXPECT_NEAR(dem->grid.at(i, 5), 100, 1e-3) << i;
+        EXPECT_THAT(dem->notes, testing::Not(testing::Contains(HasSubstr("vertical datum"))));
+    }
+}
+
+/// ENVI keeps the CRS, but has no place for a band's unit.
+TEST_F(DemMosaic, TakesTheUnitOfHeightsFromTheCrsWhereTheBandHasNone) {
+    const std::string path = write({.crs = "EPSG:26910+6360",
+                                    .driver = "ENVI",
+                                    .west = 500000,
+                                    .north = 5200100,
+                                    .height = constant(100 * kFeetPerMetre)});
+    const auto dem = test::readDems({path});
+    ASSERT_TRUE(dem.ok()) << dem.status();
+    EXPECT_NEAR(dem->grid.at(5, 5), 100, 1e-3);
+    EXPECT_THAT(dem->notes, testing::Contains(HasSubstr("vertical unit of its CRS")));
+}
+
+TEST_F(DemMosaic, TellsOfVerticalDatumsThatDiffer) {
+    const std::string navd88 =
+        write({.crs = "EPSG:26910+5703", .west = 500000, .north = 5200100, .height = constant(1)});
+    const std::string egm96 =
+        write({.crs = "EPSG:26910+5773", .west = 500105, .north = 5200100, .height = constant(2)});
+    const auto dem = test::readDems({navd88, egm96});
+    ASSERT_TRUE(dem.ok()) << dem.status();
+    EXPECT_EQ(dem->grid.at(5, 5), 1);
+    EXPECT_EQ(dem->grid.at(15, 5), 2);
+    EXPECT_THAT(dem->notes, testing::Contains(testing::AllOf(HasSubstr("vertical datum"),
+                                                             HasSubstr(navd88), HasSubstr(egm96))));
 }
 
 TEST_F(DemMosaic, HonoursEachRastersOwnNodata) {
