@@ -271,6 +271,11 @@ absl::StatusOr<std::uint64_t> hashFiles(const std::string& path, GDALDatasetH da
 
 bool DemFile::isGeographic() const { return crs && OSRIsGeographic(crs.get()) != 0; }
 
+fabric::Vec2 centreOf(const DemFile& file) {
+    return file.reference.origin + file.reference.perColumn * (file.columns * 0.5) +
+           file.reference.perRow * (file.rows * 0.5);
+}
+
 absl::StatusOr<DemFile> openDemFile(const std::string& path, QuietGdal& gdal) {
     DemFile file;
     file.path = path;

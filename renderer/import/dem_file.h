@@ -39,6 +39,9 @@ struct DemFile {
     bool isGeographic() const;
 };
 
+/// In units of the CRS.
+fabric::Vec2 centreOf(const DemFile& file);
+
 /// Looks at everything but the pixels. Errors: NotFound, InvalidArgument (no raster, not heights,
 /// no usable georeference).
 absl::StatusOr<DemFile> openDemFile(const std::string& path, QuietGdal& gdal);

@@ -15,6 +15,7 @@
 #include "fabric/status.h"
 #include "renderer/import/dem_file.h"
 #include "renderer/import/dem_warp.h"
+#include "renderer/import/joined_dems.h"
 #include "renderer/import/local_projection.h"
 #include "renderer/terrain/quadtree.h"
 
@@ -26,24 +27,24 @@ using fabric::Vec2;
 /// What GDAL keeps of blocks that it has read.
 constexpr std::uint64_t kCacheBytes = std::uint64_t{48} << 20;
 
+std::string nameOf(const std::vector<DemFile>& files) {
+    return files.size() == 1 ? files.front().path
+                             : fmt::format("{} and {} more", files.front().path, files.size() - 1);
+}
+
 /// One raster of a mosaic, as pixels of the mosaic.
 struct Layer {
-    DemFile file;
-    Dataset warped;  ///< null: the file's own pixels
+    std::vector<DemFile> files;  ///< one, or several of one grid, best first
+    Dataset joined;              ///< null: of one
+    Dataset warped;              ///< null: the file's own pixels
     PixelBox box;
 
-    GDALRasterBandH band() const {
-        return GDALGetRasterBand(warped ? warped.get() : file.dataset.get(), 1);
-    }
+    GDALDatasetH source() const { return joined ? joined.get() : files.front().dataset.get(); }
+    GDALRasterBandH band() const { return GDALGetRasterBand(warped ? warped.get() : source(), 1); }
 };
 
 double determinant(const Georeference& g) {
     return g.perColumn.x * g.perRow.y - g.perColumn.y * g.perRow.x;
-}
-
-Vec2 centreOf(const DemFile& file) {
-    return file.reference.origin + file.reference.perColumn * (file.columns * 0.5) +
-           file.reference.perRow * (file.rows * 0.5);
 }
 
 /// Side of a pixel, about.
@@ -90,11 +91,12 @@ public:
     std::vector<std::string> findings() const override {
         std::vector<std::string> findings = findings_;
         for (const Layer& layer : layers_)
-            if (const auto& found = *layer.file.impossible)
-                findings.push_back(fmt::format(
-                    "{} in column {} and row {} of {} can be no height; it is taken for nodata, "
-                    "and so is what else is like it",
-                    found->value, found->column, found->row, layer.file.path));
+            for (const DemFile& file : layer.files)
+                if (const auto& found = *file.impossible)
+                    findings.push_back(fmt::format(
+                        "{} in column {} and row {} of {} can be no height; it is taken for "
+                        "nodata, and so is what else is like it",
+                        found->value, found->column, found->row, file.path));
         return findings;
     }
 
@@ -131,7 +133,7 @@ private:
                          rows, GDT_Float32, 0, 0) != CE_None)
             return absl::DataLossError(
                 fmt::format("{}: rows {} to {} cannot be read ({}); the file may be truncated",
-                            layer.file.path, j0 - box.row, j1 - 1 - box.row, gdal.takeError()));
+                            nameOf(layer.files), j0 - box.row, j1 - 1 - box.row, gdal.takeError()));
         constexpr float kImpossible = 1e30F;
         for (int v = 0; v < rows; ++v) {
             const int row = isFlipped_ ? window.rows - 1 - (j0 - firstRow + v) : j0 - firstRow + v;
@@ -151,6 +153,17 @@ private:
     std::vector<std::string> findings_;  ///< before, and in layers that have been released
 };
 
+/// Enlarges `all` (none: of nothing) by `box`.
+void addTo(std::optional<PixelBox>& all, const PixelBox& box) {
+    const PixelBox before = all.value_or(box);
+    const std::int64_t endColumn =
+        std::max(before.column + before.columns, box.column + box.columns);
+    const std::int64_t endRow = std::max(before.row + before.rows, box.row + box.rows);
+    all = PixelBox{std::min(before.column, box.column), std::min(before.row, box.row), 0, 0};
+    all->columns = static_cast<int>(endColumn - all->column);
+    all->rows = static_cast<int>(endRow - all->row);
+}
+
 absl::Status checkSize(const std::string& path, std::int64_t columns, std::int64_t rows) {
     if (columns < 2 || rows < 2)
         return invalid(
@@ -165,19 +178,11 @@ absl::Status checkSize(const std::string& path, std::int64_t columns, std::int64
     return absl::OkStatus();
 }
 
-bool isSameCrs(OGRSpatialReferenceH a, OGRSpatialReferenceH b) {
-    return (a == nullptr && b == nullptr) || (a != nullptr && b != nullptr && OSRIsSame(a, b) != 0);
-}
-
 /// Chooses what several rasters, or one in degrees, are brought to, and brings them there.
 class Mosaic {
 public:
     Mosaic(std::vector<DemFile> files, QuietGdal& gdal)
-        : files_(std::move(files)),
-          name_(files_.size() == 1
-                    ? files_.front().path
-                    : fmt::format("{} and {} more", files_.front().path, files_.size() - 1)),
-          gdal_(gdal) {}
+        : files_(std::move(files)), name_(nameOf(files_)), gdal_(gdal) {}
 
     absl::StatusOr<DemSource> open() {
         RETURN_IF_ERROR(check());
@@ -189,8 +194,13 @@ public:
         RETURN_IF_ERROR(chooseCrs());
         RETURN_IF_ERROR(chooseGrid());
         std::vector<Layer> layers;
-        for (const std::size_t k : order_) {
-            ASSIGN_OR_RETURN(std::optional<Layer> layer, layerOf(std::move(files_[k])));
+        for (std::size_t k = 0; k < order_.size();) {
+            std::vector<DemFile> run;
+            const bool isOne = isOnGrid(files_[order_[k]]);
+            do {
+                run.push_back(std::move(files_[order_[k++]]));
+            } while (!isOne && k < order_.size() && isNextOfRun(run, files_[order_[k]]));
+            ASSIGN_OR_RETURN(std::optional<Layer> layer, layerOf(std::move(run)));
             if (layer)
                 layers.push_back(*std::move(layer));
         }
@@ -291,7 +301,8 @@ private:
     };
 
     absl::StatusOr<Suggested> suggestedFor(const DemFile& file) {
-        ASSIGN_OR_RETURN(const Dataset dataset, reprojected(file, wkt_, gdal_));
+        ASSIGN_OR_RETURN(const Dataset dataset,
+                         reprojected(file.dataset.get(), file.path, wkt_, gdal_));
         std::array<double, 6> t{};
         GDALGetGeoTransform(dataset.get(), t.data());
         Suggested suggested{{{t[0], t[3]}, {t[1], t[4]}, {t[2], t[5]}},
@@ -336,7 +347,7 @@ private:
         const double y0 = (grid_.y - g.origin.y) / grid_.height;
         const double x1 = x0 + g.perColumn.x * columns / grid_.width;
         const double y1 = y0 - g.perRow.y * rows / grid_.height;
-        constexpr double kFarthest = 1 << 30;
+        constexpr double kFarthest = 1 << 29;  // from rim to rim an int
         if (!(std::abs(x0) < kFarthest && std::abs(y0) < kFarthest && std::abs(x1) < kFarthest &&
               std::abs(y1) < kFarthest))
             return invalid(file.path, "lies too far from the other rasters for one grid");
@@ -366,45 +377,63 @@ private:
                std::abs(x - std::round(x)) < kPixels && std::abs(y - std::round(y)) < kPixels;
     }
 
-    absl::StatusOr<std::optional<Layer>> layerOf(DemFile file) {
+    /// Whether `next`, too, is resampled and lies on the grid of `run`. Only what follows in order
+    /// may join: whoever is between would else win or lose against the wrong ones.
+    bool isNextOfRun(const std::vector<DemFile>& run, const DemFile& next) const {
+        return !isOnGrid(next) && isOneGrid(run.front(), next);
+    }
+
+    /// Pixels of the grid that a raster covers, or nearly: its warper says which, to a pixel. Where
+    /// others may go on what it covers beyond a rounded extent is needed, too.
+    absl::StatusOr<std::optional<PixelBox>> placeOf(const DemFile& file) {
+        if (isNorthUp(file)) {
+            ASSIGN_OR_RETURN(const std::optional<PixelBox> box,
+                             boxOf(file, file.reference, file.columns, file.rows));
+            if (box)
+                addTo(extent_, *box);
+            return box;
+        }
+        ASSIGN_OR_RETURN(const Suggested suggested, suggestedFor(file));
+        ASSIGN_OR_RETURN(std::optional<PixelBox> box,
+                         boxOf(file, suggested.reference, suggested.columns, suggested.rows));
+        if (box)
+            addTo(extent_, *box);
+        if (box && order_.size() > 1)
+            box = PixelBox{box->column - 1, box->row - 1, box->columns + 2, box->rows + 2};
+        return box;
+    }
+
+    absl::StatusOr<std::optional<Layer>> layerOf(std::vector<DemFile> files) {
         Layer layer;
-        layer.file = std::move(file);
-        const DemFile& source = layer.file;
-        notes_.insert(notes_.end(), source.notes.begin(), source.notes.end());
-        std::optional<PixelBox> box;
-        if (isNorthUp(source)) {
-            ASSIGN_OR_RETURN(box, boxOf(source, source.reference, source.columns, source.rows));
-        } else {
-            ASSIGN_OR_RETURN(const Suggested suggested, suggestedFor(source));
-            ASSIGN_OR_RETURN(box,
-                             boxOf(source, suggested.reference, suggested.columns, suggested.rows));
+        std::optional<PixelBox> all;
+        for (DemFile& file : files) {
+            notes_.insert(notes_.end(), file.notes.begin(), file.notes.end());
+            ASSIGN_OR_RETURN(const std::optional<PixelBox> box, placeOf(file));
+            if (!box) {
+                notes_.push_back(fmt::format(
+                    "{} has no pixel as large as the finest raster's; it is left out", file.path));
+                continue;
+            }
+            addTo(all, *box);
+            layer.files.push_back(std::move(file));
         }
-        if (!box) {
-            notes_.push_back(
-                fmt::format("{} has no pixel as large as the finest raster's; it is "
-                            "left out",
-                            source.path));
+        if (!all)
             return std::nullopt;
-        }
-        layer.box = *box;
-        if (!isOnGrid(source)) {
-            ASSIGN_OR_RETURN(layer.warped, reprojected(source, wkt_, grid_, layer.box, gdal_));
-            notes_.push_back(fmt::format("{} resampled", source.path));
-        }
+        layer.box = *all;
+        if (isOnGrid(layer.files.front()))
+            return layer;
+        if (layer.files.size() > 1)
+            layer.joined = joined(layer.files);
+        ASSIGN_OR_RETURN(layer.warped, reprojected(layer.source(), nameOf(layer.files), wkt_, grid_,
+                                                   layer.box, gdal_));
+        for (const DemFile& file : layer.files)
+            notes_.push_back(fmt::format("{} resampled", file.path));
         return layer;
     }
 
     absl::StatusOr<DemSource> assembled(std::vector<Layer> layers) {
-        PixelBox all = layers.front().box;
-        std::int64_t endColumn = all.column + all.columns;
-        std::int64_t endRow = all.row + all.rows;
-        for (const Layer& layer : layers) {
-            all.column = std::min(all.column, layer.box.column);
-            all.row = std::min(all.row, layer.box.row);
-            endColumn = std::max(endColumn, layer.box.column + layer.box.columns);
-            endRow = std::max(endRow, layer.box.row + layer.box.rows);
-        }
-        RETURN_IF_ERROR(checkSize(name_, endColumn - all.column, endRow - all.row));
+        const PixelBox all = extent_.value();
+        RETURN_IF_ERROR(checkSize(name_, all.columns, all.rows));
         for (Layer& layer : layers) {
             layer.box.column -= all.column;
             layer.box.row -= all.row;
@@ -415,16 +444,14 @@ private:
                                          metres,
                                      Vec2(grid_.width, 0) * metres,
                                      Vec2(0, -grid_.height) * metres};
-        const auto columns = static_cast<int>(endColumn - all.column);
-        const auto rows = static_cast<int>(endRow - all.row);
         notes_.push_back(fmt::format("brought to {}: {} x {} posts, {:.4g} m apart",
-                                     crs_ ? OSRGetName(crs_.get()) : "one grid", columns, rows,
-                                     reference.perColumn.x));
+                                     crs_ ? OSRGetName(crs_.get()) : "one grid", all.columns,
+                                     all.rows, reference.perColumn.x));
         if (!caveat_.empty())
             notes_.push_back(caveat_);
         return DemSource{
-            std::make_unique<LayeredSource>(std::move(layers), reference, columns, rows), wkt_, 0,
-            std::move(notes_)};
+            std::make_unique<LayeredSource>(std::move(layers), reference, all.columns, all.rows),
+            wkt_, 0, std::move(notes_)};
     }
 
     std::vector<DemFile> files_;
@@ -436,6 +463,7 @@ private:
     std::string caveat_;         ///< of the CRS, for people
     std::string wkt_;
     PixelGrid grid_;
+    std::optional<PixelBox> extent_;  ///< of all that have been placed
     std::vector<std::string> notes_;
 };
 
@@ -458,7 +486,7 @@ absl::StatusOr<DemSource> openAsItIs(DemFile file) {
     const int rows = file.rows;
     std::vector<Layer> layers(1);
     layers.front().box = {0, 0, columns, rows};
-    layers.front().file = std::move(file);
+    layers.front().files.push_back(std::move(file));
     source.posts = std::make_unique<LayeredSource>(std::move(layers), reference, columns, rows);
     return source;
 }

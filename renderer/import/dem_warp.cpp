@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/import/dem_warp.h"
 
+#include <memory>
+#include <vector>
+
 #include <cpl_string.h>
 #include <fmt/format.h>
 #include <gdal_utils.h>
@@ -17,16 +20,16 @@ std::vector<std::string> seamWarpOptions(GDALDatasetH raster) {
     return {"XSCALE=1", "YSCALE=1"};
 }
 
-absl::StatusOr<Dataset> warped(const DemFile& file, const std::string& targetWkt,
-                               const std::vector<std::string>& more, QuietGdal& gdal) {
+absl::StatusOr<Dataset> warped(GDALDatasetH heights, const std::string& name,
+                               const std::string& targetWkt, const std::vector<std::string>& more,
+                               QuietGdal& gdal) {
     // Heights are metres already: by the CRS's vertical unit GDAL would turn them once more, and
     // by its vertical datum where PROJ happens to have the grid.
     std::vector<std::string> arguments = {
         "-of",      "VRT", "-r",   "bilinear", "-dstnodata",
         "nan",      "-et", "0.01", "-wo",      "NUM_THREADS=ALL_CPUS",
         "-novshift"};
-    for (const auto& options :
-         {polarWarpOptions(file.dataset.get()), seamWarpOptions(file.dataset.get())})
+    for (const auto& options : {polarWarpOptions(heights), seamWarpOptions(heights)})
         for (const std::string& option : options)
             arguments.insert(arguments.end(), {"-wo", option});
     if (!targetWkt.empty())
@@ -37,29 +40,30 @@ absl::StatusOr<Dataset> warped(const DemFile& file, const std::string& targetWkt
         list.reset(CSLAddString(list.release(), argument.c_str()));
     const std::unique_ptr<GDALWarpAppOptions, Releaser<GDALWarpAppOptionsFree>> options(
         GDALWarpAppOptionsNew(list.get(), nullptr));
-    GDALDatasetH sources[] = {file.dataset.get()};
+    GDALDatasetH sources[] = {heights};
     int usageError = 0;
     Dataset result(GDALWarp("", nullptr, 1, sources, options.get(), &usageError));
     if (!result)
-        return invalid(file.path, fmt::format("cannot be reprojected ({}); reproject it with "
-                                              "gdalwarp first",
-                                              gdal.takeError()));
+        return invalid(name, fmt::format("cannot be reprojected ({}); reproject it with "
+                                         "gdalwarp first",
+                                         gdal.takeError()));
     return result;
 }
 
 }  // namespace
 
-absl::StatusOr<Dataset> reprojected(const DemFile& file, const std::string& targetWkt,
-                                    QuietGdal& gdal) {
-    return warped(file, targetWkt, {}, gdal);
+absl::StatusOr<Dataset> reprojected(GDALDatasetH heights, const std::string& name,
+                                    const std::string& targetWkt, QuietGdal& gdal) {
+    return warped(heights, name, targetWkt, {}, gdal);
 }
 
-absl::StatusOr<Dataset> reprojected(const DemFile& file, const std::string& targetWkt,
-                                    const PixelGrid& grid, const PixelBox& box, QuietGdal& gdal) {
+absl::StatusOr<Dataset> reprojected(GDALDatasetH heights, const std::string& name,
+                                    const std::string& targetWkt, const PixelGrid& grid,
+                                    const PixelBox& box, QuietGdal& gdal) {
     const double west = grid.x + grid.width * static_cast<double>(box.column);
     const double north = grid.y - grid.height * static_cast<double>(box.row);
     return warped(
-        file, targetWkt,
+        heights, name, targetWkt,
         {"-te", fmt::format("{}", west), fmt::format("{}", north - grid.height * box.rows),
          fmt::format("{}", west + grid.width * box.columns), fmt::format("{}", north), "-ts",
          fmt::format("{}", box.columns), fmt::format("{}", box.rows)},

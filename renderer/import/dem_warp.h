@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <string>
-#include <vector>
 
 #include <absl/status/statusor.h>
 
-#include "renderer/import/dem_file.h"
+#include "renderer/import/gdal_handles.h"
 
 namespace eyrie::import {
 
@@ -26,11 +26,12 @@ struct PixelBox {
     int rows = 0;
 };
 
-/// A lazily computed reprojection of `file`, which must outlive it: to the grid that GDAL suggests,
-/// or to `box` of `grid`.
-absl::StatusOr<Dataset> reprojected(const DemFile& file, const std::string& targetWkt,
-                                    QuietGdal& gdal);
-absl::StatusOr<Dataset> reprojected(const DemFile& file, const std::string& targetWkt,
-                                    const PixelGrid& grid, const PixelBox& box, QuietGdal& gdal);
+/// A lazily computed reprojection of a raster of heights in metres, which must outlive it: to the
+/// grid that GDAL suggests, or to `box` of `grid`. `name` is for messages.
+absl::StatusOr<Dataset> reprojected(GDALDatasetH heights, const std::string& name,
+                                    const std::string& targetWkt, QuietGdal& gdal);
+absl::StatusOr<Dataset> reprojected(GDALDatasetH heights, const std::string& name,
+                                    const std::string& targetWkt, const PixelGrid& grid,
+                                    const PixelBox& box, QuietGdal& gdal);
 
 }  // namespace eyrie::import

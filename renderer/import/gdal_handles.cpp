@@ -43,6 +43,10 @@ std::string wktOf(OGRSpatialReferenceH reference) {
     return wkt;
 }
 
+bool isSameCrs(OGRSpatialReferenceH a, OGRSpatialReferenceH b) {
+    return (a == nullptr && b == nullptr) || (a != nullptr && b != nullptr && OSRIsSame(a, b) != 0);
+}
+
 namespace {
 
 /// Of a raster in degrees.

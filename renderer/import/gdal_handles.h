@@ -59,6 +59,9 @@ std::array<double, 6> geoTransform(const Georeference& reference);
 
 std::string wktOf(OGRSpatialReferenceH reference);
 
+/// Null: none.
+bool isSameCrs(OGRSpatialReferenceH a, OGRSpatialReferenceH b);
+
 /// Latitude beyond which UTM ends and polar stereographic, for all longitudes, begins.
 inline constexpr double kUtmLimitDegrees = 84;
 
