@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/source_record.h"
 
-#include <filesystem>
 #include <fstream>
 
 #include "cli/image_files.h"
+#include "renderer/import/raster_name.h"
 
 namespace eyrie::cli {
-
-namespace fs = std::filesystem;
 
 std::string sourceRecordName(const std::string& imported) { return imported + ".source"; }
 
@@ -16,7 +14,7 @@ absl::Status recordSources(const std::string& imported, const std::vector<std::s
     std::vector<std::string> absolute;
     std::string text;
     for (const std::string& source : sources) {
-        absolute.push_back(fs::absolute(source).lexically_normal().string());
+        absolute.push_back(import::absoluteName(source));
         text += absolute.back() + "\n";
     }
     if (recordedSources(imported) == absolute)

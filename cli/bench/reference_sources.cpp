@@ -10,6 +10,7 @@
 
 #include "cli/source_record.h"
 #include "fabric/status.h"
+#include "renderer/import/raster_name.h"
 #include "renderer/mesh/eym_format.h"
 #include "renderer/terrain/eyt_format.h"
 
@@ -31,10 +32,7 @@ absl::StatusOr<std::uint64_t> keptHash(const fabric::SceneObject& object,
 }
 
 bool areThere(const Files& files) {
-    std::error_code ignored;
-    return !files.empty() && std::ranges::all_of(files, [&](const std::string& file) {
-        return fs::exists(file, ignored);
-    });
+    return !files.empty() && std::ranges::all_of(files, import::isThere);
 }
 
 /// Those of `given` that are named like the recorded ones, in their order; none unless all are.

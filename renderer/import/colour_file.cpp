@@ -9,7 +9,6 @@
 #include <memory>
 #include <optional>
 
-#include <cpl_vsi.h>
 #include <fmt/format.h>
 #include <gdal_priv.h>
 
@@ -252,8 +251,6 @@ CPLErr ColourBand::IReadBlock(int x, int y, void* data) {
 absl::StatusOr<ColourFile> openColourFile(const std::string& path, QuietGdal& gdal) {
     ColourFile file;
     file.path = path;
-    if (VSIStatBufL status; VSIStatL(path.c_str(), &status) != 0)
-        return absl::NotFoundError(fmt::format("{}: no such file, or not readable", path));
     ASSIGN_OR_RETURN(Dataset dataset, openRaster(path, "a picture such as a GeoTIFF", gdal));
     ASSIGN_OR_RETURN(const ColourRule rule,
                      colourRule(path, *GDALDataset::FromHandle(dataset.get()), file.notes));

@@ -24,8 +24,8 @@ struct ColourFile {
 
 /// Looks at everything but the pixels (of 16-bit files at some of them). Grey, grey with alpha,
 /// palette, RGB and RGBA of 8 or 16 bits; of more bands those tagged red, green and blue, or the
-/// first three. 16 bits become 8 by the brightest value, or by the NBITS tag. Errors: NotFound,
-/// InvalidArgument (no raster, or not colours).
+/// first three. 16 bits become 8 by the brightest value, or by the NBITS tag. Errors: those of
+/// openRaster; InvalidArgument (not colours).
 absl::StatusOr<ColourFile> openColourFile(const std::string& path, QuietGdal& gdal);
 
 }  // namespace eyrie::import

@@ -7,7 +7,6 @@
 #include <limits>
 #include <optional>
 
-#include <cpl_string.h>
 #include <cpl_vsi.h>
 #include <fmt/format.h>
 #include <gdal_priv.h>
@@ -15,6 +14,7 @@
 
 #include "fabric/status.h"
 #include "renderer/import/raster_file.h"
+#include "renderer/import/raster_name.h"
 #include "renderer/terrain/height_grid.h"
 
 namespace eyrie::import {
@@ -30,8 +30,10 @@ struct ValueRule {
 
 absl::StatusOr<std::uint64_t> hashFile(const std::string& path) {
     const std::unique_ptr<VSILFILE, Releaser<VSIFCloseL>> file(VSIFOpenL(path.c_str(), "rb"));
-    if (!file)
+    if (!file) {
+        RETURN_IF_ERROR(checkOpenFiles(path));
         return absl::NotFoundError(fmt::format("{}: no such file, or not readable", path));
+    }
     const std::unique_ptr<XXH64_state_t, Releaser<XXH64_freeState>> state(XXH64_createState());
     XXH64_reset(state.get(), 0);
     std::vector<char> buffer(std::size_t{1} << 20);
@@ -252,18 +254,26 @@ private:
     Dataset source_;
 };
 
-/// Of the file that was named and, where it is one of several or names others, of all of them.
+/// Of what was named: the file or, where it is something in a file, which.
+absl::StatusOr<std::uint64_t> hashNamed(const std::string& path) {
+    if (VSIStatBufL status; VSIStatL(path.c_str(), &status) == 0)
+        return hashFile(path);
+    const std::string part = partOfFile(path);
+    return XXH64(part.data(), part.size(), 0);
+}
+
+/// Of what was named and, where that is one of several files or names others, of all of them.
 absl::StatusOr<std::uint64_t> hashFiles(const std::string& path, GDALDatasetH dataset) {
-    ASSIGN_OR_RETURN(std::uint64_t hash, hashFile(path));
-    char** const files = GDALGetFileList(dataset);
-    for (char** file = files; file != nullptr && *file != nullptr; ++file) {
-        if (path == *file || gdalPath(path) == *file)
+    ASSIGN_OR_RETURN(std::uint64_t hash, hashNamed(path));
+    for (const std::string& file : filesOf(dataset)) {
+        if (path == file || gdalPath(path) == file)
             continue;
-        const absl::StatusOr<std::uint64_t> other = hashFile(*file);
+        const absl::StatusOr<std::uint64_t> other = hashFile(file);
         if (other.ok())
             hash = hash * 0x9e3779b97f4a7c15 + *other;
+        else if (absl::IsResourceExhausted(other.status()))
+            return other.status();
     }
-    CSLDestroy(files);
     return hash;
 }
 
@@ -279,8 +289,6 @@ fabric::Vec2 centreOf(const DemFile& file) {
 absl::StatusOr<DemFile> openDemFile(const std::string& path, QuietGdal& gdal) {
     DemFile file;
     file.path = path;
-    if (VSIStatBufL status; VSIStatL(path.c_str(), &status) != 0)
-        return absl::NotFoundError(fmt::format("{}: no such file, or not readable", path));
     ASSIGN_OR_RETURN(
         Dataset dataset,
         openRaster(path,

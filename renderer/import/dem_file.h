@@ -31,7 +31,7 @@ struct DemFile {
     Georeference reference;  ///< in units of the CRS
     bool isGeoreferenced = false;
     SpatialReference crs;    ///< null: none
-    std::uint64_t hash = 0;  ///< XXH64 of the file's bytes, and of the files that it names
+    std::uint64_t hash = 0;  ///< XXH64 of the bytes of all its files
     std::vector<std::string> notes;
     /// The first of those read so far; they become nodata. Never null.
     std::shared_ptr<const std::optional<ImpossibleHeight>> impossible;
@@ -42,7 +42,7 @@ struct DemFile {
 /// In units of the CRS.
 fabric::Vec2 centreOf(const DemFile& file);
 
-/// Looks at everything but the pixels. Errors: NotFound, InvalidArgument (no raster, not heights,
+/// Looks at everything but the pixels. Errors: those of openRaster; InvalidArgument (not heights,
 /// no usable georeference).
 absl::StatusOr<DemFile> openDemFile(const std::string& path, QuietGdal& gdal);
 

@@ -2,20 +2,24 @@
 #include "renderer/import/picture_fingerprint.h"
 
 #include <memory>
+#include <optional>
 
 #include <cpl_vsi.h>
 #include <xxhash.h>
 
 #include "renderer/import/gdal_handles.h"
+#include "renderer/import/raster_file.h"
+#include "renderer/import/raster_name.h"
 
 namespace eyrie::import {
 namespace {
 
-std::uint64_t fingerprintOf(const std::string& path) {
+/// None of what is no file.
+std::optional<std::uint64_t> fingerprintOfFile(const std::string& path) {
     constexpr std::size_t kEnd = std::size_t{1} << 20;
     const std::unique_ptr<VSILFILE, Releaser<VSIFCloseL>> file(VSIFOpenL(path.c_str(), "rb"));
     if (!file)
-        return XXH64(path.data(), path.size(), 0);
+        return std::nullopt;
     std::vector<char> buffer(kEnd);
     std::size_t got = VSIFReadL(buffer.data(), 1, kEnd, file.get());
     const std::uint64_t first = XXH64(buffer.data(), got, 1);
@@ -24,6 +28,17 @@ std::uint64_t fingerprintOf(const std::string& path) {
     VSIFSeekL(file.get(), bytes > kEnd ? bytes - kEnd : 0, SEEK_SET);
     got = VSIFReadL(buffer.data(), 1, kEnd, file.get());
     return XXH64(buffer.data(), got, first ^ bytes);
+}
+
+std::uint64_t fingerprintOf(const std::string& name) {
+    if (const std::optional<std::uint64_t> file = fingerprintOfFile(name))
+        return *file;
+    const std::string part = partOfFile(name);  // of a file that GDAL alone can tell
+    std::uint64_t all = XXH64(part.data(), part.size(), 0);
+    if (const Dataset dataset(GDALOpen(name.c_str(), GA_ReadOnly)); dataset)
+        for (const std::string& file : filesOf(dataset.get()))
+            all = all * 0x9e3779b97f4a7c15 + fingerprintOfFile(file).value_or(0);
+    return all;
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace eyrie::import {
 
 /// Tells pictures from others, in their order, by their sizes and first and last MiB: pictures may
 /// be too large to read them all for that. Names do not count, since machines see a shared folder
-/// under different ones; except of what is no file. 0 for none.
+/// under different ones; but what of a file they name does. 0 for none.
 std::uint64_t pictureFingerprint(const std::vector<std::string>& paths);
 
 }  // namespace eyrie::import

@@ -1,9 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/import/raster_file.h"
 
+#include <array>
+
+#include <cpl_string.h>
+#include <cpl_vsi.h>
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "fabric/status.h"
 
 namespace eyrie::import {
+namespace {
+
+/// A mosaic keeps all of its rasters open, and programs begin with 1024 files as a rule.
+void allowManyOpenFiles() {
+    rlimit limit{};
+    if (getrlimit(RLIMIT_NOFILE, &limit) != 0 || limit.rlim_cur == limit.rlim_max)
+        return;
+    limit.rlim_cur = limit.rlim_max;
+    setrlimit(RLIMIT_NOFILE, &limit);
+}
+
+absl::Status cannotBeOpened(const std::string& path, const char* wanted, QuietGdal& gdal) {
+    RETURN_IF_ERROR(checkOpenFiles(path));
+    const std::string error = gdal.takeError();
+    if (VSIStatBufL status; VSIStatL(path.c_str(), &status) != 0)
+        return absl::NotFoundError(
+            fmt::format("{}: no such file, or not readable ({})", path, error));
+    return invalid(path, fmt::format("is no raster that GDAL {} reads ({}); give {}",
+                                     GDALVersionInfo("RELEASE_NAME"), error, wanted));
+}
+
+}  // namespace
 
 std::string gdalPath(const std::string& path) {
     if (path.starts_with("/vsi"))
@@ -16,18 +47,48 @@ std::string gdalPath(const std::string& path) {
 }
 
 absl::StatusOr<Dataset> openRaster(const std::string& path, const char* wanted, QuietGdal& gdal) {
+    allowManyOpenFiles();
     Dataset dataset(GDALOpenEx(gdalPath(path).c_str(),
                                GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, nullptr,
                                nullptr, nullptr));
     if (!dataset)
-        return invalid(path,
-                       fmt::format("is no raster that GDAL {} reads ({}); give {}",
-                                   GDALVersionInfo("RELEASE_NAME"), gdal.takeError(), wanted));
-    if (GDALGetRasterCount(dataset.get()) < 1)
-        return invalid(path,
-                       "has no raster band of its own; name one of its subdatasets instead "
-                       "(gdalinfo lists them)");
+        return cannotBeOpened(path, wanted, gdal);
+    if (GDALGetRasterCount(dataset.get()) < 1) {
+        const char* const first =
+            GDALGetMetadataItem(dataset.get(), "SUBDATASET_1_NAME", "SUBDATASETS");
+        return invalid(path, fmt::format("has no raster band of its own; name one of its "
+                                         "subdatasets instead{} (gdalinfo lists them)",
+                                         first ? fmt::format(", such as {}", first) : ""));
+    }
     return dataset;
+}
+
+absl::Status checkOpenFiles(const std::string& path) {
+    std::array<int, 4> files{};  // as many as a raster may need to be looked at
+    bool isEnough = true;
+    for (int& file : files) {
+        file = open("/dev/null", O_RDONLY | O_CLOEXEC);
+        isEnough = isEnough && file >= 0;
+    }
+    for (const int file : files)
+        if (file >= 0)
+            close(file);
+    if (isEnough)
+        return absl::OkStatus();
+    rlimit limit{};
+    getrlimit(RLIMIT_NOFILE, &limit);
+    return absl::ResourceExhaustedError(
+        fmt::format("{}: cannot be opened beside what this process has open, at most {} files; "
+                    "allow more (ulimit -n), or make one raster of several first (gdalbuildvrt)",
+                    path, limit.rlim_cur));
+}
+
+std::vector<std::string> filesOf(GDALDatasetH raster) {
+    const std::unique_ptr<char*, Releaser<CSLDestroy>> list(GDALGetFileList(raster));
+    std::vector<std::string> files;
+    for (char** file = list.get(); file != nullptr && *file != nullptr; ++file)
+        files.emplace_back(*file);
+    return files;
 }
 
 }  // namespace eyrie::import

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <absl/status/statusor.h>
 
@@ -12,7 +13,17 @@ namespace eyrie::import {
 /// The name under which GDAL looks into a .gz or .zip.
 std::string gdalPath(const std::string& path);
 
-/// InvalidArgument when GDAL reads no raster there; `wanted` says what to give instead.
+/// A raster by any name that GDAL knows, see raster_name.h. So that a mosaic may have thousands, it
+/// raises this process's limit of open files as far as it may be. Errors: NotFound;
+/// InvalidArgument when GDAL reads no raster there, where `wanted` says what to give instead; those
+/// of checkOpenFiles.
 absl::StatusOr<Dataset> openRaster(const std::string& path, const char* wanted, QuietGdal& gdal);
+
+/// ResourceExhausted, with `path` to blame, when this process can open no more files: to be asked
+/// when something could not be opened.
+absl::Status checkOpenFiles(const std::string& path);
+
+/// Files that a raster consists of, as GDAL names them.
+std::vector<std::string> filesOf(GDALDatasetH raster);
 
 }  // namespace eyrie::import

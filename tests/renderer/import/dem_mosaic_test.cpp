@@ -2,7 +2,10 @@
 // Several rasters as one terrain: expected heights come from formulas over the ground, evaluated
 // where the mosaic says that its posts stand.
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <functional>
+#include <iostream>
 #include <limits>
 #include <random>
 
@@ -11,6 +14,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <ogr_spatialref.h>
+#include <sys/resource.h>
 
 #include "renderer/import/dem_source.h"
 #include "tests/renderer/import/terrain_fixture.h"
@@ -459,6 +463,72 @@ TEST_F(DemMosaic, JoinsStripsOfOnePixel) {
     ASSERT_TRUE(dem.ok()) << dem.status();
     EXPECT_EQ(dem->grid.columns, 3);
     for (std::int32_t i = 0; i < 3; ++i) EXPECT_EQ(dem->grid.at(i, 2), static_cast<float>(i));
+}
+
+/// Until it ends, this process may open no more than `files`; `most` is how far it may raise that.
+class OpenFilesLimit {
+public:
+    OpenFilesLimit(rlim_t files, rlim_t most) {
+        getrlimit(RLIMIT_NOFILE, &before_);
+        const rlimit limit{files, std::min(most, before_.rlim_max)};
+        EXPECT_EQ(setrlimit(RLIMIT_NOFILE, &limit), 0);
+    }
+    OpenFilesLimit(const OpenFilesLimit&) = delete;
+    OpenFilesLimit& operator=(const OpenFilesLimit&) = delete;
+    ~OpenFilesLimit() { setrlimit(RLIMIT_NOFILE, &before_); }
+
+private:
+    rlimit before_{};
+};
+
+TEST_F(DemMosaic, HasMoreRastersThanAProcessBeginsWithOpenFiles) {
+    std::vector<std::string> tiles;
+    for (int k = 0; k < 90; ++k)
+        tiles.push_back(
+            write({.west = 500000.0 + 100 * k, .north = 5200100, .height = constant(k)}));
+    {
+        const OpenFilesLimit limit(60, RLIM_INFINITY);
+        const auto dem = test::readDems(tiles);
+        ASSERT_TRUE(dem.ok()) << dem.status();
+        EXPECT_EQ(dem->grid.at(895, 5), 89);
+    }
+    // In a process of its own: a limit that cannot be raised holds for good.
+    GTEST_FLAG_SET(death_test_style, "threadsafe");
+    EXPECT_EXIT(
+        {
+            const OpenFilesLimit limit(60, 60);
+            const auto dem = test::readDems(tiles);
+            std::cerr << dem.status();
+            std::exit(absl::IsResourceExhausted(dem.status()) ? 0 : 1);
+        },
+        testing::ExitedWithCode(0), "at most 60 files; allow more \\(ulimit -n\\)");
+}
+
+/// Directories of a TIFF are GDAL's simplest subdatasets.
+TEST_F(DemMosaic, TakesWhatGdalNamesInAFile) {
+    GDALAllRegister();
+    const std::string path = folder_.path("two.tif");
+    for (const int height : {10, 20}) {
+        const GDALDatasetUniquePtr memory(GetGDALDriverManager()->GetDriverByName("MEM")->Create(
+            "", 4, 4, 1, GDT_Float32, nullptr));
+        memory->GetRasterBand(1)->Fill(height);
+        const char* const append[] = {"APPEND_SUBDATASET=YES", nullptr};
+        ASSERT_NE(GDALDatasetUniquePtr(GetGDALDriverManager()->GetDriverByName("GTiff")->CreateCopy(
+                      path.c_str(), memory.get(), FALSE, height == 10 ? nullptr : append, nullptr,
+                      nullptr)),
+                  nullptr);
+    }
+    const auto first = test::readDems({"GTIFF_DIR:1:" + path});
+    const auto second = test::readDems({"GTIFF_DIR:2:" + path});
+    const auto relative =
+        test::readDems({"GTIFF_DIR:2:" + std::filesystem::relative(path).string()});
+    ASSERT_TRUE(first.ok() && second.ok() && relative.ok()) << first.status() << second.status();
+    EXPECT_EQ(first->grid.at(1, 1), 10);
+    EXPECT_EQ(second->grid.at(1, 1), 20);
+    EXPECT_NE(first->sourceHash, second->sourceHash);
+    EXPECT_EQ(second->sourceHash, relative->sourceHash);
+    const auto third = test::readDems({"GTIFF_DIR:3:" + path});
+    EXPECT_EQ(third.status().code(), absl::StatusCode::kNotFound) << third.status();
 }
 
 TEST_F(DemMosaic, RefusesWhatCannotBeBroughtTogether) {
