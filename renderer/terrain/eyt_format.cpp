@@ -81,6 +81,15 @@ absl::Status checkTile(const TileRecord& tile, const std::string& path, std::siz
                                tile.maxHeightMetres));
 }
 
+/// No index of so many tiles is larger.
+std::uint64_t mostIndexBytes(const Quadtree& quadtree) {
+    constexpr std::uint64_t kHeadersAndPadding = 1024;
+    constexpr std::uint64_t kTextures = 2 * kMaxTextureTiles;  // with those of coarser levels
+    return kHeadersAndPadding + kMaxCrsBytes +
+           std::uint64_t{quadtree.tileCount()} * sizeof(TileRecord) +
+           (std::uint64_t{quadtree.pageCount()} + kTextures) * sizeof(PageRecord);
+}
+
 /// CRS, tiles and pages out of the index's bytes.
 absl::Status parseIndex(const FileHeader& header, const std::vector<char>& bytes,
                         const std::string& path, EytIndex& index) {
@@ -254,6 +263,11 @@ absl::StatusOr<std::shared_ptr<const EytFile>> EytFile::open(const std::string& 
     index.objectFromLattice = matrixOf(header);
     index.sourceHash = header.sourceHash;
     index.nodataPosts = header.nodataPosts;
+    if (header.indexBytes > mostIndexBytes(index.quadtree))
+        return corrupt(path, fmt::format("header.indexBytes is {}, expected {} at most for {} x {} "
+                                         "posts",
+                                         header.indexBytes, mostIndexBytes(index.quadtree),
+                                         header.columns, header.rows));
     std::vector<char> bytes(header.indexBytes);
     RETURN_IF_ERROR(
         file->source_->read({header.indexOffset, header.indexBytes, header.indexChecksum},

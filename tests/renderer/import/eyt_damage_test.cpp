@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cstring>
+#include <filesystem>
 #include <fstream>
 
 #include <gtest/gtest.h>
+#define XXH_INLINE_ALL
+#include <xxhash.h>
 
 #include "renderer/terrain/eyt_format.h"
+#include "renderer/terrain/eyt_layout.h"
 #include "tests/renderer/import/terrain_fixture.h"
 #include "tests/renderer/terrain/hard_grids.h"
 
@@ -91,6 +96,22 @@ TEST_F(EytDamage, IsNoticedWhereverTheFileEnds) {
         writeBytes(path_, damaged);
         EXPECT_FALSE(isReadable(path_)) << damaged.size() << " bytes";
     }
+}
+
+/// A few blocks on disk may claim a file of terabytes.
+TEST_F(EytDamage, AnIndexLargerThanItsPostsCanHaveIsRefusedBeforeItIsRead) {
+    terrain::FileHeader header;
+    std::memcpy(static_cast<void*>(&header), bytes_.data(), sizeof header);
+    header.indexBytes = std::uint64_t{1} << 43;
+    header.headerChecksum = XXH64(&header, offsetof(terrain::FileHeader, headerChecksum), 0);
+    std::memcpy(bytes_.data(), &header, sizeof header);
+    writeBytes(path_, bytes_);
+    std::filesystem::resize_file(path_, header.indexOffset + header.indexBytes);
+    const absl::Status refused = terrain::EytFile::open(path_).status();
+    EXPECT_EQ(refused.code(), absl::StatusCode::kDataLoss);
+    EXPECT_NE(refused.ToString().find(path_ + ": header.indexBytes is 8796093022208"),
+              std::string::npos)
+        << refused;
 }
 
 TEST_F(EytDamage, OfTheMagicOrVersionIsCalledWhatItIs) {
