@@ -16,6 +16,7 @@
 #include <glm/matrix.hpp>
 
 #include "fabric/status.h"
+#include "renderer/import/thread_limit.h"
 
 namespace eyrie::import {
 namespace {
@@ -152,7 +153,7 @@ absl::StatusOr<Dataset> warpedTo(const ColourFile& file, const TexelGrid& grid, 
     options->nSrcAlphaBand = kColours + 1;
     options->nDstAlphaBand = kColours + 1;
     options->papszWarpOptions =
-        CSLSetNameValue(options->papszWarpOptions, "NUM_THREADS", "ALL_CPUS");
+        CSLSetNameValue(options->papszWarpOptions, "NUM_THREADS", gdalThreads().c_str());
     options->papszWarpOptions = CSLSetNameValue(options->papszWarpOptions, "INIT_DEST", "0");
     for (const std::string& option : polarWarpOptions(file.dataset.get()))
         options->papszWarpOptions = CSLAddString(options->papszWarpOptions, option.c_str());

@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 #include <gdal_utils.h>
 
+#include "renderer/import/thread_limit.h"
+
 namespace eyrie::import {
 namespace {
 
@@ -25,10 +27,17 @@ absl::StatusOr<Dataset> warped(GDALDatasetH heights, const std::string& name,
                                QuietGdal& gdal) {
     // Heights are metres already: by the CRS's vertical unit GDAL would turn them once more, and
     // by its vertical datum where PROJ happens to have the grid.
-    std::vector<std::string> arguments = {
-        "-of",      "VRT", "-r",   "bilinear", "-dstnodata",
-        "nan",      "-et", "0.01", "-wo",      "NUM_THREADS=ALL_CPUS",
-        "-novshift"};
+    std::vector<std::string> arguments = {"-of",
+                                          "VRT",
+                                          "-r",
+                                          "bilinear",
+                                          "-dstnodata",
+                                          "nan",
+                                          "-et",
+                                          "0.01",
+                                          "-novshift",
+                                          "-wo",
+                                          "NUM_THREADS=" + gdalThreads()};
     for (const auto& options : {polarWarpOptions(heights), seamWarpOptions(heights)})
         for (const std::string& option : options)
             arguments.insert(arguments.end(), {"-wo", option});

@@ -13,7 +13,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <tbb/global_control.h>
 #include <xxhash.h>
 
 #include "fabric/status.h"
@@ -27,6 +26,7 @@
 #include "renderer/import/terrain_choices.h"
 #include "renderer/import/terrain_stages.h"
 #include "renderer/import/texel_store.h"
+#include "renderer/import/thread_limit.h"
 #include "renderer/terrain/eyt_format.h"
 
 namespace eyrie::import {
@@ -222,11 +222,7 @@ absl::StatusOr<TerrainImportReport> importTerrain(HeightSource& posts, const Ter
                                                   const std::string& out,
                                                   const TerrainImportOptions& options,
                                                   const ImportControl& control) {
-    const tbb::global_control threads(
-        tbb::global_control::max_allowed_parallelism,
-        options.threads > 0
-            ? static_cast<std::size_t>(options.threads)
-            : tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+    const ThreadLimit threads(options.threads);
     OpenImagery imagery;
     if (!options.imagery.empty()) {
         ASSIGN_OR_RETURN(imagery,
@@ -263,6 +259,7 @@ absl::StatusOr<TerrainImportReport> importTerrain(const std::vector<std::string>
                                                   const std::string& out,
                                                   const TerrainImportOptions& options,
                                                   const ImportControl& control) {
+    const ThreadLimit threads(options.threads);
     ASSIGN_OR_RETURN(DemSource source, openDems(dems, control));
     const std::string name = dems.size() == 1
                                  ? dems.front()

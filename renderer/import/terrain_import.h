@@ -49,7 +49,7 @@ struct TerrainImportOptions {
     std::vector<std::string> imagery = {};  ///< pictures to lay over it, see openImagery
     bool startsOver = false;                ///< ignores what an interrupted import left
     bool mergesParts = false;               ///< takes what importTerrainShard has made
-    int threads = 0;                        ///< 0: all
+    int threads = 0;                        ///< GDAL's, too; 0: all
 };
 
 inline constexpr std::uint64_t kLeastImportMemory = std::uint64_t{192} << 20;

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 #include <sys/stat.h>
-#include <tbb/global_control.h>
 #include <xxhash.h>
 
 #include "fabric/status.h"
@@ -20,6 +19,7 @@
 #include "renderer/import/shard_part.h"
 #include "renderer/import/terrain_choices.h"
 #include "renderer/import/terrain_stages.h"
+#include "renderer/import/thread_limit.h"
 
 namespace eyrie::import {
 namespace {
@@ -193,11 +193,7 @@ absl::StatusOr<TerrainShardReport> importTerrainShard(HeightSource& posts,
                                                       const std::string& out, const Shard& shard,
                                                       const TerrainImportOptions& options,
                                                       const ImportControl& control) {
-    const tbb::global_control threads(
-        tbb::global_control::max_allowed_parallelism,
-        options.threads > 0
-            ? static_cast<std::size_t>(options.threads)
-            : tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+    const ThreadLimit threads(options.threads);
     RETURN_IF_ERROR(checkShard(shard));
     OpenImagery imagery;
     if (!options.imagery.empty()) {
@@ -213,6 +209,7 @@ absl::StatusOr<TerrainShardReport> importTerrainShard(const std::vector<std::str
                                                       const TerrainImportOptions& options,
                                                       const ImportControl& control) {
     RETURN_IF_ERROR(checkShard(shard));
+    const ThreadLimit threads(options.threads);
     ASSIGN_OR_RETURN(DemSource source, openDems(dems, control));
     const std::string name = dems.size() == 1
                                  ? dems.front()

@@ -2,6 +2,10 @@
 #include "renderer/import/terrain_import.h"
 
 #include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
 #include <map>
 
 #include <gmock/gmock.h>
@@ -96,6 +100,33 @@ TEST(TerrainImport, SaysWhatHeightsThatAreNoneDoToTheOthers) {
     EXPECT_THAT(notes(), testing::ElementsAre(testing::HasSubstr("-a_nodata -9999)")));
     grid.heights[820] = 1e12F;
     EXPECT_THAT(notes(), testing::ElementsAre(testing::HasSubstr("steps of 131072 m")));
+}
+
+/// GDAL keeps the threads that it warps with: an import that warps must leave no more than one that
+/// does not.
+TEST(TerrainImport, WarpsWithNoMoreThreadsThanItMay) {
+    GTEST_FLAG_SET(death_test_style, "threadsafe");  // a process that has none of other tests
+    EXPECT_EXIT(
+        {
+            const TemporaryFolder folder;
+            std::ofstream(folder.path("a.asc"))
+                << "ncols 4\nnrows 3\nxllcorner 9\nyllcorner 47\ncellsize 0.001\n"
+                   "1 2 3 4\n5 6 7 8\n9 10 11 12\n";
+            const auto threadsAfterImport = [&] {
+                const auto report =
+                    importTerrain({folder.path("a.asc")}, folder.path("t.eyt"), {.threads = 1}, {});
+                std::cerr << report.status() << "\n";
+                return std::distance(std::filesystem::directory_iterator("/proc/self/task"), {});
+            };
+            const auto asItIs = threadsAfterImport();
+            std::ofstream(folder.path("a.prj"))
+                << R"(GEOGCS["WGS 84",DATUM["WGS_1984",SPHEROID["WGS 84",6378137,298.257223563]],)"
+                   R"(PRIMEM["Greenwich",0],UNIT["degree",0.0174532925199433]])";
+            const auto warped = threadsAfterImport();
+            std::cerr << asItIs << " threads, then " << warped;
+            std::exit(warped == asItIs ? 0 : 1);
+        },
+        testing::ExitedWithCode(0), "OK\nOK\n");
 }
 
 TEST(TerrainImport, LeavesNothingBehindWhenCalledOff) {
