@@ -36,6 +36,12 @@ std::uint64_t residentBytes(const terrain::GridFrame& frame, bool hasImagery) {
                kPostsPerByte;
 }
 
+/// What level 0 may be off at least: where heights are rounded, by half a step for that and half of
+/// it again for what is left out.
+double finestErrorMetres(const terrain::HeightLattice& lattice) {
+    return lattice.isLossless ? 0 : lattice.stepMetres * 0.75;
+}
+
 }  // namespace
 
 std::vector<double> levelThresholds(int levels, double postMetres,
@@ -51,6 +57,17 @@ std::vector<double> levelThresholds(int levels, double postMetres,
                                  *errorMetres - (lattice.isLossless ? 0 : lattice.stepMetres / 2));
     for (double& threshold : thresholds) threshold = std::max(threshold, thresholds[0]);
     return thresholds;
+}
+
+std::vector<std::string> notesOnError(const terrain::HeightLattice& lattice,
+                                      const std::optional<double>& errorMetres) {
+    const double finest = finestErrorMetres(lattice);
+    if (!errorMetres || *errorMetres >= finest)
+        return {};
+    return {
+        fmt::format("the finest level may be off by {:.4g} m, not by {:.4g} m at most: heights "
+                    "are stored in steps of {:.4g} m",
+                    finest, *errorMetres, lattice.stepMetres)};
 }
 
 terrain::EytIndex emptyIndex(const terrain::ElevationModel& model,

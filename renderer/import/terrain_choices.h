@@ -20,6 +20,10 @@ std::vector<double> levelThresholds(int levels, double postMetres,
                                     const terrain::HeightLattice& lattice,
                                     const std::optional<double>& errorMetres);
 
+/// What is to be said of such an error where `lattice` cannot keep it; nothing where it can.
+std::vector<std::string> notesOnError(const terrain::HeightLattice& lattice,
+                                      const std::optional<double>& errorMetres);
+
 /// With empty records of all tiles and pages.
 terrain::EytIndex emptyIndex(const terrain::ElevationModel& model,
                              const terrain::HeightLattice& lattice, const std::string& crsWkt,

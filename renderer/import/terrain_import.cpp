@@ -194,7 +194,10 @@ private:
                              parts_, *texels_, scratch_, control_, writer));
         }
         ASSIGN_OR_RETURN(const std::uint64_t sizeBytes, writer.commit(index));
-        return reportOf(index, postMetres, sizeBytes);
+        TerrainImportReport report = reportOf(index, postMetres, sizeBytes);
+        const std::vector<std::string> notes = notesOnError(lattice, options_.errorMetres);
+        report.notes.insert(report.notes.end(), notes.begin(), notes.end());
+        return report;
     }
 
     static constexpr int kImportVersion = 4;  ///< raise it when scratch or journal change

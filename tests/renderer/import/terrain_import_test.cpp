@@ -102,6 +102,20 @@ TEST(TerrainImport, SaysWhatHeightsThatAreNoneDoToTheOthers) {
     EXPECT_THAT(notes(), testing::ElementsAre(testing::HasSubstr("steps of 131072 m")));
 }
 
+TEST(TerrainImport, SaysWhatItCannotKeepOfWhatWasAsked) {
+    const TemporaryFolder folder;
+    const terrain::HeightGrid grid = synthesizeTerrain(40, 1);  // 30 m apart: steps of 1/64 m
+    const auto notes = [&](const TerrainImportOptions& options) {
+        GridHeightSource posts(grid);
+        const auto report =
+            importTerrain(posts, {"grid", "", 0}, folder.path("t.eyt"), options, {});
+        return report.ok() ? report->notes : std::vector{report.status().ToString()};
+    };
+    EXPECT_THAT(notes({.errorMetres = 0.012}), testing::IsEmpty());
+    EXPECT_THAT(notes({.errorMetres = 0.005}),
+                testing::ElementsAre(testing::HasSubstr("off by 0.01172 m, not by 0.005 m")));
+}
+
 /// GDAL keeps the threads that it warps with: an import that warps must leave no more than one that
 /// does not.
 TEST(TerrainImport, WarpsWithNoMoreThreadsThanItMay) {
