@@ -65,6 +65,10 @@ absl::StatusOr<import::TerrainImportOptions> importOptions(const TerrainOptions&
     return result;
 }
 
+void printNotes(const TerrainOptions& options, const std::vector<std::string>& notes) {
+    for (const std::string& note : notes) fmt::print(stderr, "{}: {}\n", options.title(), note);
+}
+
 absl::Status importTerrain(const TerrainOptions& options) {
     StopSignal stop;
     RETURN_IF_ERROR(checkEnding(options, ".eyt"));
@@ -92,13 +96,13 @@ absl::Status importTerrain(const TerrainOptions& options) {
                                        .number("finest", made->finestErrorMetres));
         if (made->imagery)
             json.object("imagery", imageryJson(*made->imagery));
-        fmt::print("{}\n", json.number("seconds", watch.seconds()).str());
+        fmt::print("{}\n",
+                   json.texts("notes", made->notes).number("seconds", watch.seconds()).str());
         return absl::OkStatus();
     }
     if (options.quiet)
         return absl::OkStatus();
-    for (const std::string& note : made->notes)
-        fmt::print(stderr, "{}: {}\n", options.title(), note);
+    printNotes(options, made->notes);
     fmt::print(stderr, "{}: {} x {} samples, {} levels, {:.1f} MB, {:.2f} s\n", options.out,
                made->columns, made->rows, made->levels, static_cast<double>(made->sizeBytes) / 1e6,
                watch.seconds());
@@ -128,12 +132,14 @@ absl::Status importShard(const TerrainOptions& options) {
                                .count("shards", shard.count)
                                .count("samples", made->posts)
                                .count("bytes", made->sizeBytes)
+                               .texts("notes", made->notes)
                                .number("seconds", watch.seconds())
                                .str());
         return absl::OkStatus();
     }
     if (options.quiet)
         return absl::OkStatus();
+    printNotes(options, made->notes);
     if (made->wasThere)
         fmt::print(stderr, "{}: is there already\n", made->part);
     else

@@ -201,7 +201,13 @@ absl::StatusOr<TerrainShardReport> importTerrainShard(HeightSource& posts,
                          openImagery(options.imagery, posts.frame(), source.crsWkt, control));
     }
     RETURN_IF_ERROR(makeFolder(partsFolder(out)));
-    return ShardJob(posts, imagery.texels.get(), source, out, shard, options, control).run();
+    ASSIGN_OR_RETURN(
+        TerrainShardReport report,
+        ShardJob(posts, imagery.texels.get(), source, out, shard, options, control).run());
+    const std::vector<std::string> findings = posts.findings();
+    report.notes.insert(report.notes.begin(), findings.begin(), findings.end());
+    report.notes.insert(report.notes.end(), imagery.notes.begin(), imagery.notes.end());
+    return report;
 }
 
 absl::StatusOr<TerrainShardReport> importTerrainShard(const std::vector<std::string>& dems,
@@ -217,9 +223,7 @@ absl::StatusOr<TerrainShardReport> importTerrainShard(const std::vector<std::str
     ASSIGN_OR_RETURN(TerrainShardReport report,
                      importTerrainShard(*source.posts, {name, source.crsWkt, source.hash}, out,
                                         shard, options, control));
-    report.notes = std::move(source.notes);
-    const std::vector<std::string> findings = source.posts->findings();
-    report.notes.insert(report.notes.end(), findings.begin(), findings.end());
+    report.notes.insert(report.notes.begin(), source.notes.begin(), source.notes.end());
     return report;
 }
 

@@ -19,8 +19,8 @@ struct TerrainShardReport {
     std::uint64_t pages = 0;
     std::uint64_t textures = 0;
     std::uint64_t sizeBytes = 0;
-    bool wasThere = false;  ///< it was made, and is whole, already
-    std::vector<std::string> notes = {};
+    bool wasThere = false;                ///< it was made, and is whole, already
+    std::vector<std::string> notes = {};  ///< what was assumed or changed, for people
 };
 
 /// Does one share of an import into `out`, most of its work: reads its part of the posts, measures

@@ -70,6 +70,7 @@ TEST_F(TerrainShardProcesses, SayWhatTheyMade) {
     ASSERT_EQ(made.exit, (test::Exit{0, 0})) << made.errors;
     EXPECT_NE(made.output.find("\"shard\": 1"), std::string::npos) << made.output;
     EXPECT_NE(made.output.find("shard-1-of-2"), std::string::npos) << made.output;
+    EXPECT_NE(made.output.find("\"notes\": []"), std::string::npos) << made.output;
     const test::Outcome again = test::eyrie(importInto("dem.eyt", {"--shard", "1/2"}));
     EXPECT_NE(again.errors.find("is there already"), std::string::npos) << again.errors;
 }

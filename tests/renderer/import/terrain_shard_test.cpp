@@ -174,6 +174,8 @@ TEST_F(TerrainShards, MakeTheSameBytesOfWarpedMosaicsWithImagery) {
         ASSERT_TRUE(report.ok()) << report.status();
         EXPECT_GT(report->posts, 0U);
         EXPECT_GT(report->textures, 1U);
+        EXPECT_THAT(report->notes, testing::IsSupersetOf({HasSubstr("coarse.tif resampled"),
+                                                          HasSubstr("imagery of")}));
     }
     TerrainImportOptions merging = how;
     merging.mergesParts = true;
