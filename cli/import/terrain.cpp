@@ -177,7 +177,8 @@ void addImportTerrain(CLI::App& parent, Run& run) {
         ->check(CLI::Range(1e-6, 1e6));
     command
         ->add_option("--memory", options->memory,
-                     "About as much is used, whatever the size; the rest goes to a scratch file")
+                     "About as much is used; the rest goes to a scratch file. Beyond some billion "
+                     "posts it takes a byte for ten of them at least")
         ->type_name("BYTES")
         ->capture_default_str();
     command

@@ -13,6 +13,8 @@
 namespace eyrie::import {
 namespace {
 
+constexpr std::uint64_t kLeastScratch = std::uint64_t{4} << 20;
+
 fabric::Mat4 objectFromLattice(const terrain::GridFrame& frame,
                                const terrain::HeightLattice& lattice) {
     fabric::Mat4 m(1.0);
@@ -70,6 +72,17 @@ std::vector<std::string> notesOnError(const terrain::HeightLattice& lattice,
                     finest, *errorMetres, lattice.stepMetres)};
 }
 
+std::vector<std::string> notesOnMemory(const terrain::GridFrame& frame, bool hasImagery,
+                                       std::uint64_t memoryBytes) {
+    const std::uint64_t taken = residentBytes(frame, hasImagery) + kLeastScratch;
+    if (taken <= memoryBytes)
+        return {};
+    return {
+        fmt::format("takes about {} MB of memory, not {} MB: what is known of the tiles of "
+                    "{} x {} posts does not go to the scratch file",
+                    taken >> 20, memoryBytes >> 20, frame.columns, frame.rows)};
+}
+
 terrain::EytIndex emptyIndex(const terrain::ElevationModel& model,
                              const terrain::HeightLattice& lattice, const std::string& crsWkt,
                              std::uint64_t sourceHash) {
@@ -93,9 +106,8 @@ std::uint32_t texturesOf(const ImagerySource* imagery) {
 
 std::uint64_t scratchBytes(const terrain::GridFrame& frame, bool hasImagery,
                            std::uint64_t memoryBytes) {
-    constexpr std::uint64_t kLeast = std::uint64_t{4} << 20;
     const std::uint64_t resident = residentBytes(frame, hasImagery);
-    return std::max(kLeast, memoryBytes > resident ? memoryBytes - resident : 0);
+    return std::max(kLeastScratch, memoryBytes > resident ? memoryBytes - resident : 0);
 }
 
 std::string scratchPath(const std::string& out, const std::string& folder) {

@@ -24,6 +24,10 @@ std::vector<double> levelThresholds(int levels, double postMetres,
 std::vector<std::string> notesOnError(const terrain::HeightLattice& lattice,
                                       const std::optional<double>& errorMetres);
 
+/// What is to be said where an import takes more memory than it was allowed.
+std::vector<std::string> notesOnMemory(const terrain::GridFrame& frame, bool hasImagery,
+                                       std::uint64_t memoryBytes);
+
 /// With empty records of all tiles and pages.
 terrain::EytIndex emptyIndex(const terrain::ElevationModel& model,
                              const terrain::HeightLattice& lattice, const std::string& crsWkt,
@@ -32,7 +36,8 @@ terrain::EytIndex emptyIndex(const terrain::ElevationModel& model,
 /// Texture tiles of level 0 that imagery has; 0 of null.
 std::uint32_t texturesOf(const ImagerySource* imagery);
 
-/// Bytes of a scratch's memory, so that the whole process takes about `memoryBytes`.
+/// Bytes of a scratch's memory, so that the whole process takes about `memoryBytes`, or as little
+/// more as it can.
 std::uint64_t scratchBytes(const terrain::GridFrame& frame, bool hasImagery,
                            std::uint64_t memoryBytes);
 

@@ -195,8 +195,10 @@ private:
         }
         ASSIGN_OR_RETURN(const std::uint64_t sizeBytes, writer.commit(index));
         TerrainImportReport report = reportOf(index, postMetres, sizeBytes);
-        const std::vector<std::string> notes = notesOnError(lattice, options_.errorMetres);
-        report.notes.insert(report.notes.end(), notes.begin(), notes.end());
+        for (const auto& notes :
+             {notesOnError(lattice, options_.errorMetres),
+              notesOnMemory(model_.frame, !options_.imagery.empty(), options_.memoryBytes)})
+            report.notes.insert(report.notes.end(), notes.begin(), notes.end());
         return report;
     }
 

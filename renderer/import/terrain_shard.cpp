@@ -90,7 +90,7 @@ private:
                 plan_.texturesOf(shard_.index).size(),
                 sizeBytes,
                 wasThere,
-                {}};
+                notesOnMemory(model_.frame, imagery_ != nullptr, options_.memoryBytes)};
     }
 
     absl::Status read() {

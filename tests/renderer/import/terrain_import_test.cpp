@@ -114,6 +114,9 @@ TEST(TerrainImport, SaysWhatItCannotKeepOfWhatWasAsked) {
     EXPECT_THAT(notes({.errorMetres = 0.012}), testing::IsEmpty());
     EXPECT_THAT(notes({.errorMetres = 0.005}),
                 testing::ElementsAre(testing::HasSubstr("off by 0.01172 m, not by 0.005 m")));
+    EXPECT_THAT(notes({.memoryBytes = kLeastImportMemory}), testing::IsEmpty());
+    EXPECT_THAT(notes({.memoryBytes = std::uint64_t{100} << 20}),
+                testing::ElementsAre(testing::HasSubstr("about 164 MB of memory, not 100 MB")));
 }
 
 /// GDAL keeps the threads that it warps with: an import that warps must leave no more than one that
