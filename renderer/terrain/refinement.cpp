@@ -4,10 +4,10 @@
 namespace eyrie::terrain {
 
 void Refinement::split(const TileId& tile) {
-    std::uint8_t& flag = isSplit_[quadtree_->tileIndex(tile)];
-    if (flag != 0)
+    const std::size_t bit = bitOf(tile);
+    if (isSplit_[bit])
         return;
-    flag = 1;
+    isSplit_[bit] = true;
     split_[static_cast<std::size_t>(tile.level)].push_back(tile);
 }
 
@@ -46,7 +46,7 @@ void Refinement::coarsen(const std::function<bool(const TileId&)>& isDrawable) {
 /// children, and its parent when the tile cannot stand for itself.
 void Refinement::unite(const TileId& tile, const std::function<bool(const TileId&)>& isDrawable,
                        std::vector<TileId>& pending) {
-    isSplit_[quadtree_->tileIndex(tile)] = 0;
+    isSplit_[bitOf(tile)] = false;
     forEachChild(tile, [&](const TileId& child) {
         pending.push_back(child);
         for (int edge = 0; edge < kEdges; ++edge)

@@ -18,11 +18,13 @@ class Refinement {
 public:
     explicit Refinement(const Quadtree& quadtree)
         : quadtree_(&quadtree),
-          isSplit_(quadtree.tileCount()),
+          finestTiles_(static_cast<std::size_t>(quadtree.tilesX(0)) *
+                       static_cast<std::size_t>(quadtree.tilesY(0))),
+          isSplit_(quadtree.tileCount() - finestTiles_),
           split_(static_cast<std::size_t>(quadtree.levels())) {}
 
     const Quadtree& quadtree() const { return *quadtree_; }
-    bool isSplit(const TileId& tile) const { return isSplit_[quadtree_->tileIndex(tile)] != 0; }
+    bool isSplit(const TileId& tile) const { return tile.level > 0 && isSplit_[bitOf(tile)]; }
     /// Precondition: `tile` is above level 0.
     void split(const TileId& tile);
 
@@ -63,8 +65,15 @@ private:
     void unite(const TileId& tile, const std::function<bool(const TileId&)>& isDrawable,
                std::vector<TileId>& pending);
 
+    std::size_t bitOf(const TileId& tile) const {
+        return quadtree_->tileIndex(tile) - finestTiles_;
+    }
+
     const Quadtree* quadtree_;
-    std::vector<std::uint8_t> isSplit_;       // by tile index
+    std::size_t finestTiles_;
+    /// By tile index from level 1 on. A view makes and copies several of these: of the largest grid
+    /// a bit a tile is 0.7 MB, where a byte for each, those of level 0 too, was 22.
+    std::vector<bool> isSplit_;
     std::vector<std::vector<TileId>> split_;  // by level; may name tiles that are whole again
 };
 

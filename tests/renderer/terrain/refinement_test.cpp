@@ -4,6 +4,7 @@
 #include <set>
 
 #include <gtest/gtest.h>
+#include <malloc.h>
 
 #include "tests/renderer/terrain/hard_grids.h"
 
@@ -69,6 +70,19 @@ private:
     const Quadtree& quadtree_;
     std::vector<int> levels_;
 };
+
+/// A view makes and copies several. Sanitizers' heaps tell nothing, and pass.
+TEST(Refinement, OfTheLargestGridTakesLessThanAMegabyte) {
+    const auto bytes = [] {
+        const struct mallinfo2 heap = mallinfo2();
+        return heap.uordblks + heap.hblkhd;
+    };
+    const Quadtree quadtree(1U << 17, 1U << 17);
+    const std::size_t before = bytes();
+    const Refinement refinement(quadtree);
+    EXPECT_LT(bytes() - before, std::size_t{1} << 20);
+    EXPECT_FALSE(refinement.isSplit(quadtree.top()));
+}
 
 class CoarseningLaws : public testing::TestWithParam<std::uint64_t> {
 protected:
