@@ -9,6 +9,7 @@
 #include "cli/commands.h"
 #include "cli/configuration_file.h"
 #include "cli/image_files.h"
+#include "coordinator/compound/plan_check.h"
 #include "coordinator/config/configuration_message.h"
 #include "coordinator/config/eqc_writer.h"
 #include "fabric/status.h"
@@ -43,6 +44,8 @@ absl::Status checkFile(const Options& options) {
     ASSIGN_OR_RETURN(checked.configuration, readConfiguration(options.file, checked.findings));
     if (!checked.findings.hasErrors())
         checked.resolved = config::resolve(checked.configuration, checked.findings);
+    if (!checked.findings.hasErrors())
+        compound::checkPlans(checked.configuration, checked.findings);
     if (!checked.findings.hasErrors() && options.renderers > 0)
         checked.started =
             check::startedWith(checked.configuration, static_cast<std::size_t>(options.renderers));

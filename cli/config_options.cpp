@@ -8,6 +8,7 @@
 
 #include "cli/compound_names.h"
 #include "cli/configuration_file.h"
+#include "coordinator/compound/plan_check.h"
 #include "coordinator/config/findings.h"
 #include "coordinator/config/one_channel.h"
 #include "coordinator/frame/active_configuration.h"
@@ -103,12 +104,17 @@ absl::StatusOr<std::optional<config::Configuration>> configurationOf(const Confi
                      readConfiguration(options.file, findings));
     if (!findings.hasErrors())
         config::resolve(configuration, findings);
+    if (!findings.hasErrors())
+        compound::checkPlans(configuration, findings);
     if (findings.hasErrors() || !quiet)
         fmt::print(stderr, "{}", config::describe(findings, options.file));
     if (findings.hasErrors())
         return absl::InvalidArgumentError(
             fmt::format("--config: {} has {} error{}; `eyrie check` explains it", options.file,
                         findings.errors(), findings.errors() == 1 ? "" : "s"));
+    if (configuration.canvases.empty())
+        return absl::InvalidArgumentError(
+            fmt::format("--config: {} has no canvas, so it shows nothing", options.file));
     RETURN_IF_ERROR(showLayout(options, configuration));
     if (options.oneChannel)
         configuration = config::oneChannel(configuration);

@@ -4,19 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
 namespace eyrie::compound {
 namespace {
 
 using fabric::Regridding;
-
-absl::Status noWay(const config::Destination& destination) {
-    return absl::InvalidArgumentError(fmt::format(
-        "an input frame for the picture of channel \"{}\" has pixels that are not among those of "
-        "the compound that takes it; take it where its pixel, subpixel or zoom is split",
-        destination.name));
-}
 
 /// Both views as they lie in their pictures.
 FrameMapping toScale(const fabric::PixelViewport& from, const fabric::PixelViewport& to,
@@ -104,9 +95,9 @@ FrameMapping unplaced(const OutputFrame& frame, const WorkingBuffer& source,
 
 }  // namespace
 
-absl::StatusOr<FrameMapping> mappingOf(const config::ResolvedConfiguration& resolved,
-                                       const WorkList& list, const Input& input,
-                                       std::size_t framebuffer) {
+std::optional<FrameMapping> mappingOf(const config::ResolvedConfiguration& resolved,
+                                      const WorkList& list, const Input& input,
+                                      std::size_t framebuffer) {
     const OutputFrame& frame = list.frames[input.frame];
     const WorkingBuffer& source = list.framebuffers[frame.framebuffer];
     const WorkingBuffer& target = list.framebuffers[framebuffer];
@@ -116,11 +107,11 @@ absl::StatusOr<FrameMapping> mappingOf(const config::ResolvedConfiguration& reso
     const bool isShared = source.destination == target.destination;
     if (isShared) {
         if (way.size() < begun.size() || !std::equal(begun.begin(), begun.end(), way.begin()))
-            return noWay(shown);
+            return std::nullopt;
         way.erase(way.begin(), way.begin() + static_cast<std::ptrdiff_t>(begun.size()));
     } else if (!begun.empty() || shown.panorama.view.isEmpty() ||
                resolved.destinations[source.destination].panorama.view.isEmpty()) {
-        return noWay(shown);
+        return std::nullopt;
     }
     if (!input.placing)
         return unplaced(frame, source, target, resolved, std::move(way));

@@ -5,8 +5,6 @@
 #include <optional>
 #include <vector>
 
-#include <absl/status/statusor.h>
-
 #include "coordinator/compound/work.h"
 
 namespace eyrie::compound {
@@ -37,9 +35,9 @@ struct FrameMapping {
 /// destinations, such as those of a monitor: what both show of a view, to scale. From there an
 /// input with a placing is moved, so that the picture it is a part of begins at the placing's, and
 /// gets as many pixels for each of its own as that says.
-/// InvalidArgument where no steps lead there.
-absl::StatusOr<FrameMapping> mappingOf(const config::ResolvedConfiguration& resolved,
-                                       const WorkList& list, const Input& input,
-                                       std::size_t framebuffer);
+/// Nothing where no steps lead there.
+std::optional<FrameMapping> mappingOf(const config::ResolvedConfiguration& resolved,
+                                      const WorkList& list, const Input& input,
+                                      std::size_t framebuffer);
 
 }  // namespace eyrie::compound

@@ -12,35 +12,37 @@
 #include "coordinator/compound/steps.h"
 #include "coordinator/compound/work.h"
 #include "coordinator/config/destinations.h"
-#include "fabric/status.h"
 
 namespace eyrie::compound {
 namespace {
 
-absl::Status checkSize(const char* what, const std::optional<config::PixelSize>& size) {
+void checkSize(const char* what, const std::optional<config::PixelSize>& size,
+               const config::Place& place, Refusals& refusals) {
     constexpr std::int32_t kMost = 1 << 18;  // of canvases; what is drawn at once is less
-    if (!size ||
-        (size->width >= 1 && size->height >= 1 && size->width <= kMost && size->height <= kMost))
-        return absl::OkStatus();
-    return absl::InvalidArgumentError(fmt::format("{} of {}x{} pixels; 1 to {} a side are possible",
-                                                  what, size->width, size->height, kMost));
+    if (size &&
+        (size->width < 1 || size->height < 1 || size->width > kMost || size->height > kMost))
+        refusals.tooLarge.error(
+            place, fmt::format("{} of {}x{} pixels; 1 to {} a side are possible", what, size->width,
+                               size->height, kMost));
 }
 
-absl::Status checkOutput(const config::Configuration& configuration, const Output& output) {
+void checkOutput(const config::Configuration& configuration, const Output& output,
+                 Refusals& refusals) {
+    config::Findings& findings = refusals.impossible;
     if (configuration.canvases.empty())
-        return absl::InvalidArgumentError(
+        return findings.error(
+            {},
             "the configuration has no canvas, so it shows nothing; give it one, with a segment and "
             "a layout of a view");
     if (output.canvas >= configuration.canvases.size())
-        return absl::InvalidArgumentError(
-            fmt::format("there is no canvas {}: the configuration has {}", output.canvas,
-                        configuration.canvases.size()));
+        return findings.error({}, fmt::format("there is no canvas {}: the configuration has {}",
+                                              output.canvas, configuration.canvases.size()));
     const config::Canvas& canvas = configuration.canvases[output.canvas];
     if (output.segment && *output.segment >= canvas.segments.size())
-        return absl::InvalidArgumentError(fmt::format("there is no segment {}: canvas {} has {}",
-                                                      *output.segment, output.canvas,
-                                                      canvas.segments.size()));
-    return checkSize("a picture", output.size);
+        return findings.error(
+            canvas.place, fmt::format("there is no segment {}: canvas {} has {}", *output.segment,
+                                      output.canvas, canvas.segments.size()));
+    checkSize("a picture", output.size, canvas.place, refusals);
 }
 
 config::ShownCanvas& entry(config::Display& display, std::size_t canvas) {
@@ -80,19 +82,27 @@ void showEyesOfCompounds(config::ResolvedConfiguration& resolved) {
         }
 }
 
-absl::StatusOr<config::ResolvedConfiguration> resolved(const config::Configuration& configuration,
-                                                       const config::Display& display) {
-    for (const config::ShownCanvas& canvas : display.canvases) {
-        RETURN_IF_ERROR(checkSize("a canvas", canvas.size));
+/// Nothing, and why, where sizes or what is written make no sense.
+std::optional<config::ResolvedConfiguration> resolved(const config::Configuration& configuration,
+                                                      const config::Display& display,
+                                                      Refusals& refusals) {
+    for (std::size_t i = 0; i < display.canvases.size(); ++i) {
+        const config::ShownCanvas& canvas = display.canvases[i];
+        const config::Place place =
+            i < configuration.canvases.size() ? configuration.canvases[i].place : config::Place{};
+        checkSize("a canvas", canvas.size, place, refusals);
         for (const auto& segment : canvas.segments)
-            RETURN_IF_ERROR(checkSize("a segment", segment));
+            checkSize("a segment", segment, place, refusals);
     }
+    if (refusals.tooLarge.hasErrors())
+        return std::nullopt;
     config::Findings findings;
     config::ResolvedConfiguration resolved = config::resolve(configuration, display, findings);
     for (const config::Finding& finding : findings.all())
         if (finding.kind == config::Finding::Kind::Error)
-            return absl::InvalidArgumentError(
-                fmt::format("the configuration has an error: {}", finding.message));
+            refusals.impossible.error(finding.place, finding.message);
+    if (refusals.impossible.hasErrors())
+        return std::nullopt;
     showEyesOfCompounds(resolved);
     return resolved;
 }
@@ -114,46 +124,58 @@ std::vector<Pass> passesFor(const config::Configuration& configuration,
 }
 
 /// A segment of one eye has nothing for the other.
-absl::Status checkEye(const config::ResolvedConfiguration& resolved, const Output& output) {
+void checkEye(const config::ResolvedConfiguration& resolved, const Output& output,
+              Refusals& refusals) {
     bool showsAnything = false;
     for (const config::Destination& each : resolved.destinations) {
         if (!isPartOf(each, output))
             continue;
         if (!output.eye || passFor(each, *output.eye))
-            return absl::OkStatus();
+            return;
         showsAnything = true;
     }
     if (!showsAnything)
-        return absl::OkStatus();
+        return;
     const char* const eye = *output.eye == Eye::Left    ? "left"
                             : *output.eye == Eye::Right ? "right"
                                                         : "middle";
-    return absl::InvalidArgumentError(fmt::format(
-        "nothing of what is asked for of canvas {} is shown to the {} eye", output.canvas, eye));
+    refusals.impossible.error(
+        {}, fmt::format("nothing of what is asked for of canvas {} is shown to the {} eye",
+                        output.canvas, eye));
+}
+
+bool hasAny(const Refusals& refusals) {
+    return refusals.impossible.hasErrors() || refusals.tooLarge.hasErrors();
 }
 
 }  // namespace
 
-absl::StatusOr<Plan> makePlan(const config::Configuration& configuration,
-                              const PlanRequest& asked) {
-    RETURN_IF_ERROR(checkShares(configuration));
-    for (const Output& output : asked.outputs) RETURN_IF_ERROR(checkOutput(configuration, output));
+std::optional<Plan> makePlan(const config::Configuration& configuration, const PlanRequest& asked,
+                             Refusals& refusals) {
+    checkShares(configuration, refusals.impossible);
+    for (const Output& output : asked.outputs) checkOutput(configuration, output, refusals);
+    if (hasAny(refusals))
+        return std::nullopt;
     PlanRequest request = asked;
     request.display = displayOf(configuration, asked);
-    ASSIGN_OR_RETURN(const config::ResolvedConfiguration shown,
-                     resolved(configuration, request.display));
-    for (const Output& output : request.outputs) RETURN_IF_ERROR(checkEye(shown, output));
-    WorkList list;
+    const std::optional<config::ResolvedConfiguration> resolvedNow =
+        resolved(configuration, request.display, refusals);
+    if (!resolvedNow)
+        return std::nullopt;
+    const config::ResolvedConfiguration& shown = *resolvedNow;
+    for (const Output& output : request.outputs) checkEye(shown, output, refusals);
+    WorkList list(refusals);
     for (const Pass& pass : passesFor(configuration, shown, request))
-        RETURN_IF_ERROR(addWork(configuration, shown, request, pass, list));
+        addWork(configuration, shown, request, pass, list);
     Plan plan;
     for (std::size_t i = 0; i < request.outputs.size(); ++i)
         for (Picture& picture : picturesOf(configuration, shown, request.outputs[i], i, list)) {
             picture.seen = seenAreas(picture, list, request.fovYDegrees);
             plan.pictures.push_back(std::move(picture));
         }
-    ASSIGN_OR_RETURN(const std::vector<Work> works, inOrder(list));
-    ASSIGN_OR_RETURN(plan.steps, stepsOf(shown, works, list));
+    plan.steps = stepsOf(shown, inOrder(shown, list), list);
+    if (hasAny(refusals))
+        return std::nullopt;
     plan.frames = list.frames.size();
     plan.draws = std::move(list.draws);
     plan.queues = std::move(list.queues);
@@ -161,6 +183,20 @@ absl::StatusOr<Plan> makePlan(const config::Configuration& configuration,
         plan.framebuffers.push_back(each.framebuffer);
     keepWhatIsNeeded(plan);
     return plan;
+}
+
+absl::StatusOr<Plan> makePlan(const config::Configuration& configuration,
+                              const PlanRequest& request) {
+    Refusals refusals;
+    if (std::optional<Plan> plan = makePlan(configuration, request, refusals))
+        return *std::move(plan);
+    if (!refusals.impossible.hasErrors())
+        return absl::InvalidArgumentError(refusals.tooLarge.all().front().message);
+    const config::Finding& first = refusals.impossible.all().front();
+    const std::string place = describe(first.place);
+    return absl::InvalidArgumentError(
+        place.empty() ? first.message
+                      : fmt::format("the configuration, at {}: {}", place, first.message));
 }
 
 }  // namespace eyrie::compound

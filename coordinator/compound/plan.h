@@ -11,6 +11,7 @@
 
 #include "coordinator/config/configuration.h"
 #include "coordinator/config/display.h"
+#include "coordinator/config/findings.h"
 #include "coordinator/config/resolved.h"
 #include "fabric/channel_task.h"
 #include "fabric/regridding.h"
@@ -169,11 +170,20 @@ struct Plan {
     std::vector<std::vector<config::ChannelIndex>> queues;
 };
 
-/// Only what the outputs need: no depth that nothing compares, nothing that nobody sees.
-///
-/// InvalidArgument: the configuration has errors, a canvas or segment is not there, a picture is
-/// larger than renderers draw, an eye that nothing of an output is shown to, frames that wait for
-/// each other.
+/// Why there is no plan: errors, each where it is in the configuration.
+struct Refusals {
+    config::Findings impossible;  ///< in any size, or asked for what is not there
+    config::Findings tooLarge;    ///< pictures that renderers draw where a smaller one is asked for
+};
+
+/// Only what the outputs need: no depth that nothing compares, nothing that nobody sees. Nothing,
+/// and all that is wrong, where the configuration has errors, a canvas or segment is not there, a
+/// picture is larger than renderers draw, nothing of an output is shown to an eye, or frames wait
+/// for each other.
+std::optional<Plan> makePlan(const config::Configuration& configuration, const PlanRequest& request,
+                             Refusals& refusals);
+
+/// InvalidArgument: the first of the refusals, with its place where the size is not to blame.
 absl::StatusOr<Plan> makePlan(const config::Configuration& configuration,
                               const PlanRequest& request);
 

@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "fabric/status.h"
-
 namespace eyrie::compound {
 namespace {
 
@@ -14,77 +12,84 @@ constexpr double kSlack = 1e-3;  // thirds are written as .3333 and .6667
 constexpr double kMostZoom = 64;
 constexpr std::int64_t kMostShares = 16384;
 
-absl::Status wrong(std::string_view what, std::string_view name, std::string_view found,
-                   std::string_view expected) {
-    return absl::InvalidArgumentError(
-        fmt::format("{} \"{}\" has {}; expected {}", what, name, found, expected));
-}
-
 bool isShare(double begin, double size) {
     return begin >= -kSlack && size >= 0 && begin + size <= 1 + kSlack;
 }
 
-absl::Status check(std::string_view what, std::string_view name, const config::Viewport& viewport,
-                   double least) {
-    if (isShare(viewport.x, viewport.width) && isShare(viewport.y, viewport.height) &&
-        viewport.width >= least && viewport.height >= least)
-        return absl::OkStatus();
-    return wrong(what, name,
-                 fmt::format("the viewport [ {} {} {} {} ]", viewport.x, viewport.y, viewport.width,
-                             viewport.height),
-                 "a part of [ 0 0 1 1 ]");
-}
-
-absl::Status checkZoom(std::string_view name, const fabric::Vec2& zoom) {
-    if (zoom.x > 0 && zoom.y > 0 && zoom.x <= kMostZoom && zoom.y <= kMostZoom)
-        return absl::OkStatus();
-    return wrong("compound", name, fmt::format("the zoom [ {} {} ]", zoom.x, zoom.y),
-                 fmt::format("numbers above 0, up to {}", kMostZoom));
+bool isZoom(const fabric::Vec2& zoom) {
+    return zoom.x > 0 && zoom.y > 0 && zoom.x <= kMostZoom && zoom.y <= kMostZoom;
 }
 
 bool isPart(std::int64_t index, std::int64_t count) {
     return index >= 0 && index < count && count <= kMostShares;
 }
 
-absl::Status check(const config::Compound& compound) {
-    const std::string& name = compound.name;
-    RETURN_IF_ERROR(check("compound", name, compound.viewport, 0));
-    RETURN_IF_ERROR(checkZoom(name, compound.zoom));
-    if (!(compound.range.begin >= 0 && compound.range.begin <= compound.range.end &&
-          compound.range.end <= 1))
-        return wrong("compound", name,
-                     fmt::format("the range [ {} {} ]", compound.range.begin, compound.range.end),
-                     "0 <= begin <= end <= 1");
-    if (!isPart(compound.pixel.x, compound.pixel.width) ||
-        !isPart(compound.pixel.y, compound.pixel.height) ||
-        !isPart(compound.subpixel.index, compound.subpixel.count))
-        return wrong("compound", name, "a pixel or subpixel share that is none",
-                     "an index below the count");
-    if (compound.period.value_or(1) < 1 || compound.phase.value_or(0) < 0)
-        return wrong("compound", name, "a period below 1 or a phase below 0",
-                     "0 <= phase < period");
-    for (const auto* const frames : {&compound.outputFrames, &compound.inputFrames})
-        for (const config::Frame& frame : *frames) {
-            RETURN_IF_ERROR(check("frame", frame.name, frame.viewport, 0));
-            RETURN_IF_ERROR(checkZoom(name, frame.zoom.value_or(fabric::Vec2(1, 1))));
-        }
-    for (const config::Compound& child : compound.children) RETURN_IF_ERROR(check(child));
-    return absl::OkStatus();
-}
+class Checker {
+public:
+    explicit Checker(config::Findings& findings) : findings_(findings) {}
+
+    template <typename T>
+    void viewport(std::string_view what, const T& of, double least) {
+        const config::Viewport& viewport = of.viewport;
+        if (isShare(viewport.x, viewport.width) && isShare(viewport.y, viewport.height) &&
+            viewport.width >= least && viewport.height >= least)
+            return;
+        wrong(what, of,
+              fmt::format("the viewport [ {} {} {} {} ]", viewport.x, viewport.y, viewport.width,
+                          viewport.height),
+              "a part of [ 0 0 1 1 ]");
+    }
+
+    void compound(const config::Compound& own) {
+        viewport("compound", own, 0);
+        zoom("compound", own, own.zoom);
+        if (!(own.range.begin >= 0 && own.range.begin <= own.range.end && own.range.end <= 1))
+            wrong("compound", own,
+                  fmt::format("the range [ {} {} ]", own.range.begin, own.range.end),
+                  "0 <= begin <= end <= 1");
+        if (!isPart(own.pixel.x, own.pixel.width) || !isPart(own.pixel.y, own.pixel.height) ||
+            !isPart(own.subpixel.index, own.subpixel.count))
+            wrong("compound", own, "a pixel or subpixel share that is none",
+                  fmt::format("an index below the count, and {} shares at most", kMostShares));
+        if (own.period.value_or(1) < 1 || own.phase.value_or(0) < 0)
+            wrong("compound", own, "a period below 1 or a phase below 0", "0 <= phase < period");
+        for (const auto* const frames : {&own.outputFrames, &own.inputFrames})
+            for (const config::Frame& frame : *frames) {
+                viewport("frame", frame, 0);
+                zoom("frame", frame, frame.zoom.value_or(fabric::Vec2(1, 1)));
+            }
+        for (const config::Compound& child : own.children) compound(child);
+    }
+
+private:
+    template <typename T>
+    void zoom(std::string_view what, const T& of, const fabric::Vec2& zoom) {
+        if (!isZoom(zoom))
+            wrong(what, of, fmt::format("the zoom [ {} {} ]", zoom.x, zoom.y),
+                  fmt::format("numbers above 0, up to {}", kMostZoom));
+    }
+
+    template <typename T>
+    void wrong(std::string_view what, const T& of, std::string_view found,
+               std::string_view expected) {
+        findings_.error(
+            of.place, fmt::format("{} \"{}\" has {}; expected {}", what, of.name, found, expected));
+    }
+
+    config::Findings& findings_;
+};
 
 }  // namespace
 
-absl::Status checkShares(const config::Configuration& configuration) {
+void checkShares(const config::Configuration& configuration, config::Findings& findings) {
     constexpr double kLeast = 1e-6;  // of a canvas; it is divided by
+    Checker checker(findings);
     for (const config::Layout& layout : configuration.layouts)
-        for (const config::View& view : layout.views)
-            RETURN_IF_ERROR(check("view", view.name, view.viewport, kLeast));
+        for (const config::View& view : layout.views) checker.viewport("view", view, kLeast);
     for (const config::Canvas& canvas : configuration.canvases)
         for (const config::Segment& segment : canvas.segments)
-            RETURN_IF_ERROR(check("segment", segment.name, segment.viewport, kLeast));
-    for (const config::Compound& compound : configuration.compounds)
-        RETURN_IF_ERROR(check(compound));
-    return absl::OkStatus();
+            checker.viewport("segment", segment, kLeast);
+    for (const config::Compound& compound : configuration.compounds) checker.compound(compound);
 }
 
 }  // namespace eyrie::compound

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <absl/status/status.h>
-
 #include "coordinator/config/configuration.h"
+#include "coordinator/config/findings.h"
 
 namespace eyrie::compound {
 
-/// Whether the numbers of a configuration that may change while it runs can be computed with.
-/// InvalidArgument, naming the compound, view or segment and the value: not finite, a rectangle or
-/// range out of [0, 1], a share of none or of itself, a zoom out of (0, 64].
-absl::Status checkShares(const config::Configuration& configuration);
+/// Adds an error for each number of a configuration that cannot be computed with, of those that may
+/// change while it runs, naming the compound, frame, view or segment and the value: not finite, a
+/// rectangle or range out of [0, 1], a share of none or of itself, a zoom out of (0, 64].
+void checkShares(const config::Configuration& configuration, config::Findings& findings);
 
 }  // namespace eyrie::compound

@@ -5,9 +5,10 @@
 #include <map>
 #include <span>
 
+#include <fmt/format.h>
+
 #include "coordinator/compound/contents.h"
 #include "coordinator/compound/frame_mapping.h"
-#include "fabric/status.h"
 
 namespace eyrie::compound {
 namespace {
@@ -22,7 +23,7 @@ public:
           contents_(list.framebuffers.size()),
           frames_(list.frames.size()) {}
 
-    absl::Status add(const Work& work) {
+    void add(const Work& work) {
         switch (work.kind) {
             case Work::Kind::Clear:
                 clear(work);
@@ -34,9 +35,9 @@ public:
                 readBack(work);
                 break;
             case Work::Kind::Assemble:
-                return assemble(work);
+                assemble(work);
+                break;
         }
-        return absl::OkStatus();
     }
 
     std::vector<Step> take() { return std::move(steps_); }
@@ -81,7 +82,7 @@ private:
         return content.range.begin <= met->begin ? Combine::NearerOrEqual : Combine::Nearer;
     }
 
-    absl::Status assemble(const Work& work) {
+    void assemble(const Work& work) {
         std::map<std::int64_t, std::vector<Input>> samples;
         std::vector<Input> direct;
         const config::SubPixelShare& own = latticeOf(work.framebuffer).subpixel;
@@ -93,29 +94,28 @@ private:
             else
                 samples[other.index].push_back(input);
         }
-        RETURN_IF_ERROR(assembleAll(direct, work.framebuffer));
-        return samples.empty() ? absl::OkStatus() : average(work, samples);
+        assembleAll(direct, work, work.framebuffer);
+        if (!samples.empty())
+            average(work, samples);
     }
 
     /// Every sample is a picture by itself; the framebuffer gets their mean.
-    absl::Status average(const Work& work,
-                         const std::map<std::int64_t, std::vector<Input>>& samples) {
+    void average(const Work& work, const std::map<std::int64_t, std::vector<Input>>& samples) {
         Average mean{{}, work.framebuffer, {}};
         for (const auto& [index, inputs] : samples) {
             const std::size_t sample = list_.framebuffers.size();
             list_.framebuffers.push_back(list_.framebuffers[work.framebuffer]);
             list_.framebuffers.back().framebuffer.isDestination = false;
             contents_.emplace_back();
-            RETURN_IF_ERROR(assembleAll(inputs, sample));
+            assembleAll(inputs, work, sample);
             for (const Content& each : contents_[sample].all())
                 mean.part = fabric::enclosing(mean.part, each.area);
             mean.samples.push_back(sample);
         }
         if (mean.part.isEmpty())
-            return absl::OkStatus();
+            return;
         contents_[work.framebuffer].add({mean.part, {}, {}});
         steps_.emplace_back(std::move(mean));
-        return absl::OkStatus();
     }
 
     const Lattice& latticeOf(std::size_t framebuffer) const {
@@ -131,16 +131,20 @@ private:
         std::optional<PixelViewport> within = {};  ///< as Assemble::within
     };
 
-    absl::Status assembleAll(const std::vector<Input>& inputs, std::size_t framebuffer) {
+    void assembleAll(const std::vector<Input>& inputs, const Work& work, std::size_t framebuffer) {
         std::vector<Incoming> incoming;
         for (const Input& input : inputs) {
             const std::size_t index = input.frame;
             const OutputFrame& frame = list_.frames[index];
-            ASSIGN_OR_RETURN(FrameMapping mapping, mappingOf(resolved_, list_, input, framebuffer));
-            Content content{intersection(mapping.covered(frame.part),
+            std::optional<FrameMapping> mapping = mappingOf(resolved_, list_, input, framebuffer);
+            if (!mapping) {
+                refuse(input, work);
+                continue;
+            }
+            Content content{intersection(mapping->covered(frame.part),
                                          list_.framebuffers[framebuffer].framebuffer.area),
-                            frames_[index].range().value_or(fabric::Range{}), mapping.everyNth(),
-                            isFull(index, framebuffer, mapping)};
+                            frames_[index].range().value_or(fabric::Range{}), mapping->everyNth(),
+                            isFull(index, framebuffer, *mapping)};
             std::optional<PixelViewport> within;
             if (input.placing) {
                 within = input.placing->part;
@@ -148,11 +152,20 @@ private:
             }
             const auto met = contents_[framebuffer].met(content);
             const bool isBelow = met && content.range.begin < met->begin;
-            incoming.push_back({index, std::move(mapping), content, isBelow, within});
+            incoming.push_back({index, *std::move(mapping), content, isBelow, within});
         }
         sortByRange(incoming);
         for (const Incoming& each : incoming) assembleOne(each, framebuffer);
-        return absl::OkStatus();
+    }
+
+    void refuse(const Input& input, const Work& work) {
+        const config::ResolvedCompound& taker = resolved_.compounds[work.compound];
+        list_.refusals.impossible.error(
+            input.written != nullptr ? input.written->place : taker.place(),
+            fmt::format("an input frame for the picture of channel \"{}\" has pixels that are not "
+                        "among those of the compound that takes it; take it where its pixel, "
+                        "subpixel or zoom is split",
+                        resolved_.destinations[*taker.destination].name));
     }
 
     /// Whether a frame with other pixels fills what it is brought to.
@@ -225,10 +238,10 @@ private:
 
 }  // namespace
 
-absl::StatusOr<std::vector<Step>> stepsOf(const config::ResolvedConfiguration& resolved,
-                                          const std::vector<Work>& works, WorkList& list) {
+std::vector<Step> stepsOf(const config::ResolvedConfiguration& resolved,
+                          const std::vector<Work>& works, WorkList& list) {
     StepMaker maker(resolved, list);
-    for (const Work& work : works) RETURN_IF_ERROR(maker.add(work));
+    for (const Work& work : works) maker.add(work);
     return maker.take();
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <string_view>
+#include <unordered_map>
 
 #include <fmt/format.h>
 
@@ -12,7 +13,6 @@
 #include "coordinator/compound/queues.h"
 #include "coordinator/compound/seen.h"
 #include "coordinator/config/pixels.h"
-#include "fabric/status.h"
 
 namespace eyrie::compound {
 namespace {
@@ -84,9 +84,9 @@ public:
           list_(list) {}
 
     /// From the root at `first`; returns where the next tree begins.
-    absl::StatusOr<std::size_t> walk(std::size_t first) {
+    std::size_t walk(std::size_t first) {
         findQueues(first);
-        ASSIGN_OR_RETURN(const std::size_t next, visit(first));
+        const std::size_t next = visit(first);
         for (const Waiting& waiting : waiting_) match(waiting);
         return next;
     }
@@ -100,10 +100,10 @@ private:
         std::size_t firstWork = 0;               ///< of what it and its children do
     };
 
+    /// Frames of one name, of the first compound that makes any.
     struct Named {
-        std::string_view name;
-        std::size_t compound;
-        std::size_t frame;
+        std::size_t compound = 0;
+        std::vector<std::size_t> frames;
     };
 
     struct Waiting {
@@ -111,7 +111,7 @@ private:
         std::size_t compound;
     };
 
-    absl::StatusOr<std::size_t> visit(std::size_t index) {
+    std::size_t visit(std::size_t index) {
         const ResolvedCompound& own = resolved_.compounds[index];
         std::size_t next = index + 1;
         if (!isActive(own)) {
@@ -120,10 +120,8 @@ private:
         }
         const bool isLeaf = !isBelow(next, own);
         levels_.push_back({own.channel, framebufferOf(own), {}, list_.works.size()});
-        RETURN_IF_ERROR(begin(index, isLeaf));
-        while (isBelow(next, own)) {
-            ASSIGN_OR_RETURN(next, visit(next));
-        }
+        begin(index, isLeaf);
+        while (isBelow(next, own)) next = visit(next);
         end(index);
         return next;
     }
@@ -188,16 +186,15 @@ private:
                    : own.area;
     }
 
-    absl::Status begin(std::size_t index, bool isLeaf) {
+    void begin(std::size_t index, bool isLeaf) {
         const ResolvedCompound& own = resolved_.compounds[index];
         const std::optional<std::size_t> framebuffer = levels_.back().framebuffer;
         if (!framebuffer)
-            return absl::OkStatus();
+            return;
         if (own.tasks.clear && (isClearAsked(own) || !isBegunAbove(*framebuffer)))
-            add(Work::Kind::Clear, *framebuffer, areaOnFramebuffer(own));
+            add(Work::Kind::Clear, index, *framebuffer, areaOnFramebuffer(own));
         if (own.tasks.draw && isLeaf)
-            return addDraw(index, *framebuffer);
-        return absl::OkStatus();
+            addDraw(index, *framebuffer);
     }
 
     static bool isClearAsked(const ResolvedCompound& own) {
@@ -212,7 +209,7 @@ private:
             [&](const Level& each) { return each.framebuffer == framebuffer; });
     }
 
-    absl::Status addDraw(std::size_t index, std::size_t framebuffer) {
+    void addDraw(std::size_t index, std::size_t framebuffer) {
         const ResolvedCompound& own = resolved_.compounds[index];
         const config::Destination& destination = resolved_.destinations[*own.destination];
         const Surroundings surroundings = surroundingsOf(destination, own.wall);
@@ -220,7 +217,7 @@ private:
             seen(configuration_, request_, destination, surroundings, pass_.sight,
                  focusRatio(configuration_, request_.display, resolved_, destination));
         if (!what.isBeforeTheWall)
-            return absl::OkStatus();
+            return;
         fabric::ChannelTask task;
         task.frameNumber = request_.frameNumber;
         task.viewWidth = surroundings.whole.width;
@@ -232,36 +229,36 @@ private:
         if (lattice != Lattice{})
             task.raster = rasterAfter(surroundings.whole, lattice.regriddings,
                                       jitter(lattice.subpixel.index, lattice.subpixel.count));
-        RETURN_IF_ERROR(checkSize(destination, task.viewWidth, task.viewHeight));
-        if (task.raster)
-            RETURN_IF_ERROR(checkSize(destination, task.raster->width, task.raster->height));
+        if (!isDrawable(own, task.viewWidth, task.viewHeight) ||
+            (task.raster && !isDrawable(own, task.raster->width, task.raster->height)))
+            return;
         const QueueShare* const share = shareOf(index);
-        if (share == nullptr) {
-            addTask({*own.channel, index, task, framebuffer});
-            return absl::OkStatus();
-        }
+        if (share == nullptr)
+            return addTask({*own.channel, index, task, framebuffer});
         for (const equalizer::Tile& tile : share->tiles) {
             task.pixelViewport = tile.pixelViewport;
             task.range = tile.range;
             addTask({*own.channel, index, task, framebuffer, share->queue});
         }
-        return absl::OkStatus();
     }
 
     void addTask(const PlannedDraw& draw) {
-        add(Work::Kind::Draw, draw.framebuffer, draw.task.pixelViewport).draw = list_.draws.size();
+        add(Work::Kind::Draw, draw.compound, draw.framebuffer, draw.task.pixelViewport).draw =
+            list_.draws.size();
         list_.draws.push_back(draw);
     }
 
-    static absl::Status checkSize(const config::Destination& destination, std::int32_t width,
-                                  std::int32_t height) {
+    bool isDrawable(const ResolvedCompound& own, std::int32_t width, std::int32_t height) {
         if (width >= 1 && height >= 1 && width <= fabric::kMaxViewPixels &&
             height <= fabric::kMaxViewPixels)
-            return absl::OkStatus();
-        return absl::InvalidArgumentError(fmt::format(
-            "the picture that channel \"{}\" is a part of is {}x{} pixels; renderers draw up to "
-            "{} a side: ask for a smaller one",
-            destination.name, width, height, fabric::kMaxViewPixels));
+            return true;
+        const config::Destination& destination = resolved_.destinations[*own.destination];
+        list_.refusals.tooLarge.error(
+            own.place(),
+            fmt::format("the picture that channel \"{}\" is a part of is {}x{} pixels; renderers "
+                        "draw up to {} a side: ask for a smaller one",
+                        destination.name, width, height, fabric::kMaxViewPixels));
+        return false;
     }
 
     void end(std::size_t index) {
@@ -272,7 +269,7 @@ private:
             return;
         const PixelViewport area = areaOnFramebuffer(own);
         if (own.tasks.assemble || !level.given.empty()) {
-            add(Work::Kind::Assemble, *level.framebuffer, area).inputs = level.given;
+            add(Work::Kind::Assemble, index, *level.framebuffer, area).inputs = level.given;
             if (own.tasks.assemble)
                 waiting_.push_back({list_.works.size() - 1, index});
         }
@@ -280,7 +277,7 @@ private:
             for (const config::ResolvedFrame& frame : own.outputFrames)
                 addFrames(index, frame, *level.framebuffer, area);
         if (own.outputFrames.empty())
-            give(own, level, area);
+            give(index, level, area);
     }
 
     /// One or, of one that takes tiles, one for each: others' tiles are between them.
@@ -301,20 +298,24 @@ private:
             fabric::intersection(drawn, config::part(area, frame.frame->viewport));
         if (part.isEmpty())
             return;
-        named_.push_back({frame.name, index, list_.frames.size()});
+        Named& named = named_.try_emplace(frame.name, Named{index, {}}).first->second;
+        if (named.compound == index)
+            named.frames.push_back(list_.frames.size());
         const bool hasDepth =
             frame.frame->buffers.value_or(resolved_.compounds[index].buffers).depth;
-        addReadBack({framebuffer, part, zoomOf(frame.frame->zoom, part), hasDepth});
+        addReadBack(index, {framebuffer, part, zoomOf(frame.frame->zoom, part), hasDepth});
     }
 
-    void addReadBack(const OutputFrame& frame) {
-        add(Work::Kind::ReadBack, frame.framebuffer, frame.part).frame = list_.frames.size();
+    void addReadBack(std::size_t compound, const OutputFrame& frame) {
+        add(Work::Kind::ReadBack, compound, frame.framebuffer, frame.part).frame =
+            list_.frames.size();
         list_.frames.push_back(frame);
     }
 
     /// What a compound makes in other pixels on the channel of one that it is part of is brought
     /// into that one's, as if there were a frame.
-    void give(const ResolvedCompound& own, const Level& done, const PixelViewport& area) {
+    void give(std::size_t index, const Level& done, const PixelViewport& area) {
+        const ResolvedCompound& own = resolved_.compounds[index];
         const std::size_t framebuffer = *done.framebuffer;
         if (area.isEmpty() || !isUsedSince(done.firstWork, framebuffer))
             return;
@@ -324,7 +325,7 @@ private:
                 continue;
             if (*level->framebuffer == framebuffer)
                 return;
-            addReadBack({framebuffer, area, std::nullopt, own.buffers.depth});
+            addReadBack(index, {framebuffer, area, std::nullopt, own.buffers.depth});
             level->given.push_back({frame});
             return;
         }
@@ -334,8 +335,9 @@ private:
         const std::size_t picture = list_.pictureOf(resolved_, *own.destination, pass_);
         if (picture == framebuffer)
             return;
-        addReadBack({framebuffer, area, std::nullopt, own.buffers.depth});
-        add(Work::Kind::Assemble, picture, destination.partOfPanorama).inputs = {Input{frame}};
+        addReadBack(index, {framebuffer, area, std::nullopt, own.buffers.depth});
+        add(Work::Kind::Assemble, index, picture, destination.partOfPanorama).inputs = {
+            Input{frame}};
     }
 
     bool isUsedSince(std::size_t work, std::size_t framebuffer) const {
@@ -347,26 +349,23 @@ private:
             });
     }
 
-    Work& add(Work::Kind kind, std::size_t framebuffer, const PixelViewport& part) {
-        list_.works.push_back({kind, framebuffer, part, 0, 0, {}});
+    Work& add(Work::Kind kind, std::size_t compound, std::size_t framebuffer,
+              const PixelViewport& part) {
+        list_.works.push_back({kind, framebuffer, part, compound, 0, 0, {}});
         return list_.works.back();
     }
 
-    /// Of several frames with one name, those of the first compound.
     void match(const Waiting& waiting) {
         for (const config::ResolvedFrame& frame :
              resolved_.compounds[waiting.compound].inputFrames) {
-            const auto found =
-                std::ranges::find(named_, std::string_view(frame.name), &Named::name);
-            if (found == named_.end())
+            const auto named = named_.find(frame.name);
+            if (named == named_.end())
                 continue;
-            for (auto each = found; each != named_.end(); ++each) {
-                if (each->name != found->name || each->compound != found->compound)
-                    continue;
+            Work& work = list_.works[waiting.work];
+            for (const std::size_t each : named->second.frames) {
                 if (frame.frame->buffers && !frame.frame->buffers->depth)
-                    list_.frames[each->frame].hasDepth = false;
-                list_.works[waiting.work].inputs.push_back(
-                    {each->frame, placingOf(*frame.frame, list_.works[waiting.work].part)});
+                    list_.frames[each].hasDepth = false;
+                work.inputs.push_back({each, placingOf(*frame.frame, work.part), frame.frame});
             }
         }
     }
@@ -377,7 +376,7 @@ private:
     const Pass pass_;
     WorkList& list_;
     std::vector<Level> levels_;
-    std::vector<Named> named_;
+    std::unordered_map<std::string_view, Named> named_;
     std::vector<Waiting> waiting_;
     std::map<std::size_t, QueueShare> shares_;  ///< by compound
 };
@@ -385,15 +384,16 @@ private:
 }  // namespace
 
 std::size_t WorkList::find(const WorkingBuffer& wanted) {
-    for (std::size_t i = 0; i < framebuffers.size(); ++i) {
-        const WorkingBuffer& each = framebuffers[i];
-        if (each.destination == wanted.destination && each.pass == wanted.pass &&
-            each.framebuffer.channel == wanted.framebuffer.channel &&
-            each.lattice == wanted.lattice)
+    const config::ChannelIndex& channel = wanted.framebuffer.channel;
+    std::vector<std::size_t>& own =
+        found_[{wanted.destination, wanted.pass.compounds, wanted.pass.sight, channel.node,
+                channel.pipe, channel.window, channel.channel}];
+    for (const std::size_t i : own)
+        if (framebuffers[i].lattice == wanted.lattice)
             return i;
-    }
+    own.push_back(framebuffers.size());
     framebuffers.push_back(wanted);
-    return framebuffers.size() - 1;
+    return own.back();
 }
 
 std::size_t WorkList::pictureOf(const config::ResolvedConfiguration& resolved,
@@ -402,13 +402,11 @@ std::size_t WorkList::pictureOf(const config::ResolvedConfiguration& resolved,
     return find({destination, pass, {}, {shown.channel, true, pass.sight, shown.partOfPanorama}});
 }
 
-absl::Status addWork(const config::Configuration& configuration,
-                     const config::ResolvedConfiguration& resolved, const PlanRequest& request,
-                     const Pass& pass, WorkList& list) {
-    for (std::size_t next = 0; next < resolved.compounds.size();) {
-        ASSIGN_OR_RETURN(next, TreeWalk(configuration, resolved, request, pass, list).walk(next));
-    }
-    return absl::OkStatus();
+void addWork(const config::Configuration& configuration,
+             const config::ResolvedConfiguration& resolved, const PlanRequest& request,
+             const Pass& pass, WorkList& list) {
+    for (std::size_t next = 0; next < resolved.compounds.size();)
+        next = TreeWalk(configuration, resolved, request, pass, list).walk(next);
 }
 
 }  // namespace eyrie::compound

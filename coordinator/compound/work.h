@@ -2,10 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <optional>
+#include <tuple>
 #include <vector>
-
-#include <absl/status/statusor.h>
 
 #include "coordinator/compound/plan.h"
 
@@ -58,6 +58,7 @@ struct Placing {
 struct Input {
     std::size_t frame = 0;  ///< in WorkList::frames
     std::optional<Placing> placing = {};
+    const config::Frame* written = nullptr;  ///< null: given by a child, without a name
 };
 
 /// One task of a compound.
@@ -66,31 +67,41 @@ struct Work {
     Kind kind = Kind::Clear;
     std::size_t framebuffer = 0;
     fabric::PixelViewport part;
+    std::size_t compound = 0;   ///< in ResolvedConfiguration::compounds
     std::size_t draw = 0;       ///< Draw: in WorkList::draws
     std::size_t frame = 0;      ///< ReadBack: in WorkList::frames
     std::vector<Input> inputs;  ///< Assemble
 };
 
 struct WorkList {
+    explicit WorkList(Refusals& whatCannotBe) : refusals(whatCannotBe) {}
+
     std::vector<WorkingBuffer> framebuffers;
     std::vector<OutputFrame> frames;
     std::vector<PlannedDraw> draws;
     std::vector<Work> works;
     std::vector<std::vector<config::ChannelIndex>> queues;
+    Refusals& refusals;
 
     /// The framebuffer in which a destination's picture comes to be; made where there is none yet.
     std::size_t pictureOf(const config::ResolvedConfiguration& resolved, std::size_t destination,
                           const Pass& pass);
     std::size_t find(const WorkingBuffer& wanted);
+
+private:
+    /// But for the lattice, of which one destination's channel has few.
+    using Owner =
+        std::tuple<std::size_t, Eye, Eye, std::size_t, std::size_t, std::size_t, std::size_t>;
+    std::map<Owner, std::vector<std::size_t>> found_;
 };
 
-/// Adds what one pass does. InvalidArgument: a picture larger than renderers draw.
-absl::Status addWork(const config::Configuration& configuration,
-                     const config::ResolvedConfiguration& resolved, const PlanRequest& request,
-                     const Pass& pass, WorkList& list);
+/// Adds what one pass does. Refuses pictures larger than renderers draw.
+void addWork(const config::Configuration& configuration,
+             const config::ResolvedConfiguration& resolved, const PlanRequest& request,
+             const Pass& pass, WorkList& list);
 
 /// The same works, each after those that it depends on: those before it on its framebuffer, and
-/// those whose frames it takes. InvalidArgument where some wait for each other.
-absl::StatusOr<std::vector<Work>> inOrder(const WorkList& list);
+/// those whose frames it takes. Refuses, and leaves out, those that wait for each other.
+std::vector<Work> inOrder(const config::ResolvedConfiguration& resolved, WorkList& list);
 
 }  // namespace eyrie::compound

@@ -294,8 +294,7 @@ private:
                 return;
             own.sights.push_back({eye, sightThrough(seen, place)});
             if (!own.sights.back().sight)
-                findings_.error(own.compound != nullptr ? own.compound->place : Place{},
-                                "an eye is not before the wall that it looks through");
+                findings_.error(own.place(), "an eye is not before the wall that it looks through");
         };
         add(own.eyes.cyclop, Eye::Cyclop, places.cyclop);
         add(own.eyes.left, Eye::Left, places.left);

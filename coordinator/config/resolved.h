@@ -86,6 +86,8 @@ struct ResolvedCompound {
     std::vector<ResolvedFrame> outputFrames;
     std::vector<ResolvedFrame> inputFrames;
     std::vector<EyeSight> sights;  ///< where it draws and there is a wall
+
+    Place place() const { return compound != nullptr ? compound->place : Place{}; }
 };
 
 /// Refers to its configuration.

@@ -306,6 +306,32 @@ TEST(Plan, FramesThatWaitForEachOtherAreRefused) {
         canvasOf(1280, 480));
     EXPECT_EQ(plan.status().code(), absl::StatusCode::kInvalidArgument);
     EXPECT_THAT(std::string(plan.status().message()), HasSubstr("wait for each other"));
+    EXPECT_THAT(std::string(plan.status().message()),
+                testing::StartsWith("the configuration, at 1:"));
+}
+
+TEST(Plan, OfFramesThatWaitForEachOtherEachRingIsFoundAndNothingElse) {
+    Refusals refusals;
+    const config::Configuration configuration = powerWall(
+        "compound { channel ( segment 0 view 0 )\n"
+        "compound { name \"one\" channel \"c\" inputframe { name \"3\" } outputframe { name \"1\" "
+        "} }\n"
+        "compound { name \"two\" channel \"d\" inputframe { name \"1\" } outputframe { name \"2\" "
+        "} }\n"
+        "compound { channel \"b\" inputframe { name \"2\" } outputframe { name \"3\" } }\n"
+        "compound { channel \"a\" inputframe { name \"3\" } outputframe { name \"late\" } }\n"
+        "inputframe { name \"late\" } }\n"
+        "compound { channel ( segment 1 view 0 )\n"
+        "compound { channel \"c\" inputframe { name \"own\" } outputframe { name \"own\" } }\n"
+        "inputframe { name \"own\" } }");
+    EXPECT_FALSE(makePlan(configuration, canvasOf(1280, 480), refusals));
+    EXPECT_EQ(describe(refusals.impossible, "f"),
+              "f:2:1: error: compounds wait for each other's frames: this one, \"two\" at 3:1, one "
+              "at 4:1; one of two that exchange frames has to read back before it assembles, in a "
+              "compound of its own\n"
+              "f:8:1: error: the compound takes a frame that it makes itself, once it has taken "
+              "it\n");
+    EXPECT_FALSE(refusals.tooLarge.hasErrors());
 }
 
 TEST(Plan, NamesWhatIsNotThere) {

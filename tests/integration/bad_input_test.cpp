@@ -273,6 +273,21 @@ TEST_F(BadInput, ConfigurationsThatCannotBeAreRefusedByPlaceAndNotConverted) {
     expectRefused({"check", text, "--convert", bad("out.json")}, {"wrong.eqc:2:2", "latency"});
     expectRefused({"check", json, "--convert", bad("out.eqc")},
                   {"wrong.json:nodes[0].pipes[0].port: error"});
+    const std::string ring = folder_.write(
+        "ring.eqc",
+        "config { appNode { pipe { window { channel { name \"a\" } channel { name \"b\" } channel "
+        "{ "
+        "name \"c\" } } } } layout { view {} } canvas { layout 0 segment { channel \"a\" } }\n"
+        "compound { channel ( segment 0 view 0 )\n"
+        "compound { channel \"b\" inputframe { name \"x\" } outputframe { name \"y\" } }\n"
+        "compound { channel \"c\" inputframe { name \"y\" } outputframe { name \"x\" } }\n"
+        "inputframe { name \"y\" } } }");
+    expectRefused({"check", ring, "--convert", bad("ring.json")},
+                  {"ring.eqc:3:1: error: compounds wait for each other's frames", "at 4:1"});
+    expectRefused({"serve", good("ball.eym"), "--listen", "127.0.0.1:0", "--config", ring},
+                  {"ring.eqc:3:1: error:", "--config", "1 error"});
+    expectRenderRefused({"--config", ring}, {"ring.eqc:3:1: error:", "--config"});
+    expectRenderRefused({"--config", fine}, {"--config", "fine.eqc has no canvas"});
     expectRefused({"check", fine, "--convert", bad("out.txt")}, {"--convert", ".eqc or .json"});
     expectRefused({"check", fine, "--convert", bad("none/out.json")}, {"none/out.json"});
     ASSERT_EQ(mkfifo(bad("pipe").c_str(), 0600), 0);

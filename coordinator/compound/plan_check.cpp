@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/compound/plan_check.h"
+
+#include <algorithm>
+#include <numeric>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "coordinator/compound/plan.h"
+
+namespace eyrie::compound {
+namespace {
+
+/// After how many frames compounds do the same again.
+std::int64_t framesOf(const std::vector<config::Compound>& compounds, std::int64_t before) {
+    for (const config::Compound& each : compounds) {
+        if (before >= kMostFramesTried)
+            break;
+        const std::int64_t period =
+            std::clamp<std::int64_t>(each.period.value_or(1), 1, kMostFramesTried);
+        before = framesOf(each.children, std::lcm(before, period));
+    }
+    return std::min(before, kMostFramesTried);
+}
+
+class Checker {
+public:
+    Checker(const config::Configuration& configuration, config::Findings& findings)
+        : configuration_(configuration),
+          findings_(findings),
+          frames_(framesOf(configuration.compounds, 1)) {}
+
+    void check() {
+        PlanRequest request;
+        request.display.canvases.resize(configuration_.canvases.size());
+        for (std::size_t i = 0; i < configuration_.canvases.size(); ++i)
+            request.outputs.emplace_back().canvas = i;
+        plan(request);
+        for (std::size_t i = 0; i < configuration_.canvases.size(); ++i)
+            for (std::size_t layout = 1; layout < configuration_.canvases[i].layouts.size();
+                 ++layout) {
+                request.outputs.assign(1, {});
+                request.outputs.front().canvas = i;
+                request.display.canvases[i].layout = layout;
+                plan(request);
+                request.display.canvases[i].layout = 0;
+            }
+    }
+
+private:
+    void plan(PlanRequest& request) {
+        for (std::int64_t frame = 0; frame < frames_; ++frame) {
+            request.frameNumber = static_cast<std::uint64_t>(frame);
+            Refusals refusals;
+            static_cast<void>(makePlan(configuration_, request, refusals));
+            for (const config::Finding& each : refusals.impossible.all())
+                if (isNew(each))
+                    findings_.error(each.place, each.message);
+            for (const config::Finding& each : refusals.tooLarge.all())
+                if (isNew(each))
+                    findings_.warning(each.place, each.message);
+        }
+    }
+
+    bool isNew(const config::Finding& finding) {
+        return said_.insert({describe(finding.place), finding.message}).second;
+    }
+
+    const config::Configuration& configuration_;
+    config::Findings& findings_;
+    std::int64_t frames_;
+    std::set<std::pair<std::string, std::string>> said_;
+};
+
+}  // namespace
+
+void checkPlans(const config::Configuration& configuration, config::Findings& findings) {
+    if (configuration.canvases.empty())
+        return findings.warning({},
+                                "there is no canvas, so nothing is shown; give it one, with a "
+                                "segment and a layout of a view");
+    Checker(configuration, findings).check();
+}
+
+}  // namespace eyrie::compound

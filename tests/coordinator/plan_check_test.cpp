@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/compound/plan_check.h"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "coordinator/config/eqc_reader.h"
+#include "coordinator/config/resolved.h"
+
+namespace eyrie::compound {
+namespace {
+
+using testing::HasSubstr;
+
+/// All that is said of a configuration that is read and resolved without errors.
+std::string foundIn(const std::string& text) {
+    config::Findings findings;
+    const config::Configuration configuration = config::readEqc(text, findings);
+    config::resolve(configuration, findings);
+    EXPECT_FALSE(findings.hasErrors()) << describe(findings, "f");
+    config::Findings found;
+    checkPlans(configuration, found);
+    return describe(found, "f");
+}
+
+/// Channels "a" to "c" of so many pixels, two views on "a", the second on its canvas's second
+/// layout, and these compounds.
+std::string withCompounds(std::string_view compounds, std::string_view pixels = "640 480",
+                          std::string_view mode = "MONO") {
+    std::string channels;
+    for (const char name : {'a', 'b', 'c'})
+        channels += fmt::format("window {{ viewport [ 0 0 {} ] channel {{ name \"{}\" }} }} ",
+                                pixels, name);
+    return fmt::format(
+        "config {{ appNode {{ pipe {{ {}}} }} layout {{ view {{ name \"v\" mode {} }} }} layout {{ "
+        "view {{ name \"w\" }} }} canvas {{ layout 0 layout 1 segment {{ channel \"a\" }} }}\n{} "
+        "}}",
+        channels, mode, compounds);
+}
+
+constexpr const char* kRing =
+    "compound { channel \"b\" inputframe { name \"x\" } outputframe { name \"y\" } }\n"
+    "compound { channel \"c\" inputframe { name \"y\" } outputframe { name \"x\" } }\n"
+    "inputframe { name \"x\" } }";
+
+/// A tree of which two compounds wait for each other.
+std::string ringIn(std::string_view view) {
+    return fmt::format("compound {{ channel ( segment 0 view \"{}\" )\n{}", view, kRing);
+}
+
+constexpr const char* kRingFound =
+    "f:3:1: error: compounds wait for each other's frames: this one, one at 4:1; one of two that "
+    "exchange frames has to read back before it assembles, in a compound of its own\n";
+
+TEST(PlanCheck, FindsFramesThatWaitForEachOtherWithLineAndColumn) {
+    EXPECT_EQ(foundIn(withCompounds(ringIn("v"))), kRingFound);
+}
+
+TEST(PlanCheck, FindsThemInLayoutsThatAreNotShownAtFirst) {
+    EXPECT_EQ(foundIn(withCompounds(ringIn("w"))), kRingFound);
+}
+
+TEST(PlanCheck, FindsThemInFramesAfterTheFirst) {
+    EXPECT_EQ(foundIn(withCompounds(
+                  fmt::format("compound {{ channel ( segment 0 view \"v\" ) compound {{ period 2 "
+                              "phase 0 }} compound {{ period 2 phase 1\n{} }}",
+                              kRing))),
+              kRingFound);
+}
+
+TEST(PlanCheck, SaysOfTwoEyesOnceWhatIsWrongForBoth) {
+    EXPECT_EQ(foundIn(withCompounds(ringIn("v"), "640 480", "STEREO")), kRingFound);
+}
+
+TEST(PlanCheck, FindsFramesInPixelsThatTheirTakerHasNot) {
+    EXPECT_EQ(
+        foundIn(
+            withCompounds("compound { channel ( segment 0 view \"v\" )\n"
+                          "compound { channel \"b\" outputframe { name \"whole\" } }\n"
+                          "compound { channel \"c\" pixel [ 0 0 2 1 ] task [ ASSEMBLE READBACK ]\n"
+                          "  inputframe { name \"whole\" } outputframe { name \"half\" } }\n"
+                          "inputframe { name \"half\" } }")),
+        "f:5:3: error: an input frame for the picture of channel \"a\" has pixels that are not "
+        "among those of the compound that takes it; take it where its pixel, subpixel or "
+        "zoom is split\n");
+}
+
+TEST(PlanCheck, FindsZoomsThatNothingDraws) {
+    EXPECT_EQ(
+        foundIn(withCompounds("compound { channel ( segment 0 view \"v\" )\n"
+                              "compound { name \"large\" zoom [ 1 65 ] } }")),
+        "f:3:1: error: compound \"large\" has the zoom [ 1 65 ]; expected numbers above 0, up "
+        "to 64\n");
+}
+
+TEST(PlanCheck, WarnsOfPicturesThatAreDrawnSmallerOnly) {
+    const std::string zoomed =
+        "compound { channel ( segment 0 view \"v\" )\ncompound { zoom [ 4 4 ] } }";
+    EXPECT_EQ(foundIn(withCompounds(zoomed)), "");
+    EXPECT_THAT(foundIn(withCompounds(zoomed, "6000 400")),
+                testing::AllOf(testing::StartsWith("f:3:1: warning: "), HasSubstr("24000x1600")));
+}
+
+TEST(PlanCheck, WarnsOfAConfigurationThatShowsNothing) {
+    EXPECT_THAT(foundIn("config { node { pipe {} } }"),
+                HasSubstr("f: warning: there is no canvas, so nothing is shown"));
+}
+
+TEST(PlanCheck, HasNothingToSayOfEqualizersFiles) {
+    std::size_t files = 0;
+    for (const auto& entry :
+         std::filesystem::directory_iterator(EYRIE_SOURCE_DIR "/../shared/data/eqc")) {
+        if (entry.path().extension() != ".eqc")
+            continue;
+        ++files;
+        std::ifstream in(entry.path(), std::ios::binary);
+        EXPECT_EQ(foundIn({std::istreambuf_iterator<char>(in), {}}), "") << entry.path();
+    }
+    EXPECT_EQ(files, 51U);
+}
+
+}  // namespace
+}  // namespace eyrie::compound
