@@ -2,43 +2,20 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <random>
 
-#include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "coordinator/config/eqc_reader.h"
 #include "coordinator/config/resolved.h"
 #include "coordinator/config/upgrade.h"
+#include "eqc_samples.h"
 
 namespace eyrie::config {
 namespace {
 
 using testing::HasSubstr;
-
-constexpr const char* kFolder = EYRIE_SOURCE_DIR "/../shared/data/eqc";
-
-std::string contents(const std::filesystem::path& path) {
-    std::ifstream in(path, std::ios::binary);
-    EXPECT_TRUE(in) << path << " is missing";
-    return {std::istreambuf_iterator<char>(in), {}};
-}
-
-struct Read {
-    explicit Read(const std::string& text)
-        : configuration(readEqc(text, findings)), resolved(resolve(configuration, findings)) {}
-
-    Findings findings;
-    Configuration configuration;
-    ResolvedConfiguration resolved;
-};
-
-Read sample(const std::string& name) {
-    return Read(contents(std::filesystem::path(kFolder) / name));
-}
 
 /// A configuration with one channel of 640 x 480, one view, and these compounds.
 std::string withCompounds(const std::string& compounds) {
@@ -64,11 +41,9 @@ TEST(EqcConformance, EveryFileOfEqualizersIsReadAndResolvedInFull) {
     std::size_t layouts = 0;
     std::size_t roots = 0;
     std::size_t compounds = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(kFolder)) {
-        if (entry.path().extension() != ".eqc")
-            continue;
-        const Read read(contents(entry.path()));
-        EXPECT_FALSE(read.findings.hasErrors()) << describe(read.findings, entry.path().string());
+    for (const std::string& name : samples()) {
+        const Read read = sample(name);
+        EXPECT_FALSE(read.findings.hasErrors()) << describe(read.findings, name);
         ++files;
         nodes += read.configuration.nodes.size();
         layouts += read.configuration.layouts.size();
@@ -86,7 +61,7 @@ TEST(EqcConformance, EveryFileOfEqualizersIsReadAndResolvedInFull) {
 }
 
 TEST(EqcConformance, CutOffAnywhereNoFileCrashesTheReader) {
-    const std::string whole = contents(std::filesystem::path(kFolder) / "4-window.all.eqc");
+    const std::string whole = contents(std::filesystem::path(kSamples) / "4-window.all.eqc");
     for (std::size_t length = 0; length < whole.size(); length += 97) {
         const Read read(whole.substr(0, length));
         EXPECT_TRUE(read.findings.hasErrors()) << length;
@@ -94,7 +69,7 @@ TEST(EqcConformance, CutOffAnywhereNoFileCrashesTheReader) {
 }
 
 TEST(EqcConformance, WithBytesChangedNoFileCrashesTheReader) {
-    const std::string whole = contents(std::filesystem::path(kFolder) / "test.eqc");
+    const std::string whole = contents(std::filesystem::path(kSamples) / "test.eqc");
     std::mt19937 random(7);
     for (int i = 0; i < 500; ++i) {
         std::string text = whole;
@@ -438,81 +413,6 @@ TEST(Resolve, ClearsAChannelOnceAndDropsTasksWithoutFrames) {
     EXPECT_EQ(compounds[1].tasks,
               (Tasks{false, true, false, false}));  // the destination's own part
     EXPECT_EQ(compounds[2].tasks, (Tasks{true, true, false, true}));
-}
-
-/// The frustum that the notes on Equalizer's mathematics give, by its own formulas: the wall's
-/// axes, the eye in them, and corners scaled to the plane at distance 1.
-fabric::Frustum byTheBook(const Wall& wall, const fabric::Vec3& eye) {
-    const fabric::Vec3 u = glm::normalize(wall.bottomRight - wall.bottomLeft);
-    const fabric::Vec3 v = glm::normalize(wall.topLeft - wall.bottomLeft);
-    const fabric::Vec3 w = glm::cross(u, v);
-    const fabric::Vec3 c = (wall.bottomRight + wall.topLeft) * .5;
-    const fabric::Vec3 e(glm::dot(u, eye - c), glm::dot(v, eye - c), glm::dot(w, eye - c));
-    const double width = glm::distance(wall.bottomRight, wall.bottomLeft);
-    const double height = glm::distance(wall.topLeft, wall.bottomLeft);
-    return {(-width / 2 - e.x) / e.z, (width / 2 - e.x) / e.z, (-height / 2 - e.y) / e.z,
-            (height / 2 - e.y) / e.z};
-}
-
-void expectNear(const fabric::Frustum& a, const fabric::Frustum& b) {
-    EXPECT_NEAR(a.left, b.left, 1e-12);
-    EXPECT_NEAR(a.right, b.right, 1e-12);
-    EXPECT_NEAR(a.bottom, b.bottom, 1e-12);
-    EXPECT_NEAR(a.top, b.top, 1e-12);
-}
-
-TEST(Screen, OfACaveIsWhatTheFormulasSay) {
-    const Read read = sample("3-channel.cave.eqc");
-    ASSERT_EQ(read.resolved.compounds.size(), 3U);
-    const fabric::Vec3 eye(0, 0, 0);
-    for (const ResolvedCompound& compound : read.resolved.compounds) {
-        ASSERT_EQ(compound.sights.size(), 1U);
-        const Wall& wall = *read.resolved.destinations[*compound.destination].wall;
-        expectNear(compound.sights[0].sight->frustum, byTheBook(wall, eye));
-    }
-    // The left wall: from (-1, -1, 1) to (-1, -1, -1), seen from the middle, is 90 degrees wide.
-    expectNear(read.resolved.compounds[0].sights[0].sight->frustum, {-1, 1, -1, 1});
-}
-
-TEST(Screen, PutsEveryPointOfTheWallWhereTheEyeSeesIt) {
-    std::mt19937 random(3);
-    std::uniform_real_distribution<double> any(-2, 2);
-    for (int i = 0; i < 200; ++i) {
-        const fabric::Vec3 corner(any(random), any(random), any(random));
-        const fabric::Vec3 u = glm::normalize(fabric::Vec3(any(random), any(random), any(random)));
-        const fabric::Vec3 other(any(random), any(random), any(random));
-        const fabric::Vec3 v = glm::normalize(other - glm::dot(other, u) * u);
-        const Wall wall{corner, corner + 3.0 * u, corner + 2.0 * v, false};
-        const fabric::Vec3 eye = corner + any(random) * u + any(random) * v +
-                                 (.1 + std::abs(any(random))) * glm::cross(u, v);
-        const auto sight = sightThrough(wall, eye);
-        ASSERT_TRUE(sight.has_value());
-        expectNear(sight->frustum, byTheBook(wall, eye));
-        const fabric::Vec4 seen = fabric::viewFromCamera(*sight) * fabric::Vec4(wall.topLeft, 1);
-        EXPECT_NEAR(seen.x / -seen.z, sight->frustum.left, 1e-9);
-        EXPECT_NEAR(seen.y / -seen.z, sight->frustum.top, 1e-9);
-        EXPECT_FALSE(sightThrough(wall, eye - 10.0 * glm::cross(u, v)).has_value());
-    }
-}
-
-TEST(Screen, OfAProjectorIsBeforeItWhicheverWayItTurns) {
-    const Wall ahead = wallOf(Projection{{1, 2, 3}, 2, {90, 90}, {0, 0, 0}});
-    EXPECT_NEAR(glm::distance(ahead.bottomLeft, fabric::Vec3(-1, 0, 1)), 0, 1e-12);
-    const Wall left = wallOf(Projection{{0, 0, 0}, 1, {90, 90}, {90, 0, 0}});
-    EXPECT_NEAR(glm::distance(left.bottomLeft, fabric::Vec3(-1, -1, 1)), 0, 1e-12);
-    const Wall up = wallOf(Projection{{0, 0, 0}, 1, {90, 90}, {0, 90, 0}});
-    EXPECT_NEAR(glm::distance(up.bottomLeft, fabric::Vec3(-1, 1, -1)), 0, 1e-12);
-    const Wall rolled = wallOf(Projection{{0, 0, 0}, 1, {90, 90}, {0, 0, 90}});
-    EXPECT_NEAR(glm::distance(rolled.bottomLeft, fabric::Vec3(1, -1, -1)), 0, 1e-12);
-}
-
-TEST(Screen, ShowsEachEyeOfAStereoView) {
-    const Read read = sample("2-window.HMD.eqc");
-    ASSERT_EQ(read.resolved.destinations.size(), 2U);
-    EXPECT_EQ(read.resolved.destinations[0].eyes, (Eyes{false, true, false}));
-    EXPECT_EQ(read.resolved.destinations[1].eyes, (Eyes{false, false, true}));
-    for (const ResolvedCompound& compound : read.resolved.compounds)
-        EXPECT_EQ(compound.sights.size(), 1U);
 }
 
 }  // namespace

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/config/screen.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <gtest/gtest.h>
+
+#include "coordinator/config/resolved.h"
+#include "eqc_samples.h"
+
+namespace eyrie::config {
+namespace {
+
+/// The plane of a wall or a projection as the notes on Equalizer's mathematics give it, by its own
+/// formulas: axes, centre and size.
+struct BookPlane {
+    fabric::Vec3 u, v, w, centre;
+    double width = 0;
+    double height = 0;
+
+    explicit BookPlane(const Wall& wall)
+        : u(glm::normalize(wall.bottomRight - wall.bottomLeft)),
+          v(glm::normalize(wall.topLeft - wall.bottomLeft)),
+          w(glm::cross(u, v)),
+          centre((wall.bottomRight + wall.topLeft) * .5),
+          width(glm::distance(wall.bottomRight, wall.bottomLeft)),
+          height(glm::distance(wall.topLeft, wall.bottomLeft)) {}
+
+    /// Rows of the inverse of roll, pitch and heading, written out.
+    explicit BookPlane(const Projection& projection) {
+        const fabric::Vec3 angles = glm::radians(projection.headingPitchRollDegrees);
+        const double sinH = std::sin(angles.x), cosH = std::cos(angles.x);
+        const double sinP = std::sin(angles.y), cosP = std::cos(angles.y);
+        const double sinR = std::sin(angles.z), cosR = std::cos(angles.z);
+        u = {sinR * sinP * sinH + cosR * cosH, cosP * sinR, sinR * sinP * cosH - cosR * sinH};
+        v = {cosR * sinP * sinH - sinR * cosH, cosP * cosR, sinR * sinH + cosR * sinP * cosH};
+        w = {cosP * sinH, -sinP, cosP * cosH};
+        centre = projection.origin - projection.distance * w;
+        width = 2 * projection.distance * std::tan(glm::radians(projection.fovDegrees.x) / 2);
+        height = 2 * projection.distance * std::tan(glm::radians(projection.fovDegrees.y) / 2);
+    }
+
+    /// A point of the room against the plane's axes and centre.
+    fabric::Vec3 onPlane(const fabric::Vec3& point) const {
+        const fabric::Vec3 d = point - centre;
+        return {glm::dot(u, d), glm::dot(v, d), glm::dot(w, d)};
+    }
+};
+
+/// Of the plane's corners, scaled to distance 1 from the eye.
+fabric::Frustum byTheBook(const BookPlane& plane, const fabric::Vec3& eye) {
+    const fabric::Vec3 e = plane.onPlane(eye);
+    return {(-plane.width / 2 - e.x) / e.z, (plane.width / 2 - e.x) / e.z,
+            (-plane.height / 2 - e.y) / e.z, (plane.height / 2 - e.y) / e.z};
+}
+
+/// The part of a frustum that a viewport is.
+fabric::Frustum slice(const fabric::Frustum& whole, const Viewport& part) {
+    const double width = whole.right - whole.left;
+    const double height = whole.top - whole.bottom;
+    const double left = whole.left + width * part.x;
+    const double bottom = whole.bottom + height * part.y;
+    return {left, left + width * part.width, bottom, bottom + height * part.height};
+}
+
+void expectNear(const fabric::Frustum& a, const fabric::Frustum& b) {
+    EXPECT_NEAR(a.left, b.left, 1e-12);
+    EXPECT_NEAR(a.right, b.right, 1e-12);
+    EXPECT_NEAR(a.bottom, b.bottom, 1e-12);
+    EXPECT_NEAR(a.top, b.top, 1e-12);
+}
+
+TEST(Screen, OfACaveIsWhatTheFormulasSay) {
+    const Read read = sample("3-channel.cave.eqc");
+    ASSERT_EQ(read.resolved.compounds.size(), 3U);
+    const fabric::Vec3 eye(0, 0, 0);
+    for (const ResolvedCompound& compound : read.resolved.compounds) {
+        ASSERT_EQ(compound.sights.size(), 1U);
+        const Wall& wall = *read.resolved.destinations[*compound.destination].wall;
+        expectNear(compound.sights[0].sight->frustum, byTheBook(BookPlane(wall), eye));
+    }
+    // The left wall: from (-1, -1, 1) to (-1, -1, -1), seen from the middle, is 90 degrees wide.
+    expectNear(read.resolved.compounds[0].sights[0].sight->frustum, {-1, 1, -1, 1});
+}
+
+/// What of a configuration an eye of a destination looks through: the view's surface, else the
+/// segment's, else the canvas's; and where that lies on the canvas.
+struct LookedThrough {
+    const Surface* surface = nullptr;
+    Viewport onCanvas;
+};
+
+LookedThrough lookedThrough(const Configuration& configuration, const DestinationIndex& index) {
+    const Canvas& canvas = configuration.canvases[index.canvas];
+    const Segment& segment = canvas.segments[index.segment];
+    const View& view = configuration.layouts[index.layout].views[index.view];
+    if (!std::holds_alternative<std::monostate>(view.surface))
+        return {&view.surface, view.viewport};
+    if (!std::holds_alternative<std::monostate>(segment.surface))
+        return {&segment.surface, segment.viewport};
+    return {&canvas.surface, {}};
+}
+
+BookPlane planeOf(const Surface& surface) {
+    if (const auto* projection = std::get_if<Projection>(&surface))
+        return BookPlane(*projection);
+    return BookPlane(std::get<Wall>(surface));
+}
+
+/// Where the segment and the view of a destination meet, as a part of `whole`.
+Viewport meetingWithin(const Configuration& configuration, const DestinationIndex& index,
+                       const Viewport& whole) {
+    const Viewport& a = configuration.canvases[index.canvas].segments[index.segment].viewport;
+    const Viewport& b = configuration.layouts[index.layout].views[index.view].viewport;
+    const double left = std::max(a.x, b.x);
+    const double bottom = std::max(a.y, b.y);
+    const double right = std::min(a.x + a.width, b.x + b.width);
+    const double top = std::min(a.y + a.height, b.y + b.height);
+    return {(left - whole.x) / whole.width, (bottom - whole.y) / whole.height,
+            (right - left) / whole.width, (top - bottom) / whole.height};
+}
+
+/// A head at the origin: eyes half the eye base to the sides, unless their places are given.
+fabric::Vec3 eyeByTheBook(const Configuration& configuration, const DestinationIndex& index,
+                          EyeSight::Eye eye) {
+    double base = .05;
+    if (const Attribute* const setting = find(configuration.globals, "EQ_CONFIG_FATTR_EYE_BASE"))
+        base = std::get<double>(setting->value);
+    if (const Attribute* const setting = find(configuration.attributes, "eye_base"))
+        base = std::get<double>(setting->value);
+    const auto& at = configuration.layouts[index.layout].views[index.view].observer;
+    const Observer observer = at ? configuration.observers[*at] : Observer{};
+    base = observer.eyeBase.value_or(base);
+    switch (eye) {
+        case EyeSight::Eye::Left:
+            return observer.eyeLeft.value_or(fabric::Vec3(-base / 2, 0, 0));
+        case EyeSight::Eye::Right:
+            return observer.eyeRight.value_or(fabric::Vec3(base / 2, 0, 0));
+        case EyeSight::Eye::Cyclop:
+            break;
+    }
+    return observer.eyeCyclop.value_or(fabric::Vec3(0, 0, 0));
+}
+
+TEST(Screen, OfEveryFileOfEqualizersIsWhatTheFormulasSay) {
+    std::size_t sights = 0;
+    std::size_t ofProjections = 0;
+    for (const std::string& name : samples()) {
+        const Read read = sample(name);
+        for (const ResolvedCompound& compound : read.resolved.compounds)
+            for (const EyeSight& seen : compound.sights) {
+                const DestinationIndex& index =
+                    read.resolved.destinations[*compound.destination].index;
+                const LookedThrough through = lookedThrough(read.configuration, index);
+                const BookPlane plane =
+                    compound.wall ? BookPlane(*compound.wall) : planeOf(*through.surface);
+                const Viewport part =
+                    compound.wall ? Viewport{}
+                                  : meetingWithin(read.configuration, index, through.onCanvas);
+                const fabric::Vec3 eye = eyeByTheBook(read.configuration, index, seen.eye);
+                const fabric::Frustum whole = slice(byTheBook(plane, eye), part);
+                SCOPED_TRACE(name + ", line " + std::to_string(compound.place().line));
+                ASSERT_TRUE(seen.sight);
+                expectNear(seen.sight->frustum, slice(whole, compound.viewport));
+                for (const fabric::Vec3& point : {fabric::Vec3(1, 2, -3), fabric::Vec3(-4, 0, 1)}) {
+                    const fabric::Vec3 expected = plane.onPlane(point) - plane.onPlane(eye);
+                    const fabric::Vec4 got =
+                        fabric::viewFromCamera(*seen.sight) * fabric::Vec4(point, 1);
+                    EXPECT_NEAR(glm::distance(fabric::Vec3(got), expected), 0, 1e-12);
+                }
+                ++sights;
+                ofProjections += std::holds_alternative<Projection>(*through.surface) ? 1 : 0;
+            }
+    }
+    EXPECT_EQ(sights, 344U);
+    EXPECT_EQ(ofProjections, 12U) << "those of 3-window.curved.eqc";
+}
+
+TEST(Screen, PutsEveryPointOfTheWallWhereTheEyeSeesIt) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> any(-2, 2);
+    for (int i = 0; i < 200; ++i) {
+        const fabric::Vec3 corner(any(random), any(random), any(random));
+        const fabric::Vec3 u = glm::normalize(fabric::Vec3(any(random), any(random), any(random)));
+        const fabric::Vec3 other(any(random), any(random), any(random));
+        const fabric::Vec3 v = glm::normalize(other - glm::dot(other, u) * u);
+        const Wall wall{corner, corner + 3.0 * u, corner + 2.0 * v, false};
+        const fabric::Vec3 eye = corner + any(random) * u + any(random) * v +
+                                 (.1 + std::abs(any(random))) * glm::cross(u, v);
+        const auto sight = sightThrough(wall, eye);
+        ASSERT_TRUE(sight.has_value());
+        expectNear(sight->frustum, byTheBook(BookPlane(wall), eye));
+        const fabric::Vec4 seen = fabric::viewFromCamera(*sight) * fabric::Vec4(wall.topLeft, 1);
+        EXPECT_NEAR(seen.x / -seen.z, sight->frustum.left, 1e-9);
+        EXPECT_NEAR(seen.y / -seen.z, sight->frustum.top, 1e-9);
+        EXPECT_FALSE(sightThrough(wall, eye - 10.0 * glm::cross(u, v)).has_value());
+    }
+}
+
+TEST(Screen, OfAProjectorIsBeforeItWhicheverWayItTurns) {
+    const Wall ahead = wallOf(Projection{{1, 2, 3}, 2, {90, 90}, {0, 0, 0}});
+    EXPECT_NEAR(glm::distance(ahead.bottomLeft, fabric::Vec3(-1, 0, 1)), 0, 1e-12);
+    const Wall left = wallOf(Projection{{0, 0, 0}, 1, {90, 90}, {90, 0, 0}});
+    EXPECT_NEAR(glm::distance(left.bottomLeft, fabric::Vec3(-1, -1, 1)), 0, 1e-12);
+    const Wall up = wallOf(Projection{{0, 0, 0}, 1, {90, 90}, {0, 90, 0}});
+    EXPECT_NEAR(glm::distance(up.bottomLeft, fabric::Vec3(-1, 1, -1)), 0, 1e-12);
+    const Wall rolled = wallOf(Projection{{0, 0, 0}, 1, {90, 90}, {0, 0, 90}});
+    EXPECT_NEAR(glm::distance(rolled.bottomLeft, fabric::Vec3(1, -1, -1)), 0, 1e-12);
+}
+
+TEST(Screen, ShowsEachEyeOfAStereoView) {
+    const Read read = sample("2-window.HMD.eqc");
+    ASSERT_EQ(read.resolved.destinations.size(), 2U);
+    EXPECT_EQ(read.resolved.destinations[0].eyes, (Eyes{false, true, false}));
+    EXPECT_EQ(read.resolved.destinations[1].eyes, (Eyes{false, false, true}));
+    for (const ResolvedCompound& compound : read.resolved.compounds)
+        EXPECT_EQ(compound.sights.size(), 1U);
+}
+
+}  // namespace
+}  // namespace eyrie::config
