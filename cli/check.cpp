@@ -86,7 +86,7 @@ void addCheck(CLI::App& app, Run& run) {
                      "Say, too, what is started where so many renderers are present, and how many "
                      "are missing")
         ->check(CLI::Range(1, 1024));
-    command->add_flag("--quiet", options->quiet, "Only errors and warnings");
+    command->add_flag("--quiet", options->quiet, "Only errors, warnings and notes");
     command->footer(
         "Prints resources, destination channels, and each compound with all that it inherits: its\n"
         "tasks, its share of the picture, and what its eyes see. Errors and warnings come with "

@@ -204,11 +204,22 @@ JsonObject compoundJson(const Configuration& configuration,
 std::vector<JsonObject> findingsJson(const config::Findings& findings) {
     using Kind = config::Finding::Kind;
     std::vector<JsonObject> json;
+    const auto word = [](Kind kind) {
+        switch (kind) {
+            case Kind::Error:
+                return "error";
+            case Kind::Warning:
+                return "warning";
+            case Kind::OnScreen:
+                return "onScreenOnly";
+            case Kind::Note:
+                break;
+        }
+        return "note";
+    };
     for (const config::Finding& finding : findings.all())
         json.push_back(JsonObject()
-                           .text("kind", finding.kind == Kind::Error     ? "error"
-                                         : finding.kind == Kind::Warning ? "warning"
-                                                                         : "onScreenOnly")
+                           .text("kind", word(finding.kind))
                            .count("line", finding.place.line)
                            .count("column", finding.place.column)
                            .text("field", finding.place.field)

@@ -22,65 +22,91 @@ struct Known {
     Scope scope;
     std::string_view name;
     Type type;
-    bool isOnScreen = false;  ///< without effect where there is no screen
+    Finding::Kind kind = Finding::Kind::Note;  ///< of what is said where it has no effect
+    std::string_view why = {};                 ///< it has none; empty: it has one
+    /// Values with which all is as it is anyway, besides AUTO: numbers up to this (ON is 1 and OFF
+    /// 0), and this word.
+    std::int64_t upTo = -1;
+    std::string_view word = {};
 };
+
+constexpr Finding::Kind kOnScreen = Finding::Kind::OnScreen;
+constexpr Finding::Kind kNote = Finding::Kind::Note;
+constexpr std::string_view kNoScreen = "there is no screen";
+constexpr std::string_view kServices = "renderers are services, which are not launched from here";
+constexpr std::string_view kReplaced =
+    "whatever is set, others draw what a renderer that fails had";
+constexpr std::string_view kMeasured = "statistics are always measured";
+constexpr std::string_view kCores = "renderers run where the system puts their processes";
+constexpr std::string_view kOpenGl = "renderers draw with the core profile of OpenGL 4.5";
+constexpr std::string_view kViewport = "a window's size is its viewport's, in pixels";
+constexpr std::string_view kEightBits = "pictures have 8 bits of red, green, blue and alpha";
+constexpr std::string_view kRemoved = "Equalizer has it no more";
 
 /// Those of Equalizer's Programming Guide, with the deprecated names that files still have.
 constexpr std::array kKnown{
     Known{Scope::Config, "eye_base", Type::Real},
-    Known{Scope::Config, "robustness", Type::Setting},
-    Known{Scope::Node, "launch_command", Type::Text, true},
-    Known{Scope::Node, "launch_command_quote", Type::Character, true},
-    Known{Scope::Node, "launch_timeout", Type::Setting, true},
-    Known{Scope::Node, "thread_model", Type::Setting},
-    Known{Scope::Node, "hint_affinity", Type::Setting, true},
-    Known{Scope::Node, "hint_statistics", Type::Setting},
-    Known{Scope::Pipe, "hint_thread", Type::Setting},
-    Known{Scope::Pipe, "hint_affinity", Type::Setting, true},
-    Known{Scope::Pipe, "hint_cuda_gl_interop", Type::Setting, true},
-    Known{Scope::View, "deflect_host", Type::Text, true},
-    Known{Scope::View, "displaycluster", Type::Text, true},  // its name before
-    Known{Scope::Window, "hint_core_profile", Type::Setting},
-    Known{Scope::Window, "hint_opengl_major", Type::Setting},
-    Known{Scope::Window, "hint_opengl_minor", Type::Setting},
-    Known{Scope::Window, "hint_stereo", Type::Setting},
-    Known{Scope::Window, "hint_doublebuffer", Type::Setting, true},
-    Known{Scope::Window, "hint_decoration", Type::Setting, true},
-    Known{Scope::Window, "hint_fullscreen", Type::Setting, true},
-    Known{Scope::Window, "hint_swapsync", Type::Setting, true},
-    Known{Scope::Window, "hint_drawable", Type::Setting},
-    Known{Scope::Window, "hint_statistics", Type::Setting},
-    Known{Scope::Window, "hint_screensaver", Type::Setting, true},
-    Known{Scope::Window, "hint_grab_pointer", Type::Setting, true},
-    Known{Scope::Window, "hint_width", Type::Setting},
-    Known{Scope::Window, "hint_height", Type::Setting},
-    Known{Scope::Window, "planes_color", Type::Setting},
-    Known{Scope::Window, "planes_alpha", Type::Setting},
-    Known{Scope::Window, "planes_depth", Type::Setting},
-    Known{Scope::Window, "planes_stencil", Type::Setting},
-    Known{Scope::Window, "planes_accum", Type::Setting, true},
-    Known{Scope::Window, "planes_accum_alpha", Type::Setting, true},
-    Known{Scope::Window, "planes_samples", Type::Setting},
-    Known{Scope::Channel, "hint_statistics", Type::Setting},
-    Known{Scope::Channel, "hint_sendtoken", Type::Setting},
-    Known{Scope::Channel, "dump_image", Type::Text},
+    Known{Scope::Config, "robustness", Type::Setting, kNote, kReplaced, -1, "on"},
+    Known{Scope::Node, "launch_command", Type::Text, kNote, kServices},
+    Known{Scope::Node, "launch_command_quote", Type::Character, kNote, kServices},
+    Known{Scope::Node, "launch_timeout", Type::Setting, kNote, kServices},
+    Known{Scope::Node, "thread_model", Type::Setting, kNote,
+          "as many frames are under way at once as `latency` says, and one", -1, "async"},
+    Known{Scope::Node, "hint_affinity", Type::Setting, kNote, kCores, 0},
+    Known{Scope::Node, "hint_statistics", Type::Setting, kNote, kMeasured, -1, "on"},
+    Known{Scope::Pipe, "hint_thread", Type::Setting, kNote,
+          "each pipe is a renderer of its own, in its own process", -1, "on"},
+    Known{Scope::Pipe, "hint_affinity", Type::Setting, kNote, kCores, 0},
+    Known{Scope::Pipe, "hint_cuda_gl_interop", Type::Setting, kNote, "renderers do not use CUDA",
+          0},
+    Known{Scope::View, "deflect_host", Type::Text, kOnScreen, kNoScreen},
+    Known{Scope::View, "displaycluster", Type::Text, kOnScreen, kNoScreen},  // its name before
+    Known{Scope::Window, "hint_core_profile", Type::Setting, kNote, kOpenGl, -1, "on"},
+    Known{Scope::Window, "hint_opengl_major", Type::Setting, kNote, kOpenGl, 4},
+    Known{Scope::Window, "hint_opengl_minor", Type::Setting, kNote, kOpenGl, 5},
+    Known{Scope::Window, "hint_stereo", Type::Setting, kNote,
+          "each eye has a picture of its own; `stereo_mode` says how they are put together", 0},
+    Known{Scope::Window, "hint_doublebuffer", Type::Setting, kOnScreen, kNoScreen},
+    Known{Scope::Window, "hint_decoration", Type::Setting, kOnScreen, kNoScreen},
+    Known{Scope::Window, "hint_fullscreen", Type::Setting, kOnScreen, kNoScreen},
+    Known{Scope::Window, "hint_swapsync", Type::Setting, kOnScreen, kNoScreen},
+    Known{Scope::Window, "hint_drawable", Type::Setting, kNote,
+          "all is drawn into framebuffer objects", -1, "fbo"},
+    Known{Scope::Window, "hint_statistics", Type::Setting, kNote, kMeasured, -1, "on"},
+    Known{Scope::Window, "hint_screensaver", Type::Setting, kOnScreen, kNoScreen},
+    Known{Scope::Window, "hint_grab_pointer", Type::Setting, kOnScreen, kNoScreen},
+    Known{Scope::Window, "hint_width", Type::Setting, kNote, kViewport},
+    Known{Scope::Window, "hint_height", Type::Setting, kNote, kViewport},
+    Known{Scope::Window, "planes_color", Type::Setting, kNote, kEightBits, 8},
+    Known{Scope::Window, "planes_alpha", Type::Setting, kNote, kEightBits, 8},
+    Known{Scope::Window, "planes_depth", Type::Setting, kNote, "depth is a number of 32 bits", 32},
+    Known{Scope::Window, "planes_stencil", Type::Setting, kNote, "nothing is drawn by a stencil",
+          0},
+    Known{Scope::Window, "planes_accum", Type::Setting, kOnScreen, kNoScreen},
+    Known{Scope::Window, "planes_accum_alpha", Type::Setting, kOnScreen, kNoScreen},
+    Known{Scope::Window, "planes_samples", Type::Setting, kNote,
+          "a channel draws one sample a pixel; compounds with `subpixel` draw more", 1},
+    Known{Scope::Channel, "hint_statistics", Type::Setting, kNote, kMeasured, -1, "on"},
+    Known{Scope::Channel, "hint_sendtoken", Type::Setting, kNote, kUnpaced, 0},
+    Known{Scope::Channel, "dump_image", Type::Text, kNote,
+          "`eyrie render --config` writes pictures"},
     Known{Scope::Compound, "stereo_mode", Type::Setting},
     Known{Scope::Compound, "stereo_anaglyph_left_mask", Type::Mask},
     Known{Scope::Compound, "stereo_anaglyph_right_mask", Type::Mask},
-    Known{Scope::Compound, "update_fov", Type::Setting, true},
-    Known{Scope::Compound, "hint_offset", Type::Setting, true},
-    Known{Scope::Connection, "hostname", Type::Text},
-    Known{Scope::Connection, "type", Type::Setting},
-    Known{Scope::Connection, "port", Type::Setting},
-    Known{Scope::Connection, "filename", Type::Text},
-    Known{Scope::Connection, "bandwidth", Type::Setting},
-    Known{Scope::Connection, "tcpip_port", Type::Setting},
-    Known{Scope::Connection, "pipe_filename", Type::Text},
-    Known{Scope::Connection, "launch_command", Type::Text, true},
-    Known{Scope::Connection, "launch_command_quote", Type::Character, true},
-    Known{Scope::Connection, "launch_timeout", Type::Setting, true},
-    Known{Scope::SwapBarrier, "nv_group", Type::Setting, true},
-    Known{Scope::SwapBarrier, "nv_barrier", Type::Setting, true},
+    Known{Scope::Compound, "update_fov", Type::Setting, kNote, kRemoved},
+    Known{Scope::Compound, "hint_offset", Type::Setting, kNote, kRemoved},
+    Known{Scope::Connection, "hostname", Type::Text, kNote, kAddresses},
+    Known{Scope::Connection, "type", Type::Setting, kNote, kGrpc, -1, "tcpip"},
+    Known{Scope::Connection, "port", Type::Setting, kNote, kAddresses},
+    Known{Scope::Connection, "filename", Type::Text, kNote, kAddresses},
+    Known{Scope::Connection, "bandwidth", Type::Setting, kNote, kUnpaced},
+    Known{Scope::Connection, "tcpip_port", Type::Setting, kNote, kAddresses},
+    Known{Scope::Connection, "pipe_filename", Type::Text, kNote, kAddresses},
+    Known{Scope::Connection, "launch_command", Type::Text, kNote, kServices},
+    Known{Scope::Connection, "launch_command_quote", Type::Character, kNote, kServices},
+    Known{Scope::Connection, "launch_timeout", Type::Setting, kNote, kServices},
+    Known{Scope::SwapBarrier, "nv_group", Type::Setting, kOnScreen, kNoScreen},
+    Known{Scope::SwapBarrier, "nv_barrier", Type::Setting, kOnScreen, kNoScreen},
 };
 
 constexpr std::array<std::string_view, 8> kScopeNames{
@@ -203,17 +229,25 @@ Scalar laterWord(const std::string& text) {
     return {isNumber ? Scalar::Kind::Integer : Scalar::Kind::Word, text, number};
 }
 
+/// Whether all is as the setting says without it.
+bool isAsItIs(const Known& known, const Attribute& attribute) {
+    if (const auto* number = std::get_if<std::int64_t>(&attribute.value))
+        return *number <= known.upTo;
+    const auto* const words = std::get_if<Attribute::Words>(&attribute.value);
+    if (words == nullptr || words->words.size() != 1)
+        return false;
+    const std::string word = lowered(words->words.front());
+    return word == "auto" || word == known.word || (word == "off" && known.upTo >= 0) ||
+           (word == "on" && known.upTo >= 1);
+}
+
 void read(const Statement& statement, const Known& known, ValueReader& reader,
           Attributes& attributes) {
     Attribute attribute{statement.keyword, {}, statement.place};
     if (!readValue(statement, known.type, reader, attribute))
         return;
-    if (known.isOnScreen)
-        reader.findings().onScreen(
-            statement.place,
-            fmt::format("'{}' has no effect {}", statement.keyword,
-                        known.name.starts_with("launch_") ? "where renderers are services"
-                                                          : "without a screen"));
+    if (!known.why.empty() && !isAsItIs(known, attribute))
+        reader.hasNoEffect(statement, known.why, known.kind);
     const auto before = std::ranges::find(attributes, attribute.name, &Attribute::name);
     if (before == attributes.end())
         attributes.push_back(std::move(attribute));

@@ -21,8 +21,15 @@ enum class AttributeScope {
     SwapBarrier
 };
 
+/// Why settings of connections have no effect, within attributes or not.
+inline constexpr std::string_view kGrpc = "renderers are reached by gRPC";
+inline constexpr std::string_view kAddresses =
+    "renderers register, and say where they are, as `eyrie renderer` is told";
+inline constexpr std::string_view kUnpaced = "pictures are sent as fast as connections take them";
+
 /// Reads one setting of a resource into `attributes`, in place of one of the same name. What has no
-/// effect without a screen is said to be so; what is unknown is left out with a warning.
+/// effect here is said to be so, and why, unless it asks for what is so anyway; what is unknown is
+/// left out with a warning.
 void readAttribute(const Statement& statement, AttributeScope scope, ValueReader& reader,
                    Attributes& attributes);
 

@@ -84,8 +84,7 @@ void readAttributes(const Statement& block, ValueReader& reader, Compound& compo
         return read;
     };
     const auto removed = [&reader](const Statement& each) {
-        reader.findings().onScreen(each.place,
-                                   fmt::format("'{}' has no effect any more", each.keyword));
+        reader.hasNoEffect(each, "Equalizer has it no more");
     };
     reader.block(block, "a compound's attributes",
                  {{"stereo_mode",

@@ -10,6 +10,8 @@
 namespace eyrie::config {
 namespace {
 
+constexpr std::string_view kHeadByApi = "the head's position is set by the API";
+
 void vector(const Statement& statement, ValueReader& reader, std::optional<fabric::Vec3>& target) {
     reader.optional(target, [&](fabric::Vec3& value) { reader.vector(statement, value); });
 }
@@ -161,15 +163,11 @@ Observer readObserver(const Statement& block, ValueReader& reader) {
               if (value == nullptr || !isCamera(value->text))
                   return reader.expected(each, "ON, OFF, AUTO or a whole number");
               observer.openCvCamera = value->text;
-              reader.findings().onScreen(each.place,
-                                         "cameras that track a head are not read; the "
-                                         "head's position is set by the API");
+              reader.hasNoEffect(each, kHeadByApi);
           }},
          {"vrpn_tracker", [&](const auto& each) {
               reader.text(each, observer.vrpnTracker);
-              reader.findings().onScreen(each.place,
-                                         "VRPN trackers are not read; the head's "
-                                         "position is set by the API");
+              reader.hasNoEffect(each, kHeadByApi);
           }}});
     return observer;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -21,9 +22,10 @@ struct Place {
 
 struct Finding {
     enum class Kind {
-        Error,    ///< the configuration cannot be used
-        Warning,  ///< something in it has no effect, or not the one that was probably meant
-        OnScreen  ///< makes sense on a screen only: accepted, without effect here
+        Error,     ///< the configuration cannot be used
+        Warning,   ///< something in it has no effect, or not the one that was probably meant
+        OnScreen,  ///< makes sense on a screen only: accepted, without effect here
+        Note       ///< accepted, without effect here; says what has it
     };
     Kind kind = Kind::Error;
     Place place;
@@ -46,8 +48,12 @@ public:
         add(Finding::Kind::OnScreen, place, std::move(message));
     }
 
-    bool hasErrors() const { return errors_ > 0; }
-    std::size_t errors() const { return errors_; }
+    void note(const Place& place, std::string message) {
+        add(Finding::Kind::Note, place, std::move(message));
+    }
+
+    bool hasErrors() const { return errors() > 0; }
+    std::size_t errors() const { return counts_[0]; }
     /// In the order found; of each kind the first kMost.
     const std::vector<Finding>& all() const { return all_; }
 
@@ -55,14 +61,14 @@ private:
     void add(Finding::Kind kind, const Place& place, std::string message);
 
     std::vector<Finding> all_;
-    std::size_t errors_ = 0;
-    std::size_t others_ = 0;
+    std::array<std::size_t, 4> counts_{};  ///< of each kind
 };
 
 /// "12:5", or the field; empty where neither is known.
 std::string describe(const Place& place);
 
-/// "12:5: error: …", a line each, after `name` and a colon.
+/// "12:5: error: …", a line each, after `name` and a colon. What has no effect here comes last,
+/// once for all places where the same is said.
 std::string describe(const Findings& findings, const std::string& name);
 
 }  // namespace eyrie::config

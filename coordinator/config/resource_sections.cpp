@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-
 #include "coordinator/config/attribute_table.h"
 #include "coordinator/config/section_readers.h"
 
@@ -17,6 +15,16 @@ void viewport(const Statement& statement, ValueReader& reader, std::optional<Vie
 void number(const Statement& statement, ValueReader& reader, std::optional<std::int64_t>& target) {
     reader.optional(target,
                     [&](std::int64_t& value) { reader.wholeNumber(statement, 0, kMost, value); });
+}
+
+/// What is wrong is said to be so, and no more.
+template <typename Read>
+void readInVain(const Statement& statement, ValueReader& reader, std::string_view why,
+                const Read& read) {
+    const std::size_t errors = reader.findings().errors();
+    read();
+    if (reader.findings().errors() == errors)
+        reader.hasNoEffect(statement, why);
 }
 
 Channel readChannel(const Statement& block, ValueReader& reader) {
@@ -68,8 +76,16 @@ Pipe readPipe(const Statement& block, ValueReader& reader) {
     reader.block(
         block, "a pipe",
         {{"name", [&](const auto& each) { reader.text(each, pipe.name); }},
-         {"port", [&](const auto& each) { number(each, reader, pipe.port); }},
-         {"device", [&](const auto& each) { number(each, reader, pipe.device); }},
+         {"port",
+          [&](const auto& each) {
+              readInVain(each, reader, "renderers draw without a window system",
+                         [&] { number(each, reader, pipe.port); });
+          }},
+         {"device",
+          [&](const auto& each) {
+              readInVain(each, reader, "`eyrie renderer --device` says what a renderer draws on",
+                         [&] { number(each, reader, pipe.device); });
+          }},
          {"viewport", [&](const auto& each) { viewport(each, reader, pipe.viewport); }},
          {"attributes",
           [&](const auto& each) {
@@ -84,36 +100,42 @@ Pipe readPipe(const Statement& block, ValueReader& reader) {
 Connection readConnection(const Statement& block, ValueReader& reader) {
     Connection connection;
     const auto port = [&](const Statement& each) {
-        reader.wholeNumber(each, 0, kMostPort, connection.port);
+        readInVain(each, reader, kAddresses,
+                   [&] { reader.wholeNumber(each, 0, kMostPort, connection.port); });
     };
-    const auto filename = [&](const Statement& each) { reader.text(each, connection.filename); };
-    reader.block(
-        block, "a connection",
-        {{"type",
-          [&](const auto& each) {
-              using Name = std::string;
-              reader.choice<Name>(each,
-                                  {{"TCPIP", "TCPIP"},
-                                   {"PIPE", "PIPE"},
-                                   {"RSP", "RSP"},
-                                   {"RDMA", "RDMA"},
-                                   {"UDT", "UDT"},
-                                   {"SDP", "SDP"},
-                                   {"MCIP_RSP", "RSP"}},
-                                  connection.type);
-              if (!connection.type.empty() && connection.type != "TCPIP")
-                  reader.findings().onScreen(
-                      each.place, fmt::format("connections of type {} are gRPC's, by TCP, here",
-                                              connection.type));
-          }},
-         {"hostname", [&](const auto& each) { reader.text(each, connection.hostname); }},
-         {"interface", [&](const auto& each) { reader.text(each, connection.interfaceName); }},
-         {"port", port},
-         {"TCPIP_port", port},
-         {"bandwidth",
-          [&](const auto& each) { reader.wholeNumber(each, 0, kMost, connection.bandwidth); }},
-         {"filename", filename},
-         {"PIPE_filename", filename}});
+    const auto text = [&](std::string& target) {
+        return [&reader, &target](const Statement& each) {
+            readInVain(each, reader, kAddresses, [&] { reader.text(each, target); });
+        };
+    };
+    reader.block(block, "a connection",
+                 {{"type",
+                   [&](const auto& each) {
+                       using Name = std::string;
+                       reader.choice<Name>(each,
+                                           {{"TCPIP", "TCPIP"},
+                                            {"PIPE", "PIPE"},
+                                            {"RSP", "RSP"},
+                                            {"RDMA", "RDMA"},
+                                            {"UDT", "UDT"},
+                                            {"SDP", "SDP"},
+                                            {"MCIP_RSP", "RSP"}},
+                                           connection.type);
+                       if (!connection.type.empty() && connection.type != "TCPIP")
+                           reader.hasNoEffect(each, kGrpc);
+                   }},
+                  {"hostname", text(connection.hostname)},
+                  {"interface", text(connection.interfaceName)},
+                  {"port", port},
+                  {"TCPIP_port", port},
+                  {"bandwidth",
+                   [&](const auto& each) {
+                       readInVain(each, reader, kUnpaced, [&] {
+                           reader.wholeNumber(each, 0, kMost, connection.bandwidth);
+                       });
+                   }},
+                  {"filename", text(connection.filename)},
+                  {"PIPE_filename", text(connection.filename)}});
     return connection;
 }
 

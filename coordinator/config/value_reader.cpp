@@ -98,6 +98,15 @@ void ValueReader::expected(const Statement& statement, std::string_view what) {
                                                  written(statement), what));
 }
 
+void ValueReader::hasNoEffect(const Statement& statement, std::string_view why,
+                              Finding::Kind kind) {
+    std::string message = fmt::format("'{}' has no effect here: {}", statement.keyword, why);
+    if (kind == Finding::Kind::OnScreen)
+        findings_.onScreen(statement.place, std::move(message));
+    else
+        findings_.note(statement.place, std::move(message));
+}
+
 void ValueReader::text(const Statement& statement, std::string& target) {
     const Scalar* const value = single(statement);
     if (value == nullptr || value->kind != Scalar::Kind::Text)

@@ -99,6 +99,9 @@ public:
     /// The statement's one value, or null.
     static const Scalar* single(const Statement& statement);
     void expected(const Statement& statement, std::string_view what);
+    /// Of what is accepted; `why` goes on a sentence.
+    void hasNoEffect(const Statement& statement, std::string_view why,
+                     Finding::Kind kind = Finding::Kind::Note);
     Findings& findings() { return findings_; }
 
 private:
