@@ -9,7 +9,9 @@
 #include <fmt/format.h>
 
 #include "coordinator/config/destinations.h"
+#include "coordinator/config/phases.h"
 #include "coordinator/config/pixels.h"
+#include "coordinator/config/queue_names.h"
 
 namespace eyrie::config {
 namespace {
@@ -70,10 +72,12 @@ public:
             const std::size_t first = resolved_.compounds.size();
             visit(root, nullptr);
             matchFrames(first);
+            warnOfQueueNames(std::span(resolved_.compounds).subspan(first), findings_);
         }
         for (std::size_t i = 0; i < served_.size(); ++i)
             if (!served_[i])
                 addImplicit(i);
+        warnOfMissingPhases(resolved_, findings_);
         return std::move(resolved_);
     }
 

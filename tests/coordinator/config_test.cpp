@@ -281,6 +281,42 @@ TEST(EqcWarnings, AreNotLostAmongManyNotes) {
                 HasSubstr("'nonsense' means nothing"));
 }
 
+TEST(EqcWarnings, NameQueuesThatNobodyMakesOrTakes) {
+    const Read read(withCompounds(
+        "compound { channel ( segment 0 view 0 )\n outputtiles { name \"q\" size [ 64 64 ] }\n"
+        " compound { inputtiles { name \"q\" } }\n"
+        " compound { channel \"b\" inputtiles { name \"Q\" } outputframe { name \"b\" } }\n"
+        " outputtiles { name \"unused\" size [ 64 64 ] } inputframe { name \"b\" } }"));
+    EXPECT_EQ(describe(read.findings, "f"),
+              "f:5:2: warning: nobody takes the outputtiles \"unused\"\n"
+              "f:4:25: warning: no outputtiles of this compound tree are named \"Q\": the compound "
+              "draws all of its part\n");
+}
+
+TEST(EqcWarnings, SayInWhichFramesNothingIsDrawn) {
+    const auto found = [](const std::string& children) {
+        return describe(
+            Read(withCompounds("compound { channel ( segment 0 view 0 )\n" + children + " }"))
+                .findings,
+            "f");
+    };
+    const std::string b = "outputframe { name \"f\" } channel \"b\"";
+    const std::string taken = "inputframe { name \"f\" }";
+    EXPECT_EQ(found("compound { period 3 phase 0 } compound { period 3 phase 1 }"),
+              "f:1:204: warning: nothing draws the picture in 1 of 3 frames, such as that of phase "
+              "2: it is background then\n");
+    EXPECT_EQ(found("compound { period 3 phase 0 } compound { period 3 phase 1 } compound { period "
+                    "3 phase 2 }"),
+              "");
+    EXPECT_THAT(found("compound { period 2 phase 1 compound { period 3 phase 0 } } compound { "
+                      "period 6 phase 2 }"),
+                HasSubstr("in 4 of 6 frames, such as that of phase 0"));
+    EXPECT_EQ(found("compound { period 2 phase 0 } compound { viewport [ 0 0 .5 1 ] }"), "");
+    EXPECT_EQ(found("compound { period 2 phase 0 " + b + " } compound { period 2 phase 1 " + b +
+                    " } " + taken),
+              "");
+}
+
 TEST(EqcWarnings, NameBothPlacesOfANameThatTwoThingsHave) {
     const Read read(
         "config {\n node { name \"n\" pipe { name \"p\" window { channel { name \"c\" }\n"
