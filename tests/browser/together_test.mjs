@@ -24,6 +24,22 @@ async function turn(page) {
   await page.keyboard.press("ArrowLeft");
 }
 
+/** The middle of the mark that the last click left. */
+async function mark(page) {
+  const { x, y, width, height } = await page.locator("#pick-mark").boundingBox();
+  return [x + width / 2, y + height / 2];
+}
+
+/** Clicks and waits for what is there, in world metres. */
+async function pick(page, x, y) {
+  await page.mouse.click(x, y);
+  await page.locator("#pick", { hasText: "x, y, z" }).waitFor();
+  const text = await page.locator("#pick .numbers").innerText();
+  return /x, y, z\s+(\S+), (\S+), (\S+)/.exec(text).slice(1).map(Number);
+}
+
+const apart = (a, b) => Math.hypot(...a.map((value, i) => value - b[i]));
+
 const says = (page, text) =>
   page.waitForFunction(
     (wanted) => document.querySelector("#session-place")?.textContent === wanted,
@@ -48,8 +64,7 @@ await run("together", async (browser, started) => {
   check(new URL(first.url()).searchParams.get("session") !== null, "sharing names the session");
   await exact(first);
   const seen = await camera(first);
-  const off = JSON.parse(seen).eye.map((value, i) => Math.abs(value - before[i]));
-  check(Math.max(...off) < 0.01, "who shares a view goes on seeing it");
+  check(apart(JSON.parse(seen).eye, before) < 0.01, "who shares a view goes on seeing it");
 
   const link = new URL(first.url());
   link.searchParams.set("role", "watch");
@@ -66,6 +81,20 @@ await run("together", async (browser, started) => {
   check((await exact(second, frames[1])) === moved, "a movement is seen by both");
   const turned = await camera(first);
   check(turned !== seen && (await camera(second)) === turned, "from the same place");
+
+  // In a window of another shape the picture's sides are beyond its edges.
+  await second.setViewportSize({ width: 700, height: 754 });
+  const scale = 708 / 720; // under the bar; the picture is of 1280 x 720
+  const [x, y] = [350 + scale * (480 - 640), 46 + scale * (420 - 46)];
+  const found = [await pick(first, 480, 420), await pick(second, x, y)];
+  check(
+    apart(...found) < 0.4,
+    `the same spot has the same coordinates in every window (${found.join("; ")})`,
+  );
+  const off = apart(await mark(second), [x, y]);
+  check(off < 2, `and its mark where it was clicked (${off.toFixed(2)} px off)`);
+  await second.keyboard.press("Escape");
+  await first.keyboard.press("Escape");
 
   await turn(second);
   await second.waitForTimeout(300);

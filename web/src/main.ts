@@ -2,6 +2,7 @@
 import "./style.css";
 import { exposeHooks } from "./hooks";
 import { outputOf } from "./output";
+import { keepCover } from "./panel/cover";
 import { keepDescription } from "./panel/description";
 import { showDisplays } from "./panel/displays";
 import { byId } from "./panel/element";
@@ -61,6 +62,7 @@ function start(): void {
   showNotice(state);
   keepAddress(state, viewer);
   setUpToolbar(state, viewer);
+  keepCover(state, canvas);
   keepDescription(state, canvas);
   exposeHooks(state, viewer);
   state.connection.watch(({ kind }) => {

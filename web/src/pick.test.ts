@@ -7,7 +7,7 @@ import { clickAfter } from "./camera/controls";
 import { lookAt } from "./camera/orbit";
 import { coordinate, lengthText } from "./panel/format";
 import { markOf, textOf } from "./panel/pick";
-import { pickOf, placeOf, seenPlace } from "./pick";
+import { coverOf, pickOf, placeOf, seenPlace } from "./pick";
 import { SightSchema } from "./protocol/gen/eyrie/v1/frame_pb";
 import {
   SeenAreaSchema,
@@ -45,6 +45,16 @@ describe("a click", () => {
     expect(placeOf({ x: 0, y: 240 }, canvas, shown)).toEqual({ x: 0, y: 0 });
     expect(placeOf({ x: 80, y: 60 }, canvas, shown)).toEqual({ x: 160, y: 360 });
     expect(placeOf({ x: 400, y: -5 }, canvas, shown)).toEqual({ x: 640, y: 480 });
+  });
+
+  it("in a window of another shape is at the same place of the scene as in the picture's own", () => {
+    const tall = { width: 240, height: 480 };
+    expect(coverOf(tall, shown)).toEqual({ x: -200, y: 0, width: 640, height: 480 });
+    expect(placeOf({ x: 120, y: 240 }, tall, shown)).toEqual({ x: 320, y: 240 });
+    expect(placeOf({ x: 0, y: 480 }, tall, shown)).toEqual({ x: 200, y: 0 });
+    const flat = { width: 1280, height: 240 };
+    expect(coverOf(flat, shown)).toEqual({ x: 0, y: -360, width: 1280, height: 960 });
+    expect(placeOf({ x: 1280, y: 0 }, flat, shown)).toEqual({ x: 640, y: 300 });
   });
 
   it("is asked with what the picture shows", () => {

@@ -7,15 +7,32 @@ import type { Pick, ProfileState } from "./state";
 import type { Size } from "./view/size";
 
 /**
+ * Where a picture lies that covers a canvas, in the canvas's pixels and from its upper left corner:
+ * as large as fills it, in the middle. Of one of another shape, as of who leads from another window,
+ * two sides are beyond the canvas.
+ */
+export function coverOf(canvas: Size, picture: Size): Point & Size {
+  const [width, height] = [Math.max(1, picture.width), Math.max(1, picture.height)];
+  const scale = Math.max(canvas.width / width, canvas.height / height);
+  return {
+    x: (canvas.width - scale * width) / 2,
+    y: (canvas.height - scale * height) / 2,
+    width: scale * width,
+    height: scale * height,
+  };
+}
+
+/**
  * Pixels of a picture, from its lower left corner, y upwards, of a point `at` from the upper left
- * corner of the canvas that it fills; what lies beside it counts to its edge.
+ * corner of the canvas that it covers; what lies beside it counts to its edge.
  */
 export function placeOf(at: Point, canvas: Size, picture: Size): Point {
+  const cover = coverOf(canvas, picture);
   const share = (value: number, whole: number): number =>
     Math.min(1, Math.max(0, value / Math.max(1, whole)));
   return {
-    x: share(at.x, canvas.width) * picture.width,
-    y: (1 - share(at.y, canvas.height)) * picture.height,
+    x: share(at.x - cover.x, cover.width) * picture.width,
+    y: (1 - share(at.y - cover.y, cover.height)) * picture.height,
   };
 }
 

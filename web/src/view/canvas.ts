@@ -28,6 +28,7 @@ export class PictureCanvas {
     readonly element: HTMLCanvasElement,
     private readonly events: CanvasEvents,
   ) {
+    element.style.objectFit = "cover"; // as pick.ts reckons, whoever the canvas is of
     this.worker = new Worker(new URL("./decode.worker.ts", import.meta.url), { type: "module" });
     this.worker.onmessage = (event: MessageEvent<FromWorker>) => this.reported(event.data);
     const canvas = element.transferControlToOffscreen();
