@@ -44,6 +44,25 @@ await run("tools_test", async (browser, started) => {
     await page.getByRole("button", { name: "corner", exact: true }).isVisible(),
     "bookmarks outlast the page",
   );
+  const held = new URL(link);
+  held.hash += "&tau=4&budget=20&shading=wireframe";
+  await page.goto(held.href);
+  await browser.settled();
+  check(
+    (await page.locator("#tau").inputValue()) === "2" &&
+      (await page.getByLabel("Fixed frame time").isChecked()) &&
+      (await page.locator("#budget").inputValue()) === "20" &&
+      (await page.getByLabel("Wireframe").isChecked()),
+    "the controls of quality stand as a link asks for",
+  );
+  await page.getByLabel("Fixed error").check();
+  await page.getByLabel("Smooth").check();
+  await browser.setTau(0);
+  await browser.settled();
+  check(
+    !/tau=4|budget|wireframe/.test(page.url()),
+    `and take back what it asked for (${new URL(page.url()).hash})`,
+  );
   await page.getByRole("button", { name: "Remove corner" }).click();
   check((await page.locator(".bookmark").count()) === 0, "and can be removed");
   await page.evaluate(() => (window.location.hash = "eye=1,2&at=3"));

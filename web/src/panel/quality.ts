@@ -32,8 +32,8 @@ function choiceOfMode(state: State): HTMLElement {
     const input = make("input", "");
     input.type = "radio";
     input.name = "held";
-    input.checked = state.budget.value === budget;
     input.addEventListener("change", () => state.budget.set(budget));
+    state.budget.watch((value) => (input.checked = (value === null) === (budget === null)));
     const segment = make("label", "segment", input, make("span", "", name));
     segment.title = title;
     choice.append(segment);
@@ -98,7 +98,6 @@ function tauSlider(state: State): HTMLElement {
   slider.min = String(minLog);
   slider.max = String(maxLog);
   slider.step = String(stepLog);
-  slider.value = String(Math.log2(state.tau.value));
   label.htmlFor = output.htmlFor.value = slider.id;
   label.title = "Tau: how far, in pixels, anything may be from where it belongs on the screen";
   slider.addEventListener("input", () => state.tau.set(2 ** Number(slider.value)));
@@ -106,6 +105,7 @@ function tauSlider(state: State): HTMLElement {
     setText(label, budget === null ? "Error allowed" : "Error at rest"),
   );
   state.tau.watch((tau) => {
+    slider.value = String(Math.log2(tau));
     setText(output, pixels(tau));
     slider.setAttribute("aria-valuetext", `${tau.toFixed(2)} pixels`);
   });
@@ -150,8 +150,8 @@ function shadingChoice(state: State): HTMLElement {
     input.type = "radio";
     input.name = "shading";
     input.value = name.toLowerCase();
-    input.checked = state.shading.value === shading;
     input.addEventListener("change", () => state.shading.set(shading));
+    state.shading.watch((value) => (input.checked = value === shading));
     choice.append(make("label", "segment", input, make("span", "", name)));
   }
   return choice;
