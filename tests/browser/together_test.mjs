@@ -82,8 +82,39 @@ await run("together", async (browser, started) => {
   const turned = await camera(first);
   check(turned !== seen && (await camera(second)) === turned, "from the same place");
 
+  await first.locator("#tau").fill("2");
+  await first.getByLabel("Wireframe").check();
+  await first.locator("#exaggeration").fill("0.5");
+  const isLed = () =>
+    document.querySelector("#tau").value === "2" &&
+    document.querySelector("#exaggeration").value === "0.5" &&
+    document.querySelector("input[value=wireframe]").checked;
+  await second.waitForFunction(isLed, undefined, patience);
+  check(true, "the controls of who watches stand as the picture is");
+  await exact(second);
+  check(
+    second.url().includes("tau=4&") && second.url().includes("shading=wireframe"),
+    `and so does the address (${new URL(second.url()).hash})`,
+  );
+  await second.context().grantPermissions(["clipboard-read", "clipboard-write"]);
+  await second.getByRole("button", { name: "Copy as curl" }).click();
+  await second.locator("#notice", { hasText: "curl command copied" }).waitFor();
+  const curl = await second.evaluate(() => navigator.clipboard.readText());
+  check(
+    curl.includes('"tauPixels":4,') && curl.includes("SHADING_WIREFRAME"),
+    "and the command that is copied",
+  );
+  const shown = await frame(second);
+  await second.locator("input[value=flat]").click();
+  await second.locator("#notice", { hasText: "take the lead to change" }).waitFor();
+  await second.focus("#view");
+  await second.keyboard.press("\\");
+  check(await second.waitForFunction(isLed), "who watches is told that they do not change it");
+  check((await frame(second)) === shown, "and gets no other picture");
+
   // In a window of another shape the picture's sides are beyond its edges.
   await second.setViewportSize({ width: 700, height: 754 });
+  await second.keyboard.press("p"); // the panel would cover it
   const scale = 708 / 720; // under the bar; the picture is of 1280 x 720
   const [x, y] = [350 + scale * (480 - 640), 46 + scale * (420 - 46)];
   const found = [await pick(first, 480, 420), await pick(second, x, y)];
@@ -94,6 +125,7 @@ await run("together", async (browser, started) => {
   const off = apart(await mark(second), [x, y]);
   check(off < 2, `and its mark where it was clicked (${off.toFixed(2)} px off)`);
   await second.keyboard.press("Escape");
+  await second.keyboard.press("p");
   await first.keyboard.press("Escape");
 
   await turn(second);

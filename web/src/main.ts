@@ -56,7 +56,7 @@ function start(): void {
   showMeasure(state, viewer);
   showViews(state, viewer);
   showFlight(state, viewer);
-  showRenderers(state);
+  showRenderers(state, viewer);
   showEqualizers(state);
   showPlots(state);
   showNotice(state);

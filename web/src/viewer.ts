@@ -15,6 +15,7 @@ import type { LedView } from "./protocol/led_view";
 import { ledViewOf } from "./protocol/led_view";
 import { boundsOf, cameraOf } from "./protocol/messages";
 import { Socket } from "./protocol/socket";
+import type { Output } from "./output";
 import { queryOf } from "./output";
 import { groundOf } from "./profile";
 import { Questions } from "./questions";
@@ -34,6 +35,8 @@ import { canShowVideo } from "./view/video";
 
 /** Null: by the camera alone. */
 const seenOf = (frame: Frame) => (frame.throughWall ? frame.seen : null);
+
+type Settings = Omit<SharedView, "camera">;
 
 /** A view without its picture for so long is stale. */
 const staleAfter = 2000;
@@ -135,10 +138,8 @@ export class Viewer implements CameraHolder {
       },
     });
     state.walking.watch((isWalking) => this.walkingChanged(isWalking));
-    state.tau.watch(() => this.sender.request(performance.now()));
-    state.budget.watch(() => this.sender.request(performance.now()));
-    state.shading.watch(() => this.sender.request(performance.now()));
-    state.look.watch(() => this.sender.request(performance.now()));
+    for (const setting of [state.tau, state.budget, state.shading, state.look])
+      setting.watch(() => this.settingChanged());
     state.output.watch(() => {
       this.sender.request(performance.now());
       this.sendScreen();
@@ -254,10 +255,7 @@ export class Viewer implements CameraHolder {
 
   /** Goes on from what is seen now. */
   takeLead(): void {
-    if (this.led !== undefined) {
-      if (queryOf(this.state.output.value) === "") this.state.output.set(this.led.output);
-      this.showSettings(this.led);
-    }
+    this.state.output.set(this.output);
     this.socket.takeLead();
   }
 
@@ -276,6 +274,13 @@ export class Viewer implements CameraHolder {
     };
   }
 
+  /** Which picture is seen: who watches names one in the address, or sees what the leader does. */
+  get output(): Output {
+    const { value } = this.state.output;
+    if (!this.isWatching || queryOf(value) !== "") return value;
+    return this.led?.output ?? value;
+  }
+
   /** Of the picture that is asked for, in pixels. */
   get pictureSize(): Size {
     return this.size;
@@ -292,11 +297,31 @@ export class Viewer implements CameraHolder {
     this.move(view.camera, performance.now());
   }
 
-  private showSettings(view: SharedView): void {
-    this.state.tau.set(view.tau);
-    this.state.budget.set(view.budget);
-    this.state.shading.set(view.shading);
-    this.state.look.set(view.look);
+  private showSettings(settings: Settings): void {
+    if (this.isSetTo(settings)) return; // as of most frames that are watched
+    this.state.tau.set(settings.tau);
+    this.state.budget.set(settings.budget);
+    this.state.shading.set(settings.shading);
+    this.state.look.set(settings.look);
+  }
+
+  private isSetTo({ tau, budget, shading, look }: Settings): boolean {
+    const { state } = this;
+    const now = [state.tau, state.budget, state.shading, state.look].map(({ value }) => value);
+    return JSON.stringify(now) === JSON.stringify([tau, budget, shading, look]);
+  }
+
+  private settingChanged(): void {
+    this.sender.request(performance.now());
+    // Once everybody has heard of this change, and those that come with it are made.
+    queueMicrotask(() => this.keepLed());
+  }
+
+  /** Who watches cannot change what is led: the controls go back to it. */
+  private keepLed(): void {
+    if (!this.isWatching || this.led === undefined || this.isSetTo(this.led)) return;
+    this.state.notice.set("You watch this session: take the lead to change what is seen");
+    this.showSettings(this.led);
   }
 
   /** Null before there is a camera, and while another moves it. */
@@ -367,7 +392,8 @@ export class Viewer implements CameraHolder {
       this.limits = distanceLimits(Math.hypot(max.x - min.x, max.y - min.y, max.z - min.z));
     const { isElsewhere, hasOtherObjects } = this.scene.next(session);
     if (this.camera === null || isElsewhere) this.goHome();
-    if (hasOtherObjects) this.state.look.set({ ...this.state.look.value, hidden: [], objects: [] });
+    if (hasOtherObjects && !this.isWatching)
+      this.state.look.set({ ...this.state.look.value, hidden: [], objects: [] });
     this.resize();
   }
 
@@ -434,8 +460,10 @@ export class Viewer implements CameraHolder {
 
   private noteLed({ camera: asked, look, ...rest }: LedView, frame: Frame): void {
     const camera = cameraOf(frame.liftedCamera) ?? asked;
-    if (this.isWatching) this.camera = camera;
-    else this.follow({ camera: asked, look, ...rest });
+    if (this.isWatching) {
+      this.camera = camera;
+      this.showSettings({ look, ...rest });
+    } else this.follow({ camera: asked, look, ...rest });
     const { width, height } = frame;
     const { exaggeration, hidden } = look;
     this.state.shown.set({ camera, width, height, exaggeration, hidden, seen: seenOf(frame) });

@@ -43,7 +43,7 @@ export function posterField(state: State, viewer: Viewer): HTMLElement {
     drawing = new AbortController();
     select.disabled = true;
     try {
-      const request = imageRequest(view, size, state.output.value);
+      const request = imageRequest(view, size, viewer.output);
       const tell = (done: number, all: number): void =>
         setText(start, `Stop (${Math.round((100 * done) / all)} %)`);
       const { file, error } = await drawPoster(request, tell, drawing.signal);

@@ -2,6 +2,7 @@
 // Who drew what of the last picture, and how long it took: as a list, and over the picture.
 import type { PartStatistics } from "../protocol/messages";
 import type { State } from "../state";
+import type { Viewer } from "../viewer";
 import { byId, make } from "./element";
 import { count, milliseconds } from "./format";
 import { change } from "./look_controls";
@@ -84,7 +85,7 @@ function rectangle(part: PartStatistics, colour: string): HTMLElement {
   return element;
 }
 
-export function showRenderers(state: State): void {
+export function showRenderers(state: State, viewer: Viewer): void {
   const list = make("ul", "renderers");
   list.ariaLabel = "Renderers of the last picture";
   const overlay = byId("parts", HTMLElement);
@@ -105,18 +106,24 @@ export function showRenderers(state: State): void {
         ? shares.flatMap((share) => share.parts.map((part) => rectangle(part, share.colour)))
         : []),
     );
+    tint.setAttribute("aria-pressed", String(isTinted));
+  };
+  const tintRanges = (): void => {
+    const parts = state.numbers.value?.parts ?? [];
     const rangeTint = isTinted && hasRanges(parts);
     // A picture says how it was cut; that one was not.
     if (parts.length > 0 && rangeTint !== state.look.value.rangeTint) change(state, { rangeTint });
-    tint.setAttribute("aria-pressed", String(isTinted));
   };
   tint.addEventListener("click", () => {
     isTinted = !isTinted;
+    tintRanges();
     update();
   });
   // By a link, or by who leads.
   state.look.watch(({ rangeTint }) => {
-    if (rangeTint) isTinted = true;
+    const isLed = viewer.isWatching && hasRanges(state.numbers.value?.parts ?? []);
+    if (rangeTint || isLed) isTinted = rangeTint;
+    tint.setAttribute("aria-pressed", String(isTinted));
   });
   byId("renderers", HTMLElement).append(
     make("h2", "heading", "Renderers"),
@@ -127,6 +134,7 @@ export function showRenderers(state: State): void {
   state.numbers.watch((numbers) => {
     if (numbers !== null && numbers.frameNumber === shown) return;
     shown = numbers?.frameNumber ?? 0;
+    if (!viewer.isWatching) tintRanges();
     update();
   });
 }

@@ -73,8 +73,7 @@ function commands(state: State, viewer: Viewer) {
     const view = viewer.sharedView();
     if (view !== null) void action(view);
   };
-  const requestOf = (view: SharedView) =>
-    imageRequest(view, viewer.pictureSize, state.output.value);
+  const requestOf = (view: SharedView) => imageRequest(view, viewer.pictureSize, viewer.output);
   const page = (): string => window.location.href;
   return {
     link: withView((view) => {
