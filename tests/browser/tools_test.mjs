@@ -79,11 +79,19 @@ await run("tools_test", async (browser, started) => {
       command.includes(JSON.stringify(JSON.parse(isometric).eye)),
     "K copies the command that renders the view",
   );
-  const saving = page.waitForEvent("download");
-  await page.keyboard.press("o");
-  const saved = readFileSync(await (await saving).path());
-  const hash = await browser.pngHash(saved);
-  check(hash === (await browser.hook("pixelHash")), "O saves the server's picture bit for bit");
+  const savedHash = async () => {
+    const saving = page.waitForEvent("download");
+    await page.keyboard.press("o");
+    return browser.pngHash(readFileSync(await (await saving).path()));
+  };
+  check(
+    (await savedHash()) === (await browser.hook("pixelHash")),
+    "O saves the server's picture bit for bit",
+  );
+  await page.keyboard.press("1");
+  const hash = await savedHash();
+  await browser.settled();
+  check(hash === (await browser.hook("pixelHash")), "and just after a movement where that led to");
 
   await page.keyboard.press("m");
   check(await page.locator("#measure").isVisible(), "M measures");

@@ -67,7 +67,7 @@ export class Viewer implements CameraHolder {
   private readonly ticker: number;
 
   /** The picture on the canvas as the server's PNG, while it is exact. */
-  exactPicture: Blob | undefined;
+  private exactPicture: Blob | undefined;
 
   /** How often the camera was moved, by whomever. */
   movements = 0;
@@ -286,10 +286,10 @@ export class Viewer implements CameraHolder {
     return this.size;
   }
 
-  /** The exact picture of what is wanted now, once it is on the canvas. */
+  /** The exact picture of what is wanted now, or of what is led, once it is on the canvas. */
   exactNow(): Blob | undefined {
     const isNewest = this.sender.isNewest(this.state.numbers.value?.viewSequence);
-    return isNewest ? this.exactPicture : undefined;
+    return isNewest || this.isWatching ? this.exactPicture : undefined;
   }
 
   show(view: SharedView): void {

@@ -60,9 +60,9 @@ function bookmarkList(state: State, viewer: Viewer): HTMLElement {
 /** The exact picture; the view comes to rest first where it moves. */
 async function exactPicture(viewer: Viewer): Promise<Blob | undefined> {
   const deadline = performance.now() + exactWithin;
-  while (viewer.exactPicture === undefined && performance.now() < deadline)
+  while (viewer.exactNow() === undefined && performance.now() < deadline)
     await new Promise((resolve) => setTimeout(resolve, 50));
-  return viewer.exactPicture;
+  return viewer.exactNow();
 }
 
 /** The commands, for buttons and keys alike. */
