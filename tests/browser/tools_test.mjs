@@ -145,6 +145,25 @@ await run("tools_test", async (browser, started) => {
   );
   await other.close();
 
+  await page.locator("#tau").focus();
+  const beforeKeys = await cameraNow();
+  await page.keyboard.press("ArrowRight");
+  check((await cameraNow()) === beforeKeys, "arrows belong to the slider that has the focus");
+  await page.keyboard.press("+");
+  check((await cameraNow()) !== beforeKeys, "and plus to the view,");
+  await page.keyboard.press("f");
+  check(await page.locator("#mode").isVisible(), "as F does,");
+  await page.getByLabel("Smooth").focus();
+  await page.keyboard.press("f");
+  check(await page.locator("#mode").isHidden(), "on a radio button, too;");
+  const atTau = await page.locator("#tau").inputValue();
+  await page.getByLabel("Name of the bookmark").focus();
+  const beforeText = await cameraNow();
+  await page.keyboard.type("wr");
+  check((await cameraNow()) === beforeText, "but in a text letters are letters");
+  await page.getByLabel("Name of the bookmark").fill("");
+  check(atTau === "0.25", "and the slider has moved");
+
   await page.locator("#flight summary").first().click();
   await page.keyboard.press("n");
   await page.getByText("Keys (1)").click();
@@ -161,11 +180,19 @@ await run("tools_test", async (browser, started) => {
     }
   }
   await page.keyboard.press("h");
-  const states = await page.locator(".help-now").allInnerTexts();
+  const states = () => page.locator(".help-now").allInnerTexts();
+  const before = await states();
   check(
-    states.includes("on") && states.includes("exact"),
-    `the sheet of controls shows how they stand (${states.join(", ")})`,
+    before.includes("on") && before.includes("exact") && before.includes("off"),
+    `the sheet of controls shows how they stand (${before.join(", ")})`,
   );
+  await page.keyboard.press("c");
+  const after = await states();
+  check(
+    after.some((text) => text.startsWith("every ")),
+    `and follows the keys that are tried (${after.join(", ")})`,
+  );
+  await page.keyboard.press("c");
   await page.keyboard.press("Escape");
   await page.locator("canvas#view").focus();
   await page.keyboard.press("m");

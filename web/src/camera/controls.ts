@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // From pointer, wheel and keys to a camera. The geometry is in orbit.ts, fly.ts and touch.ts.
 import type { Camera } from "./camera";
-import { isTyping } from "./typing";
+import { isText, isTyping } from "./typing";
 import type { Keys } from "./fly";
 import { fly, isFlyKey, look } from "./fly";
 import type { DistanceLimits } from "./orbit";
@@ -215,7 +215,7 @@ export class Controls {
 
   private keyDown(event: KeyboardEvent): void {
     this.isFast = event.shiftKey;
-    if (event.ctrlKey || event.metaKey || event.altKey || isTyping(event.target)) return;
+    if (event.ctrlKey || event.metaKey || event.altKey || isText(event.target)) return;
     if (isFlyKey(event.code)) this.flyKeyDown(event);
     else if (this.otherKeyDown(event)) event.preventDefault();
   }
@@ -224,7 +224,6 @@ export class Controls {
   private otherKeyDown(event: KeyboardEvent): boolean {
     const time = event.timeStamp;
     switch (event.key) {
-      case "Home":
       case "r":
       case "R":
         this.holder.goHome(time);
@@ -250,11 +249,16 @@ export class Controls {
         this.zoomBy(1 / zoomPerKey, 0, 0, time);
         return true;
       default:
-        return this.arrowDown(event);
+        return !isTyping(event.target) && this.placeKeyDown(event);
     }
   }
 
-  private arrowDown(event: KeyboardEvent): boolean {
+  /** Keys that move a slider, too, or choose among radio buttons. */
+  private placeKeyDown(event: KeyboardEvent): boolean {
+    if (event.key === "Home") {
+      this.holder.goHome(event.timeStamp);
+      return true;
+    }
     const x = Number(event.key === "ArrowRight") - Number(event.key === "ArrowLeft");
     const y = Number(event.key === "ArrowDown") - Number(event.key === "ArrowUp");
     if (x === 0 && y === 0) return false;

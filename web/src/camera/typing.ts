@@ -3,9 +3,12 @@
 const isIn = (target: EventTarget | null, selector: string): boolean =>
   target instanceof Element && target.closest(selector) !== null;
 
+const pressedInputs = ["range", "checkbox", "radio", "color", "button", "submit", "reset", "file"];
+const textInput = `input:not(${pressedInputs.map((type) => `[type=${type}]`).join()})`;
+
 /** Where letters belong to a text. */
 export const isText = (target: EventTarget | null): boolean =>
-  isIn(target, "input[type=text], input[type=number], select, textarea");
+  isIn(target, `${textInput}, select, textarea, [contenteditable]`);
 
 /** What the space bar presses. */
 export const isPressed = (target: EventTarget | null): boolean =>
