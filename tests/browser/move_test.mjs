@@ -104,6 +104,19 @@ await run("move_test", async (browser, started) => {
     help.x + help.width <= 360 && chip.x + chip.width <= first.x,
     "every button is on a telephone's screen, beside what says that all is well",
   );
+  await browser.settled();
+  const readout = page.locator("#readout");
+  const line = await readout.boundingBox();
+  check(await page.locator("#panel").isVisible(), "the panel is shown");
+  const panel = await page.locator("#panel").boundingBox();
+  check(
+    line.x >= 0 && line.x + line.width <= 360 && line.y + line.height < panel.y,
+    "speed and error are on a telephone's screen, beside the panel",
+  );
+  await page.keyboard.press("p");
+  await readout.filter({ hasText: /^at rest · \d.* ms · 0\.90 px · exact$/ }).waitFor();
+  check(await page.locator("#panel").isHidden(), "and without it");
+  await page.keyboard.press("p");
   await page.setViewportSize({ width: 1280, height: 766 });
   await browser.settled();
 

@@ -15,6 +15,7 @@ import { showNumbers } from "./panel/numbers";
 import { showPick } from "./panel/pick";
 import { showPlots } from "./panel/plots";
 import { showQuality } from "./panel/quality";
+import { showReadout } from "./panel/readout";
 import { showRenderers } from "./panel/renderers";
 import { showScene } from "./panel/scene";
 import { showSession } from "./panel/session";
@@ -52,6 +53,7 @@ function start(): void {
   showScene(state, viewer);
   showTerrain(state, viewer);
   showNumbers(state);
+  showReadout(state);
   showPick(state);
   showMeasure(state, viewer);
   showViews(state, viewer);

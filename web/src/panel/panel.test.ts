@@ -9,6 +9,7 @@ import { count, deviceName, milliseconds, pixels } from "./format";
 import { bannerFor, lossText, messageFor } from "./message";
 import { sentText, triangleText } from "./numbers";
 import { budgetHint, tauHint } from "./quality";
+import { readoutOf } from "./readout";
 import { degradedText, missingText, rendererLine, statusOf } from "./status";
 
 const connected: Connection = { kind: "connected" };
@@ -116,39 +117,39 @@ describe("the message in place of a picture", () => {
   });
 });
 
-describe("numbers", () => {
-  const numbers: Numbers = {
-    frameNumber: 1,
-    viewSequence: 1,
-    width: 1,
-    height: 1,
-    still: false,
-    exact: false,
-    pixelHash: 0,
-    quality: 75,
-    isVideo: false,
-    linkBytesPerSecond: 0,
-    pictureBytes: 0,
-    cullMilliseconds: 0,
-    drawMilliseconds: 0,
-    readbackMilliseconds: 0,
-    tauAsked: 1,
-    budgetMilliseconds: 0,
-    predictedMilliseconds: 0,
-    budgetTau: 0,
-    tauAchieved: 1,
-    complete: true,
-    pagesMissing: 0,
-    pagesFailed: 0,
-    triangles: 1,
-    renderMilliseconds: 1,
-    limitedBy: "",
-    fps: 1,
-    inputToDrawnMilliseconds: 1,
-    frozen: false,
-    parts: [],
-  };
+const numbers: Numbers = {
+  frameNumber: 1,
+  viewSequence: 1,
+  width: 1,
+  height: 1,
+  still: false,
+  exact: false,
+  pixelHash: 0,
+  quality: 75,
+  isVideo: false,
+  linkBytesPerSecond: 0,
+  pictureBytes: 0,
+  cullMilliseconds: 0,
+  drawMilliseconds: 0,
+  readbackMilliseconds: 0,
+  tauAsked: 1,
+  budgetMilliseconds: 0,
+  predictedMilliseconds: 0,
+  budgetTau: 0,
+  tauAchieved: 1,
+  complete: true,
+  pagesMissing: 0,
+  pagesFailed: 0,
+  triangles: 1,
+  renderMilliseconds: 1,
+  limitedBy: "",
+  fps: 1,
+  inputToDrawnMilliseconds: 1,
+  frozen: false,
+  parts: [],
+};
 
+describe("numbers", () => {
   it("explain an error above the one asked for", () => {
     expect(tauHint(numbers)).toBe("");
     expect(tauHint({ ...numbers, tauAchieved: 1.5 })).toContain("finest data drawn");
@@ -196,6 +197,27 @@ describe("numbers", () => {
     expect([NaN, 4.24, 33.3].map(milliseconds)).toEqual(["–", "4.2 ms", "33 ms"]);
     expect(triangleText(412_000, 1_740_000)).toBe("412 k of 1.74 M");
     expect(deviceName("NVIDIA H200/PCIe/SSE2")).toBe("NVIDIA H200");
+  });
+});
+
+describe("the readout", () => {
+  it("has speed, error and how a picture was sent in one line", () => {
+    expect(readoutOf({ ...numbers, fps: 26, inputToDrawnMilliseconds: 48 }, 9.9e6)).toEqual({
+      speed: "26 fps · 48 ms · 9.9 Mbit/s",
+      error: "1.00 px",
+      isWarning: false,
+      sent: "JPEG 75",
+    });
+    const atRest = { ...numbers, fps: 0, inputToDrawnMilliseconds: NaN, exact: true };
+    expect(readoutOf(atRest, 0)).toMatchObject({ speed: "at rest", sent: "exact" });
+  });
+
+  it("warns of an error that is not the one asked for, and of data that are missing", () => {
+    expect(readoutOf({ ...numbers, tauAchieved: 1.5 }, 0).isWarning).toBe(true);
+    expect(readoutOf({ ...numbers, complete: false }, 0)).toMatchObject({
+      isWarning: true,
+      sent: "JPEG 75, incomplete",
+    });
   });
 });
 
