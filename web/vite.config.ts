@@ -2,6 +2,7 @@
 import { defineConfig } from "vitest/config";
 
 export default defineConfig({
+  base: "./", // a proxy may have the page below a path of its own
   build: {
     target: "es2022",
     // The page's Content-Security-Policy allows files of its own only: nothing is inlined.

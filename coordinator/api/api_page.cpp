@@ -155,7 +155,7 @@ std::string errorSection() {
 
 }  // namespace
 
-std::string apiPage() {
+std::string apiPage(std::string_view folder) {
     Types types;
     std::string calls;
     const google::protobuf::MethodDescriptor* last = nullptr;
@@ -166,11 +166,13 @@ std::string apiPage() {
     return fmt::format(
         "<!doctype html>\n<html lang=\"en\"><meta charset=\"utf-8\">"
         "<meta name=\"viewport\" content=\"width=device-width\">"
-        "<title>Eyrie: what programs can ask</title><link rel=\"stylesheet\" href=\"{}\">\n"
-        "<main>\n<h1>What programs can ask</h1>\n<p>{} Bodies are JSON, sent as "
+        "<title>Eyrie: what programs can ask</title><link rel=\"stylesheet\" "
+        "href=\"{0}style.css\">\n"
+        "<main>\n<h1>What programs can ask</h1>\n<p>{1} Bodies are JSON, sent as "
         "<code>application/json</code>. For programs this page is <a "
-        "href=\"/api/v1/openapi.json\">/api/v1/openapi.json</a> (OpenAPI 3.1).\n{}{}{}</main>\n",
-        kApiStylePath, escaped(commentOf(documentedService())), calls, errorSection(),
+        "href=\"{0}v1/openapi.json\">/api/v1/openapi.json</a> (OpenAPI "
+        "3.1).\n{2}{3}{4}</main>\n",
+        folder, escaped(commentOf(documentedService())), calls, errorSection(),
         typeSections(types));
 }
 

@@ -169,7 +169,8 @@ RestAnswer page(std::string_view path) {
         return problem(absl::NotFoundError("there is nothing at this path; see /api"), 404);
     RestAnswer answer;
     answer.contentType = isStyle ? "text/css; charset=utf-8" : "text/html; charset=utf-8";
-    answer.body = std::make_shared<const std::string>(isStyle ? apiStyle() : apiPage());
+    answer.body = std::make_shared<const std::string>(
+        isStyle ? apiStyle() : apiPage(path == "/api/" ? "" : "api/"));
     return answer;
 }
 

@@ -4,6 +4,7 @@ import { spawnSync } from "node:child_process";
 import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { fileURLToPath } from "node:url";
+import { prefixProxy } from "./prefix_proxy.mjs";
 import { check, colourCount, environment, run, ServerProcess } from "./support.mjs";
 
 const web = environment("EYRIE_WEB_FOLDER");
@@ -59,6 +60,17 @@ await run("embed_test", async (browser, started) => {
     JSON.stringify(await shot()) === JSON.stringify(home),
     "the page's own button moves it back",
   );
+
+  const below = await prefixProxy(server.url, "/below/here/");
+  await page.goto(below);
+  await browser.settled();
+  check(
+    await page.locator("#panel").isVisible(),
+    "the server's own page works below a path of a proxy",
+  );
+  await page.goto(new URL("examples/embed.html", below).href);
+  await page.locator("output", { hasText: "Exact picture, off by" }).waitFor();
+  check(true, "and so do those that embed the viewer");
 
   check(typeErrors(`${web}/examples/embed.js`) === "", "the example agrees with the types served");
   const folder = mkdtempSync(`${tmpdir()}/eyrie-embed-`);

@@ -34,6 +34,7 @@ namespace {
 using google::protobuf::Value;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 using testing::StartsWith;
 
 /// The configuration of two renderers.
@@ -417,6 +418,13 @@ TEST_F(Rest, WithoutADataFolderNothingIsKept) {
     makeApi(std::nullopt);
     expectProblem(get("/flights"), 409, "FAILED_PRECONDITION");
     EXPECT_EQ(text(get("/flights"), "remedy"), "start it with --data DIR");
+}
+
+TEST_F(Rest, ThePageFindsItsStyleBelowAnyPathOfAProxy) {
+    const auto has = [&](std::string path) { return *api_->rest().answer({"GET", path}).body; };
+    EXPECT_THAT(has("/api"), HasSubstr("href=\"api/style.css\""));
+    EXPECT_THAT(has("/api/"), HasSubstr("href=\"style.css\""));
+    EXPECT_THAT(has("/api"), Not(HasSubstr("href=\"/")));
 }
 
 TEST_F(Rest, ThePageAndTheDocumentHaveEveryCall) {
