@@ -194,13 +194,30 @@ await run("move_test", async (browser, started) => {
   await page.locator("#notice", { hasText: "no ground to stand on" }).waitFor();
   check(await page.locator("#walk-mode").isHidden(), "nobody stands where there is no ground");
 
-  // ---- A browser without OffscreenCanvas
+  // ---- Browsers that cannot show pictures
+  const scriptless = await browser.chromium.newPage({ javaScriptEnabled: false });
+  await scriptless.goto(server.url);
+  check(
+    (await scriptless.locator("#message").innerText()).includes("Firefox 114"),
+    "a browser that runs no scripts, or cannot read these, is told so by the page itself",
+  );
+  await scriptless.close();
+
+  const another = await browser.chromium.newPage();
+  await another.route("**/decode.worker*.js", (route) =>
+    route.fulfill({ contentType: "text/javascript", body: "export {}; no module" }),
+  );
+  await another.goto(server.url);
+  await another.locator("#message", { hasText: "worker did not start" }).waitFor();
+  check(true, "one that cannot start the worker is told that");
+  await another.close();
+
   await page.addInitScript(() => delete window.OffscreenCanvas);
   await page.goto("about:blank");
   await page.goto(server.url);
   await page.locator("#message", { hasText: "This browser is too old" }).waitFor();
   check(
-    (await page.locator("#message").innerText()).includes("Firefox 105"),
+    (await page.locator("#message").innerText()).includes("Firefox 114"),
     "a browser that cannot show pictures is told why, and which can",
   );
 });

@@ -72,4 +72,6 @@ function start(): void {
   });
 }
 
+byId("message", HTMLElement).hidden = true;
+byId("unread", HTMLElement).remove();
 void signIn().then(start);

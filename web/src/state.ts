@@ -128,6 +128,8 @@ export class State {
   readonly shown = new Value<Shown | null>(null);
   /** What the last click found. */
   readonly pick = new Value<Pick | null>(null);
+  /** The worker that draws did not start: the browser may be too old for it. */
+  readonly cannotDraw = new Value(false);
   /** A view has been waiting for its picture for long. */
   readonly stale = new Value(false);
   /** Clicks add points to what is measured. */

@@ -98,6 +98,7 @@ export class Viewer implements CameraHolder {
       failed: (frameNumber) => this.arrivals.failed(frameNumber),
       ready: (frameNumber, time) => this.arrivals.ready(frameNumber, time),
       videoFailed: () => this.setVideo(false),
+      workerFailed: () => state.cannotDraw.set(true),
       resized: () => this.resize(),
     });
     this.arrivals = new Arrivals(this.canvas, {

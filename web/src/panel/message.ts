@@ -15,6 +15,8 @@ export interface Situation {
   connection: Connection;
   session: SessionState | null;
   hasPicture: boolean;
+  /** The worker that draws did not start. */
+  cannotDraw?: boolean;
 }
 
 const startServer = "eyrie serve scene.json";
@@ -32,9 +34,21 @@ export function lossText(connection: Connection, now: number): string {
   return `${Math.max(0, Math.floor((now - connection.since) / 1000))} s`;
 }
 
+/** What the scripts are built for, and workers that are modules; index.html says the same. */
+const useAnother =
+  "open this page in Chrome 94, Firefox 114, Safari 16.4 or newer; or have pictures without a browser:";
+const withoutBrowser = "eyrie render --help";
+
 /** Fills the view while there has never been a picture. */
-export function messageFor({ connection, session, hasPicture }: Situation): Message | null {
+export function messageFor(situation: Situation): Message | null {
+  const { connection, session, hasPicture, cannotDraw = false } = situation;
   if (hasPicture) return null;
+  if (cannotDraw)
+    return {
+      title: "Pictures cannot be drawn",
+      text: `The page's worker did not start. Load the page again; if that does not help, this browser is too old for it: ${useAnother}`,
+      command: withoutBrowser,
+    };
   if (connection.kind === "lost")
     return {
       title: "Eyrie does not answer",
@@ -78,16 +92,13 @@ export function bannerFor({ connection, session, hasPicture }: Situation): strin
 /** In a browser that cannot show pictures there is nothing to press either. */
 export function showTooOld(): void {
   const message = byId("message", HTMLElement);
-  const text =
-    "It has no OffscreenCanvas, which Eyrie draws with. Open this page in Chrome 69, Firefox 105, " +
-    "Safari 16.4 or newer; or have pictures without a browser:";
   message.append(
     make(
       "div",
       "message-box",
       make("h2", "message-title", "This browser is too old"),
-      make("p", "message-text", text),
-      make("code", "message-command", "eyrie render --help"),
+      make("p", "message-text", `It has no OffscreenCanvas, which Eyrie draws with: ${useAnother}`),
+      make("code", "message-command", withoutBrowser),
     ),
   );
   message.hidden = false;
@@ -112,6 +123,7 @@ export function showMessages(state: State): void {
       connection: state.connection.value,
       session: state.session.value,
       hasPicture: state.numbers.value !== null,
+      cannotDraw: state.cannotDraw.value,
     };
     const shown = messageFor(situation);
     message.hidden = shown === null;
@@ -128,6 +140,7 @@ export function showMessages(state: State): void {
   state.connection.watch(update);
   state.session.watch(update);
   state.numbers.watch(update);
+  state.cannotDraw.watch(update);
   // The seconds since the loss.
   window.setInterval(() => {
     if (state.connection.value.kind === "lost") update();

@@ -104,6 +104,13 @@ describe("the message in place of a picture", () => {
     expect(messageFor(situation)?.command).toContain("eyrie renderer");
   });
 
+  it("tells a browser that cannot draw which can, whatever the connection does", () => {
+    const situation = { connection: lost, session: session(1), hasPicture: false };
+    const message = messageFor({ ...situation, cannotDraw: true });
+    expect(message?.title).toContain("cannot be drawn");
+    expect(message?.text).toContain("Firefox 114");
+  });
+
   it("leaves a picture alone, and says when that is not live", () => {
     const situation = { connection: lost, session: session(1), hasPicture: true };
     expect(messageFor(situation)).toBeNull();

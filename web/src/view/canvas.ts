@@ -12,6 +12,8 @@ export interface CanvasEvents {
   videoFailed(): void;
   /** This frame's picture has been decoded, and is kept until it is presented; `time` as of drawn(). */
   ready(frameNumber: number, time: number): void;
+  /** The worker did not start: no picture will ever be drawn. */
+  workerFailed(): void;
   /** The canvas has another size, in CSS pixels, and has kept it for a moment. */
   resized(size: Size): void;
 }
@@ -23,6 +25,7 @@ export class PictureCanvas {
   private readonly worker: Worker;
   private readonly observer: ResizeObserver;
   private resizeTimer: number | undefined;
+  private hasReported = false;
 
   constructor(
     readonly element: HTMLCanvasElement,
@@ -31,6 +34,9 @@ export class PictureCanvas {
     element.style.objectFit = "cover"; // as pick.ts reckons, whoever the canvas is of
     this.worker = new Worker(new URL("./decode.worker.ts", import.meta.url), { type: "module" });
     this.worker.onmessage = (event: MessageEvent<FromWorker>) => this.reported(event.data);
+    this.worker.onerror = () => {
+      if (!this.hasReported) this.events.workerFailed();
+    };
     const canvas = element.transferControlToOffscreen();
     this.post({ kind: "canvas", canvas }, [canvas]);
     this.observer = new ResizeObserver(() => this.resizeSoon());
@@ -74,6 +80,7 @@ export class PictureCanvas {
   }
 
   private reported(report: FromWorker): void {
+    this.hasReported = true;
     const time = report.time - performance.timeOrigin;
     if (report.kind === "failed") {
       if (report.isVideo) this.events.videoFailed();
