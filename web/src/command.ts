@@ -7,7 +7,7 @@ import { defaultLook } from "./look";
 import { LookSchema } from "./protocol/gen/eyrie/v1/look_pb";
 import { ShownPictureSchema } from "./protocol/gen/eyrie/v1/viewer_pb";
 import type { Output } from "./output";
-import { usualOutput } from "./output";
+import { queryOf } from "./output";
 import { lookMessage, shownMessage } from "./protocol/messages";
 import type { SharedView } from "./share";
 import { shadingName } from "./share";
@@ -25,9 +25,27 @@ function lookJson(view: SharedView): { look?: JsonValue } {
   return isUsual ? {} : { look: toJson(LookSchema, lookMessage(look)) };
 }
 
-/** What to type in a shell for the same picture; SCENE stands for the files that are served. */
-export function renderCommand(view: SharedView, { width, height }: Size): string {
+/** For a shell: nothing of it is the shell's. */
+const quoted = (text: string): string => `'${text.replaceAll("'", "'\\''")}'`;
+
+/** Of one picture among those that a configuration has. */
+const outputOptions = (output: Output): string[] =>
+  Object.entries(output)
+    .filter(([, value]) => value !== "")
+    .map(([name, value]) => `--${name} ${quoted(value as string)}`);
+
+/**
+ * What to type in a shell for the same picture; SCENE stands for the files that are served, CONFIG
+ * for the configuration's, of which the page knows no more. `throughWall`: so it is seen.
+ */
+export function renderCommand(
+  view: SharedView,
+  { width, height }: Size,
+  output: Output,
+  throughWall: boolean,
+): string {
   const { look } = lookJson(view);
+  const isConfigured = throughWall || output.canvas !== "" || output.segment !== "";
   const files = [`cat > camera.json <<'CAMERA'\n${cameraJson(view.camera)}\nCAMERA`];
   if (look !== undefined) files.push(`cat > look.json <<'LOOK'\n${JSON.stringify(look)}\nLOOK`);
   const options = [
@@ -36,6 +54,8 @@ export function renderCommand(view: SharedView, { width, height }: Size): string
     `--tau ${view.tau}`,
     `--shading ${shadingName(view.shading)}`,
     ...(look === undefined ? [] : ["--look look.json"]),
+    ...(isConfigured ? ["--config CONFIG"] : []),
+    ...outputOptions(output),
     "-o view.png",
   ];
   return `${files.join("\n")}\neyrie render SCENE ${options.join(" ")}\n`;
@@ -57,7 +77,6 @@ export function imageRequest(
   { width, height }: Size,
   output: Output,
 ): ImageRequest {
-  const isUsual = JSON.stringify(output) === JSON.stringify(usualOutput);
   return {
     camera: view.camera,
     width,
@@ -65,15 +84,12 @@ export function imageRequest(
     tauPixels: view.tau,
     shading: `SHADING_${shadingName(view.shading).toUpperCase()}`,
     ...lookJson(view),
-    ...(isUsual ? {} : { shown: toJson(ShownPictureSchema, shownMessage(output)) }),
+    ...(queryOf(output) === "" ? {} : { shown: toJson(ShownPictureSchema, shownMessage(output)) }),
   };
 }
 
 /** Where the server of a page draws pictures for programs. */
 export const imageAddress = (page: string): string => new URL("api/v1/image", page).href;
-
-/** For a shell: nothing of it is the shell's. */
-const quoted = (text: string): string => `'${text.replaceAll("'", "'\\''")}'`;
 
 /** For a shell with curl; a server with tokens takes one from EYRIE_TOKEN. */
 export function curlCommand(request: ImageRequest, page: string): string {

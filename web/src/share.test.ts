@@ -3,6 +3,7 @@ import { describe, expect, it } from "vitest";
 import { addBookmark, readBookmarks, removeBookmark } from "./bookmarks";
 import { cameraJson, curlCommand, imageRequest, pythonScript, renderCommand } from "./command";
 import { defaultLook } from "./look";
+import type { Output } from "./output";
 import { usualOutput } from "./output";
 import { Shading } from "./protocol/messages";
 import type { SharedView } from "./share";
@@ -132,7 +133,7 @@ describe("the command for a picture", () => {
     expect(cameraJson(special.camera)).toBe(
       '{"eye":[1.5,-2,1000000.3333333334],"target":[0,0,0],"up":[0,1,0],"fovyDegrees":30}',
     );
-    const text = renderCommand({ ...plain, shading: Shading.FLAT }, size);
+    const text = renderCommand({ ...plain, shading: Shading.FLAT }, size, usualOutput, false);
     expect(text).toContain(cameraJson(plain.camera));
     expect(text).toContain(
       "eyrie render SCENE --camera camera.json --size 1280x720 --tau 1 --shading flat -o view.png",
@@ -141,10 +142,30 @@ describe("the command for a picture", () => {
   });
 
   it("has a look where it is not the usual one", () => {
-    const text = renderCommand(special, size);
+    const text = renderCommand(special, size, usualOutput, false);
     expect(text).toContain("--look look.json");
     const look: unknown = JSON.parse(/LOOK'\n(.*)\nLOOK/.exec(text)?.[1] ?? "");
     expect(look).toMatchObject({ exaggeration: 2.5, contours: { intervalMetres: 50 } });
+  });
+});
+
+describe("the command for one screen of a wall", () => {
+  const size = { width: 1280, height: 720 };
+  const command = (output: Output, throughWall: boolean): string =>
+    renderCommand(plain, size, output, throughWall);
+
+  it("names the screen, the eye, and that there is a configuration", () => {
+    const output = { ...usualOutput, segment: "it's left", eye: "right" as const };
+    expect(command(output, true)).toContain(
+      "--config CONFIG --segment 'it'\\''s left' --eye 'right' -o view.png",
+    );
+    expect(command(usualOutput, true)).toContain("--config CONFIG -o view.png");
+  });
+
+  it("names no configuration for two eyes that see through no wall", () => {
+    const text = command({ ...usualOutput, stereo: "anaglyph" }, false);
+    expect(text).toContain("--stereo 'anaglyph' -o view.png");
+    expect(text).not.toContain("--config");
   });
 });
 

@@ -81,7 +81,11 @@ function commands(state: State, viewer: Viewer) {
       url.hash = encodeView(view);
       return copy("Link", url.href);
     }),
-    command: withView((view) => copy("Command", renderCommand(view, viewer.pictureSize))),
+    command: withView((view) => {
+      const throughWall = (state.shown.value?.seen ?? null) !== null;
+      const text = renderCommand(view, viewer.pictureSize, viewer.output, throughWall);
+      return copy("Command", text);
+    }),
     camera: withView((view) => copy("Camera", cameraJson(view.camera))),
     curl: withView((view) => copy("curl command", curlCommand(requestOf(view), page()))),
     python: withView((view) => copy("Python script", pythonScript(requestOf(view), page()))),
