@@ -2,14 +2,14 @@
 import type { Camera } from "./camera/camera";
 import type { Keys } from "./camera/fly";
 import type { Look } from "./look";
-import { fitToAspect, isUsable } from "./camera/camera";
+import { isUsable } from "./camera/camera";
 import { Controls } from "./camera/controls";
 import type { CameraHolder } from "./camera/controls";
 import type { DistanceLimits } from "./camera/orbit";
 import { distanceLimits, lookAt } from "./camera/orbit";
 import type { Point } from "./camera/touch";
 import type { Bounds, Direction } from "./camera/standard";
-import { directionOfView, standardCamera, standardViews } from "./camera/standard";
+import { directionOfView, homeIn, standardCamera, standardViews } from "./camera/standard";
 import type { Frame, SessionState } from "./protocol/messages";
 import type { LedView } from "./protocol/led_view";
 import { ledViewOf } from "./protocol/led_view";
@@ -212,10 +212,11 @@ export class Viewer implements CameraHolder {
   }
 
   goHome(inputTime?: number): void {
-    const home = cameraOf(this.state.session.value?.home);
-    if (home === undefined) return;
+    const session = this.state.session.value;
+    const [home, bounds] = [cameraOf(session?.home), boundsOf(session?.sceneBounds)];
+    if (home === undefined || bounds === undefined) return;
     const { width, height } = this.canvas.size();
-    this.move(fitToAspect(home, width / Math.max(1, height)), inputTime);
+    this.move(homeIn(home, bounds, width / Math.max(1, height)), inputTime);
   }
 
   /** From where maps and drawings show things; `index` in standardViews. */

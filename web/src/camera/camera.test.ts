@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
 import type { Camera, Vec3 } from "./camera";
-import { axesOf, distance, dot, fitToAspect, isUsable, length, subtract } from "./camera";
+import { axesOf, distance, dot, isUsable, length, subtract } from "./camera";
 import { fly, flyDirection, look } from "./fly";
 import { distanceLimits, orbit, pan, zoom } from "./orbit";
+import type { Bounds } from "./standard";
+import { directionOfView, homeIn } from "./standard";
 import { pinch } from "./touch";
 
 const camera: Camera = { eye: [0, -10, 5], target: [0, 0, 0], up: [0, 0, 1], fovyDegrees: 45 };
@@ -159,9 +161,25 @@ describe("pinch", () => {
   });
 });
 
-describe("fitToAspect", () => {
-  it("stands back in narrow windows only", () => {
-    expect(distance(fitToAspect(camera, 16 / 9))).toBeCloseTo(distance(camera), 9);
-    expect(distance(fitToAspect(camera, 2 / 3))).toBeCloseTo(2 * distance(camera), 9);
+describe("the whole scene", () => {
+  const home: Camera = { ...camera, eye: [-60, -60, 55], target: [40, 40, 10] };
+  const bounds: Bounds = { min: [0, 0, 0], max: [100, 100, 20] };
+
+  it("is in pictures of every shape, to its corners", () => {
+    for (const aspect of [0.2, 0.46, 0.75, 1, 1.3])
+      for (const x of [0, 100])
+        for (const y of [0, 100])
+          for (const z of [0, 20]) {
+            const at = project(homeIn(home, bounds, aspect), [x, y, z]);
+            expect(Math.abs(at.x)).toBeLessThanOrEqual((aspect * height) / 2);
+            expect(Math.abs(at.y)).toBeLessThanOrEqual(height / 2);
+          }
+  });
+
+  it("is seen from where the server shows it, and just so in wide pictures", () => {
+    expect(homeIn(home, bounds, 16 / 9)).toEqual(home);
+    const [narrow, wide] = [homeIn(home, bounds, 0.5), home].map(directionOfView);
+    expect(narrow?.azimuth).toBeCloseTo(wide?.azimuth ?? NaN, 9);
+    expect(narrow?.elevation).toBeCloseTo(wide?.elevation ?? NaN, 9);
   });
 });

@@ -105,12 +105,3 @@ export function isUsable(camera: Camera): boolean {
   if (!(fovyDegrees >= 1 && fovyDegrees <= 170) || !(distance(camera) > 0)) return false;
   return length(cross(unit(subtract(target, eye)), unit(up))) > 1e-9;
 }
-
-/**
- * The server's home camera frames the scene in a 4:3 picture and wider ones; a narrower window
- * needs to stand back.
- */
-export function fitToAspect(home: Camera, aspect: number): Camera {
-  const factor = Math.max(1, 4 / 3 / Math.max(aspect, 0.1));
-  return { ...home, eye: add(home.target, scale(subtract(home.eye, home.target), factor)) };
-}

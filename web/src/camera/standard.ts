@@ -64,3 +64,12 @@ export function standardCamera(
       }
   return { ...probe, eye: add(target, scale(away, distance)) };
 }
+
+/** Of the pictures that the server's home camera frames the scene in, and of all wider ones. */
+const homeAspect = 4 / 3;
+
+/** All of the scene, as the server shows it first, in a picture of any shape. */
+export function homeIn(home: Camera, bounds: Bounds, aspect: number): Camera {
+  if (aspect >= homeAspect) return home;
+  return standardCamera(directionOfView(home), bounds, aspect, home.fovyDegrees);
+}
