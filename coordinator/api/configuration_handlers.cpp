@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
+#include <utility>
 
 #include "coordinator/api/handler_list.h"
 #include "coordinator/api/handlers.h"
@@ -27,23 +27,9 @@ v1::ConfigurationState stateOf(const ActiveConfiguration& active) {
 }
 
 absl::Status apply(const v1::ConfigurationState& change, ActiveConfiguration& active) {
-    // All of it is checked before anything is done.
     config::ConfigurationState wanted = active.state();
     RETURN_IF_ERROR(config::change(change, active.written(), wanted));
-    for (const v1::LayoutSwitch& layout : change.layouts())
-        RETURN_IF_ERROR(active.switchLayout(layout.canvas(), layout.layout()));
-    for (std::size_t i = 0; i < wanted.equalizers.size(); ++i)
-        if (wanted.equalizers[i] != active.state().equalizers[i])
-            RETURN_IF_ERROR(active.tune(fmt::format("{}", i), wanted.equalizers[i]));
-    for (std::size_t i = 0; i < wanted.heads.size(); ++i)
-        if (wanted.heads[i] != active.state().heads[i])
-            RETURN_IF_ERROR(active.setHead(fmt::format("{}", i), wanted.heads[i]));
-    for (std::size_t i = 0; i < wanted.views.size(); ++i)
-        for (std::size_t j = 0; j < wanted.views[i].size(); ++j)
-            if (wanted.views[i][j] != active.state().views[i][j])
-                RETURN_IF_ERROR(
-                    active.setView(fmt::format("{}", i), fmt::format("{}", j), wanted.views[i][j]));
-    return absl::OkStatus();
+    return active.become(std::move(wanted));
 }
 
 absl::StatusOr<v1::GetConfigurationResponse> get(coordinator::ConfigurationAccess& access) {

@@ -75,6 +75,7 @@ Configuration defaultConfiguration(std::span<const RendererFacts> renderers) {
     configuration.canvases.emplace_back().segments.push_back(segment);
     const auto add = [&](std::string name, Compound root) {
         root.channel = DestinationIndex{0, 0, configuration.layouts.size(), 0};
+        root.name = name;  // its equalizer is called by it, whatever the number of renderers
         configuration.canvases[0].layouts.push_back(configuration.layouts.size());
         View view;
         view.observer = 0;

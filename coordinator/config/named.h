@@ -39,4 +39,14 @@ absl::StatusOr<std::size_t> findNamed(const std::vector<T>& things, std::string_
         fmt::format("no {} is called \"{}\"; there are {}", what, name, namesOf(things)));
 }
 
+/// What findNamed finds a thing by: its name, where it is the first so called; else its position.
+template <typename T>
+std::string called(const std::vector<T>& things, std::size_t index) {
+    const std::string& name = things[index].name;
+    for (std::size_t i = 0; i < index; ++i)
+        if (things[i].name == name)
+            return fmt::format("{}", index);
+    return name.empty() ? fmt::format("{}", index) : name;
+}
+
 }  // namespace eyrie::config

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "coordinator/config/message_to_statements.h"
+#include "coordinator/config/named.h"
 #include "coordinator/config/section_readers.h"
 #include "coordinator/config/statement_list.h"
 #include "eyrie/v1/configuration.pb.h"
@@ -15,16 +16,6 @@ namespace eyrie::config {
 namespace {
 
 using Pixels = google::protobuf::RepeatedField<std::int32_t>;
-
-/// The name, where it finds that one of them; else its position.
-template <typename T>
-std::string called(const std::vector<T>& things, std::size_t index) {
-    const std::string& name = things[index].name;
-    for (std::size_t i = 0; i < index; ++i)
-        if (things[i].name == name)
-            return fmt::format("{}", index);
-    return name.empty() ? fmt::format("{}", index) : name;
-}
 
 void set(const std::optional<fabric::Vec2>& value, Pixels& pixels) {
     if (!value)

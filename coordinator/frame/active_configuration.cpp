@@ -2,6 +2,7 @@
 #include "coordinator/frame/active_configuration.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "coordinator/config/findings.h"
@@ -50,6 +51,13 @@ std::vector<ActiveConfiguration::Pipe> pipesOf(const config::Configuration& conf
     return pipes;
 }
 
+absl::Status firstError(const config::Findings& findings) {
+    for (const config::Finding& finding : findings.all())
+        if (finding.kind == config::Finding::Kind::Error)
+            return absl::InvalidArgumentError(finding.message);
+    return absl::OkStatus();
+}
+
 config::Viewport fractionOf(const fabric::PixelViewport& part, const fabric::PixelViewport& whole) {
     if (part.isEmpty() || whole.isEmpty())
         return {0, 0, 0, 0};
@@ -74,47 +82,67 @@ void add(equalizer::CompoundTime& sum, const ActiveConfiguration::Taken& taken,
 }  // namespace
 
 ActiveConfiguration::ActiveConfiguration(config::Configuration written)
-    : written_(std::move(written)),
-      live_(written_),
-      state_(config::initialState(written_)),
-      equalizers_(written_) {
-    resolveAnew();
+    : written_(std::move(written)), live_(written_), equalizers_(written_) {
+    // Whoever read the configuration has told of errors in it.
+    (void)show(config::initialState(written_));
 }
 
-void ActiveConfiguration::resolveAnew() {
+/// Errors: that of what is shown from now on all the same.
+absl::Status ActiveConfiguration::show(config::ConfigurationState state) {
+    state_ = std::move(state);
     display_ = displayOf(written_, state_);
     shown_ = config::applied(written_, state_);
     live_.layouts = shown_.layouts;
-    config::Findings ignored;  // whoever read the configuration has told of them
-    resolved_ = config::resolve(shown_, display_, ignored);
+    config::Findings findings;
+    resolved_ = config::resolve(shown_, display_, findings);
     pipes_ = pipesOf(shown_, resolved_);
+    return firstError(findings);
+}
+
+absl::Status ActiveConfiguration::become(config::ConfigurationState state) {
+    config::ConfigurationState before = state_;
+    if (absl::Status shown = show(std::move(state)); !shown.ok()) {
+        (void)show(std::move(before));
+        return shown;
+    }
+    for (std::size_t i = 0; i < state_.equalizers.size(); ++i)
+        if (state_.equalizers[i] != before.equalizers[i])
+            RETURN_IF_ERROR(equalizers_.tune(i, state_.equalizers[i]));
+    return absl::OkStatus();
+}
+
+void ActiveConfiguration::renameNodes(std::vector<config::Node> nodes) {
+    live_.nodes = nodes;
+    written_.nodes = std::move(nodes);
+    (void)show(std::move(state_));
 }
 
 absl::Status ActiveConfiguration::switchLayout(std::string_view canvas, std::string_view layout) {
-    RETURN_IF_ERROR(config::switchLayout(written_, state_, canvas, layout));
-    resolveAnew();
-    return absl::OkStatus();
+    config::ConfigurationState state = state_;
+    RETURN_IF_ERROR(config::switchLayout(written_, state, canvas, layout));
+    return become(std::move(state));
 }
 
 absl::Status ActiveConfiguration::setHead(std::string_view observer,
                                           const fabric::Mat4& roomFromHead) {
-    RETURN_IF_ERROR(config::setHead(written_, state_, observer, roomFromHead));
-    resolveAnew();
-    return absl::OkStatus();
+    config::ConfigurationState state = state_;
+    RETURN_IF_ERROR(config::setHead(written_, state, observer, roomFromHead));
+    return become(std::move(state));
 }
 
 absl::Status ActiveConfiguration::setView(std::string_view layout, std::string_view view,
                                           const config::ViewState& settings) {
-    RETURN_IF_ERROR(config::setView(written_, state_, layout, view, settings));
-    resolveAnew();
-    return absl::OkStatus();
+    config::ConfigurationState state = state_;
+    RETURN_IF_ERROR(config::setView(written_, state, layout, view, settings));
+    return become(std::move(state));
 }
 
 absl::Status ActiveConfiguration::tune(std::string_view equalizer,
                                        const equalizer::Tuning& tuning) {
     ASSIGN_OR_RETURN(const std::size_t position, equalizers_.find(equalizer));
-    RETURN_IF_ERROR(config::tuneEqualizer(written_, state_, position, tuning));
-    return equalizers_.tune(equalizer, tuning);
+    config::ConfigurationState state = state_;
+    RETURN_IF_ERROR(config::tuneEqualizer(written_, state, position, tuning));
+    return become(std::move(state));
 }
 
 absl::StatusOr<compound::Output> ActiveConfiguration::outputOf(const Shown& shown,
@@ -163,40 +191,39 @@ absl::StatusOr<fabric::SeenAreas> ActiveConfiguration::seen(const FrameRequest& 
 
 absl::StatusOr<compound::Plan> ActiveConfiguration::plan(const FrameRequest& request,
                                                          std::uint64_t frameNumber,
-                                                         const std::vector<bool>& isFree) {
+                                                         const std::vector<std::string>& away) {
     ASSIGN_OR_RETURN(compound::PlanRequest asked, planRequestOf(request));
     asked.frameNumber = frameNumber;
-    equalizers_.apply(live_, {frameNumber, resolved_, gone(isFree)});
+    equalizers_.apply(live_, {frameNumber, resolved_, gone(away)});
     return compound::makePlan(live_, asked);
 }
 
-std::size_t ActiveConfiguration::positionOf(const config::ChannelIndex& channel) const {
-    const auto found = std::ranges::find(pipes_, Pipe{channel.node, channel.pipe});
-    return static_cast<std::size_t>(found - pipes_.begin());
-}
-
-/// Of the channels whose renderer cannot draw now; none where none can.
-std::vector<config::ChannelIndex> ActiveConfiguration::gone(const std::vector<bool>& isFree) const {
+/// The channels whose renderer is away; none where all are.
+std::vector<config::ChannelIndex> ActiveConfiguration::gone(
+    const std::vector<std::string>& away) const {
+    std::set<Pipe> pipes;
+    for (const auto& [pipe, renderer] : renderers_)
+        if (std::ranges::find(away, renderer) != away.end())
+            pipes.insert(pipe);
     std::vector<config::ChannelIndex> gone;
-    if (std::ranges::find(isFree, true) == isFree.end())
+    if (pipes.size() == renderers_.size())
         return gone;
     for (const config::ResolvedCompound& compound : resolved_.compounds)
-        if (compound.channel && !isFree[positionOf(*compound.channel) % isFree.size()] &&
+        if (compound.channel && pipes.contains({compound.channel->node, compound.channel->pipe}) &&
             std::ranges::find(gone, *compound.channel) == gone.end())
             gone.push_back(*compound.channel);
     return gone;
 }
 
-Takers ActiveConfiguration::takersOf(const compound::Plan& plan, std::size_t renderers) const {
+Takers ActiveConfiguration::takersOf(const compound::Plan& plan) const {
     Takers takers;
     for (const compound::PlannedDraw& draw : plan.draws) {
-        takers.preferred.push_back(rendererFor(draw.channel, renderers));
+        takers.preferred.push_back(rendererFor(draw.channel));
         takers.queueOf.push_back(draw.queue);
     }
     for (const auto& channels : plan.queues) {
-        std::vector<std::size_t>& queue = takers.queues.emplace_back();
-        for (const config::ChannelIndex& channel : channels)
-            queue.push_back(rendererFor(channel, renderers));
+        std::vector<std::string>& queue = takers.queues.emplace_back();
+        for (const config::ChannelIndex& channel : channels) queue.push_back(rendererFor(channel));
     }
     return takers;
 }

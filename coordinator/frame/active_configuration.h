@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -16,6 +17,7 @@
 #include "coordinator/config/resolved.h"
 #include "coordinator/config/state.h"
 #include "coordinator/frame/frame_source.h"
+#include "coordinator/frame/pipe_renderers.h"
 #include "coordinator/frame/takers.h"
 
 namespace eyrie::coordinator {
@@ -32,37 +34,44 @@ public:
     const config::ConfigurationState& state() const { return state_; }
     std::vector<equalizer::EqualizerState> equalizers() const { return equalizers_.states(); }
 
-    /// As config::switchLayout, config::setHead, config::setView and Equalizers::tune.
+    /// Puts `state` in the place of state(). Errors: InvalidArgument where it cannot be shown, as
+    /// with an eye behind its wall; then nothing has changed.
+    absl::Status become(config::ConfigurationState state);
+
+    /// As config::switchLayout, config::setHead, config::setView and Equalizers::tune, and become.
     absl::Status switchLayout(std::string_view canvas, std::string_view layout);
     absl::Status setHead(std::string_view observer, const fabric::Mat4& roomFromHead);
     absl::Status setView(std::string_view layout, std::string_view view,
                          const config::ViewState& settings);
     absl::Status tune(std::string_view equalizer, const equalizer::Tuning& tuning);
 
+    /// In place of the nodes it was written with, from which they differ in names only.
+    void renameNodes(std::vector<config::Node> nodes);
+
     /// Pipes that draw something of what is shown: each wants a renderer of its own. In the order
     /// of the configuration.
-    struct Pipe {
-        std::size_t node = 0;
-        std::size_t pipe = 0;
-        bool operator==(const Pipe&) const = default;
-    };
+    using Pipe = coordinator::Pipe;
     const std::vector<Pipe>& pipes() const { return pipes_; }
 
-    /// The next frame. `isFree` tells of each renderer, of which there is at least one, whether it
-    /// can draw now; pipes take renderers in turn, and pipes of those that cannot get no share
-    /// where an equalizer decides. Errors: NotFound, naming what there is; those of makePlan.
+    /// Who does what from the next frame on, for all pipes().
+    void setRenderers(RendererOfPipe renderers) { renderers_ = std::move(renderers); }
+    const RendererOfPipe& renderers() const { return renderers_; }
+
+    /// The next frame. Of renderers that are `away`, by their ids, pipes get no share where an
+    /// equalizer decides, unless all are. Errors: NotFound, naming what there is; those of
+    /// makePlan.
     absl::StatusOr<compound::Plan> plan(const FrameRequest& request, std::uint64_t frameNumber,
-                                        const std::vector<bool>& isFree);
+                                        const std::vector<std::string>& away);
 
     /// By which sights the first picture of the request would be seen. Errors: as of plan().
     absl::StatusOr<fabric::SeenAreas> seen(const FrameRequest& request) const;
 
-    /// Which renderer, of `renderers`, is to do each of the plan's draws.
-    Takers takersOf(const compound::Plan& plan, std::size_t renderers) const;
+    /// Which renderer is to do each of the plan's draws.
+    Takers takersOf(const compound::Plan& plan) const;
 
-    /// Which of `renderers` is to do what this channel does.
-    std::size_t rendererFor(const config::ChannelIndex& channel, std::size_t renderers) const {
-        return positionOf(channel) % renderers;
+    /// Which is to do what this channel of pipes() does.
+    const std::string& rendererFor(const config::ChannelIndex& channel) const {
+        return renderers_.at({channel.node, channel.pipe});
     }
 
     /// What a draw of the plan took.
@@ -78,17 +87,17 @@ private:
     absl::StatusOr<compound::PlanRequest> planRequestOf(const FrameRequest& request) const;
     absl::StatusOr<compound::Output> outputOf(const Shown& shown,
                                               const FrameRequest& request) const;
-    std::size_t positionOf(const config::ChannelIndex& channel) const;
-    std::vector<config::ChannelIndex> gone(const std::vector<bool>& isFree) const;
-    void resolveAnew();
+    std::vector<config::ChannelIndex> gone(const std::vector<std::string>& away) const;
+    absl::Status show(config::ConfigurationState state);
 
-    const config::Configuration written_;
+    config::Configuration written_;
     config::Configuration live_;  ///< as shown, and as the equalizers have it
     config::ConfigurationState state_;
     config::Configuration shown_;             ///< written_, with what state_ changes of it
     config::Display display_;                 ///< of state_
     config::ResolvedConfiguration resolved_;  ///< of shown_, as displayed
     std::vector<Pipe> pipes_;
+    RendererOfPipe renderers_;
     equalizer::Equalizers equalizers_;
 };
 

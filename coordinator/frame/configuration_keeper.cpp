@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/frame/configuration_keeper.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "fabric/log.h"
 #include "fabric/status.h"
 
 namespace eyrie::coordinator {
@@ -37,35 +39,66 @@ std::vector<CanvasStatus> canvasesOf(const ActiveConfiguration& active) {
     return canvases;
 }
 
+/// A node for each, of one pipe, as a made configuration has them.
+std::vector<Pipe> pipesOf(std::size_t nodes) {
+    std::vector<Pipe> pipes;
+    for (std::size_t i = 0; i < nodes; ++i) pipes.push_back({i, 0});
+    return pipes;
+}
+
+bool areAlikeButForNodes(const config::Configuration& a, config::Configuration b) {
+    if (a.nodes.size() != b.nodes.size())
+        return false;
+    b.nodes = a.nodes;
+    return a == b;
+}
+
 }  // namespace
 
 ConfigurationKeeper::ConfigurationKeeper(std::optional<config::Configuration> given,
                                          std::string layout, std::function<void()> changed)
     : given_(std::move(given)), layout_(std::move(layout)), changed_(std::move(changed)) {
-    if (given_)
-        use(*given_);
+    if (!given_)
+        return;
+    active_ = std::make_shared<ActiveConfiguration>(*given_);
+    tell();
 }
 
 std::shared_ptr<ActiveConfiguration> ConfigurationKeeper::with(
     const std::vector<config::RendererFacts>& renderers) {
     std::vector<std::string> ids;
     for (const config::RendererFacts& one : renderers) ids.push_back(one.id);
-    if (given_ || ids == ids_)
-        return active_;
-    ids_ = std::move(ids);
-    use(config::defaultConfiguration(renderers));
-    // Of one renderer there may be no such layout; the choice stands until there are more.
-    if (!layout_.empty() && active_->switchLayout("0", layout_).ok())
-        show();
+    if (!given_ && ids != std::exchange(ids_, ids))
+        make(renderers);
+    active_->setRenderers(pipeRenderers_.place(active_->pipes(), ids));
     return active_;
 }
 
-void ConfigurationKeeper::use(config::Configuration configuration) {
-    active_ = std::make_shared<ActiveConfiguration>(std::move(configuration));
-    show();
+/// Nodes are those of the renderers that do their pipes.
+void ConfigurationKeeper::make(const std::vector<config::RendererFacts>& renderers) {
+    std::vector<config::RendererFacts> inOrder;
+    for (const auto& [pipe, id] : pipeRenderers_.place(pipesOf(renderers.size()), ids_))
+        inOrder.push_back(*std::ranges::find(renderers, id, &config::RendererFacts::id));
+    config::Configuration made = config::defaultConfiguration(inOrder);
+    if (active_ && areAlikeButForNodes(active_->written(), made))
+        return active_->renameNodes(std::move(made.nodes));
+    if (active_)
+        settings_.keep(*active_);
+    before_.swap(active_);
+    if (active_ && areAlikeButForNodes(active_->written(), made))
+        active_->renameNodes(std::move(made.nodes));
+    else
+        active_ = std::make_shared<ActiveConfiguration>(std::move(made));
+    if (const absl::Status kept = settings_.restore(*active_); !kept.ok())
+        spdlog::warn("what was set before cannot be set of {} renderers: {}", renderers.size(),
+                     kept.ToString());
+    // Of one renderer there may be no such layout; the choice stands until there are more.
+    if (!layout_.empty())
+        (void)active_->switchLayout("0", layout_);
+    tell();
 }
 
-void ConfigurationKeeper::show() {
+void ConfigurationKeeper::tell() {
     std::vector<CanvasStatus> canvases = canvasesOf(*active_);
     {
         const std::lock_guard lock(mutex_);
@@ -82,7 +115,7 @@ absl::Status ConfigurationKeeper::configure(const SwitchLayout& change) {
     RETURN_IF_ERROR(active_->switchLayout(change.canvas, change.layout));
     if (!given_)
         layout_ = change.layout;
-    show();
+    tell();
     return absl::OkStatus();
 }
 
@@ -91,10 +124,11 @@ absl::Status ConfigurationKeeper::change(
     if (!active_)
         return absl::FailedPreconditionError(
             "there is no renderer yet, and so no configuration; start one");
+    const config::ConfigurationState before = active_->state();
     RETURN_IF_ERROR(use(*active_));
-    if (!given_)
+    if (!given_ && active_->state().layouts != before.layouts)
         layout_ = layoutName(active_->written(), active_->state().layouts.front());
-    show();
+    tell();
     return absl::OkStatus();
 }
 

@@ -11,11 +11,15 @@
 
 #include "coordinator/config/default_config.h"
 #include "coordinator/frame/active_configuration.h"
+#include "coordinator/frame/kept_settings.h"
+#include "coordinator/frame/pipe_renderers.h"
 
 namespace eyrie::coordinator {
 
 /// The configuration that frames are made by: the one that was given or, without, one made of the
-/// renderers there are, anew whenever these change. Callers take turns, but for canvases().
+/// renderers there are, another whenever their number changes. What was set, and which renderer
+/// does what, outlives that; one that takes another's place takes over all of it, with what was
+/// learned from frames. Callers take turns, but for canvases().
 class ConfigurationKeeper {
 public:
     /// `layout` is shown at first on the first canvas of a made configuration, where it has it.
@@ -40,15 +44,18 @@ public:
     std::vector<CanvasStatus> canvases() const;
 
 private:
-    void use(config::Configuration configuration);
-    void show();
+    void make(const std::vector<config::RendererFacts>& renderers);
+    void tell();
 
     const std::optional<config::Configuration> given_;
     std::string layout_;  ///< of a made configuration
     const std::function<void()> changed_;
     std::vector<std::string> ids_;
+    PipeRenderers pipeRenderers_;
+    KeptSettings settings_;
     std::shared_ptr<ActiveConfiguration> active_;
-    mutable std::mutex mutex_;  ///< guards what follows
+    std::shared_ptr<ActiveConfiguration> before_;  ///< the made one before; it may come back
+    mutable std::mutex mutex_;                     ///< guards what follows
     std::vector<CanvasStatus> canvases_;
 };
 

@@ -14,6 +14,12 @@ namespace {
 /// How often a dispatch looks for renderers that have become free or late.
 constexpr std::chrono::milliseconds kLookAgain{20};
 
+/// Null when it is not there any more.
+Member* memberOf(const std::string& id, const std::vector<std::shared_ptr<Member>>& members) {
+    const auto found = std::ranges::find(members, id, [](const auto& one) { return one->id(); });
+    return found == members.end() ? nullptr : found->get();
+}
+
 }  // namespace
 
 Dispatch::Dispatch(Plan plan) : plan_(std::move(plan)), parts_(plan_.tasks.size()) {}
@@ -70,10 +76,10 @@ absl::Status Dispatch::assignUnlessStopped(Crew& crew) {
 
 absl::Status Dispatch::assign(Crew& crew) {
     const Members members = crew.ready(plan_.sceneRevision);
-    const std::vector<std::size_t>* waiting = nullptr;  // the queue whose takers are all busy
+    const std::vector<std::string>* waiting = nullptr;  // the queue whose takers are all busy
     for (std::size_t i = 0; i < parts_.size(); ++i) {
         Part& part = parts_[i];
-        const std::vector<std::size_t>* const queue = part.asked.empty() ? queueOf(i) : nullptr;
+        const std::vector<std::string>* const queue = part.asked.empty() ? queueOf(i) : nullptr;
         if (part.done || (part.running != 0 && !isOverdue(part, members)) ||
             (queue != nullptr && queue == waiting))
             continue;
@@ -117,38 +123,37 @@ bool Dispatch::isOverdue(const Part& part, const Members& members) const {
     });
 }
 
-const std::vector<std::size_t>* Dispatch::queueOf(std::size_t index) const {
+const std::vector<std::string>* Dispatch::queueOf(std::size_t index) const {
     const auto& queueOf = plan_.takers.queueOf;
     return index < queueOf.size() && queueOf[index] ? &plan_.takers.queues[*queueOf[index]]
                                                     : nullptr;
 }
 
 /// One that is free, or one that will be; null when nobody is worth waiting for.
-Member* Dispatch::takerOf(std::size_t index, const std::vector<std::size_t>& takers,
+Member* Dispatch::takerOf(std::size_t index, const std::vector<std::string>& takers,
                           const Members& members) const {
     Member* busy = nullptr;
-    for (const std::size_t taker : takers) {
-        Member& member = *members[taker % members.size()];
-        if (wasAsked(parts_[index], member) || member.isLate())
+    for (const std::string& taker : takers) {
+        Member* const member = memberOf(taker, members);
+        if (member == nullptr || wasAsked(parts_[index], *member) || member->isLate())
             continue;
-        if (member.isIdle())
-            return &member;
+        if (member->isIdle())
+            return member;
         if (busy == nullptr)
-            busy = &member;
+            busy = member;
     }
     return busy;
 }
 
 /// Null when there is none, or it is not worth waiting for.
 Member* Dispatch::preferredOf(std::size_t index, const Members& members) const {
-    if (members.empty())
-        return nullptr;
     if (const auto* const takers = queueOf(index))
         return takerOf(index, *takers, members);
     if (index >= plan_.takers.preferred.size())
         return nullptr;
-    Member& member = *members[plan_.takers.preferred[index] % members.size()];
-    return wasAsked(parts_[index], member) || member.isLate() ? nullptr : &member;
+    Member* const member = memberOf(plan_.takers.preferred[index], members);
+    return member == nullptr || wasAsked(parts_[index], *member) || member->isLate() ? nullptr
+                                                                                     : member;
 }
 
 /// One that has finished its part already must not take the next one's part, too: each renderer is

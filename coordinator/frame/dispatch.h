@@ -87,8 +87,8 @@ private:
     bool isOverdue(const Part& part, const Members& members) const;
     bool wasAsked(const Part& part, const Member& member) const;
     Member* preferredOf(std::size_t index, const Members& members) const;
-    const std::vector<std::size_t>* queueOf(std::size_t index) const;
-    Member* takerOf(std::size_t index, const std::vector<std::size_t>& takers,
+    const std::vector<std::string>* queueOf(std::size_t index) const;
+    Member* takerOf(std::size_t index, const std::vector<std::string>& takers,
                     const Members& members) const;
     Member* idleOf(const Part& part, const Members& members) const;
     std::ptrdiff_t timesAsked(const Member& member) const;

@@ -2,6 +2,7 @@
 #include "coordinator/frame/frame_pipeline.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -119,9 +120,10 @@ absl::StatusOr<RenderedFrame> FramePipeline::renderInTurn(const FrameRequest& as
 /// Another frame could begin without waiting for those under way.
 bool FramePipeline::hasIdleRenderer() const {
     const auto members = crew_.ready(crew_.state().revision);
-    const std::size_t used = std::min(members.size(), planner_.renderersUsed());
-    return std::any_of(members.begin(), members.begin() + static_cast<std::ptrdiff_t>(used),
-                       [](const auto& member) { return member->isIdle() && !member->isLate(); });
+    const std::set<std::string> used = planner_.renderersUsed();
+    return std::ranges::any_of(members, [&](const auto& member) {
+        return used.contains(member->id()) && member->isIdle() && !member->isLate();
+    });
 }
 
 absl::StatusOr<DrawnFrame> FramePipeline::draw(const PlannedFrame& frame,

@@ -18,11 +18,18 @@ std::vector<config::RendererFacts> factsOf(const Members& members) {
     return facts;
 }
 
-/// Those that are not late with what others draw meanwhile.
-std::vector<bool> freeOnes(const Members& members) {
-    std::vector<bool> free;
-    for (const auto& member : members) free.push_back(!member->isLate());
-    return free;
+/// Those that are late with what others draw meanwhile.
+std::vector<std::string> lateOnes(const Members& members) {
+    std::vector<std::string> late;
+    for (const auto& member : members)
+        if (member->isLate())
+            late.push_back(member->id());
+    return late;
+}
+
+std::size_t positionOf(const std::string& id, const Members& members) {
+    const auto found = std::ranges::find(members, id, [](const auto& one) { return one->id(); });
+    return static_cast<std::size_t>(found - members.begin());
 }
 
 /// Between renderers of their own.
@@ -30,16 +37,16 @@ std::optional<PlannedFrame::ByPrograms> byPrograms(const PlannedFrame& frame) {
     std::optional<compound::Exchange> exchange = compound::exchangeOf(frame.plan, frame.number);
     if (!exchange)
         return std::nullopt;
-    const std::size_t count = frame.members.size();
     PlannedFrame::ByPrograms programs;
     for (const compound::PlannedProgram& each : exchange->programs)
-        programs.renderers.push_back(frame.configuration->rendererFor(each.channel, count));
+        programs.renderers.push_back(
+            positionOf(frame.configuration->rendererFor(each.channel), frame.members));
     if (std::ranges::adjacent_find(programs.renderers, std::ranges::not_equal_to()) ==
         programs.renderers.end())
         return std::nullopt;
     programs.others = exchange->rest;
     programs.others.draws.resize(exchange->draws.size());
-    programs.takers = frame.configuration->takersOf(programs.others, count);
+    programs.takers = frame.configuration->takersOf(programs.others);
     programs.exchange = *std::move(exchange);
     return programs;
 }
@@ -72,8 +79,8 @@ absl::StatusOr<PlannedFrame> FramePlanner::plan(const FrameRequest& asked, const
     frame.configuration = active_;
     frame.number = ++frameNumber_;
     ASSIGN_OR_RETURN(frame.plan,
-                     active_->plan(frame.request, frame.number, freeOnes(frame.members)));
-    frame.takers = active_->takersOf(frame.plan, frame.members.size());
+                     active_->plan(frame.request, frame.number, lateOnes(frame.members)));
+    frame.takers = active_->takersOf(frame.plan);
     frame.frameData = frameDataFor(frame.request, budget);
     frame.kind = kinds_.of(frame.request, scene.revision);
     frame.byPrograms = byPrograms(frame);
@@ -128,9 +135,12 @@ int FramePlanner::framesUnderWay() const {
     return static_cast<int>(std::clamp<std::int64_t>(configuration_.latency() + 1, 1, kMostFrames));
 }
 
-std::size_t FramePlanner::renderersUsed() const {
+std::set<std::string> FramePlanner::renderersUsed() const {
     const std::lock_guard lock(mutex_);
-    return active_ ? active_->pipes().size() : 0;
+    std::set<std::string> used;
+    if (active_)
+        for (const auto& [pipe, renderer] : active_->renderers()) used.insert(renderer);
+    return used;
 }
 
 }  // namespace eyrie::coordinator

@@ -6,6 +6,7 @@
 #include <functional>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -54,8 +55,8 @@ public:
     /// As the configuration has it: its latency and the one that is being seen, at most
     /// kMostFrames.
     int framesUnderWay() const;
-    /// How many of the renderers that are ready that one has something to do for.
-    std::size_t renderersUsed() const;
+    /// Ids of those that the last frame's configuration has something to do for.
+    std::set<std::string> renderersUsed() const;
 
 private:
     const fabric::FrameData& frameDataFor(const FrameRequest& request,

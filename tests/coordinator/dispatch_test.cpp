@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/frame/dispatch.h"
 
+#include <string>
 #include <vector>
 
 #include <fmt/format.h>
@@ -30,17 +31,17 @@ protected:
     void openWith(int renderers) {
         for (int i = 0; i < renderers; ++i) {
             renderers_.push_back(std::make_shared<FakeRenderer>(layers_));
-            ASSERT_TRUE(registry_
-                            .add(fmt::format("fake:{}", renderers_.size()), {}, renderers_.back(),
-                                 Registry::Clock::now())
-                            .ok());
+            ids_.push_back(registry_
+                               .add(fmt::format("fake:{}", renderers_.size()), {},
+                                    renderers_.back(), Registry::Clock::now())
+                               .value());
             ASSERT_TRUE(eventually(
                 [&] { return crew_.state().ready == static_cast<int>(renderers_.size()); }));
         }
     }
 
     /// Draws as many columns of the picture as there are preferences, by these.
-    absl::StatusOr<std::vector<Dispatch::Drawn>> draw(std::vector<std::size_t> preferred,
+    absl::StatusOr<std::vector<Dispatch::Drawn>> draw(const std::vector<std::size_t>& preferred,
                                                       const std::stop_token& stop = {}) {
         Dispatch::Plan plan;
         plan.frameData.version = 1;
@@ -54,7 +55,7 @@ protected:
         plan.kind = 1;
         plan.firstPatience = seconds(50);
         plan.callTimeout = seconds(60);
-        plan.takers.preferred = std::move(preferred);
+        for (const std::size_t each : preferred) plan.takers.preferred.push_back(ids_.at(each));
         plan.stop = stop;
         return std::make_shared<Dispatch>(plan)->run(crew_);
     }
@@ -67,6 +68,7 @@ protected:
     std::shared_ptr<const LayeredScene> layers_ =
         std::make_shared<LayeredScene>(4711, kWidth, kHeight);
     std::vector<std::shared_ptr<FakeRenderer>> renderers_;
+    std::vector<std::string> ids_;
     Registry registry_;
     Crew crew_;
 };
@@ -83,10 +85,14 @@ TEST_F(DispatchTest, EachTaskIsDrawnByTheRendererThatItPrefers) {
     EXPECT_EQ(drawn(), (std::vector<int>{1, 0, 3}));
 }
 
-TEST_F(DispatchTest, PreferencesBeginAgainAfterTheLastRenderer) {
-    openWith(2);
-    ASSERT_TRUE(draw({0, 1, 2, 3, 4}).ok());
-    EXPECT_EQ(drawn(), (std::vector<int>{3, 2}));
+TEST_F(DispatchTest, WhatOneIsToDrawThatHasDiedIsDrawnByAnotherAndTheRestAsPreferred) {
+    openWith(3);
+    for (const auto& renderer : renderers_) renderer->takes = milliseconds(5);
+    registry_.markDead(ids_[0], "test", Registry::Clock::now());
+    ASSERT_TRUE(draw({1, 1, 2, 0}).ok());
+    EXPECT_EQ(renderers_[0]->drawn, 0);
+    EXPECT_GE(renderers_[1]->drawn, 2);
+    EXPECT_GE(renderers_[2]->drawn, 1);
 }
 
 /// Expected: what it waited for does not count, however long a renderer says that was.

@@ -230,22 +230,22 @@ TEST_F(SharedFrames, OfACaveAreTwelveViewsOfOneVersionOfTheFrameData) {
 
 TEST_F(SharedFrames, AreShownAsTheirViewIsSet) {
     ActiveConfiguration active(cave());
-    EXPECT_EQ(active.plan(request(), 0, {true})->draws.size(), 2U);
+    EXPECT_EQ(active.plan(request(), 0, {})->draws.size(), 2U);
     config::ViewState mono;
     mono.isStereo = false;
     ASSERT_TRUE(active.setView("0", "0", mono).ok());
-    EXPECT_EQ(active.plan(request(), 1, {true})->draws.size(), 1U);
+    EXPECT_EQ(active.plan(request(), 1, {})->draws.size(), 1U);
     config::ViewState larger;
     larger.modelUnit = 2;
     larger.stereoMode = config::StereoMode::Passive;
     ASSERT_TRUE(active.setView("0", "0", larger).ok());
-    const auto plan = active.plan(request(), 2, {true});
+    const auto plan = active.plan(request(), 2, {});
     ASSERT_TRUE(plan.ok()) << plan.status();
     EXPECT_EQ(plan->pictures.size(), 2U) << "not an anaglyph";
     ASSERT_EQ(plan->draws.size(), 2U);
     EXPECT_NEAR(plan->draws[0].task.sight.value_or(fabric::Sight{}).eye.x, -.2, 1e-12);
     ASSERT_TRUE(active.setView("0", "0", {}).ok());
-    EXPECT_EQ(active.plan(request(), 3, {true})->pictures.size(), 1U);
+    EXPECT_EQ(active.plan(request(), 3, {})->pictures.size(), 1U);
     EXPECT_FALSE(active.setView("attic", "0", {}).ok());
 }
 

@@ -128,6 +128,10 @@ absl::StatusOr<std::size_t> Equalizers::find(std::string_view name) const {
 
 absl::Status Equalizers::tune(std::string_view name, const Tuning& tuning) {
     ASSIGN_OR_RETURN(const std::size_t position, find(name));
+    return tune(position, tuning);
+}
+
+absl::Status Equalizers::tune(std::size_t position, const Tuning& tuning) {
     Entry& entry = entries_[position];
     ASSIGN_OR_RETURN(entry.settings, config::tuned(entry.settings, tuning));
     entry.isOn = tuning.isOn.value_or(entry.isOn);

@@ -53,6 +53,7 @@ public:
     /// `name` as in states(), or its position there. Errors: NotFound, naming those there are;
     /// InvalidArgument, naming the setting. Then nothing has changed.
     absl::Status tune(std::string_view name, const Tuning& tuning);
+    absl::Status tune(std::size_t position, const Tuning& tuning);
 
     /// The position in states() of what is named so. Errors: NotFound, naming those there are.
     absl::StatusOr<std::size_t> find(std::string_view name) const;

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/frame/configuration_keeper.h"
+
+#include <algorithm>
+
+#include <gmock/gmock.h>
+
+#include "coordinator/config/eqc_reader.h"
+
+namespace eyrie::coordinator {
+namespace {
+
+using testing::ElementsAre;
+
+std::vector<config::RendererFacts> renderers(const std::vector<std::string>& ids) {
+    std::vector<config::RendererFacts> facts;
+    for (const std::string& id : ids) facts.push_back({id, "", "fake"});
+    return facts;
+}
+
+fabric::Mat4 moved(double x) {
+    fabric::Mat4 roomFromHead(1);
+    roomFromHead[3][0] = x;
+    return roomFromHead;
+}
+
+/// A stereo view in feet, seen from aside, whose shares stand still.
+absl::Status setAll(ActiveConfiguration& active) {
+    config::ViewState view;
+    view.isStereo = true;
+    view.modelUnit = .3048;
+    absl::Status status = active.setView("2D", "0", view);
+    status.Update(active.setHead("0", moved(.25)));
+    equalizer::Tuning frozen;
+    frozen.isFrozen = true;
+    frozen.damping = .125;
+    status.Update(active.tune("load.2D", frozen));
+    return status;
+}
+
+void expectAllSet(const ActiveConfiguration& active) {
+    EXPECT_EQ(active.state().views[0][0].isStereo, true);
+    EXPECT_EQ(active.state().views[0][0].modelUnit, .3048);
+    EXPECT_EQ(active.state().heads[0], moved(.25));
+    EXPECT_EQ(active.state().equalizers[0].damping, .125);
+    const equalizer::EqualizerState equalizer = active.equalizers().front();
+    EXPECT_EQ(equalizer.name, "load.2D");
+    EXPECT_TRUE(equalizer.isFrozen);
+    EXPECT_EQ(equalizer.settings.damping, .125);
+}
+
+std::vector<std::string> nodesOf(const ActiveConfiguration& active) {
+    std::vector<std::string> names;
+    for (const config::Node& node : active.written().nodes) names.push_back(node.name);
+    return names;
+}
+
+TEST(ConfigurationKeeper, KeepsWhatWasSetWhateverTheNumberOfRenderers) {
+    ConfigurationKeeper keeper(std::nullopt, "", [] {});
+    keeper.with(renderers({"a", "b", "c"}));
+    ASSERT_TRUE(keeper.change(setAll).ok());
+    expectAllSet(*keeper.with(renderers({"b", "c"})));
+    expectAllSet(*keeper.with(renderers({"b", "c", "d"})));
+    keeper.with(renderers({"d"}));  // it has no layout of that name, nor its equalizer
+    expectAllSet(*keeper.with(renderers({"d", "e", "f", "g"})));
+}
+
+TEST(ConfigurationKeeper, GoesOnWithTheSameConfigurationWhereOneRendererTakesAnothersPlace) {
+    ConfigurationKeeper keeper(std::nullopt, "", [] {});
+    const auto first = keeper.with(renderers({"a", "b", "c"}));
+    EXPECT_THAT(nodesOf(*first), ElementsAre("a", "b", "c"));
+    EXPECT_EQ(keeper.with(renderers({"b", "c", "d"})), first);
+    EXPECT_THAT(nodesOf(*first), ElementsAre("d", "b", "c"));
+    EXPECT_NE(keeper.with(renderers({"b", "d"})), first);
+    EXPECT_EQ(keeper.with(renderers({"b", "d", "e"})), first) << "what it learned is lost";
+    EXPECT_THAT(nodesOf(*first), ElementsAre("d", "b", "e"));
+}
+
+TEST(ConfigurationKeeper, ShowsTheChosenLayoutAgainOnceThereIsOne) {
+    ConfigurationKeeper keeper(std::nullopt, "DB dynamic", [] {});
+    keeper.with(renderers({"a"}));
+    EXPECT_EQ(keeper.canvases().front().layout, "Simple");
+    ASSERT_TRUE(
+        keeper.change([](ActiveConfiguration& active) { return active.setHead("0", moved(1)); })
+            .ok());
+    keeper.with(renderers({"a", "b"}));
+    EXPECT_EQ(keeper.canvases().front().layout, "DB dynamic");
+}
+
+/// Three ranges, a pipe each.
+config::Configuration ranges() {
+    config::Findings findings;
+    config::Configuration configuration = config::readEqc(
+        "config { appNode { pipe { window { channel { name \"0\" } } } "
+        "pipe { window { channel { name \"1\" } } } pipe { window { channel { name \"2\" } } } } "
+        "layout { view {} } canvas { layout 0 segment { channel \"0\" } } "
+        "compound { channel ( segment 0 view 0 ) buffer [ COLOR DEPTH ] "
+        "compound { range [ 0 .25 ] } "
+        "compound { channel \"1\" range [ .25 .5 ] outputframe { } } "
+        "compound { channel \"2\" range [ .5 1 ] outputframe { } } "
+        "inputframe { name \"frame.1\" } inputframe { name \"frame.2\" } } }",
+        findings);
+    EXPECT_FALSE(findings.hasErrors()) << describe(findings, "test");
+    return configuration;
+}
+
+/// By range.
+std::vector<std::string> drawing(ConfigurationKeeper& keeper, const std::vector<std::string>& ids) {
+    const auto active = keeper.with(renderers(ids));
+    compound::Plan plan = active->plan({}, 1, {}).value();
+    std::ranges::sort(plan.draws, {},
+                      [](const compound::PlannedDraw& draw) { return draw.task.range.begin; });
+    return active->takersOf(plan).preferred;
+}
+
+TEST(ConfigurationKeeper, HasADeadRenderersShareAloneDrawnByAnother) {
+    ConfigurationKeeper keeper(ranges(), "", [] {});
+    EXPECT_THAT(drawing(keeper, {"a", "b", "c"}), ElementsAre("a", "b", "c"));
+    EXPECT_THAT(drawing(keeper, {"b", "c"}), ElementsAre("b", "b", "c"));
+    EXPECT_THAT(drawing(keeper, {"b", "c", "d"}), ElementsAre("d", "b", "c"));
+}
+
+}  // namespace
+}  // namespace eyrie::coordinator
