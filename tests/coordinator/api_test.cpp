@@ -342,6 +342,16 @@ TEST_F(Rest, ConfigurationsChangeWhollyOrNotAtAll) {
     EXPECT_NE(*get("/configuration").body, now);
 }
 
+TEST_F(Rest, AWallBehindAnEyeIsRefusedAndNothingOfTheChangeIsDone) {
+    const std::string before = *get("/configuration").body;
+    expectProblem(
+        send("PATCH", "/configuration",
+             R"({"layouts":[{"canvas":"0","layout":"1"}],"views":[{"layout":"0","view":"0",)"
+             R"("wall":{"bottomLeft":[-1,-1,1],"bottomRight":[1,-1,1],"topLeft":[-1,1,1]}}]})"),
+        400, "INVALID_ARGUMENT");
+    EXPECT_EQ(*get("/configuration").body, before);
+}
+
 TEST_F(Rest, EqualizersAreFrozenAndSwitchedOff) {
     const RestAnswer answer =
         send("PATCH", "/configuration", R"({"equalizers":[{"equalizer":0,"frozen":true}]})");
