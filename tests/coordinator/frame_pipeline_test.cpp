@@ -2,6 +2,7 @@
 #include "coordinator/frame/frame_pipeline.h"
 
 #include <atomic>
+#include <set>
 #include <thread>
 
 #include <gmock/gmock.h>
@@ -25,6 +26,29 @@ TEST_P(FramePipelineTest, AllReadyRenderersTakePart) {
     const auto renderers = openWith(3);
     expectWholePicture();
     for (const auto& renderer : renderers) EXPECT_EQ(renderer->drawn, 2);
+}
+
+/// As Equalizer names it: by its stripes.
+TEST_P(FramePipelineTest, HORIZONTALCutsPicturesIntoStripesOneAboveAnother) {
+    if (GetParam() != "2D")
+        GTEST_SKIP() << "cuts no pictures";
+    openWith(3);
+    equalizer::Tuning tuning;
+    tuning.mode = config::SplitMode::Horizontal;
+    ASSERT_TRUE(pipeline_
+                    .withConfiguration(
+                        [&](ActiveConfiguration& active) { return active.tune("load.2D", tuning); })
+                    .ok());
+    const auto frame = pipeline_.renderFrame(request());
+    ASSERT_TRUE(frame.ok()) << frame.status();
+    ASSERT_EQ(frame->parts.size(), 3U);
+    std::set<double> bottoms;
+    for (const DrawnPart& part : frame->parts) {
+        EXPECT_EQ(part.left, 0);
+        EXPECT_EQ(part.width, 1);
+        bottoms.insert(part.bottom);
+    }
+    EXPECT_EQ(bottoms.size(), 3U);
 }
 
 TEST_P(FramePipelineTest, PicturesGetSmallerWhereNoErrorKeepsTheirTime) {

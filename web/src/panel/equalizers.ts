@@ -21,10 +21,11 @@ const names: Record<EqualizerKind, string> = {
   framerate: "Steady rate",
 };
 
-const modes = [
+/** Equalizer names the stripes, not the way they lie beside each other. */
+export const modes = [
   ["SPLIT_MODE_2D", "Either way"],
-  ["SPLIT_MODE_HORIZONTAL", "Side by side"],
-  ["SPLIT_MODE_VERTICAL", "Above another"],
+  ["SPLIT_MODE_HORIZONTAL", "One above another"],
+  ["SPLIT_MODE_VERTICAL", "Side by side"],
   ["SPLIT_MODE_DB", "Data"],
 ] as const;
 
@@ -44,7 +45,15 @@ export const fields: readonly NumberField[] = [
     key: "damping",
     name: "Damping",
     title: "How little it does at a time, 0 to 1",
-    kinds: ["load", "tree", "dfr"],
+    kinds: ["load", "tree"],
+    count: 1,
+    usual: "0.5",
+  },
+  {
+    key: "damping",
+    name: "Damping",
+    title: "How much of what is missing it makes up for at a time: 0 nothing, 1 all",
+    kinds: ["dfr"],
     count: 1,
     usual: "0.5",
   },

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
-import { changeOf, fields } from "../panel/equalizers";
+import { changeOf, fields, modes } from "../panel/equalizers";
 import { compoundsOf } from "./configuration";
 
 const fieldOf = (key: string) => fields.find((field) => field.key === key) ?? fields[0]!;
@@ -74,5 +74,21 @@ describe("what is typed for an equalizer", () => {
       ["tileSize", "64 NaN"],
     ] as const)
       expect(changeOf(fieldOf(key), text)).toContain(fieldOf(key).name);
+  });
+});
+
+describe("the settings of equalizers", () => {
+  it("call stripes by how they lie beside each other", () => {
+    const names = new Map<string, string>(modes);
+    expect(names.get("SPLIT_MODE_HORIZONTAL")).toBe("One above another");
+    expect(names.get("SPLIT_MODE_VERTICAL")).toBe("Side by side");
+  });
+
+  it("say of each kind what damping does to it", () => {
+    const titleFor = (kind: "load" | "tree" | "dfr") =>
+      fields.find(({ key, kinds }) => key === "damping" && kinds.includes(kind))?.title;
+    expect(titleFor("load")).toContain("How little");
+    expect(titleFor("tree")).toBe(titleFor("load"));
+    expect(titleFor("dfr")).toContain("1 all");
   });
 });
