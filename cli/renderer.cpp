@@ -25,6 +25,7 @@ namespace {
 struct Options {
     std::string coordinator;
     std::string listen = "127.0.0.1:0";
+    std::string node;
     std::string memory = "2G";
     int device = -1;
     TileDecoding decoding = TileDecoding::Auto;
@@ -55,6 +56,7 @@ absl::Status run(const Options& options) {
     service::RendererNodeOptions node;
     node.coordinator = options.coordinator;
     node.listen = options.listen;
+    node.node = options.node;
     node.security = doors.security;
     node.exitWithCoordinator = options.exitWithCoordinator;
     ASSIGN_OR_RETURN(
@@ -79,6 +81,12 @@ void addRenderer(CLI::App& app, Run& run) {
     command->add_option("--listen", options->listen, "Where to take work; port 0: any free one")
         ->type_name("HOST:PORT|unix:/PATH")
         ->capture_default_str();
+    command
+        ->add_option(
+            "--node", options->node,
+            "Name or host of the configuration's node whose pipes it is for, before others "
+            "[any]")
+        ->type_name("NAME");
     command->add_option("--device", options->device, "EGL device; -1: the first that works")
         ->check(CLI::Range(-1, 255))
         ->capture_default_str();

@@ -106,6 +106,7 @@ private:
         v1::RegisterRendererRequest request;
         request.set_address(options_.address);
         *request.mutable_device() = wire::toMessage(options_.device);
+        request.set_node(options_.node);
         request.set_software_version(std::string(fabric::kVersion));
         request.set_protocol_checksum(wire::protocolChecksum());
         v1::RegisterRendererResponse response;

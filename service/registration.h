@@ -17,6 +17,7 @@ struct RegistrationOptions {
     std::string coordinator;  ///< "host:port" or "unix:/path"
     std::string address;      ///< where the renderer's RenderService listens
     fabric::DeviceInfo device;
+    std::string node = {};  ///< of a configuration, that it is to be, by name or host; empty: any
     wire::Security security = {};  ///< how it shows itself, and knows the coordinator
     std::chrono::milliseconds retryInterval{1000};
     /// How long to live without the coordinator; none: for ever.

@@ -41,7 +41,7 @@ const std::string& RendererNode::address() const { return server_->address(); }
 
 absl::Status RendererNode::run(const std::stop_token& stop) {
     RegistrationOptions registration{
-        options_.coordinator,   address(),   device(), options_.security,
+        options_.coordinator,   address(),   device(), options_.node, options_.security,
         options_.retryInterval, std::nullopt};
     if (options_.exitWithCoordinator)
         registration.giveUpAfter = options_.giveUpAfter;

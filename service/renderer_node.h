@@ -21,6 +21,7 @@ struct RendererNodeOptions {
     /// Where to serve: "host:port" or "unix:/path". Of a wildcard host such as 0.0.0.0 the
     /// coordinator takes the address that it sees this process come from.
     std::string listen = "127.0.0.1:0";
+    std::string node = {};  ///< RegistrationOptions::node
     /// End when the coordinator has been away for giveUpAfter, instead of waiting for it: for
     /// renderers that belong to one `eyrie serve`.
     bool exitWithCoordinator = false;

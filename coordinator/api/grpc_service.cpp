@@ -26,6 +26,8 @@
 namespace eyrie::coordinator {
 namespace {
 
+constexpr std::size_t kMaxNodeBytes = 256;
+
 absl::Status checkVersion(const v1::RegisterRendererRequest& request) {
     if (request.software_version() != fabric::kVersion)
         return absl::FailedPreconditionError(fmt::format(
@@ -89,10 +91,14 @@ private:
                              Registry::Clock::now());
             return status;
         }
+        if (request.node().size() > kMaxNodeBytes)
+            return absl::InvalidArgumentError(
+                fmt::format("node has {} bytes; it may have {}: shorten --node",
+                            request.node().size(), kMaxNodeBytes));
         ASSIGN_OR_RETURN(
             const std::string id,
             registry_.add(address, device, connectRenderer(address, security_, telemetry_),
-                          Registry::Clock::now()));
+                          Registry::Clock::now(), request.node()));
         response.set_renderer_id(id);
         response.set_heartbeat_milliseconds(
             static_cast<std::int32_t>(registry_.options().heartbeatInterval.count()));

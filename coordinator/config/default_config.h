@@ -13,9 +13,11 @@ namespace eyrie::config {
 /// What a renderer process says of itself.
 struct RendererFacts {
     std::string id;
-    std::string host;
+    std::string host;    ///< or name of the node that it is to be; empty: any
     std::string device;  ///< its name, such as that of a GPU or of a software rasteriser
     int threads = 0;     ///< that draw, where its device is the processor; else 0
+
+    bool operator==(const RendererFacts&) const = default;
 };
 
 /// Most renderers that one direct-send layout has: n of them exchange n (n - 1) pictures.

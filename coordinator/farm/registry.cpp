@@ -13,7 +13,7 @@ namespace eyrie::coordinator {
 absl::StatusOr<std::string> Registry::add(const std::string& address,
                                           const fabric::DeviceInfo& device,
                                           std::shared_ptr<ChannelRenderer> renderer,
-                                          Clock::time_point now) {
+                                          Clock::time_point now, std::string node) {
     std::string id;
     {
         const std::lock_guard lock(mutex_);
@@ -25,6 +25,7 @@ absl::StatusOr<std::string> Registry::add(const std::string& address,
                 fmt::format("{} renderers are registered, which is the limit", alive));
         id = fmt::format("renderer-{}", nextId_++);
         records_.push_back({{id, address, device, std::move(renderer)}, now});
+        records_.back().entry.node = std::move(node);
     }
     spdlog::info("{} registered at {}: {}", id, address, device.renderer);
     listeners_.notify();

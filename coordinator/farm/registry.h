@@ -46,6 +46,7 @@ public:
         Presence presence = Presence::Alive;
         std::string why = {};          ///< it is dead or refused, for a person to read
         Clock::time_point since = {};  ///< it is dead or refused
+        std::string node = {};         ///< of a configuration, that it is to be; empty: any
 
         bool isAlive() const {
             return presence == Presence::Alive || presence == Presence::Draining;
@@ -60,7 +61,7 @@ public:
     /// ResourceExhausted when there are maxRenderers.
     absl::StatusOr<std::string> add(const std::string& address, const fabric::DeviceInfo& device,
                                     std::shared_ptr<ChannelRenderer> renderer,
-                                    Clock::time_point now);
+                                    Clock::time_point now, std::string node = {});
 
     /// Lists one that may not register, under its address. A living one there stays.
     void refuse(const std::string& address, const fabric::DeviceInfo& device, std::string_view why,

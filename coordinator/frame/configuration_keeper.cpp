@@ -2,6 +2,7 @@
 #include "coordinator/frame/configuration_keeper.h"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -66,18 +67,21 @@ ConfigurationKeeper::ConfigurationKeeper(std::optional<config::Configuration> gi
 
 std::shared_ptr<ActiveConfiguration> ConfigurationKeeper::with(
     const std::vector<config::RendererFacts>& renderers) {
-    std::vector<std::string> ids;
-    for (const config::RendererFacts& one : renderers) ids.push_back(one.id);
-    if (!given_ && ids != std::exchange(ids_, ids))
+    if (!given_ && renderers != renderers_)
         make(renderers);
-    active_->setRenderers(pipeRenderers_.place(active_->pipes(), ids));
+    renderers_ = renderers;
+    // Nodes of a made one are called by the renderers that are there already.
+    std::span<const config::Node> nodes;
+    if (given_)
+        nodes = active_->written().nodes;
+    active_->setRenderers(pipeRenderers_.place(active_->pipes(), renderers, nodes));
     return active_;
 }
 
 /// Nodes are those of the renderers that do their pipes.
 void ConfigurationKeeper::make(const std::vector<config::RendererFacts>& renderers) {
     std::vector<config::RendererFacts> inOrder;
-    for (const auto& [pipe, id] : pipeRenderers_.place(pipesOf(renderers.size()), ids_))
+    for (const auto& [pipe, id] : pipeRenderers_.place(pipesOf(renderers.size()), renderers, {}))
         inOrder.push_back(*std::ranges::find(renderers, id, &config::RendererFacts::id));
     config::Configuration made = config::defaultConfiguration(inOrder);
     if (active_ && areAlikeButForNodes(active_->written(), made))

@@ -50,7 +50,7 @@ private:
     const std::optional<config::Configuration> given_;
     std::string layout_;  ///< of a made configuration
     const std::function<void()> changed_;
-    std::vector<std::string> ids_;
+    std::vector<config::RendererFacts> renderers_;
     PipeRenderers pipeRenderers_;
     KeptSettings settings_;
     std::shared_ptr<ActiveConfiguration> active_;

@@ -228,8 +228,8 @@ void Crew::seatNew(const std::vector<Registry::Entry>& entries) {
         if (!entry.isAlive() || seated)
             continue;
         Seat& seat = seats_.emplace_back();
-        seat.member =
-            std::make_shared<Member>(entry.id, entry.device, entry.renderer, options_.patience);
+        seat.member = std::make_shared<Member>(entry.id, entry.device, entry.renderer,
+                                               options_.patience, entry.node);
         openIn(seat);
         if (entry.presence == Registry::Presence::Draining)
             drain(seat);

@@ -14,7 +14,7 @@ using Members = std::vector<std::shared_ptr<Member>>;
 std::vector<config::RendererFacts> factsOf(const Members& members) {
     std::vector<config::RendererFacts> facts;
     for (const auto& member : members)
-        facts.push_back({member->id(), "", member->device().renderer});
+        facts.push_back({member->id(), member->node(), member->device().renderer});
     return facts;
 }
 

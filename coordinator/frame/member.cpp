@@ -11,9 +11,10 @@
 namespace eyrie::coordinator {
 
 Member::Member(std::string id, fabric::DeviceInfo device, std::shared_ptr<ChannelRenderer> renderer,
-               const PatienceOptions& patience)
+               const PatienceOptions& patience, std::string node)
     : id_(std::move(id)),
       device_(std::move(device)),
+      node_(std::move(node)),
       renderer_(std::move(renderer)),
       patience_(patience) {
     for (std::thread& thread : threads_) thread = std::thread([this] { work(); });

@@ -34,7 +34,7 @@ public:
         std::function<void(absl::StatusOr<fabric::ChannelResult>, Clock::duration taken)>;
 
     Member(std::string id, fabric::DeviceInfo device, std::shared_ptr<ChannelRenderer> renderer,
-           const PatienceOptions& patience = {});
+           const PatienceOptions& patience = {}, std::string node = {});
 
     /// Cancels what is in progress and waits for the threads.
     ~Member();
@@ -43,6 +43,8 @@ public:
 
     const std::string& id() const { return id_; }
     const fabric::DeviceInfo& device() const { return device_; }
+    /// Of a configuration, that it is to be, by name or host; empty: any.
+    const std::string& node() const { return node_; }
 
     /// Nothing, or but the last of something, to draw or to open: a job given now starts now. True
     /// already when Draw::drawn, or `done` where there was none, is called, but for a failure.
@@ -137,6 +139,7 @@ private:
 
     const std::string id_;
     const fabric::DeviceInfo device_;
+    const std::string node_;
     const std::shared_ptr<ChannelRenderer> renderer_;
     std::uint64_t sentVersion_ = 0;               ///< of the frame data; the holder's own
     std::atomic<std::uint64_t> openRevision_{0};  ///< of the scene it has open; 0: none

@@ -4,8 +4,12 @@
 #include <compare>
 #include <cstddef>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
+
+#include "coordinator/config/configuration.h"
+#include "coordinator/config/default_config.h"
 
 namespace eyrie::coordinator {
 
@@ -25,9 +29,13 @@ using RendererOfPipe = std::map<Pipe, std::string>;
 class PipeRenderers {
 public:
     /// One renderer, of `renderers`, for each of `pipes`; both hold no one twice, and `renderers`
-    /// is not empty. Of what nobody has, each goes to the one with the fewest pipes, of several the
-    /// first; then what was lent last moves on until none has two more than another.
-    RendererOfPipe place(const std::vector<Pipe>& pipes, const std::vector<std::string>& renderers);
+    /// is not empty. A pipe of `nodes` goes to those that are to be its node, if there are any;
+    /// else to those that are to be none of these nodes; else to anybody. Among these, what nobody
+    /// has goes to the one with the fewest pipes, of several the first; then what was lent last
+    /// moves on until none has two more than another.
+    RendererOfPipe place(const std::vector<Pipe>& pipes,
+                         const std::vector<config::RendererFacts>& renderers,
+                         std::span<const config::Node> nodes);
 
 private:
     struct Pair {

@@ -15,6 +15,12 @@ using testing::Pair;
 
 using Ids = std::vector<std::string>;
 
+std::vector<config::RendererFacts> any(const Ids& ids) {
+    std::vector<config::RendererFacts> facts;
+    for (const std::string& id : ids) facts.push_back({id, "", ""});
+    return facts;
+}
+
 std::vector<Pipe> pipes(std::size_t count) {
     std::vector<Pipe> pipes;
     for (std::size_t i = 0; i < count; ++i) pipes.push_back({i / 2, i % 2});
@@ -29,23 +35,44 @@ Ids idsOf(const RendererOfPipe& placed) {
 
 TEST(PipeRenderers, TakePipesInTurnAtFirst) {
     PipeRenderers renderers;
-    EXPECT_THAT(renderers.place(pipes(3), {"a", "b"}),
+    EXPECT_THAT(renderers.place(pipes(3), any({"a", "b"}), {}),
                 ElementsAre(Pair(Pipe{0, 0}, "a"), Pair(Pipe{0, 1}, "b"), Pair(Pipe{1, 0}, "a")));
 }
 
 TEST(PipeRenderers, KeepTheirPipesWhenAnotherDiesAndItsSuccessorTakesThoseOfTheDead) {
     PipeRenderers renderers;
-    EXPECT_THAT(idsOf(renderers.place(pipes(3), {"a", "b", "c"})), ElementsAre("a", "b", "c"));
-    EXPECT_THAT(idsOf(renderers.place(pipes(3), {"b", "c"})), ElementsAre("b", "b", "c"));
-    EXPECT_THAT(idsOf(renderers.place(pipes(3), {"b", "c", "d"})), ElementsAre("d", "b", "c"));
+    EXPECT_THAT(idsOf(renderers.place(pipes(3), any({"a", "b", "c"}), {})),
+                ElementsAre("a", "b", "c"));
+    EXPECT_THAT(idsOf(renderers.place(pipes(3), any({"b", "c"}), {})), ElementsAre("b", "b", "c"));
+    EXPECT_THAT(idsOf(renderers.place(pipes(3), any({"b", "c", "d"}), {})),
+                ElementsAre("d", "b", "c"));
 }
 
 TEST(PipeRenderers, KeepPipesThatHaveNothingToDoMeanwhile) {
     PipeRenderers renderers;
-    renderers.place(pipes(4), {"a", "b", "c", "d"});
-    renderers.place({{1, 0}}, {"a", "b", "c", "d"});
-    EXPECT_THAT(renderers.place({{0, 1}, {1, 1}}, {"a", "b", "c", "d"}),
+    renderers.place(pipes(4), any({"a", "b", "c", "d"}), {});
+    renderers.place({{1, 0}}, any({"a", "b", "c", "d"}), {});
+    EXPECT_THAT(renderers.place({{0, 1}, {1, 1}}, any({"a", "b", "c", "d"}), {}),
                 ElementsAre(Pair(Pipe{0, 1}, "b"), Pair(Pipe{1, 1}, "d")));
+}
+
+TEST(PipeRenderers, DoThePipesOfTheNodeThatTheyAreForBeforeOthers) {
+    std::vector<config::Node> nodes(2);
+    nodes[0].name = "strong";
+    nodes[0].host = "strong.lab";
+    nodes[1].name = "weak";
+    const config::RendererFacts spare{"spare", "", ""};
+    const config::RendererFacts weak{"w", "weak", ""};
+    const config::RendererFacts strong{"s", "strong.lab", ""};
+    const config::RendererFacts next{"t", "strong", ""};
+    PipeRenderers renderers;
+    EXPECT_THAT(idsOf(renderers.place(pipes(3), {spare, weak, strong}, nodes)),
+                ElementsAre("s", "s", "w"));
+    EXPECT_THAT(idsOf(renderers.place(pipes(3), {spare, weak}, nodes)),
+                ElementsAre("spare", "spare", "w"));
+    EXPECT_THAT(idsOf(renderers.place(pipes(3), {spare, weak, next}, nodes)),
+                ElementsAre("t", "t", "w"));
+    EXPECT_THAT(idsOf(renderers.place(pipes(3), {weak}, nodes)), ElementsAre("w", "w", "w"));
 }
 
 TEST(PipeRenderers, ShareAllPipesEvenlyWhoeverComesAndGoes) {
@@ -61,7 +88,7 @@ TEST(PipeRenderers, ShareAllPipesEvenlyWhoeverComesAndGoes) {
         for (int id = 0; id < 6; ++id)
             if (ids.empty() || upTo(2) != 0)
                 ids.push_back(fmt::format("r{}", id));
-        const RendererOfPipe placed = renderers.place(wanted, ids);
+        const RendererOfPipe placed = renderers.place(wanted, any(ids), {});
         ASSERT_EQ(placed.size(), wanted.size());
         std::vector<std::ptrdiff_t> counts;
         for (const std::string& id : ids) counts.push_back(std::ranges::count(idsOf(placed), id));

@@ -75,6 +75,7 @@ protected:
     void startNode(bool exitWithCoordinator = false) {
         RendererNodeOptions options;
         options.coordinator = "unix:" + folder_.path("s");
+        options.node = "left";
         options.exitWithCoordinator = exitWithCoordinator;
         options.giveUpAfter = std::chrono::milliseconds(200);
         options.retryInterval = std::chrono::milliseconds(10);
@@ -99,13 +100,14 @@ protected:
     std::jthread runner_;
 };
 
-TEST_F(RendererNodeTest, RegistersWithItsDeviceAndAddress) {
+TEST_F(RendererNodeTest, RegistersWithItsDeviceAddressAndNode) {
     startCoordinator();
     startNode();
     ASSERT_TRUE(registers());
     const Registry::Entry entry = registry_->entries()[0];
     EXPECT_EQ(entry.device, node_->device());
     EXPECT_EQ(entry.address, node_->address());
+    EXPECT_EQ(entry.node, "left");
     EXPECT_TRUE(
         entry.renderer->openScene({}, Registry::Clock::now() + std::chrono::seconds(20)).ok());
 }
