@@ -42,6 +42,12 @@ absl::StatusOr<v1::GetConfigurationResponse> get(coordinator::ConfigurationAcces
             report.set_name(state.name);
             report.set_on(state.isOn);
             report.set_frozen(state.isFrozen);
+            if (state.report.framesPerSecond > 0)
+                report.set_frames_per_second(state.report.framesPerSecond);
+            if (state.settings.kind == config::EqualizerKind::Dfr)
+                report.set_zoom(state.report.zoom);
+            if (state.report.imbalance > 0)
+                report.set_imbalance(state.report.imbalance);
         }
         return absl::OkStatus();
     });

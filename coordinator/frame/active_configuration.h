@@ -66,6 +66,9 @@ public:
     /// By which sights the first picture of the request would be seen. Errors: as of plan().
     absl::StatusOr<fabric::SeenAreas> seen(const FrameRequest& request) const;
 
+    /// How long after the last one planned has begun the next frame is to begin; 0: at any time.
+    double intervalMilliseconds() const { return equalizers_.intervalMilliseconds(); }
+
     /// Which renderer is to do each of the plan's draws.
     Takers takersOf(const compound::Plan& plan) const;
 

@@ -11,9 +11,16 @@ FrameGate::Pass::Pass(FrameGate& gate, const std::stop_token& stop)
           return gate.issued_++;
       }()) {
     std::unique_lock lock(gate_.mutex_);
-    hasTurn_ =
-        gate_.changed_.wait(lock, stop, [&] { return gate_.next_ == ticket_ && gate_.mayBegin(); });
+    const auto isNext = [&] { return gate_.next_ == ticket_ && gate_.mayBegin(); };
+    const auto isOver = [&] { return gate_.pause() <= Clock::duration::zero(); };
+    while (!hasTurn_ && gate_.changed_.wait(lock, stop, isNext)) {
+        hasTurn_ = isOver();
+        if (!hasTurn_ && !gate_.changed_.wait_for(lock, stop, gate_.pause(), isOver) &&
+            stop.stop_requested())
+            break;
+    }
     if (hasTurn_) {
+        gate_.begun_ = gate_.now_();
         gate_.underWay_.push_back(ticket_);
         return;
     }
@@ -52,6 +59,11 @@ bool FrameGate::mayBegin() const {
     return underWay_.empty() || (underWay_.size() < limit_ && isWorthwhile_());
 }
 
+/// What is left of the interval; none has begun before the first.
+FrameGate::Clock::duration FrameGate::pause() const {
+    return begun_ == Clock::time_point() ? Clock::duration() : begun_ + interval_ - now_();
+}
+
 /// Past those that were given up.
 void FrameGate::moveUp() {
     while (gone_.erase(next_) != 0) ++next_;
@@ -61,6 +73,14 @@ void FrameGate::setLimit(int limit) {
     {
         const std::lock_guard lock(mutex_);
         limit_ = static_cast<std::size_t>(limit);
+    }
+    changed_.notify_all();
+}
+
+void FrameGate::setInterval(Clock::duration interval) {
+    {
+        const std::lock_guard lock(mutex_);
+        interval_ = interval;
     }
     changed_.notify_all();
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
@@ -18,7 +19,11 @@ public:
     /// Whether another frame would find something to do while others are under way.
     using IsWorthwhile = std::function<bool()>;
 
-    explicit FrameGate(IsWorthwhile isWorthwhile) : isWorthwhile_(std::move(isWorthwhile)) {}
+    using Clock = std::chrono::steady_clock;
+    using Now = std::function<Clock::time_point()>;
+
+    explicit FrameGate(IsWorthwhile isWorthwhile, Now now = Clock::now)
+        : isWorthwhile_(std::move(isWorthwhile)), now_(std::move(now)) {}
     FrameGate(const FrameGate&) = delete;
     FrameGate& operator=(const FrameGate&) = delete;
 
@@ -26,8 +31,8 @@ public:
     class Pass {
     public:
         /// Waits for the turn: until those before have let the next and none is under way, or fewer
-        /// than the limit and another is worthwhile. Or until `stop`: then it has none, and those
-        /// behind it move up.
+        /// than the limit and another is worthwhile, and the interval is over. Or until `stop`:
+        /// then it has none, and those behind it move up.
         explicit Pass(FrameGate& gate, const std::stop_token& stop = {});
         /// The frame has ended, in order or not.
         ~Pass();
@@ -57,17 +62,25 @@ public:
     /// How many frames may be under way, 1 or more.
     void setLimit(int limit);
 
-    /// Another frame may have become worthwhile.
+    /// How long after one has begun the next may; 0 at first. Frames of renderers that take turns
+    /// come at even times so, not as two or three happen to be free together.
+    void setInterval(Clock::duration interval);
+
+    /// Another frame may have become worthwhile, or the interval be over.
     void look();
 
 private:
     bool mayBegin() const;
+    Clock::duration pause() const;
     void moveUp();
 
     const IsWorthwhile isWorthwhile_;
+    const Now now_;
     std::mutex mutex_;  ///< guards what follows; held while isWorthwhile_ is asked
     std::condition_variable_any changed_;
     std::size_t limit_ = 1;
+    Clock::duration interval_{};
+    Clock::time_point begun_{};           ///< the last frame
     std::uint64_t issued_ = 0;            ///< tickets
     std::uint64_t next_ = 0;              ///< ticket whose turn it is
     std::set<std::uint64_t> gone_;        ///< tickets that are later than that and were given up

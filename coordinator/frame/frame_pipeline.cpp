@@ -100,6 +100,8 @@ absl::StatusOr<RenderedFrame> FramePipeline::renderInTurn(const FrameRequest& as
         planning.stop();
         total.setFrame(planned.number);
         gate_.setLimit(planner_.framesUnderWay());
+        gate_.setInterval(std::chrono::duration_cast<FrameGate::Clock::duration>(
+            std::chrono::duration<double, std::milli>(planned.intervalMilliseconds)));
         absl::StatusOr<DrawnFrame> drawn = draw(planned, [&] { pass.letNext(); });
         if (!drawn.ok() && asked.stop.stop_requested())
             break;

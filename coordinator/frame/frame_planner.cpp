@@ -81,6 +81,7 @@ absl::StatusOr<PlannedFrame> FramePlanner::plan(const FrameRequest& asked, const
     ASSIGN_OR_RETURN(frame.plan,
                      active_->plan(frame.request, frame.number, lateOnes(frame.members)));
     frame.takers = active_->takersOf(frame.plan);
+    frame.intervalMilliseconds = active_->intervalMilliseconds();
     frame.frameData = frameDataFor(frame.request, budget);
     frame.kind = kinds_.of(frame.request, scene.revision);
     frame.byPrograms = byPrograms(frame);

@@ -109,6 +109,21 @@ TEST(FramerateEqualizer, SpacesTheFramesOfAPeriodEvenly) {
     }
     EXPECT_NEAR(balanced.equalizers.states()[0].report.framesPerSecond, 1000 / (40. / 2 * 1.05),
                 1e-9);
+    EXPECT_NEAR(balanced.equalizers.intervalMilliseconds(), 40. / 2 * 1.05, 1e-9);
+    Tuning off;
+    off.isOn = false;
+    ASSERT_TRUE(balanced.equalizers.tune(0, off).ok());
+    balanced.apply();
+    EXPECT_EQ(balanced.equalizers.intervalMilliseconds(), 0);
+    Tuning on;
+    on.isOn = true;
+    ASSERT_TRUE(balanced.equalizers.tune(0, on).ok());
+    balanced.apply();
+    EXPECT_GT(balanced.equalizers.intervalMilliseconds(), 0);
+    for (config::Destination& each : balanced.resolved.destinations) each.isShown = false;
+    config::Configuration live = balanced.live;
+    balanced.equalizers.apply(live, {balanced.number + 1, balanced.resolved, {}});
+    EXPECT_EQ(balanced.equalizers.intervalMilliseconds(), 0) << "of what is not shown";
 }
 
 const std::string kReduced =

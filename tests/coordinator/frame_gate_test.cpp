@@ -51,6 +51,40 @@ protected:
     FrameGate gate_{[this] { return isWorthwhile_.load(); }};
 };
 
+TEST_F(FrameGateTest, NoneBeginsBeforeTheIntervalSinceTheLastIsOver) {
+    using Clock = FrameGate::Clock;
+    std::atomic<Clock::time_point> now{Clock::time_point(std::chrono::hours(1))};
+    FrameGate gate([] { return true; }, [&] { return now.load(); });
+    gate.setLimit(3);
+    gate.setInterval(std::chrono::hours(2));
+    const Frame first(gate);
+    ASSERT_TRUE(begins(first));
+    const Frame second(gate);
+    now = Clock::time_point(std::chrono::hours(3)) - std::chrono::nanoseconds(1);
+    gate.look();
+    waitAWhile();
+    EXPECT_FALSE(second.hasBegun);
+    now = Clock::time_point(std::chrono::hours(3));
+    gate.look();
+    EXPECT_TRUE(begins(second));
+    const Frame third(gate);
+    waitAWhile();
+    EXPECT_FALSE(third.hasBegun) << "it is the second that it comes after";
+    gate.setInterval({});
+    EXPECT_TRUE(begins(third));
+}
+
+TEST_F(FrameGateTest, OneThatIsNotWantedAnyMoreDoesNotWaitForTheInterval) {
+    gate_.setInterval(std::chrono::hours(1));
+    { const FrameGate::Pass first(gate_); }
+    std::stop_source stop;
+    std::jthread stopper([&] {
+        waitAWhile();
+        stop.request_stop();
+    });
+    EXPECT_FALSE(FrameGate::Pass(gate_, stop.get_token()).hasTurn());
+}
+
 TEST_F(FrameGateTest, OneBeginsAtOnceWhateverTheOthersWouldFind) {
     const Frame frame(gate_);
     EXPECT_TRUE(begins(frame));

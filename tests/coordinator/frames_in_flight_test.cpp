@@ -176,8 +176,8 @@ TEST_P(FramesInFlight, WithoutARendererLeftAllFailAndTheNextSaysWhatToDo) {
                 testing::HasSubstr("eyrie renderer --coordinator"));
 }
 
-/// A configuration of that latency whose renderers take whole frames in turn.
-FramePipelineOptions inTurn(int renderers, int latency) {
+/// A configuration of that latency whose renderers take whole frames in turn, with `equalizer`.
+FramePipelineOptions inTurn(int renderers, int latency, const std::string& equalizer = "") {
     std::string pipes;
     std::string children;
     for (int i = 0; i < renderers; ++i) {
@@ -193,8 +193,8 @@ FramePipelineOptions inTurn(int renderers, int latency) {
         fmt::format(
             "server {{ config {{ latency {} appNode {{ {} }} layout {{ view {{ }} }}\n"
             "canvas {{ layout 0 segment {{ channel \"shown\" }} }}\n"
-            "compound {{ channel ( segment 0 view 0 ) {} inputframe {{ name \"f\" }} }} }} }}",
-            latency, pipes, children),
+            "compound {{ channel ( segment 0 view 0 ) {} {} inputframe {{ name \"f\" }} }} }} }}",
+            latency, pipes, equalizer, children),
         findings);
     options.patience = {seconds(50), seconds(50), 3};
     return options;
@@ -204,7 +204,8 @@ FramePipelineOptions inTurn(int renderers, int latency) {
 template <int Latency>
 class TimeMultiplexed : public FramesInFlight {
 protected:
-    TimeMultiplexed() : FramesInFlight(inTurn(std::stoi(GetParam()), Latency)) {}
+    explicit TimeMultiplexed(const std::string& equalizer = "")
+        : FramesInFlight(inTurn(std::stoi(GetParam()), Latency, equalizer)) {}
 
     /// Without depth, which the configuration's frames do not have.
     static FrameRequest request() {
@@ -262,6 +263,25 @@ TEST_P(InTurn, AFrameIsNotShownBeforeTheOneBeforeIt) {
     slow.hang(false);
     expectColours(first);
     expectColours(second);
+}
+
+class AtASteadyRate : public TimeMultiplexed<2> {
+protected:
+    AtASteadyRate() : TimeMultiplexed("framerate_equalizer { }") {}
+};
+INSTANTIATE_TEST_SUITE_P(Of, AtASteadyRate, testing::Values("2"),
+                         [](const auto& of) { return "By" + of.param; });
+
+/// Renderers say that they take 200 ms, and take none: without the equalizer all frames would be
+/// there at once. By two of them one may begin every 105 ms.
+TEST_P(AtASteadyRate, FramesBeginAtThePeriodsShareOfWhatOneTakes) {
+    const Renderers renderers = open();
+    for (const auto& renderer : renderers) renderer->millisecondsAFrame = 200;
+    EXPECT_TRUE(pipeline_.renderFrame(request()).ok());
+    EXPECT_TRUE(pipeline_.renderFrame(request()).ok());
+    const auto begun = std::chrono::steady_clock::now();
+    for (int frame = 0; frame < 4; ++frame) EXPECT_TRUE(pipeline_.renderFrame(request()).ok());
+    EXPECT_GE(std::chrono::steady_clock::now() - begun, 3 * milliseconds(105));
 }
 
 using OneAtATime = TimeMultiplexed<0>;

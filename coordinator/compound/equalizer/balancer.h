@@ -53,6 +53,9 @@ public:
     virtual void record(const PlannedFrame& frame, const FrameTimes& times) = 0;
 
     virtual Report report() const = 0;
+
+    /// How long after a frame has begun the next is to begin; 0: it does not say.
+    virtual double intervalMilliseconds() const { return 0; }
 };
 
 /// `written` is the compound with the equalizer; `position` its place in `work`, which outlives it.

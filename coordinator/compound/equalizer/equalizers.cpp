@@ -139,6 +139,14 @@ absl::Status Equalizers::tune(std::size_t position, const Tuning& tuning) {
     return absl::OkStatus();
 }
 
+double Equalizers::intervalMilliseconds() const {
+    double longest = 0;
+    for (const Entry& entry : entries_)
+        if (entry.isOn)
+            longest = std::max(longest, entry.balancer->intervalMilliseconds());
+    return longest;
+}
+
 std::vector<EqualizerState> Equalizers::states() const {
     std::vector<EqualizerState> states;
     for (const Entry& entry : entries_)

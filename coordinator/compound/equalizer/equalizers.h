@@ -36,8 +36,8 @@ struct EqualizerState {
 ///
 /// Changed are viewport and range of the children of a compound with a load, tree or view
 /// equalizer, zoom (DFR), outputtiles and inputtiles (tile), and output frames' zoom (monitor).
-/// A framerate equalizer changes nothing; its report says how often a frame may
-/// be shown. A child without a share gets a viewport or range of no size.
+/// A framerate equalizer says how often frames may begin. A child without a share gets a viewport
+/// or range of no size.
 class Equalizers {
 public:
     /// `written` is the configuration as its file has it; what is switched off returns to that.
@@ -57,6 +57,9 @@ public:
 
     /// The position in states() of what is named so. Errors: NotFound, naming those there are.
     absl::StatusOr<std::size_t> find(std::string_view name) const;
+
+    /// How long after a frame of those applied last has begun the next is to begin; 0: at any time.
+    double intervalMilliseconds() const;
 
     /// In preorder of their compounds, of each as written.
     std::vector<EqualizerState> states() const;

@@ -16,12 +16,16 @@ Framerate::Framerate(std::size_t position, const Work& work)
     : position_(position), work_(work), children_(work.drawingChildren(position)) {}
 
 void Framerate::apply(Turn& turn, const config::Equalizer&, bool isFrozen) {
-    isOn_ = true;
+    isAtWork_ = false;
     isFrozen_ = isFrozen;
     std::int64_t period = 1;
     for (const std::size_t child : children_)
-        if (const auto* const compound = turn.resolved(child))
+        if (const auto* const compound = turn.resolved(child)) {
             period = std::clamp(compound->period, period, kLongestPeriod);
+            isAtWork_ =
+                isAtWork_ || (compound->destination &&
+                              turn.facts.resolved.destinations[*compound->destination].isShown);
+        }
     period_ = static_cast<std::size_t>(period);
 }
 
@@ -43,7 +47,7 @@ void Framerate::record(const PlannedFrame& frame, const FrameTimes& times) {
 }
 
 Report Framerate::report() const {
-    return {.framesPerSecond = isOn_ && interval_ > 0 ? 1000 / interval_ : 0};
+    return {.framesPerSecond = isAtWork_ && interval_ > 0 ? 1000 / interval_ : 0};
 }
 
 }  // namespace eyrie::equalizer

@@ -7,8 +7,8 @@
 
 namespace eyrie::equalizer {
 
-/// Spaces the frames of a time-multiplexed (DPlex) compound evenly: how often one may be shown
-/// follows from what those of a period took, and a twentieth to spare. Without it frames come in
+/// Spaces the frames of a time-multiplexed (DPlex) compound evenly: how often one may begin follows
+/// from what those of a period took, and a twentieth to spare. Without it frames come in
 /// bursts, as its children happen to end together. The framerate equalizer of Equalizer.
 ///
 /// A frame's time is that of what took longest; n children that take turns make n frames in it. A
@@ -18,15 +18,16 @@ public:
     Framerate(std::size_t position, const Work& work);
 
     void apply(Turn& turn, const config::Equalizer& settings, bool isFrozen) override;
-    void switchOff(Turn&) override { isOn_ = false; }
+    void switchOff(Turn&) override { isAtWork_ = false; }
     void record(const PlannedFrame& frame, const FrameTimes& times) override;
     Report report() const override;
+    double intervalMilliseconds() const override { return isAtWork_ ? interval_ : 0; }
 
 private:
     const std::size_t position_;
     const Work& work_;
     const std::vector<std::size_t> children_;
-    bool isOn_ = false;
+    bool isAtWork_ = false;  ///< on, and what it spaces is shown
     bool isFrozen_ = false;
     std::size_t period_ = 1;
     std::deque<double> times_;  ///< milliseconds of the frames of the last period

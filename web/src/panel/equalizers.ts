@@ -9,7 +9,7 @@ import type {
 } from "../protocol/configuration";
 import { compoundsOf, readConfiguration, tuneEqualizer } from "../protocol/configuration";
 import type { State } from "../state";
-import { byId, make } from "./element";
+import { byId, make, setText } from "./element";
 
 const names: Record<EqualizerKind, string> = {
   load: "Load",
@@ -103,6 +103,20 @@ export function changeOf(field: NumberField, text: string): EqualizerChange | st
   return { [field.key]: field.count === 1 ? numbers[0] : numbers };
 }
 
+/** "19 frames a second · 0.7 of the pixels of a side", or "". */
+export function reportText({ kind, report }: Pick<EqualizerView, "kind" | "report">): string {
+  const { framesPerSecond, zoom, imbalance } = report;
+  const parts = [];
+  if (framesPerSecond !== undefined)
+    parts.push(
+      `${kind === "framerate" ? "at most " : ""}${framesPerSecond.toFixed(1)} frames a second`,
+    );
+  if (zoom !== undefined) parts.push(`${zoom.toFixed(2)} of the pixels of a side`);
+  if (imbalance !== undefined)
+    parts.push(`the longest takes ${imbalance.toFixed(2)} times the mean`);
+  return parts.join(" · ");
+}
+
 type Tune = (position: number, change: EqualizerChange) => void;
 
 function checkbox(text: string, title: string, isOn: boolean, changed: (isOn: boolean) => void) {
@@ -172,6 +186,7 @@ function equalizer(view: EqualizerView, tune: Tune, complain: (why: string) => v
   if (kind === "load" || kind === "tree") group.append(modeField(view, tune));
   for (const field of fields)
     if (field.kinds.includes(kind)) group.append(numberField(field, view, tune, complain));
+  group.append(make("p", "note equalizer-report", reportText(view)));
   return group;
 }
 
@@ -189,6 +204,10 @@ function compoundItem(
     );
   return item;
 }
+
+/** In the order in which they are shown. */
+const equalizersOf = (compounds: readonly CompoundView[]): EqualizerView[] =>
+  compounds.flatMap((one) => [...one.equalizers, ...equalizersOf(one.compounds)]);
 
 /** Whether something is typed in that has not been entered yet. */
 function isTyping(tree: HTMLElement): boolean {
@@ -231,6 +250,16 @@ export function showEqualizers(state: State): void {
     problem.textContent = "";
     tuneEqualizer(position, change).catch(complain).then(show, complain);
   };
+  const showReports = async (): Promise<void> => {
+    const all = equalizersOf(compoundsOf(await readConfiguration()));
+    const lines = tree.querySelectorAll<HTMLElement>(".equalizer-report");
+    if (lines.length === all.length)
+      lines.forEach((line, position) => setText(line, reportText(all[position]!)));
+  };
+  // A server that does not answer is told of elsewhere.
+  window.setInterval(() => {
+    if (details.open && !document.hidden) showReports().catch(() => undefined);
+  }, 1000);
   details.addEventListener("toggle", () => {
     problem.textContent = "";
     if (details.open) void show();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
-import { changeOf, fields, modes } from "../panel/equalizers";
+import { changeOf, fields, modes, reportText } from "../panel/equalizers";
 import { compoundsOf } from "./configuration";
 
 const fieldOf = (key: string) => fields.find((field) => field.key === key) ?? fields[0]!;
@@ -26,6 +26,7 @@ describe("a configuration", () => {
         { equalizer: 2, on: false, frozen: true },
       ],
     },
+    equalizers: [{ imbalance: 1.125 }, { framesPerSecond: 42 }, { framesPerSecond: 19, zoom: 0.7 }],
   };
 
   it("is trees of compounds, whose equalizers count from parents to children", () => {
@@ -45,6 +46,7 @@ describe("a configuration", () => {
       isOn: false,
       isFrozen: true,
       settings: { framerate: 20 },
+      report: { framesPerSecond: 19, zoom: 0.7 },
     });
     expect(second?.share).toBe("frames 1 of 2");
     expect(second?.equalizers[0]).toMatchObject({ position: 3, settings: { tileSize: [32, 32] } });
@@ -52,6 +54,16 @@ describe("a configuration", () => {
 
   it("has what was changed in the place of what was written", () => {
     expect(compoundsOf(answer)[0]?.equalizers[0]?.settings).toEqual({ damping: 0.75 });
+  });
+
+  it("says what its equalizers have come to", () => {
+    const [load, framerate] = compoundsOf(answer)[0]!.equalizers;
+    expect(reportText(load!)).toBe("the longest takes 1.13 times the mean");
+    expect(reportText(framerate!)).toBe("at most 42.0 frames a second");
+    expect(reportText({ kind: "dfr", report: { framesPerSecond: 19, zoom: 0.7 } })).toBe(
+      "19.0 frames a second · 0.70 of the pixels of a side",
+    );
+    expect(reportText({ kind: "tile", report: {} })).toBe("");
   });
 
   it("may have nothing", () => {

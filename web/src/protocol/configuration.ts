@@ -21,6 +21,14 @@ export interface EqualizerView {
   isOn: boolean;
   isFrozen: boolean;
   settings: EqualizerSettings;
+  report: EqualizerReport;
+}
+
+/** What it has come to; what is absent it does not say, or does not know yet. */
+export interface EqualizerReport {
+  framesPerSecond?: number;
+  zoom?: number;
+  imbalance?: number;
 }
 
 export interface CompoundView {
@@ -65,6 +73,7 @@ interface Tuning extends EqualizerSettings {
 export interface ConfigurationAnswer {
   configuration?: { compounds?: Compound[] };
   state?: { equalizers?: Tuning[] };
+  equalizers?: EqualizerReport[];
 }
 
 const placeText = (place: Place | undefined): string =>
@@ -94,7 +103,8 @@ function shareOf({ viewport, range, period, phase, pixel, subpixel }: Compound):
 }
 
 /** The trees of compounds, with how their equalizers stand. */
-export function compoundsOf({ configuration, state }: ConfigurationAnswer): CompoundView[] {
+export function compoundsOf(answer: ConfigurationAnswer): CompoundView[] {
+  const { configuration, state, equalizers } = answer;
   const tuned = new Map((state?.equalizers ?? []).map((one) => [one.equalizer ?? 0, one]));
   let position = 0;
   const equalizerOf = (written: Record<string, EqualizerSettings & { size?: number[] }>) => {
@@ -105,6 +115,7 @@ export function compoundsOf({ configuration, state }: ConfigurationAnswer): Comp
       frozen = false,
       ...changed
     } = tuned.get(position) ?? {};
+    const report = equalizers?.[position] ?? {};
     position += 1;
     const view: EqualizerView = {
       position: equalizer,
@@ -112,6 +123,7 @@ export function compoundsOf({ configuration, state }: ConfigurationAnswer): Comp
       isOn: on,
       isFrozen: frozen,
       settings: { ...settings, ...(size === undefined ? {} : { tileSize: size }), ...changed },
+      report,
     };
     return view;
   };
