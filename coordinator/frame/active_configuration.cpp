@@ -68,15 +68,22 @@ config::Viewport fractionOf(const fabric::PixelViewport& part, const fabric::Pix
 }
 
 /// A compound may draw several times in a frame: for two eyes, or tile by tile.
-void add(equalizer::CompoundTime& sum, const ActiveConfiguration::Taken& taken,
-         const fabric::PixelViewport& asked) {
-    if (!(sum.draw >= 0))
-        sum.draw = 0;
-    const double drawn = taken.stages.total - taken.stages.readback;
-    sum.draw += drawn;
-    sum.readback += taken.stages.readback;
-    sum.transmit += std::max(0.0, taken.milliseconds - taken.stages.total);
-    sum.covered = fractionOf(taken.covered, asked);
+struct Drawn {
+    equalizer::CompoundTime time;
+    fabric::PixelViewport asked;    ///< around all its tasks
+    fabric::PixelViewport covered;  ///< around what is in their pictures
+};
+
+void add(Drawn& sum, const ActiveConfiguration::Taken& taken, const fabric::PixelViewport& asked) {
+    equalizer::CompoundTime& time = sum.time;
+    if (!(time.draw >= 0))
+        time.draw = 0;
+    time.draw += taken.stages.total - taken.stages.readback;
+    time.readback += taken.stages.readback;
+    time.transmit += std::max(0.0, taken.milliseconds - taken.stages.total);
+    sum.asked = fabric::enclosing(sum.asked, asked);
+    sum.covered = fabric::enclosing(sum.covered, taken.covered);
+    time.covered = fractionOf(sum.covered, sum.asked);
 }
 
 }  // namespace
@@ -194,7 +201,8 @@ absl::StatusOr<compound::Plan> ActiveConfiguration::plan(const FrameRequest& req
                                                          const std::vector<std::string>& away) {
     ASSIGN_OR_RETURN(compound::PlanRequest asked, planRequestOf(request));
     asked.frameNumber = frameNumber;
-    equalizers_.apply(live_, {frameNumber, resolved_, gone(away)});
+    equalizers_.apply(live_, {frameNumber, resolved_, gone(away),
+                              request.completeness == fabric::Completeness::Complete});
     return compound::makePlan(live_, asked);
 }
 
@@ -230,14 +238,15 @@ Takers ActiveConfiguration::takersOf(const compound::Plan& plan) const {
 
 void ActiveConfiguration::record(const compound::Plan& plan, std::uint64_t frameNumber,
                                  std::span<const Taken> taken) {
-    equalizer::FrameTimes times;
-    times.frameNumber = frameNumber;
-    times.compounds.resize(resolved_.compounds.size());
+    std::vector<Drawn> drawn(resolved_.compounds.size());
     for (std::size_t i = 0; i < plan.draws.size(); ++i) {
         const compound::PlannedDraw& draw = plan.draws[i];
-        if (draw.compound < times.compounds.size())
-            add(times.compounds[draw.compound], taken[i], draw.task.pixelViewport);
+        if (draw.compound < drawn.size())
+            add(drawn[draw.compound], taken[i], draw.task.pixelViewport);
     }
+    equalizer::FrameTimes times;
+    times.frameNumber = frameNumber;
+    for (const Drawn& each : drawn) times.compounds.push_back(each.time);
     equalizers_.record(times);
 }
 

@@ -22,6 +22,12 @@ int scaled(int side, int halvings) {
 
 }  // namespace
 
+bool tellsItsCost(const FrameRequest& request, const fabric::FrameStatistics& statistics) {
+    const bool hasWaited =
+        request.completeness == fabric::Completeness::Complete && statistics.pagesLoaded > 0;
+    return !hasWaited && !request.measuresStages;
+}
+
 BudgetPlan BudgetKeeper::plan(const FrameRequest& request) const {
     const double margin = view_.isCut(request.camera) ? margin_.factor() : 1;
     return {budgetOf(request, margin), scaled(request.width, halvings_),
@@ -39,9 +45,7 @@ void BudgetKeeper::record(const FrameRequest& request, const fabric::FrameStatis
         return;
     fabric::BudgetUse use = *statistics.budget;
     lastTauPixels_ = use.tauPixels;
-    const bool hasWaited =
-        request.completeness == fabric::Completeness::Complete && statistics.pagesLoaded > 0;
-    if (hasWaited || request.measuresStages)
+    if (!tellsItsCost(request, statistics))
         return;
     // Until its data are there a frame is drawn with others, mostly fewer, triangles.
     const std::uint64_t drawn =

@@ -13,6 +13,10 @@
 
 namespace eyrie::coordinator {
 
+/// Whether what a frame took is what drawing it takes: not where it waited for data, or measured
+/// its stages one by one.
+bool tellsItsCost(const FrameRequest& request, const fabric::FrameStatistics& statistics);
+
 /// What a frame that is to keep a budget is drawn with.
 struct BudgetPlan {
     fabric::FrameBudget budget;  ///< for the frame data

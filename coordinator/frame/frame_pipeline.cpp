@@ -109,8 +109,8 @@ absl::StatusOr<RenderedFrame> FramePipeline::renderInTurn(const FrameRequest& as
             continue;  // the scene was replaced meanwhile: draw that one
         RETURN_IF_ERROR(drawn.status());
         pass.awaitEarlier();
-        planner_.record(planned, drawn->taken);
         fabric::FrameStatistics& statistics = drawn->picture.statistics;
+        planner_.record(planned, statistics, drawn->taken);
         const std::chrono::duration<double, std::milli> taken = FramePlanner::Clock::now() - start;
         statistics.milliseconds.total = taken.count();
         planner_.finished(asked, planned, statistics, start);

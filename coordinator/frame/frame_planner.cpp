@@ -100,8 +100,10 @@ const fabric::FrameData& FramePlanner::frameDataFor(
     return frameData_;
 }
 
-void FramePlanner::record(const PlannedFrame& frame,
+void FramePlanner::record(const PlannedFrame& frame, const fabric::FrameStatistics& statistics,
                           std::span<const ActiveConfiguration::Taken> taken) {
+    if (!tellsItsCost(frame.request, statistics) || !frame.request.part.isEmpty())
+        return;
     const std::lock_guard lock(mutex_);
     frame.configuration->record(frame.plan, frame.number, taken);
 }

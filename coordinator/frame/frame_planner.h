@@ -36,8 +36,11 @@ public:
     absl::StatusOr<PlannedFrame> plan(const FrameRequest& asked, const Crew::State& scene,
                                       std::vector<std::shared_ptr<Member>> ready);
 
-    /// What its draws took, for the configuration's equalizers. Frames come in their order.
-    void record(const PlannedFrame& frame, std::span<const ActiveConfiguration::Taken> taken);
+    /// What its draws took, for the configuration's equalizers. Frames come in their order. One
+    /// that waited for data, or that is a part of a picture, tells nothing of how to share out the
+    /// next.
+    void record(const PlannedFrame& frame, const fabric::FrameStatistics& statistics,
+                std::span<const ActiveConfiguration::Taken> taken);
 
     /// The frame that was `asked` for at `begun` is there, for the budget it had: what counts is
     /// the time since then or since the frame before it was there, as for who sees them. Frames

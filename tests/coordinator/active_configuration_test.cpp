@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/frame/active_configuration.h"
 
+#include <utility>
+
 #include <gmock/gmock.h>
 
 #include "coordinator/config/eqc_reader.h"
@@ -51,6 +53,40 @@ TEST(ActiveConfiguration, RefusesToShowAnEyeThatIsBehindTheWall) {
     config::ViewState settings;
     settings.isStereo = true;
     expectRefused(active, settings);
+}
+
+/// Of the left half, one eye sees something at its left end and the other at its right: what is
+/// seen of it is all of it, and it is cut in its middle. If the last eye alone counted, all of it
+/// would lie at the cut that there is.
+TEST(ActiveConfiguration, CountsWhatBothEyesCover) {
+    const std::string window = "window { viewport [ 0 0 640 480 ] channel { name \"";
+    ActiveConfiguration active(
+        read("config { appNode { pipe { " + window + "0\" } } } pipe { " + window +
+             "1\" } } } } observer { } layout { view { mode STEREO observer 0 } } "
+             "canvas { layout 0 segment { channel \"0\" } } "
+             "compound { channel ( segment 0 view 0 ) load_equalizer { mode VERTICAL } "
+             "compound { } compound { channel \"1\" outputframe { } } "
+             "inputframe { name \"frame.1\" } } }"));
+    const compound::Plan first = active.plan({}, 1, {}).value();
+    ASSERT_EQ(first.draws.size(), 4U);
+    std::vector<ActiveConfiguration::Taken> taken;
+    bool isSecondEye = false;
+    for (const compound::PlannedDraw& draw : first.draws) {
+        const fabric::PixelViewport& area = draw.task.pixelViewport;
+        const bool isLeft = area.x == 0;
+        ActiveConfiguration::Taken& each = taken.emplace_back();
+        each.milliseconds = each.stages.total = isLeft ? 45 : 5;
+        each.covered = area;
+        if (!isLeft)
+            continue;
+        EXPECT_EQ(area.width, 640);
+        each.covered.width /= 20;
+        if (std::exchange(isSecondEye, true))
+            each.covered.x = area.width - each.covered.width;
+    }
+    active.record(first, 1, taken);
+    const compound::Plan second = active.plan({}, 2, {}).value();
+    EXPECT_LT(second.draws.front().task.pixelViewport.width, .44 * 1280);
 }
 
 }  // namespace

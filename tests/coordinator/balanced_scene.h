@@ -77,7 +77,7 @@ public:
     }
 
     void apply() {
-        equalizers.apply(live, {++number, asWritten, gone});
+        equalizers.apply(live, {++number, asWritten, gone, isComplete});
         resolve();
     }
 
@@ -90,6 +90,7 @@ public:
     config::ResolvedConfiguration resolved;  ///< of live
     config::ResolvedConfiguration asWritten;
     std::vector<config::ChannelIndex> gone;
+    bool isComplete = false;
     Equalizers equalizers;
     std::uint64_t number = 0;
 

@@ -142,6 +142,22 @@ TEST(DfrEqualizer, HoldsAFrameRateByTheNumberOfPixels) {
     EXPECT_NEAR(balanced.equalizers.states()[0].report.framesPerSecond, 20, .5);
 }
 
+TEST(DfrEqualizer, LeavesFramesThatAreToBeCompleteAsTheyAreWritten) {
+    Balanced balanced(configurationOf(0, kReduced));
+    const auto slow = [](const config::ResolvedCompound& part) {
+        return 1e-3 * static_cast<double>(part.pixelViewport.area());
+    };
+    for (int frame = 0; frame < 20; ++frame) balanced.draw(slow);
+    const fabric::PixelViewport moving = balanced.at(1).pixelViewport;
+    EXPECT_LT(moving.width, 640);
+    balanced.isComplete = true;
+    balanced.draw(slow);
+    EXPECT_EQ(balanced.at(1).pixelViewport, (fabric::PixelViewport{0, 0, 1280, 720}));
+    balanced.isComplete = false;
+    balanced.draw(slow);
+    EXPECT_NEAR(balanced.at(1).pixelViewport.width, moving.width, 4) << "it learned from that";
+}
+
 TEST(DfrEqualizer, KeepsToTheLimitsOfThePicture) {
     Balanced balanced(configurationOf(0, kReduced));
     for (int frame = 0; frame < 20; ++frame) balanced.draw([](const auto&) { return 1e8; });

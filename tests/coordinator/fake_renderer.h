@@ -100,6 +100,7 @@ public:
     std::atomic<int> drawn{0};
     std::atomic<double> share{0};               ///< of the frame, that the last channel was
     std::atomic<double> millisecondsAFrame{0};  ///< said to be taken for the whole of it
+    std::atomic<std::uint64_t> pagesLoaded{0};  ///< said to have been, for a channel
     std::atomic<int> picks{0};
     std::atomic<int> pickedObject{0};
 
@@ -125,6 +126,7 @@ private:
                 (static_cast<double>(task.viewWidth) * task.viewHeight);
         fabric::ChannelResult result = scene_->draw(task);
         result.statistics.milliseconds.total = share * millisecondsAFrame;
+        result.statistics.pagesLoaded = pagesLoaded;
         // It takes longer than any tau could help.
         if (budget_) {
             result.statistics.budget = fabric::tauForBudget(

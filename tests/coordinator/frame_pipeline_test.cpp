@@ -28,6 +28,25 @@ TEST_P(FramePipelineTest, AllReadyRenderersTakePart) {
     for (const auto& renderer : renderers) EXPECT_EQ(renderer->drawn, 2);
 }
 
+TEST_P(FramePipelineTest, SharesFollowWhatDrawingTakesAndNoWaitingForData) {
+    const auto renderers = openWith(2);
+    FakeRenderer& slow = *renderers[0];
+    EXPECT_TRUE(pipeline_.renderFrame(request()).ok());
+    const double before = slow.share;
+    slow.millisecondsAFrame = 1000;
+    slow.pagesLoaded = 3;
+    for (int i = 0; i < 4; ++i) EXPECT_TRUE(pipeline_.renderFrame(request()).ok());
+    EXPECT_EQ(slow.share, before) << "it read its data";
+    slow.pagesLoaded = 0;
+    FrameRequest part = request();
+    part.part = {0, 0, kWidth, kHeight / 2};
+    for (int i = 0; i < 4; ++i) EXPECT_TRUE(pipeline_.renderFrame(part).ok());
+    EXPECT_TRUE(pipeline_.renderFrame(request()).ok());
+    EXPECT_EQ(slow.share, before) << "they were parts";
+    for (int i = 0; i < 4; ++i) EXPECT_TRUE(pipeline_.renderFrame(request()).ok());
+    EXPECT_LT(slow.share, .8 * before);
+}
+
 /// As Equalizer names it: by its stripes.
 TEST_P(FramePipelineTest, HORIZONTALCutsPicturesIntoStripesOneAboveAnother) {
     if (GetParam() != "2D")

@@ -132,15 +132,18 @@ TEST_F(EqualizerPictures, OfDynamicResolutionAreDrawnSmallerAndEnlarged) {
                   "outputframe { name \"f\" } } inputframe { name \"f\" } }"));
     const FrameRequest seen = view(256, 256);
     EXPECT_EQ(test::differentPixels(drawn(seen), drawnHere(seen)), 0U) << "before it has learned";
-    for (int frame = 0; frame < 50 && reportOf(0).zoom != .5; ++frame) drawn(seen);
+    FrameRequest moving = seen;
+    moving.completeness = fabric::Completeness::Interactive;
+    for (int frame = 0; frame < 50 && reportOf(0).zoom != .5; ++frame) drawn(moving);
     ASSERT_EQ(reportOf(0).zoom, .5);
-    const Image enlarged = drawn(seen);
+    const Image enlarged = drawn(moving);
     const Image small = here_->draw(seen, fabric::Raster{128, 128, {0, 0}, {2, 2}}).value();
     ASSERT_EQ(enlarged.area, (fabric::PixelViewport{0, 0, 256, 256}));
     for (int y = 0; y < 256; ++y)
         for (int x = 0; x < 256; ++x)
             ASSERT_EQ(at(enlarged, x, y), at(small, x / 2, y / 2)) << x << " " << y;
     EXPECT_GT(test::differentPixels(enlarged, drawnHere(seen)), 1000U);
+    EXPECT_EQ(test::differentPixels(drawn(seen), drawnHere(seen)), 0U) << "what is to be complete";
 }
 
 /// The monitor has half the wall's pixels each way.

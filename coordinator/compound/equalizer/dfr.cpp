@@ -51,12 +51,14 @@ void Dfr::apply(Turn& turn, const config::Equalizer& settings, bool isFrozen) {
         return;
     const double least = std::min(1.0, kLeastPixels / shorter);
     zoom_ = std::clamp(zoom_, least, std::max(least, roomOf(turn, position_, shown)));
-    turn.live[position_]->zoom = written_ * zoom_;
+    turn.live[position_]->zoom = turn.facts.isComplete ? written_ : written_ * zoom_;
 }
 
 void Dfr::switchOff(Turn& turn) { turn.live[position_]->zoom = written_; }
 
 void Dfr::record(const PlannedFrame& frame, const FrameTimes& times) {
+    if (frame.isComplete)
+        return;
     milliseconds_ = work_.longest(position_, frame, times);
     if (milliseconds_ > 0 && position_ < times.compounds.size())
         milliseconds_ += known(times.compounds[position_].assemble).value_or(0);

@@ -9,6 +9,8 @@ namespace eyrie::equalizer {
 /// the DFR equalizer of Equalizer. Time goes with the pixels' number, so that a side changes by the
 /// square root of what is missing, a damped part of it a frame.
 ///
+/// Frames that are to be complete have the pixels that are written, and tell it nothing.
+///
 /// From 128 pixels on the shorter side up to the size of the channel that draws, which may be more
 /// than is shown.
 class Dfr final : public Balancer {

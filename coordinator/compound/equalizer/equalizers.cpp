@@ -91,7 +91,7 @@ void Equalizers::apply(config::Configuration& live, const FrameFacts& facts) {
     for (Entry& entry : entries_)
         if (entry.isOn)
             entry.balancer->apply(turn, entry.settings, entry.isFrozen);
-    PlannedFrame frame{facts.frameNumber, {}};
+    PlannedFrame frame{facts.frameNumber, {}, facts.isComplete};
     for (const config::Compound& root : live.compounds) addParts(root, false, frame.parts);
     if (!planned_.empty() && planned_.back().number >= frame.number) {
         planned_.clear();

@@ -18,6 +18,7 @@ struct FrameFacts {
     const config::ResolvedConfiguration& resolved;
     /// Channels whose renderer is away. They get no share until they are back.
     std::vector<config::ChannelIndex> gone = {};
+    bool isComplete = false;  ///< it is to have all that is asked for, whatever time that takes
 };
 
 /// What the tasks of one compound took in a frame, milliseconds. Not a number, or negative: not

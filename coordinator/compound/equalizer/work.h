@@ -21,6 +21,7 @@ struct Part {
 struct PlannedFrame {
     std::uint64_t number = 0;
     std::vector<Part> parts;
+    bool isComplete = false;  ///< FrameFacts
 };
 
 /// The compounds of a configuration by their position in preorder, which is that in
