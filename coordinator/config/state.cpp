@@ -15,6 +15,8 @@
 namespace eyrie::config {
 namespace {
 
+constexpr double kMostEyeMetres = 1e6;  // that sums of such are exact enough
+
 std::string layoutsOf(const Configuration& configuration, const Canvas& canvas) {
     std::string names;
     for (const std::optional<std::size_t>& layout : canvas.layouts)
@@ -69,6 +71,7 @@ ConfigurationState initialState(const Configuration& configuration) {
         state.layouts.push_back(canvas.layouts.empty() ? std::nullopt : canvas.layouts.front());
     state.equalizers.resize(equalizersOf(configuration).size());
     state.heads.resize(configuration.observers.size(), fabric::Mat4(1));
+    state.observers.resize(configuration.observers.size());
     for (const Layout& layout : configuration.layouts)
         state.views.emplace_back(layout.views.size());
     return state;
@@ -136,6 +139,23 @@ absl::Status setView(const Configuration& configuration, ConfigurationState& sta
     return absl::OkStatus();
 }
 
+absl::Status setObserver(const Configuration& configuration, ConfigurationState& state,
+                         std::string_view observer, const ObserverState& settings) {
+    ASSIGN_OR_RETURN(const std::size_t of,
+                     findNamed(configuration.observers, "observer", observer));
+    const double base = settings.eyeBase.value_or(0);
+    if (!(base >= 0 && base <= kMostEyeMetres))
+        return absl::InvalidArgumentError(
+            fmt::format("the eye base is {}; it must be from 0 to {}", base, kMostEyeMetres));
+    const double distance = settings.focusDistance.value_or(1);
+    if (!(distance > 0 && distance <= kMostEyeMetres))
+        return absl::InvalidArgumentError(
+            fmt::format("the focus distance is {}; it must be above 0 and at most {}", distance,
+                        kMostEyeMetres));
+    state.observers[of] = settings;
+    return absl::OkStatus();
+}
+
 std::vector<PlacedEqualizer> equalizersOf(const Configuration& configuration) {
     std::vector<PlacedEqualizer> found;
     for (const Compound& root : configuration.compounds) addEqualizers(root, found);
@@ -151,6 +171,12 @@ Configuration applied(const Configuration& configuration, const ConfigurationSta
             take(state.views[layout][view].stereoMode,
                  result.layouts[layout].views[view].stereoMode);
         }
+    for (std::size_t i = 0; i < result.observers.size(); ++i) {
+        if (state.observers[i].eyeBase)
+            result.observers[i].eyeBase = state.observers[i].eyeBase;
+        take(state.observers[i].focusDistance, result.observers[i].focusDistance);
+        take(state.observers[i].focusMode, result.observers[i].focusMode);
+    }
     std::size_t next = 0;
     for (Compound& root : result.compounds) tuneAll(root, state, next);
     return result;

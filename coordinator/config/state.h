@@ -27,11 +27,21 @@ struct ViewState {
     bool operator==(const ViewState&) const = default;
 };
 
+/// Of an observer; what is absent is as configured.
+struct ObserverState {
+    std::optional<double> eyeBase;        ///< metres, from 0 on
+    std::optional<double> focusDistance;  ///< metres, above 0
+    std::optional<FocusMode> focusMode;
+
+    bool operator==(const ObserverState&) const = default;
+};
+
 struct ConfigurationState {
     std::vector<std::optional<std::size_t>> layouts;  ///< shown by each canvas; none: OFF
     std::vector<EqualizerTuning> equalizers;    ///< of compounds from the roots down, as written
     std::vector<fabric::Mat4> heads;            ///< of observers: roomFromHead, rigid, metres
     std::vector<std::vector<ViewState>> views;  ///< of layouts
+    std::vector<ObserverState> observers;
 
     bool operator==(const ConfigurationState&) const = default;
 };
@@ -56,6 +66,10 @@ absl::Status tuneEqualizer(const Configuration& configuration, ConfigurationStat
 absl::Status setView(const Configuration& configuration, ConfigurationState& state,
                      std::string_view layout, std::string_view view, const ViewState& settings);
 
+/// In the place of what was set before.
+absl::Status setObserver(const Configuration& configuration, ConfigurationState& state,
+                         std::string_view observer, const ObserverState& settings);
+
 /// Compounds and their equalizers in the order of ConfigurationState::equalizers.
 struct PlacedEqualizer {
     const Compound* compound = nullptr;
@@ -63,8 +77,8 @@ struct PlacedEqualizer {
 };
 std::vector<PlacedEqualizer> equalizersOf(const Configuration& configuration);
 
-/// With settings of equalizers and views in the place of those configured, ready to be resolved.
-/// Which layouts are shown, heads and model units are no part of a configuration.
+/// With settings of equalizers, views and observers in the place of those configured, ready to be
+/// resolved. Which layouts are shown, heads and model units are no part of a configuration.
 Configuration applied(const Configuration& configuration, const ConfigurationState& state);
 
 }  // namespace eyrie::config

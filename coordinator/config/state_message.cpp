@@ -88,6 +88,17 @@ v1::ViewSetting toMessage(const ViewState& state) {
     return message;
 }
 
+v1::ObserverSetting toMessage(const ObserverState& state) {
+    v1::ObserverSetting message;
+    if (state.eyeBase)
+        message.set_eye_base(*state.eyeBase);
+    if (state.focusDistance)
+        message.set_focus_distance(*state.focusDistance);
+    if (state.focusMode)
+        message.set_focus_mode(static_cast<v1::FocusMode>(static_cast<int>(*state.focusMode) + 1));
+    return message;
+}
+
 absl::Status readSurface(const google::protobuf::Message& message, bool isWall,
                          std::optional<Surface>& surface) {
     Findings findings;
@@ -144,6 +155,10 @@ v1::ConfigurationState toMessage(const Configuration& configuration,
             view.set_layout(called(configuration.layouts, i));
             view.set_view(called(configuration.layouts[i].views, j));
         }
+    for (std::size_t i = 0; i < state.observers.size(); ++i) {
+        v1::ObserverSetting& observer = *message.add_observers() = toMessage(state.observers[i]);
+        observer.set_observer(called(configuration.observers, i));
+    }
     return message;
 }
 
@@ -208,6 +223,18 @@ absl::Status change(const v1::ViewSetting& message, const Configuration& configu
     return setView(configuration, state, message.layout(), message.view(), settings);
 }
 
+absl::Status change(const v1::ObserverSetting& message, const Configuration& configuration,
+                    ConfigurationState& state) {
+    ObserverState settings;
+    if (message.has_eye_base())
+        settings.eyeBase = message.eye_base();
+    if (message.has_focus_distance())
+        settings.focusDistance = message.focus_distance();
+    RETURN_IF_ERROR(readEnum(message.focus_mode(), v1::FOCUS_MODE_RELATIVE_TO_OBSERVER, "focusMode",
+                             settings.focusMode));
+    return setObserver(configuration, state, message.observer(), settings);
+}
+
 absl::Status change(const v1::ConfigurationState& message, const Configuration& configuration,
                     ConfigurationState& state) {
     ConfigurationState changed = state;
@@ -215,6 +242,7 @@ absl::Status change(const v1::ConfigurationState& message, const Configuration& 
     RETURN_IF_ERROR(changeAll(message.equalizers(), configuration, changed));
     RETURN_IF_ERROR(changeAll(message.heads(), configuration, changed));
     RETURN_IF_ERROR(changeAll(message.views(), configuration, changed));
+    RETURN_IF_ERROR(changeAll(message.observers(), configuration, changed));
     state = std::move(changed);
     return absl::OkStatus();
 }

@@ -10,6 +10,7 @@ class ConfigurationState;
 class EqualizerTuning;
 class Head;
 class LayoutSwitch;
+class ObserverSetting;
 class ViewSetting;
 }  // namespace eyrie::v1
 
@@ -27,6 +28,8 @@ absl::Status change(const v1::EqualizerTuning& message, const Configuration& con
 absl::Status change(const v1::Head& message, const Configuration& configuration,
                     ConfigurationState& state);
 absl::Status change(const v1::ViewSetting& message, const Configuration& configuration,
+                    ConfigurationState& state);
+absl::Status change(const v1::ObserverSetting& message, const Configuration& configuration,
                     ConfigurationState& state);
 
 /// All of it, or, with an error, nothing.

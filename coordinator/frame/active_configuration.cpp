@@ -100,6 +100,7 @@ absl::Status ActiveConfiguration::show(config::ConfigurationState state) {
     display_ = displayOf(written_, state_);
     shown_ = config::applied(written_, state_);
     live_.layouts = shown_.layouts;
+    live_.observers = shown_.observers;
     config::Findings findings;
     resolved_ = config::resolve(shown_, display_, findings);
     pipes_ = pipesOf(shown_, resolved_);
@@ -141,6 +142,13 @@ absl::Status ActiveConfiguration::setView(std::string_view layout, std::string_v
                                           const config::ViewState& settings) {
     config::ConfigurationState state = state_;
     RETURN_IF_ERROR(config::setView(written_, state, layout, view, settings));
+    return become(std::move(state));
+}
+
+absl::Status ActiveConfiguration::setObserver(std::string_view observer,
+                                              const config::ObserverState& settings) {
+    config::ConfigurationState state = state_;
+    RETURN_IF_ERROR(config::setObserver(written_, state, observer, settings));
     return become(std::move(state));
 }
 

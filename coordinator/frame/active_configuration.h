@@ -38,11 +38,12 @@ public:
     /// with an eye behind its wall; then nothing has changed.
     absl::Status become(config::ConfigurationState state);
 
-    /// As config::switchLayout, config::setHead, config::setView and Equalizers::tune, and become.
+    /// As the functions of config::ConfigurationState and Equalizers::tune, and become.
     absl::Status switchLayout(std::string_view canvas, std::string_view layout);
     absl::Status setHead(std::string_view observer, const fabric::Mat4& roomFromHead);
     absl::Status setView(std::string_view layout, std::string_view view,
                          const config::ViewState& settings);
+    absl::Status setObserver(std::string_view observer, const config::ObserverState& settings);
     absl::Status tune(std::string_view equalizer, const equalizer::Tuning& tuning);
 
     /// In place of the nodes it was written with, from which they differ in names only.

@@ -10,15 +10,18 @@ namespace eyrie::coordinator {
 namespace {
 
 /// Calls `each(map's key, setting)` for all that `state` has.
-template <typename State, typename OfEqualizer, typename OfHead, typename OfView>
+template <typename State, typename OfEqualizer, typename OfHead, typename OfObserver,
+          typename OfView>
 void forAll(const ActiveConfiguration& active, State& state, OfEqualizer ofEqualizer, OfHead ofHead,
-            OfView ofView) {
+            OfObserver ofObserver, OfView ofView) {
     const config::Configuration& written = active.written();
     const std::vector<equalizer::EqualizerState> equalizers = active.equalizers();
     for (std::size_t i = 0; i < equalizers.size(); ++i)
         ofEqualizer(equalizers[i].name, state.equalizers[i]);
-    for (std::size_t i = 0; i < written.observers.size(); ++i)
+    for (std::size_t i = 0; i < written.observers.size(); ++i) {
         ofHead(config::called(written.observers, i), state.heads[i]);
+        ofObserver(config::called(written.observers, i), state.observers[i]);
+    }
     for (std::size_t i = 0; i < written.layouts.size(); ++i)
         for (std::size_t j = 0; j < written.layouts[i].views.size(); ++j)
             ofView(std::pair(config::called(written.layouts, i),
@@ -44,12 +47,12 @@ auto outOf(const Map& map) {
 }  // namespace
 
 void KeptSettings::keep(const ActiveConfiguration& active) {
-    forAll(active, active.state(), into(equalizers_), into(heads_), into(views_));
+    forAll(active, active.state(), into(equalizers_), into(heads_), into(observers_), into(views_));
 }
 
 absl::Status KeptSettings::restore(ActiveConfiguration& active) const {
     config::ConfigurationState state = active.state();
-    forAll(active, state, outOf(equalizers_), outOf(heads_), outOf(views_));
+    forAll(active, state, outOf(equalizers_), outOf(heads_), outOf(observers_), outOf(views_));
     return active.become(std::move(state));
 }
 

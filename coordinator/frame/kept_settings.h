@@ -25,6 +25,7 @@ public:
 
 private:
     std::map<std::string, config::EqualizerTuning> equalizers_;
+    std::map<std::string, config::ObserverState> observers_;
     std::map<std::string, fabric::Mat4> heads_;                               ///< of observers
     std::map<std::pair<std::string, std::string>, config::ViewState> views_;  ///< layout and view
 };

@@ -89,5 +89,39 @@ TEST(ActiveConfiguration, CountsWhatBothEyesCover) {
     EXPECT_LT(second.draws.front().task.pixelViewport.width, .44 * 1280);
 }
 
+/// Seen by two eyes through a wall, by an observer with these settings.
+config::Configuration room(const std::string& observer) {
+    return read(
+        "config { appNode { pipe { window { channel { name \"0\" } } } } observer { " + observer +
+        " } layout { view { mode STEREO observer 0 "
+        "wall { bottom_left [ -1 -1 -2 ] bottom_right [ 1 -1 -2 ] top_left [ -1 1 -2 ] } } } "
+        "canvas { layout 0 segment { channel \"0\" } } }");
+}
+
+std::vector<fabric::Sight> sightsOf(ActiveConfiguration& active) {
+    std::vector<fabric::Sight> sights;
+    const absl::StatusOr<compound::Plan> plan = active.plan({}, 1, {});
+    EXPECT_TRUE(plan.ok()) << plan.status();
+    if (plan.ok())
+        for (const compound::PlannedDraw& draw : plan->draws)
+            sights.push_back(draw.task.sight.value_or(fabric::Sight{}));
+    return sights;
+}
+
+TEST(ActiveConfiguration, ShowsWhatAnObserverSeesWithOtherEyesAndAnotherFocus) {
+    ActiveConfiguration changed(room(""));
+    ActiveConfiguration written(
+        room("eye_base .2 focus_distance 5 focus_mode relative_to_observer"));
+    const std::vector<fabric::Sight> before = sightsOf(changed);
+    ASSERT_EQ(before.size(), 2U);
+    ASSERT_TRUE(changed.setObserver("0", {.2, 5, config::FocusMode::RelativeToObserver}).ok());
+    EXPECT_EQ(sightsOf(changed), sightsOf(written));
+    ASSERT_TRUE(changed.setObserver("0", {.2, {}, {}}).ok());
+    EXPECT_NE(sightsOf(changed), sightsOf(written)) << "the focus has no part in it";
+    ASSERT_TRUE(changed.setObserver("0", {}).ok());
+    EXPECT_EQ(sightsOf(changed), before);
+    EXPECT_FALSE(changed.setObserver("nobody", {}).ok());
+}
+
 }  // namespace
 }  // namespace eyrie::coordinator

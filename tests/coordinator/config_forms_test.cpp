@@ -229,6 +229,7 @@ TEST(ConfigurationStateMessage, BringsBackTheStateThatItIsOf) {
     state.equalizers[1].isFrozen = true;
     state.equalizers[0].damping = .25;
     state.heads[0][3] = fabric::Vec4(1, 2, 3, 1);
+    state.observers[0] = {.07, 2.5, FocusMode::RelativeToObserver};
     state.views[1][0] = {true, StereoMode::Passive, 2, Wall{}};
     state.views[2][0].surface = Surface{};
     state.views[3][0].surface = Projection{};
@@ -267,6 +268,18 @@ TEST(ConfigurationStateMessage, WithAnErrorChangesNothing) {
     wrong.mutable_heads(0)->add_room_from_head(0);
     EXPECT_FALSE(change(wrong, configuration, changed).ok());
     EXPECT_EQ(changed, state);
+    for (const char* const setting : {"base", "distance", "mode"}) {
+        v1::ConfigurationState blind = toMessage(configuration, state);
+        v1::ObserverSetting& observer = *blind.mutable_observers(0);
+        if (setting == std::string("base"))
+            observer.set_eye_base(-.1);
+        else if (setting == std::string("distance"))
+            observer.set_focus_distance(0);
+        else
+            observer.set_focus_mode(static_cast<v1::FocusMode>(4));
+        EXPECT_FALSE(change(blind, configuration, changed).ok()) << setting;
+        EXPECT_EQ(changed, state);
+    }
 }
 
 }  // namespace

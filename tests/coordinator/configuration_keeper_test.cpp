@@ -31,6 +31,9 @@ absl::Status setAll(ActiveConfiguration& active) {
     view.modelUnit = .3048;
     absl::Status status = active.setView("2D", "0", view);
     status.Update(active.setHead("0", moved(.25)));
+    config::ObserverState observer;
+    observer.focusDistance = 2.5;
+    status.Update(active.setObserver("0", observer));
     equalizer::Tuning frozen;
     frozen.isFrozen = true;
     frozen.damping = .125;
@@ -42,6 +45,7 @@ void expectAllSet(const ActiveConfiguration& active) {
     EXPECT_EQ(active.state().views[0][0].isStereo, true);
     EXPECT_EQ(active.state().views[0][0].modelUnit, .3048);
     EXPECT_EQ(active.state().heads[0], moved(.25));
+    EXPECT_EQ(active.state().observers[0].focusDistance, 2.5);
     EXPECT_EQ(active.state().equalizers[0].damping, .125);
     const equalizer::EqualizerState equalizer = active.equalizers().front();
     EXPECT_EQ(equalizer.name, "load.2D");
