@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "coordinator/frame/problem.h"
 #include "fabric/log.h"
 #include "fabric/status.h"
 
@@ -70,6 +71,7 @@ std::shared_ptr<ActiveConfiguration> ConfigurationKeeper::with(
     if (!given_ && renderers != renderers_)
         make(renderers);
     renderers_ = renderers;
+    noteMissing(renderers.size());
     // Nodes of a made one are called by the renderers that are there already.
     std::span<const config::Node> nodes;
     if (given_)
@@ -102,10 +104,23 @@ void ConfigurationKeeper::make(const std::vector<config::RendererFacts>& rendere
     tell();
 }
 
+/// Once for each number of them.
+void ConfigurationKeeper::noteMissing(std::size_t ready) {
+    std::string note = noteOf(ready, renderersWanted());
+    if (note == note_)
+        return;
+    if (note.empty())
+        spdlog::info("all renderers that the configuration wants are ready");
+    else
+        spdlog::warn("{}", note);
+    note_ = std::move(note);
+}
+
 void ConfigurationKeeper::tell() {
     std::vector<CanvasStatus> canvases = canvasesOf(*active_);
     {
         const std::lock_guard lock(mutex_);
+        wanted_ = given_ ? active_->pipes().size() : 0;
         if (canvases == std::exchange(canvases_, canvases))
             return;
     }
@@ -138,6 +153,11 @@ absl::Status ConfigurationKeeper::change(
 
 std::int64_t ConfigurationKeeper::latency() const {
     return active_ ? active_->written().latency : config::Configuration{}.latency;
+}
+
+std::size_t ConfigurationKeeper::renderersWanted() const {
+    const std::lock_guard lock(mutex_);
+    return wanted_;
 }
 
 std::vector<CanvasStatus> ConfigurationKeeper::canvases() const {

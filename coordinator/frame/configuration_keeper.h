@@ -43,20 +43,27 @@ public:
     /// Any thread.
     std::vector<CanvasStatus> canvases() const;
 
+    /// How many renderers what is shown of a given configuration has pipes for; 0 of a made one,
+    /// which has what there are. Any thread.
+    std::size_t renderersWanted() const;
+
 private:
     void make(const std::vector<config::RendererFacts>& renderers);
     void tell();
+    void noteMissing(std::size_t ready);
 
     const std::optional<config::Configuration> given_;
     std::string layout_;  ///< of a made configuration
     const std::function<void()> changed_;
     std::vector<config::RendererFacts> renderers_;
+    std::string note_;  ///< that was logged last
     PipeRenderers pipeRenderers_;
     KeptSettings settings_;
     std::shared_ptr<ActiveConfiguration> active_;
     std::shared_ptr<ActiveConfiguration> before_;  ///< the made one before; it may come back
     mutable std::mutex mutex_;                     ///< guards what follows
     std::vector<CanvasStatus> canvases_;
+    std::size_t wanted_ = 0;
 };
 
 }  // namespace eyrie::coordinator

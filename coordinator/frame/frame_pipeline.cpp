@@ -214,6 +214,8 @@ Status FramePipeline::status() const {
     status.sceneInfo = state.sceneInfo;
     status.canvases = planner_.canvases();
     status.problem = problem(state);
+    if (status.problem.empty())
+        status.note = noteOf(static_cast<std::size_t>(state.ready), planner_.renderersWanted());
     return status;
 }
 

@@ -54,6 +54,7 @@ public:
     /// As ConfigurationAccess::withConfiguration.
     absl::Status withConfiguration(const std::function<absl::Status(ActiveConfiguration&)>& use);
     std::vector<CanvasStatus> canvases() const { return configuration_.canvases(); }
+    std::size_t renderersWanted() const { return configuration_.renderersWanted(); }
 
     /// As the configuration has it: its latency and the one that is being seen, at most
     /// kMostFrames.

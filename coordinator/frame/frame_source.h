@@ -148,6 +148,8 @@ struct Status {
     std::vector<CanvasStatus> canvases;
     /// Why there is no picture, for a person to read; empty while there is one.
     std::string problem;
+    /// What is missing though there is one, for a person to read; empty where nothing is.
+    std::string note = {};
 };
 
 /// Where pictures come from. All functions may be called from any thread.

@@ -17,4 +17,13 @@ std::string problemOf(const Situation& situation) {
     return fmt::format("no renderer is connected; start one with `{}`", situation.howToJoin);
 }
 
+std::string noteOf(std::size_t ready, std::size_t wanted) {
+    if (ready >= wanted)
+        return {};
+    return fmt::format(
+        "{} of the {} renderers that the configuration wants {} ready; all is drawn, by fewer, and "
+        "so later",
+        ready, wanted, ready == 1 ? "is" : "are");
+}
+
 }  // namespace eyrie::coordinator

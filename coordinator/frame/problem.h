@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 namespace eyrie::coordinator {
@@ -16,5 +17,9 @@ struct Situation {
 
 /// Why there is no picture, for a person to read, with what to do; empty while there is one.
 std::string problemOf(const Situation& situation);
+
+/// What is missing though there is a picture, for a person to read: renderers that are ready, of
+/// those that a configuration has pipes for; empty where nothing is.
+std::string noteOf(std::size_t ready, std::size_t wanted);
 
 }  // namespace eyrie::coordinator

@@ -66,9 +66,10 @@ bool isReady(const coordinator::Status& status) {
 
 std::string statusJson(const coordinator::Status& status) {
     return fmt::format(
-        R"({{"ready":{},"problem":{},"renderers":[{}],"scene":{{"objects":[{}],"triangles":{}}}}})"
+        R"({{"ready":{},"problem":{},"note":{},"renderers":[{}],"scene":{{"objects":[{}],"triangles":{}}}}})"
         "\n",
-        isReady(status), fabric::quotedJson(status.problem), joined(status.renderers, rendererJson),
+        isReady(status), fabric::quotedJson(status.problem), fabric::quotedJson(status.note),
+        joined(status.renderers, rendererJson),
         joined(status.scene.objects,
                [](const fabric::SceneObject& object) { return fabric::quotedJson(object.name); }),
         status.sceneInfo.triangles);

@@ -194,6 +194,7 @@ v1::SessionState sessionState(const coordinator::Status& status, std::string_vie
     }
     state.set_scene_triangles(status.sceneInfo.triangles);
     state.set_problem(sanitised(problem.empty() ? status.problem : problem));
+    state.set_note(sanitised(status.note));
     return state;
 }
 

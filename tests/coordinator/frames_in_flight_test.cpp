@@ -249,6 +249,16 @@ TEST_P(InTurn, EachRendererIsDrawingAFrameOfItsOwn) {
     for (const auto& frame : frames) expectColours(*frame);
 }
 
+TEST_P(InTurn, ItIsSaidHowManyRenderersOfTheConfigurationAreMissing) {
+    const std::size_t wanted = open().size();
+    EXPECT_EQ(pipeline_.status().note, "");
+    registry_.markDead(ids_[0], "killed", Registry::Clock::now());
+    EXPECT_THAT(pipeline_.status().note,
+                testing::StartsWith(fmt::format("{} of the {} renderers", wanted - 1, wanted)));
+    addRenderer();
+    EXPECT_TRUE(eventually([&] { return pipeline_.status().note.empty(); }));
+}
+
 TEST_P(InTurn, AFrameIsNotShownBeforeTheOneBeforeIt) {
     const Renderers renderers = open();
     FakeRenderer& slow = *renderers[2 % renderers.size()];  // frame 2 is its

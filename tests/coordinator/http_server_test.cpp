@@ -85,12 +85,13 @@ TEST_F(HttpServer, IsReadyOnlyWithARendererAndAScene) {
     const Response ready = get("/readyz");
     EXPECT_EQ(ready.result_int(), 200u);
     EXPECT_EQ(ready["Content-Type"], "application/json");
-    EXPECT_EQ(ready.body(),
-              R"({"ready":true,"problem":"","renderers":[{"id":"renderer-1","address":"",)"
-              R"("alive":true,"condition":"ready","why":"","sinceUnixMilliseconds":0,)"
-              R"("device":"fake","driver":"","platform":"","software":true}],)"
-              R"("scene":{"objects":["hill"],"triangles":1000000}})"
-              "\n");
+    EXPECT_EQ(
+        ready.body(),
+        R"({"ready":true,"problem":"","note":"","renderers":[{"id":"renderer-1","address":"",)"
+        R"("alive":true,"condition":"ready","why":"","sinceUnixMilliseconds":0,)"
+        R"("device":"fake","driver":"","platform":"","software":true}],)"
+        R"("scene":{"objects":["hill"],"triangles":1000000}})"
+        "\n");
 
     coordinator::Status status = coordinator::readyStatus();
     status.renderers[0].condition = coordinator::RendererCondition::Dead;

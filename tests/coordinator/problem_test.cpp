@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+
 namespace eyrie::coordinator {
 namespace {
 
@@ -24,6 +25,12 @@ TEST(Problem, WhatTheRendererSaidIsPassedOn) {
     EXPECT_THAT(problemOf({0, 0, false, "/d/a.eyt: no such file", ""}),
                 testing::HasSubstr("/d/a.eyt: no such file"));
     EXPECT_EQ(problemOf({1, 0, false, "/d/a.eyt: no such file", ""}), "");
+}
+
+TEST(Note, CountsTheRenderersThatAreMissing) {
+    EXPECT_THAT(noteOf(3, 4), testing::StartsWith("3 of the 4 renderers"));
+    EXPECT_EQ(noteOf(4, 4), "");
+    EXPECT_EQ(noteOf(5, 4), "");
 }
 
 }  // namespace

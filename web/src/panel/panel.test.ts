@@ -42,6 +42,13 @@ describe("the status chip", () => {
     expect(status.level).toBe("wait");
   });
 
+  it("says what is missing though all are there", () => {
+    const note = "3 of 4 renderers that the configuration wants are here";
+    const status = statusOf(connected, { ...session(3), note }, false);
+    expect(status.detail).toContain(note);
+    expect(status.level).toBe("wait");
+  });
+
   it("says who does not draw as usual, and why", () => {
     const { READY, LATE, DEAD, REFUSED } = RendererCondition;
     const why = "it has other data";

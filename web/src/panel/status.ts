@@ -71,14 +71,15 @@ export function statusOf(
   if (connection.kind === "closed") return { level: "bad", text: "Closed", detail: "" };
   if (connection.kind === "lost") return { level: "bad", text: "Reconnecting", detail: "" };
   if (session === null) return { level: "wait", text: "Connected", detail: "" };
-  const detail = [missing, rendererText(session), degradedText(session)]
+  const detail = [missing, rendererText(session), degradedText(session), session.note]
     .filter((text) => text !== "")
     .join(" · ");
   const alive = session.renderers.filter((renderer) => renderer.alive).length;
   if (alive === 0) return { level: "bad", text: "No renderer", detail: "" };
   if (session.problem !== "") return { level: "bad", text: "Problem", detail };
   if (stale) return { level: "wait", text: "Waiting for a frame", detail };
-  if (alive < session.renderers.length) return { level: "wait", text: "Connected", detail };
+  if (alive < session.renderers.length || session.note !== "")
+    return { level: "wait", text: "Connected", detail };
   return { level: "good", text: "Connected", detail };
 }
 
