@@ -181,6 +181,12 @@ std::optional<Plan> makePlan(const config::Configuration& configuration, const P
     plan.queues = std::move(list.queues);
     for (const WorkingBuffer& each : list.framebuffers)
         plan.framebuffers.push_back(each.framebuffer);
+    plan.blind =
+        static_cast<std::size_t>(std::ranges::count_if(list.blind, [&](std::size_t destination) {
+            return std::ranges::any_of(request.outputs, [&](const Output& output) {
+                return isPartOf(shown.destinations[destination], output);
+            });
+        }));
     keepWhatIsNeeded(plan);
     return plan;
 }

@@ -168,6 +168,8 @@ struct Plan {
     std::vector<Picture> pictures;
     /// Channels that take tiles or chunks of one queue, each when it is free.
     std::vector<std::vector<config::ChannelIndex>> queues;
+    /// Parts of pictures that show nothing, since an eye is not before the wall there.
+    std::size_t blind = 0;
 };
 
 /// Why there is no plan: errors, each where it is in the configuration.

@@ -216,8 +216,10 @@ private:
         const Seen what =
             seen(configuration_, request_, destination, surroundings, pass_.sight,
                  focusRatio(configuration_, request_.display, resolved_, destination));
-        if (!what.isBeforeTheWall)
+        if (!what.isBeforeTheWall) {
+            list_.blind.insert(*own.destination);
             return;
+        }
         fabric::ChannelTask task;
         task.frameNumber = request_.frameNumber;
         task.viewWidth = surroundings.whole.width;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <map>
 #include <optional>
+#include <set>
 #include <tuple>
 #include <vector>
 
@@ -81,6 +82,7 @@ struct WorkList {
     std::vector<PlannedDraw> draws;
     std::vector<Work> works;
     std::vector<std::vector<config::ChannelIndex>> queues;
+    std::set<std::size_t> blind;  ///< destinations whose wall an eye is not before
     Refusals& refusals;
 
     /// The framebuffer in which a destination's picture comes to be; made where there is none yet.

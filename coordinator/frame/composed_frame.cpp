@@ -53,6 +53,7 @@ DrawnPart partOf(const fabric::ChannelTask& task, const std::string& renderer,
 RenderedFrame composedFrame(const PlannedFrame& frame, const compound::Plan& plan,
                             std::vector<Dispatch::Drawn> drawn, std::vector<fabric::Image> more) {
     RenderedFrame result;
+    result.blind = frame.plan.blind;
     if (!drawn.empty())
         result.device = drawn.front().device;
     for (const compound::Picture& picture : frame.plan.pictures)

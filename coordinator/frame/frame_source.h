@@ -87,6 +87,7 @@ struct RenderedFrame {
     std::vector<fabric::Image> further = {};
     std::vector<PictureFacts> pictures = {};  ///< of `image` and of what is further
     std::vector<DrawnPart> parts = {};        ///< who drew what
+    std::size_t blind = 0;                    ///< compound::Plan::blind
 };
 
 /// For a person to read, where a frame shows nothing; empty where it shows something.
@@ -98,6 +99,14 @@ inline std::string_view whyEmpty(const RenderedFrame& frame) {
                ? ""
                : "Nothing is seen here: the eye is not before the wall that it is to look through, "
                  "or the canvas shows no layout.";
+}
+
+/// The same of a frame of which a part shows nothing.
+inline std::string_view whyPartlyEmpty(const RenderedFrame& frame) {
+    return frame.blind == 0 || !whyEmpty(frame).empty()
+               ? ""
+               : "A part shows nothing: the eye is not before the wall that it is to look through "
+                 "there.";
 }
 
 enum class RendererCondition {

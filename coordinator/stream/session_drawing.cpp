@@ -169,6 +169,7 @@ void Session::Impl::rendered(const Begun& begun, absl::StatusOr<coordinator::Ren
         const Clock::time_point from = std::max(begun.at, std::exchange(lastRendered_, now));
         for (const auto& seat : seats_) seat->outbox.rendered(now - from);
         setProblem(renderProblem_, std::string(coordinator::whyEmpty(*frame)));
+        setProblem(renderNote_, std::string(coordinator::whyPartlyEmpty(*frame)));
         tellAtFullSize(frame->statistics, begun.view, begun.request);
         if (statistics_ != nullptr)
             statistics_->drawn(id_, *frame);

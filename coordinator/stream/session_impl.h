@@ -179,6 +179,7 @@ private:
     SessionCounts counts_;
     bool isStateStale_ = true;
     std::string renderProblem_;
+    std::string renderNote_;  ///< of the last frame
 
     int subscription_ = 0;
     std::thread encoder_;

@@ -340,7 +340,7 @@ void Session::Impl::putState(Seat& seat, const coordinator::Status& status) {
         place.together = group->size();
         place.behind = group->behind();
     }
-    std::string message = stateMessage(status, problem, place);
+    std::string message = stateMessage(status, problem, renderNote_, place);
     if (message == seat.lastState)
         return;
     seat.lastState = message;

@@ -91,9 +91,10 @@ struct Place {
 
 v1::SessionState sessionState(const coordinator::Status& status, std::string_view problem);
 
-/// A ViewerResponse with that and `place`. `problem` goes before status.problem.
+/// A ViewerResponse with that and `place`. `problem` goes before status.problem, `note` after
+/// status.note.
 std::string stateMessage(const coordinator::Status& status, std::string_view problem,
-                         const Place& place);
+                         std::string_view note, const Place& place);
 
 /// Where in which stream of H.264 a picture is.
 struct VideoPlace {

@@ -207,6 +207,8 @@ TEST(Plan, AnEyeBehindItsWallSeesNothingAndNothingIsPickedThere) {
     PlanRequest request = canvasOf(1280, 480);
     request.display.heads = {glm::translate(fabric::Mat4(1), fabric::Vec3(0, 0, -5))};
     const Plan plan = planned(powerWall(), request);
+    EXPECT_EQ(planned(powerWall(), canvasOf(1280, 480)).blind, 0U);
+    EXPECT_EQ(plan.blind, 2U) << "both segments";
     EXPECT_TRUE(plan.draws.empty());
     ASSERT_EQ(plan.pictures.size(), 1U);
     ASSERT_TRUE(plan.pictures[0].seen.has_value());

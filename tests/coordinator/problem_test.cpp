@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include "coordinator/frame/frame_source.h"
 
 namespace eyrie::coordinator {
 namespace {
@@ -31,6 +32,15 @@ TEST(Note, CountsTheRenderersThatAreMissing) {
     EXPECT_THAT(noteOf(3, 4), testing::StartsWith("3 of the 4 renderers"));
     EXPECT_EQ(noteOf(4, 4), "");
     EXPECT_EQ(noteOf(5, 4), "");
+}
+
+TEST(Note, AFrameOfWhichAPartShowsNothingIsNoEmptyOne) {
+    RenderedFrame frame;
+    frame.pictures = {{0, std::vector<fabric::SeenArea>()}, {0, std::nullopt}};
+    EXPECT_EQ(whyPartlyEmpty(frame), "");
+    frame.blind = 1;
+    EXPECT_THAT(std::string(whyPartlyEmpty(frame)), testing::HasSubstr("not before the wall"));
+    EXPECT_EQ(whyEmpty(frame), "");
 }
 
 }  // namespace

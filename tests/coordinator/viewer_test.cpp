@@ -39,6 +39,27 @@ TEST(Viewer, StartsWithTheStateOfTheSession) {
     EXPECT_TRUE(frames.requests().empty());
 }
 
+TEST(Viewer, IsToldWhatIsMissingThoughThereArePictures) {
+    FakeFrameSource frames;
+    Browser browser(frames, moving(1));
+    frames.setDraw([](const FrameRequest& request) {
+        coordinator::RenderedFrame frame = coordinator::plainFrame(request, {90, 120, 60, 255});
+        frame.blind = 1;
+        return frame;
+    });
+    browser.look(1);
+    const auto blind =
+        browser.stateWhere([](const v1::SessionState& state) { return !state.note().empty(); });
+    ASSERT_TRUE(blind.has_value());
+    EXPECT_THAT(blind->note(), HasSubstr("not before the wall"));
+    EXPECT_EQ(blind->problem(), "");
+    coordinator::Status status = coordinator::readyStatus();
+    status.note = "3 of the 4 renderers are ready";
+    frames.setStatus(status);
+    EXPECT_TRUE(browser.stateWhere(
+        [&](const v1::SessionState& state) { return state.note() == status.note; }));
+}
+
 TEST(Viewer, DrawsTheNewestViewAndLeavesOutThoseBetween) {
     FakeFrameSource frames;
     frames.hold(true);
