@@ -29,7 +29,9 @@ struct CompoundTime {
     double draw = kUnknown;  ///< clearing and drawing, of all its tiles
     double readback = 0;
     double transmit = 0;  ///< encoding and decoding included
-    double assemble = 0;  ///< of its input frames, without waiting for them
+    /// Of its input frames, without waiting for them; 0 where that costs its channel nothing, as
+    /// where the coordinator puts pictures together, or where its renderer does not tell.
+    double assemble = 0;
     /// What of the compound's own picture was covered, a fraction of that from its lower left
     /// corner.
     config::Viewport covered;

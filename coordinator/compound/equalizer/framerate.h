@@ -12,7 +12,7 @@ namespace eyrie::equalizer {
 /// bursts, as its children happen to end together. The framerate equalizer of Equalizer.
 ///
 /// A frame's time is that of what took longest; n children that take turns make n frames in it. A
-/// destination that takes longer to assemble holds all up by that.
+/// destination that takes longer to assemble, as far as its renderer tells, holds all up by that.
 class Framerate final : public Balancer {
 public:
     Framerate(std::size_t position, const Work& work);

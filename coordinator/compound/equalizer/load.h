@@ -12,9 +12,9 @@ namespace eyrie::equalizer {
 ///
 /// From frames of which all times are known it learns where the load lies (LoadMap) and moves the
 /// cuts of a SplitTree so that each side has of it what it has of the resources. What a destination
-/// assembles is charged to the child that draws on its channel. Times within a twentieth of each
-/// other are left alone: moving a cut costs, because what lies there has to be loaded by another
-/// renderer.
+/// assembles, as far as its renderer tells, is charged to the child that draws on its channel.
+/// Times within a twentieth of each other are left alone: moving a cut costs, because what lies
+/// there has to be loaded by another renderer.
 class Load final : public Balancer {
 public:
     Load(const config::Compound& written, std::size_t position, const Work& work);
