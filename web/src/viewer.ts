@@ -19,6 +19,7 @@ import type { Output } from "./output";
 import { queryOf } from "./output";
 import { groundOf } from "./profile";
 import { Questions } from "./questions";
+import { applySettings, areSame, settingsOf, watchSettings } from "./settings";
 import type { SharedView } from "./share";
 import { ShownScene } from "./shown_scene";
 import type { State } from "./state";
@@ -35,8 +36,6 @@ import { canShowVideo } from "./view/video";
 
 /** Null: by the camera alone. */
 const seenOf = (frame: Frame) => (frame.throughWall ? frame.seen : null);
-
-type Settings = Omit<SharedView, "camera">;
 
 /** A view without its picture for so long is stale. */
 const staleAfter = 2000;
@@ -139,8 +138,11 @@ export class Viewer implements CameraHolder {
       },
     });
     state.walking.watch((isWalking) => this.walkingChanged(isWalking));
-    for (const setting of [state.tau, state.budget, state.shading, state.look])
-      setting.watch(() => this.settingChanged());
+    watchSettings(
+      state,
+      () => this.sender.request(performance.now()),
+      () => this.keepLed(),
+    );
     state.output.watch(() => {
       this.sender.request(performance.now());
       this.sendScreen();
@@ -265,15 +267,9 @@ export class Viewer implements CameraHolder {
 
   /** What is wanted now, to be found again; null before there is a camera. */
   sharedView(): SharedView | null {
-    const { tau, budget, shading, look } = this.state;
     if (this.camera === null) return null;
-    return {
-      camera: this.camera,
-      tau: tau.value,
-      budget: budget.value,
-      shading: shading.value,
-      look: { ...look.value, frozen: null },
-    };
+    const settings = settingsOf(this.state);
+    return { camera: this.camera, ...settings, look: { ...settings.look, frozen: null } };
   }
 
   /** Which picture is seen: who watches names one in the address, or sees what the leader does. */
@@ -295,35 +291,16 @@ export class Viewer implements CameraHolder {
   }
 
   show(view: SharedView): void {
-    this.showSettings(view);
+    applySettings(this.state, view);
     this.move(view.camera, performance.now());
-  }
-
-  private showSettings(settings: Settings): void {
-    if (this.isSetTo(settings)) return; // as of most frames that are watched
-    this.state.tau.set(settings.tau);
-    this.state.budget.set(settings.budget);
-    this.state.shading.set(settings.shading);
-    this.state.look.set(settings.look);
-  }
-
-  private isSetTo({ tau, budget, shading, look }: Settings): boolean {
-    const { state } = this;
-    const now = [state.tau, state.budget, state.shading, state.look].map(({ value }) => value);
-    return JSON.stringify(now) === JSON.stringify([tau, budget, shading, look]);
-  }
-
-  private settingChanged(): void {
-    this.sender.request(performance.now());
-    // Once everybody has heard of this change, and those that come with it are made.
-    queueMicrotask(() => this.keepLed());
   }
 
   /** Who watches cannot change what is led: the controls go back to it. */
   private keepLed(): void {
-    if (!this.isWatching || this.led === undefined || this.isSetTo(this.led)) return;
+    if (!this.isWatching || this.led === undefined || areSame(settingsOf(this.state), this.led))
+      return;
     this.state.notice.set("You watch this session: take the lead to change what is seen");
-    this.showSettings(this.led);
+    applySettings(this.state, this.led);
   }
 
   /** Null before there is a camera, and while another moves it. */
@@ -464,7 +441,7 @@ export class Viewer implements CameraHolder {
     const camera = cameraOf(frame.liftedCamera) ?? asked;
     if (this.isWatching) {
       this.camera = camera;
-      this.showSettings({ look, ...rest });
+      applySettings(this.state, { look, ...rest });
     } else this.follow({ camera: asked, look, ...rest });
     const { width, height } = frame;
     const { exaggeration, hidden } = look;
