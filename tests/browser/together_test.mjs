@@ -136,9 +136,16 @@ await run("together", async (browser, started) => {
   await second.click("#take-lead");
   await says(second, "2 viewers · you lead");
   await says(first, "2 viewers · you watch");
+  await exact(second, frames[1]); // now of a window of its own shape
+  frames = [await frame(first), await frame(second)];
   await turn(second);
   const own = await exact(second, frames[1]);
-  check((await exact(first, frames[0])) === own, "who takes the lead moves both");
+  await first.waitForFunction(
+    (hash) => window.eyrie.exact && window.eyrie.pixelHash === hash,
+    own,
+    patience,
+  );
+  check(true, "who takes the lead moves both");
   const last = await camera(second);
   check(last !== turned && (await camera(first)) === last, "on from where the other was");
 
