@@ -5,6 +5,7 @@
 #include <system_error>
 #include <utility>
 
+#include <fmt/format.h>
 #include <google/protobuf/struct.pb.h>
 #include <google/protobuf/util/json_util.h>
 
@@ -75,14 +76,16 @@ absl::StatusOr<v1::DataSet> dataSetOf(const std::string& json) {
 
 absl::StatusOr<std::vector<v1::DataSet>> DataSets::list(const std::stop_token& stop) {
     std::vector<v1::DataSet> sets;
-    for (const std::string& name : names()) {
+    ASSIGN_OR_RETURN(const std::vector<std::string> there, names());
+    for (const std::string& name : there) {
         ASSIGN_OR_RETURN(v1::DataSet set, look(name, stop));
         sets.push_back(std::move(set));
     }
     return sets;
 }
 
-std::vector<std::string> DataSets::names() const {
+absl::StatusOr<std::vector<std::string>> DataSets::names() const {
+    RETURN_IF_ERROR(folder_.check());
     std::vector<std::string> names;
     std::error_code error;
     fs::recursive_directory_iterator at(folder_.path(),
@@ -95,6 +98,9 @@ std::vector<std::string> DataSets::names() const {
         else if (isDataSet(at->path()) && !at->is_symlink(ignored) && at->is_regular_file(ignored))
             names.push_back(at->path().lexically_relative(folder_.path()).string());
     }
+    if (error)  // part of a list would look like all of it
+        return absl::UnavailableError(
+            fmt::format("the data folder cannot be read: {}; try again in a bit", error.message()));
     // Some could not be named in a scene either.
     std::erase_if(names, [](const std::string& name) { return !access::checkDataName(name).ok(); });
     std::ranges::sort(names);

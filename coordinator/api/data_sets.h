@@ -31,7 +31,7 @@ public:
         : folder_(folder), run_(run) {}
 
     /// By path, those in hidden folders and behind links left out. Takes as long as looking into
-    /// what is new. Cancelled after `stop`.
+    /// what is new. Cancelled after `stop`; Unavailable where the folder cannot be read.
     absl::StatusOr<std::vector<v1::DataSet>> list(const std::stop_token& stop);
 
     /// Of the file of that name. Errors as list().
@@ -48,7 +48,7 @@ private:
         v1::DataSet dataSet;
     };
 
-    std::vector<std::string> names() const;
+    absl::StatusOr<std::vector<std::string>> names() const;
     absl::StatusOr<v1::DataSet> ask(const std::string& name, const std::stop_token& stop) const;
 
     const access::DataFolder& folder_;

@@ -2,13 +2,17 @@
 #include "coordinator/api/flight_files.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <random>
 #include <system_error>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <google/protobuf/util/json_util.h>
+#include <unistd.h>
 
 #include "fabric/status.h"
 #include "wire/flight.h"
@@ -32,23 +36,63 @@ bool isName(std::string_view name) {
     });
 }
 
+absl::Status noFlight(const std::string& name) {
+    return absl::NotFoundError(fmt::format("there is no flight '{}'", name));
+}
+
 absl::StatusOr<fs::path> pathOf(const access::DataFolder& folder, const std::string& name) {
     if (!isName(name))
         return absl::InvalidArgumentError(
             fmt::format("name is '{}'; it must be 1 to {} of a-z, A-Z, 0-9, '-' and '_'",
                         name.substr(0, kMaxNameBytes), kMaxNameBytes));
-    std::error_code error;  // what is amiss with it, place() tells
-    fs::create_directory(folder.path() / kFolder, error);
-    return folder.place(fmt::format("{}/{}{}", kFolder, name, kEnding));
+    absl::StatusOr<fs::path> path = folder.place(fmt::format("{}/{}{}", kFolder, name, kEnding));
+    return absl::IsNotFound(path.status()) ? noFlight(name) : std::move(path);
 }
 
-absl::Status noFlight(const std::string& name) {
-    return absl::NotFoundError(fmt::format("there is no flight '{}'", name));
+absl::Status cannot(std::string_view what, const std::error_code& error) {
+    return absl::UnavailableError(
+        fmt::format("the flight cannot be {}: {}; see that the data folder is writable and not "
+                    "full",
+                    what, error.message()));
+}
+
+std::error_code lastError() { return {errno, std::generic_category()}; }
+
+std::error_code writeAndFlush(int file, std::string_view text) {
+    while (!text.empty()) {
+        const ssize_t written = ::write(file, text.data(), text.size());
+        if (written < 0 && errno != EINTR)
+            return lastError();
+        text.remove_prefix(static_cast<std::size_t>(std::max<ssize_t>(0, written)));
+    }
+    return ::fsync(file) != 0 ? lastError() : std::error_code();
+}
+
+/// By way of a file of its own, so that neither another writer nor who reads meanwhile sees a part,
+/// nor anybody after the power has failed. Killed on the way, it leaves a hidden file.
+std::error_code replace(const fs::path& path, std::string_view text) {
+    std::random_device random;
+    const fs::path partial =
+        path.parent_path() /
+        fmt::format(".{}.partial-{:08x}{:08x}", path.filename().string(), random(), random());
+    const int file = ::open(partial.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file < 0)
+        return lastError();
+    std::error_code error = writeAndFlush(file, text);
+    if (::close(file) != 0 && !error)
+        error = lastError();
+    if (!error)
+        fs::rename(partial, path, error);
+    std::error_code ignored;
+    if (error)
+        fs::remove(partial, ignored);
+    return error;
 }
 
 }  // namespace
 
-std::vector<std::string> flightNames(const access::DataFolder& folder) {
+absl::StatusOr<std::vector<std::string>> flightNames(const access::DataFolder& folder) {
+    RETURN_IF_ERROR(folder.check());
     std::vector<std::string> names;
     std::error_code error;
     for (fs::directory_iterator entry(folder.path() / kFolder, error);
@@ -57,6 +101,11 @@ std::vector<std::string> flightNames(const access::DataFolder& folder) {
                                                   isName(path.stem().string()) &&
                                                   names.size() < kMaxFlights)
             names.push_back(path.stem().string());
+    if (error && error != std::errc::no_such_file_or_directory)  // no flight was ever kept
+        return absl::UnavailableError(
+            fmt::format("the flights cannot be read: {}; see that '{}' in the data folder is a "
+                        "folder that the server may read",
+                        error.message(), kFolder));
     std::ranges::sort(names);
     return names;
 }
@@ -67,35 +116,32 @@ absl::StatusOr<v1::Flight> readFlight(const access::DataFolder& folder, const st
     if (!file)
         return noFlight(name);
     const std::string text(std::istreambuf_iterator<char>(file), {});
-    RETURN_IF_ERROR(wire::flightFromJson(text, path.filename().string()).status());
     v1::Flight flight;
-    const auto status = google::protobuf::util::JsonStringToMessage(text, &flight);
-    if (!status.ok())
-        return absl::DataLossError(fmt::format("the flight '{}' cannot be read", name));
+    absl::Status status = wire::flightFromJson(text, path.filename().string()).status();
+    if (status.ok() && !google::protobuf::util::JsonStringToMessage(text, &flight).ok())
+        status = absl::DataLossError(path.filename().string());
+    if (!status.ok())  // whoever asks for it has done nothing wrong
+        return absl::DataLossError(
+            fmt::format("the flight '{}' cannot be read: {}; keep it again, or delete it", name,
+                        std::string_view(status.message().data(), status.message().size())));
     return flight;
 }
 
 absl::Status writeFlight(const access::DataFolder& folder, const std::string& name,
                          const v1::Flight& flight) {
-    ASSIGN_OR_RETURN(const fs::path path, pathOf(folder, name));
     if (flight.keys_size() > kMaxKeys)
         return absl::InvalidArgumentError(fmt::format(
             "flight.keys has {} keys; at most {} are kept", flight.keys_size(), kMaxKeys));
     if (const absl::Status status = wire::fromMessage(flight).status(); !status.ok())
         return fabric::withContext(status, "flight");
+    RETURN_IF_ERROR(folder.check());
     std::error_code error;
-    // Whole or not at all, whoever reads meanwhile.
-    const fs::path partial = fmt::format("{}.partial", path.string());
-    std::ofstream file(partial, std::ios::trunc);
-    file << wire::toJson(flight);
-    file.close();
-    if (file.fail())
-        return absl::UnavailableError(
-            "the flight cannot be written; see that the data folder is writable and not full");
-    fs::rename(partial, path, error);
+    fs::create_directory(folder.path() / kFolder, error);
     if (error)
-        return absl::UnavailableError(
-            fmt::format("the flight cannot be written: {}", error.message()));
+        return cannot("written", error);
+    ASSIGN_OR_RETURN(const fs::path path, pathOf(folder, name));
+    if (error = replace(path, wire::toJson(flight)); error)
+        return cannot("written", error);
     return absl::OkStatus();
 }
 
@@ -104,10 +150,7 @@ absl::Status deleteFlight(const access::DataFolder& folder, const std::string& n
     std::error_code error;
     if (!fs::remove(path, error) && !error)
         return noFlight(name);
-    if (error)
-        return absl::UnavailableError(
-            fmt::format("the flight cannot be removed: {}", error.message()));
-    return absl::OkStatus();
+    return error ? cannot("removed", error) : absl::OkStatus();
 }
 
 }  // namespace eyrie::api

@@ -11,13 +11,14 @@
 #include "eyrie/v1/flight.pb.h"
 
 /// Flights that are kept in a data folder, each under a name of 1 to 64 of a-z, A-Z, 0-9, '-' and
-/// '_'. Errors of all: InvalidArgument (the name), NotFound, Unavailable (it cannot be written).
+/// '_'. Errors of all: InvalidArgument (the name), NotFound, Unavailable (the folder cannot be read
+/// or written). Any thread: who reads what another writes gets the old or the new, whole.
 namespace eyrie::api {
 
 /// By name.
-std::vector<std::string> flightNames(const access::DataFolder& folder);
+absl::StatusOr<std::vector<std::string>> flightNames(const access::DataFolder& folder);
 
-/// DataLoss: the file is none.
+/// DataLoss: what is in the file is no flight.
 absl::StatusOr<v1::Flight> readFlight(const access::DataFolder& folder, const std::string& name);
 
 /// InvalidArgument: the flight cannot be flown, or has too many keys.

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "coordinator/api/flight_files.h"
 #include "coordinator/api/handler_list.h"
@@ -26,7 +28,8 @@ void addFlightHandlers(Handlers& handlers, const DataFolder& folder) {
                   const Call&) -> absl::StatusOr<v1::ListFlightsResponse> {
             RETURN_IF_ERROR(check(folder));
             v1::ListFlightsResponse response;
-            for (std::string& name : flightNames(*folder)) response.add_names(std::move(name));
+            ASSIGN_OR_RETURN(std::vector<std::string> names, flightNames(*folder));
+            for (std::string& name : names) response.add_names(std::move(name));
             return response;
         });
     handlers.add<v1::GetFlightRequest, v1::GetFlightResponse>(

@@ -87,11 +87,23 @@ absl::StatusOr<DataFolder> DataFolder::open(const fs::path& folder) {
     return DataFolder(std::move(path));
 }
 
+absl::Status DataFolder::check() const {
+    std::error_code error;
+    fs::directory_iterator(path_, error);
+    if (!error)
+        return absl::OkStatus();
+    return absl::UnavailableError(
+        fmt::format("the data folder cannot be read: {}; see that it is mounted and where it was",
+                    error.message()));
+}
+
 absl::StatusOr<fs::path> DataFolder::resolve(const fs::path& path, std::string_view name) const {
     std::error_code error;
     fs::path real = fs::canonical(path, error);
-    if (error)
+    if (error) {
+        RETURN_IF_ERROR(check());  // else a folder that has gone would look empty
         return cannotReach(name, error);
+    }
     if (!isBelow(real, path_))
         return absl::PermissionDeniedError(
             fmt::format("data '{}' leads out of the data folder", printable(name)));

@@ -24,8 +24,12 @@ public:
     /// Without links or "..".
     const std::filesystem::path& path() const { return path_; }
 
+    /// Unavailable where the folder cannot be looked into any more: it was moved away, or what it
+    /// was mounted from has gone.
+    absl::Status check() const;
+
     /// Where the file or folder `name` lies; the path has no links in it. Errors: InvalidArgument
-    /// (no such name can be), NotFound, PermissionDenied (it leads outside).
+    /// (no such name can be), NotFound, PermissionDenied (it leads outside), those of check().
     absl::StatusOr<std::filesystem::path> existing(std::string_view name) const;
 
     /// Where a file `name` can be written: its folder exists; the file, which may not yet, is no

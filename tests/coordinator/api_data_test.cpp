@@ -408,6 +408,9 @@ TEST_F(RestData, ListsDataSetsAndAsksOnceAboutEach) {
     std::ofstream(data() / "survey/a.eyt") << "longer";
     ask("GET", "/data-sets");
     EXPECT_EQ(commands_.size(), 3U);
+    fs::rename(data(), folder_.path("elsewhere"));
+    EXPECT_EQ(ask("GET", "/data-sets").status, 503);
+    EXPECT_EQ(ask("POST", "/imports", import()).status, 503);
 }
 
 }  // namespace

@@ -2,12 +2,14 @@
 // CoordinatorService without the network: what REST requests become, and what comes back.
 #include "coordinator/api/api.h"
 
+#include <atomic>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <future>
 #include <thread>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <google/protobuf/struct.pb.h>
 #include <google/protobuf/util/json_util.h>
@@ -15,6 +17,7 @@
 #include <grpcpp/server.h>
 #include <grpcpp/support/channel_arguments.h>
 #include <gtest/gtest.h>
+#include <sys/fsuid.h>
 
 #include "coordinator/api/coordinator_service.h"
 #include "coordinator/api/grpc_service.h"
@@ -32,6 +35,7 @@ namespace eyrie::api {
 namespace {
 
 using google::protobuf::Value;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
@@ -306,8 +310,6 @@ TEST_F(Rest, PicksCountTheirRowsFromTheTop) {
     ASSERT_EQ(answer.status, 200) << *answer.body;
     EXPECT_EQ(frames_.picks().back().place.x, 10.5);
     EXPECT_EQ(frames_.picks().back().place.y, 49.5);
-    expectProblem(send("POST", "/pick", R"({"width":100,"height":50,"x":101,"y":0})"), 400,
-                  "INVALID_ARGUMENT");
 }
 
 TEST_F(Rest, ProfilesHaveTheirSamples) {
@@ -410,6 +412,88 @@ TEST_F(Rest, FlightsAreKept) {
     EXPECT_EQ(send("DELETE", "/flights/a-b_1", "").status, 200);
     expectProblem(get("/flights/a-b_1"), 404, "NOT_FOUND");
     expectProblem(send("DELETE", "/flights/a-b_1", ""), 404, "NOT_FOUND");
+}
+
+TEST_F(Rest, AFlightThatManyWriteIsAlwaysOneOfTheirs) {
+    const auto flight = [](int writer) {
+        return fmt::format(
+            R"({{"name":"{:0>2000}","keys":[{{"camera":{{"eye":[0,-10,3],"target":[0,0,0]}}}}]}})",
+            writer);
+    };
+    ASSERT_EQ(send("PUT", "/flights/race", flight(0)).status, 200);
+    std::vector<std::jthread> clients;
+    for (int writer = 0; writer < 4; ++writer)
+        clients.emplace_back([this, &flight, writer] {
+            for (int i = 0; i < 25; ++i) {
+                const RestAnswer put = send("PUT", "/flights/race", flight(writer));
+                EXPECT_EQ(put.status, 200) << *put.body;
+                const RestAnswer got = get("/flights/race");
+                EXPECT_EQ(got.status, 200) << *got.body;
+            }
+        });
+    clients.clear();
+    EXPECT_THAT(*get("/flights").body, HasSubstr("\"race\""));
+    std::vector<std::string> left;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_.path("data/flights")))
+        left.push_back(entry.path().filename().string());
+    EXPECT_THAT(left, ElementsAre("race.json"));
+}
+
+TEST_F(Rest, ADataFolderThatHasGoneDoesNotLookEmpty) {
+    constexpr const char* kFlight = R"({"keys":[{"camera":{"eye":[0,-10,3],"target":[0,0,0]}}]})";
+    ASSERT_EQ(send("PUT", "/flights/a", kFlight).status, 200);
+    std::filesystem::rename(folder_.path("data"), folder_.path("elsewhere"));
+    for (const char* path : {"/flights", "/flights/a", "/reports/a.bench"}) {
+        const RestAnswer answer = get(path);
+        expectProblem(answer, 503, "UNAVAILABLE");
+        EXPECT_THAT(text(answer, "remedy"), StartsWith("see that it is mounted")) << path;
+    }
+    expectProblem(send("PUT", "/flights/b", kFlight), 503, "UNAVAILABLE");
+    expectProblem(send("DELETE", "/flights/a", ""), 503, "UNAVAILABLE");
+    expectProblem(send("PUT", "/scene", R"({"objects":[{"terrain":"a.eyt"}]})"), 503,
+                  "UNAVAILABLE");
+    std::filesystem::rename(folder_.path("elsewhere"), folder_.path("data"));
+    EXPECT_EQ(get("/flights/a").status, 200);
+}
+
+/// Another user's rights, of this thread alone: root could write anywhere.
+class WithoutRights {
+public:
+    WithoutRights() : before_(setfsuid(65534)) {}
+    ~WithoutRights() { setfsuid(static_cast<uid_t>(before_)); }
+    WithoutRights(const WithoutRights&) = delete;
+    WithoutRights& operator=(const WithoutRights&) = delete;
+
+private:
+    const int before_;
+};
+
+TEST_F(Rest, AFolderThatCannotBeWrittenIsNamedAsTheCause) {
+    using std::filesystem::perms;
+    constexpr perms kReadOnly = perms::owner_read | perms::owner_exec | perms::group_read |
+                                perms::group_exec | perms::others_read | perms::others_exec;
+    std::filesystem::permissions(folder_.path(), kReadOnly);
+    std::filesystem::permissions(folder_.path("data"), kReadOnly);
+    {
+        const WithoutRights other;
+        const RestAnswer put = send("PUT", "/flights/a",
+                                    R"({"keys":[{"camera":{"eye":[0,-10,3],"target":[0,0,0]}}]})");
+        expectProblem(put, 503, "UNAVAILABLE");
+        EXPECT_EQ(text(put, "remedy"), "see that the data folder is writable and not full");
+        expectProblem(get("/flights/a"), 404, "NOT_FOUND");
+        EXPECT_THAT(*get("/flights").body, HasSubstr("\"names\": []"));
+    }
+    std::filesystem::permissions(folder_.path(), perms::owner_all);
+    std::filesystem::permissions(folder_.path("data"), perms::owner_all);
+}
+
+TEST_F(Rest, AFlightThatIsDamagedOnTheServerIsNotTheCallersFault) {
+    std::filesystem::create_directory(folder_.path("data/flights"));
+    std::ofstream(folder_.path("data/flights/a.json")) << R"({"keys":[{"cam)";
+    expectProblem(get("/flights/a"), 500, "DATA_LOSS");
+    std::filesystem::remove_all(folder_.path("data/flights"));
+    std::ofstream(folder_.path("data/flights")) << "no folder";
+    expectProblem(get("/flights"), 503, "UNAVAILABLE");
 }
 
 TEST_F(Rest, FlightsThatCannotBeFlownAreNotKept) {

@@ -241,6 +241,15 @@ TEST_F(Traversal, FilesAreWrittenBelowTheFolderAndNeverThroughALink) {
         EXPECT_TRUE(absl::IsFailedPrecondition(folder_->place(name).status())) << name;
 }
 
+TEST_F(Traversal, AFolderThatHasGoneIsToldFromNamesThatAreMissing) {
+    EXPECT_TRUE(folder_->check().ok());
+    fs::rename(root_.path() / "data", root_.path() / "elsewhere");
+    EXPECT_TRUE(absl::IsUnavailable(folder_->check()));
+    EXPECT_TRUE(absl::IsUnavailable(folder_->existing("dem.eyt").status()));
+    EXPECT_TRUE(absl::IsUnavailable(folder_->place("new.eyt").status()));
+    EXPECT_THAT(std::string(folder_->check().message()), Not(HasSubstr(root_.path().string())));
+}
+
 TEST_F(Traversal, AFolderThatIsNoneIsRefused) {
     EXPECT_TRUE(absl::IsNotFound(DataFolder::open(root_.path() / "none").status()));
     EXPECT_TRUE(absl::IsInvalidArgument(DataFolder::open(root_.path() / "secret.txt").status()));
