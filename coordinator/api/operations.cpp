@@ -75,7 +75,8 @@ absl::StatusOr<v1::Operation> Operations::begin(Order order) {
     entry->told.set_state(v1::OPERATION_STATE_WAITING);
     entry->told.set_output(std::move(order.output));
     entry->request = std::move(order.request);
-    if (!workers_.post([this, entry, work = std::move(order.work)] { carryOut(entry, work); }))
+    if (!workers_.post([this, entry, work = std::move(order.work)] { carryOut(entry, work); },
+                       entry.get()))
         return absl::ResourceExhaustedError(fmt::format(
             "{} operations wait already; try again when some have ended", limits_.waiting));
     entries_.push_back(entry);
@@ -107,8 +108,10 @@ absl::StatusOr<v1::Operation> Operations::cancel(std::string_view id) {
         const std::lock_guard lock(mutex_);
         ASSIGN_OR_RETURN(entry, entryOf(id));
         // One that nobody has begun with need not wait until somebody does.
-        if (entry->told.state() == v1::OPERATION_STATE_WAITING)
+        if (entry->told.state() == v1::OPERATION_STATE_WAITING) {
+            workers_.withdraw(entry.get());
             end(*entry, absl::CancelledError(""));
+        }
     }
     entry->stop.request_stop();
     const std::lock_guard lock(mutex_);

@@ -11,15 +11,20 @@ Workers::Workers(std::size_t threads, std::size_t queued) : queued_(queued) {
 
 Workers::~Workers() { stop(); }
 
-bool Workers::post(std::function<void()> job) {
+bool Workers::post(std::function<void()> job, const void* whose) {
     {
         const std::lock_guard lock(mutex_);
         if (isStopping_ || jobs_.size() >= queued_)
             return false;
-        jobs_.push_back(std::move(job));
+        jobs_.push_back({std::move(job), whose});
     }
     changed_.notify_one();
     return true;
+}
+
+void Workers::withdraw(const void* whose) {
+    const std::lock_guard lock(mutex_);
+    std::erase_if(jobs_, [&](const Job& job) { return job.whose == whose; });
 }
 
 void Workers::stop() {
@@ -39,7 +44,7 @@ void Workers::work() {
         changed_.wait(lock, [this] { return isStopping_ || !jobs_.empty(); });
         if (jobs_.empty())
             return;
-        const std::function<void()> job = std::move(jobs_.front());
+        const std::function<void()> job = std::move(jobs_.front().run);
         jobs_.pop_front();
         lock.unlock();
         job();

@@ -21,19 +21,26 @@ public:
     Workers(const Workers&) = delete;
     Workers& operator=(const Workers&) = delete;
 
-    /// False, and nothing is done, when too many wait or after stop().
-    bool post(std::function<void()> job);
+    /// False, and nothing is done, when too many wait or after stop(). `whose` is for withdraw().
+    bool post(std::function<void()> job, const void* whose = nullptr);
+
+    /// Forgets what was posted with that `whose` and has not begun: it waits no longer.
+    void withdraw(const void* whose);
 
     /// Does what waits, and returns when all is done. May be called twice, but not by a job.
     void stop();
 
 private:
+    struct Job {
+        std::function<void()> run;
+        const void* whose = nullptr;
+    };
     void work();
 
     const std::size_t queued_;
     std::mutex mutex_;  ///< guards jobs_ and isStopping_
     std::condition_variable changed_;
-    std::deque<std::function<void()>> jobs_;
+    std::deque<Job> jobs_;
     bool isStopping_ = false;
     std::vector<std::thread> threads_;
 };

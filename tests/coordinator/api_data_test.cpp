@@ -137,6 +137,24 @@ TEST_F(OperationsTest, AreCalledOffWhetherTheyHaveBegunOrNot) {
     EXPECT_EQ(gate_.begun, 2);
 }
 
+TEST_F(OperationsTest, ThatAreCalledOffOrForgottenMakeRoomForOthers) {
+    ASSERT_TRUE(operations_.begin(order("a")).ok());
+    ASSERT_TRUE(eventually([&] { return gate_.begun == 1; }));
+    for (int i = 0; i < 10; ++i) {
+        for (const char* id : {"b", "c"}) {
+            const auto begun = operations_.begin(order(fmt::format("{}{}", id, i)));
+            ASSERT_TRUE(begun.ok()) << begun.status();
+        }
+        EXPECT_TRUE(absl::IsResourceExhausted(operations_.begin(order("d")).status()));
+        ASSERT_TRUE(operations_.cancel(fmt::format("b{}", i)).ok());
+        ASSERT_TRUE(operations_.forget(fmt::format("c{}", i)).ok());
+    }
+    ASSERT_TRUE(operations_.begin(order("e")).ok());
+    gate_.open();
+    EXPECT_TRUE(becomes("e", v1::OPERATION_STATE_DONE));
+    EXPECT_EQ(gate_.begun, 2);
+}
+
 TEST_F(OperationsTest, AreForgottenWhenAskedToAndOneByOneWhenThereAreMany) {
     ASSERT_TRUE(operations_.begin(order("a")).ok());
     ASSERT_TRUE(eventually([&] { return gate_.begun == 1; }));
