@@ -2,12 +2,15 @@
 #include <optional>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "coordinator/api/asked_view.h"
 #include "coordinator/api/handler_list.h"
 #include "coordinator/api/handlers.h"
 #include "coordinator/stream/profile.h"
 #include "coordinator/stream/viewer_messages.h"
 #include "eyrie/v1/coordinator_service.pb.h"
+#include "fabric/channel_task.h"
 #include "fabric/pick.h"
 #include "fabric/seen_area.h"
 #include "fabric/status.h"
@@ -17,12 +20,29 @@
 namespace eyrie::api {
 namespace {
 
+/// In the request's own words, whose rows count from the top; fabric's count from below.
+absl::Status checkPlace(const v1::PickPointRequest& message, int width, int height) {
+    const auto outside = [](const char* field, auto value, auto least, int most) {
+        return absl::InvalidArgumentError(
+            fmt::format("{} is {}; it must be from {} to {}", field, value, least, most));
+    };
+    for (const auto& [field, side] : {std::pair("width", width), std::pair("height", height)})
+        if (side < 1 || side > fabric::kMaxViewPixels)
+            return outside(field, side, 1, fabric::kMaxViewPixels);
+    if (!(message.x() >= 0 && message.x() <= width))
+        return outside("x", message.x(), 0, width);
+    if (!(message.y() >= 0 && message.y() <= height))
+        return outside("y", message.y(), 0, height);
+    return absl::OkStatus();
+}
+
 absl::StatusOr<v1::PickPointResponse> pickPoint(coordinator::FrameSource& frames,
                                                 const v1::PickPointRequest& message) {
     fabric::PickRequest request;
     ASSIGN_OR_RETURN(request.camera, cameraOf(message.camera(), frames));
     request.viewWidth = message.has_width() ? message.width() : kUsualWidth;
     request.viewHeight = message.has_height() ? message.height() : kUsualHeight;
+    RETURN_IF_ERROR(checkPlace(message, request.viewWidth, request.viewHeight));
     request.place = {message.x(), request.viewHeight - message.y()};  // rows count from the top
     if (message.has_exaggeration())
         request.exaggeration = message.exaggeration();

@@ -20,13 +20,35 @@ namespace {
 using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 
-absl::Status parseJson(const std::string& json, Message& message) {
-    const auto status = google::protobuf::util::JsonStringToMessage(json, &message);
-    if (status.ok())
-        return absl::OkStatus();
+absl::Status noField(std::string_view path) {
     return absl::InvalidArgumentError(
-        fmt::format("this is no JSON of {}: {}", message.GetDescriptor()->name(),
-                    std::string(status.message().data(), status.message().size())));
+        fmt::format("there is no field '{}' here; see /api for what there is", path));
+}
+
+/// protobuf's words in the form of all messages here: they begin with the field. `below` is what
+/// the JSON is of: "scene." or nothing.
+absl::Status notOfTheKind(std::string_view words, std::string_view below, const Message& message) {
+    constexpr std::string_view kNoField = ": Cannot find field.";
+    std::string path;
+    if (const std::size_t end = words.find(')'); words.starts_with('(') && end != words.npos) {
+        path = words.substr(1, end - 1);
+        words.remove_prefix(std::min(words.size(), end + 2));  // and ':' or ' '
+    }
+    if (words.ends_with(kNoField))
+        return noField(fmt::format("{}{}{}{}", below, path, path.empty() ? "" : ".",
+                                   words.substr(0, words.size() - kNoField.size()).substr(0, 64)));
+    if (path.empty())
+        return absl::InvalidArgumentError(
+            fmt::format("this is no JSON of {}: {}", message.GetDescriptor()->name(), words));
+    return absl::InvalidArgumentError(
+        fmt::format("{}{}:{}; see /api for what it can be", below, path, words));
+}
+
+absl::Status parseJson(const std::string& json, std::string_view below, Message& message) {
+    const auto status = google::protobuf::util::JsonStringToMessage(json, &message);
+    return status.ok()
+               ? absl::OkStatus()
+               : notOfTheKind({status.message().data(), status.message().size()}, below, message);
 }
 
 const FieldDescriptor* fieldOf(std::string_view name, const Message& message) {
@@ -55,13 +77,13 @@ std::string asJson(const FieldDescriptor& field, const std::string& text) {
 absl::Status setField(std::string_view name, const std::string& text, Message& message) {
     const FieldDescriptor* field = fieldOf(name, message);
     if (field == nullptr || !isPlain(*field))
-        return absl::InvalidArgumentError(fmt::format(
-            "there is no '{}' to be set here; see /api for what there is", name.substr(0, 64)));
+        return noField(name.substr(0, 64));
     const bool isWord =
         field->cpp_type() != FieldDescriptor::CPPTYPE_BOOL || text == "true" || text == "false";
     const auto made = std::unique_ptr<Message>(message.New());
     if (!isWord ||
-        !parseJson(fmt::format("{{\"{}\":{}}}", field->json_name(), asJson(*field, text)), *made)
+        !parseJson(fmt::format("{{\"{}\":{}}}", field->json_name(), asJson(*field, text)), "",
+                   *made)
              .ok())
         return absl::InvalidArgumentError(fmt::format("{} is '{}', which is no {}; see /api",
                                                       field->json_name(), text.substr(0, 64),
@@ -97,9 +119,9 @@ absl::Status setFromBody(const std::string& body, const std::string& field, Mess
     if (body.empty())
         return absl::OkStatus();
     if (field.empty())
-        return parseJson(body, message);
+        return parseJson(body, "", message);
     const FieldDescriptor* part = fieldOf(field, message);
-    return parseJson(body, *message.GetReflection()->MutableMessage(&message, part));
+    return parseJson(body, field + ".", *message.GetReflection()->MutableMessage(&message, part));
 }
 
 }  // namespace eyrie::api

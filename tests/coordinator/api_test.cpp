@@ -227,6 +227,25 @@ TEST_F(Rest, SaysWhichFieldIsWrongAndWhatToDo) {
     EXPECT_THAT(frames_.requests(), IsEmpty());
 }
 
+TEST_F(Rest, NamesTheFieldThatIsOfAnotherKindOrNotThere) {
+    const auto expectField = [&](const RestAnswer& refused, const std::string& field) {
+        expectProblem(refused, 400, "INVALID_ARGUMENT");
+        EXPECT_EQ(text(refused, "field"), field) << *refused.body;
+        EXPECT_THAT(text(refused, "remedy"), StartsWith("see /api")) << *refused.body;
+    };
+    expectField(send("POST", "/image", R"({"width":"wide"})"), "width");
+    expectField(send("POST", "/image", R"({"withDepth":3})"), "withDepth");
+    expectField(send("POST", "/image", R"({"camera":{"eye":[1,"x",2]}})"), "camera.eye[1]");
+    expectField(send("POST", "/image", R"({"witdh":20})"), "witdh");
+    expectField(send("POST", "/image", R"({"camera":{"eyes":1}})"), "camera.eyes");
+    expectField(get("/image?witdh=20"), "witdh");
+    expectField(send("PUT", "/scene", R"({"objects":[{"terrain":"a.eyt","x":1}]})"),
+                "scene.objects[0].x");
+    const RestAnswer neither = send("POST", "/image", R"({"a b":1})");
+    expectProblem(neither, 400, "INVALID_ARGUMENT");
+    EXPECT_FALSE(json(neither).struct_value().fields().contains("field"));
+}
+
 TEST_F(Rest, PicturesTooLargeForOneAnswerComeInParts) {
     const RestAnswer part = send("POST", "/image",
                                  R"({"width":16384,"height":9216,"format":"IMAGE_FORMAT_RAW",
@@ -310,6 +329,24 @@ TEST_F(Rest, PicksCountTheirRowsFromTheTop) {
     ASSERT_EQ(answer.status, 200) << *answer.body;
     EXPECT_EQ(frames_.picks().back().place.x, 10.5);
     EXPECT_EQ(frames_.picks().back().place.y, 49.5);
+}
+
+TEST_F(Rest, PicksOutsideThePictureAreToldInTheirOwnTerms) {
+    const auto expectRefused = [&](const char* pick, const std::string& field,
+                                   const std::string& detail) {
+        const RestAnswer refused = send("POST", "/pick", pick);
+        expectProblem(refused, 400, "INVALID_ARGUMENT");
+        EXPECT_EQ(text(refused, "field"), field) << pick;
+        EXPECT_EQ(text(refused, "detail"), detail) << pick;
+    };
+    expectRefused(R"({"x":-5,"y":0})", "x", "x is -5; it must be from 0 to 1280");
+    expectRefused(R"({"width":100,"height":50,"x":101,"y":0})", "x",
+                  "x is 101; it must be from 0 to 100");
+    expectRefused(R"({"width":100,"height":50,"x":1,"y":50.5})", "y",
+                  "y is 50.5; it must be from 0 to 50");
+    expectRefused(R"({"x":1,"y":"NaN"})", "y", "y is nan; it must be from 0 to 720");
+    expectRefused(R"({"width":0,"x":0,"y":0})", "width", "width is 0; it must be from 1 to 16384");
+    EXPECT_THAT(frames_.picks(), IsEmpty());
 }
 
 TEST_F(Rest, ProfilesHaveTheirSamples) {
