@@ -14,7 +14,9 @@
 #include "coordinator/api/quotas.h"
 #include "coordinator/api/reachable_address.h"
 #include "coordinator/farm/grpc_renderer.h"
+#include "coordinator/stream/viewer_messages.h"
 #include "eyrie/v1/registry_service.grpc.pb.h"
+#include "fabric/log.h"
 #include "fabric/status.h"
 #include "fabric/version.h"
 #include "wire/deadline.h"
@@ -28,16 +30,25 @@ namespace {
 
 constexpr std::size_t kMaxNodeBytes = 256;
 
+/// "0.1" of "0.1.9".
+std::string_view withoutPatch(std::string_view version) {
+    return version.substr(0, version.rfind('.'));
+}
+
+/// Patches of one version work together, so that machines can be brought up to date one by one.
 absl::Status checkVersion(const v1::RegisterRendererRequest& request) {
-    if (request.software_version() != fabric::kVersion)
-        return absl::FailedPreconditionError(fmt::format(
-            "software_version is '{}', the coordinator's is '{}'; install the same Eyrie on both",
-            request.software_version().substr(0, 64), fabric::kVersion));
+    const std::string version = stream::sanitised(request.software_version().substr(0, 64));
+    if (withoutPatch(version) != withoutPatch(fabric::kVersion))
+        return absl::FailedPreconditionError(
+            fmt::format("software_version is '{}', the coordinator's is '{}'; install an Eyrie {} "
+                        "on both",
+                        version, fabric::kVersion, withoutPatch(fabric::kVersion)));
     if (request.protocol_checksum() != wire::protocolChecksum())
         return absl::FailedPreconditionError(fmt::format(
-            "protocol_checksum is {:016x}, the coordinator's is {:016x}, both in version {}; "
-            "install the same build of Eyrie on both",
-            request.protocol_checksum(), wire::protocolChecksum(), fabric::kVersion));
+            "protocol_checksum is {:016x} in version '{}', the coordinator's is {:016x} in version "
+            "{}: one says or draws what the other does not; install the same build of Eyrie on "
+            "both",
+            request.protocol_checksum(), version, wire::protocolChecksum(), fabric::kVersion));
     return absl::OkStatus();
 }
 
@@ -99,6 +110,10 @@ private:
             const std::string id,
             registry_.add(address, device, connectRenderer(address, security_, telemetry_),
                           Registry::Clock::now(), request.node()));
+        if (request.software_version() != fabric::kVersion)
+            spdlog::info("{} is of version {}, the coordinator of {}: they work together", id,
+                         stream::sanitised(request.software_version().substr(0, 64)),
+                         fabric::kVersion);
         response.set_renderer_id(id);
         response.set_heartbeat_milliseconds(
             static_cast<std::int32_t>(registry_.options().heartbeatInterval.count()));

@@ -24,20 +24,15 @@ void collect(const FileDescriptor& file, std::set<std::string>& descriptions) {
     for (int i = 0; i < file.dependency_count(); ++i) collect(*file.dependency(i), descriptions);
 }
 
-std::uint64_t checksum() {
+}  // namespace
+
+std::uint64_t protocolChecksum(std::uint64_t pictureVersion) {
     std::set<std::string> descriptions;
     collect(*v1::RegisterRendererRequest::descriptor()->file(), descriptions);
     collect(*v1::OpenSceneRequest::descriptor()->file(), descriptions);
-    std::uint64_t sum = 0;
+    std::uint64_t sum = pictureVersion;
     for (const std::string& description : descriptions)
         sum = XXH64(description.data(), description.size(), sum);
-    return sum;
-}
-
-}  // namespace
-
-std::uint64_t protocolChecksum() {
-    static const std::uint64_t sum = checksum();
     return sum;
 }
 

@@ -199,36 +199,66 @@ TEST(RendererNode, AnAddressOfAnotherFormIsRefused) {
     EXPECT_EQ(node.status().code(), absl::StatusCode::kInvalidArgument);
 }
 
+/// A renderer that offers itself.
+struct Offer {
+    Offer(const std::string& version, std::uint64_t protocol) {
+        const auto door = GrpcService::start({"unix:" + folder.path("s")}, registry).value();
+        const auto stub = v1::RegistryService::NewStub(
+            grpc::CreateCustomChannel("unix:" + folder.path("s"),
+                                      grpc::InsecureChannelCredentials(), wire::clientArguments()));
+        v1::RegisterRendererRequest request;
+        request.set_address("127.0.0.1:1");
+        request.set_software_version(version);
+        request.set_protocol_checksum(protocol);
+        v1::RegisterRendererResponse response;
+        grpc::ClientContext context;
+        status = stub->RegisterRenderer(&context, request, &response);
+    }
+
+    const test::TemporaryFolder folder;
+    Registry registry;
+    grpc::Status status;
+};
+
 /// Turned down, and listed as such, by a message that has `found` and `expected`.
 void expectRefused(const std::string& version, std::uint64_t protocol, const std::string& found,
                    const std::string& expected) {
-    const test::TemporaryFolder folder;
-    Registry registry;
-    const auto door = GrpcService::start({"unix:" + folder.path("s")}, registry).value();
-    const auto stub = v1::RegistryService::NewStub(grpc::CreateCustomChannel(
-        "unix:" + folder.path("s"), grpc::InsecureChannelCredentials(), wire::clientArguments()));
-    v1::RegisterRendererRequest request;
-    request.set_address("127.0.0.1:1");
-    request.set_software_version(version);
-    request.set_protocol_checksum(protocol);
-    v1::RegisterRendererResponse response;
-    grpc::ClientContext context;
-    const grpc::Status status = stub->RegisterRenderer(&context, request, &response);
-    EXPECT_EQ(status.error_code(), grpc::StatusCode::FAILED_PRECONDITION);
-    EXPECT_THAT(status.error_message(),
+    const Offer offer(version, protocol);
+    EXPECT_EQ(offer.status.error_code(), grpc::StatusCode::FAILED_PRECONDITION);
+    EXPECT_THAT(offer.status.error_message(),
                 testing::AllOf(testing::HasSubstr(found), testing::HasSubstr(expected)));
-    ASSERT_EQ(registry.entries().size(), 1U);
-    EXPECT_EQ(registry.entries()[0].presence, Registry::Presence::Refused);
-    EXPECT_EQ(registry.entries()[0].why, status.error_message());
+    ASSERT_EQ(offer.registry.entries().size(), 1U);
+    EXPECT_EQ(offer.registry.entries()[0].presence, Registry::Presence::Refused);
+    EXPECT_EQ(offer.registry.entries()[0].why, offer.status.error_message());
+}
+
+/// "0.1." of 0.1.0.
+std::string withoutPatch() {
+    return std::string(fabric::kVersion.substr(0, fabric::kVersion.rfind('.') + 1));
+}
+
+TEST(CoordinatorGrpc, ARendererOfAnotherPatchIsLetIn) {
+    const Offer offer(withoutPatch() + "97", wire::protocolChecksum());
+    EXPECT_TRUE(offer.status.ok()) << offer.status.error_message();
+    ASSERT_EQ(offer.registry.entries().size(), 1U);
+    EXPECT_TRUE(offer.registry.entries()[0].isAlive());
 }
 
 TEST(CoordinatorGrpc, ARendererOfAnotherVersionIsTurnedDown) {
-    expectRefused("0.0.1", wire::protocolChecksum(), "0.0.1", std::string(fabric::kVersion));
+    for (const std::string& version : {std::string("0.97.0"), std::string("97.1.0"),
+                                       std::string("0.1"), std::string(), withoutPatch() + "0.1"})
+        expectRefused(version, wire::protocolChecksum(), "'" + version + "'",
+                      std::string(fabric::kVersion));
 }
 
 TEST(CoordinatorGrpc, ARendererThatSpeaksOtherMessagesIsTurnedDown) {
     expectRefused(std::string(fabric::kVersion), 0xbeef, "000000000000beef",
                   fmt::format("{:016x}", wire::protocolChecksum()));
+}
+
+TEST(CoordinatorGrpc, ARendererThatDrawsOtherPicturesIsTurnedDown) {
+    expectRefused(withoutPatch() + "97", wire::protocolChecksum(wire::kPictureVersion + 1),
+                  "draws what the other does not", "install the same build");
 }
 
 }  // namespace
