@@ -1,10 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # The calls most asked for, by curl: curl.sh http://127.0.0.1:8080 FOLDER
+# A server with tokens wants one, in EYRIE_TOKEN.
 set -euo pipefail
 server=${1:?usage: curl.sh SERVER FOLDER}/api/v1
 folder=${2:?usage: curl.sh SERVER FOLDER}
-ask() { curl --silent --show-error --fail-with-body "$@"; }
+# By a file, since everybody on this machine sees what commands are given as arguments.
+token() { [[ -z ${EYRIE_TOKEN:-} ]] || echo "Authorization: Bearer $EYRIE_TOKEN"; }
+ask() { curl --silent --show-error --fail-with-body --header @<(token) "$@"; }
 mkdir -p "$folder"
 
 # What there is.
@@ -44,4 +47,4 @@ ask "$server/data-sets" -o "$folder/data-sets.json"
 ask "$server/operations" -o "$folder/operations.json"
 
 # What goes wrong says so, and what to do.
-curl --silent "$server/image?width=0"
+curl --silent --header @<(token) "$server/image?width=0"

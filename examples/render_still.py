@@ -3,10 +3,13 @@
 """A picture and its depths from a running Eyrie, with nothing but Python's standard library.
 
     render_still.py http://127.0.0.1:8080 picture.png
+
+A server with tokens wants one, in EYRIE_TOKEN.
 """
 import base64
 import json
 import math
+import os
 import struct
 import sys
 import urllib.error
@@ -15,11 +18,14 @@ import urllib.request
 
 def call(server, method, path, body=None):
     """The answer's JSON; an exception that says what is wrong otherwise."""
+    headers = {"Accept": "application/json", "Content-Type": "application/json"}
+    if "EYRIE_TOKEN" in os.environ:
+        headers["Authorization"] = "Bearer " + os.environ["EYRIE_TOKEN"]
     request = urllib.request.Request(
         f"{server}/api/v1{path}",
         method=method,
         data=None if body is None else json.dumps(body).encode(),
-        headers={"Accept": "application/json", "Content-Type": "application/json"},
+        headers=headers,
     )
     try:
         with urllib.request.urlopen(request, timeout=120) as answer:

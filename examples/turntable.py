@@ -3,27 +3,39 @@
 """Pictures all around the scene, several in flight at a time: numbered JPEGs in a folder.
 
     turntable.py http://127.0.0.1:8080 FOLDER [PICTURES]
+
+A server with tokens wants one, in EYRIE_TOKEN.
 """
 import concurrent.futures
 import json
 import math
 import os
 import sys
+import urllib.error
 import urllib.request
 
 IN_FLIGHT = 4  # the server draws one while it encodes others
 
 
-def render(server, camera):
+def ask(server, path, body=None):
+    """The answer's bytes."""
+    headers = {"Content-Type": "application/json"}
+    if "EYRIE_TOKEN" in os.environ:
+        headers["Authorization"] = "Bearer " + os.environ["EYRIE_TOKEN"]
     request = urllib.request.Request(
-        f"{server}/api/v1/image",
-        data=json.dumps({
-            "camera": camera, "width": 320, "height": 180, "format": "IMAGE_FORMAT_JPEG",
-        }).encode(),
-        headers={"Content-Type": "application/json"},
-    )
-    with urllib.request.urlopen(request, timeout=120) as answer:
-        return answer.read()
+        f"{server}/api/v1{path}", headers=headers,
+        data=None if body is None else json.dumps(body).encode())
+    try:
+        with urllib.request.urlopen(request, timeout=120) as answer:
+            return answer.read()
+    except urllib.error.HTTPError as error:
+        raise SystemExit(json.load(error)["detail"]) from None
+
+
+def render(server, camera):
+    return ask(server, "/image", {
+        "camera": camera, "width": 320, "height": 180, "format": "IMAGE_FORMAT_JPEG",
+    })
 
 
 def turned(home, turn):
@@ -38,8 +50,7 @@ def main():
     server, folder = sys.argv[1].rstrip("/"), sys.argv[2]
     count = int(sys.argv[3]) if len(sys.argv) > 3 else 8
     os.makedirs(folder, exist_ok=True)
-    with urllib.request.urlopen(f"{server}/api/v1/status", timeout=10) as answer:
-        home = json.load(answer)["session"]["home"]
+    home = json.loads(ask(server, "/status"))["session"]["home"]
     cameras = [turned(home, 2 * math.pi * i / count) for i in range(count)]
     with concurrent.futures.ThreadPoolExecutor(IN_FLIGHT) as pool:
         for i, jpeg in enumerate(pool.map(lambda camera: render(server, camera), cameras)):

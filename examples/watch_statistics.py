@@ -4,9 +4,11 @@
 
     watch_statistics.py http://127.0.0.1:8080 [LINES]
 
-Ends after so many lines, when the server does, or with Ctrl-C.
+Ends after so many lines, when the server does, or with Ctrl-C. A server with tokens wants one, in
+EYRIE_TOKEN.
 """
 import json
+import os
 import sys
 import urllib.error
 import urllib.request
@@ -14,7 +16,10 @@ import urllib.request
 
 def events(server):
     """The data of each server-sent event, as it comes."""
-    request = urllib.request.Request(f"{server}/api/v1/statistics?perSecond=4")
+    headers = {}
+    if "EYRIE_TOKEN" in os.environ:
+        headers["Authorization"] = "Bearer " + os.environ["EYRIE_TOKEN"]
+    request = urllib.request.Request(f"{server}/api/v1/statistics?perSecond=4", headers=headers)
     with urllib.request.urlopen(request, timeout=60) as answer:
         for line in answer:
             if line.startswith(b"data: "):  # between them are comments and empty lines

@@ -7,6 +7,7 @@
 #include <absl/status/status.h>
 #include <fmt/format.h>
 
+#include "coordinator/api/call_roles.h"
 #include "coordinator/api/problem_json.h"
 #include "coordinator/api/rest_routes.h"
 #include "coordinator/api/schema.h"
@@ -108,6 +109,8 @@ std::string callSection(const Route& route, bool isFirst, Types& types) {
                         route.rest.path(), escaped(commandOf(route.rest)));
     if (!isFirst)
         return html;
+    html += fmt::format("<p>For tokens of role <code>{}</code>.\n",
+                        access::nameOf(roleFor(call.name())));
     if (call.server_streaming())
         html +=
             "<p>The answer is <code>text/event-stream</code>: one event for each message below.\n";
@@ -170,8 +173,12 @@ std::string apiPage(std::string_view folder) {
         "href=\"{0}style.css\">\n"
         "<main>\n<h1>What programs can ask</h1>\n<p>{1} Bodies are JSON, sent as "
         "<code>application/json</code>. For programs this page is <a "
-        "href=\"{0}v1/openapi.json\">/api/v1/openapi.json</a> (OpenAPI "
-        "3.1).\n{2}{3}{4}</main>\n",
+        "href=\"{0}v1/openapi.json\">/api/v1/openapi.json</a> (OpenAPI 3.1).\n"
+        "<p>A server with tokens (<code>--token-file</code>) wants one with each call: "
+        "<code>Authorization: Bearer TOKEN</code>, of curl <code>--oauth2-bearer TOKEN</code>. "
+        "What GET answers has an <code>ETag</code>; with it as <code>If-Match</code> a change is "
+        "made only where nobody else has made one by HTTP since, and is 412 otherwise.\n"
+        "{2}{3}{4}</main>\n",
         folder, escaped(commentOf(documentedService())), calls, errorSection(),
         typeSections(types));
 }

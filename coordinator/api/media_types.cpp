@@ -59,4 +59,14 @@ std::vector<std::string_view> mediaTypesOf(const google::protobuf::Descriptor& a
     return {kPng, kJpeg, kRaw, kFloatMap};
 }
 
+std::vector<std::pair<std::string_view, std::string_view>> headersOfBytes(
+    const google::protobuf::Descriptor& answer) {
+    if (answer.full_name() == v1::GetReportResponse::descriptor()->full_name())
+        return {{"Content-Disposition", "The file's name: it is to be saved, not shown."}};
+    if (answer.full_name() == v1::RenderImageResponse::descriptor()->full_name())
+        return {{"Eyrie-Tau-Achieved", "Of the picture's bytes: its statistics.tauAchieved."},
+                {"Eyrie-Complete", "Of the picture's bytes: its statistics.complete."}};
+    return {};
+}
+
 }  // namespace eyrie::api

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace google::protobuf {
@@ -17,5 +18,9 @@ std::string mediaTypeOf(const google::protobuf::Message& answer);
 
 /// What they may be, of all answers of that type.
 std::vector<std::string_view> mediaTypesOf(const google::protobuf::Descriptor& answer);
+
+/// Headers that come with them, and what these say.
+std::vector<std::pair<std::string_view, std::string_view>> headersOfBytes(
+    const google::protobuf::Descriptor& answer);
 
 }  // namespace eyrie::api

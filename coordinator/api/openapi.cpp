@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "coordinator/api/call_roles.h"
 #include "coordinator/api/json_text.h"
 #include "coordinator/api/media_types.h"
 #include "coordinator/api/rest_routes.h"
@@ -57,9 +58,12 @@ public:
                              .raw("license", R"({"name":"Apache-2.0","identifier":"Apache-2.0"})")
                              .str())
             .raw("servers", R"([{"url":"/api/v1"}])")
-            .raw("security", "[]")
+            .raw("security", R"([{"token":[]},{}])")
             .raw("paths", paths)
-            .raw("components", JsonMembers().raw("schemas", schemas.str()).str())
+            .raw("components", JsonMembers()
+                                   .raw("schemas", schemas.str())
+                                   .raw("securitySchemes", kSecuritySchemes)
+                                   .str())
             .str();
     }
 
@@ -77,6 +81,10 @@ private:
         R"("field":{"type":"string","description":"Of the request, where it is one."},)"
         R"("remedy":{"type":"string","description":"What to do about it."}},)"
         R"("additionalProperties":false})";
+
+    static constexpr std::string_view kSecuritySchemes =
+        R"({"token":{"type":"http","scheme":"bearer","description":"One of the file that the )"
+        R"(server was started with (--token-file); without a file it asks nobody for any."}})";
 
     template <typename Described>
     std::string documented(const Described& described) {
@@ -200,7 +208,48 @@ private:
             else if (hasQuery && isPlain)
                 parameters.push_back(parameter(field, "query", exampleOf(rest, field.json_name())));
         }
+        addHeaderParameters(call, rest, parameters);
         return jsonList(parameters);
+    }
+
+    static void addHeaderParameters(const MethodDescriptor& call, const v1::Rest& rest,
+                                    std::vector<std::string>& parameters) {
+        const auto add = [&](std::string_view name, std::string_view description) {
+            parameters.push_back(JsonMembers()
+                                     .text("name", name)
+                                     .text("in", "header")
+                                     .text("description", description)
+                                     .raw("schema", R"({"type":"string"})")
+                                     .str());
+        };
+        if (changes(rest))
+            add("If-Match",
+                "The ETag that GET had at this path: where it has another by now, nothing is done, "
+                "and the answer is 412.");
+        if (rest.method() == "PUT")
+            add("If-None-Match", "*: where there is something already, the answer is 412.");
+        if (rest.method() == "GET" && !call.server_streaming())
+            add("If-None-Match", "An ETag: where it is still right, the answer is 304.");
+        if (call.input_type()->FindFieldByName("request_id") != nullptr)
+            add("Idempotency-Key", "The same as requestId.");
+    }
+
+    static std::string header(std::string_view description) {
+        return JsonMembers()
+            .text("description", description)
+            .raw("schema", R"({"type":"string"})")
+            .str();
+    }
+
+    static std::string headersOf(const Descriptor& response, const v1::Rest& rest) {
+        JsonMembers headers;
+        if (rest.method() == "GET")
+            headers.raw("ETag", header("Another one where the answer is another."));
+        if (rest.method() == "PUT" || rest.method() == "PATCH")
+            headers.raw("ETag", header("The one that GET has now at this path."));
+        for (const auto& [name, description] : headersOfBytes(response))
+            headers.raw(name, header(description));
+        return headers.str();
     }
 
     std::string bodyOf(const MethodDescriptor& call, const v1::Rest& rest) {
@@ -230,16 +279,28 @@ private:
                         .raw("schema", refTo(part == nullptr ? response : *part->message_type()))
                         .str());
         JsonMembers responses;
-        responses.raw(
-            "200",
-            JsonMembers().text("description", "The answer").raw("content", content.str()).str());
+        JsonMembers good;
+        good.text("description", "The answer");
+        if (!call.server_streaming())
+            good.raw("headers", headersOf(response, rest));
+        responses.raw("200", good.raw("content", content.str()).str());
         if (rest.method() == "GET" && !call.server_streaming())
             responses.raw("304", R"({"description":"It is as If-None-Match has it"})");
-        return responses
-            .raw("default",
-                 fmt::format(R"({{"description":"An error","content":{{"application/problem+json":)"
-                             R"({{"schema":{}}}}}}})",
-                             api::refTo("Problem")))
+        if (changes(rest))
+            responses.raw("412", problem("It is not as If-Match or If-None-Match has it"));
+        const std::string later =
+            JsonMembers()
+                .raw("Retry-After", header("Of 429 and 503: seconds after which to try again."))
+                .str();
+        return responses.raw("default", problem("An error", later)).str();
+    }
+
+    static std::string problem(std::string_view description, const std::string& headers = "{}") {
+        const std::string schema = JsonMembers().raw("schema", api::refTo("Problem")).str();
+        return JsonMembers()
+            .text("description", description)
+            .raw("headers", headers)
+            .raw("content", JsonMembers().raw("application/problem+json", schema).str())
             .str();
     }
 
@@ -248,7 +309,8 @@ private:
         JsonMembers operation;
         operation.text("operationId", isFirst ? call.name() : call.name() + "By" + rest.method())
             .text("summary", firstSentence(comment))
-            .text("description", comment)
+            .text("description", fmt::format("{} For tokens of role {}.", comment,
+                                             access::nameOf(roleFor(call.name()))))
             .raw("parameters", parametersOf(call, rest));
         if (rest.method() != "GET" && rest.method() != "DELETE")
             operation.raw("requestBody", bodyOf(call, rest));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/api/rest_door.h"
 
+#include <algorithm>
+#include <functional>
 #include <string_view>
 #include <utility>
 
@@ -52,6 +54,11 @@ std::string jsonOf(const Message& message, bool isSparse, bool isOneLine = false
     if (!google::protobuf::util::MessageToJsonString(message, &text, options).ok())
         return "{}";
     return text;
+}
+
+/// Without the query.
+std::string pathOf(const RestRequest& request) {
+    return request.target.substr(0, request.target.find('?'));
 }
 
 bool wantsJson(std::string_view accept) {
@@ -143,6 +150,20 @@ RestAnswer jsonAnswer(const Message& message, const v1::Rest& rest, std::shared_
     return answer;
 }
 
+/// Whether `tags` of a header are "*" or have `etag` among them; W/"…" does not count.
+bool isListed(std::string_view etag, std::string_view tags) {
+    const std::size_t at = tags.find(etag);
+    return tags == "*" || (at != std::string_view::npos && !tags.substr(0, at).ends_with("W/"));
+}
+
+/// Whether what a change was meant for is what there is: RFC 9110, 13.2.2. `etag` is empty where
+/// there is nothing.
+bool isMet(const RestRequest& request, const std::string& etag) {
+    const bool isThere = !etag.empty();
+    return (request.ifMatch.empty() || (isThere && isListed(etag, request.ifMatch))) &&
+           (request.ifNoneMatch.empty() || !isThere || !isListed(etag, request.ifNoneMatch));
+}
+
 void tag(const RestRequest& request, RestAnswer& answer) {
     const std::string etag =
         fmt::format("\"{:016x}\"", XXH64(answer.body->data(), answer.body->size(), 0));
@@ -198,9 +219,13 @@ RestAnswer RestDoor::answer(const RestRequest& request) const {
         return document(request);
     if (found.route == nullptr)
         return notThere(request, found);
-    const auto asked = newMessage(found.route->call->input_type());
     if (found.route->call->server_streaming())
-        return stream(request, found, *asked);
+        return stream(request, found, *newMessage(found.route->call->input_type()));
+    return changes(found.route->rest) ? change(request, found) : call(request, found);
+}
+
+RestAnswer RestDoor::call(const RestRequest& request, const FoundRoute& found) const {
+    const auto asked = newMessage(found.route->call->input_type());
     const auto made = newMessage(found.route->call->output_type());
     const v1::Rest& rest = found.route->rest;
     const bool asText = rest.bytes().empty() || wantsJson(request.accept);
@@ -215,6 +240,36 @@ RestAnswer RestDoor::answer(const RestRequest& request) const {
     if (rest.method() == "GET")
         tag(request, answer);
     return answer;
+}
+
+RestAnswer RestDoor::change(const RestRequest& request, const FoundRoute& found) const {
+    const std::size_t place = std::hash<std::string>()(pathOf(request)) % changing_.size();
+    const std::lock_guard lock(changing_[place]);
+    const bool isConditional = !request.ifMatch.empty() || !request.ifNoneMatch.empty();
+    if (isConditional && !isMet(request, tagAt(request)))
+        return problem(
+            absl::FailedPreconditionError(
+                "what is there is not what If-Match or If-None-Match says; ask for it again, and "
+                "see whether the change is still wanted"),
+            412);
+    RestAnswer answer = call(request, found);
+    if (answer.status != 200 || found.route->rest.method() == "DELETE")
+        return answer;
+    if (std::string now = tagAt(request); !now.empty())
+        answer.headers.emplace_back("ETag", std::move(now));
+    return answer;
+}
+
+/// The ETag of what GET has at the path of `change`; empty: nothing.
+std::string RestDoor::tagAt(const RestRequest& change) const {
+    RestRequest request;
+    request.method = "GET";
+    request.target = pathOf(change);
+    request.stop = change.stop;
+    const RestAnswer answer = this->answer(request);
+    const auto isTag = [](const auto& header) { return header.first == "ETag"; };
+    const auto tag = std::ranges::find_if(answer.headers, isTag);
+    return tag == answer.headers.end() ? "" : tag->second;
 }
 
 RestAnswer RestDoor::stream(const RestRequest& request, const FoundRoute& found,

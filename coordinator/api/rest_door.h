@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -26,6 +28,7 @@ struct RestRequest {
     std::string contentType = {};
     std::string accept = {};
     std::string ifNoneMatch = {};
+    std::string ifMatch = {};
     std::string idempotencyKey = {};  ///< the same as the request's field request_id
     std::stop_token stop = {};        ///< the client has gone
 };
@@ -42,7 +45,9 @@ struct RestAnswer {
 
 /// CoordinatorService over HTTP, without the network: the calls that gRPC makes, by method and path
 /// as rest.proto says, in protobuf JSON. Errors are application/problem+json. Answers to GET have
-/// an ETag. Any thread may call; calls take as long as what they ask for.
+/// an ETag, those to PUT and PATCH the one that GET has now, and If-Match holds changes to it: 412
+/// where somebody else has made one by HTTP meanwhile. Any thread may call; calls take as long as
+/// what they ask for.
 class RestDoor {
 public:
     /// `handlers` outlive the door.
@@ -55,10 +60,15 @@ public:
     std::optional<RestAnswer> refusal(std::string_view address) const;
 
 private:
+    RestAnswer call(const RestRequest& request, const FoundRoute& found) const;
+    RestAnswer change(const RestRequest& request, const FoundRoute& found) const;
     RestAnswer stream(const RestRequest& request, const FoundRoute& found,
                       google::protobuf::Message& asked) const;
+    std::string tagAt(const RestRequest& change) const;
 
     const Handlers& handlers_;
+    /// Held while what is at a path is looked at and changed; paths share them.
+    mutable std::array<std::mutex, 16> changing_;
 };
 
 /// The answer to a request that is not taken at all.

@@ -58,6 +58,10 @@ const std::vector<Route>& restRoutes() {
     return routes;
 }
 
+bool changes(const v1::Rest& rest) {
+    return rest.method() == "PUT" || rest.method() == "PATCH" || rest.method() == "DELETE";
+}
+
 FoundRoute findRoute(std::string_view method, std::string_view path) {
     FoundRoute found;
     for (const Route& route : restRoutes()) {

@@ -24,6 +24,9 @@ struct Route {
 /// All ways of CoordinatorService, in its order.
 const std::vector<Route>& restRoutes();
 
+/// Whether it changes what can be read by GET at the same path.
+bool changes(const v1::Rest& rest);
+
 struct FoundRoute {
     const Route* route = nullptr;               ///< null: the path has none for this method
     std::map<std::string, std::string> fields;  ///< what stands in the path, decoded

@@ -81,6 +81,7 @@ api::RestRequest restRequest(const Request& request, std::stop_token gone) {
             header(http::field::accept),
             header(http::field::if_none_match),
             header("Idempotency-Key"),
+            header(http::field::if_match),
             std::move(gone)};
 }
 

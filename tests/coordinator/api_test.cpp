@@ -451,6 +451,61 @@ TEST_F(Rest, FlightsAreKept) {
     expectProblem(send("DELETE", "/flights/a-b_1", ""), 404, "NOT_FOUND");
 }
 
+TEST_F(Rest, ChangesAreMadeToWhatTheyWereMeantForOrNotAtAll) {
+    const auto flight = [](const std::string& name) {
+        return R"({"name":")" + name +
+               R"(","keys":[{"camera":{"eye":[0,-10,3],"target":[0,0,0]}}]})";
+    };
+    const auto put = [&](const std::string& name, const std::string& ifMatch,
+                         const std::string& ifNoneMatch = "") {
+        RestRequest request{"PUT", "/flights/a", flight(name), "application/json"};
+        request.ifMatch = ifMatch;
+        request.ifNoneMatch = ifNoneMatch;
+        return ask(request);
+    };
+    EXPECT_EQ(put("none", "*").status, 412);
+    EXPECT_EQ(put("none", "\"0123456789abcdef\"").status, 412);
+    const RestAnswer first = put("first", "", "*");
+    ASSERT_EQ(first.status, 200) << *first.body;
+    const std::string tag = header(first, "ETag");
+    EXPECT_EQ(tag, header(get("/flights/a"), "ETag"));
+    expectProblem(put("again", "", "*"), 412, "FAILED_PRECONDITION");
+    EXPECT_EQ(put("second", "\"0123456789abcdef\", " + tag).status, 200);
+    const RestAnswer stale = put("third", tag);
+    expectProblem(stale, 412, "FAILED_PRECONDITION");
+    EXPECT_THAT(text(stale, "remedy"), StartsWith("ask for it again"));
+    EXPECT_THAT(*get("/flights/a").body, HasSubstr("second"));
+    EXPECT_EQ(put("weak", "W/" + header(get("/flights/a"), "ETag")).status, 412);
+    RestRequest remove{"DELETE", "/flights/a"};
+    remove.ifMatch = tag;
+    EXPECT_EQ(ask(remove).status, 412);
+    remove.ifMatch = "*";
+    EXPECT_EQ(ask(remove).status, 200);
+}
+
+TEST_F(Rest, OfManyChangesOfTheSameOnlyOneIsMade) {
+    ASSERT_EQ(
+        send("PATCH", "/configuration", R"({"layouts":[{"canvas":"0","layout":"1"}]})").status,
+        200);
+    const std::string tag = header(get("/configuration"), "ETag");
+    std::atomic<int> made{0};
+    std::vector<std::jthread> clients;
+    for (int i = 0; i < 4; ++i)
+        clients.emplace_back([&, i] {
+            RestRequest change{"PATCH", "/configuration",
+                               fmt::format(R"({{"layouts":[{{"canvas":"0","layout":"{}"}}]}})",
+                                           i % 2 == 0 ? 0 : 2),
+                               "application/json"};
+            change.ifMatch = tag;
+            const RestAnswer answer = ask(change);
+            EXPECT_TRUE(answer.status == 200 || answer.status == 412) << *answer.body;
+            EXPECT_TRUE(answer.status == 412 || header(answer, "ETag") != tag);
+            made += answer.status == 200;
+        });
+    clients.clear();
+    EXPECT_EQ(made, 1);
+}
+
 TEST_F(Rest, AFlightThatManyWriteIsAlwaysOneOfTheirs) {
     const auto flight = [](int writer) {
         return fmt::format(
@@ -573,6 +628,41 @@ TEST_F(Rest, ThePageAndTheDocumentHaveEveryCall) {
                                [](char c) { return static_cast<char>(c - 'A' + 'a'); });
         EXPECT_TRUE(path.struct_value().fields().contains(method)) << route.rest.path();
     }
+}
+
+TEST_F(Rest, TheDocumentTellsOfTokensAndHeaders) {
+    const Value document = json(get("/openapi.json"));
+    const Value token = member(member(member(document, "components"), "securitySchemes"), "token");
+    EXPECT_EQ(member(token, "scheme").string_value(), "bearer");
+    const Value uses = member(document, "security").list_value().values(0);
+    EXPECT_TRUE(uses.struct_value().fields().contains("token"));
+    const auto operation = [&](const std::string& path, const std::string& method) {
+        return member(member(member(document, "paths"), path), method);
+    };
+    const auto parameters = [&](const std::string& path, const std::string& method) {
+        std::vector<std::string> names;
+        const Value all = member(operation(path, method), "parameters");
+        for (const Value& parameter : all.list_value().values())
+            if (member(parameter, "in").string_value() == "header")
+                names.push_back(member(parameter, "name").string_value());
+        return names;
+    };
+    EXPECT_THAT(parameters("/scene", "get"), ElementsAre("If-None-Match"));
+    EXPECT_THAT(parameters("/flights/{name}", "put"), ElementsAre("If-Match", "If-None-Match"));
+    EXPECT_THAT(parameters("/configuration", "patch"), ElementsAre("If-Match"));
+    EXPECT_THAT(parameters("/imports", "post"), ElementsAre("Idempotency-Key"));
+    const Value responses = member(operation("/image", "post"), "responses");
+    const Value headers = member(member(responses, "200"), "headers");
+    EXPECT_TRUE(headers.struct_value().fields().contains("Eyrie-Tau-Achieved"));
+    EXPECT_TRUE(headers.struct_value().fields().contains("Eyrie-Complete"));
+    EXPECT_TRUE(member(member(responses, "default"), "headers")
+                    .struct_value()
+                    .fields()
+                    .contains("Retry-After"));
+    EXPECT_THAT(member(operation("/scene", "put"), "description").string_value(),
+                HasSubstr("For tokens of role control."));
+    EXPECT_THAT(*api_->rest().answer({"GET", "/api"}).body,
+                HasSubstr("Authorization: Bearer TOKEN"));
 }
 
 TEST(OpenApi, LeavesNothingUndocumented) { EXPECT_THAT(undocumented(), IsEmpty()); }

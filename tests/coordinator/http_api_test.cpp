@@ -288,6 +288,13 @@ TEST_F(HttpApi, NothingIsReadUnderAStrangersName) {
     EXPECT_THAT(asked("/readyz", "127.0.0.1:80"), StartsWith("HTTP/1.1 200"));
 }
 
+TEST_F(HttpApi, ConditionsInHeadersHold) {
+    EXPECT_THAT(ask("GET /api/v1/status", "If-None-Match: *\r\n"), StartsWith("HTTP/1.1 304"));
+    EXPECT_THAT(ask("DELETE /api/v1/sessions/none"), StartsWith("HTTP/1.1 404"));
+    EXPECT_THAT(ask("DELETE /api/v1/sessions/none", "If-Match: \"a\"\r\n"),
+                StartsWith("HTTP/1.1 412"));
+}
+
 TEST_F(HttpApi, ErrorsAreProblems) {
     const std::string wrong = ask("GET /api/v1/image?width=0");
     EXPECT_THAT(wrong, StartsWith("HTTP/1.1 400"));
