@@ -11,6 +11,7 @@
 #include "coordinator/api/workers.h"
 #include "coordinator/http/access.h"
 #include "coordinator/http/crowd.h"
+#include "coordinator/http/rare_warnings.h"
 #include "coordinator/http/server.h"
 #include "coordinator/http/static_files.h"
 #include "coordinator/http/tls.h"
@@ -53,6 +54,7 @@ struct Context {
         frames,
         {.swapPatience = options.swapPatience, .telemetry = telemetry, .video = options.video},
         options.sessions};
+    RareWarnings handshakes = {};  ///< that failed
 };
 
 /// A connection's place, and its viewer's; held until that, too, has ended.

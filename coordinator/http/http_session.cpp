@@ -30,6 +30,7 @@
 #include "coordinator/http/stream.h"
 #include "coordinator/http/web_socket.h"
 #include "coordinator/http/write_pace.h"
+#include "fabric/log.h"
 
 namespace eyrie::http {
 namespace {
@@ -80,8 +81,8 @@ api::RestRequest restRequest(const Request& request, std::stop_token gone) {
             header(http::field::content_type),
             header(http::field::accept),
             header(http::field::if_none_match),
-            header("Idempotency-Key"),
             header(http::field::if_match),
+            header("Idempotency-Key"),
             std::move(gone)};
 }
 
@@ -126,6 +127,7 @@ public:
                               : Stream(std::move(socket))),
           buffer_(2 * kMaxHeaderBytes),
           context_(context),
+          patience_(stream_.get_executor()),
           looksAgain_(stream_.get_executor()),
           drained_(stream_.get_executor()),
           slot_(std::move(slot)) {
@@ -156,7 +158,9 @@ public:
             return read();
         stream_.expires_after(context_.options.headerTimeout);
         stream_.asyncHandshake([self = shared_from_this()](error_code error) {
-            if (!error && !self->isDropped_)
+            if (error)
+                return self->noteFailedHandshake(error);
+            if (!self->isDropped_)
                 self->read();
         });
     }
@@ -172,16 +176,45 @@ private:
         });
     }
 
+    /// Who only looks whether the port is open, as probes do, has not failed.
+    void noteFailedHandshake(error_code error) {
+        const bool hasFailed = error == beast::error::timeout ||
+                               error.category() == boost::asio::error::get_ssl_category();
+        if (isDropped_ || !hasFailed)
+            return;
+        context_.telemetry->metrics.handshakeFailed();
+        if (context_.handshakes.isDue(address_, RareWarnings::Clock::now()))
+            spdlog::warn(
+                "no encrypted connection with {}: {}; more from there within a minute are "
+                "not told",
+                address_, error.message());
+    }
+
     void read() {
         parser_.emplace();
         parser_->header_limit(kMaxHeaderBytes);
         parser_->body_limit(kMaxBodyBytes);
-        stream_.expires_after(context_.options.headerTimeout);
+        stream_.expires_never();  // it would close the connection, and nobody would be told why
+        isReading_ = true;
+        patience_.expires_after(context_.options.headerTimeout);
+        patience_.async_wait([weak = weak_from_this()](error_code error) {
+            if (const auto self = weak.lock(); self && !error)
+                self->stopReading();
+        });
         beast::http::async_read(stream_, buffer_, *parser_,
                                 [self = shared_from_this()](error_code error, std::size_t bytes) {
+                                    self->isReading_ = false;
+                                    self->patience_.cancel();
                                     self->count(observe::Direction::In, bytes);
                                     self->requestRead(error);
                                 });
+    }
+
+    void stopReading() {
+        if (!isReading_ || patience_.expiry() > std::chrono::steady_clock::now())
+            return;  // of the request before
+        isTooSlow_ = true;
+        stream_.cancel();
     }
 
     void requestRead(error_code error) {
@@ -195,10 +228,13 @@ private:
         if (error == http::error::body_limit)
             return reply(problemResponse(413, "the body is longer than 1 MiB; make it shorter"),
                          false);
+        if (isTooSlow_ && (buffer_.size() > 0 || parser_->got_some()))
+            return reply(problemResponse(408, "the request did not come in time; send it at once"),
+                         false);
         if (isMalformed(error))
             return reply(textResponse(400, "This is not HTTP/1.1."), false);
         if (error)
-            return;  // closed or too slow; the socket goes with this session
+            return;  // closed, or nothing came; the socket goes with this session
         const Request request = parser_->release();
         isHead_ = request.method() == http::verb::head;
         const Asked asked = askedBy(request);
@@ -206,9 +242,9 @@ private:
             return reply(*answer, request.keep_alive() && answer->status < 400);
         if (pathOf(view(request.target())) == "/ws")
             return upgrade(request, context_.access.roleOf(asked));
-        if (const auto observed =
-                observationResponse(view(request.method_string()), view(request.target()),
-                                    *context_.telemetry, context_.frames))
+        if (const auto observed = observationResponse(view(request.method_string()),
+                                                      view(request.target()), *context_.telemetry,
+                                                      context_.options.gate.get(), context_.frames))
             return reply(*observed, request.keep_alive());
         if (isApiCall(pathOf(view(request.target()))) && context_.options.api != nullptr)
             return call(request);
@@ -401,6 +437,9 @@ private:
     std::stop_source gone_;   ///< its client has
     bool isEnding_ = false;   ///< the server is
     Context& context_;
+    boost::asio::steady_timer patience_;  ///< with a request that is on its way
+    bool isReading_ = false;
+    bool isTooSlow_ = false;
     boost::asio::steady_timer looksAgain_;  ///< at a client whose call is being done
     boost::asio::steady_timer drained_;     ///< when the server waits no longer for its call
     Slot slot_;

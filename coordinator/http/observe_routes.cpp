@@ -10,7 +10,8 @@
 namespace eyrie::http {
 namespace {
 
-Response metricsResponse(observe::Telemetry& telemetry, const coordinator::FrameSource& frames) {
+Response metricsResponse(observe::Telemetry& telemetry, const access::Gate* gate,
+                         const coordinator::FrameSource& frames) {
     using coordinator::RendererCondition;
     std::map<std::string, int> conditions;
     for (const auto condition :
@@ -23,6 +24,9 @@ Response metricsResponse(observe::Telemetry& telemetry, const coordinator::Frame
         if (renderer.isAlive())
             present[observe::rendererName(renderer.address)] = true;
     }
+    if (gate != nullptr)
+        for (const access::Door door : {access::Door::Http, access::Door::Grpc})
+            telemetry.metrics.turnedAway(door, gate->refusals(door));
     Response response;
     response.contentType = observe::Metrics::kContentType;
     response.body =
@@ -33,11 +37,11 @@ Response metricsResponse(observe::Telemetry& telemetry, const coordinator::Frame
 }  // namespace
 
 std::optional<Response> observationResponse(std::string_view method, std::string_view target,
-                                            observe::Telemetry& telemetry,
+                                            observe::Telemetry& telemetry, const access::Gate* gate,
                                             const coordinator::FrameSource& frames) {
     if (pathOf(target) != "/metrics" || (method != "GET" && method != "HEAD"))
         return std::nullopt;
-    return metricsResponse(telemetry, frames);
+    return metricsResponse(telemetry, gate, frames);
 }
 
 }  // namespace eyrie::http

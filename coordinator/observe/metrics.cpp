@@ -14,6 +14,7 @@
 #include <prometheus/registry.h>
 #include <prometheus/text_serializer.h>
 
+#include "access/gate.h"
 #include "coordinator/observe/process_figures.h"
 #include "fabric/version.h"
 
@@ -117,6 +118,8 @@ public:
         for (const auto& [status, reason] : kReasons)
             refused_.Add({{"reason", std::string(reason)}});
         refused_.Add({{"reason", std::string(kOther)}});
+        for (const access::Door door : {access::Door::Http, access::Door::Grpc})
+            turnedAway(door, {});
         for (const Peer peer : {Peer::Http, Peer::WebSocket, Peer::Renderer}) {
             received_.Add({{"peer", nameOf(peer)}});
             if (peer != Peer::Renderer)  // what it is sent is small, and not counted
@@ -173,6 +176,19 @@ public:
         if (status >= 400)
             refused_.Add({{"reason", reasonOf(status)}}).Increment();
     }
+
+    void turnedAway(access::Door door, const access::Refusals& soFar) {
+        const auto set = [&](const char* reason, std::uint64_t count) {
+            Counter& counter = peersRefused_.Add(
+                {{"door", door == access::Door::Http ? "http" : "grpc"}, {"reason", reason}});
+            counter.Increment(std::max(0.0, static_cast<double>(count) - counter.Value()));
+        };
+        set("no_token", soFar.missing);
+        set("wrong_token", soFar.wrong - soFar.limited);
+        set("too_many_wrong", soFar.limited);
+        set("forbidden", soFar.forbidden);
+    }
+    void handshakeFailed() { handshakes_.Increment(); }
 
     void rendererHolds(const std::string& name, std::uint64_t deviceBytes,
                        std::uint64_t hostBytes) {
@@ -278,6 +294,9 @@ private:
     Family<Gauge>& memory_ =
         gauges("eyrie_renderer_memory_bytes", "What a renderer holds for its scene.");
     Family<Counter>& refused_ = counters("eyrie_requests_refused_total", "HTTP requests refused.");
+    Family<Counter>& peersRefused_ =
+        counters("eyrie_peers_refused_total", "Peers turned away, by door and reason.");
+    Counter& handshakes_ = peersRefused_.Add({{"door", "http"}, {"reason", "handshake"}});
     Family<Counter>& overQuota_ =
         counters("eyrie_over_quota_total", "Calls and viewers refused as they ask for too much.");
     Counter& cpu_ = counter("process_cpu_seconds_total", "User and system time of this process.");
@@ -307,6 +326,10 @@ void Metrics::swapped(int together, int cutShort) { impl_->swapped(together, cut
 void Metrics::taskReissued(bool wasLate) { impl_->taskReissued(wasLate); }
 void Metrics::overQuota(Quota quota) { impl_->overQuota(quota); }
 void Metrics::refused(int status) { impl_->refused(status); }
+void Metrics::turnedAway(access::Door door, const access::Refusals& soFar) {
+    impl_->turnedAway(door, soFar);
+}
+void Metrics::handshakeFailed() { impl_->handshakeFailed(); }
 void Metrics::rendererHolds(const std::string& name, std::uint64_t deviceBytes,
                             std::uint64_t hostBytes) {
     impl_->rendererHolds(name, deviceBytes, hostBytes);

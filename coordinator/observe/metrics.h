@@ -11,6 +11,11 @@
 
 #include "fabric/statistics.h"
 
+namespace eyrie::access {
+enum class Door;
+struct Refusals;
+}  // namespace eyrie::access
+
 namespace eyrie::observe {
 
 /// Where the time of a frame goes; docs/operations.md says what each is.
@@ -62,6 +67,9 @@ public:
     void overQuota(Quota quota);      ///< a call, or a viewer, was refused for it
     /// By HTTP status, 400 or more; others are not counted.
     void refused(int status);
+    /// What a gate has turned away so far at a door.
+    void turnedAway(access::Door door, const access::Refusals& soFar);
+    void handshakeFailed();  ///< somebody who wanted an encrypted connection, by HTTPS
     /// What a renderer holds for its scene.
     void rendererHolds(const std::string& name, std::uint64_t deviceBytes, std::uint64_t hostBytes);
 

@@ -2,7 +2,6 @@
 #include "access/gate.h"
 
 #include <algorithm>
-#include <optional>
 
 #include <fmt/format.h>
 
@@ -38,37 +37,42 @@ std::string_view bearerToken(std::string_view authorization) {
 
 absl::StatusOr<Role> Gate::admit(const Credentials& credentials, std::string_view address,
                                  Role needed, Clock::time_point now) {
-    std::optional<Role> role;
-    if (!credentials.authorization.empty())
-        role = tokens()->roleOf(bearerToken(credentials.authorization));
-    else if (!credentials.ticket.empty())
-        role = tokens()->roleOfTicket(credentials.ticket, unixSeconds(now));
+    const std::optional<Role> role = roleOf(credentials, now);
     const std::lock_guard lock(mutex_);
     if (!role && credentials.authorization.empty()) {
-        ++(credentials.ticket.empty() ? refusals_.missing : refusals_.wrong);
+        Refusals& refusals = refusalsAt(credentials.door);
+        ++(credentials.ticket.empty() ? refusals.missing : refusals.wrong);
         // A ticket that has expired is nobody's attack.
         return absl::UnauthenticatedError(
             "this needs a token; the operator has it, in the file that --token-file names");
     }
     if (!role)
-        return refuseWrong(address, now);
+        return refuseWrong(credentials.door, address, now);
     if (*role >= needed)
         return *role;
-    ++refusals_.forbidden;
+    ++refusalsAt(credentials.door).forbidden;
     return absl::PermissionDeniedError(
         fmt::format("this needs a token of role {}; the one presented is of role {}",
                     nameOf(needed), nameOf(*role)));
 }
 
-absl::Status Gate::refuseWrong(std::string_view address, Clock::time_point now) {
-    ++refusals_.wrong;
+std::optional<Role> Gate::roleOf(const Credentials& credentials, Clock::time_point now) const {
+    if (!credentials.authorization.empty())
+        return tokens()->roleOf(bearerToken(credentials.authorization));
+    if (!credentials.ticket.empty())
+        return tokens()->roleOfTicket(credentials.ticket, unixSeconds(now));
+    return std::nullopt;
+}
+
+absl::Status Gate::refuseWrong(Door door, std::string_view address, Clock::time_point now) {
+    ++refusalsAt(door).wrong;
     Failures& failures = failuresOf(address, now);
     if (++failures.count == 1)
         spdlog::warn("a wrong token came from {}; more of them within a minute are not told",
                      printable(address));
     if (failures.count <= kMaxWrong)
         return absl::UnauthenticatedError("the token is not, or no longer, valid");
-    ++refusals_.limited;
+    ++refusalsAt(door).limited;
     return absl::ResourceExhaustedError(
         fmt::format("too many wrong tokens from {}; wait a minute", printable(address)));
 }
@@ -94,9 +98,9 @@ std::string Gate::ticketFor(std::string_view authorization, Clock::time_point no
     return makeTicket(bearerToken(authorization), unixSeconds(now + kTicketLife));
 }
 
-Refusals Gate::refusals() const {
+Refusals Gate::refusals(Door door) const {
     const std::lock_guard lock(mutex_);
-    return refusals_;
+    return refusals_[static_cast<std::size_t>(door)];
 }
 
 }  // namespace eyrie::access

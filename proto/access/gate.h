@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -16,13 +19,17 @@
 
 namespace eyrie::access {
 
+/// Where somebody asks to come in.
+enum class Door { Http, Grpc };
+
 /// What a request brings to show who asks.
 struct Credentials {
     std::string_view authorization;  ///< "Bearer TOKEN"; empty: none
     std::string_view ticket;         ///< of a cookie (ticket.h); empty: none
+    Door door = Door::Http;
 };
 
-/// Turned away so far.
+/// Turned away at a door so far.
 struct Refusals {
     std::uint64_t missing = 0;    ///< brought nothing
     std::uint64_t wrong = 0;      ///< brought what is not, or no longer, valid
@@ -54,6 +61,10 @@ public:
     absl::StatusOr<Role> admit(const Credentials& credentials, std::string_view address,
                                Role needed, Clock::time_point now = Clock::now());
 
+    /// The role of who shows that; nothing: none. Not counted as asking to come in.
+    std::optional<Role> roleOf(const Credentials& credentials,
+                               Clock::time_point now = Clock::now()) const;
+
     /// A ticket for the bearer token in `authorization`, which admit() let in.
     static std::string ticketFor(std::string_view authorization,
                                  Clock::time_point now = Clock::now());
@@ -61,14 +72,15 @@ public:
     /// The first token of that role, for who shows it to others; empty: there is none.
     std::string tokenOf(Role role) const { return std::string(tokens()->first(role)); }
 
-    Refusals refusals() const;
+    Refusals refusals(Door door) const;
 
 private:
     struct Failures {
         Clock::time_point since;
         int count = 0;
     };
-    absl::Status refuseWrong(std::string_view address, Clock::time_point now);
+    absl::Status refuseWrong(Door door, std::string_view address, Clock::time_point now);
+    Refusals& refusalsAt(Door door) { return refusals_[static_cast<std::size_t>(door)]; }
     Failures& failuresOf(std::string_view address, Clock::time_point now);
 
     std::shared_ptr<const Tokens> tokens() const {
@@ -79,7 +91,7 @@ private:
     const std::shared_ptr<TokenFile> file_;
     mutable std::mutex mutex_;  ///< guards what follows
     std::map<std::string, Failures, std::less<>> failures_;
-    Refusals refusals_;
+    std::array<Refusals, 2> refusals_;  ///< by Door
 };
 
 /// "TOKEN" of "Bearer TOKEN"; empty: of another form.

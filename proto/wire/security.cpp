@@ -87,7 +87,8 @@ absl::Status admit(const Security& security, const grpc::CallbackServerContext& 
         found == context.client_metadata().end()
             ? std::string_view()
             : std::string_view(found->second.data(), found->second.size());
-    return security.gate->admit({authorization, {}}, peerAddress(peer), needed).status();
+    return security.gate->admit({authorization, {}, access::Door::Grpc}, peerAddress(peer), needed)
+        .status();
 }
 
 std::string peerAddress(const std::string& peer) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Who comes in by HTTP, and what those who mean ill cannot do to the others.
+#include <array>
 #include <chrono>
 #include <deque>
 #include <map>
@@ -22,6 +23,7 @@
 
 #include "coordinator/http/access.h"
 #include "coordinator/http/message_rate.h"
+#include "coordinator/http/rare_warnings.h"
 #include "coordinator/http/server.h"
 #include "tests/coordinator/fake_frame_source.h"
 #include "tests/support/certificates.h"
@@ -178,7 +180,7 @@ TEST_F(HttpAccess, TokensDoWhatTheirRoleMay) {
     // What is let in meets the router, which has no such paths of its own here.
     EXPECT_EQ(statusOf(request("PUT", "/api/v1/scene", bearer(kControlToken))), 405);
     EXPECT_EQ(statusOf(request("POST", "/api/v1/imports", bearer(kAdminToken))), 405);
-    EXPECT_EQ(gate_->refusals(), (access::Refusals{0, 0, 0, 2}));
+    EXPECT_EQ(gate_->refusals(access::Door::Http), (access::Refusals{0, 0, 0, 2}));
 }
 
 TEST_F(HttpAccess, TokensInAddressesAreNotTaken) {
@@ -230,8 +232,7 @@ TEST_F(HttpAccess, WrongTokensAreLimitedAndRightOnesStillPass) {
 }
 
 TEST_F(HttpAccess, FiveHundredSlowConnectionsAreCutOffAndKeepNobodyOut) {
-    ServerOptions options;
-    options.headerTimeout = seconds(5);
+    ServerOptions options;  // and its usual patience
     options.limits.connections = 256;
     start(options, false);
     std::deque<tcp::socket> slow;
@@ -243,24 +244,76 @@ TEST_F(HttpAccess, FiveHundredSlowConnectionsAreCutOffAndKeepNobodyOut) {
             ASSERT_EQ(statusOf(request("GET", "/healthz")), 200) << "beside " << i << " slow ones";
         }
     }
-    int answered = 0;
     const auto isCut = [](tcp::socket& socket) {
         error_code error;
         socket.non_blocking(true, error);
         char byte = 'x';
         static_cast<void>(asio::write(socket, asio::buffer(&byte, 1), error));
         error.clear();
-        socket.read_some(asio::buffer(&byte, 1), error);
-        return error && error != asio::error::would_block;
+        std::array<char, 4096> answer{};
+        while (!error) socket.read_some(asio::buffer(answer), error);
+        return error != asio::error::would_block;
     };
     const auto end = std::chrono::steady_clock::now() + seconds(60);
     while (!slow.empty() && std::chrono::steady_clock::now() < end) {
         std::erase_if(slow, isCut);  // each gets a byte a round until then
-        answered += statusOf(request("GET", "/healthz")) == 200 ? 1 : 0;
+        ASSERT_EQ(statusOf(request("GET", "/healthz")), 200)
+            << slow.size() << " slow ones are left";
         std::this_thread::sleep_for(milliseconds(100));
     }
     EXPECT_TRUE(slow.empty()) << slow.size() << " are still connected";
-    EXPECT_GE(answered, 1);
+}
+
+TEST_F(HttpAccess, ARequestThatDoesNotComeToItsEndIsToldSoAndCounted) {
+    ServerOptions options;
+    options.headerTimeout = milliseconds(200);
+    start(options, false);
+    for (const char* part :
+         {"GET / HT", "POST /login HTTP/1.1\r\nHost: a\r\nContent-Length: 5\r\n\r\nab"}) {
+        tcp::socket slow = connect();
+        asio::write(slow, asio::buffer(std::string(part)));
+        const std::string answer = answerOn(slow);
+        EXPECT_THAT(answer, HasSubstr("HTTP/1.1 408")) << part;
+        EXPECT_THAT(answer, HasSubstr("Connection: close")) << part;
+    }
+    tcp::socket idle = connect();
+    EXPECT_EQ(answerOn(idle), "") << "nothing was asked";
+    EXPECT_THAT(ask(request("GET", "/metrics")),
+                HasSubstr("eyrie_requests_refused_total{reason=\"too_slow\"} 2\n"));
+}
+
+TEST_F(HttpAccess, WhoIsTurnedAwayIsCounted) {
+    start();
+    EXPECT_EQ(statusOf(request("GET", "/api/v1/scene")), 401);
+    for (int i = 0; i < access::Gate::kMaxWrong + 2; ++i)
+        ask(request("GET", "/api/v1/scene", bearer("wrong-0123456789abcdef0123456789")));
+    EXPECT_EQ(statusOf(request("PUT", "/api/v1/scene", bearer(kViewToken))), 403);
+    ask(request("GET", "/readyz"));  // a probe's, which is answered
+    const std::string metrics = ask(request("GET", "/metrics", bearer(kViewToken)));
+    const auto expectCount = [&](const char* reason, int count) {
+        EXPECT_THAT(metrics, HasSubstr(fmt::format(
+                                 "eyrie_peers_refused_total{{door=\"http\",reason=\"{}\"}} {}\n",
+                                 reason, count)));
+    };
+    expectCount("no_token", 1);
+    expectCount("wrong_token", access::Gate::kMaxWrong);
+    expectCount("too_many_wrong", 2);
+    expectCount("forbidden", 1);
+    expectCount("handshake", 0);
+    EXPECT_THAT(metrics,
+                HasSubstr("eyrie_peers_refused_total{door=\"grpc\",reason=\"wrong_token\"} 0\n"));
+}
+
+TEST(RareWarnings, AreOfEachAddressOnceAMinuteAndOfSoManyAddresses) {
+    RareWarnings warnings;
+    const RareWarnings::Clock::time_point now{seconds(1000)};
+    EXPECT_TRUE(warnings.isDue("10.0.0.1", now));
+    EXPECT_FALSE(warnings.isDue("10.0.0.1", now + seconds(59)));
+    EXPECT_TRUE(warnings.isDue("10.0.0.2", now + seconds(59)));
+    EXPECT_TRUE(warnings.isDue("10.0.0.1", now + seconds(60)));
+    int due = 0;
+    for (int i = 0; i < 5000; ++i) due += warnings.isDue(std::to_string(i), now + seconds(60));
+    EXPECT_LE(due, static_cast<int>(RareWarnings::kMaxAddresses));
 }
 
 TEST_F(HttpAccess, AnIdleConnectionMakesRoomAndOneBeingServedDoesNot) {
@@ -406,6 +459,9 @@ TEST_F(Https, ServesWhoBelievesItsAuthorityAndNobodyInTheClear) {
     EXPECT_EQ(ask(request("GET", "/healthz"), other), "");
     EXPECT_THAT(HttpAccess::ask(request("GET", "/healthz")), Not(HasSubstr("HTTP/1.1 200")));
     EXPECT_THAT(ask(request("GET", "/healthz"), authority_), HasSubstr("HTTP/1.1 200"));
+    connect().close();  // who only looks whether the port is open
+    EXPECT_THAT(ask(request("GET", "/metrics", bearer(kViewToken)), authority_),
+                HasSubstr("eyrie_peers_refused_total{door=\"http\",reason=\"handshake\"} 2\n"));
 }
 
 TEST_F(Https, CarriesWebSockets) {

@@ -163,12 +163,14 @@ TEST_P(SecureCoordinator, MakesPicturesWithRenderersThatShowCertificatesAndToken
 }
 
 TEST(GrpcTokens, AreAskedForByTheCoordinator) {
-    const auto coordinator = coordinatorWith(withTokens());
+    const wire::Security security = withTokens();
+    const auto coordinator = coordinatorWith(security);
     EXPECT_TRUE(registering(*coordinator, withTokens()).ok());
     EXPECT_TRUE(absl::IsUnauthenticated(registering(*coordinator, {})));
     EXPECT_TRUE(absl::IsUnauthenticated(
         registering(*coordinator, withTokens("wrong-0123456789abcdef0123456789"))));
     EXPECT_TRUE(absl::IsPermissionDenied(registering(*coordinator, withTokens(kView))));
+    EXPECT_EQ(security.gate->refusals(access::Door::Grpc), (access::Refusals{1, 1, 0, 1}));
 }
 
 TEST(GrpcTokens, MayBeReplacedInTheFileWhilePicturesAreMade) {

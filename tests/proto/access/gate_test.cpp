@@ -36,7 +36,13 @@ TEST(Gate, LetsInWhoMayDoWhatIsAsked) {
         EXPECT_TRUE(
             absl::IsUnauthenticated(door.admit({wrong, ""}, "10.0.0.1", Role::View, kNow).status()))
             << wrong;
-    EXPECT_EQ(door.refusals(), (Refusals{1, 6, 0, 1}));
+    EXPECT_EQ(door.refusals(Door::Http), (Refusals{1, 6, 0, 1}));
+    EXPECT_EQ(door.refusals(Door::Grpc), Refusals());
+    EXPECT_FALSE(door.admit({"Bearer x", "", Door::Grpc}, "10.0.0.1", Role::View, kNow).ok());
+    EXPECT_EQ(door.refusals(Door::Grpc), (Refusals{0, 1, 0, 0}));
+    EXPECT_EQ(door.roleOf({"Bearer x", ""}, kNow), std::nullopt);
+    EXPECT_EQ(door.roleOf({kView, ""}, kNow), Role::View);
+    EXPECT_EQ(door.refusals(Door::Http), (Refusals{1, 6, 0, 1})) << "nobody asked to come in";
 }
 
 TEST(Gate, TicketsLastForHours) {
@@ -65,7 +71,7 @@ TEST(Gate, LimitsWrongTokensOfAnAddressAndOfNobodyElse) {
     EXPECT_TRUE(absl::IsUnauthenticated(guess("10.0.0.1", kNow + seconds(60))));
     EXPECT_TRUE(absl::IsUnauthenticated(guess("10.0.0.1", kNow - hours(1))))
         << "the clock was put back";
-    EXPECT_EQ(door.refusals().limited, 100u);
+    EXPECT_EQ(door.refusals(Door::Http).limited, 100u);
 }
 
 TEST(Gate, RemembersABoundedNumberOfAddresses) {
@@ -74,7 +80,7 @@ TEST(Gate, RemembersABoundedNumberOfAddresses) {
         EXPECT_TRUE(absl::IsUnauthenticated(
             door.admit({"Bearer x", ""}, std::to_string(i), Role::View, kNow + seconds(i % 7))
                 .status()));
-    EXPECT_EQ(door.refusals().wrong, 5000u);
+    EXPECT_EQ(door.refusals(Door::Http).wrong, 5000u);
 }
 
 }  // namespace
