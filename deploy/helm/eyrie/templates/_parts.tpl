@@ -41,16 +41,50 @@ envFrom:
 {{- else -}}
 {{- fail "set access.tokenSecret, or access.insecure=true if everybody who reaches the pods may use them" }}
 {{- end }}
+{{- if .Values.access.tlsSecret }}
+{{ include "eyrie.certificates" . }}
+{{- end }}
 {{- end }}
 
+{{/* How processes are encrypted, and what `eyrie health` has to know to ask them. */}}
+{{- define "eyrie.certificates" -}}
+- --tls-cert=/run/eyrie-tls/tls.crt
+- --tls-key=/run/eyrie-tls/tls.key
+- --tls-ca=/run/eyrie-tls/ca.crt
+- --tls-name={{ .Values.access.tlsName }}
+{{- end }}
+
+{{/* Kubernetes itself asks no gRPC service that is encrypted. */}}
+{{- define "eyrie.rendererProbe" -}}
+{{- if .Values.access.tlsSecret }}
+exec:
+  command:
+    - eyrie
+    - health
+    - --quiet
+    - 127.0.0.1:9090
+    {{- include "eyrie.certificates" . | nindent 4 }}
+{{- else }}
+grpc: { port: 9090 }
+{{- end }}
+{{- end }}
+
+{{- define "eyrie.pageProbe" -}}
+httpGet: { path: /healthz, port: page, scheme: {{ if .Values.access.tlsSecret }}HTTPS{{ else }}HTTP{{ end }} }
+{{- end }}
+
+{{/* Of who may write to the data `writes` is true; so of the volumes below. */}}
 {{- define "eyrie.mounts" -}}
 {{- if .Values.access.tokenSecret }}
 - { name: access, mountPath: /run/eyrie, readOnly: true }
 {{- end }}
+{{- if .Values.access.tlsSecret }}
+- { name: certificates, mountPath: /run/eyrie-tls, readOnly: true }
+{{- end }}
 - { name: tmp, mountPath: /tmp }
 - { name: cache, mountPath: /cache }
 {{- if .Values.data.existingClaim }}
-- { name: data, mountPath: /data, readOnly: true }
+- { name: data, mountPath: /data, readOnly: {{ not .writes }} }
 {{- end }}
 {{- end }}
 
@@ -59,12 +93,16 @@ envFrom:
 - name: access
   secret: { secretName: {{ . | quote }}, defaultMode: 0440 }
 {{- end }}
+{{- with .Values.access.tlsSecret }}
+- name: certificates
+  secret: { secretName: {{ . | quote }}, defaultMode: 0440 }
+{{- end }}
 - name: tmp
   emptyDir: { medium: Memory, sizeLimit: 256Mi }
 - name: cache
   emptyDir: { sizeLimit: {{ .Values.data.cacheSize }} }
-{{- with .Values.data.existingClaim }}
+{{- if .Values.data.existingClaim }}
 - name: data
-  persistentVolumeClaim: { claimName: {{ . | quote }}, readOnly: true }
+  persistentVolumeClaim: { claimName: {{ .Values.data.existingClaim | quote }}, readOnly: {{ not .writes }} }
 {{- end }}
 {{- end }}
