@@ -32,7 +32,17 @@ absl::Status apply(const v1::ConfigurationState& change, ActiveConfiguration& ac
     return active.become(std::move(wanted));
 }
 
-absl::StatusOr<v1::GetConfigurationResponse> get(coordinator::ConfigurationAccess& access) {
+void addMeasured(const equalizer::EqualizerState& state, v1::EqualizerReport& report) {
+    if (state.report.framesPerSecond > 0)
+        report.set_frames_per_second(state.report.framesPerSecond);
+    if (state.settings.kind == config::EqualizerKind::Dfr)
+        report.set_zoom(state.report.zoom);
+    if (state.report.imbalance > 0)
+        report.set_imbalance(state.report.imbalance);
+}
+
+absl::StatusOr<v1::GetConfigurationResponse> get(coordinator::ConfigurationAccess& access,
+                                                 const v1::GetConfigurationRequest& request) {
     v1::GetConfigurationResponse response;
     const absl::Status status = access.withConfiguration([&](ActiveConfiguration& active) {
         *response.mutable_configuration() = config::toMessage(active.written());
@@ -42,12 +52,8 @@ absl::StatusOr<v1::GetConfigurationResponse> get(coordinator::ConfigurationAcces
             report.set_name(state.name);
             report.set_on(state.isOn);
             report.set_frozen(state.isFrozen);
-            if (state.report.framesPerSecond > 0)
-                report.set_frames_per_second(state.report.framesPerSecond);
-            if (state.settings.kind == config::EqualizerKind::Dfr)
-                report.set_zoom(state.report.zoom);
-            if (state.report.imbalance > 0)
-                report.set_imbalance(state.report.imbalance);
+            if (request.measured())
+                addMeasured(state, report);
         }
         return absl::OkStatus();
     });
@@ -71,9 +77,8 @@ absl::StatusOr<v1::ChangeConfigurationResponse> change(
 
 void addConfigurationHandlers(Handlers& handlers, coordinator::ConfigurationAccess& configuration) {
     handlers.add<v1::GetConfigurationRequest, v1::GetConfigurationResponse>(
-        "GetConfiguration", [&configuration](const v1::GetConfigurationRequest&, const Call&) {
-            return get(configuration);
-        });
+        "GetConfiguration", [&configuration](const v1::GetConfigurationRequest& request,
+                                             const Call&) { return get(configuration, request); });
     handlers.add<v1::ChangeConfigurationRequest, v1::ChangeConfigurationResponse>(
         "ChangeConfiguration",
         [&configuration](const v1::ChangeConfigurationRequest& request, const Call&) {

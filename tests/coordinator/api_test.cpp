@@ -391,6 +391,28 @@ TEST_F(Rest, AWallBehindAnEyeIsRefusedAndNothingOfTheChangeIsDone) {
     EXPECT_EQ(*get("/configuration").body, before);
 }
 
+/// So that a change that is held to what somebody has seen is not refused for each frame since.
+TEST_F(Rest, ConfigurationsHaveWhatFramesChangeOnlyWhereItIsAskedFor) {
+    const std::string tag = header(get("/configuration"), "ETag");
+    ASSERT_TRUE(configuration_
+                    .withConfiguration([](coordinator::ActiveConfiguration& active) {
+                        const compound::Plan plan = active.plan({}, 1, {}).value();
+                        std::vector<coordinator::ActiveConfiguration::Taken> taken;
+                        for (const compound::PlannedDraw& draw : plan.draws) {
+                            auto& one = taken.emplace_back();
+                            one.covered = draw.task.pixelViewport;
+                            one.milliseconds = one.stages.total =
+                                static_cast<double>(10 * taken.size());
+                        }
+                        active.record(plan, 1, taken);
+                        return absl::OkStatus();
+                    })
+                    .ok());
+    EXPECT_EQ(header(get("/configuration"), "ETag"), tag);
+    EXPECT_THAT(*get("/configuration").body, testing::Not(HasSubstr("imbalance")));
+    EXPECT_THAT(*get("/configuration?measured=true").body, HasSubstr("imbalance"));
+}
+
 TEST_F(Rest, EqualizersAreFrozenAndSwitchedOff) {
     const RestAnswer answer =
         send("PATCH", "/configuration", R"({"equalizers":[{"equalizer":0,"frozen":true}]})");

@@ -251,7 +251,7 @@ export function showEqualizers(state: State): void {
     tuneEqualizer(position, change).catch(complain).then(show, complain);
   };
   const showReports = async (): Promise<void> => {
-    const all = equalizersOf(compoundsOf(await readConfiguration()));
+    const all = equalizersOf(compoundsOf(await readConfiguration(true)));
     const lines = tree.querySelectorAll<HTMLElement>(".equalizer-report");
     if (lines.length === all.length)
       lines.forEach((line, position) => setText(line, reportText(all[position]!)));

@@ -145,9 +145,11 @@ async function problemOf(response: Response): Promise<Error> {
   return new Error(problem.detail ?? `the server answers ${response.status}`);
 }
 
-/** Throws an Error, for the user to read, where there is none. */
-export async function readConfiguration(): Promise<ConfigurationAnswer> {
-  const response = await fetch(address, { cache: "no-store" });
+/** With what equalizers have come to, if so asked. Throws an Error, for the user to read, where there is none. */
+export async function readConfiguration(isMeasured = false): Promise<ConfigurationAnswer> {
+  const response = await fetch(isMeasured ? `${address}?measured=true` : address, {
+    cache: "no-store",
+  });
   if (!response.ok) throw await problemOf(response);
   return (await response.json()) as ConfigurationAnswer;
 }
