@@ -137,7 +137,7 @@ public:
             grpc::reflection::InitProtoReflectionServerBuilderPlugin();
         grpc::EnableDefaultHealthCheckService(true);
         ASSIGN_OR_RETURN(listening_, wire::listen(addresses, {&service_, &calls_}, security_,
-                                                  api::Quotas::kMostAnswerBytes));
+                                                  api::Quotas::kMostAnswerBytes, withReflection));
         return absl::OkStatus();
     }
 

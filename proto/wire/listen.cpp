@@ -3,9 +3,13 @@
 
 #include <algorithm>
 #include <charconv>
+#include <memory>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
+#include <grpcpp/impl/server_builder_option.h>
+#include <grpcpp/impl/server_builder_plugin.h>
 #include <grpcpp/security/server_credentials.h>
 #include <grpcpp/server.h>
 #include <grpcpp/server_builder.h>
@@ -49,6 +53,17 @@ std::string notBound(const std::vector<std::string>& addresses, const std::vecto
     return fmt::format("{}", fmt::join(addresses, ", "));
 }
 
+/// A program that gRPC's reflection is linked to has it in every server, asked for or not.
+class WithoutReflection final : public grpc::ServerBuilderOption {
+public:
+    void UpdateArguments(grpc::ChannelArguments* /*arguments*/) override {}
+    void UpdatePlugins(std::vector<std::unique_ptr<grpc::ServerBuilderPlugin>>* plugins) override {
+        std::erase_if(*plugins, [](const auto& plugin) {
+            return plugin->name() == "proto_server_reflection";
+        });
+    }
+};
+
 }  // namespace
 
 absl::Status checkAddress(const std::string& address) {
@@ -74,10 +89,12 @@ absl::StatusOr<Listening> listen(const std::vector<std::string>& addresses, grpc
 
 absl::StatusOr<Listening> listen(const std::vector<std::string>& addresses,
                                  const std::vector<grpc::Service*>& services,
-                                 const Security& security, int mostSentBytes) {
+                                 const Security& security, int mostSentBytes, bool withReflection) {
     grpc::ServerBuilder builder;
     configureServer(builder);
     builder.SetMaxSendMessageSize(mostSentBytes);
+    if (!withReflection)
+        builder.SetOption(std::make_unique<WithoutReflection>());
     for (grpc::Service* service : services) builder.RegisterService(service);
     std::vector<int> ports(addresses.size(), 0);
     for (std::size_t i = 0; i < addresses.size(); ++i) {

@@ -25,12 +25,13 @@ struct Listening {
 /// Serves `services` on "host:port" (port 0: the system chooses) and "unix:/path" addresses, with
 /// the limits of transport.h, but for answers, where they may be of `mostSentBytes`. They outlive
 /// the server, and ask for tokens themselves (admit).
+/// `withReflection`: tools may ask, without a token, which calls there are.
 /// Errors: InvalidArgument (an address of another form), Unavailable (one that cannot be listened
 /// on, such as a port in use).
 absl::StatusOr<Listening> listen(const std::vector<std::string>& addresses,
                                  const std::vector<grpc::Service*>& services,
                                  const Security& security = {},
-                                 int mostSentBytes = kMaxMessageBytes);
+                                 int mostSentBytes = kMaxMessageBytes, bool withReflection = false);
 
 /// The same for one.
 absl::StatusOr<Listening> listen(const std::vector<std::string>& addresses, grpc::Service& service,
