@@ -66,10 +66,15 @@ function placesOn(camera, eyeX, wall) {
   return [places[0], places.at(-1)];
 }
 
-/** Clicks at a share of the canvas, and compares the card with the judge. */
+/** Clicks at a share of the picture, which covers the canvas, and compares the card with the judge. */
 async function pickAt(page, wall, eyeX, x, y) {
   const box = await page.locator("#view").boundingBox();
-  await page.mouse.click(box.x + x * box.width, box.y + (1 - y) * box.height);
+  const picture = await page.evaluate(() => ({ ...window.eyrie }));
+  const scale = Math.max(box.width / picture.width, box.height / picture.height);
+  await page.mouse.click(
+    box.x + box.width / 2 + (x - 0.5) * scale * picture.width,
+    box.y + box.height / 2 + (0.5 - y) * scale * picture.height,
+  );
   await page.locator("#pick", { hasText: "1234.6 m" }).waitFor(patience);
   const card = await page.locator("#pick").innerText();
   const numbers = /x, y, z\s+(\S+), (\S+), (\S+)/.exec(card);
