@@ -43,7 +43,8 @@ std::optional<truth::DrawnPoint> ShownTriangles::at(double x, double y, double d
     if (!found)
         return std::nullopt;
     const auto object = std::ranges::upper_bound(ends_, found->triangle);
-    return truth::DrawnPoint{found->point, static_cast<std::size_t>(object - ends_.begin())};
+    return truth::DrawnPoint{found->point, static_cast<std::size_t>(object - ends_.begin()),
+                             found->mayHaveDepth, found->isAtSide};
 }
 
 }  // namespace eyrie::cli::bench

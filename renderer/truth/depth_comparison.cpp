@@ -114,7 +114,7 @@ private:
         const auto width = static_cast<std::size_t>(camera_.width());
         const auto drawn = suspects_.shown(static_cast<double>(pixel % width) + 0.5,
                                            static_cast<double>(pixel / width) + 0.5, depth_[pixel]);
-        if (drawn)
+        if (drawn && drawn->mayHaveDepth)
             displacement_[pixel] =
                 surface_.displacementFrom(drawn->source, camera_, drawn->point).pixels;
     }
@@ -199,11 +199,24 @@ private:
         return surface_.endsWithin(camera_.rayThrough(x + 0.5, y + 0.5).at(depth), reach, isThere);
     }
 
-    /// Whether the drawn surface itself, nearest to a depth, is where the source is.
-    bool isShownRightly(int x, int y, double depth, const Surroundings& around) const {
-        const auto drawn =
-            suspects_.shown ? suspects_.shown(x + 0.5, y + 0.5, depth) : std::nullopt;
-        return drawn && faultOf(camera_.depth(drawn->point), around) == nullptr;
+    std::optional<DrawnPoint> shownAt(int x, int y, double depth) const {
+        return suspects_.shown ? suspects_.shown(x + 0.5, y + 0.5, depth) : std::nullopt;
+    }
+
+    bool isRight(const DrawnPoint& drawn, const Surroundings& around) const {
+        return faultOf(camera_.depth(drawn.point), around) == nullptr;
+    }
+
+    /// Whether what has the pixel's depth is itself where the source is.
+    bool isShownRightly(int x, int y, double tested, const Surroundings& around) const {
+        const auto drawn = shownAt(x, y, tested);
+        return drawn && drawn->mayHaveDepth && isRight(*drawn, around);
+    }
+
+    /// Whether a side of what is drawn where the source is leaves the pixel to what is behind.
+    bool isBesideASide(int x, int y, const Surroundings& around) const {
+        const auto drawn = shownAt(x, y, around.farthest);
+        return drawn && drawn->isAtSide && isRight(*drawn, around);
     }
 
     /// The same by rays through the whole area, for what is too thin for pixels' centres; until
@@ -233,10 +246,9 @@ private:
     bool isExplained(int x, int y, double tested, const Surroundings& around) {
         if (isShownRightly(x, y, tested, around))
             return true;
-        return tested < around.nearest
-                   ? isThin(x, y, tested, around)
-                   : isThroughSeams(x, y, tested) ||
-                         isShownRightly(x, y, around.farthest, around) || isBesideAnEnd(x, y);
+        return tested < around.nearest ? isThin(x, y, tested, around)
+                                       : isThroughSeams(x, y, tested) ||
+                                             isBesideASide(x, y, around) || isBesideAnEnd(x, y);
     }
 
     void finishDisplacements() {

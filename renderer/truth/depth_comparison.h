@@ -22,16 +22,19 @@ struct DepthComparison {
     /// Drawn at a depth that no reference pixel nearby has: something in front is missing, or
     /// something that should be hidden is in front (edges excepted).
     std::size_t misplaced = 0;
-    std::size_t suspects = 0;  ///< judged by the drawn point instead of by the depth
+    std::size_t suspects = 0;  ///< beyond what is promised by their depths
 };
 
 /// A point of the drawn surface.
 struct DrawnPoint {
     fabric::Vec3 point{0};
-    std::size_t source = 0;  ///< which of the reference's it was made of (ReferenceSurface)
+    std::size_t source = 0;     ///< which of the reference's it was made of (ReferenceSurface)
+    bool mayHaveDepth = false;  ///< drawing it rightly may give the depth that was asked for
+    bool isAtSide = false;      ///< at the very side of a triangle: what is behind may be seen
 };
 
-/// That which a picture point of some depth shows, where known. Any thread may ask.
+/// That which a picture point of some depth shows, where known: what may have the depth, or comes
+/// nearest to it. Any thread may ask.
 using ShownPoint = std::function<std::optional<DrawnPoint>(double x, double y, double depthMetres)>;
 
 struct Suspects {
@@ -84,10 +87,10 @@ inline constexpr double kDepthSlack = 4;
 /// `camera`. Uses all cores.
 ///
 /// A pixel displaced by more than `suspects.abovePixels`, or misplaced, is judged by the drawn
-/// point that `suspects.shown` names for it, if any, instead of by its depth, and held against that
-/// point's own source. What is seen behind
-/// all of the source is no mistake where what is drawn before it comes so near to the pixel's
-/// centre that `suspects.shown` names it.
+/// point that `suspects.shown` names for it instead of by its depth, and held against that point's
+/// own source, but only if that point may have the pixel's depth: what it shows is what was drawn
+/// there. What is seen behind all of the source, be it nothing, is no mistake where a side of what
+/// is drawn before it is at the pixel's centre.
 DepthComparison compareDepth(const Pinhole& camera, std::span<const float> depth,
                              const ReferenceSurface& reference, int edgePixels,
                              const Suspects& suspects = {});

@@ -6,7 +6,8 @@
 #include "fabric/camera.h"
 
 /// The independent reference: double precision, the textbook's formulas and the full-resolution
-/// source. Shares no code with what it judges. Tests and benchmarks only.
+/// source. Shares no code with what it judges, but for which triangles a picture is made of
+/// (drawn_terrain.h, drawn_mesh.h). Tests and benchmarks only.
 namespace eyrie::truth {
 
 /// A half-line in world space; a point on it is origin + t * direction, t >= 0.

@@ -17,7 +17,10 @@ namespace {
 using fabric::Vec2;
 using fabric::Vec3;
 
-constexpr int kTilePixels = 8;  ///< a tile's side
+constexpr int kTilePixels = 8;                ///< a tile's side
+constexpr double kSinglePrecision = 0x1p-24;  ///< a rounding to it, as a share
+/// Sixteen of them: of what depths are divided by and of the quotient.
+constexpr double kDepthRounding = 16 * kSinglePrecision;
 
 /// Weights of the point of a plane triangle that is nearest to `point`.
 Vec3 nearestWeights(const std::array<Vec2, 3>& corners, const Vec2& point) {
@@ -68,6 +71,88 @@ Before partBefore(const Triangle& triangle, const Pinhole& camera, double nearMe
     }
     return part;
 }
+
+double distanceToSide(const Vec2& from, const Vec2& to, const Vec2& point) {
+    const Vec2 side = to - from;
+    const double length = glm::dot(side, side);
+    const double t = length > 0 ? std::clamp(glm::dot(point - from, side) / length, 0.0, 1.0) : 0.0;
+    return glm::distance(point, from + t * side);
+}
+
+/// How far a picture point is from the nearest side of a triangle, in pixels.
+double distanceToSides(const Before& part, const Pinhole& camera, const Vec2& at) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < part.count; ++k) {
+        const auto from = camera.project(part.corners[k]);
+        const auto to = camera.project(part.corners[(k + 1) % part.count]);
+        if (from && to)
+            least = std::min(least, distanceToSide(*from, *to, at));
+    }
+    return least;
+}
+
+/// What a triangle's plane is, by where on the screen.
+class Plane {
+public:
+    Plane(const Triangle& triangle, const Pinhole& camera)
+        : camera_(camera),
+          normal_(glm::cross(triangle[1] - triangle[0], triangle[2] - triangle[0])),
+          corner_(triangle[0]),
+          inSinglePrecision_(errorInSinglePrecision(triangle, camera)) {}
+
+    double depthAt(double x, double y) const { return 1 / inverseDepthAt(x, y); }
+
+    /// Whether it has the depth, but for what single precision makes of it, somewhere within reach
+    /// of a picture point.
+    bool hasWithinReach(double x, double y, double depth) const {
+        constexpr double kReach = ShownSurface::kReachPixels;
+        double least = std::numeric_limits<double>::infinity();
+        double most = -least;
+        for (const double dy : {-kReach, kReach})
+            for (const double dx : {-kReach, kReach}) {
+                const double inverse = inverseDepthAt(x + dx, y + dy);
+                if (!std::isfinite(inverse))
+                    return true;  // it holds the eye
+                least = std::min(least, inverse);
+                most = std::max(most, inverse);
+            }
+        const double tested = 1 / depth;
+        const double rounding = kDepthRounding * tested + inSinglePrecision_;
+        return tested >= least - rounding && tested <= most + rounding;
+    }
+
+private:
+    /// How far off the inverse depth of a sliver is where its plane is made in single precision.
+    /// Of one that reaches behind the near plane nobody says which corners it is drawn by: none.
+    static double errorInSinglePrecision(const Triangle& triangle, const Pinhole& camera) {
+        constexpr double kRoundings = 88;
+        double greatest = 0;
+        std::array<Vec2, 3> corners;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double depth = camera.depth(triangle[k]);
+            if (depth < fabric::kNearMetres)
+                return 0;
+            greatest = std::max(greatest, 1 / depth);
+            corners[k] = *camera.project(triangle[k]);
+        }
+        const Vec2 b = corners[1] - corners[0];
+        const Vec2 c = corners[2] - corners[0];
+        const double longest =
+            std::max({glm::dot(b, b), glm::dot(c, c), glm::dot(c - b, c - b)});  // squared
+        return kRoundings * kSinglePrecision * greatest * longest / std::abs(b.x * c.y - b.y * c.x);
+    }
+
+    /// On the screen it is linear.
+    double inverseDepthAt(double x, double y) const {
+        const Ray ray = camera_.rayThrough(x, y);
+        return glm::dot(normal_, ray.direction) / glm::dot(normal_, corner_ - ray.origin);
+    }
+
+    const Pinhole& camera_;
+    const Vec3 normal_;
+    const Vec3 corner_;
+    const double inSinglePrecision_;
+};
 
 /// A point of what is drawn, and how far it is from a picture point on the screen, in pixels.
 struct Beside {
@@ -151,19 +236,20 @@ void ShownSurface::add(std::uint32_t triangle) {
 std::optional<ShownSurface::Point> ShownSurface::at(double x, double y, double depth) const {
     std::optional<Point> best;
     double least = std::numeric_limits<double>::infinity();
-    const Ray ray = camera_.rayThrough(x, y);
     for (const std::uint32_t index : tiles_[tileOf(x, y)]) {
-        const Triangle& triangle = triangles_[index];
-        const Beside shown =
-            nearestShown(partBefore(triangle, camera_, fabric::kNearMetres), camera_, {x, y});
+        const Before part = partBefore(triangles_[index], camera_, fabric::kNearMetres);
+        const Beside shown = nearestShown(part, camera_, {x, y});
         if (!(shown.pixels <= kReachPixels))
             continue;
-        const Vec3 normal = glm::cross(triangle[1] - triangle[0], triangle[2] - triangle[0]);
-        const double atCentre =
-            glm::dot(normal, triangle[0] - ray.origin) / glm::dot(normal, ray.direction);
-        if (!best || std::abs(atCentre - depth) < least) {
-            best = Point{shown.point, index};
-            least = std::abs(atCentre - depth);
+        const Plane plane(triangles_[index], camera_);
+        const bool mayHaveDepth = plane.hasWithinReach(x, y, depth);
+        const double off = std::abs(plane.depthAt(x, y) - depth);
+        const bool isBetter =
+            !best || (mayHaveDepth != best->mayHaveDepth ? mayHaveDepth : off < least);
+        if (isBetter) {
+            best = Point{shown.point, index, mayHaveDepth,
+                         distanceToSides(part, camera_, {x, y}) <= kReachPixels};
+            least = off;
         }
     }
     return best;

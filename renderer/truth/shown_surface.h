@@ -16,21 +16,27 @@ namespace eyrie::truth {
 ///
 /// At its very edge a triangle that is seen edge-on may cover a pixel whose centre it misses, by up
 /// to the 1/256 pixel to which its corners are rounded, and its plane has any depth there. What
-/// such a pixel shows is a point beside its centre.
+/// such a pixel shows is a point beside its centre. Which depths rasterisation may give a triangle
+/// is derived in docs/errors.md#rasterisation.
 class ShownSurface {
 public:
     ShownSurface(std::span<const Triangle> triangles, const Pinhole& camera);
 
-    /// How far beside a picture point a triangle may be that is shown there.
+    /// How far beside a picture point a triangle may be that is shown there: 1/256 pixel that its
+    /// corners are rounded by, and as much for single precision.
     static constexpr double kReachPixels = 1.0 / 128;
 
     struct Point {
         fabric::Vec3 point{0};
         std::size_t triangle = 0;  ///< of those given
+        bool mayHaveDepth =
+            false;              ///< rasterisation may give its triangle the depth asked for here
+        bool isAtSide = false;  ///< a side of its triangle is within reach
     };
 
-    /// The point that picture point (x, y) shows: of what lies within reach, of the triangle whose
-    /// plane is nearest to `depth` there, the point next to it. Nothing where there is none.
+    /// The point that picture point (x, y) shows: of what lies within reach, of the triangle that
+    /// may have `depth` there, and of several or none such the one whose plane is nearest to it,
+    /// the point next to it. Nothing where nothing is within reach.
     std::optional<Point> at(double x, double y, double depth) const;
 
 private:

@@ -12,6 +12,7 @@
 
 #include "renderer/truth/mesh_ray_caster.h"
 #include "renderer/truth/placed_surfaces.h"
+#include "renderer/truth/shown_surface.h"
 #include "renderer/truth/terrain_ray_caster.h"
 
 namespace eyrie::truth {
@@ -179,15 +180,88 @@ TEST(CompareDepth, JudgesMisplacedPixelsByTheDrawnPointWhereOneIsKnown) {
     const std::size_t pixel = 30U * kWidth + 80U;
     const double right = depth[pixel];
     depth[pixel] = static_cast<float>(0.5 * right);  // a plane's depth beside its triangle
-    const auto misplacedWhereIs = [&](double shownDepth) {
-        const Suspects suspects{.shown = [&](double x, double y, double) {
-            return std::optional(DrawnPoint{camera.rayThrough(x, y).at(shownDepth)});
+    const auto misplacedWhereIs = [&](double shownDepth, bool mayHaveDepth = true) {
+        const Suspects suspects{.shown = [=, &camera](double x, double y, double) {
+            return std::optional(
+                DrawnPoint{camera.rayThrough(x, y).at(shownDepth), 0, mayHaveDepth});
         }};
         return compareDepth(camera, depth, reference, 1, suspects).misplaced;
     };
     EXPECT_EQ(compareDepth(camera, depth, reference, 1).misplaced, 1U);
     EXPECT_EQ(misplacedWhereIs(right), 0U);
     EXPECT_EQ(misplacedWhereIs(0.6 * right), 1U) << "what is drawn is there";
+    EXPECT_EQ(misplacedWhereIs(right, false), 1U) << "it is not what has the depth";
+}
+
+/// The ridge's own triangles, as a drawing of it has them.
+class DrawnRidge : public testing::Test {
+protected:
+    DrawnRidge() {
+        const HeightGrid& grid = reference_.grid();
+        const auto corner = [&](int i, int j) {
+            return fabric::Vec3(10 * i, 1000 - 10 * j,
+                                grid.heights[static_cast<std::size_t>(j * grid.columns + i)]);
+        };
+        for (int j = 0; j + 1 < grid.rows; ++j)
+            for (int i = 0; i + 1 < grid.columns; ++i) {
+                triangles_.push_back({corner(i, j), corner(i + 1, j), corner(i + 1, j + 1)});
+                triangles_.push_back({corner(i, j), corner(i + 1, j + 1), corner(i, j + 1)});
+            }
+        surface_.emplace(triangles_, camera_);
+    }
+
+    DepthComparison judged(const std::vector<float>& depth, double promised) const {
+        const Suspects suspects{
+            promised, [this](double x, double y, double metres) {
+                const auto found = surface_->at(x, y, metres);
+                return found ? std::optional(DrawnPoint{found->point, 0, found->mayHaveDepth,
+                                                        found->isAtSide})
+                             : std::nullopt;
+            }};
+        return compareDepth(castView(camera_, reference_), depth, static_cast<int>(promised) + 1,
+                            suspects, LookAround::Farthest);
+    }
+
+    const TerrainRayCaster reference_ = ridge(0);
+    const Pinhole camera_ = southernView();
+    std::vector<Triangle> triangles_;
+    std::optional<ShownSurface> surface_;
+};
+
+TEST_F(DrawnRidge, KeepsWhatItPromises) {
+    const DepthComparison found = judged(depthOf(reference_, camera_), 0.1);
+    EXPECT_LT(found.maxPixels, 0.1);
+    EXPECT_EQ(found.holes + found.falseHits + found.misplaced, 0U);
+}
+
+/// That its triangles are where the source is does not excuse what was made of them.
+TEST_F(DrawnRidge, IsNotLetOffDepthsThatItsTrianglesCannotHave) {
+    const std::vector<float> right = depthOf(reference_, camera_);
+    for (const float scale : {0.98F, 1.005F, 1.02F}) {
+        std::vector<float> depth = right;
+        for (float& metres : depth) metres *= scale;
+        const double byDepths = compareDepth(camera_, depth, reference_, 8).maxPixels;
+        const DepthComparison found = judged(depth, 0.1);
+        ASSERT_GT(byDepths, 0.3) << scale;
+        EXPECT_NEAR(found.maxPixels, byDepths, 0.05) << scale;
+        EXPECT_GT(found.suspects, found.compared / 2) << scale;
+    }
+}
+
+TEST_F(DrawnRidge, IsNotLetOffWhatWasNotDrawnOfIt) {
+    std::vector<float> depth = depthOf(reference_, camera_);
+    for (std::size_t y = 30; y < 60; ++y)
+        for (std::size_t x = 60; x < 100; ++x)
+            depth[y * kWidth + x] = std::numeric_limits<float>::infinity();
+    EXPECT_GT(judged(depth, 0.1).holes, 1000U);
+}
+
+TEST_F(DrawnRidge, IsNotLetOffWhatItHides) {
+    const std::vector<float> right = depthOf(reference_, camera_);
+    std::vector<float> depth = right;
+    for (std::size_t y = 30; y < 60; ++y)
+        for (std::size_t x = 60; x < 100; ++x) depth[y * kWidth + x] = 5000;
+    EXPECT_GT(judged(depth, 0.1).misplaced, 1000U);
 }
 
 /// Over a terrain's nodata there is nothing to hold its triangles against, but their outline.
@@ -205,7 +279,7 @@ TEST(CompareDepth, HoldsADrawnPointAgainstItsOwnSource) {
         static_cast<float>(camera.depth(overhang));
     const auto maxFrom = [&](std::size_t source) {
         const Suspects suspects{.abovePixels = 1, .shown = [&](double, double, double) {
-                                    return std::optional(DrawnPoint{overhang, source});
+                                    return std::optional(DrawnPoint{overhang, source, true});
                                 }};
         return compareDepth(camera, depth, reference, 1, suspects).maxPixels;
     };
@@ -219,16 +293,18 @@ TEST(CompareDepth, LooksThroughSlitsBesideWhatIsDrawnOnly) {
     auto depth = depthOf(reference, camera);
     const std::size_t pixel = 30U * kWidth + 80U;
     const double right = depth[pixel];
-    const auto misplacedAt = [&](double seen, double drawn) {
+    const auto misplacedAt = [&](double seen, double drawn, bool isAtSide = true) {
         depth[pixel] = static_cast<float>(seen);
         // Of what is drawn here, it names what is nearest to the depth it is asked for.
         const Suspects suspects{.shown = [&](double x, double y, double asked) {
             const double nearest = std::abs(asked - seen) < std::abs(asked - drawn) ? seen : drawn;
-            return std::optional(DrawnPoint{camera.rayThrough(x, y).at(nearest)});
+            return std::optional(
+                DrawnPoint{camera.rayThrough(x, y).at(nearest), 0, nearest == asked, isAtSide});
         }};
         return compareDepth(camera, depth, reference, 1, suspects).misplaced;
     };
     EXPECT_EQ(misplacedAt(2 * right, right), 0U);
+    EXPECT_EQ(misplacedAt(2 * right, right, false), 1U) << "it covers the pixel";
     EXPECT_EQ(misplacedAt(2 * right, 0.5 * right), 1U) << "there is nothing beside it";
     EXPECT_EQ(misplacedAt(0.5 * right, right), 1U) << "it hides what is there";
 }

@@ -43,6 +43,86 @@ TEST(ShownSurface, ShowsWhatIsBesideAPixelAndEdgeOn) {
     EXPECT_FALSE(shown.at(kWidth / 2.0 + 0.1, kHeight / 2.0, 20));
 }
 
+TEST(ShownSurface, KnowsWhichDepthsATriangleMayHave) {
+    // Facing the eye, and a slope of a metre a metre, 20 m away.
+    for (const double slope : {0.0, 1.0}) {
+        const std::vector<Triangle> plate{
+            {Vec3(-9, 20 - 9 * slope, -9), Vec3(9, 20 + 9 * slope, -9), Vec3(0, 20, 9)}};
+        const Pinhole camera = northward();
+        const ShownSurface shown(plate, camera);
+        const double x = kWidth / 2.0, y = kHeight / 2.0;
+        const auto mayHave = [&](double depth) { return shown.at(x, y, depth)->mayHaveDepth; };
+        const double withinReach = slope * 20 * ShownSurface::kReachPixels / 64;
+        const double rounding = 20 * 2e-5;
+        EXPECT_TRUE(mayHave(20));
+        EXPECT_TRUE(mayHave(20 + 0.9 * withinReach) && mayHave(20 - 0.9 * withinReach));
+        EXPECT_FALSE(mayHave(20 + 1.1 * withinReach + rounding)) << slope;
+        EXPECT_FALSE(mayHave(20 - 1.1 * withinReach - rounding)) << slope;
+        EXPECT_FALSE(mayHave(kNoHit));
+    }
+}
+
+/// Facing the eye, 20 m away: 1 pixel thick and so many long.
+TEST(ShownSurface, AllowsForWhatSinglePrecisionMakesOfASliver) {
+    const Pinhole camera = northward();
+    const auto mayHave = [&](double lengthPixels, double depth) {
+        const double size = 20 / 64.0;
+        const std::vector<Triangle> sliver{{Vec3(-size * lengthPixels / 2, 20, -size / 2),
+                                            Vec3(size * lengthPixels / 2, 20, -size / 2),
+                                            Vec3(0, 20, size / 2)}};
+        const ShownSurface shown(sliver, camera);
+        return shown.at(kWidth / 2.0, kHeight / 2.0, depth)->mayHaveDepth;
+    };
+    for (const double length : {10.0, 100.0, 1000.0}) {
+        const double share = 88 * 0x1p-24 * length;
+        EXPECT_TRUE(mayHave(length, 20 * (1 + 0.9 * share))) << length;
+        EXPECT_TRUE(mayHave(length, 20 * (1 - 0.9 * share))) << length;
+        EXPECT_FALSE(mayHave(length, 20 * (1 + 1.1 * share))) << length;
+        EXPECT_FALSE(mayHave(length, 20 * (1 - 1.1 * share))) << length;
+    }
+}
+
+TEST(ShownSurface, GivesATriangleSeenEdgeOnAnyDepth) {
+    const std::vector<Triangle> wall{{Vec3(0, 10, -2), Vec3(0, 30, -2), Vec3(0, 20, 9)}};
+    const Pinhole camera = northward();
+    const ShownSurface shown(wall, camera);
+    for (const double depth : {1.0, 20.0, 1000.0}) {
+        const auto found = shown.at(kWidth / 2.0, kHeight / 2.0, depth);
+        ASSERT_TRUE(found);
+        EXPECT_TRUE(found->mayHaveDepth) << depth;
+    }
+}
+
+TEST(ShownSurface, NamesWhatMayHaveTheDepthBeforeWhatIsNearerToIt) {
+    // A plate 20 m away and, right before the picture's middle, a wall seen along its plane, whose
+    // depth there is 10 m.
+    const double aside = ShownSurface::kReachPixels / 2 / 64;
+    const std::vector<Triangle> both{
+        {Vec3(-9, 20, -9), Vec3(9, 20, -9), Vec3(0, 20, 9)},
+        {Vec3(10 * aside, 10, -2), Vec3(12 * aside, 12, -2), Vec3(11 * aside, 11, 9)}};
+    const Pinhole camera = northward();
+    const ShownSurface shown(both, camera);
+    const auto nameOf = [&](double depth) {
+        return shown.at(kWidth / 2.0, kHeight / 2.0, depth)->triangle;
+    };
+    EXPECT_EQ(nameOf(20), 0U);
+    EXPECT_EQ(nameOf(19), 1U);
+}
+
+TEST(ShownSurface, KnowsWhatHasASideAtThePoint) {
+    const std::vector<Triangle> plate{{Vec3(-9, 20, -9), Vec3(9, 20, -9), Vec3(0, 20, 9)}};
+    const Pinhole camera = northward();
+    const ShownSurface shown(plate, camera);
+    const double bottom = kHeight / 2.0 - 64 * 9 / 20.0;
+    const auto isAtSide = [&](double above) {
+        return shown.at(kWidth / 2.0, bottom + above, 20)->isAtSide;
+    };
+    EXPECT_TRUE(isAtSide(-0.9 * ShownSurface::kReachPixels));
+    EXPECT_TRUE(isAtSide(0.9 * ShownSurface::kReachPixels));
+    EXPECT_FALSE(isAtSide(1.1 * ShownSurface::kReachPixels));
+    EXPECT_FALSE(isAtSide(5));
+}
+
 TEST(ShownSurface, ShowsWhatReachesBehindTheEye) {
     const std::vector<Triangle> roof{{Vec3(-100, 200, 5), Vec3(100, 200, 5), Vec3(0, -500, 5)},
                                      {Vec3(-100, -2, 5), Vec3(100, -2, 5), Vec3(0, -500, 5)}};
