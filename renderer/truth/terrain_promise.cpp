@@ -7,15 +7,11 @@
 #include <vector>
 
 #include "fabric/frustum.h"
-#include "fabric/image.h"
 #include "fabric/status.h"
 #include "renderer/truth/drawn_terrain.h"
 #include "renderer/truth/shown_surface.h"
 
 namespace eyrie::truth {
-namespace {
-
-/// Depth of the whole picture in metres, infinity for nothing, from the covered part of it.
 std::vector<float> depthMetres(const fabric::Image& image, const fabric::PixelViewport& picture) {
     fabric::Image whole = fabric::makeImage(picture, {}, true);
     if (!image.area.isEmpty())
@@ -26,8 +22,6 @@ std::vector<float> depthMetres(const fabric::Image& image, const fabric::PixelVi
             static_cast<float>(fabric::viewDepthMetres(reversed, fabric::kNearMetres)));
     return metres;
 }
-
-}  // namespace
 
 double TerrainPromise::rasterPixels(const fabric::Vec2& step) {
     return std::max(step.x, step.y) / 256;

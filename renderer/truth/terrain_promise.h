@@ -3,11 +3,13 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include <absl/status/statusor.h>
 
 #include "fabric/camera.h"
 #include "fabric/channel_task.h"
+#include "fabric/image.h"
 #include "fabric/statistics.h"
 #include "renderer/renderer.h"
 #include "renderer/terrain/eyt_format.h"
@@ -16,6 +18,9 @@
 #include "renderer/truth/terrain_ray_caster.h"
 
 namespace eyrie::truth {
+
+/// Depth of the whole picture in metres, infinity for nothing, from the covered part of it.
+std::vector<float> depthMetres(const fabric::Image& image, const fabric::PixelViewport& picture);
 
 /// One picture: what the frame said of its error, and what there is.
 struct PromiseKept {

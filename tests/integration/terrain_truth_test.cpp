@@ -44,10 +44,9 @@ protected:
         const std::string terrain = folder_.path("terrain.eyt");
         const auto report = import::importTerrain({dem}, terrain, {}, {});
         ASSERT_TRUE(report.ok()) << report.status();
-        fabric::Scene scene;
-        scene.objects.push_back(
-            {.name = "terrain", .kind = fabric::ObjectKind::Terrain, .path = terrain});
-        auto info = renderer_->openScene(scene);
+        scene_.objects = {
+            {.name = "terrain", .kind = fabric::ObjectKind::Terrain, .path = terrain}};
+        auto info = renderer_->openScene(scene_);
         ASSERT_TRUE(info.ok()) << info.status();
         bounds_ = info->bounds;
         auto file = terrain::EytFile::open(terrain);
@@ -87,6 +86,18 @@ protected:
         EXPECT_EQ(finest->promisedPixels, promised) << name << ": more than was asked for";
     }
 
+    /// Of a picture that does not wait for its data.
+    static fabric::ChannelTask interactive(int width, int height) {
+        fabric::ChannelTask task;
+        task.frameDataVersion = 1;
+        task.viewWidth = width;
+        task.viewHeight = height;
+        task.pixelViewport = {0, 0, width, height};
+        task.wantsDepth = true;
+        task.completeness = fabric::Completeness::Interactive;
+        return task;
+    }
+
     void checkTwentyCameras() {
         TerrainCameras cameras(*ground_, bounds_, kSeed);
         for (int i = 0; i < 20; ++i) {
@@ -101,6 +112,7 @@ protected:
     }
 
     test::TemporaryFolder folder_;
+    fabric::Scene scene_;
     std::unique_ptr<Renderer> renderer_;
     std::unique_ptr<truth::TerrainRayCaster> ground_;
     std::unique_ptr<TerrainPromise> promise_;
@@ -120,6 +132,45 @@ TEST_F(TerrainTruth, HoldsInTheSanGabrielMountains) {
     const std::string dem = EYRIE_SOURCE_DIR "/../shared/data/terrain/bigtujunga.tif.gz";
     ASSERT_NO_FATAL_FAILURE(open(dem, "/vsigzip/" + dem));
     checkTwentyCameras();
+}
+
+/// Frames that do not wait, as those are that hold a frame time, from the first one on: each is
+/// held against what it itself promises, in pictures of two sizes.
+TEST_F(TerrainTruth, HoldsOfWhatStandsInForPagesThatAreNotThereYet) {
+    const std::string dem = folder_.path("synthetic.tif");
+    ASSERT_TRUE(import::writeGeoTiff(import::synthesizeTerrain(513, 9), dem).ok());
+    ASSERT_NO_FATAL_FAILURE(open(dem, dem));
+    TerrainCameras cameras(*ground_, bounds_, kSeed);
+    int standIns = 0;
+    for (int kind = 0; kind < TerrainCameras::kKinds; ++kind) {
+        const Camera camera = cameras.make(static_cast<TerrainCameras::Kind>(kind));
+        const int width = kind % 2 == 0 ? 320 : 480;
+        const auto fresh = test::makeRenderer();
+        ASSERT_TRUE(fresh->openScene(scene_).ok());
+        const truth::ReferenceView view =
+            truth::castView(truth::Pinhole(camera, width, width * 9 / 16), *ground_);
+        bool isComplete = false;
+        for (int i = 0; i < 200 && !isComplete; ++i) {
+            const auto drawn = fresh->render({.version = 1, .camera = camera, .tauPixels = 0.5},
+                                             interactive(width, width * 9 / 16));
+            ASSERT_TRUE(drawn.ok()) << drawn.status();
+            isComplete = drawn->statistics.complete;
+            const double promised = drawn->statistics.tauAchievedPixels;
+            if (i % 10 != 0 && !isComplete)
+                continue;
+            standIns += !isComplete && std::isfinite(promised) ? 1 : 0;
+            const int edge =
+                static_cast<int>(std::min(std::ceil(promised) + 1, static_cast<double>(width)));
+            const auto found = truth::compareDepth(
+                view, truth::depthMetres(drawn->image, {0, 0, width, width * 9 / 16}), edge, {},
+                truth::LookAround::All);
+            const std::string name = fmt::format("camera {}, frame {}", kind, i);
+            EXPECT_LE(found.maxPixels, promised + TerrainPromise::kRasterPixels) << name;
+            EXPECT_EQ(found.holes + found.falseHits + found.misplaced, 0U) << name;
+        }
+        EXPECT_TRUE(isComplete) << "the pages should have come";
+    }
+    EXPECT_GT(standIns, 0);
 }
 
 /// Walls a thousand times as high as wide, seen along their planes and from between them, and gaps
