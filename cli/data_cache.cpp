@@ -88,6 +88,14 @@ void removeLeftovers(const fs::path& folder) {
     }
 }
 
+/// Here nothing says how much memory an import may take.
+absl::Status withRemedy(const absl::Status& status) {
+    if (!absl::IsResourceExhausted(status))
+        return status;
+    return absl::ResourceExhaustedError(fmt::format(
+        "{} (`eyrie import mesh --memory` sets how much)", std::string(status.message())));
+}
+
 bool opens(const std::string& path, fabric::ObjectKind kind) {
     return kind == fabric::ObjectKind::Mesh ? mesh::EymFile::open(path).ok()
                                             : terrain::EytFile::open(path).ok();
@@ -108,11 +116,12 @@ DataFile dataFileOf(const std::string& path) {
 }
 
 DataCache::DataCache(fs::path folder, ProgressBar::Style progress, std::stop_token stop,
-                     page::SourceOptions sources)
+                     page::SourceOptions sources, std::uint64_t meshMemoryBytes)
     : folder_(std::move(folder)),
       progress_(progress),
       stop_(std::move(stop)),
-      sources_(std::move(sources)) {}
+      sources_(std::move(sources)),
+      meshMemoryBytes_(meshMemoryBytes) {}
 
 absl::StatusOr<std::string> DataCache::dataFor(const std::string& path, fabric::ObjectKind kind,
                                                const std::vector<std::string>& imagery) {
@@ -182,7 +191,9 @@ absl::Status DataCache::import(const std::string& source, const std::string& tar
     ProgressBar bar(fs::path(source).filename().string(), megabytes, "MB", progress_);
     const import::ImportControl control{bar.callback(), stop_};
     if (kind == fabric::ObjectKind::Mesh)
-        return import::importMesh({source}, target, {}, control).status();
+        return withRemedy(
+            import::importMesh({source}, target, {.memoryBytes = meshMemoryBytes_}, control)
+                .status());
     return import::importTerrain({source}, target, {.imagery = imagery}, control).status();
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <stop_token>
 #include <string>
@@ -8,6 +9,7 @@
 
 #include <absl/status/statusor.h>
 
+#include "cli/import_memory.h"
 #include "cli/progress_bar.h"
 #include "fabric/scene.h"
 #include "renderer/page/page_source.h"
@@ -28,9 +30,11 @@ DataFile dataFileOf(const std::string& path);
 /// a file is imported again only when its bytes, or the importer, have changed.
 class DataCache {
 public:
-    /// Creates `folder` when the first import needs it.
+    /// Creates `folder` when the first import needs it. `meshMemoryBytes`: what the import of a
+    /// mesh may take, about.
     DataCache(std::filesystem::path folder, ProgressBar::Style progress, std::stop_token stop,
-              page::SourceOptions sources = {});
+              page::SourceOptions sources = {},
+              std::uint64_t meshMemoryBytes = defaultMeshMemory());
 
     /// The .eyt or .eym to draw for `path`: itself, or the import of a source file. Data at a URL
     /// are opened once, to see whether they can be, and a mesh is copied, so that renderers of this
@@ -54,6 +58,7 @@ private:
     const ProgressBar::Style progress_;
     const std::stop_token stop_;
     const page::SourceOptions sources_;
+    const std::uint64_t meshMemoryBytes_;
 };
 
 }  // namespace eyrie::cli

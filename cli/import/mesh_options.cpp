@@ -1,36 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/import/mesh_options.h"
 
-#include <algorithm>
 #include <charconv>
 #include <cstdint>
-#include <fstream>
 #include <string_view>
 #include <system_error>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
+#include "cli/import_memory.h"
 #include "cli/values.h"
 #include "fabric/status.h"
 
 namespace eyrie::cli {
 namespace {
 
-/// Half of what this machine has, or of what its control group may use.
-std::uint64_t halfOfMemory() {
-    std::uint64_t bytes = static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
-                          static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
-    for (const char* const file :
-         {"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"})
-        if (std::uint64_t limit = 0; std::ifstream(file) >> limit)  // no number: no limit
-            bytes = std::min(bytes, limit);
-    return std::max(bytes / 2, import::kLeastMeshMemory);
-}
-
 absl::StatusOr<std::uint64_t> memoryOf(const MeshImportChoices& choices) {
     if (choices.memory.empty())
-        return halfOfMemory();
+        return defaultMeshMemory();
     ASSIGN_OR_RETURN(const std::uint64_t bytes, parseBytes(choices.memory, "--memory"));
     if (bytes < import::kLeastMeshMemory)
         return absl::InvalidArgumentError(

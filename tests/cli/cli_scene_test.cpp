@@ -14,6 +14,7 @@
 #include "cli/placement.h"
 #include "cli/scene_files.h"
 #include "renderer/import/geotiff_writer.h"
+#include "renderer/import/mesh_import.h"
 #include "renderer/import/mesh_synth.h"
 #include "renderer/import/ply_writer.h"
 #include "renderer/mesh/eym_format.h"
@@ -130,6 +131,18 @@ TEST_F(SceneFiles, ASourceThatCannotBeImportedLeavesNothingInTheCache) {
     const std::string wrong = folder_.write("wrong.ply", "ply\nnonsense\n");
     EXPECT_TRUE(absl::IsInvalidArgument(cache_.dataFor(wrong, fabric::ObjectKind::Mesh).status()));
     EXPECT_EQ(importsKept(), 0U);
+}
+
+TEST_F(SceneFiles, AMeshIsImportedWithinTheMemoryThatItMayTake) {
+    const std::string ball = writeBall(folder_);
+    const std::string large = folder_.write("large.obj", "v 0 0 0\n");
+    fs::resize_file(large, import::kLeastMeshMemory + 1);
+    DataCache cache(folder_.path("imports"), ProgressBar::Style::Quiet, {}, {},
+                    import::kLeastMeshMemory);
+    EXPECT_TRUE(cache.dataFor(ball, fabric::ObjectKind::Mesh).ok());
+    const absl::Status refused = cache.dataFor(large, fabric::ObjectKind::Mesh).status();
+    EXPECT_TRUE(absl::IsResourceExhausted(refused)) << refused;
+    EXPECT_THAT(refused.ToString(), testing::HasSubstr("eyrie import mesh --memory"));
 }
 
 TEST_F(SceneFiles, PathsStartAtTheSceneFilesFolder) {
