@@ -3,8 +3,8 @@
 
 #include <cstdio>
 #include <memory>
+#include <span>
 #include <string>
-#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -13,12 +13,11 @@
 #include "cli/commands.h"
 #include "cli/compound_names.h"
 #include "cli/config_options.h"
-#include "cli/data_cache.h"
 #include "cli/door_options.h"
+#include "cli/load_scene.h"
 #include "cli/log.h"
 #include "cli/program_runs.h"
 #include "cli/quota_options.h"
-#include "cli/scene_files.h"
 #include "cli/stop_signal.h"
 #include "cli/video_option.h"
 #include "cli/web_door.h"
@@ -44,15 +43,6 @@ struct Options {
     bool quiet = false;
 };
 
-absl::StatusOr<fabric::Scene> loadScene(const Options& options, const std::stop_token& stop) {
-    ASSIGN_OR_RETURN(const auto folder, cacheFolder(options.cache.folder));
-    ASSIGN_OR_RETURN(const RemoteData remote, remoteDataOf(options.cache));
-    DataCache cache(folder, ProgressBar::styleFor(options.quiet), stop,
-                    page::sourceOptions(remote.cacheFolder, remote.cacheBytes));
-    std::vector<std::string> notes;
-    return assembleScene(std::vector<std::string>{options.scene}, cache, notes);
-}
-
 absl::Status coordinate(const Options& options) {
     const StopSignal stop;
     if (options.quiet)
@@ -70,7 +60,8 @@ absl::Status coordinate(const Options& options) {
     ASSIGN_OR_RETURN(settings.programs, programsOf(options.programs));
     ASSIGN_OR_RETURN(settings.quotas, quotasOf(options.quotas));
     settings.grpcReflection = options.grpcReflection;
-    ASSIGN_OR_RETURN(settings.scene, loadScene(options, stop.token()));
+    ASSIGN_OR_RETURN(settings.scene, loadScene(std::span(&options.scene, 1), options.cache,
+                                               options.quiet, stop.token()));
     auto coordinator = coordinator::Coordinator::start(settings);
     if (absl::IsUnavailable(coordinator.status()))  // a port in use: the caller can choose another
         return fabric::withContext(absl::InvalidArgumentError(coordinator.status().message()),

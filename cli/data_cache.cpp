@@ -14,6 +14,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/import_notes.h"
 #include "cli/source_record.h"
 #include "fabric/status.h"
 #include "renderer/import/mesh_import.h"
@@ -186,15 +187,29 @@ absl::StatusOr<std::string> DataCache::imported(const std::string& source, fabri
 
 absl::Status DataCache::import(const std::string& source, const std::string& target,
                                fabric::ObjectKind kind, const std::vector<std::string>& imagery) {
+    ASSIGN_OR_RETURN(const std::vector<std::string> notes,
+                     importNoting(source, target, kind, imagery));
+    for (const std::string& note : notes) notes_.push_back(fmt::format("{}: {}", source, note));
+    return absl::OkStatus();
+}
+
+absl::StatusOr<std::vector<std::string>> DataCache::importNoting(
+    const std::string& source, const std::string& target, fabric::ObjectKind kind,
+    const std::vector<std::string>& imagery) const {
     std::error_code ignored;
     const auto megabytes = static_cast<double>(fs::file_size(source, ignored)) / 1e6;
     ProgressBar bar(fs::path(source).filename().string(), megabytes, "MB", progress_);
     const import::ImportControl control{bar.callback(), stop_};
-    if (kind == fabric::ObjectKind::Mesh)
-        return withRemedy(
-            import::importMesh({source}, target, {.memoryBytes = meshMemoryBytes_}, control)
-                .status());
-    return import::importTerrain({source}, target, {.imagery = imagery}, control).status();
+    if (kind == fabric::ObjectKind::Terrain) {
+        ASSIGN_OR_RETURN(import::TerrainImportReport made,
+                         import::importTerrain({source}, target, {.imagery = imagery}, control));
+        return std::move(made.notes);
+    }
+    const auto made =
+        import::importMesh({source}, target, {.memoryBytes = meshMemoryBytes_}, control);
+    if (!made.ok())
+        return withRemedy(made.status());
+    return notesOf(*made);
 }
 
 }  // namespace eyrie::cli

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <stop_token>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <absl/status/statusor.h>
@@ -44,6 +45,11 @@ public:
     absl::StatusOr<std::string> dataFor(const std::string& path, fabric::ObjectKind kind,
                                         const std::vector<std::string>& imagery = {});
 
+    /// What was said of sources that were imported since the last call: what is odd in them, what
+    /// was assumed, what was left out. Lines for people, each with the name of its source. Imports
+    /// that were there already say nothing.
+    std::vector<std::string> takeNotes() { return std::exchange(notes_, {}); }
+
     /// How data at URLs are read.
     const page::SourceOptions& sources() const { return sources_; }
 
@@ -53,12 +59,16 @@ private:
                                          const std::vector<std::string>& imagery);
     absl::Status import(const std::string& source, const std::string& target,
                         fabric::ObjectKind kind, const std::vector<std::string>& imagery);
+    absl::StatusOr<std::vector<std::string>> importNoting(
+        const std::string& source, const std::string& target, fabric::ObjectKind kind,
+        const std::vector<std::string>& imagery) const;
 
     const std::filesystem::path folder_;
     const ProgressBar::Style progress_;
     const std::stop_token stop_;
     const page::SourceOptions sources_;
     const std::uint64_t meshMemoryBytes_;
+    std::vector<std::string> notes_;
 };
 
 }  // namespace eyrie::cli

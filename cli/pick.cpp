@@ -11,6 +11,7 @@
 #include "cli/commands.h"
 #include "cli/config_options.h"
 #include "cli/json_object.h"
+#include "cli/load_scene.h"
 #include "cli/picture_source.h"
 #include "cli/scene_files.h"
 #include "cli/stop_signal.h"
@@ -107,7 +108,8 @@ absl::Status pick(const Options& options) {
     ASSIGN_OR_RETURN(const fabric::SeenAreas areas, areasOf(options, request));
     ASSIGN_OR_RETURN(const std::optional<fabric::PickRequest> seen, fabric::pickIn(areas, request));
     ASSIGN_OR_RETURN(const fabric::Scene scene,
-                     loadScene(options.scene, options.source, stop.token()));
+                     loadScene(std::span(&options.scene, 1), options.source.cache,
+                               options.source.quiet, stop.token()));
     ASSIGN_OR_RETURN(const RemoteData remote, remoteDataOf(options.source.cache));
     ASSIGN_OR_RETURN(
         const auto picker,

@@ -4,13 +4,11 @@
 #include <algorithm>
 #include <chrono>
 #include <optional>
+#include <span>
 #include <utility>
-#include <vector>
 
-#include "cli/data_cache.h"
+#include "cli/load_scene.h"
 #include "cli/local_farm.h"
-#include "cli/progress_bar.h"
-#include "cli/scene_files.h"
 #include "coordinator/frame/budget_keeper.h"
 #include "fabric/log.h"
 #include "fabric/status.h"
@@ -133,17 +131,6 @@ absl::StatusOr<std::unique_ptr<PictureSource>> openInProcesses(
 
 }  // namespace
 
-absl::StatusOr<fabric::Scene> loadScene(const std::string& path,
-                                        const PictureSourceOptions& options,
-                                        const std::stop_token& stop) {
-    ASSIGN_OR_RETURN(const auto folder, cacheFolder(options.cache.folder));
-    ASSIGN_OR_RETURN(const RemoteData remote, remoteDataOf(options.cache));
-    DataCache cache(folder, ProgressBar::styleFor(options.quiet), stop,
-                    page::sourceOptions(remote.cacheFolder, remote.cacheBytes));
-    std::vector<std::string> notes;
-    return assembleScene(std::vector<std::string>{path}, cache, notes);
-}
-
 absl::StatusOr<RenderedFrame> PictureSource::drawLatest(const ChooseFrame& choose) {
     const std::optional<FrameRequest> request = choose();
     if (!request)
@@ -155,7 +142,8 @@ absl::StatusOr<std::unique_ptr<PictureSource>> PictureSource::open(
     const std::string& path, const PictureSourceOptions& options, const std::stop_token& stop) {
     spdlog::set_level(options.quiet ? spdlog::level::err : spdlog::level::warn);
     ASSIGN_OR_RETURN(auto configuration, configurationOf(options.config, options.quiet));
-    ASSIGN_OR_RETURN(fabric::Scene scene, loadScene(path, options, stop));
+    ASSIGN_OR_RETURN(fabric::Scene scene,
+                     loadScene(std::span(&path, 1), options.cache, options.quiet, stop));
     // An eye beside the camera, or a canvas, is what only a configuration has.
     const bool isPlain = options.config.shown == coordinator::Shown{};
     if (options.renderers == 0 && !configuration && isPlain)

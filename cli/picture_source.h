@@ -20,14 +20,8 @@ struct PictureSourceOptions {
     ConfigOptions config;
     CacheOptions cache;
     TileDecoding decoding = TileDecoding::Auto;
-    bool quiet = false;  ///< only errors; otherwise progress of imports and warnings, too
+    bool quiet = false;  ///< only errors; otherwise progress and notes of imports, and warnings
 };
-
-/// The scene that `path` names, as for assembleScene; sources are imported first. Errors: those of
-/// assembleScene; Cancelled.
-absl::StatusOr<fabric::Scene> loadScene(const std::string& path,
-                                        const PictureSourceOptions& options,
-                                        const std::stop_token& stop);
 
 /// Draws pictures of one scene, for commands that need no viewer. Belongs to the thread that opened
 /// it, but where it can be asked for several pictures at once.

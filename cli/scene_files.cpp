@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -140,6 +141,7 @@ absl::StatusOr<fabric::Scene> assembleScene(std::span<const std::string> paths, 
         object.path = page::isRemote(data) ? data : fs::absolute(data).string();
         object.imagery.clear();
     }
+    for (std::string& note : cache.takeNotes()) notes.push_back(std::move(note));
     RETURN_IF_ERROR(placeMeshes(*scene, firstLoose, cache.sources(), notes));
     RETURN_IF_ERROR(fabric::validate(*scene));
     return *std::move(scene);

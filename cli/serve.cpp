@@ -14,15 +14,14 @@
 #include "cli/cache_options.h"
 #include "cli/commands.h"
 #include "cli/config_options.h"
-#include "cli/data_cache.h"
 #include "cli/decode_names.h"
 #include "cli/door_options.h"
 #include "cli/hardware_devices.h"
+#include "cli/load_scene.h"
 #include "cli/local_farm.h"
 #include "cli/log.h"
 #include "cli/program_runs.h"
 #include "cli/quota_options.h"
-#include "cli/scene_files.h"
 #include "cli/stop_signal.h"
 #include "cli/video_option.h"
 #include "cli/web_door.h"
@@ -50,18 +49,6 @@ struct Options {
     bool h264 = false;
     bool quiet = false;
 };
-
-absl::StatusOr<fabric::Scene> loadScene(const Options& options, const std::stop_token& stop) {
-    ASSIGN_OR_RETURN(const auto folder, cacheFolder(options.cache.folder));
-    ASSIGN_OR_RETURN(const RemoteData remote, remoteDataOf(options.cache));
-    DataCache cache(folder, ProgressBar::styleFor(options.quiet), stop,
-                    page::sourceOptions(remote.cacheFolder, remote.cacheBytes));
-    std::vector<std::string> notes;
-    ASSIGN_OR_RETURN(fabric::Scene scene, assembleScene(options.data, cache, notes));
-    if (!options.quiet)
-        for (const std::string& note : notes) fmt::print(stderr, "{}\n", note);
-    return scene;
-}
 
 void announce(const std::string& url, const coordinator::Status& status, bool quiet) {
     fmt::print("Eyrie is at {}\n", url);
@@ -107,7 +94,8 @@ absl::Status serve(const Options& options) {
                          options.decoding, options.dataFolder, programs, quotas));
     ASSIGN_OR_RETURN(const auto door, openWebDoor(options.listen, doors, video,
                                                   options.quotas.crowd, farm->coordinator()));
-    ASSIGN_OR_RETURN(fabric::Scene scene, loadScene(options, stop.token()));
+    ASSIGN_OR_RETURN(fabric::Scene scene,
+                     loadScene(options.data, options.cache, options.quiet, stop.token()));
     RETURN_IF_ERROR(farm->coordinator().setScene(std::move(scene)));
     farm->startRenderers(renderers);
     const absl::Status ready = farm->awaitRenderers(1, kFirstRendererLimit, stop.token());

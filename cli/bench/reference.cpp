@@ -14,6 +14,7 @@
 #include "cli/bench/flights.h"
 #include "cli/bench/resident_memory.h"
 #include "cli/bench/uniform_levels.h"
+#include "cli/load_scene.h"
 #include "cli/progress_bar.h"
 #include "cli/values.h"
 #include "fabric/status.h"
@@ -131,7 +132,8 @@ absl::StatusOr<ReferencePlan> planReference(const RunPlan& plan, const Reference
     ASSIGN_OR_RETURN(const std::uint64_t memory, memoryOf(options));
     ASSIGN_OR_RETURN(const RemoteData remote, remoteDataOf(plan.pictures.cache));
     reference.remote = page::sourceOptions(remote.cacheFolder, remote.cacheBytes);
-    ASSIGN_OR_RETURN(reference.scene, loadScene(plan.scene, plan.pictures, stop));
+    ASSIGN_OR_RETURN(reference.scene, loadScene(std::span(&plan.scene, 1), plan.pictures.cache,
+                                                plan.pictures.quiet, stop));
     ASSIGN_OR_RETURN(reference.sources,
                      findSources(reference.scene, options.sources, memory, reference.remote));
     return reference;

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/import_notes.h"
 #include "cli/json_object.h"
 
 namespace eyrie::cli {
@@ -60,15 +61,9 @@ void printJson(const MeshImportChoices& choices, const import::MeshImportReport&
 }
 
 void printText(const MeshImportChoices& choices, const import::MeshImportReport& made) {
-    for (const std::string& note : made.notes)
+    for (const std::string& note : notesOf(made))
         fmt::print(stderr, "{}: {}\n", choices.title(), note);
     const import::PackCounts& counts = made.counts;
-    if (made.droppedFaces + counts.degenerateTriangles + counts.duplicateTriangles > 0)
-        fmt::print(stderr,
-                   "{}: left out {} faces of fewer than three corners, {} triangles without area, "
-                   "{} that were there already\n",
-                   choices.title(), made.droppedFaces, counts.degenerateTriangles,
-                   counts.duplicateTriangles);
     if (choices.how.pack.orients)
         fmt::print(stderr, "{}: turned {} triangles of {} surfaces, {} of which are closed\n",
                    choices.title(), counts.orient.turnedTriangles, counts.orient.components,

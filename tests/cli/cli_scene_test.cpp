@@ -217,6 +217,25 @@ TEST_F(SceneFiles, AMeshWithoutTheTerrainsCoordinatesStandsOnItsMiddleAndThatIsS
     EXPECT_THAT(notes_.front(), testing::HasSubstr("ball"));
 }
 
+TEST_F(SceneFiles, WhatIsOddInSourcesAndLeftOutOfThemIsToldWhenTheyAreImported) {
+    const std::string obj = folder_.write("m.obj",
+                                          "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\n"
+                                          "usemtl a\nf 1/1 2/1 3/1\nf 1/1 2/1 2/1\n");
+    folder_.write("m.mtl", "newmtl a\nmap_Kd none.png\n");
+    folder_.write("dem.asc",
+                  "ncols 3\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 1\n"
+                  "-9999 2 3\n4 5 6\n7 8 9\n");
+    const auto scene = assemble({obj, folder_.path("dem.asc")});
+    ASSERT_TRUE(scene.ok()) << scene.status();
+    using testing::AllOf, testing::Contains, testing::HasSubstr;
+    EXPECT_THAT(notes_, Contains(AllOf(HasSubstr("m.obj"), HasSubstr("none.png"))));
+    EXPECT_THAT(notes_, Contains(AllOf(HasSubstr("m.obj"), HasSubstr("1 triangles without area"))));
+    EXPECT_THAT(notes_, Contains(AllOf(HasSubstr("dem.asc"), HasSubstr("-9999"))));
+    notes_.clear();
+    ASSERT_TRUE(assemble({obj}).ok());
+    EXPECT_THAT(notes_, testing::IsEmpty()) << "nothing is imported now";
+}
+
 TEST_F(SceneFiles, AMeshThatSharesTheTerrainsCoordinatesStaysWhereItIs) {
     import::TriangleMesh mesh = import::synthesizeMesh(500, 1);
     for (fabric::Vec3& position : mesh.positions) position += fabric::Vec3(501000, 5201000, 400);

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <stop_token>
+#include <string>
+
+#include <absl/status/statusor.h>
+
+#include "cli/cache_options.h"
+#include "fabric/scene.h"
+
+namespace eyrie::cli {
+
+/// The scene that `paths` name, as for assembleScene; sources are imported first. Unless `isQuiet`,
+/// progress and what is to be said of sources and scene go to standard error. Errors: those of
+/// assembleScene; Cancelled.
+absl::StatusOr<fabric::Scene> loadScene(std::span<const std::string> paths,
+                                        const CacheOptions& options, bool isQuiet,
+                                        const std::stop_token& stop);
+
+}  // namespace eyrie::cli
