@@ -30,7 +30,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Raise either when an importer makes something else of the same source.
-constexpr int kMeshImporterVersion = 6;
+constexpr int kMeshImporterVersion = 7;
 constexpr int kTerrainImporterVersion = 8;
 
 /// Files beside a raster that say where it lies: a change of one is a change of the source.

@@ -7,7 +7,8 @@
 namespace eyrie::import {
 namespace {
 
-/// Triangles at a point above which they are sorted, not compared each with each.
+/// Triangles at a point above which they are sorted, not compared each with each; and in one place
+/// how many may hide those after them.
 constexpr std::size_t kFew = 8;
 
 /// The corners after the least one, in their turn, in one word.
@@ -32,23 +33,27 @@ struct Entry {
 };
 
 /// Marks those of one point, given in their order.
-void markDuplicates(std::span<Entry> entries, std::vector<bool>& isDuplicate) {
-    if (entries.size() > kFew) {
+void markDuplicates(std::span<Entry> entries, const Hides& hides, std::vector<bool>& isDuplicate) {
+    const bool isSorted = entries.size() > kFew;
+    if (isSorted)
         std::sort(entries.begin(), entries.end());
-        for (std::size_t i = 1; i < entries.size(); ++i)
-            if (entries[i].turn == entries[i - 1].turn)
+    std::size_t first = 0;  // to compare with
+    for (std::size_t i = 1; i < entries.size(); ++i) {
+        if (isSorted && entries[i].turn != entries[first].turn)
+            first = i;
+        for (std::size_t j = first; j < std::min(i, first + kFew); ++j)
+            if (entries[i].turn == entries[j].turn &&
+                hides(entries[j].triangle, entries[i].triangle)) {
                 isDuplicate[entries[i].triangle] = true;
-        return;
+                break;
+            }
     }
-    for (std::size_t i = 1; i < entries.size(); ++i)
-        for (std::size_t j = 0; j < i; ++j)
-            if (entries[i].turn == entries[j].turn)
-                isDuplicate[entries[i].triangle] = true;
 }
 
 }  // namespace
 
-std::vector<bool> findDuplicates(std::span<const mesh::Triangle> triangles, std::size_t points) {
+std::vector<bool> findDuplicates(std::span<const mesh::Triangle> triangles, std::size_t points,
+                                 const Hides& hides) {
     // By their least points: a few passes, where sorting all would take the logarithm of their
     // number.
     std::vector<std::uint32_t> end(points + 1, 0);
@@ -64,7 +69,7 @@ std::vector<bool> findDuplicates(std::span<const mesh::Triangle> triangles, std:
     std::vector<bool> isDuplicate(triangles.size(), false);
     std::size_t begin = 0;
     for (std::size_t point = 0; point < points; begin = end[point++])
-        markDuplicates(std::span(entries).subspan(begin, end[point] - begin), isDuplicate);
+        markDuplicates(std::span(entries).subspan(begin, end[point] - begin), hides, isDuplicate);
     return isDuplicate;
 }
 

@@ -236,10 +236,41 @@ absl::Status dropDegenerate(TriangleMesh& source, const std::vector<VertexKey>& 
     return absl::OkStatus();
 }
 
+/// Whether corners that lie in the same places have the same colours and texture coordinates.
+bool looksAlike(const Packing& packing, const mesh::Triangle& a, const mesh::Triangle& b) {
+    const TriangleMesh& source = packing.source;
+    const std::vector<std::uint32_t>& pointOf = packing.byPosition.vertexOf;
+    return std::ranges::all_of(a, [&](std::uint32_t corner) {
+        const std::uint32_t other = *std::ranges::find_if(
+            b, [&](std::uint32_t each) { return pointOf[each] == pointOf[corner]; });
+        return (source.colours.empty() || source.colours[corner] == source.colours[other]) &&
+               texturePlaceOf(source, corner).coordinates ==
+                   texturePlaceOf(source, other).coordinates;
+    });
+}
+
+/// Whether nothing is seen of `after` where `before` is drawn first, in the same place and turn.
+/// What lets through what is behind hides only what could be itself.
+bool hides(const Packing& packing, const mesh::Triangle& before, const mesh::Triangle& after) {
+    const TriangleMesh& source = packing.source;
+    if (source.materials.empty())
+        return true;
+    const mesh::Material& over = source.materials[source.materialOf[before[0]]];
+    const mesh::Material& under = source.materials[source.materialOf[after[0]]];
+    const bool isFromBothSides =
+        (!over.isOneSided() || under.isOneSided()) && (over.isTwoSided() || !under.isTwoSided());
+    if (!over.isSeeThrough() && !under.isBlended() && isFromBothSides)
+        return true;
+    return over == under && looksAlike(packing, before, after);
+}
+
 void dropDuplicates(Packing& packing, PackCounts& counts) {
     auto& triangles = packing.source.triangles;
     const std::vector<bool> isDuplicate = findDuplicates(
-        surfaceOf(packing.source, packing.byPosition), packing.byPosition.vertexCount());
+        surfaceOf(packing.source, packing.byPosition), packing.byPosition.vertexCount(),
+        [&](std::uint32_t before, std::uint32_t after) {
+            return hides(packing, triangles[before], triangles[after]);
+        });
     std::size_t kept = 0;
     for (std::size_t i = 0; i < triangles.size(); ++i)
         if (!isDuplicate[i])

@@ -35,7 +35,7 @@ struct PackCounts {
     std::uint64_t isolatedVertices = 0;     ///< used by no triangle
     std::uint64_t weldedVertices = 0;       ///< became one with an equal vertex before them
     std::uint64_t degenerateTriangles = 0;  ///< without area on the lattice: they cover no pixel
-    std::uint64_t duplicateTriangles = 0;   ///< of one before them, wound the same way
+    std::uint64_t duplicateTriangles = 0;   ///< that one before them, wound the same way, hides
     OrientCounts orient;                    ///< where PackOptions::orients
     bool normalsComputed = false;           ///< for all vertices, or for those with unusable ones
 
@@ -43,8 +43,9 @@ struct PackCounts {
 };
 
 /// Puts a mesh on the lattice that fits it: rounds positions, drops triangles without area and
-/// duplicates, welds vertices that have become equal (position, normal, colour, material and
-/// texture coordinates; if it keeps exact positions, those, too).
+/// duplicates (duplicate_faces.h; glass hides no wall), welds vertices that have become equal
+/// (position, normal, colour, material and texture coordinates; if it keeps exact positions, those,
+/// too).
 ///
 /// Depends on the mesh and the options alone. Every remaining vertex lies within
 /// lattice.errorMetres() of its source.

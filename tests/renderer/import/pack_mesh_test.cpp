@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/import/pack_mesh.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -190,6 +191,58 @@ TEST(PackMesh, DropsFacesThatAreThereAlreadyButNotTheOtherSide) {
     const Packed packed = pack(source);
     EXPECT_EQ(packed.counts.duplicateTriangles, 2U);
     EXPECT_EQ(packed.mesh.triangles.size(), 5U);
+}
+
+constexpr mesh::Material kWall;
+constexpr mesh::Material kGlass{.flags = mesh::kIsBlended};
+constexpr mesh::Material kFence{.alphaCutoff = 0.5F};
+
+/// How many are left of triangles of these materials in one place, their corners in turn.
+std::size_t leftInOnePlace(const std::vector<mesh::Material>& materials,
+                           const std::vector<fabric::Rgba>& colours = {}) {
+    TriangleMesh source;
+    for (std::uint32_t i = 0; i < materials.size(); ++i) {
+        std::vector<fabric::Vec3> corners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+        std::rotate(corners.begin(), corners.begin() + i % 3, corners.end());
+        source.positions.insert(source.positions.end(), corners.begin(), corners.end());
+        source.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+        source.materialOf.insert(source.materialOf.end(), 3, static_cast<std::uint16_t>(i));
+        if (!colours.empty())
+            source.colours.insert(source.colours.end(), 3, colours[i]);
+    }
+    source.materials = materials;
+    return pack(source).mesh.triangles.size();
+}
+
+TEST(PackMesh, AnOpaqueTriangleHidesWhatIsOpaqueAfterItInItsPlace) {
+    EXPECT_EQ(leftInOnePlace({kWall, kWall}), 1U);
+    EXPECT_EQ(leftInOnePlace({kWall, kWall}, {{255, 0, 0, 255}, {0, 0, 255, 255}}), 1U);
+    EXPECT_EQ(leftInOnePlace({kWall, kFence}), 1U);
+}
+
+TEST(PackMesh, WhatIsSeenThroughGlassOrHolesOrOnAWallIsNoDuplicate) {
+    EXPECT_EQ(leftInOnePlace({kGlass, kWall}), 2U);
+    EXPECT_EQ(leftInOnePlace({kFence, kWall}), 2U);
+    EXPECT_EQ(leftInOnePlace({kWall, kGlass}), 2U);
+    EXPECT_EQ(leftInOnePlace({kGlass, kWall, kWall, kGlass}), 2U) << "each is kept once";
+}
+
+TEST(PackMesh, PanesOfGlassInOnePlaceAreDuplicatesWhereTheyLookTheSame) {
+    EXPECT_EQ(leftInOnePlace({kGlass, kGlass}), 1U);
+    EXPECT_EQ(leftInOnePlace({kGlass, kGlass}, {{255, 0, 0, 99}, {255, 0, 0, 99}}), 1U);
+    EXPECT_EQ(leftInOnePlace({kGlass, kGlass}, {{255, 0, 0, 99}, {0, 0, 255, 99}}), 2U);
+}
+
+TEST(PackMesh, WhatIsSeenFromOneSideDoesNotHideWhatIsSeenFromBoth) {
+    constexpr mesh::Material kOneSided{.flags = mesh::kIsOneSided};
+    EXPECT_EQ(leftInOnePlace({kOneSided, kWall}), 2U);
+    EXPECT_EQ(leftInOnePlace({kWall, kOneSided}), 1U);
+}
+
+TEST(PackMesh, OfManyTrianglesInOnePlaceTheWallHidesAllOpaqueOnesAfterIt) {
+    std::vector<mesh::Material> materials(20, kWall);
+    materials[0] = materials[12] = kGlass;
+    EXPECT_EQ(leftInOnePlace(materials), 2U);
 }
 
 /// Two squares that meet in the y axis, the second one turned up by `degrees`.
