@@ -27,6 +27,7 @@ struct Options {
     std::string listen = "127.0.0.1:0";
     std::string node;
     std::string memory = "2G";
+    std::string hostMemory = "512M";
     int device = -1;
     TileDecoding decoding = TileDecoding::Auto;
     std::vector<std::string> allowedUrls;
@@ -46,9 +47,12 @@ absl::Status run(const Options& options) {
     ASSIGN_OR_RETURN(const Doors doors, doorsOf(options.door));
     RETURN_IF_ERROR(checkGrpcDoor(doors, options.listen, "--listen"));
     ASSIGN_OR_RETURN(const std::uint64_t memory, parseBytes(options.memory, "--memory"));
+    ASSIGN_OR_RETURN(const std::uint64_t hostMemory,
+                     parseBytes(options.hostMemory, "--host-memory"));
     RendererOptions settings;
     settings.device = options.device;
     settings.memoryBytes = memory;
+    settings.hostMemoryBytes = hostMemory;
     settings.decoding = options.decoding;
     ASSIGN_OR_RETURN(settings.remote, remoteDataOf(options.cache));
     auto places = service::DataPlaces::parse(options.dataAt);
@@ -90,7 +94,14 @@ void addRenderer(CLI::App& app, Run& run) {
     command->add_option("--device", options->device, "EGL device; -1: the first that works")
         ->check(CLI::Range(-1, 255))
         ->capture_default_str();
-    command->add_option("--memory", options->memory, "Limit of geometry kept on the device")
+    command
+        ->add_option("--memory", options->memory,
+                     "Limit of geometry and textures kept on the device")
+        ->type_name("BYTES[K|M|G|T]")
+        ->capture_default_str();
+    command
+        ->add_option("--host-memory", options->hostMemory,
+                     "Limit of pages kept in memory, those being read included")
         ->type_name("BYTES[K|M|G|T]")
         ->capture_default_str();
     command

@@ -6,6 +6,8 @@
 #include <limits>
 #include <optional>
 #include <stop_token>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "effects/object_block.h"
@@ -13,6 +15,7 @@
 #include "renderer/draw/batches.h"
 #include "renderer/draw/budget_choice.h"
 #include "renderer/draw/drawable.h"
+#include "renderer/draw/memory_shares.h"
 #include "renderer/draw/mesh_draw.h"
 #include "renderer/draw/occluded_draw.h"
 #include "renderer/draw/open_object.h"
@@ -22,15 +25,22 @@
 #include "renderer/gl/egl_context.h"
 #include "renderer/gl/framebuffer.h"
 #include "renderer/lod/view.h"
+#include "renderer/mesh/eym_format.h"
 #include "renderer/page/loader.h"
 #include "renderer/page/remote_name.h"
 #include "renderer/pick/picker.h"
 #include "renderer/task_check.h"
+#include "renderer/terrain/eyt_format.h"
 
 namespace eyrie {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+using TerrainFile = std::shared_ptr<const terrain::EytFile>;
+using MeshFile = std::shared_ptr<const mesh::EymFile>;
+/// An object's, open.
+using ObjectFile = std::variant<TerrainFile, MeshFile>;
 
 absl::Status unlessStopped(const std::stop_token& stop) {
     return stop.stop_requested() ? absl::CancelledError("nobody wants this picture any more")
@@ -87,8 +97,11 @@ private:
           sources_(page::sourceOptions(options.remote.cacheFolder, options.remote.cacheBytes)) {}
 
     page::Loader& loaderFor(const fabric::SceneObject& object);
+    absl::StatusOr<std::vector<ObjectFile>> openFiles(const fabric::Scene& scene) const;
+    std::vector<draw::MemoryUse> sharesOf(const std::vector<ObjectFile>& files) const;
     absl::StatusOr<std::unique_ptr<draw::Drawable>> openObject(const fabric::SceneObject& object,
-                                                               std::size_t objects);
+                                                               const ObjectFile& file,
+                                                               const draw::MemoryUse& share);
     draw::TextureFormat textureFormat() const {
         return GLEW_EXT_texture_compression_s3tc && !device().software ? draw::TextureFormat::Bc1
                                                                        : draw::TextureFormat::Rgba8;
@@ -145,16 +158,44 @@ page::Loader& Renderer::Impl::loaderFor(const fabric::SceneObject& object) {
     return *remoteLoader_;
 }
 
+absl::StatusOr<std::vector<ObjectFile>> Renderer::Impl::openFiles(
+    const fabric::Scene& scene) const {
+    std::vector<ObjectFile> files;
+    for (const fabric::SceneObject& object : scene.objects)
+        if (object.kind == fabric::ObjectKind::Terrain) {
+            ASSIGN_OR_RETURN(files.emplace_back(), terrain::EytFile::open(object.path, sources_));
+        } else {
+            ASSIGN_OR_RETURN(mesh::EymFile file, mesh::EymFile::open(object.path, sources_));
+            files.emplace_back(std::make_shared<const mesh::EymFile>(std::move(file)));
+        }
+    return files;
+}
+
+/// By what the files can ever use: the same wherever textures are kept in the same format.
+std::vector<draw::MemoryUse> Renderer::Impl::sharesOf(const std::vector<ObjectFile>& files) const {
+    std::vector<std::uint64_t> onDevice;
+    std::vector<std::uint64_t> onHost;
+    for (const ObjectFile& file : files) {
+        const draw::MemoryUse most = std::visit(
+            [this](const auto& opened) { return draw::greatestUse(*opened, textureFormat()); },
+            file);
+        onDevice.push_back(most.deviceBytes);
+        onHost.push_back(most.hostBytes);
+    }
+    onDevice = draw::memoryShares(options_.memoryBytes, onDevice);
+    onHost = draw::memoryShares(options_.hostMemoryBytes, onHost);
+    std::vector<draw::MemoryUse> shares;
+    for (std::size_t i = 0; i < files.size(); ++i) shares.push_back({onDevice[i], onHost[i]});
+    return shares;
+}
+
 absl::StatusOr<std::unique_ptr<draw::Drawable>> Renderer::Impl::openObject(
-    const fabric::SceneObject& object, std::size_t objects) {
-    if (object.kind == fabric::ObjectKind::Terrain)
-        return draw::openTerrain(
-            object, terrainPrograms_, sources_, loaderFor(object),
-            {options_.memoryBytes / objects, options_.hostMemoryBytes / objects}, textureFormat(),
-            decoding_);
-    return draw::openMesh(object, meshPrograms_, pointPrograms_, sources_, loaderFor(object),
-                          {options_.memoryBytes / objects, options_.hostMemoryBytes / objects},
-                          textureFormat());
+    const fabric::SceneObject& object, const ObjectFile& file, const draw::MemoryUse& share) {
+    if (const auto* terrain = std::get_if<TerrainFile>(&file))
+        return draw::openTerrain(object, *terrain, terrainPrograms_, loaderFor(object),
+                                 {share.deviceBytes, share.hostBytes}, textureFormat(), decoding_);
+    return draw::openMesh(object, std::get<MeshFile>(file), meshPrograms_, pointPrograms_,
+                          loaderFor(object), {share.deviceBytes, share.hostBytes}, textureFormat());
 }
 
 absl::StatusOr<fabric::SceneInfo> Renderer::Impl::openScene(const fabric::Scene& scene) {
@@ -162,8 +203,11 @@ absl::StatusOr<fabric::SceneInfo> Renderer::Impl::openScene(const fabric::Scene&
     std::vector<draw::OpenObject> objects;
     std::vector<std::unique_ptr<const pick::Surface>> surfaces;
     fabric::SceneInfo info;
-    for (const fabric::SceneObject& object : scene.objects) {
-        ASSIGN_OR_RETURN(auto drawable, openObject(object, scene.objects.size()));
+    ASSIGN_OR_RETURN(const std::vector<ObjectFile> files, openFiles(scene));
+    const std::vector<draw::MemoryUse> shares = sharesOf(files);
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        const fabric::SceneObject& object = scene.objects[i];
+        ASSIGN_OR_RETURN(auto drawable, openObject(object, files[i], shares[i]));
         info.objects.push_back({fabric::transformed(drawable->bounds(), object.worldFromObject),
                                 drawable->triangles()});
         info.bounds.grow(info.objects.back().bounds);

@@ -32,9 +32,10 @@ struct RemoteData {
 struct RendererOptions {
     /// Index of the EGL device (`eyrie renderer --device`); -1 takes the first that works.
     int device = -1;
-    /// Limit on the bytes of geometry and textures kept on the device, shared out evenly among the
-    /// scene's objects, which keep within their shares at all times: where what a view needs does
-    /// not fit, the error rises, and the statistics say so.
+    /// Limit on the bytes of geometry and textures kept on the device. The scene's objects keep
+    /// within their shares of it at all times: small ones have what all of them takes, large ones
+    /// the rest in equal parts (draw/memory_shares.h). Where what a view needs does not fit, the
+    /// error rises, and the statistics say so.
     std::uint64_t memoryBytes = std::uint64_t{2} << 30;
     /// Limit on the bytes of pages in host memory, those being loaded included; shared likewise.
     std::uint64_t hostMemoryBytes = std::uint64_t{512} << 20;

@@ -446,14 +446,19 @@ absl::Status MeshDrawable::draw(std::span<const Piece> pieces, const FrameState&
 
 }  // namespace
 
+/// Textures may take half: where they have all of their levels, as much again is for the rest.
+MemoryUse greatestUse(const mesh::EymFile& file, TextureFormat format) {
+    MemoryUse use = MeshPaging::greatestUse(file);
+    use.deviceBytes += 2 * MeshTextures::allBytes(file, format);
+    return use;
+}
+
 absl::StatusOr<std::unique_ptr<Drawable>> openMesh(const fabric::SceneObject& object,
+                                                   std::shared_ptr<const mesh::EymFile> file,
                                                    MeshPrograms& programs,
                                                    PointPrograms& pointPrograms,
-                                                   const page::SourceOptions& sources,
                                                    page::Loader& loader, const MeshMemory& memory,
                                                    TextureFormat format) {
-    ASSIGN_OR_RETURN(mesh::EymFile opened, mesh::EymFile::open(object.path, sources));
-    auto file = std::make_shared<const mesh::EymFile>(std::move(opened));
     MeshTextures textures(*file, memory.deviceBytes / 2, format);
     if (textures.bytes() > memory.deviceBytes)
         return absl::ResourceExhaustedError(fmt::format(

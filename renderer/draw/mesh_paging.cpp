@@ -63,6 +63,19 @@ std::unique_ptr<DeviceNode> uploadRoot(const mesh::EymFile& file) {
 
 }  // namespace
 
+/// On the host as much again is for pages that are being loaded (HostPages).
+MemoryUse MeshPaging::greatestUse(const mesh::EymFile& file) {
+    MemoryUse use;
+    std::uint64_t greatestPage = 0;
+    for (std::uint32_t node = 0; node < file.nodes().size(); ++node) {
+        use.deviceBytes += mesh::blockBytes(file.shape(node));
+        use.hostBytes += 2 * hostBytes(file, node);
+        greatestPage = std::max(greatestPage, hostBytes(file, node));
+    }
+    use.hostBytes += 2 * greatestPage;
+    return use;
+}
+
 absl::StatusOr<std::unique_ptr<MeshPaging>> MeshPaging::open(
     std::shared_ptr<const mesh::EymFile> file, page::Loader& loader, const MeshMemory& limits) {
     std::uint64_t greatestBlock = 0;

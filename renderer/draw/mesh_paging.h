@@ -49,6 +49,9 @@ public:
     static absl::StatusOr<std::unique_ptr<MeshPaging>> open(
         std::shared_ptr<const mesh::EymFile> file, page::Loader& loader, const MeshMemory& limits);
 
+    /// What the nodes of `file` may take with all of them in memory, at most.
+    static MemoryUse greatestUse(const mesh::EymFile& file);
+
     using Prefetch = std::function<std::vector<std::uint32_t>()>;
 
     struct Progress {

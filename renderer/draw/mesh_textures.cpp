@@ -26,19 +26,24 @@ std::uint64_t deviceBytes(const mesh::ImageShape& shape, std::uint32_t first,
     return texels * sizeof(fabric::Rgba);
 }
 
+/// Of all images without their `drop` finest levels, but for the last of each.
+std::uint64_t bytesWithout(std::uint32_t drop, std::span<const mesh::ImageRecord> images,
+                           TextureFormat format) {
+    std::uint64_t bytes = 0;
+    for (const mesh::ImageRecord& image : images)
+        bytes += deviceBytes(image.shape, std::min(drop, image.shape.levels() - 1), format);
+    return bytes;
+}
+
 /// The least number of finest levels without which all images fit, or nothing is left to drop.
 std::uint32_t levelsToDrop(std::span<const mesh::ImageRecord> images, std::uint64_t mostBytes,
                            TextureFormat format) {
     std::uint32_t mostLevels = 1;
     for (const mesh::ImageRecord& image : images)
         mostLevels = std::max(mostLevels, image.shape.levels());
-    for (std::uint32_t drop = 0;; ++drop) {
-        std::uint64_t bytes = 0;
-        for (const mesh::ImageRecord& image : images)
-            bytes += deviceBytes(image.shape, std::min(drop, image.shape.levels() - 1), format);
-        if (bytes <= mostBytes || drop + 1 == mostLevels)
+    for (std::uint32_t drop = 0;; ++drop)
+        if (drop + 1 == mostLevels || bytesWithout(drop, images, format) <= mostBytes)
             return drop;
-    }
 }
 
 void setFilter(const gl::Texture2D& texture, const mesh::ImageShape& shape) {
@@ -92,6 +97,10 @@ void uploadMean(const gl::Texture2D& texture, const mesh::ImageShape& shape) {
 }
 
 }  // namespace
+
+std::uint64_t MeshTextures::allBytes(const mesh::EymFile& file, TextureFormat format) {
+    return bytesWithout(0, file.images(), format);
+}
 
 MeshTextures::MeshTextures(const mesh::EymFile& file, std::uint64_t mostBytes, TextureFormat format)
     : textures_(file.images().size()) {

@@ -18,6 +18,9 @@ public:
     /// colour stands for it.
     MeshTextures(const mesh::EymFile& file, std::uint64_t deviceBytes, TextureFormat format);
 
+    /// Of all images of `file` with all their levels.
+    static std::uint64_t allBytes(const mesh::EymFile& file, TextureFormat format);
+
     /// Precondition: image < file.images().size().
     const gl::Texture2D& texture(std::int32_t image) const {
         return textures_[static_cast<std::size_t>(image)];

@@ -16,6 +16,7 @@
 #include "renderer/draw/tau_choice.h"
 #include "renderer/draw/terrain_error.h"
 #include "renderer/draw/terrain_ground.h"
+#include "renderer/draw/terrain_items.h"
 #include "renderer/draw/terrain_look.h"
 #include "renderer/draw/terrain_tiles.h"
 #include "renderer/draw/tile_imagery.h"
@@ -392,12 +393,14 @@ absl::Status TerrainDrawable::draw(std::span<const Piece> pieces, const FrameSta
 
 }  // namespace
 
+MemoryUse greatestUse(const terrain::EytFile& file, TextureFormat format) {
+    return TerrainItems(file.index(), format).greatestUse();
+}
+
 absl::StatusOr<std::unique_ptr<Drawable>> openTerrain(
-    const fabric::SceneObject& object, TerrainPrograms& programs,
-    const page::SourceOptions& sources, page::Loader& loader, const TerrainMemory& limits,
+    const fabric::SceneObject& object, std::shared_ptr<const terrain::EytFile> file,
+    TerrainPrograms& programs, page::Loader& loader, const TerrainMemory& limits,
     TextureFormat format, DecodeChoice& decoding) {
-    ASSIGN_OR_RETURN(std::shared_ptr<const terrain::EytFile> file,
-                     terrain::EytFile::open(object.path, sources));
     ASSIGN_OR_RETURN(const TileDecoder* decoder, decoding.decoderFor(*file));
     ASSIGN_OR_RETURN(std::unique_ptr<TerrainPaging> paging,
                      TerrainPaging::open(file, loader, limits, format, decoder));

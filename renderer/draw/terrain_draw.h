@@ -12,18 +12,20 @@
 #include "renderer/draw/terrain_paging.h"
 #include "renderer/effects/effect_variants.h"
 #include "renderer/page/loader.h"
-#include "renderer/page/page_source.h"
+#include "renderer/terrain/eyt_format.h"
 
 namespace eyrie::draw {
 
 using TerrainPrograms = effects::EffectVariants<effects::TerrainEffect>;
 
-/// Opens `object.path` as a .eyt file. `programs`, `loader` and `decoding` outlive what is
-/// returned. Errors: those of EytFile::open; ResourceExhausted (the limits are too small); those of
-/// DecodeChoice::decoderFor.
+/// What a terrain may take with all of it in memory, at most.
+MemoryUse greatestUse(const terrain::EytFile& file, TextureFormat format);
+
+/// Draws `file` as `object`. `programs`, `loader` and `decoding` outlive what is returned. Errors:
+/// those of TerrainPaging::open and of DecodeChoice::decoderFor.
 absl::StatusOr<std::unique_ptr<Drawable>> openTerrain(const fabric::SceneObject& object,
+                                                      std::shared_ptr<const terrain::EytFile> file,
                                                       TerrainPrograms& programs,
-                                                      const page::SourceOptions& sources,
                                                       page::Loader& loader,
                                                       const TerrainMemory& limits,
                                                       TextureFormat format, DecodeChoice& decoding);

@@ -42,6 +42,18 @@ std::uint64_t TerrainItems::greatestOfAllPages() const {
     return most;
 }
 
+/// A page's tiles take no more on the device than its own bound. On the host as much again is for
+/// pages that are being loaded (HostPages).
+MemoryUse TerrainItems::greatestUse() const {
+    const std::uint32_t textures =
+        index_.imagery ? static_cast<std::uint32_t>(index_.imagery->tiles.size()) : 0;
+    std::uint64_t all = 0;
+    for (std::uint32_t page = 0; page < index_.quadtree.pageCount() + textures; ++page)
+        if (bytesOnDisk(page) > 0)
+            all += greatestPageBytes(page);
+    return {all, 2 * (all + greatestOfAllPages())};
+}
+
 fabric::Box TerrainItems::boundsOf(const TextureId& texture) const {
     const double side = index_.imagery->pyramid.sidePosts(texture.level);
     const double x1 = std::min(side * (texture.x + 1), index_.quadtree.columns() - 1.0);

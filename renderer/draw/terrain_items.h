@@ -6,6 +6,7 @@
 
 #include "fabric/box.h"
 #include "renderer/draw/device_texture.h"
+#include "renderer/draw/drawable.h"
 #include "renderer/lod/view.h"
 #include "renderer/terrain/eyt_format.h"
 
@@ -40,6 +41,8 @@ public:
     /// Of memory on the host, at most.
     std::uint64_t greatestPageBytes(std::uint32_t page) const;
     std::uint64_t greatestOfAllPages() const;
+    /// What the terrain may take with all of it in memory, at most.
+    MemoryUse greatestUse() const;
     TextureFormat format() const { return format_; }
 
     /// Large ones on the ground first; among equals by the pixels they cover and by nearness to the

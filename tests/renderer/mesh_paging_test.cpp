@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
 #include "renderer/gl/debug_output.h"
@@ -268,6 +269,43 @@ TEST_F(MeshPaging, PrefetchingKeepsWithinMemoryAndComesToRest) {
     }
     EXPECT_LT(std::chrono::steady_clock::now(), end);
     EXPECT_GT(loaded, 0U);
+}
+
+/// With twice what the ball takes, alone and before many tetrahedra behind it.
+TEST_F(MeshPaging, ManySmallObjectsCostALargeOneOnlyWhatTheyHold) {
+    constexpr int kSmall = 200;
+    import::TriangleMesh small;
+    small.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    small.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+    ASSERT_TRUE(import::importMesh(small, path("small.eym")).ok());
+    RendererOptions options;
+    ChannelResult alone;
+    {
+        const auto renderer = open(path("coded.eym"));
+        alone = render(*renderer, 2.2, 0.05, Completeness::Complete);
+        options.memoryBytes = 2 * renderer->memory().deviceBytes;
+        options.hostMemoryBytes = std::uint64_t{64} << 20;
+    }
+    const fabric::Box ball = mesh::EymFile::open(path("coded.eym"))->bounds();
+    fabric::Scene scene;
+    scene.objects.push_back(
+        {.name = "ball", .kind = fabric::ObjectKind::Mesh, .path = path("coded.eym")});
+    for (int i = 0; i < kSmall; ++i) {
+        fabric::SceneObject object{
+            .name = "small", .kind = fabric::ObjectKind::Mesh, .path = path("small.eym")};
+        object.worldFromObject =
+            glm::translate(fabric::Mat4(1), ball.min - fabric::Vec3(9.0 * (i + 1), 0, 0));
+        scene.objects.push_back(object);
+    }
+    auto renderer = Renderer::create(options);
+    ASSERT_TRUE(renderer.ok());
+    const auto info = (*renderer)->openScene(scene);
+    ASSERT_TRUE(info.ok()) << info.status();
+    const ChannelResult among = render(**renderer, 2.2, 0.05, Completeness::Complete);
+    EXPECT_TRUE(among.statistics.complete);
+    EXPECT_LE(among.statistics.tauAchievedPixels, 0.05);
+    EXPECT_LE(alone.statistics.tauAchievedPixels, 0.05);
+    EXPECT_LE((*renderer)->memory().deviceBytes, options.memoryBytes);
 }
 
 TEST_F(MeshPaging, SaysThatMemoryHoldsNoNode) {
