@@ -2,7 +2,6 @@
 #include "cli/data_cache.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cerrno>
 #include <csignal>
@@ -19,6 +18,7 @@
 #include "fabric/status.h"
 #include "renderer/import/mesh_import.h"
 #include "renderer/import/mesh_reader.h"
+#include "renderer/import/raster_hash.h"
 #include "renderer/import/terrain_import.h"
 #include "renderer/mesh/eym_format.h"
 #include "renderer/page/remote_name.h"
@@ -33,29 +33,11 @@ namespace fs = std::filesystem;
 constexpr int kMeshImporterVersion = 7;
 constexpr int kTerrainImporterVersion = 8;
 
-/// Files beside a raster that say where it lies: a change of one is a change of the source.
-constexpr std::array<std::string_view, 4> kSidecars = {".hdr", ".prj", ".tfw", ".aux.xml"};
-
 std::string lowerCaseEnding(const std::string& path) {
     std::string ending = fs::path(page::withoutQuery(path)).extension().string();
     std::transform(ending.begin(), ending.end(), ending.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return ending;
-}
-
-/// Of a raster's bytes and those of the files beside it.
-absl::StatusOr<std::uint64_t> rasterHash(const std::string& source) {
-    ASSIGN_OR_RETURN(std::uint64_t hash, mesh::contentHash(source));
-    for (const std::string_view ending : kSidecars) {
-        const fs::path sidecar = ending == ".aux.xml" ? fs::path(source + std::string(ending))
-                                                      : fs::path(source).replace_extension(ending);
-        std::error_code ignored;
-        if (sidecar == source || !fs::is_regular_file(sidecar, ignored))
-            continue;
-        ASSIGN_OR_RETURN(const std::uint64_t part, mesh::contentHash(sidecar.string()));
-        hash = hash * 31 + part;
-    }
-    return hash;
 }
 
 /// Name of the import of `source`: what it holds, and what made it.
@@ -65,9 +47,9 @@ absl::StatusOr<std::string> importName(const std::string& source, fabric::Object
         ASSIGN_OR_RETURN(const std::uint64_t hash, import::meshSourceHash(std::span(&source, 1)));
         return fmt::format("{:016x}-{}.eym", hash, kMeshImporterVersion);
     }
-    ASSIGN_OR_RETURN(std::uint64_t hash, rasterHash(source));
+    ASSIGN_OR_RETURN(std::uint64_t hash, import::rasterHash(source));
     for (const std::string& picture : imagery) {
-        ASSIGN_OR_RETURN(const std::uint64_t part, rasterHash(picture));
+        ASSIGN_OR_RETURN(const std::uint64_t part, import::rasterHash(picture));
         hash = hash * 37 + part;
     }
     return fmt::format("{:016x}-{}.eyt", hash, kTerrainImporterVersion);

@@ -7,14 +7,11 @@
 #include <limits>
 #include <optional>
 
-#include <cpl_vsi.h>
 #include <fmt/format.h>
 #include <gdal_priv.h>
-#include <xxhash.h>
 
 #include "fabric/status.h"
 #include "renderer/import/raster_file.h"
-#include "renderer/import/raster_name.h"
 #include "renderer/terrain/height_grid.h"
 
 namespace eyrie::import {
@@ -27,20 +24,6 @@ struct ValueRule {
     double scale = 1;
     double offset = 0;
 };
-
-absl::StatusOr<std::uint64_t> hashFile(const std::string& path) {
-    const std::unique_ptr<VSILFILE, Releaser<VSIFCloseL>> file(VSIFOpenL(path.c_str(), "rb"));
-    if (!file) {
-        RETURN_IF_ERROR(checkOpenFiles(path));
-        return absl::NotFoundError(fmt::format("{}: no such file, or not readable", path));
-    }
-    const std::unique_ptr<XXH64_state_t, Releaser<XXH64_freeState>> state(XXH64_createState());
-    XXH64_reset(state.get(), 0);
-    std::vector<char> buffer(std::size_t{1} << 20);
-    while (const std::size_t got = VSIFReadL(buffer.data(), 1, buffer.size(), file.get()))
-        XXH64_update(state.get(), buffer.data(), got);
-    return XXH64_digest(state.get());
-}
 
 /// Refuses bands that hold something else than heights.
 absl::Status checkBand(const std::string& path, GDALRasterBandH band) {
@@ -254,29 +237,6 @@ private:
     Dataset source_;
 };
 
-/// Of what was named: the file or, where it is something in a file, which.
-absl::StatusOr<std::uint64_t> hashNamed(const std::string& path) {
-    if (VSIStatBufL status; VSIStatL(path.c_str(), &status) == 0)
-        return hashFile(path);
-    const std::string part = partOfFile(path);
-    return XXH64(part.data(), part.size(), 0);
-}
-
-/// Of what was named and, where that is one of several files or names others, of all of them.
-absl::StatusOr<std::uint64_t> hashFiles(const std::string& path, GDALDatasetH dataset) {
-    ASSIGN_OR_RETURN(std::uint64_t hash, hashNamed(path));
-    for (const std::string& file : filesOf(dataset)) {
-        if (path == file || gdalPath(path) == file)
-            continue;
-        const absl::StatusOr<std::uint64_t> other = hashFile(file);
-        if (other.ok())
-            hash = hash * 0x9e3779b97f4a7c15 + *other;
-        else if (absl::IsResourceExhausted(other.status()))
-            return other.status();
-    }
-    return hash;
-}
-
 }  // namespace
 
 bool DemFile::isGeographic() const { return crs && OSRIsGeographic(crs.get()) != 0; }
@@ -309,7 +269,7 @@ absl::StatusOr<DemFile> openDemFile(const std::string& path, QuietGdal& gdal) {
     ASSIGN_OR_RETURN(file.reference, georeferenceOf(path, dataset.get(), file.notes));
     if (crs != nullptr)
         file.crs.reset(OSRClone(crs));
-    ASSIGN_OR_RETURN(file.hash, hashFiles(path, dataset.get()));
+    ASSIGN_OR_RETURN(file.hash, rasterHash(path, dataset.get()));
     const auto impossible = std::make_shared<std::optional<ImpossibleHeight>>();
     file.impossible = impossible;
     file.dataset.reset(

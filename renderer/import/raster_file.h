@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -25,5 +26,8 @@ absl::Status checkOpenFiles(const std::string& path);
 
 /// Files that a raster consists of, as GDAL names them.
 std::vector<std::string> filesOf(GDALDatasetH raster);
+
+/// As in raster_hash.h, of a raster that is open: by `path`.
+absl::StatusOr<std::uint64_t> rasterHash(const std::string& path, GDALDatasetH raster);
 
 }  // namespace eyrie::import

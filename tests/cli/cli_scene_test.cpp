@@ -28,8 +28,8 @@ namespace fs = std::filesystem;
 
 constexpr int kPosts = 200;
 
-/// A slope that rises to the east, 10 m a post, with its south-west post at (500000, 5200000).
-std::string writeSlope(const test::TemporaryFolder& folder) {
+/// A slope that rises to the east, with its south-west post at (500000, 5200000).
+std::string writeSlope(const test::TemporaryFolder& folder, int metresPerPost = 10) {
     terrain::HeightGrid grid{.columns = kPosts,
                              .rows = kPosts,
                              .heights = {},
@@ -37,7 +37,8 @@ std::string writeSlope(const test::TemporaryFolder& folder) {
                              .perColumn = {30, 0},
                              .perRow = {0, 30}};
     for (int j = 0; j < kPosts; ++j)
-        for (int i = 0; i < kPosts; ++i) grid.heights.push_back(static_cast<float>(10 * i));
+        for (int i = 0; i < kPosts; ++i)
+            grid.heights.push_back(static_cast<float>(metresPerPost * i));
     const std::string path = folder.path("slope.tif");
     EXPECT_TRUE(import::writeGeoTiff(grid, path).ok());
     return path;
@@ -182,6 +183,35 @@ TEST_F(SceneFiles, ATerrainIsImportedWithItsImageryAndAgainWhenThatChanges) {
     EXPECT_EQ(importsKept(), 2U);
     ASSERT_TRUE(assemble({folder_.path("slope.tif")}).ok());
     EXPECT_EQ(importsKept(), 3U) << "without imagery it is another terrain";
+}
+
+/// A virtual raster of all of another one, of kPosts a side.
+std::string writeVirtual(const test::TemporaryFolder& folder, const std::string& name,
+                         const std::string& of) {
+    return folder.write(
+        name,
+        fmt::format(R"(<VRTDataset rasterXSize="{0}" rasterYSize="{0}">)"
+                    R"(<GeoTransform>500000, 30, 0, 5200000, 0, -30</GeoTransform>)"
+                    R"(<VRTRasterBand dataType="Float32" band="1"><SimpleSource>)"
+                    R"(<SourceFilename relativeToVRT="1">{1}</SourceFilename>)"
+                    R"(<SourceBand>1</SourceBand></SimpleSource></VRTRasterBand></VRTDataset>)",
+                    kPosts, of));
+}
+
+TEST_F(SceneFiles, AVirtualRasterIsImportedAgainWhenWhatItNamesChanges) {
+    writeSlope(folder_);
+    const std::string inner = writeVirtual(folder_, "inner.vrt", "slope.tif");
+    const std::string outer = writeVirtual(folder_, "outer.vrt", "inner.vrt");
+    std::vector<std::string> before;
+    for (const std::string& path : {inner, outer}) {
+        const auto data = cache_.dataFor(path, fabric::ObjectKind::Terrain);
+        ASSERT_TRUE(data.ok()) << data.status();
+        EXPECT_EQ(*cache_.dataFor(path, fabric::ObjectKind::Terrain), *data);
+        before.push_back(*data);
+    }
+    writeSlope(folder_, 20);
+    EXPECT_NE(*cache_.dataFor(inner, fabric::ObjectKind::Terrain), before[0]);
+    EXPECT_NE(*cache_.dataFor(outer, fabric::ObjectKind::Terrain), before[1]);
 }
 
 TEST_F(SceneFiles, ImageryOverAnImportedTerrainIsRefused) {

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include <absl/status/statusor.h>
+
+namespace eyrie::import {
+
+/// XXH64 of the bytes of all files of a raster by any name that GDAL knows (raster_name.h): of that
+/// named, of those beside it, and of those that a virtual raster names, itself or through others.
+/// Where they lie does not count. Errors: those of openRaster; NotFound (the file that is named).
+absl::StatusOr<std::uint64_t> rasterHash(const std::string& path);
+
+}  // namespace eyrie::import
