@@ -50,6 +50,32 @@ describe("a socket", () => {
     return { connections: made.length, told };
   }
 
+  it("asks no oftener where its connections are taken and closed at once", () => {
+    let connections = 0;
+    class ClosingSocket {
+      onopen: (() => void) | null = null;
+      onclose: ((event: { code: number }) => void) | null = null;
+      constructor() {
+        connections += 1;
+        setTimeout(() => {
+          this.onopen?.();
+          this.onclose?.({ code: 1009 });
+        }, 1);
+      }
+      close(): void {}
+    }
+    vi.useFakeTimers();
+    vi.stubGlobal("window", globalThis);
+    vi.stubGlobal("WebSocket", ClosingSocket);
+    const socket = new Socket(
+      "ws://host/ws",
+      new Proxy({} as SocketEvents, { get: () => () => {} }),
+    );
+    vi.advanceTimersByTime(3000);
+    socket.close();
+    expect(connections).toBeLessThan(10);
+  });
+
   it("connects again when the connection is lost", () => {
     expect(after(1006)).toEqual({ connections: 2, told: ["lost"] });
   });

@@ -142,7 +142,6 @@ export class Socket {
     this.socket = socket;
     socket.binaryType = "arraybuffer";
     socket.onopen = () => {
-      this.attempt = 0;
       this.isLossTold = false;
       this.events.opened();
     };
@@ -164,6 +163,8 @@ export class Socket {
       else if (response.case === "picked") this.events.picked(response.value);
       else if (response.case === "profiled") this.events.profiled(response.value);
       else if (response.case === "swap") this.events.swap(response.value.swap);
+      // Only now: who takes connections and closes them at once is asked no oftener than who is away.
+      this.attempt = 0;
     } catch (error) {
       // Another protocol, most likely of a newer server: only loading the page again can help.
       console.error("Eyrie: not understood:", error);
