@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
 
 /// Raise either when an importer makes something else of the same source.
 constexpr int kMeshImporterVersion = 7;
-constexpr int kTerrainImporterVersion = 8;
+constexpr int kTerrainImporterVersion = 9;
 
 std::string lowerCaseEnding(const std::string& path) {
     std::string ending = fs::path(page::withoutQuery(path)).extension().string();

@@ -202,7 +202,7 @@ private:
         return report;
     }
 
-    static constexpr int kImportVersion = 4;  ///< raise it when scratch or journal change
+    static constexpr int kImportVersion = 5;  ///< raise it when scratch or journal change
 
     HeightSource& posts_;
     ImagerySource* imagery_;

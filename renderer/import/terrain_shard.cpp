@@ -67,7 +67,7 @@ public:
 
 private:
     std::uint64_t key() const {
-        constexpr std::uint64_t kVersion = 2;  // raise it when scratch or journal change
+        constexpr std::uint64_t kVersion = 3;  // raise it when scratch or journal change
         const std::uint64_t seed = kVersion << 32 | shard_.index;
         return XXH64(&identity_, sizeof identity_, seed);
     }
