@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "cli/compound_names.h"
 #include "cli/hardware_devices.h"
 #include "fabric/status.h"
 
@@ -18,18 +17,11 @@ constexpr std::chrono::milliseconds kPollInterval{10};
 
 }  // namespace
 
-absl::StatusOr<std::unique_ptr<LocalFarm>> LocalFarm::start(
-    std::optional<config::Configuration> configuration, const std::string& compound,
-    const CacheOptions& cache, TileDecoding decoding, const std::filesystem::path& dataFolder,
-    const api::Programs& programs, const api::Quotas& quotas) {
+absl::StatusOr<std::unique_ptr<LocalFarm>> LocalFarm::start(coordinator::CoordinatorOptions options,
+                                                            const CacheOptions& cache,
+                                                            TileDecoding decoding) {
     ASSIGN_OR_RETURN(TemporaryFolder folder, TemporaryFolder::create());
-    coordinator::CoordinatorOptions options;
-    options.grpcAddresses = {folder.socket("coordinator")};
-    options.configuration = std::move(configuration);
-    options.layout = compoundNames().at(compound);
-    options.dataFolder = dataFolder;
-    options.programs = programs;
-    options.quotas = quotas;
+    options.grpcAddresses.insert(options.grpcAddresses.begin(), folder.socket("coordinator"));
     ASSIGN_OR_RETURN(auto coordinator, coordinator::Coordinator::start(options));
     return std::unique_ptr<LocalFarm>(
         new LocalFarm(std::move(folder), std::move(coordinator), cache, decoding));

@@ -2,11 +2,8 @@
 #pragma once
 
 #include <chrono>
-#include <filesystem>
 #include <memory>
-#include <optional>
 #include <stop_token>
-#include <string>
 
 #include <absl/status/statusor.h>
 
@@ -21,14 +18,12 @@ namespace eyrie::cli {
 /// can enter, over Unix sockets.
 class LocalFarm {
 public:
-    /// Without renderers yet, and without a scene. `cache` and `decoding` are the renderers',
-    /// `dataFolder`, `programs` and `quotas` are CoordinatorOptions'.
+    /// Without renderers yet, and without a scene. The addresses of `options` are those besides
+    /// the folder's, and may be none; `cache` and `decoding` are the renderers'.
     /// Errors: Unavailable.
-    static absl::StatusOr<std::unique_ptr<LocalFarm>> start(
-        std::optional<config::Configuration> configuration, const std::string& compound,
-        const CacheOptions& cache, TileDecoding decoding,
-        const std::filesystem::path& dataFolder = {}, const api::Programs& programs = {},
-        const api::Quotas& quotas = {});
+    static absl::StatusOr<std::unique_ptr<LocalFarm>> start(coordinator::CoordinatorOptions options,
+                                                            const CacheOptions& cache,
+                                                            TileDecoding decoding);
 
     coordinator::Coordinator& coordinator() { return *coordinator_; }
     coordinator::FrameSource& frames() { return coordinator_->frames(); }

@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "cli/compound_names.h"
 #include "cli/load_scene.h"
 #include "cli/local_farm.h"
 #include "coordinator/frame/budget_keeper.h"
@@ -121,8 +122,12 @@ absl::StatusOr<std::unique_ptr<PictureSource>> openInProcesses(
     const int used = configuration ? renderersOf(*configuration) : 1;
     const int renderers =
         options.renderers > 0 ? options.renderers : std::min(used, RendererProcesses::kMaxCount);
-    ASSIGN_OR_RETURN(auto farm, LocalFarm::start(std::move(configuration), options.config.compound,
-                                                 options.cache, options.decoding));
+    coordinator::CoordinatorOptions settings;
+    settings.grpcAddresses = {};
+    settings.configuration = std::move(configuration);
+    settings.layout = compoundNames().at(options.config.compound);
+    ASSIGN_OR_RETURN(auto farm,
+                     LocalFarm::start(std::move(settings), options.cache, options.decoding));
     RETURN_IF_ERROR(farm->coordinator().setScene(std::move(scene)));
     farm->startRenderers(renderers);
     RETURN_IF_ERROR(farm->awaitRenderers(renderers, kRenderersLimit, stop));

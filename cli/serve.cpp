@@ -13,6 +13,7 @@
 
 #include "cli/cache_options.h"
 #include "cli/commands.h"
+#include "cli/compound_names.h"
 #include "cli/config_options.h"
 #include "cli/decode_names.h"
 #include "cli/door_options.h"
@@ -27,6 +28,7 @@
 #include "cli/web_door.h"
 #include "fabric/log.h"
 #include "fabric/status.h"
+#include "wire/listen.h"
 
 namespace eyrie::cli {
 namespace {
@@ -38,6 +40,7 @@ constexpr std::chrono::milliseconds kPollInterval{100};
 struct Options {
     std::vector<std::string> data;
     std::string listen = "127.0.0.1:8080";
+    std::string grpc;  ///< empty: nowhere
     std::string dataFolder;
     CacheOptions cache;
     TileDecoding decoding = TileDecoding::Auto;
@@ -78,20 +81,37 @@ int rendererCount(const Options& options,
                          : RendererProcesses::suitableCount(hardwareDevices());
 }
 
+absl::StatusOr<coordinator::CoordinatorOptions> settingsOf(const Options& options,
+                                                           const Doors& doors) {
+    coordinator::CoordinatorOptions settings;
+    settings.grpcAddresses = {};
+    if (!options.grpc.empty()) {
+        RETURN_IF_ERROR(fabric::withContext(wire::checkAddress(options.grpc), "--grpc"));
+        RETURN_IF_ERROR(checkGrpcDoor(doors, options.grpc, "--grpc"));
+        settings.grpcAddresses = {options.grpc};
+        settings.security = doors.security;
+    }
+    ASSIGN_OR_RETURN(settings.configuration, configurationOf(options.config, options.quiet));
+    settings.layout = compoundNames().at(options.config.compound);
+    settings.dataFolder = options.dataFolder;
+    ASSIGN_OR_RETURN(settings.programs, programsOf(options.programs));
+    ASSIGN_OR_RETURN(settings.quotas, quotasOf(options.quotas));
+    return settings;
+}
+
 absl::Status serve(const Options& options) {
     const StopSignal stop;
     if (options.quiet)
         quietLog();
     ASSIGN_OR_RETURN(const Doors doors, doorsOf(options.door));
     ASSIGN_OR_RETURN(const video::Module* video, videoModule(options.h264));
-    ASSIGN_OR_RETURN(auto configuration, configurationOf(options.config, options.quiet));
-    ASSIGN_OR_RETURN(const api::Programs programs, programsOf(options.programs));
-    ASSIGN_OR_RETURN(const api::Quotas quotas, quotasOf(options.quotas));
-    const int renderers = rendererCount(options, configuration);
-    ASSIGN_OR_RETURN(
-        const auto farm,
-        LocalFarm::start(std::move(configuration), options.config.compound, options.cache,
-                         options.decoding, options.dataFolder, programs, quotas));
+    ASSIGN_OR_RETURN(coordinator::CoordinatorOptions settings, settingsOf(options, doors));
+    const int renderers = rendererCount(options, settings.configuration);
+    auto started = LocalFarm::start(std::move(settings), options.cache, options.decoding);
+    if (absl::IsUnavailable(started.status()) && !options.grpc.empty())
+        return fabric::withContext(absl::InvalidArgumentError(started.status().message()),
+                                   "--grpc");
+    ASSIGN_OR_RETURN(const auto farm, std::move(started));
     ASSIGN_OR_RETURN(const auto door, openWebDoor(options.listen, doors, video,
                                                   options.quotas.crowd, farm->coordinator()));
     ASSIGN_OR_RETURN(fabric::Scene scene,
@@ -105,6 +125,10 @@ absl::Status serve(const Options& options) {
     if (stop.token().stop_requested())
         return absl::OkStatus();
     announce(door->url(), farm->frames().status(), options.quiet);
+    if (!options.grpc.empty()) {
+        fmt::print("Programs call by gRPC at {}\n", farm->coordinator().grpcAddresses().back());
+        std::fflush(stdout);
+    }
     absl::Status end = serveUntilStopped(*farm, stop.token());
     closeWebDoor(*door, farm->coordinator());  // while there are renderers
     return end;
@@ -127,6 +151,10 @@ void addServe(CLI::App& app, Run& run) {
     command->add_option("--listen", options->listen, "Where browsers find it; port 0: any free one")
         ->type_name("HOST:PORT")
         ->capture_default_str();
+    command
+        ->add_option("--grpc", options->grpc,
+                     "Where programs call by gRPC; port 0: any free one [nowhere]")
+        ->type_name("HOST:PORT|unix:/PATH");
     command
         ->add_option("--renderers", options->renderers,
                      "Renderer processes [as many as --config uses; one a GPU; without, two]")

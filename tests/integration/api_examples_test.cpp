@@ -7,8 +7,12 @@
 #include <set>
 #include <thread>
 
+#include <arpa/inet.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include "tests/support/http_client.h"
 #include "tests/support/program.h"
@@ -30,11 +34,11 @@ protected:
         const test::Outcome made = test::eyrie({"synth", "terrain", "--size", "129", "--seed", "1",
                                                 "-o", folder_->path("data/example.tif")});
         ASSERT_EQ(made.exit.status, 0) << made.errors;
-        server_ =
-            new test::Process(test::eyrieCommand({"serve", EYRIE_SOURCE_DIR "/demo/scene.json",
-                                                  "--listen", "127.0.0.1:0", "--renderers", "2",
-                                                  "--data", folder_->path("data")}),
-                              {"XDG_CACHE_HOME=" + folder_->path("cache")});
+        server_ = new test::Process(
+            test::eyrieCommand({"serve", EYRIE_SOURCE_DIR "/demo/scene.json", "--listen",
+                                "127.0.0.1:0", "--renderers", "2", "--data", folder_->path("data"),
+                                "--grpc", "127.0.0.1:0"}),
+            {"XDG_CACHE_HOME=" + folder_->path("cache")});
         ASSERT_TRUE(server_->waitForOutput("Eyrie is at http://", seconds(120)) &&
                     server_->waitForOutput("/\n", seconds(1)))
             << server_->errors();
@@ -118,6 +122,15 @@ TEST_F(ApiExamples, EveryCallAnswersAsDocumented) {
     const test::Outcome outcome = ask("python3", "tests/integration/check_api.py", {});
     EXPECT_EQ(outcome.exit.status, 0) << outcome.output << outcome.errors;
     EXPECT_THAT(outcome.output, HasSubstr(" 0 answers that are not as documented"));
+}
+
+TEST_F(ApiExamples, ProgramsCallByGrpcWhereTheServerSays) {
+    ASSERT_TRUE(server_->waitForOutput("Programs call by gRPC at ", seconds(60)));
+    const std::string output = server_->output();
+    std::string address = output.substr(output.find("gRPC at ") + 8);
+    address = address.substr(0, address.find('\n'));
+    const test::Outcome outcome = test::eyrie({"health", address});
+    EXPECT_EQ(outcome.exit.status, 0) << address << outcome.errors;
 }
 
 TEST_F(ApiExamples, AStillComesWithDepthAndAPick) {
@@ -236,6 +249,72 @@ TEST_F(ApiExamples, CurlMakesTheCallsMostAskedFor) {
                              "evening.png", "upper.png", "pick.json", "data-sets.json",
                              "operations.json", "sessions.json", "frame.txt"})
         EXPECT_GT(std::filesystem::file_size(folder + "/" + name), 10U) << name;
+}
+
+/// What the first who connects asks for; the answer is 401.
+class Stranger {
+public:
+    Stranger() : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+        sockaddr_in address{};
+        address.sin_family = AF_INET;
+        address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+        socklen_t size = sizeof address;
+        auto* const generic = reinterpret_cast<sockaddr*>(&address);
+        EXPECT_EQ(::bind(socket_, generic, size), 0);
+        EXPECT_EQ(::listen(socket_, 8), 0);
+        EXPECT_EQ(::getsockname(socket_, generic, &size), 0);
+        url_ = "http://127.0.0.1:" + std::to_string(ntohs(address.sin_port));
+        answering_ = std::jthread([this] { answer(); });
+    }
+    ~Stranger() { ::close(socket_); }
+
+    const std::string& url() const { return url_; }
+
+    /// Once who asked has ended.
+    const std::string& asked() {
+        ::shutdown(socket_, SHUT_RDWR);
+        answering_.join();
+        return asked_;
+    }
+
+private:
+    void answer() {
+        const int peer = ::accept4(socket_, nullptr, nullptr, SOCK_CLOEXEC);
+        char part[4096];
+        ssize_t size = 0;
+        while (asked_.find("\r\n\r\n") == std::string::npos &&
+               (size = ::recv(peer, part, sizeof part, 0)) > 0)
+            asked_.append(part, static_cast<std::size_t>(size));
+        const std::string text =
+            "HTTP/1.1 401 Unauthorized\r\nContent-Length: 31\r\nConnection: close\r\n\r\n"
+            "{\"title\":\"No\",\"detail\":\"token\"}";
+        ::send(peer, text.data(), text.size(), MSG_NOSIGNAL);
+        ::close(peer);
+    }
+
+    const int socket_;
+    std::string url_;
+    std::string asked_;
+    std::jthread answering_;
+};
+
+TEST(Examples, BringTheTokenOfTheirEnvironment) {
+    const test::TemporaryFolder folder;
+    const std::string place = folder.path("out");
+    for (const std::vector<std::string>& example :
+         std::vector<std::vector<std::string>>{{"python3", "render_still.py", place},
+                                               {"python3", "turntable.py", place},
+                                               {"python3", "watch_statistics.py"},
+                                               {"python3", "sessions.py"},
+                                               {"bash", "curl.sh", place}}) {
+        Stranger stranger;
+        std::vector<std::string> command{
+            "/usr/bin/env", example[0], EYRIE_SOURCE_DIR "/examples/" + example[1], stranger.url()};
+        command.insert(command.end(), example.begin() + 2, example.end());
+        test::run(command, seconds(60), {"EYRIE_TOKEN=view-0123456789abcdef"});
+        EXPECT_THAT(stranger.asked(), HasSubstr("Authorization: Bearer view-0123456789abcdef\r\n"))
+            << example[1];
+    }
 }
 
 }  // namespace
