@@ -9,10 +9,8 @@
 // with four viewers that never read what they are sent, until those are cut off. What sessions
 // have drawn and encoded is in the server's log, which is printed at the end.
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <functional>
 #include <memory>
 #include <string>
 #include <thread>
@@ -20,14 +18,15 @@
 
 #include <fmt/format.h>
 
-#include "bench/process_figures.h"
-#include "tests/support/process.h"
-#include "tests/support/temporary_folder.h"
-#include "tests/support/viewer_client.h"
+#include "bench/watched_server.h"
 
 namespace {
 
 using namespace eyrie;
+using bench::homeOf;
+using bench::lead;
+using bench::percentile;
+using bench::WatchedServer;
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
@@ -37,91 +36,8 @@ struct Options {
     std::string program;
     std::string scene;
     int seconds = 8;
-    int width = 640;
-    int height = 360;
+    bench::Looked looked = {};
 };
-
-class Server {
-public:
-    explicit Server(const Options& options)
-        : process_({options.program, "serve", options.scene, "--listen", "127.0.0.1:0"},
-                   {"XDG_CACHE_HOME=" + folder_.path("cache")}) {}
-
-    bool start() {
-        constexpr std::string_view kBegin = "Eyrie is at http://127.0.0.1:";
-        if (!process_.waitForOutput(kBegin, seconds(300)) ||
-            !process_.waitForOutput("/\n", seconds(5)))
-            return false;
-        const std::string output = process_.output();
-        port_ = static_cast<std::uint16_t>(
-            std::atoi(output.c_str() + output.find(kBegin) + kBegin.size()));
-        return true;
-    }
-
-    std::unique_ptr<ViewerClient> open(const std::string& query) const {
-        auto client = ViewerClient::connect(port_, query);
-        if (client.ok())
-            return *std::move(client);
-        fmt::print(stderr, "{}\n", client.status().ToString());
-        std::exit(1);
-    }
-
-    double mebibytes() const {
-        const auto figures = bench::figuresOf(process_.id(), 0);
-        return figures ? figures->residentMebibytes : 0;
-    }
-
-    std::string errors() const { return process_.errors(); }
-
-private:
-    test::TemporaryFolder folder_;
-    test::Process process_;
-    std::uint16_t port_ = 0;
-};
-
-/// A step of an orbit round the scene.
-v1::ViewRequest viewAt(const v1::Camera& home, std::uint64_t sequence, const Options& options) {
-    v1::ViewRequest view;
-    view.set_sequence(sequence);
-    view.set_width(options.width);
-    view.set_height(options.height);
-    view.set_tau_pixels(1);
-    *view.mutable_camera() = home;
-    const double angle = 0.01 * static_cast<double>(sequence);
-    const double x = home.eye(0) - home.target(0);
-    const double y = home.eye(1) - home.target(1);
-    view.mutable_camera()->set_eye(0, home.target(0) + x * std::cos(angle) - y * std::sin(angle));
-    view.mutable_camera()->set_eye(1, home.target(1) + x * std::sin(angle) + y * std::cos(angle));
-    return view;
-}
-
-v1::Camera homeOf(const Server& server) {
-    const auto client = server.open("");
-    for (;;) {
-        const auto response = client->receive(seconds(60));
-        if (!response.ok())
-            std::exit(1);
-        if (response->has_state() && response->state().has_home())
-            return response->state().home();
-    }
-}
-
-/// Moves the view all the time and takes every frame; milliseconds from each view that a frame
-/// shows to that frame. `frameCame` is called after each.
-std::vector<double> lead(
-    ViewerClient& client, const v1::Camera& home, const Options& options, Clock::time_point end,
-    const std::function<void()>& frameCame = [] {}) {
-    std::vector<double> latencies;
-    for (std::uint64_t sequence = 1; Clock::now() < end; ++sequence) {
-        const auto start = Clock::now();
-        if (!client.frameOf(viewAt(home, sequence, options), seconds(20)).ok())
-            break;
-        latencies.push_back(
-            std::chrono::duration<double, std::milli>(Clock::now() - start).count());
-        frameCame();
-    }
-    return latencies;
-}
 
 /// Takes what comes; how many frames.
 int watch(ViewerClient& client, Clock::time_point end) {
@@ -139,7 +55,7 @@ int watch(ViewerClient& client, Clock::time_point end) {
     return frames;
 }
 
-std::vector<int> play(const Server& server, const v1::Camera& home, const Options& options,
+std::vector<int> play(const WatchedServer& server, const v1::Camera& home, const Options& options,
                       int sessions, int viewers) {
     const auto end = Clock::now() + seconds(options.seconds);
     std::vector<int> counts(static_cast<std::size_t>(sessions) * static_cast<std::size_t>(viewers));
@@ -151,8 +67,9 @@ std::vector<int> play(const Server& server, const v1::Camera& home, const Option
                                                   viewer == 0 ? "" : "&role=watch");
             threads.emplace_back([&, viewer, query] {
                 const auto client = server.open(query);
-                mine = viewer == 0 ? static_cast<int>(lead(*client, home, options, end).size())
-                                   : watch(*client, end);
+                mine = viewer == 0
+                           ? static_cast<int>(lead(*client, home, options.looked, end).size())
+                           : watch(*client, end);
             });
         }
     for (std::thread& thread : threads) thread.join();
@@ -165,14 +82,8 @@ void tell(const std::string& what, const std::vector<int>& counts) {
                static_cast<double>(least) / most);
 }
 
-double percentile(std::vector<double> values, double share) {
-    if (values.empty())
-        return 0;
-    std::ranges::sort(values);
-    return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
-}
-
-void compareWithSilent(const Server& server, const v1::Camera& home, const Options& options) {
+void compareWithSilent(const WatchedServer& server, const v1::Camera& home,
+                       const Options& options) {
     constexpr int kSilent = 4;
     constexpr double kCutAfterSeconds = 14;
     const auto leader = server.open("?session=read");
@@ -180,8 +91,8 @@ void compareWithSilent(const Server& server, const v1::Camera& home, const Optio
         return Clock::now() +
                std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(time));
     };
-    lead(*leader, home, options, until(options.seconds));  // until all is loaded
-    const std::vector<double> alone = lead(*leader, home, options, until(options.seconds));
+    lead(*leader, home, options.looked, until(options.seconds));  // until all is loaded
+    const std::vector<double> alone = lead(*leader, home, options.looked, until(options.seconds));
     const double before = server.mebibytes();
     std::vector<std::unique_ptr<ViewerClient>> silent;
     for (int i = 0; i < kSilent; ++i) silent.push_back(server.open("?session=read&role=watch"));
@@ -190,7 +101,7 @@ void compareWithSilent(const Server& server, const v1::Camera& home, const Optio
     double lastBeside = 0;  // seconds
     std::vector<double> beside;
     auto last = opened;
-    lead(*leader, home, options, until(kCutAfterSeconds), [&] {
+    lead(*leader, home, options.looked, until(kCutAfterSeconds), [&] {
         const auto now = Clock::now();
         // How many belong to the session is what its leader is told.
         if (leader->state().place().viewers() > 1) {
@@ -218,9 +129,10 @@ int main(int argc, char** argv) {
     Options options{argv[1], argv[2]};
     if (argc > 3)
         options.seconds = std::max(1, std::atoi(argv[3]));
-    if (argc > 4 && std::sscanf(argv[4], "%dx%d", &options.width, &options.height) != 2)
+    if (argc > 4 &&
+        std::sscanf(argv[4], "%dx%d", &options.looked.width, &options.looked.height) != 2)
         return 2;
-    Server server(options);
+    WatchedServer server(options.program, options.scene);
     if (!server.start()) {
         fmt::print(stderr, "{}", server.errors());
         return 1;
