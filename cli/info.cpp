@@ -11,6 +11,7 @@
 
 #include "cli/cache_options.h"
 #include "cli/commands.h"
+#include "cli/crs_notes.h"
 #include "cli/data_cache.h"
 #include "cli/imagery_facts.h"
 #include "cli/json_object.h"
@@ -122,15 +123,6 @@ JsonObject toJson(const Facts& facts) {
     if (facts.imagery)
         json.object("imagery", imageryJson(*facts.imagery));
     return json;
-}
-
-/// The name in a coordinate reference system's well-known text.
-std::string crsName(const std::string& wkt) {
-    const std::size_t begin = wkt.find('"');
-    const std::size_t end = wkt.find('"', begin + 1);
-    return begin == std::string::npos || end == std::string::npos
-               ? "none"
-               : wkt.substr(begin + 1, end - begin - 1);
 }
 
 void printFacts(const std::string& name, const Facts& facts) {

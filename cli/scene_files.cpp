@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/crs_notes.h"
 #include "cli/placement.h"
 #include "eyrie/v1/scene.pb.h"
 #include "fabric/status.h"
@@ -142,6 +143,8 @@ absl::StatusOr<fabric::Scene> assembleScene(std::span<const std::string> paths, 
         object.imagery.clear();
     }
     for (std::string& note : cache.takeNotes()) notes.push_back(std::move(note));
+    ASSIGN_OR_RETURN(const std::vector<std::string> ofCrs, crsNotes(*scene, cache.sources()));
+    notes.insert(notes.end(), ofCrs.begin(), ofCrs.end());
     RETURN_IF_ERROR(placeMeshes(*scene, firstLoose, cache.sources(), notes));
     RETURN_IF_ERROR(fabric::validate(*scene));
     return *std::move(scene);

@@ -185,17 +185,17 @@ TEST_F(SceneFiles, ATerrainIsImportedWithItsImageryAndAgainWhenThatChanges) {
     EXPECT_EQ(importsKept(), 3U) << "without imagery it is another terrain";
 }
 
-/// A virtual raster of all of another one, of kPosts a side.
+/// A virtual raster of all of another one, of kPosts a side, in UTM.
 std::string writeVirtual(const test::TemporaryFolder& folder, const std::string& name,
-                         const std::string& of) {
+                         const std::string& of, int zone = 32) {
     return folder.write(
         name,
-        fmt::format(R"(<VRTDataset rasterXSize="{0}" rasterYSize="{0}">)"
+        fmt::format(R"(<VRTDataset rasterXSize="{0}" rasterYSize="{0}"><SRS>EPSG:326{2}</SRS>)"
                     R"(<GeoTransform>500000, 30, 0, 5200000, 0, -30</GeoTransform>)"
                     R"(<VRTRasterBand dataType="Float32" band="1"><SimpleSource>)"
                     R"(<SourceFilename relativeToVRT="1">{1}</SourceFilename>)"
                     R"(<SourceBand>1</SourceBand></SimpleSource></VRTRasterBand></VRTDataset>)",
-                    kPosts, of));
+                    kPosts, of, zone));
 }
 
 TEST_F(SceneFiles, AVirtualRasterIsImportedAgainWhenWhatItNamesChanges) {
@@ -212,6 +212,20 @@ TEST_F(SceneFiles, AVirtualRasterIsImportedAgainWhenWhatItNamesChanges) {
     writeSlope(folder_, 20);
     EXPECT_NE(*cache_.dataFor(inner, fabric::ObjectKind::Terrain), before[0]);
     EXPECT_NE(*cache_.dataFor(outer, fabric::ObjectKind::Terrain), before[1]);
+}
+
+TEST_F(SceneFiles, TerrainsOfDifferentCrsAreToldOf) {
+    writeSlope(folder_);
+    const std::string zone32 = writeVirtual(folder_, "west.vrt", "slope.tif", 32);
+    const std::string more32 = writeVirtual(folder_, "middle.vrt", "slope.tif", 32);
+    const std::string zone33 = writeVirtual(folder_, "east.vrt", "slope.tif", 33);
+    ASSERT_TRUE(assemble({zone32, more32}).ok());
+    EXPECT_THAT(notes_, testing::Not(testing::Contains(testing::HasSubstr("coordinates"))));
+    notes_.clear();
+    ASSERT_TRUE(assemble({zone32, more32, zone33}).ok());
+    EXPECT_THAT(notes_, testing::Contains(
+                            testing::AllOf(testing::HasSubstr("east is in WGS 84 / UTM zone 33N"),
+                                           testing::HasSubstr("west in WGS 84 / UTM zone 32N"))));
 }
 
 TEST_F(SceneFiles, ImageryOverAnImportedTerrainIsRefused) {
