@@ -107,15 +107,31 @@ absl::Status runCompare(const Options& options) {
     return absl::OkStatus();
 }
 
+/// What is judged is what the camera itself sees, at the errors asked for.
+absl::Status checkReference(const Options& options) {
+    const ConfigOptions& config = options.pictures.config;
+    if (!options.reference.isAsked)
+        return absl::OkStatus();
+    if (!options.budgets.empty())
+        return absl::InvalidArgumentError(
+            "--reference holds frames against the source at the errors asked for; leave "
+            "--budget-ms out, or take the errors that it came to as --tau");
+    if (!config.file.empty())
+        return absl::InvalidArgumentError(
+            "--reference judges what the camera itself sees, which a configuration's walls may "
+            "not; leave --config out, or name a --compound");
+    if (config.shown != coordinator::Shown{})
+        return absl::InvalidArgumentError(
+            "--reference judges what the camera itself sees, which is not what --eye, --stereo, "
+            "--canvas and --segment show; leave them out");
+    return absl::OkStatus();
+}
+
 /// As asked for or, with a configuration, as many as it uses.
 absl::StatusOr<std::vector<int>> renderersFor(const Options& options) {
     const ConfigOptions& config = options.pictures.config;
     if (config.file.empty())
         return options.renderers;
-    if (options.reference.isAsked)
-        return absl::InvalidArgumentError(
-            "--reference judges what the camera itself sees, which a configuration's walls may "
-            "not; leave --config out, or name a --compound");
     ASSIGN_OR_RETURN(const auto configuration, configurationOf(config, true));
     std::vector<int> renderers = options.renderers;
     std::ranges::replace(renderers, 0, renderersOf(*configuration));
@@ -131,11 +147,7 @@ absl::Status runBench(const Options& options) {
             "it");
     const StopSignal stop;
     RETURN_IF_ERROR(checkTaus(options.taus, options.budgets));
-    if (options.reference.isAsked && !options.budgets.empty())
-        return absl::InvalidArgumentError(
-            "--reference holds frames against the source at the errors asked for; leave "
-            "--budget-ms "
-            "out, or take the errors that it came to as --tau");
+    RETURN_IF_ERROR(checkReference(options));
     ASSIGN_OR_RETURN(const PictureSize size, parsePictureSize(options.size, "--size"));
     bench::RunPlan plan = planOf(options, size);
     ASSIGN_OR_RETURN(plan.renderers, renderersFor(options));

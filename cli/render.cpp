@@ -97,6 +97,10 @@ struct Outputs {
     std::optional<DepthFile> depth;
 
     absl::Status take(const fabric::Image& rows) {
+        if (depth && rows.depth.size() != rows.colour.size())
+            return absl::InvalidArgumentError(
+                "--depth: an anaglyph shows two depths a pixel; name one eye with --eye, or leave "
+                "--depth out");
         if (depth)
             RETURN_IF_ERROR(depth->put(rows));
         return picture->append(rows);

@@ -79,6 +79,10 @@ absl::StatusOr<FlightJudge::Judged> FlightJudge::judge(Frame& frame, PictureSour
     request.wantsDepth = true;
     ASSIGN_OR_RETURN(coordinator::RenderedFrame drawn, pictures.draw(request));
     const double promised = drawn.statistics.tauAchievedPixels;
+    if (drawn.image.depth.size() != frame.view->hits.size())
+        return absl::InternalError(
+            fmt::format("a picture of {} x {} pixels came with {} depths, of which each has one",
+                        how_.width, how_.height, drawn.image.depth.size()));
     const std::vector<float> depth = fabric::depthMetres(drawn.image);
     ShownTriangles shown(reference_, frame.view->camera,
                          lod::View(frame.camera, how_.width, how_.height), request.tauPixels,

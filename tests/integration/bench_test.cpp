@@ -202,6 +202,15 @@ TEST_F(Bench, RefusesAReferenceThatIsNone) {
                 testing::HasSubstr("--reference-memory"));
     EXPECT_THAT(refusal(path("r.eym"), {"--source", path("r.ply")}, 2),
                 testing::HasSubstr("--reference"));
+    for (const auto& [option, value] : {std::pair("--stereo", "anaglyph"),
+                                        {"--stereo", "side-by-side"},
+                                        {"--stereo", "top-bottom"},
+                                        {"--eye", "left"},
+                                        {"--canvas", "0"},
+                                        {"--segment", "0"}})
+        EXPECT_THAT(refusal(path("r.eym"), {"--reference", option, value}, 2),
+                    testing::HasSubstr("what the camera itself sees"))
+            << option << " " << value;
     ASSERT_TRUE(succeeded({"synth", "mesh", "--size", "3000", "--seed", "6", "-o", path("r.ply")}));
     EXPECT_THAT(refusal(path("r.eym"), {"--reference"}, 2),
                 testing::HasSubstr("is not what " + path("r.eym") + " was imported from"));
