@@ -42,6 +42,15 @@ bool keepsPromise(const FrameError& error) {
            error.falseHits == 0 && error.misplaced == 0;
 }
 
+std::uint64_t neededBytes(const JudgedFrames& frames) {
+    constexpr std::uint64_t kKept = 20;
+    constexpr std::uint64_t kInWork = 130;
+    const auto pixels =
+        static_cast<std::uint64_t>(frames.width) * static_cast<std::uint64_t>(frames.height);
+    const auto kept = static_cast<std::uint64_t>(std::min(frames.judged, frames.played));
+    return pixels * (kept * kKept + kInWork);
+}
+
 FlightJudge::FlightJudge(ReferenceScene reference, const fabric::Flight& flight,
                          const JudgedFrames& frames, page::SourceOptions remote)
     : reference_(std::move(reference)), how_(frames), remote_(std::move(remote)) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -25,12 +26,16 @@ struct JudgedFrames {
     int judged = 6;    ///< of these, evenly spread; all where there are fewer
 };
 
+/// What FlightJudge takes: of each frame 20 bytes a pixel, which it keeps, and while it judges one
+/// another 130, FLIP's planes for the most part.
+std::uint64_t neededBytes(const JudgedFrames& frames);
+
 /// At which colours are drawn that pictures' are compared with: finer, or as fine, as what is
 /// compared.
 inline constexpr double kFinestTauPixels = 0.125;
 
 /// Holds frames of one flight against the full-resolution source, at any tau. What the source shows
-/// is cast once a frame and kept, 20 bytes a pixel.
+/// is cast once a frame and kept.
 class FlightJudge {
 public:
     /// `remote`: how the drawn terrain is read again, for pixels of triangles seen edge-on.

@@ -22,10 +22,24 @@
 namespace eyrie::cli::bench {
 namespace {
 
-absl::StatusOr<std::uint64_t> memoryOf(const ReferenceOptions& options) {
+absl::StatusOr<std::uint64_t> limitOf(const ReferenceOptions& options) {
     if (options.memory.empty())
         return static_cast<std::uint64_t>(kShareOfMemory * static_cast<double>(availableBytes()));
     return parseBytes(options.memory, "--reference-memory");
+}
+
+JudgedFrames judgedOf(const RunPlan& plan, int frames) {
+    const coordinator::FrameRequest& request = plan.play.request;
+    return {request.width, request.height, plan.play.frames, frames};
+}
+
+absl::StatusOr<ReferenceMemory> memoryOf(const RunPlan& plan, const ReferenceOptions& options) {
+    ASSIGN_OR_RETURN(const std::uint64_t limit, limitOf(options));
+    const JudgedFrames frames = judgedOf(plan, options.frames);
+    return ReferenceMemory{
+        limit, neededBytes(frames),
+        fmt::format("{} frames of {} x {} pixels", std::min(frames.judged, frames.played),
+                    frames.width, frames.height)};
 }
 
 absl::StatusOr<std::unique_ptr<PictureSource>> open(const RunPlan& plan, int renderers,
@@ -41,9 +55,7 @@ absl::StatusOr<FlightJudge> judgeFor(const ReferencePlan& reference, const RunPl
     ASSIGN_OR_RETURN(const fabric::Flight flight,
                      flightNamed(plan.flight, pictures->sceneInfo().bounds));
     ASSIGN_OR_RETURN(ReferenceScene scene, readSources(reference.scene, reference.sources));
-    const coordinator::FrameRequest& request = plan.play.request;
-    return FlightJudge(std::move(scene), flight,
-                       {request.width, request.height, plan.play.frames, reference.frames},
+    return FlightJudge(std::move(scene), flight, judgedOf(plan, reference.frames),
                        reference.remote);
 }
 
@@ -120,7 +132,8 @@ void addReferenceOptions(CLI::App& command, ReferenceOptions& options) {
         ->type_name("FILE");
     command
         .add_option("--reference-memory", options.memory,
-                    "What the source may take; 70 % of what is free otherwise")
+                    "What the source and the judged frames may take; 70 % of what is free "
+                    "otherwise")
         ->needs(reference)
         ->type_name("BYTES");
 }
@@ -129,7 +142,7 @@ absl::StatusOr<ReferencePlan> planReference(const RunPlan& plan, const Reference
                                             const std::stop_token& stop) {
     ReferencePlan reference;
     reference.frames = options.frames;
-    ASSIGN_OR_RETURN(const std::uint64_t memory, memoryOf(options));
+    ASSIGN_OR_RETURN(const ReferenceMemory memory, memoryOf(plan, options));
     ASSIGN_OR_RETURN(const RemoteData remote, remoteDataOf(plan.pictures.cache));
     reference.remote = page::sourceOptions(remote.cacheFolder, remote.cacheBytes);
     ASSIGN_OR_RETURN(reference.scene, loadScene(std::span(&plan.scene, 1), plan.pictures.cache,

@@ -106,10 +106,10 @@ absl::StatusOr<Candidate> findSource(const fabric::SceneObject& object, const Fi
 }  // namespace
 
 absl::StatusOr<std::vector<FoundSource>> findSources(const fabric::Scene& scene, const Files& given,
-                                                     std::uint64_t memoryBytes,
+                                                     const ReferenceMemory& memory,
                                                      const page::SourceOptions& remote) {
     std::vector<FoundSource> found;
-    std::uint64_t needed = 0;
+    std::uint64_t needed = memory.framesBytes;
     for (const fabric::SceneObject& object : scene.objects) {
         if (std::ranges::any_of(found, [&](const FoundSource& one) { return one.isOf(object); }))
             continue;
@@ -117,11 +117,13 @@ absl::StatusOr<std::vector<FoundSource>> findSources(const fabric::Scene& scene,
         needed += one.neededBytes;
         found.push_back(std::move(one.source));
     }
-    if (needed > memoryBytes)
+    if (needed > memory.limitBytes)
         return absl::ResourceExhaustedError(fmt::format(
-            "{}: the reference of all that the scene shows takes about {} MiB of memory, of which "
-            "it may use {}; allow more with --reference-memory, or measure a part of the scene",
-            found.front().files.front(), (needed >> 20) + 1, memoryBytes >> 20));
+            "{}: the reference of all that the scene shows takes about {} MiB of memory, {} of it "
+            "for {}, and may use {}; allow more with --reference-memory, or measure fewer "
+            "--reference-frames, a smaller --size or a part of the scene",
+            found.front().files.front(), (needed >> 20) + 1, (memory.framesBytes >> 20) + 1,
+            memory.frames, memory.limitBytes >> 20));
     return found;
 }
 

@@ -28,16 +28,23 @@ struct FoundSource {
     }
 };
 
+/// What a reference may take, and what of it is not the sources'.
+struct ReferenceMemory {
+    std::uint64_t limitBytes = 0;
+    std::uint64_t framesBytes = 0;  ///< of the frames that are judged (neededBytes)
+    std::string frames = {};        ///< these, as a person says it
+};
+
 /// Finds the source files of each of the scene's imports: those of `given` (of the names that the
 /// import's record has, or all of them where it has none), or where the record says, or beside the
 /// import. Their hash must be the one that the import keeps, and all of them together must not need
-/// more than `memoryBytes`. Nothing is read but for the hashes. One for each file, whichever
+/// more than `memory` leaves. Nothing is read but for the hashes. One for each file, whichever
 /// objects show it, or two where some show one side of it and some both.
 ///
 /// Errors: NotFound (no file, nor a record), InvalidArgument (another hash), ResourceExhausted.
 absl::StatusOr<std::vector<FoundSource>> findSources(const fabric::Scene& scene,
                                                      const std::vector<std::string>& given,
-                                                     std::uint64_t memoryBytes,
+                                                     const ReferenceMemory& memory,
                                                      const page::SourceOptions& remote);
 
 /// A scene's sources, read.

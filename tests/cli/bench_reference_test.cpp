@@ -45,7 +45,7 @@ protected:
 
     absl::StatusOr<std::vector<FoundSource>> find(const std::vector<std::string>& given = {},
                                                   std::uint64_t memory = kPlenty) const {
-        return findSources(scene_, given, memory, {});
+        return findSources(scene_, given, {memory}, {});
     }
     std::string foundFile(const std::vector<std::string>& given = {}) const {
         const auto found = find(given);

@@ -200,6 +200,9 @@ TEST_F(Bench, RefusesAReferenceThatIsNone) {
         << "it was made of no file";
     EXPECT_THAT(refusal(path("r.eym"), {"--reference", "--reference-memory", "64K"}, 1),
                 testing::HasSubstr("--reference-memory"));
+    EXPECT_THAT(refusal(path("r.eym"),
+                        {"--reference", "--reference-memory", "8M", "--reference-frames", "24"}, 1),
+                testing::HasSubstr("24 frames of 1280 x 720 pixels"));
     EXPECT_THAT(refusal(path("r.eym"), {"--source", path("r.ply")}, 2),
                 testing::HasSubstr("--reference"));
     for (const auto& [option, value] : {std::pair("--stereo", "anaglyph"),
