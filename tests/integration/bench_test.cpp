@@ -139,6 +139,31 @@ TEST_F(Bench, MeasuresWhatASceneShowsAgainstItsSources) {
     EXPECT_GE(test::list(summary, "uniform").size(), 1U);
 }
 
+/// Turns on the spot, far cuts, near and far, and an S low over all of it: the flights on which
+/// errors are told, and none of their frames left out.
+TEST_F(Bench, EveryFrameOfTheTestFlightsKeepsItsPromiseAtEveryTau) {
+    ASSERT_TRUE(
+        succeeded({"synth", "terrain", "--size", "257", "--seed", "4", "-o", path("all.tif")}));
+    ASSERT_TRUE(succeeded({"import", "terrain", path("all.tif"), "-o", path("all.eyt")}));
+    ASSERT_TRUE(
+        succeeded({"synth", "mesh", "--size", "30000", "--seed", "4", "-o", path("all.ply")}));
+    ASSERT_TRUE(succeeded({"import", "mesh", path("all.ply"), "-o", path("all.eym")}));
+    for (const char* data : {"all.eyt", "all.eym"})
+        for (const char* flight : {"worst", "walkthrough"}) {
+            SCOPED_TRACE(std::string(data) + ", " + flight);
+            const std::string report = path("all-frames");
+            EXPECT_TRUE(succeeded({"bench", path(data), "--flight", flight, "--tau", "0.5,1,2,4,8",
+                                   "--size", "160x90", "--frames", "24", "--repeats", "1",
+                                   "--reference", "--reference-frames", "24", "-o", report}));
+            const auto runs = test::list(summaryOf(report), "runs");
+            ASSERT_EQ(runs.size(), 5U);
+            for (const auto& run : runs) {
+                EXPECT_EQ(number(run, "framesMeasured"), 24);
+                EXPECT_TRUE(test::at(run, "measuredWithinPromise").bool_value());
+            }
+        }
+}
+
 /// What a picture shows is held against the source that it was made of, wherever things meet. The
 /// terrain has gaps, some of them behind its crests.
 TEST_F(Bench, ScenesOfManyThingsKeepTheirPromise) {
