@@ -41,8 +41,9 @@ struct WorstFrame {
 
 /// One level of a model decimated uniformly: the same spacing everywhere, whatever the view.
 struct UniformLevel {
-    std::size_t triangles = 0;  ///< of the whole level, all of which is drawn
-    double p99Pixels = 0;       ///< of its pictures along the flight, measured in the same way
+    double triangles = 0;       ///< in view, mean of its pictures along the flight
+    double trianglesWhole = 0;  ///< drawn where nothing out of view is left out
+    double p99Pixels = 0;       ///< of these pictures, measured as those of a run are
     double maxPixels = 0;
 };
 

@@ -106,10 +106,10 @@ void count(const PlayedFrame& frame, RunSummary& summary) {
 }
 
 /// Of the line through both, logarithms on both axes. Precondition: the errors differ.
-double trianglesBetween(const UniformLevel& a, const UniformLevel& b, double p99Pixels) {
+double trianglesBetween(const UniformLevel& a, const UniformLevel& b, double p99Pixels,
+                        double UniformLevel::*count) {
     const double share = std::log(p99Pixels / a.p99Pixels) / std::log(b.p99Pixels / a.p99Pixels);
-    const auto from = static_cast<double>(a.triangles);
-    return from * std::pow(static_cast<double>(b.triangles) / from, share);
+    return a.*count * std::pow(b.*count / (a.*count), share);
 }
 
 }  // namespace
@@ -175,13 +175,13 @@ ErrorSummary summarize(const MeasuredErrors& measured) {
 }
 
 std::optional<double> efficiency(const std::vector<UniformLevel>& levels, double p99Pixels,
-                                 double triangles) {
+                                 double triangles, double UniformLevel::*count) {
     for (std::size_t i = 1; i < levels.size() && triangles > 0; ++i) {
         const auto [fine, coarse] = std::minmax(
             levels[i - 1], levels[i], [](auto& a, auto& b) { return a.p99Pixels < b.p99Pixels; });
         if (fine.p99Pixels > 0 && fine.p99Pixels < coarse.p99Pixels &&
             p99Pixels >= fine.p99Pixels && p99Pixels <= coarse.p99Pixels)
-            return trianglesBetween(fine, coarse, p99Pixels) / triangles;
+            return trianglesBetween(fine, coarse, p99Pixels, count) / triangles;
     }
     return std::nullopt;
 }

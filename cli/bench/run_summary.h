@@ -67,10 +67,11 @@ struct ErrorSummary {
 /// Precondition: measured.frames is not empty.
 ErrorSummary summarize(const MeasuredErrors& measured);
 
-/// How many times as many triangles as `triangles` a level of uniform decimation has whose pictures
-/// are off by `p99Pixels`: between levels log-log; none beyond their ends, where nothing was
-/// measured.
+/// How many times as many triangles as `triangles` a level of uniform decimation has, in view or as
+/// a whole (`count`), whose pictures are off by `p99Pixels`: between levels log-log; none beyond
+/// their ends, where nothing was measured.
 std::optional<double> efficiency(const std::vector<UniformLevel>& levels, double p99Pixels,
-                                 double triangles);
+                                 double triangles,
+                                 double UniformLevel::*count = &UniformLevel::triangles);
 
 }  // namespace eyrie::cli::bench

@@ -30,7 +30,8 @@ JsonObject toJson(const fabric::StageMilliseconds& stages) {
 
 JsonObject toJson(const UniformLevel& level) {
     JsonObject json;
-    json.count("triangles", level.triangles)
+    json.number("triangles", level.triangles)
+        .number("trianglesWhole", level.trianglesWhole)
         .number("p99Px", level.p99Pixels)
         .number("maxPx", level.maxPixels);
     return json;
@@ -94,9 +95,12 @@ JsonObject toJson(const BenchRun& run, const std::vector<UniformLevel>& uniform)
         return json;
     const ErrorSummary errors = summarize(*run.measured);
     addMeasured(errors, run.measured->frames.size(), json);
-    if (const auto factor =
-            efficiency(uniform, errors.p99Pixels, summary.trianglesMean + summary.pointsMean))
+    const double drawn = summary.trianglesMean + summary.pointsMean;
+    if (const auto factor = efficiency(uniform, errors.p99Pixels, drawn))
         json.number("efficiency", *factor);
+    if (const auto factor =
+            efficiency(uniform, errors.p99Pixels, drawn, &UniformLevel::trianglesWhole))
+        json.number("efficiencyWhole", *factor);
     return json;
 }
 

@@ -30,6 +30,7 @@ public:
     std::optional<fabric::Vec3> counterpart(const fabric::Vec3& point) const override {
         return caster_.counterpart(point);
     }
+    const truth::HeightGrid& grid() const { return caster_.grid(); }
 
 private:
     truth::TerrainRayCaster caster_;
@@ -38,6 +39,7 @@ private:
 struct Decimated {
     std::shared_ptr<const truth::ReferenceSurface> surface;  ///< null: nothing is left
     std::size_t triangles = 0;
+    std::function<std::size_t(const fabric::Mat4&, const truth::Pinhole&)> inView;  ///< of these
 };
 
 Decimated decimated(const truth::TerrainRayCaster& terrain, double share) {
@@ -49,7 +51,10 @@ Decimated decimated(const truth::TerrainRayCaster& terrain, double share) {
     const std::size_t triangles = truth::trianglesOf(coarse);
     if (triangles == 0)
         return {};
-    return {std::make_shared<DrawnGrid>(std::move(coarse)), triangles};
+    const auto drawn = std::make_shared<DrawnGrid>(std::move(coarse));
+    return {drawn, triangles, [drawn](const fabric::Mat4& placed, const truth::Pinhole& camera) {
+                return truth::trianglesInView(drawn->grid(), placed, camera);
+            }};
 }
 
 Decimated decimated(const truth::MeshRayCaster& mesh, double share) {
@@ -58,12 +63,22 @@ Decimated decimated(const truth::MeshRayCaster& mesh, double share) {
     const std::size_t triangles = coarse.triangles.size();
     if (triangles == 0)
         return {};
-    return {std::make_shared<truth::MeshRayCaster>(std::move(coarse)), triangles};
+    const auto drawn = std::make_shared<truth::MeshRayCaster>(std::move(coarse));
+    return {drawn, triangles, [drawn](const fabric::Mat4& placed, const truth::Pinhole& camera) {
+                return truth::trianglesInView(drawn->mesh(), placed, camera);
+            }};
 }
 
 struct Level {
     std::vector<truth::PlacedSurface> surfaces;
     std::size_t triangles = 0;
+    std::vector<std::function<std::size_t(const truth::Pinhole&)>> inView;  ///< of each surface
+
+    std::size_t trianglesInView(const truth::Pinhole& camera) const {
+        std::size_t seen = 0;
+        for (const auto& ofSurface : inView) seen += ofSurface(camera);
+        return seen;
+    }
 };
 
 /// Sources that several objects show are decimated once, and count for each.
@@ -79,6 +94,10 @@ Level levelOf(const ReferenceScene& reference, double share) {
             continue;
         level.surfaces.push_back({place->second.surface, object.worldFromObject});
         level.triangles += place->second.triangles;
+        level.inView.emplace_back([inView = place->second.inView,
+                                   placed = object.worldFromObject](const truth::Pinhole& camera) {
+            return inView(placed, camera);
+        });
     }
     return level;
 }
@@ -101,10 +120,12 @@ UniformLevel measured(const ReferenceScene& reference, const Level& level,
     const int smallHeight = std::min(kUniformHeight, height);
     const double scale = static_cast<double>(height) / smallHeight;
     const int smallWidth = std::max(1, static_cast<int>(std::lround(width / scale)));
-    UniformLevel result{level.triangles};
+    UniformLevel result{.trianglesWhole = static_cast<double>(level.triangles)};
     for (const fabric::Camera& camera : cameras) {
-        std::vector<double> pixels =
-            displacementsOf(reference, surfaces, truth::Pinhole(camera, smallWidth, smallHeight));
+        const truth::Pinhole small(camera, smallWidth, smallHeight);
+        result.triangles +=
+            static_cast<double>(level.trianglesInView(small)) / static_cast<double>(cameras.size());
+        std::vector<double> pixels = displacementsOf(reference, surfaces, small);
         if (pixels.empty())
             continue;
         result.p99Pixels = std::max(result.p99Pixels, scale * truth::percentile(pixels, 99));

@@ -19,8 +19,9 @@ namespace eyrie::cli::bench {
 inline constexpr int kUniformHeight = 180;
 
 /// A scene whose every source is decimated uniformly, to a half, a quarter, an eighth ... of its
-/// triangles (meshes: truth::clustered; terrains: truth::everyPost, from a quarter on), and how far
-/// each is off in pictures of `width` x `height` from `cameras`. Finest first; levels without any
+/// triangles (meshes: truth::clustered; terrains: truth::everyPost, from a quarter on), how many of
+/// them are in view, which renderers without levels leave out, too, and how far each is off in
+/// pictures of `width` x `height` from `cameras`. Finest first; levels without any
 /// error are left out; the last is the first beyond `untilPixels` of 99 in 100 pixels. `levelDone`
 /// is called after each. Errors: Cancelled.
 absl::StatusOr<std::vector<UniformLevel>> uniformLevels(const ReferenceScene& reference,

@@ -106,6 +106,27 @@ TEST_F(ReferenceSources, ThatMemoryCannotHoldAreRefusedWithWhatTheyTake) {
     EXPECT_TRUE(find({}, facts->neededBytes).ok()) << "two of the same are read once";
 }
 
+TEST_F(ReferenceSources, AreRefusedWithTheFramesThatTheyLeaveNoMemoryFor) {
+    const auto facts = truth::inspectSource(fabric::ObjectKind::Mesh, {source_});
+    ASSERT_TRUE(facts.ok());
+    constexpr std::uint64_t kFrames = std::uint64_t{700} << 20;
+    const auto withLimit = [&](std::uint64_t limit) {
+        return findSources(scene_, {}, {limit, kFrames, "24 frames"}, {}).status();
+    };
+    EXPECT_TRUE(withLimit(kFrames + facts->neededBytes).ok());
+    const absl::Status refused = withLimit(kFrames + facts->neededBytes - 1);
+    EXPECT_TRUE(absl::IsResourceExhausted(refused)) << refused;
+    EXPECT_THAT(refused.ToString(), testing::HasSubstr("701 of it for 24 frames"));
+    EXPECT_THAT(refused.ToString(), testing::HasSubstr("--reference-frames"));
+}
+
+TEST(JudgedFrames, TakeMoreTheMoreAreKeptButNoMoreThanArePlayed) {
+    const std::uint64_t one = neededBytes({640, 360, 24, 1});
+    EXPECT_EQ(neededBytes({640, 360, 24, 24}) - one, 23U * 640 * 360 * 20);
+    EXPECT_EQ(neededBytes({640, 360, 24, 1000}), neededBytes({640, 360, 24, 24}));
+    EXPECT_EQ(neededBytes({1280, 720, 24, 1}), 4 * one);
+}
+
 /// From inside one may see through a ball that is drawn from outside only.
 TEST_F(ReferenceSources, OfAnObjectOfOneSideMayBeSeenThroughFromBehind) {
     scene_.objects.push_back(scene_.objects[0]);
@@ -164,13 +185,16 @@ TEST_F(ReferenceSources, DecimatedUniformlyAreWorseTheFewerTrianglesTheyHave) {
     ASSERT_TRUE(levels.ok()) << levels.status();
     ASSERT_GE(levels->size(), 4U);
     EXPECT_EQ(done, static_cast<int>(levels->size()));
-    EXPECT_LE(levels->front().triangles, 1100U);
-    EXPECT_GE(levels->front().triangles, 500U);
+    EXPECT_LE(levels->front().trianglesWhole, 1100);
+    EXPECT_GE(levels->front().trianglesWhole, 500);
     for (std::size_t i = 1; i < levels->size(); ++i)
         EXPECT_LT((*levels)[i].triangles, (*levels)[i - 1].triangles);
     EXPECT_GT(levels->front().p99Pixels, 0.1);
     EXPECT_GT(levels->back().p99Pixels, 3 * levels->front().p99Pixels);
-    for (const UniformLevel& level : *levels) EXPECT_GE(level.maxPixels, level.p99Pixels);
+    for (const UniformLevel& level : *levels) {
+        EXPECT_GE(level.maxPixels, level.p99Pixels);
+        EXPECT_EQ(level.triangles, level.trianglesWhole) << "both cameras see all of it";
+    }
     // Twice the picture's height is twice the pixels.
     const auto large = uniformLevels(*reference, cameras, 1280, 720, 0, [] {}, {});
     ASSERT_TRUE(large.ok());
@@ -179,6 +203,20 @@ TEST_F(ReferenceSources, DecimatedUniformlyAreWorseTheFewerTrianglesTheyHave) {
         uniformLevels(*reference, cameras, 640, 360, (*levels)[1].p99Pixels * 0.99, [] {}, {});
     ASSERT_TRUE(until.ok());
     EXPECT_EQ(until->size(), 2U) << "the last is the first beyond";
+}
+
+TEST_F(ReferenceSources, DecimatedUniformlyHaveTrianglesOutOfView) {
+    scene_.objects.push_back(scene_.objects[0]);
+    scene_.objects[1].worldFromObject = glm::translate(fabric::Mat4(1), fabric::Vec3(0, -100, 0));
+    const auto reference = readSources(scene_, *find());
+    ASSERT_TRUE(reference.ok()) << reference.status();
+    const fabric::Camera away{.eye = {0, -4, 0}, .target = {0, 0, 0}, .fovYDegrees = 40};
+    const fabric::Camera both{.eye = {100, -50, 0}, .target = {0, -50, 0}, .fovYDegrees = 90};
+    const auto levels = uniformLevels(*reference, std::vector{away, both}, 640, 360, 0, [] {}, {});
+    ASSERT_TRUE(levels.ok()) << levels.status();
+    ASSERT_FALSE(levels->empty());
+    EXPECT_EQ(levels->front().triangles, 0.75 * levels->front().trianglesWhole)
+        << "half of them in one picture, all in the other";
 }
 
 TEST(UniformLevels, OfAPlaneHaveNoError) {

@@ -178,7 +178,7 @@ Report madeUpReport() {
                                    .triangles = 100});
     measured.worst.push_back({measured.frames[1], "made-up picture", "made-up heat map"});
     made.runs[0].measured = measured;
-    made.uniform = {{6400, 0.1125, 0.5}, {1600, 0.225, 1}, {400, 0.9, 4}};
+    made.uniform = {{6400, 19200, 0.1125, 0.5}, {1600, 4800, 0.225, 1}, {400, 1200, 0.9, 4}};
     return made;
 }
 
@@ -197,6 +197,7 @@ TEST(BenchReport, MeasuredErrorsAreThoseOfTheWorstFrames) {
     EXPECT_EQ(number(run, "framesMeasured"), 3);
     EXPECT_FALSE(test::at(run, "measuredWithinPromise").bool_value()) << "it has holes";
     EXPECT_NEAR(number(run, "efficiency"), 8, 1e-9);  // 800 triangles between 1600 and 400
+    EXPECT_NEAR(number(run, "efficiencyWhole"), 24, 1e-9) << "with those out of view";
     EXPECT_EQ(test::list(summary, "uniform").size(), 3U);
 }
 

@@ -79,7 +79,7 @@ function drawTriangles(place) {
     svg.append(curve(levels.map((level) => place2d(level.p99Px, level.triangles)), "var(--quiet)", { "stroke-dasharray": "6 4" }));
     for (const level of levels) {
       const [cx, cy] = place2d(level.p99Px, level.triangles);
-      svg.append(explained(mark("circle", { cx, cy, r: 4, fill: "var(--quiet)" }), `uniform decimation: ${compact(level.triangles)} triangles, p99 ${number(level.p99Px)} px`));
+      svg.append(explained(mark("circle", { cx, cy, r: 4, fill: "var(--quiet)" }), `uniform decimation: ${compact(level.triangles)} triangles in view of ${compact(level.trianglesWhole)}, p99 ${number(level.p99Px)} px`));
     }
     for (const point of points) drawEfficiency(svg, point, axes);
   }
@@ -90,6 +90,6 @@ function drawTriangles(place) {
                mark("text", { x: cx, y: cy + 20, "text-anchor": "middle" }, compact(p.triangles)));
   }
   const entries = [["Eyrie: by view, within the error asked", "var(--time)"]];
-  if (levels.length > 0) entries.push(["uniform decimation: the same spacing everywhere", "var(--quiet)"]);
+  if (levels.length > 0) entries.push(["uniform decimation: the same spacing everywhere, what is in view", "var(--quiet)"]);
   place.append(legend(entries), svg);
 }
