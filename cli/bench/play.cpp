@@ -35,9 +35,9 @@ public:
 
     absl::Status play(int pass, const std::vector<fabric::FlightKey>& frames,
                       coordinator::FrameRequest request) {
-        const auto begin = Clock::now();
-        auto last = begin;
+        auto last = Clock::now();
         double drawing = 0;
+        double taking = 0;
         coordinator::FrameSequence sequence;
         sequence.atOnce = pictures_.framesAtOnce();
         sequence.draw = [&](const auto& choose) { return pictures_.drawLatest(choose); };
@@ -65,18 +65,19 @@ public:
             played_.device = frame.drawn->device;
             drawing += taken.count();
             frameDone_();
+            taking += Milliseconds(Clock::now() - frame.arrived).count();
             return absl::OkStatus();
         };
         RETURN_IF_ERROR(coordinator::drawSequence(sequence));
         if (pass > 0) {
             drawing_ += drawing;
-            all_ += Milliseconds(last - begin).count();
+            taking_ += taking;
         }
         played_.framesInFlight = sequence.atOnce;
         return absl::OkStatus();
     }
 
-    double overheadPercent() const { return drawing_ > 0 ? 100 * (all_ / drawing_ - 1) : 0; }
+    double overheadPercent() const { return drawing_ > 0 ? 100 * taking_ / drawing_ : 0; }
 
 private:
     PictureSource& pictures_;
@@ -84,7 +85,7 @@ private:
     const std::stop_token& stop_;
     Played& played_;
     double drawing_ = 0;  ///< milliseconds of the measured passes, of their frames
-    double all_ = 0;      ///< and of all that was done
+    double taking_ = 0;   ///< and of what was done with these
 };
 
 }  // namespace

@@ -51,9 +51,9 @@ struct Played {
     fabric::DeviceInfo device;
     /// Drawn after all passes, evenly along the flight, with their stages measured.
     std::vector<fabric::StageMilliseconds> stages = {};
-    /// Time of the measured passes between their frames, in percent of the frames' time: what the
-    /// bench itself takes. It is in no frame's milliseconds, but where several are in flight: then
-    /// there is no time between them.
+    /// What the bench itself does with each frame of the measured passes that has come, in percent
+    /// of the frames' time. It is in no frame's milliseconds where one is in flight; where several
+    /// are, it is in those of the next, which is being drawn meanwhile.
     double overheadPercent = 0;
     int framesInFlight = 1;  ///< at most
 };

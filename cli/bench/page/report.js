@@ -41,7 +41,7 @@ function rowGroups() {
     ["Work", ["triangles a frame, mean", (run) => number(run.trianglesMean)], ["points a frame, mean", (run) => number(run.pointsMean)], ["times fewer than uniform decimation has in view", (run) => (run.efficiency ? `${number(run.efficiency, 2)}×` : "–")],
       ["times fewer than all of uniform decimation", (run) => (run.efficiencyWhole ? `${number(run.efficiencyWhole, 2)}×` : "–")],
       ["loaded in all passes", (run) => mebibytes(run.bytesLoaded)], ["memory, at most", (run) => mebibytes(run.peakResidentBytes)],
-      ["takes longest", (run) => run.limitingStage || "–"], ["the bench itself, of the frames’ time", (run) => `${number(Math.max(0, run.overheadPercent), 2)} %`]],
+      ["takes longest", (run) => run.limitingStage || "–"], ["the bench itself, of the frames’ time", (run) => `${number(run.overheadPercent, 2)} %`]],
   ];
   return runs.some((run) => run.errorPx) ? groups : groups.filter(([name]) => !name.startsWith("Measured"))
     .map(([name, ...rows]) => [name, ...rows.filter(([row]) => !row.includes("uniform"))]);
@@ -84,8 +84,9 @@ function sayWhatIsSeen() {
   const broken = measured.filter((one) => one.measuredWithinPromise === false).length;
   if (measured.length > 0)
     say(byId("errors-says"), broken === 0 ? `No pixel of **${number(measured.reduce((sum, one) => sum + one.framesMeasured, 0))} measured frames** is off by more than its frame promised.` : `**${broken} of ${measured.length} runs** have frames off by more than they promised.`);
-  say(byId("strips-says"), `At ${run.label} the slowest frame in a hundred takes **${number(run.frameMs.p99 / run.frameMs.p50, 2)} times** the median. What the bench itself does between frames is in none of them: **${number(Math.max(0, run.overheadPercent), 2)} %** of their time.` +
-    (runs.some((one) => one.framesInFlight > 1) ? " Where several frames are in flight, a frame’s time is that since the one before it." : ""));
+  say(byId("strips-says"), `At ${run.label} the slowest frame in a hundred takes **${number(run.frameMs.p99 / run.frameMs.p50, 2)} times** the median. ` + (run.framesInFlight > 1
+      ? `Several frames are in flight: a frame’s time is that since the one before it, and has in it what the bench itself does with each, **${number(run.overheadPercent, 2)} %** of it.`
+      : `What the bench itself does with each is in none of them: **${number(run.overheadPercent, 2)} %** of their time.`));
   say(byId("stages-says"), run.limitingStage ? `At ${run.label}, **${run.limitingStage}** takes longest.` : "");
   const best = runs.filter((one) => one.efficiency);
   const factors = (name) => [Math.min, Math.max].map((end) => number(end(...best.map((one) => one[name])), 2)).join(" to ");
