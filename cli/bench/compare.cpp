@@ -28,9 +28,10 @@ double orders(double n, double m) {
     return std::exp(std::lgamma(n + m + 1) - std::lgamma(n + 1) - std::lgamma(m + 1));
 }
 
-std::vector<double> passesOf(const WrittenRun& run, double Percentiles::*figure) {
+template <typename Select>
+std::vector<double> passesOf(const WrittenRun& run, const Select& select) {
     std::vector<double> values;
-    for (const Percentiles& pass : run.passes) values.push_back(pass.*figure);
+    for (const PassSummary& pass : run.passes) values.push_back(select(pass));
     return values;
 }
 
@@ -42,11 +43,13 @@ Verdict verdictOf(const Ratio& ratio) {
     return ratio.high < 1 ? Verdict::Less : Verdict::WithinNoise;
 }
 
-Figure ofPasses(const char* name, double Percentiles::*figure, const WrittenRun& a,
-                const WrittenRun& b) {
-    Figure result{name, "ms", a.frame.*figure, b.frame.*figure, {}, Verdict::TooFewPasses};
-    const std::vector<double> inA = passesOf(a, figure);
-    const std::vector<double> inB = passesOf(b, figure);
+/// `shown` is of all of a run, `select` of a pass.
+template <typename Shown, typename Select>
+Figure ofPasses(const char* name, const char* unit, const WrittenRun& a, const WrittenRun& b,
+                const Shown& shown, const Select& select) {
+    Figure result{name, unit, shown(a), shown(b), {}, Verdict::TooFewPasses};
+    const std::vector<double> inA = passesOf(a, select);
+    const std::vector<double> inB = passesOf(b, select);
     const auto positive = [](double value) { return value > 0 && std::isfinite(value); };
     if (inA.empty() || inB.empty() || !std::ranges::all_of(inA, positive) ||
         !std::ranges::all_of(inB, positive))
@@ -54,6 +57,13 @@ Figure ofPasses(const char* name, double Percentiles::*figure, const WrittenRun&
     result.ratio = ratioOf(inA, inB);
     result.verdict = verdictOf(*result.ratio);
     return result;
+}
+
+Figure ofTimes(const char* name, double Percentiles::*figure, const WrittenRun& a,
+               const WrittenRun& b) {
+    return ofPasses(
+        name, "ms", a, b, [&](const WrittenRun& run) { return run.frame.*figure; },
+        [&](const PassSummary& pass) { return pass.frame.*figure; });
 }
 
 /// What repeats to the bit, so that any difference is one.
@@ -78,20 +88,53 @@ Figure once(const char* name, const char* unit, double a, double b) {
     return {name, unit, a, b, {}, Verdict::NotRepeated};
 }
 
-std::vector<Figure> figuresOf(const WrittenRun& a, const WrittenRun& b, double countNoise) {
-    std::vector<Figure> figures = {
-        ofPasses("frame, median", &Percentiles::p50, a, b),
-        ofPasses("frame, p95", &Percentiles::p95, a, b),
-        ofPasses("frame, p99", &Percentiles::p99, a, b),
-        exact("error promised", "px", a.tauAchievedMax, b.tauAchievedMax),
-        exact("frames over tau", "", a.framesBeyond, b.framesBeyond),
-        counted("triangles, mean", countNoise, a.trianglesMean, b.trianglesMean)};
+/// Whether what is drawn follows from what was asked for alone. Where a frame time is to be held,
+/// tau follows from times; and of several renderers each looks closely at tiles of its own.
+bool repeats(const WrittenRun& run) { return run.budgetMilliseconds == 0 && run.renderers <= 1; }
+
+void addDrawn(const WrittenRun& a, const WrittenRun& b, double countNoise,
+              std::vector<Figure>& figures) {
+    figures.push_back(exact("error promised", "px", a.tauAchievedMax, b.tauAchievedMax));
+    figures.push_back(exact("frames over tau", "", a.framesBeyond, b.framesBeyond));
+    figures.push_back(counted("triangles, mean", countNoise, a.trianglesMean, b.trianglesMean));
     if (a.pointsMean > 0 || b.pointsMean > 0)
         figures.push_back(counted("points, mean", countNoise, a.pointsMean, b.pointsMean));
     if (a.errorP99 && b.errorP99)
         figures.push_back(exact("error measured, p99", "px", *a.errorP99, *b.errorP99));
     if (a.errorMax && b.errorMax)
         figures.push_back(exact("error measured, worst", "px", *a.errorMax, *b.errorMax));
+}
+
+/// The same of what does not repeat: by how passes spread.
+void addDrawnAnew(const WrittenRun& a, const WrittenRun& b, std::vector<Figure>& figures) {
+    figures.push_back(ofPasses(
+        "error promised, p95", "px", a, b,
+        [](const WrittenRun& run) {
+            return quantile(passesOf(run, [](auto& pass) { return pass.tauP95; }), 0.5);
+        },
+        [](const PassSummary& pass) { return pass.tauP95; }));
+    figures.push_back(once("frames over tau", "", a.framesBeyond, b.framesBeyond));
+    figures.push_back(ofPasses(
+        "triangles, mean", "", a, b, [](const WrittenRun& run) { return run.trianglesMean; },
+        [](const PassSummary& pass) { return pass.triangles; }));
+    if (a.pointsMean > 0 || b.pointsMean > 0)
+        figures.push_back(ofPasses(
+            "points, mean", "", a, b, [](const WrittenRun& run) { return run.pointsMean; },
+            [](const PassSummary& pass) { return pass.points; }));
+    if (a.errorP99 && b.errorP99)
+        figures.push_back(once("error measured, p99", "px", *a.errorP99, *b.errorP99));
+    if (a.errorMax && b.errorMax)
+        figures.push_back(once("error measured, worst", "px", *a.errorMax, *b.errorMax));
+}
+
+std::vector<Figure> figuresOf(const WrittenRun& a, const WrittenRun& b, double countNoise) {
+    std::vector<Figure> figures = {ofTimes("frame, median", &Percentiles::p50, a, b),
+                                   ofTimes("frame, p95", &Percentiles::p95, a, b),
+                                   ofTimes("frame, p99", &Percentiles::p99, a, b)};
+    if (repeats(a) && repeats(b))
+        addDrawn(a, b, countNoise, figures);
+    else
+        addDrawnAnew(a, b, figures);
     figures.push_back(once("first pass, median", "ms", a.firstPassMedian, b.firstPassMedian));
     figures.push_back(once("loaded", "MiB", a.bytesLoaded / 0x1p20, b.bytesLoaded / 0x1p20));
     figures.push_back(
@@ -152,6 +195,11 @@ absl::StatusOr<Comparison> compare(WrittenReport a, WrittenReport b, bool force)
     if (a.processor != b.processor || a.device != b.device)
         comparison.notes.push_back(fmt::format("machines differ: {}, {}; {}, {}", a.processor,
                                                a.device, b.processor, b.device));
+    if (a.occlusion != b.occlusion)
+        comparison.notes.push_back(
+            fmt::format("{} was drawn with --occlusion {}, {} with {}; what is hidden is not left "
+                        "out alike",
+                        a.name, a.occlusion, b.name, b.occlusion));
     const bool countsRepeat = a.occlusion == "off" && b.occlusion == "off";
     for (const WrittenRun& run : a.runs)
         for (const WrittenRun& other : b.runs)

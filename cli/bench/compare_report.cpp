@@ -34,10 +34,14 @@ JsonObject toJson(const Figure& figure) {
 /// Of the curves.
 JsonObject toJson(const WrittenRun& run) {
     std::vector<JsonObject> passes;
-    for (const Percentiles& pass : run.passes)
-        passes.emplace_back().number("p50", pass.p50).number("p95", pass.p95);
+    for (const PassSummary& pass : run.passes)
+        passes.emplace_back().number("p50", pass.frame.p50).number("p95", pass.frame.p95);
+    JsonObject tauAchieved;
+    tauAchieved.number("p50", run.tauAchieved.p50).number("p95", run.tauAchieved.p95);
     JsonObject json;
     json.number("tauAchievedMax", run.tauAchievedMax)
+        .number("budgetMs", run.budgetMilliseconds)
+        .object("tauAchieved", tauAchieved)
         .number("p50", run.frame.p50)
         .number("p95", run.frame.p95)
         .objects("passes", passes);

@@ -79,16 +79,34 @@ double shareWithinBudget(const Played& played) {
     return frames == 0 ? std::numeric_limits<double>::quiet_NaN() : within / frames;
 }
 
-std::vector<Percentiles> ofEachPass(const Played& played) {
-    std::vector<std::vector<double>> passes;
+double promised(const PlayedFrame& frame) { return frame.statistics.tauAchievedPixels; }
+
+PassSummary ofPass(const std::vector<PlayedFrame>& frames) {
+    std::vector<double> milliseconds;
+    std::vector<double> taus;
+    PassSummary pass;
+    const auto share = 1 / static_cast<double>(frames.size());
+    for (const PlayedFrame& frame : frames) {
+        milliseconds.push_back(frame.milliseconds);
+        taus.push_back(promised(frame));
+        pass.triangles += share * static_cast<double>(frame.statistics.triangles);
+        pass.points += share * static_cast<double>(frame.statistics.points);
+    }
+    pass.frame = percentiles(milliseconds);
+    pass.tauP95 = quantile(std::move(taus), 0.95);
+    return pass;
+}
+
+std::vector<PassSummary> ofEachPass(const Played& played) {
+    std::vector<std::vector<PlayedFrame>> passes;
     for (const PlayedFrame& frame : played.frames) {
         if (frame.pass == 0)
             continue;
         passes.resize(std::max(passes.size(), static_cast<std::size_t>(frame.pass)));
-        passes[static_cast<std::size_t>(frame.pass) - 1].push_back(frame.milliseconds);
+        passes[static_cast<std::size_t>(frame.pass) - 1].push_back(frame);
     }
-    std::vector<Percentiles> result;
-    for (const std::vector<double>& pass : passes) result.push_back(percentiles(pass));
+    std::vector<PassSummary> result;
+    for (const std::vector<PlayedFrame>& pass : passes) result.push_back(ofPass(pass));
     return result;
 }
 
@@ -134,8 +152,7 @@ RunSummary summarize(const Played& played) {
     summary.latency = percentiles(column(played, false, latency));
     summary.firstPass = percentiles(column(played, true, taken));
     summary.fpsMedian = 1000 / summary.frame.p50;
-    summary.tauAchieved = percentiles(
-        column(played, false, [](const PlayedFrame& f) { return f.statistics.tauAchievedPixels; }));
+    summary.tauAchieved = percentiles(column(played, false, promised));
     summary.withinBudget = shareWithinBudget(played);
     fabric::StageMilliseconds& stages = summary.stages;
     stages.cull = median(played, [](auto& f) { return f.statistics.milliseconds.cull; });

@@ -22,11 +22,19 @@ struct Percentiles {
 
 Percentiles percentiles(const std::vector<double>& values);
 
+/// Of one measured pass: how passes spread is the noise.
+struct PassSummary {
+    Percentiles frame;     ///< milliseconds
+    double tauP95 = 0;     ///< error that 95 in 100 frames do not promise more than, pixels
+    double triangles = 0;  ///< mean
+    double points = 0;     ///< mean
+};
+
 /// What is said of a flight played at one tau. Milliseconds.
 struct RunSummary {
     Percentiles frame;                 ///< of the measured passes together
     Percentiles latency;               ///< of these, from choosing the view to its picture
-    std::vector<Percentiles> passes;   ///< of each measured pass: their spread is the noise
+    std::vector<PassSummary> passes;   ///< of each measured pass
     Percentiles firstPass;             ///< of the pass that loads
     fabric::StageMilliseconds stages;  ///< medians; fabric::limitingStage names the longest
     /// Means over the measured passes, which add up where medians do not: draw's parts as the

@@ -85,6 +85,16 @@ Percentiles percentilesOf(const Field& field) {
             field.at("max").number()};
 }
 
+PassSummary passOf(const Field& field) {
+    PassSummary pass{.frame = percentilesOf(field)};
+    if (field.has("tauP95")) {
+        pass.tauP95 = field.at("tauP95").number();
+        pass.triangles = field.at("triangles").number();
+        pass.points = field.at("points").number();
+    }
+    return pass;
+}
+
 WrittenRun runOf(const Field& field) {
     WrittenRun run;
     run.label = field.at("label").text();
@@ -93,12 +103,16 @@ WrittenRun runOf(const Field& field) {
     if (field.has("framesInFlight"))
         run.framesInFlight = field.at("framesInFlight").count();
     run.frame = percentilesOf(field.at("frameMs"));
-    for (const Field& pass : field.at("passes").list()) run.passes.push_back(percentilesOf(pass));
+    for (const Field& pass : field.at("passes").list()) run.passes.push_back(passOf(pass));
     run.firstPassMedian = field.at("firstPassMs").at("p50").number();
     run.trianglesMean = field.at("trianglesMean").number();
     if (field.has("pointsMean"))
         run.pointsMean = field.at("pointsMean").number();
     run.tauAchievedMax = field.at("tauAchievedMax").number();
+    if (field.has("budgetMs")) {
+        run.budgetMilliseconds = field.at("budgetMs").number();
+        run.tauAchieved = percentilesOf(field.at("tauAchieved"));
+    }
     run.framesBeyond = field.at("framesBeyondTau").number();
     run.bytesLoaded = field.at("bytesLoaded").number();
     run.peakResidentBytes = field.at("peakResidentBytes").number();

@@ -19,11 +19,14 @@ struct WrittenRun {
     std::string compound;
     int framesInFlight = 1;
     Percentiles frame;
-    std::vector<Percentiles> passes;
+    /// Errors, triangles and points of each are 0 where a report is from before they were told.
+    std::vector<PassSummary> passes;
     double firstPassMedian = 0;
     double trianglesMean = 0;
     double pointsMean = 0;
     double tauAchievedMax = 0;
+    double budgetMilliseconds = 0;  ///< the frame time that was to be held; 0: none
+    Percentiles tauAchieved;        ///< where there was one
     double framesBeyond = 0;
     double bytesLoaded = 0;
     double peakResidentBytes = 0;

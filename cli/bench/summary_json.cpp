@@ -16,6 +16,14 @@ JsonObject toJson(const Percentiles& values) {
     return json;
 }
 
+JsonObject toJson(const PassSummary& pass) {
+    JsonObject json = toJson(pass.frame);
+    json.number("tauP95", pass.tauP95)
+        .number("triangles", pass.triangles)
+        .number("points", pass.points);
+    return json;
+}
+
 JsonObject toJson(const fabric::StageMilliseconds& stages) {
     JsonObject json;
     json.number("cull", stages.cull)
@@ -85,12 +93,12 @@ JsonObject toJson(const BenchRun& run, const std::vector<UniformLevel>& uniform)
         .count("bytesLoadedFirstPass", summary.bytesLoadedFirstPass)
         .count("peakResidentBytes", run.played.peakResidentBytes)
         .number("tauAchievedMax", summary.tauAchievedMax)
+        .object("tauAchieved", toJson(summary.tauAchieved))
         .count("framesBeyondTau", summary.framesBeyond)
         .count("framesEmpty", summary.framesEmpty);
     if (run.budgetMilliseconds > 0)
         json.number("budgetMs", run.budgetMilliseconds)
-            .number("withinBudget", summary.withinBudget)
-            .object("tauAchieved", toJson(summary.tauAchieved));
+            .number("withinBudget", summary.withinBudget);
     if (!run.measured || run.measured->frames.empty())
         return json;
     const ErrorSummary errors = summarize(*run.measured);

@@ -125,6 +125,46 @@ TEST_F(CompareReports, WithoutOcclusionTrianglesAreHeldToTheLast) {
     EXPECT_EQ(verdictOf(compared(before, after).value(), "triangles, mean"), Verdict::More);
 }
 
+/// As reportTaking, at a frame time to hold or by two renderers; tau and triangles go up and down
+/// by a twentieth from frame to frame, and are so many times as much.
+Report reportOfFreeTau(double milliseconds, int renderers, unsigned seed, double times = 1) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> around(0.95, 1.05);
+    Report report = reportTaking(20);
+    for (BenchRun& run : report.runs) {
+        run.budgetMilliseconds = milliseconds;
+        run.renderers = renderers;
+        for (PlayedFrame& frame : run.played.frames) {
+            frame.statistics.tauAchievedPixels = times * around(random);
+            frame.statistics.triangles = static_cast<std::uint64_t>(1000 * times * around(random));
+        }
+    }
+    return report;
+}
+
+TEST_F(CompareReports, WhatDoesNotRepeatIsJudgedByHowPassesSpread) {
+    for (const auto& [milliseconds, renderers] : {std::pair(33.0, 0), {0.0, 2}}) {
+        const Report before = reportOfFreeTau(milliseconds, renderers, 1);
+        const auto same = compared(before, reportOfFreeTau(milliseconds, renderers, 2));
+        ASSERT_TRUE(same.ok()) << same.status();
+        EXPECT_EQ(countBeyondNoise(*same), 0) << table(*same);
+        EXPECT_EQ(verdictOf(*same, "error promised, p95"), Verdict::WithinNoise);
+        EXPECT_EQ(verdictOf(*same, "frames over tau"), Verdict::NotRepeated);
+        const auto more = compared(before, reportOfFreeTau(milliseconds, renderers, 2, 1.3));
+        ASSERT_TRUE(more.ok()) << more.status();
+        EXPECT_EQ(verdictOf(*more, "error promised, p95"), Verdict::More);
+        EXPECT_EQ(verdictOf(*more, "triangles, mean"), Verdict::More);
+    }
+}
+
+TEST_F(CompareReports, SayWhereWhatIsHiddenWasNotLeftOutAlike) {
+    Report off = reportTaking(20);
+    off.facts.occlusion = "off";
+    const auto mixed = compared(reportTaking(20), off);
+    ASSERT_TRUE(mixed.ok());
+    EXPECT_THAT(mixed->notes, testing::ElementsAre(HasSubstr("--occlusion auto")));
+}
+
 TEST(PassRatio, OfTheSameThingIsBeyondNoiseAsSeldomAsItSays) {
     std::mt19937 random(7);
     std::normal_distribution<double> noise(0, 0.05);

@@ -155,6 +155,8 @@ TEST(BenchReport, TheSummaryHasTheFieldsOfTheContract) {
     EXPECT_EQ(number(run, "bytesLoaded"), 28);
     EXPECT_EQ(number(run, "peakResidentBytes"), 1 << 20);
     EXPECT_EQ(number(run, "tauAchievedMax"), 0.5);
+    EXPECT_EQ(number(run, "tauAchieved.p95"), 0.5);
+    EXPECT_EQ(number(test::list(run, "passes").at(0), "triangles"), 80);
 }
 
 /// What a reference found: values that are made up, and say so.
@@ -242,14 +244,21 @@ TEST(BenchReport, WorstFramesAreInThePage) {
     EXPECT_THAT(page, testing::HasSubstr(base64("made-up heat map")));
 }
 
-TEST(BenchReport, EachPassHasItsOwnMedian) {
+TEST(BenchReport, EachPassHasItsOwnFigures) {
     Played played = oneRun()[0].played;
     for (const double milliseconds : {3.0, 1.0, 2.0})
         played.frames.push_back(frame(2, milliseconds));
-    const std::vector<Percentiles> passes = summarize(played).passes;
+    played.frames.back().statistics.tauAchievedPixels = 0.75;
+    played.frames.back().statistics.triangles = 110;
+    const std::vector<PassSummary> passes = summarize(played).passes;
     ASSERT_EQ(passes.size(), 2U);
-    EXPECT_EQ(passes[0].p50, 20);
-    EXPECT_EQ(passes[1].p50, 2);
+    EXPECT_EQ(passes[0].frame.p50, 20);
+    EXPECT_EQ(passes[1].frame.p50, 2);
+    EXPECT_EQ(passes[0].tauP95, 0.5);
+    EXPECT_EQ(passes[1].tauP95, 0.75);
+    EXPECT_DOUBLE_EQ(passes[0].triangles, 80);
+    EXPECT_DOUBLE_EQ(passes[1].triangles, 90);
+    EXPECT_DOUBLE_EQ(passes[1].points, 20);
 }
 
 TEST(BenchReport, ABoundThatIsNoneIsNullInJson) {
