@@ -1,9 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the curves of speed against error are drawn in.
 
+/** The error a run stands for: what all of its frames promise or, where a frame time was held and each frame has its
+ *  own, what 95 in 100 of the warm ones do. null: there is no bound. */
+const errorOf = (run) => (run.budgetMs > 0 ? run.tauAchieved.p95 : run.tauAchievedMax);
+const isUnbounded = (run) => errorOf(run) === null;
+/** Of a scale of powers, which has no place for 0. */
+const isOnAxis = (run) => errorOf(run) !== 0;
+
+/** Says which runs a drawing leaves out; nothing where it has them all. */
+function sayLeftOut(place, left) {
+  if (left.length === 0) return;
+  place.append(html("p", { class: "note" }, `Not in the drawing: ${left.map((run) => `${run.label}, ${processes(run)}`).join("; ")}, whose frames promise an error of 0.`));
+}
+
+/** Where errors are from left to right; those without a bound are at the right edge, which is then kept for them. */
+function errorScale(errors, box) {
+  const finite = errors.filter((error) => error !== null);
+  const range = finite.length > 0 ? [Math.min(...finite) / 1.5, Math.max(...finite) * 1.35] : [0.5, 2];
+  const hasUnbounded = finite.length < errors.length;
+  const scale = logarithmic(range, [box.left, box.right - (hasUnbounded ? 60 : 0)]);
+  return { range, hasUnbounded, x: (error) => (error === null ? box.right : scale(error)) };
+}
+
 /** The axes: errors in powers of two to the right, milliseconds upwards from zero. */
-function curveAxes(svg, box, errorRange, mostMs) {
-  const x = logarithmic(errorRange, [box.left, box.right]);
+function curveAxes(svg, box, errors, mostMs) {
+  const { range: errorRange, hasUnbounded, x } = errorScale(errors, box);
   const y = linear([0, mostMs], [box.bottom, box.top]);
   for (const ms of ticks(mostMs))
     svg.append(mark("line", { class: ms === 0 ? "axis" : "grid", x1: box.left, x2: box.right, y1: y(ms), y2: y(ms) }),
@@ -11,6 +33,9 @@ function curveAxes(svg, box, errorRange, mostMs) {
   for (const pixels of powers(2, ...errorRange))
     svg.append(mark("line", { class: "axis", x1: x(pixels), x2: x(pixels), y1: box.bottom, y2: box.bottom + 5 }),
                mark("text", { x: x(pixels), y: box.bottom + 20, "text-anchor": "middle" }, `${number(pixels)} px`));
+  if (hasUnbounded)
+    svg.append(mark("line", { class: "axis", x1: box.right, x2: box.right, y1: box.bottom, y2: box.bottom + 5 }),
+               mark("text", { x: box.right, y: box.bottom + 20, "text-anchor": "middle" }, "∞"));
   let free = box.bottom;
   for (const fps of [240, 120, 60, 30, 15, 5, 2, 1].filter((f) => 1000 / f < mostMs * 0.97)) {
     if (free - y(1000 / fps) < 16) continue;

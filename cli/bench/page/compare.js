@@ -6,16 +6,16 @@ const verdictClass = (figure) =>
   !figure.beyondNoise ? "" : figure.unit === "ms" || figure.unit === "px" ? (figure.b < figure.a ? "truth" : "bad") : "time";
 
 function drawBoth(place) {
-  const shown = runs.filter((run) => run.a.tauAchievedMax > 0 && run.b.tauAchievedMax > 0);
-  if (shown.length === 0) return place.parentElement.remove();
+  const shown = runs.filter((run) => isOnAxis(run.a) && isOnAxis(run.b));
+  if (shown.length === 0) return sayLeftOut(place, runs);
   const box = { left: 56, right: 860, top: 34, bottom: 360 };
-  const all = shown.flatMap((run) => [run.a.tauAchievedMax, run.b.tauAchievedMax]);
+  const all = shown.flatMap((run) => [errorOf(run.a), errorOf(run.b)]);
   const most = Math.max(...shown.flatMap((run) => [run.a.p50, run.b.p50, ...run.a.passes.map((p) => p.p50), ...run.b.passes.map((p) => p.p50)])) * 1.15;
   const svg = drawing(930, 410, shown.map((run) => `${run.label}, ${processes(run)}: ${number(run.a.p50)} and ${number(run.b.p50)} milliseconds`).join("; "));
-  const axes = curveAxes(svg, box, [Math.min(...all) / 1.5, Math.max(...all) * 1.35], most);
+  const axes = curveAxes(svg, box, all, most);
   for (const [, list] of series(shown))
     for (const [side, colour, offset, dashes] of [["a", "var(--quiet)", -4, "5 4"], ["b", "var(--time)", 4, "none"]]) {
-      const at = (run, ms) => [axes.x(run[side].tauAchievedMax) + offset, axes.y(ms)];
+      const at = (run, ms) => [axes.x(errorOf(run[side])) + offset, axes.y(ms)];
       svg.append(curve(list.map((run) => at(run, run[side].p50)), colour, { "stroke-dasharray": dashes }));
       for (const run of list) {
         for (const pass of run[side].passes) {
@@ -28,6 +28,7 @@ function drawBoth(place) {
       }
     }
   place.append(legend([[`A: ${a.name}`, "var(--quiet)"], [`B: ${b.name}`, "var(--time)"]]), svg);
+  sayLeftOut(place, runs.filter((run) => !shown.includes(run)));
 }
 
 /** A line a run: the estimate of the median's ratio and its interval around 1. */

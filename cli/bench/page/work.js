@@ -40,10 +40,10 @@ function drawStages(place) {
 /** What runs cost in triangles at the error they have: measured where that was done. */
 function trianglePoints() {
   const measured = runs.filter((run) => run.errorPx && run.errorPx.p99 > 0);
-  const chosen = measured.length > 0 ? measured : runs.filter((run) => run.tauAchievedMax > 0);
+  const chosen = measured.length > 0 ? measured : runs.filter(isOnAxis);
   const first = chosen.filter((run) => run.renderers === chosen[0].renderers && run.trianglesMean + run.pointsMean > 0);
   return { isMeasured: measured.length > 0, points: first.map((run) => ({
-    run, error: measured.length > 0 ? run.errorPx.p99 : run.tauAchievedMax, triangles: run.trianglesMean + run.pointsMean })) };
+    run, error: measured.length > 0 ? run.errorPx.p99 : errorOf(run), triangles: run.trianglesMean + run.pointsMean })) };
 }
 
 /** From a run down from what uniform decimation needs for the same error. */
@@ -61,9 +61,9 @@ function drawTriangles(place) {
   const errorsShown = [...points.map((p) => p.error), ...levels.map((level) => level.p99Px)];
   const counts = [...points.map((p) => p.triangles), ...levels.map((level) => level.triangles)];
   const box = { left: 56, right: 860, top: 26, bottom: 330 };
-  const errorRange = [Math.min(...errorsShown) / 1.4, Math.max(...errorsShown) * 1.4];
+  const { range: errorRange, hasUnbounded, x } = errorScale(errorsShown, box);
   const countRange = [Math.min(...counts) / 1.8, Math.max(...counts) * 1.5];
-  const axes = { x: logarithmic(errorRange, [box.left, box.right]), y: logarithmic(countRange, [box.bottom, box.top]) };
+  const axes = { x, y: logarithmic(countRange, [box.bottom, box.top]) };
   const svg = drawing(930, 380, points.map((p) => `${number(p.error)} pixels with ${compact(p.triangles)} triangles`).join("; "));
   const lines = powers(10, countRange[0] / 5, countRange[1]).flatMap((power) => [1, 2, 5].map((m) => m * power));
   for (const count of lines.filter((one) => one >= countRange[0] && one <= countRange[1]))
@@ -72,6 +72,7 @@ function drawTriangles(place) {
   for (const pixels of powers(2, ...errorRange))
     svg.append(mark("line", { class: "axis", x1: axes.x(pixels), x2: axes.x(pixels), y1: box.bottom, y2: box.bottom + 5 }),
                mark("text", { x: axes.x(pixels), y: box.bottom + 20, "text-anchor": "middle" }, `${number(pixels)} px`));
+  if (hasUnbounded) svg.append(mark("text", { x: box.right, y: box.bottom + 20, "text-anchor": "middle" }, "∞"));
   svg.append(mark("text", { x: box.left - 44, y: box.top - 12 }, "triangles a frame"),
              mark("text", { x: box.right, y: box.bottom + 42, "text-anchor": "end" }, isMeasured ? "measured error, p99  →  coarser" : "promised error  →  coarser"));
   const place2d = (error, triangles) => [axes.x(error), axes.y(triangles)];

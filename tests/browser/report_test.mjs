@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// The pages of `eyrie bench` show every run of a report, also what holds a frame time and what has
+// frames without a bound.
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { pathToFileURL } from "node:url";
+
+import { Browser, check, environment } from "./support.mjs";
+
+const folder = mkdtempSync(join(tmpdir(), "eyrie-report-"));
+const eyrie = (...args) =>
+  execFileSync(environment("EYRIE_BINARY"), args, {
+    cwd: folder,
+    stdio: ["ignore", "pipe", "pipe"],
+  });
+
+/** Circles of a drawing, with their words and places. */
+function marks(page, selector) {
+  return page.$$eval(`${selector} svg circle[aria-label]`, (circles) =>
+    circles.map((circle) => ({
+      words: circle.getAttribute("aria-label"),
+      x: Number(circle.getAttribute("cx")),
+    })),
+  );
+}
+
+const browser = await Browser.open();
+try {
+  // Into the bounds of a ball: there its error has no bound.
+  const key = (seconds, x) => ({ seconds, camera: { eye: [x, 0, 0], target: [0, 0, 0] } });
+  writeFileSync(join(folder, "near.json"), JSON.stringify({ keys: [key(0, 4), key(1, 0.98)] }));
+  eyrie("synth", "mesh", "--size", "6000", "--seed", "3", "-o", "ball.ply");
+  eyrie("import", "mesh", "ball.ply", "-o", "ball.eym");
+  const bench = (flight, ...more) =>
+    eyrie(
+      "bench",
+      "ball.eym",
+      "--flight",
+      flight,
+      "--frames",
+      "6",
+      "--repeats",
+      "2",
+      "--size",
+      "160x90",
+      ...more,
+    );
+  bench("near.json", "--tau", "1,8", "-o", "near");
+  bench("orbit", "--tau", "1,4", "--budget-ms", "10,1000", "-o", "held");
+
+  const runs = JSON.parse(readFileSync(join(folder, "near/summary.json"), "utf8")).runs;
+  check(
+    runs.every((run) => run.tauAchievedMax === null),
+    "frames within the bounds have no bound",
+  );
+  await browser.page.goto(pathToFileURL(join(folder, "near/index.html")).href);
+  const near = await marks(browser.page, "#curve");
+  check(
+    near.length === 2 && near.every(({ x }) => x === 860),
+    "they are at the curve's right edge",
+  );
+  check(
+    near.every(({ words }) => words.includes("∞ px")),
+    "and say so",
+  );
+  const ticks = await browser.page.$$eval("#curve svg text", (texts) =>
+    texts.map((t) => t.textContent),
+  );
+  check(ticks.includes("∞"), "which the axis names");
+
+  await browser.page.goto(pathToFileURL(join(folder, "held/index.html")).href);
+  const held = await marks(browser.page, "#curve");
+  check(held.length === 4, "runs at an error and at a frame time are in one curve");
+  const atATime = held.filter(({ words }) => /^(10|1000) ms/.test(words));
+  check(
+    atATime.length === 2 && atATime.every(({ words }) => words.includes("95 in 100")),
+    "those that hold a time stand where 95 in 100 of their warm frames are",
+  );
+
+  eyrie("bench", "--compare", "near", "near", "-o", "compared");
+  await browser.page.goto(pathToFileURL(join(folder, "compared/index.html")).href);
+  check((await marks(browser.page, "#curve")).length === 4, "a comparison has both of each run");
+  check(browser.errors.length === 0, `no page has an error: ${browser.errors.join("; ")}`);
+} finally {
+  await browser.close();
+  rmSync(folder, { recursive: true });
+}
