@@ -52,6 +52,7 @@ void addLevels(std::vector<mesh::LodLevel>& to, const std::vector<mesh::LodLevel
         to[i].trianglesBefore += from[i].trianglesBefore;
         to[i].trianglesAfter += from[i].trianglesAfter;
         to[i].largestErrorMetres = std::max(to[i].largestErrorMetres, from[i].largestErrorMetres);
+        to[i].largestReachMetres = std::max(to[i].largestReachMetres, from[i].largestReachMetres);
     }
 }
 

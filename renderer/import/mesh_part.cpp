@@ -26,12 +26,13 @@ std::vector<std::uint32_t> sharedOutside(const std::vector<std::array<std::uint3
 }
 
 /// What is left of a mesh's vertices after `lod`.
-PartSurface surfaceOf(const PartMesh& own, mesh::LodPart lod, const mesh::KdNode& box,
-                      const mesh::LodOptions& options) {
+PartSurface surfaceOf(const PartMesh& own, mesh::LodPart lod, double reachMetres,
+                      const mesh::KdNode& box, const mesh::LodOptions& options) {
     PartSurface surface;
     surface.boxMin = box.boxMin;
     surface.boxMax = box.boxMax;
     surface.boundSteps = lod.errorSteps;
+    surface.reachMetres = reachMetres;
     surface.lod.height = lod.height;
     surface.mesh.lattice = own.mesh.lattice;
     surface.isEndless =
@@ -140,7 +141,8 @@ absl::StatusOr<WrittenPart> writePart(const PartWork& work, std::uint32_t part,
     written.levels = lod.levels;
     written.pointNodes = lod.pointNodes();
     written.errorMetres = lod.errorMetres.front();
-    written.surface = surfaceOf(own, std::move(parts.root), tree.nodes.front(), options);
+    written.surface = surfaceOf(own, std::move(parts.root), lod.colourReachMetres.front(),
+                                tree.nodes.front(), options);
     written.surface.pockets = backs.pockets.front();
     return written;
 }
@@ -163,8 +165,10 @@ absl::StatusOr<WrittenPart> writeAbove(const PartWork& work, const SplitNode& no
         const mesh::Lattice& lattice = work.spool.lattice;
         lod.geometry.resize(1);
         lod.errorMetres = {lattice.errorMetres() + bound * lattice.stepMetres};
+        lod.colourReachMetres = {std::max(left.reachMetres, right.reachMetres)};
         written.surface.isEndless = true;
         written.surface.boundSteps = bound;
+        written.surface.reachMetres = lod.colourReachMetres[0];
         written.surface.boxMin = tree.nodes[0].boxMin;
         written.surface.boxMax = tree.nodes[0].boxMax;
         written.surface.lod.height = std::max(left.lod.height, right.lod.height);
@@ -175,7 +179,8 @@ absl::StatusOr<WrittenPart> writeAbove(const PartWork& work, const SplitNode& no
                          mesh::buildLodTree(both.mesh, tree, options, {}, control.stop, &parts));
         written.levels = lod.levels;
         written.pointNodes = lod.pointNodes();
-        written.surface = surfaceOf(both, std::move(parts.root), tree.nodes[0], options);
+        written.surface = surfaceOf(both, std::move(parts.root), lod.colourReachMetres[0],
+                                    tree.nodes[0], options);
     }
     written.surface.pockets.add(left.pockets);
     written.surface.pockets.add(right.pockets);
@@ -191,6 +196,7 @@ absl::StatusOr<WrittenPart> writeAbove(const PartWork& work, const SplitNode& no
     lod.geometry = {{}};
     lod.points.resize(1);
     lod.errorMetres.resize(1);
+    lod.colourReachMetres.resize(1);
     ASSIGN_OR_RETURN(written.offset, appendEym(work, both.mesh, tree, lod,
                                                {{written.surface.pockets}, {}}, control.stop));
     return written;

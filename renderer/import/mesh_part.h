@@ -33,7 +33,8 @@ struct PartSurface {
     /// The least and the greatest part that has a vertex's position.
     std::vector<std::array<std::uint32_t, 2>> sharedBy;
     mesh::LodPart lod;
-    double boundSteps = 0;  ///< of lod.patch
+    double boundSteps = 0;   ///< of lod.patch
+    double reachMetres = 0;  ///< mesh::LodTree::colourReachMetres of its root
     /// Too many triangles are left for any node above to be simplified: they are not kept.
     bool isEndless = false;
     mesh::Pockets pockets;

@@ -117,6 +117,10 @@ absl::Status NodeCheck::checkBox(std::uint32_t index) const {
     if (!(std::isfinite(node.errorMetres) && node.errorMetres >= 0))
         return damaged(fmt::format("node {}: errorMetres", index), node.errorMetres,
                        "a finite length");
+    if (!(std::isfinite(node.colourReachMetres()) && node.colourReachMetres() >= 0) ||
+        (node.colourReach != 0 && (header_.flags & kHasColours) == 0))
+        return damaged(fmt::format("node {}: colourReach", index), node.colourReachMetres(),
+                       "a finite length; 0 without colours");
     return absl::OkStatus();
 }
 
@@ -181,6 +185,9 @@ absl::Status NodeCheck::checkInside(std::uint32_t childIndex, const Node& parent
     if (child.errorMetres > parent.errorMetres)
         return damaged(fmt::format("node {}: errorMetres", childIndex), child.errorMetres,
                        fmt::format("at most its parent's {}", parent.errorMetres));
+    if (child.colourReachMetres() > parent.colourReachMetres())
+        return damaged(fmt::format("node {}: colourReach", childIndex), child.colourReachMetres(),
+                       fmt::format("at most its parent's {}", parent.colourReachMetres()));
     return absl::OkStatus();
 }
 
@@ -305,11 +312,11 @@ absl::Status checkHeader(std::span<const std::byte> beginning, std::uint64_t fil
     RETURN_IF_ERROR(checkKind(beginning));
     EymHeader header;
     std::memcpy(&header, beginning.data(), sizeof header);
-    if (header.version != kEymVersion)
+    if (header.version != versionOf(header.flags))
         return absl::InvalidArgumentError(fmt::format(
-            "header.version is {}, this build reads {}; import the mesh again with this "
-            "build",
-            header.version, kEymVersion));
+            "header.version is {}, this build reads {}, or {} of meshes without colours; import "
+            "the mesh again with this build",
+            header.version, kEymVersion, kColourlessVersion));
     if (header.headerBytes != sizeof(EymHeader))
         return damaged("header.headerBytes", header.headerBytes, sizeof(EymHeader));
     if (header.fileBytes != fileBytes)

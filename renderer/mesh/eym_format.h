@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -22,7 +23,8 @@
 #include "renderer/mesh/node_block.h"
 #include "renderer/page/page_source.h"
 
-/// The .eym file, version 4: a mesh as a kd-tree of LOD nodes, each with pages of its own.
+/// The .eym file, version 5: a mesh as a kd-tree of LOD nodes, each with pages of its own. Without
+/// colours it is as version 4 had it, and says so (versionOf).
 ///
 /// Little-endian:
 ///   EymHeader                       256 bytes
@@ -48,7 +50,8 @@ namespace eyrie::mesh {
 static_assert(std::endian::native == std::endian::little, ".eym files are mapped as they are");
 
 inline constexpr std::array<char, 8> kEymMagic = {'E', 'Y', 'M', 'E', 'S', 'H', '\0', '\x01'};
-inline constexpr std::uint32_t kEymVersion = 4;
+inline constexpr std::uint32_t kEymVersion = 5;
+inline constexpr std::uint32_t kColourlessVersion = 4;
 
 /// In EymHeader::flags.
 inline constexpr std::uint32_t kHasColours = 1;
@@ -56,6 +59,12 @@ inline constexpr std::uint32_t kIsCoded = 2;         ///< pages are; otherwise t
 inline constexpr std::uint32_t kHasExact = 4;        ///< leaves have source positions ...
 inline constexpr std::uint32_t kExactIsFloat64 = 8;  ///< ... in double precision
 inline constexpr std::uint32_t kHasTextures = 16;    ///< vertices have texture coordinates
+
+/// Of a file with these EymHeader::flags. Version 4 has no bound on where colours come from, which
+/// without colours is 0.
+constexpr std::uint32_t versionOf(std::uint32_t flags) {
+    return (flags & kHasColours) != 0 ? kEymVersion : kColourlessVersion;
+}
 
 /// Levels a tree may have, so that a walk may recurse: the median split of 2^30 triangles makes 31.
 inline constexpr int kMaxTreeDepth = 64;
@@ -110,7 +119,8 @@ struct Node {
     std::uint64_t exactChecksum = 0;
     std::uint32_t pageBytes = 0;
     std::uint32_t exactBytes = 0;
-    std::uint32_t vertexCount = 0;  ///< at most 65,535
+    std::uint16_t vertexCount = 0;
+    std::uint16_t colourReach = 0;  ///< the upper half of colourReachMetres()
     std::uint32_t indexCount = 0;   ///< three a triangle; 0 of points, and without geometry
     /// Upper bound on the distance between the source surface and what is drawn for this node: its
     /// own geometry or, where it has none, its children. Never below its children's.
@@ -120,6 +130,16 @@ struct Node {
     /// has materials: their ranges say it.
     std::uint32_t frontIndexCount = 0;
 
+    /// At any point of what is drawn for this node the colour of its vertices, channel by channel
+    /// and as displayed, is within 8/255 of those that the source has within this distance, or
+    /// within errorMetres where that is more. 0 of leaves and without colours, never below its
+    /// children's.
+    float colourReachMetres() const {
+        return std::bit_cast<float>(std::uint32_t{colourReach} << 16);
+    }
+    /// Bound on how far what is drawn for this node, or its colour, is from where the source has
+    /// it: what is to be small on the screen.
+    float farthestMetres() const { return std::max(errorMetres, colourReachMetres()); }
     bool isLeaf() const { return left < 0; }
     bool hasGeometry() const { return vertexCount > 0; }
     bool isOfPoints() const { return vertexCount > 0 && indexCount == 0; }

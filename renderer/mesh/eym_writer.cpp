@@ -2,6 +2,7 @@
 #include "renderer/mesh/eym_writer.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -25,6 +26,12 @@ float roundedUp(double value) {
     const auto nearest = static_cast<float>(value);
     return nearest >= value ? nearest
                             : std::nextafter(nearest, std::numeric_limits<float>::infinity());
+}
+
+/// The same of floats whose lower half is 0: the upper one.
+std::uint16_t upperHalf(double value) {
+    const auto bits = std::bit_cast<std::uint32_t>(roundedUp(value));
+    return static_cast<std::uint16_t>((bits + 0xFFFF) >> 16);
 }
 
 std::vector<Triangle> trianglesOf(const PackedMesh& mesh, const KdTree& tree, const KdNode& leaf) {
@@ -207,9 +214,10 @@ std::vector<Node> layOutNodes(const KdTree& tree, const LodTree& lod,
         node.right = from.right;
         node.triangleBegin = from.triangleBegin;
         node.triangleEnd = from.triangleEnd;
-        node.vertexCount = pages[i].shape.vertexCount;
+        node.vertexCount = static_cast<std::uint16_t>(pages[i].shape.vertexCount);
         node.indexCount = pages[i].shape.indexCount;
         node.errorMetres = roundedUp(lod.errorMetres[i]);
+        node.colourReach = upperHalf(lod.colourReachMetres[i]);
         node.frontIndexCount = pages[i].frontIndexCount;
         if (!node.hasGeometry())
             continue;
@@ -358,6 +366,7 @@ absl::Status writeEym(const PackedMesh& mesh, const KdTree& tree, const LodTree&
     if (!lights.empty())
         header.lightsChecksum = contentHash(std::as_bytes(std::span(lights)));
     header.flags = flagsOf(mesh, options, maker.exactForm());
+    header.version = versionOf(header.flags);
     header.sourceHash = options.sourceHash;
     header.fileBytes = end;
     header.checksum = headerChecksum(header);

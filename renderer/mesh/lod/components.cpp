@@ -180,10 +180,14 @@ void Dropper::run(std::size_t target, double limitSteps) {
         if (!isThere_[pieceOf_[i]])
             continue;
         patch_.triangles[kept] = patch_.triangles[i];
+        if (!patch_.tints.empty())
+            patch_.tints[kept] = patch_.tints[i];
         patch_.shifts[kept++] = patch_.shifts[i];
     }
     patch_.triangles.resize(kept);
     patch_.shifts.resize(kept);
+    if (!patch_.tints.empty())
+        patch_.tints.resize(kept);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include <oneapi/tbb/parallel_invoke.h>
 
 #include "renderer/mesh/lod/components.h"
+#include "renderer/mesh/lod/patch_colours.h"
 #include "renderer/mesh/lod/sheet_ends.h"
 #include "renderer/mesh/lod/simplify.h"
 
@@ -31,11 +32,6 @@ constexpr double kWorthPoints = 0.5;
 /// Nodes of more triangles have no points, but those below them: sampling takes some hundred bytes
 /// a triangle.
 constexpr std::size_t kMostSampled = std::size_t{1} << 18;
-
-template <typename T>
-void append(std::vector<T>& to, const std::vector<T>& from) {
-    to.insert(to.end(), from.begin(), from.end());
-}
 
 /// Seams give a point several vertices, so a surface may have more of them than triangles.
 bool hasMoreVerticesThan(std::size_t most, const std::vector<Triangle>& triangles) {
@@ -66,6 +62,7 @@ public:
         lod_.geometry.resize(tree.nodes.size());
         lod_.points.resize(tree.nodes.size());
         errorSteps_.resize(tree.nodes.size());
+        reachSteps_.resize(tree.nodes.size());
     }
 
     LodTree build();
@@ -78,6 +75,7 @@ private:
     std::optional<Simplified> simplifiedOrNothing(const LodPart& part, const KdNode& node);
     void standFor(LodPart& part, std::size_t index);
     void record(const LodPart& part, std::size_t before, double borderShare);
+    double reachMetres(double steps) const;
 
     const PackedMesh& mesh_;
     const KdTree& tree_;
@@ -89,6 +87,7 @@ private:
     const std::vector<std::uint8_t> staying_;  ///< vertices
     LodTree lod_;
     std::vector<double> errorSteps_;
+    std::vector<double> reachSteps_;
     std::once_flag componentsMade_;
     std::optional<Components> components_;
     std::mutex mutex_;  ///< of lod_.levels and done_
@@ -118,10 +117,10 @@ LodPart Builder::visit(std::size_t index) {
                                  [&] { right = visit(static_cast<std::size_t>(node.right)); });
     if (stop_.stop_requested())
         return {};
-    append(left.patch.triangles, right.patch.triangles);
-    append(left.patch.shifts, right.patch.shifts);
+    append(mesh_, left.patch, std::move(right.patch));
     left.height = std::max(left.height, right.height);
     left.errorSteps = std::max(left.errorSteps, right.errorSteps);
+    left.reachSteps = std::max(left.reachSteps, right.reachSteps);
     standFor(left, index);
     return left;
 }
@@ -194,7 +193,9 @@ void Builder::standFor(LodPart& part, std::size_t index) {
         record(part, before, fewer->borderShare);
     }
     part.errorSteps = std::max(part.errorSteps, part.patch.error());
+    part.reachSteps = std::max(part.reachSteps, colourReach(mesh_, part.patch));
     errorSteps_[index] = part.errorSteps;
+    reachSteps_[index] = part.reachSteps;
 }
 
 void Builder::record(const LodPart& part, std::size_t before, double borderShare) {
@@ -208,12 +209,20 @@ void Builder::record(const LodPart& part, std::size_t before, double borderShare
     const double errorSteps = part.patch.error();
     level.largestErrorMetres =
         std::max(level.largestErrorMetres, errorSteps * mesh_.lattice.stepMetres);
+    level.largestReachMetres =
+        std::max(level.largestReachMetres, reachMetres(colourReach(mesh_, part.patch)));
     level.borderShare += borderShare;
     done_ += before;
     // Each level has about half the triangles of the one below: two thirds of a mesh's in all.
     if (progress_)
         progress_(std::min(
             1.0, static_cast<double>(done_) / (2.0 * static_cast<double>(mesh_.triangles.size()))));
+}
+
+/// What the lattice rounds included, of the source's vertices and of points on triangles.
+double Builder::reachMetres(double steps) const {
+    const Lattice& lattice = mesh_.lattice;
+    return steps > 0 ? 2 * lattice.errorMetres() + steps * lattice.stepMetres : 0;
 }
 
 LodTree Builder::build() {
@@ -227,6 +236,7 @@ LodTree Builder::build() {
     lod_.errorMetres.reserve(errorSteps_.size());
     for (const double steps : errorSteps_)
         lod_.errorMetres.push_back(mesh_.lattice.errorMetres() + steps * mesh_.lattice.stepMetres);
+    for (const double steps : reachSteps_) lod_.colourReachMetres.push_back(reachMetres(steps));
     return std::move(lod_);
 }
 

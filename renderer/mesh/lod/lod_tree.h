@@ -36,6 +36,7 @@ struct LodPart {
     Patch patch;
     std::size_t height = 0;  ///< of the tree of simplifications under it
     double errorSteps = 0;   ///< the largest of what is drawn for the node and those under it
+    double reachSteps = 0;   ///< so of colourReach()
 };
 
 /// How trees of parts of a mesh become one.
@@ -51,7 +52,8 @@ struct LodLevel {
     std::uint64_t trianglesBefore = 0;
     std::uint64_t trianglesAfter = 0;
     double largestErrorMetres = 0;
-    double borderShare = 0;  ///< mean over its nodes: vertices that had to stay
+    double largestReachMetres = 0;  ///< of LodTree::colourReachMetres
+    double borderShare = 0;         ///< mean over its nodes: vertices that had to stay
 };
 
 /// What stands for the nodes of a kd-tree when they are drawn coarser, node by node.
@@ -64,6 +66,10 @@ struct LodTree {
     /// it, and of any point of that to the source; what the lattice rounds included. Measured,
     /// never below the children's.
     std::vector<double> errorMetres;
+    /// At any point of what stands for a node the colour, channel by channel and as displayed, is
+    /// within kColourTolerance of those that the source has within this, or within the error where
+    /// that is more. 0 where it is so within the error. Never below the children's.
+    std::vector<double> colourReachMetres;
     std::vector<LodLevel> levels;  ///< from the finest
 
     /// Nodes that points stand for.

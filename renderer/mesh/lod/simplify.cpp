@@ -17,7 +17,9 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include "renderer/mesh/lod/patch_colours.h"
 #include "renderer/mesh/lod/star.h"
+#include "renderer/mesh/lod/star_colours.h"
 #include "renderer/mesh/vertex_packing.h"
 
 namespace eyrie::mesh {
@@ -85,17 +87,21 @@ private:
     bool sortRing();
     bool isSimple(std::size_t target);
     std::pair<std::size_t, double> cheapest(std::uint32_t point, const Star& star,
+                                            const std::optional<StarColours>& colours,
                                             std::uint32_t excluded) const;
     Collapse bestCollapse(std::uint32_t point, bool mustBeSimple);
     Star star(std::uint32_t point) const;
     Shifts shiftsOf(const Star& star, const Star::Replaced& replaced) const;
+    std::optional<StarColours> coloursAround(std::uint32_t point) const;
     bool collapse(std::uint32_t point, std::uint32_t target);
     void moveCorners(std::uint32_t from, std::uint32_t onto, std::uint32_t vertex);
     template <typename Visit>
     void forCorners(std::uint32_t point, const Visit& visit);
 
+    const PackedMesh& mesh_;
     std::vector<Face> faces_;
     std::vector<Shifts> shifts_;  ///< of a face
+    std::vector<Tints> tints_;    ///< of a face; none where there is but one colour
     std::vector<glm::dvec3> points_;
     std::vector<CornerId> corners_;  ///< of all points; what was replaced is left behind
     std::vector<Corners> around_;    ///< of a point; some may be of faces that are gone
@@ -113,7 +119,9 @@ private:
 
 Simplifier::Simplifier(const PackedMesh& mesh, const Patch& patch,
                        std::span<const std::uint8_t> staying)
-    : shifts_(patch.shifts), left_(patch.triangles.size()) {
+    : mesh_(mesh), shifts_(patch.shifts), left_(patch.triangles.size()) {
+    if (!hasOneColour(mesh, patch))
+        tints_ = tintsOf(mesh, patch);
     faces_.reserve(left_);
     for (std::size_t i = 0; i < left_; ++i) {
         Face face;
@@ -258,14 +266,34 @@ Shifts Simplifier::shiftsOf(const Star& star, const Star::Replaced& replaced) co
     return moved(before, star, replaced.shift);
 }
 
+/// Those of the star of the point whose ring_ this is; nothing where there is but one.
+std::optional<StarColours> Simplifier::coloursAround(std::uint32_t point) const {
+    std::optional<StarColours> colours;
+    if (tints_.empty())
+        return colours;
+    const auto lightAt = [&](const Face& face, std::uint32_t at) {
+        const auto corner = std::ranges::find(face.corners, at, &Corner::point);
+        return lightOf(unpackColour(mesh_.colours[corner->vertex]));
+    };
+    for (const Neighbour& neighbour : ring_) {
+        const Face& face = faces_[neighbour.face];
+        if (!colours)
+            colours.emplace(lightAt(face, point));
+        colours->add(lightAt(face, neighbour.point), lightAt(face, neighbour.next),
+                     tints_[neighbour.face]);
+    }
+    return colours;
+}
+
 /// The ring's place with the least cost that is not in `excluded`; the ring's size if there is
-/// none.
+/// none. The cost is the greatest bound, on how far points or colours are off, that it makes.
 std::pair<std::size_t, double> Simplifier::cheapest(std::uint32_t point, const Star& star,
+                                                    const std::optional<StarColours>& colours,
                                                     std::uint32_t excluded) const {
     struct Way {
         std::size_t target;
-        double length;
-        double least;  ///< that the cost can be
+        double length;  ///< what is compared beside bounds
+        double least;   ///< that the cost can be
         Star::Landing landing;
     };
     std::array<Way, kMaxStar> ways;
@@ -278,11 +306,15 @@ std::pair<std::size_t, double> Simplifier::cheapest(std::uint32_t point, const S
         const auto landing = star.landing(target);
         if (!landing)
             continue;
-        const double length =
-            kLengthWeight * glm::length(points_[ring_[target].point] - points_[point]);
+        double length = kLengthWeight * glm::length(points_[ring_[target].point] - points_[point]);
         // The triangle that the centre lands in takes the points of all.
-        ways[count++] = {target, length, moved(before, star, landing->shift).longest() + length,
-                         *landing};
+        double least = moved(before, star, landing->shift).longest();
+        if (colours) {
+            const auto [tint, reach] = colours->landing(star, target, *landing);
+            length *= 1 + double{tint / kColourTolerance};
+            least = std::max(least, reach);
+        }
+        ways[count++] = {target, length, least + length, *landing};
     }
     std::pair best(ring_.size(), std::numeric_limits<double>::infinity());
     Star::Outcome outcome;
@@ -302,6 +334,8 @@ std::pair<std::size_t, double> Simplifier::cheapest(std::uint32_t point, const S
             if (outcome[i].triangles != 0 &&
                 (outcome[i].shift.least < there.least || outcome[i].shift.most > there.most))
                 cost = std::max(cost, shiftsOf(star, outcome[i]).longest() + length);
+        if (colours && cost < best.second)
+            cost = std::max(cost, colours->reach(star, target, landing, outcome) + length);
         if (cost < best.second)
             best = {target, cost};
     }
@@ -315,8 +349,9 @@ Collapse Simplifier::bestCollapse(std::uint32_t point, bool mustBeSimple) {
     const Star star = this->star(point);
     if (!star.isFlat())
         return {};
+    const std::optional<StarColours> colours = coloursAround(point);
     for (std::uint32_t excluded = 0;;) {
-        const auto [target, cost] = cheapest(point, star, excluded);
+        const auto [target, cost] = cheapest(point, star, colours, excluded);
         if (target == ring_.size())
             return {};
         if (!mustBeSimple || isSimple(target))
@@ -337,9 +372,17 @@ bool Simplifier::collapse(std::uint32_t point, std::uint32_t target) {
         return false;
     Star::Outcome outcome;
     const Star star = this->star(point);
-    star.moveTo(place, *star.landing(place), outcome);
+    const Star::Landing landing = *star.landing(place);
+    star.moveTo(place, landing, outcome);
     std::array<Shifts, kMaxStar> shifts;
     for (std::size_t i = 0; i < ring_.size(); ++i) shifts[i] = shiftsOf(star, outcome[i]);
+    if (const auto colours = coloursAround(point)) {
+        StarColours::Outcome tints;
+        colours->moveTo(star, place, landing, outcome, tints);
+        for (std::size_t i = 0; i < ring_.size(); ++i)
+            if (outcome[i].triangles != 0)
+                tints_[ring_[i].face] = tints[i];
+    }
     for (std::size_t i = 0; i < ring_.size(); ++i) {
         Face& face = faces_[ring_[i].face];
         shifts_[ring_[i].face] = shifts[i];
@@ -398,6 +441,8 @@ Simplified Simplifier::run(std::size_t target) {
             continue;
         result.patch.triangles.push_back({corners[0].vertex, corners[1].vertex, corners[2].vertex});
         result.patch.shifts.push_back(shifts_[i]);
+        if (!tints_.empty())
+            result.patch.tints.push_back(tints_[i]);
     }
     return result;
 }

@@ -16,7 +16,8 @@ struct Simplified {
 
 /// Takes inner vertices of `patch` away, each time the one that makes the least bound, until about
 /// `target` triangles are left or none can go. What is left keeps its promise (patch.h): each step
-/// is a map as described there, and their distances add up.
+/// is a map as described there, and their distances add up, as do changes of colours. Where these
+/// are too much, the bound is how far away the colours come from (patch_colours.h).
 ///
 /// Stay: vertices on the border, so that the patch fits its neighbours whatever is done to them;
 /// those where more than two sheets meet, or normals, colours, texture coordinates or materials are

@@ -98,12 +98,6 @@ double Star::area(std::size_t i, std::size_t j, std::size_t k) const {
     return wedge(i, j) + wedge(j, k) + wedge(k, i);
 }
 
-/// In the ring, counted from the target.
-std::size_t Star::at(std::size_t target, std::size_t offset) const {
-    const std::size_t index = target + offset;
-    return index < count_ ? index : index - count_;
-}
-
 std::optional<Star::Landing> Star::landing(std::size_t target) const {
     std::size_t around = 0;  // the triangle that the centre lies in, or on the border of
     for (std::size_t i = 1; i + 1 < count_; ++i) {
@@ -138,33 +132,38 @@ void Star::addDiagonal(std::size_t target, std::size_t diagonal, Outcome& outcom
     const auto bit = [&](std::size_t offset) { return 1U << at(target, offset); };
     Replaced& right = outcome[at(target, diagonal - 1)];
     Replaced& left = outcome[at(target, diagonal)];
-    // The old edge to the same point lies on the centre's side.
-    const bool isLeft = wedge(target, at(target, diagonal)) > 0;
-    (isLeft ? left : right).triangles |= bit(diagonal - 1) | bit(diagonal);
-    // Nor does it cross any on the other side.
-    const std::size_t end = isLeft ? diagonal : count_;
-    for (std::size_t spoke = isLeft ? 1 : diagonal + 1; spoke < end; ++spoke) {
-        const auto shift = shiftAtCrossing(target, at(target, diagonal), at(target, spoke));
-        if (!shift)
-            continue;
+    (isOnLeft(target, diagonal) ? left : right).triangles |= bit(diagonal - 1) | bit(diagonal);
+    forCrossings(target, diagonal, [&](std::size_t spoke, const Crossing& crossing) {
+        const Shift shift =
+            shiftAtCrossing(target, at(target, diagonal), at(target, spoke), crossing);
         for (Replaced* side : {&left, &right}) {
-            hold(side->shift, *shift);
+            hold(side->shift, shift);
             side->triangles |= bit(spoke - 1) | bit(spoke);
         }
-    }
+    });
 }
 
 Star::Shift Star::shiftBy(double height) const {
     return {std::min(height, 0.0), std::max(height, 0.0)};
 }
 
-/// From it to the new triangle that it lies in.
-Star::Shift Star::shiftAtCentre(std::size_t target, std::size_t triangle) const {
+Star::Shares Star::sharesAtCentre(std::size_t target, std::size_t triangle) const {
     const std::size_t b = at(target, triangle);
     const std::size_t c = at(target, triangle + 1);
-    const double ofA = wedge(b, c);
-    const double ofB = wedge(c, target);
-    const double ofC = wedge(target, b);
+    return {wedge(b, c), wedge(c, target), wedge(target, b), b};
+}
+
+double Star::longestSide(std::size_t triangle, std::size_t target) const {
+    const glm::dvec3& a = spokes_[target];
+    const glm::dvec3& b = spokes_[triangle];
+    const glm::dvec3& c = spokes_[after(triangle)];
+    return std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
+}
+
+/// From it to the new triangle that it lies in.
+Star::Shift Star::shiftAtCentre(std::size_t target, std::size_t triangle) const {
+    const auto [ofA, ofB, ofC, b] = sharesAtCentre(target, triangle);
+    const std::size_t c = after(b);
     const double all = ofA + ofB + ofC;
     if (!isGraph_)
         return shiftBy(glm::length(ofA * spokes_[target] + ofB * spokes_[b] + ofC * spokes_[c]) /
@@ -173,10 +172,9 @@ Star::Shift Star::shiftAtCentre(std::size_t target, std::size_t triangle) const 
                    all);
 }
 
-/// From the old edge from the centre to ring[spoke] to the new one from ring[target] to
-/// ring[diagonal], where they cross; nothing where they do not.
-std::optional<Star::Shift> Star::shiftAtCrossing(std::size_t target, std::size_t diagonal,
-                                                 std::size_t spoke) const {
+/// Nothing where they do not cross.
+std::optional<Star::Crossing> Star::crossing(std::size_t target, std::size_t diagonal,
+                                             std::size_t spoke) const {
     const double centreSide = wedge(target, diagonal);
     const double ringSide = area(target, diagonal, spoke);
     if ((centreSide > 0) == (ringSide > 0))
@@ -185,8 +183,14 @@ std::optional<Star::Shift> Star::shiftAtCrossing(std::size_t target, std::size_t
     const double bSide = wedge(spoke, diagonal);
     if ((aSide > 0) == (bSide > 0))
         return std::nullopt;
-    const double alongSpoke = centreSide / (centreSide - ringSide);
-    const double alongDiagonal = aSide / (aSide - bSide);
+    return Crossing{centreSide / (centreSide - ringSide), aSide / (aSide - bSide)};
+}
+
+/// From the old edge from the centre to ring[spoke] to the new one from ring[target] to
+/// ring[diagonal].
+Star::Shift Star::shiftAtCrossing(std::size_t target, std::size_t diagonal, std::size_t spoke,
+                                  const Crossing& crossing) const {
+    const auto [alongSpoke, alongDiagonal] = crossing;
     if (!isGraph_)
         return shiftBy(glm::length(glm::mix(spokes_[target], spokes_[diagonal], alongDiagonal) -
                                    alongSpoke * spokes_[spoke]));

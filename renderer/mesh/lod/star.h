@@ -65,6 +65,34 @@ public:
     /// The centre goes to ring[target]. `landing`: that of the same target.
     void moveTo(std::size_t target, const Landing& landing, Outcome& outcome) const;
 
+    /// Of the target, ring[b] and ring[b + 1] in the place where the centre lands; times anything.
+    struct Shares {
+        double ofTarget;
+        double ofB;
+        double ofC;
+        std::size_t b;
+    };
+    Shares sharesAtCentre(std::size_t target, std::size_t triangle) const;
+
+    /// Where an old edge, from the centre, and a new one, from the target, cross.
+    struct Crossing {
+        double alongSpoke;
+        double alongDiagonal;
+    };
+    /// Visits the crossings of the new edge to the `diagonal`-th after the target with old ones,
+    /// each with that of its spoke.
+    template <typename Visit>
+    void forCrossings(std::size_t target, std::size_t diagonal, const Visit& visit) const;
+
+    /// Of a triangle that is left.
+    double longestSide(std::size_t triangle, std::size_t target) const;
+
+    /// In the ring, counted from the target.
+    std::size_t at(std::size_t target, std::size_t offset) const {
+        const std::size_t index = target + offset;
+        return index < count_ ? index : index - count_;
+    }
+
 private:
     struct Point {
         double x;
@@ -79,11 +107,15 @@ private:
     bool unfold();
     bool liesFlat();
     bool goesAroundOnce() const;
-    std::size_t at(std::size_t target, std::size_t offset) const;
+    bool isOnLeft(std::size_t target, std::size_t diagonal) const {
+        return wedge(target, at(target, diagonal)) > 0;
+    }
+    std::optional<Crossing> crossing(std::size_t target, std::size_t diagonal,
+                                     std::size_t spoke) const;
     Shift shiftBy(double height) const;
     Shift shiftAtCentre(std::size_t target, std::size_t triangle) const;
-    std::optional<Shift> shiftAtCrossing(std::size_t target, std::size_t diagonal,
-                                         std::size_t spoke) const;
+    Shift shiftAtCrossing(std::size_t target, std::size_t diagonal, std::size_t spoke,
+                          const Crossing& crossing) const;
     void addDiagonal(std::size_t target, std::size_t diagonal, Outcome& outcome) const;
 
     std::array<glm::dvec3, kMaxStar> spokes_;  ///< from the centre to the ring
@@ -96,5 +128,16 @@ private:
     bool isGraph_ = false;
     bool isFlat_ = false;
 };
+
+template <typename Visit>
+void Star::forCrossings(std::size_t target, std::size_t diagonal, const Visit& visit) const {
+    // The old edge to the same point lies on the centre's side; nor does the new one cross any on
+    // the other side.
+    const bool isLeft = isOnLeft(target, diagonal);
+    const std::size_t end = isLeft ? diagonal : count_;
+    for (std::size_t spoke = isLeft ? 1 : diagonal + 1; spoke < end; ++spoke)
+        if (const auto found = crossing(target, at(target, diagonal), at(target, spoke)))
+            visit(spoke, *found);
+}
 
 }  // namespace eyrie::mesh

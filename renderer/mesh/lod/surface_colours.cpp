@@ -92,15 +92,16 @@ fabric::Rgba SurfaceColours::at(const Triangle& triangle, const glm::dvec3& weig
                                 std::uint32_t level) const {
     fabric::Rgba colour{255, 255, 255, 255};
     if (!mesh_.colours.empty()) {
-        glm::dvec4 sum(0.5);
+        glm::dvec4 sum(0);  // of light, which is what is linear (tints.h); and of alpha
         for (int k = 0; k < 3; ++k) {
             const fabric::Rgba one = unpackColour(mesh_.colours[triangle[std::size_t(k)]]);
-            sum += weights[k] * glm::dvec4(one.r, one.g, one.b, one.a);
+            sum += weights[k] * glm::dvec4(one.r * one.r, one.g * one.g, one.b * one.b, one.a);
         }
         const auto byte = [](double value) {
-            return static_cast<std::uint8_t>(std::clamp(value, 0.0, 255.0));
+            return static_cast<std::uint8_t>(std::clamp(value + 0.5, 0.0, 255.0));
         };
-        colour = {byte(sum.x), byte(sum.y), byte(sum.z), byte(sum.w)};
+        const auto shown = [&](double light) { return byte(std::sqrt(std::max(light, 0.0))); };
+        colour = {shown(sum.x), shown(sum.y), shown(sum.z), byte(sum.w)};
     }
     const Material* material = materialOf(triangle);
     if (material == nullptr || !material->hasImage())

@@ -133,6 +133,31 @@ TEST(MeshImport, ByPartsGivesTheSameOfAnOpenMeshButForItsBacks) {
     expectSameByParts(openBall(40000, 3), {}, expectSameButForBacks);
 }
 
+/// A ball whose colours vanish from level to level.
+TriangleMesh speckledBall() {
+    TriangleMesh ball = synthesizeMesh(60000, 3);
+    std::mt19937 engine(5);
+    for (std::size_t i = 0; i < ball.positions.size(); ++i) {
+        const auto shade = static_cast<std::uint8_t>(ball.positions[i].z > 0 ? engine() % 256 : 90);
+        ball.colours.push_back({shade, 60, 200, 255});
+    }
+    return ball;
+}
+
+TEST(MeshImport, ByPartsGivesTheSameBytesWithReachesOfColours) {
+    const test::TemporaryFolder folder;
+    for (const bool isRaw : {false, true})
+        for (const bool keepsExact : {false, true})
+            expectSameByParts(speckledBall(), {.pack = {.keepsExact = keepsExact}, .isRaw = isRaw});
+    const auto report = importMesh(speckledBall(), folder.file("m.eym"));
+    ASSERT_TRUE(report.ok()) << report.status();
+    const auto file = mesh::EymFile::open(folder.file("m.eym"));
+    ASSERT_TRUE(file.ok()) << file.status();
+    EXPECT_GT(file->nodes()[0].colourReachMetres(), 0);
+    EXPECT_GE(file->nodes()[0].colourReachMetres(),
+              static_cast<float>(report->levels.back().largestReachMetres));
+}
+
 /// Balls of many sizes through each other, each fifth inside out, with colours and normals, faces
 /// that are there twice and some without an area.
 TriangleMesh soup(std::size_t balls, std::size_t triangles) {

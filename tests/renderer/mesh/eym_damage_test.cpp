@@ -196,16 +196,17 @@ TEST(EymDamage, WithARightChecksumIsStillRefused) {
         {"page too long", [](Tables& t) { t.nodes.back().pageBytes = 1U << 31; }},
         {"source positions beyond the file",
          [](Tables& t) { t.nodes.back().exactBytes += 1U << 20; }},
-        {"too many vertices", [](Tables& t) { t.nodes.back().vertexCount = 65536; }},
         {"vertices that none uses",
-         [](Tables& t) { t.nodes.back().vertexCount = t.nodes.back().indexCount + 1; }},
+         [](Tables& t) {
+             t.nodes.back().vertexCount = static_cast<std::uint16_t>(t.nodes.back().indexCount + 1);
+         }},
         {"a leaf of points", [](Tables& t) { t.nodes.back().indexCount = 0; }},
         {"points without ranges", [](Tables& t) { t.pointRanges[0].node = 1U << 20; }},
         {"ranges of a node without points", [](Tables& t) { t.pointRanges.back().node += 1; }},
         {"more points than there are", [](Tables& t) { t.pointRanges[0].points = 1000; }},
         {"no points", [](Tables& t) { t.pointRanges[0].points = 0; }},
         {"as many points again", [](Tables& t) { laterRange(t.pointRanges).points = 1; }},
-        {"ranges of too few points", [](Tables& t) { t.nodes[0].vertexCount += 1; }},
+        {"ranges of too few points", [](Tables& t) { ++t.nodes[0].vertexCount; }},
         {"an error of more points that is greater",
          [](Tables& t) { laterRange(t.pointRanges).errorMetres *= 100; }},
         {"an error of points that is not finite",
@@ -247,6 +248,16 @@ TEST(EymDamage, WithARightChecksumIsStillRefused) {
         {"error below the child's", [](Tables& t) { t.nodes[0].errorMetres = 0; }},
         {"error not finite",
          [](Tables& t) { t.nodes[1].errorMetres = std::numeric_limits<float>::quiet_NaN(); }},
+        {"colours from less far than the child's",
+         [](Tables& t) { t.nodes[1].colourReach = 0x5000; }},
+        {"colours from no number of metres", [](Tables& t) { t.nodes[0].colourReach = 0x7FC0; }},
+        {"colours from less than no distance", [](Tables& t) { t.nodes[0].colourReach = 0xBF80; }},
+        {"a reach of colours that are not there",
+         [](Tables& t) {
+             t.header.flags &= ~kHasColours;
+             t.header.version = kColourlessVersion;
+             t.nodes[0].colourReach = 0x3F80;
+         }},
         {"range with a gap", [](Tables& t) { t.nodes[1].triangleEnd -= 1; }},
         {"empty range", [](Tables& t) { t.nodes[0].triangleEnd = 0; }},
         {"other triangle count", [](Tables& t) { t.header.triangleCount += 1; }},
@@ -277,6 +288,18 @@ TEST(EymDamage, WithARightChecksumIsStillRefused) {
     }
 }
 
+TEST(EymDamage, ColoursOfAnEarlierVersionAreRefusedForTheirBound) {
+    const test::TemporaryFolder folder;
+    const std::string& bytes = smallFile();
+    Tables tables(bytes);
+    EXPECT_EQ(tables.header.version, kEymVersion);
+    tables.header.version = kColourlessVersion;
+    test::writeFile(folder.file("m.eym"), tables.sealedInto(bytes));
+    const absl::Status status = readAll(folder.file("m.eym"));
+    EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
+    EXPECT_NE(status.message().find("import the mesh again"), std::string::npos) << status;
+}
+
 TEST(EymDamage, OfAPageThatIsMappedIsRefusedByItsShape) {
     const test::TemporaryFolder folder;
     const std::string& bytes = smallFile(false);
@@ -294,8 +317,7 @@ TEST(EymDamage, AnIndexBeyondItsVerticesIsRefusedWithARightChecksum) {
     std::string bytes = smallFile(false);
     Tables tables(bytes);
     Node& leaf = tables.nodes.back();
-    const auto vertices = static_cast<std::uint16_t>(leaf.vertexCount);
-    std::memcpy(bytes.data() + leaf.pageOffset + leaf.vertexCount * 24, &vertices, 2);
+    std::memcpy(bytes.data() + leaf.pageOffset + leaf.vertexCount * 24, &leaf.vertexCount, 2);
     leaf.blockChecksum =
         contentHash(std::as_bytes(std::span(bytes).subspan(leaf.pageOffset, leaf.pageBytes)));
     test::writeFile(folder.file("m.eym"), tables.sealedInto(bytes));

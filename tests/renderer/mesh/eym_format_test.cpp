@@ -235,6 +235,39 @@ TEST(EymFile, TellsBoundsInMetresAndErrorsNotBelowTheLattices) {
     }
 }
 
+/// In half of a float, so a little more than it is.
+TEST(EymFile, KeepsHowFarColoursReach) {
+    const test::TemporaryFolder folder;
+    PackedMesh mesh = test::randomSoup(600, 300, 3000, 1, true);
+    const auto tree = buildKdTree(mesh.positions, mesh.triangles, {100});
+    ASSERT_TRUE(tree.ok());
+    auto lod = buildLodTree(mesh, *tree, {.nodeTriangles = 100});
+    ASSERT_TRUE(lod.ok());
+    for (std::size_t i = 0; i < tree->nodes.size(); ++i)
+        lod->colourReachMetres[i] = tree->nodes[i].isLeaf() ? 0 : 0.3 / static_cast<double>(i + 1);
+    const auto writeAs = [&](const std::string& name) {
+        auto out = OutputFile::create(folder.file(name));
+        EXPECT_TRUE(out.ok());
+        EXPECT_TRUE(writeEym(mesh, *tree, *lod, findBacks(mesh, *tree), {}, *out).ok());
+        EXPECT_TRUE(out->commit().ok());
+        return EymFile::open(folder.file(name));
+    };
+    const auto file = writeAs("m.eym");
+    ASSERT_TRUE(file.ok()) << file.status();
+    for (std::size_t i = 0; i < tree->nodes.size(); ++i) {
+        const Node& node = file->nodes()[i];
+        EXPECT_GE(double{node.colourReachMetres()}, lod->colourReachMetres[i]);
+        EXPECT_LE(double{node.colourReachMetres()}, lod->colourReachMetres[i] * 1.01);
+        EXPECT_EQ(node.farthestMetres(), std::max(node.errorMetres, node.colourReachMetres()));
+    }
+    // Without colours files are as they were before these had a bound.
+    mesh.colours.clear();
+    std::ranges::fill(lod->colourReachMetres, 0.0);
+    ASSERT_TRUE(writeAs("plain.eym").ok());
+    EXPECT_EQ(test::readFile(folder.file("plain.eym"))[8], '\4');
+    EXPECT_EQ(test::readFile(folder.file("m.eym"))[8], '\5');
+}
+
 TEST(EymFile, CountsOnlyVerticesThatTrianglesUse) {
     const test::TemporaryFolder folder;
     PackedMesh mesh = test::separateTriangles(4);
