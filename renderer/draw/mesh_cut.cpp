@@ -31,11 +31,13 @@ private:
     bool visit(std::uint32_t index, int level, Error error, bool hasStandIn);
     bool visitChildren(std::uint32_t index, int level, Error error, bool hasStandIn);
     bool draw(const CutNode& self, bool hasStandIn);
+    CutNode pointNode(std::uint32_t index, int level, double errorMetres,
+                      std::uint32_t points) const;
     std::optional<CutNode> asPoints(std::uint32_t index, int level) const;
     bool drawFiner(std::uint32_t index, int level, double error, bool hasStandIn);
     bool mayStandIn(const CutNode& node) const {
         return file_.nodes()[node.node].hasGeometry() && isThere_(node.node) &&
-               (node.points == 0 || (mayBePoints_ && node.errorPixels <= kMostStandInPixels));
+               (node.points == 0 || (mayBePoints_ && node.pointPixels <= kMostStandInPixels));
     }
     void moveBetween(std::size_t firstAbove) {
         cut_.between.insert(cut_.between.end(),
@@ -52,17 +54,26 @@ private:
     MeshCut cut_;
 };
 
+/// A pixel may show a point at the end of its reach, whose colour is from at the end of its own.
+CutNode CutMaker::pointNode(std::uint32_t index, int level, double errorMetres,
+                            std::uint32_t points) const {
+    const fabric::Box box = file_.bounds(index);
+    const double reach = file_.nodes()[index].colourReachMetres();
+    const double apart = view_.screenSpaceErrorPixels(errorMetres, box) + kPointRounding;
+    const double off = reach > 0 ? view_.screenSpaceErrorPixels(errorMetres + reach, box) : 0;
+    return {index, level, std::max(apart, off + kPointRounding), points, apart};
+}
+
 /// The node drawn as no more of its points than are enough; nothing where these leave gaps.
 std::optional<CutNode> CutMaker::asPoints(std::uint32_t index, int level) const {
-    const fabric::Box box = file_.bounds(index);
     std::optional<CutNode> drawn;
     if (!mayBePoints_)
         return drawn;
     for (const mesh::PointRange& range : file_.pointRanges(index)) {
-        const double error = view_.screenSpaceErrorPixels(range.errorMetres, box) + kPointRounding;
-        if (error <= std::min(kMostPointPixels, tauPixels_))
-            drawn = CutNode{index, level, error, range.points};
-        if (error <= kEnoughPointPixels)
+        const CutNode node = pointNode(index, level, range.errorMetres, range.points);
+        if (node.pointPixels <= kMostPointPixels && node.errorPixels <= tauPixels_)
+            drawn = node;
+        if (node.pointPixels <= kEnoughPointPixels)
             break;
     }
     return drawn;
@@ -80,10 +91,10 @@ bool CutMaker::visit(std::uint32_t index, int level, Error error, bool hasStandI
         return draw(*points, hasStandIn);
     const bool wasKept = error.has_value() && !node.isOfPoints();
     if (!wasKept)
-        error = view_.screenSpaceErrorPixels(node.errorMetres, box);
+        error = view_.screenSpaceErrorPixels(node.farthestMetres(), box);
     const bool isKept = wasKept || node.isLeaf() || (*error <= tauPixels_ && !node.isOfPoints());
     const CutNode self = node.isOfPoints()
-                             ? CutNode{index, level, *error + kPointRounding, node.vertexCount}
+                             ? pointNode(index, level, node.errorMetres, node.vertexCount)
                              : CutNode{index, level, *error};
     if (isKept && node.hasGeometry())
         return draw(self, hasStandIn);

@@ -26,8 +26,9 @@ inline constexpr double kEnoughPointPixels = 0.125;
 struct CutNode {
     std::uint32_t node = 0;
     int level = 0;             ///< 0: the root
-    double errorPixels = 0;    ///< bound on what drawing it moves in the picture
+    double errorPixels = 0;    ///< bound on what drawing it moves in the picture, colours too
     std::uint32_t points = 0;  ///< of a node of points: how many of them are enough
+    double pointPixels = 0;    ///< of the same: how far its surface is from the nearest of them
 };
 
 /// What a view wants of a mesh, and what of it can be drawn with the nodes that are there.

@@ -50,8 +50,9 @@ struct NodeTree {
     double errorMetres(Node node) const {
         const mesh::Node& at = file.nodes()[node];
         if (at.isOfPoints() && mayBePoints)
-            return at.errorMetres * std::max(tauPixels / kMostPointPixels, 1.0);
-        return at.indexCount > 0 ? at.errorMetres : std::numeric_limits<double>::infinity();
+            return std::max(at.errorMetres * std::max(tauPixels / kMostPointPixels, 1.0),
+                            double{at.farthestMetres()});
+        return at.indexCount > 0 ? at.farthestMetres() : std::numeric_limits<double>::infinity();
     }
     template <typename Visit>
     void forEachChild(Node node, const Visit& visit) const {
@@ -253,7 +254,7 @@ Cut MeshDrawable::selectCut(const CutRequest& request) {
         const mesh::Node& node = file_->nodes()[one.node];
         cut.pieces.push_back({one.node, static_cast<double>(node.triangleBegin) / total,
                               file_->bounds(one.node), true, costOf(one), hasBlended(one.node),
-                              one.points, one.errorPixels});
+                              one.points, one.pointPixels});
     }
     return cut;
 }

@@ -80,6 +80,7 @@ TEST_F(MeshCutOfPoints, DrawsPointsOnlyWhereTheyFillTheirPixels) {
                 EXPECT_EQ(one.errorPixels,
                           view.screenSpaceErrorPixels(range->errorMetres, file_->bounds(one.node)) +
                               kPointRounding);
+                EXPECT_EQ(one.pointPixels, one.errorPixels);
                 EXPECT_LE(one.errorPixels, std::min(tau, kMostPointPixels));
                 counts.insert(one.points);
             }
@@ -141,6 +142,46 @@ TEST_F(MeshCutOfPoints, StandInWhereTheyAreNotFarApartAndHaveStandIns) {
         EXPECT_GT(cut.drawn.size(), 1U);
         EXPECT_LE(cut.errorPixels(), kMostPointPixels);
     }
+}
+
+/// A plane of noise, whose levels are off by nothing but their colours.
+TEST(MeshCutOfColours, IsRefinedUntilTheyComeFromWithinTau) {
+    import::TriangleMesh mesh;
+    constexpr std::uint32_t kSide = 256;
+    std::mt19937 random(4);
+    for (std::uint32_t y = 0; y < kSide; ++y)
+        for (std::uint32_t x = 0; x < kSide; ++x) {
+            mesh.positions.emplace_back(x, y, 0);
+            mesh.colours.push_back({static_cast<std::uint8_t>(random() % 256), 9, 9, 255});
+            const std::uint32_t at = y * kSide + x;
+            if (x + 1 < kSide && y + 1 < kSide)
+                for (const mesh::Triangle& triangle :
+                     {mesh::Triangle{at, at + 1, at + kSide + 1}, {at, at + kSide + 1, at + kSide}})
+                    mesh.triangles.push_back(triangle);
+        }
+    const test::TemporaryFolder folder;
+    ASSERT_TRUE(import::importMesh(std::move(mesh), folder.path("m.eym")).ok());
+    const auto file = mesh::EymFile::open(folder.path("m.eym"));
+    ASSERT_TRUE(file.ok()) << file.status();
+    fabric::Camera camera;
+    camera.target = file->bounds().centre();
+    camera.up = {0, 1, 0};
+    std::set<std::size_t> sizes;
+    for (const double away : {300.0, 3e3, 3e4, 3e5}) {
+        camera.eye = camera.target + fabric::Vec3(0, 0, away);
+        const lod::ObjectView view(lod::View(camera, 1280, 720), fabric::Mat4(1.0));
+        const MeshCut cut = cutOf(*file, view, 1, kAllThere);
+        sizes.insert(cut.drawn.size());
+        for (const CutNode& one : cut.drawn) {
+            const mesh::Node& node = file->nodes()[one.node];
+            EXPECT_LE(one.errorPixels, 1);
+            EXPECT_GE(one.errorPixels, view.screenSpaceErrorPixels(node.colourReachMetres(),
+                                                                   file->bounds(one.node)));
+            EXPECT_TRUE(node.isLeaf() || node.colourReachMetres() > node.errorMetres);
+        }
+    }
+    EXPECT_GE(sizes.size(), 3U);
+    EXPECT_EQ(*sizes.begin(), 1U);
 }
 
 }  // namespace
