@@ -36,6 +36,8 @@ struct Facts {
     std::uint64_t bytes = 0;
     double coarsestErrorMetres = 0;
     double finestErrorMetres = 0;
+    /// Of meshes with colours, by level from the coarsest; none without.
+    std::vector<double> colourReachMetres = {};
     std::uint64_t tunedLeafTriangles = 0;  ///< of meshes; 0: not tuned
     std::optional<terrain::ImagerySummary> imagery;
     std::uint64_t materials = 0;  ///< of a mesh, that are more than a colour
@@ -63,6 +65,26 @@ absl::StatusOr<Facts> terrainFacts(const std::string& path, const page::SourceOp
                                           : std::nullopt};
 }
 
+/// The most of a level's nodes, from the root down.
+std::vector<double> colourReachOf(const mesh::EymFile& file) {
+    std::vector<double> byLevel;
+    if (!file.hasColours())
+        return byLevel;
+    byLevel.resize(static_cast<std::size_t>(file.levels()));
+    std::vector<std::pair<std::uint32_t, std::size_t>> left = {{0, 0}};
+    while (!left.empty()) {
+        const auto [index, level] = left.back();
+        left.pop_back();
+        const mesh::Node& node = file.nodes()[index];
+        byLevel[level] = std::max(byLevel[level], double{node.colourReachMetres()});
+        if (node.isLeaf())
+            continue;
+        for (const std::int32_t child : {node.left, node.right})
+            left.emplace_back(static_cast<std::uint32_t>(child), level + 1);
+    }
+    return byLevel;
+}
+
 absl::StatusOr<Facts> meshFacts(const std::string& path, const page::SourceOptions& sources) {
     ASSIGN_OR_RETURN(const mesh::EymFile file, mesh::EymFile::open(path, sources));
     double worst = 0;
@@ -78,6 +100,7 @@ absl::StatusOr<Facts> meshFacts(const std::string& path, const page::SourceOptio
                  .bytes = file.fileBytes(),
                  .coarsestErrorMetres = file.coarsestErrorMetres(),
                  .finestErrorMetres = file.finestErrorMetres(),
+                 .colourReachMetres = colourReachOf(file),
                  .tunedLeafTriangles = file.tunedLeafTriangles(),
                  .imagery = {},
                  .materials = file.materials().size(),
@@ -112,6 +135,8 @@ JsonObject toJson(const Facts& facts) {
         .object("errorMetres", JsonObject()
                                    .number("coarsest", facts.coarsestErrorMetres)
                                    .number("finest", facts.finestErrorMetres));
+    if (!facts.colourReachMetres.empty())
+        json.numbers("colourReachMetres", facts.colourReachMetres);
     if (facts.tunedLeafTriangles > 0)
         json.count("tunedLeafTriangles", facts.tunedLeafTriangles);
     if (facts.materials > 0)
@@ -136,6 +161,9 @@ void printFacts(const std::string& name, const Facts& facts) {
     fmt::print("  bytes       {}\n", facts.bytes);
     fmt::print("  error       {:.3g} m at the coarsest, {:.3g} m at the finest\n",
                facts.coarsestErrorMetres, facts.finestErrorMetres);
+    if (!facts.colourReachMetres.empty())
+        fmt::print("  colours     from within {:.3g} m at the coarsest\n",
+                   facts.colourReachMetres.front());
     if (facts.tunedLeafTriangles > 0)
         fmt::print("  leaves      of at most {} triangles, which was measured to be fastest\n",
                    facts.tunedLeafTriangles);

@@ -19,6 +19,7 @@ std::vector<JsonObject> levelsJson(const import::MeshImportReport& made) {
                              .count("nodes", level.nodes)
                              .count("triangles", level.trianglesAfter)
                              .number("errorMetres", level.largestErrorMetres)
+                             .number("colourReachMetres", level.largestReachMetres)
                              .number("borderShare", level.borderShare));
     return levels;
 }
