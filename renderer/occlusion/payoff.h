@@ -13,7 +13,7 @@ class Payoff {
 public:
     static constexpr int kPause = 32;  ///< frames from a look that did not pay to the next
     /// What a hidden triangle costs, at least, as a share of what a drawn one does: it is shaded
-    /// only when it comes before what hides it. Measured: docs/benchmarks.md#occlusion.
+    /// only when it comes before what hides it. Measured: docs/benchmarks/meshes.md#occlusion.
     static constexpr double kHiddenShare = 0.5;
     /// By how much a look has to pay before frames go on looking.
     static constexpr double kToStart = 1.25;
