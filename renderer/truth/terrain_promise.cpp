@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "fabric/frustum.h"
+#include "fabric/depth_metres.h"
 #include "fabric/status.h"
 #include "renderer/truth/drawn_terrain.h"
 #include "renderer/truth/shown_surface.h"
@@ -16,11 +16,7 @@ std::vector<float> depthMetres(const fabric::Image& image, const fabric::PixelVi
     fabric::Image whole = fabric::makeImage(picture, {}, true);
     if (!image.area.isEmpty())
         fabric::paste(image, whole);
-    std::vector<float> metres;
-    for (const float reversed : whole.depth)
-        metres.push_back(
-            static_cast<float>(fabric::viewDepthMetres(reversed, fabric::kNearMetres)));
-    return metres;
+    return fabric::depthMetres(whole);
 }
 
 double TerrainPromise::rasterPixels(const fabric::Vec2& step) {
