@@ -22,7 +22,8 @@ glm::dmat4 placeOf(const aiNode* node, const glm::dmat4& worldFromScene) {
 }
 
 /// Its colour is taken for linear: in most formats the strength has been multiplied into it.
-SourceLight sourceLight(const aiLight& light, const glm::dmat4& worldFromNode) {
+SourceLight sourceLight(const aiLight& light, const glm::dmat4& worldFromNode,
+                        double metresPerUnit) {
     SourceLight result;
     result.colour = {light.mColorDiffuse.r, light.mColorDiffuse.g, light.mColorDiffuse.b};
     if (light.mType == aiLightSource_DIRECTIONAL) {
@@ -35,8 +36,8 @@ SourceLight sourceLight(const aiLight& light, const glm::dmat4& worldFromNode) {
     // then.
     if (light.mAttenuationLinear != 1 || light.mAttenuationQuadratic != 0) {
         result.constant = double{light.mAttenuationConstant};
-        result.linear = double{light.mAttenuationLinear};
-        result.quadratic = double{light.mAttenuationQuadratic};
+        result.linear = double{light.mAttenuationLinear} / metresPerUnit;
+        result.quadratic = double{light.mAttenuationQuadratic} / (metresPerUnit * metresPerUnit);
     }
     return result;
 }
@@ -44,7 +45,7 @@ SourceLight sourceLight(const aiLight& light, const glm::dmat4& worldFromNode) {
 }  // namespace
 
 fabric::FileLights lightsOf(const aiScene& scene, const glm::dmat4& worldFromScene,
-                            std::vector<std::string>& notes) {
+                            double metresPerUnit, std::vector<std::string>& notes) {
     std::vector<SourceLight> lights;
     std::size_t spots = 0;
     std::size_t others = 0;
@@ -54,7 +55,8 @@ fabric::FileLights lightsOf(const aiScene& scene, const glm::dmat4& worldFromSce
         if (isSpot || light->mType == aiLightSource_POINT ||
             light->mType == aiLightSource_DIRECTIONAL)
             lights.push_back(sourceLight(
-                *light, placeOf(scene.mRootNode->FindNode(light->mName), worldFromScene)));
+                *light, placeOf(scene.mRootNode->FindNode(light->mName), worldFromScene),
+                metresPerUnit));
         else
             ++others;
     }

@@ -18,8 +18,10 @@
 #include <assimp/config.h>
 #include <assimp/material.h>
 #include <assimp/mesh.h>
+#include <assimp/metadata.h>
 #include <assimp/scene.h>
 #include <fmt/format.h>
+#include <glm/ext/matrix_transform.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/matrix.hpp>
@@ -81,6 +83,16 @@ bool hasOwnMaterial(const aiMaterial& material) {
     return material.Get(AI_MATKEY_COLOR_DIFFUSE, ignored) == AI_SUCCESS &&
            !(material.Get(AI_MATKEY_NAME, name) == AI_SUCCESS &&
              std::string_view(name.C_Str()) == AI_DEFAULT_MATERIAL_NAME);
+}
+
+/// FBX alone says what its unit is, in centimetres, and Assimp hands it on without applying it.
+double metresPerUnitOf(const aiScene& scene, const AssimpFormat& format) {
+    float centimetres = 0;
+    if (format.extension != ".fbx" || scene.mMetaData == nullptr ||
+        !scene.mMetaData->Get("UnitScaleFactor", centimetres) || !std::isfinite(centimetres) ||
+        centimetres <= 0)
+        return 1;
+    return std::abs(centimetres - 100) < 1e-3F ? 1 : double{centimetres} / 100;
 }
 
 /// Gathers what the nodes of a scene show.
@@ -233,7 +245,9 @@ absl::StatusOr<TriangleMesh> SceneMeshes::gather() {
         const aiNode* node;
         glm::dmat4 worldFromNode;
     };
-    const glm::dmat4 worldFromScene = format_.isYUp ? kZUpFromYUp : glm::dmat4(1);
+    const double metresPerUnit = metresPerUnitOf(scene_, format_);
+    const glm::dmat4 worldFromScene =
+        glm::scale(format_.isYUp ? kZUpFromYUp : glm::dmat4(1), glm::dvec3(metresPerUnit));
     std::vector<Placed> waiting;
     if (scene_.mRootNode != nullptr)
         waiting.push_back(
@@ -254,7 +268,10 @@ absl::StatusOr<TriangleMesh> SceneMeshes::gather() {
                         "least one; export the mesh again with its faces",
                         result_.droppedFaces));
     materials_.moveTo(result_);
-    result_.lights = lightsOf(scene_, worldFromScene, result_.notes);
+    result_.lights = lightsOf(scene_, worldFromScene, metresPerUnit, result_.notes);
+    if (metresPerUnit != 1)
+        result_.notes.push_back(fmt::format(
+            "brought to metres: the file says that its unit is {:.6g} m", metresPerUnit));
     if (wrongColours_ > 0)
         result_.notes.push_back(
             fmt::format("left out vertices' colours of {} of {} meshes, which are below 0",

@@ -102,10 +102,37 @@ INSTANTIATE_TEST_SUITE_P(Exporters, AssimpFormats,
                          testing::Values(Exported{"obj", ".obj"}, Exported{"stl", ".stl"},
                                          Exported{"stlb", ".stl"}, Exported{"gltf2", ".gltf"},
                                          Exported{"glb2", ".glb"}, Exported{"collada", ".dae"},
-                                         Exported{"3ds", ".3ds", true}, Exported{"fbxa", ".fbx"},
-                                         Exported{"x3d", ".x3d"}, Exported{"x", ".x"},
-                                         Exported{"3mf", ".3mf"}),
+                                         Exported{"3ds", ".3ds", true}, Exported{"x3d", ".x3d"},
+                                         Exported{"x", ".x"}, Exported{"3mf", ".3mf"}),
                          [](const auto& test) { return std::string("As_") + test.param.exporter; });
+
+/// The solid as FBX whose unit is so many centimetres.
+void writeFbx(const std::string& path, float centimetres) {
+    const std::unique_ptr<aiScene> scene = tetrahedron();
+    scene->mMetaData->Add("UnitScaleFactor", centimetres);
+    Assimp::Exporter exporter;
+    ASSERT_EQ(exporter.Export(scene.get(), "fbxa", path), AI_SUCCESS) << exporter.GetErrorString();
+}
+
+TEST(FbxUnits, OfAMetreGiveTheSameSolidUpright) {
+    const test::TemporaryFolder folder;
+    writeFbx(folder.file("t.fbx"), 100);
+    expectSolid(folder.file("t.fbx"), fromYUp);
+    EXPECT_THAT(readWithAssimp(folder.file("t.fbx"))->notes, testing::IsEmpty());
+}
+
+TEST(FbxUnits, OfACentimetreAreBroughtToMetresAndSaidSo) {
+    const test::TemporaryFolder folder;
+    writeFbx(folder.file("t.fbx"), 1);
+    const auto mesh = readWithAssimp(folder.file("t.fbx"));
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    for (const fabric::Vec3& corner : kCorners)
+        EXPECT_TRUE(std::ranges::any_of(mesh->positions, [&](const fabric::Vec3& p) {
+            return glm::distance(p, 0.01 * fromYUp(corner)) < 1e-7;
+        }));
+    EXPECT_NEAR(test::signedVolume(*mesh), 1e-6, 1e-10);
+    EXPECT_THAT(mesh->notes, testing::ElementsAre(testing::HasSubstr("unit is 0.01 m")));
+}
 
 /// `each` of every corner, one after another: `{0}` its number, `{1}`, `{2}`, `{3}` its place.
 std::string corners(std::string_view each) {
