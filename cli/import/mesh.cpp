@@ -83,8 +83,9 @@ void addImportMesh(CLI::App& parent, Run& run) {
         ->required();
     command
         ->add_option("--normals", choices->normals,
-                     "smooth: means around vertices; crease=DEGREES: sharper edges stay sharp; "
-                     "file: the source's own, smooth where it has none")
+                     "auto: as file, but smooth for PLY and STL; smooth: means around vertices; "
+                     "crease=DEGREES: sharper edges stay sharp; file: the source's own, smooth "
+                     "where it has none")
         ->type_name("WHICH")
         ->capture_default_str();
     command->add_flag("--orient", choices->how.pack.orients,

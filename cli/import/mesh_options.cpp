@@ -32,8 +32,12 @@ absl::StatusOr<import::MeshImportOptions> importOptions(const MeshImportChoices&
     constexpr std::string_view kCrease = "crease=";
     import::MeshImportOptions result = choices.how;
     ASSIGN_OR_RETURN(result.memoryBytes, memoryOf(choices));
-    if (choices.normals == "smooth")
+    if (choices.normals == "auto")
         return result;
+    if (choices.normals == "smooth") {
+        result.pack.normals = import::NormalSource::Smooth;
+        return result;
+    }
     if (choices.normals == "file") {
         result.pack.normals = import::NormalSource::File;
         return result;
@@ -48,10 +52,10 @@ absl::StatusOr<import::MeshImportOptions> importOptions(const MeshImportChoices&
             result.pack.creaseDegrees <= 180)
             return result;
     }
-    return absl::InvalidArgumentError(
-        fmt::format("--normals is '{}'; give smooth, file, or crease= and degrees from 0 to 180, "
-                    "such as crease=40",
-                    choices.normals));
+    return absl::InvalidArgumentError(fmt::format(
+        "--normals is '{}'; give auto, smooth, file, or crease= and degrees from 0 to 180, "
+        "such as crease=40",
+        choices.normals));
 }
 
 }  // namespace eyrie::cli

@@ -13,7 +13,7 @@ namespace eyrie::cli {
 /// What `eyrie import mesh` was asked for, as it was written.
 struct MeshImportChoices : ImportOptions {
     import::MeshImportOptions how;
-    std::string normals = "smooth";
+    std::string normals = "auto";
     std::string memory;
     std::string flight;  ///< to tune for; empty: the leaf size is `how`'s
 };

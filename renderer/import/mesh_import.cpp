@@ -185,15 +185,17 @@ absl::StatusOr<std::optional<std::uint64_t>> partsOf(const std::vector<std::stri
 }
 
 absl::StatusOr<MeshImportReport> importWhole(const std::vector<std::string>& paths,
-                                             mesh::OutputFile& out,
-                                             const MeshImportOptions& options,
+                                             mesh::OutputFile& out, MeshImportOptions options,
                                              const ImportControl& control) {
     constexpr const char* kConvert = "convert it to PLY, which is imported part by part";
     const std::uint64_t bytes = bytesOf(paths);
     if (options.memoryBytes != 0 && bytes > options.memoryBytes)
         return exceedsMemory(nameOf(paths), bytes, options, kConvert);
+    const bool isByFormat = options.pack.normals == NormalSource::ByFormat;
     Stopwatch watch;
-    ASSIGN_OR_RETURN(TriangleMesh source, readMeshes(paths, control));
+    ASSIGN_OR_RETURN(TriangleMesh source, readMeshes(paths, control, isByFormat));
+    if (isByFormat)
+        options.pack.normals = source.normals.empty() ? NormalSource::Smooth : NormalSource::File;
     ASSIGN_OR_RETURN(const std::uint64_t hash, meshSourceHash(paths));
     const std::uint64_t needed =
         importBytes(source.triangles.size(), source.positions.size(), 0, options);

@@ -33,7 +33,8 @@ constexpr std::uint64_t kGatherBytes = 64;
 
 std::uint64_t bytesPerTriangle(std::uint64_t triangles, std::uint64_t vertices,
                                const MeshImportOptions& options) {
-    const bool isRich = options.pack.keepsExact || options.pack.normals != NormalSource::Smooth;
+    const bool isRich = options.pack.keepsExact || options.pack.normals == NormalSource::Crease ||
+                        options.pack.normals == NormalSource::File;
     const std::uint64_t looseVertices = vertices - std::min(vertices, triangles / 2);
     return (isRich ? kRichTriangleBytes : kTriangleBytes) +
            looseVertices * kLooseVertexBytes / std::max<std::uint64_t>(triangles, 1);

@@ -182,6 +182,8 @@ bool isMeshSource(const std::string& path) {
     return endsWith(path, ".ply") || endsWith(path, ".jdn") || findAssimpFormat(path) != nullptr;
 }
 
+bool statesEdges(const std::string& path) { return !isPly(path) && !endsWith(path, ".stl"); }
+
 std::string meshSourceEndings() {
     std::string endings = ".ply, .jdn";
     for (const AssimpFormat& format : assimpFormats())
@@ -209,12 +211,19 @@ absl::StatusOr<TriangleMesh> readMesh(const std::string& path, const ImportContr
 }
 
 absl::StatusOr<TriangleMesh> readMeshes(std::span<const std::string> paths,
-                                        const ImportControl& control) {
+                                        const ImportControl& control, bool onlyNormalsOfEdges) {
+    const auto read = [&](const std::string& path,
+                          const ImportControl& partly) -> absl::StatusOr<TriangleMesh> {
+        ASSIGN_OR_RETURN(TriangleMesh mesh, readMesh(path, partly));
+        if (onlyNormalsOfEdges && !statesEdges(path))
+            mesh.normals = {};
+        return mesh;
+    };
     if (paths.size() == 1)
-        return readMesh(paths.front(), control);
+        return read(paths.front(), control);
     TriangleMesh whole;
     for (std::size_t i = 0; i < paths.size(); ++i) {
-        ASSIGN_OR_RETURN(TriangleMesh part, readMesh(paths[i], shareOf(control, i, paths.size())));
+        ASSIGN_OR_RETURN(TriangleMesh part, read(paths[i], shareOf(control, i, paths.size())));
         RETURN_IF_ERROR(append(whole, std::move(part), paths[i]));
     }
     limitLights(whole);

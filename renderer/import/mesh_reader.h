@@ -16,6 +16,10 @@ namespace eyrie::import {
 /// Whether a file's name ends like that of a mesh that readMesh knows.
 bool isMeshSource(const std::string& path);
 
+/// Whether the normals that a file may have say which edges are sharp. Those of PLY are mostly a
+/// scanner's, and STL has those of faces alone, whatever the surface.
+bool statesEdges(const std::string& path);
+
 /// Their endings, as in ".ply, .jdn, .obj".
 std::string meshSourceEndings();
 
@@ -25,11 +29,13 @@ std::string meshSourceEndings();
 absl::StatusOr<TriangleMesh> readMesh(const std::string& path, const ImportControl& control = {});
 
 /// Reads several into one, in this order. Where only some have colours, the others are of
-/// kPlainColour; where only some have materials, the others have a plain one. Notes begin with
-/// their file's name. Precondition: there is one. Errors: those of readMesh; InvalidArgument (more
-/// than 2^32 vertices).
+/// kPlainColour; where only some have materials, the others have a plain one. With
+/// `onlyNormalsOfEdges` the normals of other files than those that state edges (statesEdges) are
+/// left out. Notes begin with their file's name where there are several. Precondition: there is
+/// one. Errors: those of readMesh; InvalidArgument (more than 2^32 vertices).
 absl::StatusOr<TriangleMesh> readMeshes(std::span<const std::string> paths,
-                                        const ImportControl& control = {});
+                                        const ImportControl& control = {},
+                                        bool onlyNormalsOfEdges = false);
 
 /// Whether readMesh takes a file for PLY.
 bool isPly(const std::string& path);

@@ -15,9 +15,10 @@ namespace eyrie::import {
 
 /// Where normals come from.
 enum class NormalSource {
-    Smooth,  ///< the mean around each vertex
-    Crease,  ///< the same within PackOptions::creaseDegrees
-    File,    ///< the source's; smooth where it has none, or one without a length
+    ByFormat,  ///< importMesh: the file's of formats that state them; else, and elsewhere, smooth
+    Smooth,    ///< the mean around each vertex
+    Crease,    ///< the same within PackOptions::creaseDegrees
+    File,      ///< the source's; smooth where it has none, or one without a length
 };
 
 struct PackOptions {
@@ -25,7 +26,7 @@ struct PackOptions {
     int latticeBits = mesh::kLatticeBits;
     std::optional<mesh::Lattice> lattice = {};  ///< that to use, fitted to more than the mesh
     bool keepsExact = false;  ///< the source's positions bit for bit, too: PackedMesh::exact
-    NormalSource normals = NormalSource::Smooth;
+    NormalSource normals = NormalSource::ByFormat;
     double creaseDegrees = 45;  ///< of NormalSource::Crease: edges that are sharper stay sharp
     bool orients = false;       ///< makes the winding consistent (orient.h)
 };
