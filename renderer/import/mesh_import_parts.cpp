@@ -156,6 +156,7 @@ absl::StatusOr<MeshImportReport> importInParts(std::span<const std::string> path
         std::max<std::uint64_t>({atOnce, options.leafTriangles, mesh::LodOptions().nodeTriangles});
     ASSIGN_OR_RETURN(MeshSpool spool, spoolMeshes(paths, path, control));
     report.droppedFaces = spool.droppedFaces;
+    report.notes = std::move(spool.notes);
     report.seconds.read = watch.lap();
 
     RETURN_IF_ERROR(

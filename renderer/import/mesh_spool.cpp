@@ -203,12 +203,16 @@ absl::StatusOr<MeshSpool> spoolMeshes(std::span<const std::string> paths,
                 paths[i]));
         spool.isUsed.resize(first + size.vertices, false);
         std::uint64_t dropped = 0;
+        std::vector<std::string> notes;
         const auto take = [&](TriangleMesh& piece) {
             dropped = piece.droppedFaces;
+            notes = piece.notes;
             return addPiece(spool, first, piece);
         };
         RETURN_IF_ERROR(readPlyPieces(paths[i], take, shareOf(control, i, paths.size())));
         spool.droppedFaces += dropped;
+        for (const std::string& note : notes)
+            spool.notes.push_back(paths.size() == 1 ? note : fmt::format("{}: {}", paths[i], note));
         if (spool.sourceTriangles > mesh::kMaxTriangles)
             return absl::ResourceExhaustedError(fmt::format(
                 "{}: with it the mesh has {} triangles; at most {} fit one .eym file; split the "

@@ -173,6 +173,8 @@ absl::Status Parser::parseProperty(const std::vector<std::string_view>& line) {
 
 absl::Status Parser::parseLine(std::string_view text) {
     const std::vector<std::string_view> line = words(text);
+    header_.textureFiles +=
+        line.size() > 2 && line[0] == "comment" && line[1] == "TextureFile" ? 1 : 0;
     if (line.empty() || line[0] == "comment" || line[0] == "obj_info")
         return absl::OkStatus();
     if (line[0] == "format")

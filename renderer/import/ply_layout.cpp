@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "fabric/status.h"
 
@@ -42,6 +43,25 @@ std::size_t slotOf(std::string_view name) {
         if (entry.name == name)
             return entry.slot;
     return kIgnored;
+}
+
+/// As MeshLab, Blender and photogrammetry programs call them.
+constexpr std::array<std::string_view, 6> kTextureCoordinates = {"s", "t",         "u",
+                                                                 "v", "texture_u", "texture_v"};
+
+bool hasTextureCoordinates(const PlyHeader& header) {
+    const PlyElement* const vertex = header.find("vertex");
+    const PlyElement* const face = header.find("face");
+    return std::ranges::any_of(kTextureCoordinates,
+                               [&](std::string_view name) { return vertex->find(name); }) ||
+           (face != nullptr && face->find("texcoord") != nullptr) ||
+           header.find("multi_texture_vertex") != nullptr;
+}
+
+bool hasFaceColours(const PlyHeader& header) {
+    const PlyElement* const face = header.find("face");
+    return face != nullptr &&
+           (face->find("red") != nullptr || face->find("diffuse_red") != nullptr);
 }
 
 std::string elementNames(const PlyHeader& header) {
@@ -101,6 +121,22 @@ std::uint8_t colourByte(double value, PlyType type) {
 const PlyProperty* findCorners(const PlyElement& element) {
     const PlyProperty* property = element.find("vertex_indices");
     return property != nullptr ? property : element.find("vertex_index");
+}
+
+std::vector<std::string> notesOf(const PlyHeader& header) {
+    std::vector<std::string> leftOut;
+    if (header.textureFiles > 0)
+        leftOut.push_back(fmt::format("texture files ({})", header.textureFiles));
+    if (hasTextureCoordinates(header))
+        leftOut.emplace_back("texture coordinates");
+    if (hasFaceColours(header))
+        leftOut.emplace_back("colours of faces");
+    if (leftOut.empty())
+        return {};
+    return {fmt::format(
+        "left out its {}: of PLY only vertices' colours are read; for textures export it as OBJ or "
+        "glTF",
+        fmt::join(leftOut, ", "))};
 }
 
 absl::Status checkIsMesh(const PlyHeader& header) {

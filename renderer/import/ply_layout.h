@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include <absl/status/status.h>
@@ -45,6 +46,9 @@ std::uint8_t colourByte(double value, PlyType type);
 
 /// The property that lists the corners of a face or strip; null if there is none.
 const PlyProperty* findCorners(const PlyElement& element);
+
+/// What the file has of a surface's look that is not read: for TriangleMesh::notes.
+std::vector<std::string> notesOf(const PlyHeader& header);
 
 /// InvalidArgument unless the header promises a mesh: vertices with positions, few enough for
 /// 32-bit numbers, and faces or strips that list them.

@@ -43,7 +43,9 @@ public:
           bodyBytes_(body.size()),
           control_(control),
           take_(take),
-          vertexCount_(header.find("vertex")->count) {}
+          vertexCount_(header.find("vertex")->count) {
+        mesh_.notes = notesOf(header);
+    }
 
     absl::StatusOr<TriangleMesh> read();
 

@@ -19,7 +19,8 @@ namespace eyrie::import {
 ///               whole-number colours count to 255 (16-bit ones to 65,535), real ones to 1
 ///   face:       list vertex_indices or vertex_index, of three corners or more (polygon.h)
 ///   tristrips:  the same, strips parted by -1
-/// Faces of fewer corners are dropped and counted.
+/// Faces of fewer corners are dropped and counted. Textures, their coordinates and colours of faces
+/// are left out, which notes say.
 ///
 /// Errors: NotFound, PermissionDenied, Cancelled, InvalidArgument naming file, element, number,
 /// field, what was found, what was expected and the remedy: truncated file, counts that cannot fit
@@ -32,8 +33,9 @@ absl::StatusOr<TriangleMesh> readPly(const std::string& path, const ImportContro
 /// the piece holds.
 using TakePiece = std::function<absl::Status(TriangleMesh& piece)>;
 
-/// The same a few megabytes at a time, and no more in memory; droppedFaces count from the start.
-/// Errors: as above; those of `take`; InvalidArgument where a face has more than three corners.
+/// The same a few megabytes at a time, and no more in memory; droppedFaces count from the start,
+/// and each has the notes of all. Errors: as above; those of `take`; InvalidArgument where a face
+/// has more than three corners.
 absl::Status readPlyPieces(const std::string& path, const TakePiece& take,
                            const ImportControl& control = {});
 

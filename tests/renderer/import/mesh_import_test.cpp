@@ -272,6 +272,18 @@ TEST(MeshImport, SmoothsStlWhoseNormalsAreOfFacesAlone) {
     EXPECT_EQ(verticesOf(stl, {.pack = {.normals = NormalSource::File}}), 6U);
 }
 
+TEST(MeshImport, SaysByPartsTooWhatItLeavesOutOfAPly) {
+    const test::TemporaryFolder folder;
+    std::string text = test::plyOf(test::tetrahedron(), test::Encoding::Ascii);
+    text.insert(text.find("element vertex"), "comment TextureFile a.png\n");
+    test::writeFile(folder.file("m.ply"), text);
+    const auto whole = importMesh({folder.file("m.ply")}, folder.file("whole.eym"));
+    const auto parted = importByParts(folder.file("m.ply"), folder.file("parts.eym"), 16384);
+    ASSERT_TRUE(whole.ok() && parted.ok()) << whole.status() << parted.status();
+    EXPECT_THAT(whole->notes, ElementsAre(HasSubstr("texture files (1)")));
+    EXPECT_EQ(parted->notes, whole->notes);
+}
+
 TEST(MeshImport, ReportsItsStagesInOrder) {
     const test::TemporaryFolder folder;
     ASSERT_TRUE(writePly(test::tetrahedron(), folder.file("m.ply")).ok());

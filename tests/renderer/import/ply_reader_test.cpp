@@ -117,6 +117,29 @@ TEST(PlyReader, TakesPropertiesAndElementsInAnyOrderAndSkipsOthers) {
     }
 }
 
+TEST(PlyReader, SaysThatItLeavesOutTexturesAndColoursOfFaces) {
+    const std::string face = "property list uchar int vertex_indices\n";
+    EXPECT_THAT(parsed(withTriangle("3 0 1 2\n")).notes, testing::IsEmpty());
+    const std::string textured = replaced(
+        withTriangle("3 0 1 2 6 0 0 1 0 0 1 0\n",
+                     face + "property list uchar float texcoord\nproperty int texnumber\n"),
+        "element vertex", "comment TextureFile a.png\ncomment TextureFile b.png\nelement vertex");
+    EXPECT_THAT(
+        parsed(textured).notes,
+        testing::ElementsAre(testing::HasSubstr("texture files (2), texture coordinates:")));
+    const std::string coloured =
+        withTriangle("3 0 1 2 255 0 0\n",
+                     face + "property uchar red\nproperty uchar green\nproperty uchar blue\n");
+    EXPECT_THAT(parsed(coloured).notes,
+                testing::ElementsAre(testing::HasSubstr("left out its colours of faces:")));
+    const std::string withPlaces =
+        replaced(replaced(withTriangle("3 0 1 2\n"), "property float z\n",
+                          "property float z\nproperty float s\nproperty float t\n"),
+                 "0 0 0\n1 0 0\n0 1 0\n", "0 0 0 0 0\n1 0 0 1 0\n0 1 0 0 1\n");
+    EXPECT_THAT(parsed(withPlaces).notes,
+                testing::ElementsAre(testing::HasSubstr("left out its texture coordinates:")));
+}
+
 TEST(PlyReader, TakesColoursOfEveryTypeAsBytes) {
     const auto colourOf = [](const std::string& type, const std::string& values) {
         const TriangleMesh mesh = parsed(
