@@ -187,20 +187,24 @@ absl::StatusOr<std::optional<std::uint64_t>> partsOf(const std::vector<std::stri
 absl::StatusOr<MeshImportReport> importWhole(const std::vector<std::string>& paths,
                                              mesh::OutputFile& out, MeshImportOptions options,
                                              const ImportControl& control) {
-    constexpr const char* kConvert = "convert it to PLY, which is imported part by part";
+    const std::string remedy = std::all_of(paths.begin(), paths.end(), isPly)
+                                   ? "triangulate it before export, so that it is imported part by "
+                                     "part"
+                                   : "convert it to PLY, which is imported part by part";
     const std::uint64_t bytes = bytesOf(paths);
     if (options.memoryBytes != 0 && bytes > options.memoryBytes)
-        return exceedsMemory(nameOf(paths), bytes, options, kConvert);
+        return exceedsMemory(nameOf(paths), bytes, options, remedy);
     const bool isByFormat = options.pack.normals == NormalSource::ByFormat;
     Stopwatch watch;
-    ASSIGN_OR_RETURN(TriangleMesh source, readMeshes(paths, control, isByFormat));
+    ASSIGN_OR_RETURN(TriangleMesh source,
+                     readMeshes(paths, control, {isByFormat, options.memoryBytes}));
     if (isByFormat)
         options.pack.normals = source.normals.empty() ? NormalSource::Smooth : NormalSource::File;
     ASSIGN_OR_RETURN(const std::uint64_t hash, meshSourceHash(paths));
     const std::uint64_t needed =
         importBytes(source.triangles.size(), source.positions.size(), 0, options);
     if (options.memoryBytes != 0 && needed > options.memoryBytes)
-        return exceedsMemory(nameOf(paths), needed, options, kConvert);
+        return exceedsMemory(nameOf(paths), needed, options, remedy);
     const double readSeconds = watch.lap();
     auto report = build(std::move(source), out, options, control, hash);
     if (!report.ok())

@@ -163,6 +163,16 @@ absl::Status addCompanions(const std::string& path, std::vector<std::string>& fo
     return absl::OkStatus();
 }
 
+/// By the reader of its format.
+absl::StatusOr<TriangleMesh> parseMesh(std::string_view text, const std::string& path,
+                                       const ImportControl& control, std::uint64_t memoryBytes) {
+    if (looksLikePly(text) || endsWith(path, ".ply"))
+        return parsePly(text, path, control);
+    if (looksLikeJdn(text) || endsWith(path, ".jdn"))
+        return parseJdn(text, path, control);
+    return readWithAssimp(path, ReadingLimits::forFile(text.size(), memoryBytes), control);
+}
+
 }  // namespace
 
 ImportControl shareOf(const ImportControl& control, std::size_t file, std::size_t count) {
@@ -191,18 +201,19 @@ std::string meshSourceEndings() {
     return endings;
 }
 
-absl::StatusOr<TriangleMesh> readMesh(const std::string& path, const ImportControl& control) {
+absl::StatusOr<TriangleMesh> readMesh(const std::string& path, const ImportControl& control,
+                                      const MeshReading& reading) {
     if (!isMeshSource(path))
         return absl::InvalidArgumentError(
             fmt::format("{}: found the extension '{}', expected one of {}; convert the file", path,
                         fs::path(path).extension().string(), meshSourceEndings()));
     ASSIGN_OR_RETURN(const mesh::MappedFile file, mesh::MappedFile::open(path));
     const std::string_view text = textOf(file);
+    ASSIGN_OR_RETURN(TriangleMesh mesh, parseMesh(text, path, control, reading.memoryBytes));
+    if (reading.onlyNormalsOfEdges && !statesEdges(path))
+        mesh.normals = {};
     if (looksLikePly(text) || endsWith(path, ".ply"))
-        return parsePly(text, path, control);
-    const bool isJdn = looksLikeJdn(text) || endsWith(path, ".jdn");
-    ASSIGN_OR_RETURN(TriangleMesh mesh,
-                     isJdn ? parseJdn(text, path, control) : readWithAssimp(path, control));
+        return mesh;
     if (endsWith(path, ".obj"))
         noteMissingMaterials(text, path, mesh);
     RETURN_IF_ERROR(loadTextures(mesh, path, control));
@@ -211,19 +222,13 @@ absl::StatusOr<TriangleMesh> readMesh(const std::string& path, const ImportContr
 }
 
 absl::StatusOr<TriangleMesh> readMeshes(std::span<const std::string> paths,
-                                        const ImportControl& control, bool onlyNormalsOfEdges) {
-    const auto read = [&](const std::string& path,
-                          const ImportControl& partly) -> absl::StatusOr<TriangleMesh> {
-        ASSIGN_OR_RETURN(TriangleMesh mesh, readMesh(path, partly));
-        if (onlyNormalsOfEdges && !statesEdges(path))
-            mesh.normals = {};
-        return mesh;
-    };
+                                        const ImportControl& control, const MeshReading& reading) {
     if (paths.size() == 1)
-        return read(paths.front(), control);
+        return readMesh(paths.front(), control, reading);
     TriangleMesh whole;
     for (std::size_t i = 0; i < paths.size(); ++i) {
-        ASSIGN_OR_RETURN(TriangleMesh part, read(paths[i], shareOf(control, i, paths.size())));
+        ASSIGN_OR_RETURN(TriangleMesh part,
+                         readMesh(paths[i], shareOf(control, i, paths.size()), reading));
         RETURN_IF_ERROR(append(whole, std::move(part), paths[i]));
     }
     limitLights(whole);

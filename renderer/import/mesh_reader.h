@@ -23,19 +23,26 @@ bool statesEdges(const std::string& path);
 /// Their endings, as in ".ply, .jdn, .obj".
 std::string meshSourceEndings();
 
+struct MeshReading {
+    bool onlyNormalsOfEdges = false;  ///< files that are not of statesEdges() have none then
+    /// That Assimp may take in its process; 0: what sound files need. PLY and .jdn take a constant
+    /// times the file's size.
+    std::uint64_t memoryBytes = 0;
+};
+
 /// Reads a mesh of any known format, textures included (texture_files.h): PLY and .jdn told by what
 /// the file starts with, or its name; the others, read by Assimp, by its name. Errors: those of the
 /// format's reader, which name the file; InvalidArgument (no known format).
-absl::StatusOr<TriangleMesh> readMesh(const std::string& path, const ImportControl& control = {});
+absl::StatusOr<TriangleMesh> readMesh(const std::string& path, const ImportControl& control = {},
+                                      const MeshReading& reading = {});
 
 /// Reads several into one, in this order. Where only some have colours, the others are of
-/// kPlainColour; where only some have materials, the others have a plain one. With
-/// `onlyNormalsOfEdges` the normals of other files than those that state edges (statesEdges) are
-/// left out. Notes begin with their file's name where there are several. Precondition: there is
-/// one. Errors: those of readMesh; InvalidArgument (more than 2^32 vertices).
+/// kPlainColour; where only some have materials, the others have a plain one. Notes begin with
+/// their file's name where there are several. Precondition: there is one. Errors: those of
+/// readMesh; InvalidArgument (more than 2^32 vertices).
 absl::StatusOr<TriangleMesh> readMeshes(std::span<const std::string> paths,
                                         const ImportControl& control = {},
-                                        bool onlyNormalsOfEdges = false);
+                                        const MeshReading& reading = {});
 
 /// Whether readMesh takes a file for PLY.
 bool isPly(const std::string& path);

@@ -272,6 +272,11 @@ void becomeReader(const ReadingLimits& limits) {
 }
 
 absl::Status memoryRanOut(const ReadingLimits& limits) {
+    if (limits.isMemoryGiven)
+        return absl::ResourceExhaustedError(
+            fmt::format("reading takes more than the {} MB of memory that it may use; convert it "
+                        "to PLY, which is imported part by part, or allow more memory",
+                        limits.memoryBytes >> 20));
     return absl::ResourceExhaustedError(
         fmt::format("reading takes more than {} MB of memory, far more than a sound file of its "
                     "size; export it again, or in parts",
@@ -324,11 +329,14 @@ absl::Status whyItEnded(int status, const ReadingLimits& limits) {
 
 }  // namespace
 
-ReadingLimits ReadingLimits::forFile(std::uint64_t bytes) {
+ReadingLimits ReadingLimits::forFile(std::uint64_t bytes, std::uint64_t mostMemory) {
     constexpr std::uint64_t kMostBytes = 1ULL << 40;
     ReadingLimits limits;
     limits.memoryBytes += 64 * std::min(bytes, kMostBytes);
     limits.processorTime += std::chrono::seconds(std::min(bytes, kMostBytes) / 100'000);
+    limits.isMemoryGiven = mostMemory != 0 && mostMemory < limits.memoryBytes;
+    if (limits.isMemoryGiven)
+        limits.memoryBytes = mostMemory;
     return limits;
 }
 

@@ -17,9 +17,11 @@ namespace eyrie::import {
 struct ReadingLimits {
     std::uint64_t memoryBytes = 1ULL << 30;  ///< besides what the process has already
     std::chrono::seconds processorTime{30};  ///< of one core
+    bool isMemoryGiven = false;  ///< memoryBytes is what a person allows, not what sound files need
 
     /// A gigabyte and half a minute, and more for large files: what real ones need ten times over.
-    static ReadingLimits forFile(std::uint64_t bytes);
+    /// Where `mostMemory` is not 0, no more memory than that.
+    static ReadingLimits forFile(std::uint64_t bytes, std::uint64_t mostMemory = 0);
 };
 
 /// Calls `read` in a process of its own, a copy of this one, and brings back what it returns.

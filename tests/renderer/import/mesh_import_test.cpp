@@ -3,8 +3,10 @@
 
 #include <array>
 #include <bit>
+#include <cmath>
 #include <filesystem>
 #include <functional>
+#include <numbers>
 #include <random>
 #include <set>
 #include <string>
@@ -380,6 +382,31 @@ TEST(MeshImport, ThatWouldTakeMoreMemoryThanItMayGoesByPartsOrSaysWhatItTakes) {
     EXPECT_THAT(std::string(whole.status().message()),
                 testing::AllOf(HasSubstr("m.obj"), HasSubstr("301 MiB"), HasSubstr("PLY")));
     EXPECT_THAT(folder.names(), testing::UnorderedElementsAre("m.ply", "m.obj"));
+}
+
+/// The header of one of faces of so many corners says little of its triangles.
+TEST(MeshImport, AdvisesToTriangulateAPlyWhoseFacesHaveManyCorners) {
+    constexpr int kCorners = 64;
+    constexpr int kFaces = 75'000;
+    std::string text =
+        "ply\nformat ascii 1.0\nelement vertex 64\nproperty float x\nproperty float y\n"
+        "property float z\nelement face 75000\nproperty list uchar uchar vertex_indices\n"
+        "end_header\n";
+    std::string face = "64";
+    for (int i = 0; i < kCorners; ++i) {
+        const double angle = 2 * std::numbers::pi * i / kCorners;
+        text += std::to_string(std::cos(angle)) + ' ' + std::to_string(std::sin(angle)) + " 0\n";
+        face += ' ' + std::to_string(i);
+    }
+    for (int i = 0; i < kFaces; ++i) text += face + '\n';
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.ply"), text);
+    const auto report =
+        importMesh({folder.file("m.ply")}, folder.file("m.eym"), {.memoryBytes = kLeastMeshMemory});
+    EXPECT_EQ(report.status().code(), absl::StatusCode::kResourceExhausted);
+    EXPECT_THAT(std::string(report.status().message()),
+                testing::AllOf(HasSubstr("m.ply"), HasSubstr("may use 256"),
+                               HasSubstr("triangulate it"), testing::Not(HasSubstr("convert"))));
 }
 
 TEST(MeshImport, KnowsThatTrianglesWhichShareNoCornersTakeMoreMemory) {

@@ -65,6 +65,23 @@ TEST(MeshReader, NamesTheFileThatCannotBeRead) {
     EXPECT_THAT(std::string(mesh.status().message()), HasSubstr("b.obj"));
 }
 
+TEST(MeshReader, StopsReadingAtTheMemoryThatItMayUse) {
+    const test::TemporaryFolder folder;
+    std::string text;
+    for (int i = 1; i <= 100'000; ++i) {
+        const std::string number = std::to_string(i);
+        text += "v " + number + " 0 0\nv 0 " + number + " 0\nv 0 0 1\nf -1 -2 -3\n";
+    }
+    test::writeFile(folder.file("m.obj"), text);
+    EXPECT_TRUE(readMesh(folder.file("m.obj")).ok());
+    EXPECT_TRUE(readMesh(folder.file("m.obj"), {}, {.memoryBytes = 1ULL << 30}).ok());
+    const auto mesh = readMesh(folder.file("m.obj"), {}, {.memoryBytes = 16ULL << 20});
+    EXPECT_EQ(mesh.status().code(), absl::StatusCode::kResourceExhausted);
+    EXPECT_THAT(
+        std::string(mesh.status().message()),
+        testing::AllOf(HasSubstr("m.obj"), HasSubstr("the 16 MB"), HasSubstr("allow more memory")));
+}
+
 TEST(MeshReader, ReadsAnObjWithoutItsMaterials) {
     const test::TemporaryFolder folder;
     test::writeFile(folder.file("m.obj"), kObj);
