@@ -197,7 +197,7 @@ TEST_F(EqualizerPictures, OfAViewThatCostsMoreComeFromMorePipes) {
         std::int64_t pixels = 0;
         EXPECT_TRUE(configuration()
                         .withConfiguration([&](ActiveConfiguration& active) {
-                            const auto plan = active.plan(seen, ++planned, {true, true});
+                            const auto plan = active.plan(seen, ++planned, {});
                             if (plan.ok())
                                 for (const compound::PlannedDraw& each : plan->draws)
                                     if (each.compound == position)

@@ -182,7 +182,7 @@ TEST(AssimpReader, SaysWhichLightsAreNotAsTheFileHasThem) {
     scene.mLights[0]->mName = "root";
     scene.mLights[0]->mType = aiLightSource_AMBIENT;
     std::vector<std::string> notes;
-    EXPECT_EQ(lightsOf(scene, glm::dmat4(1), notes).count(), 0U);
+    EXPECT_EQ(lightsOf(scene, glm::dmat4(1), 1, notes).count(), 0U);
     EXPECT_THAT(notes, ElementsAre(HasSubstr("left out 1 of 1 lights")));
 }
 
