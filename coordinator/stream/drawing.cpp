@@ -10,6 +10,9 @@
 namespace eyrie::stream {
 namespace {
 
+/// About 1460 x 820.
+constexpr double kMostMovingSoftwarePixels = 1.2e6;
+
 /// Pixels of the picture asked for that one of the picture drawn covers, the longer way.
 double stretch(const ViewRequest& view, const coordinator::FrameRequest& drawn) {
     return std::max(static_cast<double>(view.frame.width) / drawn.width,
@@ -19,11 +22,18 @@ double stretch(const ViewRequest& view, const coordinator::FrameRequest& drawn) 
 }  // namespace
 
 PictureSource pictureSource(const coordinator::Status& status) {
-    PictureSource source{status.scene, status.sceneInfo, {}, status.canvases};
+    PictureSource source{status.scene, status.sceneInfo, {}, false, status.canvases};
     for (const coordinator::RendererStatus& renderer : status.renderers)
-        if (renderer.isAlive())
+        if (renderer.isAlive()) {
             source.renderers.push_back(renderer.id);
+            source.isSoftware |= renderer.device.software;
+        }
     return source;
+}
+
+double movingScale(const ViewRequest& view, const PictureSource& source) {
+    const double pixels = static_cast<double>(view.frame.width) * view.frame.height;
+    return source.isSoftware ? std::min(1.0, std::sqrt(kMostMovingSoftwarePixels / pixels)) : 1;
 }
 
 coordinator::FrameRequest drawingOf(const ViewRequest& view, const fabric::SceneInfo* scene,

@@ -14,12 +14,17 @@ struct PictureSource {
     fabric::Scene scene;
     fabric::SceneInfo sceneInfo;
     std::vector<std::string> renderers;
+    bool isSoftware = false;  ///< a renderer's device is, such as llvmpipe
     std::vector<coordinator::CanvasStatus> canvases;
 
     bool operator==(const PictureSource&) const = default;
 };
 
 PictureSource pictureSource(const coordinator::Status& status);
+
+/// Of both sides of a picture of `view` while it moves, however good the links are: CPU rasterisers
+/// draw 1.2 Mpixel at most then, and all of them at rest.
+double movingScale(const ViewRequest& view, const PictureSource& source);
 
 /// What to draw for `view`: its eye lifted out of the ground, unless it may be there, and both
 /// sides `scale` of what they are, at the same error in metres.

@@ -127,8 +127,13 @@ Session::Impl::Begun Session::Impl::begin() {
     Begun begun{*progress_.wanted(), {}, Clock::now()};
     const bool isAtRest = progress_.hasRested(begun.at);
     begun.level = chooseLevel(begun.view, begun.at);
-    begun.request = drawingOf(begun.view, source_.has_value() ? &source_->sceneInfo : nullptr,
-                              isAtRest ? 1 : QualityControl::level(begun.level).scale);
+    double scale = 1;
+    if (!isAtRest) {
+        scale = QualityControl::level(begun.level).scale;
+        if (source_)
+            scale = std::min(scale, movingScale(begun.view, *source_));
+    }
+    begun.request = drawingOf(begun.view, source_ ? &source_->sceneInfo : nullptr, scale);
     if (isAtRest)
         begun.request.budgetMilliseconds.reset();
     begun.request.shown = screens(begun.view.frame.shown.front());

@@ -155,6 +155,29 @@ TEST(Viewer, DrawsOnceWhatFitsItsTimeAsAskedFor) {
     EXPECT_EQ(frames.requests().size(), 1u);
 }
 
+/// The fake renderer says that it is one.
+TEST(Viewer, DrawsFewerPixelsOnACpuWhileTheViewMovesAndAllAtRest) {
+    FakeFrameSource frames;
+    frames.setDraw([](const FrameRequest& request) {
+        return coordinator::plainFrame(request, {90, 120, 60, 255});
+    });
+    Browser browser(frames, resting());
+    v1::ViewerRequest wide = viewMessage(1, 1);
+    wide.mutable_view()->set_width(1920);
+    wide.mutable_view()->set_height(1080);
+    browser.send(wide);
+    const auto moving = browser.nextFrame();
+    ASSERT_TRUE(moving.has_value());
+    EXPECT_EQ(moving->width(), 1461);
+    EXPECT_EQ(moving->height(), 822);
+    browser.acknowledge(moving->frame_number());
+    const auto still = browser.nextFrame();
+    ASSERT_TRUE(still.has_value());
+    EXPECT_TRUE(still->still());
+    EXPECT_EQ(still->width(), 1920);
+    EXPECT_EQ(still->height(), 1080);
+}
+
 TEST(Viewer, RefusesATimeThatIsNone) {
     FakeFrameSource frames;
     Browser browser(frames, moving(2));

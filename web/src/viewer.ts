@@ -31,7 +31,7 @@ import { numbersOf } from "./view/numbers";
 import type { WantedView } from "./view/sender";
 import { ViewSender } from "./view/sender";
 import type { Size } from "./view/size";
-import { pictureSize, softwarePixels } from "./view/size";
+import { pictureSize } from "./view/size";
 import { canShowVideo } from "./view/video";
 
 /** Null: by the camera alone. */
@@ -39,7 +39,6 @@ const seenOf = (frame: Frame) => (frame.throughWall ? frame.seen : null);
 
 /** A view without its picture for so long is stale. */
 const staleAfter = 2000;
-const hardwarePixels = 4096 * 4096;
 
 /**
  * A scene on a canvas: sends views, draws frames, moves the camera. Works without any panel:
@@ -333,10 +332,7 @@ export class Viewer implements CameraHolder {
   }
 
   private wantedSize(): Size {
-    const renderers = this.state.session.value?.renderers ?? [];
-    const isSoftware = renderers.some((renderer) => renderer.alive && renderer.device?.software);
-    const limit = isSoftware || renderers.length === 0 ? softwarePixels : hardwarePixels;
-    return pictureSize(this.canvas.size(), window.devicePixelRatio, limit);
+    return pictureSize(this.canvas.size(), window.devicePixelRatio);
   }
 
   private resize(): void {

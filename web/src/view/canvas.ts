@@ -24,6 +24,7 @@ const resizeSettlesAfter = 150;
 export class PictureCanvas {
   private readonly worker: Worker;
   private readonly observer: ResizeObserver;
+  private readonly closed = new AbortController();
   private resizeTimer: number | undefined;
   private hasReported = false;
 
@@ -41,6 +42,7 @@ export class PictureCanvas {
     this.post({ kind: "canvas", canvas }, [canvas]);
     this.observer = new ResizeObserver(() => this.resizeSoon());
     this.observer.observe(element);
+    this.watchPixelRatio();
   }
 
   static isSupported(): boolean {
@@ -72,6 +74,7 @@ export class PictureCanvas {
   close(): void {
     clearTimeout(this.resizeTimer);
     this.observer.disconnect();
+    this.closed.abort();
     this.worker.terminate();
   }
 
@@ -87,6 +90,18 @@ export class PictureCanvas {
       this.events.failed(report.frameNumber);
     } else if (report.kind === "ready") this.events.ready(report.frameNumber, time);
     else this.events.drawn(report.frameNumber, time, report.exact);
+  }
+
+  /** It changes where a window goes to another screen, or its page is zoomed. */
+  private watchPixelRatio(): void {
+    window.matchMedia(`(resolution: ${window.devicePixelRatio}dppx)`).addEventListener(
+      "change",
+      () => {
+        this.resizeSoon();
+        this.watchPixelRatio();
+      },
+      { once: true, signal: this.closed.signal },
+    );
   }
 
   private resizeSoon(): void {

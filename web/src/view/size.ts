@@ -9,22 +9,14 @@ export interface Size {
 const minSide = 16;
 const maxSide = 4096;
 
-/** What a CPU rasteriser is asked for at most: about 1460 x 820. */
-export const softwarePixels = 1.2e6;
-
 /**
- * The picture for a canvas of `css` CSS pixels: one pixel per device pixel while that is not more
- * than `maxPixels`, otherwise the same shape with fewer.
+ * The picture for a canvas of `css` CSS pixels: one pixel per device pixel while the server makes
+ * that, otherwise the same shape with fewer.
  */
-export function pictureSize(css: Size, devicePixelRatio: number, maxPixels: number): Size {
+export function pictureSize(css: Size, devicePixelRatio: number): Size {
   const width = Math.max(1, css.width);
   const height = Math.max(1, css.height);
-  const ratio = Math.min(
-    Math.max(devicePixelRatio, 1),
-    Math.sqrt(maxPixels / (width * height)),
-    maxSide / width,
-    maxSide / height,
-  );
+  const ratio = Math.min(Math.max(devicePixelRatio, 1), maxSide / width, maxSide / height);
   const side = (pixels: number): number => Math.max(minSide, Math.floor(pixels * ratio));
   return { width: side(width), height: side(height) };
 }

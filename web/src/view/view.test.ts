@@ -2,26 +2,26 @@
 import { describe, expect, it } from "vitest";
 import { FrameRate, Latency, limitingStage } from "./measure";
 import { pixelHash } from "./pixel_hash";
-import { pictureSize, softwarePixels } from "./size";
+import { pictureSize } from "./size";
 import { canShowVideo, follows } from "./video";
 
 describe("pictureSize", () => {
   it("is the canvas in device pixels", () => {
-    expect(pictureSize({ width: 800, height: 600 }, 1.5, 1e7)).toEqual({
+    expect(pictureSize({ width: 800, height: 600 }, 1.5)).toEqual({
       width: 1200,
       height: 900,
     });
   });
 
   it("keeps the shape when it must be smaller", () => {
-    const size = pictureSize({ width: 2560, height: 1440 }, 2, softwarePixels);
-    expect(size.width * size.height).toBeLessThanOrEqual(softwarePixels);
+    const size = pictureSize({ width: 2560, height: 1440 }, 2);
+    expect(size.width).toBe(4096);
     expect(size.width / size.height).toBeCloseTo(16 / 9, 2);
   });
 
   it("stays within what the server makes", () => {
-    expect(pictureSize({ width: 10000, height: 10 }, 1, 1e9).width).toBeLessThanOrEqual(4096);
-    expect(pictureSize({ width: 0, height: 0 }, 1, 1e9)).toEqual({ width: 16, height: 16 });
+    expect(pictureSize({ width: 10000, height: 10 }, 1).width).toBeLessThanOrEqual(4096);
+    expect(pictureSize({ width: 0, height: 0 }, 1)).toEqual({ width: 16, height: 16 });
   });
 });
 
