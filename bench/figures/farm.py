@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """What several renderer processes cost, bring and survive, and how fast stills come."""
-import os
 import pathlib
 import re
 
 from lab import Figure
 
-DEMO = pathlib.Path(__file__).resolve().parents[2] / "demo/scene.json"
+SOURCES = pathlib.Path(__file__).resolve().parents[2]
 
 
 def distribution(lab):
@@ -15,8 +14,8 @@ def distribution(lab):
                                  ("mesh, DB", lab.mesh(lab.scan(2)), "DB")):
         output = lab.run(lab.tool("distribution"), lab.eyrie, path, compound, 60, "1280x720", 1,
                          3).output
-        # fps, least, most, triangles ..., error, processor times
-        legs = re.findall(r"^(\S.*?) +([\d.]+) +[\d.]+ +[\d.]+ +[\d.]+ +\S+ +([\d.]+) +[\d.]+ ms",
+        # name, fps, least, most, error, triangles, share, processor times
+        legs = re.findall(r"^(\S.*?) +([\d.]+) +[\d.]+ +[\d.]+ +([\d.]+) +\d+ +[\d.]+ +[\d.]+ ms",
                           output, re.M)
         rates = {name: (float(rate), float(error)) for name, rate, error in legs}
         different = int(re.search(r"^(\d+) pixels of 8 pictures differ", output, re.M).group(1))
@@ -44,7 +43,7 @@ def faults(lab):
     frames, hit, wrong, failed = map(int, re.search(
         r"^(\d+) frames, (\d+) with faults: (\d+) wrong pixels in \d+ of them, \d+ incomplete, "
         r"(\d+) failed", output, re.M).groups())
-    late = re.search(r"^killed: to the next complete picture +\d+ +([\d.]+) +([\d.]+) +([\d.]+)",
+    late = re.search(r"^kill: to the next complete picture +\d+ +([\d.]+) +([\d.]+) +([\d.]+)",
                      output, re.M)
     p50, p95, most = map(float, late.groups())
     return [Figure("100 renderers killed: the next complete picture", "≤ 500 ms (p95)",
@@ -54,7 +53,8 @@ def faults(lab):
 
 
 def stills(lab):
-    output = lab.run("python3", lab.tool("../../../bench/stills.py"), lab.eyrie, DEMO, 60).output
+    output = lab.run("python3", SOURCES / "bench/stills.py", lab.eyrie,
+                     SOURCES / "demo/scene.json", 60).output
     own = float(re.search(r"([\d.]+) stills/s", output).group(1))
     error = re.search(r"achieved ([\d.]+)", output).group(1)
     figures = []
