@@ -96,7 +96,8 @@ TEST_F(TerrainResume, SaysAgainWhatWasFoundInPostsThatAreNotReadAgain) {
     const auto report = importTerrain(dems, out, {.memoryBytes = 1}, control);
     ASSERT_TRUE(report.ok()) << report.status();
     EXPECT_THAT(begun, testing::Not(testing::Contains("reading")));
-    EXPECT_THAT(report->notes, testing::Contains(HasSubstr("can be no height")));
+    EXPECT_THAT(report->notes,
+                testing::ElementsAre(HasSubstr("can be no height"), HasSubstr("MB of memory")));
 }
 
 TEST_F(TerrainResume, StartsOverForOtherOptionsOrWhenToldSo) {
