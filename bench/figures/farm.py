@@ -1,11 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """What several renderer processes cost, bring and survive, and how fast stills come."""
-import pathlib
 import re
 
-from lab import Figure
-
-SOURCES = pathlib.Path(__file__).resolve().parents[2]
+from lab import SOURCES, Figure
 
 
 def distribution(lab):

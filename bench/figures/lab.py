@@ -6,9 +6,11 @@ import os
 import pathlib
 import shlex
 import subprocess
+import tempfile
 import time
 
 MIB = 1 << 20
+SOURCES = pathlib.Path(__file__).resolve().parents[2]
 
 
 @dataclasses.dataclass
@@ -51,30 +53,20 @@ class Lab:
     def run(self, *command, environment=None, is_shown=True):
         if is_shown:
             self.commands.append(self.shown(command))
-        begin = time.perf_counter()
-        process = subprocess.Popen([str(part) for part in command], cwd=self.work,
-                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                                   env={**os.environ, **(environment or {})})
-        output, errors = process.communicate()
-        if process.returncode != 0:
-            raise RuntimeError(f"{self.shown(command)} ended with {process.returncode}: "
-                               f"{errors.strip()[-2000:]}")
-        return Run(output, time.perf_counter() - begin, 0)
-
-    def timed(self, *command):
-        """The same, with the process's own peak of resident memory."""
-        self.commands.append(self.shown(command))
-        begin = time.perf_counter()
-        with open(self.work / "log.txt", "w+", encoding="utf-8") as log:
-            process = subprocess.Popen([str(part) for part in command], cwd=self.work, stdout=log,
-                                       stderr=log)
+        with tempfile.TemporaryFile("w+") as output, tempfile.TemporaryFile("w+") as errors:
+            begin = time.perf_counter()
+            process = subprocess.Popen([str(part) for part in command], cwd=self.work,
+                                       stdout=output, stderr=errors,
+                                       env={**os.environ, **(environment or {})})
             _, status, usage = os.wait4(process.pid, 0)
+            seconds = time.perf_counter() - begin
             process.returncode = os.waitstatus_to_exitcode(status)
-            log.seek(0)
-            output = log.read()
-        if process.returncode != 0:
-            raise RuntimeError(f"{self.shown(command)} ended with {process.returncode}: {output}")
-        return Run(output, time.perf_counter() - begin, usage.ru_maxrss * 1024)
+            output.seek(0)
+            errors.seek(0)
+            if process.returncode != 0:
+                raise RuntimeError(f"{self.shown(command)} ended with {process.returncode}: "
+                                   f"{errors.read().strip()[-2000:]}")
+            return Run(output.read(), seconds, usage.ru_maxrss * 1024)
 
     def bench(self, scene, *options):
         """`summary.json` of `eyrie bench`, of its only run."""
@@ -113,8 +105,8 @@ class Lab:
     def scan(self, subdivisions):
         """The demo's scan with each triangle cut into 4^subdivisions and noise on it."""
         name = f"scan{subdivisions}.ply"
-        demo = pathlib.Path(__file__).resolve().parents[2] / "demo/rocker_arm.ply"
-        return self.made(name, self.eyrie, "synth", "mesh", "--from", demo, "--subdivide",
+        return self.made(name, self.eyrie, "synth", "mesh", "--from",
+                         SOURCES / "demo/rocker_arm.ply", "--subdivide",
                          subdivisions, "--displace", 0.0001, "-o", name, "--quiet")
 
     def mesh(self, source):

@@ -8,7 +8,7 @@ from terrain import promised_and_measured
 
 def imports(lab):
     source = lab.ball(4_000_000)
-    runs = [lab.timed(lab.eyrie, "import", "mesh", source, "-o", "import.eym", "--quiet")
+    runs = [lab.run(lab.eyrie, "import", "mesh", source, "-o", "import.eym", "--quiet")
             for _ in range(3)]
     info = lab.info(lab.work / "import.eym")
     rate = info["triangles"] / statistics.median(run.seconds for run in runs) / 1e6

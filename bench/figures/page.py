@@ -1,11 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """What viewers in a browser see: Debian's Chromium on the same cores as all else."""
-import pathlib
 import re
 
-from lab import Figure
-
-SOURCES = pathlib.Path(__file__).resolve().parents[2]
+from lab import SOURCES, Figure
 
 
 def environment(lab):

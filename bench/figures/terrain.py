@@ -10,7 +10,7 @@ SIDE = 8192
 
 def imports(lab):
     source = lab.elevations(SIDE)
-    runs = [lab.timed(lab.eyrie, "import", "terrain", source, "-o", "import.eyt", "--fresh",
+    runs = [lab.run(lab.eyrie, "import", "terrain", source, "-o", "import.eyt", "--fresh",
                       "--quiet") for _ in range(3)]
     rate = SIDE * SIDE / statistics.median(run.seconds for run in runs) / 1e6
     peak = max(run.peak_bytes for run in runs) / MIB

@@ -47,10 +47,13 @@ TEST_P(FramePipelineTest, SharesFollowWhatDrawingTakesAndNoWaitingForData) {
     EXPECT_LT(slow.share, .8 * before);
 }
 
+/// The layout that cuts pictures.
+class PictureCuts : public FramePipelineTest {};
+
+INSTANTIATE_TEST_SUITE_P(TwoD, PictureCuts, testing::Values("2D"));
+
 /// As Equalizer names it: by its stripes.
-TEST_P(FramePipelineTest, HORIZONTALCutsPicturesIntoStripesOneAboveAnother) {
-    if (GetParam() != "2D")
-        GTEST_SKIP() << "cuts no pictures";
+TEST_P(PictureCuts, OfHORIZONTALAreStripesOneAboveAnother) {
     openWith(3);
     equalizer::Tuning tuning;
     tuning.mode = config::SplitMode::Horizontal;
