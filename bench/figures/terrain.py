@@ -68,7 +68,7 @@ def loading(lab):
     return [Figure("frames of a cold flight that are longer than 1.5 times the median only while "
                    "they load", "none beyond what the machine does by itself",
                    f"{late} of {loaded}; {by_itself} of {frames} that load nothing", "",
-                   late / max(loaded, 1) <= max(by_itself / frames, 0.01), lab.commands[-1])]
+                   late * frames <= by_itself * loaded, lab.commands[-1])]
 
 
 def budget(lab):
