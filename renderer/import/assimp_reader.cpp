@@ -86,12 +86,18 @@ bool hasOwnMaterial(const aiMaterial& material) {
 }
 
 /// FBX alone says what its unit is, in centimetres, and Assimp hands it on without applying it.
-double metresPerUnitOf(const aiScene& scene, const AssimpFormat& format) {
+double metresPerUnitOf(const aiScene& scene, const AssimpFormat& format,
+                       std::vector<std::string>& notes) {
     float centimetres = 0;
     if (format.extension != ".fbx" || scene.mMetaData == nullptr ||
-        !scene.mMetaData->Get("UnitScaleFactor", centimetres) || !std::isfinite(centimetres) ||
-        centimetres <= 0)
+        !scene.mMetaData->Get("UnitScaleFactor", centimetres))
         return 1;
+    if (!std::isfinite(centimetres) || centimetres <= 0) {
+        notes.push_back(fmt::format(
+            "taken to be in metres: the file says that its unit is {:g} cm, which none is",
+            centimetres));
+        return 1;
+    }
     return std::abs(centimetres - 100) < 1e-3F ? 1 : double{centimetres} / 100;
 }
 
@@ -245,7 +251,7 @@ absl::StatusOr<TriangleMesh> SceneMeshes::gather() {
         const aiNode* node;
         glm::dmat4 worldFromNode;
     };
-    const double metresPerUnit = metresPerUnitOf(scene_, format_);
+    const double metresPerUnit = metresPerUnitOf(scene_, format_, result_.notes);
     const glm::dmat4 worldFromScene =
         glm::scale(format_.isYUp ? kZUpFromYUp : glm::dmat4(1), glm::dvec3(metresPerUnit));
     std::vector<Placed> waiting;

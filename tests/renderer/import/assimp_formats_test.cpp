@@ -134,6 +134,15 @@ TEST(FbxUnits, OfACentimetreAreBroughtToMetresAndSaidSo) {
     EXPECT_THAT(mesh->notes, testing::ElementsAre(testing::HasSubstr("unit is 0.01 m")));
 }
 
+TEST(FbxUnits, ThatAreNoneAreTakenForMetresAloud) {
+    const test::TemporaryFolder folder;
+    writeFbx(folder.file("t.fbx"), -1);
+    const auto mesh = readWithAssimp(folder.file("t.fbx"));
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    EXPECT_NEAR(test::signedVolume(*mesh), 1, 1e-4);
+    EXPECT_THAT(mesh->notes, testing::ElementsAre(testing::HasSubstr("unit is -1 cm")));
+}
+
 /// `each` of every corner, one after another: `{0}` its number, `{1}`, `{2}`, `{3}` its place.
 std::string corners(std::string_view each) {
     std::string text;
