@@ -22,18 +22,22 @@ double stretch(const ViewRequest& view, const coordinator::FrameRequest& drawn) 
 }  // namespace
 
 PictureSource pictureSource(const coordinator::Status& status) {
-    PictureSource source{status.scene, status.sceneInfo, {}, false, status.canvases};
+    PictureSource source{status.scene, status.sceneInfo, {}, true, status.canvases};
+    bool isSoftware = false;
     for (const coordinator::RendererStatus& renderer : status.renderers)
         if (renderer.isAlive()) {
             source.renderers.push_back(renderer.id);
-            source.isSoftware |= renderer.device.software;
+            isSoftware |= renderer.device.software;
         }
+    source.isSoftware = isSoftware || source.renderers.empty();
     return source;
 }
 
-double movingScale(const ViewRequest& view, const PictureSource& source) {
+double movingScale(const ViewRequest& view, const PictureSource* source) {
+    if (source != nullptr && !source->isSoftware)
+        return 1;
     const double pixels = static_cast<double>(view.frame.width) * view.frame.height;
-    return source.isSoftware ? std::min(1.0, std::sqrt(kMostMovingSoftwarePixels / pixels)) : 1;
+    return std::min(1.0, std::sqrt(kMostMovingSoftwarePixels / pixels));
 }
 
 coordinator::FrameRequest drawingOf(const ViewRequest& view, const fabric::SceneInfo* scene,

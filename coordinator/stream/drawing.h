@@ -14,7 +14,7 @@ struct PictureSource {
     fabric::Scene scene;
     fabric::SceneInfo sceneInfo;
     std::vector<std::string> renderers;
-    bool isSoftware = false;  ///< a renderer's device is, such as llvmpipe
+    bool isSoftware = true;  ///< a renderer's device is, such as llvmpipe, or there is none yet
     std::vector<coordinator::CanvasStatus> canvases;
 
     bool operator==(const PictureSource&) const = default;
@@ -22,9 +22,10 @@ struct PictureSource {
 
 PictureSource pictureSource(const coordinator::Status& status);
 
-/// Of both sides of a picture of `view` while it moves, however good the links are: CPU rasterisers
-/// draw 1.2 Mpixel at most then, and all of them at rest.
-double movingScale(const ViewRequest& view, const PictureSource& source);
+/// Of both sides of a picture of `view` while it moves, however good the links are: CPU
+/// rasterisers, and renderers of which nothing is known yet (null), draw 1.2 Mpixel at most then,
+/// and all of them at rest.
+double movingScale(const ViewRequest& view, const PictureSource* source);
 
 /// What to draw for `view`: its eye lifted out of the ground, unless it may be there, and both
 /// sides `scale` of what they are, at the same error in metres.

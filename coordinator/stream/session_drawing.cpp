@@ -127,13 +127,11 @@ Session::Impl::Begun Session::Impl::begin() {
     Begun begun{*progress_.wanted(), {}, Clock::now()};
     const bool isAtRest = progress_.hasRested(begun.at);
     begun.level = chooseLevel(begun.view, begun.at);
-    double scale = 1;
-    if (!isAtRest) {
-        scale = QualityControl::level(begun.level).scale;
-        if (source_)
-            scale = std::min(scale, movingScale(begun.view, *source_));
-    }
-    begun.request = drawingOf(begun.view, source_ ? &source_->sceneInfo : nullptr, scale);
+    const PictureSource* source = source_ ? &*source_ : nullptr;
+    const double scale = isAtRest ? 1
+                                  : std::min(QualityControl::level(begun.level).scale,
+                                             movingScale(begun.view, source));
+    begun.request = drawingOf(begun.view, source != nullptr ? &source->sceneInfo : nullptr, scale);
     if (isAtRest)
         begun.request.budgetMilliseconds.reset();
     begun.request.shown = screens(begun.view.frame.shown.front());
