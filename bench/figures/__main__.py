@@ -37,6 +37,7 @@ FIGURES = {
     "stills": farm.stills,
     "start": page.start,
     "links": page.links,
+    "latency": page.latency,
     "idle": page.idle,
 }
 

@@ -36,6 +36,21 @@ def links(lab):
     return figures
 
 
+def latency(lab):
+    output = lab.run("node", SOURCES / "tests/browser/latency_figures.mjs",
+                     environment=environment(lab)).output
+    figures = []
+    for size, median, worst in (("1280x720", 10, 20), ("1920x1080", 18, 30)):
+        middle, late, kind = re.search(
+            rf"^{size}: input to drawn without rendering ([\d.]+) ms median, ([\d.]+) ms p95, "
+            r"width/quality (.*)$", output, re.M).groups()
+        figures.append(Figure(
+            f"the page on loopback, {size.replace('x', '×')}: input to drawn, all but rendering",
+            f"≤ {median} ms, p95 ≤ {worst}", f"{middle} ms, p95 {late}", f"pixels/quality {kind}",
+            float(middle) <= median and float(late) <= worst, lab.commands[-1]))
+    return figures
+
+
 def start(lab):
     output = lab.run("node", SOURCES / "tests/browser/demo_test.mjs",
                      environment=environment(lab)).output

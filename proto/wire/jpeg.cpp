@@ -54,15 +54,15 @@ absl::StatusOr<std::vector<std::byte>> encodeJpeg(const fabric::Image& image, in
     const int format = isMoving ? TJSAMP_420 : TJSAMP_444;
     // The fast transform loses accuracy only at the qualities that still pictures are given.
     const int transform = isMoving ? TJFLAG_FASTDCT : TJFLAG_ACCURATEDCT;
-    std::vector<std::byte> jpeg(tjBufSize(width, height, format));
-    auto* destination = reinterpret_cast<unsigned char*>(jpeg.data());
-    unsigned long size = jpeg.size();
+    // Of the room for the worst case a page of memory is touched only where something is written.
+    unsigned long size = tjBufSize(width, height, format);
+    const auto room = std::make_unique_for_overwrite<std::byte[]>(size);
+    auto* destination = reinterpret_cast<unsigned char*>(room.get());
     if (tjCompress2(compressor.get(), reinterpret_cast<const unsigned char*>(image.colour.data()),
                     width, 0, height, TJPF_RGBA, &destination, &size, format, quality,
                     TJFLAG_BOTTOMUP | TJFLAG_NOREALLOC | transform) != 0)
         return absl::InternalError(fmt::format("jpeg: {}", lastError(compressor)));
-    jpeg.resize(size);
-    return jpeg;
+    return std::vector<std::byte>(room.get(), room.get() + size);
 }
 
 absl::StatusOr<fabric::Image> decodeJpeg(std::span<const std::byte> bytes) {

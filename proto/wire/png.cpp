@@ -22,6 +22,7 @@ using Bytes = std::vector<std::byte>;
 constexpr std::size_t kChannels = 3;
 constexpr std::byte kSubFilter{1};
 constexpr int kLevel = 2;
+constexpr std::size_t kMostAfterIt = 16;  ///< the checksum and IEND
 
 struct FreeCompressor {
     void operator()(libdeflate_compressor* compressor) const {
@@ -54,13 +55,22 @@ std::uint32_t difference(std::uint32_t pixel, std::uint32_t before) {
     return ((pixel | kHigh) - (before & ~kHigh)) ^ ((pixel ^ ~before) & kHigh);
 }
 
+/// Memory that nothing is written into before it is used.
+struct Room {
+    explicit Room(std::size_t bytes)
+        : data(std::make_unique_for_overwrite<std::byte[]>(bytes)), size(bytes) {}
+
+    std::unique_ptr<std::byte[]> data;
+    std::size_t size;
+};
+
 /// Rows from the top, each a filter's number and the differences from the pixel before.
-Bytes filtered(const fabric::Image& image) {
+Room filtered(const fabric::Image& image) {
     const auto width = static_cast<std::size_t>(image.area.width);
     const auto height = static_cast<std::size_t>(image.area.height);
     // A pixel is written with its alpha, which the next one writes over.
-    Bytes rows(height * (1 + kChannels * width) + 1);
-    std::byte* out = rows.data();
+    Room rows(height * (1 + kChannels * width) + 1);
+    std::byte* out = rows.data.get();
     for (std::size_t y = height; y-- > 0;) {
         *out++ = kSubFilter;
         std::uint32_t before = 0;
@@ -74,21 +84,23 @@ Bytes filtered(const fabric::Image& image) {
             before = pixel;
         }
     }
-    rows.pop_back();
+    --rows.size;
     return rows;
 }
 
-absl::Status appendCompressed(const Bytes& rows, Bytes& bytes) {
+absl::Status appendCompressed(const Room& rows, Bytes& bytes) {
     const std::unique_ptr<libdeflate_compressor, FreeCompressor> compressor(
         libdeflate_alloc_compressor(kLevel));
     if (compressor == nullptr)
         return absl::ResourceExhaustedError("png: no memory for a compressor");
-    const std::size_t start = bytes.size();
-    bytes.resize(start + libdeflate_zlib_compress_bound(compressor.get(), rows.size()));
-    const std::size_t size = libdeflate_zlib_compress(compressor.get(), rows.data(), rows.size(),
-                                                      &bytes[start], bytes.size() - start);
-    bytes.resize(start + size);
-    return size > 0 ? absl::OkStatus() : absl::InternalError("png: libdeflate found no room");
+    const Room packed(libdeflate_zlib_compress_bound(compressor.get(), rows.size));
+    const std::size_t size = libdeflate_zlib_compress(compressor.get(), rows.data.get(), rows.size,
+                                                      packed.data.get(), packed.size);
+    if (size == 0)
+        return absl::InternalError("png: libdeflate found no room");
+    bytes.reserve(bytes.size() + size + kMostAfterIt);
+    bytes.insert(bytes.end(), packed.data.get(), packed.data.get() + size);
+    return absl::OkStatus();
 }
 
 absl::Status checkEncodable(const fabric::Image& image) {

@@ -3,16 +3,20 @@
 // renderers. Prints the line with the URL that `eyrie serve` prints, and serves until its standard
 // input ends, with --h264 as the program's option; a line "no renderer" or "renderer" on it takes
 // the renderer away or brings it back, and "wall" hangs the picture on two screens that share a
-// swap barrier.
+// swap barrier. With --film pictures of moving views are made beforehand, by no software renderer:
+// what is left of the time from an input to its picture is all but rendering.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -123,6 +127,43 @@ coordinator::RenderedFrame draw(const coordinator::FrameRequest& request) {
     return frame;
 }
 
+/// Pictures of an orbit, made when the first of their size is asked for, and shown by turns
+/// whatever is asked for. What copying one takes is told as the time of rendering.
+class Film {
+public:
+    coordinator::RenderedFrame next(const coordinator::FrameRequest& request) {
+        const auto start = std::chrono::steady_clock::now();
+        const std::lock_guard lock(mutex_);
+        std::vector<coordinator::RenderedFrame>& pictures = made_[{request.width, request.height}];
+        if (pictures.empty())
+            for (int i = 0; i < kPictures; ++i) pictures.push_back(made(request, i));
+        coordinator::RenderedFrame frame = pictures[shown_++ % kPictures];
+        frame.statistics.milliseconds.total =
+            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+                .count();
+        return frame;
+    }
+
+private:
+    static constexpr int kPictures = 8;
+
+    static coordinator::RenderedFrame made(coordinator::FrameRequest request, int place) {
+        constexpr double kTurn = 0.01;  ///< radians from one to the next, as a hand turns
+        const fabric::Vec3 arm = request.camera.eye - request.camera.target;
+        const double cos = std::cos(kTurn * place);
+        const double sin = std::sin(kTurn * place);
+        request.camera.eye = request.camera.target + fabric::Vec3(cos * arm.x - sin * arm.y,
+                                                                  sin * arm.x + cos * arm.y, arm.z);
+        coordinator::RenderedFrame frame = draw(request);
+        frame.device.software = false;
+        return frame;
+    }
+
+    std::mutex mutex_;
+    std::map<std::pair<int, int>, std::vector<coordinator::RenderedFrame>> made_;
+    std::size_t shown_ = 0;
+};
+
 /// The same plain, picked.
 fabric::Picked pick(const fabric::PickRequest& request) {
     const double aspect = static_cast<double>(request.viewWidth) / request.viewHeight;
@@ -160,8 +201,9 @@ coordinator::RenderedFrame drawInTime(const coordinator::FrameRequest& request) 
     return frame;
 }
 
-coordinator::Status statusWith(bool hasRenderer, bool hasWall) {
+coordinator::Status statusWith(bool hasRenderer, bool hasWall, bool isSoftware) {
     coordinator::Status status = coordinator::readyStatus();
+    status.renderers[0].device.software = isSoftware;
     status.renderers[0].device.renderer = "made-up pictures (no renderer)";
     fabric::GroundGrid plain;
     plain.worldFromGrid[0].x = plain.worldFromGrid[1].y = 2000;
@@ -196,21 +238,26 @@ absl::StatusOr<fabric::SeenAreas> seen(const coordinator::FrameRequest& request)
 }  // namespace
 
 int main(int argc, char** argv) {
-    const bool hasVideo = argc > 2 && std::string_view(argv[argc - 1]) == "--h264";
-    if (hasVideo)
-        --argc;
-    if (argc != 2 && argc != 3) {
-        std::cerr << "usage: fake_server WEB_FOLDER [PORT] [--h264]\n";
+    std::vector<std::string_view> arguments(argv + 1, argv + argc);
+    const bool hasVideo = std::erase(arguments, "--h264") > 0;
+    const bool isFilm = std::erase(arguments, "--film") > 0;
+    if (arguments.size() != 1 && arguments.size() != 2) {
+        std::cerr << "usage: fake_server WEB_FOLDER [PORT] [--h264] [--film]\n";
         return 2;
     }
+    Film film;
+    const coordinator::FakeFrameSource::Draw drawn = [&](const coordinator::FrameRequest& request) {
+        return isFilm ? film.next(request) : drawInTime(request);
+    };
     coordinator::FakeFrameSource frames;
-    frames.setDraw(drawInTime);
+    frames.setDraw(drawn);
     frames.setPick(pick);
     frames.setSeen(seen);
-    frames.setStatus(statusWith(true, false));
+    frames.setStatus(statusWith(true, false, !isFilm));
     http::ServerOptions options;
-    options.port = argc == 3 ? static_cast<std::uint16_t>(std::stoi(argv[2])) : std::uint16_t{0};
-    options.webFolder = argv[1];
+    if (arguments.size() == 2)
+        options.port = static_cast<std::uint16_t>(std::stoi(std::string(arguments[1])));
+    options.webFolder = std::string(arguments[0]);
     if (hasVideo) {
         const auto module = video::load();
         if (!module.ok()) {
@@ -230,13 +277,13 @@ int main(int argc, char** argv) {
     bool hasWall = false;
     for (std::string line; std::getline(std::cin, line);) {
         hasWall = hasWall || line == "wall";
-        frames.setStatus(statusWith(line != "no renderer", hasWall));
+        frames.setStatus(statusWith(line != "no renderer", hasWall, !isFilm));
         frames.setDraw(line == "no renderer"
                            ? [](const coordinator::FrameRequest&)
                                  -> absl::StatusOr<coordinator::RenderedFrame> {
                                  return absl::UnavailableError("No renderer has registered.");
                              }
-                           : coordinator::FakeFrameSource::Draw(drawInTime));
+                           : drawn);
     }
     (*server)->stop();
     return 0;

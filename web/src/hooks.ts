@@ -29,6 +29,8 @@ export interface Hooks {
   readonly fps: number;
   /** Median of the last ones; NaN before any. */
   readonly inputToDrawnMilliseconds: number;
+  /** Wall-clock time of rendering the picture on the server. */
+  readonly renderMilliseconds: number;
   readonly connection: "connecting" | "connected" | "lost" | "closed";
   readonly camera: Camera | null;
   /** The last pictures behind a swap barrier; what is drawn at 0 has been decoded only. */
@@ -85,6 +87,9 @@ export function exposeHooks(state: State, viewer: Viewer): void {
     },
     get inputToDrawnMilliseconds() {
       return numbers()?.inputToDrawnMilliseconds ?? Number.NaN;
+    },
+    get renderMilliseconds() {
+      return numbers()?.renderMilliseconds ?? 0;
     },
     get connection() {
       return state.connection.value.kind;
