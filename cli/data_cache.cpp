@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "cli/import_notes.h"
+#include "cli/several_sources.h"
 #include "cli/source_record.h"
 #include "fabric/status.h"
 #include "renderer/import/mesh_import.h"
@@ -40,14 +41,19 @@ std::string lowerCaseEnding(const std::string& path) {
     return ending;
 }
 
-/// Name of the import of `source`: what it holds, and what made it.
-absl::StatusOr<std::string> importName(const std::string& source, fabric::ObjectKind kind,
+/// Name of the import of `sources`: what they hold, in their order, and what made it.
+absl::StatusOr<std::string> importName(const std::vector<std::string>& sources,
+                                       fabric::ObjectKind kind,
                                        const std::vector<std::string>& imagery) {
     if (kind == fabric::ObjectKind::Mesh) {
-        ASSIGN_OR_RETURN(const std::uint64_t hash, import::meshSourceHash(std::span(&source, 1)));
+        ASSIGN_OR_RETURN(const std::uint64_t hash, import::meshSourceHash(sources));
         return fmt::format("{:016x}-{}.eym", hash, kMeshImporterVersion);
     }
-    ASSIGN_OR_RETURN(std::uint64_t hash, import::rasterHash(source));
+    std::uint64_t hash = 0;
+    for (const std::string& source : sources) {
+        ASSIGN_OR_RETURN(const std::uint64_t part, import::rasterHash(source));
+        hash = hash * 41 + part;
+    }
     for (const std::string& picture : imagery) {
         ASSIGN_OR_RETURN(const std::uint64_t part, import::rasterHash(picture));
         hash = hash * 37 + part;
@@ -69,6 +75,16 @@ void removeLeftovers(const fs::path& folder) {
         if (maker > 0 && kill(maker, 0) != 0 && errno == ESRCH)
             fs::remove(entry.path(), error);
     }
+}
+
+/// Only .eyt and .eym are read from where they lie.
+absl::Status isHere(const std::string& source) {
+    if (!page::isRemote(source))
+        return absl::OkStatus();
+    return absl::InvalidArgumentError(fmt::format(
+        "{}: only .eyt and .eym files are drawn from a URL; download this one, or `eyrie "
+        "import` it where it lies and name what that made",
+        source));
 }
 
 /// Here nothing says how much memory an import may take.
@@ -131,12 +147,20 @@ absl::StatusOr<std::string> DataCache::dataFor(const std::string& path, fabric::
         case DataFile::TerrainSource:
             break;
     }
-    if (page::isRemote(path))
-        return absl::InvalidArgumentError(fmt::format(
-            "{}: only .eyt and .eym files are drawn from a URL; download this one, or `eyrie "
-            "import` it where it lies and name what that made",
-            path));
-    return imported(path, kind, imagery);
+    RETURN_IF_ERROR(isHere(path));
+    return imported({path}, kind, imagery);
+}
+
+absl::StatusOr<std::string> DataCache::mosaicOf(const std::vector<std::string>& rasters) {
+    for (const std::string& raster : rasters) RETURN_IF_ERROR(isHere(raster));
+    absl::StatusOr<std::string> made = imported(rasters, fabric::ObjectKind::Terrain, {});
+    // Among others because they have no place in common, or lie too far apart.
+    if (absl::IsInvalidArgument(made.status()) || absl::IsResourceExhausted(made.status()))
+        return absl::Status(made.status().code(),
+                            fmt::format("{} (several rasters become one terrain; a scene file "
+                                        "shows each as one of its own)",
+                                        std::string(made.status().message())));
+    return made;
 }
 
 absl::Status DataCache::reach(const std::string& url, fabric::ObjectKind kind) {
@@ -145,14 +169,15 @@ absl::Status DataCache::reach(const std::string& url, fabric::ObjectKind kind) {
     return mesh::EymFile::open(url, sources_).status();
 }
 
-absl::StatusOr<std::string> DataCache::imported(const std::string& source, fabric::ObjectKind kind,
+absl::StatusOr<std::string> DataCache::imported(const std::vector<std::string>& sources,
+                                                fabric::ObjectKind kind,
                                                 const std::vector<std::string>& imagery) {
-    ASSIGN_OR_RETURN(const std::string name, importName(source, kind, imagery));
+    ASSIGN_OR_RETURN(const std::string name, importName(sources, kind, imagery));
     const std::string target = (folder_ / name).string();
     std::error_code error;
     if (fs::exists(target, error) && opens(target, kind)) {
         // Of the same bytes, perhaps from elsewhere. A cache that others keep may not be written.
-        recordSources(target, {source}).IgnoreError();
+        recordSources(target, sources).IgnoreError();
         return target;
     }
     fs::create_directories(folder_, error);
@@ -162,33 +187,33 @@ absl::StatusOr<std::string> DataCache::imported(const std::string& source, fabri
                         "--cache FOLDER",
                         folder_.string(), error.message()));
     removeLeftovers(folder_);
-    RETURN_IF_ERROR(import(source, target, kind, imagery));
-    RETURN_IF_ERROR(recordSources(target, {source}));
+    RETURN_IF_ERROR(import(sources, target, kind, imagery));
+    RETURN_IF_ERROR(recordSources(target, sources));
     return target;
 }
 
-absl::Status DataCache::import(const std::string& source, const std::string& target,
+absl::Status DataCache::import(const std::vector<std::string>& sources, const std::string& target,
                                fabric::ObjectKind kind, const std::vector<std::string>& imagery) {
     ASSIGN_OR_RETURN(const std::vector<std::string> notes,
-                     importNoting(source, target, kind, imagery));
-    for (const std::string& note : notes) notes_.push_back(fmt::format("{}: {}", source, note));
+                     importNoting(sources, target, kind, imagery));
+    for (const std::string& note : notes)
+        notes_.push_back(fmt::format("{}: {}", titleOf(sources), note));
     return absl::OkStatus();
 }
 
 absl::StatusOr<std::vector<std::string>> DataCache::importNoting(
-    const std::string& source, const std::string& target, fabric::ObjectKind kind,
+    const std::vector<std::string>& sources, const std::string& target, fabric::ObjectKind kind,
     const std::vector<std::string>& imagery) const {
-    std::error_code ignored;
-    const auto megabytes = static_cast<double>(fs::file_size(source, ignored)) / 1e6;
-    ProgressBar bar(fs::path(source).filename().string(), megabytes, "MB", progress_);
+    ProgressBar bar(fs::path(titleOf(sources)).filename().string(), megabytesOf(sources), "MB",
+                    progress_);
     const import::ImportControl control{bar.callback(), stop_};
     if (kind == fabric::ObjectKind::Terrain) {
         ASSIGN_OR_RETURN(import::TerrainImportReport made,
-                         import::importTerrain({source}, target, {.imagery = imagery}, control));
+                         import::importTerrain(sources, target, {.imagery = imagery}, control));
         return std::move(made.notes);
     }
     const auto made =
-        import::importMesh({source}, target, {.memoryBytes = meshMemoryBytes_}, control);
+        import::importMesh(sources, target, {.memoryBytes = meshMemoryBytes_}, control);
     if (!made.ok())
         return withRemedy(made.status());
     return notesOf(*made);

@@ -45,6 +45,10 @@ public:
     absl::StatusOr<std::string> dataFor(const std::string& path, fabric::ObjectKind kind,
                                         const std::vector<std::string>& imagery = {});
 
+    /// The .eyt of several elevation models as one terrain, as import::openDems lays them over each
+    /// other. Their order counts. Errors: those of the importer.
+    absl::StatusOr<std::string> mosaicOf(const std::vector<std::string>& rasters);
+
     /// What was said of sources that were imported since the last call: what is odd in them, what
     /// was assumed, what was left out. Lines for people, each with the name of its source. Imports
     /// that were there already say nothing.
@@ -55,12 +59,14 @@ public:
 
 private:
     absl::Status reach(const std::string& url, fabric::ObjectKind kind);
-    absl::StatusOr<std::string> imported(const std::string& source, fabric::ObjectKind kind,
+    /// `sources`: one, or elevation models to be laid over each other.
+    absl::StatusOr<std::string> imported(const std::vector<std::string>& sources,
+                                         fabric::ObjectKind kind,
                                          const std::vector<std::string>& imagery);
-    absl::Status import(const std::string& source, const std::string& target,
+    absl::Status import(const std::vector<std::string>& sources, const std::string& target,
                         fabric::ObjectKind kind, const std::vector<std::string>& imagery);
     absl::StatusOr<std::vector<std::string>> importNoting(
-        const std::string& source, const std::string& target, fabric::ObjectKind kind,
+        const std::vector<std::string>& sources, const std::string& target, fabric::ObjectKind kind,
         const std::vector<std::string>& imagery) const;
 
     const std::filesystem::path folder_;

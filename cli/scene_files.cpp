@@ -35,6 +35,29 @@ fabric::SceneObject objectOf(const std::string& path) {
             .path = path};
 }
 
+/// An object for each of what is no scene; rasters, however many, are one terrain in the place of
+/// the first.
+absl::StatusOr<std::vector<fabric::SceneObject>> objectsOf(const std::vector<std::string>& paths,
+                                                           DataCache& cache) {
+    std::vector<fabric::SceneObject> objects;
+    std::vector<std::string> rasters;
+    std::size_t terrain = 0;
+    for (const std::string& path : paths) {
+        const bool isRaster = dataFileOf(path) == DataFile::TerrainSource;
+        if (isRaster && rasters.empty())
+            terrain = objects.size();
+        if (!isRaster || rasters.empty())
+            objects.push_back(objectOf(path));
+        if (isRaster)
+            rasters.push_back(path);
+    }
+    if (rasters.size() < 2)
+        return objects;
+    objects[terrain].name += fmt::format(" and {} more", rasters.size() - 1);
+    ASSIGN_OR_RETURN(objects[terrain].path, cache.mosaicOf(rasters));
+    return objects;
+}
+
 /// Objects named on the command line, without a transform of their own, by kind.
 struct LooseObjects {
     std::vector<fabric::SceneObject*> meshes;
@@ -117,10 +140,10 @@ absl::StatusOr<fabric::Scene> assembleScene(std::span<const std::string> paths, 
                                             std::vector<std::string>& notes) {
     std::optional<fabric::Scene> scene;
     std::vector<fabric::SceneObject> fromScenes;
-    std::vector<fabric::SceneObject> loose;
+    std::vector<std::string> others;
     for (const std::string& path : paths) {
         if (dataFileOf(path) != DataFile::Scene) {
-            loose.push_back(objectOf(path));
+            others.push_back(path);
             continue;
         }
         ASSIGN_OR_RETURN(fabric::Scene one, readSceneFile(path));
@@ -130,6 +153,7 @@ absl::StatusOr<fabric::Scene> assembleScene(std::span<const std::string> paths, 
     }
     if (!scene)
         scene.emplace();
+    ASSIGN_OR_RETURN(const std::vector<fabric::SceneObject> loose, objectsOf(others, cache));
     scene->objects = std::move(fromScenes);
     const std::size_t firstLoose = scene->objects.size();
     scene->objects.insert(scene->objects.end(), loose.begin(), loose.end());

@@ -19,9 +19,9 @@ absl::StatusOr<std::string> readText(const std::string& path);
 absl::StatusOr<fabric::Scene> readSceneFile(const std::string& path);
 
 /// One scene of everything named: scene files, .eyt and .eym files, and sources, which go through
-/// `cache`. Lights, ambient and background are the first scene file's. A mesh that shares no
-/// coordinates with the terrain beside it is placed on it (placeOnTerrain); `notes` says so, and
-/// what DataCache::takeNotes and crsNotes have.
+/// `cache`; rasters, however many, become one terrain. Lights, ambient and background are the first
+/// scene file's. A mesh that shares no coordinates with the terrain beside it is placed on it
+/// (placeOnTerrain); `notes` says so, and what DataCache::takeNotes and crsNotes have.
 absl::StatusOr<fabric::Scene> assembleScene(std::span<const std::string> paths, DataCache& cache,
                                             std::vector<std::string>& notes);
 

@@ -143,9 +143,9 @@ void addServe(CLI::App& app, Run& run) {
         ->add_option(
             "data", options->data,
             "Scenes (.json), imported data (.eyt, .eym), or sources: meshes (.ply, .obj, .glb "
-            "and more) and any raster that GDAL reads, imported when they are new. Imported data "
-            "may lie "
-            "at URLs: https://…, or GDAL's /vsis3/…, /vsigs/…, /vsiaz/…")
+            "and more) and any rasters that GDAL reads, which together are one terrain; imported "
+            "when they are new. Imported data may lie at URLs: https://…, or GDAL's /vsis3/…, "
+            "/vsigs/…, /vsiaz/…")
         ->type_name("FILE|URL")
         ->required();
     command->add_option("--listen", options->listen, "Where browsers find it; port 0: any free one")
@@ -175,6 +175,7 @@ void addServe(CLI::App& app, Run& run) {
     command->footer(
         "Examples:\n"
         "  eyrie serve dem.tif scan.ply\n"
+        "  eyrie serve tiles/*.tif\n"
         "  eyrie serve https://data.example/dem.eyt\n"
         "  eyrie serve scene.json --listen 0.0.0.0:8080 --token-file tokens\n"
         "  eyrie serve scan.ply --config powerwall.eqc\n"

@@ -11,6 +11,7 @@
 #include "cli/import/mesh_options.h"
 #include "cli/import/mesh_report.h"
 #include "cli/progress_bar.h"
+#include "cli/several_sources.h"
 #include "cli/source_record.h"
 #include "cli/stop_signal.h"
 #include "cli/tune_mesh.h"
@@ -27,7 +28,8 @@ absl::StatusOr<import::MeshImportReport> importMeshTo(const std::string& path,
                                                       const MeshImportChoices& choices,
                                                       const import::MeshImportOptions& how,
                                                       const std::stop_token& stop) {
-    ProgressBar bar(choices.title(), sourceMegabytes(choices), "MB", progressStyle(choices));
+    ProgressBar bar(titleOf(choices.sources), megabytesOf(choices.sources), "MB",
+                    progressStyle(choices));
     return import::importMesh(choices.sources, path, how, {bar.callback(), stop});
 }
 

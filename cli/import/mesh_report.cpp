@@ -8,6 +8,7 @@
 
 #include "cli/import_notes.h"
 #include "cli/json_object.h"
+#include "cli/several_sources.h"
 
 namespace eyrie::cli {
 namespace {
@@ -63,12 +64,12 @@ void printJson(const MeshImportChoices& choices, const import::MeshImportReport&
 
 void printText(const MeshImportChoices& choices, const import::MeshImportReport& made) {
     for (const std::string& note : notesOf(made))
-        fmt::print(stderr, "{}: {}\n", choices.title(), note);
+        fmt::print(stderr, "{}: {}\n", titleOf(choices.sources), note);
     const import::PackCounts& counts = made.counts;
     if (choices.how.pack.orients)
         fmt::print(stderr, "{}: turned {} triangles of {} surfaces, {} of which are closed\n",
-                   choices.title(), counts.orient.turnedTriangles, counts.orient.components,
-                   counts.orient.closedComponents);
+                   titleOf(choices.sources), counts.orient.turnedTriangles,
+                   counts.orient.components, counts.orient.closedComponents);
     const std::string points =
         made.pointNodes > 0 ? fmt::format(", {} nodes as points from afar", made.pointNodes) : "";
     fmt::print(stderr, "{}: {} triangles, {} vertices, {} simpler levels{}, {:.1f} MB, {:.2f} s\n",

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/import/options.h"
 
-#include <cstdint>
 #include <filesystem>
-#include <system_error>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -12,16 +10,6 @@ namespace eyrie::cli {
 
 ProgressBar::Style progressStyle(const ImportOptions& options) {
     return options.progressJson ? ProgressBar::Style::Json : ProgressBar::styleFor(options.quiet);
-}
-
-double sourceMegabytes(const ImportOptions& options) {
-    double megabytes = 0;
-    for (const std::string& source : options.sources) {
-        std::error_code none;
-        const auto bytes = std::filesystem::file_size(source, none);
-        megabytes += none ? 0 : static_cast<double>(bytes) / 1e6;
-    }
-    return megabytes;
 }
 
 absl::Status checkEnding(const ImportOptions& options, std::string_view ending) {

@@ -22,20 +22,10 @@ struct ImportOptions {
     bool quiet = false;
     bool json = false;
     bool progressJson = false;
-
-    /// For the progress bar and messages.
-    std::string title() const {
-        return sources.size() == 1
-                   ? sources.front()
-                   : fmt::format("{} and {} more", sources.front(), sources.size() - 1);
-    }
 };
 
 /// How progress is told.
 ProgressBar::Style progressStyle(const ImportOptions& options);
-
-/// Of all sources together, as far as they are files here.
-double sourceMegabytes(const ImportOptions& options);
 
 /// InvalidArgument unless the output's name has `ending`, such as ".eyt".
 absl::Status checkEnding(const ImportOptions& options, std::string_view ending);

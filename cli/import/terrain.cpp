@@ -14,6 +14,7 @@
 #include "cli/import/options.h"
 #include "cli/json_object.h"
 #include "cli/progress_bar.h"
+#include "cli/several_sources.h"
 #include "cli/source_record.h"
 #include "cli/stop_signal.h"
 #include "cli/values.h"
@@ -66,7 +67,8 @@ absl::StatusOr<import::TerrainImportOptions> importOptions(const TerrainOptions&
 }
 
 void printNotes(const TerrainOptions& options, const std::vector<std::string>& notes) {
-    for (const std::string& note : notes) fmt::print(stderr, "{}: {}\n", options.title(), note);
+    for (const std::string& note : notes)
+        fmt::print(stderr, "{}: {}\n", titleOf(options.sources), note);
 }
 
 absl::Status importTerrain(const TerrainOptions& options) {
@@ -76,7 +78,8 @@ absl::Status importTerrain(const TerrainOptions& options) {
     const StopWatch watch;
     absl::StatusOr<import::TerrainImportReport> made;
     {
-        ProgressBar bar(options.title(), sourceMegabytes(options), "MB", progressStyle(options));
+        ProgressBar bar(titleOf(options.sources), megabytesOf(options.sources), "MB",
+                        progressStyle(options));
         made = import::importTerrain(options.sources, options.out, how,
                                      {bar.callback(), stop.token()});
     }
@@ -120,7 +123,8 @@ absl::Status importShard(const TerrainOptions& options) {
     const StopWatch watch;
     absl::StatusOr<import::TerrainShardReport> made;
     {
-        ProgressBar bar(options.title(), sourceMegabytes(options), "MB", progressStyle(options));
+        ProgressBar bar(titleOf(options.sources), megabytesOf(options.sources), "MB",
+                        progressStyle(options));
         made = import::importTerrainShard(options.sources, options.out, {shard.index, shard.count},
                                           how, {bar.callback(), stop.token()});
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -216,16 +217,77 @@ TEST_F(SceneFiles, AVirtualRasterIsImportedAgainWhenWhatItNamesChanges) {
 
 TEST_F(SceneFiles, TerrainsOfDifferentCrsAreToldOf) {
     writeSlope(folder_);
-    const std::string zone32 = writeVirtual(folder_, "west.vrt", "slope.tif", 32);
-    const std::string more32 = writeVirtual(folder_, "middle.vrt", "slope.tif", 32);
-    const std::string zone33 = writeVirtual(folder_, "east.vrt", "slope.tif", 33);
-    ASSERT_TRUE(assemble({zone32, more32}).ok());
+    writeVirtual(folder_, "west.vrt", "slope.tif", 32);
+    writeVirtual(folder_, "middle.vrt", "slope.tif", 32);
+    writeVirtual(folder_, "east.vrt", "slope.tif", 33);
+    ASSERT_TRUE(assemble({folder_.write("alike.json", R"({"objects":[{"terrain":"west.vrt"},)"
+                                                      R"({"terrain":"middle.vrt"}]})")})
+                    .ok());
     EXPECT_THAT(notes_, testing::Not(testing::Contains(testing::HasSubstr("coordinates"))));
     notes_.clear();
-    ASSERT_TRUE(assemble({zone32, more32, zone33}).ok());
-    EXPECT_THAT(notes_, testing::Contains(
-                            testing::AllOf(testing::HasSubstr("east is in WGS 84 / UTM zone 33N"),
-                                           testing::HasSubstr("west in WGS 84 / UTM zone 32N"))));
+    ASSERT_TRUE(assemble({folder_.write("scene.json", R"({"objects":[{"terrain":"west.vrt"},)"
+                                                      R"({"terrain":"east.vrt"}]})")})
+                    .ok());
+    EXPECT_THAT(notes_, testing::Contains(testing::AllOf(
+                            testing::HasSubstr("east.vrt is in WGS 84 / UTM zone 33N"),
+                            testing::HasSubstr("west.vrt in WGS 84 / UTM zone 32N"))));
+}
+
+/// A tenth of a degree of slope.tif, from a longitude at 46 degrees north on.
+std::string writeDegrees(const test::TemporaryFolder& folder, const std::string& name,
+                         double west) {
+    constexpr double kSpacing = 0.1 / kPosts;
+    return folder.write(
+        name,
+        fmt::format(R"(<VRTDataset rasterXSize="{0}" rasterYSize="{0}"><SRS>EPSG:4326</SRS>)"
+                    R"(<GeoTransform>{1}, {2}, 0, 46, 0, -{2}</GeoTransform>)"
+                    R"(<VRTRasterBand dataType="Float32" band="1"><SimpleSource>)"
+                    R"(<SourceFilename relativeToVRT="1">slope.tif</SourceFilename>)"
+                    R"(<SourceBand>1</SourceBand></SimpleSource></VRTRasterBand></VRTDataset>)",
+                    kPosts, west, kSpacing));
+}
+
+/// UTM zones 32 and 33 meet at 12 degrees.
+TEST_F(SceneFiles, RastersThatAreNamedTogetherAreOneTerrainAcrossTheBorderOfTwoZones) {
+    writeSlope(folder_);
+    const std::string west = writeDegrees(folder_, "west.vrt", 11.9);
+    const std::string east = writeDegrees(folder_, "east.vrt", 12);
+    const auto scene = assemble({west, writeBall(folder_), east});
+    ASSERT_TRUE(scene.ok()) << scene.status();
+    ASSERT_EQ(scene->objects.size(), 2U);
+    EXPECT_EQ(scene->objects[0].name, "west and 1 more");
+    EXPECT_EQ(scene->objects[1].name, "ball");
+    const auto file = terrain::EytFile::open(scene->objects[0].path);
+    ASSERT_TRUE(file.ok()) << file.status();
+    const fabric::Vec3 size = (*file)->index().bounds().size();
+    const double degree = 111320 * std::cos(46 * M_PI / 180);
+    EXPECT_NEAR(size.x, 0.2 * degree, 0.01 * degree) << "side by side, a little turned";
+    EXPECT_THAT(notes_, testing::Contains(testing::AllOf(testing::HasSubstr(west + " and 1 more: "),
+                                                         testing::HasSubstr("brought to"))));
+    EXPECT_THAT(notes_, testing::Not(testing::Contains(testing::HasSubstr("its own coordinates"))));
+}
+
+TEST_F(SceneFiles, RastersThatAreNamedTogetherAreImportedOnceForTheirContentsInTheirOrder) {
+    writeSlope(folder_);
+    const std::string west = writeDegrees(folder_, "west.vrt", 11.9);
+    const std::string east = writeDegrees(folder_, "east.vrt", 12);
+    const auto first = cache_.mosaicOf({west, east});
+    ASSERT_TRUE(first.ok()) << first.status();
+    EXPECT_EQ(*cache_.mosaicOf({west, east}), *first);
+    EXPECT_EQ(importsKept(), 1U);
+    EXPECT_NE(*cache_.mosaicOf({east, west}), *first) << "where both have data the last one wins";
+    EXPECT_NE(*cache_.dataFor(west, fabric::ObjectKind::Terrain), *first);
+    writeSlope(folder_, 20);
+    EXPECT_NE(*cache_.mosaicOf({west, east}), *first);
+}
+
+TEST_F(SceneFiles, RastersThatCannotBeOneTerrainAreRefusedWithWhatShowsThemApart) {
+    folder_.write("dem.asc", "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2\n3 4\n");
+    const absl::Status refused = assemble({writeSlope(folder_), folder_.path("dem.asc")}).status();
+    EXPECT_TRUE(absl::IsInvalidArgument(refused)) << refused;
+    EXPECT_THAT(refused.ToString(),
+                testing::AllOf(testing::HasSubstr("dem.asc"), testing::HasSubstr("scene file")));
+    EXPECT_EQ(importsKept(), 0U);
 }
 
 TEST_F(SceneFiles, ImageryOverAnImportedTerrainIsRefused) {
