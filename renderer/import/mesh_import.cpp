@@ -160,6 +160,7 @@ absl::StatusOr<PlySize> measureAll(const std::vector<std::string>& paths) {
         all.vertices += size.vertices;
         all.faces += size.faces;
         all.fileBytes += size.fileBytes;
+        all.isTextured = all.isTextured || size.isTextured;
     }
     return all;
 }
@@ -171,7 +172,8 @@ absl::StatusOr<std::optional<std::uint64_t>> partsOf(const std::vector<std::stri
     if (options.memoryBytes == 0 || !mayBeParted)
         return std::nullopt;
     ASSIGN_OR_RETURN(const PlySize size, measureAll(paths));
-    const std::uint64_t needed = importBytes(size.faces, size.vertices, size.fileBytes, options);
+    const std::uint64_t needed =
+        importBytes(size.faces, size.vertices, size.fileBytes, options, size.isTextured);
     if (needed <= options.memoryBytes)
         return std::nullopt;
     if (options.pack.orients)
@@ -201,8 +203,8 @@ absl::StatusOr<MeshImportReport> importWhole(const std::vector<std::string>& pat
     if (isByFormat)
         options.pack.normals = source.normals.empty() ? NormalSource::Smooth : NormalSource::File;
     ASSIGN_OR_RETURN(const std::uint64_t hash, meshSourceHash(paths));
-    const std::uint64_t needed =
-        importBytes(source.triangles.size(), source.positions.size(), 0, options);
+    const std::uint64_t needed = importBytes(source.triangles.size(), source.positions.size(), 0,
+                                             options, !source.textureCoordinates.empty());
     if (options.memoryBytes != 0 && needed > options.memoryBytes)
         return exceedsMemory(nameOf(paths), needed, options, remedy);
     const double readSeconds = watch.lap();

@@ -21,7 +21,8 @@ namespace eyrie::import {
 namespace {
 
 /// What an import holds at most of each triangle, of which there are two a vertex (measured: 44 to
-/// 59), and where corners have normals of their own or source positions are kept (71 to 180).
+/// 59), and where corners have normals or places in textures of their own, or source positions are
+/// kept (71 to 190).
 constexpr std::uint64_t kTriangleBytes = 64;
 constexpr std::uint64_t kRichTriangleBytes = 200;
 /// More of each vertex beyond one of two triangles: loose triangles have two and a half such.
@@ -32,8 +33,9 @@ constexpr std::uint64_t kFixedBytes = std::uint64_t{160} << 20;
 constexpr std::uint64_t kGatherBytes = 64;
 
 std::uint64_t bytesPerTriangle(std::uint64_t triangles, std::uint64_t vertices,
-                               const MeshImportOptions& options) {
-    const bool isRich = options.pack.keepsExact || options.pack.normals == NormalSource::Crease ||
+                               const MeshImportOptions& options, bool isTextured) {
+    const bool isRich = isTextured || options.pack.keepsExact ||
+                        options.pack.normals == NormalSource::Crease ||
                         options.pack.normals == NormalSource::File;
     const std::uint64_t looseVertices = vertices - std::min(vertices, triangles / 2);
     return (isRich ? kRichTriangleBytes : kTriangleBytes) +
@@ -131,8 +133,10 @@ absl::StatusOr<std::optional<mesh::ExactForm>> exactFormOf(const MeshSpool& spoo
 }  // namespace
 
 std::uint64_t importBytes(std::uint64_t triangles, std::uint64_t vertices,
-                          std::uint64_t sourceBytes, const MeshImportOptions& options) {
-    return sourceBytes + triangles * bytesPerTriangle(triangles, vertices, options) + vertices;
+                          std::uint64_t sourceBytes, const MeshImportOptions& options,
+                          bool isTextured) {
+    return sourceBytes + triangles * bytesPerTriangle(triangles, vertices, options, isTextured) +
+           vertices;
 }
 
 std::uint64_t trianglesAtOnce(std::uint64_t memoryBytes, std::uint64_t triangles,
@@ -141,7 +145,7 @@ std::uint64_t trianglesAtOnce(std::uint64_t memoryBytes, std::uint64_t triangles
     return memoryBytes <= fixed
                ? 0
                : (memoryBytes - fixed) /
-                     (bytesPerTriangle(triangles, vertices, options) + kGatherBytes);
+                     (bytesPerTriangle(triangles, vertices, options, false) + kGatherBytes);
 }
 
 absl::StatusOr<MeshImportReport> importInParts(std::span<const std::string> paths,

@@ -16,7 +16,8 @@ namespace eyrie::import {
 
 /// About what an import takes in memory, of PLY files or of what was read.
 std::uint64_t importBytes(std::uint64_t triangles, std::uint64_t vertices,
-                          std::uint64_t sourceBytes, const MeshImportOptions& options);
+                          std::uint64_t sourceBytes, const MeshImportOptions& options,
+                          bool isTextured = false);
 
 /// Triangles that a part may have where importing it may take `memoryBytes`, and all of the mesh
 /// has so many vertices and triangles.
@@ -24,7 +25,7 @@ std::uint64_t trianglesAtOnce(std::uint64_t memoryBytes, std::uint64_t triangles
                               std::uint64_t vertices, const MeshImportOptions& options);
 
 /// Imports PLY files into the empty `out`, which the caller commits, by parts of `atOnce` triangles
-/// at most (more where a leaf, or a node that is simplified, may have more).
+/// at most (more where a leaf, or a node that is simplified, may have more). Without textures.
 /// Stages reported: "reading", "welding", "backs", "tree", "borders", "levels", "writing". Errors:
 /// those of importMesh; InvalidArgument where a face has more than three corners or winding is to
 /// be made consistent (PackOptions::orients).

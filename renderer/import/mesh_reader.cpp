@@ -145,19 +145,28 @@ void noteMissingMaterials(std::string_view text, const std::string& path, Triang
                         missing.size(), names.size(), missing.front()));
 }
 
-/// Adds the files that the one at `path` names, as far as they exist, and what those name.
-absl::Status addCompanions(const std::string& path, std::vector<std::string>& found) {
+/// The names of files in the one at `path`.
+absl::StatusOr<std::vector<std::string>> namesIn(const std::string& path) {
+    ASSIGN_OR_RETURN(const mesh::MappedFile file, mesh::MappedFile::open(path));
+    const std::string_view text = textOf(file);
+    if (looksLikePly(text) || endsWith(path, ".ply"))
+        return texturesOfPly(text, path);
     const auto kind = std::ranges::find_if(
         kMentions, [&](const Mention& mention) { return endsWith(path, mention.ending); });
     if (kind == kMentions.end())
-        return absl::OkStatus();
-    ASSIGN_OR_RETURN(const mesh::MappedFile file, mesh::MappedFile::open(path));
-    for (const std::string& name : mentionedFiles(textOf(file), kind->mark, kind->ends)) {
+        return std::vector<std::string>();
+    return mentionedFiles(text, kind->mark, kind->ends);
+}
+
+/// Adds the files that the one at `path` names, as far as they exist, and what those name.
+absl::Status addCompanions(const std::string& path, std::vector<std::string>& found) {
+    ASSIGN_OR_RETURN(const std::vector<std::string> names, namesIn(path));
+    for (const std::string& name : names) {
         const std::string companion = findTexture(name, path);
         if (companion.empty() || companion == path || std::ranges::count(found, companion) > 0)
             continue;
         found.push_back(companion);
-        if (kind->ending == ".obj")
+        if (endsWith(path, ".obj"))
             RETURN_IF_ERROR(addCompanions(companion, found));
     }
     return absl::OkStatus();
@@ -212,8 +221,6 @@ absl::StatusOr<TriangleMesh> readMesh(const std::string& path, const ImportContr
     ASSIGN_OR_RETURN(TriangleMesh mesh, parseMesh(text, path, control, reading.memoryBytes));
     if (reading.onlyNormalsOfEdges && !statesEdges(path))
         mesh.normals = {};
-    if (looksLikePly(text) || endsWith(path, ".ply"))
-        return mesh;
     if (endsWith(path, ".obj"))
         noteMissingMaterials(text, path, mesh);
     RETURN_IF_ERROR(loadTextures(mesh, path, control));

@@ -54,8 +54,8 @@ inline constexpr fabric::Rgba kPlainColour{204, 204, 204, 255};
 ImportControl shareOf(const ImportControl& control, std::size_t file, std::size_t count);
 
 /// Of the bytes of all files that a mesh is read from: `paths`, and the buffers, material files and
-/// textures that files of OBJ, glTF, AC3D and .jdn name, as far as they exist. One file without
-/// such company has the hash of its own bytes (mesh::contentHash). Errors: NotFound,
+/// textures that files of OBJ, glTF, AC3D, PLY and .jdn name, as far as they exist. One file
+/// without such company has the hash of its own bytes (mesh::contentHash). Errors: NotFound,
 /// PermissionDenied, InvalidArgument (a folder), Unavailable.
 absl::StatusOr<std::uint64_t> meshSourceHash(std::span<const std::string> paths);
 

@@ -40,6 +40,18 @@ constexpr std::array<TypeName, 16> kTypeNames = {{
     {"float64", PlyType::Float64},
 }};
 
+/// What follows the words `comment TextureFile`, blanks within included; nothing if it is not so.
+std::string_view textureFileOf(std::string_view line) {
+    for (const std::string_view word : {"comment", "TextureFile"}) {
+        line.remove_prefix(std::min(line.find_first_not_of(kBlank), line.size()));
+        if (!line.starts_with(word) || line.find_first_of(kBlank) != word.size())
+            return {};
+        line.remove_prefix(word.size());
+    }
+    line.remove_prefix(std::min(line.find_first_not_of(kBlank), line.size()));
+    return line.substr(0, line.find_last_not_of(kBlank) + 1);
+}
+
 /// Text of a file for a message: short, and without bytes that a terminal would act on.
 std::string quoted(std::string_view text) {
     std::string result = "'";
@@ -173,8 +185,8 @@ absl::Status Parser::parseProperty(const std::vector<std::string_view>& line) {
 
 absl::Status Parser::parseLine(std::string_view text) {
     const std::vector<std::string_view> line = words(text);
-    header_.textureFiles +=
-        line.size() > 2 && line[0] == "comment" && line[1] == "TextureFile" ? 1 : 0;
+    if (const std::string_view name = textureFileOf(text); !name.empty())
+        header_.textureFiles.emplace_back(name);
     if (line.empty() || line[0] == "comment" || line[0] == "obj_info")
         return absl::OkStatus();
     if (line[0] == "format")

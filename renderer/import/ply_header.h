@@ -41,10 +41,10 @@ struct PlyElement {
 
 struct PlyHeader {
     PlyEncoding encoding = PlyEncoding::Ascii;
-    std::vector<PlyElement> elements;  ///< in the order of the body
-    std::uint64_t textureFiles = 0;    ///< named by comments, as MeshLab does
-    std::size_t bodyOffset = 0;        ///< of the first byte after the header
-    std::uint64_t lines = 0;           ///< of the header, end_header included
+    std::vector<PlyElement> elements;       ///< in the order of the body
+    std::vector<std::string> textureFiles;  ///< named by comments, as MeshLab does, in order
+    std::size_t bodyOffset = 0;             ///< of the first byte after the header
+    std::uint64_t lines = 0;                ///< of the header, end_header included
 
     const PlyElement* find(std::string_view elementName) const;  ///< null if there is none
 };

@@ -8,7 +8,6 @@
 #include <string_view>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "fabric/status.h"
 
@@ -21,7 +20,8 @@ struct SlotName {
     std::string_view name;
     std::size_t slot;
 };
-constexpr std::array<SlotName, 14> kSlotNames = {{
+/// Texture coordinates are called as by Blender, MeshLab and photogrammetry programs.
+constexpr std::array<SlotName, 20> kSlotNames = {{
     {"x", 0},
     {"y", 1},
     {"z", 2},
@@ -36,6 +36,12 @@ constexpr std::array<SlotName, 14> kSlotNames = {{
     {"diffuse_green", 7},
     {"diffuse_blue", 8},
     {"diffuse_alpha", 9},
+    {"s", kU},
+    {"t", kV},
+    {"u", kU},
+    {"v", kV},
+    {"texture_u", kU},
+    {"texture_v", kV},
 }};
 
 std::size_t slotOf(std::string_view name) {
@@ -43,19 +49,6 @@ std::size_t slotOf(std::string_view name) {
         if (entry.name == name)
             return entry.slot;
     return kIgnored;
-}
-
-/// As MeshLab, Blender and photogrammetry programs call them.
-constexpr std::array<std::string_view, 6> kTextureCoordinates = {"s", "t",         "u",
-                                                                 "v", "texture_u", "texture_v"};
-
-bool hasTextureCoordinates(const PlyHeader& header) {
-    const PlyElement* const vertex = header.find("vertex");
-    const PlyElement* const face = header.find("face");
-    return std::ranges::any_of(kTextureCoordinates,
-                               [&](std::string_view name) { return vertex->find(name); }) ||
-           (face != nullptr && face->find("texcoord") != nullptr) ||
-           header.find("multi_texture_vertex") != nullptr;
 }
 
 bool hasFaceColours(const PlyHeader& header) {
@@ -97,10 +90,10 @@ absl::Status checkFaceElement(const PlyElement& element) {
 
 }  // namespace
 
-VertexLayout::VertexLayout(const PlyElement& element) {
+VertexLayout::VertexLayout(const PlyElement& element, bool withPlaces) {
     for (const PlyProperty& property : element.properties) {
         std::size_t slot = property.isList() ? std::size_t{kIgnored} : slotOf(property.name);
-        if (isFilled[slot])
+        if (isFilled[slot] || (!withPlaces && (slot == kU || slot == kV)))
             slot = kIgnored;
         slots.push_back(slot);
         if (slot != kIgnored) {
@@ -123,20 +116,42 @@ const PlyProperty* findCorners(const PlyElement& element) {
     return property != nullptr ? property : element.find("vertex_index");
 }
 
-std::vector<std::string> notesOf(const PlyHeader& header) {
-    std::vector<std::string> leftOut;
-    if (header.textureFiles > 0)
-        leftOut.push_back(fmt::format("texture files ({})", header.textureFiles));
-    if (hasTextureCoordinates(header))
-        leftOut.emplace_back("texture coordinates");
+TextureLayout::TextureLayout(const PlyHeader& header)
+    : images(header.textureFiles.size()),
+      ofVertices(VertexLayout(*header.find("vertex"), true).hasPlaces()) {
+    const PlyElement* const face = header.find("face");
+    if (face == nullptr)
+        return;
+    const PlyProperty* const places = face->find("texcoord");
+    ofFaces = places != nullptr && places->isList() ? places : nullptr;
+    const PlyProperty* const property = face->find("texnumber");
+    number = property != nullptr && !property->isList() ? property : nullptr;
+}
+
+std::vector<std::string> notesOf(const PlyHeader& header, bool withTextures) {
+    std::vector<std::string> notes;
+    const TextureLayout layout(header);
+    const bool hasPlaces = layout.ofVertices || layout.ofFaces != nullptr;
+    if (layout.isUsed() && !withTextures)
+        notes.push_back(fmt::format(
+            "left out its {} textures, which a mesh that is imported part by part cannot have; "
+            "allow more memory, so that it is imported at once",
+            layout.images));
+    if (layout.images > 0 && !hasPlaces)
+        notes.push_back(fmt::format(
+            "left out its {} textures: it has no texture coordinates that are known here (s t, "
+            "u v or texture_u texture_v of vertices, a list texcoord of faces)",
+            layout.images));
+    if (layout.images == 0 && hasPlaces)
+        notes.emplace_back(
+            "its texture coordinates are of no use: it names no image (comment TextureFile)");
+    if (header.find("multi_texture_vertex") != nullptr)
+        notes.emplace_back(
+            "left out its texture coordinates of the element multi_texture_vertex; for textures "
+            "export it as OBJ or glTF");
     if (hasFaceColours(header))
-        leftOut.emplace_back("colours of faces");
-    if (leftOut.empty())
-        return {};
-    return {fmt::format(
-        "left out its {}: of PLY only vertices' colours are read; for textures export it as OBJ or "
-        "glTF",
-        fmt::join(leftOut, ", "))};
+        notes.emplace_back("left out its colours of faces: of PLY those of vertices are read");
+    return notes;
 }
 
 absl::Status checkIsMesh(const PlyHeader& header) {

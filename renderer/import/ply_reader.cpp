@@ -15,6 +15,7 @@
 #include "fabric/status.h"
 #include "renderer/import/ply_header.h"
 #include "renderer/import/ply_layout.h"
+#include "renderer/import/ply_textures.h"
 #include "renderer/import/ply_values.h"
 #include "renderer/import/polygon.h"
 #include "renderer/mesh/mapped_file.h"
@@ -43,11 +44,15 @@ public:
           bodyBytes_(body.size()),
           control_(control),
           take_(take),
-          vertexCount_(header.find("vertex")->count) {
-        mesh_.notes = notesOf(header);
+          vertexCount_(header.find("vertex")->count),
+          layout_(header),
+          textures_(layout_),
+          isTextured_(layout_.isUsed() && !take_) {
+        mesh_.notes = notesOf(header, isTextured_);
     }
 
-    absl::StatusOr<TriangleMesh> read();
+    /// `path` is where the file would have its images.
+    absl::StatusOr<TriangleMesh> read(const std::string& path);
 
 private:
     /// A face of more than three corners waits until all vertices are known.
@@ -69,6 +74,9 @@ private:
     absl::Status readFace(const PlyProperty& property, std::uint64_t index, std::uint64_t count);
     absl::Status readStrip(const PlyProperty& property, std::uint64_t index, std::uint64_t count);
     void extend(Strip& strip, std::uint32_t corner);
+    absl::Status readTexturedFaces();
+    absl::Status readTexturedFace(const PlyProperty* corners, std::uint64_t index);
+    absl::Status readPlaces(std::uint64_t index);
     absl::Status readCount(const PlyProperty& property, std::uint64_t index, std::uint64_t& count);
     absl::Status skip(const PlyProperty& property, std::uint64_t index);
     absl::Status triangulatePolygons();
@@ -97,6 +105,10 @@ private:
     std::uint64_t handedOver_ = 0;  // triangles
     std::vector<Polygon> polygons_;
     std::vector<std::uint32_t> polygonCorners_;
+    const TextureLayout layout_;
+    PlyTextures textures_;
+    const bool isTextured_;
+    std::vector<double> places_;  // of the face being read
 };
 
 template <typename Values>
@@ -211,16 +223,19 @@ absl::Status BodyReader<Values>::storeVertex(const VertexLayout& layout, const V
             {colourByte(row[6], layout.types[6]), colourByte(row[7], layout.types[7]),
              colourByte(row[8], layout.types[8]),
              layout.isFilled[kAlpha] ? colourByte(row[9], layout.types[9]) : std::uint8_t{255}});
+    if (layout.hasPlaces())
+        mesh_.textureCoordinates.push_back(placeFrom(row[kU], row[kV]));
     return absl::OkStatus();
 }
 
 template <typename Values>
 absl::Status BodyReader<Values>::readVertices() {
-    const VertexLayout layout(*element_);
+    const VertexLayout layout(*element_, isTextured_ && layout_.ofFaces == nullptr);
     const std::uint64_t room = roomFor(vertexCount_);
     mesh_.positions.reserve(room);
     mesh_.normals.reserve(layout.hasThree(kNormalX) ? room : 0);
     mesh_.colours.reserve(layout.hasThree(kRed) ? room : 0);
+    mesh_.textureCoordinates.reserve(layout.hasPlaces() ? room : 0);
     VertexRow row{};
     for (std::uint64_t i = 0; i < element_->count; ++i) {
         RETURN_IF_ERROR(begin(i));
@@ -307,6 +322,51 @@ absl::Status BodyReader<Values>::readList(const PlyProperty& property, std::uint
 }
 
 template <typename Values>
+absl::Status BodyReader<Values>::readPlaces(std::uint64_t index) {
+    const PlyProperty& property = *layout_.ofFaces;
+    std::uint64_t count = 0;
+    RETURN_IF_ERROR(readCount(property, index, count));
+    places_.resize(count);
+    for (double& place : places_)
+        if (!values_.number(property.type, place))
+            return unreadable(property.name, index);
+    return absl::OkStatus();
+}
+
+template <typename Values>
+absl::Status BodyReader<Values>::readTexturedFace(const PlyProperty* corners, std::uint64_t index) {
+    const std::size_t triangles = mesh_.triangles.size();
+    const std::size_t cornersBefore = polygonCorners_.size();
+    double number = 0;
+    places_.clear();
+    for (const PlyProperty& property : element_->properties) {
+        if (&property == corners)
+            RETURN_IF_ERROR(readList(property, index));
+        else if (&property == layout_.ofFaces)
+            RETURN_IF_ERROR(readPlaces(index));
+        else if (&property != layout_.number)
+            RETURN_IF_ERROR(skip(property, index));
+        else if (!values_.number(property.type, number))
+            return unreadable(property.name, index);
+    }
+    const std::size_t count = mesh_.triangles.size() > triangles
+                                  ? std::tuple_size_v<Corners>
+                                  : polygonCorners_.size() - cornersBefore;
+    textures_.addFace(index, count, places_, number, triangles);
+    return absl::OkStatus();
+}
+
+template <typename Values>
+absl::Status BodyReader<Values>::readTexturedFaces() {
+    const PlyProperty* const corners = findCorners(*element_);
+    for (std::uint64_t i = 0; i < element_->count; ++i) {
+        RETURN_IF_ERROR(begin(i));
+        RETURN_IF_ERROR(readTexturedFace(corners, i));
+    }
+    return absl::OkStatus();
+}
+
+template <typename Values>
 absl::Status BodyReader<Values>::readElement(const PlyElement& element) {
     element_ = &element;
     if (element.properties.empty())
@@ -317,6 +377,8 @@ absl::Status BodyReader<Values>::readElement(const PlyElement& element) {
     const PlyProperty* corners = isSurface ? findCorners(element) : nullptr;
     if (element.name == "face")
         mesh_.triangles.reserve(roomFor(std::min(element.count, values_.bytesLeft() / 4)));
+    if (element.name == "face" && isTextured_ && layout_.isByFace())
+        return readTexturedFaces();
     for (std::uint64_t i = 0; i < element.count; ++i) {
         RETURN_IF_ERROR(begin(i));
         for (const PlyProperty& property : element.properties)
@@ -342,8 +404,10 @@ absl::Status BodyReader<Values>::triangulatePolygons() {
 }
 
 template <typename Values>
-absl::StatusOr<TriangleMesh> BodyReader<Values>::read() {
+absl::StatusOr<TriangleMesh> BodyReader<Values>::read(const std::string& path) {
     for (const PlyElement& element : header_.elements) RETURN_IF_ERROR(readElement(element));
+    if (isTextured_)
+        RETURN_IF_ERROR(textures_.applyTo(mesh_, polygonCorners_, textureNames(header_, path)));
     RETURN_IF_ERROR(triangulatePolygons());
     RETURN_IF_ERROR(handOver());
     if (mesh_.triangles.empty() && handedOver_ == 0)
@@ -355,18 +419,18 @@ absl::StatusOr<TriangleMesh> BodyReader<Values>::read() {
     return std::move(mesh_);
 }
 
-absl::StatusOr<TriangleMesh> parse(std::string_view file, const ImportControl& control,
-                                   const TakeUpTo& take = {}) {
+absl::StatusOr<TriangleMesh> parse(std::string_view file, const std::string& path,
+                                   const ImportControl& control, const TakeUpTo& take = {}) {
     ASSIGN_OR_RETURN(const PlyHeader header, parsePlyHeader(file));
     RETURN_IF_ERROR(checkIsMesh(header));
     const std::string_view body = file.substr(header.bodyOffset);
     switch (header.encoding) {
         case PlyEncoding::Ascii:
-            return BodyReader<AsciiValues>(header, body, control, take).read();
+            return BodyReader<AsciiValues>(header, body, control, take).read(path);
         case PlyEncoding::LittleEndian:
-            return BodyReader<BinaryValues<false>>(header, body, control, take).read();
+            return BodyReader<BinaryValues<false>>(header, body, control, take).read(path);
         case PlyEncoding::BigEndian:
-            return BodyReader<BinaryValues<true>>(header, body, control, take).read();
+            return BodyReader<BinaryValues<true>>(header, body, control, take).read(path);
     }
     return absl::InternalError("unknown PLY encoding");
 }
@@ -380,7 +444,7 @@ std::string_view textOf(const mesh::MappedFile& file) {
 
 absl::StatusOr<TriangleMesh> parsePly(std::string_view file, const std::string& name,
                                       const ImportControl& control) {
-    absl::StatusOr<TriangleMesh> mesh = parse(file, control);
+    absl::StatusOr<TriangleMesh> mesh = parse(file, name, control);
     return mesh.ok() ? std::move(mesh) : fabric::withContext(mesh.status(), name);
 }
 
@@ -392,7 +456,7 @@ absl::Status readPlyPieces(const std::string& path, const TakePiece& take,
         file.forget(offset);  // the header before the body keeps this on the safe side
         return take(piece);
     };
-    return fabric::withContext(parse(text, control, takeUpTo).status(), path);
+    return fabric::withContext(parse(text, path, control, takeUpTo).status(), path);
 }
 
 absl::StatusOr<PlySize> measurePly(const std::string& path) {
@@ -407,7 +471,12 @@ absl::StatusOr<PlySize> measurePly(const std::string& path) {
     return PlySize{header->find("vertex")->count,
                    (faces != nullptr ? faces->count : 0) +
                        (header->find("tristrips") != nullptr ? bytes / 2 : 0),
-                   bytes};
+                   bytes, TextureLayout(*header).isUsed()};
+}
+
+std::vector<std::string> texturesOfPly(std::string_view file, const std::string& path) {
+    const absl::StatusOr<PlyHeader> header = parsePlyHeader(file);
+    return header.ok() ? textureNames(*header, path) : std::vector<std::string>();
 }
 
 absl::StatusOr<TriangleMesh> readPly(const std::string& path, const ImportControl& control) {

@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <absl/status/statusor.h>
 
@@ -19,8 +20,12 @@ namespace eyrie::import {
 ///               whole-number colours count to 255 (16-bit ones to 65,535), real ones to 1
 ///   face:       list vertex_indices or vertex_index, of three corners or more (polygon.h)
 ///   tristrips:  the same, strips parted by -1
-/// Faces of fewer corners are dropped and counted. Textures, their coordinates and colours of faces
-/// are left out, which notes say.
+///   textures:   images named by comments TextureFile, for loadTextures; a face's coordinates in
+///               its list texcoord, of its image texnumber, or its vertices' (s t, u v, texture_u
+///               texture_v). Vertices along seams are split. An image stands for the colours.
+/// Faces of fewer corners are dropped and counted; those whose texcoord or texnumber fits nothing
+/// have no texture, and are counted in notes, as coordinates are that are no numbers. Colours of
+/// faces, and textures by halves (images or coordinates alone), are left out, which notes say.
 ///
 /// Errors: NotFound, PermissionDenied, Cancelled, InvalidArgument naming file, element, number,
 /// field, what was found, what was expected and the remedy: truncated file, counts that cannot fit
@@ -34,8 +39,8 @@ absl::StatusOr<TriangleMesh> readPly(const std::string& path, const ImportContro
 using TakePiece = std::function<absl::Status(TriangleMesh& piece)>;
 
 /// The same a few megabytes at a time, and no more in memory; droppedFaces count from the start,
-/// and each has the notes of all. Errors: as above; those of `take`; InvalidArgument where a face
-/// has more than three corners.
+/// and each has the notes of all. Textures are left out, which those say. Errors: as above; those
+/// of `take`; InvalidArgument where a face has more than three corners.
 absl::Status readPlyPieces(const std::string& path, const TakePiece& take,
                            const ImportControl& control = {});
 
@@ -44,11 +49,15 @@ struct PlySize {
     std::uint64_t vertices = 0;
     std::uint64_t faces = 0;  ///< strips count as many as they may have triangles
     std::uint64_t fileBytes = 0;
+    bool isTextured = false;
 };
 /// Errors: those of readPly but for what lies in the body.
 absl::StatusOr<PlySize> measurePly(const std::string& path);
 
-/// The same as readPly from memory. `name` stands for the file in messages.
+/// The files of images that PLY text at `path` names; none where its header is damaged.
+std::vector<std::string> texturesOfPly(std::string_view file, const std::string& path);
+
+/// The same as readPly from memory. `name` stands for the file, in messages too.
 absl::StatusOr<TriangleMesh> parsePly(std::string_view file, const std::string& name,
                                       const ImportControl& control = {});
 

@@ -24,6 +24,7 @@
 #include "renderer/mesh/eym_format.h"
 #include "tests/renderer/import/file_size_limit.h"
 #include "tests/renderer/import/ply_text.h"
+#include "tests/renderer/import/tga_text.h"
 #include "tests/renderer/mesh/temporary_folder.h"
 
 namespace eyrie::import {
@@ -278,12 +279,32 @@ TEST(MeshImport, SaysByPartsTooWhatItLeavesOutOfAPly) {
     const test::TemporaryFolder folder;
     std::string text = test::plyOf(test::tetrahedron(), test::Encoding::Ascii);
     text.insert(text.find("element vertex"), "comment TextureFile a.png\n");
+    text.insert(text.find("element face"), "element multi_texture_vertex 0\nproperty float u\n");
     test::writeFile(folder.file("m.ply"), text);
     const auto whole = importMesh({folder.file("m.ply")}, folder.file("whole.eym"));
     const auto parted = importByParts(folder.file("m.ply"), folder.file("parts.eym"), 16384);
     ASSERT_TRUE(whole.ok() && parted.ok()) << whole.status() << parted.status();
-    EXPECT_THAT(whole->notes, ElementsAre(HasSubstr("texture files (1)")));
+    EXPECT_THAT(whole->notes, ElementsAre(HasSubstr("1 textures"), HasSubstr("multi_text")));
     EXPECT_EQ(parted->notes, whole->notes);
+}
+
+TEST(MeshImport, ByPartsLeavesTexturesOutAndSaysSo) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.ply"),
+                    "ply\nformat ascii 1.0\ncomment TextureFile a.tga\nelement vertex 3\n"
+                    "property float x\nproperty float y\nproperty float z\nproperty float u\n"
+                    "property float v\nelement face 1\nproperty list uchar int vertex_indices\n"
+                    "end_header\n0 0 0 0 0\n1 0 0 1 0\n0 1 0 0 1\n3 0 1 2\n");
+    test::writeFile(folder.file("a.tga"), test::tgaOf(1, 1, {{9, 8, 7, 255}}));
+    const auto whole = importMesh({folder.file("m.ply")}, folder.file("whole.eym"));
+    const auto parted = importByParts(folder.file("m.ply"), folder.file("parts.eym"), 16384);
+    ASSERT_TRUE(whole.ok()) << whole.status();
+    ASSERT_TRUE(parted.ok()) << parted.status();
+    EXPECT_THAT(whole->notes, testing::IsEmpty());
+    EXPECT_EQ(mesh::EymFile::open(folder.file("whole.eym"))->images().size(), 1U);
+    EXPECT_THAT(parted->notes, ElementsAre(HasSubstr("left out its 1 textures, which a mesh that "
+                                                     "is imported part by part cannot have")));
+    EXPECT_TRUE(mesh::EymFile::open(folder.file("parts.eym"))->images().empty());
 }
 
 TEST(MeshImport, ReportsItsStagesInOrder) {
@@ -418,6 +439,15 @@ TEST(MeshImport, KnowsThatTrianglesWhichShareNoCornersTakeMoreMemory) {
     constexpr std::uint64_t kMemory = std::uint64_t{1} << 30;
     EXPECT_LT(trianglesAtOnce(kMemory, kTriangles, 3 * kTriangles, {}),
               trianglesAtOnce(kMemory, kTriangles, kTriangles / 2, {}) / 2);
+}
+
+TEST(MeshImport, KnowsThatTexturedTrianglesTakeMoreMemory) {
+    constexpr std::uint64_t kTriangles = 500'000;
+    // Measured: 175 MiB, of which about 55 are for the program; 24 are the file.
+    EXPECT_GT(importBytes(kTriangles, 300'000, std::uint64_t{24} << 20, {}, true),
+              std::uint64_t{115} << 20);
+    EXPECT_LT(importBytes(kTriangles, 300'000, std::uint64_t{24} << 20, {}),
+              std::uint64_t{64} << 20);
 }
 
 INSTANTIATE_TEST_SUITE_P(Stages, MeshImportStopped,

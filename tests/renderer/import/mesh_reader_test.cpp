@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/import/mesh_reader.h"
 
+#include <filesystem>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -136,6 +138,51 @@ TEST(MeshReader, ReadsTexturesAndCountsThoseThatAreMissing) {
     EXPECT_EQ(colourOf(3), (fabric::Rgba{0, 255, 0, 255}));
 }
 
+constexpr const char* kTexturedPly =
+    "ply\nformat ascii 1.0\ncomment TextureFile <this>_A.png\ncomment TextureFile lost.png\n"
+    "element vertex 4\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\n"
+    "property uchar green\nproperty uchar blue\nelement face 2\n"
+    "property list uchar int vertex_indices\nproperty list uchar float texcoord\n"
+    "property int texnumber\nend_header\n0 0 0 255 0 0\n1 0 0 255 0 0\n0 1 0 255 0 0\n"
+    "1 1 0 255 0 0\n3 0 1 2 6 0 0 1 0 0 1 0\n3 2 1 3 6 0 1 1 0 1 1 1\n";
+
+TEST(MeshReader, LoadsTheTexturesOfAPlyAndKeepsItsColoursWhereOneIsMissing) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.ply"), kTexturedPly);
+    test::writeFile(folder.file("m_A.PNG"), test::tgaOf(1, 1, {{9, 8, 7, 255}}));
+    const auto mesh = readMesh(folder.file("m.ply"));
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    EXPECT_THAT(mesh->notes,
+                testing::ElementsAre(HasSubstr("1 of 2 textures cannot be read, and their "
+                                               "materials have their colour alone: 'lost.png'")));
+    ASSERT_EQ(mesh->images.size(), 1U);
+    ASSERT_EQ(mesh->triangles.size(), 2U);
+    const std::uint32_t textured = mesh->triangles[0][0], lost = mesh->triangles[1][2];
+    EXPECT_EQ(mesh->materials[mesh->materialOf[textured]], (mesh::Material{.image = 0}));
+    EXPECT_EQ(mesh->colours[textured], (fabric::Rgba{255, 255, 255, 255}));
+    EXPECT_EQ(mesh->materials[mesh->materialOf[lost]], mesh::Material());
+    EXPECT_EQ(mesh->colours[lost], (fabric::Rgba{255, 0, 0, 255}));
+}
+
+TEST(MeshReader, LoadsBothImagesOfATexturedPlyOfMeshLab) {
+    const test::TemporaryFolder folder;
+    const std::string data = EYRIE_SOURCE_DIR "/../shared/data/hard/ply/";
+    for (const auto& [name, from] : {std::pair("TextureDouble.ply", "meshlab_TextureDouble.ply"),
+                                     {"TextureDouble_A.png", "TextureDouble_A.png"},
+                                     {"TextureDouble_B.png", "TextureDouble_B.png"}}) {
+        ASSERT_TRUE(std::filesystem::exists(data + from)) << "missing test data: " << data << from;
+        std::filesystem::copy_file(data + from, folder.file(name));
+    }
+    const auto mesh = readMesh(folder.file("TextureDouble.ply"));
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    EXPECT_THAT(mesh->notes, testing::IsEmpty());
+    ASSERT_EQ(mesh->images.size(), 2U);
+    EXPECT_EQ(mesh->images[1].shape.width, 512U);
+    EXPECT_EQ(mesh->positions.size(), 8U) << "no seams within a square";
+    EXPECT_EQ(mesh->materials[mesh->materialOf[0]].image, 0);
+    EXPECT_EQ(mesh->materials[mesh->materialOf[7]].image, 1);
+}
+
 TEST(MeshReader, RefusesTexturesOfAbsurdSize) {
     const test::TemporaryFolder folder;
     test::writeFile(folder.file("m.obj"), kTexturedObj);
@@ -229,6 +276,18 @@ TEST(MeshSourceHash, IsThatOfALoneFileAndCountsItsCompany) {
     const std::uint64_t untextured = *meshSourceHash(paths);
     test::writeFile(folder.file("m.png"), "a");
     EXPECT_NE(untextured, *meshSourceHash(paths));
+}
+
+TEST(MeshSourceHash, CountsTexturesOfPly) {
+    const test::TemporaryFolder folder;
+    const std::vector<std::string> paths = {folder.file("m.ply")};
+    test::writeFile(paths[0], kTexturedPly);
+    const std::uint64_t alone = *meshSourceHash(paths);
+    EXPECT_EQ(alone, *mesh::contentHash(paths[0]));
+    test::writeFile(folder.file("m_A.png"), "a");
+    const std::uint64_t with = *meshSourceHash(paths);
+    test::writeFile(folder.file("m_A.png"), "b");
+    EXPECT_TRUE(with != alone && with != *meshSourceHash(paths));
 }
 
 TEST(MeshSourceHash, CountsBuffersOfGltf) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -12,6 +14,29 @@
 
 namespace eyrie::import {
 namespace {
+
+/// A body of two triangles that meet in a seam, and a quad, in two images.
+std::string textured(test::Encoding encoding) {
+    test::PlyBody body(encoding);
+    for (const auto& [x, y] : {std::pair(0.0F, 0.0F), {1.0F, 0.0F}, {0.0F, 1.0F}, {1.0F, 1.0F}})
+        body.add(x).add(y).add(0.0F).endLine();
+    std::uint8_t number = 0;
+    for (const std::vector<std::int32_t>& face :
+         std::vector<std::vector<std::int32_t>>{{0, 1, 2}, {2, 1, 3}, {0, 1, 3, 2}}) {
+        body.add(static_cast<std::uint8_t>(face.size()));
+        for (const std::int32_t corner : face) body.add(corner);
+        body.add(static_cast<std::uint8_t>(2 * face.size()));
+        for (std::size_t i = 0; i < 2 * face.size(); ++i)
+            body.add(0.25F * static_cast<float>(i + number));
+        body.add(static_cast<std::uint8_t>(number++ % 2)).endLine();
+    }
+    return test::formatLine(encoding) +
+           "comment TextureFile a.png\ncomment TextureFile <this>.png\nelement vertex 4\n"
+           "property float x\nproperty float y\nproperty float z\nelement face 3\n"
+           "property list uchar int vertex_indices\nproperty list uchar float texcoord\n"
+           "property uchar texnumber\nend_header\n" +
+           body.bytes();
+}
 
 class PlyDamage : public testing::TestWithParam<test::Encoding> {};
 
@@ -32,7 +57,7 @@ std::string sample(test::Encoding encoding) {
 }
 
 void expectSound(const std::string& text, std::size_t at) {
-    const auto mesh = parsePly(text, "damaged.ply");
+    auto mesh = parsePly(text, "damaged.ply");
     if (!mesh.ok()) {
         EXPECT_GT(mesh.status().message().size(), 20U) << at;
         return;
@@ -41,37 +66,47 @@ void expectSound(const std::string& text, std::size_t at) {
         EXPECT_TRUE(std::isfinite(position.x + position.y + position.z)) << at;
     for (const auto& triangle : mesh->triangles)
         for (const std::uint32_t corner : triangle) EXPECT_LT(corner, mesh->positions.size()) << at;
+    EXPECT_TRUE(mesh->materialOf.empty() || mesh->materialOf.size() == mesh->positions.size());
+    for (const auto& triangle : mesh->triangles)
+        for (const std::uint32_t corner : triangle)
+            if (!mesh->materialOf.empty()) {
+                EXPECT_LT(mesh->materialOf[corner], mesh->materials.size()) << at;
+                EXPECT_EQ(mesh->materialOf[corner], mesh->materialOf[triangle[0]]) << at;
+            }
+    EXPECT_EQ(mesh->textureCoordinates.size(), mesh->materialOf.size()) << at;
+    mesh->images.resize(mesh->textures.size());  // as if they had been loaded
     PackCounts counts;
-    const auto packed = packMesh(*mesh, counts);
+    const auto packed = packMesh(*std::move(mesh), counts);
     EXPECT_TRUE(packed.ok() || !packed.status().message().empty()) << at;
 }
 
 TEST_P(PlyDamage, OfTheLengthGivesAMessage) {
-    const std::string text = sample(GetParam());
-    ASSERT_TRUE(parsePly(text, "whole.ply").ok()) << parsePly(text, "whole.ply").status();
-    // In text the last line end may go, and of the last number all but a digit.
-    for (std::size_t length = 0; length + 3 < text.size(); ++length)
-        EXPECT_FALSE(parsePly(text.substr(0, length), "cut.ply").ok()) << length;
+    for (const std::string& text : {sample(GetParam()), textured(GetParam())}) {
+        ASSERT_TRUE(parsePly(text, "whole.ply").ok()) << parsePly(text, "whole.ply").status();
+        // In text the last line end may go, and of the last number all but a digit.
+        for (std::size_t length = 0; length + 3 < text.size(); ++length)
+            EXPECT_FALSE(parsePly(text.substr(0, length), "cut.ply").ok()) << length;
+    }
 }
 
 TEST_P(PlyDamage, OfAnyBitNeverBreaksTheReader) {
-    const std::string text = sample(GetParam());
-    for (std::size_t bit = 0; bit < text.size() * 8; ++bit) {
-        std::string flipped = text;
-        flipped[bit / 8] = static_cast<char>(flipped[bit / 8] ^ 1 << bit % 8);
-        expectSound(flipped, bit);
-    }
+    for (const std::string& text : {sample(GetParam()), textured(GetParam())})
+        for (std::size_t bit = 0; bit < text.size() * 8; ++bit) {
+            std::string flipped = text;
+            flipped[bit / 8] = static_cast<char>(flipped[bit / 8] ^ 1 << bit % 8);
+            expectSound(flipped, bit);
+        }
 }
 
 TEST_P(PlyDamage, OfAnyByteNeverBreaksTheReader) {
-    const std::string text = sample(GetParam());
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        for (const char c : {'\0', '\xFF', '9', '-', 'e', '\n'}) {
-            std::string damaged = text;
-            damaged[i] = c;
-            expectSound(damaged, i);
+    for (const std::string& text : {sample(GetParam()), textured(GetParam())})
+        for (std::size_t i = 0; i < text.size(); ++i) {
+            for (const char c : {'\0', '\xFF', '9', '-', 'e', '\n'}) {
+                std::string damaged = text;
+                damaged[i] = c;
+                expectSound(damaged, i);
+            }
         }
-    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Encodings, PlyDamage,

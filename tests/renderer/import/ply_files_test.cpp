@@ -94,6 +94,7 @@ TEST_P(PlyFiles, GiveTheirTrianglesOrAReason) {
     }
     ASSERT_TRUE(mesh.ok()) << mesh.status();
     EXPECT_EQ(mesh->triangles.size(), GetParam().triangles);
+    mesh->images.resize(mesh->textures.size());  // as if they had been loaded
     PackCounts counts;
     const auto packed = packMesh(*std::move(mesh), counts, {.normals = NormalSource::File});
     ASSERT_TRUE(packed.ok()) << packed.status();

@@ -2,6 +2,7 @@
 #include "renderer/import/ply_reader.h"
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -117,27 +118,123 @@ TEST(PlyReader, TakesPropertiesAndElementsInAnyOrderAndSkipsOthers) {
     }
 }
 
-TEST(PlyReader, SaysThatItLeavesOutTexturesAndColoursOfFaces) {
-    const std::string face = "property list uchar int vertex_indices\n";
+const std::string kFaces = "property list uchar int vertex_indices\n";
+const std::string kTexturedFaces =
+    kFaces + "property list uchar float texcoord\nproperty int texnumber\n";
+
+/// With images of these names.
+std::string naming(const std::string& text, const std::vector<std::string>& images) {
+    std::string comments;
+    for (const std::string& image : images) comments += "comment TextureFile " + image + "\n";
+    return replaced(text, "element vertex", comments + "element vertex");
+}
+
+/// Vertices with coordinates of these names.
+std::string withPlaces(const std::string& u, const std::string& v) {
+    return replaced(
+        replaced(withTriangle("3 0 1 2\n"), "property float z\n",
+                 "property float z\nproperty float " + u + "\nproperty float " + v + "\n"),
+        "0 0 0\n1 0 0\n0 1 0\n", "0 0 0 0 0\n1 0 0 1 0.25\n0 1 0 nan 1\n");
+}
+
+/// Material and place of a corner.
+std::pair<int, glm::vec2> lookOf(const TriangleMesh& mesh, std::size_t triangle,
+                                 std::size_t corner) {
+    const std::uint32_t vertex = mesh.triangles.at(triangle).at(corner);
+    return {mesh.materialOf.at(vertex), mesh.textureCoordinates.at(vertex)};
+}
+
+TEST(PlyReader, SaysWhatItLeavesOutOfALook) {
     EXPECT_THAT(parsed(withTriangle("3 0 1 2\n")).notes, testing::IsEmpty());
-    const std::string textured = replaced(
-        withTriangle("3 0 1 2 6 0 0 1 0 0 1 0\n",
-                     face + "property list uchar float texcoord\nproperty int texnumber\n"),
-        "element vertex", "comment TextureFile a.png\ncomment TextureFile b.png\nelement vertex");
-    EXPECT_THAT(
-        parsed(textured).notes,
-        testing::ElementsAre(testing::HasSubstr("texture files (2), texture coordinates:")));
+    EXPECT_THAT(parsed(naming(withTriangle("3 0 1 2\n"), {"a.png", "b.png"})).notes,
+                testing::ElementsAre(testing::HasSubstr("2 textures: it has no texture coord")));
     const std::string coloured =
         withTriangle("3 0 1 2 255 0 0\n",
-                     face + "property uchar red\nproperty uchar green\nproperty uchar blue\n");
+                     kFaces + "property uchar red\nproperty uchar green\nproperty uchar blue\n");
     EXPECT_THAT(parsed(coloured).notes,
                 testing::ElementsAre(testing::HasSubstr("left out its colours of faces:")));
-    const std::string withPlaces =
-        replaced(replaced(withTriangle("3 0 1 2\n"), "property float z\n",
-                          "property float z\nproperty float s\nproperty float t\n"),
-                 "0 0 0\n1 0 0\n0 1 0\n", "0 0 0 0 0\n1 0 0 1 0\n0 1 0 0 1\n");
-    EXPECT_THAT(parsed(withPlaces).notes,
-                testing::ElementsAre(testing::HasSubstr("left out its texture coordinates:")));
+    for (const std::string& text :
+         {withPlaces("s", "t"), withTriangle("3 0 1 2 0 0\n", kTexturedFaces)}) {
+        const TriangleMesh mesh = parsed(text);
+        EXPECT_THAT(mesh.notes, testing::ElementsAre(testing::HasSubstr("it names no image")));
+        EXPECT_TRUE(mesh.materials.empty() && mesh.textureCoordinates.empty());
+    }
+}
+
+TEST(PlyReader, LaysTheFirstImageByTheCoordinatesOfVertices) {
+    for (const auto& [u, v] : {std::pair("s", "t"), {"u", "v"}, {"texture_u", "texture_v"}}) {
+        const TriangleMesh mesh = parsed(naming(withPlaces(u, v), {"my wall.png", "b.png"}));
+        ASSERT_EQ(mesh.textures.size(), 2U);
+        EXPECT_EQ(mesh.textures[0].name, "my wall.png");
+        EXPECT_EQ(mesh.materials.at(1),
+                  (mesh::Material{.image = 0, .flags = kAlphaByImage | kReplacesColour}));
+        EXPECT_EQ(mesh.positions.size(), 3U);
+        EXPECT_EQ(mesh.colours, std::vector<fabric::Rgba>(3, {204, 204, 204, 255}));
+        EXPECT_EQ(lookOf(mesh, 0, 0), std::pair(1, glm::vec2(0, 1))) << "v goes up in PLY";
+        EXPECT_EQ(lookOf(mesh, 0, 1), std::pair(1, glm::vec2(1, 0.75F)));
+        EXPECT_EQ(lookOf(mesh, 0, 2), std::pair(1, glm::vec2(0, 0)));
+        EXPECT_THAT(mesh.notes,
+                    testing::ElementsAre(testing::HasSubstr("1 texture coordinates are no fin")));
+    }
+}
+
+TEST(PlyReader, SplitsVerticesWhereFacesHaveOtherPlacesOrImages) {
+    // The first two share two vertices with their places; the third has one other place, the
+    // fourth another image. A quad after them lies in the second image.
+    const std::string faces =
+        "3 0 1 2 6 0 0 1 0 0 1 0\n3 2 1 0 6 0 1 1 0 0 0 0\n3 0 1 2 6 0.5 0 1 0 0 1 0\n"
+        "3 0 1 2 6 0 0 1 0 0 1 1\n4 0 1 2 1 8 0 0 1 0 0 1 1 0 1\n";
+    const TriangleMesh mesh =
+        parsed(naming(withTriangle(faces, kTexturedFaces, 5), {"a.png", "b.png"}));
+    ASSERT_EQ(mesh.triangles.size(), 6U);
+    EXPECT_EQ(mesh.positions.size(), 3U + 1U + 3U);
+    EXPECT_EQ(mesh.triangles[0], (std::array<std::uint32_t, 3>{0, 1, 2}));
+    EXPECT_EQ(mesh.triangles[1], (std::array<std::uint32_t, 3>{2, 1, 0}));
+    EXPECT_EQ(mesh.triangles[2][1], 1U);
+    EXPECT_EQ(lookOf(mesh, 2, 0), std::pair(1, glm::vec2(0.5F, 1)));
+    EXPECT_EQ(mesh.positions[mesh.triangles[2][0]], mesh.positions[0]);
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+        EXPECT_EQ(lookOf(mesh, 3, corner).first, 2);
+        EXPECT_EQ(lookOf(mesh, 4, corner).first, 2);
+    }
+    EXPECT_THAT(mesh.notes, testing::IsEmpty());
+}
+
+TEST(PlyReader, SplitsVerticesByTheNumbersOfImagesAlone) {
+    std::string text = replaced(withPlaces("s", "t"), "3 0 1 2\n", "3 0 1 2 0\n3 0 1 2 1\n");
+    text =
+        replaced(replaced(text, kFaces, kFaces + "property uchar texnumber\n"), "face 1", "face 2");
+    const TriangleMesh mesh = parsed(naming(text, {"a.png", "b.png"}));
+    EXPECT_EQ(mesh.positions.size(), 6U);
+    EXPECT_EQ(lookOf(mesh, 0, 1), std::pair(1, glm::vec2(1, 0.75F)));
+    EXPECT_EQ(lookOf(mesh, 1, 1), std::pair(2, glm::vec2(1, 0.75F)));
+}
+
+TEST(PlyReader, CountsFacesWhoseTextureFitsNothingAndLeavesThemPlain) {
+    // Of a wrong length; none; a number without an image, twice; none by its number; not a number.
+    const std::string faces =
+        "3 0 1 2 4 0 0 1 0 0\n3 0 1 2 0 0\n3 0 1 2 6 0 0 1 0 0 1 1\n3 0 1 2 6 0 0 1 0 0 1 9\n"
+        "3 0 1 2 6 0 0 1 0 0 1 -1\n3 0 1 2 6 nan 0 1 inf 0 1 0\n2 0 1 4 0 0 1 0 0\n";
+    const TriangleMesh mesh = parsed(naming(withTriangle(faces, kTexturedFaces, 7), {"a.png"}));
+    ASSERT_EQ(mesh.triangles.size(), 6U);
+    for (std::size_t triangle = 0; triangle < 5; ++triangle)
+        EXPECT_EQ(lookOf(mesh, triangle, 0).first, 0) << triangle;
+    EXPECT_EQ(lookOf(mesh, 5, 0), std::pair(1, glm::vec2(0)));
+    EXPECT_EQ(mesh.droppedFaces, 1U);
+    EXPECT_THAT(
+        mesh.notes,
+        testing::ElementsAre(testing::AllOf(testing::StartsWith("1 faces have a texcoord"),
+                                            testing::HasSubstr("face 0")),
+                             testing::AllOf(testing::StartsWith("2 faces have a texnumber"),
+                                            testing::HasSubstr("none of the 1 textures"),
+                                            testing::HasSubstr("face 2")),
+                             testing::StartsWith("2 texture coordinates are no finite numbers")));
+}
+
+TEST(PlyReader, NamesImagesAfterTheFileWhereItSaysSo) {
+    const auto mesh = parsePly(naming(withPlaces("s", "t"), {"<this>_A.png"}), "scans/wall.ply");
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    EXPECT_EQ(mesh->textures.at(0).name, "wall_A.png");
 }
 
 TEST(PlyReader, TakesColoursOfEveryTypeAsBytes) {
@@ -266,6 +363,10 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{withTriangle("3 0 1"),
                 {"face 0, count of vertex_indices", "line 13", "found 3", "truncated"}},
         Refused{withTriangle("2 0 1"), {"three corners", "1 with fewer"}},
+        Refused{naming(withTriangle("3 0 1 2 200 0 0", kTexturedFaces), {"a.png"}),
+                {"face 0, count of texcoord", "found 200", "truncated"}},
+        Refused{naming(withTriangle("3 0 1 2 2 0 u 0", kTexturedFaces), {"a.png"}),
+                {"face 0, texcoord", "'u'", "number"}},
         Refused{withTriangle("3 0 1.5 2"), {"face 0, vertex_indices", "'1.5'"}}));
 
 TEST(PlyReader, TellsABinaryFileThatEndsEarlyFromOneThatLies) {
