@@ -25,6 +25,16 @@ constexpr std::uint64_t kPollInterval = 65536;  // lines between looks at the st
 /// The shortest line of a vertex or a face, `Vert=0 0 0` and its end.
 constexpr std::size_t kLeastElementBytes = 11;
 
+/// What a vertex, one more that texture coordinates make, and a face take while they are read: at
+/// most twice their size, for arrays that are full are there beside those they are copied to.
+constexpr std::uint64_t kVertexBytes =
+    2 * (sizeof(fabric::Vec3) + sizeof(glm::vec3) + sizeof(fabric::Rgba) + sizeof(glm::vec2) +
+         sizeof(std::uint16_t));
+constexpr std::uint64_t kPlaceBytes = kVertexBytes + 2 * sizeof(glm::vec2);
+constexpr std::uint64_t kFaceBytes = 2 * sizeof(std::array<std::uint32_t, 3>);
+/// More than that of any byte of a scene: the shortest lines are of vertices.
+constexpr std::uint64_t kMostPerByte = 1 + kPlaceBytes / kLeastElementBytes;
+
 /// Known, and of no use here.
 constexpr std::array<std::string_view, 6> kIgnoredKeys = {
     "Ambient", "Specular", "Shine", "Shine Strength", "Fall", "Face Normal"};
@@ -50,6 +60,41 @@ std::string shown(std::string_view text) {
 std::uint8_t byteOf(double value) {
     return static_cast<std::uint8_t>(
         std::lround(255 * std::clamp(std::isfinite(value) ? value : 1.0, 0.0, 1.0)));
+}
+
+bool hasKey(std::string_view line, std::string_view key) {
+    return line.starts_with(key) && trimmed(line.substr(key.size())).starts_with('=');
+}
+
+/// What a line of an object takes.
+std::uint64_t bytesOf(std::string_view line) {
+    line = trimmed(line);
+    if (line.starts_with("Textured"))
+        return line.find("Vert") != std::string_view::npos ? kPlaceBytes : kFaceBytes;
+    return hasKey(line, "Vert") ? kVertexBytes : hasKey(line, "Face") ? kFaceBytes : 0;
+}
+
+/// About what reading a scene takes, which is in memory itself.
+std::uint64_t readingBytes(std::string_view text) {
+    std::uint64_t bytes = text.size();
+    for (std::size_t begin = 0; begin < text.size();) {
+        const std::size_t end = std::min(text.find('\n', begin), text.size());
+        bytes += bytesOf(text.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    return bytes;
+}
+
+absl::Status checkMemory(std::string_view text, std::uint64_t memoryBytes) {
+    if (memoryBytes == 0 || text.size() <= memoryBytes / kMostPerByte)
+        return absl::OkStatus();
+    const std::uint64_t needed = readingBytes(text);
+    if (needed <= memoryBytes)
+        return absl::OkStatus();
+    return absl::ResourceExhaustedError(fmt::format(
+        "reading it takes about {} MiB of memory, of which it may use {}; convert it to PLY, which "
+        "is imported part by part, or allow more memory",
+        (needed >> 20) + 1, memoryBytes >> 20));
 }
 
 class JdnParser {
@@ -367,7 +412,8 @@ absl::StatusOr<TriangleMesh> JdnParser::parse() {
 }  // namespace
 
 absl::StatusOr<TriangleMesh> parseJdn(std::string_view text, const std::string& name,
-                                      const ImportControl& control) {
+                                      const ImportControl& control, std::uint64_t memoryBytes) {
+    RETURN_IF_ERROR(fabric::withContext(checkMemory(text, memoryBytes), name));
     absl::StatusOr<TriangleMesh> mesh = JdnParser(text, control).parse();
     return mesh.ok() ? std::move(mesh) : fabric::withContext(mesh.status(), name);
 }

@@ -178,7 +178,7 @@ absl::StatusOr<TriangleMesh> parseMesh(std::string_view text, const std::string&
     if (looksLikePly(text) || endsWith(path, ".ply"))
         return parsePly(text, path, control);
     if (looksLikeJdn(text) || endsWith(path, ".jdn"))
-        return parseJdn(text, path, control);
+        return parseJdn(text, path, control, memoryBytes);
     return readWithAssimp(path, ReadingLimits::forFile(text.size(), memoryBytes), control);
 }
 

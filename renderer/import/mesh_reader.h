@@ -25,8 +25,8 @@ std::string meshSourceEndings();
 
 struct MeshReading {
     bool onlyNormalsOfEdges = false;  ///< files that are not of statesEdges() have none then
-    /// That Assimp may take in its process; 0: what sound files need. PLY and .jdn take a constant
-    /// times the file's size.
+    /// That Assimp may take in its process, or reading .jdn here; 0: what sound files need. PLY
+    /// takes a constant times the file's size, which its header tells (measurePly).
     std::uint64_t memoryBytes = 0;
 };
 

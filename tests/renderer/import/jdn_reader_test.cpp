@@ -40,6 +40,20 @@ std::string sample() {
            "Vert = 5 0 0\nVert = 6 0 0\nVert = 5 1 0\nFace = 2 1 0\n";
 }
 
+/// An object of so many vertices, a triangle for each, and as many textured vertices.
+std::string large(int vertices) {
+    const std::string count = std::to_string(vertices) + '\n';
+    std::string text =
+        "Number of Materials = 0\nNumber of Lights = 0\nNumber of Objects = 1\nMaterial ID = 0\n"
+        "Num Vertices = " +
+        count + "Num Faces = " + count + "Num textured vertices = " + count;
+    for (int i = 0; i < vertices; ++i) text += " Vert = 0 0 0\n";
+    for (int i = 0; i < vertices; ++i) text += "Face = 0 1 2\n";
+    for (int i = 0; i < vertices; ++i) text += "Textured  Vert = 0 0 0\n";
+    for (int i = 0; i < vertices; ++i) text += "Textured Face = 0 1 2\n";
+    return text;
+}
+
 std::string messageOf(const std::string& text) {
     const auto mesh = parseJdn(text, "s.jdn");
     EXPECT_EQ(mesh.status().code(), absl::StatusCode::kInvalidArgument);
@@ -50,6 +64,19 @@ std::string with(const std::string& old, const std::string& now) {
     std::string text = sample();
     EXPECT_NE(text.find(old), std::string::npos);
     return text.replace(text.find(old), old.size(), now);
+}
+
+TEST(JdnReader, RefusesASceneThatTakesMoreMemoryThanItMayAndSaysHowMuch) {
+    constexpr std::uint64_t kMebibyte = std::uint64_t{1} << 20;
+    const std::string text = large(20'000);
+    ASSERT_LT(text.size(), 2 * kMebibyte);
+    const auto refused = parseJdn(text, "s.jdn", {}, 4 * kMebibyte);
+    EXPECT_EQ(refused.status().code(), absl::StatusCode::kResourceExhausted);
+    EXPECT_THAT(std::string(refused.status().message()),
+                testing::AllOf(HasSubstr("s.jdn: reading it takes about 7 MiB"),
+                               HasSubstr("may use 4"), HasSubstr("allow more memory")));
+    EXPECT_TRUE(parseJdn(text, "s.jdn", {}, 7 * kMebibyte).ok());
+    EXPECT_TRUE(parseJdn(text, "s.jdn").ok());
 }
 
 TEST(JdnReader, JoinsObjectsAndGivesThemTheirMaterials) {

@@ -90,6 +90,20 @@ TEST(MeshReader, StopsReadingAtTheMemoryThatItMayUse) {
 #endif
 }
 
+TEST(MeshReader, HandsTheMemoryThatItMayUseToTheReaderOfJdn) {
+    const test::TemporaryFolder folder;
+    std::string text =
+        "Number of Materials = 0\nNumber of Lights = 0\nNumber of Objects = 1\nMaterial ID = 0\n"
+        "Num Vertices = 20000\nNum Faces = 1\n";
+    for (int i = 0; i < 20'000; ++i) text += "Vert = 0 0 0\n";
+    test::writeFile(folder.file("m.jdn"), text + "Face = 0 1 2\n");
+    EXPECT_TRUE(readMesh(folder.file("m.jdn")).ok());
+    const auto mesh = readMesh(folder.file("m.jdn"), {}, {.memoryBytes = 1ULL << 20});
+    EXPECT_EQ(mesh.status().code(), absl::StatusCode::kResourceExhausted);
+    EXPECT_THAT(std::string(mesh.status().message()),
+                testing::AllOf(HasSubstr("m.jdn: reading it takes about 3 MiB")));
+}
+
 TEST(MeshReader, ReadsAnObjWithoutItsMaterials) {
     const test::TemporaryFolder folder;
     test::writeFile(folder.file("m.obj"), kObj);
