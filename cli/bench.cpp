@@ -156,6 +156,8 @@ absl::Status runBench(const Options& options) {
         ASSIGN_OR_RETURN(reference, bench::planReference(plan, options.reference, stop.token()));
     }
     ASSIGN_OR_RETURN(auto runs, bench::playRuns(plan, stop.token()));
+    if (!options.pictures.quiet && !runs.front().flightNote.empty())
+        fmt::print(stderr, "{}: {}\n", options.flight, runs.front().flightNote);
     std::vector<bench::UniformLevel> uniform;
     if (reference) {
         ASSIGN_OR_RETURN(uniform, bench::measureRuns(*reference, plan, runs, stop.token()));
@@ -171,9 +173,9 @@ absl::Status runBench(const Options& options) {
 
 void addMeasuringOptions(CLI::App& command, Options& options) {
     command
-        .add_option(
-            "--flight", options.flight,
-            R"(orbit, walkthrough, worst, or a JSON file: {"keys":[{"seconds":0,"camera":{...}}]})")
+        .add_option("--flight", options.flight,
+                    "orbit, walkthrough, worst, or a file, JSON or an older program's camera path; "
+                    "see below")
         ->type_name("NAME|FILE")
         ->capture_default_str();
     command.add_option("--tau", options.taus, "Screen-space errors to allow, in pixels")
@@ -236,6 +238,13 @@ void addBench(CLI::App& app, Run& run) {
                       "Progress as lines of JSON on standard error, for programs: a run, and how "
                       "far that is from 0 to 1");
     command->footer(
+        "Flights are files of JSON, {\"keys\":[{\"seconds\":0,\"camera\":{...}}]}, as the page "
+        "saves\n"
+        "them, or camera paths: of eqPly (a line of 3 degrees that turn the model, then lines\n"
+        "'frames x y z heading pitch roll', the scene as the model), or a camera a line (eye, up "
+        "and\n"
+        "view-plane normal, 9 numbers). These are played at 30 cameras a second, 45 degrees "
+        "high.\n\n"
         "The report is index.html to look at, summary.json and frames.csv to work with. Processes\n"
         "have as many frames in flight as the configuration's latency and one (two without one): "
         "a\n"

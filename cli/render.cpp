@@ -297,10 +297,12 @@ void addRender(CLI::App& app, Run& run) {
                      "[all of the scene, as viewers see it first]")
         ->type_name("FILE");
     command
-        ->add_option("--flight", options->flight,
-                     "Draw a video of a flight instead, each picture in full: orbit, walkthrough, "
-                     "or a JSON file as the page saves them. Needs the module for video, which is "
-                     "built where libavcodec-dev and libavformat-dev are installed")
+        ->add_option(
+            "--flight", options->flight,
+            "Draw a video of a flight instead, each picture in full: orbit, walkthrough, "
+            "or a file, JSON as the page saves it or a camera path (as for `eyrie bench`). "
+            "Needs the module for video, which is built where libavcodec-dev and "
+            "libavformat-dev are installed")
         ->type_name("NAME|FILE");
     command->add_option("--fps", options->framesPerSecond, "Of the video, pictures a second")
         ->check(CLI::Range(1, 240))

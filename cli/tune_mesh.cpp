@@ -57,13 +57,13 @@ absl::StatusOr<bench::Played> playOnce(const std::string& path, const std::strin
     PictureSourceOptions quiet;
     quiet.quiet = true;
     ASSIGN_OR_RETURN(const auto pictures, PictureSource::open(path, quiet, stop));
-    ASSIGN_OR_RETURN(const fabric::Flight way,
+    ASSIGN_OR_RETURN(const fabric::CameraPath way,
                      bench::flightNamed(flight, pictures->sceneInfo().bounds));
     bench::PlayOptions once;
     once.frames = kFrames;
     once.repeats = 1;
     return bench::play(
-        *pictures, way, once, [] {}, stop);
+        *pictures, way.flight, once, [] {}, stop);
 }
 
 /// What else the machine does only ever adds to frames: of the rounds' medians the least counts.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
@@ -37,6 +38,11 @@ fabric::Vec3 extent(const fabric::Box& bounds) {
     return glm::max(bounds.size(), fabric::Vec3(length > 0 ? 1e-3 * length : 1));
 }
 
+bool isJson(const std::string& text) {
+    const std::size_t first = text.find_first_not_of(" \t\r\n");
+    return first != std::string::npos && text[first] == '{';
+}
+
 }  // namespace
 
 fabric::Flight orbit(const fabric::Box& bounds) {
@@ -68,15 +74,24 @@ fabric::Flight walkthrough(const fabric::Box& bounds) {
     });
 }
 
-absl::StatusOr<fabric::Flight> flightNamed(const std::string& name, const fabric::Box& bounds) {
+absl::StatusOr<fabric::CameraPath> flightNamed(const std::string& name, const fabric::Box& bounds) {
     if (name == "orbit")
-        return orbit(bounds);
+        return fabric::CameraPath{orbit(bounds), ""};
     if (name == "walkthrough")
-        return walkthrough(bounds);
+        return fabric::CameraPath{walkthrough(bounds), ""};
     if (name == "worst")
-        return worst(bounds);
+        return fabric::CameraPath{worst(bounds), ""};
     ASSIGN_OR_RETURN(const std::string text, readText(name));
-    return wire::flightFromJson(text, name);
+    if (isJson(text)) {
+        ASSIGN_OR_RETURN(fabric::Flight flight, wire::flightFromJson(text, name));
+        return fabric::CameraPath{std::move(flight), ""};
+    }
+    auto path = fabric::cameraPathFromText(text, bounds, fabric::Camera{}.fovYDegrees);
+    if (!path.ok())
+        return fabric::withContext(
+            path.status(),
+            name + ": neither a flight as JSON, {\"keys\":[...]}, nor a camera path");
+    return path;
 }
 
 absl::StatusOr<std::vector<fabric::FlightKey>> framesOf(const fabric::Flight& flight, int count) {

@@ -7,6 +7,7 @@
 #include <absl/status/statusor.h>
 
 #include "fabric/box.h"
+#include "fabric/camera_path.h"
 #include "fabric/flight.h"
 
 namespace eyrie::cli::bench {
@@ -24,9 +25,10 @@ fabric::Flight walkthrough(const fabric::Box& bounds);
 /// no frame of a pass of fabric::Flight's seconds in up to 100,000 even steps falls into one.
 fabric::Flight worst(const fabric::Box& bounds);
 
-/// "orbit", "walkthrough", "worst" or a flight file. Errors: those of readText and
-/// wire::flightFromJson.
-absl::StatusOr<fabric::Flight> flightNamed(const std::string& name, const fabric::Box& bounds);
+/// "orbit", "walkthrough", "worst", or a file: a flight as JSON, or a camera path of older
+/// programs, whose cameras get the field of view that fabric::Camera has; only paths have a note.
+/// Errors: those of readText, wire::flightFromJson and fabric::cameraPathFromText.
+absl::StatusOr<fabric::CameraPath> flightNamed(const std::string& name, const fabric::Box& bounds);
 
 /// `count` (at least 1) keys, evenly in time from the flight's first to its last: what is drawn of
 /// it. InvalidArgument, naming the second and the keys around it, where the curve between two good

@@ -28,22 +28,25 @@ BenchRun runOf(const Asked& asked, int renderers, const ConfigOptions& config) {
     return run;
 }
 
-absl::StatusOr<Played> playRun(const RunPlan& plan, const BenchRun& run,
-                               const std::function<void()>& frameDone,
-                               const std::stop_token& stop) {
+absl::Status playRun(const RunPlan& plan, BenchRun& run, const std::function<void()>& frameDone,
+                     const std::stop_token& stop) {
     PictureSourceOptions options = plan.pictures;
     options.renderers = run.renderers;
     ASSIGN_OR_RETURN(const auto pictures, PictureSource::open(plan.scene, options, stop));
-    ASSIGN_OR_RETURN(const fabric::Flight flight,
+    ASSIGN_OR_RETURN(fabric::CameraPath path,
                      flightNamed(plan.flight, pictures->sceneInfo().bounds));
+    run.flightNote = std::move(path.note);
     PlayOptions play = plan.play;
     play.request.tauPixels = run.tauPixels;
     if (run.budgetMilliseconds > 0) {
         play.request.budgetMilliseconds = run.budgetMilliseconds;
         play.request.completeness = fabric::Completeness::Interactive;
     }
-    absl::StatusOr<Played> played = bench::play(*pictures, flight, play, frameDone, stop);
-    return played.ok() ? std::move(played) : fabric::withContext(played.status(), plan.flight);
+    absl::StatusOr<Played> played = bench::play(*pictures, path.flight, play, frameDone, stop);
+    if (!played.ok())
+        return fabric::withContext(played.status(), plan.flight);
+    run.played = *std::move(played);
+    return absl::OkStatus();
 }
 
 }  // namespace
@@ -68,7 +71,7 @@ absl::StatusOr<std::vector<BenchRun>> playRuns(const RunPlan& plan, const std::s
                 fmt::format("{}, {}", run.label, drawnBy(renderers, run.compound));
             int done = 0;
             const auto frameDone = [&] { progress(stage, static_cast<double>(++done) / frames); };
-            ASSIGN_OR_RETURN(run.played, playRun(plan, run, frameDone, stop));
+            RETURN_IF_ERROR(playRun(plan, run, frameDone, stop));
             runs.push_back(std::move(run));
         }
     return runs;

@@ -25,6 +25,7 @@ struct BenchRun {
     Played played;
     std::optional<MeasuredErrors> measured = {};  ///< where a reference was asked for
     double budgetMilliseconds = 0;                ///< a frame time to hold; 0: tau was kept
+    std::string flightNote = {};                  ///< what had to be assumed of it, or empty
 };
 
 /// Who drew a run, as a person says it: "one process", "1 renderer", "2 renderers, DB".

@@ -32,8 +32,9 @@ TEST(BuiltInFlight, HasAPictureInEveryFrameOfAnyDataAndCount) {
             for (const int count : {1, 2, 25, 120, 121, 4801}) {
                 const auto flight = flightNamed(name, bounds);
                 ASSERT_TRUE(flight.ok()) << flight.status();
-                ASSERT_TRUE(fabric::validate(*flight).ok()) << fabric::validate(*flight);
-                const auto frames = framesOf(*flight, count);
+                ASSERT_TRUE(fabric::validate(flight->flight).ok())
+                    << fabric::validate(flight->flight);
+                const auto frames = framesOf(flight->flight, count);
                 EXPECT_TRUE(frames.ok()) << name << ", " << count << ": " << frames.status();
             }
 }
@@ -91,11 +92,11 @@ TEST(FlightFile, OfOneKeyIsACameraThatStands) {
                      R"({"keys":[{"seconds":4,"camera":{"eye":[0,0,9],"target":[1,0,0]}}]})"),
         kTerrain);
     ASSERT_TRUE(flight.ok()) << flight.status();
-    const auto frames = framesOf(*flight, 7);
+    const auto frames = framesOf(flight->flight, 7);
     ASSERT_TRUE(frames.ok());
     ASSERT_EQ(frames->size(), 7U);
     for (const fabric::FlightKey& frame : *frames)
-        EXPECT_EQ(frame, (fabric::FlightKey{0, flight->keys[0].camera}));
+        EXPECT_EQ(frame, (fabric::FlightKey{0, flight->flight.keys[0].camera}));
 }
 
 TEST(FlightFile, RefusalsNameFileKeyAndField) {
@@ -123,6 +124,41 @@ TEST(FlightFile, RefusalsNameFileKeyAndField) {
     EXPECT_THAT(refusal(good + key("1", "[1,0,0]")), HasSubstr("f.json: keys[1]"));
     EXPECT_THAT(refusal(good + key("1", "[0,0,9]", R"(,"fovyDegrees":"NaN")")),
                 AllOf(HasSubstr("f.json: keys[1]"), HasSubstr("fovyDegrees")));
+}
+
+TEST(FlightFile, MayBeACameraPathOfOlderProgramsAndSaysWhatWasAssumed) {
+    const test::TemporaryFolder folder;
+    const std::string lines = "0 0 9  0 0 1  0 -1 0\n0 1 9  0 0 1  0 -1 0\n";
+    const auto normals = flightNamed(folder.write("cam.txt", lines), {{0, 5, 8}, {1, 9, 10}});
+    ASSERT_TRUE(normals.ok()) << normals.status();
+    EXPECT_THAT(normals->note, testing::HasSubstr("the normals point at the eye"));
+    EXPECT_EQ(normals->flight.keys.size(), 2U);
+    EXPECT_EQ(normals->flight.keys[0].camera.fovYDegrees, 45);
+    const auto eqPly = flightNamed(folder.write("eq.txt", "0 0 0\n1 0 0 -4 0 0 0\n9 0 0 -2 0 0 0"),
+                                   {{-2, -1, -1}, {2, 1, 1}});
+    ASSERT_TRUE(eqPly.ok()) << eqPly.status();
+    EXPECT_EQ(eqPly->flight.keys[0].camera.eye, fabric::Vec3(0, 0, 8)) << "half of 4 m is 1";
+    const auto json = flightNamed(
+        folder.write("f.txt", "\n {\"keys\":[{\"camera\":{\"eye\":[0,0,9],\"target\":[1,0,0]}}]}"),
+        kMesh);
+    ASSERT_TRUE(json.ok()) << "by what is in it, not by its name: " << json.status();
+    EXPECT_EQ(json->note, "");
+}
+
+TEST(FlightFile, ThatIsNeitherJsonNorAPathSaysWhatEachIs) {
+    const test::TemporaryFolder folder;
+    const auto refusal = [&](const std::string& text) {
+        const auto flight = flightNamed(folder.write("cam.txt", text), kMesh);
+        EXPECT_EQ(flight.status().code(), absl::StatusCode::kInvalidArgument);
+        return std::string(flight.status().message());
+    };
+    using testing::AllOf;
+    using testing::HasSubstr;
+    const std::string neither =
+        "cam.txt: neither a flight as JSON, {\"keys\":[...]}, nor a camera path: ";
+    EXPECT_THAT(refusal(""), AllOf(HasSubstr(neither), HasSubstr("lines of 7 (eqPly)")));
+    EXPECT_THAT(refusal("0 0 0\nhere\n"),
+                HasSubstr(neither + "line 2 has something else than numbers"));
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ absl::StatusOr<Played> playWith(
         ++done;
         withEach();
     };
-    auto played = play(pictures, *flight, options, frameDone, {});
+    auto played = play(pictures, flight->flight, options, frameDone, {});
     EXPECT_EQ(done, played.ok() ? 60 : done);
     return played;
 }

@@ -139,6 +139,17 @@ TEST_F(Bench, MeasuresWhatASceneShowsAgainstItsSources) {
     EXPECT_GE(test::list(summary, "uniform").size(), 1U);
 }
 
+TEST_F(Bench, PlaysCameraPathsOfOlderProgramsAndSaysWhatItAssumed) {
+    std::ofstream(path("path.txt")) << "-90 0 0\n1 0 0 -2  0 30 0\n60 0.2 0 -1.5  0 30 0\n";
+    const test::Outcome outcome =
+        eyrie({"bench", dem(), "--flight", path("path.txt"), "--tau", "4", "--size", "160x90",
+               "--frames", "3", "--repeats", "1", "-o", path("pathed")});
+    ASSERT_EQ(outcome.exit.status, 0) << outcome.errors;
+    EXPECT_THAT(outcome.errors, testing::HasSubstr("path.txt: An eqPly path, at 30 frames a "
+                                                   "second, the scene as its model"));
+    EXPECT_EQ(test::at(summaryOf(path("pathed")), "bench.flight").string_value(), "path.txt");
+}
+
 /// Turns on the spot, far cuts, near and far, and an S low over all of it: the flights on which
 /// errors are told, and none of their frames left out.
 TEST_F(Bench, EveryFrameOfTheTestFlightsKeepsItsPromiseAtEveryTau) {

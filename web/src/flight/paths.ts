@@ -3,7 +3,8 @@
 // - eqPly's: a model rotation (3 degrees), then steps "frames x y z heading pitch roll", metres in
 //   a model that is fitted into a box of 2, turned first and moved then; linear in between;
 // - one camera a line: eye, up and view-plane normal, nine numbers.
-// Neither says how long a frame is: 30 of them are a second.
+// Neither says how long a frame is: 30 of them are a second. fabric/camera_path.h reads the same, and
+// a test compares them.
 import type { Camera, Vec3 } from "../camera/camera";
 import { add, dot, length, scale, subtract } from "../camera/camera";
 import type { Bounds } from "../camera/standard";
@@ -11,6 +12,9 @@ import type { Flight, FlightKey } from "./flight";
 import { problemOf } from "./flight";
 
 export const framesPerSecond = 30;
+
+/** More are two hours, and taken for a mistake. */
+const mostKeys = 250_000;
 
 /** Between two steps a key at least so often, so that the curve keeps to the straight way. */
 const keysPerStep = 8;
@@ -90,15 +94,27 @@ function stepsOf(rows: Rows): Step[] {
   });
 }
 
+/** How many keys the way from one step to the next has, its end left out. */
+function keysBetween(from: Step, to: Step): number {
+  const angle = Math.max(...subtract(to.rotation, from.rotation).map(Math.abs));
+  // Turns of whole keys come out of radians with rounding, which is not to make one more of them.
+  const wanted = Math.max(keysPerStep, Math.ceil(angle / radians(degreesPerKey) - 1e-9));
+  return Math.min(to.frame - from.frame, wanted);
+}
+
+const tooManyKeys = () =>
+  new Error(`the path has more than ${mostKeys} cameras; cut it into several`);
+
 /** Linear from step to step, at whole frames. */
 function sampled(steps: readonly Step[]): Step[] {
+  let keys = 0;
   return steps.flatMap((from, i) => {
     const to = steps[i + 1];
     if (to === undefined) return [from];
-    const angle = Math.max(...subtract(to.rotation, from.rotation).map(Math.abs));
-    const wanted = Math.max(keysPerStep, Math.ceil(angle / radians(degreesPerKey)));
     const frames = to.frame - from.frame;
-    const count = Math.min(frames, wanted);
+    const count = keysBetween(from, to);
+    keys += count;
+    if (!(keys < mostKeys)) throw tooManyKeys();
     return Array.from({ length: count }, (_, k) => ({
       frame: from.frame + (frames * k) / count,
       position: mix(from.position, to.position, k / count),
@@ -136,6 +152,7 @@ interface Normals {
 
 /** The normal points at the eye or away from it, as programs had it: whichever sees the scene. */
 function normalsPath(rows: Rows, bounds: Bounds, fovy: number): Normals {
+  if (rows.length > mostKeys) throw tooManyKeys();
   const lines = rows.map((row): [Vec3, Vec3, Vec3] => {
     const [a = 0, b = 0, c = 0, d = 0, e = 0, f = 0, g = 0, h = 0, i = 0] = row;
     return [
@@ -154,13 +171,17 @@ function normalsPath(rows: Rows, bounds: Bounds, fovy: number): Normals {
   return { keys, pointAhead };
 }
 
+const decimal = /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i;
+
+const numberIn = (word: string): number => (decimal.test(word) ? Number(word) : Number.NaN);
+
 function numbersOf(text: string): Rows {
   return text
-    .split(/\r?\n/)
-    .map((line) => line.trim())
+    .split("\n")
+    .map((line) => line.replace(/^[ \t\v\f\r]+|[ \t\v\f\r]+$/g, ""))
     .flatMap((line, i) => {
       if (line === "") return [];
-      const numbers = line.split(/[\s,]+/).map(Number);
+      const numbers = line.split(/[ \t\v\f\r,]+/).map(numberIn);
       if (numbers.every(Number.isFinite)) return [numbers];
       throw new Error(`line ${i + 1} has something else than numbers`);
     });
