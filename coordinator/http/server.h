@@ -41,6 +41,8 @@ struct ServerOptions {
     /// For one message to a viewer, for the viewer to acknowledge a picture, and for any of an
     /// answer to be taken (write_pace.h).
     std::chrono::milliseconds writeTimeout{10'000};
+    /// Viewers hear so often that the server is there (viewer.proto).
+    std::chrono::milliseconds lifeSign{3'000};
     int messagesPerSecond = 400;  ///< of one viewer; more wait (message_rate.h)
     /// Who comes in; null: everybody who can reach the address.
     std::shared_ptr<access::Gate> gate = {};

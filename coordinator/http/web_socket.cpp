@@ -46,6 +46,7 @@ public:
           pulse_(stream_.get_executor()),
           pause_(stream_.get_executor()),
           drain_(stream_.get_executor()),
+          lifeSign_(stream_.get_executor()),
           rate_(context.options.messagesPerSecond),
           received_(std::move(received)),
           joining_(std::move(joining)),
@@ -128,7 +129,21 @@ private:
             if (kind == websocket::frame_type::pong && payload == kPulsePayload)
                 pongRead();
         });
+        showLife();
         read();
+    }
+
+    /// Scripts see no pings: a page whose connection died without being closed knows it by this.
+    void showLife() {
+        lifeSign_.expires_after(context_.options.lifeSign);
+        lifeSign_.async_wait([weak = weak_from_this()](error_code error) {
+            const auto self = weak.lock();
+            if (error || self == nullptr || self->isClosing_)
+                return;
+            if (!self->isWriting_)
+                self->send({});  // a ViewerResponse that says nothing
+            self->showLife();
+        });
     }
 
     void read() {
@@ -184,10 +199,14 @@ private:
         std::optional<std::string> message = viewer_->takeMessage();
         if (!message.has_value())
             return;
-        isWriting_ = true;
-        outgoing_ = *std::move(message);
         if (!isPulsing_)
             beat();
+        send(*std::move(message));
+    }
+
+    void send(std::string message) {
+        isWriting_ = true;
+        outgoing_ = std::move(message);
         expectProgress();
         stream_.async_write(boost::asio::buffer(outgoing_),
                             [self = shared_from_this(), begun = std::chrono::steady_clock::now()](
@@ -269,6 +288,7 @@ private:
         pulse_.cancel();
         pause_.cancel();
         drain_.cancel();
+        lifeSign_.cancel();
         isEnded_ = true;
         beast::get_lowest_layer(stream_).close();
     }
@@ -278,6 +298,7 @@ private:
     boost::asio::steady_timer pulse_;
     boost::asio::steady_timer pause_;  ///< before the next message is read
     boost::asio::steady_timer drain_;
+    boost::asio::steady_timer lifeSign_;
     MessageRate rate_;
     bool isPulsing_ = false;
     std::optional<std::chrono::steady_clock::time_point> pingedAt_;  ///< and not answered yet

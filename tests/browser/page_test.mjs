@@ -9,6 +9,7 @@ import {
   run,
   ServerProcess,
 } from "./support.mjs";
+import { slowLink } from "./slow_link.mjs";
 
 const web = environment("EYRIE_WEB_FOLDER");
 const startServer = (...args) =>
@@ -195,10 +196,40 @@ await run("page_test", async (browser, started) => {
   );
 
   const restarted = Date.now();
-  started(await startServer(port));
+  const again = started(await startServer(port));
   await page.waitForFunction(() => window.eyrie.connection === "connected");
   console.log(`connected again ${Date.now() - restarted} ms after the start`);
   await browser.settled();
   check(JSON.stringify(await browser.hook("camera")) === camera, "the camera survives a restart");
   check(await page.locator("#banner").isHidden(), "and the picture is live again");
+
+  const link = await slowLink(again.url, { megabits: 10_000, delay: 0 });
+  await page.goto(link.url);
+  await browser.settled();
+  const resting = await browser.hook("frameNumber");
+  await page.waitForTimeout(12_000);
+  check(
+    (await browser.hook("frameNumber")) === resting &&
+      (await browser.hook("connection")) === "connected",
+    "a view at rest stays connected, without frames",
+  );
+  // It may be there for some milliseconds only: the first attempt is made at once.
+  await page.evaluate(() => {
+    const banner = document.querySelector("#banner");
+    const look = () => (window.wasTold ||= banner.textContent.includes("Connection lost"));
+    new MutationObserver(look).observe(banner, { childList: true, subtree: true });
+  });
+  link.fallSilent();
+  await page.focus("#view");
+  await page.keyboard.press("ArrowLeft");
+  const turned = JSON.stringify(await browser.hook("camera"));
+  const silent = Date.now();
+  await browser.until(() => window.wasTold === true, 30_000);
+  check(true, "a connection that dies without being closed is said to be lost");
+  await browser.until(() => window.eyrie.connection === "connected");
+  console.log(`connected again ${Date.now() - silent} ms after the silence began`);
+  await browser.settled();
+  check(JSON.stringify(await browser.hook("camera")) === turned, "and made again by itself");
+  check(await page.locator("#banner").isHidden(), "with the view that was asked for meanwhile");
+  link.close();
 });

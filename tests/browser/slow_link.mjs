@@ -12,9 +12,11 @@ class Direction {
   #queued = 0;
   #freeAt = 0;
   #timer;
+  #isSilent = false;
 
   constructor(from, to, link, isLimited) {
     from.on("data", (data) => {
+      if (this.#isSilent) return;
       for (let i = 0; i < data.length; i += packetBytes)
         this.#add(data.subarray(i, i + packetBytes), link, isLimited);
       if (this.#queued > queueBytes) from.pause();
@@ -30,9 +32,15 @@ class Direction {
     }, 1);
     from.on("close", () => {
       clearInterval(this.#timer);
-      to.destroy();
+      if (!this.#isSilent) to.destroy();
     });
     from.on("error", () => {});
+  }
+
+  /** Passes nothing on any more, not even the end. */
+  fallSilent() {
+    this.#isSilent = true;
+    this.#queue = [];
   }
 
   #add(bytes, { megabits, delay }, isLimited) {
@@ -46,19 +54,22 @@ class Direction {
 
 /**
  * Listens on a port of its own and passes everything on to `url`'s. `link.megabits`, towards the
- * browser, and `link.delay`, milliseconds each way, may be changed while it works.
+ * browser, and `link.delay`, milliseconds each way, may be changed while it works. `fallSilent` has
+ * the connections that there are die without being closed; new ones work.
  */
 export async function slowLink(url, link) {
   const { hostname, port } = new URL(url);
+  const directions = [];
   const server = createServer((browser) => {
     const upstream = connect(Number(port), hostname);
     browser.setNoDelay(true);
     upstream.setNoDelay(true);
-    new Direction(upstream, browser, link, true);
-    new Direction(browser, upstream, link, false);
+    directions.push(new Direction(upstream, browser, link, true));
+    directions.push(new Direction(browser, upstream, link, false));
   });
   await new Promise((resolve) => server.listen(0, hostname, resolve));
   server.unref(); // a program that ends is not kept by it
   const { port: own } = server.address();
-  return { url: `http://${hostname}:${own}/`, close: () => server.close() };
+  const fallSilent = () => directions.splice(0).forEach((direction) => direction.fallSilent());
+  return { url: `http://${hostname}:${own}/`, fallSilent, close: () => server.close() };
 }

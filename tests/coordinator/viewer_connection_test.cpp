@@ -147,6 +147,23 @@ TEST_F(ViewerConnection, KeepsAViewerThatHasNothingToAcknowledge) {
     EXPECT_EQ(readFrame(*idle).view_sequence(), 2u);
 }
 
+TEST_F(ViewerConnection, AViewerHearsThatTheServerIsThereThoughNothingChanges) {
+    ServerOptions options;
+    options.lifeSign = milliseconds(20);
+    start(options);
+    const auto idle = openSocket();
+    read(*idle);  // the state
+    for (int i = 0; i < 3; ++i) {
+        beast::flat_buffer buffer;
+        beast::error_code error;
+        idle->read(buffer, error);
+        ASSERT_FALSE(error) << error.message();
+        EXPECT_EQ(buffer.size(), 0u);
+    }
+    idle->write(asio::buffer(viewBytes(1)));
+    EXPECT_EQ(readFrame(*idle).view_sequence(), 1u);
+}
+
 TEST_F(ViewerConnection, GivesEachViewerItsOwnViewAndPace) {
     start();
     const auto slow = openSocket();

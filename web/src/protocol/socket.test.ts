@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { create, fromBinary, toBinary } from "@bufbuild/protobuf";
-import { afterEach, describe, expect, it, vi } from "vitest";
+import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { defaultLook } from "../look";
 import {
   ShownEye,
@@ -19,35 +19,50 @@ describe("reconnectDelay", () => {
 });
 
 describe("a socket", () => {
+  beforeEach(() => {
+    vi.useFakeTimers();
+    vi.stubGlobal("window", globalThis);
+    vi.stubGlobal("document", { hidden: false });
+  });
+
   afterEach(() => {
     vi.useRealTimers();
     vi.unstubAllGlobals();
   });
 
-  /** How often it has connected a second after its connection ended so, and what it told. */
-  function after(code: number): { connections: number; told: string[] } {
-    const made: FakeSocket[] = [];
-    const told: string[] = [];
-    class FakeSocket {
-      onclose: ((event: { code: number }) => void) | null = null;
-      constructor() {
-        made.push(this);
-      }
-      close(): void {
-        this.onclose = null;
-      }
+  /** Connections that end only when they are told to, and what the socket on them tells. */
+  class FakeSocket {
+    static made: FakeSocket[] = [];
+    onopen: (() => void) | null = null;
+    onclose: ((event: { code: number }) => void) | null = null;
+    onmessage: ((event: { data: ArrayBuffer }) => void) | null = null;
+    constructor() {
+      FakeSocket.made.push(this);
     }
-    vi.useFakeTimers();
-    vi.stubGlobal("window", globalThis);
+    close(): void {
+      this.onclose = null;
+    }
+  }
+
+  function connected(): { socket: Socket; told: string[] } {
+    FakeSocket.made = [];
     vi.stubGlobal("WebSocket", FakeSocket);
+    const told: string[] = [];
     const tells = new Proxy({} as SocketEvents, {
       get: (_, name) => () => told.push(String(name)),
     });
     const socket = new Socket("ws://host/ws", tells);
-    made[0]?.onclose?.({ code });
+    FakeSocket.made[0]?.onopen?.();
+    return { socket, told };
+  }
+
+  /** How often it has connected a second after its connection ended so, and what it told. */
+  function after(code: number): { connections: number; told: string[] } {
+    const { socket, told } = connected();
+    FakeSocket.made[0]?.onclose?.({ code });
     vi.advanceTimersByTime(1000);
     socket.close();
-    return { connections: made.length, told };
+    return { connections: FakeSocket.made.length, told };
   }
 
   it("asks no oftener where its connections are taken and closed at once", () => {
@@ -64,8 +79,6 @@ describe("a socket", () => {
       }
       close(): void {}
     }
-    vi.useFakeTimers();
-    vi.stubGlobal("window", globalThis);
     vi.stubGlobal("WebSocket", ClosingSocket);
     const socket = new Socket(
       "ws://host/ws",
@@ -77,11 +90,50 @@ describe("a socket", () => {
   });
 
   it("connects again when the connection is lost", () => {
-    expect(after(1006)).toEqual({ connections: 2, told: ["lost"] });
+    expect(after(1006)).toEqual({ connections: 2, told: ["opened", "lost"] });
+  });
+
+  const sayNothing = { data: new ArrayBuffer(0) };
+
+  it("is lost when nothing at all has come for ten seconds, though nobody closed it", () => {
+    const { socket, told } = connected();
+    for (let i = 0; i < 10; ++i) {
+      vi.advanceTimersByTime(9000);
+      FakeSocket.made[0]?.onmessage?.(sayNothing);
+    }
+    expect(told).toEqual(["opened"]);
+    vi.advanceTimersByTime(11_000);
+    expect(told).toEqual(["opened", "lost"]);
+    expect(FakeSocket.made.length).toBe(2);
+    socket.close();
+  });
+
+  it("gives up attempts to connect that lead nowhere, and tells of them once", () => {
+    const { socket, told } = connected();
+    vi.advanceTimersByTime(35_000);
+    expect(FakeSocket.made.length).toBe(4);
+    expect(told).toEqual(["opened", "lost"]);
+    socket.close();
+  });
+
+  it("is not lost by silence while nobody sees the page, nor by a sleep of the machine", () => {
+    const { socket, told } = connected();
+    vi.stubGlobal("document", { hidden: true });
+    vi.advanceTimersByTime(100_000);
+    vi.stubGlobal("document", { hidden: false });
+    vi.advanceTimersByTime(9000);
+    expect(told).toEqual(["opened"]);
+    vi.setSystemTime(Date.now() + 3_600_000);
+    FakeSocket.made[0]?.onmessage?.(sayNothing);
+    vi.advanceTimersByTime(9000);
+    expect(told).toEqual(["opened"]);
+    socket.close();
+    vi.advanceTimersByTime(100_000);
+    expect(FakeSocket.made.length).toBe(1);
   });
 
   it("stays away when its session was closed", () => {
-    expect(after(4001)).toEqual({ connections: 1, told: ["closed"] });
+    expect(after(4001)).toEqual({ connections: 1, told: ["opened", "closed"] });
   });
 });
 

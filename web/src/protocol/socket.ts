@@ -51,6 +51,12 @@ export function reconnectDelay(attempt: number): number {
 /** How a WebSocket ends whose session a program has closed (viewer.proto). */
 const sessionClosed = 4001;
 
+/**
+ * A server says every three seconds that it is there (viewer.proto): after so many with nothing from
+ * it a connection has died without being closed, or an attempt to make one leads nowhere.
+ */
+const silentSeconds = 10;
+
 /** So much unsent means that the network stalls; views are coalesced meanwhile. */
 const maxBufferedBytes = 16 * 1024;
 
@@ -60,6 +66,8 @@ export class Socket {
   private attempt = 0;
   private isLossTold = false;
   private timer: number | undefined;
+  private secondsSilent = 0;
+  private readonly watch: number;
   private readonly parts = new Parts();
 
   constructor(
@@ -67,6 +75,7 @@ export class Socket {
     private readonly url: string | (() => string),
     private readonly events: SocketEvents,
   ) {
+    this.watch = window.setInterval(() => this.secondPassed(), 1000);
     this.connect();
   }
 
@@ -124,6 +133,7 @@ export class Socket {
   }
 
   close(): void {
+    clearInterval(this.watch);
     clearTimeout(this.timer);
     this.detach();
   }
@@ -140,8 +150,10 @@ export class Socket {
   private connect(): void {
     const socket = new WebSocket(typeof this.url === "string" ? this.url : this.url());
     this.socket = socket;
+    this.secondsSilent = 0;
     socket.binaryType = "arraybuffer";
     socket.onopen = () => {
+      this.secondsSilent = 0;
       this.isLossTold = false;
       this.events.opened();
     };
@@ -153,7 +165,21 @@ export class Socket {
     socket.onmessage = (event: MessageEvent<unknown>) => this.received(event.data);
   }
 
+  /**
+   * Counted, not told by a clock: in a page that was frozen, or on a machine that slept, messages may
+   * only now be about to come, and in one that nobody sees timers and messages wait as they like.
+   */
+  private secondPassed(): void {
+    if (this.socket === null || document.hidden) {
+      this.secondsSilent = 0;
+      return;
+    }
+    this.secondsSilent += 1;
+    if (this.secondsSilent >= silentSeconds) this.reconnect();
+  }
+
   private received(data: unknown): void {
+    this.secondsSilent = 0;
     try {
       if (!(data instanceof ArrayBuffer)) throw new Error("a text message");
       const { response } = decodeResponse(data);
