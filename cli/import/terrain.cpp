@@ -207,7 +207,7 @@ void addImportTerrain(CLI::App& parent, Run& run) {
         "Several files are laid over each other: the finest wins, among equals the one named\n"
         "last; gaps stay open. Degrees become metres (in UTM where they are few), feet too.\n"
         "An import that did not fit in --memory and was stopped or killed goes on, with the same\n"
-        "command, from what it has read and measured; tiles and pictures are made anew.\n"
+        "command, where it was: at most its last two stages or batches of tiles are made anew.\n"
         "A large one spreads over machines: run it with --shard 0/N to --shard N-1/N, at once or\n"
         "one after the other, then once with --merge, all with the same sources and options. The\n"
         "file is the one that a single machine would make.\n"

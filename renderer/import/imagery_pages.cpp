@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstring>
 #include <memory>
 #include <numeric>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -186,10 +188,11 @@ void runTiles(Begin begin, Make make, End end) {
 /// Makes one level after the other.
 class ImageryLine {
 public:
-    ImageryLine(ImagerySource& source, const PartSet* parts, TexelStore& store,
-                const terrain::Scratch& scratch, const ImportControl& control,
+    ImageryLine(ImagerySource& source, const NamedPictures& pictures, const PartSet* parts,
+                TexelStore& store, const terrain::Scratch& scratch, const ImportControl& control,
                 terrain::EytWriter& writer)
         : source_(source),
+          pictures_(pictures),
           parts_(parts),
           store_(store),
           scratch_(scratch),
@@ -199,14 +202,14 @@ public:
         imagery_.tiles.resize(imagery_.pyramid.tileCount());
     }
 
-    absl::StatusOr<terrain::ImageryIndex> run(const std::string& name) {
+    absl::StatusOr<terrain::ImageryIndex> run(TerrainStages& stages) {
         for (int level = 0; level < imagery_.pyramid.levels(); ++level)
-            RETURN_IF_ERROR(makeLevel(level));
+            RETURN_IF_ERROR(makeLevel(level, stages));
         if (covered_ == 0)
             return absl::InvalidArgumentError(fmt::format(
                 "{}: the terrain lies where no picture has a pixel (alpha 0 or nodata); check "
                 "their coordinates and CRS (gdalinfo)",
-                name));
+                pictures_.names));
         imagery_.psnrDb = psnrDb(lossSquares_, covered_);
         imagery_.coveredTexels = covered_;
         return std::move(imagery_);
@@ -215,35 +218,98 @@ public:
 private:
     const terrain::TexturePyramid& pyramid() const { return source_.pyramid(); }
 
-    absl::Status makeLevel(int level) {
-        std::uint32_t next = 0;
-        runTiles([&] { return begin(level, next++); }, [&](Tile& tile) { make(tile); },
-                 [&](const Tile& tile) { write(tile); });
+    /// Tiles of one level, one after the other as they are read.
+    struct Batch {
+        int level = 0;
+        std::uint32_t first = 0;
+        std::uint32_t end = 0;
+    };
+    /// A second of work or a few, which a killed import does again.
+    static constexpr std::uint32_t kTilesAtOnce = 256;
+
+    absl::Status makeLevel(int level, TerrainStages& stages) {
+        const auto tiles =
+            static_cast<std::uint32_t>(pyramid().tilesX(level) * pyramid().tilesY(level));
+        for (std::uint32_t first = 0; first < tiles; first += kTilesAtOnce) {
+            RETURN_IF_ERROR(control_.check());
+            const Batch batch{level, first, std::min(first + kTilesAtOnce, tiles)};
+            RETURN_IF_ERROR(stages.run([&] { return makeBatch(batch); },
+                                       {[&] { return stateOf(batch); },
+                                        [&](const auto& state) { return restore(batch, state); }}));
+        }
+        return absl::OkStatus();
+    }
+
+    absl::Status makeBatch(const Batch& batch) {
+        std::uint32_t next = batch.first;
+        runTiles([&] { return next < batch.end ? begin(idOf(batch.level, next++)) : nullptr; },
+                 [&](Tile& tile) { make(tile); }, [&](const Tile& tile) { write(tile); });
         RETURN_IF_ERROR(readStatus_);
         return writeStatus_;
     }
 
-    /// The next tile of a level, with its texels where they come from the pictures; null at the
-    /// end, or when there is no going on.
-    TilePointer begin(int level, std::uint32_t number) {
+    /// What is known after a batch, and in it of all tiles before.
+    struct Known {
+        std::uint64_t pictures = 0;  ///< NamedPictures::stamp
+        std::uint64_t lossSquares = 0;
+        std::uint64_t covered = 0;
+    };
+
+    /// Known, and then the records of the batch's tiles.
+    std::vector<std::byte> stateOf(const Batch& batch) const {
+        std::vector<terrain::PageRecord> tiles;
+        for (std::uint32_t number = batch.first; number < batch.end; ++number)
+            tiles.push_back(imagery_.tiles[pyramid().tileIndex(idOf(batch.level, number))]);
+        const Known known{pictures_.stamp, lossSquares_, covered_};
+        const std::size_t tilesBytes = tiles.size() * sizeof(terrain::PageRecord);
+        std::vector<std::byte> state(sizeof known + tilesBytes);
+        std::memcpy(state.data(), &known, sizeof known);
+        std::memcpy(state.data() + sizeof known, tiles.data(), tilesBytes);
+        return state;
+    }
+
+    /// False, with nothing changed, where it is of other pictures or the tiles are not in the file.
+    bool restore(const Batch& batch, std::span<const std::byte> state) {
+        Known known;
+        std::vector<terrain::PageRecord> tiles(batch.end - batch.first);
+        const std::size_t tilesBytes = tiles.size() * sizeof(terrain::PageRecord);
+        if (state.size() != sizeof known + tilesBytes)
+            return false;
+        std::memcpy(&known, state.data(), sizeof known);
+        std::memcpy(tiles.data(), state.data() + sizeof known, tilesBytes);
+        if (known.pictures != pictures_.stamp || !writer_.takeWritten(tiles))
+            return false;
+        for (std::size_t k = 0; k < tiles.size(); ++k)
+            imagery_.tiles[pyramid().tileIndex(
+                idOf(batch.level, batch.first + static_cast<std::uint32_t>(k)))] = tiles[k];
+        lossSquares_ = known.lossSquares;
+        covered_ = known.covered;
+        written_ += static_cast<std::uint32_t>(tiles.size());
+        return true;
+    }
+
+    TextureId idOf(int level, std::uint32_t number) const {
         const auto across = static_cast<std::uint32_t>(pyramid().tilesX(level));
         const auto down = static_cast<std::uint32_t>(pyramid().tilesY(level));
-        if (number >= across * down || hasFailed_)
+        const std::uint32_t row = number / across;
+        return {level, static_cast<std::int32_t>(number % across),
+                static_cast<std::int32_t>(source_.isLastRowFirst() ? down - 1 - row : row)};
+    }
+
+    /// A tile with its texels where they come from the pictures; null when there is no going on.
+    TilePointer begin(const TextureId& id) {
+        if (hasFailed_)
             return nullptr;
         readStatus_ = scratch_.status();
         if (readStatus_.ok())
             readStatus_ = control_.check();
         if (!readStatus_.ok())
             return nullptr;
-        const std::uint32_t row = number / across;
-        auto tile = std::make_shared<Tile>(
-            TextureId{level, static_cast<std::int32_t>(number % across),
-                      static_cast<std::int32_t>(source_.isLastRowFirst() ? down - 1 - row : row)},
-            pyramid());
+        auto tile = std::make_shared<Tile>(id, pyramid());
         if (isInParts(*tile))
             return tile;
         tile->makeRoom();
-        if (level == 0)
+        if (id.level == 0)
             readStatus_ = source_.read(tile->rect, tile->texels);
         return readStatus_.ok() ? tile : nullptr;
     }
@@ -293,6 +359,7 @@ private:
     }
 
     ImagerySource& source_;
+    const NamedPictures& pictures_;
     const PartSet* parts_;
     TexelStore& store_;
     const terrain::Scratch& scratch_;
@@ -309,13 +376,13 @@ private:
 
 }  // namespace
 
-absl::StatusOr<terrain::ImageryIndex> buildImagery(ImagerySource& source, const std::string& name,
-                                                   const PartSet* parts, TexelStore& store,
-                                                   const terrain::Scratch& scratch,
-                                                   const ImportControl& control,
-                                                   terrain::EytWriter& writer) {
-    ASSIGN_OR_RETURN(terrain::ImageryIndex imagery,
-                     ImageryLine(source, parts, store, scratch, control, writer).run(name));
+absl::StatusOr<terrain::ImageryIndex> buildImagery(
+    ImagerySource& source, const NamedPictures& pictures, const PartSet* parts, TexelStore& store,
+    const terrain::Scratch& scratch, const ImportControl& control, TerrainStages& stages,
+    terrain::EytWriter& writer) {
+    ASSIGN_OR_RETURN(
+        terrain::ImageryIndex imagery,
+        ImageryLine(source, pictures, parts, store, scratch, control, writer).run(stages));
     RETURN_IF_ERROR(scratch.status());
     return imagery;
 }

@@ -93,8 +93,8 @@ void ImportJournal::read() {
         if (readUpTo(fd_, state.data(), state.size(), first) != state.size() ||
             checksumOf(record.step, state) != record.checksum)
             break;
+        steps_[static_cast<std::uint32_t>(record.step)] = {offset, std::move(state)};
         offset = first + record.bytes;
-        steps_[static_cast<std::uint32_t>(record.step)] = std::move(state);
     }
     if (ftruncate(fd_, static_cast<off_t>(steps_.empty() ? 0 : offset)) == 0)
         lseek(fd_, 0, SEEK_END);
@@ -102,7 +102,18 @@ void ImportJournal::read() {
 
 const std::vector<std::byte>* ImportJournal::find(std::uint32_t step) const {
     const auto found = steps_.find(step);
-    return found == steps_.end() ? nullptr : &found->second;
+    return found == steps_.end() ? nullptr : &found->second.state;
+}
+
+absl::Status ImportJournal::dropFrom(std::uint32_t step) {
+    const auto first = steps_.lower_bound(step);
+    if (first == steps_.end())
+        return absl::OkStatus();
+    if (ftruncate(fd_, static_cast<off_t>(first->second.offset)) != 0 ||
+        lseek(fd_, 0, SEEK_END) < 0 || fsync(fd_) != 0)
+        return fabric::writeError(path_, "cannot be cut", errno);
+    steps_.erase(first, steps_.end());
+    return absl::OkStatus();
 }
 
 absl::Status ImportJournal::append(std::span<const std::byte> bytes) {

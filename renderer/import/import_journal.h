@@ -38,7 +38,10 @@ public:
     /// Lets go of the memory of what `find` gave for a step.
     void release(std::uint32_t step) { steps_.erase(step); }
     bool isEmpty() const { return steps_.empty(); }
-    /// On disk when this returns.
+    /// Forgets what was done before this run from a step on: it is to be done again, and whatever
+    /// came of it before holds no longer.
+    absl::Status dropFrom(std::uint32_t step);
+    /// Steps are added in ascending order. On disk when this returns.
     absl::Status add(std::uint32_t step, std::span<const std::byte> state);
     /// Forgets all steps.
     absl::Status clear();
@@ -55,7 +58,11 @@ private:
     std::string path_;
     int fd_;
     std::uint64_t key_;
-    std::map<std::uint32_t, std::vector<std::byte>> steps_;
+    struct Step {
+        std::uint64_t offset = 0;  ///< of its record
+        std::vector<std::byte> state;
+    };
+    std::map<std::uint32_t, Step> steps_;
 };
 
 }  // namespace eyrie::import

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -15,6 +14,7 @@
 #include <tbb/task_arena.h>
 
 #include "fabric/status.h"
+#include "renderer/terrain/eyt_writer.h"
 #include "renderer/terrain/tile_mesh.h"
 #include "renderer/terrain/tile_samples.h"
 
@@ -205,29 +205,6 @@ absl::Status buildPages(const PageSources& sources, std::span<const std::uint32_
                         terrain::EytIndex& index, const PageSink& sink) {
     RETURN_IF_ERROR(PageLine(sources, pages, scratch, control, index, sink).run());
     return scratch.status();
-}
-
-absl::Status writeLevels(int first, int end, const PageSources& sources,
-                         const terrain::Scratch& scratch, const ImportControl& control,
-                         terrain::EytIndex& index, terrain::EytWriter& writer) {
-    const terrain::Quadtree& quadtree = index.quadtree;
-    const auto firstPage = [&](int level) {
-        return level < quadtree.levels() ? quadtree.pageIndex({level, 0, 0}) : quadtree.pageCount();
-    };
-    std::vector<std::uint32_t> pages(firstPage(end) - firstPage(first));
-    std::iota(pages.begin(), pages.end(), firstPage(first));
-    ImportControl ofAll = control;
-    ofAll.progress = [&](std::string_view stage, double fraction) {
-        control.report(stage, (firstPage(first) + fraction * static_cast<double>(pages.size())) /
-                                  quadtree.pageCount());
-    };
-    return buildPages(sources, pages, scratch, ofAll, index,
-                      [&](std::uint32_t page, std::span<const std::uint32_t> bytes) {
-                          absl::StatusOr<terrain::PageRecord> record = writer.addPage(bytes);
-                          if (record.ok())
-                              index.pages[page] = *record;
-                          return record.status();
-                      });
 }
 
 void saturate(terrain::EytIndex& index) {

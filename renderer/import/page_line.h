@@ -10,7 +10,6 @@
 #include "renderer/import/part_set.h"
 #include "renderer/import/progress.h"
 #include "renderer/terrain/eyt_format.h"
-#include "renderer/terrain/eyt_writer.h"
 #include "renderer/terrain/height_layers.h"
 #include "renderer/terrain/normal_map.h"
 #include "renderer/terrain/vertex_levels.h"
@@ -37,11 +36,6 @@ using PageSink =
 absl::Status buildPages(const PageSources& sources, std::span<const std::uint32_t> pages,
                         const terrain::Scratch& scratch, const ImportControl& control,
                         terrain::EytIndex& index, const PageSink& sink);
-
-/// The same of the pages of levels `first` to `end`, written one after the other.
-absl::Status writeLevels(int first, int end, const PageSources& sources,
-                         const terrain::Scratch& scratch, const ImportControl& control,
-                         terrain::EytIndex& index, terrain::EytWriter& writer);
 
 /// Makes each tile's record cover those of the tiles under it, once all are built.
 void saturate(terrain::EytIndex& index);

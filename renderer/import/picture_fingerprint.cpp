@@ -5,6 +5,7 @@
 #include <optional>
 
 #include <cpl_vsi.h>
+#include <fmt/format.h>
 #include <xxhash.h>
 
 #include "renderer/import/gdal_handles.h"
@@ -41,6 +42,14 @@ std::uint64_t fingerprintOf(const std::string& name) {
     return all;
 }
 
+std::string stampOf(const std::string& file) {
+    VSIStatBufL status;
+    if (VSIStatL(file.c_str(), &status) != 0)
+        return file + '\n';
+    return fmt::format("{} {} {}.{}\n", file, status.st_size, status.st_mtim.tv_sec,
+                       status.st_mtim.tv_nsec);
+}
+
 }  // namespace
 
 std::uint64_t pictureFingerprint(const std::vector<std::string>& paths) {
@@ -48,6 +57,17 @@ std::uint64_t pictureFingerprint(const std::vector<std::string>& paths) {
     std::uint64_t all = 0;
     for (const std::string& path : paths) all = all * 0x9e3779b97f4a7c15 + fingerprintOf(path);
     return all;
+}
+
+std::uint64_t pictureStamp(const std::vector<std::string>& paths) {
+    const QuietGdal quiet;
+    std::string all;
+    for (const std::string& path : paths) {
+        all += stampOf(path);
+        if (const Dataset dataset(GDALOpen(path.c_str(), GA_ReadOnly)); dataset)
+            for (const std::string& file : allFilesOf(dataset.get())) all += stampOf(file);
+    }
+    return XXH64(all.data(), all.size(), 0);
 }
 
 }  // namespace eyrie::import

@@ -12,4 +12,8 @@ namespace eyrie::import {
 /// under different ones; but what of a file they name does. 0 for none.
 std::uint64_t pictureFingerprint(const std::vector<std::string>& paths);
 
+/// Tells pictures on this machine from what they were before, by the names, sizes and times of last
+/// change of all their files, those that virtual ones name included.
+std::uint64_t pictureStamp(const std::vector<std::string>& paths);
+
 }  // namespace eyrie::import

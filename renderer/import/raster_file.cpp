@@ -2,6 +2,8 @@
 #include "renderer/import/raster_file.h"
 
 #include <array>
+#include <memory>
+#include <set>
 
 #include <cpl_string.h>
 #include <cpl_vsi.h>
@@ -88,6 +90,23 @@ std::vector<std::string> filesOf(GDALDatasetH raster) {
     std::vector<std::string> files;
     for (char** file = list.get(); file != nullptr && *file != nullptr; ++file)
         files.emplace_back(*file);
+    return files;
+}
+
+std::vector<std::string> allFilesOf(GDALDatasetH raster) {
+    std::vector<std::string> files = filesOf(raster);
+    std::set<std::string> known(files.begin(), files.end());
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        if (!files[i].ends_with(".vrt"))
+            continue;
+        const Dataset inner(
+            GDALOpenEx(files[i].c_str(), GDAL_OF_RASTER, nullptr, nullptr, nullptr));
+        if (!inner)
+            continue;  // what it lacks is found when it is read
+        for (std::string& file : filesOf(inner.get()))
+            if (known.insert(file).second)
+                files.push_back(std::move(file));
+    }
     return files;
 }
 

@@ -26,6 +26,9 @@ absl::Status checkOpenFiles(const std::string& path);
 
 /// Files that a raster consists of, as GDAL names them.
 std::vector<std::string> filesOf(GDALDatasetH raster);
+/// And, as GDAL names only the files that a virtual raster has itself, of virtual ones among them.
+/// Each once, so that rasters that name each other come to an end.
+std::vector<std::string> allFilesOf(GDALDatasetH raster);
 
 /// As in raster_hash.h, of a raster that is open: by `path`.
 absl::StatusOr<std::uint64_t> rasterHash(const std::string& path, GDALDatasetH raster);

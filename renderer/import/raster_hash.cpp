@@ -2,7 +2,6 @@
 #include "renderer/import/raster_hash.h"
 
 #include <memory>
-#include <set>
 #include <vector>
 
 #include <cpl_vsi.h>
@@ -36,25 +35,6 @@ absl::StatusOr<std::uint64_t> hashNamed(const std::string& path) {
         return hashFile(path);
     const std::string part = partOfFile(path);
     return XXH64(part.data(), part.size(), 0);
-}
-
-/// Of a raster and, as GDAL names only the files that a virtual raster has itself, of virtual ones
-/// among them. Each once, so that rasters that name each other come to an end.
-std::vector<std::string> allFilesOf(GDALDatasetH raster) {
-    std::vector<std::string> files = filesOf(raster);
-    std::set<std::string> known(files.begin(), files.end());
-    for (std::size_t i = 0; i < files.size(); ++i) {
-        if (!files[i].ends_with(".vrt"))
-            continue;
-        const Dataset inner(
-            GDALOpenEx(files[i].c_str(), GDAL_OF_RASTER, nullptr, nullptr, nullptr));
-        if (!inner)
-            continue;  // what it lacks is found when it is read
-        for (std::string& file : filesOf(inner.get()))
-            if (known.insert(file).second)
-                files.push_back(std::move(file));
-    }
-    return files;
 }
 
 }  // namespace

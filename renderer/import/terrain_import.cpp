@@ -27,6 +27,7 @@
 #include "renderer/import/terrain_stages.h"
 #include "renderer/import/texel_store.h"
 #include "renderer/import/thread_limit.h"
+#include "renderer/import/written_levels.h"
 #include "renderer/terrain/eyt_format.h"
 
 namespace eyrie::import {
@@ -75,7 +76,8 @@ absl::Status explained(const absl::Status& error, const std::vector<std::string>
     return absl::Status(error.code(), message);
 }
 
-/// Removes what killed imports into `out` have left: EytWriter's unfinished files.
+/// Removes what killed imports into `out` have left that do not go on: EytWriter's unfinished
+/// files.
 void removeLeftovers(const std::string& out) {
     namespace fs = std::filesystem;
     const fs::path whole = fs::absolute(out);
@@ -120,10 +122,13 @@ public:
 
     absl::StatusOr<TerrainImportReport> run() {
         removeLeftovers(out_);
-        ASSIGN_OR_RETURN(terrain::EytWriter writer, terrain::EytWriter::create(out_));
+        ASSIGN_OR_RETURN(terrain::EytWriter writer, scratch_.fitsInMemory()
+                                                        ? terrain::EytWriter::create(out_)
+                                                        : terrain::EytWriter::resume(out_));
         ASSIGN_OR_RETURN(TerrainStages stages,
                          TerrainStages::open(scratch_, key(), options_.startsOver));
         absl::StatusOr<TerrainImportReport> report = runStages(stages, writer);
+        writer.keepUnfinished(stages.goesOnLater(report.status()));
         RETURN_IF_ERROR(stages.end(report.status()));
         return report;
     }
@@ -148,16 +153,19 @@ private:
 
     /// Levels with all posts first: what coarser ones are made from would take the memory of what
     /// three passes over all posts need.
-    absl::Status writePages(const terrain::HeightLattice& lattice, terrain::EytIndex& index,
-                            terrain::EytWriter& writer) {
+    absl::Status writePages(const terrain::HeightLattice& lattice, TerrainStages& stages,
+                            terrain::EytIndex& index, terrain::EytWriter& writer) {
         const PageSources sources{model_, heights_, vertexLevels_, normals_, lattice, parts_};
         const int coarse = std::min(levels_, terrain::kFullResolutionLevels);
-        RETURN_IF_ERROR(writeLevels(0, coarse, sources, scratch_, control_, index, writer));
-        RETURN_IF_ERROR(normals_.make(control_));
+        const auto write = [&](int first, int end) {
+            return writeLevels(first, end, sources, scratch_, control_, stages, index, writer);
+        };
+        RETURN_IF_ERROR(write(0, coarse));
+        RETURN_IF_ERROR(stages.run([&] { return normals_.make(control_); }));
         const int thinned = std::min(levels_, coarse + 1);
-        RETURN_IF_ERROR(writeLevels(coarse, thinned, sources, scratch_, control_, index, writer));
-        RETURN_IF_ERROR(heights_.make(control_));
-        RETURN_IF_ERROR(writeLevels(thinned, levels_, sources, scratch_, control_, index, writer));
+        RETURN_IF_ERROR(write(coarse, thinned));
+        RETURN_IF_ERROR(stages.run([&] { return heights_.make(control_); }));
+        RETURN_IF_ERROR(write(thinned, levels_));
         saturate(index);
         return absl::OkStatus();
     }
@@ -183,15 +191,15 @@ private:
                                    {[&] { return vertexLevels_.state(); },
                                     [&](const auto& s) { return vertexLevels_.restore(s); }}));
         terrain::EytIndex index = emptyIndex(model_, lattice, source_.crsWkt, source_.hash);
-        RETURN_IF_ERROR(writePages(lattice, index, writer));
+        RETURN_IF_ERROR(writePages(lattice, stages, index, writer));
         if (index.triangles() == 0)
             return absl::InvalidArgumentError(fmt::format(
                 "{}: no three neighbouring posts have data; check the nodata value", source_.name));
         if (imagery_ != nullptr) {
-            ASSIGN_OR_RETURN(
-                index.imagery,
-                buildImagery(*imagery_, fmt::format("{}", fmt::join(options_.imagery, ", ")),
-                             parts_, *texels_, scratch_, control_, writer));
+            const NamedPictures pictures{fmt::format("{}", fmt::join(options_.imagery, ", ")),
+                                         stages.areKept() ? pictureStamp(options_.imagery) : 0};
+            ASSIGN_OR_RETURN(index.imagery, buildImagery(*imagery_, pictures, parts_, *texels_,
+                                                         scratch_, control_, stages, writer));
         }
         ASSIGN_OR_RETURN(const std::uint64_t sizeBytes, writer.commit(index));
         TerrainImportReport report = reportOf(index, postMetres, sizeBytes);
@@ -202,7 +210,7 @@ private:
         return report;
     }
 
-    static constexpr int kImportVersion = 5;  ///< raise it when scratch or journal change
+    static constexpr int kImportVersion = 6;  ///< raise it when scratch or journal change
 
     HeightSource& posts_;
     ImagerySource* imagery_;

@@ -64,9 +64,10 @@ struct TerrainSource {
 /// Makes an .eyt of elevation models, mosaicked as openMosaic says. `out` appears complete or not
 /// at all.
 ///
-/// What does not fit in memory lies in `OUT.scratch` until the import is done. An import that was
-/// called off, killed or ran out of disk leaves it, and the same call goes on after the last
-/// stage that was finished; the result is the same to the byte. Imports that fit leave nothing.
+/// What does not fit in memory lies in `OUT.scratch` until the import is done, and what is written
+/// of the file in `OUT.partial`. An import that was called off, killed or ran out of disk leaves
+/// them, and the same call goes on after the last stage, or batch of pages or texture tiles, that
+/// was finished; the result is the same to the byte. Imports that fit leave nothing.
 ///
 /// With `mergesParts` what importTerrainShard has left beside `out` takes the place of reading and
 /// measuring the posts and of building the finer pages; the parts are removed in the end. The file
@@ -75,8 +76,8 @@ struct TerrainSource {
 /// Stages reported: checking, reading, measuring (gathering and collecting of parts), joining,
 /// building, with smoothing and thinning between its levels, imagery.
 /// Errors: those of openMosaic, openImagery, buildImagery and PartSet; NotFound, PermissionDenied,
-/// ResourceExhausted for `out` and the scratch; InvalidArgument when no cell has data on three
-/// corners; Cancelled.
+/// ResourceExhausted for `out` and the scratch; FailedPrecondition while another import into `out`
+/// is at work; InvalidArgument when no cell has data on three corners; Cancelled.
 absl::StatusOr<TerrainImportReport> importTerrain(const std::vector<std::string>& dems,
                                                   const std::string& out,
                                                   const TerrainImportOptions& options,

@@ -35,6 +35,7 @@ absl::Status TerrainStages::run(const std::function<absl::Status()>& work, const
         journal_->release(step);
         return absl::OkStatus();
     }
+    RETURN_IF_ERROR(journal_->dropFrom(step));
     RETURN_IF_ERROR(work());
     RETURN_IF_ERROR(kept());
     keeping_ = std::async(std::launch::async, [this, step, bytes = state.save()] {
@@ -48,12 +49,10 @@ absl::Status TerrainStages::run(const std::function<absl::Status()>& work, const
 absl::Status TerrainStages::kept() { return keeping_.valid() ? keeping_.get() : absl::OkStatus(); }
 
 absl::Status TerrainStages::end(const absl::Status& outcome) {
-    if (outcome.ok() || absl::IsInvalidArgument(outcome)) {
+    if (!goesOnLater(outcome)) {
         remove();
         return outcome;
     }
-    if (!journal_)
-        return outcome;
     // Where it cannot be kept it is done again.
     static_cast<void>(kept());
     const auto message = outcome.message();

@@ -31,9 +31,17 @@ public:
             [](const std::vector<std::byte>&) { return true; };
     };
     /// Runs the next stage, or takes its result from the journal. What the stage left is kept while
-    /// the next one runs: a job that is killed may have to do two stages again.
+    /// the next one runs: a job that is killed may have to do two stages again. Once one has run
+    /// none is taken from the journal any more: what it leaves may lie where a later one's lay.
     absl::Status run(const std::function<absl::Status()>& work, const State& state);
     absl::Status run(const std::function<absl::Status()>& work) { return run(work, State{}); }
+
+    /// Whether finished stages are kept at all.
+    bool areKept() const { return journal_.has_value(); }
+    /// Whether the same command could go on after this outcome.
+    bool goesOnLater(const absl::Status& outcome) const {
+        return areKept() && !outcome.ok() && !absl::IsInvalidArgument(outcome);
+    }
 
     /// What came of the job, after its last stage. Scratch file and journal go, unless the same
     /// command could go on with them: then the error says so.

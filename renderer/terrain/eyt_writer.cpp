@@ -9,6 +9,8 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <xxhash.h>
 
@@ -54,6 +56,14 @@ FileHeader headerOf(const EytIndex& index, std::uint64_t indexOffset,
     header.indexChecksum = XXH64(bytes.data(), bytes.size(), 0);
     header.headerChecksum = XXH64(&header, offsetof(FileHeader, headerChecksum), 0);
     return header;
+}
+
+/// Not so where what was opened has since been renamed or removed.
+bool isNameOf(const std::string& path, int fd) {
+    struct stat named {};
+    struct stat opened {};
+    return stat(path.c_str(), &named) == 0 && fstat(fd, &opened) == 0 &&
+           named.st_dev == opened.st_dev && named.st_ino == opened.st_ino;
 }
 
 }  // namespace
@@ -127,13 +137,15 @@ EytWriter::EytWriter(EytWriter&& other) noexcept
       partialPath_(std::move(other.partialPath_)),
       fd_(std::exchange(other.fd_, -1)),
       size_(other.size_),
-      started_(other.started_) {}
+      started_(other.started_),
+      keepsUnfinished_(other.keepsUnfinished_) {}
 
 EytWriter::~EytWriter() {
     if (fd_ < 0)
         return;
-    close(fd_);
-    unlink(partialPath_.c_str());
+    if (!keepsUnfinished_)
+        unlink(partialPath_.c_str());
+    close(fd_);  // and its lock with it, when the name is gone
 }
 
 absl::StatusOr<EytWriter> EytWriter::create(const std::string& path) {
@@ -142,6 +154,51 @@ absl::StatusOr<EytWriter> EytWriter::create(const std::string& path) {
     if (fd < 0)
         return fabric::writeError(path, "cannot be written", errno);
     return EytWriter(path, std::move(partialPath), fd);
+}
+
+absl::StatusOr<EytWriter> EytWriter::resume(const std::string& path) {
+    std::string partialPath = path + ".partial";
+    const int fd = open(partialPath.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+    if (fd < 0)
+        return fabric::writeError(path, "cannot be written", errno);
+    EytWriter writer(path, std::move(partialPath), fd);
+    writer.keepsUnfinished_ = true;  // until it is known whose it is
+    if (flock(fd, LOCK_EX | LOCK_NB) != 0 || !isNameOf(writer.partialPath_, fd))
+        return absl::FailedPreconditionError(fmt::format(
+            "{}: another import into the same file is at work; wait for it, or stop it", path));
+    struct stat status {};
+    writer.keepsUnfinished_ = fstat(fd, &status) == 0 && status.st_size > 0;
+    return writer;
+}
+
+bool EytWriter::takeWritten(std::span<const PageRecord> pages) {
+    std::uint64_t end = size_;
+    std::vector<char> bytes;
+    for (const PageRecord& page : pages) {
+        if (page.bytes == 0)
+            continue;
+        if (page.offset != end)
+            return false;
+        bytes.resize(page.bytes);
+        if (!readAt(bytes, page.offset) || XXH64(bytes.data(), bytes.size(), 0) != page.checksum)
+            return false;
+        end += page.bytes;
+    }
+    size_ = started_ = end;
+    return true;
+}
+
+bool EytWriter::readAt(std::span<char> out, std::uint64_t offset) const {
+    while (!out.empty()) {
+        const ssize_t got = pread(fd_, out.data(), out.size(), static_cast<off_t>(offset));
+        if (got < 0 && errno == EINTR)
+            continue;
+        if (got <= 0)
+            return false;
+        out = out.subspan(static_cast<std::size_t>(got));
+        offset += static_cast<std::uint64_t>(got);
+    }
+    return true;
 }
 
 absl::Status EytWriter::writeAt(const void* data, std::size_t bytes, std::uint64_t offset) {
@@ -191,6 +248,9 @@ absl::StatusOr<std::uint64_t> EytWriter::commit(const EytIndex& index) {
     const FileHeader header = headerOf(index, indexOffset, bytes);
     RETURN_IF_ERROR(writeAt(bytes.data(), bytes.size(), indexOffset));
     RETURN_IF_ERROR(writeAt(&header, sizeof header, 0));
+    // An earlier writer may have left more.
+    if (ftruncate(fd_, static_cast<off_t>(indexOffset + bytes.size())) != 0)
+        return fabric::writeError(path_, "cannot be cut to its size", errno);
     if (fsync(fd_) != 0)
         return fabric::writeError(path_, "cannot be flushed to disk", errno);
     if (std::rename(partialPath_.c_str(), path_.c_str()) != 0)

@@ -39,12 +39,18 @@ private:
     NormalEncoder normals_;
 };
 
-/// Writes an .eyt file that appears under its name only when it is complete: bytes go to
-/// `PATH.partial-<process id>` beside it, and without commit() that is removed.
+/// Writes an .eyt file that appears under its name only when it is complete: bytes go to a file
+/// beside it, which has no header before commit().
 class EytWriter {
 public:
+    /// Into `PATH.partial-<process id>`, which goes with the writer unless that commits.
     /// Errors: NotFound (no such folder), PermissionDenied, Unavailable.
     static absl::StatusOr<EytWriter> create(const std::string& path);
+
+    /// Into `PATH.partial`, where an earlier writer may have left pages that takeWritten() takes.
+    /// It goes with the writer, unless it was there before or keepUnfinished() says otherwise.
+    /// Errors: those of create; FailedPrecondition (another writer is at work there).
+    static absl::StatusOr<EytWriter> resume(const std::string& path);
 
     EytWriter(EytWriter&& other) noexcept;
     EytWriter& operator=(EytWriter&&) = delete;
@@ -55,6 +61,13 @@ public:
     absl::StatusOr<PageRecord> addPage(std::span<const std::uint32_t> page);
     absl::StatusOr<PageRecord> addPage(std::span<const std::byte> page);
 
+    /// Takes pages for written that addPage gave these records for in an earlier process: false,
+    /// and nothing is taken, unless all their bytes are there and are the next ones.
+    bool takeWritten(std::span<const PageRecord> pages);
+
+    /// Whether what is written stays, for resume(), without commit().
+    void keepUnfinished(bool keeps) { keepsUnfinished_ = keeps; }
+
     /// Writes index and header, flushes all to disk and renames. Returns the file's size.
     /// Precondition: index.pages holds what addPage returned.
     absl::StatusOr<std::uint64_t> commit(const EytIndex& index);
@@ -62,6 +75,7 @@ public:
 private:
     EytWriter(std::string path, std::string partialPath, int fd);
 
+    bool readAt(std::span<char> out, std::uint64_t offset) const;
     absl::Status writeAt(const void* data, std::size_t bytes, std::uint64_t offset);
     void startDisk();
 
@@ -70,6 +84,7 @@ private:
     int fd_;
     std::uint64_t size_;
     std::uint64_t started_ = 0;  ///< of size_, what the disk was told to write
+    bool keepsUnfinished_ = false;
 };
 
 }  // namespace eyrie::terrain

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <utility>
 
 #include <gmock/gmock.h>
@@ -21,7 +22,7 @@ using testing::HasSubstr;
 /// What is reported, and with what an import begins that goes on after an abort there.
 constexpr std::pair<const char*, const char*> kStages[] = {
     {"reading", "reading"},   {"measuring", "measuring"}, {"joining", "measuring"},
-    {"building", "building"}, {"smoothing", "building"},  {"thinning", "building"}};
+    {"building", "building"}, {"smoothing", "smoothing"}, {"thinning", "thinning"}};
 
 /// Too large for the 4 MiB that a scratch has at least.
 const terrain::HeightGrid& largeGrid() {
@@ -71,7 +72,45 @@ TEST_F(TerrainResume, GivesTheSameBytesAfterAnAbortInEachStage) {
         EXPECT_EQ(test::contents(out), test::contents(whole)) << stage;
         EXPECT_FALSE(std::filesystem::exists(out + ".scratch")) << stage;
         EXPECT_FALSE(std::filesystem::exists(out + ".scratch.journal")) << stage;
+        EXPECT_FALSE(std::filesystem::exists(out + ".partial")) << stage;
     }
+}
+
+TEST_F(TerrainResume, MakesPagesAnewThatAreNotInThePartialFileAsTheyWere) {
+    const std::string whole = folder_.path("whole.eyt");
+    ASSERT_TRUE(import(whole, {}, {}).ok());
+    const std::string out = folder_.path("a.eyt");
+    const std::string partial = out + ".partial";
+    const std::function<void()> damages[] = {
+        [&] { std::filesystem::remove(partial); },
+        [&] { std::filesystem::resize_file(partial, std::filesystem::file_size(partial) / 2); },
+        [&] { std::ofstream(partial, std::ios::app) << std::string(10'000'000, 'x'); },
+        [&] {
+            std::fstream file(partial, std::ios::in | std::ios::out | std::ios::binary);
+            file.seekp(static_cast<std::streamoff>(std::filesystem::file_size(partial) / 2));
+            file.put('\x5a');
+        }};
+    for (const std::function<void()>& damage : damages) {
+        ASSERT_FALSE(importUntil("thinning", out).ok());
+        damage();
+        ASSERT_TRUE(import(out).ok());
+        EXPECT_EQ(test::contents(out), test::contents(whole));
+    }
+}
+
+TEST_F(TerrainResume, RefusesASecondImportIntoTheSameFile) {
+    const std::string out = folder_.path("a.eyt");
+    std::filesystem::create_directory(folder_.path("scratch"));
+    absl::Status second;
+    ImportControl control;
+    control.progress = [&](std::string_view stage, double) {
+        if (stage == "thinning" && second.ok())
+            second = import(out, {}, {.memoryBytes = 1, .scratchFolder = folder_.path("scratch")});
+    };
+    ASSERT_TRUE(import(out, control, {.memoryBytes = 1, .threads = 1}).ok());
+    EXPECT_EQ(second.code(), absl::StatusCode::kFailedPrecondition) << second;
+    EXPECT_THAT(second.ToString(), HasSubstr("a.eyt: another import"));
+    EXPECT_TRUE(std::filesystem::is_empty(folder_.path("scratch")));
 }
 
 TEST_F(TerrainResume, SaysAgainWhatWasFoundInPostsThatAreNotReadAgain) {
@@ -173,6 +212,30 @@ TEST(ImportJournal, GivesBackWhatWasAddedForTheSameKeyOnly) {
     auto other = ImportJournal::open(path, 6, false);
     ASSERT_TRUE(other.ok());
     EXPECT_TRUE(other->isEmpty());
+}
+
+TEST(ImportJournal, ForgetsForGoodWhatFollowedAStepThatIsDoneAgain) {
+    const test::TemporaryFolder folder;
+    const std::string path = folder.path("journal");
+    const std::vector<std::byte> state(10, std::byte{7});
+    {
+        auto journal = ImportJournal::open(path, 5, false);
+        ASSERT_TRUE(journal.ok());
+        for (std::uint32_t step = 0; step < 4; ++step) ASSERT_TRUE(journal->add(step, state).ok());
+    }
+    {
+        auto journal = ImportJournal::open(path, 5, false);
+        ASSERT_TRUE(journal.ok());
+        journal->release(0);
+        ASSERT_TRUE(journal->dropFrom(2).ok());
+        EXPECT_NE(journal->find(1), nullptr);
+        EXPECT_EQ(journal->find(3), nullptr);
+        ASSERT_TRUE(journal->add(2, state).ok());
+    }
+    auto journal = ImportJournal::open(path, 5, false);
+    ASSERT_TRUE(journal.ok());
+    for (std::uint32_t step = 0; step < 3; ++step) EXPECT_NE(journal->find(step), nullptr) << step;
+    EXPECT_EQ(journal->find(3), nullptr);
 }
 
 /// Cut anywhere, a journal keeps the records before the cut and takes new ones after them.
