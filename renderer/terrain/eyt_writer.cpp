@@ -163,7 +163,10 @@ absl::StatusOr<EytWriter> EytWriter::resume(const std::string& path) {
         return fabric::writeError(path, "cannot be written", errno);
     EytWriter writer(path, std::move(partialPath), fd);
     writer.keepsUnfinished_ = true;  // until it is known whose it is
-    if (flock(fd, LOCK_EX | LOCK_NB) != 0 || !isNameOf(writer.partialPath_, fd))
+    // Where a file system has no locks it is on whoever starts two imports into one file.
+    const bool isLocked =
+        flock(fd, LOCK_EX | LOCK_NB) == 0 || errno == ENOLCK || errno == EOPNOTSUPP;
+    if (!isLocked || !isNameOf(writer.partialPath_, fd))
         return absl::FailedPreconditionError(fmt::format(
             "{}: another import into the same file is at work; wait for it, or stop it", path));
     struct stat status {};
