@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/api/import_order.h"
 
+#include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <string_view>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -37,6 +40,56 @@ absl::StatusOr<std::vector<std::string>> filesOf(
     return files;
 }
 
+bool hasAny(std::string_view text, std::string_view characters) {
+    return text.find_first_of(characters) != std::string_view::npos;
+}
+
+std::string lowerCase(std::string text) {
+    std::ranges::transform(text, text.begin(), [](unsigned char c) {
+        return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+    });
+    return text;
+}
+
+/// The name by which GDAL knows a part of a file. It is put together here of pieces in which no
+/// colon or quote ends the file's path early: it can name no other file.
+absl::StatusOr<std::string> nameOfPart(const std::string& part, const std::string& file) {
+    constexpr std::string_view kEnds = ":\"";
+    const bool isPlain =
+        !hasAny(part, kEnds) && std::ranges::all_of(part, [](unsigned char c) { return c >= ' '; });
+    if (!isPlain || hasAny(file, kEnds))
+        return absl::InvalidArgumentError(
+            fmt::format("subdataset, of '{}': neither it nor the file's name may have colons, "
+                        "quotes or control characters",
+                        file));
+    const std::string ending = lowerCase(fs::path(file).extension().string());
+    if (ending == ".gpkg")
+        return fmt::format("GPKG:{}:{}", file, part);
+    if (ending == ".nc")
+        return fmt::format("NETCDF:\"{}\":{}", file, part);
+    if (ending == ".h5")
+        return fmt::format("HDF5:\"{}\"://{}", file,
+                           part.substr(std::min(part.find_first_not_of('/'), part.size())));
+    if (ending != ".tif" && ending != ".tiff")
+        return absl::InvalidArgumentError(
+            fmt::format("subdataset is of .gpkg, .tif, .nc and .h5, and a source is '{}'", file));
+    if (hasAny(part.substr(0, 1), "0") || part.find_first_not_of("0123456789") != std::string::npos)
+        return absl::InvalidArgumentError(
+            fmt::format("subdataset is '{}'; of .tif it is the number of a page, from 1", part));
+    return fmt::format("GTIFF_DIR:{}:{}", part, file);
+}
+
+/// As `eyrie import mesh --normals` takes it.
+bool isNormals(std::string_view text) {
+    constexpr std::string_view kCrease = "crease=";
+    if (!text.starts_with(kCrease))
+        return text == "auto" || text == "smooth" || text == "file";
+    double degrees = 0;
+    const char* const end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data() + kCrease.size(), end, degrees);
+    return error == std::errc() && rest == end && degrees >= 0 && degrees <= 180;
+}
+
 absl::StatusOr<v1::OperationKind> kindOf(const fs::path& output) {
     if (output.extension() == ".eyt")
         return v1::OPERATION_KIND_IMPORT_TERRAIN;
@@ -52,6 +105,15 @@ absl::Status checkChoices(const v1::ImportRequest& request, v1::OperationKind ki
         return absl::InvalidArgumentError("sources is empty; name at least one file");
     if (kind == v1::OPERATION_KIND_IMPORT_TERRAIN && request.orient())
         return absl::InvalidArgumentError("orient is of meshes, and the output is a terrain");
+    if (kind == v1::OPERATION_KIND_IMPORT_TERRAIN && !request.normals().empty())
+        return absl::InvalidArgumentError("normals is of meshes, and the output is a terrain");
+    if (kind == v1::OPERATION_KIND_IMPORT_MESH && !request.subdataset().empty())
+        return absl::InvalidArgumentError("subdataset is of terrains, and the output is a mesh");
+    if (!request.normals().empty() && !isNormals(request.normals()))
+        return absl::InvalidArgumentError(
+            fmt::format("normals is '{}'; give auto, smooth, file, or crease= and degrees from 0 "
+                        "to 180, such as crease=40",
+                        request.normals()));
     if (kind == v1::OPERATION_KIND_IMPORT_MESH && request.imagery_size() > 0)
         return absl::InvalidArgumentError("imagery is of terrains, and the output is a mesh");
     if (kind == v1::OPERATION_KIND_IMPORT_MESH && request.has_error_metres())
@@ -101,6 +163,10 @@ absl::StatusOr<ImportOrder> importOrderOf(const v1::ImportRequest& request,
                      filesOf(request.sources(), "sources", folder));
     ASSIGN_OR_RETURN(const std::vector<std::string> imagery,
                      filesOf(request.imagery(), "imagery", folder));
+    if (!request.subdataset().empty())
+        for (std::string& source : sources) {
+            ASSIGN_OR_RETURN(source, nameOfPart(request.subdataset(), source));
+        }
     const bool isTerrain = order.kind == v1::OPERATION_KIND_IMPORT_TERRAIN;
     order.arguments = {"import", isTerrain ? "terrain" : "mesh", "--progress-json", "--json",
                        "--memory=" + std::to_string(memoryBytes)};
@@ -109,6 +175,8 @@ absl::StatusOr<ImportOrder> importOrderOf(const v1::ImportRequest& request,
         order.arguments.push_back(fmt::format("--error={}", request.error_metres()));
     if (request.orient())
         order.arguments.emplace_back("--orient");
+    if (!request.normals().empty())
+        order.arguments.push_back("--normals=" + request.normals());
     order.arguments.insert(order.arguments.end(), sources.begin(), sources.end());
     return order;
 }

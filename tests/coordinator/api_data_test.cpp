@@ -389,11 +389,71 @@ TEST_F(RestData, RefusesWhatIsNotOfTheKind) {
                    .status == 400;
     };
     EXPECT_TRUE(isRefused("a.eyt", R"("orient":true)"));
+    EXPECT_TRUE(isRefused("a.eyt", R"("normals":"smooth")"));
+    EXPECT_TRUE(isRefused("a.eym", R"("subdataset":"1")"));
     EXPECT_TRUE(isRefused("a.eym", R"("imagery":["survey/dem.tif"])"));
     EXPECT_TRUE(isRefused("a.eym", R"("errorMetres":1)"));
     EXPECT_TRUE(isRefused("a.eyt", R"("errorMetres":-1)"));
     EXPECT_TRUE(isRefused("a.eyt", R"("errorMetres":"NaN")"));
     EXPECT_EQ(ask("POST", "/imports", R"({"output":"a.eyt"})").status, 400);
+}
+
+TEST_F(RestData, ImportsMeshesWithTheNormalsThatAreAskedFor) {
+    std::ofstream(data() / "house.obj") << "v 0 0 0\n";
+    const auto importWith = [&](const std::string& normals) {
+        return ask("POST", "/imports",
+                   fmt::format(R"({{"sources":["house.obj"],"output":"house.eym","replace":true,)"
+                               R"("normals":"{}"}})",
+                               normals));
+    };
+    for (const char* normals : {"auto", "smooth", "file", "crease=40", "crease=0.5"}) {
+        const RestAnswer answer = importWith(normals);
+        ASSERT_EQ(answer.status, 200) << *answer.body;
+        EXPECT_EQ(endOf(member(answer, "id")), "OPERATION_STATE_DONE");
+        EXPECT_EQ(commands_.back()[1], "mesh");
+        EXPECT_THAT(commands_.back(), Contains(std::string("--normals=") + normals));
+    }
+    for (const char* normals : {"flat", "crease", "crease=", "crease=181", "crease=-1",
+                                "crease=nan", "crease=4 --raw", "Smooth"}) {
+        const RestAnswer answer = importWith(normals);
+        EXPECT_EQ(answer.status, 400) << normals;
+        EXPECT_THAT(*answer.body, HasSubstr("such as crease=40")) << normals;
+    }
+    EXPECT_EQ(commands_.size(), 5U);
+    EXPECT_EQ(endOf(member(importWith(""), "id")), "OPERATION_STATE_DONE");
+    EXPECT_THAT(commands_.back(), testing::Each(testing::Not(HasSubstr("--normals"))));
+}
+
+TEST_F(RestData, ImportsOneOfSeveralRastersOfAFile) {
+    const auto importOf = [&](const std::string& source, const std::string& part) {
+        std::ofstream(data() / source) << "some";
+        return ask("POST", "/imports",
+                   fmt::format(R"({{"sources":["{}"],"output":"a.eyt","replace":true,)"
+                               R"("subdataset":"{}"}})",
+                               source, part));
+    };
+    const auto named = [&](const std::string& source, const std::string& part) {
+        const RestAnswer answer = importOf(source, part);
+        EXPECT_EQ(answer.status, 200) << *answer.body;
+        EXPECT_EQ(endOf(member(answer, "id")), "OPERATION_STATE_DONE");
+        return commands_.back().at(commands_.back().size() - 2);
+    };
+    EXPECT_EQ(named("two.gpkg", "alps"), "GPKG:./two.gpkg:alps");
+    EXPECT_EQ(named("two.TIF", "20"), "GTIFF_DIR:20:./two.TIF");
+    EXPECT_EQ(named("two.nc", "z"), "NETCDF:\"./two.nc\":z");
+    EXPECT_EQ(named("two.h5", "/group/z"), "HDF5:\"./two.h5\"://group/z");
+    const std::size_t begun = commands_.size();
+    for (const char* part : {"a:b", R"(a\":b)", R"(\n)", "/etc/passwd:x"})
+        EXPECT_EQ(importOf("two.gpkg", part).status, 400) << part;
+    for (const char* part : {"0", "00", "-1", "one", "1:./other.tif", "1 "})
+        EXPECT_EQ(importOf("two.tif", part).status, 400) << part;
+    EXPECT_EQ(importOf("x:y.nc", "z").status, 400);
+    EXPECT_EQ(importOf("two.vrt", "z").status, 400);
+    EXPECT_THAT(*ask("POST", "/imports",
+                     R"({"sources":["../secret.tif"],"output":"b.eyt","subdataset":"1"})")
+                     .body,
+                HasSubstr("sources[0]"));
+    EXPECT_EQ(commands_.size(), begun);
 }
 
 TEST_F(RestData, SaysWhereImportsAreOff) {
