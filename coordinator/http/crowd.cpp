@@ -87,7 +87,8 @@ absl::StatusOr<Crowd::Place> Crowd::seat(const std::string& address, const std::
     if (joined == nullptr &&
         taken_->sessions.isFull(limits_.sessions, limits_.sessionsPerAddress, address))
         return absl::ResourceExhaustedError(
-            "too many sessions; close one, join another's, or try again later");
+            "too many sessions; close another window of the page, join another's session, or try "
+            "again later");
     if (joined == nullptr) {
         joined = take(&Taken::sessions, address);
         if (!session.empty())

@@ -17,6 +17,7 @@
 #include <boost/beast/http.hpp>
 #include <boost/beast/http/span_body.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
+#include <fmt/format.h>
 #include <netinet/tcp.h>
 #include <poll.h>
 #include <sys/socket.h>
@@ -68,6 +69,21 @@ constexpr std::chrono::milliseconds kLookAgain{100};
 bool hasHungUp(int socket) {
     pollfd asked{socket, POLLRDHUP, 0};
     return ::poll(&asked, 1, 0) > 0;
+}
+
+/// In this header a page says where it is when it asks why it may not connect: browsers send no
+/// Origin with what a page asks of its own server, which behind a proxy they take the proxy for.
+constexpr const char* kPageOrigin = "Eyrie-Page-Origin";
+
+constexpr std::string_view kNoWebSocket =
+    "this address is for WebSockets; open / in a browser instead, and have a proxy in between pass "
+    "on the headers Upgrade and Connection";
+
+absl::Status strangersPage(std::string_view origin, std::string_view host) {
+    return absl::PermissionDeniedError(
+        fmt::format("pages of {} may not connect to this server, which was asked as {}; a proxy in "
+                    "between has to pass on the browser's Host",
+                    origin, host));
 }
 
 std::string_view view(beast::string_view text) { return {text.data(), text.size()}; }
@@ -264,31 +280,41 @@ private:
                 address_};
     }
 
+    /// Scripts do not learn why a WebSocket was refused: to a plain GET all that would refuse one
+    /// is answered as well, and nobody gets a seat.
     void upgrade(const Request& request, access::Role role) {
         namespace http = beast::http;
-        if (!beast::websocket::is_upgrade(request))
-            return reply(textResponse(426, "This is a WebSocket; open / in a browser instead."),
-                         false);
-        if (!isAllowedOrigin(view(request[http::field::origin]), view(request[http::field::host]),
-                             context_.isLoopback))
-            return reply(textResponse(403, "Pages of other sites may not connect to this server."),
-                         false);
+        const bool isUpgrade = beast::websocket::is_upgrade(request);
+        const std::string_view host = view(request[http::field::host]);
+        const std::string_view origin =
+            view(request.count(http::field::origin) == 0 ? request[kPageOrigin]
+                                                         : request[http::field::origin]);
+        if (!isAllowedOrigin(origin, host, context_.isLoopback))
+            return refuse(strangersPage(origin, host));
         auto joining = stream::joiningOf(view(request.target()));
         if (!joining.ok())
             return reply(problemResponse(400, std::string(joining.status().message())), false);
         joining->mayControl = role >= access::Role::Control;
         absl::StatusOr<Crowd::Place> seat = context_.crowd.seat(address_, joining->session);
         if (!seat.ok()) {
-            context_.telemetry->metrics.overQuota(observe::Quota::Viewers);
-            Response refused = problemResponse(seat.status());
-            refused.headers.emplace_back("Retry-After", "5");
-            return reply(refused, false);
+            if (isUpgrade)
+                context_.telemetry->metrics.overQuota(observe::Quota::Viewers);
+            return refuse(seat.status());
         }
+        if (!isUpgrade)
+            return reply(problemResponse(426, kNoWebSocket), false);
         std::ostringstream received;
         received << request << beast::buffers_to_string(buffer_.data());
         stream_.expires_never();
         openWebSocket(std::move(stream_), received.str(), *joining, context_,
                       std::make_shared<std::pair<Slot, Slot>>(std::move(slot_), *std::move(seat)));
+    }
+
+    /// Of a viewer, for a while: others may leave, and proxies be set right.
+    void refuse(const absl::Status& why) {
+        Response refused = problemResponse(why);
+        refused.headers.emplace_back("Retry-After", "5");
+        reply(refused, false);
     }
 
     /// On a thread of its own; what ends the connection ends the call.

@@ -60,7 +60,8 @@ struct ServerOptions {
 ///
 ///   /          the UI, from webFolder (read once, at start)
 ///   /ws        viewer.proto over binary WebSocket messages; ?session=NAME shares a view, with
-///              &role=watch without moving it; cross-origin requests get 403
+///              &role=watch without moving it; cross-origin requests get 403. A plain
+///              GET is told why a WebSocket would be refused, or 426
 ///   /login     who one is, and a cookie for a token (access.h)
 ///   /healthz   200 while the process lives
 ///   /readyz    200 while a renderer is alive and a scene is open, 503 otherwise; JSON says why

@@ -3,13 +3,18 @@
 import { createServer, request } from "node:http";
 import { connect } from "node:net";
 
-/** Listens on a port of its own; `prefix` begins and ends with "/". */
-export async function prefixProxy(url, prefix) {
-  const { hostname, port } = new URL(url);
+/**
+ * Listens on a port of its own; `prefix` begins and ends with "/". `setsHost`: asks the server by its
+ * own name, as proxies do that are not told to pass on the browser's.
+ */
+export async function prefixProxy(url, prefix, { setsHost = false } = {}) {
+  const { hostname, port, host } = new URL(url);
+  const headersOf = (asked) => (setsHost ? { ...asked.headers, host } : asked.headers);
   const pathOf = (asked) => asked.url.slice(prefix.length - 1);
   const proxy = createServer((asked, answer) => {
     if (!asked.url.startsWith(prefix)) return answer.writeHead(404).end();
-    const { method, headers } = asked;
+    const { method } = asked;
+    const headers = headersOf(asked);
     const passed = request({ hostname, port, method, path: pathOf(asked), headers }, (got) => {
       answer.writeHead(got.statusCode, got.headers);
       got.pipe(answer);
@@ -19,7 +24,7 @@ export async function prefixProxy(url, prefix) {
   proxy.on("upgrade", (asked, browser) => {
     if (!asked.url.startsWith(prefix)) return browser.destroy();
     const upstream = connect(Number(port), hostname);
-    const headers = Object.entries(asked.headers).map(([name, value]) => `${name}: ${value}`);
+    const headers = Object.entries(headersOf(asked)).map(([name, value]) => `${name}: ${value}`);
     upstream.write(`GET ${pathOf(asked)} HTTP/1.1\r\n${headers.join("\r\n")}\r\n\r\n`);
     for (const [from, to] of [
       [browser, upstream],

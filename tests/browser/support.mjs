@@ -109,8 +109,10 @@ export class Browser {
     browser.eyes = await browser.chromium.newPage();
     browser.page.on("pageerror", (error) => browser.errors.push(String(error)));
     browser.page.on("console", (message) => {
-      // Chromium itself logs each refused connection while the server is gone.
-      const isRefusal = /WebSocket connection to|net::ERR_CONNECTION_/.test(message.text());
+      // Chromium itself logs each refused connection while the server is gone, and each answer why.
+      const isRefusal =
+        /WebSocket connection to|net::ERR_CONNECTION_/.test(message.text()) ||
+        /\/ws(\?|$)/.test(message.location().url);
       if (message.type() === "error" && !isRefusal) browser.errors.push(message.text());
     });
     return browser;

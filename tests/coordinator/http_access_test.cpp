@@ -354,6 +354,13 @@ TEST_F(HttpAccess, OneAddressCannotTakeAllSeats) {
     EXPECT_THAT(refused, HasSubstr("application/problem+json"));
     EXPECT_THAT(refused, HasSubstr("Retry-After"));
     EXPECT_THAT(refused, HasSubstr("too many viewers"));
+    const std::string why = request("GET", "/ws");
+    EXPECT_THAT(ask(why, "127.0.0.2"),
+                testing::AllOf(HasSubstr("HTTP/1.1 429"), HasSubstr("Retry-After"),
+                               HasSubstr("too many viewers")))
+        << "a script that asks is told the same";
+    for (int i = 0; i < 5; ++i)
+        EXPECT_THAT(ask(why, "127.0.0.3"), HasSubstr("HTTP/1.1 426")) << "asking takes no seat";
     EXPECT_THAT(ask(upgrade, "127.0.0.3"), HasSubstr("HTTP/1.1 101"));
     viewers.clear();
     const auto end = std::chrono::steady_clock::now() + seconds(20);

@@ -48,6 +48,25 @@ TEST_F(ViewerConnection, RefusesPagesOfOtherSites) {
     }
 }
 
+TEST_F(ViewerConnection, TellsAPageThatAProxyMadeAStrangerWhatToDo) {
+    start();
+    const auto ask = [this](const std::string& origin) {
+        return exchange(fmt::format("GET /ws HTTP/1.1\r\nHost: {}\r\nEyrie-Page-Origin: {}\r\n\r\n",
+                                    hostAndPort(), origin));
+    };
+    const Response refused = ask("https://eyrie.example");
+    EXPECT_EQ(refused.result_int(), 403u);
+    EXPECT_EQ(refused["Content-Type"], "application/problem+json");
+    EXPECT_EQ(refused["Retry-After"], "5");
+    EXPECT_THAT(refused.body(),
+                testing::HasSubstr("\"detail\":\"pages of https://eyrie.example may not connect to "
+                                   "this server, which was asked as " +
+                                   hostAndPort() + "; a proxy in between has to pass"));
+    const Response own = ask("http://" + hostAndPort());
+    EXPECT_EQ(own.result_int(), 426u);
+    EXPECT_THAT(own.body(), testing::HasSubstr("pass on the headers Upgrade and Connection"));
+}
+
 TEST_F(ViewerConnection, ClosesOnMessagesOutsideTheProtocol) {
     start();
     const auto garbage = openSocket();

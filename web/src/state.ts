@@ -35,8 +35,11 @@ export class Value<T> {
 export type Connection =
   | { kind: "connecting" }
   | { kind: "connected" }
-  /** `since`: when it was lost, or was first tried in vain, in ms of performance.now(). */
-  | { kind: "lost"; since: number }
+  /**
+   * `since`: when it was lost, or was first tried in vain, in ms of performance.now();
+   * `refusal`: why the server that answers takes no connection, "" where none answers.
+   */
+  | { kind: "lost"; since: number; refusal: string }
   /** By a program, for good. */
   | { kind: "closed" };
 

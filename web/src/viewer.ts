@@ -112,6 +112,7 @@ export class Viewer implements CameraHolder {
     this.socket = new Socket(url, {
       opened: () => this.opened(),
       lost: () => this.lost(),
+      refused: (text) => this.refused(text),
       closed: () => {
         this.lost();
         this.state.connection.set({ kind: "closed" });
@@ -356,7 +357,13 @@ export class Viewer implements CameraHolder {
     this.sender.lost();
     this.arrivals.forget();
     this.questions.lost();
-    this.state.connection.set({ kind: "lost", since: performance.now() });
+    this.state.connection.set({ kind: "lost", since: performance.now(), refusal: "" });
+  }
+
+  private refused(refusal: string): void {
+    const { value } = this.state.connection;
+    if (value.kind === "lost" && value.refusal !== refusal)
+      this.state.connection.set({ ...value, refusal });
   }
 
   private sessionChanged(session: SessionState): void {

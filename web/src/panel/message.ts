@@ -34,6 +34,9 @@ export function lossText(connection: Connection, now: number): string {
   return `${Math.max(0, Math.floor((now - connection.since) / 1000))} s`;
 }
 
+/** "No." of the server's "no". */
+const sentence = (text: string): string => `${text.charAt(0).toUpperCase()}${text.slice(1)}.`;
+
 /** What the scripts are built for, and workers that are modules; index.html says the same. */
 const useAnother =
   "open this page in Chrome 94, Firefox 114, Safari 16.4 or newer; or have pictures without a browser:";
@@ -48,6 +51,11 @@ export function messageFor(situation: Situation): Message | null {
       title: "Pictures cannot be drawn",
       text: `The page's worker did not start. Load the page again; if that does not help, this browser is too old for it: ${useAnother}`,
       command: withoutBrowser,
+    };
+  if (connection.kind === "lost" && connection.refusal !== "")
+    return {
+      title: "The server takes no connection",
+      text: `${sentence(connection.refusal)} The page tries again by itself.`,
     };
   if (connection.kind === "lost")
     return {
@@ -80,6 +88,8 @@ export function messageFor(situation: Situation): Message | null {
 /** One line above the last picture while it is not live. */
 export function bannerFor({ connection, session, hasPicture }: Situation): string | null {
   if (!hasPicture) return null;
+  if (connection.kind === "lost" && connection.refusal !== "")
+    return `${sentence(connection.refusal)} This is the last picture; the page tries again by itself.`;
   if (connection.kind === "lost")
     return `Connection lost. This is the last picture; the page connects again by itself. If that lasts, see that the server runs: ${startServer}`;
   if (connection.kind === "closed") return `This session was closed. ${closedText}`;

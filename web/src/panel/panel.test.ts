@@ -13,7 +13,8 @@ import { readoutOf } from "./readout";
 import { degradedText, missingText, rendererLine, statusOf } from "./status";
 
 const connected: Connection = { kind: "connected" };
-const lost: Connection = { kind: "lost", since: 1000 };
+const lost: Connection = { kind: "lost", since: 1000, refusal: "" };
+const refused: Connection = { ...lost, refusal: "too many sessions; close one" };
 const closed: Connection = { kind: "closed" };
 
 function session(alive: number, dead = 0, problem = "", isOpen = true): SessionState {
@@ -91,11 +92,21 @@ describe("the message in place of a picture", () => {
   it("says what is missing, whatever it is", () => {
     expect(titleOf({ kind: "connecting" }, null)).toBe("Connecting");
     expect(titleOf(lost, null)).toBe("Eyrie does not answer");
+    expect(titleOf(refused, null)).toBe("The server takes no connection");
     expect(titleOf(closed, null)).toBe("This session was closed");
     expect(titleOf(connected, session(0))).toBe("No renderer is running");
     expect(titleOf(connected, session(1, 0, "bad file"))).toBe("There is no picture");
     expect(titleOf(connected, session(1, 0, "", false))).toBe("Opening the scene");
     expect(titleOf(connected, session(1))).toBe("Drawing the first picture");
+  });
+
+  it("is the server's own where one answers and refuses", () => {
+    const situation = { connection: refused, session: null, hasPicture: false };
+    const message = messageFor(situation);
+    expect(message?.text).toContain("Too many sessions; close one. The page tries again");
+    expect(message?.command).toBeUndefined();
+    expect(bannerFor({ ...situation, hasPicture: true })).toContain("Too many sessions");
+    expect(statusOf(refused, null, false).text).toBe("Refused");
   });
 
   it("does not promise a picture where nobody leads", () => {

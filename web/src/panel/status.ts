@@ -69,7 +69,12 @@ export function statusOf(
 ): Status {
   if (connection.kind === "connecting") return { level: "wait", text: "Connecting", detail: "" };
   if (connection.kind === "closed") return { level: "bad", text: "Closed", detail: "" };
-  if (connection.kind === "lost") return { level: "bad", text: "Reconnecting", detail: "" };
+  if (connection.kind === "lost")
+    return {
+      level: "bad",
+      text: connection.refusal === "" ? "Reconnecting" : "Refused",
+      detail: "",
+    };
   if (session === null) return { level: "wait", text: "Connected", detail: "" };
   const detail = [missing, rendererText(session), degradedText(session), session.note]
     .filter((text) => text !== "")

@@ -44,16 +44,23 @@ describe("a socket", () => {
     }
   }
 
-  function connected(): { socket: Socket; told: string[] } {
+  function connecting(): { socket: Socket; told: string[] } {
     FakeSocket.made = [];
     vi.stubGlobal("WebSocket", FakeSocket);
     const told: string[] = [];
     const tells = new Proxy({} as SocketEvents, {
-      get: (_, name) => () => told.push(String(name)),
+      get: (_, name) => (text: unknown) => {
+        if (name !== "refused") told.push(String(name));
+        else if (text !== "") told.push(String(text));
+      },
     });
-    const socket = new Socket("ws://host/ws", tells);
+    return { socket: new Socket("ws://host/ws", tells), told };
+  }
+
+  function connected(): { socket: Socket; told: string[] } {
+    const made = connecting();
     FakeSocket.made[0]?.onopen?.();
-    return { socket, told };
+    return made;
   }
 
   /** How often it has connected a second after its connection ended so, and what it told. */
@@ -130,6 +137,34 @@ describe("a socket", () => {
     socket.close();
     vi.advanceTimersByTime(100_000);
     expect(FakeSocket.made.length).toBe(1);
+  });
+
+  it("says why the server refuses it, and leaves it alone for as long as that wants", async () => {
+    const answer = new Response('{"detail":"too many sessions"}', {
+      status: 429,
+      headers: { "Content-Type": "application/problem+json", "Retry-After": "5" },
+    });
+    vi.stubGlobal("location", { origin: "http://host" });
+    vi.stubGlobal("fetch", () => Promise.resolve(answer));
+    const { socket, told } = connecting();
+    FakeSocket.made[0]?.onclose?.({ code: 1006 });
+    await vi.advanceTimersByTimeAsync(4900);
+    expect(told).toEqual(["lost", "too many sessions"]);
+    expect(FakeSocket.made.length).toBe(1);
+    await vi.advanceTimersByTimeAsync(200);
+    expect(FakeSocket.made.length).toBe(2);
+    socket.close();
+  });
+
+  it("tries on at its own pace where nobody answers", async () => {
+    vi.stubGlobal("location", { origin: "http://host" });
+    vi.stubGlobal("fetch", () => Promise.reject(new Error("refused")));
+    const { socket, told } = connecting();
+    FakeSocket.made[0]?.onclose?.({ code: 1006 });
+    await vi.advanceTimersByTimeAsync(10);
+    expect(told).toEqual(["lost"]);
+    expect(FakeSocket.made.length).toBe(2);
+    socket.close();
   });
 
   it("stays away when its session was closed", () => {

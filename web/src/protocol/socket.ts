@@ -25,11 +25,15 @@ import {
 } from "./messages";
 import type { Arrival, EncodedPicture } from "./parts";
 import { Parts } from "./parts";
+import type { Refusal } from "./refusal";
+import { refusalOf } from "./refusal";
 
 export interface SocketEvents {
   opened(): void;
   /** Called once per loss, not per failed attempt to connect again. */
   lost(): void;
+  /** After a loss, and each attempt in vain: why the server takes no connection; "": none says. */
+  refused(text: string): void;
   /** A program has closed the session: there will be no other attempt to connect. */
   closed(): void;
   state(state: SessionState): void;
@@ -65,6 +69,7 @@ export class Socket {
   private socket: WebSocket | null = null;
   private attempt = 0;
   private isLossTold = false;
+  private isClosed = false;
   private timer: number | undefined;
   private secondsSilent = 0;
   private readonly watch: number;
@@ -133,6 +138,7 @@ export class Socket {
   }
 
   close(): void {
+    this.isClosed = true;
     clearInterval(this.watch);
     clearTimeout(this.timer);
     this.detach();
@@ -148,19 +154,24 @@ export class Socket {
   }
 
   private connect(): void {
-    const socket = new WebSocket(typeof this.url === "string" ? this.url : this.url());
+    const url = typeof this.url === "string" ? this.url : this.url();
+    const socket = new WebSocket(url);
+    let hasOpened = false;
     this.socket = socket;
     this.secondsSilent = 0;
     socket.binaryType = "arraybuffer";
     socket.onopen = () => {
+      hasOpened = true;
       this.secondsSilent = 0;
       this.isLossTold = false;
       this.events.opened();
     };
     socket.onclose = ({ code }) => {
-      if (code !== sessionClosed) return this.reconnect();
-      this.detach();
-      this.events.closed();
+      if (code === sessionClosed) {
+        this.detach();
+        this.events.closed();
+      } else if (hasOpened) this.reconnect();
+      else void this.failed(url);
     };
     socket.onmessage = (event: MessageEvent<unknown>) => this.received(event.data);
   }
@@ -207,14 +218,23 @@ export class Socket {
     if (picture !== undefined) this.events.frame(frame, picture);
   }
 
-  private reconnect(): void {
+  private reconnect(refusal?: Refusal): void {
     this.detach();
     if (!this.isLossTold) {
       this.isLossTold = true;
       this.events.lost();
     }
-    this.timer = window.setTimeout(() => this.connect(), reconnectDelay(this.attempt));
+    this.events.refused(refusal?.text ?? "");
+    const delay = Math.max(refusal?.retryAfter ?? 0, reconnectDelay(this.attempt));
+    this.timer = window.setTimeout(() => this.connect(), delay);
     this.attempt += 1;
+  }
+
+  /** An attempt did not come to a connection. */
+  private async failed(url: string): Promise<void> {
+    this.detach();
+    const refusal = await refusalOf(url);
+    if (!this.isClosed) this.reconnect(refusal);
   }
 
   private detach(): void {
