@@ -2,7 +2,9 @@
 #include "cli/config_options.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -119,6 +121,14 @@ absl::StatusOr<std::optional<config::Configuration>> configurationOf(const Confi
     if (options.oneChannel)
         configuration = config::oneChannel(configuration);
     return std::optional(std::move(configuration));
+}
+
+std::string configurationName(const ConfigOptions& options) {
+    if (options.file.empty())
+        return {};
+    std::error_code error;
+    const std::filesystem::path path = std::filesystem::absolute(options.file, error);
+    return error ? options.file : path.lexically_normal().string();
 }
 
 int renderersOf(const config::Configuration& configuration) {

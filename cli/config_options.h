@@ -38,6 +38,9 @@ void addShownOptions(CLI::App& command, ConfigOptions& options);
 absl::StatusOr<std::optional<config::Configuration>> configurationOf(const ConfigOptions& options,
                                                                      bool quiet);
 
+/// What settings of the configuration are kept for: where its file lies; empty without one.
+std::string configurationName(const ConfigOptions& options);
+
 /// How many renderers what is shown at first can use.
 int renderersOf(const config::Configuration& configuration);
 

@@ -55,6 +55,7 @@ absl::Status coordinate(const Options& options) {
     settings.security = doors.security;
     settings.grpcAddresses = {options.grpc};
     ASSIGN_OR_RETURN(settings.configuration, configurationOf(options.config, options.quiet));
+    settings.configurationFile = configurationName(options.config);
     settings.layout = compoundNames().at(options.config.compound);
     settings.dataFolder = options.data;
     ASSIGN_OR_RETURN(settings.programs, programsOf(options.programs));
@@ -94,9 +95,12 @@ void addCoordinator(CLI::App& app, Run& run) {
         ->type_name("HOST:PORT|unix:/PATH")
         ->capture_default_str();
     command
-        ->add_option("--data", options->data,
-                     "Where programs may name imported files, import more, and keep flights "
-                     "[nowhere]")
+        ->add_option(
+            "--data", options->data,
+            "Where programs may name imported files, import more, and keep flights; and "
+            "where the scene and settings that they set are kept for the next start, which "
+            "takes them up while the command line has the same scene and --config "
+            "[nowhere]")
         ->type_name("DIR");
     addProgramOptions(*command, options->programs);
     addQuotaOptions(*command, options->quotas);

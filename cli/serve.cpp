@@ -92,6 +92,7 @@ absl::StatusOr<coordinator::CoordinatorOptions> settingsOf(const Options& option
         settings.security = doors.security;
     }
     ASSIGN_OR_RETURN(settings.configuration, configurationOf(options.config, options.quiet));
+    settings.configurationFile = configurationName(options.config);
     settings.layout = compoundNames().at(options.config.compound);
     settings.dataFolder = options.dataFolder;
     ASSIGN_OR_RETURN(settings.programs, programsOf(options.programs));
@@ -160,9 +161,12 @@ void addServe(CLI::App& app, Run& run) {
                      "Renderer processes [as many as --config uses; one a GPU; without, two]")
         ->check(CLI::Range(1, RendererProcesses::kMaxCount));
     command
-        ->add_option("--data", options->dataFolder,
-                     "Where programs may name imported files, import more, and keep flights "
-                     "[nowhere]")
+        ->add_option(
+            "--data", options->dataFolder,
+            "Where programs may name imported files, import more, and keep flights; and "
+            "where the scene and settings that they set are kept for the next start, which "
+            "takes them up while the command line has the same scene and --config "
+            "[nowhere]")
         ->type_name("DIR");
     addProgramOptions(*command, options->programs);
     addQuotaOptions(*command, options->quotas);

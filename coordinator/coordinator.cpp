@@ -11,6 +11,7 @@
 
 #include "coordinator/api/api.h"
 #include "coordinator/api/grpc_service.h"
+#include "coordinator/api/state_file.h"
 #include "coordinator/farm/registry.h"
 #include "coordinator/frame/frame_pipeline.h"
 #include "fabric/status.h"
@@ -39,10 +40,13 @@ public:
          const CoordinatorOptions& options)
         : telemetry_(std::move(telemetry)),
           registry_(std::move(registry)),
-          pipeline_(*registry_, pipelineOptions(options, *door, telemetry_)),
+          state_(dataFolder
+                     ? std::make_unique<api::StateFile>(*dataFolder, options.configurationFile)
+                     : nullptr),
+          pipeline_(*registry_, pipelineOptions(options, *door, telemetry_, state_.get())),
           api_({pipeline_, pipeline_,
                 [this](fabric::Scene scene) { pipeline_.setScene(std::move(scene)); },
-                std::move(dataFolder), options.programs, options.quotas, telemetry_}),
+                std::move(dataFolder), options.programs, options.quotas, telemetry_, state_.get()}),
           door_(std::move(door)),
           watcher_([this](const std::stop_token& stop) { watchHeartbeats(*registry_, stop); }) {
         setScene(options.scene);
@@ -52,10 +56,7 @@ public:
     FramePipeline& frames() { return pipeline_; }
     const GrpcService& door() const { return *door_; }
     const api::Api& api() const { return api_; }
-    void setScene(fabric::Scene scene) {
-        api_.allow(scene);
-        pipeline_.setScene(std::move(scene));
-    }
+    void setScene(fabric::Scene scene) { api_.begin(std::move(scene)); }
     const observe::SharedTelemetry& telemetry() const { return telemetry_; }
     void drain() {
         api_.endStreams();
@@ -82,11 +83,16 @@ private:
 
     static FramePipelineOptions pipelineOptions(const CoordinatorOptions& options,
                                                 const GrpcService& door,
-                                                observe::SharedTelemetry telemetry) {
+                                                observe::SharedTelemetry telemetry,
+                                                api::StateFile* state) {
         FramePipelineOptions pipeline;
         pipeline.telemetry = std::move(telemetry);
         pipeline.configuration = options.configuration;
         pipeline.layout = options.layout;
+        if (state != nullptr)
+            pipeline.keeping = {
+                state->configuration(),
+                [state](const KeptConfiguration& configuration) { state->keep(configuration); }};
         pipeline.howToJoin =
             fmt::format("eyrie renderer --coordinator {}", door.addresses().back());
         return pipeline;
@@ -94,6 +100,7 @@ private:
 
     const observe::SharedTelemetry telemetry_;
     const std::unique_ptr<Registry> registry_;
+    const std::unique_ptr<api::StateFile> state_;  ///< null without a data folder
     FramePipeline pipeline_;
     api::Api api_;
     const std::unique_ptr<GrpcService> door_;

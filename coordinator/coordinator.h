@@ -29,9 +29,12 @@ struct CoordinatorOptions {
     /// How frames are made; nothing: by a configuration of the renderers there are.
     std::optional<config::Configuration> configuration = {};
     std::string layout = {};  ///< of that, at first; empty: 2D (config::defaultConfiguration)
+    /// What `configuration` was read from: what is set of it is kept for this name.
+    std::string configurationFile = {};
     /// How renderers and the coordinator know each other; nothing: whoever reaches the addresses.
     wire::Security security = {};
-    /// Where programs may name files, keep flights and have data imported; empty: nowhere.
+    /// Where programs may name files, keep flights and have data imported, and where what they set
+    /// is kept for the next coordinator; empty: nowhere.
     std::filesystem::path dataFolder = {};
     api::Programs programs = {};  ///< what programs may have done by other processes
     api::Quotas quotas = {};      ///< what they may ask for
@@ -63,8 +66,8 @@ public:
     /// Where renderers register, with the ports that were chosen.
     const std::vector<std::string>& grpcAddresses() const;
 
-    /// Has all renderers open `scene` in place of the one before. InvalidArgument: fabric::validate
-    /// refuses it.
+    /// Has all renderers open `scene` in place of the one before: as CoordinatorOptions::scene, for
+    /// which another may have been set before. InvalidArgument: fabric::validate refuses it.
     absl::Status setScene(fabric::Scene scene);
 
     /// Takes no more calls of programs over gRPC; those in progress go on, and renderers are heard

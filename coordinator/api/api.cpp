@@ -21,7 +21,7 @@ public:
           quotas(parts.quotas, telemetry),
           sessions(std::make_shared<stream::SessionBook>(parts.quotas.readers)),
           data(folder, std::move(parts.programs), quotas),
-          scenes(folder, data, quotas, parts.frames, std::move(parts.setScene)) {
+          scenes(folder, data, quotas, parts.frames, std::move(parts.setScene), parts.state) {
         addStatusHandlers(handlers, parts.frames);
         addSessionHandlers(handlers, *sessions);
         addStatisticsHandlers(handlers, sessions->statistics(), quotas);
@@ -53,6 +53,6 @@ const Handlers& Api::handlers() const { return impl_->handlers; }
 const RestDoor& Api::rest() const { return impl_->rest; }
 const std::shared_ptr<stream::SessionBook>& Api::sessions() const { return impl_->sessions; }
 void Api::endStreams() { impl_->sessions->statistics().stop(); }
-void Api::allow(const fabric::Scene& scene) { impl_->scenes.allow(scene); }
+void Api::begin(fabric::Scene scene) { impl_->scenes.begin(std::move(scene)); }
 
 }  // namespace eyrie::api

@@ -18,6 +18,8 @@ class SessionBook;
 
 namespace eyrie::api {
 
+class StateFile;
+
 /// What the calls act upon; outlives the API.
 struct ApiParts {
     coordinator::FrameSource& frames;
@@ -28,6 +30,8 @@ struct ApiParts {
     Quotas quotas = {};
     /// Counts what is beyond them, and has the traces; null: of its own.
     observe::SharedTelemetry telemetry = nullptr;
+    /// Where scenes that are set are kept, outlives the API; null: nowhere.
+    StateFile* state = nullptr;
 };
 
 /// What programs can ask of a coordinator: the handlers of CoordinatorService and what these need.
@@ -48,8 +52,9 @@ public:
     /// Ends the answers that go on; other calls are answered as before.
     void endStreams();
 
-    /// Programs may show the scene's files, wherever they are.
-    void allow(const fabric::Scene& scene);
+    /// Sets the scene that the server was started with or, where programs had set another in its
+    /// place before, that. Programs may show its files, wherever they are.
+    void begin(fabric::Scene scene);
 
 private:
     class Impl;

@@ -2,18 +2,15 @@
 #include "coordinator/api/flight_files.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <random>
 #include <system_error>
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <google/protobuf/util/json_util.h>
-#include <unistd.h>
 
+#include "coordinator/api/replace_file.h"
 #include "fabric/status.h"
 #include "wire/flight.h"
 #include "wire/json.h"
@@ -54,39 +51,6 @@ absl::Status cannot(std::string_view what, const std::error_code& error) {
         fmt::format("the flight cannot be {}: {}; see that the data folder is writable and not "
                     "full",
                     what, error.message()));
-}
-
-std::error_code lastError() { return {errno, std::generic_category()}; }
-
-std::error_code writeAndFlush(int file, std::string_view text) {
-    while (!text.empty()) {
-        const ssize_t written = ::write(file, text.data(), text.size());
-        if (written < 0 && errno != EINTR)
-            return lastError();
-        text.remove_prefix(static_cast<std::size_t>(std::max<ssize_t>(0, written)));
-    }
-    return ::fsync(file) != 0 ? lastError() : std::error_code();
-}
-
-/// By way of a file of its own, so that neither another writer nor who reads meanwhile sees a part,
-/// nor anybody after the power has failed. Killed on the way, it leaves a hidden file.
-std::error_code replace(const fs::path& path, std::string_view text) {
-    std::random_device random;
-    const fs::path partial =
-        path.parent_path() /
-        fmt::format(".{}.partial-{:08x}{:08x}", path.filename().string(), random(), random());
-    const int file = ::open(partial.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (file < 0)
-        return lastError();
-    std::error_code error = writeAndFlush(file, text);
-    if (::close(file) != 0 && !error)
-        error = lastError();
-    if (!error)
-        fs::rename(partial, path, error);
-    std::error_code ignored;
-    if (error)
-        fs::remove(partial, ignored);
-    return error;
 }
 
 }  // namespace
@@ -140,7 +104,7 @@ absl::Status writeFlight(const access::DataFolder& folder, const std::string& na
     if (error)
         return cannot("written", error);
     ASSIGN_OR_RETURN(const fs::path path, pathOf(folder, name));
-    if (error = replace(path, wire::toJson(flight)); error)
+    if (error = replaceFile(path, wire::toJson(flight)); error)
         return cannot("written", error);
     return absl::OkStatus();
 }

@@ -2,13 +2,18 @@
 #include "coordinator/api/scene_desk.h"
 
 #include <filesystem>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
+#include <google/protobuf/util/message_differencer.h>
 
 #include "coordinator/api/data_desk.h"
 #include "coordinator/api/quotas.h"
+#include "coordinator/api/state_file.h"
+#include "eyrie/v1/kept_state.pb.h"
+#include "fabric/log.h"
 #include "fabric/status.h"
 #include "wire/scene.h"
 
@@ -19,24 +24,56 @@ absl::Status atObject(int index, const absl::Status& status) {
     return fabric::withContext(status, fmt::format("scene.objects[{}]", index));
 }
 
+v1::KeptScene keptScene(const fabric::Scene& commandLine, v1::Scene scene) {
+    v1::KeptScene kept;
+    *kept.mutable_command_line() = wire::toMessage(commandLine);
+    *kept.mutable_scene() = std::move(scene);
+    return kept;
+}
+
 }  // namespace
 
 SceneDesk::SceneDesk(const std::optional<access::DataFolder>& folder, DataDesk& data,
                      const QuotaKeeper& quotas, coordinator::FrameSource& frames,
-                     std::function<void(fabric::Scene)> setScene)
+                     std::function<void(fabric::Scene)> setScene, StateFile* state)
     : folder_(folder),
       data_(data),
       quotas_(quotas),
       frames_(frames),
-      setScene_(std::move(setScene)) {}
+      setScene_(std::move(setScene)),
+      state_(state) {}
 
-void SceneDesk::allow(const fabric::Scene& scene) {
-    const std::lock_guard lock(mutex_);
-    for (const fabric::SceneObject& object : scene.objects) allowed_.insert(object.path);
+void SceneDesk::begin(fabric::Scene scene) {
+    {
+        const std::lock_guard lock(mutex_);
+        for (const fabric::SceneObject& object : scene.objects) allowed_.insert(object.path);
+        commandLine_ = scene;
+    }
+    const bool hasKept = state_ != nullptr && !scene.objects.empty() && state_->scene().has_scene();
+    const absl::Status shown = hasKept ? showKept(scene) : absl::NotFoundError("");
+    if (shown.ok())
+        return;
+    if (hasKept)
+        spdlog::warn("the scene of the command line is shown, and not the one that was set: {}",
+                     std::string_view(shown.message().data(), shown.message().size()));
+    setScene_(std::move(scene));
 }
 
-v1::Scene SceneDesk::scene() const {
-    v1::Scene message = wire::toMessage(frames_.status().scene);
+absl::Status SceneDesk::showKept(const fabric::Scene& commandLine) const {
+    const v1::KeptScene kept = state_->scene();
+    if (!google::protobuf::util::MessageDifferencer::Equals(kept.command_line(),
+                                                            wire::toMessage(commandLine)))
+        return absl::FailedPreconditionError("that was in place of another");
+    ASSIGN_OR_RETURN(fabric::Scene scene, resolved(kept.scene(), {}));
+    spdlog::info("the scene that was set in place of the command line's is shown");
+    setScene_(std::move(scene));
+    return absl::OkStatus();
+}
+
+v1::Scene SceneDesk::scene() const { return named(frames_.status().scene); }
+
+v1::Scene SceneDesk::named(const fabric::Scene& scene) const {
+    v1::Scene message = wire::toMessage(scene);
     for (v1::SceneObject& object : *message.mutable_objects()) {
         std::string& path =
             object.has_terrain() ? *object.mutable_terrain() : *object.mutable_mesh();
@@ -138,7 +175,14 @@ absl::StatusOr<fabric::Scene> SceneDesk::resolved(v1::Scene message,
 
 absl::Status SceneDesk::show(v1::Scene message, const std::stop_token& stop) {
     ASSIGN_OR_RETURN(fabric::Scene scene, resolved(std::move(message), stop));
-    setScene_(std::move(scene));
+    const std::lock_guard lock(mutex_);  // of several the last is shown, and kept
+    setScene_(scene);
+    if (state_ == nullptr)
+        return absl::OkStatus();
+    if (scene == commandLine_)
+        state_->forgetScene();
+    else
+        state_->keep(keptScene(commandLine_, named(scene)));
     return absl::OkStatus();
 }
 

@@ -19,18 +19,20 @@ namespace eyrie::api {
 
 class DataDesk;
 class QuotaKeeper;
+class StateFile;
 
 /// Scenes as callers name them: files by paths that begin in the data folder. Files that the
 /// server was started with may be named, too, as scene() names them. Any thread may call.
 class SceneDesk {
 public:
-    /// All but `setScene` outlive it.
+    /// All but `setScene` outlive it. What is shown is kept in `state`; null: nowhere.
     SceneDesk(const std::optional<access::DataFolder>& folder, DataDesk& data,
               const QuotaKeeper& quotas, coordinator::FrameSource& frames,
-              std::function<void(fabric::Scene)> setScene);
+              std::function<void(fabric::Scene)> setScene, StateFile* state);
 
-    /// The scene's files may be named from now on.
-    void allow(const fabric::Scene& scene);
+    /// Shows the scene that the server was started with or, where another was shown in its place
+    /// before and still can be, that. Its files may be named from now on.
+    void begin(fabric::Scene scene);
 
     v1::Scene scene() const;
 
@@ -46,6 +48,8 @@ public:
 
 private:
     absl::StatusOr<std::string> pathOf(const std::string& name, const char* ending) const;
+    v1::Scene named(const fabric::Scene& scene) const;
+    absl::Status showKept(const fabric::Scene& commandLine) const;
     absl::Status checkSize(const std::vector<std::string>& names,
                            const std::stop_token& stop) const;
 
@@ -54,8 +58,10 @@ private:
     const QuotaKeeper& quotas_;
     coordinator::FrameSource& frames_;
     const std::function<void(fabric::Scene)> setScene_;
-    mutable std::mutex mutex_;  ///< guards allowed_
+    StateFile* const state_;
+    mutable std::mutex mutex_;  ///< guards what follows
     std::set<std::string> allowed_;
+    fabric::Scene commandLine_;  ///< that the server was started with
 };
 
 }  // namespace eyrie::api

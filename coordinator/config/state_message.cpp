@@ -35,6 +35,39 @@ absl::Status read(const Pixels& pixels, std::string_view field,
     return absl::OkStatus();
 }
 
+absl::Status readSurface(const google::protobuf::Message& message, bool isWall,
+                         std::optional<Surface>& surface) {
+    Findings findings;
+    Statement block{isWall ? "wall" : "projection"};
+    block.form = Statement::Form::Block;
+    block.statements = toStatements(message, findings);
+    ValueReader reader(findings);
+    surface = isWall ? readWall(block, reader) : readProjection(block, reader);
+    if (!findings.hasErrors())
+        return absl::OkStatus();
+    return absl::InvalidArgumentError(findings.all().front().message);
+}
+
+/// 0 is as configured, as proto3's enumerations begin with what is absent.
+template <typename T>
+absl::Status readEnum(int number, int most, std::string_view field, std::optional<T>& target) {
+    if (number < 0 || number > most)
+        return absl::InvalidArgumentError(
+            fmt::format("{} is {}, which this version does not know", field, number));
+    if (number > 0)
+        target = static_cast<T>(number - 1);
+    return absl::OkStatus();
+}
+
+template <typename Messages>
+absl::Status changeAll(const Messages& messages, const Configuration& configuration,
+                       ConfigurationState& state) {
+    for (const auto& each : messages) RETURN_IF_ERROR(change(each, configuration, state));
+    return absl::OkStatus();
+}
+
+}  // namespace
+
 v1::EqualizerTuning toMessage(const EqualizerTuning& state) {
     v1::EqualizerTuning message;
     if (state.isOn)
@@ -99,39 +132,6 @@ v1::ObserverSetting toMessage(const ObserverState& state) {
     return message;
 }
 
-absl::Status readSurface(const google::protobuf::Message& message, bool isWall,
-                         std::optional<Surface>& surface) {
-    Findings findings;
-    Statement block{isWall ? "wall" : "projection"};
-    block.form = Statement::Form::Block;
-    block.statements = toStatements(message, findings);
-    ValueReader reader(findings);
-    surface = isWall ? readWall(block, reader) : readProjection(block, reader);
-    if (!findings.hasErrors())
-        return absl::OkStatus();
-    return absl::InvalidArgumentError(findings.all().front().message);
-}
-
-/// 0 is as configured, as proto3's enumerations begin with what is absent.
-template <typename T>
-absl::Status readEnum(int number, int most, std::string_view field, std::optional<T>& target) {
-    if (number < 0 || number > most)
-        return absl::InvalidArgumentError(
-            fmt::format("{} is {}, which this version does not know", field, number));
-    if (number > 0)
-        target = static_cast<T>(number - 1);
-    return absl::OkStatus();
-}
-
-template <typename Messages>
-absl::Status changeAll(const Messages& messages, const Configuration& configuration,
-                       ConfigurationState& state) {
-    for (const auto& each : messages) RETURN_IF_ERROR(change(each, configuration, state));
-    return absl::OkStatus();
-}
-
-}  // namespace
-
 v1::ConfigurationState toMessage(const Configuration& configuration,
                                  const ConfigurationState& state) {
     v1::ConfigurationState message;
@@ -162,15 +162,7 @@ v1::ConfigurationState toMessage(const Configuration& configuration,
     return message;
 }
 
-absl::Status change(const v1::LayoutSwitch& message, const Configuration& configuration,
-                    ConfigurationState& state) {
-    return switchLayout(configuration, state, message.canvas(), message.layout());
-}
-
-absl::Status change(const v1::EqualizerTuning& message, const Configuration& configuration,
-                    ConfigurationState& state) {
-    if (message.equalizer() < 0)
-        return absl::NotFoundError(fmt::format("there is no equalizer {}", message.equalizer()));
+absl::StatusOr<EqualizerTuning> fromMessage(const v1::EqualizerTuning& message) {
     EqualizerTuning settings;
     if (message.has_on())
         settings.isOn = message.on();
@@ -192,22 +184,19 @@ absl::Status change(const v1::EqualizerTuning& message, const Configuration& con
         settings.framerate = message.framerate();
     if (message.has_tile_chunk())
         settings.tileChunk = message.tile_chunk();
-    return tuneEqualizer(configuration, state, static_cast<std::size_t>(message.equalizer()),
-                         settings);
+    return settings;
 }
 
-absl::Status change(const v1::Head& message, const Configuration& configuration,
-                    ConfigurationState& state) {
+absl::StatusOr<fabric::Mat4> fromMessage(const v1::Head& message) {
     if (message.room_from_head_size() != 12)
         return absl::InvalidArgumentError(fmt::format(
             "roomFromHead has {} numbers; it must have 12", message.room_from_head_size()));
     fabric::Mat4 roomFromHead(1);
     for (int i = 0; i < 12; ++i) roomFromHead[i % 4][i / 4] = message.room_from_head(i);
-    return setHead(configuration, state, message.observer(), roomFromHead);
+    return roomFromHead;
 }
 
-absl::Status change(const v1::ViewSetting& message, const Configuration& configuration,
-                    ConfigurationState& state) {
+absl::StatusOr<ViewState> fromMessage(const v1::ViewSetting& message) {
     ViewState settings;
     RETURN_IF_ERROR(readEnum(message.mode(), v1::VIEW_MODE_STEREO, "mode", settings.isStereo));
     RETURN_IF_ERROR(readEnum(message.stereo_mode(), v1::STEREO_MODE_PASSIVE, "stereoMode",
@@ -220,11 +209,10 @@ absl::Status change(const v1::ViewSetting& message, const Configuration& configu
         RETURN_IF_ERROR(readSurface(message.projection(), false, settings.surface));
     if (message.no_surface())
         settings.surface = Surface{};
-    return setView(configuration, state, message.layout(), message.view(), settings);
+    return settings;
 }
 
-absl::Status change(const v1::ObserverSetting& message, const Configuration& configuration,
-                    ConfigurationState& state) {
+absl::StatusOr<ObserverState> fromMessage(const v1::ObserverSetting& message) {
     ObserverState settings;
     if (message.has_eye_base())
         settings.eyeBase = message.eye_base();
@@ -232,6 +220,38 @@ absl::Status change(const v1::ObserverSetting& message, const Configuration& con
         settings.focusDistance = message.focus_distance();
     RETURN_IF_ERROR(readEnum(message.focus_mode(), v1::FOCUS_MODE_RELATIVE_TO_OBSERVER, "focusMode",
                              settings.focusMode));
+    return settings;
+}
+
+absl::Status change(const v1::LayoutSwitch& message, const Configuration& configuration,
+                    ConfigurationState& state) {
+    return switchLayout(configuration, state, message.canvas(), message.layout());
+}
+
+absl::Status change(const v1::EqualizerTuning& message, const Configuration& configuration,
+                    ConfigurationState& state) {
+    if (message.equalizer() < 0)
+        return absl::NotFoundError(fmt::format("there is no equalizer {}", message.equalizer()));
+    ASSIGN_OR_RETURN(const EqualizerTuning tuning, fromMessage(message));
+    return tuneEqualizer(configuration, state, static_cast<std::size_t>(message.equalizer()),
+                         tuning);
+}
+
+absl::Status change(const v1::Head& message, const Configuration& configuration,
+                    ConfigurationState& state) {
+    ASSIGN_OR_RETURN(const fabric::Mat4 roomFromHead, fromMessage(message));
+    return setHead(configuration, state, message.observer(), roomFromHead);
+}
+
+absl::Status change(const v1::ViewSetting& message, const Configuration& configuration,
+                    ConfigurationState& state) {
+    ASSIGN_OR_RETURN(const ViewState settings, fromMessage(message));
+    return setView(configuration, state, message.layout(), message.view(), settings);
+}
+
+absl::Status change(const v1::ObserverSetting& message, const Configuration& configuration,
+                    ConfigurationState& state) {
+    ASSIGN_OR_RETURN(const ObserverState settings, fromMessage(message));
     return setObserver(configuration, state, message.observer(), settings);
 }
 

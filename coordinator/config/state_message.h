@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <absl/status/status.h>
+#include <absl/status/statusor.h>
 
 #include "coordinator/config/state.h"
 
@@ -20,6 +20,19 @@ namespace eyrie::config {
 
 v1::ConfigurationState toMessage(const Configuration& configuration,
                                  const ConfigurationState& state);
+
+/// Without what they are set for.
+v1::EqualizerTuning toMessage(const EqualizerTuning& tuning);
+v1::Head toMessage(const fabric::Mat4& roomFromHead);
+v1::ViewSetting toMessage(const ViewState& state);
+v1::ObserverSetting toMessage(const ObserverState& state);
+
+/// Whatever they are set for; whether that can be set so is what change() and state.h's functions
+/// find.
+absl::StatusOr<EqualizerTuning> fromMessage(const v1::EqualizerTuning& message);
+absl::StatusOr<fabric::Mat4> fromMessage(const v1::Head& message);
+absl::StatusOr<ViewState> fromMessage(const v1::ViewSetting& message);
+absl::StatusOr<ObserverState> fromMessage(const v1::ObserverSetting& message);
 
 absl::Status change(const v1::LayoutSwitch& message, const Configuration& configuration,
                     ConfigurationState& state);

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <span>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "coordinator/config/named.h"
 #include "coordinator/frame/problem.h"
 #include "fabric/log.h"
 #include "fabric/status.h"
@@ -41,6 +43,12 @@ std::vector<CanvasStatus> canvasesOf(const ActiveConfiguration& active) {
     return canvases;
 }
 
+void noteLeftOut(const absl::Status& status) {
+    if (!status.ok())
+        spdlog::warn("something that was set before is left out: {}",
+                     std::string_view(status.message().data(), status.message().size()));
+}
+
 /// A node for each, of one pipe, as a made configuration has them.
 std::vector<Pipe> pipesOf(std::size_t nodes) {
     std::vector<Pipe> pipes;
@@ -58,12 +66,45 @@ bool areAlikeButForNodes(const config::Configuration& a, config::Configuration b
 }  // namespace
 
 ConfigurationKeeper::ConfigurationKeeper(std::optional<config::Configuration> given,
-                                         std::string layout, std::function<void()> changed)
-    : given_(std::move(given)), layout_(std::move(layout)), changed_(std::move(changed)) {
-    if (!given_)
+                                         std::string layout, std::function<void()> changed,
+                                         ConfigurationKeeping keeping)
+    : given_(std::move(given)),
+      firstLayout_(std::move(layout)),
+      layout_(firstLayout_),
+      changed_(std::move(changed)),
+      keep_(std::move(keeping.keep)) {
+    if (given_)
+        active_ = std::make_shared<ActiveConfiguration>(*given_);
+    takeUp(keeping.before);
+    if (given_)
+        tell();
+}
+
+/// Of a configuration that is made later, then.
+void ConfigurationKeeper::takeUp(const KeptConfiguration& before) {
+    for (const auto& [canvas, kept] : before.layouts) noteLeftOut(takeUp(canvas, kept));
+    if (!given_) {
+        settings_ = before.settings;
         return;
-    active_ = std::make_shared<ActiveConfiguration>(*given_);
-    tell();
+    }
+    for (const absl::Status& failure : before.settings.restore(*active_)) noteLeftOut(failure);
+}
+
+absl::Status ConfigurationKeeper::takeUp(const std::string& canvas, const KeptLayout& kept) {
+    std::string first = firstLayout_;
+    if (given_) {
+        ASSIGN_OR_RETURN(const std::size_t found,
+                         config::findNamed(given_->canvases, "canvas", canvas));
+        first = layoutName(*given_, active_->state().layouts[found]);
+    }
+    if (kept.first != first)
+        return absl::FailedPreconditionError(fmt::format(
+            "canvas \"{}\" was switched to \"{}\" from \"{}\", and begins with \"{}\" now", canvas,
+            kept.layout, kept.first, first));
+    if (given_)
+        return active_->switchLayout(canvas, kept.layout);
+    layout_ = kept.layout;
+    return absl::OkStatus();
 }
 
 std::shared_ptr<ActiveConfiguration> ConfigurationKeeper::with(
@@ -95,9 +136,9 @@ void ConfigurationKeeper::make(const std::vector<config::RendererFacts>& rendere
         active_->renameNodes(std::move(made.nodes));
     else
         active_ = std::make_shared<ActiveConfiguration>(std::move(made));
-    if (const absl::Status kept = settings_.restore(*active_); !kept.ok())
-        spdlog::warn("what was set before cannot be set of {} renderers: {}", renderers.size(),
-                     kept.ToString());
+    for (const absl::Status& failure : settings_.restore(*active_))
+        if (!absl::IsNotFound(failure))  // of more renderers there may be such
+            noteLeftOut(failure);
     // Of one renderer there may be no such layout; the choice stands until there are more.
     if (!layout_.empty())
         (void)active_->switchLayout("0", layout_);
@@ -134,6 +175,7 @@ absl::Status ConfigurationKeeper::configure(const SwitchLayout& change) {
     RETURN_IF_ERROR(active_->switchLayout(change.canvas, change.layout));
     if (!given_)
         layout_ = change.layout;
+    keep();
     tell();
     return absl::OkStatus();
 }
@@ -147,8 +189,31 @@ absl::Status ConfigurationKeeper::change(
     RETURN_IF_ERROR(use(*active_));
     if (!given_ && active_->state().layouts != before.layouts)
         layout_ = layoutName(active_->written(), active_->state().layouts.front());
+    if (active_->state() != before)
+        keep();
     tell();
     return absl::OkStatus();
+}
+
+void ConfigurationKeeper::keep() const {
+    KeptConfiguration kept{settings_, switchedLayouts()};
+    kept.settings.keep(*active_);
+    keep_(kept);
+}
+
+std::map<std::string, KeptLayout> ConfigurationKeeper::switchedLayouts() const {
+    std::map<std::string, KeptLayout> switched;
+    if (!given_) {
+        if (layout_ != firstLayout_)
+            switched["0"] = {firstLayout_, layout_};
+        return switched;
+    }
+    const std::vector<std::optional<std::size_t>> first = config::initialState(*given_).layouts;
+    for (std::size_t i = 0; i < first.size(); ++i)
+        if (const auto& shown = active_->state().layouts[i]; shown != first[i])
+            switched[config::called(given_->canvases, i)] = {layoutName(*given_, first[i]),
+                                                             layoutName(*given_, shown)};
+    return switched;
 }
 
 std::int64_t ConfigurationKeeper::latency() const {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -11,7 +12,7 @@
 
 #include "coordinator/config/default_config.h"
 #include "coordinator/frame/active_configuration.h"
-#include "coordinator/frame/kept_settings.h"
+#include "coordinator/frame/kept_configuration.h"
 #include "coordinator/frame/pipe_renderers.h"
 
 namespace eyrie::coordinator {
@@ -23,9 +24,10 @@ namespace eyrie::coordinator {
 class ConfigurationKeeper {
 public:
     /// `layout` is shown at first on the first canvas of a made configuration, where it has it.
-    /// `changed` is called, without locks held, after each change of canvases().
+    /// `changed` is called, without locks held, after each change of canvases(). What was kept
+    /// before is set again where it can be; the log says what cannot.
     ConfigurationKeeper(std::optional<config::Configuration> given, std::string layout,
-                        std::function<void()> changed);
+                        std::function<void()> changed, ConfigurationKeeping keeping = {});
 
     /// At work with `renderers`, of which there is at least one. Frames keep the one that they were
     /// made by.
@@ -49,12 +51,18 @@ public:
 
 private:
     void make(const std::vector<config::RendererFacts>& renderers);
+    void takeUp(const KeptConfiguration& before);
+    absl::Status takeUp(const std::string& canvas, const KeptLayout& kept);
+    void keep() const;
+    std::map<std::string, KeptLayout> switchedLayouts() const;
     void tell();
     void noteMissing(std::size_t ready);
 
     const std::optional<config::Configuration> given_;
-    std::string layout_;  ///< of a made configuration
+    const std::string firstLayout_;  ///< of a made configuration
+    std::string layout_;             ///< that it shows where it has it
     const std::function<void()> changed_;
+    const std::function<void(const KeptConfiguration&)> keep_;
     std::vector<config::RendererFacts> renderers_;
     std::string note_;  ///< that was logged last
     PipeRenderers pipeRenderers_;

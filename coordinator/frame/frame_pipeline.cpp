@@ -40,7 +40,9 @@ absl::Status check(const FrameRequest& request) {
 
 FramePipeline::FramePipeline(Registry& registry, FramePipelineOptions options)
     : options_(std::move(options)),
-      planner_(options_.configuration, options_.layout, [this] { listeners_.notify(); }),
+      planner_(
+          options_.configuration, options_.layout, [this] { listeners_.notify(); },
+          options_.keeping),
       programs_(
           {options_.patience, options_.callTimeout, [this] { gate_.look(); }, options_.telemetry},
           crew_),

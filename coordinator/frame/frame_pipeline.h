@@ -15,6 +15,7 @@
 #include "coordinator/frame/frame_gate.h"
 #include "coordinator/frame/frame_planner.h"
 #include "coordinator/frame/frame_source.h"
+#include "coordinator/frame/kept_configuration.h"
 #include "coordinator/frame/patience.h"
 #include "coordinator/frame/program_drawing.h"
 #include "coordinator/observe/stage_timer.h"
@@ -26,6 +27,7 @@ struct FramePipelineOptions {
     /// config::defaultConfiguration.
     std::optional<config::Configuration> configuration;
     std::string layout;
+    ConfigurationKeeping keeping = {};  ///< of what is set of it
     /// The command that starts a renderer for this coordinator, for people to read.
     std::string howToJoin = "eyrie renderer --coordinator HOST:PORT";
     PatienceOptions patience;

@@ -54,8 +54,8 @@ std::optional<PlannedFrame::ByPrograms> byPrograms(const PlannedFrame& frame) {
 }  // namespace
 
 FramePlanner::FramePlanner(std::optional<config::Configuration> given, std::string layout,
-                           std::function<void()> changed)
-    : configuration_(std::move(given), std::move(layout), std::move(changed)) {}
+                           std::function<void()> changed, ConfigurationKeeping keeping)
+    : configuration_(std::move(given), std::move(layout), std::move(changed), std::move(keeping)) {}
 
 absl::StatusOr<PlannedFrame> FramePlanner::plan(const FrameRequest& asked, const Crew::State& scene,
                                                 Members ready) {

@@ -29,7 +29,7 @@ public:
 
     /// As for ConfigurationKeeper.
     FramePlanner(std::optional<config::Configuration> given, std::string layout,
-                 std::function<void()> changed);
+                 std::function<void()> changed, ConfigurationKeeping keeping);
 
     /// The next frame, by the renderers that are `ready`. Errors: Unavailable (there is none);
     /// those of ActiveConfiguration::plan.

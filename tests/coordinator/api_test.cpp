@@ -17,7 +17,6 @@
 #include <grpcpp/server.h>
 #include <grpcpp/support/channel_arguments.h>
 #include <gtest/gtest.h>
-#include <sys/fsuid.h>
 
 #include "coordinator/api/coordinator_service.h"
 #include "coordinator/api/grpc_service.h"
@@ -28,6 +27,7 @@
 #include "fabric/frustum.h"
 #include "tests/coordinator/fake_frame_source.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/without_rights.h"
 #include "wire/jpeg.h"
 #include "wire/listen.h"
 
@@ -424,7 +424,7 @@ TEST_F(Rest, EqualizersAreFrozenAndSwitchedOff) {
 }
 
 TEST_F(Rest, ScenesThatWereAnsweredCanBeShownAgain) {
-    api_->allow(frames_.status().scene);
+    api_->begin(frames_.status().scene);
     std::ofstream(folder_.path("data/other.eyt")) << "x";
     const RestAnswer scene = get("/scene");
     ASSERT_EQ(scene.status, 200);
@@ -570,18 +570,6 @@ TEST_F(Rest, ADataFolderThatHasGoneDoesNotLookEmpty) {
     EXPECT_EQ(get("/flights/a").status, 200);
 }
 
-/// Another user's rights, of this thread alone: root could write anywhere.
-class WithoutRights {
-public:
-    WithoutRights() : before_(setfsuid(65534)) {}
-    ~WithoutRights() { setfsuid(static_cast<uid_t>(before_)); }
-    WithoutRights(const WithoutRights&) = delete;
-    WithoutRights& operator=(const WithoutRights&) = delete;
-
-private:
-    const int before_;
-};
-
 TEST_F(Rest, AFolderThatCannotBeWrittenIsNamedAsTheCause) {
     using std::filesystem::perms;
     constexpr perms kReadOnly = perms::owner_read | perms::owner_exec | perms::group_read |
@@ -589,7 +577,7 @@ TEST_F(Rest, AFolderThatCannotBeWrittenIsNamedAsTheCause) {
     std::filesystem::permissions(folder_.path(), kReadOnly);
     std::filesystem::permissions(folder_.path("data"), kReadOnly);
     {
-        const WithoutRights other;
+        const test::WithoutRights other;
         const RestAnswer put = send("PUT", "/flights/a",
                                     R"({"keys":[{"camera":{"eye":[0,-10,3],"target":[0,0,0]}}]})");
         expectProblem(put, 503, "UNAVAILABLE");

@@ -124,5 +124,102 @@ TEST(ConfigurationKeeper, HasADeadRenderersShareAloneDrawnByAnother) {
     EXPECT_THAT(drawing(keeper, {"b", "c", "d"}), ElementsAre("d", "b", "c"));
 }
 
+/// How what is set of one keeper comes to the next, `kept` being what was kept last.
+ConfigurationKeeping keeping(KeptConfiguration& kept) {
+    return {kept, [&kept](const KeptConfiguration& now) { kept = now; }};
+}
+
+TEST(ConfigurationKeeper, TakesUpWhatWasSetBeforeOfHoweverManyRenderers) {
+    KeptConfiguration kept;
+    {
+        ConfigurationKeeper keeper(
+            std::nullopt, "", [] {}, keeping(kept));
+        keeper.with(renderers({"a", "b", "c"}));
+        ASSERT_TRUE(keeper.change(setAll).ok());
+        ASSERT_TRUE(keeper.configure({"0", "DB dynamic"}).ok());
+    }
+    ConfigurationKeeper keeper(
+        std::nullopt, "", [] {}, keeping(kept));
+    keeper.with(renderers({"d"}));
+    ASSERT_TRUE(
+        keeper.change([](ActiveConfiguration& active) { return active.setHead("0", moved(.25)); })
+            .ok());
+    expectAllSet(*keeper.with(renderers({"d", "e"})));
+    EXPECT_EQ(keeper.canvases().front().layout, "DB dynamic");
+    ConfigurationKeeper next(
+        std::nullopt, "", [] {}, keeping(kept));
+    expectAllSet(*next.with(renderers({"f", "g", "h"})));
+    EXPECT_EQ(next.canvases().front().layout, "DB dynamic");
+    ConfigurationKeeper other(
+        std::nullopt, "DB static", [] {}, keeping(kept));
+    expectAllSet(*other.with(renderers({"a", "b"})));
+    EXPECT_EQ(other.canvases().front().layout, "DB static") << "it begins with another";
+}
+
+/// Two layouts of one view, in that order, of two channels.
+config::Configuration layouts(const std::string& first, const std::string& second) {
+    config::Findings findings;
+    config::Configuration configuration = config::readEqc(
+        "config { appNode { pipe { window { channel { name \"a\" } } } "
+        "pipe { window { channel { name \"b\" } } } } observer { name \"me\" } "
+        "layout { name \"" +
+            first + "\" view { observer \"me\" } } layout { name \"" + second +
+            "\" view { } } canvas { name \"wall\" layout \"" + first + "\" layout \"" + second +
+            "\" segment { channel \"a\" } } "
+            "compound { channel ( segment 0 view 0 ) load_equalizer { mode 2D } "
+            "compound { } compound { channel \"b\" outputframe { } } "
+            "inputframe { name \"frame.b\" } } }",
+        findings);
+    EXPECT_FALSE(findings.hasErrors()) << describe(findings, "test");
+    return configuration;
+}
+
+absl::Status freezeAndLookAside(ActiveConfiguration& active) {
+    equalizer::Tuning frozen;
+    frozen.isFrozen = true;
+    absl::Status status = active.tune("load.0", frozen);
+    status.Update(active.setHead("me", moved(.25)));
+    config::ViewState inFeet;
+    inFeet.modelUnit = .3048;
+    status.Update(active.setView("plain", "0", inFeet));
+    return status;
+}
+
+TEST(ConfigurationKeeper, TakesUpWhatWasSetBeforeOfAGivenConfiguration) {
+    KeptConfiguration kept;
+    const auto take = [&](const config::Configuration& given) {
+        return ConfigurationKeeper(
+            given, "", [] {}, keeping(kept));
+    };
+    {
+        ConfigurationKeeper keeper = take(layouts("plain", "wide"));
+        ASSERT_TRUE(keeper.change(freezeAndLookAside).ok());
+        ASSERT_TRUE(keeper.configure({"wall", "wide"}).ok());
+    }
+    ConfigurationKeeper keeper = take(layouts("plain", "wide"));
+    EXPECT_EQ(keeper.canvases().front().layout, "wide");
+    const auto active = keeper.with(renderers({"a", "b"}));
+    EXPECT_TRUE(active->equalizers().front().isFrozen);
+    EXPECT_EQ(active->state().heads.front(), moved(.25));
+    EXPECT_EQ(active->state().views[0][0].modelUnit, .3048);
+}
+
+TEST(ConfigurationKeeper, LeavesOutWhatAnEditedConfigurationHasNoMore) {
+    KeptConfiguration kept;
+    {
+        ConfigurationKeeper keeper(
+            layouts("plain", "wide"), "", [] {}, keeping(kept));
+        ASSERT_TRUE(keeper.change(freezeAndLookAside).ok());
+        ASSERT_TRUE(keeper.configure({"wall", "wide"}).ok());
+    }
+    ConfigurationKeeper keeper(
+        layouts("narrow", "wide"), "", [] {}, keeping(kept));
+    EXPECT_EQ(keeper.canvases().front().layout, "narrow") << "it begins with another";
+    const auto active = keeper.with(renderers({"a", "b"}));
+    EXPECT_TRUE(active->equalizers().front().isFrozen);
+    EXPECT_EQ(active->state().heads.front(), moved(.25));
+    EXPECT_EQ(active->state().views[0][0].modelUnit, 1) << "of a layout that is no more";
+}
+
 }  // namespace
 }  // namespace eyrie::coordinator

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "coordinator/api/state_file.h"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+#include <google/protobuf/util/json_util.h>
+#include <google/protobuf/util/message_differencer.h>
+
+#include "coordinator/api/kept_messages.h"
+#include "coordinator/api/replace_file.h"
+#include "eyrie/v1/kept_state.pb.h"
+#include "fabric/log.h"
+#include "fabric/status.h"
+#include "wire/json.h"
+
+namespace eyrie::api {
+namespace {
+
+namespace fs = std::filesystem;
+using google::protobuf::util::MessageDifferencer;
+
+constexpr std::string_view kName = "state.json";
+constexpr std::uintmax_t kMostBytes = 64 << 20;
+constexpr int kPausesAfterFailure = 10;
+
+std::string text(const absl::Status& status) { return std::string(status.message()); }
+
+absl::StatusOr<v1::KeptState> read(const access::DataFolder& folder) {
+    ASSIGN_OR_RETURN(const fs::path path, folder.place(kName));
+    v1::KeptState state;
+    std::error_code error;
+    const std::uintmax_t bytes = fs::file_size(path, error);
+    if (error == std::errc::no_such_file_or_directory)
+        return state;
+    if (!error && bytes > kMostBytes)
+        return absl::DataLossError(
+            fmt::format("it has {} bytes; at most {} are read", bytes, kMostBytes));
+    std::ifstream file(path, std::ios::binary);
+    if (error || !file)
+        return absl::UnavailableError("the server may not read it");
+    const std::string json(std::istreambuf_iterator<char>(file), {});
+    google::protobuf::util::JsonParseOptions options;
+    options.ignore_unknown_fields = true;  // of a newer version
+    const auto parsed = google::protobuf::util::JsonStringToMessage(json, &state, options);
+    if (!parsed.ok()) {
+        const std::string reason(parsed.message());
+        return absl::DataLossError(reason.substr(0, reason.find('\n')));  // its place follows
+    }
+    return state;
+}
+
+void setAside(const access::DataFolder& folder, const absl::Status& reason) {
+    const fs::path path = folder.path() / kName;
+    const fs::path aside = folder.path() / fmt::format("{}.damaged", kName);
+    std::error_code error;
+    fs::rename(path, aside, error);
+    spdlog::warn("{} of the data folder cannot be read, and what was set before is lost: {}; {}",
+                 kName, text(reason),
+                 error ? fmt::format("it cannot be set aside either: {}", error.message())
+                       : fmt::format("it is {} now", aside.filename().string()));
+}
+
+}  // namespace
+
+StateFile::StateFile(access::DataFolder folder, std::string configurationFile,
+                     std::chrono::milliseconds pause)
+    : folder_(std::move(folder)),
+      configurationFile_(std::move(configurationFile)),
+      pause_(pause),
+      state_(std::make_unique<v1::KeptState>()) {
+    if (absl::StatusOr<v1::KeptState> found = read(folder_); found.ok())
+        *state_ = *std::move(found);
+    else
+        setAside(folder_, found.status());
+    thread_ = std::jthread([this](const std::stop_token& stop) { writeChanges(stop); });
+}
+
+StateFile::~StateFile() = default;
+
+coordinator::KeptConfiguration StateFile::configuration() const {
+    const std::lock_guard lock(mutex_);
+    if (!state_->has_configuration())
+        return {};
+    const v1::KeptConfiguration& kept = state_->configuration();
+    if (kept.file() == configurationFile_)
+        return fromMessage(kept);
+    const auto called = [](const std::string& file) {
+        return file.empty() ? std::string("the configuration without --config") : file;
+    };
+    spdlog::warn("what was set before is left out: it was set of {}, and {} is at work",
+                 called(kept.file()), called(configurationFile_));
+    return {};
+}
+
+void StateFile::keep(const coordinator::KeptConfiguration& configuration) {
+    v1::KeptConfiguration message = toMessage(configuration, configurationFile_);
+    const std::lock_guard lock(mutex_);
+    v1::KeptState state = *state_;
+    *state.mutable_configuration() = std::move(message);
+    change(state);
+}
+
+v1::KeptScene StateFile::scene() const {
+    const std::lock_guard lock(mutex_);
+    return state_->scene();
+}
+
+void StateFile::keep(const v1::KeptScene& scene) {
+    const std::lock_guard lock(mutex_);
+    v1::KeptState state = *state_;
+    *state.mutable_scene() = scene;
+    change(state);
+}
+
+void StateFile::forgetScene() {
+    const std::lock_guard lock(mutex_);
+    v1::KeptState state = *state_;
+    state.clear_scene();
+    change(state);
+}
+
+void StateFile::change(const v1::KeptState& state) {
+    if (MessageDifferencer::Equals(state, *state_))
+        return;
+    *state_ = state;
+    isWritten_ = false;
+    changed_.notify_all();
+}
+
+void StateFile::writeChanges(const std::stop_token& stop) {
+    std::unique_lock lock(mutex_);
+    while (changed_.wait(lock, stop, [this] { return !isWritten_; })) {
+        const std::string json = wire::toJson(*state_);
+        isWritten_ = true;
+        lock.unlock();
+        const bool isDone = write(json);
+        lock.lock();
+        if (isDone && stop.stop_requested())
+            continue;
+        if (stop.stop_requested())
+            return;
+        isWritten_ = isWritten_ && isDone;
+        changed_.wait_for(lock, stop, isDone ? pause_ : pause_ * kPausesAfterFailure,
+                          [] { return false; });
+    }
+}
+
+bool StateFile::write(const std::string& json) {
+    std::string problem;
+    if (const absl::StatusOr<fs::path> path = folder_.place(kName); !path.ok())
+        problem = text(path.status());
+    else if (const std::error_code error = replaceFile(*path, json); error)
+        problem = error.message();
+    if (problem != problem_ && !problem.empty())
+        spdlog::warn(
+            "{} cannot be written, and what is set now is lost at a restart: {}; see that "
+            "the data folder is writable and not full",
+            kName, problem);
+    else if (problem != problem_)
+        spdlog::info("{} can be written again", kName);
+    problem_ = problem;
+    return problem.empty();
+}
+
+}  // namespace eyrie::api

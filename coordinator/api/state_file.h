@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <stop_token>
+#include <string>
+#include <thread>
+
+#include "access/data_folder.h"
+#include "coordinator/frame/kept_configuration.h"
+
+namespace eyrie::v1 {
+class KeptScene;
+class KeptState;
+}  // namespace eyrie::v1
+
+namespace eyrie::api {
+
+/// What callers have set of a coordinator, kept as state.json in its data folder for the one that
+/// takes its place. Nothing of it keeps a coordinator from starting or answering: what cannot be
+/// read is renamed to state.json.damaged, what cannot be written is tried again, and the log says
+/// so. Of several coordinators with one folder the file is that of who wrote last. Any thread may
+/// call.
+class StateFile {
+public:
+    /// Reads what there is. `configurationFile` says which configuration is at work; empty: one
+    /// made of the renderers. The file is written at once when something has changed, but not more
+    /// often than every `pause`.
+    StateFile(access::DataFolder folder, std::string configurationFile,
+              std::chrono::milliseconds pause = std::chrono::seconds(1));
+    /// Writes what is not yet written, if it can.
+    ~StateFile();
+
+    /// What was set of the configuration at work; nothing where the file tells of another.
+    coordinator::KeptConfiguration configuration() const;
+    void keep(const coordinator::KeptConfiguration& configuration);
+
+    v1::KeptScene scene() const;
+    void keep(const v1::KeptScene& scene);
+    /// The command line's is shown.
+    void forgetScene();
+
+private:
+    void change(const v1::KeptState& state);
+    void writeChanges(const std::stop_token& stop);
+    bool write(const std::string& text);
+
+    const access::DataFolder folder_;
+    const std::string configurationFile_;
+    const std::chrono::milliseconds pause_;
+    std::string problem_;       ///< that was logged last; the thread's
+    mutable std::mutex mutex_;  ///< guards what follows
+    std::condition_variable_any changed_;
+    std::unique_ptr<v1::KeptState> state_;
+    bool isWritten_ = true;
+    std::jthread thread_;  ///< last: it ends before the rest goes
+};
+
+}  // namespace eyrie::api

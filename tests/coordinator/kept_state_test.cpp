@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: Apache-2.0
+// What programs set outlives the coordinator, by a file of its data folder.
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <optional>
+
+#include <gmock/gmock.h>
+
+#include "coordinator/api/api.h"
+#include "coordinator/api/state_file.h"
+#include "coordinator/config/eqc_reader.h"
+#include "coordinator/coordinator.h"
+#include "eyrie/v1/kept_state.pb.h"
+#include "tests/service/eventually.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/without_rights.h"
+
+namespace eyrie::coordinator {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr const char* kSet =
+    R"({"heads":[{"observer":"me","roomFromHead":[1,0,0,0.25, 0,1,0,0, 0,0,1,0]}],)"
+    R"("layouts":[{"canvas":"wall","layout":"wide"}],)"
+    R"("equalizers":[{"equalizer":0,"frozen":true}]})";
+
+config::Configuration configuration() {
+    config::Findings findings;
+    config::Configuration configuration = config::readEqc(
+        "config { appNode { pipe { window { channel { name \"a\" } } } "
+        "pipe { window { channel { name \"b\" } } } } observer { name \"me\" } "
+        "layout { name \"plain\" view { observer \"me\" } } layout { name \"wide\" view { } } "
+        "canvas { name \"wall\" layout \"plain\" layout \"wide\" segment { channel \"a\" } } "
+        "compound { channel ( segment 0 view 0 ) load_equalizer { mode 2D } "
+        "compound { } compound { channel \"b\" outputframe { } } "
+        "inputframe { name \"frame.b\" } } }",
+        findings);
+    EXPECT_FALSE(findings.hasErrors()) << describe(findings, "test");
+    return configuration;
+}
+
+class KeptState : public testing::Test {
+protected:
+    KeptState() {
+        std::filesystem::create_directory(data());
+        std::ofstream(data() / "a.eym") << "a mesh";
+        options_.dataFolder = data();
+        options_.scene.objects.push_back({"started with",
+                                          fabric::ObjectKind::Mesh,
+                                          "/elsewhere/first.eym",
+                                          fabric::Mat4(1.0),
+                                          {}});
+        options_.configuration = configuration();
+        options_.configurationFile = "/etc/wall.eqc";
+        start();
+    }
+
+    std::filesystem::path data() const { return folder_.path("data"); }
+    std::filesystem::path file() const { return data() / "state.json"; }
+
+    void start() {
+        coordinator_.reset();
+        coordinator_ = Coordinator::start(options_).value();
+    }
+
+    int send(const std::string& method, const std::string& target, const std::string& body) const {
+        return coordinator_->api()
+            .rest()
+            .answer({method, "/api/v1" + target, body, "application/json", ""})
+            .status;
+    }
+    std::string get(const std::string& target) const {
+        return *coordinator_->api().rest().answer({"GET", "/api/v1" + target, "", "", ""}).body;
+    }
+
+    void setScene() const {
+        ASSERT_EQ(send("PUT", "/scene", R"({"objects":[{"mesh":"a.eym","name":"set later"}]})"),
+                  200);
+    }
+    void setConfiguration() const { ASSERT_EQ(send("PATCH", "/configuration", kSet), 200); }
+
+    void expectConfigurationIsSet() const {
+        const std::string state = get("/configuration");
+        EXPECT_THAT(state, HasSubstr("0.25"));
+        EXPECT_THAT(state, HasSubstr(R"("frozen": true)"));
+        EXPECT_EQ(coordinator_->frames().status().canvases.front().layout, "wide");
+    }
+    void expectConfigurationIsAsWritten() const {
+        const std::string state = get("/configuration");
+        EXPECT_THAT(state, Not(HasSubstr("0.25")));
+        EXPECT_THAT(state, Not(HasSubstr(R"("frozen": true)")));
+        EXPECT_EQ(coordinator_->frames().status().canvases.front().layout, "plain");
+    }
+    void expectScene(const std::string& name) const {
+        EXPECT_EQ(coordinator_->frames().status().scene.objects.front().name, name);
+    }
+
+    test::TemporaryFolder folder_;
+    CoordinatorOptions options_;
+    std::unique_ptr<Coordinator> coordinator_;
+};
+
+TEST_F(KeptState, IsThereAgainAfterARestart) {
+    setScene();
+    setConfiguration();
+    start();
+    expectScene("set later");
+    expectConfigurationIsSet();
+    EXPECT_THAT(get("/scene"), HasSubstr(R"("a.eym")"));
+    start();  // nothing was set meanwhile
+    expectScene("set later");
+    expectConfigurationIsSet();
+}
+
+TEST_F(KeptState, IsOfASceneThatIsSetOnceTheDataAreThere) {
+    setScene();
+    const fabric::Scene first = std::exchange(options_.scene, {});
+    start();
+    ASSERT_TRUE(coordinator_->setScene(first).ok());
+    expectScene("set later");
+}
+
+TEST_F(KeptState, GivesWayToAnotherSceneOfTheCommandLine) {
+    setScene();
+    setConfiguration();
+    options_.scene.objects.front().name = "started with instead";
+    start();
+    expectScene("started with instead");
+    expectConfigurationIsSet();
+}
+
+TEST_F(KeptState, GivesWayToAnotherConfigurationOfTheCommandLine) {
+    setScene();
+    setConfiguration();
+    options_.configurationFile = "/etc/another.eqc";
+    start();
+    expectScene("set later");
+    expectConfigurationIsAsWritten();
+}
+
+TEST_F(KeptState, EndsWhereTheCommandLinesSceneIsSetAgain) {
+    setScene();
+    ASSERT_EQ(send("PUT", "/scene",
+                   R"({"objects":[{"mesh":"/elsewhere/first.eym","name":"started with"}]})"),
+              200);
+    options_.scene.objects.front().name = "started with instead";
+    start();
+    expectScene("started with instead");
+}
+
+TEST_F(KeptState, IsLeftOutWhereItsFilesAreGone) {
+    setScene();
+    std::filesystem::remove(data() / "a.eym");
+    start();
+    expectScene("started with");
+}
+
+TEST_F(KeptState, ThatIsDamagedIsSetAside) {
+    setScene();
+    setConfiguration();
+    coordinator_.reset();
+    std::ifstream kept(file());
+    const std::string whole(std::istreambuf_iterator<char>(kept), {});
+    for (std::size_t bytes = 0; bytes + 2 < whole.size(); bytes += 7) {  // it ends in "}\n"
+        std::ofstream(file()) << whole.substr(0, bytes);
+        start();
+        expectScene("started with");
+        expectConfigurationIsAsWritten();
+        EXPECT_FALSE(std::filesystem::exists(file())) << bytes;
+        EXPECT_EQ(std::filesystem::file_size(data() / "state.json.damaged"), bytes);
+        coordinator_.reset();
+    }
+    std::filesystem::remove(data() / "state.json.damaged");
+    std::filesystem::create_directory(file());
+    start();
+    expectScene("started with");
+    setScene();
+    start();
+    expectScene("set later");
+}
+
+TEST_F(KeptState, HasNothingThatCouldNotBeSet) {
+    coordinator_.reset();
+    std::ofstream(file()) << R"({"configuration":{"file":"/etc/wall.eqc","heads":[)"
+                             R"({"observer":"me","roomFromHead":[7,0,0,0, 0,1,0,0, 0,0,1,0]}],)"
+                             R"("observers":[{"observer":"me","eyeBase":-1}],)"
+                             R"("views":[{"layout":"plain","view":"0","modelUnit":"NaN"}],)"
+                             R"("equalizers":[{"name":"load.0","tuning":{"damping":9}}],)"
+                             R"("layouts":[{"canvas":"wall","first":"plain","layout":"none"}]}})";
+    start();
+    expectConfigurationIsAsWritten();
+    EXPECT_THAT(get("/configuration"), Not(HasSubstr("NaN")));
+}
+
+KeptConfiguration lookingAside(double metres) {
+    KeptConfiguration kept;
+    kept.settings.heads["me"] = fabric::Mat4(1);
+    kept.settings.heads["me"][3][0] = metres;
+    return kept;
+}
+
+KeptConfiguration keptIn(const std::filesystem::path& folder) {
+    return api::StateFile(access::DataFolder::open(folder).value(), "").configuration();
+}
+
+TEST(StateFile, IsWrittenAtOnceAndThenAfterAPause) {
+    const test::TemporaryFolder folder;
+    {
+        api::StateFile file(access::DataFolder::open(folder.path()).value(), "",
+                            std::chrono::hours(1));
+        file.keep(lookingAside(1));
+        ASSERT_TRUE(eventually([&] { return keptIn(folder.path()) == lookingAside(1); }));
+        file.keep(lookingAside(2));
+        file.keep(lookingAside(3));
+        EXPECT_EQ(keptIn(folder.path()), lookingAside(1));
+    }
+    EXPECT_EQ(keptIn(folder.path()), lookingAside(3)) << "it ended with something to write";
+}
+
+TEST(StateFile, IsWrittenOnceItsFolderCanBe) {
+    const test::TemporaryFolder folder;
+    std::filesystem::create_directory(folder.path("data"));
+    api::StateFile file(access::DataFolder::open(folder.path("data")).value(), "",
+                        std::chrono::milliseconds(1));
+    std::filesystem::rename(folder.path("data"), folder.path("elsewhere"));
+    file.keep(lookingAside(1));
+    std::filesystem::rename(folder.path("elsewhere"), folder.path("data"));
+    EXPECT_TRUE(eventually([&] { return keptIn(folder.path("data")) == lookingAside(1); }));
+}
+
+TEST_F(KeptState, IsForgottenWhereTheFolderCannotBeWrittenAndNothingElseIsAmiss) {
+    using std::filesystem::perms;
+    constexpr perms kReadOnly = perms::owner_read | perms::owner_exec | perms::group_read |
+                                perms::group_exec | perms::others_read | perms::others_exec;
+    std::filesystem::permissions(folder_.path(), kReadOnly);
+    std::filesystem::permissions(data(), kReadOnly);
+    {
+        const test::WithoutRights other;
+        start();
+        setScene();
+        setConfiguration();
+        expectScene("set later");
+        start();
+        expectScene("started with");
+        expectConfigurationIsAsWritten();
+        coordinator_.reset();
+    }
+    std::filesystem::permissions(folder_.path(), perms::owner_all);
+    std::filesystem::permissions(data(), perms::owner_all);
+}
+
+}  // namespace
+}  // namespace eyrie::coordinator
