@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include <glm/geometric.hpp>
+#include "renderer/lod/channel.h"
 
 namespace eyrie::occlusion {
 namespace {
@@ -11,36 +11,9 @@ namespace {
 /// By so much an object has to be hidden to be expected to stay hidden: the camera moves, and what
 /// is drawn after all costs more than what is drawn at once.
 constexpr int kSparePixels = DepthPyramid::kBlockPixels;
-/// Cosine of the angle between two directions of one viewer, from frame to frame.
-constexpr double kNearlyTheSameWay = 0.8;
 
 fabric::PixelViewport grownBy(const fabric::PixelViewport& rect, int pixels) {
     return {rect.x - pixels, rect.y - pixels, rect.width + 2 * pixels, rect.height + 2 * pixels};
-}
-
-double length(const fabric::Range& range) { return range.end - range.begin; }
-
-bool areMostlyTheSame(const fabric::Range& a, const fabric::Range& b) {
-    const fabric::Range both{std::max(a.begin, b.begin), std::min(a.end, b.end)};
-    return 2 * length(both) >= std::max(length(a), length(b));
-}
-
-bool areMostlyTheSame(const fabric::PixelViewport& a, const fabric::PixelViewport& b) {
-    return 2 * intersection(a, b).area() >= std::max(a.area(), b.area());
-}
-
-double area(const fabric::Frustum& f) { return (f.right - f.left) * (f.top - f.bottom); }
-
-/// Two tiles of a wall have the same axis and size.
-bool areMostlyTheSame(const fabric::Frustum& a, const fabric::Frustum& b) {
-    const double width = std::min(a.right, b.right) - std::max(a.left, b.left);
-    const double height = std::min(a.top, b.top) - std::max(a.bottom, b.bottom);
-    return 2 * std::max(width, 0.0) * std::max(height, 0.0) >= std::max(area(a), area(b));
-}
-
-/// Along the view's axis.
-fabric::Vec3 direction(const lod::View& view) {
-    return -glm::transpose(view.viewFromWorldRotation)[2];
 }
 
 }  // namespace
@@ -63,14 +36,10 @@ bool ChannelMemory::expectsHidden(const lod::ObjectView& lastView,
 
 ChannelMemory& ChannelMemories::of(const lod::View& view, const fabric::Range& range,
                                    const fabric::PixelViewport& part) {
-    const auto isLikeThis = [&](const Known& known) {
-        const lod::View& last = known.memory.view;
-        return last.width == view.width && last.height == view.height &&
-               areMostlyTheSame(known.range, range) && areMostlyTheSame(known.part, part) &&
-               areMostlyTheSame(last.frustum, view.frustum) &&
-               glm::dot(direction(last), direction(view)) > kNearlyTheSameWay;
-    };
-    const auto found = std::find_if(memories_.begin(), memories_.end(), isLikeThis);
+    const lod::Channel channel{view, range, part};
+    const auto found = std::ranges::find_if(memories_, [&](const Known& known) {
+        return lod::mayContinue({known.memory.view, known.range, known.part}, channel);
+    });
     if (found != memories_.end()) {
         memories_.splice(memories_.begin(), memories_, found);
     } else {

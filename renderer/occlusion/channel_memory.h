@@ -32,9 +32,8 @@ struct ChannelMemory {
 /// The memories of the channels that are drawn in turn: parts of a picture, ranges, viewers.
 class ChannelMemories {
 public:
-    /// The one of the last frame like this: of the same picture size, of half the same pixels,
-    /// frustum and data or more, and looking nearly the same way. A new one, in place of the one
-    /// not used longest, if there is none: after a hard cut nothing is expected to be hidden.
+    /// The one of the last frame like this (lod::mayContinue). A new one, in place of the one not
+    /// used longest, if there is none: after a hard cut nothing is expected to be hidden.
     ChannelMemory& of(const lod::View& view, const fabric::Range& range,
                       const fabric::PixelViewport& part);
     void clear() { memories_.clear(); }
