@@ -22,6 +22,7 @@
 #include "renderer/draw/scene_lights.h"
 #include "renderer/draw/selection.h"
 #include "renderer/draw/terrain_draw.h"
+#include "renderer/draw/view_turns.h"
 #include "renderer/gl/egl_context.h"
 #include "renderer/gl/framebuffer.h"
 #include "renderer/lod/view.h"
@@ -129,6 +130,7 @@ private:
     draw::PointPrograms pointPrograms_;
     gl::Framebuffer framebuffer_;
     draw::OccludedDraw occludedDraw_;
+    draw::ViewTurns turns_;
     draw::Batches batches_;
     RendererOptions options_;
     draw::DecodeChoice decoding_;
@@ -222,6 +224,7 @@ absl::StatusOr<fabric::SceneInfo> Renderer::Impl::openScene(const fabric::Scene&
     objects_ = std::move(objects);
     picker_ = std::make_shared<const pick::Picker>(std::move(surfaces));
     occludedDraw_.forget();
+    turns_.forget();
     return info;
 }
 
@@ -411,8 +414,11 @@ absl::StatusOr<fabric::ChannelResult> Renderer::Impl::render(const fabric::Frame
     const lod::TaskViews views(asked.camera, task);
     const fabric::FrameData frameData =
         draw::withinBudget(objects_, views.whole, asked, task, statistics);
+    const draw::ViewTurn turn = turns_.next(
+        {draw::cutViewOf(frameData.look, task, views.whole), task.range, task.pixelViewport},
+        task.completeness);
     const draw::Selection selection =
-        draw::selectPieces(objects_, views, frameData, task, statistics, stop);
+        draw::selectPieces(objects_, views, frameData, task, turn, statistics, stop);
     RETURN_IF_ERROR(unlessStopped(stop));
     statistics.milliseconds.cull = millisecondsSince(start);
 

@@ -20,6 +20,7 @@
 #include "fabric/lights.h"
 #include "fabric/scene.h"
 #include "fabric/statistics.h"
+#include "renderer/draw/view_turns.h"
 #include "renderer/lod/view.h"
 #include "renderer/occlusion/hidden_ground.h"
 
@@ -58,6 +59,7 @@ struct CutRequest {
     double exaggeration = 1;       ///< of terrain; `view` holds it already
     bool wantsPageBounds = false;  ///< pieces for them, beside the nodes
     std::stop_token stop = {};     ///< ends the wait for what a complete cut needs
+    ViewTurn turn = {};            ///< of `view`
 };
 
 /// What a drawable shows of itself in one channel.

@@ -108,8 +108,9 @@ private:
     /// Points are lit as their triangles, but do not know which way these face.
     bool mayBePoints() const { return !singleSided_; }
     void defineVertexFormat();
+    MeshCut cutNow(const lod::ObjectView& view, double tauPixels) const;
     const MeshCut& cutAt(int step, const CutRequest& request);
-    std::uint64_t bytesOf(const MeshCut& cut) const;
+    std::vector<NeededItem> itemsOf(const MeshCut& cut) const;
     std::uint64_t countMissing(const MeshCut& cut) const;
     page::HostPages::Loads reach(const CutRequest& request, double tauPixels);
     std::uint64_t costOf(const CutNode& node) const;
@@ -146,7 +147,7 @@ private:
     MeshPoints points_;
     BoxLines boxLines_;
     std::unique_ptr<MeshPaging> paging_;
-    Prefetch prefetch_;
+    PerView<Prefetch> prefetch_;
     TauChoice tau_;
     std::map<int, MeshCut> cuts_;  ///< of this view and tau, by step
 };
@@ -158,24 +159,28 @@ void MeshDrawable::defineVertexFormat() {
     Program::kPackedPlace.define(vertexArray_, file_->hasTextures());
 }
 
+MeshCut MeshDrawable::cutNow(const lod::ObjectView& view, double tauPixels) const {
+    return cutOf(
+        *file_, view, tauPixels, [this](std::uint32_t node) { return paging_->isResident(node); },
+        mayBePoints());
+}
+
 const MeshCut& MeshDrawable::cutAt(int step, const CutRequest& request) {
     const auto known = cuts_.find(step);
     if (known != cuts_.end())
         return known->second;
-    return cuts_
-        .emplace(step, cutOf(
-                           *file_, request.view, request.tauPixels * page::TauLadder::factor(step),
-                           [this](std::uint32_t node) { return paging_->isResident(node); },
-                           mayBePoints()))
-        .first->second;
+    const double tauPixels = request.tauPixels * page::TauLadder::factor(step);
+    return cuts_.emplace(step, cutNow(request.view, tauPixels)).first->second;
 }
 
-/// With what may stand in.
-std::uint64_t MeshDrawable::bytesOf(const MeshCut& cut) const {
-    std::uint64_t bytes = 0;
+/// With what may stand in, whatever of it is there.
+std::vector<NeededItem> MeshDrawable::itemsOf(const MeshCut& cut) const {
+    std::vector<NeededItem> items;
     for (const auto* nodes : {&cut.wanted, &cut.between, &cut.above})
-        for (const CutNode& node : *nodes) bytes += paging_->bytesOf(node.node);
-    return bytes;
+        for (const CutNode& node : *nodes)
+            if (const std::uint64_t bytes = paging_->bytesOf(node.node); bytes > 0)
+                items.push_back({node.node, bytes});
+    return items;
 }
 
 std::uint64_t MeshDrawable::countMissing(const MeshCut& cut) const {
@@ -195,7 +200,8 @@ page::HostPages::Loads MeshDrawable::reach(const CutRequest& request, double tau
     page::HostPages::Loads loaded;
     page::HostPages::Loads round;
     std::vector<CutNode> needed = readable();
-    while (paging_->reach(needed, round, request.stop) && !request.stop.stop_requested()) {
+    while (paging_->reach(needed, request.turn, round, request.stop) &&
+           !request.stop.stop_requested()) {
         loaded.add(round);
         if (round.hasFailed)
             needed = readable();
@@ -221,17 +227,22 @@ std::uint64_t MeshDrawable::viewTriangles(const CutRequest& request) {
 Cut MeshDrawable::selectCut(const CutRequest& request) {
     cuts_.clear();
     const page::TauLadder::Choice choice = tau_.choose(
-        request, [&](int step) { return bytesOf(cutAt(step, request)); }, paging_->roomBytes());
+        request,
+        [&](const lod::ObjectView& view, double tauPixels, int step) {
+            return itemsOf(&view == &request.view ? cutAt(step, request) : cutNow(view, tauPixels));
+        },
+        paging_->roomBytes());
     const double tauPixels = request.tauPixels * page::TauLadder::factor(choice.step);
-    prefetch_.follow(request.view.view(), worldFromObject_, Prefetch::Clock::now());
+    Prefetch& prefetch = prefetch_.of(request.turn);
+    prefetch.follow(request.view.view(), worldFromObject_, Prefetch::Clock::now());
     MeshPaging::Progress progress;
     if (request.completeness == fabric::Completeness::Complete) {
         progress.hasUploaded = countMissing(cutAt(choice.step, request)) > 0;
         progress.loaded = reach(request, tauPixels);
     } else {
-        progress = paging_->approach(cutAt(choice.step, request), [&] {
-            return prefetch_.nodes(NodeTree{*file_, tauPixels, mayBePoints()}, tauPixels,
-                                   paging_->latency());
+        progress = paging_->approach(cutAt(choice.step, request), request.turn, [&] {
+            return prefetch.nodes(NodeTree{*file_, tauPixels, mayBePoints()}, tauPixels,
+                                  paging_->latency());
         });
     }
     if (progress.hasUploaded)

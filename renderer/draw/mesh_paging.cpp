@@ -105,17 +105,23 @@ MeshPaging::MeshPaging(std::shared_ptr<const mesh::EymFile> file, page::Loader& 
       items_(limits.deviceBytes - rootBytes_),
       pages_(loader, loadFrom(file_), factsOf(file_), limits.hostBytes, greatestPage) {}
 
-void MeshPaging::beginFrame() {
+ViewClaim& MeshPaging::beginFrame(const ViewTurn& turn) {
     items_.beginFrame();
     pages_.beginFrame();
     missing_.clear();
     ranked_.clear();
     rankedBytes_ = 0;
+    return claims_.begin(turn);
+}
+
+void MeshPaging::rankAs(std::uint32_t node, std::uint32_t rank, ViewClaim& claim) {
+    items_.rank(node, rank);
+    claim.items.emplace_back(node, rank);
 }
 
 /// Coarse nodes first, and of a level the worst: gives what is on the device its rank, and lists
 /// what is missing as far as it will fit.
-void MeshPaging::rank(std::vector<CutNode> nodes) {
+void MeshPaging::rank(std::vector<CutNode> nodes, ViewClaim& claim) {
     std::sort(nodes.begin(), nodes.end(), [](const CutNode& a, const CutNode& b) {
         return a.level != b.level               ? a.level < b.level
                : a.errorPixels != b.errorPixels ? a.errorPixels > b.errorPixels
@@ -128,10 +134,10 @@ void MeshPaging::rank(std::vector<CutNode> nodes) {
         if (rankedBytes_ > items_.limitBytes())
             return;
         const auto rank = static_cast<std::uint32_t>(ranked_.size());
-        items_.rank(node.node, rank);
+        rankAs(node.node, rank, claim);
         if (!items_.contains(node.node)) {
             missing_.push_back({node.node, rank});
-            pages_.want(node.node);
+            claim.pages.push_back(node.node);
         }
     }
 }
@@ -155,41 +161,43 @@ bool MeshPaging::upload(std::chrono::duration<double> time) {
     return hasUploaded;
 }
 
-MeshPaging::Progress MeshPaging::approach(const MeshCut& cut, const Prefetch& prefetch) {
-    beginFrame();
+MeshPaging::Progress MeshPaging::approach(const MeshCut& cut, const ViewTurn& turn,
+                                          const Prefetch& prefetch) {
+    ViewClaim& claim = beginFrame(turn);
     for (const CutNode& node : cut.drawn) {
-        items_.rank(node.node, 0);
+        rankAs(node.node, 0, claim);
         ranked_.insert(node.node);
         rankedBytes_ += bytesOf(node.node);
     }
     std::vector<CutNode> below = cut.wanted;
     below.insert(below.end(), cut.between.begin(), cut.between.end());
-    rank(std::move(below));
+    rank(std::move(below), claim);
     const bool isUrgent = !missing_.empty();
-    rank(cut.above);
-    bool hasWishes = !missing_.empty();
+    rank(cut.above, claim);
     if (!isUrgent)
         for (const std::uint32_t node : prefetch())
-            if (!isResident(node)) {
-                pages_.want(node);
-                hasWishes = true;
-            }
+            if (!isResident(node))
+                claim.soon.push_back(node);
+    claims_.rankOthers(turn, items_, 0);
+    const bool hasWishes = claims_.want(pages_);
     if (!hasWishes && !hasWishes_)
         return {};
     Progress progress;
     progress.loaded = pages_.tryTake();
     progress.hasUploaded = upload(kUploadTime);
+    std::erase_if(claim.pages, [this](std::uint32_t node) { return items_.contains(node); });
     pages_.tryWish();
     hasWishes_ = hasWishes;
     return progress;
 }
 
-bool MeshPaging::reach(const std::vector<CutNode>& needed, page::HostPages::Loads& loaded,
-                       const std::stop_token& stop) {
-    beginFrame();
-    rank(needed);
+bool MeshPaging::reach(const std::vector<CutNode>& needed, const ViewTurn& turn,
+                       page::HostPages::Loads& loaded, const std::stop_token& stop) {
+    rank(needed, beginFrame(turn));
     if (missing_.empty())
         return false;
+    claims_.rankOthers(turn, items_, static_cast<std::uint32_t>(ranked_.size()) + 1);
+    for (const Missing& missing : missing_) pages_.want(missing.node);
     const page::HostPages::Loads arrived = pages_.take();
     loaded.add(arrived);
     const bool hasUploaded = upload(std::chrono::hours(1));

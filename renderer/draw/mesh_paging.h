@@ -13,6 +13,8 @@
 
 #include "renderer/draw/drawable.h"
 #include "renderer/draw/mesh_cut.h"
+#include "renderer/draw/view_claims.h"
+#include "renderer/draw/view_turns.h"
 #include "renderer/gl/object.h"
 #include "renderer/mesh/eym_format.h"
 #include "renderer/page/host_pages.h"
@@ -63,12 +65,13 @@ public:
     /// waiting. What is drawn stays; then comes what lies below it, then, against the day when the
     /// camera draws back, what lies above; where nothing below is missing, pages of `prefetch()`:
     /// nodes that may be needed soon, likely ones first.
-    Progress approach(const MeshCut& cut, const Prefetch& prefetch);
+    /// Views that take turns spare each other's nodes, and their pages come by turns, too.
+    Progress approach(const MeshCut& cut, const ViewTurn& turn, const Prefetch& prefetch);
 
     /// One round of waiting for `needed`, or until `stop`: false when nothing is left that may
-    /// come.
-    bool reach(const std::vector<CutNode>& needed, page::HostPages::Loads& loaded,
-               const std::stop_token& stop);
+    /// come. Other views' nodes give way where there is no other room.
+    bool reach(const std::vector<CutNode>& needed, const ViewTurn& turn,
+               page::HostPages::Loads& loaded, const std::stop_token& stop);
 
     /// Null when it is not on the device. Valid until the next approach() or reach().
     const DeviceNode* node(std::uint32_t index) {
@@ -97,8 +100,9 @@ private:
                const MeshMemory& limits, std::unique_ptr<DeviceNode> root,
                std::uint64_t greatestPage);
 
-    void beginFrame();
-    void rank(std::vector<CutNode> nodes);
+    ViewClaim& beginFrame(const ViewTurn& turn);
+    void rank(std::vector<CutNode> nodes, ViewClaim& claim);
+    void rankAs(std::uint32_t node, std::uint32_t rank, ViewClaim& claim);
     bool upload(std::chrono::duration<double> time);
 
     const std::shared_ptr<const mesh::EymFile> file_;
@@ -112,6 +116,7 @@ private:
     std::vector<Missing> missing_;  ///< of this frame, in the order in which they are to come
     std::unordered_set<std::uint32_t> ranked_;  ///< of this frame
     std::uint64_t rankedBytes_ = 0;
+    ViewClaims claims_;
     bool hasWishes_ = false;  ///< the loader may hold something for this
     page::HostPages pages_;   ///< mesh::NodeGeometry; last: its loads use the file
 };

@@ -53,7 +53,8 @@ lod::View cutViewOf(const fabric::Look& look, const fabric::ChannelTask& task,
 
 Selection selectPieces(std::span<const OpenObject> objects, const lod::TaskViews& views,
                        const fabric::FrameData& frameData, const fabric::ChannelTask& task,
-                       fabric::FrameStatistics& statistics, const std::stop_token& stop) {
+                       const ViewTurn& turn, fabric::FrameStatistics& statistics,
+                       const std::stop_token& stop) {
     Selection selection;
     std::vector<OrderedPiece>& pieces = selection.pieces;
     const fabric::Look& look = frameData.look;
@@ -69,9 +70,9 @@ Selection selectPieces(std::span<const OpenObject> objects, const lod::TaskViews
             continue;
         const lod::ObjectView objectView(views.drawn, worldFromObject);
         const lod::ObjectView cutObjectView(cutView, worldFromObject);
-        const Cut cut = objects[i].drawable->selectCut({cutObjectView, cutChannel, task.range,
-                                                        frameData.tauPixels, task.completeness,
-                                                        look.exaggeration, look.pageBounds, stop});
+        const Cut cut = objects[i].drawable->selectCut(
+            {cutObjectView, cutChannel, task.range, frameData.tauPixels, task.completeness,
+             look.exaggeration, look.pageBounds, stop, turn});
         addTo(statistics, cut);
         const bool hasLayers =
             look.objects.shadingOf(i, frameData.shading) != fabric::Shading::Wireframe;

@@ -12,6 +12,7 @@
 #include "renderer/draw/drawable.h"
 #include "renderer/draw/occluded_draw.h"
 #include "renderer/draw/open_object.h"
+#include "renderer/draw/view_turns.h"
 #include "renderer/lod/view.h"
 
 /// What of a scene falls to a channel.
@@ -43,9 +44,11 @@ struct Selection {
 ///
 /// What is blended falls to every range: of the channels that are composited, that which has the
 /// nearest opaque surface of a pixel wins, and has to have drawn all that is in front of it.
+/// `turn` is that of the view that the cut is chosen for.
 /// Adds to `statistics` what was loaded and what is missing. After `stop` it is not to be drawn.
 Selection selectPieces(std::span<const OpenObject> objects, const lod::TaskViews& views,
                        const fabric::FrameData& frameData, const fabric::ChannelTask& task,
-                       fabric::FrameStatistics& statistics, const std::stop_token& stop = {});
+                       const ViewTurn& turn, fabric::FrameStatistics& statistics,
+                       const std::stop_token& stop = {});
 
 }  // namespace eyrie::draw

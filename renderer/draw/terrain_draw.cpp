@@ -145,13 +145,11 @@ private:
     struct Wanted {
         terrain::Refinement refinement;
         terrain::TerrainCut cut;
-        /// Of its visible tiles and texture tiles, and all above, which may stand in.
-        std::optional<std::uint64_t> bytes;
     };
-    std::uint64_t bytesOf(const lod::ObjectView& view, const terrain::TerrainCut& cut,
-                          double texelPixels);
-    Wanted& wantedAt(double tauPixels, const lod::ObjectView& view);
-    std::uint64_t wantedBytes(int step, const CutRequest& request);
+    Wanted wantedOf(const lod::ObjectView& view, double tauPixels) const;
+    const Wanted& wantedAt(double tauPixels, const lod::ObjectView& view);
+    std::vector<NeededItem> itemsOf(const lod::ObjectView& view, const terrain::TerrainCut& cut,
+                                    double texelPixels);
     /// By variant; null: not used in the frame so far.
     using PicturePrograms =
         std::array<const TerrainEffect*, TerrainEffect::Variant::kMaxImagery + 1>;
@@ -170,7 +168,7 @@ private:
     gl::VertexArray shortVertices_;  ///< one word a vertex; the second reads as 0
     gl::VertexArray longVertices_;   ///< two words
     NeededTiles needed_;
-    Prefetch prefetch_;
+    PerView<Prefetch> prefetch_;
     TerrainLook look_;
     BoxLines boxLines_;
     std::unique_ptr<TerrainPaging> paging_;
@@ -182,32 +180,35 @@ private:
     std::vector<const void*> runOffsets_;
 };
 
-std::uint64_t TerrainDrawable::bytesOf(const lod::ObjectView& view, const terrain::TerrainCut& cut,
-                                       double texelPixels) {
+TerrainDrawable::Wanted TerrainDrawable::wantedOf(const lod::ObjectView& view,
+                                                  double tauPixels) const {
+    terrain::Refinement refinement = terrain::refineForError(index(), view, tauPixels);
+    terrain::TerrainCut cut = terrain::cutOf(index(), view, refinement);
+    return {std::move(refinement), std::move(cut)};
+}
+
+const TerrainDrawable::Wanted& TerrainDrawable::wantedAt(double tauPixels,
+                                                         const lod::ObjectView& view) {
+    const auto known = wanted_.find(tauPixels);
+    return known != wanted_.end()
+               ? known->second
+               : wanted_.emplace(tauPixels, wantedOf(view, tauPixels)).first->second;
+}
+
+/// The cut's visible tiles and texture tiles, and all above, which may stand in.
+std::vector<NeededItem> TerrainDrawable::itemsOf(const lod::ObjectView& view,
+                                                 const terrain::TerrainCut& cut,
+                                                 double texelPixels) {
     needed_.assign(cut, {view, view.view().frustum, {}, 1, {}});
-    std::uint64_t bytes = 0;
+    std::vector<NeededItem> items;
     for (const auto* tiles : {&needed_.leaves(), &needed_.inner()})
         for (const terrain::TileId& tile : *tiles)
             if (tile != index().quadtree.top())
-                bytes += terrain::estimatedTileBytes(index(), tile);
-    return bytes + imagery_.bytesOf(needed_.leaves(), view, texelPixels);
-}
-
-TerrainDrawable::Wanted& TerrainDrawable::wantedAt(double tauPixels, const lod::ObjectView& view) {
-    const auto known = wanted_.find(tauPixels);
-    if (known != wanted_.end())
-        return known->second;
-    terrain::Refinement refinement = terrain::refineForError(index(), view, tauPixels);
-    terrain::TerrainCut cut = terrain::cutOf(index(), view, refinement);
-    return wanted_.emplace(tauPixels, Wanted{std::move(refinement), std::move(cut), {}})
-        .first->second;
-}
-
-std::uint64_t TerrainDrawable::wantedBytes(int step, const CutRequest& request) {
-    Wanted& wanted = wantedAt(request.tauPixels * page::TauLadder::factor(step), request.view);
-    if (!wanted.bytes)
-        wanted.bytes = bytesOf(request.view, wanted.cut, texelPixels(step));
-    return *wanted.bytes;
+                items.push_back(
+                    {index().quadtree.tileIndex(tile), terrain::estimatedTileBytes(index(), tile)});
+    for (const TerrainItem& item : imagery_.itemsOf(needed_.leaves(), view, texelPixels))
+        items.push_back({item.key, item.deviceBytes});
+    return items;
 }
 
 std::uint64_t TerrainDrawable::viewTriangles(const CutRequest& request) {
@@ -220,21 +221,29 @@ std::uint64_t TerrainDrawable::viewTriangles(const CutRequest& request) {
 
 Cut TerrainDrawable::selectCut(const CutRequest& request) {
     const page::TauLadder::Choice choice = tau_.choose(
-        request, [&](int step) { return wantedBytes(step, request); }, paging_->roomBytes());
+        request,
+        [&](const lod::ObjectView& view, double tauPixels, int step) {
+            return &view == &request.view
+                       ? itemsOf(view, wantedAt(tauPixels, view).cut, texelPixels(step))
+                       : itemsOf(view, wantedOf(view, tauPixels).cut, texelPixels(step));
+        },
+        paging_->roomBytes());
     const double tauPixels = request.tauPixels * page::TauLadder::factor(choice.step);
     const Wanted& wanted = wantedAt(tauPixels, request.view);
     needed_.assign(wanted.cut, request);
-    prefetch_.follow(request.view.view(),
-                     fabric::exaggerated(worldFromObject_, request.exaggeration),
-                     Prefetch::Clock::now());
+    Prefetch& prefetch = prefetch_.of(request.turn);
+    prefetch.follow(request.view.view(),
+                    fabric::exaggerated(worldFromObject_, request.exaggeration),
+                    Prefetch::Clock::now());
     const std::vector<terrain::TextureId> textures =
         imagery_.texturesOf(needed_.leaves(), request.view, texelPixels(choice.step));
     const TerrainPaging::Result result =
         request.completeness == fabric::Completeness::Complete
-            ? paging_->reach(wanted.refinement, needed_, textures, request.view, request.stop)
-            : paging_->approach(wanted.refinement, needed_, textures, request.view, [&] {
-                  return prefetch_.nodes(TileTree{index()}, tauPixels, paging_->latency());
-              });
+            ? paging_->reach(wanted.refinement, needed_, textures, request.view, request.turn,
+                             request.stop)
+            : paging_->approach(
+                  wanted.refinement, needed_, textures, request.view, request.turn,
+                  [&] { return prefetch.nodes(TileTree{index()}, tauPixels, paging_->latency()); });
 
     Cut cut;
     cut.isComplete = result.pagesMissing == 0 && choice.isLowest;

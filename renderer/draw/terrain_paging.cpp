@@ -94,10 +94,16 @@ Refinement TerrainPaging::drawable(const Refinement& wanted, const NeededTiles& 
     return drawn;
 }
 
-void TerrainPaging::beginFrame() {
+ViewClaim& TerrainPaging::beginFrame(const ViewTurn& turn) {
     items_.beginFrame();
     pages_.beginFrame();
     missing_.clear();
+    return claims_.begin(turn);
+}
+
+void TerrainPaging::rankAs(std::uint32_t key, std::uint32_t rank, ViewClaim& claim) {
+    items_.rank(key, rank);
+    claim.items.emplace_back(key, rank);
 }
 
 std::vector<TextureId> TerrainPaging::chainOf(TextureId texture) const {
@@ -110,7 +116,7 @@ std::vector<TextureId> TerrainPaging::chainOf(TextureId texture) const {
 
 std::uint64_t TerrainPaging::sortTextures(const std::vector<TextureId>& textures,
                                           std::vector<TextureId>& below,
-                                          std::vector<TextureId>& above) {
+                                          std::vector<TextureId>& above, ViewClaim& claim) {
     std::unordered_set<std::uint32_t> known;
     std::unordered_set<std::uint32_t> drawn;
     std::uint64_t drawnBytes = 0;
@@ -122,7 +128,7 @@ std::uint64_t TerrainPaging::sortTextures(const std::vector<TextureId>& textures
                 continue;
             if (isBelow && items_.contains(item.key)) {
                 isBelow = false;
-                items_.rank(item.key, 0);
+                rankAs(item.key, 0, claim);
                 if (drawn.insert(item.key).second)
                     drawnBytes += item.deviceBytes;
             } else if (known.insert(item.key).second) {
@@ -135,25 +141,24 @@ std::uint64_t TerrainPaging::sortTextures(const std::vector<TextureId>& textures
 }
 
 /// Gives what is on the device its rank, and lists what is missing as far as it will fit.
-void TerrainPaging::rankItems(const std::vector<TerrainItem>& order, std::uint64_t reservedBytes) {
+void TerrainPaging::rankItems(const std::vector<TerrainItem>& order, std::uint64_t reservedBytes,
+                              ViewClaim& claim) {
     std::uint64_t bytes = reservedBytes;
     std::uint32_t rank = 0;
     for (const TerrainItem& item : order) {
         bytes += item.deviceBytes;
         if (bytes > items_.limitBytes())
             return;
-        items_.rank(item.key, ++rank);
+        rankAs(item.key, ++rank, claim);
         if (!items_.contains(item.key))
             missing_.push_back({item, rank});
     }
 }
 
-/// Pages of missing tiles, then those to prefetch, as far as they fit.
-void TerrainPaging::rankPages(const std::vector<TileId>& prefetch) {
-    for (const RankedItem& ranked : missing_) pages_.want(ranked.item.page);
-    for (const TileId& tile : prefetch)
-        if (!isResident(tile))
-            pages_.want(index_.quadtree.pageIndex(tile));
+std::vector<std::uint32_t> TerrainPaging::missingPages() const {
+    std::vector<std::uint32_t> pages;
+    for (const RankedItem& ranked : missing_) pages.push_back(ranked.item.page);
+    return pages;
 }
 
 bool TerrainPaging::upload(const RankedItem& ranked, const std::shared_ptr<const void>& page) {
@@ -241,9 +246,9 @@ TerrainPaging::Result TerrainPaging::resultOf(Refinement drawn, const NeededTile
 
 TerrainPaging::Result TerrainPaging::approach(const Refinement& wanted, const NeededTiles& needed,
                                               const std::vector<TextureId>& textures,
-                                              const lod::ObjectView& view,
+                                              const lod::ObjectView& view, const ViewTurn& turn,
                                               const Prefetch& prefetch) {
-    beginFrame();
+    ViewClaim& claim = beginFrame(turn);
     tilesDecodedOnGpu_ = 0;
     Refinement drawn = drawable(wanted, needed);
     // What is drawn stays, with the normals it is drawn with; then comes what lies below it, then,
@@ -259,7 +264,7 @@ TerrainPaging::Result TerrainPaging::approach(const Refinement& wanted, const Ne
         const bool isDrawn = !drawn.isSplit(tile) ||
                              (tile.level == index_.quadtree.normalLevel() && isResident(tile));
         if (isReached && isDrawn) {
-            items_.rank(index_.quadtree.tileIndex(tile), 0);
+            rankAs(index_.quadtree.tileIndex(tile), 0, claim);
             drawnBytes += terrain::estimatedTileBytes(index_, tile);
         } else {
             (isReached ? above : below).push_back(tile);
@@ -269,18 +274,25 @@ TerrainPaging::Result TerrainPaging::approach(const Refinement& wanted, const Ne
     for (const TileId& tile : needed.inner()) sort(tile);
     std::vector<TextureId> texturesBelow;
     std::vector<TextureId> texturesAbove;
-    drawnBytes += sortTextures(textures, texturesBelow, texturesAbove);
+    drawnBytes += sortTextures(textures, texturesBelow, texturesAbove, claim);
     std::vector<TerrainItem> order = names_.inOrder(below, texturesBelow, view);
     const bool isUrgent = std::any_of(order.begin(), order.end(), [&](const TerrainItem& item) {
         return !items_.contains(item.key);
     });
     const std::vector<TerrainItem> last = names_.inOrder(above, texturesAbove, view);
     order.insert(order.end(), last.begin(), last.end());
-    rankItems(order, drawnBytes);
-    rankPages(isUrgent ? std::vector<TileId>{} : prefetch());
+    rankItems(order, drawnBytes, claim);
+    claim.pages = missingPages();
+    if (!isUrgent)
+        for (const TileId& tile : prefetch())
+            if (!isResident(tile))
+                claim.soon.push_back(index_.quadtree.pageIndex(tile));
+    claims_.rankOthers(turn, items_, 0);
+    claims_.want(pages_);
     const page::HostPages::Loads loaded = pages_.tryTake();
     if (upload(kUploadTime))
         drawn = drawable(wanted, needed);
+    claim.pages = missingPages();
     pages_.tryWish();
     Result result = resultOf(std::move(drawn), needed, textures);
     result.loaded = loaded;
@@ -289,13 +301,13 @@ TerrainPaging::Result TerrainPaging::approach(const Refinement& wanted, const Ne
 
 TerrainPaging::Result TerrainPaging::reach(const Refinement& wanted, const NeededTiles& needed,
                                            const std::vector<TextureId>& textures,
-                                           const lod::ObjectView& view,
+                                           const lod::ObjectView& view, const ViewTurn& turn,
                                            const std::stop_token& stop) {
     const auto start = Clock::now();
     page::HostPages::Loads loaded;
     tilesDecodedOnGpu_ = 0;
     while (!stop.stop_requested()) {
-        beginFrame();
+        ViewClaim& claim = beginFrame(turn);
         Refinement readable = wanted;
         const auto mayCome = [&](const TileId& tile) {
             return isResident(tile) || !pages_.isGivenUp(index_.quadtree.pageIndex(tile), start);
@@ -304,10 +316,12 @@ TerrainPaging::Result TerrainPaging::reach(const Refinement& wanted, const Neede
             return !needed.contains(tile) || isEmpty(tile) ||
                    (mayCome(tile) && mayCome(index_.quadtree.normalTile(tile)));
         });
-        rankItems(names_.inOrder(tilesOf(readable, needed), readableOf(textures, start), view), 0);
+        rankItems(names_.inOrder(tilesOf(readable, needed), readableOf(textures, start), view), 0,
+                  claim);
         if (missing_.empty())
             break;
-        rankPages({});
+        claims_.rankOthers(turn, items_, static_cast<std::uint32_t>(claim.items.size()) + 1);
+        for (const std::uint32_t page : missingPages()) pages_.want(page);
         const page::HostPages::Loads arrived = pages_.take();
         loaded.add(arrived);
         const bool hasUploaded = upload(std::chrono::hours(1));

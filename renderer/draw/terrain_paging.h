@@ -15,6 +15,8 @@
 #include "renderer/draw/needed_tiles.h"
 #include "renderer/draw/terrain_items.h"
 #include "renderer/draw/terrain_tiles.h"
+#include "renderer/draw/view_claims.h"
+#include "renderer/draw/view_turns.h"
 #include "renderer/page/host_pages.h"
 #include "renderer/page/loader.h"
 #include "renderer/page/resident_set.h"
@@ -60,16 +62,17 @@ public:
     /// Goes towards `wanted` as far as it can without waiting: takes what the loader has, brings
     /// tiles to the device for a few milliseconds, and wishes for the rest; where nothing is
     /// missing, for the pages of `prefetch()`: tiles that may be needed soon, likely ones first.
-    /// `textures`: distinct ones, of those that the terrain has.
+    /// `textures`: distinct ones, of those that the terrain has. Views that take turns spare each
+    /// other's tiles, and their pages come by turns, too.
     Result approach(const terrain::Refinement& wanted, const NeededTiles& needed,
                     const std::vector<terrain::TextureId>& textures, const lod::ObjectView& view,
-                    const Prefetch& prefetch);
+                    const ViewTurn& turn, const Prefetch& prefetch);
 
     /// Goes there: waits for every page that can be read, through the first failures of a server,
-    /// or until `stop`.
+    /// or until `stop`. Other views' tiles give way where there is no other room.
     Result reach(const terrain::Refinement& wanted, const NeededTiles& needed,
                  const std::vector<terrain::TextureId>& textures, const lod::ObjectView& view,
-                 const std::stop_token& stop);
+                 const ViewTurn& turn, const std::stop_token& stop);
 
     /// Null when it is not on the device. Valid until the next approach() or reach().
     const DeviceTile* tile(const terrain::TileId& id) {
@@ -122,16 +125,19 @@ private:
     terrain::Refinement drawable(const terrain::Refinement& wanted,
                                  const NeededTiles& needed) const;
 
-    void beginFrame();
+    ViewClaim& beginFrame(const ViewTurn& turn);
+    void rankAs(std::uint32_t key, std::uint32_t rank, ViewClaim& claim);
     /// A texture tile and those above it, up to below the top.
     std::vector<terrain::TextureId> chainOf(terrain::TextureId texture) const;
     /// What of `textures` and all above is drawn with, which gets its rank, and what lies below and
     /// above that. Returns the bytes of the first.
     std::uint64_t sortTextures(const std::vector<terrain::TextureId>& textures,
                                std::vector<terrain::TextureId>& below,
-                               std::vector<terrain::TextureId>& above);
-    void rankItems(const std::vector<TerrainItem>& order, std::uint64_t reservedBytes);
-    void rankPages(const std::vector<terrain::TileId>& prefetch);
+                               std::vector<terrain::TextureId>& above, ViewClaim& claim);
+    void rankItems(const std::vector<TerrainItem>& order, std::uint64_t reservedBytes,
+                   ViewClaim& claim);
+    /// Pages of what is missing.
+    std::vector<std::uint32_t> missingPages() const;
     /// Returns whether it brought any.
     bool upload(std::chrono::duration<double> time);
     /// One item of a page that is in memory; false when there is no room.
@@ -155,6 +161,7 @@ private:
 
     std::vector<RankedItem> missing_;      // of this frame, in the order in which they are to come
     std::uint64_t tilesDecodedOnGpu_ = 0;  // of this frame
+    ViewClaims claims_;
 
     page::HostPages pages_;  // terrain::Page or TextureImage; last: its loads use the file
 };

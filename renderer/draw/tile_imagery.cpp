@@ -28,9 +28,10 @@ std::vector<TextureId> TileImagery::texturesOf(std::span<const TileId> tiles,
     return textures;
 }
 
-std::uint64_t TileImagery::bytesOf(std::span<const TileId> tiles, const lod::ObjectView& view,
-                                   double texelPixels) const {
-    std::uint64_t bytes = 0;
+std::vector<TerrainItem> TileImagery::itemsOf(std::span<const TileId> tiles,
+                                              const lod::ObjectView& view,
+                                              double texelPixels) const {
+    std::vector<TerrainItem> items;
     std::unordered_set<std::uint32_t> known;
     for (TextureId texture : texturesOf(tiles, view, texelPixels))
         for (; texture != index_.imagery->pyramid.top();
@@ -38,9 +39,9 @@ std::uint64_t TileImagery::bytesOf(std::span<const TileId> tiles, const lod::Obj
             const TerrainItem item = paging_.items().of(texture);
             if (!known.insert(item.key).second)
                 break;
-            bytes += item.deviceBytes;
+            items.push_back(item);
         }
-    return bytes;
+    return items;
 }
 
 void TileImagery::choose(std::span<const terrain::TileChoice> choices,

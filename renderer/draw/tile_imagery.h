@@ -26,9 +26,9 @@ public:
     std::vector<terrain::TextureId> texturesOf(std::span<const terrain::TileId> tiles,
                                                const lod::ObjectView& view,
                                                double texelPixels) const;
-    /// Of those on the device, with all above them.
-    std::uint64_t bytesOf(std::span<const terrain::TileId> tiles, const lod::ObjectView& view,
-                          double texelPixels) const;
+    /// Those with all above them, less the top one.
+    std::vector<TerrainItem> itemsOf(std::span<const terrain::TileId> tiles,
+                                     const lod::ObjectView& view, double texelPixels) const;
 
     /// Finds what each piece, which names one of `choices`, is drawn with now.
     void choose(std::span<const terrain::TileChoice> choices, std::span<const Piece> pieces,

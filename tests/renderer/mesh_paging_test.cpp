@@ -224,6 +224,60 @@ TEST_F(MeshPaging, AQuarterOfTheMemoryRaisesTauAndIsKept) {
     EXPECT_EQ(again.statistics.pagesLoaded, 0U);  // it has come to rest
 }
 
+/// At one half of the ball and at the other: with less on the device than both need, and with
+/// enough there but on the host less than what may be needed soon.
+TEST_F(MeshPaging, TwoViewsByTurnsComeToRestAndOneThatIsGoneLeavesItsShare) {
+    constexpr double kTau = 0.05;
+    const fabric::Box box = mesh::EymFile::open(path("coded.eym"))->bounds();
+    std::vector<fabric::Camera> cameras(2);
+    for (const std::size_t i : {0U, 1U}) {
+        const double radius = 0.5 * glm::length(box.size());
+        cameras[i].eye = box.centre() + fabric::Vec3(2.2 * radius, 0, 0);
+        cameras[i].target = box.centre() + fabric::Vec3(0, i == 0 ? radius : -radius, 0);
+        cameras[i].fovYDegrees = 20;
+    }
+    std::uint64_t both = 0;
+    {
+        const auto plenty = open(path("coded.eym"));
+        for (const fabric::Camera& camera : cameras)
+            render(*plenty, camera, kTau, Completeness::Complete);
+        both = plenty->memory().deviceBytes;
+    }
+    for (const double share : {1.0, 4.0}) {
+        RendererOptions options;
+        options.memoryBytes = static_cast<std::uint64_t>(share * static_cast<double>(both));
+        options.hostMemoryBytes = 2 << 20;
+        const auto renderer = open(path("coded.eym"), options);
+        const auto rest = [&](std::size_t views) {
+            std::vector<ChannelResult> results(views);
+            const auto end = std::chrono::steady_clock::now() + kPatience;
+            for (int quiet = 0; quiet < 10 && std::chrono::steady_clock::now() < end; ++quiet)
+                for (std::size_t i = 0; i < views; ++i) {
+                    results[i] = render(*renderer, cameras[i], kTau, Completeness::Interactive);
+                    const fabric::FrameStatistics& statistics = results[i].statistics;
+                    if (!statistics.complete || statistics.pagesLoaded > 0)
+                        quiet = -1;
+                }
+            EXPECT_LT(std::chrono::steady_clock::now(), end) << "loading does not come to rest";
+            return results;
+        };
+        const std::vector<ChannelResult> first = rest(2);
+        const std::vector<ChannelResult> again = rest(2);
+        EXPECT_TRUE(first[0].image == again[0].image);
+        EXPECT_TRUE(first[1].image == again[1].image);
+        const ChannelResult alone = rest(1).front();
+        const ChannelResult complete =
+            render(*open(path("coded.eym"), options), cameras[0], kTau, Completeness::Complete);
+        EXPECT_TRUE(alone.image == complete.image);
+        if (share == 1)
+            EXPECT_LT(alone.statistics.tauAchievedPixels, first[0].statistics.tauAchievedPixels);
+        else
+            EXPECT_TRUE(first[0].image == complete.image);
+        EXPECT_LE(renderer->memory().deviceBytes, options.memoryBytes);
+        EXPECT_LE(renderer->memory().hostBytes, options.hostMemoryBytes);
+    }
+}
+
 /// Looking away from the ball, beside which the camera is: all of it may be needed soon.
 TEST_F(MeshPaging, WhatMayBeNeededSoonIsThereWhenTheCameraTurns) {
     constexpr double kTau = 0.01;

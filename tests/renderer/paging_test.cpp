@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <vector>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -401,6 +402,86 @@ TEST_P(LittleMemory, AQuarterOfWhatIsNeededIsKeptToAndLoadingComesToRest) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Cameras, LittleMemory, testing::Bool());
+
+/// In shares of what two views need together.
+struct Limits {
+    double device;
+    double host;
+};
+
+class ByTurns : public Paging, public testing::WithParamInterface<Limits> {
+protected:
+    static constexpr double kTau = 0.1;
+
+    /// From the middle, one way and the other.
+    Camera camera(int view) const {
+        const fabric::Box box = file_->index().bounds();
+        Camera camera = lookingAhead(0);
+        camera.eye.z = box.max.z + 500;
+        camera.target = camera.eye + Vec3(view == 0 ? 1 : -1, 0.3, -0.4);
+        return camera;
+    }
+
+    RendererOptions options() {
+        const auto unlimited = open(scene_.objects[0].path);
+        for (int view = 0; view < 2; ++view)
+            draw(*unlimited, camera(view), Completeness::Complete, kTau);
+        const RendererMemory all = unlimited->memory();
+        RendererOptions options;
+        options.memoryBytes =
+            static_cast<std::uint64_t>(GetParam().device * static_cast<double>(all.deviceBytes));
+        options.hostMemoryBytes =
+            static_cast<std::uint64_t>(GetParam().host * static_cast<double>(all.hostBytes));
+        return options;
+    }
+
+    /// Draws the views by turns until nothing has been read for some rounds and all are complete.
+    std::vector<ChannelResult> rest(Renderer& renderer, const std::vector<int>& views) {
+        const auto deadline = std::chrono::steady_clock::now() + kPatience;
+        std::vector<ChannelResult> results;
+        for (int quiet = 0; quiet < 10;) {
+            if (std::chrono::steady_clock::now() > deadline) {
+                ADD_FAILURE() << "loading does not come to rest";
+                break;
+            }
+            results.clear();
+            bool isQuiet = true;
+            for (const int view : views) {
+                results.push_back(draw(renderer, camera(view), Completeness::Interactive, kTau));
+                const fabric::FrameStatistics& statistics = results.back().statistics;
+                isQuiet = isQuiet && statistics.complete && statistics.pagesLoaded == 0;
+            }
+            quiet = isQuiet ? quiet + 1 : 0;
+        }
+        return results;
+    }
+};
+
+TEST_P(ByTurns, TwoViewsComeToRestAndOneThatIsGoneLeavesItsShare) {
+    const RendererOptions limits = options();
+    const auto renderer = open(scene_.objects[0].path, limits);
+    const std::vector<ChannelResult> both = rest(*renderer, {0, 1});
+    EXPECT_LE(renderer->memory().deviceBytes, limits.memoryBytes);
+    EXPECT_LE(renderer->memory().hostBytes, limits.hostMemoryBytes);
+    const std::vector<ChannelResult> again = rest(*renderer, {0, 1});
+    for (const std::size_t view : {0U, 1U}) {
+        EXPECT_EQ(different(both[view].image, again[view].image), 0U);
+        EXPECT_TRUE(std::isfinite(both[view].statistics.tauAchievedPixels));
+    }
+    const ChannelResult alone = rest(*renderer, {0}).front();
+    const ChannelResult complete =
+        draw(*open(scene_.objects[0].path, limits), camera(0), Completeness::Complete, kTau);
+    EXPECT_EQ(different(alone.image, complete.image), 0U);
+    if (GetParam().device < 1)
+        EXPECT_LT(alone.statistics.tauAchievedPixels, both[0].statistics.tauAchievedPixels);
+    else
+        EXPECT_EQ(different(both[0].image, complete.image), 0U);
+}
+
+/// On the device less than both views need, hardly more than one does, and more than both; on the
+/// host less than both need, with what may be needed soon.
+INSTANTIATE_TEST_SUITE_P(Memories, ByTurns,
+                         testing::Values(Limits{0.6, 0.7}, Limits{0.5, 4}, Limits{6, 0.7}));
 
 }  // namespace
 }  // namespace eyrie
