@@ -107,15 +107,11 @@ absl::Status runCompare(const Options& options) {
     return absl::OkStatus();
 }
 
-/// What is judged is what the camera itself sees, at the errors asked for.
+/// What is judged is what the camera itself sees.
 absl::Status checkReference(const Options& options) {
     const ConfigOptions& config = options.pictures.config;
     if (!options.reference.isAsked)
         return absl::OkStatus();
-    if (!options.budgets.empty())
-        return absl::InvalidArgumentError(
-            "--reference holds frames against the source at the errors asked for; leave "
-            "--budget-ms out, or take the errors that it came to as --tau");
     if (!config.file.empty())
         return absl::InvalidArgumentError(
             "--reference judges what the camera itself sees, which a configuration's walls may "
@@ -154,6 +150,7 @@ absl::Status runBench(const Options& options) {
     std::optional<bench::ReferencePlan> reference;
     if (options.reference.isAsked) {
         ASSIGN_OR_RETURN(reference, bench::planReference(plan, options.reference, stop.token()));
+        plan.keeps = reference->judged;
     }
     ASSIGN_OR_RETURN(auto runs, bench::playRuns(plan, stop.token()));
     if (!options.pictures.quiet && !runs.front().flightNote.empty())
@@ -252,15 +249,15 @@ void addBench(CLI::App& app, Run& run) {
         "having its picture, is told beside it. In this process they are the same. The error\n"
         "in it is the one promised for every frame; frames that promise more than was asked count\n"
         "as framesBeyondTau. At a frame time to hold (--budget-ms), frames do not wait for data.\n"
-        "With --reference errors are measured, too (errors.csv has each "
-        "frame's),\n"
-        "and a frame that is farther off than it promises is an error: exit status 1, after the\n"
-        "report is written.\n\n"
+        "With --reference errors are measured, too (errors.csv has each frame's), at a frame time\n"
+        "to hold of the pictures that one more pass shows; and a frame that is farther off than "
+        "it\n"
+        "promises is an error: exit status 1, after the report is written.\n\n"
         "Examples:\n"
         "  eyrie bench dem.eyt --flight walkthrough -o report\n"
         "  eyrie bench scan.eym --tau 1,4 --reference -o report\n"
         "  eyrie bench scene.json --flight flight.json --tau 1,2 --renderers 0,1,2 -o report\n"
-        "  eyrie bench dem.eyt --flight walkthrough --budget-ms 33,50 -o report\n"
+        "  eyrie bench dem.eyt --flight walkthrough --budget-ms 33,50 --reference -o report\n"
         "  eyrie bench --compare before after -o comparison");
     command->callback([options, command, &run] {
         options->hasTaus = command->count("--tau") > 0;

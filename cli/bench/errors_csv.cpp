@@ -7,10 +7,11 @@ namespace eyrie::cli::bench {
 namespace {
 
 std::string lineOf(const BenchRun& run, const FrameError& e) {
-    return fmt::format("{},{},{:.3f},{},{},{},{},{},{},{},{},{:.2f},{:.2f},{:.5f},{:.5f},{}\n",
-                       run.tauPixels, run.renderers, e.seconds, e.promisedPixels, e.p50Pixels,
-                       e.p99Pixels, e.maxPixels, e.compared, e.holes, e.falseHits, e.misplaced,
-                       e.silhouettePixels, e.psnrDb, e.ssim, e.flip, e.triangles);
+    return fmt::format(
+        "{},{},{},{:.3f},{},{},{},{},{},{},{},{},{:.2f},{:.2f},{:.5f},{:.5f},{},{},{:.4f},{:d}\n",
+        run.label, run.tauPixels, run.renderers, e.seconds, e.promisedPixels, e.p50Pixels,
+        e.p99Pixels, e.maxPixels, e.compared, e.holes, e.falseHits, e.misplaced, e.silhouettePixels,
+        e.psnrDb, e.ssim, e.flip, e.triangles, e.drawnTauPixels, e.stretch, e.complete);
 }
 
 }  // namespace
@@ -22,8 +23,8 @@ std::string errorsCsv(const std::vector<BenchRun>& runs) {
             for (const FrameError& error : run.measured->frames) lines += lineOf(run, error);
     if (lines.empty())
         return {};
-    return "tau,renderers,seconds,promisedPx,p50Px,p99Px,maxPx,compared,holes,falseHits,misplaced,"
-           "silhouettePx,psnrDb,ssim,flip,triangles\n" +
+    return "asked,tau,renderers,seconds,promisedPx,p50Px,p99Px,maxPx,compared,holes,falseHits,"
+           "misplaced,silhouettePx,psnrDb,ssim,flip,triangles,drawnTau,stretch,complete\n" +
            lines;
 }
 

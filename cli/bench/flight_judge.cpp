@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/bench/play.h"
 #include "cli/bench/shown_triangles.h"
 #include "cli/png_file.h"
 #include "fabric/depth_metres.h"
@@ -38,28 +39,35 @@ double share(const FrameError& error) { return error.maxPixels / error.promisedP
 }  // namespace
 
 bool keepsPromise(const FrameError& error) {
-    return error.maxPixels <= error.promisedPixels + kRasterPixels && error.holes == 0 &&
-           error.falseHits == 0 && error.misplaced == 0;
+    return error.maxPixels <= error.promisedPixels + kRasterPixels * error.stretch &&
+           error.holes == 0 && error.falseHits == 0 && error.misplaced == 0;
+}
+
+std::vector<int> judgedFrames(const JudgedFrames& frames) {
+    const int judged = std::min(frames.judged, frames.played);
+    std::vector<int> indices;
+    for (int i = 0; i < judged; ++i) indices.push_back((2 * i + 1) * frames.played / (2 * judged));
+    return indices;
 }
 
 std::uint64_t neededBytes(const JudgedFrames& frames) {
-    constexpr std::uint64_t kKept = 20;
+    constexpr std::uint64_t kExpected = 20;
+    constexpr std::uint64_t kPicture = 8;
     constexpr std::uint64_t kInWork = 130;
     const auto pixels =
         static_cast<std::uint64_t>(frames.width) * static_cast<std::uint64_t>(frames.height);
-    const auto kept = static_cast<std::uint64_t>(std::min(frames.judged, frames.played));
-    return pixels * (kept * kKept + kInWork);
+    const auto judged = static_cast<std::uint64_t>(std::min(frames.judged, frames.played));
+    const auto runs = static_cast<std::uint64_t>(frames.keptRuns);
+    return pixels * (judged * (kExpected + runs * kPicture) + kInWork);
 }
 
 FlightJudge::FlightJudge(ReferenceScene reference, const fabric::Flight& flight,
                          const JudgedFrames& frames, page::SourceOptions remote)
     : reference_(std::move(reference)), how_(frames), remote_(std::move(remote)) {
-    const int judged = std::min(frames.judged, frames.played);
-    for (int i = 0; i < judged; ++i) {
-        const int played = (2 * i + 1) * frames.played / (2 * judged);
+    for (const int played : judgedFrames(frames)) {
         const double seconds =
             frames.played == 1 ? 0 : flight.seconds() * played / (frames.played - 1);
-        frames_.push_back({seconds, flight.at(seconds), {}, {}});
+        frames_.push_back({seconds, flight.at(seconds), {}});
     }
 }
 
@@ -69,53 +77,72 @@ std::vector<fabric::Camera> FlightJudge::cameras() const {
     return cameras;
 }
 
-absl::Status FlightJudge::prepare(Frame& frame, PictureSource& pictures,
-                                  coordinator::FrameRequest request) const {
-    if (frame.view)
-        return absl::OkStatus();
+absl::StatusOr<FlightJudge::Expected> FlightJudge::expect(PictureSource& pictures,
+                                                          coordinator::FrameRequest request) const {
     request.tauPixels = std::min(kFinestTauPixels, request.tauPixels);
     ASSIGN_OR_RETURN(coordinator::RenderedFrame finest, pictures.draw(request));
-    frame.finest = std::move(finest.image);
-    frame.view =
-        truth::castView(truth::Pinhole(frame.camera, how_.width, how_.height), *reference_.surface);
-    return absl::OkStatus();
+    return Expected{truth::castView(truth::Pinhole(request.camera, request.width, request.height),
+                                    *reference_.surface),
+                    std::move(finest.image)};
 }
 
-absl::StatusOr<FlightJudge::Judged> FlightJudge::judge(Frame& frame, PictureSource& pictures,
-                                                       coordinator::FrameRequest request) const {
-    request.camera = frame.camera;
-    RETURN_IF_ERROR(prepare(frame, pictures, request));
-    request.wantsDepth = true;
-    ASSIGN_OR_RETURN(coordinator::RenderedFrame drawn, pictures.draw(request));
-    const double promised = drawn.statistics.tauAchievedPixels;
-    if (drawn.image.depth.size() != frame.view->hits.size())
+absl::StatusOr<FlightJudge::Judged> FlightJudge::judge(
+    Frame& frame, coordinator::RenderedFrame drawn, PictureSource& pictures,
+    const coordinator::FrameRequest& request) const {
+    const fabric::PixelViewport& area = drawn.image.area;
+    if (drawn.image.depth.size() != static_cast<std::size_t>(area.area()))
         return absl::InternalError(
             fmt::format("a picture of {} x {} pixels came with {} depths, of which each has one",
-                        how_.width, how_.height, drawn.image.depth.size()));
+                        area.width, area.height, drawn.image.depth.size()));
+    const auto& budget = drawn.statistics.budget;
+    const double tauPixels = budget ? budget->tauPixels : request.tauPixels;
+    coordinator::FrameRequest expected = request;
+    expected.width = area.width;
+    expected.height = area.height;
+    if (area.width != how_.width || area.height != how_.height) {
+        ASSIGN_OR_RETURN(const Expected smaller, expect(pictures, expected));
+        return judge(frame, smaller, std::move(drawn), tauPixels);
+    }
+    if (!frame.expected) {
+        ASSIGN_OR_RETURN(frame.expected, expect(pictures, expected));
+    }
+    return judge(frame, *frame.expected, std::move(drawn), tauPixels);
+}
+
+FlightJudge::Judged FlightJudge::judge(const Frame& frame, const Expected& expected,
+                                       coordinator::RenderedFrame drawn, double tauPixels) const {
+    const truth::Pinhole& camera = expected.view.camera;
     const std::vector<float> depth = fabric::depthMetres(drawn.image);
-    ShownTriangles shown(reference_, frame.view->camera,
-                         lod::View(frame.camera, how_.width, how_.height), request.tauPixels,
+    const double promised = drawn.statistics.tauAchievedPixels;
+    const double stretched = stretch(drawn.image.area, how_.width, how_.height);
+    ShownTriangles shown(reference_, camera,
+                         lod::View(frame.camera, camera.width(), camera.height()), tauPixels,
                          remote_);
     Judged result;
     const truth::DepthComparison found = truth::compareDepth(
-        *frame.view, depth, edgePixels(promised, frame.view->camera),
+        expected.view, depth, edgePixels(promised, camera),
         {promised + kRasterPixels,
-         [&](double x, double y, double metres) { return shown.at(x, y, metres); }},
+         [&](double x, double y, double metres) {
+             return drawn.statistics.complete ? shown.at(x, y, metres) : std::nullopt;
+         }},
         truth::LookAround::Farthest, &result.displacements);
     result.error = {.seconds = frame.seconds,
-                    .promisedPixels = promised,
-                    .p50Pixels = found.p50Pixels,
-                    .p99Pixels = found.p99Pixels,
-                    .maxPixels = found.maxPixels,
+                    .promisedPixels = stretched * promised,
+                    .p50Pixels = stretched * found.p50Pixels,
+                    .p99Pixels = stretched * found.p99Pixels,
+                    .maxPixels = stretched * found.maxPixels,
                     .compared = found.compared,
                     .holes = found.holes,
                     .falseHits = found.falseHits,
                     .misplaced = found.misplaced,
-                    .silhouettePixels = truth::silhouettePixels(*frame.view, depth),
-                    .psnrDb = truth::psnrDb(*frame.finest, drawn.image),
-                    .ssim = truth::ssim(*frame.finest, drawn.image),
-                    .flip = truth::meanFlip(*frame.finest, drawn.image),
-                    .triangles = drawn.statistics.triangles + drawn.statistics.points};
+                    .silhouettePixels = stretched * truth::silhouettePixels(expected.view, depth),
+                    .psnrDb = truth::psnrDb(expected.finest, drawn.image),
+                    .ssim = truth::ssim(expected.finest, drawn.image),
+                    .flip = truth::meanFlip(expected.finest, drawn.image),
+                    .triangles = drawn.statistics.triangles + drawn.statistics.points,
+                    .drawnTauPixels = tauPixels,
+                    .stretch = stretched,
+                    .complete = drawn.statistics.complete};
     result.picture = std::move(drawn.image);
     return result;
 }
@@ -124,12 +151,40 @@ absl::StatusOr<MeasuredErrors> FlightJudge::judge(PictureSource& pictures,
                                                   coordinator::FrameRequest request,
                                                   const std::function<void()>& frameDone,
                                                   const std::stop_token& stop) {
+    const Draw draw = [&](std::size_t, coordinator::FrameRequest asked) {
+        asked.wantsDepth = true;
+        return pictures.draw(asked);
+    };
+    return judgeAll(draw, pictures, std::move(request), frameDone, stop);
+}
+
+absl::StatusOr<MeasuredErrors> FlightJudge::judge(std::vector<coordinator::RenderedFrame> shown,
+                                                  PictureSource& pictures,
+                                                  coordinator::FrameRequest request,
+                                                  const std::function<void()>& frameDone,
+                                                  const std::stop_token& stop) {
+    const Draw draw = [&](std::size_t i, const coordinator::FrameRequest&) {
+        return std::move(shown.at(i));
+    };
+    return judgeAll(draw, pictures, std::move(request), frameDone, stop);
+}
+
+absl::StatusOr<MeasuredErrors> FlightJudge::judgeAll(const Draw& draw, PictureSource& pictures,
+                                                     coordinator::FrameRequest request,
+                                                     const std::function<void()>& frameDone,
+                                                     const std::stop_token& stop) {
     MeasuredErrors measured;
     std::optional<Judged> worst;
-    for (Frame& frame : frames_) {
+    for (std::size_t i = 0; i < frames_.size(); ++i) {
         if (stop.stop_requested())
             return absl::CancelledError("stopped; nothing was written");
-        auto judged = judge(frame, pictures, request);
+        Frame& frame = frames_[i];
+        request.camera = frame.camera;
+        const auto drawAndJudge = [&]() -> absl::StatusOr<Judged> {
+            ASSIGN_OR_RETURN(coordinator::RenderedFrame drawn, draw(i, request));
+            return judge(frame, std::move(drawn), pictures, request);
+        };
+        absl::StatusOr<Judged> judged = drawAndJudge();
         if (!judged.ok())
             return fabric::withContext(judged.status(),
                                        fmt::format("second {:.3f} of the flight", frame.seconds));
@@ -141,9 +196,11 @@ absl::StatusOr<MeasuredErrors> FlightJudge::judge(PictureSource& pictures,
     if (!worst)
         return measured;
     // A scale of its own tau: pictures of one run are alike.
+    const fabric::PixelViewport& area = worst->picture.area;
     ASSIGN_OR_RETURN(const auto picture, encodePng(worst->picture));
-    ASSIGN_OR_RETURN(const auto heat, encodePng(truth::heatMap(worst->displacements, how_.width,
-                                                               how_.height, request.tauPixels)));
+    ASSIGN_OR_RETURN(const auto heat,
+                     encodePng(truth::heatMap(worst->displacements, area.width, area.height,
+                                              worst->error.drawnTauPixels)));
     measured.worst.push_back({worst->error, bytesOf(picture), bytesOf(heat)});
     return measured;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -24,10 +25,15 @@ struct JudgedFrames {
     int height = 720;
     int played = 120;  ///< frames of one pass along the flight
     int judged = 6;    ///< of these, evenly spread; all where there are fewer
+    int keptRuns = 0;  ///< runs whose pictures are kept until they are judged
 };
 
+/// Which of a pass's frames are judged, ascending.
+std::vector<int> judgedFrames(const JudgedFrames& frames);
+
 /// What FlightJudge takes: of each frame 20 bytes a pixel, which it keeps, and while it judges one
-/// another 130, FLIP's planes for the most part.
+/// another 130, FLIP's planes for the most part; of each picture that a run keeps for it 8 bytes a
+/// pixel.
 std::uint64_t neededBytes(const JudgedFrames& frames);
 
 /// At which colours are drawn that pictures' are compared with: finer, or as fine, as what is
@@ -35,7 +41,7 @@ std::uint64_t neededBytes(const JudgedFrames& frames);
 inline constexpr double kFinestTauPixels = 0.125;
 
 /// Holds frames of one flight against the full-resolution source, at any tau. What the source shows
-/// is cast once a frame and kept.
+/// is cast once a frame and kept, but of pictures that are smaller than asked for.
 class FlightJudge {
 public:
     /// `remote`: how the drawn terrain is read again, for pixels of triangles seen edge-on.
@@ -48,27 +54,50 @@ public:
                                          const std::function<void()>& frameDone,
                                          const std::stop_token& stop);
 
+    /// The same of pictures that were shown when the flight was played, Played::kept of the frames
+    /// judgedFrames; `pictures` and `request` are for colours to compare with. Where one shows
+    /// coarser data in place of some that were not loaded, nobody says which triangles it is made
+    /// of: all of its pixels are judged by their depths.
+    absl::StatusOr<MeasuredErrors> judge(std::vector<coordinator::RenderedFrame> shown,
+                                         PictureSource& pictures, coordinator::FrameRequest request,
+                                         const std::function<void()>& frameDone,
+                                         const std::stop_token& stop);
+
     const ReferenceScene& reference() const { return reference_; }
     std::vector<fabric::Camera> cameras() const;
     double frames() const { return static_cast<double>(frames_.size()); }
 
 private:
+    /// What a frame ought to show, at some size.
+    struct Expected {
+        truth::ReferenceView view;
+        fabric::Image finest;
+    };
     struct Frame {
         double seconds = 0;
         fabric::Camera camera;
-        std::optional<truth::ReferenceView> view;  ///< once it was judged
-        std::optional<fabric::Image> finest;
+        std::optional<Expected> expected;  ///< at the size asked for, once it was judged
     };
     struct Judged {
         FrameError error;
         fabric::Image picture;
-        std::vector<float> displacements;
+        std::vector<float> displacements;  ///< pixels of the picture
     };
+    /// Of a frame: its place among those judged, and what is asked for.
+    using Draw = std::function<absl::StatusOr<coordinator::RenderedFrame>(
+        std::size_t, const coordinator::FrameRequest&)>;
 
-    absl::StatusOr<Judged> judge(Frame& frame, PictureSource& pictures,
-                                 coordinator::FrameRequest request) const;
-    absl::Status prepare(Frame& frame, PictureSource& pictures,
-                         coordinator::FrameRequest request) const;
+    absl::StatusOr<MeasuredErrors> judgeAll(const Draw& draw, PictureSource& pictures,
+                                            coordinator::FrameRequest request,
+                                            const std::function<void()>& frameDone,
+                                            const std::stop_token& stop);
+    absl::StatusOr<Judged> judge(Frame& frame, coordinator::RenderedFrame drawn,
+                                 PictureSource& pictures,
+                                 const coordinator::FrameRequest& request) const;
+    Judged judge(const Frame& frame, const Expected& expected, coordinator::RenderedFrame drawn,
+                 double tauPixels) const;
+    absl::StatusOr<Expected> expect(PictureSource& pictures,
+                                    coordinator::FrameRequest request) const;
 
     ReferenceScene reference_;
     JudgedFrames how_;

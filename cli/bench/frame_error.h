@@ -9,7 +9,8 @@
 namespace eyrie::cli::bench {
 
 /// One picture's errors. Displacements are of surface points, in pixels on the screen, from where
-/// the source has them: measured by an independent ray caster (renderer/truth).
+/// the source has them: measured by an independent ray caster (renderer/truth). Pixels are those of
+/// the size asked for: errors of a picture drawn smaller are stretched with it.
 struct FrameError {
     double seconds = 0;         ///< of the flight
     double promisedPixels = 0;  ///< tauAchieved
@@ -26,10 +27,14 @@ struct FrameError {
     double ssim = 1;
     double flip = 0;            ///< mean of FLIP (Andersson et al. 2020), 0 to 1
     std::size_t triangles = 0;  ///< and points
+    double drawnTauPixels = 0;  ///< at which the cut was made, in pixels of the picture
+    double stretch = 1;         ///< of the picture's pixels to those asked for
+    bool complete = true;       ///< no coarser data stand for some that were not loaded yet
 };
 
-/// Whether a frame's surface is nowhere farther off than it promises, but for the 1/256 pixel that
-/// rasterisation rounds; and nothing is missing, too much, or shown before what hides it.
+/// Whether a frame's surface is nowhere farther off than it promises, but for the 1/256 of its own
+/// pixels that rasterisation rounds; and nothing is missing, too much, or shown before what hides
+/// it.
 bool keepsPromise(const FrameError& error);
 
 /// A frame that came closest to its promise, or broke it: worth looking at. PNG files' bytes.
@@ -47,7 +52,7 @@ struct UniformLevel {
     double maxPixels = 0;
 };
 
-/// Of a flight at one tau.
+/// Of a flight at one tau, or at one frame time.
 struct MeasuredErrors {
     std::vector<FrameError> frames;
     std::vector<WorstFrame> worst;

@@ -38,28 +38,16 @@ public:
         auto last = Clock::now();
         double drawing = 0;
         double taking = 0;
-        coordinator::FrameSequence sequence;
-        sequence.atOnce = pictures_.framesAtOnce();
-        sequence.draw = [&](const auto& choose) { return pictures_.drawLatest(choose); };
-        sequence.view = [&](std::size_t index) -> std::optional<coordinator::FrameRequest> {
-            if (index == frames.size())
-                return std::nullopt;
-            request.camera = frames[index].camera;
-            return request;
-        };
+        coordinator::FrameSequence sequence = along(frames, request, {});
         sequence.take = [&](const coordinator::FrameSequence::Frame& frame) {
             const double seconds = frames[frame.index].seconds;
-            if (stop_.stop_requested())
-                return absl::CancelledError("stopped; nothing was written");
-            if (!frame.drawn.ok())
-                return fabric::withContext(frame.drawn.status(),
-                                           fmt::format("second {:.3f} of the flight", seconds));
+            RETURN_IF_ERROR(check(frame, seconds));
             const Milliseconds latency = frame.arrived - frame.begun;
             const Milliseconds interval = frame.arrived - std::exchange(last, frame.arrived);
             const Milliseconds taken = sequence.atOnce == 1 ? latency : interval;
             fabric::FrameStatistics statistics = frame.drawn->statistics;
             statistics.tauAchievedPixels *=
-                static_cast<double>(request.width) / frame.drawn->image.area.width;
+                stretch(frame.drawn->image.area, request.width, request.height);
             played_.frames.push_back(
                 {pass, seconds, taken.count(), std::move(statistics), latency.count()});
             played_.device = frame.drawn->device;
@@ -77,9 +65,50 @@ public:
         return absl::OkStatus();
     }
 
+    /// A pass that nothing is measured of: pictures and depths of the frames `keeps` are kept.
+    absl::Status keep(const std::vector<int>& keeps, const std::vector<fabric::FlightKey>& frames,
+                      coordinator::FrameRequest request) {
+        coordinator::FrameSequence sequence = along(frames, request, keeps);
+        sequence.take = [&](coordinator::FrameSequence::Frame frame) {
+            RETURN_IF_ERROR(check(frame, frames[frame.index].seconds));
+            if (std::ranges::binary_search(keeps, static_cast<int>(frame.index)))
+                played_.kept.push_back(*std::move(frame.drawn));
+            frameDone_();
+            return absl::OkStatus();
+        };
+        return coordinator::drawSequence(sequence);
+    }
+
     double overheadPercent() const { return drawing_ > 0 ? 100 * taking_ / drawing_ : 0; }
 
 private:
+    /// All of `frames`, as many at once as there can be; of those in `withDepth`, depths, too.
+    coordinator::FrameSequence along(const std::vector<fabric::FlightKey>& frames,
+                                     coordinator::FrameRequest& request,
+                                     std::vector<int> withDepth) {
+        coordinator::FrameSequence sequence;
+        sequence.atOnce = pictures_.framesAtOnce();
+        sequence.draw = [this](const auto& choose) { return pictures_.drawLatest(choose); };
+        sequence.view = [&frames, &request, withDepth = std::move(withDepth)](
+                            std::size_t index) -> std::optional<coordinator::FrameRequest> {
+            if (index == frames.size())
+                return std::nullopt;
+            request.camera = frames[index].camera;
+            request.wantsDepth = std::ranges::binary_search(withDepth, static_cast<int>(index));
+            return request;
+        };
+        return sequence;
+    }
+
+    absl::Status check(const coordinator::FrameSequence::Frame& frame, double seconds) const {
+        if (stop_.stop_requested())
+            return absl::CancelledError("stopped; nothing was written");
+        if (!frame.drawn.ok())
+            return fabric::withContext(frame.drawn.status(),
+                                       fmt::format("second {:.3f} of the flight", seconds));
+        return absl::OkStatus();
+    }
+
     PictureSource& pictures_;
     const std::function<void()>& frameDone_;
     const std::stop_token& stop_;
@@ -105,6 +134,8 @@ absl::StatusOr<Played> play(PictureSource& pictures, const fabric::Flight& fligh
     }
     played.overheadPercent = passes.overheadPercent();
     played.peakResidentBytes = peakResidentBytes();
+    if (!options.keeps.empty())
+        RETURN_IF_ERROR(passes.keep(options.keeps, frames, options.request));
     coordinator::FrameRequest request = options.request;
     request.measuresStages = true;
     ASSIGN_OR_RETURN(const auto measured,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <stop_token>
@@ -19,7 +20,14 @@ struct PlayOptions {
     coordinator::FrameRequest request;  ///< all but the camera
     int frames = 120;                   ///< of one pass, evenly spaced in time; at least 1
     int repeats = 3;                    ///< passes that are measured, after a first one
+    std::vector<int> keeps = {};        ///< frames of a pass, ascending, for Played::kept
 };
+
+/// How many pixels of a picture of `width` x `height` one of `area`'s covers, the longer way.
+inline double stretch(const fabric::PixelViewport& area, int width, int height) {
+    return std::max(static_cast<double>(width) / area.width,
+                    static_cast<double>(height) / area.height);
+}
 
 struct PlayedFrame {
     int pass = 0;        ///< 0: the first one, which loads; measured passes from 1
@@ -56,13 +64,16 @@ struct Played {
     /// are, it is in those of the next, which is being drawn meanwhile.
     double overheadPercent = 0;
     int framesInFlight = 1;  ///< at most
+    /// The frames of PlayOptions::keeps, with depth, as they came in one more pass after the
+    /// measured ones: reading depths is in no frame's time. Errors in pixels of their own size.
+    std::vector<coordinator::RenderedFrame> kept = {};
 };
 
 /// Frames of which the stages are measured, or as many as a pass has.
 inline constexpr int kMeasuredFrames = 24;
 
 /// Plays `flight` 1 + repeats times, with as many frames in flight as `pictures` can; every frame
-/// waits for its data, unless the request says not.
+/// waits for its data, unless the request says not. Where pictures are to be kept, once more.
 /// `frameDone` is called after each of these. Errors: those of PictureSource::draw, naming the
 /// second; those of framesOf; InvalidArgument after the first pass when no frame of it showed
 /// anything; Cancelled.

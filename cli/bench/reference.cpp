@@ -30,7 +30,10 @@ absl::StatusOr<std::uint64_t> limitOf(const ReferenceOptions& options) {
 
 JudgedFrames judgedOf(const RunPlan& plan, int frames) {
     const coordinator::FrameRequest& request = plan.play.request;
-    return {request.width, request.height, plan.play.frames, frames};
+    const auto held = std::ranges::count_if(
+        plan.asked, [](const Asked& asked) { return asked.budgetMilliseconds > 0; });
+    return {request.width, request.height, plan.play.frames, frames,
+            static_cast<int>(held) * static_cast<int>(plan.renderers.size())};
 }
 
 absl::StatusOr<ReferenceMemory> memoryOf(const RunPlan& plan, const ReferenceOptions& options) {
@@ -59,13 +62,15 @@ absl::StatusOr<FlightJudge> judgeFor(const ReferencePlan& reference, const RunPl
                        reference.remote);
 }
 
-absl::StatusOr<MeasuredErrors> measureRun(FlightJudge& judge, const RunPlan& plan,
-                                          const BenchRun& run,
+/// A tau draws the same again; what a frame time came to is in the pictures that were kept.
+absl::StatusOr<MeasuredErrors> measureRun(FlightJudge& judge, const RunPlan& plan, BenchRun& run,
                                           const std::function<void()>& frameDone,
                                           const std::stop_token& stop) {
     ASSIGN_OR_RETURN(const auto pictures, open(plan, run.renderers, stop));
     coordinator::FrameRequest request = plan.play.request;
     request.tauPixels = run.tauPixels;
+    if (run.budgetMilliseconds > 0)
+        return judge.judge(std::exchange(run.played.kept, {}), *pictures, request, frameDone, stop);
     return judge.judge(*pictures, request, frameDone, stop);
 }
 
@@ -142,6 +147,7 @@ absl::StatusOr<ReferencePlan> planReference(const RunPlan& plan, const Reference
                                             const std::stop_token& stop) {
     ReferencePlan reference;
     reference.frames = options.frames;
+    reference.judged = judgedFrames(judgedOf(plan, options.frames));
     ASSIGN_OR_RETURN(const ReferenceMemory memory, memoryOf(plan, options));
     ASSIGN_OR_RETURN(const RemoteData remote, remoteDataOf(plan.pictures.cache));
     reference.remote = page::sourceOptions(remote.cacheFolder, remote.cacheBytes);
@@ -162,7 +168,7 @@ absl::StatusOr<std::vector<UniformLevel>> measureRuns(const ReferencePlan& refer
     ASSIGN_OR_RETURN(FlightJudge judge, judgeFor(reference, plan, stop));
     for (BenchRun& run : runs) {
         int done = 0;
-        const auto frameDone = [&] { progress("tau " + run.label, ++done / judge.frames()); };
+        const auto frameDone = [&] { progress(run.label, ++done / judge.frames()); };
         ASSIGN_OR_RETURN(run.measured, measureRun(judge, plan, run, frameDone, stop));
     }
     RETURN_IF_ERROR(checkCompared(runs));
@@ -178,9 +184,9 @@ absl::Status checkPromises(const std::vector<BenchRun>& runs) {
             continue;
         const auto broken = worstBroken(run.measured->frames);
         if (broken)
-            return absl::InternalError(fmt::format(
-                "ERROR: the promise is broken at tau {}, second {:.3f} of the flight: {}",
-                run.label, broken->seconds, whatIsWrong(*broken)));
+            return absl::InternalError(
+                fmt::format("ERROR: the promise is broken at {}, second {:.3f} of the flight: {}",
+                            run.label, broken->seconds, whatIsWrong(*broken)));
     }
     return absl::OkStatus();
 }

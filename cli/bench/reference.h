@@ -31,7 +31,8 @@ struct ReferencePlan {
     fabric::Scene scene;
     std::vector<FoundSource> sources;
     page::SourceOptions remote;
-    int frames = 0;  ///< to judge of each run
+    int frames = 0;           ///< to judge of each run
+    std::vector<int> judged;  ///< these: RunPlan::keeps
 };
 
 /// Finds the sources, before flights are played for minutes. Errors: those of loadScene and
@@ -39,9 +40,10 @@ struct ReferencePlan {
 absl::StatusOr<ReferencePlan> planReference(const RunPlan& plan, const ReferenceOptions& options,
                                             const std::stop_token& stop);
 
-/// Reads the sources, draws some of the frames of each run again, fills in what is measured of
-/// them, and gives the uniform levels to compare with. After all runs were played: the sources take
-/// memory. Shows progress on standard error. Errors: those of readSources, PictureSource::open and
+/// Reads the sources, draws some of the frames of each run again or, where a frame time was held,
+/// takes the pictures that the run has kept of them; fills in what is measured of them, and gives
+/// the uniform levels to compare with. After all runs were played: the sources take memory. Shows
+/// progress on standard error. Errors: those of readSources, PictureSource::open and
 /// FlightJudge::judge; FailedPrecondition where no frame shows anything to compare.
 absl::StatusOr<std::vector<UniformLevel>> measureRuns(const ReferencePlan& reference,
                                                       const RunPlan& plan,

@@ -178,6 +178,7 @@ ErrorSummary summarize(const MeasuredErrors& measured) {
         medians.push_back(frame.p50Pixels);
         summary.p99Pixels = std::max(summary.p99Pixels, frame.p99Pixels);
         summary.maxPixels = std::max(summary.maxPixels, frame.maxPixels);
+        summary.promisedPixels = std::max(summary.promisedPixels, frame.promisedPixels);
         summary.holes += frame.holes;
         summary.falseHits += frame.falseHits;
         summary.misplaced += frame.misplaced;

@@ -59,9 +59,10 @@ RunSummary summarize(const Played& played);
 
 /// Of all frames of a flight that were held against the source.
 struct ErrorSummary {
-    double p50Pixels = 0;  ///< median of the frames'
-    double p99Pixels = 0;  ///< of the worst frame
-    double maxPixels = 0;  ///< of the worst frame
+    double p50Pixels = 0;       ///< median of the frames'
+    double p99Pixels = 0;       ///< of the worst frame
+    double maxPixels = 0;       ///< of the worst frame
+    double promisedPixels = 0;  ///< the most that one of them promises
     std::uint64_t holes = 0;
     std::uint64_t falseHits = 0;
     std::uint64_t misplaced = 0;

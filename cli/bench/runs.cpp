@@ -41,6 +41,7 @@ absl::Status playRun(const RunPlan& plan, BenchRun& run, const std::function<voi
     if (run.budgetMilliseconds > 0) {
         play.request.budgetMilliseconds = run.budgetMilliseconds;
         play.request.completeness = fabric::Completeness::Interactive;
+        play.keeps = plan.keeps;
     }
     absl::StatusOr<Played> played = bench::play(*pictures, path.flight, play, frameDone, stop);
     if (!played.ok())
@@ -58,9 +59,12 @@ std::string drawnBy(int renderers, const std::string& compound) {
 }
 
 absl::StatusOr<std::vector<BenchRun>> playRuns(const RunPlan& plan, const std::stop_token& stop) {
-    const int frames = plan.play.frames * (plan.play.repeats + 1);
+    const auto passesOf = [&](const Asked& asked) {
+        const bool keeps = asked.budgetMilliseconds > 0 && !plan.keeps.empty();
+        return plan.play.repeats + (keeps ? 2 : 1);
+    };
     ProgressBar bar(
-        "bench", frames, "frames",
+        "bench", plan.play.frames * (plan.play.repeats + 1), "frames",
         plan.progressJson ? ProgressBar::Style::Json : ProgressBar::styleFor(plan.pictures.quiet));
     const import::Progress progress = bar.callback();
     std::vector<BenchRun> runs;
@@ -69,6 +73,7 @@ absl::StatusOr<std::vector<BenchRun>> playRuns(const RunPlan& plan, const std::s
             BenchRun run = runOf(asked, renderers, plan.pictures.config);
             const std::string stage =
                 fmt::format("{}, {}", run.label, drawnBy(renderers, run.compound));
+            const int frames = plan.play.frames * passesOf(asked);
             int done = 0;
             const auto frameDone = [&] { progress(stage, static_cast<double>(++done) / frames); };
             RETURN_IF_ERROR(playRun(plan, run, frameDone, stop));

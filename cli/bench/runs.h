@@ -42,9 +42,11 @@ struct RunPlan {
     std::string flight;  ///< for flightNamed
     std::vector<Asked> asked;
     std::vector<int> renderers{0};
-    PlayOptions play;  ///< tau and budget are each run's own
+    PlayOptions play;  ///< tau, budget and what is kept are each run's own
     PictureSourceOptions pictures;
     bool progressJson = false;  ///< tell progress as JSON, quiet or not
+    /// PlayOptions::keeps of runs that hold a frame time.
+    std::vector<int> keeps = {};
 };
 
 /// Plays all runs, one after another, each with renderers of its own that have loaded nothing yet:

@@ -56,7 +56,8 @@ void addMeasured(const ErrorSummary& errors, std::size_t frames, JsonObject& jso
     JsonObject pixels;
     pixels.number("p50", errors.p50Pixels)
         .number("p99", errors.p99Pixels)
-        .number("max", errors.maxPixels);
+        .number("max", errors.maxPixels)
+        .number("promised", errors.promisedPixels);
     json.object("errorPx", pixels)
         .count("holes", errors.holes)
         .count("falseHits", errors.falseHits)

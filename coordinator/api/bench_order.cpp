@@ -87,9 +87,6 @@ absl::Status addReference(const v1::BenchRequest& request, std::uint64_t memoryB
     order.measuresErrors = request.with_reference();
     if (!order.measuresErrors)
         return absl::OkStatus();
-    if (!request.budget_milliseconds().empty())
-        return absl::InvalidArgumentError(
-            "with_reference is of the errors asked for; leave budget_milliseconds out");
     order.arguments.emplace_back("--reference");
     order.arguments.push_back(fmt::format("--reference-frames={}", frames));
     order.arguments.push_back(fmt::format("--reference-memory={}", memoryBytes));

@@ -48,7 +48,7 @@ try {
       ...more,
     );
   bench("near.json", "--tau", "1,8", "-o", "near");
-  bench("orbit", "--tau", "1,4", "--budget-ms", "10,1000", "-o", "held");
+  bench("orbit", "--tau", "1,4", "--budget-ms", "10,1000", "--reference", "-o", "held");
 
   const runs = JSON.parse(readFileSync(join(folder, "near/summary.json"), "utf8")).runs;
   check(
@@ -71,12 +71,19 @@ try {
   check(ticks.includes("∞"), "which the axis names");
 
   await browser.page.goto(pathToFileURL(join(folder, "held/index.html")).href);
-  const held = await marks(browser.page, "#curve");
+  const all = await marks(browser.page, "#curve");
+  const held = all.filter(({ words }) => words.includes(": median"));
   check(held.length === 4, "runs at an error and at a frame time are in one curve");
   const atATime = held.filter(({ words }) => /^(10|1000) ms/.test(words));
   check(
     atATime.length === 2 && atATime.every(({ words }) => words.includes("95 in 100")),
     "those that hold a time stand where 95 in 100 of their warm frames are",
+  );
+
+  const measured = all.filter(({ words }) => /^(10|1000) ms: the worst pixel of/.test(words));
+  check(
+    measured.length === 2 && measured.every(({ words }) => / % of the .* px promised/.test(words)),
+    "whose pictures are measured, and are off by a share of what they promised",
   );
 
   eyrie("bench", "--compare", "near", "near", "-o", "compared");

@@ -21,7 +21,9 @@ public:
         if (++drawn == failing)
             return absl::UnavailableError("no renderer");
         coordinator::RenderedFrame frame;
-        frame.image = fabric::makeImage({0, 0, request.width, request.height}, {}, false);
+        const int smaller = request.budgetMilliseconds ? 2 : 1;
+        frame.image = fabric::makeImage({0, 0, request.width / smaller, request.height / smaller},
+                                        {}, request.wantsDepth);
         frame.statistics.nodes = 1;
         frame.statistics.tauAskedPixels = request.tauPixels;
         frame.statistics.tauAchievedPixels = request.camera.eye.x;
@@ -38,9 +40,9 @@ private:
 };
 
 absl::StatusOr<Played> playWith(
-    FakePictures& pictures, const std::function<void()>& withEach = [] {}) {
+    FakePictures& pictures, const std::function<void()>& withEach = [] {},
+    PlayOptions options = {}) {
     const auto flight = flightNamed("orbit", fabric::Box{{0, 0, 0}, {10, 10, 5}});
-    PlayOptions options;
     options.frames = 20;
     options.repeats = 2;
     int done = 0;
@@ -49,7 +51,7 @@ absl::StatusOr<Played> playWith(
         withEach();
     };
     auto played = play(pictures, flight->flight, options, frameDone, {});
-    EXPECT_EQ(done, played.ok() ? 60 : done);
+    EXPECT_EQ(done, !played.ok() ? done : options.keeps.empty() ? 60 : 80);
     return played;
 }
 
@@ -99,6 +101,46 @@ TEST(BenchPlay, TellsWhatTheBenchItselfTakesHoweverManyAreInFlight) {
         }
         EXPECT_GE(played->overheadPercent / 100 * frames, 40) << "a millisecond each";
     }
+}
+
+TEST(BenchPlay, KeepsPicturesAndDepthsOfAPassOfItsOwn) {
+    FakePictures plain(1);
+    const auto expected = playWith(plain);
+    ASSERT_TRUE(expected.ok()) << expected.status();
+    for (const int atOnce : {1, 3}) {
+        FakePictures pictures(atOnce);
+        PlayOptions options;
+        options.keeps = {3, 10, 19};
+        const auto played = playWith(
+            pictures, [] {}, options);
+        ASSERT_TRUE(played.ok()) << played.status();
+        EXPECT_EQ(errors(*played), errors(*expected)) << "which are the passes that are measured";
+        ASSERT_EQ(played->kept.size(), 3U);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto index = static_cast<std::size_t>(options.keeps[i]);
+            EXPECT_TRUE(played->kept[i].image.hasDepth());
+            EXPECT_EQ(played->kept[i].statistics.tauAchievedPixels,
+                      expected->frames[index].statistics.tauAchievedPixels);
+        }
+    }
+}
+
+TEST(BenchPlay, TellsErrorsInPixelsOfTheSizeAskedForAndKeepsThemInThePicturesOwn) {
+    FakePictures pictures(1);
+    PlayOptions options;
+    const auto whole = playWith(
+        pictures, [] {}, options);
+    options.request.budgetMilliseconds = 33;
+    options.keeps = {0};
+    const auto smaller = playWith(
+        pictures, [] {}, options);
+    ASSERT_TRUE(whole.ok() && smaller.ok());
+    const auto promised = [](const Played& played) {
+        return played.frames[0].statistics.tauAchievedPixels;
+    };
+    EXPECT_EQ(promised(*smaller), 2 * promised(*whole));
+    EXPECT_EQ(smaller->kept[0].statistics.tauAchievedPixels, promised(*whole));
+    EXPECT_EQ(stretch({0, 0, 905, 509}, 1280, 720), 720. / 509) << "the longer way";
 }
 
 TEST(BenchPlay, AFrameThatCannotBeHadEndsItWithItsSecond) {

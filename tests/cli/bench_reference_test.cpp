@@ -11,9 +11,11 @@
 #include <gmock/gmock.h>
 
 #include "cli/bench/errors_csv.h"
+#include "cli/bench/flight_judge.h"
 #include "cli/bench/reference.h"
 #include "cli/bench/uniform_levels.h"
 #include "cli/source_record.h"
+#include "fabric/frustum.h"
 #include "renderer/import/mesh_import.h"
 #include "renderer/import/mesh_synth.h"
 #include "renderer/import/ply_writer.h"
@@ -125,6 +127,9 @@ TEST(JudgedFrames, TakeMoreTheMoreAreKeptButNoMoreThanArePlayed) {
     EXPECT_EQ(neededBytes({640, 360, 24, 24}) - one, 23U * 640 * 360 * 20);
     EXPECT_EQ(neededBytes({640, 360, 24, 1000}), neededBytes({640, 360, 24, 24}));
     EXPECT_EQ(neededBytes({1280, 720, 24, 1}), 4 * one);
+    EXPECT_EQ(neededBytes({640, 360, 24, 6, 3}) - neededBytes({640, 360, 24, 6}),
+              3U * 6 * 640 * 360 * 8)
+        << "pictures that three runs keep";
 }
 
 /// From inside one may see through a ball that is drawn from outside only.
@@ -232,6 +237,76 @@ TEST(UniformLevels, OfAPlaneHaveNoError) {
     EXPECT_TRUE(levels->empty());
 }
 
+/// A plane whose pictures have it `lift` higher.
+class LiftedPlane final : public PictureSource {
+public:
+    explicit LiftedPlane(float lift) : drawn_(grid(7 + lift)) {}
+
+    static std::shared_ptr<truth::TerrainRayCaster> source() {
+        return std::make_shared<truth::TerrainRayCaster>(grid(7));
+    }
+
+    absl::StatusOr<coordinator::RenderedFrame> draw(
+        const coordinator::FrameRequest& request) override {
+        coordinator::RenderedFrame frame;
+        frame.image = fabric::makeImage({0, 0, request.width, request.height}, {}, true);
+        const auto view =
+            truth::castView(truth::Pinhole(request.camera, request.width, request.height), drawn_);
+        for (std::size_t i = 0; i < view.hits.size(); ++i)
+            frame.image.depth[i] = static_cast<float>(fabric::kNearMetres / view.hits[i].first);
+        return frame;
+    }
+    fabric::SceneInfo sceneInfo() const override { return {}; }
+
+private:
+    static truth::HeightGrid grid(float height) {
+        return {.columns = 65, .rows = 65, .heights = std::vector<float>(65 * 65, height)};
+    }
+    const truth::TerrainRayCaster drawn_;
+};
+
+/// A picture of 320 x 180 that was asked for and, of the lifted plane, drawn at `width` x `height`
+/// with some promise in its own pixels, held against the plane.
+FrameError judged(int width, int height, double promisedPixels) {
+    const auto plane = LiftedPlane::source();
+    ReferenceScene scene{{{{plane, nullptr}, "plane.eyt"}},
+                         std::make_shared<truth::PlacedSurfaces>(
+                             std::vector<truth::PlacedSurface>{{plane, fabric::Mat4(1)}})};
+    const fabric::Flight flight{
+        {{0, {.eye = {32, -60, 30}, .target = {32, -32, 7}, .fovYDegrees = 20}}}};
+    FlightJudge judge(std::move(scene), flight, {320, 180, 1, 1}, {});
+    LiftedPlane pictures(0.25F);
+    coordinator::FrameRequest request;
+    request.camera = flight.keys[0].camera;
+    request.width = width;
+    request.height = height;
+    std::vector<coordinator::RenderedFrame> shown{pictures.draw(request).value()};
+    shown[0].statistics.tauAchievedPixels = promisedPixels;
+    shown[0].statistics.budget = {.milliseconds = 33, .tauPixels = 3};
+    request.width = 320;
+    request.height = 180;
+    const auto measured = judge.judge(std::move(shown), pictures, request, [] {}, {});
+    EXPECT_TRUE(measured.ok()) << measured.status();
+    return measured.ok() ? measured->frames.at(0) : FrameError{};
+}
+
+TEST(FlightJudge, HoldsASmallerPictureAgainstItsPromiseInPixelsOfTheSizeAskedFor) {
+    const FrameError whole = judged(320, 180, 100);
+    const FrameError half = judged(160, 90, 50);
+    EXPECT_GT(whole.maxPixels, 2);
+    EXPECT_EQ(half.compared, 160U * 90);
+    EXPECT_NEAR(half.maxPixels, whole.maxPixels, 0.02 * whole.maxPixels);
+    EXPECT_NEAR(half.p50Pixels, whole.p50Pixels, 0.02 * whole.p50Pixels);
+    EXPECT_EQ(whole.stretch, 1);
+    EXPECT_EQ(half.stretch, 2);
+    EXPECT_EQ(half.promisedPixels, 100);
+    EXPECT_EQ(half.drawnTauPixels, 3) << "which the frame time came to";
+    const double own = half.maxPixels / 2;
+    EXPECT_TRUE(keepsPromise(judged(160, 90, 1.01 * own)));
+    EXPECT_FALSE(keepsPromise(judged(160, 90, 0.9 * own)));
+    EXPECT_FALSE(keepsPromise(judged(320, 180, 1.01 * own))) << "twice as many of its own pixels";
+}
+
 std::vector<BenchRun> runWith(double maxPixels, double promisedPixels) {
     BenchRun run;
     run.label = "2 px";
@@ -249,7 +324,7 @@ TEST(CheckPromises, NamesTheFrameThatBreaksItsOwn) {
     const absl::Status broken = checkPromises(runWith(1.6, 1.5));
     EXPECT_EQ(broken.code(), absl::StatusCode::kInternal);
     EXPECT_THAT(broken.ToString(), testing::HasSubstr("second 7.000"));
-    EXPECT_THAT(broken.ToString(), testing::HasSubstr("tau 2 px"));
+    EXPECT_THAT(broken.ToString(), testing::HasSubstr("broken at 2 px, second 7.000"));
     std::vector<BenchRun> seenThrough = runWith(1.5, 1.5);
     seenThrough[0].measured->frames[0].holes = 3;
     EXPECT_THAT(checkPromises(seenThrough).ToString(), testing::HasSubstr("3 pixels are empty"));
@@ -259,7 +334,7 @@ TEST(ErrorsCsv, HasALineAFrameAndIsNothingWithoutAReference) {
     EXPECT_EQ(errorsCsv({BenchRun{}}), "");
     const std::string csv = errorsCsv(runWith(1.25, 1.5));
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 3);
-    EXPECT_THAT(csv, testing::HasSubstr("\n2,0,7.000,1.5,0,0,1.25,"));
+    EXPECT_THAT(csv, testing::HasSubstr("\n2 px,2,0,7.000,1.5,0,0,1.25,"));
 }
 
 }  // namespace

@@ -144,9 +144,12 @@ TEST_F(ApiBench, MeasuresErrorsWhereTheyAreAskedFor) {
     const RestAnswer none = ask("GET", "/reports/one.bench?file=REPORT_FILE_ERRORS");
     EXPECT_EQ(none.status, 404);
     EXPECT_THAT(*none.body, HasSubstr("errors.csv"));
+    EXPECT_EQ(run("three", R"(,"replace":true,"withReference":true,"budgetMilliseconds":[33])"),
+              v1::OPERATION_STATE_DONE);
+    for (const char* argument : {"--reference", "--budget-ms=33"})
+        EXPECT_THAT(commands_[2], Contains(argument));
     for (const char* wrong :
-         {R"("withReference":true,"budgetMilliseconds":[33])", R"("referenceFrames":0)",
-          R"("withReference":true,"referenceFrames":1001)"})
+         {R"("referenceFrames":0)", R"("withReference":true,"referenceFrames":1001)"})
         EXPECT_EQ(statusOf(fmt::format(R"({{"output":"o.bench",{}}})", wrong)), 400) << wrong;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `eyrie bench` as its users run it.
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -173,6 +174,28 @@ TEST_F(Bench, EveryFrameOfTheTestFlightsKeepsItsPromiseAtEveryTau) {
                 EXPECT_TRUE(test::at(run, "measuredWithinPromise").bool_value());
             }
         }
+}
+
+TEST_F(Bench, PicturesThatHoldAFrameTimeKeepTheirPromise) {
+    ASSERT_TRUE(
+        succeeded({"synth", "mesh", "--size", "30000", "--seed", "4", "-o", path("held.ply")}));
+    ASSERT_TRUE(succeeded({"import", "mesh", path("held.ply"), "-o", path("held.eym")}));
+    const std::string report = path("held");
+    // A millisecond makes pictures coarse and, mostly, small.
+    ASSERT_TRUE(succeeded({"bench", path("held.eym"), "--flight", "worst", "--budget-ms", "1,30",
+                           "--renderers", "0,2", "--size", "320x180", "--frames", "24", "--repeats",
+                           "1", "--reference", "--reference-frames", "12", "-o", report}));
+    const auto runs = test::list(summaryOf(report), "runs");
+    ASSERT_EQ(runs.size(), 4U);
+    for (const auto& run : runs) {
+        EXPECT_EQ(number(run, "framesMeasured"), 12);
+        EXPECT_TRUE(test::at(run, "measuredWithinPromise").bool_value());
+        EXPECT_GT(number(run, "errorPx.max"), 0);
+    }
+    const auto errors = test::readFile(report + "/errors.csv");
+    ASSERT_TRUE(errors.ok()) << errors.status();
+    EXPECT_EQ(std::count(errors->begin(), errors->end(), '\n'), 1 + 4 * 12);
+    EXPECT_THAT(*errors, testing::HasSubstr("\n1 ms,0.5,2,"));
 }
 
 /// What a picture shows is held against the source that it was made of, wherever things meet. The

@@ -4,7 +4,8 @@
 /** The error a run stands for: what all of its frames promise or, where a frame time was held and each frame has its
  *  own, what 95 in 100 of the warm ones do. null: there is no bound. */
 const errorOf = (run) => (run.budgetMs > 0 ? run.tauAchieved.p95 : run.tauAchievedMax);
-const isUnbounded = (run) => errorOf(run) === null;
+/** What the frames promised that were measured: at a frame time it is of pictures of its own pass. */
+const measuredPromiseOf = (run) => (run.budgetMs > 0 ? run.errorPx.promised : errorOf(run));
 /** Of a scale of powers, which has no place for 0. */
 const isOnAxis = (run) => errorOf(run) !== 0;
 

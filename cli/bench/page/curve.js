@@ -2,12 +2,12 @@
 // Frame time against the error promised, and the error measured beside it.
 
 /** "12 %" of its promise, of the worst pixel measured; nothing where there is no bound. */
-const shareOfPromise = (run) => (isUnbounded(run) ? "" : `${number((100 * run.errorPx.max) / errorOf(run), 2)} %`);
+const shareOfPromise = (run) => (measuredPromiseOf(run) === null ? "" : `${number((100 * run.errorPx.max) / measuredPromiseOf(run), 2)} %`);
 
 /** What is between the worst pixel measured and the promise: error that was not used. */
 function drawMeasured(svg, list, { x, y }) {
   const at = (run, error) => [x(error), y(run.frameMs.p50)];
-  const promised = list.map((run) => at(run, errorOf(run)));
+  const promised = list.map((run) => at(run, measuredPromiseOf(run)));
   const worstPixels = list.map((run) => at(run, run.errorPx.max));
   svg.append(mark("path", { d: `${path([...promised, ...worstPixels.reverse()])}Z`, fill: "var(--truth)", opacity: 0.09 }));
   worstPixels.reverse();
@@ -16,14 +16,14 @@ function drawMeasured(svg, list, { x, y }) {
   for (const run of list) {
     const [left, level] = at(run, run.errorPx.p99);
     const broken = run.measuredWithinPromise === false;
-    svg.append(mark("line", { x1: left, x2: x(errorOf(run)), y1: level, y2: level, stroke: "var(--truth)", opacity: 0.45 }));
+    svg.append(mark("line", { x1: left, x2: x(measuredPromiseOf(run)), y1: level, y2: level, stroke: "var(--truth)", opacity: 0.45 }));
     const dot = mark("circle", { cx: x(run.errorPx.max), cy: level, r: 5, fill: broken ? "var(--bad)" : "var(--truth)", stroke: "var(--panel)", "stroke-width": 1.5 });
     if (!broken)
       svg.append(mark("text", { x: x(run.errorPx.max) - 2, y: level + 18, "text-anchor": "end", style: "fill: var(--truth)" }, shareOfPromise(run)));
     svg.append(mark("circle", { cx: left, cy: level, r: 3.5, fill: "var(--panel)", stroke: "var(--truth)", "stroke-width": 1.75 }),
                explained(dot, `${run.label}: the worst pixel of ${run.framesMeasured} frames is ${number(run.errorPx.max)} px off,\n` +
                  `99 in 100 of any frame are within ${number(run.errorPx.p99)} px\n` +
-                 (broken ? "more than was promised" : `${shareOfPromise(run)} of the ${number(errorOf(run))} px promised`)));
+                 (broken ? "more than was promised" : `${shareOfPromise(run)} of the ${number(measuredPromiseOf(run))} px promised`)));
   }
 }
 
@@ -56,7 +56,7 @@ function drawCurve(place) {
   if (shown.length === 0) return sayLeftOut(place, runs);
   const measured = shown.filter((run) => run.errorPx && run.errorPx.max > 0);
   const held = shown.filter((run) => run.budgetMs > 0 && run.tauAchieved.p50 !== 0);
-  const all = [...shown.map(errorOf), ...held.map((run) => run.tauAchieved.p50), ...measured.flatMap((run) => [Math.max(run.errorPx.p99, run.errorPx.max / 64), run.errorPx.max])];
+  const all = [...shown.map(errorOf), ...held.map((run) => run.tauAchieved.p50), ...measured.flatMap((run) => [measuredPromiseOf(run), Math.max(run.errorPx.p99, run.errorPx.max / 64), run.errorPx.max])];
   const box = { left: 56, right: 860, top: 34, bottom: 380 };
   const svg = drawing(930, 430, `Frame time against error. ${shown.map((run) =>
     `${run.label}, ${processes(run)}: ${number(run.frameMs.p50)} milliseconds, promised ${number(errorOf(run))} pixels`).join("; ")}.`);

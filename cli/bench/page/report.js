@@ -17,7 +17,7 @@ function fillTiles(list) {
   list.append(tile(number(run.fpsMedian), "frames/s", `median at ${run.label}, ${number(run.frameMs.p50)} ms a frame`, "time"),
               tile(`≤ ${number(run.tauAchievedMax)}`, "px", "error promised for every pixel of every frame"));
   if (run.errorPx)
-    list.append(tile(number(run.errorPx.max), "px", run.measuredWithinPromise ? `worst pixel measured against the source${isUnbounded(run) ? "" : `, ${shareOfPromise(run)} of the promise`}` : "worst pixel measured: the promise was broken",
+    list.append(tile(number(run.errorPx.max), "px", run.measuredWithinPromise ? `worst pixel measured against the source${shareOfPromise(run) && `, ${shareOfPromise(run)} of the promise`}` : "worst pixel measured: the promise was broken",
                      run.measuredWithinPromise ? "truth" : "bad"));
   if (run.efficiency) list.append(tile(`${number(run.efficiency, 2)}×`, "fewer", "triangles than uniform decimation has in view at the same measured p99 error", "truth"));
   else list.append(tile(compact(run.trianglesMean + run.pointsMean), "", run.pointsMean > 0 ? "triangles and points a frame, in the mean" : "triangles a frame, in the mean"));
