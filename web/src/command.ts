@@ -29,23 +29,29 @@ function lookJson(view: SharedView): { look?: JsonValue } {
 const quoted = (text: string): string => `'${text.replaceAll("'", "'\\''")}'`;
 
 /** Of one picture among those that a configuration has. */
-const outputOptions = (output: Output): string[] =>
+const optionsOf = (output: Output & { layout: string }): string[] =>
   Object.entries(output)
     .filter(([, value]) => value !== "")
     .map(([name, value]) => `--${name} ${quoted(value as string)}`);
 
+/** Of a configuration that somebody made, by which a picture is seen. */
+export interface Configured {
+  /** That its canvas shows; "": it has no other. */
+  layout: string;
+}
+
 /**
  * What to type in a shell for the same picture; SCENE stands for the files that are served, CONFIG
- * for the configuration's, of which the page knows no more. `throughWall`: so it is seen.
+ * for the configuration's, of which the page knows no more. `configured`: null where it is made of the
+ * renderers there are.
  */
 export function renderCommand(
   view: SharedView,
   { width, height }: Size,
   output: Output,
-  throughWall: boolean,
+  configured: Configured | null,
 ): string {
   const { look } = lookJson(view);
-  const isConfigured = throughWall || output.canvas !== "" || output.segment !== "";
   const files = [`cat > camera.json <<'CAMERA'\n${cameraJson(view.camera)}\nCAMERA`];
   if (look !== undefined) files.push(`cat > look.json <<'LOOK'\n${JSON.stringify(look)}\nLOOK`);
   const options = [
@@ -54,8 +60,8 @@ export function renderCommand(
     `--tau ${view.tau}`,
     `--shading ${shadingName(view.shading)}`,
     ...(look === undefined ? [] : ["--look look.json"]),
-    ...(isConfigured ? ["--config CONFIG"] : []),
-    ...outputOptions(output),
+    ...(configured === null ? [] : ["--config CONFIG"]),
+    ...optionsOf({ ...output, layout: configured?.layout ?? "" }),
     "-o view.png",
   ];
   return `${files.join("\n")}\neyrie render SCENE ${options.join(" ")}\n`;

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
+import { create } from "@bufbuild/protobuf";
 import { describe, expect, it } from "vitest";
 import { addBookmark, readBookmarks, removeBookmark } from "./bookmarks";
+import type { Configured } from "./command";
 import { cameraJson, curlCommand, imageRequest, pythonScript, renderCommand } from "./command";
 import { defaultLook } from "./look";
 import type { Output } from "./output";
 import { usualOutput } from "./output";
+import { configuredFor } from "./panel/displays";
+import { CanvasStateSchema } from "./protocol/gen/eyrie/v1/viewer_pb";
 import { Shading } from "./protocol/messages";
 import type { SharedView } from "./share";
 import { decodeView, encodeView } from "./share";
@@ -133,7 +137,7 @@ describe("the command for a picture", () => {
     expect(cameraJson(special.camera)).toBe(
       '{"eye":[1.5,-2,1000000.3333333334],"target":[0,0,0],"up":[0,1,0],"fovyDegrees":30}',
     );
-    const text = renderCommand({ ...plain, shading: Shading.FLAT }, size, usualOutput, false);
+    const text = renderCommand({ ...plain, shading: Shading.FLAT }, size, usualOutput, null);
     expect(text).toContain(cameraJson(plain.camera));
     expect(text).toContain(
       "eyrie render SCENE --camera camera.json --size 1280x720 --tau 1 --shading flat -o view.png",
@@ -142,7 +146,7 @@ describe("the command for a picture", () => {
   });
 
   it("has a look where it is not the usual one", () => {
-    const text = renderCommand(special, size, usualOutput, false);
+    const text = renderCommand(special, size, usualOutput, null);
     expect(text).toContain("--look look.json");
     const look: unknown = JSON.parse(/LOOK'\n(.*)\nLOOK/.exec(text)?.[1] ?? "");
     expect(look).toMatchObject({ exaggeration: 2.5, contours: { intervalMetres: 50 } });
@@ -151,21 +155,43 @@ describe("the command for a picture", () => {
 
 describe("the command for one screen of a wall", () => {
   const size = { width: 1280, height: 720 };
-  const command = (output: Output, throughWall: boolean): string =>
-    renderCommand(plain, size, output, throughWall);
+  const command = (output: Output, configured: Configured | null): string =>
+    renderCommand(plain, size, output, configured);
 
-  it("names the screen, the eye, and that there is a configuration", () => {
+  it("names the screen, the eye, the layout, and that there is a configuration", () => {
     const output = { ...usualOutput, segment: "it's left", eye: "right" as const };
-    expect(command(output, true)).toContain(
-      "--config CONFIG --segment 'it'\\''s left' --eye 'right' -o view.png",
+    expect(command(output, { layout: "night shift" })).toContain(
+      "--config CONFIG --segment 'it'\\''s left' --eye 'right' --layout 'night shift' -o view.png",
     );
-    expect(command(usualOutput, true)).toContain("--config CONFIG -o view.png");
+    expect(command(usualOutput, { layout: "" })).toContain("--config CONFIG -o view.png");
   });
 
   it("names no configuration for two eyes that see through no wall", () => {
-    const text = command({ ...usualOutput, stereo: "anaglyph" }, false);
+    const text = command({ ...usualOutput, stereo: "anaglyph" }, null);
     expect(text).toContain("--stereo 'anaglyph' -o view.png");
     expect(text).not.toContain("--config");
+  });
+});
+
+describe("what of a configuration a picture is seen by", () => {
+  const canvas = (name: string, segments: string[], layouts: string[], layout: string) =>
+    create(CanvasStateSchema, { name, segments, layouts, layout });
+  const made = [canvas("canvas", ["screen"], ["2D", "DB"], "DB")];
+  const wall = [canvas("wall", ["left", "right"], ["day", "night"], "night")];
+  const two = [canvas("desk", ["screen"], ["1"], "1"), ...wall];
+
+  it("is nothing where it is made of the renderers there are", () => {
+    expect(configuredFor(made, usualOutput, false)).toBeNull();
+  });
+
+  it("is the layout that its canvas shows, where that has others", () => {
+    expect(configuredFor(wall, usualOutput, false)).toEqual({ layout: "night" });
+    expect(configuredFor(two, usualOutput, false)).toEqual({ layout: "" });
+    expect(configuredFor(two, { ...usualOutput, canvas: "wall" }, true)).toEqual({
+      layout: "night",
+    });
+    expect(configuredFor(two, { ...usualOutput, canvas: "1" }, true)).toEqual({ layout: "night" });
+    expect(configuredFor(made, usualOutput, true)).toEqual({ layout: "DB" });
   });
 });
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What of the configuration is seen here, and which layout its canvas shows for everybody.
+import type { Configured } from "../command";
 import type { Eye, Output, Stereo } from "../output";
 import { queryOf } from "../output";
 import type { CanvasState } from "../protocol/messages";
@@ -50,6 +51,22 @@ function canvasOf(canvases: readonly CanvasState[], name: string): CanvasState |
   return canvases.find((canvas) => canvas.name === name) ?? canvases[Number(name)];
 }
 
+/** Somebody configured screens: it is not all made of the renderers there are. */
+const hasScreens = (canvases: readonly CanvasState[], seen: CanvasState | undefined): boolean =>
+  canvases.length > 1 || (seen?.segments.length ?? 0) > 1;
+
+/** By what of a configuration the picture is seen; null where there is none but the usual. */
+export function configuredFor(
+  canvases: readonly CanvasState[],
+  { canvas, segment }: Output,
+  throughWall: boolean,
+): Configured | null {
+  const seen = canvasOf(canvases, canvas);
+  if (!throughWall && canvas === "" && segment === "" && !hasScreens(canvases, seen)) return null;
+  const hasChoice = seen !== undefined && seen.layouts.length > 1 && seen.layout !== "OFF";
+  return { layout: hasChoice ? seen.layout : "" };
+}
+
 const named = (names: readonly string[]): Option[] => names.map((name) => [name, name]);
 
 export function showDisplays(state: State, viewer: Viewer): void {
@@ -77,8 +94,8 @@ export function showDisplays(state: State, viewer: Viewer): void {
     const canvases = state.session.value?.canvases ?? [];
     const { output } = state;
     const seen = canvasOf(canvases, output.value.canvas);
-    // Eyes matter where somebody configured screens; not while all is made of the renderers.
-    const isConfigured = canvases.length > 1 || (seen?.segments.length ?? 0) > 1;
+    // Eyes matter there.
+    const isConfigured = hasScreens(canvases, seen);
     layout.offer(named(seen?.layouts ?? []), seen?.layout ?? "");
     canvas.offer(named(canvases.map(({ name }) => name)), seen?.name ?? "");
     segment.offer(

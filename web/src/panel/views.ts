@@ -9,6 +9,7 @@ import type { SharedView } from "../share";
 import type { State } from "../state";
 import type { Viewer } from "../viewer";
 import { copyText, download } from "./clipboard";
+import { configuredFor } from "./displays";
 import { button, byId, make } from "./element";
 import { onKeys } from "./keys";
 import { posterField } from "./poster";
@@ -83,7 +84,9 @@ function commands(state: State, viewer: Viewer) {
     }),
     command: withView((view) => {
       const throughWall = (state.shown.value?.seen ?? null) !== null;
-      const text = renderCommand(view, viewer.pictureSize, viewer.output, throughWall);
+      const canvases = state.session.value?.canvases ?? [];
+      const configured = configuredFor(canvases, viewer.output, throughWall);
+      const text = renderCommand(view, viewer.pictureSize, viewer.output, configured);
       return copy("Command", text);
     }),
     camera: withView((view) => copy("Camera", cameraJson(view.camera))),
