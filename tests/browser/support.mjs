@@ -124,9 +124,9 @@ export class Browser {
     return this.chromium.close();
   }
 
-  /** Another window at the same time, whose errors count, too. */
-  async openAnother(url) {
-    const page = await this.chromium.newPage();
+  /** Another window at the same time, on such a device, whose errors count, too. */
+  async openAnother(url, device = {}) {
+    const page = await this.chromium.newPage(device);
     page.on("pageerror", (error) => this.errors.push(String(error)));
     await page.goto(url);
     return page;
