@@ -14,6 +14,7 @@
 #include "renderer/draw/page_bounds.h"
 #include "renderer/draw/prefetch.h"
 #include "renderer/draw/tau_choice.h"
+#include "renderer/draw/terrain_ahead.h"
 #include "renderer/draw/terrain_error.h"
 #include "renderer/draw/terrain_ground.h"
 #include "renderer/draw/terrain_items.h"
@@ -39,24 +40,6 @@ constexpr double kElevationBands = 5;               ///< of effects/terrain.effe
 
 /// Where memory is short, texels grow as tau does.
 double texelPixels(int step) { return terrain::kTexelPixels * page::TauLadder::factor(step); }
-
-/// For Prefetch::nodes.
-struct TileTree {
-    using Node = terrain::TileId;
-
-    const terrain::EytIndex& index;
-
-    Node root() const { return index.quadtree.top(); }
-    fabric::Box bounds(const Node& tile) const { return index.bounds(tile); }
-    double errorMetres(const Node& tile) const { return index.tile(tile).greatestErrorMetres(); }
-    template <typename Visit>
-    void forEachChild(const Node& tile, const Visit& visit) const {
-        for (int i = 0; i < 4 && tile.level > 0; ++i)
-            if (const Node child = terrain::Quadtree::child(tile, i);
-                index.quadtree.contains(child) && index.tile(child).triangles > 0)
-                visit(child);
-    }
-};
 
 /// What a channel sees of a tile, as far as that is known at little cost.
 class SeenBlocks {
@@ -242,8 +225,10 @@ Cut TerrainDrawable::selectCut(const CutRequest& request) {
             ? paging_->reach(wanted.refinement, needed_, textures, request.view, request.turn,
                              request.stop)
             : paging_->approach(
-                  wanted.refinement, needed_, textures, request.view, request.turn,
-                  [&] { return prefetch.nodes(TileTree{index()}, tauPixels, paging_->latency()); });
+                  wanted.refinement, needed_, textures, request.view, request.turn, [&] {
+                      return itemsAhead(prefetch, index(), paging_->items(), tauPixels,
+                                        texelPixels(choice.step), paging_->latency());
+                  });
 
     Cut cut;
     cut.isComplete = result.pagesMissing == 0 && choice.isLowest;

@@ -54,17 +54,25 @@ MemoryUse TerrainItems::greatestUse() const {
     return {all, 2 * (all + greatestOfAllPages())};
 }
 
+/// As high as the smallest tile that holds all of it and draws anything.
 fabric::Box TerrainItems::boundsOf(const TextureId& texture) const {
     const double side = index_.imagery->pyramid.sidePosts(texture.level);
+    const TileId top = index_.quadtree.top();
+    int level = 0;
+    while (level < top.level && Quadtree::side(level) < side) ++level;
+    const double tiles = side / Quadtree::side(level);
+    TileId tile{level, static_cast<std::int32_t>(texture.x * tiles),
+                static_cast<std::int32_t>(texture.y * tiles)};
+    while (tile != top && index_.tile(tile).triangles == 0) tile = Quadtree::parent(tile);
+    const terrain::TileRecord& ground = index_.tile(tile);
     const double x1 = std::min(side * (texture.x + 1), index_.quadtree.columns() - 1.0);
     const double y1 = std::min(side * (texture.y + 1), index_.quadtree.rows() - 1.0);
-    const terrain::TileRecord& all = index_.tile(index_.quadtree.top());
     fabric::Box box;
     for (const double x : {side * texture.x, x1})
         for (const double y : {side * texture.y, y1}) {
             const fabric::Vec3 corner(index_.objectFromLattice * fabric::Vec4(x, y, 0, 1));
-            box.grow({corner.x, corner.y, all.minHeightMetres});
-            box.grow({corner.x, corner.y, all.maxHeightMetres});
+            box.grow({corner.x, corner.y, ground.minHeightMetres});
+            box.grow({corner.x, corner.y, ground.maxHeightMetres});
         }
     return box;
 }

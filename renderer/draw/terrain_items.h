@@ -51,9 +51,10 @@ public:
                                      const std::vector<terrain::TextureId>& textures,
                                      const lod::ObjectView& view) const;
 
-private:
+    /// Of the ground below it.
     fabric::Box boundsOf(const terrain::TextureId& texture) const;
 
+private:
     const terrain::EytIndex& index_;
     TextureFormat format_;
 };

@@ -284,9 +284,9 @@ TerrainPaging::Result TerrainPaging::approach(const Refinement& wanted, const Ne
     rankItems(order, drawnBytes, claim);
     claim.pages = missingPages();
     if (!isUrgent)
-        for (const TileId& tile : prefetch())
-            if (!isResident(tile))
-                claim.soon.push_back(index_.quadtree.pageIndex(tile));
+        for (const TerrainItem& item : prefetch())
+            if (!items_.contains(item.key))
+                claim.soon.push_back(item.page);
     claims_.rankOthers(turn, items_, 0);
     claims_.want(pages_);
     const page::HostPages::Loads loaded = pages_.tryTake();

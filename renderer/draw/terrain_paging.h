@@ -48,7 +48,7 @@ public:
         std::shared_ptr<const terrain::EytFile> file, page::Loader& loader,
         const TerrainMemory& limits, TextureFormat format, const TileDecoder* decoder);
 
-    using Prefetch = std::function<std::vector<terrain::TileId>()>;
+    using Prefetch = std::function<std::vector<TerrainItem>()>;
 
     /// What there is to draw.
     struct Result {
@@ -61,7 +61,7 @@ public:
 
     /// Goes towards `wanted` as far as it can without waiting: takes what the loader has, brings
     /// tiles to the device for a few milliseconds, and wishes for the rest; where nothing is
-    /// missing, for the pages of `prefetch()`: tiles that may be needed soon, likely ones first.
+    /// missing, for the pages of `prefetch()`: what may be needed soon, likely things first.
     /// `textures`: distinct ones, of those that the terrain has. Views that take turns spare each
     /// other's tiles, and their pages come by turns, too.
     Result approach(const terrain::Refinement& wanted, const NeededTiles& needed,

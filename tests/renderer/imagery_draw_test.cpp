@@ -333,6 +333,65 @@ TEST_F(ImageryDraw, ComesToTheCompletePictureFrameByFrame) {
     EXPECT_TRUE(last.image.colour == expected.image.colour);
 }
 
+/// Looking away from level ground, beside which the camera is: all pictures may be needed soon.
+TEST_F(ImageryDraw, WhatMayBeNeededSoonIsThereWhenTheCameraTurns) {
+    import(plain(193, 129, 10), 10, 1.25, pattern);
+    const auto textures = static_cast<std::uint64_t>(std::ranges::count_if(
+        file_->index().imagery->tiles, [](auto& tile) { return tile.bytes > 0; }));
+    ASSERT_GT(textures, 8U);
+    fabric::Camera camera;
+    camera.eye = {kWest - 100, kSouth + 640, kGround + 200};
+    camera.target = camera.eye - fabric::Vec3(1, 0, 0);
+    camera.fovYDegrees = 10;
+    const auto renderer = open(file_->path());
+    std::uint64_t loaded = 1;  // the top one
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+    while (loaded < textures && std::chrono::steady_clock::now() < end) {
+        const ChannelResult away = draw(*renderer, camera, Completeness::Interactive);
+        EXPECT_EQ(away.statistics.nodes, 0U);
+        EXPECT_TRUE(away.statistics.complete);
+        loaded += away.statistics.pagesLoaded;
+    }
+    EXPECT_EQ(loaded, textures);
+    camera.target = camera.eye + fabric::Vec3(1, 0, -0.2);
+    ChannelResult turned = draw(*renderer, camera, Completeness::Interactive);
+    while (!turned.statistics.complete && std::chrono::steady_clock::now() < end) {
+        EXPECT_EQ(turned.statistics.pagesLoaded, 0U);
+        turned = draw(*renderer, camera, Completeness::Interactive);
+    }
+    EXPECT_EQ(turned.statistics.pagesLoaded, 0U);
+    EXPECT_TRUE(turned.statistics.complete);
+    EXPECT_TRUE(turned.image.colour == draw(*open(file_->path()), camera).image.colour);
+}
+
+/// Beside ground so far away that the finest level would not be drawn there.
+TEST_F(ImageryDraw, PicturesFarAwayAreFetchedAsCoarseAsTheyWouldBeDrawn) {
+    import(plain(193, 129, 10), 10, 1.25, pattern);
+    const terrain::TexturePyramid& pyramid = file_->index().imagery->pyramid;
+    const auto inLevels = [&](int first) {
+        std::uint64_t count = 0;
+        for (std::uint32_t i = 0; i < pyramid.tileCount(); ++i)
+            count += pyramid.tileOf(i).level >= first && file_->index().imagery->tiles[i].bytes > 0
+                         ? 1
+                         : 0;
+        return count;
+    };
+    fabric::Camera camera;
+    // Texels of level 1 are 2.5 m: 1.1 pixels there, where up to 1.4 will do.
+    camera.eye = {kWest - 4000, kSouth + 640, kGround + 10};
+    camera.target = camera.eye - fabric::Vec3(1, 0, 0);
+    camera.fovYDegrees = 360 / M_PI * std::atan(kHeight / 2.0 * 2.5 / 1.1 / 4000);
+    const auto renderer = open(file_->path());
+    std::uint64_t loaded = 1;
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+    while (loaded < inLevels(1) && std::chrono::steady_clock::now() < end)
+        loaded += draw(*renderer, camera, Completeness::Interactive).statistics.pagesLoaded;
+    for (int i = 0; i < 100; ++i)
+        loaded += draw(*renderer, camera, Completeness::Interactive).statistics.pagesLoaded;
+    EXPECT_EQ(loaded, inLevels(1));
+    EXPECT_LT(inLevels(1), inLevels(0));
+}
+
 TEST_F(ImageryDraw, KeepsWithinTheDevicesMemoryByCoarserTexels) {
     import(plain(193, 129, 10), 10, 1.25, pattern);
     const Overhead view{{kWest + 960, kSouth + 640}, 1};

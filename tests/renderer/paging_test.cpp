@@ -351,6 +351,40 @@ TEST_F(Paging, TooLittleMemoryForAPageKeepsTheSceneFromOpening) {
     EXPECT_TRUE(absl::IsResourceExhausted((*renderer)->openScene(scene_).status()));
 }
 
+/// Looking away from the terrain, beside which the camera is, through a lens as long as makes all
+/// of it what may be needed soon.
+TEST_F(Paging, WhatMayBeNeededSoonIsThereWhenTheCameraTurns) {
+    const auto pages = static_cast<std::uint64_t>(
+        std::ranges::count_if(file_->index().pages, [](auto& page) { return page.bytes > 0; }));
+    const fabric::Box box = file_->index().bounds();
+    Camera camera;
+    camera.eye = {box.min.x - 500, box.centre().y, box.max.z + 500};
+    camera.target = camera.eye - Vec3(1, 0, 0);
+    camera.fovYDegrees = 2;
+    const auto renderer = open(scene_.objects[0].path);
+    std::uint64_t loaded = 1;  // the top tile's
+    const auto end = std::chrono::steady_clock::now() + kPatience;
+    while (loaded < pages && std::chrono::steady_clock::now() < end) {
+        const ChannelResult away = draw(*renderer, camera, Completeness::Interactive, 0.01);
+        EXPECT_EQ(away.statistics.nodes, 0U);
+        EXPECT_TRUE(away.statistics.complete);
+        loaded += away.statistics.pagesLoaded;
+    }
+    EXPECT_EQ(loaded, pages);
+    camera.target = camera.eye + Vec3(1, 0, -0.4);
+    camera.fovYDegrees = Camera().fovYDegrees;
+    ChannelResult turned = draw(*renderer, camera, Completeness::Interactive, 0.1);
+    while (!turned.statistics.complete && std::chrono::steady_clock::now() < end) {
+        EXPECT_EQ(turned.statistics.pagesLoaded, 0U);
+        turned = draw(*renderer, camera, Completeness::Interactive, 0.1);
+    }
+    EXPECT_EQ(turned.statistics.pagesLoaded, 0U);
+    EXPECT_GT(turned.statistics.nodes, 10U);
+    const ChannelResult complete =
+        draw(*open(scene_.objects[0].path), camera, Completeness::Complete, 0.1);
+    EXPECT_EQ(different(turned.image, complete.image), 0U);
+}
+
 class LittleMemory : public Paging, public testing::WithParamInterface<bool> {
 protected:
     /// Inside the coarser tiles' bounds, where no finite error is promised, or clear of them.
