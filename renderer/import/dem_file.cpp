@@ -246,7 +246,8 @@ fabric::Vec2 centreOf(const DemFile& file) {
            file.reference.perRow * (file.rows * 0.5);
 }
 
-absl::StatusOr<DemFile> openDemFile(const std::string& path, QuietGdal& gdal) {
+absl::StatusOr<DemFile> openDemFile(const std::string& path, QuietGdal& gdal,
+                                    const std::string& hashFolder) {
     DemFile file;
     file.path = path;
     ASSIGN_OR_RETURN(
@@ -269,7 +270,7 @@ absl::StatusOr<DemFile> openDemFile(const std::string& path, QuietGdal& gdal) {
     ASSIGN_OR_RETURN(file.reference, georeferenceOf(path, dataset.get(), file.notes));
     if (crs != nullptr)
         file.crs.reset(OSRClone(crs));
-    ASSIGN_OR_RETURN(file.hash, rasterHash(path, dataset.get()));
+    ASSIGN_OR_RETURN(file.hash, rasterHash(path, dataset.get(), hashFolder));
     const auto impossible = std::make_shared<std::optional<ImpossibleHeight>>();
     file.impossible = impossible;
     file.dataset.reset(

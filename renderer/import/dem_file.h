@@ -44,6 +44,7 @@ fabric::Vec2 centreOf(const DemFile& file);
 
 /// Looks at everything but the pixels. Errors: those of openRaster; InvalidArgument (not heights,
 /// no usable georeference).
-absl::StatusOr<DemFile> openDemFile(const std::string& path, QuietGdal& gdal);
+absl::StatusOr<DemFile> openDemFile(const std::string& path, QuietGdal& gdal,
+                                    const std::string& hashFolder);
 
 }  // namespace eyrie::import

@@ -494,7 +494,7 @@ absl::StatusOr<DemSource> openAsItIs(DemFile file) {
 }  // namespace
 
 absl::StatusOr<DemSource> openDems(const std::vector<std::string>& paths,
-                                   const ImportControl& control) {
+                                   const ImportControl& control, const std::string& hashFolder) {
     QuietGdal gdal;
     GDALSetCacheMax64(static_cast<GIntBig>(kCacheBytes));
     std::vector<DemFile> files;
@@ -503,7 +503,7 @@ absl::StatusOr<DemSource> openDems(const std::vector<std::string>& paths,
         RETURN_IF_ERROR(control.check());
         control.report("checking",
                        static_cast<double>(files.size()) / static_cast<double>(paths.size()));
-        ASSIGN_OR_RETURN(DemFile file, openDemFile(path, gdal));
+        ASSIGN_OR_RETURN(DemFile file, openDemFile(path, gdal, hashFolder));
         hash = files.empty() ? file.hash : hash * 0x9e3779b97f4a7c15 + file.hash;
         files.push_back(std::move(file));
     }

@@ -42,11 +42,13 @@ struct DemSource {
 /// NaN, infinities, magnitudes from 1e30, and -32768 in 16-bit rasters; what of this the file does
 /// not itself call nodata is among the posts' findings.
 ///
-/// Reports as "checking" while it reads the files for their hash. Errors, naming file and field:
+/// Reports as "checking" while it reads the files for their hash, unless that is in `hashFolder`
+/// (fileHash; empty: there is none). Errors, naming file and field:
 /// NotFound, InvalidArgument (no raster, not heights, less than 2 x 2 posts, no usable
 /// georeference, not to be brought together), ResourceExhausted (more posts than an .eyt holds).
 /// Posts that cannot be read are DataLoss. Nothing is printed, no file is written.
 absl::StatusOr<DemSource> openDems(const std::vector<std::string>& paths,
-                                   const ImportControl& control);
+                                   const ImportControl& control,
+                                   const std::string& hashFolder = "");
 
 }  // namespace eyrie::import

@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "fabric/status.h"
+#include "renderer/import/file_hash.h"
 #include "renderer/import/terrain_choices.h"
 #include "renderer/terrain/quadtree.h"
 #include "renderer/terrain/tile_progress.h"
@@ -171,6 +172,7 @@ void PartSet::remove() {
         removeAbandoned(part);
         removeAbandoned(facts);
     }
+    removeNotedHashes(partsFolder(out_));
     rmdir(partsFolder(out_).c_str());  // unless there is something else in it
 }
 

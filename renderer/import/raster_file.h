@@ -30,7 +30,9 @@ std::vector<std::string> filesOf(GDALDatasetH raster);
 /// Each once, so that rasters that name each other come to an end.
 std::vector<std::string> allFilesOf(GDALDatasetH raster);
 
-/// As in raster_hash.h, of a raster that is open: by `path`.
-absl::StatusOr<std::uint64_t> rasterHash(const std::string& path, GDALDatasetH raster);
+/// As in raster_hash.h, of a raster that is open: by `path`. Its files' hashes are shared in
+/// `hashFolder`, as fileHash says; empty: not at all.
+absl::StatusOr<std::uint64_t> rasterHash(const std::string& path, GDALDatasetH raster,
+                                         const std::string& hashFolder);
 
 }  // namespace eyrie::import

@@ -273,7 +273,8 @@ absl::StatusOr<TerrainImportReport> importTerrain(const std::vector<std::string>
                                                   const TerrainImportOptions& options,
                                                   const ImportControl& control) {
     const ThreadLimit threads(options.threads);
-    ASSIGN_OR_RETURN(DemSource source, openDems(dems, control));
+    ASSIGN_OR_RETURN(DemSource source,
+                     openDems(dems, control, options.mergesParts ? partsFolder(out) : ""));
     const std::string name = dems.size() == 1
                                  ? dems.front()
                                  : fmt::format("{} and {} more", dems.front(), dems.size() - 1);

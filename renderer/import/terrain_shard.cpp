@@ -6,11 +6,13 @@
 
 #include <fmt/format.h>
 #include <sys/stat.h>
+#include <unistd.h>
 #include <xxhash.h>
 
 #include "fabric/status.h"
 #include "renderer/import/dem_source.h"
 #include "renderer/import/elevation_reading.h"
+#include "renderer/import/file_hash.h"
 #include "renderer/import/imagery_pages.h"
 #include "renderer/import/imagery_source.h"
 #include "renderer/import/page_line.h"
@@ -186,6 +188,25 @@ absl::Status makeFolder(const std::string& folder) {
     return fabric::writeError(folder, "cannot be made", errno);
 }
 
+/// Notes the hashes of large files for openDems. Each shard begins elsewhere, so that those that
+/// start together do not all read the same file.
+absl::Status noteHashes(const std::vector<std::string>& dems, const Shard& shard,
+                        const std::string& folder, const ImportControl& control) {
+    const std::size_t first = dems.size() * shard.index / shard.count;
+    for (std::size_t k = 0; k < dems.size(); ++k) {
+        RETURN_IF_ERROR(control.check());
+        control.report("checking", static_cast<double>(k) / static_cast<double>(dems.size()));
+        noteHash(dems[(first + k) % dems.size()], folder);
+    }
+    return absl::OkStatus();
+}
+
+absl::StatusOr<DemSource> openShared(const std::vector<std::string>& dems, const Shard& shard,
+                                     const std::string& folder, const ImportControl& control) {
+    RETURN_IF_ERROR(noteHashes(dems, shard, folder, control));
+    return openDems(dems, control, folder);
+}
+
 }  // namespace
 
 absl::StatusOr<TerrainShardReport> importTerrainShard(HeightSource& posts,
@@ -216,7 +237,12 @@ absl::StatusOr<TerrainShardReport> importTerrainShard(const std::vector<std::str
                                                       const ImportControl& control) {
     RETURN_IF_ERROR(checkShard(shard));
     const ThreadLimit threads(options.threads);
-    ASSIGN_OR_RETURN(DemSource source, openDems(dems, control));
+    const std::string folder = partsFolder(out);
+    RETURN_IF_ERROR(makeFolder(folder));
+    absl::StatusOr<DemSource> opened = openShared(dems, shard, folder, control);
+    if (!opened.ok())
+        rmdir(folder.c_str());  // unless there is something in it
+    ASSIGN_OR_RETURN(const DemSource source, std::move(opened));
     const std::string name = dems.size() == 1
                                  ? dems.front()
                                  : fmt::format("{} and {} more", dems.front(), dems.size() - 1);
