@@ -131,8 +131,11 @@ std::string configurationName(const ConfigOptions& options) {
     return error ? options.file : path.lexically_normal().string();
 }
 
-int renderersOf(const config::Configuration& configuration) {
-    const coordinator::ActiveConfiguration active(configuration);
+int renderersOf(const config::Configuration& configuration,
+                std::span<const coordinator::CanvasStatus> shown) {
+    coordinator::ActiveConfiguration active(configuration);
+    for (const coordinator::CanvasStatus& canvas : shown)
+        (void)active.switchLayout(canvas.name, canvas.layout);  // which shows it: it has it
     return std::max(1, static_cast<int>(active.pipes().size()));
 }
 

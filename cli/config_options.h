@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -41,7 +42,8 @@ absl::StatusOr<std::optional<config::Configuration>> configurationOf(const Confi
 /// What settings of the configuration are kept for: where its file lies; empty without one.
 std::string configurationName(const ConfigOptions& options);
 
-/// How many renderers what is shown at first can use.
-int renderersOf(const config::Configuration& configuration);
+/// How many renderers what is shown at first, or by these canvases, can use.
+int renderersOf(const config::Configuration& configuration,
+                std::span<const coordinator::CanvasStatus> shown = {});
 
 }  // namespace eyrie::cli

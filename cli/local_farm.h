@@ -31,6 +31,9 @@ public:
     /// Starts `count` renderer processes; returns at once. Called once.
     void startRenderers(int count);
 
+    /// There are to be `count` renderer processes from now on, once some have been started.
+    void setRenderers(int count) { renderers_->setCount(count); }
+
     /// Waits until `count` renderers are there and frames can be had. Errors: FailedPrecondition
     /// (none can work here; they have said why), DeadlineExceeded (with what is amiss), Cancelled.
     absl::Status awaitRenderers(int count, std::chrono::milliseconds limit,

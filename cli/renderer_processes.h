@@ -15,7 +15,7 @@
 namespace eyrie::cli {
 
 struct RendererProcessesOptions {
-    int count = 1;             ///< 1 to RendererProcesses::kMaxCount
+    int count = 1;             ///< at first, 1 to RendererProcesses::kMaxCount
     std::string coordinator;   ///< where they register
     std::vector<int> devices;  ///< EGL devices, taken in turn; empty: each takes the first it finds
     CacheOptions cache;
@@ -38,9 +38,14 @@ public:
     RendererProcesses(const RendererProcesses&) = delete;
     RendererProcesses& operator=(const RendererProcesses&) = delete;
 
+    /// There are to be `count` of them, 1 to kMaxCount, from now on; returns at once. Those that
+    /// are too many leave after a while in which they may be wanted again: they finish what they
+    /// have. Any thread.
+    void setCount(int count) { count_ = count; }
+
     /// Whether each has failed before it ever worked, as without EGL. Each has then said why on
     /// standard error. Any thread.
-    bool allFailed() const { return failed_ == options_.count; }
+    bool allFailed() const { return allFailed_; }
 
 private:
     class Slot;
@@ -48,7 +53,8 @@ private:
 
     const RendererProcessesOptions options_;
     const TemporaryFolder& sockets_;
-    std::atomic<int> failed_{0};
+    std::atomic<int> count_;
+    std::atomic<bool> allFailed_{false};
     std::jthread thread_;  ///< starts the children: they end with it
 };
 

@@ -63,22 +63,42 @@ void announce(const std::string& url, const coordinator::Status& status, bool qu
                device.platform, device.software ? ", software" : "");
 }
 
-/// Until the user has had enough; an error when no renderer can work.
-absl::Status serveUntilStopped(const LocalFarm& farm, const std::stop_token& stop) {
+using Shown = std::vector<coordinator::CanvasStatus>;
+
+/// As many renderers as somebody asked for; as many as what is shown of the configuration uses; as
+/// many as suit this machine.
+class RendererCount {
+public:
+    RendererCount(int asked, const std::optional<config::Configuration>& configuration)
+        : fixed_(asked > 0 || configuration ? asked
+                                            : RendererProcesses::suitableCount(hardwareDevices())),
+          configuration_(configuration) {}
+
+    bool isFixed() const { return fixed_ > 0; }
+    int of(const Shown& shown) const {
+        if (isFixed())
+            return fixed_;
+        return std::min(renderersOf(*configuration_, shown), RendererProcesses::kMaxCount);
+    }
+
+private:
+    const int fixed_;  ///< 0: it depends
+    const std::optional<config::Configuration> configuration_;
+};
+
+/// Until the user has had enough; an error when no renderer can work. Renderers come and go with
+/// what is `shown`.
+absl::Status serveUntilStopped(LocalFarm& farm, const RendererCount& count, Shown shown,
+                               const std::stop_token& stop) {
     while (!stop.stop_requested()) {
         RETURN_IF_ERROR(farm.check());
+        if (Shown now = farm.frames().status().canvases; !count.isFixed() && now != shown) {
+            shown = std::move(now);
+            farm.setRenderers(count.of(shown));
+        }
         std::this_thread::sleep_for(kPollInterval);
     }
     return absl::OkStatus();
-}
-
-/// As asked for; as many as the configuration uses; as many as suit this machine.
-int rendererCount(const Options& options,
-                  const std::optional<config::Configuration>& configuration) {
-    if (options.renderers > 0)
-        return options.renderers;
-    return configuration ? std::min(renderersOf(*configuration), RendererProcesses::kMaxCount)
-                         : RendererProcesses::suitableCount(hardwareDevices());
 }
 
 absl::StatusOr<coordinator::CoordinatorOptions> settingsOf(const Options& options,
@@ -107,7 +127,7 @@ absl::Status serve(const Options& options) {
     ASSIGN_OR_RETURN(const Doors doors, doorsOf(options.door));
     ASSIGN_OR_RETURN(const video::Module* video, videoModule(options.h264));
     ASSIGN_OR_RETURN(coordinator::CoordinatorOptions settings, settingsOf(options, doors));
-    const int renderers = rendererCount(options, settings.configuration);
+    const RendererCount count(options.renderers, settings.configuration);
     auto started = LocalFarm::start(std::move(settings), options.cache, options.decoding);
     if (absl::IsUnavailable(started.status()) && !options.grpc.empty())
         return fabric::withContext(absl::InvalidArgumentError(started.status().message()),
@@ -118,7 +138,8 @@ absl::Status serve(const Options& options) {
     ASSIGN_OR_RETURN(fabric::Scene scene,
                      loadScene(options.data, options.cache, options.quiet, stop.token()));
     RETURN_IF_ERROR(farm->coordinator().setScene(std::move(scene)));
-    farm->startRenderers(renderers);
+    const Shown shown = farm->frames().status().canvases;
+    farm->startRenderers(count.of(shown));
     const absl::Status ready = farm->awaitRenderers(1, kFirstRendererLimit, stop.token());
     RETURN_IF_ERROR(farm->check());
     if (absl::IsDeadlineExceeded(ready))
@@ -130,7 +151,7 @@ absl::Status serve(const Options& options) {
         fmt::print("Programs call by gRPC at {}\n", farm->coordinator().grpcAddresses().back());
         std::fflush(stdout);
     }
-    absl::Status end = serveUntilStopped(*farm, stop.token());
+    absl::Status end = serveUntilStopped(*farm, count, shown, stop.token());
     closeWebDoor(*door, farm->coordinator());  // while there are renderers
     return end;
 }
@@ -158,7 +179,8 @@ void addServe(CLI::App& app, Run& run) {
         ->type_name("HOST:PORT|unix:/PATH");
     command
         ->add_option("--renderers", options->renderers,
-                     "Renderer processes [as many as --config uses; one a GPU; without, two]")
+                     "Renderer processes [as many as the layouts that --config shows use, at any "
+                     "time; one a GPU; without, two]")
         ->check(CLI::Range(1, RendererProcesses::kMaxCount));
     command
         ->add_option(

@@ -3,6 +3,7 @@
 // renderer, and leaves nothing behind.
 #include <algorithm>
 #include <cstdlib>
+#include <fstream>
 #include <span>
 
 #include <fmt/format.h>
@@ -29,17 +30,20 @@ constexpr int kHeight = 360;
 /// A server of the demo's scene with a temporary folder and a cache of its own.
 class Serve : public testing::Test {
 protected:
-    void start(const std::string& listen = "127.0.0.1:0") {
+    void start(const std::string& listen = "127.0.0.1:0",
+               const std::vector<std::string>& how = {"--renderers", "2"}) {
         std::filesystem::create_directory(folder_.path("tmp"));
+        std::vector<std::string> arguments{"serve", EYRIE_SOURCE_DIR "/demo/scene.json", "--listen",
+                                           listen};
+        arguments.insert(arguments.end(), how.begin(), how.end());
         server_ = std::make_unique<test::Process>(
-            test::eyrieCommand({"serve", EYRIE_SOURCE_DIR "/demo/scene.json", "--listen", listen,
-                                "--renderers", "2"}),
+            test::eyrieCommand(arguments),
             std::vector<std::string>{"TMPDIR=" + folder_.path("tmp"),
                                      "XDG_CACHE_HOME=" + folder_.path("cache")});
     }
 
-    void startAndWait() {
-        start();
+    void startAndWait(const std::vector<std::string>& how = {"--renderers", "2"}) {
+        start("127.0.0.1:0", how);
         ASSERT_TRUE(server_->waitForOutput("Eyrie is at http://", seconds(60)) &&
                     server_->waitForOutput("/\n", seconds(1)))
             << server_->output() << server_->errors();
@@ -48,6 +52,26 @@ protected:
         port_ = static_cast<std::uint16_t>(std::atoi(line.c_str() + port));
         ASSERT_TRUE(test::eventually(seconds(30), [&] { return aliveRenderers() == 2; }))
             << server_->errors();
+    }
+
+    /// By a configuration of two pipes, both of which one layout uses, and one the other.
+    void startWithLayouts() {
+        std::ofstream(folder_.path("layouts.eqc"))
+            << "config { appNode { pipe { window { channel { name \"a\" } } } "
+               "pipe { window { channel { name \"b\" } } } } "
+               "layout { name \"both\" view { } } layout { name \"one\" view { } } "
+               "canvas { layout \"both\" layout \"one\" segment { channel \"a\" } } "
+               "compound { channel ( layout \"both\" view 0 ) compound { viewport [ 0 0 .5 1 ] } "
+               "compound { channel \"b\" viewport [ .5 0 .5 1 ] outputframe { } } "
+               "inputframe { name \"frame.b\" } } compound { channel ( layout \"one\" view 0 ) } }";
+        startAndWait({"--config", folder_.path("layouts.eqc")});
+    }
+
+    void show(const std::string& layout) const {
+        const auto answer =
+            test::httpPatch(port_, "/api/v1/configuration",
+                            R"({"layouts":[{"canvas":"0","layout":")" + layout + R"("}]})");
+        ASSERT_TRUE(answer.ok() && answer->status == 200) << server_->errors();
     }
 
     int httpStatus(const std::string& target) const {
@@ -187,6 +211,41 @@ TEST_F(Serve, GoesOnWhenARendererIsKilledAndReplacesIt) {
     const auto after = viewer->frameOf(nextView(*viewer), seconds(10));
     ASSERT_TRUE(after.ok()) << after.status();
     expectPicture(*after);
+}
+
+TEST_F(Serve, StartsAndEndsRenderersAsTheLayoutsThatAreShownUseThem) {
+    ASSERT_NO_FATAL_FAILURE(startWithLayouts());
+    auto viewer = connectViewer();
+    ASSERT_NE(viewer, nullptr);
+    ASSERT_NO_FATAL_FAILURE(awaitScene(*viewer));
+    // Frames keep coming until there are so many renderers, and go on with them.
+    const auto expectFramesUntilThereAre = [&](std::size_t renderers) {
+        ASSERT_TRUE(test::eventually(seconds(30),
+                                     [&] {
+                                         const auto frame =
+                                             viewer->frameOf(nextView(*viewer), seconds(10));
+                                         EXPECT_TRUE(frame.ok()) << frame.status();
+                                         if (frame.ok())
+                                             expectPicture(*frame);
+                                         return rendererProcesses().size() == renderers &&
+                                                aliveRenderers() == static_cast<int>(renderers);
+                                     }))
+            << renderers << "; " << server_->errors();
+    };
+    ASSERT_EQ(rendererProcesses().size(), 2U);
+    ASSERT_NO_FATAL_FAILURE(show("one"));
+    ASSERT_NO_FATAL_FAILURE(expectFramesUntilThereAre(1));
+    ASSERT_NO_FATAL_FAILURE(show("both"));
+    ASSERT_NO_FATAL_FAILURE(expectFramesUntilThereAre(2));
+    EXPECT_EQ(server_->errors().find("could not draw"), std::string::npos) << server_->errors();
+}
+
+TEST_F(Serve, EndsARendererThatHangsWhenItIsToLeave) {
+    ASSERT_NO_FATAL_FAILURE(startWithLayouts());
+    for (const pid_t renderer : rendererProcesses()) kill(renderer, SIGSTOP);
+    ASSERT_NO_FATAL_FAILURE(show("OFF"));
+    EXPECT_TRUE(test::eventually(seconds(30), [&] { return rendererProcesses().size() == 1; }))
+        << server_->errors();
 }
 
 TEST_F(Serve, SurvivesTheLossOfAllRenderersAtOnce) {

@@ -52,15 +52,14 @@ absl::StatusOr<std::string> readToEnd(const Socket& socket, Clock::time_point en
     }
 }
 
-}  // namespace
-
-absl::StatusOr<HttpAnswer> httpGet(std::uint16_t port, const std::string& target,
-                                   std::chrono::milliseconds limit) {
+/// `rest`: what follows the headers that every request has, headers of its own first.
+absl::StatusOr<HttpAnswer> ask(std::uint16_t port, const std::string& line, const std::string& rest,
+                               std::chrono::milliseconds limit) {
     const Socket socket;
     if (const absl::Status status = connectTo(socket, port); !status.ok())
         return status;
     const std::string request = fmt::format(
-        "GET {} HTTP/1.1\r\nHost: 127.0.0.1:{}\r\nConnection: close\r\n\r\n", target, port);
+        "{} HTTP/1.1\r\nHost: 127.0.0.1:{}\r\nConnection: close\r\n{}", line, port, rest);
     if (send(socket.id, request.data(), request.size(), MSG_NOSIGNAL) !=
         static_cast<ssize_t>(request.size()))
         return absl::UnavailableError("the request could not be sent");
@@ -72,6 +71,21 @@ absl::StatusOr<HttpAnswer> httpGet(std::uint16_t port, const std::string& target
         return absl::InternalError("the answer is no HTTP/1.1");
     return HttpAnswer{std::atoi(text->c_str() + 9), text->substr(0, blank),
                       text->substr(blank + 4)};
+}
+
+}  // namespace
+
+absl::StatusOr<HttpAnswer> httpGet(std::uint16_t port, const std::string& target,
+                                   std::chrono::milliseconds limit) {
+    return ask(port, "GET " + target, "\r\n", limit);
+}
+
+absl::StatusOr<HttpAnswer> httpPatch(std::uint16_t port, const std::string& target,
+                                     const std::string& json, std::chrono::milliseconds limit) {
+    return ask(port, "PATCH " + target,
+               fmt::format("Content-Type: application/json\r\nContent-Length: {}\r\n\r\n{}",
+                           json.size(), json),
+               limit);
 }
 
 }  // namespace eyrie::test

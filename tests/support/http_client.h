@@ -20,4 +20,9 @@ struct HttpAnswer {
 absl::StatusOr<HttpAnswer> httpGet(std::uint16_t port, const std::string& target,
                                    std::chrono::milliseconds limit = std::chrono::seconds(10));
 
+/// The same with PATCH and a body of JSON.
+absl::StatusOr<HttpAnswer> httpPatch(std::uint16_t port, const std::string& target,
+                                     const std::string& json,
+                                     std::chrono::milliseconds limit = std::chrono::seconds(10));
+
 }  // namespace eyrie::test
