@@ -55,7 +55,8 @@ bool ViewTurns::hasBeenSeen(const lod::Channel& channel, const lod::Channel& las
 ViewTurns::Known& ViewTurns::add(const lod::Channel& channel) {
     if (known_.size() == kMost)
         known_.erase(std::ranges::min_element(known_, {}, &Known::drawn));
-    return known_.emplace_back(++lastName_, channel);
+    known_.push_back({++lastName_, channel});
+    return known_.back();
 }
 
 ViewTurn ViewTurns::next(const lod::Channel& channel, fabric::Completeness completeness) {

@@ -11,6 +11,8 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
+#include "renderer/draw/view_turns.h"
+
 namespace eyrie::draw {
 namespace {
 
@@ -115,6 +117,25 @@ TEST(Prefetch, LooksAheadAsFarAsLoadingTakes) {
     EXPECT_NEAR(finestAt(milliseconds(100), milliseconds(500)), 260, 3);        // 100 m a second
     EXPECT_NEAR(finestAt(milliseconds(100), std::chrono::hours(1)), 310, 3);    // a second at most
     EXPECT_NEAR(finestAt(std::chrono::seconds(5), milliseconds(500)), 210, 3);  // it had rested
+}
+
+/// Not between them, as if a camera flew to and fro.
+TEST(Prefetch, OfViewsByTurnsIsAroundEachOfThem) {
+    const Row row;
+    ViewTurns turns;
+    PerView<Prefetch> prefetches;
+    auto now = Prefetch::Clock::time_point(std::chrono::hours(1));
+    for (int round = 0; round < 6; ++round)
+        for (const double x : {200.0, 800.0}) {
+            const lod::View view = viewAt({x, 0, 0});
+            const ViewTurn turn =
+                turns.next({view, {}, {0, 0, kSide, kSide}}, fabric::Completeness::Interactive);
+            Prefetch& prefetch = prefetches.of(turn);
+            prefetch.follow(view, fabric::Mat4(1), now += milliseconds(10));
+            if (round > 2) {
+                EXPECT_EQ(prefetch.nodes(row, kTau, milliseconds(100)), aroundEye(row, view));
+            }
+        }
 }
 
 TEST(Prefetch, IsOfTheObjectWhereItIsPlaced) {
