@@ -98,11 +98,9 @@ coordinator::KeptConfiguration StateFile::configuration() const {
 }
 
 void StateFile::keep(const coordinator::KeptConfiguration& configuration) {
-    v1::KeptConfiguration message = toMessage(configuration, configurationFile_);
+    const v1::KeptConfiguration message = toMessage(configuration, configurationFile_);
     const std::lock_guard lock(mutex_);
-    v1::KeptState state = *state_;
-    *state.mutable_configuration() = std::move(message);
-    change(state);
+    change(message, *state_->mutable_configuration());
 }
 
 v1::KeptScene StateFile::scene() const {
@@ -112,22 +110,19 @@ v1::KeptScene StateFile::scene() const {
 
 void StateFile::keep(const v1::KeptScene& scene) {
     const std::lock_guard lock(mutex_);
-    v1::KeptState state = *state_;
-    *state.mutable_scene() = scene;
-    change(state);
+    change(scene, *state_->mutable_scene());
 }
 
 void StateFile::forgetScene() {
     const std::lock_guard lock(mutex_);
-    v1::KeptState state = *state_;
-    state.clear_scene();
-    change(state);
+    change(v1::KeptScene(), *state_->mutable_scene());
 }
 
-void StateFile::change(const v1::KeptState& state) {
-    if (MessageDifferencer::Equals(state, *state_))
+template <typename Message>
+void StateFile::change(const Message& now, Message& part) {
+    if (MessageDifferencer::Equals(now, part))
         return;
-    *state_ = state;
+    part = now;
     isWritten_ = false;
     changed_.notify_all();
 }

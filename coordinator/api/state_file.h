@@ -44,7 +44,9 @@ public:
     void forgetScene();
 
 private:
-    void change(const v1::KeptState& state);
+    /// Puts `now` into the place of `part`, of state_.
+    template <typename Message>
+    void change(const Message& now, Message& part);
     void writeChanges(const std::stop_token& stop);
     bool write(const std::string& text);
 
