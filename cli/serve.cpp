@@ -92,10 +92,11 @@ absl::Status serveUntilStopped(LocalFarm& farm, const RendererCount& count, Show
                                const std::stop_token& stop) {
     while (!stop.stop_requested()) {
         RETURN_IF_ERROR(farm.check());
-        if (Shown now = farm.frames().status().canvases; !count.isFixed() && now != shown) {
-            shown = std::move(now);
-            farm.setRenderers(count.of(shown));
-        }
+        if (!count.isFixed())
+            if (Shown now = farm.frames().status().canvases; now != shown) {
+                shown = std::move(now);
+                farm.setRenderers(count.of(shown));
+            }
         std::this_thread::sleep_for(kPollInterval);
     }
     return absl::OkStatus();
