@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/scene_files.h"
 
+#include <array>
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -25,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t kMaxTextBytes = 64 << 20;
+constexpr std::size_t kMaxTextBytes = 64 << 20;
 
 fabric::SceneObject objectOf(const std::string& path) {
     const DataFile file = dataFileOf(path);
@@ -110,12 +112,17 @@ absl::StatusOr<std::string> readText(const std::string& path) {
         return absl::NotFoundError(fmt::format("{}: no such file", path));
     if (fs::is_directory(status))
         return absl::InvalidArgumentError(fmt::format("{}: this is a folder, not a file", path));
-    if (fs::is_regular_file(status) && fs::file_size(path, error) > kMaxTextBytes)
-        return absl::InvalidArgumentError(
-            fmt::format("{}: larger than 64 MiB, so it is no scene or camera file", path));
     std::ifstream in(path, std::ios::binary);
-    std::string text(std::istreambuf_iterator<char>(in), {});
-    if (!in)
+    std::string text;
+    std::array<char, 1 << 16> piece;
+    while (in && text.size() <= kMaxTextBytes) {
+        in.read(piece.data(), piece.size());
+        text.append(piece.data(), static_cast<std::size_t>(in.gcount()));
+    }
+    if (text.size() > kMaxTextBytes)  // a device may have no end
+        return absl::InvalidArgumentError(
+            fmt::format("{}: larger than 64 MiB, so it is no scene, flight or camera file", path));
+    if (!in.eof())
         return absl::InvalidArgumentError(fmt::format("{}: cannot be read", path));
     return text;
 }

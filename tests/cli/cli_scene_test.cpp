@@ -366,6 +366,12 @@ TEST_F(SceneFiles, WhatIsMissingIsNotFound) {
     EXPECT_TRUE(absl::IsInvalidArgument(readText(folder_.path().string()).status()));
 }
 
+TEST_F(SceneFiles, OfWhatHasNoEndNoMoreIsReadThanATextMayHave) {
+    const absl::Status status = readText("/dev/zero").status();
+    EXPECT_TRUE(absl::IsInvalidArgument(status));
+    EXPECT_THAT(std::string(status.message()), testing::StartsWith("/dev/zero: larger than"));
+}
+
 TEST(OverlapsInPlan, LooksAtTheGroundPlanAlone) {
     const fabric::Box a{{0, 0, 0}, {1, 1, 1}};
     EXPECT_TRUE(overlapsInPlan(a, {{0.5, 0.5, 90}, {2, 2, 99}}));
