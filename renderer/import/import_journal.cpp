@@ -62,7 +62,7 @@ ImportJournal::~ImportJournal() {
 
 absl::StatusOr<ImportJournal> ImportJournal::open(const std::string& path, std::uint64_t key,
                                                   bool startsOver) {
-    const int fd = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+    const int fd = ::open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0644);
     if (fd < 0)
         return fabric::writeError(path, "cannot be written", errno);
     ImportJournal journal(path, fd, key);

@@ -158,9 +158,10 @@ absl::StatusOr<EytWriter> EytWriter::create(const std::string& path) {
 
 absl::StatusOr<EytWriter> EytWriter::resume(const std::string& path) {
     std::string partialPath = path + ".partial";
-    const int fd = open(partialPath.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+    // Never through a link: what that leads to is somebody else's.
+    const int fd = open(partialPath.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0644);
     if (fd < 0)
-        return fabric::writeError(path, "cannot be written", errno);
+        return fabric::writeError(partialPath, "cannot be written", errno);
     EytWriter writer(path, std::move(partialPath), fd);
     writer.keepsUnfinished_ = true;  // until it is known whose it is
     // Where a file system has no locks it is on whoever starts two imports into one file.

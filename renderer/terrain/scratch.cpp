@@ -174,7 +174,7 @@ int Scratch::file(int flags) {
         return fd_;
     const std::lock_guard lock(fileMutex_);
     if (fd_ < 0)
-        fd_ = open(path_.c_str(), O_RDWR | O_CLOEXEC | flags, 0644);
+        fd_ = open(path_.c_str(), O_RDWR | O_NOFOLLOW | O_CLOEXEC | flags, 0644);
     return fd_;
 }
 

@@ -113,6 +113,21 @@ TEST_F(TerrainResume, RefusesASecondImportIntoTheSameFile) {
     EXPECT_TRUE(std::filesystem::is_empty(folder_.path("scratch")));
 }
 
+TEST_F(TerrainResume, WritesThroughNoLinkThatHasANameOfItsFiles) {
+    const std::string out = folder_.path("a.eyt");
+    const std::string other = folder_.path("other");
+    for (const char* ending : {".partial", ".scratch", ".scratch.journal"}) {
+        std::ofstream(other) << "another's";
+        std::filesystem::create_symlink(other, out + ending);
+        const absl::Status status = import(out);
+        EXPECT_TRUE(status.ok() || status.ToString().find(out + ending) != std::string::npos)
+            << status;
+        EXPECT_EQ(std::filesystem::file_size(other), 9U) << ending;
+        EXPECT_FALSE(std::filesystem::is_symlink(out)) << ending;
+        for (const std::string& file : folder_.files()) std::filesystem::remove(folder_.path(file));
+    }
+}
+
 TEST_F(TerrainResume, SaysAgainWhatWasFoundInPostsThatAreNotReadAgain) {
     const std::string dem = folder_.path("dem.tif");
     const std::string out = folder_.path("a.eyt");
