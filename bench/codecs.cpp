@@ -120,9 +120,8 @@ int main(int argc, char** argv) {
     cli::PictureSourceOptions quiet;
     quiet.quiet = true;
     const auto pictures = orEnd(cli::PictureSource::open(argv[1], quiet, {}));
-    const fabric::Flight flight = orEnd(cli::bench::flightNamed(argc > 2 ? argv[2] : "walkthrough",
-                                                                pictures->sceneInfo().bounds))
-                                      .flight;
+    const auto named = orEnd(cli::bench::NamedFlight::read(argc > 2 ? argv[2] : "walkthrough"));
+    const fabric::Flight flight = orEnd(named.over(pictures->sceneInfo().bounds)).flight;
     std::vector<Level> levels(static_cast<std::size_t>(QualityControl::levelCount()));
     for (int i = 0; i < count; ++i) {
         coordinator::FrameRequest request;

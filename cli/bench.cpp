@@ -81,7 +81,7 @@ std::vector<bench::Asked> askedOf(const Options& options) {
     return asked;
 }
 
-bench::RunPlan planOf(const Options& options, const PictureSize& size) {
+bench::RunPlan planOf(const Options& options, bench::NamedFlight flight, const PictureSize& size) {
     bench::PlayOptions play;
     play.frames = options.frames;
     play.repeats = options.repeats;
@@ -89,8 +89,8 @@ bench::RunPlan planOf(const Options& options, const PictureSize& size) {
     play.request.height = size.height;
     play.request.occlusion = options.occlusion;
     play.request.shown = {options.pictures.config.shown};
-    return {options.scene, options.flight,   askedOf(options),    options.renderers,
-            play,          options.pictures, options.progressJson};
+    return {options.scene, std::move(flight), askedOf(options),    options.renderers,
+            play,          options.pictures,  options.progressJson};
 }
 
 absl::Status runCompare(const Options& options) {
@@ -145,7 +145,8 @@ absl::Status runBench(const Options& options) {
     RETURN_IF_ERROR(checkTaus(options.taus, options.budgets));
     RETURN_IF_ERROR(checkReference(options));
     ASSIGN_OR_RETURN(const PictureSize size, parsePictureSize(options.size, "--size"));
-    bench::RunPlan plan = planOf(options, size);
+    ASSIGN_OR_RETURN(bench::NamedFlight flight, bench::NamedFlight::read(options.flight));
+    bench::RunPlan plan = planOf(options, std::move(flight), size);
     ASSIGN_OR_RETURN(plan.renderers, renderersFor(options));
     std::optional<bench::ReferencePlan> reference;
     if (options.reference.isAsked) {

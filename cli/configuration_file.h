@@ -14,7 +14,7 @@ namespace eyrie::cli {
 inline bool isJson(const std::string& path) { return path.ends_with(".json"); }
 
 /// What `path` holds; what is wrong in it is in `findings`, and then the configuration is not to be
-/// used. NotFound; InvalidArgument: it is no regular file.
+/// used. Errors: those of readText; InvalidArgument: it is no regular file.
 absl::StatusOr<config::Configuration> readConfiguration(const std::string& path,
                                                         config::Findings& findings);
 

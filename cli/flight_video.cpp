@@ -31,9 +31,9 @@ std::string endingOf(const std::string& path) {
 
 absl::StatusOr<std::vector<fabric::FlightKey>> framesFor(const FlightVideo& video,
                                                          const fabric::Box& bounds) {
-    ASSIGN_OR_RETURN(const fabric::CameraPath path, bench::flightNamed(video.flight, bounds));
+    ASSIGN_OR_RETURN(const fabric::CameraPath path, video.flight.over(bounds));
     if (!video.quiet && !path.note.empty())
-        fmt::print(stderr, "{}: {}\n", video.flight, path.note);
+        fmt::print(stderr, "{}: {}\n", video.flight.name(), path.note);
     const fabric::Flight& flight = path.flight;
     const double count = std::round(flight.seconds() * video.framesPerSecond) + 1;
     if (count > kMostFrames)

@@ -6,13 +6,14 @@
 
 #include <absl/status/status.h>
 
+#include "cli/bench/flights.h"
 #include "cli/picture_source.h"
 #include "coordinator/frame/frame_source.h"
 
 namespace eyrie::cli {
 
 struct FlightVideo {
-    std::string flight;  ///< "orbit", "walkthrough" or a file, as for bench::flightNamed
+    bench::NamedFlight flight;
     int framesPerSecond = 30;
     std::string out;  ///< .mp4, .mkv (H.264) or .webm (VP9)
     bool quiet = false;
@@ -24,7 +25,7 @@ bool isVideoName(const std::string& path);
 /// Draws the flight in full, picture by picture, as `request` says but for the camera, and puts the
 /// pictures into a file that appears under its name only when it is complete. The module for video
 /// is asked before anything is drawn. Errors: those of video::load, video::Module::makeMovie,
-/// bench::flightNamed, bench::framesOf, PictureSource::draw and mesh::OutputFile; Cancelled.
+/// bench::NamedFlight::over, bench::framesOf, PictureSource::draw and mesh::OutputFile; Cancelled.
 absl::Status writeFlightVideo(const FlightVideo& video, const std::string& scene,
                               const PictureSourceOptions& pictures,
                               const coordinator::FrameRequest& request,

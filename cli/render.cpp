@@ -4,12 +4,14 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "cli/all_pictures.h"
+#include "cli/bench/flights.h"
 #include "cli/cache_options.h"
 #include "cli/commands.h"
 #include "cli/config_options.h"
@@ -20,8 +22,8 @@
 #include "cli/picture_bands.h"
 #include "cli/picture_source.h"
 #include "cli/renderer_processes.h"
-#include "cli/scene_files.h"
 #include "cli/stop_signal.h"
+#include "cli/text_file.h"
 #include "cli/values.h"
 #include "coordinator/frame/frame_source.h"
 #include "coordinator/stream/home_camera.h"
@@ -236,8 +238,9 @@ absl::Status renderFlight(const Options& options) {
         return absl::InvalidArgumentError(
             "--flight is drawn as a video: leave out --all, --depth, --stats and --json");
     ASSIGN_OR_RETURN(const coordinator::FrameRequest request, requestOf(options));
+    ASSIGN_OR_RETURN(bench::NamedFlight flight, bench::NamedFlight::read(options.flight));
     return writeFlightVideo(
-        {options.flight, options.framesPerSecond, options.out, options.pictures.quiet},
+        {std::move(flight), options.framesPerSecond, options.out, options.pictures.quiet},
         options.scene, options.pictures, request, stop.token());
 }
 

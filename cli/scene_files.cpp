@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/scene_files.h"
 
-#include <array>
-#include <cstddef>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <optional>
 #include <system_error>
@@ -14,6 +11,7 @@
 
 #include "cli/crs_notes.h"
 #include "cli/placement.h"
+#include "cli/text_file.h"
 #include "eyrie/v1/scene.pb.h"
 #include "fabric/status.h"
 #include "renderer/mesh/eym_format.h"
@@ -26,8 +24,6 @@ namespace eyrie::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::size_t kMaxTextBytes = 64 << 20;
 
 fabric::SceneObject objectOf(const std::string& path) {
     const DataFile file = dataFileOf(path);
@@ -99,33 +95,6 @@ absl::Status placeMeshes(fabric::Scene& scene, std::size_t firstLoose,
 }
 
 }  // namespace
-
-absl::StatusOr<std::string> readText(const std::string& path) {
-    if (page::isRemote(path))
-        return absl::InvalidArgumentError(fmt::format(
-            "{}: a scene or camera file has to be on this machine; only the data that a scene "
-            "names may lie at URLs",
-            path));
-    std::error_code error;
-    const fs::file_status status = fs::status(path, error);
-    if (status.type() == fs::file_type::not_found)
-        return absl::NotFoundError(fmt::format("{}: no such file", path));
-    if (fs::is_directory(status))
-        return absl::InvalidArgumentError(fmt::format("{}: this is a folder, not a file", path));
-    std::ifstream in(path, std::ios::binary);
-    std::string text;
-    std::array<char, 1 << 16> piece;
-    while (in && text.size() <= kMaxTextBytes) {
-        in.read(piece.data(), piece.size());
-        text.append(piece.data(), static_cast<std::size_t>(in.gcount()));
-    }
-    if (text.size() > kMaxTextBytes)  // a device may have no end
-        return absl::InvalidArgumentError(
-            fmt::format("{}: larger than 64 MiB, so it is no scene, flight or camera file", path));
-    if (!in.eof())
-        return absl::InvalidArgumentError(fmt::format("{}: cannot be read", path));
-    return text;
-}
 
 absl::StatusOr<fabric::Scene> readSceneFile(const std::string& path) {
     ASSIGN_OR_RETURN(const std::string text, readText(path));

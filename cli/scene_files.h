@@ -12,9 +12,6 @@
 
 namespace eyrie::cli {
 
-/// The whole text of a file. Errors: NotFound, InvalidArgument (a folder, or more than 64 MiB).
-absl::StatusOr<std::string> readText(const std::string& path);
-
 /// A scene file as it is: paths made absolute, URLs left as they are, nothing imported.
 absl::StatusOr<fabric::Scene> readSceneFile(const std::string& path);
 

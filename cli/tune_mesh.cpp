@@ -52,13 +52,12 @@ private:
     std::filesystem::path path_;
 };
 
-absl::StatusOr<bench::Played> playOnce(const std::string& path, const std::string& flight,
+absl::StatusOr<bench::Played> playOnce(const std::string& path, const bench::NamedFlight& flight,
                                        const std::stop_token& stop) {
     PictureSourceOptions quiet;
     quiet.quiet = true;
     ASSIGN_OR_RETURN(const auto pictures, PictureSource::open(path, quiet, stop));
-    ASSIGN_OR_RETURN(const fabric::CameraPath way,
-                     bench::flightNamed(flight, pictures->sceneInfo().bounds));
+    ASSIGN_OR_RETURN(const fabric::CameraPath way, flight.over(pictures->sceneInfo().bounds));
     bench::PlayOptions once;
     once.frames = kFrames;
     once.repeats = 1;
@@ -95,13 +94,13 @@ std::size_t bestOf(const std::vector<TriedLeaf>& tried) {
     return static_cast<std::size_t>(best - tried.begin());
 }
 
-absl::StatusOr<MeshTuning> tuneMesh(const std::string& outPath, const std::string& flight,
+absl::StatusOr<MeshTuning> tuneMesh(const std::string& outPath, const bench::NamedFlight& flight,
                                     const ImportLeaf& importLeaf,
                                     const std::function<void(std::string_view, double)>& done,
                                     const std::stop_token& stop) {
     // A flight that is none, or a machine that cannot draw, is told before anything is imported.
     RETURN_IF_ERROR(Renderer::create({}).status());
-    RETURN_IF_ERROR(bench::flightNamed(flight, {{0, 0, 0}, {1, 1, 1}}).status());
+    RETURN_IF_ERROR(flight.over({{0, 0, 0}, {1, 1, 1}}).status());
     ASSIGN_OR_RETURN(const FolderBeside folder, FolderBeside::create(outPath));
     MeshTuning tuning;
     for (const std::uint32_t leafTriangles : kTriedLeafTriangles) {

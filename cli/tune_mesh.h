@@ -12,6 +12,7 @@
 
 #include <absl/status/statusor.h>
 
+#include "cli/bench/flights.h"
 #include "renderer/import/mesh_import.h"
 
 namespace eyrie::cli {
@@ -42,12 +43,12 @@ std::size_t bestOf(const std::vector<TriedLeaf>& tried);
 using ImportLeaf = std::function<absl::StatusOr<import::MeshImportReport>(
     std::uint32_t leafTriangles, const std::string& path)>;
 
-/// Imports a mesh with each leaf size, plays `flight` (bench::flightNamed) over each, three times
+/// Imports a mesh with each leaf size, plays `flight` over each, three times
 /// in turn, on this machine's first device, and keeps the best at `outPath`, where the choice is
 /// kept in the file (mesh::EymFile::tunedLeafTriangles). What was tried lies beside it meanwhile.
 /// `done` is told the stage and its share. Errors, all with nothing left behind: those of
-/// `importLeaf`, PictureSource and bench::flightNamed; Cancelled.
-absl::StatusOr<MeshTuning> tuneMesh(const std::string& outPath, const std::string& flight,
+/// `importLeaf`, PictureSource and bench::NamedFlight::over; Cancelled.
+absl::StatusOr<MeshTuning> tuneMesh(const std::string& outPath, const bench::NamedFlight& flight,
                                     const ImportLeaf& importLeaf,
                                     const std::function<void(std::string_view, double)>& done,
                                     const std::stop_token& stop);

@@ -4,13 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "cli/scene_files.h"
+#include "cli/text_file.h"
 #include "fabric/status.h"
 #include "wire/json.h"
 
@@ -74,23 +75,40 @@ fabric::Flight walkthrough(const fabric::Box& bounds) {
     });
 }
 
-absl::StatusOr<fabric::CameraPath> flightNamed(const std::string& name, const fabric::Box& bounds) {
+namespace {
+
+using MakeFlight = fabric::Flight (*)(const fabric::Box&);
+
+/// None of another name.
+MakeFlight builtIn(std::string_view name) {
     if (name == "orbit")
-        return fabric::CameraPath{orbit(bounds), ""};
+        return orbit;
     if (name == "walkthrough")
-        return fabric::CameraPath{walkthrough(bounds), ""};
-    if (name == "worst")
-        return fabric::CameraPath{worst(bounds), ""};
-    ASSIGN_OR_RETURN(const std::string text, readText(name));
-    if (isJson(text)) {
-        ASSIGN_OR_RETURN(fabric::Flight flight, wire::flightFromJson(text, name));
+        return walkthrough;
+    return name == "worst" ? worst : nullptr;
+}
+
+}  // namespace
+
+absl::StatusOr<NamedFlight> NamedFlight::read(std::string name) {
+    if (builtIn(name) != nullptr)
+        return NamedFlight(std::move(name), "");
+    ASSIGN_OR_RETURN(std::string text, readText(name));
+    return NamedFlight(std::move(name), std::move(text));
+}
+
+absl::StatusOr<fabric::CameraPath> NamedFlight::over(const fabric::Box& bounds) const {
+    if (const auto made = builtIn(name_))
+        return fabric::CameraPath{made(bounds), ""};
+    if (isJson(text_)) {
+        ASSIGN_OR_RETURN(fabric::Flight flight, wire::flightFromJson(text_, name_));
         return fabric::CameraPath{std::move(flight), ""};
     }
-    auto path = fabric::cameraPathFromText(text, bounds, fabric::Camera{}.fovYDegrees);
+    auto path = fabric::cameraPathFromText(text_, bounds, fabric::Camera{}.fovYDegrees);
     if (!path.ok())
         return fabric::withContext(
             path.status(),
-            name + ": neither a flight as JSON, {\"keys\":[...]}, nor a camera path");
+            name_ + ": neither a flight as JSON, {\"keys\":[...]}, nor a camera path");
     return path;
 }
 

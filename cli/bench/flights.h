@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <absl/status/statusor.h>
@@ -25,10 +26,28 @@ fabric::Flight walkthrough(const fabric::Box& bounds);
 /// no frame of a pass of fabric::Flight's seconds in up to 100,000 even steps falls into one.
 fabric::Flight worst(const fabric::Box& bounds);
 
-/// "orbit", "walkthrough", "worst", or a file: a flight as JSON, or a camera path of older
-/// programs, whose cameras get the field of view that fabric::Camera has; only paths have a note.
-/// Errors: those of readText, wire::flightFromJson and fabric::cameraPathFromText.
-absl::StatusOr<fabric::CameraPath> flightNamed(const std::string& name, const fabric::Box& bounds);
+/// A flight by what it is called on the command line: "orbit", "walkthrough", "worst", or a file,
+/// which is a flight as JSON or a camera path of older programs. A file is read once: a pipe will
+/// do, and all runs play the same.
+class NamedFlight {
+public:
+    /// Errors: those of readText.
+    static absl::StatusOr<NamedFlight> read(std::string name);
+
+    const std::string& name() const { return name_; }
+
+    /// Over data within `bounds`. Only older programs' paths have a note; their cameras get the
+    /// field of view that fabric::Camera has. Errors, with the file's name: those of
+    /// wire::flightFromJson and fabric::cameraPathFromText.
+    absl::StatusOr<fabric::CameraPath> over(const fabric::Box& bounds) const;
+
+private:
+    NamedFlight(std::string name, std::string text)
+        : name_(std::move(name)), text_(std::move(text)) {}
+
+    std::string name_;
+    std::string text_;  ///< of a file
+};
 
 /// `count` (at least 1) keys, evenly in time from the flight's first to its last: what is drawn of
 /// it. InvalidArgument, naming the second and the keys around it, where the curve between two good

@@ -55,8 +55,7 @@ absl::StatusOr<std::unique_ptr<PictureSource>> open(const RunPlan& plan, int ren
 absl::StatusOr<FlightJudge> judgeFor(const ReferencePlan& reference, const RunPlan& plan,
                                      const std::stop_token& stop) {
     ASSIGN_OR_RETURN(const auto pictures, open(plan, 0, stop));
-    ASSIGN_OR_RETURN(const fabric::CameraPath path,
-                     flightNamed(plan.flight, pictures->sceneInfo().bounds));
+    ASSIGN_OR_RETURN(const fabric::CameraPath path, plan.flight.over(pictures->sceneInfo().bounds));
     ASSIGN_OR_RETURN(ReferenceScene scene, readSources(reference.scene, reference.sources));
     return FlightJudge(std::move(scene), path.flight, judgedOf(plan, reference.frames),
                        reference.remote);

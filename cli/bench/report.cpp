@@ -70,7 +70,7 @@ std::string perRun(const std::vector<BenchRun>& runs, const ListOf& listOf) {
     return "[" + json + "]";
 }
 
-std::vector<JsonObject> framesOf(const MeasuredErrors& measured) {
+std::vector<JsonObject> judgedFramesOf(const MeasuredErrors& measured) {
     std::vector<JsonObject> objects;
     for (const FrameError& frame : measured.frames) objects.push_back(toJson(frame));
     return objects;
@@ -134,7 +134,7 @@ std::string reportPage(const Report& report) {
     return withData(kReportPage,
                     fmt::format("{{...{}, frames: {}, errors: {}, worst: {}}}",
                                 summaryOf(report).str(), frameTimes(report.runs),
-                                perRun(report.runs, framesOf), perRun(report.runs, worstOf)));
+                                perRun(report.runs, judgedFramesOf), perRun(report.runs, worstOf)));
 }
 
 std::string table(const std::vector<BenchRun>& runs) {

@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "cli/bench/flights.h"
 #include "cli/progress_bar.h"
 #include "fabric/status.h"
 
@@ -33,8 +32,7 @@ absl::Status playRun(const RunPlan& plan, BenchRun& run, const std::function<voi
     PictureSourceOptions options = plan.pictures;
     options.renderers = run.renderers;
     ASSIGN_OR_RETURN(const auto pictures, PictureSource::open(plan.scene, options, stop));
-    ASSIGN_OR_RETURN(fabric::CameraPath path,
-                     flightNamed(plan.flight, pictures->sceneInfo().bounds));
+    ASSIGN_OR_RETURN(fabric::CameraPath path, plan.flight.over(pictures->sceneInfo().bounds));
     run.flightNote = std::move(path.note);
     PlayOptions play = plan.play;
     play.request.tauPixels = run.tauPixels;
@@ -45,7 +43,7 @@ absl::Status playRun(const RunPlan& plan, BenchRun& run, const std::function<voi
     }
     absl::StatusOr<Played> played = bench::play(*pictures, path.flight, play, frameDone, stop);
     if (!played.ok())
-        return fabric::withContext(played.status(), plan.flight);
+        return fabric::withContext(played.status(), plan.flight.name());
     run.played = *std::move(played);
     return absl::OkStatus();
 }

@@ -8,6 +8,7 @@
 
 #include <absl/status/statusor.h>
 
+#include "cli/bench/flights.h"
 #include "cli/bench/frame_error.h"
 #include "cli/bench/play.h"
 #include "cli/picture_source.h"
@@ -39,7 +40,7 @@ struct Asked {
 
 struct RunPlan {
     std::string scene;
-    std::string flight;  ///< for flightNamed
+    NamedFlight flight;
     std::vector<Asked> asked;
     std::vector<int> renderers{0};
     PlayOptions play;  ///< tau, budget and what is kept are each run's own
@@ -51,7 +52,7 @@ struct RunPlan {
 
 /// Plays all runs, one after another, each with renderers of its own that have loaded nothing yet:
 /// what a run says does not depend on those before it. Shows progress on standard error. Errors:
-/// those of PictureSource::open, flightNamed and play, these with the flight's name.
+/// those of PictureSource::open, NamedFlight::over and play, these with the flight's name.
 absl::StatusOr<std::vector<BenchRun>> playRuns(const RunPlan& plan, const std::stop_token& stop);
 
 }  // namespace eyrie::cli::bench

@@ -9,7 +9,7 @@
 #include <google/protobuf/struct.pb.h>
 #include <google/protobuf/util/json_util.h>
 
-#include "cli/scene_files.h"
+#include "cli/text_file.h"
 #include "fabric/status.h"
 
 namespace eyrie::cli::bench {

@@ -37,9 +37,10 @@ absl::StatusOr<MeshTuning> importTuned(const MeshImportChoices& choices,
                                        const import::MeshImportOptions& how,
                                        const std::stop_token& stop) {
     RETURN_IF_ERROR(mesh::OutputFile::create(choices.out).status());
+    ASSIGN_OR_RETURN(const bench::NamedFlight flight, bench::NamedFlight::read(choices.flight));
     ProgressBar bar(choices.out, 0, "", progressStyle(choices));
     return tuneMesh(
-        choices.out, choices.flight,
+        choices.out, flight,
         [&](std::uint32_t leafTriangles, const std::string& path) {
             import::MeshImportOptions each = how;
             each.leafTriangles = leafTriangles;

@@ -7,8 +7,10 @@
 
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include "cli/bench/flights.h"
+#include "fabric/status.h"
 #include "tests/support/temporary_folder.h"
 
 namespace eyrie::cli::bench {
@@ -21,6 +23,11 @@ const fabric::Box kMesh{{-0.1, -0.05, 0.05}, {0.1, 0.04, 0.2}};
 const fabric::Box kPlane{{0, 0, 7}, {100, 50, 7}};
 const fabric::Box kNeedle{{3, 3, 0}, {3, 3, 10}};
 const fabric::Box kPoint{{1, 2, 3}, {1, 2, 3}};
+
+absl::StatusOr<fabric::CameraPath> flightNamed(const std::string& name, const fabric::Box& bounds) {
+    ASSIGN_OR_RETURN(const NamedFlight flight, NamedFlight::read(name));
+    return flight.over(bounds);
+}
 
 Vec3 direction(const fabric::FlightKey& key) {
     return glm::normalize(key.camera.target - key.camera.eye);
@@ -97,6 +104,22 @@ TEST(FlightFile, OfOneKeyIsACameraThatStands) {
     ASSERT_EQ(frames->size(), 7U);
     for (const fabric::FlightKey& frame : *frames)
         EXPECT_EQ(frame, (fabric::FlightKey{0, flight->flight.keys[0].camera}));
+}
+
+TEST(FlightFile, MayBeAPipeAndIsReadOnceForAllRuns) {
+    int ends[2];
+    ASSERT_EQ(::pipe(ends), 0);
+    const std::string text = R"({"keys":[{"camera":{"eye":[0,0,9],"target":[1,0,0]}}]})";
+    ASSERT_EQ(::write(ends[1], text.data(), text.size()), static_cast<ssize_t>(text.size()));
+    ::close(ends[1]);
+    const auto flight = NamedFlight::read("/dev/fd/" + std::to_string(ends[0]));
+    ::close(ends[0]);
+    ASSERT_TRUE(flight.ok()) << flight.status();
+    for (int run = 0; run < 2; ++run) {
+        const auto path = flight->over(kTerrain);
+        ASSERT_TRUE(path.ok()) << path.status();
+        EXPECT_EQ(path->flight.keys.at(0).camera.eye, Vec3(0, 0, 9));
+    }
 }
 
 TEST(FlightFile, RefusalsNameFileKeyAndField) {

@@ -42,7 +42,7 @@ private:
 absl::StatusOr<Played> playWith(
     FakePictures& pictures, const std::function<void()>& withEach = [] {},
     PlayOptions options = {}) {
-    const auto flight = flightNamed("orbit", fabric::Box{{0, 0, 0}, {10, 10, 5}});
+    const fabric::Flight flight = orbit(fabric::Box{{0, 0, 0}, {10, 10, 5}});
     options.frames = 20;
     options.repeats = 2;
     int done = 0;
@@ -50,7 +50,7 @@ absl::StatusOr<Played> playWith(
         ++done;
         withEach();
     };
-    auto played = play(pictures, flight->flight, options, frameDone, {});
+    auto played = play(pictures, flight, options, frameDone, {});
     EXPECT_EQ(done, !played.ok() ? done : options.keeps.empty() ? 60 : 80);
     return played;
 }
