@@ -89,7 +89,8 @@ void add(Drawn& sum, const ActiveConfiguration::Taken& taken, const fabric::Pixe
 }  // namespace
 
 ActiveConfiguration::ActiveConfiguration(config::Configuration written)
-    : written_(std::move(written)), live_(written_), equalizers_(written_) {
+    : written_(std::move(written)) {
+    balances_.push_front({0, written_, equalizer::Equalizers(written_)});
     // Whoever read the configuration has told of errors in it.
     (void)show(config::initialState(written_));
 }
@@ -99,12 +100,30 @@ absl::Status ActiveConfiguration::show(config::ConfigurationState state) {
     state_ = std::move(state);
     display_ = displayOf(written_, state_);
     shown_ = config::applied(written_, state_);
-    live_.layouts = shown_.layouts;
-    live_.observers = shown_.observers;
+    for (Balance& balance : balances_) showIn(balance.live);
     config::Findings findings;
     resolved_ = config::resolve(shown_, display_, findings);
     pipes_ = pipesOf(shown_, resolved_);
     return firstError(findings);
+}
+
+void ActiveConfiguration::showIn(config::Configuration& live) const {
+    live.layouts = shown_.layouts;
+    live.observers = shown_.observers;
+}
+
+/// One that is new begins with what was learned last: a page that is loaded again goes on so.
+ActiveConfiguration::Balance& ActiveConfiguration::balanceOf(std::uint64_t session) {
+    const auto known = std::ranges::find(balances_, session, &Balance::session);
+    if (known != balances_.end()) {
+        balances_.splice(balances_.begin(), balances_, known);
+        return balances_.front();
+    }
+    balances_.push_front(balances_.front());
+    balances_.front().session = session;
+    if (balances_.size() > kMostBalances)
+        balances_.pop_back();
+    return balances_.front();
 }
 
 absl::Status ActiveConfiguration::become(config::ConfigurationState state) {
@@ -115,12 +134,13 @@ absl::Status ActiveConfiguration::become(config::ConfigurationState state) {
     }
     for (std::size_t i = 0; i < state_.equalizers.size(); ++i)
         if (state_.equalizers[i] != before.equalizers[i])
-            RETURN_IF_ERROR(equalizers_.tune(i, state_.equalizers[i]));
+            for (Balance& balance : balances_)
+                RETURN_IF_ERROR(balance.equalizers.tune(i, state_.equalizers[i]));
     return absl::OkStatus();
 }
 
 void ActiveConfiguration::renameNodes(std::vector<config::Node> nodes) {
-    live_.nodes = nodes;
+    for (Balance& balance : balances_) balance.live.nodes = nodes;
     written_.nodes = std::move(nodes);
     (void)show(std::move(state_));
 }
@@ -154,7 +174,7 @@ absl::Status ActiveConfiguration::setObserver(std::string_view observer,
 
 absl::Status ActiveConfiguration::tune(std::string_view equalizer,
                                        const equalizer::Tuning& tuning) {
-    ASSIGN_OR_RETURN(const std::size_t position, equalizers_.find(equalizer));
+    ASSIGN_OR_RETURN(const std::size_t position, balances_.front().equalizers.find(equalizer));
     config::ConfigurationState state = state_;
     RETURN_IF_ERROR(config::tuneEqualizer(written_, state, position, tuning));
     return become(std::move(state));
@@ -209,9 +229,11 @@ absl::StatusOr<compound::Plan> ActiveConfiguration::plan(const FrameRequest& req
                                                          const std::vector<std::string>& away) {
     ASSIGN_OR_RETURN(compound::PlanRequest asked, planRequestOf(request));
     asked.frameNumber = frameNumber;
-    equalizers_.apply(live_, {frameNumber, resolved_, gone(away),
+    Balance& balance = balanceOf(request.session);
+    balance.equalizers.apply(balance.live,
+                             {frameNumber, resolved_, gone(away),
                               request.completeness == fabric::Completeness::Complete});
-    return compound::makePlan(live_, asked);
+    return compound::makePlan(balance.live, asked);
 }
 
 /// The channels whose renderer is away; none where all are.
@@ -244,8 +266,11 @@ Takers ActiveConfiguration::takersOf(const compound::Plan& plan) const {
     return takers;
 }
 
-void ActiveConfiguration::record(const compound::Plan& plan, std::uint64_t frameNumber,
-                                 std::span<const Taken> taken) {
+void ActiveConfiguration::record(std::uint64_t session, const compound::Plan& plan,
+                                 std::uint64_t frameNumber, std::span<const Taken> taken) {
+    const auto known = std::ranges::find(balances_, session, &Balance::session);
+    if (known == balances_.end())
+        return;
     std::vector<Drawn> drawn(resolved_.compounds.size());
     for (std::size_t i = 0; i < plan.draws.size(); ++i) {
         const compound::PlannedDraw& draw = plan.draws[i];
@@ -255,7 +280,7 @@ void ActiveConfiguration::record(const compound::Plan& plan, std::uint64_t frame
     equalizer::FrameTimes times;
     times.frameNumber = frameNumber;
     for (const Drawn& each : drawn) times.compounds.push_back(each.time);
-    equalizers_.record(times);
+    known->equalizers.record(times);
 }
 
 }  // namespace eyrie::coordinator

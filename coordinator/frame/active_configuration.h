@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <list>
 #include <optional>
 #include <span>
 #include <string>
@@ -32,7 +33,10 @@ public:
 
     const config::Configuration& written() const { return written_; }
     const config::ConfigurationState& state() const { return state_; }
-    std::vector<equalizer::EqualizerState> equalizers() const { return equalizers_.states(); }
+    /// As they are for the session that was planned for last.
+    std::vector<equalizer::EqualizerState> equalizers() const {
+        return balances_.front().equalizers.states();
+    }
 
     /// Puts `state` in the place of state(). Errors: InvalidArgument where it cannot be shown, as
     /// with an eye behind its wall; then nothing has changed.
@@ -58,9 +62,9 @@ public:
     void setRenderers(RendererOfPipe renderers) { renderers_ = std::move(renderers); }
     const RendererOfPipe& renderers() const { return renderers_; }
 
-    /// The next frame. Of renderers that are `away`, by their ids, pipes get no share where an
-    /// equalizer decides, unless all are. Errors: NotFound, naming what there is; those of
-    /// makePlan.
+    /// The next frame, shared out by what the last ones of its session took. Of renderers that are
+    /// `away`, by their ids, pipes get no share where an equalizer decides, unless all are. Errors:
+    /// NotFound, naming what there is; those of makePlan.
     absl::StatusOr<compound::Plan> plan(const FrameRequest& request, std::uint64_t frameNumber,
                                         const std::vector<std::string>& away);
 
@@ -68,7 +72,9 @@ public:
     absl::StatusOr<fabric::SeenAreas> seen(const FrameRequest& request) const;
 
     /// How long after the last one planned has begun the next frame is to begin; 0: at any time.
-    double intervalMilliseconds() const { return equalizers_.intervalMilliseconds(); }
+    double intervalMilliseconds() const {
+        return balances_.front().equalizers.intervalMilliseconds();
+    }
 
     /// Which renderer is to do each of the plan's draws.
     Takers takersOf(const compound::Plan& plan) const;
@@ -84,10 +90,23 @@ public:
         fabric::StageMilliseconds stages;
         double milliseconds = 0;  ///< until the picture was here
     };
-    void record(const compound::Plan& plan, std::uint64_t frameNumber,
+    /// Of a frame of the session. What is forgotten of it by then learns nothing.
+    void record(std::uint64_t session, const compound::Plan& plan, std::uint64_t frameNumber,
                 std::span<const Taken> taken);
 
 private:
+    /// Of more sessions than this those planned for longest ago are forgotten.
+    static constexpr std::size_t kMostBalances = 8;
+
+    /// How the work of a session's frames is shared out.
+    struct Balance {
+        std::uint64_t session;
+        config::Configuration live;  ///< as shown, and as the equalizers have it
+        equalizer::Equalizers equalizers;
+    };
+
+    Balance& balanceOf(std::uint64_t session);
+    void showIn(config::Configuration& live) const;
     absl::StatusOr<compound::PlanRequest> planRequestOf(const FrameRequest& request) const;
     absl::StatusOr<compound::Output> outputOf(const Shown& shown,
                                               const FrameRequest& request) const;
@@ -95,14 +114,13 @@ private:
     absl::Status show(config::ConfigurationState state);
 
     config::Configuration written_;
-    config::Configuration live_;  ///< as shown, and as the equalizers have it
     config::ConfigurationState state_;
     config::Configuration shown_;             ///< written_, with what state_ changes of it
     config::Display display_;                 ///< of state_
     config::ResolvedConfiguration resolved_;  ///< of shown_, as displayed
     std::vector<Pipe> pipes_;
     RendererOfPipe renderers_;
-    equalizer::Equalizers equalizers_;
+    std::list<Balance> balances_;  ///< never empty; that planned for last comes first
 };
 
 }  // namespace eyrie::coordinator

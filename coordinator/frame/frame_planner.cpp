@@ -105,7 +105,7 @@ void FramePlanner::record(const PlannedFrame& frame, const fabric::FrameStatisti
     if (!tellsItsCost(frame.request, statistics) || !frame.request.part.isEmpty())
         return;
     const std::lock_guard lock(mutex_);
-    frame.configuration->record(frame.plan, frame.number, taken);
+    frame.configuration->record(frame.request.session, frame.plan, frame.number, taken);
 }
 
 void FramePlanner::finished(const FrameRequest& asked, const PlannedFrame& frame,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <stop_token>
@@ -45,6 +46,9 @@ struct FrameRequest {
     /// What of the configuration is seen, each as a picture of that size (of one eye); all with one
     /// version of the frame data.
     std::vector<Shown> shown = {Shown{}};
+    /// Whose frame it is: of each session's, equalizers learn by themselves how to share out its
+    /// next ones. 0: nobody's in particular, as single pictures are.
+    std::uint64_t session = 0;
     /// Ends it, with Cancelled: nobody wants it any more. What has not begun is not drawn;
     /// renderers stop at what they are at.
     std::stop_token stop = {};

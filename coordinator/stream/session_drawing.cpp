@@ -134,6 +134,7 @@ Session::Impl::Begun Session::Impl::begin() {
     begun.request = drawingOf(begun.view, source != nullptr ? &source->sceneInfo : nullptr, scale);
     if (isAtRest)
         begun.request.budgetMilliseconds.reset();
+    begun.request.session = number_;
     begun.request.shown = screens(begun.view.frame.shown.front());
     // Measuring has no place in a limited time.
     begun.request.measuresStages =

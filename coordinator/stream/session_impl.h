@@ -156,6 +156,7 @@ private:
     const std::optional<int> framesInFlight_;
     const std::chrono::milliseconds swapPatience_;
     const observe::SharedTelemetry telemetry_;
+    const std::uint64_t number_;  ///< of all sessions so far; in FrameRequest::session
     const std::string encoding_;  ///< its thread, in traces
 
     mutable std::mutex mutex_;  // guards everything below, up to the threads, and the seats

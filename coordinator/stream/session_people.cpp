@@ -9,8 +9,7 @@
 namespace eyrie::stream {
 namespace {
 
-/// Tells sessions apart in traces.
-std::atomic<int> sessionsSoFar{0};
+std::atomic<std::uint64_t> sessionsSoFar{0};
 
 }  // namespace
 
@@ -23,7 +22,8 @@ Session::Impl::Impl(coordinator::FrameSource& frames, std::string name,
       framesInFlight_(options.framesInFlight),
       swapPatience_(options.swapPatience),
       telemetry_(options.telemetry),
-      encoding_(fmt::format("encodes for session {}", ++sessionsSoFar)),
+      number_(++sessionsSoFar),
+      encoding_(fmt::format("encodes for session {}", number_)),
       videos_(options.video),
       progress_(
           {options.restDelay, options.retryDelay, options.loadingDelay, options.missingDelay}) {

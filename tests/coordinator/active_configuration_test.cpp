@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/frame/active_configuration.h"
 
+#include <algorithm>
+#include <cstdint>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <gmock/gmock.h>
 
@@ -84,7 +88,7 @@ TEST(ActiveConfiguration, CountsWhatBothEyesCover) {
         if (std::exchange(isSecondEye, true))
             each.covered.x = area.width - each.covered.width;
     }
-    active.record(first, 1, taken);
+    active.record(0, first, 1, taken);
     const compound::Plan second = active.plan({}, 2, {}).value();
     EXPECT_LT(second.draws.front().task.pixelViewport.width, .44 * 1280);
 }
@@ -96,6 +100,73 @@ config::Configuration room(const std::string& observer) {
         " } layout { view { mode STEREO observer 0 "
         "wall { bottom_left [ -1 -1 -2 ] bottom_right [ 1 -1 -2 ] top_left [ -1 1 -2 ] } } } "
         "canvas { layout 0 segment { channel \"0\" } } }");
+}
+
+/// Two channels beside each other, whose border goes by what they take.
+ActiveConfiguration twoBesideEachOther() {
+    const std::string window = "window { viewport [ 0 0 640 480 ] channel { name \"";
+    return ActiveConfiguration(
+        read("config { appNode { pipe { " + window + "0\" } } } pipe { " + window +
+             "1\" } } } } layout { view { } } canvas { layout 0 segment { channel \"0\" } } "
+             "compound { channel ( segment 0 view 0 ) load_equalizer { mode VERTICAL } "
+             "compound { } compound { channel \"1\" outputframe { } } "
+             "inputframe { name \"frame.1\" } } }"));
+}
+
+/// Draws the session's next frame, all of whose load lies in a tenth of the picture, from `begin`
+/// on. Returns how wide the left one's part was, of the whole.
+double drawNext(ActiveConfiguration& active, std::uint64_t session, std::uint64_t number,
+                double begin) {
+    FrameRequest request;
+    request.session = session;
+    const compound::Plan plan = active.plan(request, number, {}).value();
+    std::vector<ActiveConfiguration::Taken> taken;
+    for (const compound::PlannedDraw& draw : plan.draws) {
+        const fabric::PixelViewport& area = draw.task.pixelViewport;
+        const double from = std::max(begin * request.width, double{1} * area.x);
+        const double to = std::min((begin + .1) * request.width, double{1} * area.x + area.width);
+        ActiveConfiguration::Taken& each = taken.emplace_back();
+        each.milliseconds = each.stages.total = 1 + std::max(0.0, to - from);
+        each.covered = area;
+    }
+    active.record(session, plan, number, taken);
+    return 1. * plan.draws.front().task.pixelViewport.width / request.width;
+}
+
+TEST(ActiveConfiguration, SharesEachSessionsFramesOutByWhatItsOwnTake) {
+    ActiveConfiguration active = twoBesideEachOther();
+    double left = .5;
+    double right = .5;
+    for (std::uint64_t number = 1; number < 40; number += 2) {
+        left = drawNext(active, 1, number, .1);
+        right = drawNext(active, 2, number + 1, .8);
+    }
+    EXPECT_NEAR(left, .15, .02);
+    EXPECT_NEAR(right, .85, .02);
+}
+
+TEST(ActiveConfiguration, BeginsASessionWithWhatTheLastOneLearned) {
+    ActiveConfiguration active = twoBesideEachOther();
+    std::uint64_t number = 0;
+    while (number < 20) drawNext(active, 1, ++number, .1);
+    EXPECT_NEAR(drawNext(active, 2, ++number, .1), .15, .02) << "as of the one before";
+    for (std::uint64_t session = 3; session < 30; ++session)
+        EXPECT_NEAR(drawNext(active, session, ++number, .1), .15, .05);
+    EXPECT_NEAR(drawNext(active, 1, ++number, .1), .15, .05) << "forgotten by now, and begun again";
+}
+
+TEST(ActiveConfiguration, TunesTheEqualizersOfAllSessions) {
+    ActiveConfiguration active = twoBesideEachOther();
+    drawNext(active, 1, 1, .1);
+    drawNext(active, 2, 2, .8);
+    equalizer::Tuning frozen;
+    frozen.isFrozen = true;
+    ASSERT_TRUE(active.tune("0", frozen).ok());
+    for (const std::uint64_t session : {1, 2}) {
+        const double before = drawNext(active, session, 2 + session, .1);
+        for (std::uint64_t number = 10 * session; number < 10 * session + 5; ++number)
+            EXPECT_EQ(drawNext(active, session, number, .8), before);
+    }
 }
 
 std::vector<fabric::Sight> sightsOf(ActiveConfiguration& active) {

@@ -56,6 +56,9 @@ public:
 
     /// How long after a frame has begun the next is to begin; 0: it does not say.
     virtual double intervalMilliseconds() const { return 0; }
+
+    /// With what it has learned.
+    virtual std::unique_ptr<Balancer> clone() const = 0;
 };
 
 /// `written` is the compound with the equalizer; `position` its place in `work`, which outlives it.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
+
 #include "coordinator/compound/equalizer/balancer.h"
 
 namespace eyrie::equalizer {
@@ -21,6 +23,7 @@ public:
     void switchOff(Turn& turn) override;
     void record(const PlannedFrame& frame, const FrameTimes& times) override;
     Report report() const override;
+    std::unique_ptr<Balancer> clone() const override { return std::make_unique<Dfr>(*this); }
 
 private:
     const std::size_t position_;

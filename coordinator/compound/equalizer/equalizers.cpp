@@ -67,9 +67,16 @@ std::vector<double> usageOf(const Work& work, const FrameFacts& facts) {
 }  // namespace
 
 Equalizers::Equalizers(const config::Configuration& written)
-    : work_(std::make_unique<const Work>(written)) {
+    : work_(std::make_shared<const Work>(written)) {
     std::size_t position = 0;
     for (const config::Compound& root : written.compounds) add(root, position);
+}
+
+Equalizers::Equalizers(const Equalizers& other)
+    : work_(other.work_), planned_(other.planned_), recorded_(other.recorded_) {
+    for (const Entry& entry : other.entries_)
+        entries_.push_back({entry.name, entry.position, entry.settings, entry.isOn, entry.isFrozen,
+                            entry.balancer->clone()});
 }
 
 void Equalizers::add(const config::Compound& written, std::size_t& position) {

@@ -43,6 +43,11 @@ public:
     /// `written` is the configuration as its file has it; what is switched off returns to that.
     explicit Equalizers(const config::Configuration& written);
 
+    /// Copies have learned the same so far; each goes on by itself.
+    Equalizers(const Equalizers& other);
+    Equalizers& operator=(const Equalizers&) = delete;
+    ~Equalizers() = default;
+
     /// `live` has the compounds of `written`, perhaps as an earlier call left them.
     void apply(config::Configuration& live, const FrameFacts& facts);
 
@@ -75,7 +80,7 @@ private:
     };
     void add(const config::Compound& written, std::size_t& position);
 
-    std::unique_ptr<const Work> work_;  ///< balancers refer to it
+    std::shared_ptr<const Work> work_;  ///< balancers refer to it
     std::vector<Entry> entries_;
     std::deque<PlannedFrame> planned_;  ///< the last ones, oldest first
     std::optional<std::uint64_t> recorded_;

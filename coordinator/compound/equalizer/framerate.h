@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deque>
+#include <memory>
 
 #include "coordinator/compound/equalizer/balancer.h"
 
@@ -22,6 +23,7 @@ public:
     void record(const PlannedFrame& frame, const FrameTimes& times) override;
     Report report() const override;
     double intervalMilliseconds() const override { return isAtWork_ ? interval_ : 0; }
+    std::unique_ptr<Balancer> clone() const override { return std::make_unique<Framerate>(*this); }
 
 private:
     const std::size_t position_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
+
 #include "coordinator/compound/equalizer/balancer.h"
 #include "coordinator/compound/equalizer/children.h"
 #include "coordinator/compound/equalizer/load_map.h"
@@ -23,6 +25,7 @@ public:
     void switchOff(Turn& turn) override;
     void record(const PlannedFrame& frame, const FrameTimes& times) override;
     Report report() const override;
+    std::unique_ptr<Balancer> clone() const override { return std::make_unique<Load>(*this); }
 
 private:
     void setMode(config::SplitMode mode);

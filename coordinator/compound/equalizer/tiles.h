@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
+
 #include "coordinator/compound/equalizer/balancer.h"
 
 namespace eyrie::equalizer {
@@ -18,6 +20,7 @@ public:
     void switchOff(Turn& turn) override;
     void record(const PlannedFrame&, const FrameTimes&) override {}
     Report report() const override { return {}; }
+    std::unique_ptr<Balancer> clone() const override { return std::make_unique<Tiles>(*this); }
 
 private:
     void set(Turn& turn, const std::optional<config::Tiles>& tiles) const;

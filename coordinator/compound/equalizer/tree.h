@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
+
 #include "coordinator/compound/equalizer/balancer.h"
 #include "coordinator/compound/equalizer/children.h"
 
@@ -18,6 +20,7 @@ public:
     void switchOff(Turn& turn) override;
     void record(const PlannedFrame& frame, const FrameTimes& times) override;
     Report report() const override;
+    std::unique_ptr<Balancer> clone() const override { return std::make_unique<Tree>(*this); }
 
 private:
     double sum(std::size_t first, std::size_t end, const std::vector<double>& values) const;

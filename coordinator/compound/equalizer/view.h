@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -27,6 +28,7 @@ public:
     void switchOff(Turn&) override {}  // all keep all of what they may use
     void record(const PlannedFrame& frame, const FrameTimes& times) override;
     Report report() const override;
+    std::unique_ptr<Balancer> clone() const override { return std::make_unique<View>(*this); }
 
 private:
     using Pipe = std::pair<std::size_t, std::size_t>;  ///< node, pipe
