@@ -94,7 +94,7 @@ void checkTables(const std::uint8_t* data, std::size_t size) {
         return;
     std::memcpy(&header, file.data(), sizeof header);
     header.magic = mesh::kEymMagic;
-    header.version = mesh::kEymVersion;
+    header.version = mesh::versionOf(header.flags);
     header.headerBytes = sizeof header;
     header.fileBytes = file.size();
     header.checksum = mesh::headerChecksum(header);
@@ -128,6 +128,11 @@ void checkTables(const std::uint8_t* data, std::size_t size) {
     if (mesh::checkLights(lights).ok())
         for (const mesh::Light& light : lights)
             if (!(light.reachMetres >= 0))
+                std::abort();
+    const auto cones = tableOf(std::vector<mesh::Cone>(mesh::coneCount(header)));
+    if (mesh::checkCones(lights, cones).ok())
+        for (const mesh::Cone& cone : cones)
+            if (cone.isSpot() && !(cone.innerDegrees <= cone.outerDegrees))
                 std::abort();
 }
 

@@ -30,9 +30,13 @@ void append(FileLights& lights, const FileLights& more, const Mat4& worldFromFil
     const double scale = std::cbrt(std::abs(glm::determinant(turn)));
     for (const DirectionalLight& light : more.distant)
         lights.distant.push_back({glm::normalize(turn * light.direction), light.colour});
-    for (const PointLight& light : more.points)
-        lights.points.push_back({Vec3(worldFromFile * Vec4(light.positionMetres, 1)), light.colour,
-                                 light.reachMetres * scale});
+    for (PointLight light : more.points) {
+        light.positionMetres = Vec3(worldFromFile * Vec4(light.positionMetres, 1));
+        light.reachMetres *= scale;
+        if (light.cone)
+            light.cone->axis = glm::normalize(turn * light.cone->axis);
+        lights.points.push_back(light);
+    }
 }
 
 void keepBrightest(FileLights& lights, const Vec3& point) {

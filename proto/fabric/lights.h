@@ -29,10 +29,11 @@ struct FileLights {
 };
 
 /// Adds `more`, placed by the affine, not singular `worldFromFile`: where it scales unevenly, a
-/// reach grows by the cube root of what a volume does.
+/// reach grows by the cube root of what a volume does, and a cone keeps its angles.
 void append(FileLights& lights, const FileLights& more, const Mat4& worldFromFile = Mat4(1.0));
 
-/// Leaves the kMaxLights that are brightest at a point, in their order.
+/// Leaves the kMaxLights that are brightest at a point, in their order; spots as if they shone
+/// there.
 void keepBrightest(FileLights& lights, const Vec3& point);
 
 /// World axes, unit: towards the sun, which stands in the north (y) at azimuth 0, in the east (x)

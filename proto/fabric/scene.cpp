@@ -28,6 +28,23 @@ absl::Status validateTransform(const SceneObject& object) {
     return absl::OkStatus();
 }
 
+absl::Status validateCone(const LightCone& cone) {
+    const double length = glm::length(cone.axis);
+    if (!(length > 0 && std::isfinite(length)))
+        return absl::InvalidArgumentError(
+            "scene.pointLights.cone.axis must be three finite numbers, not all 0");
+    if (!(cone.outerDegrees > 0 && cone.outerDegrees <= 90))
+        return absl::InvalidArgumentError(
+            fmt::format("scene.pointLights.cone.outerDegrees is {}; it must be more than 0 and at "
+                        "most 90, which lights half of the space; leave the cone out for all of it",
+                        cone.outerDegrees));
+    if (!(cone.innerDegrees >= 0 && cone.innerDegrees <= cone.outerDegrees))
+        return absl::InvalidArgumentError(fmt::format(
+            "scene.pointLights.cone.innerDegrees is {}; it must be from 0 to outerDegrees, {}",
+            cone.innerDegrees, cone.outerDegrees));
+    return absl::OkStatus();
+}
+
 absl::Status validateLights(const Scene& scene) {
     const std::size_t count = scene.lights.size() + scene.pointLights.size();
     if (count > kMaxLights)
@@ -48,6 +65,9 @@ absl::Status validateLights(const Scene& scene) {
             return absl::InvalidArgumentError(
                 fmt::format("scene.pointLights.reach is {}; it must be from {} to {} metres",
                             light.reachMetres, kLeastReachMetres, kMostReachMetres));
+        if (light.cone)
+            if (absl::Status status = validateCone(*light.cone); !status.ok())
+                return status;
     }
     return absl::OkStatus();
 }

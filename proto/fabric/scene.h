@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,12 +43,24 @@ struct DirectionalLight {
 inline constexpr double kLeastReachMetres = 1e-6;
 inline constexpr double kMostReachMetres = 1e12;
 
-/// A light at a point of the world, shining all around. At a distance d it is
+/// What a spot shines into: all of its light up to the inner angle from the axis, none from the
+/// outer one on, and between them the square of (cos a - cos outer) / (cos inner - cos outer) of
+/// it, a being the angle (glTF, KHR_lights_punctual).
+struct LightCone {
+    Vec3 axis{0, 0, -1};       ///< from the light into the scene, world axes; not 0
+    double innerDegrees = 0;   ///< from the axis; 0 to outerDegrees
+    double outerDegrees = 45;  ///< more than 0, at most 90
+
+    bool operator==(const LightCone&) const = default;
+};
+
+/// A light at a point of the world, shining all around unless it has a cone. At a distance d it is
 /// colour / (1 + (d / reach)^2).
 struct PointLight {
     Vec3 positionMetres{0, 0, 0};
     Vec3 colour{1, 1, 1};
     double reachMetres = 1;  ///< where half of it arrives; kLeast- to kMostReachMetres
+    std::optional<LightCone> cone = {};
 
     bool operator==(const PointLight&) const = default;
 };

@@ -117,12 +117,24 @@ absl::StatusOr<fabric::DirectionalLight> lightFrom(const v1::DirectionalLight& m
     return light;
 }
 
+absl::StatusOr<fabric::LightCone> coneFrom(const v1::LightCone& message, const std::string& field) {
+    fabric::LightCone cone;
+    ASSIGN_OR_RETURN(cone.axis, threeNumbers(message.axis(), field + ".axis"));
+    cone.innerDegrees = message.inner_degrees();
+    if (message.has_outer_degrees())
+        cone.outerDegrees = message.outer_degrees();
+    return cone;
+}
+
 absl::StatusOr<fabric::PointLight> lightFrom(const v1::PointLight& message, int index) {
     const std::string field = fmt::format("pointLights[{}]", index);
     fabric::PointLight light;
     ASSIGN_OR_RETURN(light.positionMetres, threeNumbers(message.position(), field + ".position"));
     ASSIGN_OR_RETURN(light.colour, lightColour(message.colour(), field + ".colour"));
     light.reachMetres = message.reach();
+    if (message.has_cone()) {
+        ASSIGN_OR_RETURN(light.cone, coneFrom(message.cone(), field + ".cone"));
+    }
     return light;
 }
 
@@ -171,6 +183,11 @@ v1::Scene toMessage(const fabric::Scene& scene) {
         setNumbers(light.positionMetres, *lightMessage.mutable_position());
         setNumbers(light.colour, *lightMessage.mutable_colour());
         lightMessage.set_reach(light.reachMetres);
+        if (!light.cone)
+            continue;
+        setNumbers(light.cone->axis, *lightMessage.mutable_cone()->mutable_axis());
+        lightMessage.mutable_cone()->set_inner_degrees(light.cone->innerDegrees);
+        lightMessage.mutable_cone()->set_outer_degrees(light.cone->outerDegrees);
     }
     message.set_ambient(scene.ambient);
     const fabric::Rgba& background = scene.background;

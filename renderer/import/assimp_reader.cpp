@@ -274,7 +274,8 @@ absl::StatusOr<TriangleMesh> SceneMeshes::gather() {
                         "least one; export the mesh again with its faces",
                         result_.droppedFaces));
     materials_.moveTo(result_);
-    result_.lights = lightsOf(scene_, worldFromScene, metresPerUnit, result_.notes);
+    result_.lights =
+        lightsOf(scene_, format_.extension, worldFromScene, metresPerUnit, result_.notes);
     if (metresPerUnit != 1)
         result_.notes.push_back(fmt::format(
             "brought to metres: the file says that its unit is {:.6g} m", metresPerUnit));

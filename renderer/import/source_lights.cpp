@@ -22,6 +22,13 @@ bool isSound(const SourceLight& light) {
     const bool isPlaced = away <= fabric::kMaxCoordinateMetres &&
                           (light.kind == SourceLight::Kind::Point || away > 0);
     const auto isPart = [](double value) { return value >= 0 && std::isfinite(value); };
+    if (light.cone) {
+        const double length = glm::length(light.cone->axis);
+        const double outer = light.cone->outerDegrees;
+        if (!(length > 0 && std::isfinite(length) && outer > 0 && outer <= 90 &&
+              light.cone->innerDegrees >= 0 && light.cone->innerDegrees <= outer))
+            return false;
+    }
     return isPlaced && isPart(light.colour.x) && isPart(light.colour.y) && isPart(light.colour.z) &&
            isPart(light.constant) && isPart(light.linear) && isPart(light.quadratic);
 }
@@ -42,7 +49,7 @@ fabric::PointLight pointLight(const SourceLight& light, double scale) {
         reach *= std::sqrt(brightness);  // as bright far away: colour * reach^2 stays
     }
     return {light.place, colour,
-            std::clamp(reach, fabric::kLeastReachMetres, fabric::kMostReachMetres)};
+            std::clamp(reach, fabric::kLeastReachMetres, fabric::kMostReachMetres), light.cone};
 }
 
 }  // namespace

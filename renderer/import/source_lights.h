@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "fabric/scene.h"
 #include "fabric/vec.h"
 #include "renderer/import/triangle_mesh.h"
 
@@ -21,6 +23,7 @@ struct SourceLight {
     double constant = 1;
     double linear = 0;
     double quadratic = 0;
+    std::optional<fabric::LightCone> cone = {};  ///< of a spot
 };
 
 /// Pictures have no exposure: where a distant light is brighter than 1, all are darker by what

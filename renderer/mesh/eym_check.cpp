@@ -39,7 +39,7 @@ absl::Status checkCounts(const EymHeader& header) {
             "header.materialCount", header.materialCount,
             fmt::format("at most {}, and some where there are images or ranges", kMaxMaterials));
     constexpr std::uint32_t kKnown =
-        kHasColours | kIsCoded | kHasExact | kExactIsFloat64 | kHasTextures;
+        kHasColours | kIsCoded | kHasExact | kExactIsFloat64 | kHasTextures | kHasCones;
     if ((header.flags & ~kKnown) != 0)
         return damaged("header.flags", header.flags, fmt::format("bits of {}", kKnown));
     return absl::OkStatus();
@@ -304,8 +304,31 @@ absl::Status checkLights(std::span<const Light> lights) {
     return absl::OkStatus();
 }
 
+absl::Status checkCones(std::span<const Light> lights, std::span<const Cone> cones) {
+    for (std::size_t i = 0; i < cones.size(); ++i) {
+        const Cone& cone = cones[i];
+        if (!cone.isSpot())
+            continue;
+        if (lights[i].isDistant())
+            return damaged(fmt::format("cone {}: outerDegrees", i), cone.outerDegrees,
+                           "0 of a distant light");
+        const double length = glm::length(fabric::Vec3(cone.axis[0], cone.axis[1], cone.axis[2]));
+        if (!(length > 0 && std::isfinite(length)))
+            return damaged(fmt::format("cone {}: axis", i),
+                           fmt::format("({}, {}, {})", cone.axis[0], cone.axis[1], cone.axis[2]),
+                           "a direction");
+        if (!(cone.outerDegrees > 0 && cone.outerDegrees <= 90 && cone.innerDegrees >= 0 &&
+              cone.innerDegrees <= cone.outerDegrees))
+            return damaged(fmt::format("cone {}: innerDegrees and outerDegrees", i),
+                           fmt::format("{} and {}", cone.innerDegrees, cone.outerDegrees),
+                           "angles up to 90, the inner one no more than the outer one");
+    }
+    return absl::OkStatus();
+}
+
 std::uint64_t endOfTables(const EymHeader& header) {
-    return endOfPointRanges(header) + header.lightCount * sizeof(Light);
+    return endOfPointRanges(header) + header.lightCount * sizeof(Light) +
+           coneCount(header) * sizeof(Cone);
 }
 
 absl::Status checkHeader(std::span<const std::byte> beginning, std::uint64_t fileBytes) {
@@ -314,9 +337,9 @@ absl::Status checkHeader(std::span<const std::byte> beginning, std::uint64_t fil
     std::memcpy(&header, beginning.data(), sizeof header);
     if (header.version != versionOf(header.flags))
         return absl::InvalidArgumentError(fmt::format(
-            "header.version is {}, this build reads {}, or {} of meshes without colours; import "
-            "the mesh again with this build",
-            header.version, kEymVersion, kColourlessVersion));
+            "header.version is {}, this build reads {}, or, of meshes without spots, {} and, "
+            "without colours, {}; import the mesh again with this build",
+            header.version, kEymVersion, kSpotlessVersion, kColourlessVersion));
     if (header.headerBytes != sizeof(EymHeader))
         return damaged("header.headerBytes", header.headerBytes, sizeof(EymHeader));
     if (header.fileBytes != fileBytes)

@@ -38,6 +38,10 @@ absl::Status checkPointRanges(std::span<const Node> nodes, std::span<const Point
 /// That they shine, from somewhere. Errors: DataLoss.
 absl::Status checkLights(std::span<const Light> lights);
 
+/// That those of lights at a place, and no others, are spots of a sound shape. Errors: DataLoss.
+/// Precondition: none or as many as lights.
+absl::Status checkCones(std::span<const Light> lights, std::span<const Cone> cones);
+
 /// Bytes from the file's start to its first page.
 std::uint64_t endOfTables(const EymHeader& header);
 

@@ -18,6 +18,14 @@
 #include "renderer/page/remote_name.h"
 
 namespace eyrie::mesh {
+namespace {
+
+fabric::LightCone coneOf(const Cone& cone) {
+    return {fabric::Vec3(cone.axis[0], cone.axis[1], cone.axis[2]), double{cone.innerDegrees},
+            double{cone.outerDegrees}};
+}
+
+}  // namespace
 
 std::uint64_t headerChecksum(const EymHeader& header) {
     EymHeader zeroed = header;
@@ -122,17 +130,26 @@ absl::Status EymFile::readPointRanges() {
 
 absl::Status EymFile::readLights() {
     std::vector<Light> lights(header_.lightCount);
-    const auto bytes = std::as_writable_bytes(std::span(lights));
+    std::vector<Cone> cones(coneCount(header_));
+    std::vector<std::byte> bytes(lights.size() * sizeof(Light) + cones.size() * sizeof(Cone));
     RETURN_IF_ERROR(source_->read({endOfPointRanges(header_), bytes.size(), header_.lightsChecksum},
                                   bytes, "the lights"));
+    const auto first = std::as_writable_bytes(std::span(lights));
+    std::ranges::copy(std::span(bytes).first(first.size()), first.begin());
+    std::ranges::copy(std::span(bytes).subspan(first.size()),
+                      std::as_writable_bytes(std::span(cones)).begin());
     RETURN_IF_ERROR(fabric::withContext(checkLights(lights), path()));
-    for (const Light& light : lights) {
+    RETURN_IF_ERROR(fabric::withContext(checkCones(lights, cones), path()));
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        const Light& light = lights[i];
         const fabric::Vec3 place(light.place[0], light.place[1], light.place[2]);
         const fabric::Vec3 colour(light.colour[0], light.colour[1], light.colour[2]);
         if (light.isDistant())
             lights_.distant.push_back({place, colour});
         else
             lights_.points.push_back({place, colour, light.reachMetres});
+        if (!cones.empty() && cones[i].isSpot())
+            lights_.points.back().cone = coneOf(cones[i]);
     }
     return absl::OkStatus();
 }

@@ -23,8 +23,8 @@
 #include "renderer/mesh/node_block.h"
 #include "renderer/page/page_source.h"
 
-/// The .eym file, version 5: a mesh as a kd-tree of LOD nodes, each with pages of its own. Without
-/// colours it is as version 4 had it, and says so (versionOf).
+/// The .eym file, version 6: a mesh as a kd-tree of LOD nodes, each with pages of its own. Without
+/// spots it is as version 5 had it, and then without colours as version 4, and says so (versionOf).
 ///
 /// Little-endian:
 ///   EymHeader                       256 bytes
@@ -35,6 +35,7 @@
 ///   MaterialRange [rangeCount]      of the nodes that have triangles, in their order
 ///   PointRange  [pointRangeCount]   of the nodes that are drawn as points, in their order
 ///   Light       [lightCount]
+///   Cone        [lightCount]        where one of them is a spot
 ///   pages                           of the nodes that have geometry, in their order: that of what
 ///                                   is drawn, and then, where kept, that of source positions
 ///   images                          (material.h)
@@ -50,7 +51,8 @@ namespace eyrie::mesh {
 static_assert(std::endian::native == std::endian::little, ".eym files are mapped as they are");
 
 inline constexpr std::array<char, 8> kEymMagic = {'E', 'Y', 'M', 'E', 'S', 'H', '\0', '\x01'};
-inline constexpr std::uint32_t kEymVersion = 5;
+inline constexpr std::uint32_t kEymVersion = 6;
+inline constexpr std::uint32_t kSpotlessVersion = 5;
 inline constexpr std::uint32_t kColourlessVersion = 4;
 
 /// In EymHeader::flags.
@@ -59,11 +61,14 @@ inline constexpr std::uint32_t kIsCoded = 2;         ///< pages are; otherwise t
 inline constexpr std::uint32_t kHasExact = 4;        ///< leaves have source positions ...
 inline constexpr std::uint32_t kExactIsFloat64 = 8;  ///< ... in double precision
 inline constexpr std::uint32_t kHasTextures = 16;    ///< vertices have texture coordinates
+inline constexpr std::uint32_t kHasCones = 32;       ///< there is one for each light
 
 /// Of a file with these EymHeader::flags. Version 4 has no bound on where colours come from, which
-/// without colours is 0.
+/// without colours is 0; version 5 has no cones.
 constexpr std::uint32_t versionOf(std::uint32_t flags) {
-    return (flags & kHasColours) != 0 ? kEymVersion : kColourlessVersion;
+    if ((flags & kHasCones) != 0)
+        return kEymVersion;
+    return (flags & kHasColours) != 0 ? kSpotlessVersion : kColourlessVersion;
 }
 
 /// Levels a tree may have, so that a walk may recurse: the median split of 2^30 triangles makes 31.
@@ -95,7 +100,7 @@ struct EymHeader {
     std::uint32_t rangeCount = 0;
     std::uint32_t pointRangeCount = 0;
     std::uint64_t pointRangesChecksum = 0;  ///< xxh64 of the point ranges
-    std::uint64_t lightsChecksum = 0;       ///< xxh64 of the lights, if any
+    std::uint64_t lightsChecksum = 0;       ///< xxh64 of the lights and their cones, if any
     std::uint64_t lightCount = 0;           ///< at most fabric::kMaxLights
     std::array<std::uint64_t, 8> reserved{};
 };
@@ -187,6 +192,17 @@ struct Light {
     bool operator==(const Light&) const = default;
 };
 static_assert(sizeof(Light) == 40);
+
+/// What a light at a place shines into (fabric::LightCone), object space.
+struct Cone {
+    std::array<double, 3> axis{};
+    float innerDegrees = 0;
+    float outerDegrees = 0;  ///< 0: it is no spot
+
+    bool isSpot() const { return outerDegrees != 0; }
+    bool operator==(const Cone&) const = default;
+};
+static_assert(sizeof(Cone) == 32);
 
 /// An open .eym file. Any thread may call any function.
 ///
@@ -305,6 +321,11 @@ inline std::uint64_t endOfLids(const EymHeader& header) {
 /// Where the tables of materials end and the point ranges begin.
 inline std::uint64_t endOfMaterials(const EymHeader& header) {
     return endOfLids(header) + materialTableBytes(header);
+}
+
+/// How many cones there are.
+constexpr std::uint64_t coneCount(const EymHeader& header) {
+    return (header.flags & kHasCones) != 0 ? header.lightCount : 0;
 }
 
 /// Where the point ranges end and the lights begin.

@@ -289,6 +289,20 @@ std::vector<Light> stored(const fabric::FileLights& lights) {
     return records;
 }
 
+/// One for each stored light, or none where none is a spot.
+std::vector<Cone> storedCones(const fabric::FileLights& lights) {
+    std::vector<Cone> records(lights.distant.size());
+    for (const fabric::PointLight& light : lights.points) {
+        Cone record;
+        if (const auto& cone = light.cone)
+            record = {{cone->axis.x, cone->axis.y, cone->axis.z},
+                      static_cast<float>(cone->innerDegrees),
+                      static_cast<float>(cone->outerDegrees)};
+        records.push_back(record);
+    }
+    return std::ranges::any_of(records, &Cone::isSpot) ? records : std::vector<Cone>();
+}
+
 std::uint64_t countUsedVertices(const PackedMesh& mesh) {
     std::vector<bool> used(mesh.positions.size());
     for (const Triangle& triangle : mesh.triangles)
@@ -296,8 +310,16 @@ std::uint64_t countUsedVertices(const PackedMesh& mesh) {
     return static_cast<std::uint64_t>(std::count(used.begin(), used.end(), true));
 }
 
+std::vector<std::byte> bytesOf(const std::vector<Light>& lights, const std::vector<Cone>& cones) {
+    std::vector<std::byte> bytes;
+    for (const auto table : {std::as_bytes(std::span(lights)), std::as_bytes(std::span(cones))})
+        bytes.insert(bytes.end(), table.begin(), table.end());
+    return bytes;
+}
+
 std::uint32_t flagsOf(const PackedMesh& mesh, const EymOptions& options, ExactForm exactForm) {
-    return (mesh.colours.empty() ? 0 : kHasColours) | (options.isCoded ? kIsCoded : 0) |
+    return (storedCones(mesh.lights).empty() ? 0 : kHasCones) |
+           (mesh.colours.empty() ? 0 : kHasColours) | (options.isCoded ? kIsCoded : 0) |
            (mesh.exact.empty() ? 0 : kHasExact) |
            (mesh.textureCoordinates.empty() ? 0 : kHasTextures) |
            (exactForm == ExactForm::Float64 ? kExactIsFloat64 : 0);
@@ -348,6 +370,7 @@ absl::Status writeEym(const PackedMesh& mesh, const KdTree& tree, const LodTree&
     const std::vector<PointRange> pointRanges = pointRangesOf(mesh, lod);
     const std::vector<Lid> lids = stored(backs.lids);
     const std::vector<Light> lights = stored(mesh.lights);
+    const std::vector<Cone> cones = storedCones(mesh.lights);
     EymHeader sizes;
     sizes.nodeCount = static_cast<std::uint32_t>(tree.nodes.size());
     sizes.lidCount = lids.size();
@@ -356,6 +379,7 @@ absl::Status writeEym(const PackedMesh& mesh, const KdTree& tree, const LodTree&
     sizes.rangeCount = static_cast<std::uint32_t>(ranges.size());
     sizes.pointRangeCount = static_cast<std::uint32_t>(pointRanges.size());
     sizes.lightCount = lights.size();
+    sizes.flags = flagsOf(mesh, options, maker.exactForm());
     std::uint64_t end = endOfTables(sizes);
     const std::vector<Node> nodes = layOutNodes(tree, lod, pages, end);
     const std::vector<std::byte> tables =
@@ -364,8 +388,7 @@ absl::Status writeEym(const PackedMesh& mesh, const KdTree& tree, const LodTree&
     header.materialsChecksum = contentHash(tables);
     header.pointRangesChecksum = contentHash(std::as_bytes(std::span(pointRanges)));
     if (!lights.empty())
-        header.lightsChecksum = contentHash(std::as_bytes(std::span(lights)));
-    header.flags = flagsOf(mesh, options, maker.exactForm());
+        header.lightsChecksum = contentHash(bytesOf(lights, cones));
     header.version = versionOf(header.flags);
     header.sourceHash = options.sourceHash;
     header.fileBytes = end;
@@ -375,7 +398,7 @@ absl::Status writeEym(const PackedMesh& mesh, const KdTree& tree, const LodTree&
     RETURN_IF_ERROR(out.write(std::as_bytes(std::span(lids))));
     RETURN_IF_ERROR(out.write(tables));
     RETURN_IF_ERROR(out.write(std::as_bytes(std::span(pointRanges))));
-    RETURN_IF_ERROR(out.write(std::as_bytes(std::span(lights))));
+    RETURN_IF_ERROR(out.write(bytesOf(lights, cones)));
     return writePages(pages, mesh.images, out, stop);
 }
 

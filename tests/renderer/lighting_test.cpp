@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a floor looks like under lights, against the formulas in double precision.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <glm/trigonometric.hpp>
 #include <gtest/gtest.h>
 
 #include "renderer/import/mesh_import.h"
@@ -86,6 +88,40 @@ protected:
         return std::sqrt(std::clamp(lit, 0.0, 1.0)) * 255;
     }
 
+    /// What a spot's cone lets through to `place`, as glTF's KHR_lights_punctual says it.
+    static double letThrough(const fabric::LightCone& cone, const Vec3& fromLight) {
+        const double degrees =
+            glm::degrees(std::acos(glm::dot(glm::normalize(fromLight), glm::normalize(cone.axis))));
+        if (degrees <= cone.innerDegrees)
+            return 1;
+        if (degrees >= cone.outerDegrees)
+            return 0;
+        const auto cosine = [](double angle) { return std::cos(glm::radians(angle)); };
+        const double part = (cosine(degrees) - cosine(cone.outerDegrees)) /
+                            (cosine(cone.innerDegrees) - cosine(cone.outerDegrees));
+        return part * part;
+    }
+
+    /// Also that all of a cone shows: what it lights fully, in part and not at all.
+    void expectSpotLit(const fabric::Image& image, const fabric::PointLight& light,
+                       double levels) const {
+        std::array<int, 3> pixels{};
+        for (int y = 0; y < kSize; ++y)
+            for (int x = 0; x < kSize; ++x) {
+                const Vec3 place = placeAt(x, y);
+                const Vec3 way = light.positionMetres - place;
+                const double part = glm::length(way) / light.reachMetres;
+                const double through = letThrough(*light.cone, -way);
+                const double level =
+                    expected(place, glm::normalize(way), through / (1 + part * part));
+                const auto at = static_cast<std::size_t>(y * kSize + x);
+                ASSERT_NEAR(image.colour[at].g, level, levels)
+                    << "pixel " << x << ", " << y << ", to which " << through << " is let through";
+                ++pixels[through == 0 ? 0 : through < 1 ? 1 : 2];
+            }
+        for (const int count : pixels) EXPECT_GT(count, kSize * kSize / 40);
+    }
+
     void expectPointLit(const fabric::Image& image, const fabric::PointLight& light,
                         double levels) const {
         double brightest = 0;
@@ -141,6 +177,75 @@ TEST_F(Lighting, AtVerticesIsTheSameWhereVerticesAreDense) {
     EXPECT_LT(coarse.colour[middle].g + 30, exact.colour[middle].g);
 }
 
+fabric::PointLight slantedSpot(const Vec3& middle) {
+    return {middle + Vec3(-1.5, -1, 5), Vec3(1), 8,
+            fabric::LightCone{Vec3(0.6, 0.2, -2.5), 15, 35}};
+}
+
+TEST_F(Lighting, OfASpotIsAllInsideItsConeNoneOutsideAndFadesBetween) {
+    fabric::Scene scene;
+    scene.pointLights = {slantedSpot(middle_)};
+    const fabric::PointLight& light = scene.pointLights[0];
+    expectSpotLit(draw(scene, 4, fabric::Shading::Smooth), light, 1.5);
+    expectSpotLit(draw(scene, 4, fabric::Shading::Flat), light, 1.5);
+    // Where the cone begins and ends, lines between vertices cut the corner.
+    expectSpotLit(draw(scene, 0.0625, fabric::Shading::Gouraud), light, 5);
+}
+
+TEST_F(Lighting, OfASpotIsTheSameFarFromTheOriginAndOnATurnedObject) {
+    middle_ = Vec3(5e5, 4.5e6, 300);
+    fabric::Scene scene;
+    scene.pointLights = {slantedSpot(middle_)};
+    fabric::Mat4 turned = glm::translate(fabric::Mat4(1.0), middle_);
+    turned = glm::rotate(turned, 1.0, Vec3(0, 0, 1));
+    for (const Vec3& scale : {Vec3(2), Vec3(2, 3, 1)})
+        expectSpotLit(draw(scene, 4, fabric::Shading::Smooth, glm::scale(turned, scale)),
+                      scene.pointLights[0], 1.5);
+}
+
+TEST_F(Lighting, OfASpotWithoutAPenumbraEndsAtOnce) {
+    fabric::Scene scene;
+    scene.pointLights = {{Vec3(0, 0, 5), Vec3(1), 8, fabric::LightCone{Vec3(0, 0, -1), 30, 30}}};
+    const fabric::Image image = draw(scene, 4, fabric::Shading::Smooth);
+    const auto levelAt = [&](int x) {
+        return image.colour[static_cast<std::size_t>(kSize / 2 * kSize + x)].g;
+    };
+    const double radius = 5 * std::tan(glm::radians(30.0));
+    for (int x = 0; x < kSize; ++x) {
+        const Vec3 way = scene.pointLights[0].positionMetres - placeAt(x, kSize / 2);
+        const double from = std::hypot(way.x, way.y);
+        const double part = glm::length(way) / 8;
+        const double lit = expected(placeAt(x, kSize / 2), glm::normalize(way),
+                                    from < radius ? 1 / (1 + part * part) : 0);
+        if (std::abs(from - radius) > 0.1) {
+            EXPECT_NEAR(levelAt(x), lit, 1.5) << "pixel " << x;
+        }
+    }
+}
+
+TEST_F(Lighting, OfSpotsAddsUpWithLightsThatHaveNoCone) {
+    const fabric::PointLight spot = slantedSpot(middle_);
+    const auto draws = [&](bool hasSpot, bool hasOther) {
+        fabric::Scene scene;
+        scene.lights = {{Vec3(0, 0.6, -0.8), hasOther ? Vec3(0, 0.3, 0) : Vec3(0)}};
+        scene.pointLights = {{Vec3(2, 2, 3), hasOther ? Vec3(0, 0.2, 0) : Vec3(0), 5}};
+        if (hasSpot)
+            scene.pointLights.push_back(spot);
+        return draw(scene, 4, fabric::Shading::Smooth);
+    };
+    const fabric::Image both = draws(true, true);
+    const fabric::Image alone = draws(true, false);
+    const fabric::Image others = draws(false, true);
+    const auto light = [](fabric::Rgba shown) { return std::pow(shown.g / 255.0, 2); };
+    for (std::size_t at = 0; at < both.colour.size(); at += 7)
+        EXPECT_NEAR(
+            both.colour[at].g,
+            std::sqrt(std::min(light(alone.colour[at]) + light(others.colour[at]) - 0.1, 1.0)) *
+                255,
+            3)
+            << at;
+}
+
 TEST_F(Lighting, OfBothKindsAddsUp) {
     const fabric::PointLight point{Vec3(2, 2, 3), Vec3(0, 0.5, 0), 5};
     fabric::Scene scene;
@@ -170,6 +275,16 @@ TEST_F(Lighting, OfFilesShinesWhereTheSceneHasNone) {
     fabric::Scene lit;
     lit.pointLights = {{Vec3(-2, 1, 2), Vec3(1), 4}};
     expectPointLit(draw(lit, 4, fabric::Shading::Smooth, turned, ofFile), lit.pointLights[0], 1.5);
+}
+
+TEST_F(Lighting, OfAFilesSpotTurnsWithItsObject) {
+    const fabric::FileLights ofFile{
+        {}, {{Vec3(-0.5, 0.75, 2.5), Vec3(1), 4, fabric::LightCone{Vec3(0.1, -0.3, -1), 15, 35}}}};
+    fabric::Mat4 turned = glm::rotate(fabric::Mat4(1.0), glm::radians(90.0), Vec3(0, 0, 1));
+    turned = glm::scale(turned, Vec3(2));
+    expectSpotLit(draw({}, 4, fabric::Shading::Smooth, turned, ofFile),
+                  {Vec3(-1.5, -1, 5), Vec3(1), 8, fabric::LightCone{Vec3(0.3, 0.1, -1), 15, 35}},
+                  1.5);
 }
 
 }  // namespace

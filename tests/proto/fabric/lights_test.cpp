@@ -93,6 +93,18 @@ TEST(LightsOfFiles, GoWithTheirObject) {
     EXPECT_EQ(lights.points[1], kOfFile.points[0]);
 }
 
+TEST(LightsOfFiles, ThatAreSpotsTurnWithTheirObjectAndKeepTheirAngles) {
+    const FileLights spot{{}, {{{1, 0, 0}, Vec3(1), 2, LightCone{{0, 0, -1}, 10, 20}}}};
+    FileLights lights;
+    append(lights, spot,
+           glm::scale(glm::rotate(Mat4(1.0), glm::radians(90.0), Vec3(1, 0, 0)), Vec3(3)));
+    ASSERT_EQ(lights.points.size(), 1U);
+    ASSERT_TRUE(lights.points[0].cone.has_value());
+    expectNear(lights.points[0].cone->axis, {0, 1, 0});
+    EXPECT_EQ(lights.points[0].cone->innerDegrees, 10);
+    EXPECT_EQ(lights.points[0].cone->outerDegrees, 20);
+}
+
 TEST(LightsOfFiles, AreTheBrightestWhereThereAreTooMany) {
     FileLights lights;
     lights.distant = {{{0, 0, -1}, Vec3(0.01)}, {{0, 1, 0}, Vec3(0.5)}};

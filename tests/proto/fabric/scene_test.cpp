@@ -56,5 +56,26 @@ TEST(Scene, LightsAreFewAndHaveADirection) {
     EXPECT_THAT(refusal(glaring), testing::HasSubstr("scene.ambient"));
 }
 
+Scene sceneLitBy(const LightCone& cone) {
+    Scene scene;
+    scene.pointLights = {{Vec3(0), Vec3(1), 1, cone}};
+    return scene;
+}
+
+TEST(Scene, ASpotsConeLightsUpToHalfOfTheSpaceAndSaysWhatIsWrongWithIt) {
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    const Vec3 down(0, 0, -1);
+    EXPECT_TRUE(validate(sceneLitBy({})).ok());
+    EXPECT_TRUE(validate(sceneLitBy({down, 0, 90})).ok());
+    EXPECT_TRUE(validate(sceneLitBy({down * 7.0, 30, 30})).ok()) << "a hard edge";
+    using testing::HasSubstr;
+    for (const double outer : {0.0, -5.0, 90.001, 180.0, kNone})
+        EXPECT_THAT(refusal(sceneLitBy({down, 0, outer})), HasSubstr("cone.outerDegrees is"));
+    for (const double inner : {-0.1, 30.1, kNone})
+        EXPECT_THAT(refusal(sceneLitBy({down, inner, 30})), HasSubstr("cone.innerDegrees is"));
+    for (const Vec3& axis : {Vec3(0), Vec3(0, kNone, 1)})
+        EXPECT_THAT(refusal(sceneLitBy({axis, 0, 30})), HasSubstr("cone.axis must be"));
+}
+
 }  // namespace
 }  // namespace eyrie::fabric

@@ -48,6 +48,8 @@ fabric::Scene anyScene() {
         scene.pointLights.push_back({{number(), number(), number()},
                                      {fraction(), fraction(), fraction()},
                                      fraction() + 0.5});
+    if (!scene.pointLights.empty() && *rc::gen::arbitrary<bool>())
+        scene.pointLights.back().cone = {{number(), number(), 1}, 40 * fraction(), 45};
     scene.ambient = fraction();
     scene.background.g = *rc::gen::arbitrary<std::uint8_t>();
     return scene;
@@ -129,6 +131,27 @@ TEST(WireScene, ARefusalNamesTheObjectAndField) {
                 testing::HasSubstr("pointLights[0].position"));
     EXPECT_THAT(refusal(R"({"pointLights":[{"position":[0,0,1]}]})"),
                 testing::HasSubstr("pointLights.reach is 0"));
+    const auto refusalOfCone = [](const std::string& cone) {
+        return refusal(R"({"pointLights":[{"position":[0,0,1],"reach":1,"cone":)" + cone + "}]}");
+    };
+    EXPECT_THAT(refusalOfCone("{}"), testing::HasSubstr("pointLights[0].cone.axis"));
+    EXPECT_THAT(refusalOfCone(R"({"axis":[0,0,-1],"outerDegrees":120})"),
+                testing::HasSubstr("pointLights.cone.outerDegrees is 120"));
+    EXPECT_THAT(refusalOfCone(R"({"axis":[0,0,-1],"innerDegrees":20,"outerDegrees":10})"),
+                testing::HasSubstr("pointLights.cone.innerDegrees is 20"));
+    EXPECT_THAT(refusalOfCone(R"({"axis":[0,0,-1],"innerDegrees":"NaN"})"),
+                testing::HasSubstr("pointLights.cone.innerDegrees is nan"));
+}
+
+TEST(WireScene, ASpotComesBackAsItWasAndIs45DegreesWideWhereItSaysNothing) {
+    fabric::Scene scene;
+    scene.pointLights = {{{1, 2, 3}, {1, 0.5, 0}, 4, fabric::LightCone{{0, 3, -4}, 12.5, 60}},
+                         {{3, 2, 1}, {1, 1, 1}, 4}};
+    EXPECT_EQ(fromMessage(toMessage(scene)).value(), scene);
+    const fabric::Scene plain =
+        sceneFrom(R"({"pointLights":[{"position":[0,0,1],"reach":1,"cone":{"axis":[0,0,-1]}}]})")
+            .value();
+    EXPECT_EQ(plain.pointLights[0].cone, (fabric::LightCone{{0, 0, -1}, 0, 45}));
 }
 
 TEST(WireSceneInfo, ComesBackAsItWas) {

@@ -122,9 +122,9 @@ TEST_F(EffectVariantsTest, EveryBuiltInVariantCompilesAndSetsWhatTheDriverKept) 
 }
 
 TEST_F(EffectVariantsTest, RefusesAValueOutOfItsRange) {
-    const auto program = TerrainEffect::create({{.lights = 5}});
+    const auto program = TerrainEffect::create({{.lights = 6}});
     EXPECT_EQ(program.status(),
-              absl::InvalidArgumentError("terrain.effect: LIGHTS is 5; it must be from 1 to 4"));
+              absl::InvalidArgumentError("terrain.effect: LIGHTS is 6; it must be from 1 to 5"));
 }
 
 TEST_F(EffectVariantsTest, UniformsArriveWithTheirTypes) {

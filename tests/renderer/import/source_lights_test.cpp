@@ -68,6 +68,16 @@ TEST(SourceLights, KeepTheirShareWhereOneIsTooBright) {
     EXPECT_THAT(lights.points, ElementsAre(fabric::PointLight{Vec3(0), Vec3(0.5), 2}));
 }
 
+SourceLight spotOf(const fabric::LightCone& cone) {
+    return {Kind::Point, Vec3(0), Vec3(1), 1, 0, 0, cone};
+}
+
+TEST(SourceLights, ThatAreSpotsKeepTheirCone) {
+    const fabric::LightCone cone{Vec3(0, 1, 0), 10, 20};
+    EXPECT_EQ(lightsFrom({spotOf(cone)}).points.at(0).cone, cone);
+    EXPECT_FALSE(lightsFrom({{Kind::Point, Vec3(0), Vec3(1)}}).points.at(0).cone.has_value());
+}
+
 TEST(SourceLights, OfNoLightAreLeftOut) {
     EXPECT_EQ(lightsFrom({{Kind::Point, Vec3(0), Vec3(0)}}).count(), 0U);
     EXPECT_EQ(lightsFrom({{Kind::Point, Vec3(0), Vec3(1e-320), 0, 0, 1}}).count(), 0U);
@@ -77,12 +87,15 @@ TEST(SourceLights, OfNoLightAreLeftOut) {
               1U);
     const double none = std::numeric_limits<double>::quiet_NaN();
     const double endless = std::numeric_limits<double>::infinity();
-    for (const SourceLight& unsound : {SourceLight{Kind::Point, Vec3(none), Vec3(1)},
-                                       SourceLight{Kind::Distant, Vec3(0), Vec3(1)},
-                                       SourceLight{Kind::Point, Vec3(0, endless, 0), Vec3(1)},
-                                       SourceLight{Kind::Point, Vec3(0), Vec3(1, -1, 1)},
-                                       SourceLight{Kind::Point, Vec3(0), Vec3(endless)},
-                                       SourceLight{Kind::Point, Vec3(0), Vec3(1), 1, 0, -3}}) {
+    for (const SourceLight& unsound :
+         {SourceLight{Kind::Point, Vec3(none), Vec3(1)},
+          SourceLight{Kind::Distant, Vec3(0), Vec3(1)},
+          SourceLight{Kind::Point, Vec3(0, endless, 0), Vec3(1)},
+          SourceLight{Kind::Point, Vec3(0), Vec3(1, -1, 1)},
+          SourceLight{Kind::Point, Vec3(0), Vec3(endless)},
+          SourceLight{Kind::Point, Vec3(0), Vec3(1), 1, 0, -3}, spotOf({Vec3(0), 10, 20}),
+          spotOf({Vec3(0, 0, 1), 30, 20}), spotOf({Vec3(0, 0, 1), -1, 20}),
+          spotOf({Vec3(0, 0, 1), 0, none}), spotOf({Vec3(0, 0, 1), 0, 91})}) {
         std::vector<std::string> notes;
         EXPECT_EQ(import::lightsFrom({&unsound, 1}, notes).count(), 0U);
         EXPECT_THAT(notes, ElementsAre(HasSubstr("left out 1 of 1 lights")));

@@ -25,7 +25,8 @@ std::string makeSmallFile(bool isCoded) {
     mesh.materials[2].flags = 0;  // points stand for nothing that is blended
     for (const std::uint64_t position : mesh.positions)
         mesh.exact.push_back(mesh.lattice.metres(unpackPosition(position)) + 0.01);
-    mesh.lights = {{{{0, 0, -1}, {1, 1, 1}}}, {{{1, 2, 3}, {1, 0.5, 0}, 10}}};
+    mesh.lights = {{{{0, 0, -1}, {1, 1, 1}}},
+                   {{{1, 2, 3}, {1, 0.5, 0}, 10, fabric::LightCone{{1, 0, 0}, 10, 20}}}};
     auto tree = buildKdTree(mesh.positions, mesh.triangles, {10});
     auto out = OutputFile::create(folder.file("m.eym"));
     EXPECT_TRUE(tree.ok() && out.ok());
@@ -94,6 +95,7 @@ struct Tables {
         ranges.resize(header.rangeCount);
         pointRanges.resize(header.pointRangeCount);
         lights.resize(header.lightCount);
+        cones.resize(coneCount(header));
         const char* at = bytes.data() + sizeof header;
         forAll([&at](auto table) {
             std::memcpy(table.data(), at, table.size());
@@ -111,10 +113,11 @@ struct Tables {
             at += table.size();
         });
         header.pointRangesChecksum = contentHash(std::as_bytes(std::span(pointRanges)));
-        header.lightsChecksum = contentHash(std::as_bytes(std::span(lights)));
+        const std::size_t lightBytes =
+            std::as_bytes(std::span(lights)).size() + std::as_bytes(std::span(cones)).size();
+        header.lightsChecksum = contentHash(std::as_bytes(std::span(at - lightBytes, lightBytes)));
         const auto materialBytes = static_cast<std::size_t>(at - materialsAt) -
-                                   std::as_bytes(std::span(pointRanges)).size() -
-                                   std::as_bytes(std::span(lights)).size();
+                                   std::as_bytes(std::span(pointRanges)).size() - lightBytes;
         header.materialsChecksum =
             contentHash(std::as_bytes(std::span(materialsAt, materialBytes)));
         header.checksum = headerChecksum(header);
@@ -130,9 +133,11 @@ struct Tables {
         visit(std::as_writable_bytes(std::span(ranges)));
         visit(std::as_writable_bytes(std::span(pointRanges)));
         visit(std::as_writable_bytes(std::span(lights)));
+        visit(std::as_writable_bytes(std::span(cones)));
     }
     std::size_t endOfTables() const {
-        return endOfPointRanges(header) + lights.size() * sizeof(Light);
+        return endOfPointRanges(header) + lights.size() * sizeof(Light) +
+               cones.size() * sizeof(Cone);
     }
 
     EymHeader header;
@@ -143,6 +148,7 @@ struct Tables {
     std::vector<MaterialRange> ranges;
     std::vector<PointRange> pointRanges;
     std::vector<Light> lights;
+    std::vector<Cone> cones;  ///< of each light
 };
 
 TEST(EymDamage, OfTheLengthIsAlwaysNoticed) {
@@ -255,7 +261,7 @@ TEST(EymDamage, WithARightChecksumIsStillRefused) {
         {"a reach of colours that are not there",
          [](Tables& t) {
              t.header.flags &= ~kHasColours;
-             t.header.version = kColourlessVersion;
+             t.header.version = versionOf(t.header.flags);
              t.nodes[0].colourReach = 0x3F80;
          }},
         {"range with a gap", [](Tables& t) { t.nodes[1].triangleEnd -= 1; }},
@@ -271,6 +277,15 @@ TEST(EymDamage, WithARightChecksumIsStillRefused) {
         {"a light that is nowhere",
          [](Tables& t) { t.lights[1].place[2] = std::numeric_limits<double>::infinity(); }},
         {"a light that takes light", [](Tables& t) { t.lights[1].colour[0] = -1; }},
+        {"a spot at no place",
+         [](Tables& t) {
+             t.cones[0] = {.axis = {0, 0, 1}, .innerDegrees = 1, .outerDegrees = 2};
+         }},
+        {"a spot that shines nowhere", [](Tables& t) { t.cones[1].axis = {}; }},
+        {"a spot of more than half of the space", [](Tables& t) { t.cones[1].outerDegrees = 91; }},
+        {"a cone inside out", [](Tables& t) { t.cones[1].innerDegrees = 21; }},
+        {"a cone of no angle",
+         [](Tables& t) { t.cones[1].outerDegrees = std::numeric_limits<float>::quiet_NaN(); }},
         {"a light of no reach", [](Tables& t) { t.lights[1].reachMetres = -1; }},
         {"unknown flag", [](Tables& t) { t.header.flags |= 1U << 7; }},
         {"step no power of two", [](Tables& t) { t.header.stepMetres = 0.3; }},
