@@ -1,9 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/import_notes.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <fmt/format.h>
 
 namespace eyrie::cli {
+namespace {
+
+long percent(double share) { return std::lround(100 * share); }
+
+/// "5, 7, 0 %", from the finest level.
+std::string percentages(const std::vector<mesh::LodLevel>& levels,
+                        double (mesh::PointCounts::*share)() const) {
+    std::string text;
+    for (const mesh::LodLevel& level : levels)
+        text += fmt::format("{}{}", text.empty() ? "" : ", ", percent((level.points.*share)()));
+    return text + " %";
+}
+
+double borderShareOf(const mesh::LodLevel& level) { return level.points.borderShare(); }
+
+}  // namespace
 
 std::vector<std::string> notesOf(const import::MeshImportReport& made) {
     std::vector<std::string> notes = made.notes;
@@ -13,7 +32,25 @@ std::vector<std::string> notesOf(const import::MeshImportReport& made) {
             fmt::format("left out {} faces of fewer than three corners, {} triangles without area, "
                         "{} that were there already",
                         made.droppedFaces, counts.degenerateTriangles, counts.duplicateTriangles));
+    const auto most = std::ranges::max_element(made.levels, {}, borderShareOf);
+    if (most != made.levels.end() && borderShareOf(*most) > mesh::kMostBorderShare)
+        notes.push_back(fmt::format(
+            "{} % of the vertices of level {} stay because nodes meet there, more than {} %: what "
+            "is promised holds, but pictures take more triangles than that needs; where they are "
+            "too slow raise tau or import fewer triangles",
+            percent(borderShareOf(*most)), most - made.levels.begin() + 1,
+            percent(mesh::kMostBorderShare)));
     return notes;
+}
+
+std::string keptLine(const import::MeshImportReport& made) {
+    if (made.levels.empty())
+        return "";
+    return fmt::format(
+        "of the vertices, by level from the finest, stay {} where nodes meet, and "
+        "{} at open edges or where sheets touch",
+        percentages(made.levels, &mesh::PointCounts::borderShare),
+        percentages(made.levels, &mesh::PointCounts::stayingShare));
 }
 
 }  // namespace eyrie::cli

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/import/mesh_report.h"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,8 @@ std::vector<JsonObject> levelsJson(const import::MeshImportReport& made) {
                              .count("triangles", level.trianglesAfter)
                              .number("errorMetres", level.largestErrorMetres)
                              .number("colourReachMetres", level.largestReachMetres)
-                             .number("borderShare", level.borderShare));
+                             .number("borderShare", level.points.borderShare())
+                             .number("stayingShare", level.points.stayingShare()));
     return levels;
 }
 
@@ -72,9 +74,13 @@ void printText(const MeshImportChoices& choices, const import::MeshImportReport&
                    counts.orient.components, counts.orient.closedComponents);
     const std::string points =
         made.pointNodes > 0 ? fmt::format(", {} nodes as points from afar", made.pointNodes) : "";
+    const auto hasNodes = [](const mesh::LodLevel& level) { return level.nodes > 0; };
     fmt::print(stderr, "{}: {} triangles, {} vertices, {} simpler levels{}, {:.1f} MB, {:.2f} s\n",
-               choices.out, made.triangles, made.vertices, made.levels.size(), points,
+               choices.out, made.triangles, made.vertices,
+               std::ranges::count_if(made.levels, hasNodes), points,
                static_cast<double>(made.bytes) / 1e6, made.seconds.total);
+    if (const std::string kept = keptLine(made); !kept.empty())
+        fmt::print(stderr, "{}: {}\n", choices.out, kept);
 }
 
 }  // namespace eyrie::cli

@@ -45,13 +45,8 @@ std::uint64_t bytesPerTriangle(std::uint64_t triangles, std::uint64_t vertices,
 void addLevels(std::vector<mesh::LodLevel>& to, const std::vector<mesh::LodLevel>& from) {
     to.resize(std::max(to.size(), from.size()));
     for (std::size_t i = 0; i < from.size(); ++i) {
-        const double nodes = static_cast<double>(to[i].nodes + from[i].nodes);
-        to[i].borderShare = nodes == 0
-                                ? 0
-                                : (to[i].borderShare * static_cast<double>(to[i].nodes) +
-                                   from[i].borderShare * static_cast<double>(from[i].nodes)) /
-                                      nodes;
         to[i].nodes += from[i].nodes;
+        to[i].points += from[i].points;
         to[i].trianglesBefore += from[i].trianglesBefore;
         to[i].trianglesAfter += from[i].trianglesAfter;
         to[i].largestErrorMetres = std::max(to[i].largestErrorMetres, from[i].largestErrorMetres);

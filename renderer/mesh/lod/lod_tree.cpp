@@ -73,8 +73,9 @@ private:
     const Components& components();
     Simplified simplified(const Patch& patch, const KdNode& node, std::size_t target);
     std::optional<Simplified> simplifiedOrNothing(const LodPart& part, const KdNode& node);
+    LodLevel& level(std::size_t height);
     void standFor(LodPart& part, std::size_t index);
-    void record(const LodPart& part, std::size_t before, double borderShare);
+    void record(const LodPart& part, std::size_t before);
     double reachMetres(double steps) const;
 
     const PackedMesh& mesh_;
@@ -153,7 +154,7 @@ Simplified Builder::simplified(const Patch& patch, const KdNode& node, std::size
     const bool isSparseBetter = areBothDone
                                     ? sparse.patch.error() < error
                                     : sparse.patch.triangles.size() < plain.patch.triangles.size();
-    sparse.borderShare = plain.borderShare;
+    sparse.points = plain.points;
     return isSparseBetter ? sparse : plain;
 }
 
@@ -164,6 +165,10 @@ std::optional<Simplified> Builder::simplifiedOrNothing(const LodPart& part, cons
         return std::nullopt;
     Simplified result =
         simplified(part.patch, node, std::min<std::size_t>(before / 2, options_.nodeTriangles));
+    {
+        const std::lock_guard lock(mutex_);
+        level(part.height + 1).points += result.points;
+    }
     const std::vector<Triangle>& triangles = result.patch.triangles;
     if (triangles.size() > kMaxNodeTriangles || hasMoreVerticesThan(kMaxLeafVertices, triangles) ||
         static_cast<double>(triangles.size()) > kWorthwhile * static_cast<double>(before))
@@ -190,7 +195,7 @@ void Builder::standFor(LodPart& part, std::size_t index) {
         part.patch = std::move(fewer->patch);
         ++part.height;
         lod_.geometry[index] = part.patch.triangles;
-        record(part, before, fewer->borderShare);
+        record(part, before);
     }
     part.errorSteps = std::max(part.errorSteps, part.patch.error());
     part.reachSteps = std::max(part.reachSteps, colourReach(mesh_, part.patch));
@@ -198,11 +203,16 @@ void Builder::standFor(LodPart& part, std::size_t index) {
     reachSteps_[index] = part.reachSteps;
 }
 
-void Builder::record(const LodPart& part, std::size_t before, double borderShare) {
+/// Under the lock. The finest has height 1.
+LodLevel& Builder::level(std::size_t height) {
+    if (lod_.levels.size() < height)
+        lod_.levels.resize(height);
+    return lod_.levels[height - 1];
+}
+
+void Builder::record(const LodPart& part, std::size_t before) {
     const std::lock_guard lock(mutex_);
-    if (lod_.levels.size() < part.height)
-        lod_.levels.resize(part.height);
-    LodLevel& level = lod_.levels[part.height - 1];
+    LodLevel& level = this->level(part.height);
     ++level.nodes;
     level.trianglesBefore += before;
     level.trianglesAfter += part.patch.triangles.size();
@@ -211,7 +221,6 @@ void Builder::record(const LodPart& part, std::size_t before, double borderShare
         std::max(level.largestErrorMetres, errorSteps * mesh_.lattice.stepMetres);
     level.largestReachMetres =
         std::max(level.largestReachMetres, reachMetres(colourReach(mesh_, part.patch)));
-    level.borderShare += borderShare;
     done_ += before;
     // Each level has about half the triangles of the one below: two thirds of a mesh's in all.
     if (progress_)
@@ -231,8 +240,6 @@ LodTree Builder::build() {
         if (parts_ != nullptr)
             parts_->root = std::move(root);
     }
-    for (LodLevel& level : lod_.levels)
-        level.borderShare /= static_cast<double>(std::max<std::uint64_t>(level.nodes, 1));
     lod_.errorMetres.reserve(errorSteps_.size());
     for (const double steps : errorSteps_)
         lod_.errorMetres.push_back(mesh_.lattice.errorMetres() + steps * mesh_.lattice.stepMetres);

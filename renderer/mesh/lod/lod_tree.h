@@ -14,6 +14,7 @@
 #include "renderer/mesh/kd_tree.h"
 #include "renderer/mesh/lod/patch.h"
 #include "renderer/mesh/lod/point_sample.h"
+#include "renderer/mesh/lod/simplify.h"
 #include "renderer/mesh/packed_mesh.h"
 
 namespace eyrie::mesh {
@@ -46,15 +47,20 @@ struct LodParts {
     LodPart root;  ///< out: what stands for the root, or would have been simplified
 };
 
-/// What was simplified at one distance from the leaves.
+/// What was simplified at one distance from the leaves. Without nodes: it was tried, in vain.
 struct LodLevel {
     std::uint64_t nodes = 0;
     std::uint64_t trianglesBefore = 0;
     std::uint64_t trianglesAfter = 0;
     double largestErrorMetres = 0;
     double largestReachMetres = 0;  ///< of LodTree::colourReachMetres
-    double borderShare = 0;         ///< mean over its nodes: vertices that had to stay
+    PointCounts points;             ///< of its nodes, those included that nothing came of
 };
+
+/// Of a level's points, on borders of its nodes: where they are more, less goes from the level than
+/// its error would allow, as each level keeps all that those below it have kept on borders above
+/// it (decision 84).
+inline constexpr double kMostBorderShare = 0.4;
 
 /// What stands for the nodes of a kd-tree when they are drawn coarser, node by node.
 struct LodTree {

@@ -85,11 +85,13 @@ private:
     void link(const PackedMesh& mesh);
     bool gatherRing(std::uint32_t point);
     bool sortRing();
+    bool isOpen() const;
     bool isSimple(std::size_t target);
     std::pair<std::size_t, double> cheapest(std::uint32_t point, const Star& star,
                                             const std::optional<StarColours>& colours,
                                             std::uint32_t excluded) const;
     Collapse bestCollapse(std::uint32_t point, bool mustBeSimple);
+    void count(std::uint32_t point);
     Star star(std::uint32_t point) const;
     Shifts shiftsOf(const Star& star, const Star::Replaced& replaced) const;
     std::optional<StarColours> coloursAround(std::uint32_t point) const;
@@ -115,6 +117,7 @@ private:
     std::vector<Neighbour> ring_;  ///< of the point looked at
     bool isRing_ = false;          ///< whether they are a closed one
     std::size_t left_;
+    PointCounts counts_;
 };
 
 Simplifier::Simplifier(const PackedMesh& mesh, const Patch& patch,
@@ -221,6 +224,21 @@ bool Simplifier::sortRing() {
         if (std::exchange(mark_[neighbour.point], marking_) == marking_)
             return false;  // the ring meets itself
     return true;
+}
+
+/// Whether one of the neighbours, in no particular order, shares but one triangle with the point.
+bool Simplifier::isOpen() const {
+    std::vector<std::uint32_t> ends;
+    for (const Neighbour& neighbour : ring_)
+        ends.insert(ends.end(), {neighbour.point, neighbour.next});
+    std::ranges::sort(ends);
+    for (std::size_t i = 0; i < ends.size();) {
+        const std::size_t first = i;
+        while (i < ends.size() && ends[i] == ends[first]) ++i;
+        if (i == first + 1)
+            return true;
+    }
+    return false;
 }
 
 /// Whether the point and ring_[target] have but two neighbours in common, so that no two faces fall
@@ -413,6 +431,15 @@ void Simplifier::moveCorners(std::uint32_t from, std::uint32_t onto, std::uint32
     around_[onto] = {begin, moving.count + there.count};
 }
 
+/// The point that was just looked at, before anything changed.
+void Simplifier::count(std::uint32_t point) {
+    ++counts_.all;
+    if (isStaying_[point])
+        ++counts_.staying;
+    else if (!isRing_)
+        ++(isOpen() ? counts_.onBorder : counts_.staying);
+}
+
 Simplified Simplifier::run(std::size_t target) {
     const auto look = [&](std::uint32_t point, bool mustBeSimple = false) {
         best_[point] = bestCollapse(point, mustBeSimple);
@@ -423,6 +450,7 @@ Simplified Simplifier::run(std::size_t target) {
     for (std::uint32_t point = 0; point < points_.size(); ++point) {
         look(point);
         isInner_.push_back(isRing_ && !isStaying_[point]);
+        count(point);
     }
     while (left_ > target && !queue_.empty()) {
         const std::uint32_t point = pointOf(queue_.top());
@@ -433,8 +461,7 @@ Simplified Simplifier::run(std::size_t target) {
             look(point, true);
     }
     Simplified result;
-    result.borderShare = static_cast<double>(std::ranges::count(isInner_, false)) /
-                         static_cast<double>(points_.size());
+    result.points = counts_;
     for (std::size_t i = 0; i < faces_.size(); ++i) {
         const auto& corners = faces_[i].corners;
         if (!faces_[i].isThere)
@@ -448,6 +475,13 @@ Simplified Simplifier::run(std::size_t target) {
 }
 
 }  // namespace
+
+PointCounts& PointCounts::operator+=(const PointCounts& more) {
+    all += more.all;
+    onBorder += more.onBorder;
+    staying += more.staying;
+    return *this;
+}
 
 Simplified simplify(const PackedMesh& mesh, const Patch& patch, std::size_t target,
                     std::span<const std::uint8_t> staying) {

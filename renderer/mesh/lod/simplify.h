@@ -9,9 +9,27 @@
 
 namespace eyrie::mesh {
 
+/// Points of a patch before it is simplified, by what keeps them.
+struct PointCounts {
+    std::uint64_t all = 0;
+    /// Of all, those that stay for no other reason than that the patch ends there and the surface
+    /// goes on.
+    std::uint64_t onBorder = 0;
+    std::uint64_t staying = 0;  ///< of all, those that have to stay whatever lies around the patch
+
+    PointCounts& operator+=(const PointCounts& more);
+    double borderShare() const { return shareOf(onBorder); }
+    double stayingShare() const { return shareOf(staying); }
+
+private:
+    double shareOf(std::uint64_t some) const {
+        return all > 0 ? static_cast<double>(some) / static_cast<double>(all) : 0;
+    }
+};
+
 struct Simplified {
     Patch patch;
-    double borderShare = 0;  ///< of the points before, those on the border or where sheets meet
+    PointCounts points;
 };
 
 /// Takes inner vertices of `patch` away, each time the one that makes the least bound, until about

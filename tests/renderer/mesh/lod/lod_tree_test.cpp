@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <random>
+#include <set>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -270,6 +272,87 @@ TEST(LodTree, HalvesTheTrianglesFromLevelToLevel) {
     EXPECT_LE(levels.lod.geometry[0].size(), kNodeTriangles);
 }
 
+using Edge = std::pair<std::uint64_t, std::uint64_t>;
+
+/// A square of cells, open around, that bulges a little.
+PackedMesh sheet(std::uint32_t cells) {
+    import::TriangleMesh source;
+    for (std::uint32_t y = 0; y <= cells; ++y)
+        for (std::uint32_t x = 0; x <= cells; ++x)
+            source.positions.emplace_back(x, y, std::sin(0.1 * x) * std::cos(0.13 * y));
+    for (std::uint32_t y = 0; y < cells; ++y)
+        for (std::uint32_t x = 0; x < cells; ++x) {
+            const std::uint32_t at = y * (cells + 1) + x;
+            source.triangles.push_back({at, at + 1, at + cells + 2});
+            source.triangles.push_back({at, at + cells + 2, at + cells + 1});
+        }
+    import::PackCounts counts;
+    auto mesh = import::packMesh(std::move(source), counts);
+    EXPECT_TRUE(mesh.ok());
+    return *std::move(mesh);
+}
+
+/// Of the nodes above leaves that are not simplified, whose triangles are the source's own: by the
+/// nodes that a point's triangles are in, and by the edges that it has alone.
+PointCounts countsOfTheFinest(const Levels& levels) {
+    std::map<Edge, int> edges;
+    for (const Triangle& triangle : levels.mesh.triangles)
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::uint64_t from = levels.mesh.positions[triangle[i]];
+            const std::uint64_t to = levels.mesh.positions[triangle[(i + 1) % 3]];
+            ++edges[{std::min(from, to), std::max(from, to)}];
+        }
+    std::set<std::uint64_t> open;
+    for (const auto& [ends, count] : edges)
+        if (count == 1)
+            open.insert({ends.first, ends.second});
+    const auto isSimplified = [&](std::int32_t index) {
+        const KdNode& node = levels.tree.nodes[static_cast<std::size_t>(index)];
+        return !node.isLeaf() && node.triangleEnd - node.triangleBegin > kNodeTriangles;
+    };
+    PointCounts counts;
+    for (std::size_t index = 0; index < levels.tree.nodes.size(); ++index) {
+        const KdNode& node = levels.tree.nodes[index];
+        if (!isSimplified(static_cast<std::int32_t>(index)) || isSimplified(node.left) ||
+            isSimplified(node.right))
+            continue;
+        std::set<std::uint64_t> inside, outside;
+        for (std::uint64_t i = 0; i < levels.tree.order.size(); ++i)
+            for (const std::uint32_t vertex : levels.mesh.triangles[levels.tree.order[i]])
+                (i >= node.triangleBegin && i < node.triangleEnd ? inside : outside)
+                    .insert(levels.mesh.positions[vertex]);
+        for (const std::uint64_t point : inside) {
+            ++counts.all;
+            if (open.contains(point))
+                ++counts.staying;
+            else if (outside.contains(point))
+                ++counts.onBorder;
+        }
+    }
+    return counts;
+}
+
+TEST(LodTree, TellsPointsWhereNodesMeetFromThoseAtOpenEdges) {
+    const Levels open = levelsOf(sheet(60));
+    for (const Levels* const levels : {&open, &bumpyBall()}) {
+        const PointCounts expected = countsOfTheFinest(*levels);
+        const PointCounts& found = levels->lod.levels.front().points;
+        EXPECT_EQ(found.all, expected.all);
+        EXPECT_EQ(found.onBorder, expected.onBorder);
+        EXPECT_EQ(found.staying, expected.staying);
+        EXPECT_GT(found.onBorder, 0U);
+        // All of the surface has no border. Of what is left of the ball some points have more
+        // triangles than are taken for a star.
+        const PointCounts& root = levels->lod.levels.back().points;
+        EXPECT_EQ(root.onBorder, 0U);
+        if (levels == &open) {
+            EXPECT_EQ(root.staying, 240U) << "those around it";
+        } else {
+            EXPECT_LT(root.stayingShare(), 0.05);
+        }
+    }
+}
+
 TEST(LodTree, ErrorsAreNeverBelowTheChildrens) {
     const Levels& levels = bumpyBall();
     for (std::size_t i = 0; i < levels.tree.nodes.size(); ++i) {
@@ -280,8 +363,6 @@ TEST(LodTree, ErrorsAreNeverBelowTheChildrens) {
         EXPECT_GE(levels.lod.errorMetres[i], levels.lod.errorMetres[std::size_t(node.right)]);
     }
 }
-
-using Edge = std::pair<std::uint64_t, std::uint64_t>;
 
 void addEdges(const PackedMesh& mesh, const std::vector<Triangle>& triangles,
               std::map<Edge, int>& edges) {

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/import_notes.h"
+
+#include <gmock/gmock.h>
+
+namespace eyrie::cli {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+/// With a level for each pair: of 1,000 vertices those on borders, and those that stay for others'
+/// sake.
+import::MeshImportReport reportOf(const std::vector<std::pair<int, int>>& levels){
+    import::MeshImportReport made;
+for (const auto& [onBorder, staying] : levels) {
+    mesh::LodLevel level;
+    level.nodes = 1;
+    level.points.all = 1000;
+    level.points.onBorder = static_cast<std::uint64_t>(onBorder);
+    level.points.staying = static_cast<std::uint64_t>(staying);
+    made.levels.push_back(level);
+}
+return made;
+}  // namespace
+
+TEST(ImportNotes, TellBordersOfNodesFromOpenEdgesLevelByLevel) {
+    EXPECT_EQ(keptLine(reportOf({{51, 0}, {124, 6}, {0, 830}})),
+              "of the vertices, by level from the finest, stay 5, 12, 0 % where nodes meet, and 0, "
+              "1, 83 % at open edges or where sheets touch");
+    EXPECT_EQ(keptLine({}), "");
+}
+
+TEST(ImportNotes, WarnOfBordersBeyondFourTenthsAndOfNothingElse) {
+    EXPECT_THAT(notesOf(reportOf({})), IsEmpty());
+    EXPECT_THAT(notesOf(reportOf({{400, 0}, {0, 830}})), IsEmpty());
+    EXPECT_THAT(notesOf(reportOf({{120, 0}, {437, 0}, {410, 0}})),
+                ElementsAre(HasSubstr("44 % of the vertices of level 2 stay because nodes meet")));
+}
+
+}  // namespace eyrie::cli
+}  // namespace eyrie::cli
