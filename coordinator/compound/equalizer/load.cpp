@@ -65,7 +65,9 @@ void Load::apply(Turn& turn, const config::Equalizer& settings, bool isFrozen) {
     auto whole = wholeOf(*compound, settings);
     if (!whole)
         return;
-    whole->rules.isFrozen = isFrozen || (!costs_.empty() && imbalance() <= kAlike);
+    whole->rules.isFrozen = isFrozen;
+    whole->rules.isSettled = !costs_.empty() && imbalance() <= kAlike;
+    whole->rules.followsCourse = true;
     resources_ = resources(turn, settings);
     std::vector<double> shares = resources_;
     charge(shares, destination_);

@@ -16,7 +16,8 @@ namespace eyrie::equalizer {
 /// cuts of a SplitTree so that each side has of it what it has of the resources. What a destination
 /// assembles, as far as its renderer tells, is charged to the child that draws on its channel.
 /// Times within a twentieth of each other are left alone: moving a cut costs, because what lies
-/// there has to be loaded by another renderer.
+/// there has to be loaded by another renderer. A cut whose place moves frame after frame, as where
+/// the camera turns, goes ahead of it.
 class Load final : public Balancer {
 public:
     Load(const config::Compound& written, std::size_t position, const Work& work);

@@ -122,6 +122,12 @@ Axis SplitTree::axisOf(const Split& split, const Node& node, const Area& area, i
     return !split.hasRoom(area, axis, leaves) && split.hasRoom(area, other, leaves) ? other : axis;
 }
 
+/// How far `place` has gone on when the frame is drawn.
+double SplitTree::ahead(const Split& split, Node& node, Axis axis, double place) {
+    const double whole = split.whole(axis);
+    return split.rules.followsCourse && whole > 0 ? node.course.ahead(place / whole) * whole : 0;
+}
+
 double SplitTree::move(const Split& split, Node& node, const Wish& wish, const Side& left,
                        const Side& right) {
     const double unit = split.unit(wish.axis);
@@ -142,12 +148,14 @@ double SplitTree::move(const Split& split, Node& node, const Wish& wish, const S
         bounds = boundsOf(0);
     if (bounds.lowest > bounds.highest)  // fewer units than leaves: some stay empty
         return std::clamp(rounded(low + wish.share * (high - low)), low, high);
-    const double place = split.place(wish);
+    const double known = split.place(wish);
+    const double onItsWay = ahead(split, node, wish.axis, known);
+    const double place = known + onItsWay;
     const double goal = std::clamp(rounded(place), bounds.lowest, bounds.highest);
     if (!wish.before)
         return goal;
     const double before = std::clamp(rounded(*wish.before), bounds.lowest, bounds.highest);
-    if (split.rules.isFrozen || goal == before ||
+    if (split.rules.isFrozen || (split.rules.isSettled && onItsWay == 0) || goal == before ||
         std::abs(place - before) <= std::max(split.resistance(wish.axis), kNearer * unit))
         return before;
     const double heading = sign(goal - before);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "coordinator/compound/equalizer/area.h"
+#include "coordinator/compound/equalizer/course.h"
 
 namespace eyrie::equalizer {
 
@@ -29,6 +30,9 @@ struct SplitRules {
     double resistanceY = 0;
     double damping = .5;    ///< share of the way to that place not gone at first; 0 to 1
     bool isFrozen = false;  ///< cuts stay as long as the same leaves have parts
+    /// Cuts go to where the place for them will be, not to where it is (Course).
+    bool followsCourse = false;
+    bool isSettled = false;  ///< cuts stay, but for one whose place is on its way
 };
 
 /// Cuts an area into parts, one for each leaf of a balanced binary tree, which meet on both sides
@@ -67,6 +71,7 @@ private:
         std::size_t leavesAfter = 0;
         double step = 1;     ///< for each of what damping leaves
         double heading = 0;  ///< which way the cut wanted to move
+        Course course = {};  ///< of the place for the cut
     };
     struct Side {
         double resources = 0;
@@ -79,6 +84,7 @@ private:
              const Area& area);
     Axis axisOf(const Split& split, const Node& node, const Area& area, int depth, const Side& left,
                 const Side& right) const;
+    static double ahead(const Split& split, Node& node, Axis axis, double place);
     double move(const Split& split, Node& node, const Wish& wish, const Side& left,
                 const Side& right);
 
