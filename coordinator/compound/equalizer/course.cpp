@@ -8,7 +8,8 @@ namespace eyrie::equalizer {
 namespace {
 
 /// Two frames are under way between a frame and the first that is planned by its times; what is
-/// believed of these only by and by makes it three. By five and more loads in motion are passed.
+/// believed of these only by and by makes it three. Four are no better for two children and worse
+/// for four.
 constexpr double kFramesAhead = 3;
 /// Less is left alone: cuts are to come to rest.
 constexpr double kLeast = .004;

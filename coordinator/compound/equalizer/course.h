@@ -12,7 +12,7 @@ namespace eyrie::equalizer {
 /// Times tell of frames that are over, and of some of them only when several have told the same: a
 /// cut that goes to where the load was is always late where the load moves. A place that went the
 /// same way in each of the last frames is taken to go on so, in each frame as far as in the slowest
-/// of those: what comes to rest goes slower, what noise shakes turns, and neither is carried on.
+/// of those: what comes to rest is carried on less and less, what noise shakes turns and is not.
 class Course {
 public:
     /// How far it has gone on, 0 as a rule, when the frame that is planned now is drawn. `place`, a
