@@ -166,7 +166,7 @@ absl::Status checkOutputs(const Options& options) {
     RETURN_IF_ERROR(checkPictureName(options.out, "-o"));
     for (const std::string& path : {options.out, options.depth, options.stats})
         if (!path.empty())
-            RETURN_IF_ERROR(mesh::OutputFile::create(path).status());
+            RETURN_IF_ERROR(mesh::OutputFile::check(path));
     return absl::OkStatus();
 }
 

@@ -36,7 +36,7 @@ absl::StatusOr<import::MeshImportReport> importMeshTo(const std::string& path,
 absl::StatusOr<MeshTuning> importTuned(const MeshImportChoices& choices,
                                        const import::MeshImportOptions& how,
                                        const std::stop_token& stop) {
-    RETURN_IF_ERROR(mesh::OutputFile::create(choices.out).status());
+    RETURN_IF_ERROR(mesh::OutputFile::check(choices.out));
     ASSIGN_OR_RETURN(const bench::NamedFlight flight, bench::NamedFlight::read(choices.flight));
     ProgressBar bar(choices.out, 0, "", progressStyle(choices));
     return tuneMesh(

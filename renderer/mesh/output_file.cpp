@@ -6,23 +6,69 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <optional>
 #include <vector>
 
 #include <absl/status/status.h>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "fabric/status.h"
 
 namespace eyrie::mesh {
+namespace {
+
+bool isSame(const struct stat& a, const struct stat& b) {
+    return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
+}
+
+/// The process's standard output or errors, where `target` is one of them; -1 otherwise.
+int ownOutput(const struct stat& target) {
+    for (const int fd : {STDOUT_FILENO, STDERR_FILENO}) {
+        struct stat own {};
+        if (::fstat(fd, &own) == 0 && isSame(own, target))
+            return fd;
+    }
+    return -1;
+}
+
+/// What is written in its place: a file that took it would be in the way of all who use it.
+std::optional<struct stat> inItsPlace(const std::string& path) {
+    struct stat target {};
+    if (::stat(path.c_str(), &target) != 0 || S_ISDIR(target.st_mode))
+        return std::nullopt;
+    if (S_ISREG(target.st_mode) && ownOutput(target) < 0)
+        return std::nullopt;
+    return target;
+}
+
+}  // namespace
 
 absl::StatusOr<OutputFile> OutputFile::create(const std::string& path) {
+    if (const auto target = inItsPlace(path)) {
+        const int own = ownOutput(*target);
+        const int fd = own >= 0 ? ::fcntl(own, F_DUPFD_CLOEXEC, 0)
+                                : ::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
+        if (fd < 0)
+            return fabric::writeError(path, "cannot open it", errno);
+        return OutputFile(path, {}, fd);
+    }
     std::string partial = fmt::format("{}.partial-{}", path, ::getpid());
-    const int fd = ::open(partial.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    const int fd =
+        ::open(partial.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0666);
     if (fd < 0)
         return fabric::writeError(path, "cannot create it", errno);
     return OutputFile(path, std::move(partial), fd);
+}
+
+absl::Status OutputFile::check(const std::string& path) {
+    if (!inItsPlace(path))
+        return create(path).status();
+    if (::access(path.c_str(), W_OK) != 0)
+        return fabric::writeError(path, "cannot open it", errno);
+    return absl::OkStatus();
 }
 
 absl::StatusOr<OutputFile> OutputFile::createUnnamed(const std::string& path) {
@@ -31,7 +77,7 @@ absl::StatusOr<OutputFile> OutputFile::createUnnamed(const std::string& path) {
     if (fd < 0)
         return fabric::writeError(path, "cannot create a scratch file beside it", errno);
     ::unlink(name.c_str());
-    return OutputFile(path, {}, fd);
+    return OutputFile(path, {}, fd, true);
 }
 
 OutputFile::~OutputFile() {
@@ -61,10 +107,12 @@ absl::Status OutputFile::writeAt(std::uint64_t offset, std::span<const std::byte
             ::pwrite(fd_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
         if (written < 0 && errno == EINTR)
             continue;
+        if (written < 0 && errno == ESPIPE)
+            return absl::InvalidArgumentError(fmt::format(
+                "{}: is a pipe, and this is not written from front to back; name a file", path_));
         if (written < 0)
             return fabric::writeError(
-                path_,
-                partialPath_.empty() ? "cannot write a scratch file beside it" : "cannot write it",
+                path_, isUnnamed_ ? "cannot write a scratch file beside it" : "cannot write it",
                 errno);
         offset += static_cast<std::uint64_t>(written);
         bytes = bytes.subspan(static_cast<std::size_t>(written));
@@ -96,6 +144,10 @@ absl::Status OutputFile::padTo(std::uint64_t alignment) {
 }
 
 absl::Status OutputFile::commit() {
+    if (partialPath_.empty()) {
+        ::close(std::exchange(fd_, -1));
+        return absl::OkStatus();
+    }
     if (::fsync(fd_) != 0)
         return fabric::writeError(path_, "cannot flush it to the disk", errno);
     if (::rename(partialPath_.c_str(), path_.c_str()) != 0)

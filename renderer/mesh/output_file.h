@@ -13,11 +13,16 @@ namespace eyrie::mesh {
 /// A file that appears under its name only when it is complete.
 ///
 /// Bytes go to `PATH.partial-<process id>` beside it; commit() flushes that to the disk and renames
-/// it. Without a successful commit the partial file is removed.
+/// it. Without a successful commit the partial file is removed. What is no file (a device, a pipe)
+/// and the process's own output (`/dev/stdout`) are written as bytes come: nothing takes their
+/// place.
 class OutputFile {
 public:
     /// Errors: NotFound (no such folder), PermissionDenied, Unavailable.
     static absl::StatusOr<OutputFile> create(const std::string& path);
+    /// Whether create() would do. Leaves pipes alone: who reads one would see it end. Errors: as
+    /// above.
+    static absl::Status check(const std::string& path);
     /// One that never gets a name, on the disk of `path`: for what is read back, and gone with the
     /// object or the process, however that ends. commit() is not for it. Errors: as above.
     static absl::StatusOr<OutputFile> createUnnamed(const std::string& path);
@@ -26,12 +31,14 @@ public:
         : path_(std::move(other.path_)),
           partialPath_(std::move(other.partialPath_)),
           fd_(std::exchange(other.fd_, -1)),
-          size_(other.size_) {}
+          size_(other.size_),
+          isUnnamed_(other.isUnnamed_) {}
     OutputFile& operator=(OutputFile&& other) noexcept {
         std::swap(path_, other.path_);
         std::swap(partialPath_, other.partialPath_);
         std::swap(fd_, other.fd_);
         std::swap(size_, other.size_);
+        std::swap(isUnnamed_, other.isUnnamed_);
         return *this;
     }
     ~OutputFile();
@@ -43,7 +50,7 @@ public:
     absl::Status commit();
 
     /// Puts bytes at a place, wherever write() is; what is left out before it reads as zeros.
-    /// size() does not count them. Errors: as write().
+    /// size() does not count them. Errors: as write(); InvalidArgument (a pipe).
     absl::Status writeAt(std::uint64_t offset, std::span<const std::byte> bytes);
     /// Of an unnamed file; zeros past its end. Any thread may read. Errors: Unavailable.
     absl::Status readAt(std::uint64_t offset, std::span<std::byte> bytes) const;
@@ -52,13 +59,17 @@ public:
     const std::string& path() const { return path_; }
 
 private:
-    OutputFile(std::string path, std::string partialPath, int fd)
-        : path_(std::move(path)), partialPath_(std::move(partialPath)), fd_(fd) {}
+    OutputFile(std::string path, std::string partialPath, int fd, bool isUnnamed = false)
+        : path_(std::move(path)),
+          partialPath_(std::move(partialPath)),
+          fd_(fd),
+          isUnnamed_(isUnnamed) {}
 
     std::string path_;
-    std::string partialPath_;
+    std::string partialPath_;  ///< empty: unnamed, or written in its place
     int fd_;
     std::uint64_t size_ = 0;
+    bool isUnnamed_;
 };
 
 }  // namespace eyrie::mesh

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/mesh/output_file.h"
 
+#include <array>
+#include <cstdio>
 #include <filesystem>
 #include <span>
 #include <string>
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "renderer/mesh/mapped_file.h"
 #include "tests/renderer/mesh/temporary_folder.h"
@@ -61,6 +65,73 @@ TEST(OutputFile, NamesTheMissingFolder) {
     EXPECT_EQ(out.status().code(), absl::StatusCode::kNotFound);
     EXPECT_THAT(std::string(out.status().message()),
                 testing::HasSubstr("/nowhere/at/all/mesh.eym"));
+}
+
+/// What a pipe's reader gets until nobody writes to it any more.
+std::string drained(int fd) {
+    std::string text;
+    std::array<char, 64> buffer{};
+    for (ssize_t got = 0; (got = ::read(fd, buffer.data(), buffer.size())) > 0;)
+        text.append(buffer.data(), static_cast<std::size_t>(got));
+    return text;
+}
+
+TEST(OutputFile, WritesToAPipeAndLeavesItThere) {
+    const test::TemporaryFolder folder;
+    const std::string pipe = folder.file("pipe");
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    ASSERT_TRUE(OutputFile::check(pipe).ok());  // would wait for a reader if it opened it
+    const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+    auto out = OutputFile::create(pipe);
+    ASSERT_TRUE(out.ok()) << out.status();
+    ASSERT_TRUE(out->write(bytesOf("bytes")).ok());
+    EXPECT_EQ(out->writeAt(0, bytesOf("b")).code(), absl::StatusCode::kInvalidArgument);
+    ASSERT_TRUE(out->commit().ok());
+    EXPECT_EQ(drained(reader), "bytes");
+    ::close(reader);
+    EXPECT_TRUE(std::filesystem::is_fifo(pipe));
+    EXPECT_THAT(folder.names(), testing::ElementsAre("pipe"));
+}
+
+TEST(OutputFile, LeavesADeviceWhereItIsBehindALink) {
+    const test::TemporaryFolder folder;
+    std::filesystem::create_symlink("/dev/null", folder.file("nothing"));
+    auto out = OutputFile::create(folder.file("nothing"));
+    ASSERT_TRUE(out.ok()) << out.status();
+    EXPECT_TRUE(out->write(bytesOf("bytes")).ok());
+    EXPECT_TRUE(out->commit().ok());
+    EXPECT_TRUE(std::filesystem::is_symlink(folder.file("nothing")));
+    EXPECT_TRUE(std::filesystem::is_character_file(folder.file("nothing")));
+}
+
+TEST(OutputFile, GoesOnWhereStandardOutputIsThoughThatIsAFile) {
+    const test::TemporaryFolder folder;
+    const std::string whole = folder.file("whole");
+    std::filesystem::create_symlink("/proc/self/fd/1", folder.file("stdout"));
+    std::fflush(stdout);
+    const int before = ::dup(STDOUT_FILENO);
+    const int file = ::open(whole.c_str(), O_WRONLY | O_CREAT, 0600);
+    ::dup2(file, STDOUT_FILENO);
+    EXPECT_EQ(::write(STDOUT_FILENO, "first ", 6), 6);
+    {
+        auto out = OutputFile::create(folder.file("stdout"));
+        EXPECT_TRUE(out.ok() && out->write(bytesOf("second ")).ok() && out->commit().ok());
+    }
+    EXPECT_EQ(::write(STDOUT_FILENO, "third", 5), 5);
+    ::dup2(before, STDOUT_FILENO);
+    ::close(before);
+    ::close(file);
+    EXPECT_EQ(test::readFile(whole), "first second third");
+    EXPECT_TRUE(std::filesystem::is_symlink(folder.file("stdout")));
+}
+
+TEST(OutputFile, WritesNothingThroughALinkOfItsPartialFilesName) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("else"), "precious");
+    std::filesystem::create_symlink(folder.file("else"),
+                                    folder.file("out.partial-" + std::to_string(::getpid())));
+    EXPECT_FALSE(OutputFile::create(folder.file("out")).ok());
+    EXPECT_EQ(test::readFile(folder.file("else")), "precious");
 }
 
 TEST(MappedFile, RefusesWhatIsNoFileWithoutWaiting) {
