@@ -30,6 +30,7 @@
 #include "renderer/import/assimp_lights.h"
 #include "renderer/import/assimp_materials.h"
 #include "renderer/import/assimp_values.h"
+#include "renderer/import/gltf_extensions.h"
 #include "renderer/import/polygon.h"
 #include "renderer/mesh/mapped_file.h"
 
@@ -291,8 +292,14 @@ absl::StatusOr<TriangleMesh> SceneMeshes::gather() {
     return std::move(result_);
 }
 
+bool isGltf(const AssimpFormat& format) {
+    return format.extension == ".gltf" || format.extension == ".glb";
+}
+
 /// What Assimp is known to get wrong in a file, for TriangleMesh::notes.
 std::vector<std::string> caveats(std::span<const std::byte> bytes, const AssimpFormat& format) {
+    if (isGltf(format))
+        return gltfCaveats(bytes);
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     const bool isPlaced = text.find("\nloc ") != std::string_view::npos ||
                           text.find("\nrot ") != std::string_view::npos;
@@ -376,6 +383,9 @@ absl::StatusOr<TriangleMesh> readWithAssimp(const std::string& path, const Readi
     const AssimpFormat* format = findAssimpFormat(path);
     if (format == nullptr)
         return absl::InvalidArgumentError(fmt::format("{}: is of no format known here", path));
+    if (isGltf(*format))
+        if (const absl::Status readable = checkGltfExtensions(file.bytes()); !readable.ok())
+            return fabric::withContext(readable, path);
     control.report("reading", 0);
     auto result = readInOwnProcess([&] { return read(path, *format); }, limits, control);
     control.report("reading", 1);

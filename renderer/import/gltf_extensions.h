@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <absl/status/status.h>
+
+namespace eyrie::import {
+
+/// Whether what a .gltf or .glb file requires of its readers is read here. Assimp does not ask: it
+/// takes what it knows, and integers of KHR_mesh_quantization for the bits of floats. Errors:
+/// InvalidArgument, which names the extension and how to do without.
+absl::Status checkGltfExtensions(std::span<const std::byte> bytes);
+
+/// What a file uses that moves or repeats what it shows, without requiring it, and is left out
+/// here: for TriangleMesh::notes.
+std::vector<std::string> gltfCaveats(std::span<const std::byte> bytes);
+
+}  // namespace eyrie::import

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/import/gltf_extensions.h"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "renderer/import/assimp_reader.h"
+#include "tests/renderer/mesh/temporary_folder.h"
+
+namespace eyrie::import {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+std::span<const std::byte> bytesOf(std::string_view text) { return std::as_bytes(std::span(text)); }
+
+std::string requiring(std::string_view names) {
+    return fmt::format(
+        R"({{"asset": {{"version": "2.0"}}, "extensionsUsed": [{0}], "extensionsRequired" : [ {0} ]}})",
+        names);
+}
+
+std::string glbOf(std::string json) {
+    json.resize((json.size() + 3) / 4 * 4, ' ');
+    std::string file = "glTF";
+    const auto add = [&file](std::uint32_t value) {
+        file.append(reinterpret_cast<const char*>(&value), sizeof value);
+    };
+    add(2);
+    add(static_cast<std::uint32_t>(20 + json.size()));
+    add(static_cast<std::uint32_t>(json.size()));
+    add(0x4E4F534A);
+    return file + json;
+}
+
+TEST(GltfExtensions, ThatAreReadMayBeRequired) {
+    EXPECT_TRUE(checkGltfExtensions(bytesOf(R"({"asset": {"version": "2.0"}})")).ok());
+    EXPECT_TRUE(checkGltfExtensions(bytesOf(requiring(""))).ok());
+    EXPECT_TRUE(checkGltfExtensions(
+                    bytesOf(requiring(R"("KHR_draco_mesh_compression", "KHR_materials_unlit",)"
+                                      R"("KHR_texture_transform", "KHR_lights_punctual")")))
+                    .ok());
+}
+
+TEST(GltfExtensions, ThatAreNotReadAreNamedWithWhatToDo) {
+    for (const std::string& file : {requiring(R"("KHR_materials_ior" ,"KHR_mesh_quantization")"),
+                                    glbOf(requiring(R"("KHR_mesh_quantization")"))}) {
+        const absl::Status status = checkGltfExtensions(bytesOf(file));
+        EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
+        EXPECT_THAT(std::string(status.message()), HasSubstr("KHR_mesh_quantization"));
+        EXPECT_THAT(std::string(status.message()), HasSubstr("-noq"));
+    }
+    EXPECT_THAT(
+        std::string(checkGltfExtensions(bytesOf(requiring(R"("EXT_unheard_of")"))).message()),
+        HasSubstr("EXT_unheard_of"));
+}
+
+TEST(GltfExtensions, AreWhatTheFileSaysTheyAreAndNotWhatItsTextsSay) {
+    EXPECT_TRUE(
+        checkGltfExtensions(bytesOf(R"({"nodes": [{"name": "extensionsRequired"}]})")).ok());
+    for (std::string_view file :
+         {R"({"extensionsRequired")", R"({"extensionsRequired":)", R"({"extensionsRequired":[)",
+          R"({"extensionsRequired":[])", R"({"extensionsRequired": 3)", "glTF"})
+        EXPECT_TRUE(checkGltfExtensions(bytesOf(file)).ok()) << file;
+    EXPECT_FALSE(checkGltfExtensions(bytesOf(R"({"extensionsRequired":["x)")).ok());
+}
+
+TEST(GltfExtensions, ThatMoveOrRepeatMeshesAreToldOfWhereTheyAreLeftOut) {
+    EXPECT_THAT(gltfCaveats(bytesOf(R"({"extensionsUsed": ["KHR_materials_unlit"]})")), IsEmpty());
+    EXPECT_THAT(
+        gltfCaveats(bytesOf(R"({"extensionsUsed": ["CESIUM_RTC", "EXT_mesh_gpu_instancing"]})")),
+        ElementsAre(HasSubstr("CESIUM_RTC"), HasSubstr("EXT_mesh_gpu_instancing")));
+}
+
+TEST(GltfExtensions, AreLookedAtBeforeAFileIsRead) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.gltf"), requiring(R"("KHR_mesh_quantization")"));
+    const auto mesh = readWithAssimp(folder.file("m.gltf"));
+    EXPECT_THAT(std::string(mesh.status().message()),
+                testing::AllOf(HasSubstr("m.gltf"), HasSubstr("KHR_mesh_quantization")));
+}
+
+}  // namespace
+}  // namespace eyrie::import
