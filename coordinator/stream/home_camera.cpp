@@ -57,9 +57,9 @@ fabric::Camera homeCamera(const fabric::Box& bounds) {
         vertical.include(corner.y, corner.z);
         horizontal.include(corner.x, corner.z);
     }
-    // A scene of a single point still needs an eye beside it; far from the origin a metre is lost
-    // in the rounding of the coordinates.
-    const double smallest = 1e-6 * std::max(1.0, glm::length(centre));
+    // A scene of a single point still needs an eye beside it, and a direction of view that the
+    // coordinates' rounding, of some 1e-16, leaves alone.
+    const double smallest = 1e-9 * std::max(1.0, glm::length(centre));
     const double distance =
         std::max(kMargin * std::max(vertical.distance(), horizontal.distance()), smallest);
     const fabric::Vec3 eyeFromCentre{horizontal.shift(), vertical.shift(), distance};

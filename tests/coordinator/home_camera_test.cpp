@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/stream/home_camera.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <glm/trigonometric.hpp>
@@ -29,6 +30,25 @@ TEST(HomeCamera, SeesEveryCornerOfTheSceneInA4By3Picture) {
             EXPECT_LE(std::abs(p.x), -p.z * tan * 4 / 3);
         }
     }
+}
+
+TEST(HomeCamera, ShowsSmallThingsLargeAlsoFarFromTheOrigin) {
+    const fabric::Vec3 places[] = {{0, 0, 0}, {6.4e6, -3e6, 1e6}};
+    for (const fabric::Vec3& place : places)
+        for (const double side : {1e3, 1.0, 0.3, place.x == 0 ? 2e-6 : 0.05}) {
+            const fabric::Box box{place, place + fabric::Vec3(side)};
+            const fabric::Camera camera = homeCamera(box);
+            ASSERT_TRUE(fabric::validate(camera).ok()) << fabric::validate(camera);
+            double highest = 0;
+            for (int i = 0; i < 8; ++i) {
+                const fabric::Vec3 p =
+                    fabric::viewFromWorldRotation(camera) * (box.corner(i) - camera.eye);
+                highest = std::max(highest, std::abs(p.y / p.z));
+            }
+            const double rim = std::tan(glm::radians(camera.fovYDegrees / 2));
+            EXPECT_GT(highest, 0.8 * rim) << side << " m at " << place.x;
+            EXPECT_LT(highest, rim);
+        }
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ export function standardCamera(
   const probe: Camera = { eye: add(target, away), target, up: [0, 0, 1], fovyDegrees };
   const { right, up, forward } = axesOf(probe);
   const tangent = Math.tan((fovyDegrees * radians) / 2);
-  let distance = 1e-6;
+  let distance = 1e-9;
   for (const x of [min[0], max[0]])
     for (const y of [min[1], max[1]])
       for (const z of [min[2], max[2]]) {
