@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -135,6 +136,9 @@ ExitStatus runCommandLine(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    // A file larger than is allowed (ulimit -f, systemd's LimitFSIZE) is an error like a full disk,
+    // and ends neither a server nor leaves half of a file behind.
+    std::signal(SIGXFSZ, SIG_IGN);
     try {
         return static_cast<int>(runCommandLine(argc, argv));
     } catch (const std::exception& error) {  // such as too little memory

@@ -29,9 +29,11 @@ absl::Status writeError(std::string_view path, std::string_view what, int error)
             return absl::PermissionDeniedError(message);
         case ENOSPC:
         case EDQUOT:
-        case EFBIG:
             return absl::ResourceExhaustedError(
                 message + "; free some space on that disk, then run the same command again");
+        case EFBIG:
+            return absl::ResourceExhaustedError(
+                message + "; allow larger files (ulimit -f), or write to a disk that has them");
         default:
             return absl::UnavailableError(message);
     }

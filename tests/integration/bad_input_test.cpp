@@ -327,6 +327,25 @@ TEST_F(BadInput, OutputIntoAFolderThatIsMissingIsRefused) {
     expectRefused({"synth", "terrain", "--size", "100", "-o", out + ".tif"}, {out});
 }
 
+TEST_F(BadInput, OutputLargerThanFilesMayBeFailsByNameAndLeavesNothing) {
+    const std::vector<Words> commands = {
+        {"import", "mesh", good("ball.ply"), "-o", bad("out.eym")},
+        {"import", "terrain", good("dem.tif"), "-o", bad("out.eyt")},
+        {"render", good("ball.eym"), "--size", "640x480", "-o", bad("out.png")},
+        {"render", good("ball.eym"), "--size", "640x480", "-o", bad("out.jpg")},
+        {"synth", "mesh", "--size", "9000", "--seed", "1", "-o", bad("out.ply")},
+        {"synth", "terrain", "--size", "300", "--seed", "1", "-o", bad("out.tif")}};
+    for (const Words& arguments : commands) {
+        Words command = test::eyrieCommand(arguments);
+        command.insert(command.begin(), {"/usr/bin/prlimit", "--fsize=4096"});
+        const test::Outcome outcome = test::run(command, seconds(60), {});
+        EXPECT_EQ(outcome.exit, (test::Exit{kWorkFailed, 0})) << arguments[0] << outcome.errors;
+        EXPECT_NE(outcome.errors.find(arguments.back()), std::string::npos) << outcome.errors;
+    }
+    for (const std::string& name : test::namesIn(folder_.path()))
+        EXPECT_TRUE(name.ends_with(".source")) << name << " was left";
+}
+
 TEST_F(BadInput, DamagedDataFilesAreRefusedAndNeverCrash) {
     const unsigned seed = 20261121;
     std::mt19937 random(seed);
