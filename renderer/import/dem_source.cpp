@@ -277,7 +277,7 @@ private:
     /// The finest raster's grid, resampled if need be.
     absl::Status chooseGrid() {
         const DemFile& finest = files_[order_.front()];
-        wkt_ = crs_ ? wktOf(crs_.get()) : "";
+        wkt_ = crs_ ? metricWktOf(crs_.get()) : "";
         if (isNorthUp(finest)) {
             grid_ = gridOf(finest.reference);
             return absl::OkStatus();
@@ -474,7 +474,7 @@ absl::StatusOr<DemSource> openAsItIs(DemFile file) {
     source.notes = file.notes;
     Georeference reference = file.reference;
     if (file.crs) {
-        source.crsWkt = wktOf(file.crs.get());
+        source.crsWkt = metricWktOf(file.crs.get());
         const double metres = OSRGetLinearUnits(file.crs.get(), nullptr);
         if (metres != 1 && metres > 0 && std::isfinite(metres)) {
             reference = {reference.origin * metres, reference.perColumn * metres,

@@ -8,6 +8,7 @@
 
 #include <cpl_conv.h>
 #include <fmt/format.h>
+#include <ogr_spatialref.h>
 
 namespace eyrie::import {
 
@@ -41,6 +42,23 @@ std::string wktOf(OGRSpatialReferenceH reference) {
     std::string wkt = text == nullptr ? "" : text;
     CPLFree(text);
     return wkt;
+}
+
+std::string metricWktOf(OGRSpatialReferenceH reference) {
+    const bool isAcross = OSRGetLinearUnits(reference, nullptr) == 1;
+    const bool isUp = OSRGetTargetLinearUnits(reference, "VERT_CS", nullptr) == 1;
+    if (isAcross && isUp)
+        return wktOf(reference);
+    const SpatialReference metric(OSRClone(reference));
+    OGRSpatialReference::FromHandle(metric.get())->StripVertical();
+    if (isAcross)
+        return wktOf(metric.get());
+    const std::string name = fmt::format("{} in metres", OSRGetName(metric.get()));
+    if (OSRSetLinearUnitsAndUpdateParameters(metric.get(), "metre", 1) != OGRERR_NONE)
+        return wktOf(reference);
+    if (OSRIsProjected(metric.get()) != 0)
+        OSRSetAttrValue(metric.get(), "PROJCS", name.c_str());
+    return wktOf(metric.get());
 }
 
 bool isSameCrs(OGRSpatialReferenceH a, OGRSpatialReferenceH b) {

@@ -59,6 +59,10 @@ std::array<double, 6> geoTransform(const Georeference& reference);
 
 std::string wktOf(OGRSpatialReferenceH reference);
 
+/// Of coordinates and heights that are of `reference` once they are brought to metres: in feet it
+/// would be another place's.
+std::string metricWktOf(OGRSpatialReferenceH reference);
+
 /// Null: none.
 bool isSameCrs(OGRSpatialReferenceH a, OGRSpatialReferenceH b);
 

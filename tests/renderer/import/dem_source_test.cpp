@@ -4,10 +4,14 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <ogr_spatialref.h>
 
+#include "renderer/import/gdal_handles.h"
 #include "renderer/import/geotiff_writer.h"
 #include "renderer/import/terrain_synth.h"
 #include "tests/renderer/import/terrain_fixture.h"
@@ -93,6 +97,41 @@ TEST_F(DemSource, TurnsUnitsOfTheCrsToMetres) {
     ASSERT_TRUE(dem.ok()) << dem.status();
     EXPECT_NEAR(dem->grid.perColumn.x, 100 * 1200.0 / 3937, 1e-9);
     EXPECT_NEAR(dem->grid.origin.x, 1050 * 1200.0 / 3937, 1e-9);
+}
+
+/// Where a post's coordinates are on the earth by the CRS that a terrain says it has.
+fabric::Vec2 degreesOf(const std::string& wkt, fabric::Vec2 place) {
+    OGRSpatialReference from;
+    EXPECT_EQ(from.importFromWkt(wkt.c_str()), OGRERR_NONE) << wkt;
+    OGRSpatialReference degrees;
+    degrees.importFromEPSG(4269);
+    for (OGRSpatialReference* crs : {&from, &degrees})
+        crs->SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    const std::unique_ptr<OGRCoordinateTransformation> there(
+        OGRCreateCoordinateTransformation(&from, &degrees));
+    EXPECT_NE(there, nullptr);
+    EXPECT_TRUE(there != nullptr && there->Transform(1, &place.x, &place.y));
+    return place;
+}
+
+TEST_F(DemSource, TheCrsOfFeetTurnedToMetresIsOneOfMetres) {
+    constexpr double kMetresPerFoot = 1200.0 / 3937;  // EPSG:2263's
+    OGRSpatialReference file;
+    ASSERT_EQ(file.importFromEPSG(2263), OGRERR_NONE);
+    const fabric::Vec2 expected =
+        degreesOf(wktOf(OGRSpatialReference::ToHandle(&file)), {1000050, 204950});
+    for (const char* crs : {"EPSG:2263", "EPSG:2263+6360"}) {
+        const auto dem = test::readDem(virtualRaster(
+            fmt::format("<SRS>{}</SRS><GeoTransform>1000000,100,0,205000,0,-100</GeoTransform>",
+                        crs),
+            ""));
+        ASSERT_TRUE(dem.ok()) << dem.status();
+        const fabric::Vec2 first{1000050 * kMetresPerFoot, 204950 * kMetresPerFoot};
+        const fabric::Vec2 found = degreesOf(dem->crsWkt, first);
+        EXPECT_NEAR(found.x, expected.x, 1e-9) << crs;
+        EXPECT_NEAR(found.y, expected.y, 1e-9) << crs;
+        EXPECT_THAT(dem->crsWkt, testing::Not(HasSubstr("US survey foot"))) << crs;
+    }
 }
 
 TEST_F(DemSource, KeepsARotatedGridRightHanded) {
