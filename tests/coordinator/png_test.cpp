@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "wire/png.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include <gtest/gtest.h>
 #include <png.h>
@@ -39,19 +42,93 @@ fabric::Image readByLibpng(const std::vector<std::byte>& bytes) {
     return image;
 }
 
+/// Few values in grey, which come again in twos and threes everywhere.
+fabric::Image greyNoise(int width, int height) {
+    fabric::Image image = noise(width, height);
+    for (fabric::Rgba& pixel : image.colour) {
+        const auto grey = static_cast<std::uint8_t>(pixel.r / 16 * 16);
+        pixel = {grey, grey, grey, 255};
+    }
+    return image;
+}
+
+fabric::Image slopes(int width, int height) {
+    fabric::Image image = fabric::makeImage({0, 0, width, height}, {}, false);
+    for (std::size_t i = 0; i < image.colour.size(); ++i) {
+        const std::size_t x = i % static_cast<std::size_t>(width);
+        const std::size_t y = i / static_cast<std::size_t>(width);
+        image.colour[i] = {static_cast<std::uint8_t>(x / 3), static_cast<std::uint8_t>(y / 2),
+                           static_cast<std::uint8_t>(x + y), 255};
+    }
+    return image;
+}
+
+fabric::Image flat(int width, int height) {
+    return fabric::makeImage({0, 0, width, height}, {1, 2, 3, 255}, false);
+}
+
+/// Fails where libpng does not read what was drawn.
+void expectExact(fabric::Image image, const char* what) {
+    const auto bytes = encodePng(image);
+    ASSERT_TRUE(bytes.ok()) << bytes.status();
+    for (fabric::Rgba& pixel : image.colour) pixel.a = 255;
+    EXPECT_EQ(readByLibpng(*bytes), image)
+        << what << ", " << image.area.width << "x" << image.area.height;
+}
+
 TEST(Png, BringsEveryPixelBackBitForBit) {
-    for (const auto& [width, height] : {std::pair{1, 1}, {7, 3}, {1, 200}, {1280, 2}, {320, 200}}) {
-        fabric::Image image = noise(width, height);
-        const auto bytes = encodePng(image);
-        ASSERT_TRUE(bytes.ok()) << bytes.status();
-        for (fabric::Rgba& pixel : image.colour) pixel.a = 255;
-        EXPECT_EQ(readByLibpng(*bytes), image) << width << "x" << height;
+    constexpr std::pair<int, int> kSizes[] = {{1, 1},     {2, 1},     {1, 2},     {3, 2},
+                                              {7, 3},     {1, 5000},  {1280, 2},  {87, 400},
+                                              {320, 200}, {401, 333}, {16384, 13}};
+    for (const auto& [width, height] : kSizes) {
+        expectExact(noise(width, height), "noise");
+        expectExact(greyNoise(width, height), "grey noise");
+        expectExact(slopes(width, height), "slopes");
+        expectExact(flat(width, height), "one colour");
+    }
+}
+
+/// The guess of a byte is the nearest of three, however they lie to each other.
+TEST(Png, BringsEveryCornerOfFourBack) {
+    constexpr int kLevels[] = {0, 1, 2, 127, 128, 129, 254, 255};
+    fabric::Image image = fabric::makeImage({0, 0, 128, 64}, {}, false);
+    for (std::size_t i = 0; i < 8 * 8 * 8 * 8; ++i) {
+        const auto level = [&](std::size_t digit) {
+            return static_cast<std::uint8_t>(kLevels[i >> 3 * digit & 7]);
+        };
+        const std::size_t at = i / 64 % 32 * 256 + i % 64 * 2;
+        image.colour[at] = {level(0), level(1), level(2), 255};
+        image.colour[at + 1] = {level(1), level(2), level(3), 255};
+        image.colour[at + 128] = {level(2), level(3), level(0), 255};
+        image.colour[at + 129] = {level(3), level(0), level(1), 255};
+    }
+    expectExact(image, "corners");
+}
+
+/// Deflate reaches 32768 bytes back, which is 10922 pixels and two thirds.
+TEST(Png, TakesNothingFromFartherAwayThanDeflateReaches) {
+    for (const std::size_t apart : {10922u, 10923u}) {
+        fabric::Image image = flat(16384, 1);
+        const fabric::Image piece = noise(20, 1);
+        std::copy(piece.colour.begin(), piece.colour.end(), image.colour.begin() + 100);
+        std::copy(piece.colour.begin(), piece.colour.end(),
+                  image.colour.begin() + 100 + static_cast<std::ptrdiff_t>(apart));
+        expectExact(image, "a piece that comes again");
     }
 }
 
 TEST(Png, IsSmallWhereThereIsLittle) {
-    const auto bytes = encodePng(fabric::makeImage({0, 0, 640, 480}, {1, 2, 3, 255}, false));
-    EXPECT_LT(bytes->size(), 10'000u);
+    EXPECT_LT(encodePng(flat(640, 480))->size(), 10'000u);
+    EXPECT_LT(encodePng(slopes(640, 480))->size(), 20'000u);
+    EXPECT_LT(encodePng(greyNoise(640, 480))->size(), 640u * 480u) << "4 bits a pixel, twice";
+}
+
+TEST(Png, GrowsLittleWhereNothingComesAgain) {
+    EXPECT_LT(encodePng(noise(640, 480))->size(), 640u * 480u * 3u * 101 / 100);
+}
+
+TEST(Png, IsTheSameBytesEachTime) {
+    EXPECT_EQ(*encodePng(greyNoise(401, 333)), *encodePng(greyNoise(401, 333)));
 }
 
 TEST(Png, RefusesWhatIsNoPicture) {
