@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstddef>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include <absl/status/statusor.h>
 
@@ -12,12 +10,9 @@
 
 namespace eyrie::cli {
 
-/// An 8-bit RGB PNG (sRGB), compressed row by row: only a few rows are in memory at a time.
-/// Errors: those of mesh::OutputFile; ResourceExhausted (no memory), Internal (libpng).
+/// An 8-bit RGB PNG (sRGB), compressed as rows come: only a few of them are in memory at a time.
+/// Errors: those of mesh::OutputFile.
 absl::StatusOr<std::unique_ptr<PictureFile>> createPng(const std::string& path, int width,
                                                        int height);
-
-/// The colour of `image` as the bytes of an 8-bit RGB PNG file, top row first.
-absl::StatusOr<std::vector<std::byte>> encodePng(const fabric::Image& image);
 
 }  // namespace eyrie::cli

@@ -10,13 +10,13 @@
 
 #include "cli/bench/play.h"
 #include "cli/bench/shown_triangles.h"
-#include "cli/png_file.h"
 #include "fabric/depth_metres.h"
 #include "fabric/status.h"
 #include "renderer/truth/flip.h"
 #include "renderer/truth/heat_map.h"
 #include "renderer/truth/image_quality.h"
 #include "renderer/truth/silhouette.h"
+#include "wire/png.h"
 
 namespace eyrie::cli::bench {
 namespace {
@@ -197,10 +197,10 @@ absl::StatusOr<MeasuredErrors> FlightJudge::judgeAll(const Draw& draw, PictureSo
         return measured;
     // A scale of its own tau: pictures of one run are alike.
     const fabric::PixelViewport& area = worst->picture.area;
-    ASSIGN_OR_RETURN(const auto picture, encodePng(worst->picture));
+    ASSIGN_OR_RETURN(const auto picture, wire::encodePng(worst->picture));
     ASSIGN_OR_RETURN(const auto heat,
-                     encodePng(truth::heatMap(worst->displacements, area.width, area.height,
-                                              worst->error.drawnTauPixels)));
+                     wire::encodePng(truth::heatMap(worst->displacements, area.width, area.height,
+                                                    worst->error.drawnTauPixels)));
     measured.worst.push_back({worst->error, bytesOf(picture), bytesOf(heat)});
     return measured;
 }

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // PNG (Portable Network Graphics Specification, Third Edition, W3C 2025), as plain as it can be:
-// IHDR, one IDAT, IEND. Every row has the filter Paeth and is compressed by PixelDeflate:
-// docs/decisions/0080-pngs-by-pixels.md has what others take.
+// IHDR, an IDAT a block of rows, IEND. Every row has the filter Paeth and is compressed by
+// PixelDeflate: docs/decisions/0080-pngs-by-pixels.md has what others take.
 #include "wire/png.h"
 
 #include <algorithm>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <string_view>
 
@@ -79,64 +78,24 @@ void subtractGuesses(std::span<const std::uint8_t> row, const std::uint8_t* __re
     }
 }
 
-/// Rows from the top, each the filter's number and the differences from what it guesses.
-class FilteredRows {
-public:
-    explicit FilteredRows(const fabric::Image& image)
-        : image_(image),
-          rowBytes_(1 + kChannels * width()),
-          rowsInBlock_(std::clamp<std::size_t>(kBlockBytes / rowBytes_, 1, height())),
-          block_(rowsInBlock_ * rowBytes_ + PixelDeflate::kReadBeyond),
-          row_(kChannels * width()),
-          above_(kChannels * width()) {}
-
-    std::size_t rowBytes() const { return rowBytes_; }
-    bool isAtEnd() const { return done_ == height(); }
-
-    /// Further rows, until next time, with PixelDeflate::kReadBeyond bytes of memory after them.
-    std::span<const std::byte> next() {
-        const std::size_t rows = std::min(rowsInBlock_, height() - done_);
-        for (std::size_t i = 0; i < rows; ++i, ++done_) filterNext(&block_[i * rowBytes_]);
-        return std::as_bytes(std::span(block_.data(), rows * rowBytes_));
-    }
-
-private:
-    std::size_t width() const { return static_cast<std::size_t>(image_.area.width); }
-    std::size_t height() const { return static_cast<std::size_t>(image_.area.height); }
-
-    void filterNext(std::uint8_t* filtered) {
-        row_.swap(above_);
-        dropAlpha({&image_.colour[(height() - 1 - done_) * width()], width()}, row_.data());
-        *filtered++ = kPaeth;
-        for (std::size_t i = 0; i < kChannels; ++i)  // left of it is nothing: what is above counts
-            filtered[i] = static_cast<std::uint8_t>(row_[i] - above_[i]);
-        subtractGuesses(row_, above_.data(), filtered);
-    }
-
-    const fabric::Image& image_;
-    const std::size_t rowBytes_, rowsInBlock_;
-    std::vector<std::uint8_t> block_;
-    std::vector<std::uint8_t> row_, above_;  ///< zeros before the first one
-    std::size_t done_ = 0;
-};
-
-/// A zlib stream (RFC 1950) of all rows.
-void appendCompressed(const fabric::Image& image, Bytes& bytes) {
-    constexpr std::byte kHead[] = {std::byte{0x78}, std::byte{1}};  // 32 kB far; the fastest
-    bytes.insert(bytes.end(), std::begin(kHead), std::end(kHead));
-    FilteredRows rows(image);
-    const auto deflate = std::make_unique<PixelDeflate>();
-    std::uint32_t checksum = 1;
-    while (!rows.isAtEnd()) {
-        const std::span<const std::byte> block = rows.next();
-        checksum = libdeflate_adler32(checksum, block.data(), block.size());
-        deflate->append(block, rows.rowBytes(), rows.isAtEnd(), bytes);
-    }
-    putBigEndian(bytes, checksum);
+void putHead(std::size_t width, std::size_t height, PngColours colours, Bytes& bytes) {
+    constexpr unsigned char kSignature[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+    for (const unsigned char one : kSignature) bytes.push_back(std::byte{one});
+    const std::size_t chunk = beginChunk(bytes, "IHDR");
+    putBigEndian(bytes, static_cast<std::uint32_t>(width));
+    putBigEndian(bytes, static_cast<std::uint32_t>(height));
+    constexpr unsigned char kForm[] = {8, 2, 0, 0, 0};  // bits, RGB, deflate, filters, plain rows
+    for (const unsigned char one : kForm) bytes.push_back(std::byte{one});
+    endChunk(bytes, chunk);
+    if (colours == PngColours::Unsaid)
+        return;
+    const std::size_t srgb = beginChunk(bytes, "sRGB");
+    bytes.push_back(std::byte{0});  // to be shown as people see it best
+    endChunk(bytes, srgb);
 }
 
 absl::Status checkEncodable(const fabric::Image& image) {
-    constexpr std::int64_t kMaxPixels = std::int64_t{1} << 29;  // a chunk has 2^31 bytes at most
+    constexpr std::int64_t kMaxPixels = std::int64_t{1} << 29;
     const fabric::PixelViewport& area = image.area;
     if (area.isEmpty() || area.area() > kMaxPixels)
         return absl::InvalidArgumentError(
@@ -151,22 +110,60 @@ absl::Status checkEncodable(const fabric::Image& image) {
 
 }  // namespace
 
+PngWriter::PngWriter(int width, int height, PngColours colours)
+    : width_(static_cast<std::size_t>(width)),
+      height_(static_cast<std::size_t>(height)),
+      colours_(colours),
+      rowBytes_(1 + kChannels * width_),
+      block_(std::clamp<std::size_t>(kBlockBytes / rowBytes_, 1, height_) * rowBytes_ +
+             PixelDeflate::kReadBeyond),
+      row_(kChannels * width_),
+      above_(kChannels * width_) {}
+
+void PngWriter::append(const fabric::Image& rows, Bytes& out) {
+    if (rowsDone_ == 0)
+        putHead(width_, height_, colours_, out);
+    for (auto y = static_cast<std::size_t>(rows.area.height); y-- > 0;) {
+        filterRow({&rows.colour[y * width_], width_});
+        if (++rowsDone_ == height_ ||
+            filled_ + rowBytes_ > block_.size() - PixelDeflate::kReadBeyond)
+            writeBlock(out);
+    }
+    if (rowsDone_ == height_)
+        endChunk(out, beginChunk(out, "IEND"));
+}
+
+void PngWriter::filterRow(std::span<const fabric::Rgba> pixels) {
+    row_.swap(above_);
+    dropAlpha(pixels, row_.data());
+    std::uint8_t* filtered = &block_[filled_];
+    filled_ += rowBytes_;
+    *filtered++ = kPaeth;
+    for (std::size_t i = 0; i < kChannels; ++i)  // left of it is nothing: what is above counts
+        filtered[i] = static_cast<std::uint8_t>(row_[i] - above_[i]);
+    subtractGuesses(row_, above_.data(), filtered);
+}
+
+/// The IDATs together are one zlib stream (RFC 1950).
+void PngWriter::writeBlock(Bytes& out) {
+    const bool isFirst = rowsDone_ * rowBytes_ == filled_, isLast = rowsDone_ == height_;
+    const std::size_t chunk = beginChunk(out, "IDAT");
+    if (isFirst)
+        for (const int one : {0x78, 1}) out.push_back(std::byte(one));  // 32 kB far; the fastest
+    checksum_ = libdeflate_adler32(checksum_, block_.data(), filled_);
+    deflate_.append(std::as_bytes(std::span(block_.data(), filled_)), rowBytes_, isLast, out);
+    if (isLast)
+        putBigEndian(out, checksum_);
+    endChunk(out, chunk);
+    filled_ = 0;
+}
+
 absl::StatusOr<std::vector<std::byte>> encodePng(const fabric::Image& image) {
     RETURN_IF_ERROR(checkEncodable(image));
     Bytes bytes;
     bytes.reserve(image.colour.size() / 2);  // more than most take: moving it costs more than room
-    constexpr unsigned char kSignature[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
-    for (const unsigned char one : kSignature) bytes.push_back(std::byte{one});
-    std::size_t chunk = beginChunk(bytes, "IHDR");
-    putBigEndian(bytes, static_cast<std::uint32_t>(image.area.width));
-    putBigEndian(bytes, static_cast<std::uint32_t>(image.area.height));
-    constexpr unsigned char kForm[] = {8, 2, 0, 0, 0};  // bits, RGB, deflate, filters, plain rows
-    for (const unsigned char one : kForm) bytes.push_back(std::byte{one});
-    endChunk(bytes, chunk);
-    chunk = beginChunk(bytes, "IDAT");
-    appendCompressed(image, bytes);
-    endChunk(bytes, chunk);
-    endChunk(bytes, beginChunk(bytes, "IEND"));
+    PngWriter writer(image.area.width, image.area.height, PngColours::Unsaid);
+    writer.append(image, bytes);
     return bytes;
 }
 

@@ -117,6 +117,30 @@ TEST(Png, TakesNothingFromFartherAwayThanDeflateReaches) {
     }
 }
 
+TEST(Png, IsTheSameByBandsAsAtOnce) {
+    constexpr int kWidth = 1000, kHeight = 250;  // three blocks
+    const fabric::Image image = greyNoise(kWidth, kHeight);
+    PngWriter writer(kWidth, kHeight, PngColours::Unsaid);
+    std::vector<std::byte> bytes;
+    for (int top = kHeight, rows = 1; top > 0; top -= rows, rows = std::min(3 * rows, top)) {
+        fabric::Image band = fabric::makeImage({0, top - rows, kWidth, rows}, {}, false);
+        std::copy_n(image.colour.begin() + std::ptrdiff_t{kWidth} * (top - rows),
+                    band.colour.size(), band.colour.begin());
+        writer.append(band, bytes);
+    }
+    EXPECT_EQ(bytes, *encodePng(image));
+}
+
+TEST(Png, SaysThatColoursAreSrgbWhereAsked) {
+    fabric::Image image = slopes(300, 20);
+    PngWriter writer(300, 20, PngColours::Srgb);
+    std::vector<std::byte> bytes;
+    writer.append(image, bytes);
+    EXPECT_EQ(readByLibpng(bytes), image);
+    EXPECT_EQ(bytes[33 + 4], std::byte{'s'});
+    EXPECT_EQ(bytes.size(), encodePng(image)->size() + 13);
+}
+
 TEST(Png, IsSmallWhereThereIsLittle) {
     EXPECT_LT(encodePng(flat(640, 480))->size(), 10'000u);
     EXPECT_LT(encodePng(slopes(640, 480))->size(), 20'000u);
