@@ -129,6 +129,8 @@ public:
                          TerrainStages::open(scratch_, key(), options_.startsOver));
         absl::StatusOr<TerrainImportReport> report = runStages(stages, writer);
         writer.keepUnfinished(stages.goesOnLater(report.status()));
+        if (!stages.areKept() && (report.ok() || options_.startsOver))
+            terrain::EytWriter::removeUnfinished(out_);  // of one that had less memory
         RETURN_IF_ERROR(stages.end(report.status()));
         return report;
     }

@@ -67,7 +67,8 @@ struct TerrainSource {
 /// What does not fit in memory lies in `OUT.scratch` until the import is done, and what is written
 /// of the file in `OUT.partial`. An import that was called off, killed or ran out of disk leaves
 /// them, and the same call goes on after the last stage, or batch of pages or texture tiles, that
-/// was finished; the result is the same to the byte. Imports that fit leave nothing.
+/// was finished; the result is the same to the byte. Imports that fit leave nothing, and remove
+/// what one that did not has left there.
 ///
 /// With `mergesParts` what importTerrainShard has left beside `out` takes the place of reading and
 /// measuring the posts and of building the finer pages; the parts are removed in the end. The file

@@ -58,8 +58,10 @@ public:
         if (!options_.startsOver)
             if (const absl::StatusOr<PartFile> part =
                     PartFile::open(path_, identity_, shard_, plan_);
-                part.ok() && part->verify().ok())
+                part.ok() && part->verify().ok()) {
+                TerrainStages::removeLeftovers(scratch_.path());  // killed since it was whole
                 return report(part->sizeBytes(), true);
+            }
         ASSIGN_OR_RETURN(TerrainStages stages,
                          TerrainStages::open(scratch_, key(), options_.startsOver));
         const absl::StatusOr<std::uint64_t> sizeBytes = runStages(stages);

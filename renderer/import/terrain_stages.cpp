@@ -12,14 +12,22 @@
 #include "fabric/status.h"
 
 namespace eyrie::import {
+namespace {
+
+std::string journalPath(const std::string& scratchPath) { return scratchPath + ".journal"; }
+
+}  // namespace
 
 absl::StatusOr<TerrainStages> TerrainStages::open(terrain::Scratch& scratch, std::uint64_t key,
                                                   bool startsOver) {
-    if (scratch.fitsInMemory())
+    if (scratch.fitsInMemory()) {
+        if (startsOver)
+            removeLeftovers(scratch.path());
         return TerrainStages(scratch, std::nullopt);
+    }
     std::error_code ignored;
     const bool hasScratch = std::filesystem::exists(scratch.path(), ignored);
-    ASSIGN_OR_RETURN(ImportJournal journal, ImportJournal::open(scratch.path() + ".journal", key,
+    ASSIGN_OR_RETURN(ImportJournal journal, ImportJournal::open(journalPath(scratch.path()), key,
                                                                 startsOver || !hasScratch));
     if (journal.isEmpty())
         unlink(scratch.path().c_str());
@@ -50,7 +58,9 @@ absl::Status TerrainStages::kept() { return keeping_.valid() ? keeping_.get() : 
 
 absl::Status TerrainStages::end(const absl::Status& outcome) {
     if (!goesOnLater(outcome)) {
-        remove();
+        // Called off, one that fits in memory leaves what a later one may go on from.
+        if (areKept() || outcome.ok())
+            remove();
         return outcome;
     }
     // Where it cannot be kept it is done again.
@@ -64,10 +74,24 @@ absl::Status TerrainStages::end(const absl::Status& outcome) {
 
 void TerrainStages::remove() {
     if (!journal_)
-        return;
+        return removeLeftovers(scratch_->path());
     static_cast<void>(kept());  // the pages are written: nothing needs it any more
     unlink(scratch_->path().c_str());
     journal_->remove();
+}
+
+void TerrainStages::removeLeftovers(const std::string& scratchPath) {
+    namespace fs = std::filesystem;
+    std::error_code ignored;
+    const std::string journalOf = journalPath(scratchPath);
+    if (!fs::exists(fs::symlink_status(scratchPath, ignored)) &&
+        !fs::exists(fs::symlink_status(journalOf, ignored)))
+        return;
+    absl::StatusOr<ImportJournal> journal = ImportJournal::open(journalOf, 0, true);
+    if (!journal.ok())
+        return;  // another's
+    unlink(scratchPath.c_str());
+    journal->remove();
 }
 
 }  // namespace eyrie::import

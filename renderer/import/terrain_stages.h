@@ -20,7 +20,9 @@ namespace eyrie::import {
 /// file, no journal and nothing to go on from.
 class TerrainStages {
 public:
-    /// `key` stands for all that the result depends on. Errors: ImportJournal's.
+    /// `key` stands for all that the result depends on. What a killed job has left there is gone
+    /// on from if it was for the same, and removed if this one `startsOver`.
+    /// Errors: ImportJournal's.
     static absl::StatusOr<TerrainStages> open(terrain::Scratch& scratch, std::uint64_t key,
                                               bool startsOver);
 
@@ -43,9 +45,13 @@ public:
         return areKept() && !outcome.ok() && !absl::IsInvalidArgument(outcome);
     }
 
-    /// What came of the job, after its last stage. Scratch file and journal go, unless the same
-    /// command could go on with them: then the error says so.
+    /// What came of the job, after its last stage. Scratch file and journal go, even if a killed
+    /// job with less memory has left them, unless the same command could go on with them: then the
+    /// error says so.
     absl::Status end(const absl::Status& outcome);
+
+    /// Removes what a killed job has left of a scratch, unless another is at work with it.
+    static void removeLeftovers(const std::string& scratchPath);
 
 private:
     TerrainStages(terrain::Scratch& scratch, std::optional<ImportJournal> journal)

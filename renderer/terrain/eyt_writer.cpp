@@ -66,6 +66,11 @@ bool isNameOf(const std::string& path, int fd) {
            named.st_dev == opened.st_dev && named.st_ino == opened.st_ino;
 }
 
+/// Where a file system has no locks it is on whoever starts two imports into one file.
+bool isLocked(int fd) {
+    return flock(fd, LOCK_EX | LOCK_NB) == 0 || errno == ENOLCK || errno == EOPNOTSUPP;
+}
+
 }  // namespace
 
 void PageBuilder::add(int place, int level, const TileMesh& mesh,
@@ -164,15 +169,21 @@ absl::StatusOr<EytWriter> EytWriter::resume(const std::string& path) {
         return fabric::writeError(partialPath, "cannot be written", errno);
     EytWriter writer(path, std::move(partialPath), fd);
     writer.keepsUnfinished_ = true;  // until it is known whose it is
-    // Where a file system has no locks it is on whoever starts two imports into one file.
-    const bool isLocked =
-        flock(fd, LOCK_EX | LOCK_NB) == 0 || errno == ENOLCK || errno == EOPNOTSUPP;
-    if (!isLocked || !isNameOf(writer.partialPath_, fd))
+    if (!isLocked(fd) || !isNameOf(writer.partialPath_, fd))
         return absl::FailedPreconditionError(fmt::format(
             "{}: another import into the same file is at work; wait for it, or stop it", path));
     struct stat status {};
     writer.keepsUnfinished_ = fstat(fd, &status) == 0 && status.st_size > 0;
     return writer;
+}
+
+void EytWriter::removeUnfinished(const std::string& path) {
+    const std::string partialPath = path + ".partial";
+    const int fd = open(partialPath.c_str(), O_RDWR | O_NOFOLLOW | O_CLOEXEC);
+    if (fd < 0)
+        return;
+    EytWriter writer(path, partialPath, fd);
+    writer.keepsUnfinished_ = !isLocked(fd) || !isNameOf(partialPath, fd);
 }
 
 bool EytWriter::takeWritten(std::span<const PageRecord> pages) {

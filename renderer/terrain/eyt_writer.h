@@ -52,6 +52,9 @@ public:
     /// Errors: those of create; FailedPrecondition (another writer is at work there).
     static absl::StatusOr<EytWriter> resume(const std::string& path);
 
+    /// Removes what such a writer has left that was killed, unless another is at work there.
+    static void removeUnfinished(const std::string& path);
+
     EytWriter(EytWriter&& other) noexcept;
     EytWriter& operator=(EytWriter&&) = delete;
     ~EytWriter();

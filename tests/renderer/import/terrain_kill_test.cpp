@@ -82,11 +82,13 @@ protected:
     }
 
     static absl::Status import(const std::string& name, std::uint64_t memoryBytes,
-                               const std::function<void(std::string_view, double)>& progress) {
-        return importTerrain(
-                   {path("dem.tif")}, path(name),
-                   {.memoryBytes = memoryBytes, .imagery = {path("west.tif"), path("east.tif")}},
-                   {progress, {}})
+                               const std::function<void(std::string_view, double)>& progress,
+                               bool startsOver = false, const std::stop_token& stop = {}) {
+        return importTerrain({path("dem.tif")}, path(name),
+                             {.memoryBytes = memoryBytes,
+                              .imagery = {path("west.tif"), path("east.tif")},
+                              .startsOver = startsOver},
+                             {progress, stop})
             .status();
     }
 
@@ -97,16 +99,37 @@ protected:
         }));
     }
 
+    /// With memory that fits.
+    static absl::Status importUntilCalledOff(bool startsOver) {
+        std::stop_source stop;
+        return import(
+            "out.eyt", kMuch,
+            [&](std::string_view stage, double) {
+                if (stage == "building")
+                    stop.request_stop();
+            },
+            startsOver, stop.get_token());
+    }
+
     /// Goes on, and fails the test unless that makes what `whole` is.
-    void goOn(const std::string& whole) {
+    void goOn(const std::string& whole, std::uint64_t memoryBytes = 1) {
         const absl::Status status =
-            import("out.eyt", 1, [this](std::string_view stage, double fraction) {
+            import("out.eyt", memoryBytes, [this](std::string_view stage, double fraction) {
                 begun_.try_emplace(std::string(stage), fraction);
             });
         ASSERT_TRUE(status.ok()) << status;
         EXPECT_TRUE(test::contents(path("out.eyt")) == test::contents(path(whole)));
-        for (const char* left : {"scratch", "partial"})
-            EXPECT_THAT(folder_->files(), testing::Not(testing::Contains(HasSubstr(left))));
+        EXPECT_THAT(left(), testing::IsEmpty());
+    }
+
+    /// What lies beside `out.eyt` and is for an import that goes on.
+    static std::vector<std::string> left() {
+        std::vector<std::string> files = folder_->files();
+        std::erase_if(files, [](const std::string& file) {
+            return file.find("scratch") == std::string::npos &&
+                   file.find("partial") == std::string::npos;
+        });
+        return files;
     }
 
     static inline std::optional<test::TemporaryFolder> folder_;  ///< none where it is another's
@@ -149,6 +172,30 @@ TEST_F(TerrainKill, TakesNoTilesOfPicturesThatHaveChanged) {
     EXPECT_EQ(begun_.count("building"), 0U);
     EXPECT_LT(begun_["imagery"], 0.1) << "all of them are made again";
     writePictures('a');
+}
+
+TEST_F(TerrainKill, WithMemoryThatFitsLeavesNothingOfWhatDidNot) {
+    EXPECT_EXIT(importUntilKilled({"imagery", 0.6, {}}), testing::KilledBySignal(SIGKILL), "");
+    EXPECT_THAT(left(), testing::UnorderedElementsAre("out.eyt.partial", "out.eyt.scratch",
+                                                      "out.eyt.scratch.journal"));
+    goOn("whole.eyt", kMuch);
+    EXPECT_EQ(begun_.count("reading"), 1U);
+}
+
+/// It took nothing from there, and made no less of it.
+TEST_F(TerrainKill, CalledOffWithMemoryThatFitsLeavesTheOtherToGoOn) {
+    EXPECT_EXIT(importUntilKilled({"imagery", 0.6, {}}), testing::KilledBySignal(SIGKILL), "");
+    const std::vector<std::string> before = left();
+    EXPECT_TRUE(absl::IsCancelled(importUntilCalledOff(false)));
+    EXPECT_THAT(left(), testing::ElementsAreArray(before));
+    goOn("whole.eyt");
+    EXPECT_EQ(begun_.count("building"), 0U);
+}
+
+TEST_F(TerrainKill, ToldToStartOverLeavesNothingEvenIfItIsCalledOff) {
+    EXPECT_EXIT(importUntilKilled({"imagery", 0.6, {}}), testing::KilledBySignal(SIGKILL), "");
+    EXPECT_TRUE(absl::IsCancelled(importUntilCalledOff(true)));
+    EXPECT_THAT(left(), testing::IsEmpty());
 }
 
 }  // namespace

@@ -226,6 +226,21 @@ TEST_F(TerrainShards, KeepAWholePartAndReplaceADamagedOne) {
     }
 }
 
+/// Killed right after, or with less memory before.
+TEST_F(TerrainShards, ThatAreWholeLeaveNoScratch) {
+    const terrain::HeightGrid posts = grid();
+    const std::string scratch = part(0, 2) + ".scratch";
+    for (const bool isThere : {false, true}) {
+        std::filesystem::create_directory(partsFolder(out()));
+        std::ofstream(scratch) << "posts";
+        std::ofstream(scratch + ".journal") << "stages";
+        ASSERT_TRUE(shard(posts, {0, 2}).ok());
+        EXPECT_FALSE(std::filesystem::exists(scratch)) << isThere;
+        EXPECT_FALSE(std::filesystem::exists(scratch + ".journal")) << isThere;
+        EXPECT_TRUE(std::filesystem::exists(part(0, 2))) << isThere;
+    }
+}
+
 TEST_F(TerrainShards, MayBeDoneTwiceAtTheSameTime) {
     const terrain::HeightGrid posts = test::hardGrid(GridKind::Smooth, 700, 600, 1);
     const std::string expected = whole(posts);
