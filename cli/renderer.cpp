@@ -27,7 +27,7 @@ struct Options {
     std::string listen = "127.0.0.1:0";
     std::string node;
     std::string memory = "2G";
-    std::string hostMemory = "512M";
+    std::string hostMemory = "1G";
     int device = -1;
     TileDecoding decoding = TileDecoding::Auto;
     std::vector<std::string> allowedUrls;
@@ -101,7 +101,8 @@ void addRenderer(CLI::App& app, Run& run) {
         ->capture_default_str();
     command
         ->add_option("--host-memory", options->hostMemory,
-                     "Limit of pages kept in memory, those being read included")
+                     "Limit of terrains' indices, 28 bytes a tile, and of pages kept in memory, "
+                     "those being read included")
         ->type_name("BYTES[K|M|G|T]")
         ->capture_default_str();
     command

@@ -10,6 +10,8 @@
 #include <variant>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "effects/object_block.h"
 #include "fabric/status.h"
 #include "renderer/draw/batches.h"
@@ -57,6 +59,15 @@ const gl::PassState& passState(fabric::Shading shading) {
                                                  : effects::ObjectBlock::kSolid;
 }
 
+/// What there is of terrains besides pages, whatever is drawn.
+std::uint64_t indexBytesOf(const std::vector<ObjectFile>& files) {
+    std::uint64_t bytes = 0;
+    for (const ObjectFile& file : files)
+        if (const auto* terrain = std::get_if<TerrainFile>(&file))
+            bytes += draw::indexBytes(**terrain);
+    return bytes;
+}
+
 /// How high the terrains among `objects` reach; null where there are none.
 std::shared_ptr<const std::vector<fabric::GroundGrid>> groundOf(
     const std::vector<draw::OpenObject>& objects) {
@@ -99,7 +110,8 @@ private:
 
     page::Loader& loaderFor(const fabric::SceneObject& object);
     absl::StatusOr<std::vector<ObjectFile>> openFiles(const fabric::Scene& scene) const;
-    std::vector<draw::MemoryUse> sharesOf(const std::vector<ObjectFile>& files) const;
+    std::vector<draw::MemoryUse> sharesOf(const std::vector<ObjectFile>& files,
+                                          std::uint64_t hostBytes) const;
     absl::StatusOr<std::unique_ptr<draw::Drawable>> openObject(const fabric::SceneObject& object,
                                                                const ObjectFile& file,
                                                                const draw::MemoryUse& share);
@@ -142,6 +154,7 @@ private:
     /// What the last frame drew, one after the other: some of it more than once.
     std::vector<draw::OccludedDraw::Pieces> drawn_;
     std::optional<fabric::Scene> scene_;
+    std::uint64_t indexBytes_ = 0;  ///< of its terrains
     std::vector<draw::OpenObject> objects_;
     std::shared_ptr<const pick::Picker> picker_;
 };
@@ -174,7 +187,8 @@ absl::StatusOr<std::vector<ObjectFile>> Renderer::Impl::openFiles(
 }
 
 /// By what the files can ever use: the same wherever textures are kept in the same format.
-std::vector<draw::MemoryUse> Renderer::Impl::sharesOf(const std::vector<ObjectFile>& files) const {
+std::vector<draw::MemoryUse> Renderer::Impl::sharesOf(const std::vector<ObjectFile>& files,
+                                                      std::uint64_t hostBytes) const {
     std::vector<std::uint64_t> onDevice;
     std::vector<std::uint64_t> onHost;
     for (const ObjectFile& file : files) {
@@ -185,7 +199,7 @@ std::vector<draw::MemoryUse> Renderer::Impl::sharesOf(const std::vector<ObjectFi
         onHost.push_back(most.hostBytes);
     }
     onDevice = draw::memoryShares(options_.memoryBytes, onDevice);
-    onHost = draw::memoryShares(options_.hostMemoryBytes, onHost);
+    onHost = draw::memoryShares(hostBytes, onHost);
     std::vector<draw::MemoryUse> shares;
     for (std::size_t i = 0; i < files.size(); ++i) shares.push_back({onDevice[i], onHost[i]});
     return shares;
@@ -206,7 +220,14 @@ absl::StatusOr<fabric::SceneInfo> Renderer::Impl::openScene(const fabric::Scene&
     std::vector<std::unique_ptr<const pick::Surface>> surfaces;
     fabric::SceneInfo info;
     ASSIGN_OR_RETURN(const std::vector<ObjectFile> files, openFiles(scene));
-    const std::vector<draw::MemoryUse> shares = sharesOf(files);
+    const std::uint64_t indexBytes = indexBytesOf(files);
+    if (indexBytes > options_.hostMemoryBytes)
+        return absl::ResourceExhaustedError(fmt::format(
+            "the indices of the scene's terrains take {} bytes of host memory, {} are allowed; "
+            "raise the limit (--host-memory of eyrie renderer), or open fewer or smaller terrains",
+            indexBytes, options_.hostMemoryBytes));
+    const std::vector<draw::MemoryUse> shares =
+        sharesOf(files, options_.hostMemoryBytes - indexBytes);
     for (std::size_t i = 0; i < files.size(); ++i) {
         const fabric::SceneObject& object = scene.objects[i];
         ASSIGN_OR_RETURN(auto drawable, openObject(object, files[i], shares[i]));
@@ -220,6 +241,7 @@ absl::StatusOr<fabric::SceneInfo> Renderer::Impl::openScene(const fabric::Scene&
         objects.push_back({object, std::move(drawable)});
     }
     info.ground = groundOf(objects);
+    indexBytes_ = indexBytes;
     scene_ = scene;
     objects_ = std::move(objects);
     picker_ = std::make_shared<const pick::Picker>(std::move(surfaces));
@@ -441,7 +463,7 @@ absl::StatusOr<fabric::ChannelResult> Renderer::Impl::render(const fabric::Frame
 }
 
 RendererMemory Renderer::Impl::memory() const {
-    RendererMemory sum;
+    RendererMemory sum{.hostBytes = indexBytes_};
     for (const draw::OpenObject& object : objects_) {
         const draw::MemoryUse use = object.drawable->memory();
         sum.deviceBytes += use.deviceBytes;

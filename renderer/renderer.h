@@ -37,8 +37,9 @@ struct RendererOptions {
     /// the rest in equal parts (draw/memory_shares.h). Where what a view needs does not fit, the
     /// error rises, and the statistics say so.
     std::uint64_t memoryBytes = std::uint64_t{2} << 30;
-    /// Limit on the bytes of pages in host memory, those being loaded included; shared likewise.
-    std::uint64_t hostMemoryBytes = std::uint64_t{512} << 20;
+    /// Limit on the bytes in host memory of terrains' indices, which are there whole, and of pages,
+    /// those being loaded included; what the indices leave is shared likewise.
+    std::uint64_t hostMemoryBytes = std::uint64_t{1} << 30;
     /// Threads that read and decode pages.
     int loaderThreads = 2;
     TileDecoding decoding = TileDecoding::Auto;
@@ -48,7 +49,7 @@ struct RendererOptions {
 /// What a renderer holds in memory for its scene, besides what open files need.
 struct RendererMemory {
     std::uint64_t deviceBytes = 0;  ///< geometry and textures
-    std::uint64_t hostBytes = 0;    ///< pages, those being loaded included
+    std::uint64_t hostBytes = 0;    ///< terrains' indices; pages, those being loaded included
 };
 
 /// Draws channel tasks without a window: the only header of the library that outsiders include.

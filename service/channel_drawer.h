@@ -24,7 +24,7 @@ using PickFunction = std::function<absl::StatusOr<fabric::Picked>(
 /// What a drawer holds for its scene.
 struct DrawerMemory {
     std::uint64_t deviceBytes = 0;  ///< geometry and textures
-    std::uint64_t hostBytes = 0;    ///< pages, those being loaded included
+    std::uint64_t hostBytes = 0;    ///< terrains' indices; pages, those being loaded included
 };
 
 /// What a renderer process draws with: eyrie::Renderer, or a fake in tests. Created, used and

@@ -351,6 +351,24 @@ TEST_F(Paging, TooLittleMemoryForAPageKeepsTheSceneFromOpening) {
     EXPECT_TRUE(absl::IsResourceExhausted((*renderer)->openScene(scene_).status()));
 }
 
+TEST_F(Paging, AnIndexCountsAsHostMemory) {
+    const terrain::EytIndex& index = file_->index();
+    const std::uint64_t bytes = index.tiles.size() * sizeof(terrain::TileRecord) +
+                                index.pages.size() * sizeof(terrain::PageRecord);
+    EXPECT_EQ(open(scene_.objects[0].path)->memory().hostBytes, bytes) << "and no page yet";
+}
+
+TEST_F(Paging, TooLittleMemoryForAnIndexKeepsTheSceneFromOpeningAndSaysSo) {
+    RendererOptions options;
+    options.hostMemoryBytes = open(scene_.objects[0].path)->memory().hostBytes - 1;
+    auto renderer = Renderer::create(options);
+    ASSERT_TRUE(renderer.ok());
+    const absl::Status status = (*renderer)->openScene(scene_).status();
+    EXPECT_TRUE(absl::IsResourceExhausted(status));
+    EXPECT_NE(status.message().find("indices"), std::string::npos) << status;
+    EXPECT_NE(status.message().find("--host-memory"), std::string::npos) << status;
+}
+
 /// Looking away from the terrain, beside which the camera is, through a lens as long as makes all
 /// of it what may be needed soon.
 TEST_F(Paging, WhatMayBeNeededSoonIsThereWhenTheCameraTurns) {
