@@ -141,16 +141,14 @@ Simplified Builder::simplified(const Patch& patch, const KdNode& node, std::size
     const double diagonal = glm::length(glm::dvec3(node.boxMax) - glm::dvec3(node.boxMin));
     Simplified plain = simplify(mesh_, patch, target, staying_);
     const double error = plain.patch.error();
-    if ((plain.patch.triangles.size() <= target && error <= kTooFar * diagonal) ||
-        components().count() == 1)
+    if ((plain.isDone() && error <= kTooFar * diagonal) || components().count() == 1)
         return plain;
     Patch fewer = patch;
     dropComponents(mesh_, components(), node, target, kSmallPiece * diagonal, fewer);
     Simplified sparse = simplify(mesh_, fewer, target, staying_);
-    dropComponents(mesh_, components(), node, target, std::numeric_limits<double>::infinity(),
-                   sparse.patch);
-    const bool areBothDone =
-        plain.patch.triangles.size() <= target && sparse.patch.triangles.size() <= target;
+    dropComponents(mesh_, components(), node, sparse.target,
+                   std::numeric_limits<double>::infinity(), sparse.patch);
+    const bool areBothDone = plain.isDone() && sparse.isDone();
     const bool isSparseBetter = areBothDone
                                     ? sparse.patch.error() < error
                                     : sparse.patch.triangles.size() < plain.patch.triangles.size();

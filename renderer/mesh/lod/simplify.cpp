@@ -452,7 +452,11 @@ Simplified Simplifier::run(std::size_t target) {
         isInner_.push_back(isRing_ && !isStaying_[point]);
         count(point);
     }
-    while (left_ > target && !queue_.empty()) {
+    const auto border = static_cast<std::size_t>(std::ranges::count(isInner_, false));
+    Simplified result;
+    result.points = counts_;
+    result.target = target + std::min(border, points_.size() - border) / 2;
+    while (left_ > result.target && !queue_.empty()) {
         const std::uint32_t point = pointOf(queue_.top());
         queue_.pop();
         if (isStale_[point])
@@ -460,8 +464,6 @@ Simplified Simplifier::run(std::size_t target) {
         else if (!collapse(point, best_[point].target))
             look(point, true);
     }
-    Simplified result;
-    result.points = counts_;
     for (std::size_t i = 0; i < faces_.size(); ++i) {
         const auto& corners = faces_[i].corners;
         if (!faces_[i].isThere)

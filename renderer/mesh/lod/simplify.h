@@ -30,12 +30,18 @@ private:
 struct Simplified {
     Patch patch;
     PointCounts points;
+    std::size_t target = 0;  ///< triangles to be left, those for points that stay counted in
+
+    bool isDone() const { return patch.triangles.size() <= target; }
 };
 
 /// Takes inner vertices of `patch` away, each time the one that makes the least bound, until about
-/// `target` triangles are left or none can go. What is left keeps its promise (patch.h): each step
-/// is a map as described there, and their distances add up, as do changes of colours. Where these
-/// are too much, the bound is how far away the colours come from (patch_colours.h).
+/// `target` triangles, and half a one for each point that has to stay, are left or none can go:
+/// beside edges that stay there are as many triangles as before, and the inside is not to make up
+/// for them. Where more points stay than may go, as in soups, only as many count. What is left
+/// keeps its promise (patch.h): each step is a map as described there, and their distances add up,
+/// as do changes of colours. Where these are too much, the bound is how far away the colours come
+/// from (patch_colours.h).
 ///
 /// Stay: vertices on the border, so that the patch fits its neighbours whatever is done to them;
 /// those where more than two sheets meet, or normals, colours, texture coordinates or materials are

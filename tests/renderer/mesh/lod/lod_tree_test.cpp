@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <random>
 #include <set>
@@ -82,9 +83,25 @@ double farthest(const PackedMesh& mesh, const std::vector<Triangle>& triangles,
     return worst;
 }
 
-TEST(LodTree, NoPointOfEitherSurfaceIsFartherThanPromised) {
-    const Levels& levels = bumpyBall();
-    double ratios = 0;
+/// A scan: smooth noise on facets of many triangles each.
+Levels displacedBall(int subdivisions) {
+    auto source = import::subdivide(import::synthesizeMesh(5000, 5), subdivisions);
+    EXPECT_TRUE(source.ok());
+    import::displace(*source, 2e-3, 3);
+    import::PackCounts counts;
+    auto mesh = import::packMesh(*std::move(source), counts);
+    EXPECT_TRUE(mesh.ok());
+    return levelsOf(*std::move(mesh));
+}
+
+/// Promised over measured, both ways.
+struct Ratios {
+    double least = std::numeric_limits<double>::infinity();
+    double mean = 0;
+};
+
+Ratios promisedOverMeasured(const Levels& levels) {
+    Ratios ratios;
     int nodes = 0;
     for (std::size_t i = 0; i < levels.tree.nodes.size(); ++i) {
         if (levels.lod.geometry[i].empty())
@@ -95,12 +112,36 @@ TEST(LodTree, NoPointOfEitherSurfaceIsFartherThanPromised) {
             std::max(farthest(levels.mesh, source, surface(levels.mesh, drawn)),
                      farthest(levels.mesh, drawn, surface(levels.mesh, source)));
         EXPECT_LE(measured, levels.lod.errorMetres[i]) << "node " << i;
-        ratios += levels.lod.errorMetres[i] / measured;
+        const double ratio = levels.lod.errorMetres[i] / measured;
+        ratios.least = std::min(ratios.least, ratio);
+        ratios.mean += ratio;
         ++nodes;
     }
-    ASSERT_GT(nodes, 20);
-    fmt::print("promised over measured: {:.2f} on average of {} nodes\n", ratios / nodes, nodes);
-    EXPECT_LT(ratios / nodes, 1.75);
+    EXPECT_GT(nodes, 20);
+    ratios.mean /= nodes;
+    fmt::print("promised over measured: {:.2f} on average of {} nodes, {:.2f} at least\n",
+               ratios.mean, nodes, ratios.least);
+    return ratios;
+}
+
+TEST(LodTree, NoPointOfEitherSurfaceIsFartherThanPromised) {
+    EXPECT_LT(promisedOverMeasured(bumpyBall()).mean, 1.6);
+}
+
+/// Nor is there room: a bound a tenth smaller would be broken.
+TEST(LodTree, NoPointOfADisplacedScanIsFartherThanPromised) {
+    const Ratios ratios = promisedOverMeasured(displacedBall(1));
+    EXPECT_LT(ratios.mean, 1.5);
+    EXPECT_LT(ratios.least, 1.1);
+}
+
+/// Borders stay as fine as the source, so they are the more of a node the more levels lie below it:
+/// up to 43 % of the fifth level's vertices. What may still go does not go too far for that.
+TEST(LodTree, BordersDoNotStarveTheInside) {
+    const std::vector<LodLevel> levels = displacedBall(3).lod.levels;
+    ASSERT_GE(levels.size(), 5U);
+    for (std::size_t i = 1; i < 5; ++i)
+        EXPECT_LT(levels[i].largestErrorMetres, 3 * levels[i - 1].largestErrorMetres) << i;
 }
 
 /// A bumpy ball with a crowd of small solids on it and some afar.
@@ -147,7 +188,7 @@ TEST(LodTree, OfASoupLosesPiecesAndStillKeepsItsPromise) {
     }
     EXPECT_GT(nodes, 20U);
     // Without its pieces' going the root has no simpler form: none of them can be simplified.
-    EXPECT_LE(levels.lod.geometry[0].size(), kNodeTriangles);
+    EXPECT_LE(levels.lod.geometry[0].size(), kNodeTriangles * 5 / 4);
     EXPECT_FALSE(levels.lod.geometry[0].empty());
 }
 
@@ -262,14 +303,18 @@ TEST(LodTree, ScansNeedNoPoints) {
     for (const auto& points : bumpyBall().lod.points) EXPECT_FALSE(points.has_value());
 }
 
-TEST(LodTree, HalvesTheTrianglesFromLevelToLevel) {
+TEST(LodTree, HalvesWhatIsNotItsBorderFromLevelToLevel) {
     const Levels& levels = bumpyBall();
     ASSERT_GE(levels.lod.levels.size(), 5U);
-    for (const LodLevel& level : levels.lod.levels)
+    for (const LodLevel& level : levels.lod.levels) {
+        const auto before = static_cast<double>(level.trianglesBefore);
+        const double most = static_cast<double>(level.nodes) * kNodeTriangles;
+        // Of two triangles there is one vertex; for each on the border half of one is kept.
         EXPECT_NEAR(static_cast<double>(level.trianglesAfter),
-                    static_cast<double>(level.trianglesBefore) / 2,
-                    0.05 * static_cast<double>(level.trianglesBefore));
-    EXPECT_LE(levels.lod.geometry[0].size(), kNodeTriangles);
+                    std::min(before / 2, most) + level.points.borderShare() * before / 4,
+                    0.05 * before);
+    }
+    EXPECT_LE(levels.lod.geometry[0].size(), kNodeTriangles * 5 / 4);
 }
 
 using Edge = std::pair<std::uint64_t, std::uint64_t>;
