@@ -3,9 +3,14 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "wire/jpeg_halves.h"
 
 namespace eyrie::wire {
 namespace {
@@ -70,6 +75,70 @@ TEST(Jpeg, RefusesWhatIsNoImage) {
     image.colour.pop_back();
     EXPECT_THAT(encodeJpeg(image, 75, ChromaSubsampling::Half).status().ToString(),
                 HasSubstr("63 pixels of colour"));
+}
+
+/// The picture's first rows, from below.
+fabric::Image rowsOf(const fabric::Image& image, int begin, int end) {
+    const int width = image.area.width;
+    fabric::Image part = fabric::makeImage({0, 0, width, end - begin}, {}, false);
+    std::copy_n(image.colour.begin() + static_cast<std::ptrdiff_t>(begin) * width,
+                part.colour.size(), part.colour.begin());
+    return part;
+}
+
+std::size_t restartsIn(std::span<const std::byte> jpeg) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i + 1 < jpeg.size(); ++i)
+        if (jpeg[i] == std::byte{0xFF} && (jpeg[i + 1] & std::byte{0xF8}) == std::byte{0xD0})
+            ++count;
+    return count;
+}
+
+TEST(Jpeg, IsOfTwoHalvesThatNeedNothingOfEachOther) {
+    const fabric::Image image = gradient(700, 301);
+    const auto bytes = encodeJpeg(image, 95, ChromaSubsampling::None);
+    ASSERT_TRUE(bytes.ok()) << bytes.status();
+    EXPECT_EQ(restartsIn(*bytes), 1u);
+    const fabric::Image back = *decodeJpeg(*bytes);
+    ASSERT_EQ(back.area, image.area);
+    // Of 38 rows of blocks the upper half has 19.
+    constexpr int kCut = 301 - 19 * 8;
+    for (const auto& [begin, end] : {std::pair(0, kCut), std::pair(kCut, 301)}) {
+        const fabric::Image alone = rowsOf(image, begin, end);
+        const auto encoded = encodeJpeg(alone, 95, ChromaSubsampling::None);
+        ASSERT_TRUE(encoded.ok()) << encoded.status();
+        EXPECT_EQ(worstDifference(*decodeJpeg(*encoded), rowsOf(back, begin, end)), 0) << begin;
+    }
+}
+
+TEST(Jpeg, HasNoSeamBetweenItsHalves) {
+    for (const auto& [width, height] : {std::pair(1280, 720), std::pair(333, 241)}) {
+        const fabric::Image image = gradient(width, height);
+        const auto bytes = encodeJpeg(image, 95, ChromaSubsampling::Half);
+        ASSERT_TRUE(bytes.ok()) << bytes.status();
+        EXPECT_EQ(restartsIn(*bytes), 1u);
+        EXPECT_LE(worstDifference(image, *decodeJpeg(*bytes)), 12);
+    }
+}
+
+TEST(Jpeg, IsWholeWhereHalvesWouldBeSmallOrHaveMoreBlocksThanCanBeCounted) {
+    const auto restarts = [](int width, int height) {
+        return restartsIn(*encodeJpeg(gradient(width, height), 75, ChromaSubsampling::None));
+    };
+    EXPECT_EQ(restarts(255, 256), 0u);
+    EXPECT_EQ(restarts(256, 256), 1u);
+    // Of 8188 blocks a row, nine rows are too many.
+    EXPECT_EQ(restarts(65500, 128), 1u);
+    EXPECT_EQ(restarts(65500, 129), 0u);
+}
+
+TEST(Jpeg, JoinsOnlyHalvesThatWereMadeAlike) {
+    const std::vector<std::byte> half = *encodeJpeg(gradient(64, 32), 75, ChromaSubsampling::Half);
+    const std::vector<std::byte> finer = *encodeJpeg(gradient(64, 32), 95, ChromaSubsampling::Half);
+    EXPECT_TRUE(joined(half, half, 64, 8).ok());
+    EXPECT_THAT(joined(half, finer, 64, 8).status().ToString(), HasSubstr("different tables"));
+    for (std::size_t size = 0; size < half.size(); ++size)
+        EXPECT_FALSE(joined(half, std::span(half).first(size), 64, 8).ok()) << size;
 }
 
 TEST(Jpeg, RefusesTruncatedAndForeignBytes) {
