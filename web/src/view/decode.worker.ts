@@ -5,6 +5,7 @@
 // says of its own. Pictures of streams are all decoded, as each needs the one before, and shown in
 // the same way.
 import type { EncodedPicture } from "../protocol/parts";
+import { halvesOf } from "./halves";
 import { pixelHash } from "./pixel_hash";
 import { Presenter } from "./presenter";
 import { VideoPictures } from "./video";
@@ -34,12 +35,13 @@ interface DecodedVideo {
   height: number;
 }
 
+/** A picture from top to bottom, in one piece or in two. */
 interface Decoded {
-  bitmap: ImageBitmap;
+  pieces: readonly ImageBitmap[];
   isExact: boolean;
 }
 
-let context: ImageBitmapRenderingContext | null = null;
+let context: OffscreenCanvasRenderingContext2D | null = null;
 let arrivals = 0;
 /** The order of the newest that was ever to be shown. */
 let newestOrder = 0;
@@ -47,31 +49,50 @@ let videos: VideoPictures | null = null;
 /** Pictures of streams that are being decoded, by the order of their arrival. */
 const decoding = new Map<number, { frameNumber: number; width: number; height: number }>();
 
-/** The pixels of a picture, read back from another canvas: this one's cannot be. */
-function hashOf(bitmap: ImageBitmap): number {
-  const canvas = new OffscreenCanvas(bitmap.width, bitmap.height);
-  const reader = canvas.getContext("2d", { willReadFrequently: true, alpha: false });
-  reader?.drawImage(bitmap, 0, 0);
-  return pixelHash(
-    reader?.getImageData(0, 0, bitmap.width, bitmap.height).data ?? new Uint8ClampedArray(),
-  );
+/** Drawn to by the processor, as pictures are decoded by it: their pixels come as they are. */
+function contextOf(canvas: OffscreenCanvas): OffscreenCanvasRenderingContext2D | null {
+  return canvas.getContext("2d", { alpha: false, willReadFrequently: true });
 }
 
-async function bitmapOf(picture: EncodedPicture | DecodedVideo): Promise<ImageBitmap> {
+/** One piece below the other, on a canvas that becomes as large as they are. */
+function paint(on: OffscreenCanvasRenderingContext2D, pieces: readonly ImageBitmap[]): void {
+  const width = pieces[0]?.width ?? 0;
+  const height = pieces.reduce((sum, piece) => sum + piece.height, 0);
+  if (on.canvas.width !== width) on.canvas.width = width;
+  if (on.canvas.height !== height) on.canvas.height = height;
+  let y = 0;
+  for (const piece of pieces) {
+    on.drawImage(piece, 0, y);
+    y += piece.height;
+  }
+}
+
+/** Its pixels, read back from another canvas, which need not be waited for until it is shown. */
+function hashOf(pieces: readonly ImageBitmap[]): number {
+  const reader = contextOf(new OffscreenCanvas(1, 1));
+  if (reader === null) return Number.NaN;
+  paint(reader, pieces);
+  const { width, height } = reader.canvas;
+  return pixelHash(reader.getImageData(0, 0, width, height).data);
+}
+
+async function piecesOf(picture: EncodedPicture | DecodedVideo): Promise<readonly ImageBitmap[]> {
   if (picture.type === "decoded") {
     const bitmap = createImageBitmap(picture.frame, 0, 0, picture.width, picture.height);
-    return bitmap.finally(() => picture.frame.close());
+    return [await bitmap.finally(() => picture.frame.close())];
   }
   const { type, bytes } = picture;
-  return createImageBitmap(new Blob([bytes], { type }), {
-    colorSpaceConversion: type === "image/png" ? "none" : "default",
-  });
+  const halves = type === "image/jpeg" ? halvesOf(bytes) : null;
+  if (halves !== null)
+    return Promise.all([createImageBitmap(halves.upper), createImageBitmap(halves.lower)]);
+  const colorSpaceConversion = type === "image/png" ? "none" : "default";
+  return [await createImageBitmap(new Blob([bytes], { type }), { colorSpaceConversion })];
 }
 
 async function decode(picture: EncodedPicture | DecodedVideo): Promise<Decoded> {
-  const bitmap = await bitmapOf(picture);
+  const pieces = await piecesOf(picture);
   const wanted = picture.type === "decoded" ? undefined : picture.pixelHash;
-  return { bitmap, isExact: wanted !== undefined && hashOf(bitmap) === wanted };
+  return { pieces, isExact: wanted !== undefined && hashOf(pieces) === wanted };
 }
 
 function report(told: FromWorker): void {
@@ -87,11 +108,14 @@ function skip(picture: EncodedPicture | DecodedVideo): void {
 const presenter = new Presenter<EncodedPicture | DecodedVideo, Decoded>({
   decode,
   skip,
-  draw: (frameNumber, { bitmap, isExact }) => {
-    context?.transferFromImageBitmap(bitmap);
+  draw: (frameNumber, { pieces, isExact }) => {
+    if (context !== null) paint(context, pieces);
+    for (const piece of pieces) piece.close();
     report({ kind: "drawn", frameNumber, time: now(), exact: isExact });
   },
-  drop: ({ bitmap }) => bitmap.close(),
+  drop: ({ pieces }) => {
+    for (const piece of pieces) piece.close();
+  },
   ready: (frameNumber) => report({ kind: "ready", frameNumber, time: now() }),
   failed: (frameNumber) => report({ kind: "failed", frameNumber, time: now(), isVideo: false }),
 });
@@ -145,7 +169,7 @@ function take({ frameNumber, picture, waits }: ToWorker & { kind: "picture" }): 
 }
 
 self.addEventListener("message", ({ data }: MessageEvent<ToWorker>) => {
-  if (data.kind === "canvas") context = data.canvas.getContext("bitmaprenderer");
+  if (data.kind === "canvas") context = contextOf(data.canvas);
   else if (data.kind === "present") presenter.present(data.frameNumber);
   else if (data.kind === "forget") presenter.forget();
   else take(data);
