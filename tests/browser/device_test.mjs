@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // A device with a finer screen than CSS counts on, and no mouse.
-import { check, environment, run, ServerProcess } from "./support.mjs";
+import { check, environment, panelWidth, run, ServerProcess } from "./support.mjs";
 
-const device = { viewport: { width: 900, height: 546 }, deviceScaleFactor: 2, hasTouch: true };
+const viewport = { width: 900 + panelWidth, height: 546 };
+const device = { viewport, deviceScaleFactor: 2, hasTouch: true };
 
 await run("device_test", async (browser, started) => {
   const web = environment("EYRIE_WEB_FOLDER");

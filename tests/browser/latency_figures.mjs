@@ -3,7 +3,7 @@
 // all but rendering: the fake server has made its pictures beforehand, and what it takes for a copy
 // is taken off. One input after the other, so that none waits for the picture of another.
 // docs/benchmarks.md has what it said.
-import { environment, run, ServerProcess } from "./support.mjs";
+import { environment, run, ServerProcess, panelWidth } from "./support.mjs";
 
 const inputs = 300;
 const barHeight = 46; // above the picture
@@ -56,7 +56,7 @@ await run("latency_figures", async (browser, started) => {
     [1280, 720],
     [1920, 1080],
   ]) {
-    await page.setViewportSize({ width, height: height + barHeight });
+    await page.setViewportSize({ width: width + panelWidth, height: height + barHeight });
     await page.goto(server.url);
     await browser.settled();
     await page.evaluate(timesToDrawn, 30); // warm

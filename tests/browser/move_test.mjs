@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Moving otherwise than by mouse: fingers, and feet on the ground. And what a browser is told that
 // cannot show pictures.
-import { check, environment, run, ServerProcess } from "./support.mjs";
+import { check, environment, run, ServerProcess, panelWidth } from "./support.mjs";
 
 const web = environment("EYRIE_WEB_FOLDER");
 
@@ -96,6 +96,24 @@ await run("move_test", async (browser, started) => {
   check(Math.abs(by - turn) < 0.05, `fingers turned by 90° turn the scene (${by.toFixed(3)} rad)`);
   await browser.settled();
 
+  const box = (selector) => page.locator(selector).boundingBox();
+  const [beside, canvas] = [await box("#panel"), await box("#view")];
+  check(
+    canvas.width === 1280 && canvas.x + canvas.width <= beside.x && beside.width === panelWidth,
+    "beside the panel the picture is as wide as what is left",
+  );
+  check(
+    await page.evaluate(() => {
+      document.querySelector("#plots").scrollIntoView();
+      return document.documentElement.scrollTop + document.body.scrollTop === 0;
+    }),
+    "and nothing but the panel scrolls",
+  );
+  await page.keyboard.press("p");
+  await browser.until(() => window.eyrie.width === 1580 && window.eyrie.exact);
+  check((await box("#view")).width === 1280 + panelWidth, "without it, as the window");
+  await page.keyboard.press("p");
+  await browser.until(() => window.eyrie.width === 1280 && window.eyrie.exact);
   await page.setViewportSize({ width: 360, height: 640 });
   const help = await page.getByRole("button", { name: "Help" }).boundingBox();
   const chip = await page.locator("#status").boundingBox();
@@ -117,7 +135,7 @@ await run("move_test", async (browser, started) => {
   await readout.filter({ hasText: /^at rest · \d.* ms · 0\.90 px · exact$/ }).waitFor();
   check(await page.locator("#panel").isHidden(), "and without it");
   await page.keyboard.press("p");
-  await page.setViewportSize({ width: 1280, height: 766 });
+  await page.setViewportSize({ width: 1280 + panelWidth, height: 766 });
   await browser.settled();
 
   // ---- Feet

@@ -6,7 +6,7 @@ import { byId } from "./element";
 import { setUpHelp } from "./help";
 import { onKeys } from "./keys";
 
-/** In a window this narrow the panel would cover the picture. */
+/** In a window this narrow the panel covers a part of the picture. */
 const narrow = "(max-width: 700px)";
 
 export function setUpToolbar(state: State, viewer: Viewer): void {
