@@ -14,6 +14,7 @@
 #include "cli/data_cache.h"
 #include "cli/placement.h"
 #include "cli/scene_files.h"
+#include "cli/text_file.h"
 #include "renderer/import/geotiff_writer.h"
 #include "renderer/import/mesh_import.h"
 #include "renderer/import/mesh_synth.h"

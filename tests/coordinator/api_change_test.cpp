@@ -69,7 +69,7 @@ TEST_F(Rest, ConfigurationsHaveWhatFramesChangeOnlyWhereItIsAskedFor) {
                             one.milliseconds = one.stages.total =
                                 static_cast<double>(10 * taken.size());
                         }
-                        active.record(plan, 1, taken);
+                        active.record(0, plan, 1, taken);
                         return absl::OkStatus();
                     })
                     .ok());
