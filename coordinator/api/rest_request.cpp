@@ -11,6 +11,7 @@
 #include <google/protobuf/struct.pb.h>
 #include <google/protobuf/util/json_util.h>
 
+#include "access/printable.h"
 #include "coordinator/api/rest_routes.h"
 #include "fabric/status.h"
 
@@ -78,6 +79,10 @@ absl::Status setField(std::string_view name, const std::string& text, Message& m
     const FieldDescriptor* field = fieldOf(name, message);
     if (field == nullptr || !isPlain(*field))
         return noField(name.substr(0, 64));
+    if (!access::isUtf8(text))
+        return absl::InvalidArgumentError(fmt::format("{} is '{}', which is not UTF-8",
+                                                      field->json_name(),
+                                                      access::printable(text.substr(0, 64))));
     const bool isWord =
         field->cpp_type() != FieldDescriptor::CPPTYPE_BOOL || text == "true" || text == "false";
     const auto made = std::unique_ptr<Message>(message.New());

@@ -100,6 +100,16 @@ TEST_F(Rest, RefusesWhatItDoesNotKnow) {
     EXPECT_THAT(frames_.requests(), IsEmpty());
 }
 
+TEST_F(Rest, RefusesPathsAndQueriesThatAreNotUtf8AndLogsNothingOfThem) {
+    testing::internal::CaptureStderr();
+    for (const char* target : {"/flights/%ff%fe", "/image?width=%c0%80"}) {
+        const RestAnswer answer = get(target);
+        expectProblem(answer, 400, "INVALID_ARGUMENT");
+        EXPECT_THAT(text(answer, "detail"), HasSubstr("which is not UTF-8")) << target;
+    }
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
 TEST_F(Rest, TakesNoFormsOfOtherSitesPages) {
     expectProblem(ask({"POST", "/image", R"({"width":20})", "text/plain"}), 400,
                   "INVALID_ARGUMENT");
