@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -32,6 +33,24 @@ bool endsWith(const std::string& path, std::string_view ending) {
            std::equal(ending.rbegin(), ending.rend(), path.rbegin(), [](char a, char b) {
                return a == (b >= 'A' && b <= 'Z' ? b - 'A' + 'a' : b);
            });
+}
+
+bool isMeshName(const std::string& path) {
+    return endsWith(path, ".ply") || endsWith(path, ".jdn") || findAssimpFormat(path) != nullptr;
+}
+
+/// What unpacks a mesh whose name says that it is packed, as archives of scans have them.
+std::optional<std::string_view> unpackerOf(const std::string& path) {
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kUnpackers = {
+        {{".gz", "gunzip"},
+         {".bz2", "bunzip2"},
+         {".xz", "unxz"},
+         {".zst", "unzstd"},
+         {".zip", "unzip"}}};
+    for (const auto& [ending, unpacker] : kUnpackers)
+        if (endsWith(path, ending) && isMeshName(path.substr(0, path.size() - ending.size())))
+            return unpacker;
+    return std::nullopt;
 }
 
 std::string_view textOf(const mesh::MappedFile& file) {
@@ -197,9 +216,7 @@ bool isPly(const std::string& path) {
     return file.ok() && (looksLikePly(textOf(*file)) || endsWith(path, ".ply"));
 }
 
-bool isMeshSource(const std::string& path) {
-    return endsWith(path, ".ply") || endsWith(path, ".jdn") || findAssimpFormat(path) != nullptr;
-}
+bool isMeshSource(const std::string& path) { return isMeshName(path) || unpackerOf(path); }
 
 bool statesEdges(const std::string& path) { return !isPly(path) && !endsWith(path, ".stl"); }
 
@@ -217,6 +234,9 @@ absl::StatusOr<TriangleMesh> readMesh(const std::string& path, const ImportContr
             fmt::format("{}: found the extension '{}', expected one of {}; convert the file", path,
                         fs::path(path).extension().string(), meshSourceEndings()));
     ASSIGN_OR_RETURN(const mesh::MappedFile file, mesh::MappedFile::open(path));
+    if (const auto unpacker = unpackerOf(path))
+        return absl::InvalidArgumentError(
+            fmt::format("{}: is packed; unpack it first ({})", path, *unpacker));
     const std::string_view text = textOf(file);
     ASSIGN_OR_RETURN(TriangleMesh mesh, parseMesh(text, path, control, reading.memoryBytes));
     if (reading.onlyNormalsOfEdges && !statesEdges(path))

@@ -13,7 +13,8 @@
 
 namespace eyrie::import {
 
-/// Whether a file's name ends like that of a mesh that readMesh knows.
+/// Whether a file's name ends like that of a mesh that readMesh knows, packed or not: packed ones
+/// it refuses.
 bool isMeshSource(const std::string& path);
 
 /// Whether the normals that a file may have say which edges are sharp. Those of PLY are mostly a

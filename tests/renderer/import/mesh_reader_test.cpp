@@ -67,6 +67,21 @@ TEST(MeshReader, NamesTheFileThatCannotBeRead) {
     EXPECT_THAT(std::string(mesh.status().message()), HasSubstr("b.obj"));
 }
 
+TEST(MeshReader, SaysWhatUnpacksAMeshThatIsPacked) {
+    const test::TemporaryFolder folder;
+    for (const auto& [name, unpacker] :
+         {std::pair("dragon.ply.gz", "(gunzip)"), std::pair("a.OBJ.ZST", "(unzstd)")}) {
+        EXPECT_TRUE(isMeshSource(name)) << "and no raster";
+        test::writeFile(folder.file(name), "\x1f\x8b");
+        const absl::Status refused = readMesh(folder.file(name)).status();
+        EXPECT_TRUE(absl::IsInvalidArgument(refused)) << refused;
+        EXPECT_THAT(std::string(refused.message()),
+                    testing::AllOf(HasSubstr(name), HasSubstr(unpacker)));
+    }
+    EXPECT_FALSE(isMeshSource("dem.tif.gz")) << "GDAL reads that";
+    EXPECT_FALSE(isMeshSource("heights.zip"));
+}
+
 TEST(MeshReader, StopsReadingAtTheMemoryThatItMayUse) {
     const test::TemporaryFolder folder;
     std::string text;
@@ -317,7 +332,7 @@ TEST(MeshSourceHash, CountsBuffersOfGltf) {
 TEST(MeshSource, IsToldByItsName) {
     for (const char* name : {"a.ply", "a.PLY", "a.jdn", "a.Obj", "x/a.glb", "a.acc", "a.IFC"})
         EXPECT_TRUE(isMeshSource(name)) << name;
-    for (const char* name : {"a.tif", "a", "ply", "a.ply.gz", "a.ter", "a.obj/x"})
+    for (const char* name : {"a.tif", "a", "ply", "a.tif.gz", "a.ter", "a.obj/x"})
         EXPECT_FALSE(isMeshSource(name)) << name;
     EXPECT_THAT(meshSourceEndings(), HasSubstr(".glb"));
 }
