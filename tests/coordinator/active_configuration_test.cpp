@@ -59,18 +59,24 @@ TEST(ActiveConfiguration, RefusesToShowAnEyeThatIsBehindTheWall) {
     expectRefused(active, settings);
 }
 
-/// Of the left half, one eye sees something at its left end and the other at its right: what is
-/// seen of it is all of it, and it is cut in its middle. If the last eye alone counted, all of it
-/// would lie at the cut that there is.
-TEST(ActiveConfiguration, CountsWhatBothEyesCover) {
+/// Two channels beside each other, whose border goes by what they take; `seen` has the layout.
+ActiveConfiguration twoBesideEachOther(const std::string& seen = "layout { view { } } ") {
     const std::string window = "window { viewport [ 0 0 640 480 ] channel { name \"";
-    ActiveConfiguration active(
-        read("config { appNode { pipe { " + window + "0\" } } } pipe { " + window +
-             "1\" } } } } observer { } layout { view { mode STEREO observer 0 } } "
+    return ActiveConfiguration(
+        read("config { appNode { pipe { " + window + "0\" } } } pipe { " + window + "1\" } } } } " +
+             seen +
              "canvas { layout 0 segment { channel \"0\" } } "
              "compound { channel ( segment 0 view 0 ) load_equalizer { mode VERTICAL } "
              "compound { } compound { channel \"1\" outputframe { } } "
              "inputframe { name \"frame.1\" } } }"));
+}
+
+/// Of the left half, one eye sees something at its left end and the other at its right: what is
+/// seen of it is all of it, and it is cut in its middle. If the last eye alone counted, all of it
+/// would lie at the cut that there is.
+TEST(ActiveConfiguration, CountsWhatBothEyesCover) {
+    ActiveConfiguration active =
+        twoBesideEachOther("observer { } layout { view { mode STEREO observer 0 } } ");
     const compound::Plan first = active.plan({}, 1, {}).value();
     ASSERT_EQ(first.draws.size(), 4U);
     std::vector<ActiveConfiguration::Taken> taken;
@@ -100,17 +106,6 @@ config::Configuration room(const std::string& observer) {
         " } layout { view { mode STEREO observer 0 "
         "wall { bottom_left [ -1 -1 -2 ] bottom_right [ 1 -1 -2 ] top_left [ -1 1 -2 ] } } } "
         "canvas { layout 0 segment { channel \"0\" } } }");
-}
-
-/// Two channels beside each other, whose border goes by what they take.
-ActiveConfiguration twoBesideEachOther() {
-    const std::string window = "window { viewport [ 0 0 640 480 ] channel { name \"";
-    return ActiveConfiguration(
-        read("config { appNode { pipe { " + window + "0\" } } } pipe { " + window +
-             "1\" } } } } layout { view { } } canvas { layout 0 segment { channel \"0\" } } "
-             "compound { channel ( segment 0 view 0 ) load_equalizer { mode VERTICAL } "
-             "compound { } compound { channel \"1\" outputframe { } } "
-             "inputframe { name \"frame.1\" } } }"));
 }
 
 /// Draws the session's next frame, all of whose load lies in a tenth of the picture, from `begin`
