@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include "access/printable.h"
+
 namespace eyrie::import {
 namespace {
 
@@ -70,7 +72,8 @@ absl::Status notRead(std::string_view extension) {
     const bool isPacked =
         extension == "KHR_mesh_quantization" || extension.ends_with("_meshopt_compression");
     return absl::InvalidArgumentError(fmt::format(
-        "requires the glTF extension {}, which is not read; export it without{}", extension,
+        "requires the glTF extension '{}', which is not read; export it without{}",
+        access::printable(extension),
         isPacked ? ", with floats, plain or compressed by Draco (of gltfpack: -noq, without -c)"
                  : ""));
 }

@@ -7,4 +7,4 @@ add_library(eyrie_mesh_import assimp_lights.cpp assimp_materials.cpp assimp_read
                               ply_writer.cpp polygon.cpp reading_process.cpp sgi_image.cpp source_lights.cpp texture_files.cpp weld.cpp)
 add_library(eyrie::mesh_import ALIAS eyrie_mesh_import)
 target_link_libraries(eyrie_mesh_import PUBLIC eyrie::fabric eyrie::mesh
-                                        PRIVATE assimp::assimp eyrie::stb fmt::fmt TBB::tbb)
+                                        PRIVATE assimp::assimp eyrie::access eyrie::stb fmt::fmt TBB::tbb)

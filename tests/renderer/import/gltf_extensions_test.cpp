@@ -62,6 +62,15 @@ TEST(GltfExtensions, ThatAreNotReadAreNamedWithWhatToDo) {
         HasSubstr("EXT_unheard_of"));
 }
 
+TEST(GltfExtensions, OfAbsurdNamesAreNamedWithoutWhatTerminalsObeyAndNotAtLength) {
+    const absl::Status status =
+        checkGltfExtensions(bytesOf(requiring("\"\x1b[31m\n" + std::string(100'000, 'x') + "\"")));
+    EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
+    const std::string message(status.message());
+    EXPECT_THAT(message, HasSubstr("\\x1b[31m\\x0a"));
+    EXPECT_LT(message.size(), 400U);
+}
+
 TEST(GltfExtensions, AreWhatTheFileSaysTheyAreAndNotWhatItsTextsSay) {
     EXPECT_TRUE(
         checkGltfExtensions(bytesOf(R"({"nodes": [{"name": "extensionsRequired"}]})")).ok());
