@@ -14,6 +14,7 @@
 #include "coordinator/farm/program_assembly.h"
 #include "eyrie/v1/registry_service.pb.h"
 #include "eyrie/v1/render_service.pb.h"
+#include "wire/jpeg.h"
 #include "wire/pick.h"
 #include "wire/picture_header.h"
 #include "wire/scene_info.h"
@@ -65,6 +66,24 @@ void takeChannel(std::string_view bytes) {
         checkPicture(result->image, kArea, true);
 }
 
+/// The same of a task that is answered with a JPEG.
+void takeCodedChannel(std::string_view bytes) {
+    fabric::ChannelTask task{1, 1, 100, 50, kArea, {}, false};
+    task.jpegQuality = 80;
+    coordinator::PictureAssembly assembly(task);
+    forEach<v1::RenderChannelResponse>(bytes, [&](const v1::RenderChannelResponse& message) {
+        return message.has_header() ? assembly.takeHeader(message.header())
+                                    : assembly.takeChunk(message.chunk());
+    });
+    const auto result = assembly.finish();
+    if (!result.ok())
+        return;
+    const auto size = wire::jpegSize(result->jpeg);
+    if (!size.ok() || size->width != kArea.width || size->height != kArea.height)
+        std::abort();
+    static_cast<void>(wire::decodeJpeg(result->jpeg));
+}
+
 /// The answer to a program of two pictures.
 void takeProgram(std::string_view bytes) {
     fabric::ChannelProgram program;
@@ -114,7 +133,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (size == 0)
         return 0;
     const std::string_view bytes(reinterpret_cast<const char*>(data) + 1, size - 1);
-    switch (data[0] % 6) {
+    switch (data[0] % 7) {
         case 0:
             if (v1::OpenSceneResponse message; parse(bytes, message))
                 static_cast<void>(wire::fromMessage(message));
@@ -133,8 +152,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         case 4:
             takeProgram(bytes);
             break;
-        default:
+        case 5:
             takeFrame(bytes);
+            break;
+        default:
+            takeCodedChannel(bytes);
     }
     return 0;
 }

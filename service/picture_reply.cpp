@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "service/picture_reply.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <optional>
 #include <utility>
+#include <vector>
 
+#include "wire/jpeg.h"
 #include "wire/picture_header.h"
 #include "wire/statistics.h"
 
@@ -78,6 +82,63 @@ private:
     bool hasHeader_ = false;
 };
 
+class JpegReply final : public MessageSource<v1::RenderChannelResponse> {
+public:
+    JpegReply(fabric::ChannelResult result, const fabric::ChannelTask& task,
+              fabric::Rgba background, const ChannelStory& story)
+        : result_(std::move(result)),
+          whole_(task.pixelViewport),
+          quality_(task.jpegQuality),
+          background_(background),
+          story_(story) {}
+
+    bool isDone() const override { return encoded_ && sent_ == encoded_->size(); }
+
+    void next(v1::RenderChannelResponse& message) override {
+        if (!std::exchange(hasHeader_, true))
+            return begin(*message.mutable_header());
+        if (!encoded_)
+            encoded_ = encode();
+        const std::size_t size = std::min(encoded_->size() - sent_, kChunkBytes);
+        message.mutable_chunk()->assign(reinterpret_cast<const char*>(encoded_->data()) + sent_,
+                                        size);
+        sent_ += size;
+    }
+
+private:
+    static constexpr std::size_t kChunkBytes = std::size_t{1} << 20;
+
+    void begin(v1::ChannelHeader& header) const {
+        wire::describe(result_.image, wire::PixelEncoding::Raw, header);
+        header.set_is_jpeg(true);
+        *header.mutable_statistics() = wire::toMessage(result_.statistics);
+        tell(story_, header);
+    }
+
+    /// Empty on an error, of which there is none but for want of memory: who reads it says that
+    /// the JPEG is missing.
+    std::vector<std::byte> encode() const {
+        const bool isWhole = result_.image.area == whole_;
+        fabric::Image filled;
+        if (!isWhole) {
+            filled = fabric::makeImage(whole_, background_, false);
+            fabric::paste(result_.image, filled);
+        }
+        return wire::encodeJpeg(isWhole ? result_.image : filled, quality_,
+                                wire::ChromaSubsampling::Half)
+            .value_or(std::vector<std::byte>());
+    }
+
+    const fabric::ChannelResult result_;
+    const fabric::PixelViewport whole_;
+    const int quality_;
+    const fabric::Rgba background_;
+    const ChannelStory story_;
+    bool hasHeader_ = false;
+    std::optional<std::vector<std::byte>> encoded_;
+    std::size_t sent_ = 0;
+};
+
 class ProgramReply final : public MessageSource<v1::RunProgramResponse> {
 public:
     ProgramReply(fabric::ProgramResult result, wire::PixelEncoding encoding)
@@ -122,6 +183,13 @@ std::unique_ptr<MessageSource<v1::RenderChannelResponse>> channelReply(fabric::C
                                                                        wire::PixelEncoding encoding,
                                                                        const ChannelStory& story) {
     return std::make_unique<ChannelReply>(std::move(result), encoding, story);
+}
+
+std::unique_ptr<MessageSource<v1::RenderChannelResponse>> jpegReply(fabric::ChannelResult result,
+                                                                    const fabric::ChannelTask& task,
+                                                                    fabric::Rgba background,
+                                                                    const ChannelStory& story) {
+    return std::make_unique<JpegReply>(std::move(result), task, background, story);
 }
 
 std::unique_ptr<MessageSource<v1::RunProgramResponse>> programReply(fabric::ProgramResult result,

@@ -32,6 +32,14 @@ std::unique_ptr<MessageSource<v1::RenderChannelResponse>> channelReply(fabric::C
                                                                        wire::PixelEncoding encoding,
                                                                        const ChannelStory& story);
 
+/// The same as a JPEG, as the task allows it: a header, then the JPEG of all of its pixel viewport,
+/// encoded by the thread that sends, not by the one that draws. What nothing was drawn to is
+/// `background`.
+std::unique_ptr<MessageSource<v1::RenderChannelResponse>> jpegReply(fabric::ChannelResult result,
+                                                                    const fabric::ChannelTask& task,
+                                                                    fabric::Rgba background,
+                                                                    const ChannelStory& story);
+
 /// The answer to RunProgram: each picture likewise, then the statistics.
 std::unique_ptr<MessageSource<v1::RunProgramResponse>> programReply(fabric::ProgramResult result,
                                                                     wire::PixelEncoding encoding);

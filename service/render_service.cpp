@@ -41,11 +41,13 @@ struct Asked {
 };
 
 void draw(ChannelDrawer& drawer, const Asked& asked, PictureMemories& memories,
-          ReplyStream<v1::RenderChannelResponse>& reply) {
+          fabric::Rgba background, ReplyStream<v1::RenderChannelResponse>& reply) {
     const auto begun = ChannelStory::Clock::now();
     if (reply.isCancelled())
         return reply.fail(absl::CancelledError("the coordinator no longer waits for this channel"));
-    wire::PictureMemory* const memory = asked.memory ? memories.find(*asked.memory) : nullptr;
+    const bool asJpeg = asked.task.jpegQuality > 0;
+    wire::PictureMemory* const memory =
+        asked.memory && !asJpeg ? memories.find(*asked.memory) : nullptr;
     fabric::Delivery delivery{reply.cancellation(),
                               [&] { reply.sendEarly(wire::kNearlyDrawnKey); }};
     bool isInMemory = false;
@@ -65,7 +67,8 @@ void draw(ChannelDrawer& drawer, const Asked& asked, PictureMemories& memories,
             replyInMemory(*result, asked.task.wantsDepth && !result->image.area.isEmpty(), story));
     if (memory != nullptr && memory->put(result->image))
         return reply.send(replyInMemory(*result, result->image.hasDepth(), story));
-    reply.send(channelReply(*std::move(result), asked.encoding, story));
+    reply.send(asJpeg ? jpegReply(*std::move(result), asked.task, background, story)
+                      : channelReply(*std::move(result), asked.encoding, story));
 }
 
 /// Of a caller that may not send any.
@@ -96,6 +99,7 @@ grpc::ServerUnaryReactor* RenderService::OpenScene(grpc::CallbackServerContext* 
     if (status.ok())
         status = thread_.post(
             [this, scene = *std::move(scene), response, reactor](ChannelDrawer& drawer) {
+                background_ = scene.background;
                 reactor->Finish(wire::toGrpc(openScene(drawer, scene, picks_, *response)));
             });
     if (!status.ok())
@@ -191,7 +195,7 @@ absl::Status RenderService::startDrawing(const v1::RenderChannelRequest& request
     if (request.has_memory())
         asked.memory = wire::fromMessage(request.memory());
     return thread_.post([this, asked = std::move(asked), &reply](ChannelDrawer& drawer) {
-        draw(drawer, asked, memories_, reply);
+        draw(drawer, asked, memories_, background_, reply);
     });
 }
 

@@ -138,7 +138,7 @@ public:
             *request.mutable_frame_data() = wire::toMessage(*frameData);
         request.set_encoding(wire::toMessage(wire::encodingFor(address_, task.wantsDepth)));
         std::unique_ptr<wire::PictureMemory> memory;
-        if (offersMemory_)
+        if (offersMemory_ && task.jpegQuality == 0)
             memory = slots_.lend(wire::pixelBytes(task.pixelViewport, task.wantsDepth));
         if (memory != nullptr)
             *request.mutable_memory() = wire::toMessage(memory->offer());

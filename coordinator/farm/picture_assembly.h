@@ -40,11 +40,15 @@ public:
 
 private:
     absl::Status takeFromMemory(const fabric::PixelViewport& area, bool hasDepth);
+    absl::Status takeJpeg(const fabric::PixelViewport& area);
+    absl::Status takeJpegBytes(std::string_view bytes);
+    absl::Status checkJpeg() const;
 
     const fabric::ChannelTask& task_;
     const wire::PictureMemory* const memory_;
     fabric::ChannelResult result_;
     bool isInMemory_ = false;
+    bool isJpeg_ = false;
     std::optional<wire::PictureReader> pixels_;  ///< once there is a header, of one in chunks
 };
 

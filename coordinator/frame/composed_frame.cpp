@@ -8,6 +8,17 @@
 #include "coordinator/compound/compose.h"
 
 namespace eyrie::coordinator {
+namespace {
+
+std::vector<CodedTile> tilesFrom(const std::vector<compound::Tile>& tiles,
+                                 const std::vector<Dispatch::Drawn>& drawn) {
+    std::vector<CodedTile> coded;
+    for (const compound::Tile& tile : tiles)
+        coded.push_back({tile.area, drawn[tile.draw].result.jpeg});
+    return coded;
+}
+
+}  // namespace
 
 Dispatch::Plan dispatchOf(const PlannedFrame& frame, const compound::Plan& draws, Takers takers,
                           std::chrono::milliseconds first) {
@@ -18,6 +29,7 @@ Dispatch::Plan dispatchOf(const PlannedFrame& frame, const compound::Plan& draws
         task.frameDataVersion = frame.frameData.version;
         task.completeness = frame.request.completeness;
         task.measuresStages = frame.request.measuresStages;
+        task.jpegQuality = frame.tiles.empty() ? 0 : frame.request.jpegQuality;
     }
     plan.sceneRevision = frame.scene.revision;
     plan.kind = frame.kind;
@@ -58,14 +70,19 @@ RenderedFrame composedFrame(const PlannedFrame& frame, const compound::Plan& pla
         result.device = drawn.front().device;
     for (const compound::Picture& picture : frame.plan.pictures)
         result.pictures.push_back({picture.output, picture.seen});
-    std::vector<fabric::Image> images;
     for (std::size_t i = 0; i < drawn.size(); ++i) {
-        Dispatch::Drawn& part = drawn[i];
+        const Dispatch::Drawn& part = drawn[i];
         fabric::accumulate(result.statistics, part.result.statistics);
         result.parts.push_back(partOf(plan.draws[i].task, part.renderer, part.result.statistics));
-        images.push_back(std::move(part.result.image));
     }
     result.statistics.tauAskedPixels = frame.request.tauPixels;
+    if (!frame.tiles.empty()) {
+        result.tiles = tilesFrom(frame.tiles, drawn);
+        result.image.area = frame.plan.pictures.front().area;
+        return result;
+    }
+    std::vector<fabric::Image> images;
+    for (Dispatch::Drawn& part : drawn) images.push_back(std::move(part.result.image));
     std::ranges::move(more, std::back_inserter(images));
     std::vector<fabric::Image> pictures =
         compound::composePictures(plan, std::move(images), frame.scene.scene->background);

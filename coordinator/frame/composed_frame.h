@@ -31,7 +31,8 @@ std::vector<ActiveConfiguration::Taken> takenBy(const std::vector<Dispatch::Draw
 DrawnPart partOf(const fabric::ChannelTask& task, const std::string& renderer,
                  const fabric::FrameStatistics& statistics);
 
-/// The pictures of `plan` from those of its draws: `drawn`, and after these `more`.
+/// The pictures of `plan` from those of its draws: `drawn`, and after these `more`; or the frame's
+/// tiles as they were drawn.
 RenderedFrame composedFrame(const PlannedFrame& frame, const compound::Plan& plan,
                             std::vector<Dispatch::Drawn> drawn,
                             std::vector<fabric::Image> more = {});

@@ -9,6 +9,7 @@ std::uint64_t FrameKinds::of(const FrameRequest& request, std::uint64_t revision
     FrameRequest alike = request;
     alike.camera = {};
     alike.session = 0;
+    alike.jpegQuality = 0;
     alike.stop = {};
     const auto known = std::find_if(kinds_.begin(), kinds_.end(), [&](const Kind& kind) {
         return kind.revision == revision && kind.request == alike;

@@ -9,8 +9,8 @@
 
 namespace eyrie::coordinator {
 
-/// Numbers for frames that differ in nothing but the camera: those take about as long. The latest
-/// few are remembered.
+/// Numbers for frames that differ in nothing but the camera and how they are encoded: those take
+/// about as long. The latest few are remembered.
 class FrameKinds {
 public:
     /// `revision` is that of the scene.
@@ -20,7 +20,7 @@ private:
     static constexpr std::size_t kRemembered = 8;
 
     struct Kind {
-        FrameRequest request;  ///< but for the camera
+        FrameRequest request;  ///< but for those
         std::uint64_t revision;
         std::uint64_t number;
     };

@@ -84,7 +84,10 @@ absl::StatusOr<PlannedFrame> FramePlanner::plan(const FrameRequest& asked, const
     frame.intervalMilliseconds = active_->intervalMilliseconds();
     frame.frameData = frameDataFor(frame.request, budget);
     frame.kind = kinds_.of(frame.request, scene.revision);
-    frame.byPrograms = byPrograms(frame);
+    if (asked.jpegQuality > 0)
+        frame.tiles = compound::tilesOf(frame.plan).value_or(std::vector<compound::Tile>());
+    if (frame.tiles.empty())
+        frame.byPrograms = byPrograms(frame);
     return frame;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -38,6 +39,10 @@ struct FrameRequest {
     /// empty: all of it.
     fabric::PixelViewport part = {};
     bool wantsDepth = false;
+    /// 1 to 100: the picture goes to browsers as JPEGs of that quality, so where it is laid out of
+    /// what renderers draw, and nothing is composited, they encode it (RenderedFrame::tiles).
+    /// 0: its pixels are wanted.
+    int jpegQuality = 0;
     fabric::Completeness completeness = fabric::Completeness::Complete;
     bool measuresStages = false;  ///< fabric::ChannelTask::measuresStages
     /// A time to hold, 1 to 10,000 ms. Tau may rise, and where that is not enough the picture gets
@@ -81,6 +86,14 @@ struct DrawnPart {
     bool operator==(const DrawnPart&) const = default;
 };
 
+/// A part of a picture as a renderer encoded it.
+struct CodedTile {
+    fabric::PixelViewport area;  ///< in the picture's pixels
+    std::vector<std::byte> jpeg;
+
+    bool operator==(const CodedTile&) const = default;
+};
+
 /// A composited picture, or the part asked for: `image.area` is its drawnPart(), or of the same
 /// shape and smaller where a budget is to be kept.
 struct RenderedFrame {
@@ -92,6 +105,8 @@ struct RenderedFrame {
     std::vector<PictureFacts> pictures = {};  ///< of `image` and of what is further
     std::vector<DrawnPart> parts = {};        ///< who drew what
     std::size_t blind = 0;                    ///< compound::Plan::blind
+    /// Side by side they are the picture, where the request allows it: `image` has no pixels then.
+    std::vector<CodedTile> tiles = {};
 };
 
 /// For a person to read, where a frame shows nothing; empty where it shows something.

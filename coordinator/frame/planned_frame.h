@@ -10,6 +10,7 @@
 
 #include "coordinator/compound/exchange.h"
 #include "coordinator/compound/plan.h"
+#include "coordinator/compound/tiling.h"
 #include "coordinator/frame/active_configuration.h"
 #include "coordinator/frame/crew.h"
 #include "coordinator/frame/frame_source.h"
@@ -33,6 +34,8 @@ struct PlannedFrame {
     std::shared_ptr<ActiveConfiguration> configuration;
     compound::Plan plan;
     Takers takers;  ///< of members, for each draw of the plan
+    /// Renderers are asked to encode them; empty: they are asked for pixels.
+    std::vector<compound::Tile> tiles;
 
     /// The same by programs, where it can be; positions are of members.
     struct ByPrograms {

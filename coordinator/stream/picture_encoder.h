@@ -3,7 +3,7 @@
 
 #include <compare>
 #include <cstddef>
-#include <optional>
+#include <memory>
 
 #include <absl/status/statusor.h>
 
@@ -19,20 +19,21 @@ struct QualityClass {
     int level = 0;              ///< QualityControl's; of still ones 0
     Codec codec = Codec::Jpeg;  ///< of moving ones
     std::size_t output = 0;     ///< in RenderedFrame::pictures
+    bool asTiles = false;       ///< of moving ones: as renderers encoded them
 
     auto operator<=>(const QualityClass&) const = default;
 };
 
-/// Of the pictures of one moment the one that a class gets.
-const fabric::Image& imageOf(const Picture& picture, const QualityClass& as);
+/// The pixels of `picture` as a class gets them: of those of one moment its own, shrunk to its
+/// scale where it was drawn larger, decoded where renderers encoded it. They may be the picture's,
+/// which is kept for as long. Errors: those of wire::decodeJpeg; FailedPrecondition (pixels as they
+/// were drawn, of a picture that renderers encoded).
+absl::StatusOr<std::shared_ptr<const fabric::Image>> pixelsFor(const Picture& picture,
+                                                               const QualityClass& as);
 
-/// The pixels of `picture` as a class gets them: shrunk to its scale where it was drawn larger,
-/// and nothing where they are its own.
-std::optional<fabric::Image> shrunkFor(const Picture& picture, const QualityClass& as);
-
-/// `picture` as browsers get it, but for streams: a JPEG as the level says, shrunk to its scale
-/// where it was drawn larger, one of quality 95 without loss in chroma, or a PNG with its hash.
-/// Errors: those of wire::encodeJpeg and encodePng.
+/// `picture` as browsers get it, but for streams: JPEGs as renderers encoded them, a JPEG as the
+/// level says, shrunk to its scale where it was drawn larger, one of quality 95 without loss in
+/// chroma, or a PNG with its hash. Errors: those of pixelsFor, wire::encodeJpeg and encodePng.
 absl::StatusOr<EncodedPicture> encodePicture(const Picture& picture, const QualityClass& as);
 
 }  // namespace eyrie::stream

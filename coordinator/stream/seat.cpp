@@ -55,8 +55,11 @@ std::optional<QualityClass> Seat::movingClass(const Picture& picture) const {
     const auto made = std::ranges::find(pictures, position, &coordinator::PictureFacts::shown);
     if (made == pictures.end())
         return std::nullopt;
-    return QualityClass{Fineness::Moving, std::max(quality.index(), picture.level), Codec::Jpeg,
-                        static_cast<std::size_t>(made - pictures.begin())};
+    const int level = std::max(quality.index(), picture.level);
+    const std::size_t tiles = picture.frame->tiles.size();
+    const bool asTiles = level == picture.level && (tiles == 1 || (tiles > 1 && showsTiles));
+    return QualityClass{Fineness::Moving, level, Codec::Jpeg,
+                        static_cast<std::size_t>(made - pictures.begin()), asTiles};
 }
 
 std::optional<coordinator::Shown> Seat::shown(const coordinator::Shown& asked) const {

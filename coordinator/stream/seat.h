@@ -83,6 +83,7 @@ public:
     Outbox outbox;
     QualityControl quality;
     bool showsVideo = false;          ///< it says that it can
+    bool showsTiles = false;          ///< likewise pictures of several JPEGs
     std::optional<VideoPlace> video;  ///< of the last picture of a stream that it was given
     Delivered delivered;              ///< or being made for it
     bool isServed = false;            ///< it is being made

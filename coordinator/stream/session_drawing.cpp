@@ -122,6 +122,13 @@ int Session::Impl::chooseLevel(const ViewRequest& view, Clock::time_point now) {
     return best;
 }
 
+/// All viewers get JPEGs of that level, and one that renderers have encoded is for each of them.
+bool Session::Impl::mayComeEncoded(int level) const {
+    return !seats_.empty() && std::ranges::all_of(seats_, [&](const std::shared_ptr<Seat>& seat) {
+        return seat->showsTiles && !seat->getsVideo() && seat->quality.index() == level;
+    });
+}
+
 /// The newest view, when its frame's turn has come. With mutex_ held.
 Session::Impl::Begun Session::Impl::begin() {
     Begun begun{*progress_.wanted(), {}, Clock::now()};
@@ -136,6 +143,8 @@ Session::Impl::Begun Session::Impl::begin() {
         begun.request.budgetMilliseconds.reset();
     begun.request.session = number_;
     begun.request.shown = screens(begun.view.frame.shown.front());
+    if (!isAtRest && begun.request.shown.size() == 1 && mayComeEncoded(begun.level))
+        begun.request.jpegQuality = QualityControl::level(begun.level).quality;
     // Measuring has no place in a limited time.
     begun.request.measuresStages =
         !begun.request.budgetMilliseconds && ++requested_ % kFramesToAMeasurement == 4;

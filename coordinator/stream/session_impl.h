@@ -94,6 +94,7 @@ private:
     void checkScreen(std::unique_lock<std::mutex>& lock, const std::shared_ptr<Seat>& seat);
     std::vector<coordinator::Shown> screens(const coordinator::Shown& asked) const;
     int chooseLevel(const ViewRequest& view, Clock::time_point now);
+    bool mayComeEncoded(int level) const;
     /// A frame that has begun.
     struct Begun {
         ViewRequest view;

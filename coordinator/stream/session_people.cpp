@@ -218,6 +218,7 @@ void Session::Impl::acknowledged(Seat& seat, const FrameAck& ack) {
 void Session::Impl::able(Seat& seat, const Abilities& abilities) {
     const std::lock_guard lock(mutex_);
     seat.showsVideo = abilities.h264;
+    seat.showsTiles = abilities.tiles;
     seat.video.reset();
 }
 

@@ -5,6 +5,7 @@
 #include "coordinator/observe/stage_timer.h"
 #include "coordinator/stream/session_impl.h"
 #include "fabric/log.h"
+#include "fabric/status.h"
 
 namespace eyrie::stream {
 namespace {
@@ -173,8 +174,8 @@ int Session::Impl::worstJpegLevel(const Seats& served, const Picture& picture) {
 absl::StatusOr<EncodedPicture> Session::Impl::encodeVideo(const Picture& picture,
                                                           const QualityClass& as, bool asKey,
                                                           int jpegLevel, Clock::time_point now) {
-    const std::optional<fabric::Image> smaller = shrunkFor(picture, as);
-    const fabric::Image& image = smaller ? *smaller : imageOf(picture, as);
+    ASSIGN_OR_RETURN(const std::shared_ptr<const fabric::Image> pixels, pixelsFor(picture, as));
+    const fabric::Image& image = *pixels;
     absl::StatusOr<std::optional<VideoStreams::Coded>> coded =
         videos_.encode(as.level, image, QualityControl::level(as.level).rateFactor, asKey, now);
     if (!coded.ok()) {

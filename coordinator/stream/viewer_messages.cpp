@@ -139,7 +139,7 @@ absl::StatusOr<Request> parseRequest(std::span<const std::byte> bytes) {
         case v1::ViewerRequest::kLead:
             return TakeLead{};
         case v1::ViewerRequest::kAbilities:
-            return Abilities{message.abilities().h264()};
+            return Abilities{message.abilities().h264(), message.abilities().tiles()};
         case v1::ViewerRequest::REQUEST_NOT_SET:
             break;
     }
@@ -219,6 +219,12 @@ std::string frameMessage(const EncodedFrame& encoded, const coordinator::Rendere
     frame.set_picture_bytes(picture.bytes.size());
     frame.set_pixel_hash(picture.pixelHash);
     frame.set_quality(picture.quality);
+    for (const JpegTile& each : picture.tiles) {
+        v1::JpegTile& tile = *frame.add_tiles();
+        tile.set_x(each.x);
+        tile.set_y(each.y);
+        tile.set_bytes(each.bytes);
+    }
     if (picture.video) {
         frame.mutable_video()->set_stream(picture.video->stream);
         frame.mutable_video()->set_picture(picture.video->picture);

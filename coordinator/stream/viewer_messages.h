@@ -51,6 +51,7 @@ struct TakeLead {};
 /// What a browser can show beside JPEG and PNG.
 struct Abilities {
     bool h264 = false;
+    bool tiles = false;  ///< pictures that are several JPEGs
 };
 
 /// Which picture a viewer shows, whoever leads.
@@ -105,13 +106,23 @@ struct VideoPlace {
     bool operator==(const VideoPlace&) const = default;
 };
 
+/// One of the JPEGs that a picture is laid out of, by its upper left corner.
+struct JpegTile {
+    int x = 0;  ///< pixels, from the picture's left
+    int y = 0;  ///< and from its top
+    std::size_t bytes = 0;
+
+    bool operator==(const JpegTile&) const = default;
+};
+
 /// A picture as browsers get it, for all whose links are alike.
 struct EncodedPicture {
     Fineness fineness = Fineness::Moving;
     int quality = 0;  ///< of a JPEG
     int width = 0;    ///< pixels
     int height = 0;
-    std::vector<std::byte> bytes;          ///< a PNG where it is Exact, else a JPEG or H.264
+    std::vector<std::byte> bytes;          ///< a PNG where it is Exact, else JPEGs or H.264
+    std::vector<JpegTile> tiles = {};      ///< one after the other in `bytes`; empty: it is one
     std::uint32_t pixelHash = 0;           ///< fabric::pixelHash, where it is Exact
     std::optional<VideoPlace> video = {};  ///< of H.264
 };

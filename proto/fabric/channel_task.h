@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "fabric/image.h"
 #include "fabric/range.h"
@@ -41,6 +43,9 @@ struct ChannelTask {
     /// The points of the view that are drawn; nothing: its pixels' centres. pixelViewport, and the
     /// image that comes back, count the raster's pixels.
     std::optional<Raster> raster = {};
+    /// 1 to 100: the picture goes to browsers as it is, and comes back as a JPEG of that quality
+    /// with chroma halved (ChannelResult::jpeg); not where depth is wanted. 0: its pixels come.
+    std::int32_t jpegQuality = 0;
 
     bool operator==(const ChannelTask&) const = default;
 };
@@ -56,6 +61,9 @@ inline PixelViewport pictureOf(const ChannelTask& task) {
 struct ChannelResult {
     Image image;
     FrameStatistics statistics;
+    /// All of the task's pixel viewport, background too, where the task wants it so; `image` then
+    /// has an area and no pixels.
+    std::vector<std::byte> jpeg = {};
 };
 
 inline constexpr std::int32_t kMaxViewPixels = 16384;

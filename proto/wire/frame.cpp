@@ -177,6 +177,7 @@ v1::ChannelTask toMessage(const fabric::ChannelTask& task) {
         *message.mutable_sight() = toMessage(*task.sight);
     if (task.raster)
         *message.mutable_raster() = toMessage(*task.raster);
+    message.set_jpeg_quality(task.jpegQuality);
     return message;
 }
 
@@ -210,6 +211,13 @@ absl::StatusOr<fabric::ChannelTask> fromMessage(const v1::ChannelTask& message) 
     task.wantsDepth = message.wants_depth();
     ASSIGN_OR_RETURN(task.completeness, fromMessage(message.completeness()));
     task.measuresStages = message.measures_stages();
+    task.jpegQuality = message.jpeg_quality();
+    if (task.jpegQuality < 0 || task.jpegQuality > 100)
+        return absl::InvalidArgumentError(
+            fmt::format("task.jpeg_quality is {}; it must be 0 to 100", task.jpegQuality));
+    if (task.jpegQuality > 0 && task.wantsDepth)
+        return absl::InvalidArgumentError(
+            "task.jpeg_quality and task.wants_depth are both set; a JPEG has no depth");
     return task;
 }
 

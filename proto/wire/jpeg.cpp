@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <turbojpeg.h>
 
+#include "fabric/status.h"
 #include "wire/jpeg_halves.h"
 
 namespace eyrie::wire {
@@ -25,6 +26,12 @@ struct DestroyHandle {
     void operator()(void* handle) const { tjDestroy(handle); }
 };
 using Handle = std::unique_ptr<std::remove_pointer_t<tjhandle>, DestroyHandle>;
+
+/// Keeps its tables between pictures, and is not to be shared.
+const Handle& ownDecompressor() {
+    thread_local const Handle decompressor(tjInitDecompress());
+    return decompressor;
+}
 
 std::string_view lastError(const Handle& handle) { return tjGetErrorStr2(handle.get()); }
 
@@ -111,18 +118,25 @@ absl::StatusOr<std::vector<std::byte>> encodeJpeg(const fabric::Image& image, in
     return encodeRows(image, 0, height, quality, subsampling);
 }
 
-absl::StatusOr<fabric::Image> decodeJpeg(std::span<const std::byte> bytes) {
-    thread_local const Handle decompressor(tjInitDecompress());
+absl::StatusOr<JpegSize> jpegSize(std::span<const std::byte> bytes) {
+    const Handle& decompressor = ownDecompressor();
     if (decompressor == nullptr)
         return absl::ResourceExhaustedError("jpeg: no memory for a decompressor");
-    const auto* source = reinterpret_cast<const unsigned char*>(bytes.data());
-    int width = 0;
-    int height = 0;
+    JpegSize size;
     int subsampling = 0;
     int colourSpace = 0;
-    if (tjDecompressHeader3(decompressor.get(), source, bytes.size(), &width, &height, &subsampling,
-                            &colourSpace) != 0)
+    if (tjDecompressHeader3(decompressor.get(),
+                            reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(),
+                            &size.width, &size.height, &subsampling, &colourSpace) != 0)
         return absl::InvalidArgumentError(fmt::format("jpeg: {}", lastError(decompressor)));
+    return size;
+}
+
+absl::StatusOr<fabric::Image> decodeJpeg(std::span<const std::byte> bytes) {
+    ASSIGN_OR_RETURN(const JpegSize size, jpegSize(bytes));
+    const auto [width, height] = size;
+    const Handle& decompressor = ownDecompressor();
+    const auto* source = reinterpret_cast<const unsigned char*>(bytes.data());
     if (std::int64_t{width} * height > kMaxDecodedPixels)
         return absl::InvalidArgumentError(
             fmt::format("jpeg: the picture is {}x{}; at most {} pixels are read", width, height,

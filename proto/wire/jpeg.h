@@ -28,6 +28,16 @@ enum class ChromaSubsampling {
 absl::StatusOr<std::vector<std::byte>> encodeJpeg(const fabric::Image& image, int quality,
                                                   ChromaSubsampling subsampling);
 
+/// The sides of the picture in `bytes`, as their header says; what comes after it is not looked at.
+struct JpegSize {
+    int width = 0;  ///< pixels
+    int height = 0;
+
+    bool operator==(const JpegSize&) const = default;
+};
+/// Errors: InvalidArgument (no header of a JPEG).
+absl::StatusOr<JpegSize> jpegSize(std::span<const std::byte> bytes);
+
 /// The picture in `bytes`, with alpha 255 and area {0, 0, width, height}.
 /// Errors: InvalidArgument (no JPEG picture, or one of more than 64 Mpixel).
 absl::StatusOr<fabric::Image> decodeJpeg(std::span<const std::byte> bytes);

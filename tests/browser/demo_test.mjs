@@ -10,6 +10,36 @@ import {
   ServerProcess,
 } from "./support.mjs";
 
+/**
+ * Turns the view by a key, and compares the picture that comes first, of several JPEGs, with the
+ * exact one that follows: how many there were, and the mean difference of the pixels' values.
+ */
+function movingBesideExact(page) {
+  return page.evaluate(async () => {
+    const canvas = document.querySelector("#view");
+    const frame = () => new Promise((resolve) => requestAnimationFrame(resolve));
+    const pixels = () => {
+      const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d");
+      copy.drawImage(canvas, 0, 0);
+      return copy.getImageData(0, 0, canvas.width, canvas.height).data;
+    };
+    const before = window.eyrie.viewSequence;
+    document.dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowLeft", bubbles: true }));
+    document.dispatchEvent(new KeyboardEvent("keyup", { key: "ArrowLeft", bubbles: true }));
+    let [moving, count] = [null, 0];
+    while (!(window.eyrie.viewSequence > before && window.eyrie.exact)) {
+      await frame();
+      if (window.eyrie.viewSequence === before || window.eyrie.still) continue;
+      [moving, count] = [pixels(), window.eyrie.tiles];
+    }
+    await frame();
+    const exact = pixels();
+    if (moving?.length !== exact.length) return { count, difference: Number.NaN };
+    const sum = exact.reduce((all, value, i) => all + Math.abs(value - moving[i]), 0);
+    return { count, difference: sum / exact.length };
+  });
+}
+
 await run("demo_test", async (browser, started) => {
   const { page } = browser;
   const serve = ["serve", environment("EYRIE_SCENE"), "--listen", "127.0.0.1:0"];
@@ -40,6 +70,14 @@ await run("demo_test", async (browser, started) => {
     (await browser.canvasHash()) === (await browser.hook("pixelHash")),
     "at rest every pixel on the canvas is the server's",
   );
+
+  const tiles = await movingBesideExact(page);
+  check(
+    tiles.count === 2 && tiles.difference < 3,
+    `moving pictures are the ${tiles.count} tiles that renderers encoded, ` +
+      `${tiles.difference.toFixed(2)} levels beside the exact one`,
+  );
+  await browser.settled();
 
   const fine = await browser.hook("triangles");
   check(fine > 0, `triangles are counted (${fine})`);

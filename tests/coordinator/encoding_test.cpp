@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <memory>
 #include <random>
+#include <tuple>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -113,6 +115,79 @@ TEST(EncodePicture, LeavesWhatWasDrawnSmallAndWhatIsStillAsItIs) {
         ASSERT_TRUE(still.ok());
         EXPECT_EQ(still->width, 320);
     }
+}
+
+constexpr QualityClass kAsTiles{Fineness::Moving, 2, Codec::Jpeg, 0, true};
+
+/// A left and a right half, which renderers encoded for a level.
+Picture pictureOfTiles(int level) {
+    Picture picture = pictureOf(320, 200, level);
+    auto frame = std::make_shared<coordinator::RenderedFrame>();
+    frame->image.area = {0, 0, 320, 200};
+    for (const auto& [x, width, blue] : {std::tuple(0, 200, 40), {200, 120, 220}}) {
+        const fabric::Image half = fabric::makeImage(
+            {0, 0, width, 200}, {90, 90, static_cast<std::uint8_t>(blue), 255}, false);
+        frame->tiles.push_back({{x, 0, width, 200},
+                                wire::encodeJpeg(half, QualityControl::level(level).quality,
+                                                 wire::ChromaSubsampling::Half)
+                                    .value()});
+    }
+    picture.frame = frame;
+    return picture;
+}
+
+TEST(EncodePicture, TilesThatRenderersEncodedForAClassAreThatClasss) {
+    const Picture picture = pictureOfTiles(2);
+    const auto encoded = encodePicture(picture, kAsTiles);
+    ASSERT_TRUE(encoded.ok()) << encoded.status();
+    const auto& tiles = picture.frame->tiles;
+    EXPECT_EQ(encoded->tiles, (std::vector<JpegTile>{{0, 0, tiles[0].jpeg.size()},
+                                                     {200, 0, tiles[1].jpeg.size()}}));
+    std::vector<std::byte> both = tiles[0].jpeg;
+    both.insert(both.end(), tiles[1].jpeg.begin(), tiles[1].jpeg.end());
+    EXPECT_EQ(encoded->bytes, both);
+    EXPECT_EQ(encoded->width, 320);
+    EXPECT_EQ(encoded->quality, QualityControl::level(2).quality);
+}
+
+TEST(EncodePicture, TilesAreCountedFromTheTop) {
+    Picture picture = pictureOfTiles(2);
+    auto frame = std::make_shared<coordinator::RenderedFrame>(*picture.frame);
+    frame->image.area = {0, 0, 200, 500};
+    frame->tiles[0].area = {0, 0, 200, 200};
+    frame->tiles[1].area = {0, 200, 200, 300};
+    picture.frame = frame;
+    const auto encoded = encodePicture(picture, kAsTiles);
+    ASSERT_TRUE(encoded.ok());
+    EXPECT_EQ(encoded->tiles.at(0).y, 300);
+    EXPECT_EQ(encoded->tiles.at(1).y, 0);
+}
+
+TEST(EncodePicture, OneTileIsAnOrdinaryJpeg) {
+    Picture picture = pictureOfTiles(2);
+    auto frame = std::make_shared<coordinator::RenderedFrame>(*picture.frame);
+    frame->tiles.pop_back();
+    picture.frame = frame;
+    const auto encoded = encodePicture(picture, kAsTiles);
+    ASSERT_TRUE(encoded.ok());
+    EXPECT_TRUE(encoded->tiles.empty());
+    EXPECT_EQ(encoded->bytes, frame->tiles.front().jpeg);
+}
+
+TEST(EncodePicture, TilesAreDecodedForWorseLinksAndNeverCalledExact) {
+    const Picture picture = pictureOfTiles(0);
+    const int worst = QualityControl::levelCount() - 1;
+    const auto encoded = encodePicture(picture, {Fineness::Moving, worst});
+    ASSERT_TRUE(encoded.ok()) << encoded.status();
+    EXPECT_TRUE(encoded->tiles.empty());
+    EXPECT_LT(encoded->width, 320);
+    const auto decoded = wire::decodeJpeg(encoded->bytes);
+    ASSERT_TRUE(decoded.ok());
+    EXPECT_NEAR(decoded->colour.front().b, 40, 8);
+    EXPECT_NEAR(decoded->colour.back().b, 220, 8);
+    for (const Fineness fineness : {Fineness::Fine, Fineness::Exact})
+        EXPECT_EQ(encodePicture(picture, {fineness, 0}).status().code(),
+                  absl::StatusCode::kFailedPrecondition);
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 
 #include "coordinator/farm/channel_renderer.h"
 #include "layered_scene.h"
+#include "wire/jpeg.h"
 
 namespace eyrie::coordinator {
 
@@ -125,6 +126,8 @@ private:
                 static_cast<double>(task.pixelViewport.area()) /
                 (static_cast<double>(task.viewWidth) * task.viewHeight);
         fabric::ChannelResult result = scene_->draw(task);
+        if (task.jpegQuality > 0)
+            encode(task, result);
         result.statistics.milliseconds.total = share * millisecondsAFrame;
         result.statistics.pagesLoaded = pagesLoaded;
         // It takes longer than any tau could help.
@@ -134,6 +137,15 @@ private:
             std::this_thread::sleep_for(std::chrono::milliseconds(3));
         }
         return result;
+    }
+
+    static void encode(const fabric::ChannelTask& task, fabric::ChannelResult& result) {
+        fabric::Image whole =
+            fabric::makeImage(task.pixelViewport, LayeredScene::kBackground, false);
+        fabric::paste(result.image, whole);
+        result.jpeg =
+            wire::encodeJpeg(whole, task.jpegQuality, wire::ChromaSubsampling::Half).value();
+        result.image.colour.clear();
     }
 
     template <typename T>

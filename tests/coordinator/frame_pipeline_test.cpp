@@ -2,6 +2,7 @@
 #include "coordinator/frame/frame_pipeline.h"
 
 #include <atomic>
+#include <cstdlib>
 #include <set>
 #include <thread>
 
@@ -90,6 +91,46 @@ TEST_P(FramePipelineTest, PicturesGetSmallerWhereNoErrorKeepsTheirTime) {
     EXPECT_LT(area.width, kWidth);
     EXPECT_TRUE(later->image == layers_->whole(area.width, area.height));
     expectWholePicture();  // without a time to keep
+}
+
+/// Expected are the pixels of one channel, each within what a JPEG changes of a channel's mean.
+double meanDifference(const fabric::Image& a, const fabric::Image& b) {
+    EXPECT_EQ(a.area, b.area);
+    double sum = 0;
+    for (std::size_t i = 0; i < a.colour.size(); ++i)
+        sum += std::abs(a.colour[i].r - b.colour[i].r) + std::abs(a.colour[i].g - b.colour[i].g) +
+               std::abs(a.colour[i].b - b.colour[i].b);
+    return sum / (3.0 * static_cast<double>(a.colour.size()));
+}
+
+FrameRequest encoded(FrameRequest request) {
+    request.wantsDepth = false;
+    request.jpegQuality = 95;
+    return request;
+}
+
+TEST_P(FramePipelineTest, PicturesLaidOutOfTilesComeAsRenderersEncodeThem) {
+    const auto renderers = openWith(3);
+    const auto frame = pipeline_.renderFrame(encoded(request()));
+    ASSERT_TRUE(frame.ok()) << frame.status();
+    const fabric::Image expected = layers_->whole(kWidth, kHeight);
+    if (GetParam() != "2D") {
+        EXPECT_TRUE(frame->tiles.empty());
+        EXPECT_TRUE(frame->image.colour == expected.colour);
+        return;
+    }
+    ASSERT_EQ(frame->tiles.size(), 3U);
+    EXPECT_TRUE(frame->image.colour.empty());
+    fabric::Image picture = fabric::makeImage(frame->image.area, {}, false);
+    for (const CodedTile& tile : frame->tiles) {
+        fabric::Image part = wire::decodeJpeg(tile.jpeg).value();
+        part.area.x = tile.area.x;
+        part.area.y = tile.area.y;
+        ASSERT_EQ(part.area, tile.area);
+        fabric::paste(part, picture);
+    }
+    EXPECT_LT(meanDifference(picture, expected), 12);
+    expectWholePicture();  // where its pixels are wanted
 }
 
 TEST_P(FramePipelineTest, ATimeThatIsNoneIsRefused) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <span>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -11,6 +12,7 @@
 
 #include "coordinator/farm/program_assembly.h"
 #include "eyrie/v1/render_service.pb.h"
+#include "wire/jpeg.h"
 #include "wire/picture_header.h"
 
 namespace eyrie::coordinator {
@@ -94,6 +96,67 @@ TEST(PictureAssembly, MemoryThatWasOfferedNeedNotBeUsed) {
     ASSERT_TRUE(assembly.takeChunk(std::string(16, 'x')).ok());
     EXPECT_FALSE(assembly.isInMemory());
     EXPECT_TRUE(assembly.finish().ok());
+}
+
+/// That is answered with a JPEG.
+fabric::ChannelTask codedTask() {
+    fabric::ChannelTask task = kTask;
+    task.wantsDepth = false;
+    task.jpegQuality = 80;
+    return task;
+}
+
+v1::ChannelHeader jpegHeader() {
+    v1::ChannelHeader message = header(12, 6, 7, 3, false);
+    message.set_is_jpeg(true);
+    return message;
+}
+
+std::string jpegOf(int width, int height) {
+    const fabric::Image image = fabric::makeImage({0, 0, width, height}, {1, 2, 3, 255}, false);
+    const auto bytes = wire::encodeJpeg(image, 80, wire::ChromaSubsampling::Half).value();
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+TEST(PictureAssembly, AJpegOfTheWholeTaskIsTakenAsItIs) {
+    const fabric::ChannelTask task = codedTask();
+    PictureAssembly assembly(task);
+    ASSERT_TRUE(assembly.takeHeader(jpegHeader()).ok());
+    const std::string jpeg = jpegOf(40, 20);
+    ASSERT_TRUE(assembly.takeChunk(jpeg.substr(0, 100)).ok());
+    ASSERT_TRUE(assembly.takeChunk(jpeg.substr(100)).ok());
+    const auto result = assembly.finish();
+    ASSERT_TRUE(result.ok()) << result.status();
+    EXPECT_TRUE(std::ranges::equal(result->jpeg, std::as_bytes(std::span(jpeg))));
+    EXPECT_EQ(result->image.area, (fabric::PixelViewport{12, 6, 7, 3}));
+    EXPECT_TRUE(result->image.colour.empty());
+}
+
+TEST(PictureAssembly, AJpegInPlaceOfPixelsIsRefusedAndPixelsInPlaceOfAJpeg) {
+    v1::ChannelHeader unasked = header(12, 6, 7, 3);
+    unasked.set_is_jpeg(true);
+    EXPECT_THAT(refusal(unasked), testing::HasSubstr("a JPEG, where pixels were asked for"));
+    const fabric::ChannelTask task = codedTask();
+    PictureAssembly assembly(task);
+    EXPECT_THAT(std::string(assembly.takeHeader(header(10, 5, 2, 1, false)).message()),
+                testing::HasSubstr("pixels, where a JPEG was asked for"));
+}
+
+TEST(PictureAssembly, AJpegOfAnotherSizeOrTooLargeOrNoneIsRefused) {
+    const fabric::ChannelTask task = codedTask();
+    const auto refusalOf = [&](const std::string& bytes) {
+        PictureAssembly assembly(task);
+        EXPECT_TRUE(assembly.takeHeader(jpegHeader()).ok());
+        const absl::Status taken = assembly.takeChunk(bytes);
+        const absl::Status status = taken.ok() ? assembly.finish().status() : taken;
+        EXPECT_EQ(status.code(), absl::StatusCode::kInternal);
+        return std::string(status.message());
+    };
+    EXPECT_THAT(refusalOf(jpegOf(41, 20)), testing::HasSubstr("a JPEG of 41x20 pixels"));
+    EXPECT_THAT(refusalOf(std::string(40 * 20 * 4 + 70'000, 'x')),
+                testing::HasSubstr("a JPEG of more than"));
+    EXPECT_THAT(refusalOf("no JPEG"), testing::HasSubstr("jpeg: "));
+    EXPECT_THAT(refusalOf(""), testing::HasSubstr("jpeg: "));
 }
 
 TEST(PictureAssembly, AnAreaOutsideTheTaskIsRefused) {

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 eyrie_test(jpeg_test LABEL unit SOURCES jpeg_test.cpp png_test.cpp LINK eyrie::jpeg eyrie::png PNG::PNG)
 eyrie_test(viewer_test LABEL unit
-           SOURCES encoding_test.cpp home_camera_test.cpp link_test.cpp pacer_test.cpp
+           SOURCES encoded_tiles_test.cpp encoding_test.cpp home_camera_test.cpp link_test.cpp pacer_test.cpp
                    session_fairness_test.cpp session_programs_test.cpp session_test.cpp statistics_feed_test.cpp
                    swap_barrier_test.cpp
                    swap_group_test.cpp video_streams_test.cpp viewer_pick_test.cpp

@@ -20,6 +20,7 @@
 #include "tests/service/eventually.h"
 #include "tests/support/temporary_folder.h"
 #include "wire/frame.h"
+#include "wire/jpeg.h"
 #include "wire/picture_header.h"
 #include "wire/transport.h"
 
@@ -80,6 +81,41 @@ TEST_F(RenderServerTest, ChunksAreOfOneMebibyteAtMost) {
     }
     EXPECT_EQ(bytes, 1000U * 700 * 8);
     EXPECT_TRUE(reader->Finish().ok());
+}
+
+/// Expected are the pixels of what was drawn and, beside it, the scene's background, within what a
+/// JPEG changes.
+TEST_F(RenderServerTest, AChannelComesAsAJpegOfAllOfItWhereItIsWantedSo) {
+    fabric::Scene scene;
+    scene.background = {200, 100, 0, 255};
+    ASSERT_TRUE(renderer_->openScene(scene, soon()).ok());
+    ASSERT_TRUE(renderer_->setFrameData(frameData(), soon()).ok());
+    control_->image = fabric::makeImage({40, 30, 100, 60}, {10, 20, 230, 255}, false);
+    fabric::ChannelTask asked = task(320, 200, false);
+    asked.pixelViewport = {20, 10, 250, 150};
+    asked.jpegQuality = 90;
+    const auto result = renderer_->render(asked, soon());
+    ASSERT_TRUE(result.ok()) << result.status();
+    EXPECT_EQ(result->image.area, control_->image->area);
+    const auto picture = wire::decodeJpeg(result->jpeg);
+    ASSERT_TRUE(picture.ok()) << picture.status();
+    ASSERT_EQ(picture->area, (fabric::PixelViewport{0, 0, 250, 150}));
+    const auto at = [&](int x, int y) {
+        return picture->colour[static_cast<std::size_t>((y - 10) * 250 + x - 20)];
+    };
+    for (const auto& [x, y] : {std::pair(25, 15), {200, 150}, {90, 110}})
+        EXPECT_NEAR(at(x, y).r, 200, 4) << x << ',' << y;
+    EXPECT_NEAR(at(90, 60).b, 230, 4);
+    EXPECT_NEAR(at(60, 40).r, 10, 4);
+}
+
+TEST_F(RenderServerTest, AJpegOfDepthIsRefused) {
+    ASSERT_TRUE(renderer_->setFrameData(frameData(), soon()).ok());
+    fabric::ChannelTask asked = task(64, 48, true);
+    asked.jpegQuality = 90;
+    const absl::Status status = renderer_->render(asked, soon()).status();
+    EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
+    EXPECT_THAT(std::string(status.message()), testing::HasSubstr("a JPEG has no depth"));
 }
 
 using HardCase24 = RenderServerTest;

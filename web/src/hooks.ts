@@ -22,6 +22,8 @@ export interface Hooks {
   readonly pixelHash: number;
   /** Of its JPEG; 0: it is none. */
   readonly quality: number;
+  /** How many JPEGs it is, each as a renderer encoded it; 0: it is one picture. */
+  readonly tiles: number;
   /** It is one of a stream of H.264. */
   readonly video: boolean;
   readonly width: number;
@@ -72,6 +74,9 @@ export function exposeHooks(state: State, viewer: Viewer): void {
     },
     get quality() {
       return numbers()?.quality ?? 0;
+    },
+    get tiles() {
+      return numbers()?.tiles ?? 0;
     },
     get video() {
       return numbers()?.isVideo ?? false;

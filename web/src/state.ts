@@ -56,6 +56,8 @@ export interface Numbers {
   pixelHash: number;
   /** Of a JPEG; 0: it is none. */
   quality: number;
+  /** How many JPEGs it is, each as a renderer encoded it; 0: it is one picture. */
+  tiles: number;
   /** It is one of a stream of H.264. */
   isVideo: boolean;
   /** What the link carries, as the server estimates; 0: not known. */

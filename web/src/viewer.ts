@@ -347,7 +347,7 @@ export class Viewer implements CameraHolder {
 
   private opened(): void {
     this.state.connection.set({ kind: "connected" });
-    if (this.showsVideo) this.socket.tellAbilities(true);
+    this.socket.tellAbilities(this.showsVideo);
     this.sentScreen = "";
     this.sendScreen();
     this.sender.request();

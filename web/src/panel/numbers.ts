@@ -13,10 +13,12 @@ export function sentText({
   exact,
   quality,
   isVideo,
-}: Pick<Numbers, "exact" | "quality" | "isVideo">): string {
+  tiles,
+}: Pick<Numbers, "exact" | "quality" | "isVideo" | "tiles">): string {
   if (exact) return "exact";
   if (isVideo) return "H.264";
-  return quality > 0 ? `JPEG ${quality}` : "lossless";
+  if (quality === 0) return "lossless";
+  return tiles > 1 ? `JPEG ${quality} in ${tiles} tiles` : `JPEG ${quality}`;
 }
 
 interface Row {

@@ -151,6 +151,7 @@ const numbers: Numbers = {
   exact: false,
   pixelHash: 0,
   quality: 75,
+  tiles: 0,
   isVideo: false,
   linkBytesPerSecond: 0,
   pictureBytes: 0,
@@ -248,9 +249,11 @@ describe("the readout", () => {
 
 describe("sentText", () => {
   it("says exact only where that was compared", () => {
-    expect(sentText({ exact: false, quality: 75, isVideo: false })).toBe("JPEG 75");
-    expect(sentText({ exact: false, quality: 0, isVideo: false })).toBe("lossless");
-    expect(sentText({ exact: false, quality: 0, isVideo: true })).toBe("H.264");
-    expect(sentText({ exact: true, quality: 0, isVideo: false })).toBe("exact");
+    const sent = { exact: false, quality: 0, isVideo: false, tiles: 0 };
+    expect(sentText({ ...sent, quality: 75 })).toBe("JPEG 75");
+    expect(sentText({ ...sent, quality: 75, tiles: 2 })).toBe("JPEG 75 in 2 tiles");
+    expect(sentText(sent)).toBe("lossless");
+    expect(sentText({ ...sent, isVideo: true })).toBe("H.264");
+    expect(sentText({ ...sent, exact: true })).toBe("exact");
   });
 });

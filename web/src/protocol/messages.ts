@@ -217,7 +217,8 @@ export function encodeLead(): Uint8Array<ArrayBuffer> {
 
 /** What can be shown beside JPEG and PNG. */
 export function encodeAbilities(h264: boolean): Uint8Array<ArrayBuffer> {
-  return bytesOf({ case: "abilities", value: create(ViewerAbilitiesSchema, { h264 }) });
+  const value = create(ViewerAbilitiesSchema, { h264, tiles: true });
+  return bytesOf({ case: "abilities", value });
 }
 
 /** Which picture this viewer shows, whoever leads; null: what the leader asks for. */

@@ -25,6 +25,22 @@ describe("Parts", () => {
     expect(picture?.pixelHash).toBeUndefined();
   });
 
+  it("cut a picture of several JPEGs into them", () => {
+    const value = new Uint8Array([1, 2, 3, 4, 5]);
+    const tiles = [
+      { x: 0, y: 0, bytes: 2n },
+      { x: 40, y: 8, bytes: 3n },
+    ];
+    const frame = { picture: { case: "jpeg", value }, pictureBytes: 5n, tiles } as const;
+    const { picture } = new Parts().begin(create(FrameSchema, frame));
+    expect(picture?.tiles.map(({ x, y, bytes }) => [x, y, ...bytes])).toEqual([
+      [0, 0, 1, 2],
+      [40, 8, 3, 4, 5],
+    ]);
+    const short = { ...frame, tiles: tiles.slice(1) };
+    expect(() => new Parts().begin(create(FrameSchema, short))).toThrow("tiles of 3 bytes");
+  });
+
   it("put a picture together", () => {
     const parts = new Parts();
     expect(parts.begin(png(4n, [1, 2], 5)).picture).toBeUndefined();

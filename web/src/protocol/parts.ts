@@ -11,10 +11,19 @@ export interface VideoPlace {
   height: number;
 }
 
+/** One of the JPEGs that a picture is laid out of, by its upper left corner. */
+export interface Tile {
+  x: number;
+  y: number;
+  bytes: Uint8Array<ArrayBuffer>;
+}
+
 /** A whole picture as it came. */
 export interface EncodedPicture {
   type: "image/jpeg" | "image/png" | "video/h264";
   bytes: Uint8Array<ArrayBuffer>;
+  /** Of several JPEGs, each; none: it is one. */
+  tiles: readonly Tile[];
   /** Of the server's pixels; undefined where the picture has others. */
   pixelHash: number | undefined;
   /** Of H.264. */
@@ -36,6 +45,19 @@ const types = { jpeg: "image/jpeg", png: "image/png", h264: "video/h264" } as co
 function placeOf({ video, width, height }: Frame): VideoPlace {
   if (video === undefined) throw new Error("H.264 of no stream");
   return { stream: video.stream, picture: video.picture, isKey: video.key, width, height };
+}
+
+/** Throws where they are not just as many bytes as the picture has. */
+function tilesOf({ tiles }: Frame, bytes: Uint8Array<ArrayBuffer>): Tile[] {
+  let at = 0;
+  const pieces = tiles.map((tile) => {
+    const from = at;
+    at += Number(tile.bytes);
+    return { x: tile.x, y: tile.y, bytes: bytes.subarray(from, at) };
+  });
+  if (tiles.length > 0 && at !== bytes.length)
+    throw new Error(`tiles of ${at} bytes in a picture of ${bytes.length}`);
+  return pieces;
 }
 
 export class Parts {
@@ -76,6 +98,7 @@ export class Parts {
     const picture: EncodedPicture = {
       type: types[kind],
       bytes: this.bytes,
+      tiles: tilesOf(frame, this.bytes),
       pixelHash: kind === "png" ? frame.pixelHash : undefined,
       video: kind === "h264" ? placeOf(frame) : undefined,
     };

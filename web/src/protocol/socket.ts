@@ -132,7 +132,7 @@ export class Socket {
     if (this.isOpen) this.socket?.send(encodeLead());
   }
 
-  /** Whether H.264 can be shown; the server takes it that it cannot until it is told. */
+  /** What can be shown, H.264 perhaps; the server takes it that nothing can until it is told. */
   tellAbilities(h264: boolean): void {
     if (this.isOpen) this.socket?.send(encodeAbilities(h264));
   }

@@ -25,7 +25,13 @@ describe("Arrivals", () => {
     const arrive = (frameNumber: number, { swap = 0, type = "image/jpeg" }: Kind = {}) =>
       arrivals.arrived(
         create(FrameSchema, { frameNumber: BigInt(frameNumber), swap: BigInt(swap) }),
-        { type, bytes: new Uint8Array([1, 2, 3]), pixelHash: undefined, video: undefined },
+        {
+          type,
+          bytes: new Uint8Array([1, 2, 3]),
+          tiles: [],
+          pixelHash: undefined,
+          video: undefined,
+        },
       );
     return { canvas, sender, arrivals, arrive };
   };

@@ -4,7 +4,7 @@
 // that arrive is kept. Pixels that are to be exact are read back and compared with what the server
 // says of its own. Pictures of streams are all decoded, as each needs the one before, and shown in
 // the same way.
-import type { EncodedPicture } from "../protocol/parts";
+import type { EncodedPicture, Tile } from "../protocol/parts";
 import { halvesOf } from "./halves";
 import { pixelHash } from "./pixel_hash";
 import { Presenter } from "./presenter";
@@ -35,9 +35,16 @@ interface DecodedVideo {
   height: number;
 }
 
-/** A picture from top to bottom, in one piece or in two. */
+/** A part of a picture, by its upper left corner. */
+interface Piece {
+  x: number;
+  y: number;
+  bitmap: ImageBitmap;
+}
+
+/** A picture in one piece or in several, which are all of it. */
 interface Decoded {
-  pieces: readonly ImageBitmap[];
+  pieces: readonly Piece[];
   isExact: boolean;
 }
 
@@ -54,21 +61,21 @@ function contextOf(canvas: OffscreenCanvas): OffscreenCanvasRenderingContext2D |
   return canvas.getContext("2d", { alpha: false, willReadFrequently: true });
 }
 
-/** One piece below the other, on a canvas that becomes as large as they are. */
-function paint(on: OffscreenCanvasRenderingContext2D, pieces: readonly ImageBitmap[]): void {
-  const width = pieces[0]?.width ?? 0;
-  const height = pieces.reduce((sum, piece) => sum + piece.height, 0);
+/** On a canvas that becomes as large as they are. */
+function paint(on: OffscreenCanvasRenderingContext2D, pieces: readonly Piece[]): void {
+  const width = Math.max(...pieces.map(({ x, bitmap }) => x + bitmap.width));
+  const height = Math.max(...pieces.map(({ y, bitmap }) => y + bitmap.height));
   if (on.canvas.width !== width) on.canvas.width = width;
   if (on.canvas.height !== height) on.canvas.height = height;
-  let y = 0;
-  for (const piece of pieces) {
-    on.drawImage(piece, 0, y);
-    y += piece.height;
-  }
+  for (const { x, y, bitmap } of pieces) on.drawImage(bitmap, x, y);
+}
+
+function close(pieces: readonly Piece[]): void {
+  for (const { bitmap } of pieces) bitmap.close();
 }
 
 /** Its pixels, read back from another canvas, which need not be waited for until it is shown. */
-function hashOf(pieces: readonly ImageBitmap[]): number {
+function hashOf(pieces: readonly Piece[]): number {
   const reader = contextOf(new OffscreenCanvas(1, 1));
   if (reader === null) return Number.NaN;
   paint(reader, pieces);
@@ -76,17 +83,31 @@ function hashOf(pieces: readonly ImageBitmap[]): number {
   return pixelHash(reader.getImageData(0, 0, width, height).data);
 }
 
-async function piecesOf(picture: EncodedPicture | DecodedVideo): Promise<readonly ImageBitmap[]> {
+async function tile({ x, y, bytes }: Tile): Promise<Piece> {
+  return { x, y, bitmap: await createImageBitmap(new Blob([bytes], { type: "image/jpeg" })) };
+}
+
+async function piecesOf(picture: EncodedPicture | DecodedVideo): Promise<readonly Piece[]> {
+  const [x, y] = [0, 0];
   if (picture.type === "decoded") {
-    const bitmap = createImageBitmap(picture.frame, 0, 0, picture.width, picture.height);
-    return [await bitmap.finally(() => picture.frame.close())];
+    const { frame, width, height } = picture;
+    const bitmap = createImageBitmap(frame, 0, 0, width, height);
+    return [{ x, y, bitmap: await bitmap.finally(() => frame.close()) }];
   }
-  const { type, bytes } = picture;
+  const { type, bytes, tiles } = picture;
+  if (tiles.length > 1) return Promise.all(tiles.map(tile));
   const halves = type === "image/jpeg" ? halvesOf(bytes) : null;
-  if (halves !== null)
-    return Promise.all([createImageBitmap(halves.upper), createImageBitmap(halves.lower)]);
+  if (halves !== null) {
+    const both = [createImageBitmap(halves.upper), createImageBitmap(halves.lower)] as const;
+    const [upper, lower] = await Promise.all(both);
+    return [
+      { x, y, bitmap: upper },
+      { x, y: upper.height, bitmap: lower },
+    ];
+  }
   const colorSpaceConversion = type === "image/png" ? "none" : "default";
-  return [await createImageBitmap(new Blob([bytes], { type }), { colorSpaceConversion })];
+  const blob = new Blob([bytes], { type });
+  return [{ x, y, bitmap: await createImageBitmap(blob, { colorSpaceConversion }) }];
 }
 
 async function decode(picture: EncodedPicture | DecodedVideo): Promise<Decoded> {
@@ -110,12 +131,10 @@ const presenter = new Presenter<EncodedPicture | DecodedVideo, Decoded>({
   skip,
   draw: (frameNumber, { pieces, isExact }) => {
     if (context !== null) paint(context, pieces);
-    for (const piece of pieces) piece.close();
+    close(pieces);
     report({ kind: "drawn", frameNumber, time: now(), exact: isExact });
   },
-  drop: ({ pieces }) => {
-    for (const piece of pieces) piece.close();
-  },
+  drop: ({ pieces }) => close(pieces),
   ready: (frameNumber) => report({ kind: "ready", frameNumber, time: now() }),
   failed: (frameNumber) => report({ kind: "failed", frameNumber, time: now(), isVideo: false }),
 });

@@ -19,6 +19,7 @@ export function numbersOf(frame: Frame, seen: Seen, limitedBefore: string): Numb
     still: frame.still,
     pixelHash: frame.pixelHash,
     quality: frame.quality,
+    tiles: frame.tiles.length,
     isVideo: frame.video !== undefined,
     linkBytesPerSecond: frame.linkBytesPerSecond,
     pictureBytes: Number(frame.pictureBytes),
