@@ -56,24 +56,25 @@ void dropAlpha(std::span<const fabric::Rgba> pixels, std::uint8_t* __restrict ch
 
 /// Writes what is to be added to Paeth's guess of each byte from the second pixel on: the one of
 /// left, above and the corner between that is nearest to left + above - corner. In bytes alone, of
-/// which a vector has the most: where both neighbours are on the same side of the corner, they are
-/// nearer than the corner; else that is as far as their distances from it are apart.
+/// which a vector has the most, and in minima and maxima, which cost least there. Corner itself is
+/// `apart` from that sum where it lies between its neighbours, as far as its distances from them
+/// differ; else it is farther than both.
 EYRIE_SIMD_CLONES
 void subtractGuesses(std::span<const std::uint8_t> row, const std::uint8_t* __restrict above,
                      std::uint8_t* __restrict differences) {
     using Byte = std::uint8_t;
-    const auto distance = [](Byte one, Byte other) {
-        return static_cast<Byte>(std::max(one, other) - std::min(one, other));
-    };
+    const auto lower = [](Byte one, Byte other) { return one < other ? one : other; };
+    const auto upper = [](Byte one, Byte other) { return one < other ? other : one; };
     for (std::size_t i = kChannels; i < row.size(); ++i) {
         const Byte left = row[i - kChannels], up = above[i], corner = above[i - kChannels];
-        const Byte fromLeft = distance(up, corner), fromUp = distance(left, corner);
-        const Byte lower = std::min(left, up), upper = std::max(left, up);
-        const Byte apart = distance(fromLeft, fromUp);
-        const Byte fromCorner =
-            std::min(std::max(lower, corner), upper) == corner ? apart : Byte{255};
-        const Byte nearer = fromUp <= fromCorner ? up : corner;
-        const Byte guess = fromLeft <= std::min(fromUp, fromCorner) ? left : nearer;
+        const Byte fromLeft = static_cast<Byte>(upper(up, corner) - lower(up, corner));
+        const Byte fromUp = static_cast<Byte>(upper(left, corner) - lower(left, corner));
+        const Byte nearest = lower(fromLeft, fromUp);
+        const Byte apart = static_cast<Byte>(upper(fromLeft, fromUp) - nearest);
+        const Byte neighbour = fromLeft == nearest ? left : up;
+        const Byte between = upper(lower(left, up), lower(upper(left, up), corner));
+        const Byte unlessNearer = between == corner ? corner : neighbour;
+        const Byte guess = lower(nearest, apart) == nearest ? neighbour : unlessNearer;
         differences[i] = static_cast<Byte>(row[i] - guess);
     }
 }
