@@ -45,6 +45,13 @@ void endChunk(Bytes& bytes, std::size_t start) {
     putBigEndian(bytes, libdeflate_crc32(0, &bytes[start + 4], length + 4));
 }
 
+/// Has the processor begin to load a row while it works on the one before: it foresees what is read
+/// upwards, but rows come downwards, and a picture is larger than a core's own cache.
+void fetch(std::span<const fabric::Rgba> row) {
+    constexpr std::size_t kLinePixels = 64 / sizeof(fabric::Rgba);
+    for (std::size_t x = 0; x < row.size(); x += kLinePixels) __builtin_prefetch(&row[x]);
+}
+
 EYRIE_SIMD_CLONES
 void dropAlpha(std::span<const fabric::Rgba> pixels, std::uint8_t* __restrict channels) {
     for (std::size_t i = 0; i < pixels.size(); ++i) {
@@ -125,6 +132,8 @@ void PngWriter::append(const fabric::Image& rows, Bytes& out) {
     if (rowsDone_ == 0)
         putHead(width_, height_, colours_, out);
     for (auto y = static_cast<std::size_t>(rows.area.height); y-- > 0;) {
+        if (y > 0)
+            fetch({&rows.colour[(y - 1) * width_], width_});
         filterRow({&rows.colour[y * width_], width_});
         if (++rowsDone_ == height_ ||
             filled_ + rowBytes_ > block_.size() - PixelDeflate::kReadBeyond)

@@ -51,7 +51,7 @@ std::vector<std::uint8_t> unlimitedLengths(const Weights& weights) {
         return lengths;
 
     const std::size_t count = leaves.size();
-    std::vector<std::uint32_t> joined;          // weights
+    std::vector<std::uint32_t> joined;  // weights
     joined.reserve(count);
     std::vector<std::size_t> above(2 * count);  // the node over each: leaves, then those joined
     std::size_t leaf = 0, pair = 0;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
+#include <set>
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -42,6 +44,34 @@ RC_GTEST_PROP(PrefixCode, LeavesNoBitsUnusedAndTakesLessThanOneBitMoreThanEntrop
     }
     RC_ASSERT(bits >= entropy * (1 - 1e-12));
     RC_ASSERT(bits < entropy + all);
+}
+
+/// By the definition: the two that occur least become one, again and again, and each of these takes
+/// a bit of all that are in it.
+std::uint64_t fewestBits(const std::vector<std::uint32_t>& counts) {
+    std::multiset<std::uint64_t> left;
+    for (const std::uint32_t count : counts)
+        if (count > 0)
+            left.insert(count);
+    std::uint64_t bits = 0;
+    while (left.size() > 1) {
+        const std::uint64_t both = *left.begin() + *std::next(left.begin());
+        left.erase(left.begin(), std::next(left.begin(), 2));
+        left.insert(both);
+        bits += both;
+    }
+    return bits;
+}
+
+RC_GTEST_PROP(PrefixCode, TakesTheFewestBitsThatACodeCan, ()) {
+    const int magnitude = *rc::gen::inRange(1, 25);
+    const auto counts = *rc::gen::container<std::vector<std::uint32_t>>(
+        286, rc::gen::inRange<std::uint32_t>(0, 1u << magnitude));
+    RC_PRE(std::count_if(counts.begin(), counts.end(), [](auto n) { return n > 0; }) > 1);
+    const auto lengths = codeLengths(counts, 60);
+    std::uint64_t bits = 0;
+    for (std::size_t i = 0; i < counts.size(); ++i) bits += std::uint64_t{lengths[i]} * counts[i];
+    RC_ASSERT(bits == fewestBits(counts));
 }
 
 TEST(PrefixCode, IsNoLongerThanAskedWhereCountsWouldHaveIt) {
