@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/terrain/triangle_blocks.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
+#include "renderer/lod/view.h"
 #include "tests/renderer/terrain/sample_pages.h"
 
 namespace eyrie::terrain {
@@ -80,6 +83,88 @@ TEST(TriangleBlocks, OfATileOfManyTrianglesAreSmall) {
         EXPECT_LT(area, 3 * 4.0 * tile.cells * tile.cells) << count << " blocks";
     });
     EXPECT_GT(tiles, 0);
+}
+
+/// Lies anyhow in the world, far from its origin. The tiles may be those of other data.
+EytIndex slantedIndex() {
+    EytIndex index;
+    index.quadtree = Quadtree(300, 290);
+    index.objectFromLattice[0] = {10, 3, 0, 0};
+    index.objectFromLattice[1] = {-2, 12, 0, 0};
+    index.objectFromLattice[2][2] = 0.01;
+    index.objectFromLattice[3] = {6.4e6, 5e5, 20, 1};
+    return index;
+}
+
+/// Over the tile or beside it, near or far; narrow or wide.
+lod::View randomView(const EytIndex& index, const TileId& tile, test::Random& random) {
+    const auto place = [&](double q) {
+        const double side = Quadtree::side(tile.level);
+        return fabric::Vec3(index.objectFromLattice *
+                            fabric::Vec4(side * 2 * random.unit(), side * 2 * random.unit(), q, 1));
+    };
+    fabric::Camera camera;
+    camera.eye = place(200000 * random.unit());
+    camera.target = place(0);
+    camera.fovYDegrees = 5 + 100 * random.unit();
+    return {camera, 640, 360};
+}
+
+fabric::PixelViewport randomPart(test::Random& random) {
+    fabric::PixelViewport part{random.integer(0, 639), random.integer(0, 359), 0, 0};
+    part.width = random.integer(1, 640 - part.x);
+    part.height = random.integer(1, 360 - part.y);
+    return part;
+}
+
+/// Whether a point (object space) is on a pixel of the channel: projected on its own.
+bool isOn(const fabric::PixelViewport& channel, const lod::ObjectView& view,
+          const fabric::Vec3& point) {
+    const fabric::Vec3 p(view.viewFromObject() * fabric::Vec4(point, 1));
+    if (-p.z < fabric::kNearMetres)
+        return false;
+    const lod::View& v = view.view();
+    const double x = (p.x / -p.z - v.frustum.left) * v.focalPixels.x;
+    const double y = (p.y / -p.z - v.frustum.bottom) * v.focalPixels.y;
+    return x >= channel.x && x <= channel.x + channel.width && y >= channel.y &&
+           y <= channel.y + channel.height;
+}
+
+/// So a channel that draws those alone misses no triangle.
+TEST(TriangleBlocks, CoverPixelsOfEveryChannelThatAnyOfTheirTrianglesIsSeenIn) {
+    const EytIndex index = slantedIndex();
+    test::Random random(85);
+    std::uint64_t leftOut = 0;
+    std::uint64_t seen = 0;
+    forEachTile([&](const TileGeometry& tile) {
+        const int level = tile.cells == 32 ? 0 : tile.cells == 64 ? 1 : 2;
+        const TileId id{level, 0, 0};
+        const lod::ObjectView view(randomView(index, id, random), fabric::Mat4(1.0));
+        const fabric::PixelViewport channel = randomPart(random);
+        const auto corner = [&](std::uint32_t k) {
+            const TileVertex v = unpackVertex(tile.words, tile.wordsPerVertex, tile.indices[k],
+                                              tile.baseHeight, tile.heightMultiplier);
+            return fabric::Vec3(index.objectFromLattice * fabric::Vec4(v.x / 2, v.y / 2, v.q, 1));
+        };
+        for (const TriangleBlock& block : triangleBlocks(tile)) {
+            const bool isDrawn =
+                !intersection(view.coveredPixels(bounds(index, id, block)), channel).isEmpty();
+            leftOut += isDrawn ? 0 : block.count / 3;
+            for (std::uint32_t k = block.first; k < block.first + block.count; k += 3) {
+                const fabric::Vec3 a = corner(k);
+                const fabric::Vec3 b = corner(k + 1);
+                const fabric::Vec3 c = corner(k + 2);
+                for (const fabric::Vec3& point :
+                     {a, b, c, (a + b) * 0.5, (b + c) * 0.5, (c + a) * 0.5, (a + b + c) / 3.0})
+                    if (isOn(channel, view, point)) {
+                        ++seen;
+                        ASSERT_TRUE(isDrawn);
+                    }
+            }
+        }
+    });
+    EXPECT_GT(leftOut, 10000U);
+    EXPECT_GT(seen, 10000U);
 }
 
 TEST(TriangleBlocks, OfNothingAreNone) { EXPECT_TRUE(triangleBlocks({}).empty()); }
