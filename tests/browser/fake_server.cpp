@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The door for browsers with pictures made up here: for tests of the page, and work on it, without
 // renderers. Prints the line with the URL that `eyrie serve` prints, and serves until its standard
-// input ends, with --h264 as the program's option; a line "no renderer" or "renderer" on it takes
-// the renderer away or brings it back, and "wall" hangs the picture on two screens that share a
-// swap barrier. With --film pictures of moving views are made beforehand, by no software renderer:
-// what is left of the time from an input to its picture is all but rendering.
+// input ends, with --h264 as the program's option, and on --host's address or 127.0.0.1; a line "no
+// renderer" or "renderer" on it takes the renderer away or brings it back, and "wall" hangs the
+// picture on two screens that share a swap barrier. With --film pictures of moving views are made
+// beforehand, by no software renderer: what is left of the time from an input to its picture is all
+// but rendering.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -235,14 +236,26 @@ absl::StatusOr<fabric::SeenAreas> seen(const coordinator::FrameRequest& request)
     return fabric::SeenAreas{{{{0, 0}, {1, 1}, *sight}}};
 }
 
+/// Takes `name` and its value out of the arguments.
+std::optional<std::string> takeValue(std::vector<std::string_view>& arguments,
+                                     std::string_view name) {
+    const auto option = std::find(arguments.begin(), arguments.end(), name);
+    if (option == arguments.end() || option + 1 == arguments.end())
+        return std::nullopt;
+    std::string value(*(option + 1));
+    arguments.erase(option, option + 2);
+    return value;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
     std::vector<std::string_view> arguments(argv + 1, argv + argc);
+    const std::optional<std::string> host = takeValue(arguments, "--host");
     const bool hasVideo = std::erase(arguments, "--h264") > 0;
     const bool isFilm = std::erase(arguments, "--film") > 0;
     if (arguments.size() != 1 && arguments.size() != 2) {
-        std::cerr << "usage: fake_server WEB_FOLDER [PORT] [--h264] [--film]\n";
+        std::cerr << "usage: fake_server WEB_FOLDER [PORT] [--host ADDRESS] [--h264] [--film]\n";
         return 2;
     }
     Film film;
@@ -255,6 +268,7 @@ int main(int argc, char** argv) {
     frames.setSeen(seen);
     frames.setStatus(statusWith(true, false, !isFilm));
     http::ServerOptions options;
+    options.host = host.value_or(options.host);
     if (arguments.size() == 2)
         options.port = static_cast<std::uint16_t>(std::stoi(std::string(arguments[1])));
     options.webFolder = std::string(arguments[0]);

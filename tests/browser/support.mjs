@@ -99,13 +99,13 @@ export class ServerProcess {
 
 /** A page in a fresh Chromium, with a second one to look at screenshots. */
 export class Browser {
-  static async open() {
+  static async open({ chromium: furtherArguments = [] } = {}) {
     const { chromium } = requireFromWeb("playwright-core");
     const browser = new Browser();
     // Playwright gives each launch a fresh folder for the user's data.
     browser.chromium = await chromium.launch({
       executablePath: "/usr/bin/chromium",
-      args: chromiumArguments,
+      args: [...chromiumArguments, ...furtherArguments],
     });
     const viewport = { width: 1280 + panelWidth, height: 766 }; // 1280 x 720 under the bar
     browser.page = await browser.chromium.newPage({ viewport });
@@ -277,11 +277,11 @@ export function brightness(picture) {
 
 /**
  * Runs `test(browser, started)`; `started` keeps servers, to end them whatever happens. A failure
- * leaves a screenshot in EYRIE_TEST_OUTPUT.
+ * leaves a screenshot in EYRIE_TEST_OUTPUT. `options.chromium` are further arguments of Chromium.
  */
-export async function run(name, test) {
+export async function run(name, test, options) {
   const servers = [];
-  const browser = await Browser.open();
+  const browser = await Browser.open(options);
   const endAll = () => Promise.all(servers.map((server) => server.kill()));
   for (const signal of ["SIGINT", "SIGTERM"])
     process.once(signal, () => void endAll().then(() => process.exit(1)));

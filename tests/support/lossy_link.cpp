@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/lossy_link.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -14,17 +15,20 @@
 #include <poll.h>
 #include <sched.h>
 #include <sys/ioctl.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 namespace eyrie::test {
 namespace {
 
 constexpr std::size_t kMaxPacketBytes = 65536;
-constexpr int kLookMilliseconds = 5;
+/// How often the carrier looks whether it is to stop, and at changes of what it was told.
+constexpr std::chrono::milliseconds kLookAgain{5};
+constexpr int kCarrierNiceness = -20;
 
 [[noreturn]] void fail(const char* what) {
     throw std::runtime_error(
-        fmt::format("{}: {}; this test needs root, network namespaces and /dev/net/tun", what,
+        fmt::format("{}: {}; this needs root, network namespaces and /dev/net/tun", what,
                     std::strerror(errno)));
 }
 
@@ -113,30 +117,41 @@ void LossyLink::runThere(const std::function<void()>& job) {
 }
 
 void LossyLink::carry(const std::stop_token& stop) {
+    // A network has no share of the processors to wait for. Without the right to it: as it comes.
+    [[maybe_unused]] const int favoured =
+        setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kCarrierNiceness);
     while (!stop.stop_requested()) {
-        std::array<pollfd, 2> devices{{{here_, POLLIN, 0}, {there_, POLLIN, 0}}};
-        poll(devices.data(), devices.size(), kLookMilliseconds);
-        take(here_, there_);
-        take(there_, here_);
-        deliver();
+        Clock::time_point until = Clock::now() + kLookAgain;
+        for (const LinkQueue* queue : {&toHere_, &toThere_})
+            until = std::min(until, queue->next().value_or(until));
+        wait(until);
+        take(here_, toThere_);
+        take(there_, toHere_);
+        deliver(toThere_, there_);
+        deliver(toHere_, here_);
     }
 }
 
-void LossyLink::take(int from, int to) {
+/// For a packet at a device, or for the time at most.
+void LossyLink::wait(Clock::time_point until) const {
+    const auto left = std::max(Clock::duration::zero(), until - Clock::now());
+    const timespec limit{0, std::chrono::nanoseconds(left).count()};
+    std::array<pollfd, 2> devices{{{here_, POLLIN, 0}, {there_, POLLIN, 0}}};
+    ppoll(devices.data(), devices.size(), &limit, nullptr);
+}
+
+void LossyLink::take(int from, LinkQueue& queue) {
     std::array<char, kMaxPacketBytes> bytes;
     ssize_t count = 0;
     while ((count = read(from, bytes.data(), bytes.size())) > 0)
         if (std::uniform_real_distribution<double>(0, 1)(random_) >= loss_)
-            packets_.push_back(
-                {Clock::now() + delay_.load(), to, {bytes.begin(), bytes.begin() + count}});
+            queue.put({bytes.begin(), bytes.begin() + count}, line(), Clock::now());
 }
 
-void LossyLink::deliver() {
-    for (; !packets_.empty() && packets_.front().due <= Clock::now(); packets_.pop_front()) {
-        const Packet& packet = packets_.front();
+void LossyLink::deliver(LinkQueue& queue, int to) const {
+    while (const auto packet = queue.take(line(), Clock::now())) {
         // What a device does not take is lost, as on any network.
-        [[maybe_unused]] const ssize_t written =
-            write(packet.to, packet.bytes.data(), packet.bytes.size());
+        [[maybe_unused]] const ssize_t written = write(to, packet->data(), packet->size());
     }
 }
 

@@ -31,6 +31,8 @@ export interface Hooks {
   readonly fps: number;
   /** Median of the last ones; NaN before any. */
   readonly inputToDrawnMilliseconds: number;
+  /** How long the oldest view has waited that no picture has shown yet; 0: none waits. */
+  readonly waitingMilliseconds: number;
   /** Wall-clock time of rendering the picture on the server. */
   readonly renderMilliseconds: number;
   readonly connection: "connecting" | "connected" | "lost" | "closed";
@@ -92,6 +94,9 @@ export function exposeHooks(state: State, viewer: Viewer): void {
     },
     get inputToDrawnMilliseconds() {
       return numbers()?.inputToDrawnMilliseconds ?? Number.NaN;
+    },
+    get waitingMilliseconds() {
+      return viewer.waitingMilliseconds(performance.now());
     },
     get renderMilliseconds() {
       return numbers()?.renderMilliseconds ?? 0;

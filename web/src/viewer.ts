@@ -290,6 +290,11 @@ export class Viewer implements CameraHolder {
     return isNewest || this.isWatching ? this.exactPicture : undefined;
   }
 
+  /** How long the oldest view has waited at `now` that no picture has shown yet; 0: none waits. */
+  waitingMilliseconds(now: number): number {
+    return now - (this.sender.waitingSince() ?? now);
+  }
+
   show(view: SharedView): void {
     applySettings(this.state, view);
     this.move(view.camera, performance.now());
@@ -492,7 +497,6 @@ export class Viewer implements CameraHolder {
     const numbers = this.state.numbers.value;
     const fps = this.rate.perSecond(now);
     if (numbers !== null && numbers.fps !== fps) this.state.numbers.set({ ...numbers, fps });
-    const waitingSince = this.sender.waitingSince();
-    this.state.stale.set(waitingSince !== undefined && now - waitingSince > staleAfter);
+    this.state.stale.set(this.waitingMilliseconds(now) > staleAfter);
   }
 }
