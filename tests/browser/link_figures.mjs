@@ -61,7 +61,7 @@ await run(
       await page.goto(server.url);
       await browser.settled();
       const change = after === undefined ? undefined : () => network.set({ megabits: after });
-      tell(name, await recordDrag(page, seconds, change), after !== undefined);
+      tell(name, await recordDrag(page, seconds, { during: change }), after !== undefined);
       const times = await browser.timesToExact();
       console.log(
         `  from a key: drawn ${times.drawn.toFixed(0)} ms, nearly exact ` +

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // A hand that drags, and a record of the pictures that follow it.
 
+const secondsAtMost = 30;
+
 /**
- * Drags for a while. Of each picture that came: `time`, `latency` (input to drawn, the median of the
- * last ones), `quality` ("H.264" of one of a stream), `width`, `still`, `view`, and `late`, how long the one
- * before it had been out of date; milliseconds. `during` is called halfway; what came after it has
- * `isAfter`.
+ * Drags for `seconds`, and on until `least` moving pictures have come, for half a minute at most. Of
+ * each picture that came: `time`, `latency` (input to drawn, the median of the last ones), `quality`
+ * ("H.264" of one of a stream), `width`, `still`, `view`, and `late`, how long the one before it had
+ * been out of date; milliseconds. `during` is called halfway; what came after it has `isAfter`.
  */
-export async function recordDrag(page, seconds, during) {
+export async function recordDrag(page, seconds, { during, least = 0 } = {}) {
   await page.evaluate(() => {
     window.drawn = [];
     window.isAfter = false;
@@ -37,9 +39,14 @@ export async function recordDrag(page, seconds, during) {
   await mouse.down();
   const start = Date.now();
   let isHalfway = false;
-  for (let i = 0; Date.now() - start < seconds * 1000; ++i) {
+  const elapsed = () => (Date.now() - start) / 1000;
+  const isEnough = () =>
+    page.evaluate((count) => window.drawn.filter(({ still }) => !still).length >= count, least);
+  const isDone = async () =>
+    elapsed() >= secondsAtMost || (elapsed() >= seconds && (await isEnough()));
+  for (let i = 0; !(await isDone()); ++i) {
     await mouse.move(500 + 200 * Math.sin(i / 50), 400 + 60 * Math.cos(i / 40));
-    if (during && !isHalfway && Date.now() - start > (seconds * 1000) / 2) {
+    if (during && !isHalfway && elapsed() > seconds / 2) {
       isHalfway = true;
       during();
       await page.evaluate(() => (window.isAfter = true));

@@ -5,6 +5,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <stdexcept>
 
 #include <arpa/inet.h>
@@ -55,10 +56,20 @@ void turnOn(int socket, const char* device) {
         fail("turning a device on");
 }
 
+/// Of the calling thread's namespace. An address of IPv6 comes to a device a second or two after it
+/// is turned on: browsers take that for another network, and let go of their connections. Where
+/// this may not be written (or there is no IPv6) it stays as it is.
+void turnOffIpv6() {
+    for (const char* path : {"/proc/sys/net/ipv6/conf/all/disable_ipv6",
+                             "/proc/sys/net/ipv6/conf/default/disable_ipv6"})
+        std::ofstream(path) << '1';
+}
+
 /// Puts the calling thread into a new namespace with a loopback and a TUN device of this address.
 int enterNamespace(const char* address) {
     if (unshare(CLONE_NEWNET) != 0)
         fail("unshare(CLONE_NEWNET)");
+    turnOffIpv6();
     const int tun = open("/dev/net/tun", O_RDWR | O_NONBLOCK | O_CLOEXEC);
     if (tun < 0)
         fail("/dev/net/tun");
