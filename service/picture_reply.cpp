@@ -10,6 +10,7 @@
 #include "wire/jpeg.h"
 #include "wire/picture_header.h"
 #include "wire/statistics.h"
+#include "wire/transport.h"
 
 namespace eyrie::service {
 namespace {
@@ -99,15 +100,13 @@ public:
             return begin(*message.mutable_header());
         if (!encoded_)
             encoded_ = encode();
-        const std::size_t size = std::min(encoded_->size() - sent_, kChunkBytes);
+        const std::size_t size = std::min(encoded_->size() - sent_, wire::kChunkBytes);
         message.mutable_chunk()->assign(reinterpret_cast<const char*>(encoded_->data()) + sent_,
                                         size);
         sent_ += size;
     }
 
 private:
-    static constexpr std::size_t kChunkBytes = std::size_t{1} << 20;
-
     void begin(v1::ChannelHeader& header) const {
         wire::describe(result_.image, wire::PixelEncoding::Raw, header);
         header.set_is_jpeg(true);

@@ -99,8 +99,10 @@ grpc::ServerUnaryReactor* RenderService::OpenScene(grpc::CallbackServerContext* 
     if (status.ok())
         status = thread_.post(
             [this, scene = *std::move(scene), response, reactor](ChannelDrawer& drawer) {
-                background_ = scene.background;
-                reactor->Finish(wire::toGrpc(openScene(drawer, scene, picks_, *response)));
+                const absl::Status opened = openScene(drawer, scene, picks_, *response);
+                if (opened.ok())
+                    background_ = scene.background;
+                reactor->Finish(wire::toGrpc(opened));
             });
     if (!status.ok())
         reactor->Finish(wire::toGrpc(status));

@@ -53,7 +53,7 @@ private:
     const wire::Security security_;
     PickThread picks_;
     PictureMemories memories_;  ///< the GL thread's
-    fabric::Rgba background_;   ///< of the scene that was opened last; the GL thread's
+    fabric::Rgba background_;   ///< of the scene that is open; the GL thread's
     FrameDataHistory frameData_;
     Exchange exchange_;
     std::atomic<int> replies_{0};

@@ -33,6 +33,13 @@ void move(Tiles& tiles, std::int32_t right, std::int32_t up) {
     }
 }
 
+/// Nothing is left of what lies in `part`. False where a tile is cut by its border.
+bool clear(const PixelViewport& part, Tiles& tiles) {
+    const bool isCut = !tilesIn(part, tiles);
+    std::erase_if(tiles, [&](const Tile& tile) { return overlap(part, tile.area); });
+    return !isCut;
+}
+
 /// False where one comes over another.
 bool add(const Tiles& tiles, Tiles& target) {
     for (const Tile& tile : tiles)
@@ -41,6 +48,11 @@ bool add(const Tiles& tiles, Tiles& target) {
             return false;
     target.insert(target.end(), tiles.begin(), tiles.end());
     return true;
+}
+
+/// What makes up `part` comes into a framebuffer.
+bool combine(const Tiles& tiles, const PixelViewport& part, Combine how, Tiles& layer) {
+    return (how != Combine::Replace || clear(part, layer)) && add(tiles, layer);
 }
 
 /// Carries a plan's steps out on rectangles in place of pixels. Each function says whether tiles
@@ -58,17 +70,12 @@ public:
     }
 
 private:
-    bool carryOut(const Clear& step) {
-        Tiles& layer = layers_[step.framebuffer];
-        const bool isCut = !tilesIn(step.part, layer);
-        std::erase_if(layer, [&](const Tile& tile) { return overlap(step.part, tile.area); });
-        return !isCut;
-    }
+    bool carryOut(const Clear& step) { return clear(step.part, layers_[step.framebuffer]); }
 
     bool carryOut(const Draw& step) {
         const fabric::ChannelTask& task = plan_.draws[step.draw].task;
-        return !task.wantsDepth &&
-               add({{step.draw, task.pixelViewport}}, layers_[step.framebuffer]);
+        return !task.wantsDepth && combine({{step.draw, task.pixelViewport}}, task.pixelViewport,
+                                           step.combine, layers_[step.framebuffer]);
     }
 
     bool carryOut(const ReadBack& step) {
@@ -80,14 +87,10 @@ private:
     }
 
     bool carryOut(const Assemble& step) {
-        auto tiles = tilesIn(step.part, frames_[step.frame]);
-        if (!tiles || !step.regriddings.empty())
-            return false;
-        move(*tiles, -step.fromX, -step.fromY);
-        const PixelViewport within =
-            step.within.value_or(plan_.framebuffers[step.framebuffer].area);
-        tiles = tilesIn(within, *tiles);
-        return tiles && add(*tiles, layers_[step.framebuffer]);
+        const auto tiles = tilesIn(step.part, frames_[step.frame]);
+        const bool isInPlace = step.regriddings.empty() && step.fromX == 0 && step.fromY == 0;
+        return tiles && isInPlace &&
+               combine(*tiles, step.part, step.combine, layers_[step.framebuffer]);
     }
 
     bool carryOut(const Average& /*step*/) { return false; }

@@ -35,6 +35,14 @@ public:
         return made;
     }
 
+    /// The same for one eye, where 2D compounds alone are within each other: nothing is merged.
+    config::Configuration sideBySide(int depth) {
+        kinds_ = {&RandomCompounds::splitPicture};
+        config::Configuration made = configuration(depth);
+        made.layouts[0].views[0].isStereo = false;
+        return made;
+    }
+
     /// With `period` channels that draw a frame each in turn.
     config::Configuration timeMultiplexed(int period) {
         config::Configuration made = room();
@@ -114,13 +122,8 @@ private:
     void split(config::Compound& self, const Channels& channels, int depth, bool byDepth) {
         if (depth == 0 || below(5) == 0)
             return;
-        static constexpr Kind kKinds[] = {
-            &RandomCompounds::splitPicture, &RandomCompounds::splitData,
-            &RandomCompounds::splitPixels,  &RandomCompounds::splitEyes,
-            &RandomCompounds::sendDirectly, &RandomCompounds::swapBinary,
-            &RandomCompounds::stream};
-        (this->*kKinds[static_cast<std::size_t>(below(std::size(kKinds)))])(self, channels, depth,
-                                                                            byDepth);
+        const auto kind = static_cast<std::size_t>(below(static_cast<int>(kinds_.size())));
+        (this->*kinds_[kind])(self, channels, depth, byDepth);
         if (below(3) == 0)
             bundle(self);
     }
@@ -355,6 +358,11 @@ private:
     }
 
     std::mt19937 random_;
+    /// That compounds are split by.
+    std::vector<Kind> kinds_ = {&RandomCompounds::splitPicture, &RandomCompounds::splitData,
+                                &RandomCompounds::splitPixels,  &RandomCompounds::splitEyes,
+                                &RandomCompounds::sendDirectly, &RandomCompounds::swapBinary,
+                                &RandomCompounds::stream};
     int names_ = 0;
 };
 

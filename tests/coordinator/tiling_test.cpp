@@ -51,20 +51,38 @@ fabric::Image laidOut(const Plan& plan, const std::vector<Tile>& tiles, const La
     return picture;
 }
 
-RC_GTEST_PROP(Tiling, TilesBesideEachOtherAreThePictureOfAnyTreeOfCompounds, (std::uint32_t seed)) {
-    const LayeredScene scene(seed, kWidth, kHeight, *rc::gen::element(0, 1, 2, 30));
+/// Of all of the canvas or a part.
+PlanRequest anyRequest() {
     PlanRequest request = wholeCanvas();
-    request.outputs[0].stereo = Stereo::Separate;
     if (*rc::gen::arbitrary<bool>())
         request.outputs[0].part = fabric::PixelViewport{3, 5, 30, 11};
+    return request;
+}
+
+fabric::Image composited(const Plan& plan, const LayeredScene& scene) {
+    return composePictures(plan, drawn(plan, scene), LayeredScene::kBackground).front();
+}
+
+RC_GTEST_PROP(Tiling, TreesOf2DCompoundsAreMadeOfTiles, (std::uint32_t seed)) {
+    const LayeredScene scene(seed, kWidth, kHeight, *rc::gen::element(0, 1, 2, 30));
     const auto plan =
-        makePlan(RandomCompounds(seed).configuration(*rc::gen::inRange(1, 4)), request);
+        makePlan(RandomCompounds(seed).sideBySide(*rc::gen::inRange(1, 4)), anyRequest());
+    RC_ASSERT(plan.ok());
+    const auto tiles = tilesOf(*plan);
+    RC_ASSERT(tiles.has_value());
+    RC_CLASSIFY(tiles->size() > 1, "several");
+    RC_ASSERT(laidOut(*plan, *tiles, scene) == composited(*plan, scene));
+}
+
+RC_GTEST_PROP(Tiling, WhatIsMadeOfTilesOfAnyTreeIsThePicture, (std::uint32_t seed)) {
+    const LayeredScene scene(seed, kWidth, kHeight, *rc::gen::element(0, 1, 2, 30));
+    const auto plan =
+        makePlan(RandomCompounds(seed).configuration(*rc::gen::inRange(1, 4)), anyRequest());
     RC_ASSERT(plan.ok());
     const auto tiles = tilesOf(*plan);
     RC_CLASSIFY(tiles.has_value(), "tiles");
     if (tiles)
-        RC_ASSERT(laidOut(*plan, *tiles, scene) ==
-                  composePictures(*plan, drawn(*plan, scene), LayeredScene::kBackground).front());
+        RC_ASSERT(laidOut(*plan, *tiles, scene) == composited(*plan, scene));
 }
 
 /// Of the layouts that are made of four renderers.

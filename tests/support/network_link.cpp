@@ -5,8 +5,7 @@
 //   EYRIE_LINK_THERE     the other host, for `nsenter --net=$EYRIE_LINK_THERE PROGRAM`
 //   EYRIE_LINK_ADDRESS   its address
 //   EYRIE_LINK_CONTROL   the number of an open file; it takes a line a change, and answers each
-//   with
-//                        a line, "ok" or what is wrong:
+//                        with a line, "ok" or what is wrong:
 //       rate BITS-PER-SECOND       either way; 0: no limit (at first)
 //       delay MILLISECONDS         either way
 //       loss SHARE                 of the packets, 0 to 1; 1 parts the hosts
