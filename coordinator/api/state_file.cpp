@@ -26,7 +26,10 @@ using google::protobuf::util::MessageDifferencer;
 
 constexpr std::string_view kName = "state.json";
 constexpr std::uintmax_t kMostBytes = 64 << 20;
+constexpr std::string_view kLockName = ".state.json.lock";
 constexpr int kPausesAfterFailure = 10;
+constexpr int kPausesForAnother = 2;
+constexpr std::chrono::milliseconds kLookAgain{10};  // at another's lock, in these
 
 std::string text(const absl::Status& status) { return std::string(status.message()); }
 
@@ -73,10 +76,16 @@ StateFile::StateFile(access::DataFolder folder, std::string configurationFile,
       configurationFile_(std::move(configurationFile)),
       pause_(pause),
       state_(std::make_unique<v1::KeptState>()) {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point end = Clock::now() + kPausesForAnother * pause_;
+    bool isAnothers = absl::IsFailedPrecondition(takeLock());
+    for (; isAnothers && Clock::now() < end; isAnothers = absl::IsFailedPrecondition(takeLock()))
+        std::this_thread::sleep_for(kLookAgain);
     if (absl::StatusOr<v1::KeptState> found = read(folder_); found.ok())
         *state_ = *std::move(found);
     else
         setAside(folder_, found.status());
+    isWritten_ = !isAnothers;  // once it can be, it has what is shown here
     thread_ = std::jthread([this](const std::stop_token& stop) { writeChanges(stop); });
 }
 
@@ -133,33 +142,65 @@ void StateFile::writeChanges(const std::stop_token& stop) {
         const std::string json = wire::toJson(*state_);
         isWritten_ = true;
         lock.unlock();
-        const bool isDone = write(json);
+        const absl::Status written = write(json);
         lock.lock();
-        if (isDone && stop.stop_requested())
+        if (written.ok() && stop.stop_requested())
             continue;
         if (stop.stop_requested())
             return;
-        isWritten_ = isWritten_ && isDone;
-        changed_.wait_for(lock, stop, isDone ? pause_ : pause_ * kPausesAfterFailure,
+        isWritten_ = isWritten_ && written.ok();
+        const bool isSoon = written.ok() || absl::IsFailedPrecondition(written);
+        changed_.wait_for(lock, stop, isSoon ? pause_ : pause_ * kPausesAfterFailure,
                           [] { return false; });
     }
 }
 
-bool StateFile::write(const std::string& json) {
-    std::string problem;
-    if (const absl::StatusOr<fs::path> path = folder_.place(kName); !path.ok())
-        problem = text(path.status());
-    else if (const std::error_code error = replaceFile(*path, json); error)
-        problem = error.message();
-    if (problem != problem_ && !problem.empty())
+absl::Status StateFile::takeLock() {
+    if (isOurs_)
+        return absl::OkStatus();
+    const absl::StatusOr<fs::path> path = folder_.place(kLockName);
+    if (!path.ok())
+        return absl::UnavailableError(path.status().message());
+    absl::StatusOr<FileLock> lock = FileLock::take(*path);
+    if (lock.ok())
+        lock_.emplace(*std::move(lock));
+    else if (absl::IsUnimplemented(lock.status()))
         spdlog::warn(
-            "{} cannot be written, and what is set now is lost at a restart: {}; see that "
-            "the data folder is writable and not full",
-            kName, problem);
+            "the data folder's file system has no locks ({}); see that no other "
+            "coordinator has this folder",
+            text(lock.status()));
+    else
+        return lock.status();
+    isOurs_ = true;
+    return absl::OkStatus();
+}
+
+absl::Status StateFile::tryToWrite(const std::string& json) {
+    constexpr std::string_view kRemedy = "see that the data folder is writable and not full";
+    const absl::Status lock = takeLock();
+    if (absl::IsFailedPrecondition(lock))
+        return absl::FailedPreconditionError(
+            "another coordinator has this data folder; end that one, or give each a folder of its "
+            "own");
+    if (!lock.ok())
+        return absl::UnavailableError(fmt::format("{}; {}", text(lock), kRemedy));
+    const absl::StatusOr<fs::path> path = folder_.place(kName);
+    if (!path.ok())
+        return absl::UnavailableError(path.status().message());
+    const std::error_code error = replaceFile(*path, json);
+    return error ? absl::UnavailableError(fmt::format("{}; {}", error.message(), kRemedy))
+                 : absl::OkStatus();
+}
+
+absl::Status StateFile::write(const std::string& json) {
+    const absl::Status status = tryToWrite(json);
+    if (const std::string problem = text(status); problem != problem_ && !status.ok())
+        spdlog::warn("{} cannot be written, and what is set now is lost at a restart: {}", kName,
+                     problem);
     else if (problem != problem_)
-        spdlog::info("{} can be written again", kName);
-    problem_ = problem;
-    return problem.empty();
+        spdlog::info("{} can be written now", kName);
+    problem_ = text(status);
+    return status;
 }
 
 }  // namespace eyrie::api

@@ -1,14 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 // What programs set outlives the coordinator, by a file of its data folder.
+#include <array>
+#include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <future>
 #include <iterator>
 #include <memory>
 #include <optional>
+#include <thread>
 
 #include <gmock/gmock.h>
+#include <google/protobuf/util/json_util.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "coordinator/api/api.h"
+#include "coordinator/api/file_lock.h"
 #include "coordinator/api/state_file.h"
 #include "coordinator/config/eqc_reader.h"
 #include "coordinator/coordinator.h"
@@ -20,6 +30,8 @@
 namespace eyrie::coordinator {
 namespace {
 
+using std::chrono::hours;
+using std::chrono::milliseconds;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -97,6 +109,14 @@ protected:
     }
     void expectScene(const std::string& name) const {
         EXPECT_EQ(coordinator_->frames().status().scene.objects.front().name, name);
+    }
+
+    std::string sceneInFile() const {
+        std::ifstream stream(file());
+        const std::string json(std::istreambuf_iterator<char>(stream), {});
+        v1::KeptState state;
+        EXPECT_TRUE(google::protobuf::util::JsonStringToMessage(json, &state).ok());
+        return state.scene().scene().objects(0).name();
     }
 
     test::TemporaryFolder folder_;
@@ -204,14 +224,14 @@ KeptConfiguration lookingAside(double metres) {
 }
 
 KeptConfiguration keptIn(const std::filesystem::path& folder) {
-    return api::StateFile(access::DataFolder::open(folder).value(), "").configuration();
+    return api::StateFile(access::DataFolder::open(folder).value(), "", milliseconds(1))
+        .configuration();
 }
 
 TEST(StateFile, IsWrittenAtOnceAndThenAfterAPause) {
     const test::TemporaryFolder folder;
     {
-        api::StateFile file(access::DataFolder::open(folder.path()).value(), "",
-                            std::chrono::hours(1));
+        api::StateFile file(access::DataFolder::open(folder.path()).value(), "", hours(1));
         file.keep(lookingAside(1));
         ASSERT_TRUE(eventually([&] { return keptIn(folder.path()) == lookingAside(1); }));
         file.keep(lookingAside(2));
@@ -224,12 +244,86 @@ TEST(StateFile, IsWrittenAtOnceAndThenAfterAPause) {
 TEST(StateFile, IsWrittenOnceItsFolderCanBe) {
     const test::TemporaryFolder folder;
     std::filesystem::create_directory(folder.path("data"));
-    api::StateFile file(access::DataFolder::open(folder.path("data")).value(), "",
-                        std::chrono::milliseconds(1));
+    api::StateFile file(access::DataFolder::open(folder.path("data")).value(), "", milliseconds(1));
     std::filesystem::rename(folder.path("data"), folder.path("elsewhere"));
     file.keep(lookingAside(1));
     std::filesystem::rename(folder.path("elsewhere"), folder.path("data"));
     EXPECT_TRUE(eventually([&] { return keptIn(folder.path("data")) == lookingAside(1); }));
+}
+
+TEST(StateFile, IsOneCoordinatorsUntilThatEndsAndThenTheNextOnes) {
+    const test::TemporaryFolder folder;
+    const auto open = [&](std::chrono::milliseconds pause) {
+        return std::make_unique<api::StateFile>(access::DataFolder::open(folder.path()).value(), "",
+                                                pause);
+    };
+    auto first = open(milliseconds(1));
+    first->keep(lookingAside(1));
+    ASSERT_TRUE(eventually([&] { return keptIn(folder.path()) == lookingAside(1); }));
+    const auto second = open(milliseconds(1));
+    EXPECT_EQ(second->configuration(), lookingAside(1)) << "it shows what was set before";
+    second->keep(lookingAside(2));
+    first->keep(lookingAside(3));
+    EXPECT_TRUE(eventually([&] { return keptIn(folder.path()) == lookingAside(3); }));
+    std::this_thread::sleep_for(milliseconds(20));  // in which the second tries some times
+    EXPECT_EQ(keptIn(folder.path()), lookingAside(3));
+    first.reset();
+    EXPECT_TRUE(eventually([&] { return keptIn(folder.path()) == lookingAside(2); }));
+    const auto third = open(milliseconds(1));
+    third->keep(lookingAside(4));
+    second->keep(lookingAside(5));
+    EXPECT_TRUE(eventually([&] { return keptIn(folder.path()) == lookingAside(5); }));
+}
+
+/// As when a coordinator is started while the one in whose place it comes finishes its last calls.
+TEST(StateFile, OfACoordinatorThatIsAboutToEndIsWaitedFor) {
+    const test::TemporaryFolder folder;
+    const access::DataFolder data = access::DataFolder::open(folder.path()).value();
+    auto ending = std::make_unique<api::StateFile>(data, "", hours(1));
+    ending->keep(lookingAside(1));
+    ASSERT_TRUE(eventually([&] { return keptIn(folder.path()) == lookingAside(1); }));
+    ending->keep(lookingAside(2));  // which it writes at its end
+    std::future<KeptConfiguration> next = std::async(
+        std::launch::async, [&] { return api::StateFile(data, "", hours(1)).configuration(); });
+    EXPECT_EQ(next.wait_for(milliseconds(50)), std::future_status::timeout);
+    ending.reset();
+    EXPECT_EQ(next.get(), lookingAside(2));
+}
+
+TEST(FileLock, IsHadByOneAndNotByWhatThatHasStarted) {
+    const test::TemporaryFolder folder;
+    const std::filesystem::path path = folder.path("lock");
+    auto lock = std::make_unique<absl::StatusOr<api::FileLock>>(api::FileLock::take(path));
+    ASSERT_TRUE(lock->ok()) << lock->status();
+    EXPECT_TRUE(absl::IsFailedPrecondition(api::FileLock::take(path).status()));
+    std::string name = "sleep";
+    std::string time = "60";
+    std::array<char*, 3> arguments = {name.data(), time.data(), nullptr};
+    pid_t child = 0;
+    ASSERT_EQ(::posix_spawnp(&child, "sleep", nullptr, nullptr, arguments.data(), environ), 0);
+    lock.reset();
+    EXPECT_TRUE(api::FileLock::take(path).ok());
+    ::kill(child, SIGKILL);
+    ::waitpid(child, nullptr, 0);
+    std::filesystem::create_symlink("elsewhere", folder.path("link"));
+    EXPECT_TRUE(absl::IsUnavailable(api::FileLock::take(folder.path("link")).status()));
+    EXPECT_TRUE(absl::IsUnavailable(api::FileLock::take(folder.path("none/lock")).status()));
+}
+
+TEST_F(KeptState, OfASecondCoordinatorIsKeptOnceTheFirstHasEnded) {
+    setScene();
+    const auto second = Coordinator::start(options_).value();
+    EXPECT_EQ(second->frames().status().scene.objects.front().name, "set later");
+    EXPECT_EQ(second->api()
+                  .rest()
+                  .answer({"PUT", "/api/v1/scene",
+                           R"({"objects":[{"mesh":"a.eym","name":"of the second"}]})",
+                           "application/json", ""})
+                  .status,
+              200);
+    EXPECT_EQ(sceneInFile(), "set later");
+    coordinator_.reset();
+    EXPECT_TRUE(eventually([&] { return sceneInFile() == "of the second"; }));
 }
 
 TEST_F(KeptState, IsForgottenWhereTheFolderCannotBeWrittenAndNothingElseIsAmiss) {
