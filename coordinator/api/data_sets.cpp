@@ -2,6 +2,7 @@
 #include "coordinator/api/data_sets.h"
 
 #include <algorithm>
+#include <iterator>
 #include <system_error>
 #include <utility>
 
@@ -40,13 +41,28 @@ void setCorner(const Struct& bounds, const char* name, v1::Vector3& corner) {
     corner.set_z(list.list_value().values(2).number_value());
 }
 
-bool isHidden(const fs::path& path) { return path.filename().string().starts_with('.'); }
+bool isHidden(const fs::path& name) { return name.filename().string().starts_with('.'); }
 
 bool isDataSet(const fs::path& path) {
     return path.extension() == ".eyt" || path.extension() == ".eym";
 }
 
 }  // namespace
+
+absl::Status checkIsListed(std::string_view name) {
+    const fs::path path(name);
+    if (const auto hidden = std::ranges::find_if(path, isHidden); hidden != path.end())
+        return absl::InvalidArgumentError(
+            fmt::format("data name '{}' has the part '{}', and what begins with a dot is taken for "
+                        "unfinished and not listed; choose a name without such a part",
+                        name, hidden->string()));
+    if (std::distance(path.begin(), path.end()) > kMaxDepth)
+        return absl::InvalidArgumentError(
+            fmt::format("data name '{}' has more than {} parts, and what lies that deep is not "
+                        "listed; choose a folder further up",
+                        name, kMaxDepth));
+    return absl::OkStatus();
+}
 
 absl::StatusOr<v1::DataSet> dataSetOf(const std::string& json) {
     Struct facts;

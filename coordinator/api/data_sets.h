@@ -7,6 +7,7 @@
 #include <mutex>
 #include <stop_token>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <absl/status/statusor.h>
@@ -20,6 +21,10 @@ namespace eyrie::api {
 /// What `eyrie info --json` prints of a file, as a message; DataLoss where that is something else.
 absl::StatusOr<v1::DataSet> dataSetOf(const std::string& json);
 
+/// InvalidArgument unless DataSets lists a data set of that name, once it is there: of its at most
+/// 16 parts none begins with a dot, as names of unfinished files and of folders of work do.
+absl::Status checkIsListed(std::string_view name);
+
 /// The imported files in a data folder. Each is looked into by another process, once while it stays
 /// as it is. All functions may be called from any thread.
 class DataSets {
@@ -30,8 +35,9 @@ public:
     DataSets(const access::DataFolder& folder, const RunProgram& run)
         : folder_(folder), run_(run) {}
 
-    /// By path, those in hidden folders and behind links left out. Takes as long as looking into
-    /// what is new. Cancelled after `stop`; Unavailable where the folder cannot be read.
+    /// By path, those hidden, too deep (checkIsListed) and behind links left out. Takes as long as
+    /// looking into what is new. Cancelled after `stop`; Unavailable where the folder cannot be
+    /// read.
     absl::StatusOr<std::vector<v1::DataSet>> list(const std::stop_token& stop);
 
     /// Of the file of that name. Errors as list().

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "coordinator/api/data_sets.h"
 #include "coordinator/api/work_folder.h"
 #include "fabric/status.h"
 
@@ -155,6 +156,8 @@ absl::StatusOr<ImportOrder> importOrderOf(const v1::ImportRequest& request,
     if (!output.ok())
         return fabric::withContext(output.status(), "output");
     order.output = *output;
+    const std::string listed = order.output.lexically_relative(folder.path()).string();
+    RETURN_IF_ERROR(fabric::withContext(checkIsListed(listed), "output"));
     ASSIGN_OR_RETURN(order.kind, kindOf(order.output));
     order.replaces = request.replace();
     RETURN_IF_ERROR(checkChoices(request, order.kind));

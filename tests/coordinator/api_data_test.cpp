@@ -381,6 +381,41 @@ TEST_F(RestData, NamesNothingOutsideTheFolder) {
     EXPECT_THAT(commands_, IsEmpty());
 }
 
+TEST_F(RestData, ImportsNothingThatItWouldNotList) {
+    fs::create_directories(data() / ".work/deeper");
+    fs::create_directory_symlink(data() / ".work", data() / "link");
+    std::string deep = "1";
+    for (int i = 2; i <= 16; ++i) deep += fmt::format("/{}", i);
+    fs::create_directories(data() / deep);
+    const auto importTo = [&](const std::string& output) {
+        return ask("POST", "/imports",
+                   fmt::format(R"({{"sources":["survey/dem.tif"],"output":"{}"}})", output));
+    };
+    for (const std::string output : {".hidden.eyt", "survey/.hidden.eym", ".work/a.eyt",
+                                     ".work/deeper/a.eyt", "link/a.eyt", "..a.eyt"}) {
+        const RestAnswer answer = importTo(output);
+        EXPECT_EQ(answer.status, 400) << output;
+        EXPECT_EQ(member(answer, "code"), "INVALID_ARGUMENT") << output;
+        EXPECT_EQ(member(answer, "field"), "output") << output;
+        EXPECT_THAT(member(answer, "remedy"), HasSubstr("choose a name without")) << output;
+    }
+    EXPECT_EQ(member(importTo(deep + "/a.eyt"), "remedy"), "choose a folder further up");
+    EXPECT_THAT(commands_, IsEmpty());
+
+    // And the next best are listed.
+    run_ = [](const auto& arguments, const auto&, const auto&) {
+        return arguments[0] == "import" ? writeOutput(arguments)
+                                        : ProgramEnd{false, 0, R"({"kind":"terrain","samples":9})"};
+    };
+    const std::string deepest = fs::path(deep).parent_path() / "a.eyt";
+    for (const std::string& output : {deepest, std::string("survey/a.hidden.eyt")}) {
+        const RestAnswer answer = importTo(output);
+        ASSERT_EQ(answer.status, 200) << *answer.body;
+        EXPECT_EQ(endOf(member(answer, "id")), "OPERATION_STATE_DONE");
+        EXPECT_THAT(*ask("GET", "/data-sets").body, HasSubstr(output));
+    }
+}
+
 TEST_F(RestData, RefusesWhatIsNotOfTheKind) {
     const auto isRefused = [&](const std::string& output, const std::string& more) {
         return ask("POST", "/imports",
