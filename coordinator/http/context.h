@@ -8,10 +8,10 @@
 
 #include <boost/asio/thread_pool.hpp>
 
+#include "access/rare_warnings.h"
 #include "coordinator/api/workers.h"
 #include "coordinator/http/access.h"
 #include "coordinator/http/crowd.h"
-#include "coordinator/http/rare_warnings.h"
 #include "coordinator/http/server.h"
 #include "coordinator/http/static_files.h"
 #include "coordinator/http/tls.h"
@@ -54,7 +54,9 @@ struct Context {
         frames,
         {.swapPatience = options.swapPatience, .telemetry = telemetry, .video = options.video},
         options.sessions};
-    RareWarnings handshakes = {};  ///< that failed
+    access::RareWarnings handshakes = {};  ///< that failed
+    access::RareWarnings unread = {};      ///< requests that were refused before they were read
+    access::RareWarnings seats = {};       ///< that viewers did not get
 };
 
 /// A connection's place, and its viewer's; held until that, too, has ended.

@@ -27,11 +27,13 @@
 #include "coordinator/http/observe_routes.h"
 #include "coordinator/http/origin.h"
 #include "coordinator/http/problem.h"
+#include "coordinator/http/request_target.h"
 #include "coordinator/http/router.h"
 #include "coordinator/http/stream.h"
 #include "coordinator/http/web_socket.h"
 #include "coordinator/http/write_pace.h"
 #include "fabric/log.h"
+#include "fabric/status.h"
 
 namespace eyrie::http {
 namespace {
@@ -100,6 +102,24 @@ api::RestRequest restRequest(const Request& request, std::stop_token gone) {
             header(http::field::if_match),
             header("Idempotency-Key"),
             std::move(gone)};
+}
+
+/// Sees that a request says once which host it is for, and where its target does so, too, that this
+/// is the one it says. Errors: InvalidArgument, and those of absoluteTarget().
+absl::Status takeHost(Request& request, bool isEncrypted) {
+    using beast::http::field;
+    constexpr unsigned kFirstWithHosts = 11;  // HTTP/1.1
+    const std::size_t hosts = request.count(field::host);
+    if (hosts > 1 || (hosts == 0 && request.version() >= kFirstWithHosts))
+        return absl::InvalidArgumentError(
+            fmt::format("the request has {} headers Host; send one", hosts));
+    ASSIGN_OR_RETURN(const std::optional<AbsoluteTarget> absolute,
+                     absoluteTarget(view(request.target()), isEncrypted));
+    if (absolute) {
+        request.set(field::host, absolute->host);
+        request.target(absolute->target);
+    }
+    return absl::OkStatus();
 }
 
 /// What came is no HTTP, as opposed to: nothing more came.
@@ -199,7 +219,7 @@ private:
         if (isDropped_ || !hasFailed)
             return;
         context_.telemetry->metrics.handshakeFailed();
-        if (context_.handshakes.isDue(address_, RareWarnings::Clock::now()))
+        if (context_.handshakes.isDue(address_, access::RareWarnings::Clock::now()))
             spdlog::warn(
                 "no encrypted connection with {}: {}; more from there within a minute are "
                 "not told",
@@ -239,20 +259,20 @@ private:
             return;
         waiting_.end();
         if (error == http::error::header_limit)
-            return reply(problemResponse(431, "the header is longer than 16 KiB; make it shorter"),
-                         false);
+            return refuseUnread(431, "the header is longer than 16 KiB; make it shorter");
         if (error == http::error::body_limit)
-            return reply(problemResponse(413, "the body is longer than 1 MiB; make it shorter"),
-                         false);
+            return refuseUnread(413, "the body is longer than 1 MiB; make it shorter");
         if (isTooSlow_ && (buffer_.size() > 0 || parser_->got_some()))
-            return reply(problemResponse(408, "the request did not come in time; send it at once"),
-                         false);
+            return refuseUnread(408, "the request did not come in time; send it at once");
         if (isMalformed(error))
-            return reply(textResponse(400, "This is not HTTP/1.1."), false);
+            return refuseUnread(400, "this is not HTTP/1.1; ask by that");
         if (error)
             return;  // closed, or nothing came; the socket goes with this session
-        const Request request = parser_->release();
+        Request request = parser_->release();
         isHead_ = request.method() == http::verb::head;
+        if (const absl::Status host = takeHost(request, stream_.isEncrypted()); !host.ok())
+            return refuseUnread(absl::IsFailedPrecondition(host) ? 421 : 400,
+                                {host.message().data(), host.message().size()});
         const Asked asked = askedBy(request);
         if (const std::optional<Response> answer = context_.access.answer(asked, context_.frames))
             return reply(*answer, request.keep_alive() && answer->status < 400);
@@ -267,6 +287,15 @@ private:
         reply(route(view(request.method_string()), view(request.target()), context_.files,
                     context_.frames),
               request.keep_alive());
+    }
+
+    /// Who sends no request as they should, be it by mistake or to do harm, is told to the log.
+    void refuseUnread(int status, std::string_view why) {
+        if (context_.unread.isDue(address_, access::RareWarnings::Clock::now()))
+            spdlog::warn(
+                "a request from {} is answered with {}: {}; more such within a minute are not told",
+                address_, status, why.substr(0, why.find(';')));
+        reply(problemResponse(status, why), false);
     }
 
     Asked askedBy(const Request& request) const {
@@ -298,7 +327,7 @@ private:
         absl::StatusOr<Crowd::Place> seat = context_.crowd.seat(address_, joining->session);
         if (!seat.ok()) {
             if (isUpgrade)
-                context_.telemetry->metrics.overQuota(observe::Quota::Viewers);
+                noteNoSeat(seat.status());
             return refuse(seat.status());
         }
         if (!isUpgrade)
@@ -308,6 +337,15 @@ private:
         stream_.expires_never();
         openWebSocket(std::move(stream_), received.str(), *joining, context_,
                       std::make_shared<std::pair<Slot, Slot>>(std::move(slot_), *std::move(seat)));
+    }
+
+    void noteNoSeat(const absl::Status& why) {
+        context_.telemetry->metrics.overQuota(observe::Quota::Viewers);
+        if (context_.seats.isDue(address_, access::RareWarnings::Clock::now()))
+            spdlog::warn(
+                "a viewer from {} is turned away: {}; more from there within a minute are "
+                "not told",
+                address_, std::string(why.message()));
     }
 
     /// Of a viewer, for a while: others may leave, and proxies be set right.

@@ -15,6 +15,7 @@
 
 #include "coordinator/http/context.h"
 #include "coordinator/http/http_session.h"
+#include "fabric/log.h"
 #include "fabric/status.h"
 
 namespace eyrie::http {
@@ -121,14 +122,17 @@ private:
             if (!acceptor_.is_open())
                 return;
             if (error)
-                return acceptLater();
+                return acceptLater(error);
             welcome(std::move(socket));
             accept();
         });
     }
 
     /// Out of file descriptors, most likely: trying again at once would only burn a core.
-    void acceptLater() {
+    void acceptLater(const error_code& why) {
+        if (context_.unread.isDue("accept", access::RareWarnings::Clock::now()))
+            spdlog::warn("no connection can be taken: {}; more such within a minute are not told",
+                         why.message());
         pause_.expires_after(kPauseAfterFailedAccept);
         pause_.async_wait([this](error_code error) {
             if (!error)
@@ -138,6 +142,11 @@ private:
 
     void welcome(tcp::socket socket) {
         Slot slot = context_.crowd.enter();
+        if (slot == nullptr && context_.unread.isDue("all", access::RareWarnings::Clock::now()))
+            spdlog::warn(
+                "all {} connections are in use, and others are turned away; more such within a "
+                "minute are not told",
+                context_.options.limits.connections);
         if (slot == nullptr)
             return refuse(std::move(socket), context_.tls != nullptr, *context_.telemetry);
         openHttpSession(std::move(socket), context_, std::move(slot));

@@ -21,9 +21,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "access/rare_warnings.h"
 #include "coordinator/http/access.h"
 #include "coordinator/http/message_rate.h"
-#include "coordinator/http/rare_warnings.h"
 #include "coordinator/http/server.h"
 #include "tests/coordinator/fake_frame_source.h"
 #include "tests/support/certificates.h"
@@ -183,6 +183,22 @@ TEST_F(HttpAccess, TokensDoWhatTheirRoleMay) {
     EXPECT_EQ(gate_->refusals(access::Door::Http), (access::Refusals{0, 0, 0, 2}));
 }
 
+TEST_F(HttpAccess, TargetsInAbsoluteFormNeedTheSameTokens) {
+    start();
+    const std::string here = fmt::format("http://127.0.0.1:{}", port_);
+    for (const char* target : {"/api/v1/status", "/ws", "/metrics", "/login", "/api/v1/none"})
+        EXPECT_EQ(statusOf(request("GET", here + target)), 401) << target;
+    EXPECT_EQ(statusOf(request("GET", here + "/metrics", bearer(kViewToken))), 200);
+    EXPECT_EQ(statusOf(request("PUT", here + "/api/v1/scene", bearer(kViewToken))), 403);
+    EXPECT_EQ(statusOf(request("PUT", here + "/api/v1/scene", bearer(kControlToken))), 405);
+    EXPECT_EQ(statusOf(fmt::format("GET {}/ws HTTP/1.1\r\nHost: x\r\nOrigin: {}\r\n{}{}\r\n", here,
+                                   here, kUpgrade, bearer(kViewToken))),
+              101);
+    EXPECT_EQ(statusOf(fmt::format("GET {}/ws HTTP/1.1\r\nHost: x\r\nOrigin: http://x\r\n{}{}\r\n",
+                                   here, kUpgrade, bearer(kViewToken))),
+              403);
+}
+
 TEST_F(HttpAccess, TokensInAddressesAreNotTaken) {
     start();
     for (const char* key : {"token", "access_token", "authorization"})
@@ -305,15 +321,15 @@ TEST_F(HttpAccess, WhoIsTurnedAwayIsCounted) {
 }
 
 TEST(RareWarnings, AreOfEachAddressOnceAMinuteAndOfSoManyAddresses) {
-    RareWarnings warnings;
-    const RareWarnings::Clock::time_point now{seconds(1000)};
+    access::RareWarnings warnings;
+    const access::RareWarnings::Clock::time_point now{seconds(1000)};
     EXPECT_TRUE(warnings.isDue("10.0.0.1", now));
     EXPECT_FALSE(warnings.isDue("10.0.0.1", now + seconds(59)));
     EXPECT_TRUE(warnings.isDue("10.0.0.2", now + seconds(59)));
     EXPECT_TRUE(warnings.isDue("10.0.0.1", now + seconds(60)));
     int due = 0;
     for (int i = 0; i < 5000; ++i) due += warnings.isDue(std::to_string(i), now + seconds(60));
-    EXPECT_LE(due, static_cast<int>(RareWarnings::kMaxAddresses));
+    EXPECT_LE(due, static_cast<int>(access::RareWarnings::kMaxAddresses));
 }
 
 TEST_F(HttpAccess, AnIdleConnectionMakesRoomAndOneBeingServedDoesNot) {
@@ -469,6 +485,17 @@ TEST_F(Https, ServesWhoBelievesItsAuthorityAndNobodyInTheClear) {
     connect().close();  // who only looks whether the port is open
     EXPECT_THAT(ask(request("GET", "/metrics", bearer(kViewToken)), authority_),
                 HasSubstr("eyrie_peers_refused_total{door=\"http\",reason=\"handshake\"} 2\n"));
+}
+
+TEST_F(Https, IsMeantByTargetsOfItsSchemeAndByNoOthers) {
+    start();
+    const auto statusOf = [this](const std::string& scheme) {
+        return ask(request("GET", fmt::format("{}://127.0.0.1:{}/healthz", scheme, port_)),
+                   authority_)
+            .substr(0, 12);
+    };
+    EXPECT_EQ(statusOf("https"), "HTTP/1.1 200");
+    EXPECT_EQ(statusOf("http"), "HTTP/1.1 421");
 }
 
 TEST_F(Https, CarriesWebSockets) {

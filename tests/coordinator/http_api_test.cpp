@@ -278,14 +278,58 @@ TEST_F(HttpApi, NothingIsReadUnderAStrangersName) {
         return receive(send(
             fmt::format("GET {} HTTP/1.1\r\nHost: {}\r\nConnection: close\r\n\r\n", target, host)));
     };
-    for (const std::string& target : targets) {
-        const std::string answer = asked(target, "evil.example");
-        EXPECT_THAT(answer, StartsWith("HTTP/1.1 403")) << target;
-        EXPECT_THAT(answer, HasSubstr("as localhost")) << target;
-    }
+    for (const std::string& target : targets)
+        for (const std::string& answer :
+             {asked(target, "evil.example"), asked("http://evil.example" + target, "localhost")}) {
+            EXPECT_THAT(answer, StartsWith("HTTP/1.1 403")) << target;
+            EXPECT_THAT(answer, HasSubstr("as localhost")) << target;
+        }
     EXPECT_THAT(asked("/healthz", "evil.example"), StartsWith("HTTP/1.1 200"));
     EXPECT_THAT(asked("/metrics", "localhost"), StartsWith("HTTP/1.1 200"));
     EXPECT_THAT(asked("/readyz", "127.0.0.1:80"), StartsWith("HTTP/1.1 200"));
+}
+
+/// RFC 9112, 3.2.2: what a client sends that takes this server for a proxy.
+TEST_F(HttpApi, TargetsInAbsoluteFormAreAnsweredAsOthers) {
+    const std::string here = fmt::format("http://127.0.0.1:{}", port_);
+    EXPECT_THAT(ask("GET " + here + "/api/v1/status"), StartsWith("HTTP/1.1 200"));
+    EXPECT_THAT(ask("GET HTTP://LocalHost/api/v1/status"), StartsWith("HTTP/1.1 200"));
+    EXPECT_THAT(ask("GET " + here), StartsWith("HTTP/1.1 503")) << "the page is not built here";
+    EXPECT_THAT(ask("GET " + here + "?a=/api/v1/status"), StartsWith("HTTP/1.1 503"));
+    EXPECT_THAT(ask("GET " + here + "/api/v1/image?width=0"), HasSubstr(R"("field":"width")"));
+    EXPECT_THAT(ask("GET " + here + "/ws"), StartsWith("HTTP/1.1 426"));
+    EXPECT_THAT(ask("GET https://localhost/api/v1/status"), StartsWith("HTTP/1.1 421"));
+    EXPECT_THAT(ask("GET ftp://localhost/api/v1/status"), StartsWith("HTTP/1.1 421"));
+    for (const char* host : {"", ":80", "user@localhost", "localhost:80@evil.example",
+                             "[::1].evil.example", "local%68ost", "localhost:x", "[::1", "a\\b"})
+        EXPECT_THAT(ask(fmt::format("GET http://{}/healthz", host)), StartsWith("HTTP/1.1 400"))
+            << host;
+}
+
+TEST_F(HttpApi, TheHostOfATargetTakesThePlaceOfTheHeader) {
+    const std::string here = fmt::format("127.0.0.1:{}", port_);
+    const auto statusOf = [&](const std::string& line, const std::string& host,
+                              const std::string& origin) {
+        const std::string headers =
+            fmt::format("Host: {}\r\nConnection: close\r\n{}\r\n", host,
+                        origin.empty() ? "" : fmt::format("Origin: {}\r\n", origin));
+        return receive(send(fmt::format("{} HTTP/1.1\r\n{}", line, headers))).substr(9, 3);
+    };
+    const std::string asked = fmt::format("GET http://{}/api/v1/status", here);
+    EXPECT_EQ(statusOf(asked, "evil.example", ""), "200");
+    EXPECT_EQ(statusOf(asked, "evil.example", "http://" + here), "200");
+    EXPECT_EQ(statusOf(asked, "evil.example", "http://evil.example"), "403");
+    EXPECT_EQ(statusOf(asked, here, "http://evil.example"), "403");
+    EXPECT_EQ(statusOf("GET http://evil.example/api/v1/status", here, ""), "403");
+    EXPECT_EQ(statusOf("GET http://evil.example/api/v1/status", here, "http://" + here), "403");
+    EXPECT_EQ(statusOf("GET http://evil.example/metrics", here, ""), "403");
+    EXPECT_EQ(statusOf("GET http://evil.example/healthz", here, ""), "200") << "tells nothing";
+    EXPECT_EQ(statusOf(fmt::format("DELETE http://{}/api/v1/sessions/none", here), here,
+                       "http://evil.example"),
+              "403");
+    EXPECT_EQ(statusOf(fmt::format("DELETE http://{}/api/v1/sessions/none", here), "evil.example",
+                       "http://" + here),
+              "404");
 }
 
 TEST_F(HttpApi, ConditionsInHeadersHold) {

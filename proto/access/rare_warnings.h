@@ -6,10 +6,10 @@
 #include <map>
 #include <string>
 
-namespace eyrie::http {
+namespace eyrie::access {
 
-/// Who is warned of to the log, each address once a minute: else strangers could fill it. Used on
-/// the server's thread only.
+/// Who is warned of to the log, each address once a minute: else strangers could fill it. Used by
+/// one thread at a time.
 class RareWarnings {
 public:
     using Clock = std::chrono::steady_clock;
@@ -26,4 +26,4 @@ private:
     std::map<std::string, Clock::time_point> last_;
 };
 
-}  // namespace eyrie::http
+}  // namespace eyrie::access
