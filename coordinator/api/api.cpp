@@ -20,7 +20,7 @@ public:
                                     : std::make_shared<observe::Telemetry>()),
           quotas(parts.quotas, telemetry),
           sessions(std::make_shared<stream::SessionBook>(parts.quotas.readers)),
-          data(folder, std::move(parts.programs), quotas),
+          data(folder, std::move(parts.programs), quotas, telemetry),
           scenes(folder, data, quotas, parts.frames, std::move(parts.setScene), parts.state) {
         addStatusHandlers(handlers, parts.frames);
         addSessionHandlers(handlers, *sessions);
@@ -42,7 +42,7 @@ public:
     const std::shared_ptr<stream::SessionBook> sessions;
     DataDesk data;
     SceneDesk scenes;
-    Handlers handlers{quotas};
+    Handlers handlers{quotas, telemetry};
     const RestDoor rest{handlers};
 };
 

@@ -43,10 +43,15 @@ absl::Status CoordinatorService::admit(const char* name,
 grpc::ServerWriteReactor<v1::WatchStatisticsResponse>* CoordinatorService::WatchStatistics(
     grpc::CallbackServerContext* context, const v1::WatchStatisticsRequest* request) {
     auto* const reactor = new StreamReactor<v1::WatchStatisticsResponse>;
-    if (const absl::Status status = admit("WatchStatistics", *context); !status.ok())
+    if (const absl::Status status = admit("WatchStatistics", *context); !status.ok()) {
         reactor->begin(status);
-    else
-        reactor->begin(handlers_.load()->open("WatchStatistics", *request));
+    } else {
+        const Handlers& handlers = *handlers_.load();
+        absl::StatusOr<std::unique_ptr<MessageStream>> stream =
+            handlers.open("WatchStatistics", *request);
+        handlers.note("WatchStatistics", stream.status());
+        reactor->begin(std::move(stream));
+    }
     return reactor;
 }
 
@@ -60,11 +65,16 @@ grpc::ServerUnaryReactor* CoordinatorService::call(const char* name,
         return reactor;
     }
     const bool isTaken = workers_.post([=, handlers = handlers_.load(), &request, &answer] {
-        reactor->Finish(wire::toGrpc(handlers->handle(name, request, answer, reactor->call())));
+        const absl::Status status = handlers->handle(name, request, answer, reactor->call());
+        handlers->note(name, status);
+        reactor->Finish(wire::toGrpc(status));
     });
-    if (!isTaken)
-        reactor->Finish(
-            wire::toGrpc(absl::ResourceExhaustedError("too many calls wait; try again in a bit")));
+    if (isTaken)
+        return reactor;
+    const absl::Status busy =
+        absl::ResourceExhaustedError("too many calls wait; try again in a bit");
+    handlers_.load()->note(name, busy);
+    reactor->Finish(wire::toGrpc(busy));
     return reactor;
 }
 

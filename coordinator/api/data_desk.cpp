@@ -7,16 +7,22 @@
 #include "coordinator/api/bench_order.h"
 #include "coordinator/api/import_order.h"
 #include "coordinator/api/quotas.h"
+#include "fabric/log.h"
 #include "fabric/status.h"
 
 namespace eyrie::api {
 
 DataDesk::DataDesk(const std::optional<access::DataFolder>& folder, Programs programs,
-                   const QuotaKeeper& quotas)
+                   const QuotaKeeper& quotas, observe::SharedTelemetry telemetry)
     : folder_(folder),
       programs_(std::move(programs)),
       quotas_(quotas),
-      operations_({.atOnce = std::max<std::size_t>(1, programs_.importsAtOnce)}) {
+      telemetry_(std::move(telemetry)),
+      operations_({.atOnce = std::max<std::size_t>(1, programs_.importsAtOnce)},
+                  Operations::Clock::now,
+                  [this](const v1::Operation& operation, const absl::Status& status) {
+                      noteEnd(operation, status);
+                  }) {
     if (folder_)
         sets_.emplace(*folder_, programs_.run);
 }
@@ -49,6 +55,13 @@ absl::Status DataDesk::checkOperations() const {
         return absl::FailedPreconditionError(
             "this server does no imports and no bench runs; start it with --imports 1");
     return absl::OkStatus();
+}
+
+void DataDesk::noteEnd(const v1::Operation& operation, const absl::Status& status) const {
+    telemetry_->metrics.operationEnded(status);
+    if (!status.ok() && !absl::IsCancelled(status))
+        spdlog::warn("operation {}, of {}, has failed: {}", operation.id(), operation.output(),
+                     operation.problem());
 }
 
 absl::StatusOr<v1::Operation> DataDesk::begin(Operations::Order order) {

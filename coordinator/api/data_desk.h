@@ -14,6 +14,7 @@
 #include "coordinator/api/data_sets.h"
 #include "coordinator/api/operations.h"
 #include "coordinator/api/programs.h"
+#include "coordinator/observe/telemetry.h"
 #include "eyrie/v1/coordinator_service.pb.h"
 
 namespace eyrie::api {
@@ -25,9 +26,10 @@ class QuotaKeeper;
 /// thread.
 class DataDesk {
 public:
-    /// `folder` and `quotas` outlive the desk; no folder: there are no data.
+    /// `folder` and `quotas` outlive the desk; no folder: there are no data. `telemetry` counts
+    /// what becomes of operations.
     DataDesk(const std::optional<access::DataFolder>& folder, Programs programs,
-             const QuotaKeeper& quotas);
+             const QuotaKeeper& quotas, observe::SharedTelemetry telemetry);
 
     /// Those of DataSets; FailedPrecondition: the server has no data folder, or runs no programs.
     absl::StatusOr<std::vector<v1::DataSet>> dataSets(const std::stop_token& stop);
@@ -54,11 +56,13 @@ private:
     absl::Status check() const;
     absl::Status checkOperations() const;
     absl::StatusOr<v1::Operation> begin(Operations::Order order);
+    void noteEnd(const v1::Operation& operation, const absl::Status& status) const;
 
     const std::optional<access::DataFolder>& folder_;
     const Programs programs_;
     const QuotaKeeper& quotas_;
     std::optional<DataSets> sets_;
+    const observe::SharedTelemetry telemetry_;
     Operations operations_;  ///< last: what it does ends before the rest goes
 };
 

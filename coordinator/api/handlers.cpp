@@ -5,6 +5,9 @@
 
 #include <fmt/format.h>
 
+#include "coordinator/stream/viewer_messages.h"
+#include "fabric/log.h"
+
 namespace eyrie::api {
 
 absl::StatusOr<std::unique_ptr<MessageStream>> Handlers::open(std::string_view name,
@@ -28,6 +31,20 @@ absl::Status Handlers::handle(std::string_view name, const Message& request, Mes
         return absl::ResourceExhaustedError(
             "there is no memory for the answer; ask for less at a time");
     }
+}
+
+void Handlers::note(std::string_view name, const absl::Status& status) const {
+    if (telemetry_ != nullptr)
+        telemetry_->metrics.callFailed(status.code());
+    const bool isOurs = absl::IsUnavailable(status) || absl::IsDataLoss(status) ||
+                        absl::IsInternal(status) || absl::IsUnknown(status);
+    if (!isOurs)
+        return;
+    const std::lock_guard lock(toldMutex_);
+    if (told_.isDue(fmt::format("{} {}", name, static_cast<int>(status.code())),
+                    access::RareWarnings::Clock::now()))
+        spdlog::warn("{} cannot be answered: {}; more such within a minute are not told", name,
+                     stream::sanitised({status.message().data(), status.message().size()}));
 }
 
 }  // namespace eyrie::api

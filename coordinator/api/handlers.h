@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <stop_token>
 #include <string>
 #include <string_view>
@@ -12,6 +13,7 @@
 #include <absl/status/statusor.h>
 #include <google/protobuf/message.h>
 
+#include "access/rare_warnings.h"
 #include "coordinator/api/message_stream.h"
 #include "coordinator/api/quotas.h"
 
@@ -32,8 +34,9 @@ class Handlers {
 public:
     using Message = google::protobuf::Message;
 
-    /// `quotas` outlives the handlers.
-    explicit Handlers(QuotaKeeper& quotas) : quotas_(quotas) {}
+    /// `quotas` outlives the handlers; `telemetry` counts what fails.
+    Handlers(QuotaKeeper& quotas, observe::SharedTelemetry telemetry)
+        : quotas_(quotas), telemetry_(std::move(telemetry)) {}
 
     /// Before a call from an address, an IP address without a port, is made. ResourceExhausted: it
     /// makes too many.
@@ -72,11 +75,19 @@ public:
     absl::Status handle(std::string_view name, const Message& request, Message& response,
                         const Call& call) const;
 
+    /// For doors to say how a call that somebody made has ended. An error is counted, and where the
+    /// fault is this server's (its folder has gone, its disk is full) told to the log, of each call
+    /// and kind once a minute.
+    void note(std::string_view name, const absl::Status& status) const;
+
 private:
     using Opener =
         std::function<absl::StatusOr<std::unique_ptr<MessageStream>>(const Message& request)>;
 
     QuotaKeeper& quotas_;
+    const observe::SharedTelemetry telemetry_;
+    mutable std::mutex toldMutex_;
+    mutable access::RareWarnings told_;  ///< guarded by toldMutex_
     std::map<std::string, Handler, std::less<>> table_;
     std::map<std::string, Opener, std::less<>> streams_;
 };

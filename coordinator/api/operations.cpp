@@ -45,8 +45,11 @@ bool hasEnded(v1::OperationState state) {
     return state != v1::OPERATION_STATE_WAITING && state != v1::OPERATION_STATE_RUNNING;
 }
 
-Operations::Operations(const Limits& limits, std::function<Clock::time_point()> now)
-    : limits_(limits), now_(std::move(now)), workers_(limits.atOnce, limits.waiting) {}
+Operations::Operations(const Limits& limits, std::function<Clock::time_point()> now, Ended ended)
+    : limits_(limits),
+      now_(std::move(now)),
+      ended_(std::move(ended)),
+      workers_(limits.atOnce, limits.waiting) {}
 
 Operations::~Operations() {
     {
@@ -195,6 +198,8 @@ void Operations::end(Entry& entry, const absl::Status& status) {
         entry.told.set_problem(
             stream::sanitised({status.message().data(), status.message().size()}));
     }
+    if (ended_)
+        ended_(entry.told, status);
     dropOldest();
 }
 

@@ -45,7 +45,11 @@ public:
         Work work = {};
     };
 
-    explicit Operations(const Limits& limits, std::function<Clock::time_point()> now = Clock::now);
+    /// Told of each operation that has ended, and how; calls nothing of Operations.
+    using Ended = std::function<void(const v1::Operation& operation, const absl::Status& status)>;
+
+    explicit Operations(const Limits& limits, std::function<Clock::time_point()> now = Clock::now,
+                        Ended ended = {});
     /// Calls off all, and waits for their ends.
     ~Operations();
     Operations(const Operations&) = delete;
@@ -88,6 +92,7 @@ private:
 
     const Limits limits_;
     const std::function<Clock::time_point()> now_;
+    const Ended ended_;
     mutable std::mutex mutex_;  ///< guards what follows, and what the entries hold
     std::list<Shared> entries_;
     Workers workers_;

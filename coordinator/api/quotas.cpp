@@ -5,6 +5,9 @@
 
 #include <fmt/format.h>
 
+#include "coordinator/stream/viewer_messages.h"
+#include "fabric/log.h"
+
 namespace eyrie::api {
 namespace {
 
@@ -34,8 +37,17 @@ absl::Status CallRate::take(std::string_view address, Clock::time_point now) {
 }
 
 absl::Status QuotaKeeper::counted(observe::Quota quota, absl::Status status) const {
-    if (!status.ok() && telemetry_ != nullptr)
+    if (status.ok())
+        return status;
+    if (telemetry_ != nullptr)
         telemetry_->metrics.overQuota(quota);
+    const std::string name(observe::nameOf(quota));
+    const std::lock_guard lock(toldMutex_);
+    if (told_.isDue(name, access::RareWarnings::Clock::now()))
+        spdlog::warn(
+            "a call is refused by the quota '{}': {}; more such within a minute "
+            "are not told",
+            name, stream::sanitised({status.message().data(), status.message().size()}));
     return status;
 }
 

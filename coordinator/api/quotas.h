@@ -12,6 +12,7 @@
 
 #include <absl/status/status.h>
 
+#include "access/rare_warnings.h"
 #include "coordinator/observe/telemetry.h"
 
 namespace eyrie::api {
@@ -66,7 +67,7 @@ public:
 
     const Quotas& most() const { return quotas_; }
 
-    /// `status`, counted where it is an error.
+    /// `status`, counted where it is an error, and told to the log, of each quota once a minute.
     absl::Status counted(observe::Quota quota, absl::Status status) const;
 
     /// A call from an address, an IP address without a port: CallRate's.
@@ -78,6 +79,8 @@ private:
     const Quotas quotas_;
     const observe::SharedTelemetry telemetry_;
     CallRate rate_;
+    mutable std::mutex toldMutex_;
+    mutable access::RareWarnings told_;  ///< guarded by toldMutex_
 };
 
 }  // namespace eyrie::api

@@ -224,7 +224,7 @@ RestAnswer RestDoor::answer(const RestRequest& request) const {
     return changes(found.route->rest) ? change(request, found) : call(request, found);
 }
 
-RestAnswer RestDoor::call(const RestRequest& request, const FoundRoute& found) const {
+RestAnswer RestDoor::call(const RestRequest& request, const FoundRoute& found, bool isNoted) const {
     const auto asked = newMessage(found.route->call->input_type());
     const auto made = newMessage(found.route->call->output_type());
     const v1::Rest& rest = found.route->rest;
@@ -234,6 +234,8 @@ RestAnswer RestDoor::call(const RestRequest& request, const FoundRoute& found) c
     if (status.ok())
         status = handlers_.handle(found.route->call->name(), *asked, *made,
                                   {request.stop, asText, &room});
+    if (isNoted)
+        handlers_.note(found.route->call->name(), status);
     if (!status.ok())
         return problem(status, httpStatusOf(status.code()), asked->GetDescriptor());
     RestAnswer answer = asText ? jsonAnswer(*made, rest, room) : bytesOf(made, rest.bytes(), room);
@@ -266,7 +268,11 @@ std::string RestDoor::tagAt(const RestRequest& change) const {
     request.method = "GET";
     request.target = pathOf(change);
     request.stop = change.stop;
-    const RestAnswer answer = this->answer(request);
+    const FoundRoute found =
+        findRoute(request.method, std::string_view(request.target).substr(kPrefix.size()));
+    if (found.route == nullptr)
+        return "";
+    const RestAnswer answer = call(request, found, false);  // nobody has asked for it
     const auto isTag = [](const auto& header) { return header.first == "ETag"; };
     const auto tag = std::ranges::find_if(answer.headers, isTag);
     return tag == answer.headers.end() ? "" : tag->second;
@@ -284,6 +290,7 @@ RestAnswer RestDoor::stream(const RestRequest& request, const FoundRoute& found,
         if (status.ok())
             answer.events = *std::move(messages);
     }
+    handlers_.note(found.route->call->name(), status);
     return status.ok() ? answer
                        : problem(status, httpStatusOf(status.code()), asked.GetDescriptor());
 }

@@ -34,18 +34,22 @@ absl::StatusOr<std::string> Registry::add(const std::string& address,
 
 void Registry::refuse(const std::string& address, const fabric::DeviceInfo& device,
                       std::string_view why, Clock::time_point now) {
+    bool isKnown = false;  // one that is started again and again is told to the log once
     {
         const std::lock_guard lock(mutex_);
         const auto isThere = [&](const Record& r) { return r.entry.address == address; };
         const auto found = std::find_if(records_.begin(), records_.end(), isThere);
         if (found != records_.end() && found->entry.isAlive())
             return;
+        isKnown = found != records_.end() && found->entry.presence == Presence::Refused &&
+                  found->entry.why == why;
         std::erase_if(records_, isThere);
         records_.push_back(
             {{address, address, device, nullptr, Presence::Refused, std::string(why), now}, now});
         trimRefused();
     }
-    spdlog::warn("refused a renderer at {}: {}", address, why);
+    if (!isKnown)
+        spdlog::warn("refused a renderer at {}: {}", address, why);
     listeners_.notify();
 }
 

@@ -48,6 +48,17 @@ constexpr std::array<std::pair<int, std::string_view>, 13> kReasons = {{
 }};
 constexpr std::string_view kOther = "other";
 
+/// What handlers answer with.
+constexpr std::array kErrors = {
+    absl::StatusCode::kCancelled,          absl::StatusCode::kInvalidArgument,
+    absl::StatusCode::kDeadlineExceeded,   absl::StatusCode::kNotFound,
+    absl::StatusCode::kAlreadyExists,      absl::StatusCode::kPermissionDenied,
+    absl::StatusCode::kFailedPrecondition, absl::StatusCode::kResourceExhausted,
+    absl::StatusCode::kUnimplemented,      absl::StatusCode::kInternal,
+    absl::StatusCode::kUnavailable,        absl::StatusCode::kDataLoss};
+
+std::string nameOf(absl::StatusCode code) { return absl::StatusCodeToString(code); }
+
 std::string reasonOf(int status) {
     for (const auto& [known, reason] : kReasons)
         if (known == status)
@@ -115,6 +126,7 @@ public:
         for (int stage = 0; stage <= static_cast<int>(kLastStage); ++stage)
             byStage_.push_back(&stages_.Add(
                 {{"stage", std::string(nameOf(static_cast<Stage>(stage)))}}, kSeconds));
+        for (const absl::StatusCode code : kErrors) callsFailed_.Add({{"code", nameOf(code)}});
         for (const auto& [status, reason] : kReasons)
             refused_.Add({{"reason", std::string(reason)}});
         refused_.Add({{"reason", std::string(kOther)}});
@@ -171,6 +183,16 @@ public:
     void taskReissued(bool wasLate) { (wasLate ? late_ : afterFailure_).Increment(); }
     void overQuota(Quota quota) {
         overQuota_.Add({{"quota", std::string(nameOf(quota))}}).Increment();
+    }
+    void callFailed(absl::StatusCode code) {
+        if (code != absl::StatusCode::kOk)
+            callsFailed_.Add({{"code", nameOf(code)}}).Increment();
+    }
+    void operationEnded(const absl::Status& status) {
+        (status.ok()                 ? operationsDone_
+         : absl::IsCancelled(status) ? operationsCancelled_
+                                     : operationsFailed_)
+            .Increment();
     }
     void refused(int status) {
         if (status >= 400)
@@ -299,6 +321,13 @@ private:
     Counter& handshakes_ = peersRefused_.Add({{"door", "http"}, {"reason", "handshake"}});
     Family<Counter>& overQuota_ =
         counters("eyrie_over_quota_total", "Calls and viewers refused as they ask for too much.");
+    Family<Counter>& callsFailed_ =
+        counters("eyrie_calls_failed_total", "Calls of the API that were answered with an error.");
+    Family<Counter>& operations_ =
+        counters("eyrie_operations_total", "Imports and bench runs that have ended.");
+    Counter& operationsDone_ = operations_.Add({{"result", "done"}});
+    Counter& operationsFailed_ = operations_.Add({{"result", "failed"}});
+    Counter& operationsCancelled_ = operations_.Add({{"result", "cancelled"}});
     Counter& cpu_ = counter("process_cpu_seconds_total", "User and system time of this process.");
     Gauge& resident_ = gauge("process_resident_memory_bytes", "Memory in use by this process.");
     Gauge& virtual_ = gauge("process_virtual_memory_bytes", "Address space of this process.");
@@ -325,6 +354,8 @@ void Metrics::viewers(int change) { impl_->viewers(change); }
 void Metrics::swapped(int together, int cutShort) { impl_->swapped(together, cutShort); }
 void Metrics::taskReissued(bool wasLate) { impl_->taskReissued(wasLate); }
 void Metrics::overQuota(Quota quota) { impl_->overQuota(quota); }
+void Metrics::callFailed(absl::StatusCode code) { impl_->callFailed(code); }
+void Metrics::operationEnded(const absl::Status& status) { impl_->operationEnded(status); }
 void Metrics::refused(int status) { impl_->refused(status); }
 void Metrics::turnedAway(access::Door door, const access::Refusals& soFar) {
     impl_->turnedAway(door, soFar);

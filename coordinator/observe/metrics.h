@@ -9,6 +9,8 @@
 #include <string>
 #include <string_view>
 
+#include <absl/status/status.h>
+
 #include "fabric/statistics.h"
 
 namespace eyrie::access {
@@ -65,6 +67,10 @@ public:
     void swapped(int together, int cutShort);
     void taskReissued(bool wasLate);  ///< else the renderer before had failed
     void overQuota(Quota quota);      ///< a call, or a viewer, was refused for it
+    /// A call of the API, by gRPC or HTTP; OK: none.
+    void callFailed(absl::StatusCode code);
+    /// An import or a bench run, as `status` says.
+    void operationEnded(const absl::Status& status);
     /// By HTTP status, 400 or more; others are not counted.
     void refused(int status);
     /// What a gate has turned away so far at a door.

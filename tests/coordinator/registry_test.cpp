@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/captured_log.h"
+
 namespace eyrie::coordinator {
 namespace {
 
@@ -118,6 +120,18 @@ TEST_F(RegistryTest, TheRefusedAreListedWithTheReasonForAMinute) {
     EXPECT_FALSE(refused.isAlive());
     registry_.expire(kStart + seconds(62));
     EXPECT_TRUE(registry_.entries().empty());
+}
+
+TEST_F(RegistryTest, OneThatIsRefusedAgainAndAgainIsToldToTheLogOnce) {
+    const test::CapturedLog log;
+    for (int i = 0; i < 5; ++i) registry_.refuse("a:1", {}, "too old", kStart + seconds(i));
+    EXPECT_EQ(log.lines(), 1U) << log.text();
+    registry_.refuse("a:1", {}, "too new", kStart + seconds(5));
+    registry_.refuse("a:2", {}, "too old", kStart + seconds(5));
+    EXPECT_EQ(log.lines(), 3U) << log.text();
+    registry_.expire(kStart + seconds(70));
+    registry_.refuse("a:1", {}, "too new", kStart + seconds(70));
+    EXPECT_EQ(log.lines(), 4U) << log.text();
 }
 
 TEST_F(RegistryTest, ARefusalTakesNobodysPlace) {

@@ -93,6 +93,24 @@ TEST(Metrics, TellsRefusalsApart) {
     EXPECT_THAT(text, HasSubstr("eyrie_requests_refused_total{reason=\"rate\"} 0\n"));
 }
 
+TEST(Metrics, TellsCallsAndOperationsByTheirEnds) {
+    Metrics metrics;
+    for (const absl::StatusCode code :
+         {absl::StatusCode::kOk, absl::StatusCode::kNotFound, absl::StatusCode::kNotFound})
+        metrics.callFailed(code);
+    metrics.operationEnded(absl::OkStatus());
+    metrics.operationEnded(absl::DataLossError(""));
+    metrics.operationEnded(absl::CancelledError(""));
+    metrics.operationEnded(absl::UnavailableError(""));
+    const std::string text = scraped(metrics);
+    EXPECT_THAT(text, HasSubstr("eyrie_calls_failed_total{code=\"NOT_FOUND\"} 2\n"));
+    EXPECT_THAT(text, HasSubstr("eyrie_calls_failed_total{code=\"UNAVAILABLE\"} 0\n"));
+    EXPECT_THAT(text, Not(HasSubstr("code=\"OK\"")));
+    EXPECT_THAT(text, HasSubstr("eyrie_operations_total{result=\"done\"} 1\n"));
+    EXPECT_THAT(text, HasSubstr("eyrie_operations_total{result=\"failed\"} 2\n"));
+    EXPECT_THAT(text, HasSubstr("eyrie_operations_total{result=\"cancelled\"} 1\n"));
+}
+
 TEST(Metrics, ForgetsRenderersThatAreGone) {
     Metrics metrics;
     metrics.rendererHolds("renderer-0-1", 10, 20);

@@ -11,12 +11,12 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <spdlog/sinks/ostream_sink.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "fabric/log.h"
+#include "tests/support/captured_log.h"
 #include "tests/support/temporary_folder.h"
 
 namespace eyrie::page {
@@ -163,26 +163,8 @@ TEST_F(DiskCacheTest, RemovesWhatAKilledWriterLeft) {
     EXPECT_TRUE(has(cache, 1));
 }
 
-/// Catches what is logged while it lives.
-class Log {
-public:
-    Log() : before_(spdlog::default_logger()) {
-        spdlog::set_default_logger(std::make_shared<spdlog::logger>(
-            "test", std::make_shared<spdlog::sinks::ostream_sink_mt>(text_)));
-    }
-    ~Log() { spdlog::set_default_logger(before_); }
-    std::size_t lines() const {
-        const std::string text = text_.str();
-        return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
-    }
-
-private:
-    std::ostringstream text_;
-    std::shared_ptr<spdlog::logger> before_;
-};
-
 TEST_F(DiskCacheTest, AFolderThatCannotBeWrittenIsNoErrorAndSaidOnce) {
-    const Log log;
+    const test::CapturedLog log;
     const std::string file = temporary_.write("file", "no folder");
     DiskCache cache(fs::path(file) / "cache", 1 << 20);
     for (int i = 0; i < 5; ++i) cache.store(key(i), part(i));
@@ -197,7 +179,7 @@ TEST_F(DiskCacheTest, AFullDiskIsNoErrorAndLeavesNoHalfOfAPart) {
         std::signal(SIGXFSZ, SIG_IGN);
         const rlimit limit{kPart / 2, kPart / 2};
         setrlimit(RLIMIT_FSIZE, &limit);
-        const Log log;
+        const test::CapturedLog log;
         DiskCache cache(folder(), 1 << 20);
         for (int i = 0; i < 5; ++i) cache.store(key(i), part(i));
         _exit(log.lines() == 1 && bytesIn(folder()) == 0 ? 0 : 1);
