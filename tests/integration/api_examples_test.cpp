@@ -4,16 +4,20 @@
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <set>
 #include <thread>
 
 #include <arpa/inet.h>
 #include <gmock/gmock.h>
+#include <google/protobuf/descriptor.h>
 #include <gtest/gtest.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include "eyrie/v1/coordinator_service.pb.h"
+#include "tests/integration/grpc_examples.h"
 #include "tests/support/http_client.h"
 #include "tests/support/program.h"
 #include "tests/support/temporary_folder.h"
@@ -66,6 +70,13 @@ protected:
 
     static std::uint16_t port() {
         return static_cast<std::uint16_t>(std::atoi(&url_[url_.rfind(':') + 1]));
+    }
+
+    static std::string grpcAddress() {
+        EXPECT_TRUE(server_->waitForOutput("Programs call by gRPC at ", seconds(60)));
+        const std::string output = server_->output();
+        const std::string address = output.substr(output.find("gRPC at ") + 8);
+        return address.substr(0, address.find('\n'));
     }
 
     static std::string curl(std::vector<std::string> arguments, const std::string& path) {
@@ -125,12 +136,18 @@ TEST_F(ApiExamples, EveryCallAnswersAsDocumented) {
 }
 
 TEST_F(ApiExamples, ProgramsCallByGrpcWhereTheServerSays) {
-    ASSERT_TRUE(server_->waitForOutput("Programs call by gRPC at ", seconds(60)));
-    const std::string output = server_->output();
-    std::string address = output.substr(output.find("gRPC at ") + 8);
-    address = address.substr(0, address.find('\n'));
-    const test::Outcome outcome = test::eyrie({"health", address});
-    EXPECT_EQ(outcome.exit.status, 0) << address << outcome.errors;
+    const test::Outcome outcome = test::eyrie({"health", grpcAddress()});
+    EXPECT_EQ(outcome.exit.status, 0) << outcome.errors;
+}
+
+TEST_F(ApiExamples, EveryCallIsMadeByItsExampleOverGrpc) {
+    const Somebody somebody(port(), "example");
+    const std::map<std::string, absl::Status> made = test::makeExamples(grpcAddress());
+    const auto* const service =
+        v1::GetStatusRequest::descriptor()->file()->FindServiceByName("CoordinatorService");
+    for (int i = 0; i < service->method_count(); ++i)
+        EXPECT_TRUE(made.contains(service->method(i)->name())) << service->method(i)->name();
+    for (const auto& [call, status] : made) EXPECT_TRUE(status.ok()) << call << ": " << status;
 }
 
 TEST_F(ApiExamples, AStillComesWithDepthAndAPick) {

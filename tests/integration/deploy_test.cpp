@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is in deploy/ fits the program: its options, and its version.
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+
+#include "tests/support/program.h"
+
+namespace eyrie {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+std::string textOf(const std::string& name) {
+    std::ifstream file(EYRIE_SOURCE_DIR "/deploy/" + name);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// "--listen" and so on; what is said of them in comments counts as well.
+std::set<std::string> optionsIn(const std::string& text) {
+    const std::regex option("(^|[^-\\w])(--[a-z][a-z-]+[a-z])");
+    std::set<std::string> found;
+    for (std::sregex_iterator at(text.begin(), text.end(), option), end; at != end; ++at)
+        found.insert((*at)[2]);
+    return found;
+}
+
+void expectKnown(const std::vector<std::string>& command, const std::string& text,
+                 const std::string& place) {
+    std::vector<std::string> arguments = command;
+    arguments.emplace_back("--help");
+    const std::set<std::string> known = optionsIn(test::eyrie(arguments).output);
+    const std::set<std::string> used = optionsIn(text);
+    ASSERT_THAT(used, Not(IsEmpty())) << place;
+    for (const std::string& option : used)
+        EXPECT_TRUE(known.contains(option)) << place << " has " << option;
+}
+
+std::string definitionOf(const std::string& name) {
+    const std::string parts = textOf("helm/eyrie/templates/_parts.tpl");
+    const std::size_t begin = parts.find("define \"" + name + "\"");
+    EXPECT_NE(begin, std::string::npos) << name;
+    return parts.substr(begin, parts.find("{{- define", begin + 1) - begin);
+}
+
+TEST(Deploy, ChartsGiveEachCommandOptionsThatItHas) {
+    const std::string templates = "helm/eyrie/templates/";
+    const std::string access = definitionOf("eyrie.access");
+    const std::string certificates = definitionOf("eyrie.certificates");
+    expectKnown({"coordinator"}, textOf(templates + "coordinator.yaml") + access + certificates,
+                "coordinator.yaml");
+    expectKnown({"renderer"}, textOf(templates + "renderers.yaml") + access + certificates,
+                "renderers.yaml");
+    expectKnown({"health"}, certificates + definitionOf("eyrie.rendererProbe"), "the probe");
+    expectKnown({"import", "terrain"}, textOf(templates + "import.yaml"), "import.yaml");
+}
+
+TEST(Deploy, ComposeGivesEachCommandOptionsThatItHas) {
+    const std::string text = textOf("compose.yaml");
+    const std::regex command("command: \\[(\\w+), ([^\\n]*)\\]");
+    int commands = 0;
+    for (std::sregex_iterator at(text.begin(), text.end(), command), end; at != end; ++at) {
+        expectKnown({(*at)[1]}, (*at)[2], "compose.yaml");
+        ++commands;
+    }
+    EXPECT_EQ(commands, 2);
+}
+
+TEST(Deploy, TheChartIsOfThisVersion) {
+    const std::string chart = textOf("helm/eyrie/Chart.yaml");
+    const std::string said = test::eyrie({"--version"}).output;
+    std::smatch version;
+    ASSERT_TRUE(std::regex_search(said, version, std::regex("[0-9]+\\.[0-9]+\\.[0-9]+"))) << said;
+    EXPECT_THAT(chart, HasSubstr("\nversion: " + version.str() + "\n"));
+    EXPECT_THAT(chart, HasSubstr("\nappVersion: \"" + version.str() + "\"\n"));
+}
+
+}  // namespace
+}  // namespace eyrie
