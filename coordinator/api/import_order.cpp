@@ -146,6 +146,15 @@ absl::Status moveInto(const fs::path& made, const fs::path& place) {
     return absl::OkStatus();
 }
 
+/// `status` in the caller's terms: what was being made has the name that it was to get, and where
+/// the data folder is nobody is told.
+absl::Status named(const absl::Status& status, const std::string& made, const std::string& name) {
+    std::string text(status.message());
+    for (std::size_t at = text.find(made); at != std::string::npos; at = text.find(made, at + 1))
+        text.replace(at, made.size(), name);
+    return {status.code(), text};
+}
+
 }  // namespace
 
 absl::StatusOr<ImportOrder> importOrderOf(const v1::ImportRequest& request,
@@ -191,7 +200,8 @@ absl::Status carryOut(const ImportOrder& order, const access::DataFolder& folder
     const fs::path made = work.path() / order.output.filename();
     std::vector<std::string> arguments = order.arguments;
     arguments.push_back("--output=" + made.string());
-    RETURN_IF_ERROR(runToItsEnd(arguments, folder.path(), run, progress, stop));
+    RETURN_IF_ERROR(named(runToItsEnd(arguments, folder.path(), run, progress, stop), made.string(),
+                          order.output.lexically_relative(folder.path()).string()));
     RETURN_IF_ERROR(checkOutput(order, order.output.filename().string()));
     return moveInto(made, order.output);
 }

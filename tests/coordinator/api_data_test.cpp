@@ -346,6 +346,18 @@ TEST_F(RestData, LeavesNothingOfWhatFailed) {
     EXPECT_THAT(member(ask("GET", "/operations/crash"), "problem"), HasSubstr("signal 11"));
 }
 
+TEST_F(RestData, SaysWhatCouldNotBeMadeByItsNameInTheFolder) {
+    run_ = [](const auto& arguments, const auto& heard, const auto&) {
+        const std::string made = arguments.back().substr(std::string("--output=").size());
+        heard(fmt::format("eyrie: {0}: write failed: No space left on device; see {0}", made));
+        return ProgramEnd{false, 1, ""};
+    };
+    ASSERT_EQ(ask("POST", "/imports", import(), "full").status, 200);
+    EXPECT_EQ(endOf("full"), "OPERATION_STATE_FAILED");
+    EXPECT_EQ(member(ask("GET", "/operations/full"), "problem"),
+              "survey/dem.eyt: write failed: No space left on device; see survey/dem.eyt");
+}
+
 TEST_F(RestData, LeavesNothingOfWhatIsCalledOff) {
     std::promise<void> begun;
     run_ = [&](const auto& arguments, const auto& heard, const auto& stop) {
