@@ -16,6 +16,8 @@ namespace eyrie::compound {
 namespace {
 
 using fabric::Image;
+using fabric::ImageView;
+using fabric::LentImage;
 using fabric::PixelViewport;
 
 bool isByDepth(Combine combine) {
@@ -25,14 +27,14 @@ bool isByDepth(Combine combine) {
 /// What is in a framebuffer. Outside `image` there is background.
 struct Layer {
     PixelViewport area;
-    Image image;
+    LentImage image;
 
-    bool isEmpty() const { return image.area.isEmpty(); }
+    bool isEmpty() const { return image.isEmpty(); }
 };
 
 class Composer {
 public:
-    Composer(const Plan& plan, std::vector<Image> drawn, fabric::Rgba background)
+    Composer(const Plan& plan, std::vector<LentImage> drawn, fabric::Rgba background)
         : plan_(plan),
           drawn_(std::move(drawn)),
           background_(background),
@@ -74,7 +76,7 @@ private:
 
     void carryOut(const Clear& step) {
         Layer& layer = layers_[step.framebuffer];
-        if (step.part.contains(layer.image.area))
+        if (step.part.contains(layer.image.area()))
             layer.image = {};
         else
             fill(step.part, layer);
@@ -87,27 +89,26 @@ private:
 
     void carryOut(const ReadBack& step) {
         Layer& layer = layers_[step.framebuffer];
-        Image& frame = frames_[step.frame];
+        LentImage& frame = frames_[step.frame];
         const bool hasWhatIsNeeded = layer.image.hasDepth() || !step.withDepth;
-        if (isDone(step.framebuffer) && !step.zoom && hasWhatIsNeeded &&
-            step.part.contains(layer.image.area))
-            frame = std::move(layer.image);
-        else
-            frame = cut(layer, step.zoom ? step.part : intersection(step.part, layer.image.area),
-                        step.withDepth);
         if (step.zoom)
-            frame = composite::zoomed(frame, *step.zoom);
+            frame = composite::zoomed(cut(layer, step.part, step.withDepth), *step.zoom);
+        else if (isDone(step.framebuffer) && hasWhatIsNeeded &&
+                 step.part.contains(layer.image.area()))
+            frame = std::exchange(layer.image, {});
+        else
+            frame = cut(layer, intersection(step.part, layer.image.area()), step.withDepth);
     }
 
     void carryOut(const Assemble& step) {
-        Image frame =
+        LentImage frame =
             --takers_[step.frame] == 0 ? std::move(frames_[step.frame]) : frames_[step.frame];
         Layer& layer = layers_[step.framebuffer];
         if (step.regriddings.empty() && step.fromX == 0 && step.fromY == 0)
             return combine(cropped(std::move(frame), step.part), step.part, step.combine, layer);
-        if (frame.area.isEmpty() && isByDepth(step.combine))
+        if (frame.isEmpty() && isByDepth(step.combine))
             return;  // nothing was drawn, which is behind all
-        place(step, whole(frame, step.part), layer);
+        place(step, framed(frame.view(), step.part, step.part, frame.hasDepth()), layer);
     }
 
     void carryOut(const Average& step) {
@@ -125,15 +126,15 @@ private:
     Image cut(const Layer& layer, const PixelViewport& part, bool withDepth) const {
         if (part.isEmpty())
             return {};
-        if (layer.image.area.contains(part) && layer.image.hasDepth() >= withDepth)
-            return copied(layer.image, part, withDepth);
+        if (layer.image.area().contains(part) && layer.image.hasDepth() >= withDepth)
+            return copied(layer.image.view(), part, withDepth);
         Image image = fabric::makeImage(part, background_, withDepth);
-        pastePart(layer.image, image);
+        pastePart(layer.image.view(), image);
         return image;
     }
 
     /// Row by row, without a background to fill first.
-    static Image copied(const Image& source, const PixelViewport& part, bool withDepth) {
+    static Image copied(const ImageView& source, const PixelViewport& part, bool withDepth) {
         Image image{part, {}, {}};
         const auto pixels = static_cast<std::size_t>(part.area());
         image.colour.reserve(pixels);
@@ -149,13 +150,9 @@ private:
         return image;
     }
 
-    Image whole(const Image& frame, const PixelViewport& part) const {
-        return frame.area == part ? frame : framed(frame, part, part, frame.hasDepth());
-    }
-
     /// As much of `source` as falls on `within` and `area`, and all of `area` that is left as
     /// background. Row by row: no pixel is written twice.
-    Image framed(const Image& source, const PixelViewport& within, const PixelViewport& area,
+    Image framed(const ImageView& source, const PixelViewport& within, const PixelViewport& area,
                  bool withDepth) const {
         const PixelViewport part = intersection(intersection(source.area, within), area);
         if (part.isEmpty())
@@ -190,21 +187,19 @@ private:
         row.insert(row.end(), empty.begin() + before + part.width, empty.end());
     }
 
-    static Image cropped(Image frame, const PixelViewport& part) {
-        if (part.contains(frame.area))
+    static LentImage cropped(LentImage frame, const PixelViewport& part) {
+        if (part.contains(frame.area()))
             return frame;
-        Image image = fabric::makeImage(intersection(frame.area, part), {}, frame.hasDepth());
-        pastePart(frame, image);
-        return image;
+        return copied(frame.view(), intersection(frame.area(), part), frame.hasDepth());
     }
 
     /// As much of `source` as falls on `target`.
-    static void pastePart(const Image& source, Image& target) {
+    static void pastePart(const ImageView& source, Image& target) {
         pastePart(source, target.area, target);
     }
 
     /// And as falls on `within`, a part of the target.
-    static void pastePart(const Image& source, const PixelViewport& within, Image& target) {
+    static void pastePart(const ImageView& source, const PixelViewport& within, Image& target) {
         const PixelViewport part = intersection(source.area, within);
         const bool withDepth = source.hasDepth() && target.hasDepth();
         for (int y = part.y; y < part.y + part.height; ++y) {
@@ -216,48 +211,50 @@ private:
         }
     }
 
-    static std::ptrdiff_t offset(const Image& image, int x, int y) {
+    static std::ptrdiff_t offset(const ImageView& image, int x, int y) {
         return static_cast<std::ptrdiff_t>(y - image.area.y) * image.area.width +
                (x - image.area.x);
     }
 
     void fill(const PixelViewport& part, Layer& layer) const {
-        const PixelViewport both = intersection(part, layer.image.area);
+        const PixelViewport both = intersection(part, layer.image.area());
         if (!both.isEmpty())
-            pastePart(fabric::makeImage(both, background_, layer.image.hasDepth()), layer.image);
+            pastePart(fabric::makeImage(both, background_, layer.image.hasDepth()),
+                      layer.image.own());
     }
 
     /// `image` lies within `part`; there is background where it has nothing.
-    void combine(Image image, const PixelViewport& part, Combine how, Layer& layer) const {
+    void combine(LentImage image, const PixelViewport& part, Combine how, Layer& layer) const {
         if (how == Combine::Replace)
             fill(part, layer);
-        if (image.area.isEmpty())
+        if (image.isEmpty())
             return;
         if (layer.isEmpty()) {
             layer.image = std::move(image);
             return;
         }
-        makeRoom(image.area, layer);
-        takeDepth(image, layer);
-        if (isByDepth(how) && image.hasDepth() && layer.image.hasDepth())
+        makeRoom(image.area(), layer);
+        Image& target = layer.image.own();
+        takeDepth(image.view(), target);
+        if (isByDepth(how) && image.hasDepth() && target.hasDepth())
             fabric::mergeDepth(
-                image, layer.image,
+                image.view(), target,
                 how == Combine::Nearer ? fabric::Ties::Target : fabric::Ties::Source);
         else
-            fabric::paste(image, layer.image);
+            fabric::paste(image.view(), target);
     }
 
     /// Where depth comes to what has none, nobody needs that of what was there.
-    static void takeDepth(const Image& image, Layer& layer) {
+    static void takeDepth(const ImageView& image, Image& target) {
         if (image.hasDepth())
-            layer.image.depth.resize(layer.image.colour.size(), 0);
+            target.depth.resize(target.colour.size(), 0);
     }
 
     /// A framebuffer that gets more than it began with gets all of its area at once.
     void makeRoom(const PixelViewport& part, Layer& layer) const {
-        if (layer.image.area.contains(part))
+        if (layer.image.area().contains(part))
             return;
-        layer.image = framed(layer.image, layer.image.area, enclosing(layer.area, part),
+        layer.image = framed(layer.image.view(), layer.image.area(), enclosing(layer.area, part),
                              layer.image.hasDepth());
     }
 
@@ -272,10 +269,11 @@ private:
         if (layer.isEmpty())
             layer.image = fabric::makeImage(part, background_, frame.hasDepth());
         makeRoom(part, layer);
-        takeDepth(frame, layer);
+        Image& target = layer.image.own();
+        takeDepth(frame, target);
         frame.area.x -= step.fromX;
         frame.area.y -= step.fromY;
-        const bool byDepth = isByDepth(step.combine) && frame.hasDepth() && layer.image.hasDepth();
+        const bool byDepth = isByDepth(step.combine) && frame.hasDepth() && target.hasDepth();
         const composite::Placing placing = !byDepth ? composite::Placing::Paste
                                            : step.combine == Combine::Nearer
                                                ? composite::Placing::Nearer
@@ -284,7 +282,7 @@ private:
             frame,
             composite::tapsBehind(step.regriddings, composite::Axis::Columns, part.x, part.width),
             composite::tapsBehind(step.regriddings, composite::Axis::Rows, part.y, part.height),
-            part, placing, layer.image);
+            part, placing, target);
     }
 
     Image show(const Picture& picture) {
@@ -310,7 +308,7 @@ private:
     /// One eye's picture. What is all of it becomes it: nothing to fill, nothing to copy.
     Image seen(const Picture& picture, const std::vector<PicturePart>& parts) {
         if (parts.size() == 1 && isAllOf(picture, parts.front())) {
-            Image image = std::move(layers_[parts.front().framebuffer].image);
+            Image image = std::move(layers_[parts.front().framebuffer].image.own());
             image.area = picture.area;
             if (!picture.withDepth)
                 image.depth.clear();
@@ -329,8 +327,8 @@ private:
     }
 
     /// What nobody looks at afterwards, on a background.
-    Image only(const PicturePart& part, const Picture& picture) {
-        Image& shown = layers_[part.framebuffer].image;
+    Image only(const PicturePart& part, const Picture& picture) const {
+        ImageView shown = layers_[part.framebuffer].image.view();
         shown.area.x += part.x - part.part.x;
         shown.area.y += part.y - part.part.y;
         const PixelViewport within{part.x, part.y, part.part.width, part.part.height};
@@ -338,17 +336,17 @@ private:
     }
 
     bool isAllOf(const Picture& picture, const PicturePart& part) const {
-        const Image& image = layers_[part.framebuffer].image;
-        return showings_[part.framebuffer] == 1 && image.area == part.part &&
+        const LentImage& image = layers_[part.framebuffer].image;
+        return showings_[part.framebuffer] == 1 && image.area() == part.part &&
                part.part.width == picture.area.width && part.part.height == picture.area.height &&
                (image.hasDepth() || !picture.withDepth);
     }
 
     const Plan& plan_;
-    std::vector<Image> drawn_;
+    std::vector<LentImage> drawn_;
     fabric::Rgba background_;
     std::vector<Layer> layers_;
-    std::vector<Image> frames_;
+    std::vector<LentImage> frames_;
     std::vector<std::size_t> takers_;    ///< of frames, who have not had them yet
     std::vector<std::size_t> lastStep_;  ///< that has to do with a framebuffer
     std::vector<std::size_t> showings_;  ///< of framebuffers, in pictures
@@ -357,7 +355,7 @@ private:
 
 }  // namespace
 
-std::vector<Image> composePictures(const Plan& plan, std::vector<Image> drawn,
+std::vector<Image> composePictures(const Plan& plan, std::vector<LentImage> drawn,
                                    fabric::Rgba background) {
     return Composer(plan, std::move(drawn), background).compose();
 }

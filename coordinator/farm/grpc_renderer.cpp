@@ -99,7 +99,7 @@ public:
           stub_(v1::RenderService::NewStub(channel_)),
           calls_(security),
           offersMemory_(offersMemory),
-          slots_(peer_),
+          slots_(std::make_shared<PictureSlots>(peer_)),
           reported_(address, std::move(telemetry)) {}
 
     absl::StatusOr<fabric::SceneInfo> openScene(const fabric::Scene& scene,
@@ -139,7 +139,7 @@ public:
         request.set_encoding(wire::toMessage(wire::encodingFor(address_, task.wantsDepth)));
         std::unique_ptr<wire::PictureMemory> memory;
         if (offersMemory_ && task.jpegQuality == 0)
-            memory = slots_.lend(wire::pixelBytes(task.pixelViewport, task.wantsDepth));
+            memory = slots_->lend(wire::pixelBytes(task.pixelViewport, task.wantsDepth));
         if (memory != nullptr)
             *request.mutable_memory() = wire::toMessage(memory->offer());
         Calls::Call call(calls_, deadline);
@@ -167,8 +167,12 @@ public:
             return assembly.takeChunk(part.chunk());
         });
         report.ended(result.status());
-        if (result.ok() && memory != nullptr)
-            slots_.giveBack(std::move(memory), assembly.isInMemory());
+        if (result.ok() && memory != nullptr) {
+            if (const auto picture = assembly.inMemory())
+                result->lent.emplace(*picture, slots_->giveBackLater(std::move(memory)));
+            else
+                slots_->giveBack(std::move(memory), false);
+        }
         return result;
     }
 
@@ -243,7 +247,7 @@ private:
     std::atomic<bool> wasConnected_{false};
     Calls calls_;
     const bool offersMemory_;
-    PictureSlots slots_;
+    const std::shared_ptr<PictureSlots> slots_;
     ReportedRenderer reported_;
 };
 

@@ -19,7 +19,7 @@ constexpr std::uint64_t kMostHeadBytes = 64 * 1024;  ///< of a JPEG, before its 
 }  // namespace
 
 absl::Status PictureAssembly::takeHeader(const v1::ChannelHeader& header) {
-    if (pixels_ || isInMemory_ || isJpeg_)
+    if (pixels_ || inMemory_ || isJpeg_)
         return brokenProtocol("a second header");
     const auto picture = wire::announcedPicture(header, task_.pixelViewport, task_.wantsDepth);
     RETURN_IF_ERROR(brokenProtocol(picture.status()));
@@ -41,10 +41,10 @@ absl::Status PictureAssembly::takeHeader(const v1::ChannelHeader& header) {
 absl::Status PictureAssembly::takeFromMemory(const fabric::PixelViewport& area, bool hasDepth) {
     if (memory_ == nullptr)
         return brokenProtocol("a picture in memory, where none was offered");
-    auto image = memory_->take(area, hasDepth);
-    RETURN_IF_ERROR(brokenProtocol(image.status()));
-    result_.image = *std::move(image);
-    isInMemory_ = true;
+    const auto picture = memory_->picture(area, hasDepth);
+    RETURN_IF_ERROR(brokenProtocol(picture.status()));
+    result_.image.area = area;
+    inMemory_ = *picture;
     return absl::OkStatus();
 }
 
@@ -76,7 +76,7 @@ absl::Status PictureAssembly::checkJpeg() const {
 }
 
 absl::Status PictureAssembly::takeChunk(std::string_view bytes) {
-    if (isInMemory_)
+    if (inMemory_)
         return brokenProtocol("pixels after a picture in memory");
     if (isJpeg_)
         return takeJpegBytes(bytes);
@@ -86,7 +86,7 @@ absl::Status PictureAssembly::takeChunk(std::string_view bytes) {
 }
 
 absl::StatusOr<fabric::ChannelResult> PictureAssembly::finish() {
-    if (!pixels_ && !isInMemory_ && !isJpeg_)
+    if (!pixels_ && !inMemory_ && !isJpeg_)
         return brokenProtocol("no header");
     if (isJpeg_)
         RETURN_IF_ERROR(checkJpeg());

@@ -35,8 +35,9 @@ public:
     /// After the last chunk.
     absl::StatusOr<fabric::ChannelResult> finish();
 
-    /// Whether the header says that the picture is in the memory.
-    bool isInMemory() const { return isInMemory_; }
+    /// The picture in the memory, if the header says that it is there: the result's image then has
+    /// an area and no pixels.
+    const std::optional<fabric::ImageView>& inMemory() const { return inMemory_; }
 
 private:
     absl::Status takeFromMemory(const fabric::PixelViewport& area, bool hasDepth);
@@ -47,7 +48,7 @@ private:
     const fabric::ChannelTask& task_;
     const wire::PictureMemory* const memory_;
     fabric::ChannelResult result_;
-    bool isInMemory_ = false;
+    std::optional<fabric::ImageView> inMemory_;
     bool isJpeg_ = false;
     std::optional<wire::PictureReader> pixels_;  ///< once there is a header, of one in chunks
 };

@@ -9,8 +9,9 @@
 namespace eyrie::coordinator {
 namespace {
 
-/// One is drawn into while the other's picture is taken in.
-constexpr std::size_t kKept = 2;
+/// One is drawn into while another's picture waits for the rest of its frame and a third's is
+/// composed.
+constexpr std::size_t kKept = 3;
 
 /// Pictures grow and shrink with what the link carries; one of a poster's size is not kept for
 /// them.
@@ -52,6 +53,16 @@ void PictureSlots::giveBack(std::unique_ptr<wire::PictureMemory> memory, bool wa
         stopOffering("it cannot open this process's memory");
     else if (free_.size() < kKept)
         free_.push_back(std::move(memory));
+}
+
+std::shared_ptr<const void> PictureSlots::giveBackLater(
+    std::unique_ptr<wire::PictureMemory> memory) {
+    const auto giveBack = [slots = weak_from_this()](wire::PictureMemory* used) {
+        std::unique_ptr<wire::PictureMemory> owned(used);
+        if (const auto there = slots.lock())
+            there->giveBack(std::move(owned), true);
+    };
+    return std::shared_ptr<wire::PictureMemory>(memory.release(), giveBack);
 }
 
 void PictureSlots::stopOffering(std::string_view why) {

@@ -17,7 +17,7 @@ namespace eyrie::coordinator {
 /// renderer's from when it is lent until it is given back. One that does not come back in order,
 /// because the call failed and the renderer may write yet, goes: nobody reads what is written then.
 /// All functions may be called from any thread.
-class PictureSlots {
+class PictureSlots : public std::enable_shared_from_this<PictureSlots> {
 public:
     /// `peer` is for the log.
     explicit PictureSlots(std::string peer) : peer_(std::move(peer)) {}
@@ -28,6 +28,10 @@ public:
     /// After a call that ended well. A renderer that did not use it (`wasUsed`) is offered no more,
     /// and the log says so, once.
     void giveBack(std::unique_ptr<wire::PictureMemory> memory, bool wasUsed);
+
+    /// The same, of one that was used, when what is returned and its copies are gone: while
+    /// somebody still reads the picture. Precondition: a shared pointer has this.
+    std::shared_ptr<const void> giveBackLater(std::unique_ptr<wire::PictureMemory> memory);
 
 private:
     void stopOffering(std::string_view why);

@@ -81,8 +81,10 @@ RenderedFrame composedFrame(const PlannedFrame& frame, const compound::Plan& pla
         result.image.area = frame.plan.pictures.front().area;
         return result;
     }
-    std::vector<fabric::Image> images;
-    for (Dispatch::Drawn& part : drawn) images.push_back(std::move(part.result.image));
+    std::vector<fabric::LentImage> images;
+    for (Dispatch::Drawn& part : drawn)
+        images.push_back(part.result.lent ? *std::move(part.result.lent)
+                                          : std::move(part.result.image));
     std::ranges::move(more, std::back_inserter(images));
     std::vector<fabric::Image> pictures =
         compound::composePictures(plan, std::move(images), frame.scene.scene->background);

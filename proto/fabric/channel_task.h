@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fabric/image.h"
+#include "fabric/lent_image.h"
 #include "fabric/range.h"
 #include "fabric/raster.h"
 #include "fabric/sight.h"
@@ -64,6 +65,9 @@ struct ChannelResult {
     /// All of the task's pixel viewport, background too, where the task wants it so; `image` then
     /// has an area and no pixels.
     std::vector<std::byte> jpeg = {};
+    /// The picture, where it is in memory that the renderer drew into; `image` then has an area and
+    /// no pixels.
+    std::optional<LentImage> lent = {};
 };
 
 inline constexpr std::int32_t kMaxViewPixels = 16384;

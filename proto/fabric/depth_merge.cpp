@@ -72,7 +72,7 @@ auto bits(T* values) {
 
 }  // namespace
 
-void mergeDepth(const Image& source, Image& target, Ties ties) {
+void mergeDepth(const ImageView& source, Image& target, Ties ties) {
     assert(source.hasDepth() && target.hasDepth());
     assert(target.area.contains(source.area));
     const auto merge = ties == Ties::Source ? mergeRowBefore : mergeRow;

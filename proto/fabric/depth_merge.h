@@ -15,6 +15,6 @@ enum class Ties { Target, Source };
 ///
 /// Associative for any order of grouping that keeps that sequence.
 /// Preconditions: both have depth; target.area contains source.area.
-void mergeDepth(const Image& source, Image& target, Ties ties = Ties::Target);
+void mergeDepth(const ImageView& source, Image& target, Ties ties = Ties::Target);
 
 }  // namespace eyrie::fabric

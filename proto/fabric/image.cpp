@@ -13,7 +13,7 @@ std::size_t offsetIn(const PixelViewport& area, int x, int y) {
 }
 
 template <typename T>
-void copyRows(const std::vector<T>& from, const PixelViewport& fromArea, std::vector<T>& to,
+void copyRows(std::span<const T> from, const PixelViewport& fromArea, std::vector<T>& to,
               const PixelViewport& toArea, const PixelViewport& part) {
     for (int y = part.y; y < part.y + part.height; ++y)
         std::copy_n(&from[offsetIn(fromArea, part.x, y)], part.width,
@@ -21,6 +21,12 @@ void copyRows(const std::vector<T>& from, const PixelViewport& fromArea, std::ve
 }
 
 }  // namespace
+
+Image copied(const ImageView& image) {
+    return {image.area,
+            {image.colour.begin(), image.colour.end()},
+            {image.depth.begin(), image.depth.end()}};
+}
 
 Image makeImage(const PixelViewport& area, Rgba background, bool withDepth) {
     const auto pixels = static_cast<std::size_t>(area.area());
@@ -35,7 +41,7 @@ Image makeImage(const PixelViewport& area, Rgba background, bool withDepth) {
     return image;
 }
 
-void paste(const Image& source, Image& target) {
+void paste(const ImageView& source, Image& target) {
     if (source.area.isEmpty())
         return;
     assert(target.area.contains(source.area));

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "fabric/viewport.h"
@@ -33,11 +34,28 @@ struct Image {
     bool operator==(const Image&) const = default;
 };
 
+/// The pixels of an image that is somewhere else, as they lie there; no longer than that is there.
+struct ImageView {
+    PixelViewport area;
+    std::span<const Rgba> colour;
+    std::span<const float> depth;
+
+    ImageView() = default;
+    ImageView(const PixelViewport& where, std::span<const Rgba> colours,
+              std::span<const float> depths)
+        : area(where), colour(colours), depth(depths) {}
+    ImageView(const Image& image) : ImageView(image.area, image.colour, image.depth) {}
+
+    bool hasDepth() const { return !depth.empty(); }
+};
+
+Image copied(const ImageView& image);
+
 /// An image of `area` filled with `background` and, if asked for, depth 0.
 Image makeImage(const PixelViewport& area, Rgba background, bool withDepth);
 
 /// Copies `source` over `target` (sort-first assembly); depth too where both have it.
 /// Precondition: target.area contains source.area, unless that is empty.
-void paste(const Image& source, Image& target);
+void paste(const ImageView& source, Image& target);
 
 }  // namespace eyrie::fabric

@@ -7,7 +7,6 @@
 #include <cstring>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -97,13 +96,6 @@ std::size_t pixelsOf(const fabric::PixelViewport& area) {
     return static_cast<std::size_t>(area.area());
 }
 
-template <typename T>
-std::vector<T> copied(const std::byte* from, std::size_t count) {
-    // Not filled first, as it would be by its size.
-    const T* const begin = reinterpret_cast<const T*>(from);
-    return std::vector<T>(begin, begin + count);
-}
-
 }  // namespace
 
 PictureMemory::PictureMemory(MemoryOffer offer, int descriptor, std::byte* begin)
@@ -187,16 +179,15 @@ bool PictureMemory::put(const fabric::Image& picture) {
     return true;
 }
 
-absl::StatusOr<fabric::Image> PictureMemory::take(const fabric::PixelViewport& area,
-                                                  bool hasDepth) const {
+absl::StatusOr<fabric::ImageView> PictureMemory::picture(const fabric::PixelViewport& area,
+                                                         bool hasDepth) const {
+    const auto at = room(area, hasDepth);
+    if (!at)
+        return absl::InvalidArgumentError(
+            fmt::format("{}x{} pixels{}, which are more than the {} bytes that the memory has",
+                        area.width, area.height, hasDepth ? " with depth" : "", offer_.bytes));
     const std::size_t count = pixelsOf(area);
-    const std::size_t colour = count * sizeof(fabric::Rgba);
-    const std::size_t depth = hasDepth ? count * sizeof(float) : 0;
-    if (colour + depth > offer_.bytes)
-        return absl::InvalidArgumentError(fmt::format("{} bytes of pixels, where the memory has {}",
-                                                      colour + depth, offer_.bytes));
-    return fabric::Image{area, copied<fabric::Rgba>(pixels(), count),
-                         copied<float>(pixels() + colour, hasDepth ? count : 0)};
+    return fabric::ImageView(area, {at->colour, count}, {at->depth, hasDepth ? count : 0});
 }
 
 }  // namespace eyrie::wire

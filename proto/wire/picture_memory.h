@@ -56,9 +56,10 @@ public:
     /// Copies a picture in. False, and nothing done, where it is larger than the memory.
     bool put(const fabric::Image& picture);
 
-    /// A copy of the picture in it, of `area`, of any bits; nothing where it would be larger than
-    /// the memory. The other process may go on writing: the copy does not change.
-    absl::StatusOr<fabric::Image> take(const fabric::PixelViewport& area, bool hasDepth) const;
+    /// The picture in it, of `area`, of any bits; an error where it would be larger than the
+    /// memory. The other process may go on writing.
+    absl::StatusOr<fabric::ImageView> picture(const fabric::PixelViewport& area,
+                                              bool hasDepth) const;
 
 private:
     PictureMemory(MemoryOffer offer, int descriptor, std::byte* begin);

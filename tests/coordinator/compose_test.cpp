@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -40,8 +41,8 @@ config::Configuration sample(const std::filesystem::path& path) {
     return config::readEqc(text, findings);
 }
 
-std::vector<fabric::Image> drawn(const Plan& plan, const LayeredScene& scene) {
-    std::vector<fabric::Image> images;
+std::vector<fabric::LentImage> drawn(const Plan& plan, const LayeredScene& scene) {
+    std::vector<fabric::LentImage> images;
     for (const PlannedDraw& draw : plan.draws) images.push_back(scene.draw(draw.task).image);
     return images;
 }
@@ -161,6 +162,27 @@ RC_GTEST_PROP(Compose, AnyTreeOfCompoundsMakesThePicturesOfOneChannel, (std::uin
     RC_ASSERT(got == pictures(config::oneChannel(configuration), request, scene));
 }
 
+/// Whoever lends them has them back, and finds them as they were.
+RC_GTEST_PROP(Compose, PicturesThatAreLentAreReadWhereTheyLie, (std::uint32_t seed)) {
+    const LayeredScene scene(seed, 41, 23, *rc::gen::element(0, 1, 2, 30));
+    PlanRequest request = wholeCanvas();
+    request.outputs[0].wantsDepth = *rc::gen::arbitrary<bool>();
+    const auto plan = makePlan(RandomCompounds(seed).configuration(4), request);
+    RC_ASSERT(plan.ok());
+    std::vector<std::shared_ptr<const fabric::Image>> kept;
+    std::vector<fabric::LentImage> lent;
+    for (const PlannedDraw& draw : plan->draws) {
+        kept.push_back(std::make_shared<const fabric::Image>(scene.draw(draw.task).image));
+        lent.emplace_back(*kept.back(), kept.back());
+    }
+    const auto got = composePictures(*plan, std::move(lent), LayeredScene::kBackground);
+    RC_ASSERT(got == composePictures(*plan, drawn(*plan, scene), LayeredScene::kBackground));
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+        RC_ASSERT(kept[i].use_count() == 1);
+        RC_ASSERT(*kept[i] == scene.draw(plan->draws[i].task).image);
+    }
+}
+
 /// Programs as renderers carry them out, each as far as it can get.
 std::vector<fabric::Image> answersOf(const Exchange& exchange, const LayeredScene& scene) {
     struct Run {
@@ -212,7 +234,7 @@ std::vector<fabric::Image> answersOf(const Exchange& exchange, const LayeredScen
 }
 
 std::vector<fabric::Image> picturesByPrograms(const Exchange& exchange, const LayeredScene& scene) {
-    std::vector<fabric::Image> images;
+    std::vector<fabric::LentImage> images;
     for (std::size_t i = 0; i < exchange.draws.size(); ++i)
         images.push_back(scene.draw(exchange.rest.draws[i].task).image);
     std::ranges::move(answersOf(exchange, scene), std::back_inserter(images));

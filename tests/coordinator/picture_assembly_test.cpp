@@ -67,8 +67,11 @@ TEST(PictureAssembly, APictureInMemoryIsCompleteWithItsHeader) {
     ASSERT_TRUE(wire::PictureMemory::open(memory->offer()).value()->put(picture));
     PictureAssembly assembly(kTask, memory.get());
     ASSERT_TRUE(assembly.takeHeader(inMemory(header(12, 6, 7, 3))).ok());
-    EXPECT_TRUE(assembly.isInMemory());
-    EXPECT_TRUE(assembly.finish().value().image == picture);
+    ASSERT_TRUE(assembly.inMemory().has_value());
+    EXPECT_TRUE(fabric::copied(*assembly.inMemory()) == picture);
+    const fabric::Image image = assembly.finish().value().image;
+    EXPECT_EQ(image.area, picture.area);
+    EXPECT_TRUE(image.colour.empty());
 }
 
 TEST(PictureAssembly, APictureInMemoryThatWasNotOfferedOrIsSmallerIsRefused) {
@@ -77,7 +80,7 @@ TEST(PictureAssembly, APictureInMemoryThatWasNotOfferedOrIsSmallerIsRefused) {
     const auto memory = wire::PictureMemory::create(4 * 4 * 8 - 1).value();
     PictureAssembly small(kTask, memory.get());
     EXPECT_EQ(small.takeHeader(inMemory(header(10, 5, 4, 4))).code(), absl::StatusCode::kInternal);
-    EXPECT_FALSE(small.isInMemory());
+    EXPECT_FALSE(small.inMemory().has_value());
     EXPECT_EQ(small.finish().status().code(), absl::StatusCode::kInternal);
 }
 
@@ -94,7 +97,7 @@ TEST(PictureAssembly, MemoryThatWasOfferedNeedNotBeUsed) {
     PictureAssembly assembly(kTask, memory.get());
     ASSERT_TRUE(assembly.takeHeader(header(10, 5, 2, 1)).ok());
     ASSERT_TRUE(assembly.takeChunk(std::string(16, 'x')).ok());
-    EXPECT_FALSE(assembly.isInMemory());
+    EXPECT_FALSE(assembly.inMemory().has_value());
     EXPECT_TRUE(assembly.finish().ok());
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/farm/picture_slots.h"
 
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -25,6 +26,30 @@ TEST(PictureSlots, TwoThatAreLentAtOnceAreNotTheSame) {
     const auto other = slots.lend(1000);
     EXPECT_NE(one->offer().key, other->offer().key);
     EXPECT_NE(one->offer().descriptor, other->offer().descriptor);
+}
+
+TEST(PictureSlots, OneWhosePictureIsStillReadIsLentOnlyAfterwards) {
+    const auto slots = std::make_shared<PictureSlots>("fake");
+    auto memory = slots->lend(1000);
+    const std::string key = memory->offer().key;
+    auto read = slots->giveBackLater(std::move(memory));
+    auto readToo = read;
+    EXPECT_NE(slots->lend(1000)->offer().key, key);
+    read = nullptr;
+    EXPECT_NE(slots->lend(1000)->offer().key, key);
+    readToo = nullptr;
+    EXPECT_EQ(slots->lend(1000)->offer().key, key);
+}
+
+TEST(PictureSlots, APictureThatIsReadIsThereWhenTheyAreGone) {
+    auto slots = std::make_shared<PictureSlots>("fake");
+    auto memory = slots->lend(16);
+    const wire::MemoryOffer offer = memory->offer();
+    auto read = slots->giveBackLater(std::move(memory));
+    slots = nullptr;
+    EXPECT_TRUE(wire::PictureMemory::open(offer).ok());
+    read = nullptr;
+    EXPECT_FALSE(wire::PictureMemory::open(offer).ok());
 }
 
 TEST(PictureSlots, OneThatIsNotGivenBackIsNeverLentAgain) {

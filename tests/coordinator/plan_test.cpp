@@ -456,7 +456,7 @@ TEST(Plan, AnaglyphsTakeTheirMasksFromTheCompound) {
     const Plan plan = planned(stereo, canvasOf(20, 10));
     ASSERT_EQ(plan.draws.size(), 2U);
     ASSERT_EQ(plan.pictures.size(), 1U);
-    std::vector<fabric::Image> drawn;
+    std::vector<fabric::LentImage> drawn;
     for (const PlannedDraw& draw : plan.draws) {
         const bool isLeft = draw.task.sight && draw.task.sight->eye.x < 0;
         drawn.push_back(fabric::makeImage(
@@ -598,7 +598,7 @@ TEST(Plan, CopesWithWhateverABalancerOrAnEditorWrites) {
                 continue;
             }
             ++composed;
-            std::vector<fabric::Image> drawn;
+            std::vector<fabric::LentImage> drawn;
             std::int64_t pixels = 0;
             for (const PlannedDraw& draw : plan->draws) pixels += draw.task.pixelViewport.area();
             if (pixels > 200'000)

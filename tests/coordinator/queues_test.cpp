@@ -58,7 +58,7 @@ Plan planned(const config::Configuration& configuration, bool wantsDepth = false
 
 fabric::Image pictureOf(const Plan& plan) {
     const LayeredScene scene(4711, kWidth, kHeight);
-    std::vector<fabric::Image> drawn;
+    std::vector<fabric::LentImage> drawn;
     for (const PlannedDraw& draw : plan.draws) drawn.push_back(scene.draw(draw.task).image);
     return composePictures(plan, std::move(drawn), LayeredScene::kBackground).at(0);
 }

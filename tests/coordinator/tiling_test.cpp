@@ -60,7 +60,8 @@ PlanRequest anyRequest() {
 }
 
 fabric::Image composited(const Plan& plan, const LayeredScene& scene) {
-    return composePictures(plan, drawn(plan, scene), LayeredScene::kBackground).front();
+    std::vector<fabric::Image> images = drawn(plan, scene);
+    return composePictures(plan, {images.begin(), images.end()}, LayeredScene::kBackground).front();
 }
 
 RC_GTEST_PROP(Tiling, TreesOf2DCompoundsAreMadeOfTiles, (std::uint32_t seed)) {

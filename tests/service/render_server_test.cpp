@@ -33,6 +33,11 @@ ChannelRenderer::Clock::time_point soon() {
     return ChannelRenderer::Clock::now() + std::chrono::seconds(20);
 }
 
+/// Its picture, in messages or in memory.
+fabric::Image arrivedIn(const fabric::ChannelResult& result) {
+    return result.lent ? fabric::copied(result.lent->view()) : result.image;
+}
+
 class RenderServerTest : public testing::Test {
 protected:
     RenderServerTest()
@@ -61,7 +66,7 @@ TEST_F(RenderServerTest, APictureOfTwentyMegabytesArrivesAsItWasDrawn) {
     const auto result = renderer_->render(large, soon());
     ASSERT_TRUE(result.ok()) << result.status();
     const fabric::ChannelResult expected = FakeDrawer::picture(frameData(), large);
-    EXPECT_TRUE(result->image == expected.image);
+    EXPECT_TRUE(arrivedIn(*result) == expected.image);
     EXPECT_EQ(result->statistics, expected.statistics);
 }
 
@@ -178,9 +183,10 @@ TEST_F(HardCase24, WhateverBitsWereDrawnArriveInPicturesOfAnyShape) {
                     control_->image->depth.clear();
                 const auto arrived = renderer->render(whole, soon());
                 ASSERT_TRUE(arrived.ok()) << arrived.status();
-                EXPECT_EQ(arrived->image.area, drawn.area);
-                EXPECT_TRUE(isSame(arrived->image.colour, drawn.colour));
-                EXPECT_TRUE(isSame(arrived->image.depth, control_->image->depth));
+                const fabric::Image picture = arrivedIn(*arrived);
+                EXPECT_EQ(picture.area, drawn.area);
+                EXPECT_TRUE(isSame(picture.colour, drawn.colour));
+                EXPECT_TRUE(isSame(picture.depth, control_->image->depth));
                 control_->image = drawn;
             }
     }
@@ -218,7 +224,7 @@ TEST_F(RenderServerTest, MemoryThatIsNotThereIsAnsweredInMessages) {
         return isInMemory;
     };
     EXPECT_TRUE(answer());
-    EXPECT_TRUE(memory->take({0, 0, 64, 64}, false).value() ==
+    EXPECT_TRUE(fabric::copied(memory->picture({0, 0, 64, 64}, false).value()) ==
                 FakeDrawer::picture(frameData(), task(64, 64, false)).image);
     request.mutable_memory()->set_bytes(64 * 64 * 4 + 1);
     EXPECT_FALSE(answer());
@@ -250,7 +256,7 @@ TEST_F(RenderServerTest, PixelsDrawnIntoTheMemoryAreInItAndThoseThatDoNotFitAreI
         EXPECT_TRUE(reader->Finish().ok());
         EXPECT_EQ(bytes, fits ? 0U : 64U * 64 * 8);
         if (fits) {
-            EXPECT_TRUE(memory->take(drawn.area, true).value() == drawn);
+            EXPECT_TRUE(fabric::copied(memory->picture(drawn.area, true).value()) == drawn);
         }
     }
 }
@@ -266,7 +272,7 @@ TEST_F(RenderServerTest, OneThatHasNearlyDrawnTakesTheNextTask) {
     std::jthread first([&] {
         const auto drawn = renderer_->render(task(8, 8, true), soon(), {[&] { ++told; }, {}});
         ASSERT_TRUE(drawn.ok()) << drawn.status();
-        EXPECT_TRUE(drawn->image == FakeDrawer::picture(frameData(), task(8, 8, true)).image);
+        EXPECT_TRUE(arrivedIn(*drawn) == FakeDrawer::picture(frameData(), task(8, 8, true)).image);
     });
     ASSERT_TRUE(eventually([&] { return told == 1; }));
     EXPECT_EQ(control_->drawn, 0);
@@ -274,7 +280,7 @@ TEST_F(RenderServerTest, OneThatHasNearlyDrawnTakesTheNextTask) {
         const auto note = [&](std::chrono::nanoseconds time) { waited = time; };
         const auto drawn = renderer_->render(task(9, 7, false), soon(), {[&] { ++told; }, note});
         ASSERT_TRUE(drawn.ok()) << drawn.status();
-        EXPECT_TRUE(drawn->image == FakeDrawer::picture(frameData(), task(9, 7, false)).image);
+        EXPECT_TRUE(arrivedIn(*drawn) == FakeDrawer::picture(frameData(), task(9, 7, false)).image);
     });
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
     EXPECT_EQ(control_->begun, 1);
@@ -445,7 +451,7 @@ TEST_F(RenderServerTest, AStoppedChannelIsGivenUpByTheDrawerAndTheNextIsWhole) {
     control_->release();
     const auto next = renderer_->render(task(8, 8, true), soon());
     ASSERT_TRUE(next.ok()) << next.status();
-    EXPECT_TRUE(next->image == FakeDrawer::picture(frameData(), task(8, 8, true)).image);
+    EXPECT_TRUE(arrivedIn(*next) == FakeDrawer::picture(frameData(), task(8, 8, true)).image);
     EXPECT_EQ(control_->begun, 2);
     EXPECT_EQ(control_->drawn, 1);
 }

@@ -41,9 +41,10 @@ absl::StatusOr<fabric::Image> LocalPictures::draw(const coordinator::FrameReques
 
 absl::StatusOr<std::vector<fabric::Image>> LocalPictures::pictures(
     const coordinator::FrameRequest& view, const compound::Plan& plan) {
-    std::vector<fabric::Image> drawn;
+    std::vector<fabric::LentImage> drawn;
     for (const compound::PlannedDraw& each : plan.draws) {
-        ASSIGN_OR_RETURN(drawn.emplace_back(), draw(view, each.task));
+        ASSIGN_OR_RETURN(fabric::Image image, draw(view, each.task));
+        drawn.emplace_back(std::move(image));
     }
     return compound::composePictures(plan, std::move(drawn), background_);
 }
