@@ -195,6 +195,7 @@ void addServe(CLI::App& app, Run& run) {
     addQuotaOptions(*command, options->quotas);
     addConfigOptions(*command, options->config);
     addDoorOptions(*command, options->door);
+    addPeerOptions(*command, options->door);
     addVideoOption(*command, options->h264);
     addDecodeOption(*command, options->decoding);
     addCacheOptions(*command, options->cache);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <condition_variable>
+#include <cstdint>
+#include <limits>
 #include <mutex>
 #include <string_view>
 #include <thread>
@@ -13,6 +15,7 @@
 #include <grpcpp/create_channel.h>
 #include <grpcpp/security/credentials.h>
 
+#include "access/failed_handshakes.h"
 #include "eyrie/v1/registry_service.grpc.pb.h"
 #include "fabric/log.h"
 #include "fabric/version.h"
@@ -50,6 +53,20 @@ void sleepFor(std::chrono::milliseconds time, const std::stop_token& stop) {
     std::condition_variable_any wake;
     std::unique_lock lock(mutex);
     wake.wait_for(lock, stop, time, [] { return false; });
+}
+
+v1::PeersRefused since(const access::Refusals& before, const access::Refusals& now) {
+    const auto more = [](std::uint64_t from, std::uint64_t to) {
+        return static_cast<std::uint32_t>(
+            std::min<std::uint64_t>(to - from, std::numeric_limits<std::uint32_t>::max()));
+    };
+    v1::PeersRefused refused;
+    refused.set_no_token(more(before.missing, now.missing));
+    refused.set_wrong_token(more(before.wrong - before.limited, now.wrong - now.limited));
+    refused.set_too_many_wrong(more(before.limited, now.limited));
+    refused.set_forbidden(more(before.forbidden, now.forbidden));
+    refused.set_handshake(more(before.handshakes, now.handshakes));
+    return refused;
 }
 
 class Registration {
@@ -124,8 +141,22 @@ private:
     absl::Status sendHeartbeat(const std::stop_token& stop) {
         v1::HeartbeatRequest request;
         request.set_renderer_id(id_);
+        const access::Refusals now = turnedAway();
+        *request.mutable_refused() = since(told_, now);
         v1::HeartbeatResponse response;
-        return call(&v1::RegistryService::Stub::Heartbeat, request, response, stop);
+        absl::Status status = call(&v1::RegistryService::Stub::Heartbeat, request, response, stop);
+        if (status.ok())
+            told_ = now;
+        return status;
+    }
+
+    /// At this process's own port, so far.
+    access::Refusals turnedAway() const {
+        access::Refusals refusals;
+        if (options_.security.gate != nullptr)
+            refusals = options_.security.gate->refusals(access::Door::Grpc);
+        refusals.handshakes = access::FailedHandshakes::atGrpcPorts().soFar();
+        return refusals;
     }
 
     /// Until the coordinator has forgotten it, which is when nothing is left to do for it.
@@ -168,6 +199,7 @@ private:
     std::chrono::milliseconds heartbeat_{1000};
     Clock::time_point lastSeen_ = Clock::now();
     bool away_ = false;
+    access::Refusals told_ = {};  ///< to the coordinator
 };
 
 }  // namespace

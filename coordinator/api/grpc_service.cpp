@@ -52,6 +52,16 @@ absl::Status checkVersion(const v1::RegisterRendererRequest& request) {
     return absl::OkStatus();
 }
 
+access::Refusals refusalsOf(const v1::PeersRefused& refused) {
+    access::Refusals refusals;
+    refusals.missing = refused.no_token();
+    refusals.limited = refused.too_many_wrong();
+    refusals.wrong = refusals.limited + refused.wrong_token();
+    refusals.forbidden = refused.forbidden();
+    refusals.handshakes = refused.handshake();
+    return refusals;
+}
+
 class RegistryService final : public v1::RegistryService::CallbackService {
 public:
     RegistryService(Registry& registry, const GrpcOptions& options)
@@ -76,6 +86,8 @@ public:
         if (status.ok())
             status =
                 registry_.heartbeat(request->renderer_id().substr(0, 64), Registry::Clock::now());
+        if (status.ok() && telemetry_)
+            telemetry_->metrics.turnedAwayByRenderer(refusalsOf(request->refused()));
         reactor->Finish(wire::toGrpc(status));
         return reactor;
     }

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "access/failed_handshakes.h"
 #include "coordinator/http/status_json.h"
 
 namespace eyrie::http {
@@ -25,8 +26,11 @@ Response metricsResponse(observe::Telemetry& telemetry, const access::Gate* gate
             present[observe::rendererName(renderer.address)] = true;
     }
     if (gate != nullptr)
-        for (const access::Door door : {access::Door::Http, access::Door::Grpc})
-            telemetry.metrics.turnedAway(door, gate->refusals(door));
+        telemetry.metrics.turnedAway(access::Door::Http, gate->refusals(access::Door::Http));
+    access::Refusals grpc =
+        gate == nullptr ? access::Refusals() : gate->refusals(access::Door::Grpc);
+    grpc.handshakes = access::FailedHandshakes::atGrpcPorts().soFar();
+    telemetry.metrics.turnedAway(access::Door::Grpc, grpc);
     Response response;
     response.contentType = observe::Metrics::kContentType;
     response.body =

@@ -132,6 +132,7 @@ public:
         refused_.Add({{"reason", std::string(kOther)}});
         for (const access::Door door : {access::Door::Http, access::Door::Grpc})
             turnedAway(door, {});
+        turnedAwayByRenderer({});
         for (const Peer peer : {Peer::Http, Peer::WebSocket, Peer::Renderer}) {
             received_.Add({{"peer", nameOf(peer)}});
             if (peer != Peer::Renderer)  // what it is sent is small, and not counted
@@ -200,15 +201,14 @@ public:
     }
 
     void turnedAway(access::Door door, const access::Refusals& soFar) {
-        const auto set = [&](const char* reason, std::uint64_t count) {
-            Counter& counter = peersRefused_.Add(
-                {{"door", door == access::Door::Http ? "http" : "grpc"}, {"reason", reason}});
-            counter.Increment(std::max(0.0, static_cast<double>(count) - counter.Value()));
-        };
-        set("no_token", soFar.missing);
-        set("wrong_token", soFar.wrong - soFar.limited);
-        set("too_many_wrong", soFar.limited);
-        set("forbidden", soFar.forbidden);
+        forEachReason(door == access::Door::Http ? "http" : "grpc", soFar,
+                      [](Counter& counter, double count) {
+                          counter.Increment(std::max(0.0, count - counter.Value()));
+                      });
+    }
+    void turnedAwayByRenderer(const access::Refusals& since) {
+        forEachReason("renderer", since,
+                      [](Counter& counter, double count) { counter.Increment(count); });
     }
     void handshakeFailed() { handshakes_.Increment(); }
 
@@ -259,6 +259,19 @@ private:
     Gauge& gauge(const char* name, const char* help) { return gauges(name, help).Add({}); }
     Family<Histogram>& histograms(const char* name, const char* help) {
         return family(&prometheus::BuildHistogram, name, help);
+    }
+
+    /// `take` gets the counter of each reason and how often it is in `refusals`.
+    template <typename Take>
+    void forEachReason(const char* door, const access::Refusals& refusals, Take take) {
+        for (const auto& [reason, count] :
+             {std::pair("no_token", refusals.missing),
+              std::pair("wrong_token", refusals.wrong - refusals.limited),
+              std::pair("too_many_wrong", refusals.limited),
+              std::pair("forbidden", refusals.forbidden),
+              std::pair("handshake", refusals.handshakes)})
+            take(peersRefused_.Add({{"door", door}, {"reason", reason}}),
+                 static_cast<double>(count));
     }
 
     void forgetAbsent(const std::map<std::string, bool>& present) {
@@ -359,6 +372,9 @@ void Metrics::operationEnded(const absl::Status& status) { impl_->operationEnded
 void Metrics::refused(int status) { impl_->refused(status); }
 void Metrics::turnedAway(access::Door door, const access::Refusals& soFar) {
     impl_->turnedAway(door, soFar);
+}
+void Metrics::turnedAwayByRenderer(const access::Refusals& since) {
+    impl_->turnedAwayByRenderer(since);
 }
 void Metrics::handshakeFailed() { impl_->handshakeFailed(); }
 void Metrics::rendererHolds(const std::string& name, std::uint64_t deviceBytes,

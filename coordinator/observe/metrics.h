@@ -73,8 +73,10 @@ public:
     void operationEnded(const absl::Status& status);
     /// By HTTP status, 400 or more; others are not counted.
     void refused(int status);
-    /// What a gate has turned away so far at a door.
+    /// What has been turned away so far at a door.
     void turnedAway(access::Door door, const access::Refusals& soFar);
+    /// What a renderer has turned away at its own door since it last said so.
+    void turnedAwayByRenderer(const access::Refusals& since);
     void handshakeFailed();  ///< somebody who wanted an encrypted connection, by HTTPS
     /// What a renderer holds for its scene.
     void rendererHolds(const std::string& name, std::uint64_t deviceBytes, std::uint64_t hostBytes);

@@ -35,6 +35,8 @@ struct Refusals {
     std::uint64_t wrong = 0;      ///< brought what is not, or no longer, valid
     std::uint64_t limited = 0;    ///< of those: after too many wrong ones from its address
     std::uint64_t forbidden = 0;  ///< may do less than it asked for
+    /// Could not be spoken to encrypted. No gate's: FailedHandshakes' of gRPC's ports.
+    std::uint64_t handshakes = 0;
 
     bool operator==(const Refusals&) const = default;
 };

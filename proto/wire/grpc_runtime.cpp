@@ -8,7 +8,9 @@
 #include <grpc/support/log.h>
 #include <openssl/crypto.h>
 
+#include "access/failed_handshakes.h"
 #include "fabric/log.h"
+#include "wire/handshake_log.h"
 
 namespace eyrie::wire {
 namespace {
@@ -23,15 +25,40 @@ spdlog::logger& lastingLog() {
     return *log;
 }
 
+/// Less severe lines are HandshakeLog's alone. Written before there are any.
+gpr_log_severity least = GPR_LOG_SEVERITY_ERROR;
+
+/// The least severe line that GRPC_VERBOSITY, or gRPC where it says nothing, would have printed.
+gpr_log_severity leastPrinted() {
+    for (const auto severity : {GPR_LOG_SEVERITY_DEBUG, GPR_LOG_SEVERITY_INFO})
+        if (gpr_should_log(severity) != 0)
+            return severity;
+    return GPR_LOG_SEVERITY_ERROR;
+}
+
+void takeLine(gpr_log_func_args* entry) {
+    if (const auto warning = handshakeLog().note(entry->file, entry->message))
+        lastingLog().warn("{}", *warning);
+    if (entry->severity >= least)
+        lastingLog().debug("grpc: {} ({}:{})", entry->message, entry->file, entry->line);
+}
+
 }  // namespace
+
+HandshakeLog& handshakeLog() {
+    static HandshakeLog& log = *new HandshakeLog(access::FailedHandshakes::atGrpcPorts());
+    return log;
+}
 
 void startGrpc() {
     static std::once_flag once;
     std::call_once(once, [] {
         lastingLog();  // while there is one
-        gpr_set_log_function([](gpr_log_func_args* entry) {
-            lastingLog().debug("grpc: {} ({}:{})", entry->message, entry->file, entry->line);
-        });
+        handshakeLog();
+        gpr_log_verbosity_init();
+        least = leastPrinted();
+        gpr_set_log_function(takeLine);
+        gpr_set_log_verbosity(GPR_LOG_SEVERITY_DEBUG);  // what HandshakeLog reads; it is rare
         grpc_init();
     });
 }

@@ -15,6 +15,8 @@
 #include <grpcpp/server_builder.h>
 
 #include "fabric/status.h"
+#include "wire/grpc_runtime.h"
+#include "wire/handshake_log.h"
 
 namespace eyrie::wire {
 namespace {
@@ -108,8 +110,11 @@ absl::StatusOr<Listening> listen(const std::vector<std::string>& addresses,
             fmt::format("cannot listen on {}: it is in use, not an address of this machine, or not "
                         "permitted; choose another",
                         notBound(addresses, ports)));
-    for (std::size_t i = 0; i < addresses.size(); ++i)
+    for (std::size_t i = 0; i < addresses.size(); ++i) {
         listening.addresses.push_back(withPort(addresses[i], ports[i]));
+        if (security.tls && !addresses[i].starts_with(kUnix))
+            handshakeLog().watch(ports[i]);
+    }
     return listening;
 }
 

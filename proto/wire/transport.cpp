@@ -15,6 +15,9 @@ namespace {
 /// HTTP/2 frames and buffers as large as a chunk needs: fewer, larger system calls.
 constexpr int kFrameBytes = 4 << 20;
 
+/// For a handshake, TLS's and HTTP/2's, as at the door for browsers; gRPC's own is two minutes.
+constexpr int kHandshakeMilliseconds = 10'000;
+
 }  // namespace
 
 grpc::ChannelArguments clientArguments() {
@@ -44,6 +47,7 @@ void configureServer(grpc::ServerBuilder& builder) {
     builder.SetMaxReceiveMessageSize(kMaxMessageBytes);
     builder.SetMaxSendMessageSize(kMaxMessageBytes);
     builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
+    builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, kHandshakeMilliseconds);
     builder.AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS, 500);
     builder.AddChannelArgument(GRPC_ARG_HTTP2_MAX_PING_STRIKES, 0);
     builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_PERMIT_WITHOUT_CALLS, 1);

@@ -21,7 +21,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "access/rare_warnings.h"
 #include "coordinator/http/access.h"
 #include "coordinator/http/message_rate.h"
 #include "coordinator/http/server.h"
@@ -318,18 +317,6 @@ TEST_F(HttpAccess, WhoIsTurnedAwayIsCounted) {
     expectCount("handshake", 0);
     EXPECT_THAT(metrics,
                 HasSubstr("eyrie_peers_refused_total{door=\"grpc\",reason=\"wrong_token\"} 0\n"));
-}
-
-TEST(RareWarnings, AreOfEachAddressOnceAMinuteAndOfSoManyAddresses) {
-    access::RareWarnings warnings;
-    const access::RareWarnings::Clock::time_point now{seconds(1000)};
-    EXPECT_TRUE(warnings.isDue("10.0.0.1", now));
-    EXPECT_FALSE(warnings.isDue("10.0.0.1", now + seconds(59)));
-    EXPECT_TRUE(warnings.isDue("10.0.0.2", now + seconds(59)));
-    EXPECT_TRUE(warnings.isDue("10.0.0.1", now + seconds(60)));
-    int due = 0;
-    for (int i = 0; i < 5000; ++i) due += warnings.isDue(std::to_string(i), now + seconds(60));
-    EXPECT_LE(due, static_cast<int>(access::RareWarnings::kMaxAddresses));
 }
 
 TEST_F(HttpAccess, AnIdleConnectionMakesRoomAndOneBeingServedDoesNot) {

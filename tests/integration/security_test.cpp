@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/certificates.h"
 #include "tests/support/http_client.h"
 #include "tests/support/program.h"
 #include "tests/support/temporary_folder.h"
@@ -48,6 +49,7 @@ TEST_F(Doors, StayShutOnOpenAddressesUntilSomebodySaysWhoMayCome) {
     for (const std::vector<std::string>& command :
          {std::vector<std::string>{"serve", kScene, "--listen", "0.0.0.0:0"},
           {"serve", kScene, "--listen", ":0"},
+          {"serve", kScene, "--listen", "127.0.0.1:0", "--grpc", "0.0.0.0:0"},
           {"coordinator", kScene, "--listen", "[::]:0"},
           {"coordinator", kScene, "--listen", "127.0.0.1:0", "--grpc", "0.0.0.0:0"},
           {"renderer", "--coordinator", "127.0.0.1:1", "--listen", "0.0.0.0:0"}}) {
@@ -115,6 +117,152 @@ TEST_F(Doors, OpenToRenderersAndPagesThatHaveATokenAndToNobodyElse) {
         EXPECT_THAT(process->output() + process->errors(), Not(HasSubstr(kSecret)));
         EXPECT_THAT(process->output() + process->errors(), Not(HasSubstr("ffffffffffffffff")));
     }
+}
+
+/// The command line's part that shows `files`.
+std::vector<std::string> showing(const access::TlsFiles& files) {
+    return {"--tls-cert", files.certificate, "--tls-key", files.key, "--tls-ca", files.authority};
+}
+
+std::vector<std::string> operator+(std::vector<std::string> words,
+                                   const std::vector<std::string>& more) {
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
+
+/// curl from 127.0.0.`host`, in the way of gRPC. What comes.
+std::string curl(int host, const std::vector<std::string>& arguments) {
+    return test::run(
+               std::vector<std::string>{"/usr/bin/env", "curl", "--silent", "--http2", "--max-time",
+                                        "20", "--interface", fmt::format("127.0.0.{}", host)} +
+                   arguments,
+               seconds(30))
+        .output;
+}
+
+/// Who knocks at doors that ask for certificates of one authority.
+class CertificateDoors : public Doors {
+protected:
+    /// Plain text, no certificate, one of nobody's, and an expired one, each from an address of its
+    /// own: 127.0.0.`host` and the next three.
+    void knockWrongly(const std::string& port, int host) const {
+        const std::string place = "127.0.0.1:" + port;
+        curl(host, {"http://" + place});
+        const std::vector<std::string> believing = {"--cacert", authority_.file(),
+                                                    "https://" + place};
+        curl(host + 1, believing);
+        const access::TlsFiles foreign = other_.issue("foreign");
+        curl(host + 2, believing + std::vector<std::string>{"--cert", foreign.certificate, "--key",
+                                                            foreign.key});
+        const access::TlsFiles old = authority_.issue("old", {.validToSeconds = -1800});
+        curl(host + 3,
+             believing + std::vector<std::string>{"--cert", old.certificate, "--key", old.key});
+    }
+
+    /// Waits for /metrics to have `count` of them.
+    bool counts(const std::string& web, const std::string& door, int count) const {
+        const std::string line = fmt::format(
+            "eyrie_peers_refused_total{{door=\"{}\",reason=\"handshake\"}} {}\n", door, count);
+        return test::eventually(seconds(20), [&] {
+            return curl(1, {"--cacert", authority_.file(), "https://127.0.0.1:" + web + "/metrics"})
+                       .find(line) != std::string::npos;
+        });
+    }
+
+    static void expectTold(const test::Process& process, int host) {
+        const auto told = [&](int from, const std::string& why) {
+            const std::string line =
+                fmt::format("no encrypted connection with 127.0.0.{}: {}; more", from, why);
+            EXPECT_TRUE(test::eventually(
+                seconds(10), [&] { return process.errors().find(line) != std::string::npos; }))
+                << line << "\n"
+                << process.errors();
+        };
+        told(host, "http request");
+        told(host + 1, "peer did not return a certificate");
+        told(host + 2, "certificate verify failed");
+        told(host + 3, "certificate verify failed");
+    }
+
+    const test::Authority authority_{"the authority"};
+    const test::Authority other_{"another authority"};
+};
+
+TEST_F(CertificateDoors, OfCoordinatorAndRenderersCountAndTellWhomTheyRefuse) {
+    const std::vector<std::string> mutual = showing(authority_.issue("node"));
+    test::Process coordinator(
+        test::eyrieCommand(std::vector<std::string>{"coordinator", kScene, "--listen",
+                                                    "127.0.0.1:0", "--grpc", "127.0.0.1:0"} +
+                           mutual),
+        environment());
+    ASSERT_TRUE(coordinator.waitForOutput("Renderers register at", seconds(120)) &&
+                coordinator.waitForOutput("\n", seconds(5)))
+        << coordinator.errors();
+    const std::string grpc = portAfter(coordinator.output(), "Renderers register at");
+    const std::string web = portAfter(coordinator.output(), "Eyrie is at");
+    EXPECT_TRUE(counts(web, "grpc", 0));
+    knockWrongly(grpc, 2);
+    expectTold(coordinator, 2);
+    EXPECT_TRUE(counts(web, "grpc", 4));
+    curl(2, {"http://127.0.0.1:" + grpc});  // once more
+    EXPECT_TRUE(counts(web, "grpc", 5));
+    const std::string log = coordinator.errors();
+    EXPECT_EQ(log.find("with 127.0.0.2: "), log.rfind("with 127.0.0.2: ")) << log;
+
+    test::Process renderer(
+        test::eyrieCommand(
+            std::vector<std::string>{"renderer", "--coordinator", "127.0.0.1:" + grpc} + mutual),
+        environment());
+    ASSERT_TRUE(test::eventually(seconds(60), [&] {
+        return renderer.errors().find("registered with the") != std::string::npos;
+    })) << renderer.errors();
+    knockWrongly(portAfter(renderer.errors(), "drawing with"), 12);
+    expectTold(renderer, 12);
+    EXPECT_TRUE(counts(web, "renderer", 4));
+    EXPECT_TRUE(counts(web, "grpc", 5)) << "those at a renderer are not the coordinator's";
+}
+
+TEST_F(CertificateDoors, OfServeOpenToProgramsByCertificatesAloneAndTakeReplacedOnes) {
+    const access::TlsFiles files = authority_.issue("serve");
+    const std::vector<std::string> command = {"serve",  kScene,      "--listen",    "127.0.0.1:0",
+                                              "--grpc", "0.0.0.0:0", "--renderers", "1"};
+    const test::Outcome oneSided = test::eyrie(
+        command + std::vector<std::string>{"--tls-cert", files.certificate, "--tls-key", files.key},
+        environment());
+    EXPECT_EQ(oneSided.exit, (test::Exit{2, 0})) << "nobody shows who calls";
+    EXPECT_THAT(oneSided.errors, HasSubstr("--tls-ca"));
+
+    test::Process serve(test::eyrieCommand(command + showing(files)), environment());
+    ASSERT_TRUE(serve.waitForOutput("Programs call by gRPC at", seconds(120)) &&
+                serve.waitForOutput("\n", seconds(5)))
+        << serve.errors();
+    EXPECT_THAT(serve.errors(), Not(HasSubstr("everybody who reaches this address")));
+    const std::string port = portAfter(serve.output(), "Programs call by gRPC at");
+    const auto health = [&](const std::vector<std::string>& more) {
+        return test::eyrie(
+                   std::vector<std::string>{"health", "127.0.0.1:" + port, "--limit", "30"} + more)
+            .exit;
+    };
+    const std::vector<std::string> known = showing(authority_.issue("program"));
+    EXPECT_EQ(health(known), (test::Exit{0, 0}));
+    EXPECT_EQ(health({"--tls-ca", files.authority}), (test::Exit{1, 0})) << "shows none";
+    EXPECT_EQ(health({}), (test::Exit{1, 0})) << "in the clear";
+    knockWrongly(port, 2);
+    expectTold(serve, 2);
+
+    // For another host, so that it shows which one is used.
+    authority_.issue("serve", {.name = "elsewhere.example"});
+    const std::vector<std::string> elsewhere =
+        known + std::vector<std::string>{"--tls-name", "elsewhere.example"};
+    EXPECT_TRUE(test::eventually(seconds(20), [&] {
+        return health(elsewhere) == test::Exit{0, 0};
+    })) << "the new certificate is not taken";
+    EXPECT_EQ(health(known), (test::Exit{1, 0}));
+    EXPECT_THAT(
+        curl(1, {"--cacert", files.authority, "--insecure",
+                 "https://127.0.0.1:" + portAfter(serve.output(), "Eyrie is at") + "/readyz"}),
+        HasSubstr("\"ready\""))
+        << "the renderers, which serve started, are still there";
 }
 
 }  // namespace

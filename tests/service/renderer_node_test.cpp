@@ -50,11 +50,20 @@ public:
     grpc::Status Heartbeat(grpc::ServerContext*, const v1::HeartbeatRequest* request,
                            v1::HeartbeatResponse*) override {
         heartbeats += request->renderer_id() == "r7" ? 1 : 0;
+        if (unheard > 0 && request->refused().wrong_token() > 0) {
+            --unheard;
+            return {grpc::StatusCode::UNAVAILABLE, "not heard"};
+        }
+        wrongTokens += request->refused().wrong_token();
+        noTokens += request->refused().no_token();
         return grpc::Status::OK;
     }
 
     std::atomic<int> registrations{0};
     std::atomic<int> heartbeats{0};
+    std::atomic<int> unheard{0};  ///< heartbeats with wrong tokens that fail
+    std::atomic<std::uint32_t> wrongTokens{0};
+    std::atomic<std::uint32_t> noTokens{0};
 };
 
 class RendererNodeTest : public testing::Test {
@@ -72,8 +81,9 @@ protected:
         door_.reset();
         registry_.reset();
     }
-    void startNode(bool exitWithCoordinator = false) {
+    void startNode(bool exitWithCoordinator = false, const wire::Security& security = {}) {
         RendererNodeOptions options;
+        options.security = security;
         options.coordinator = "unix:" + folder_.path("s");
         options.node = "left";
         options.exitWithCoordinator = exitWithCoordinator;
@@ -124,6 +134,31 @@ TEST_F(RendererNodeTest, RegistersOnceAndThenSendsHeartbeats) {
     startNode();
     EXPECT_TRUE(eventually([&] { return service.heartbeats >= 5; }));
     EXPECT_EQ(service.registrations, 1);
+    runner_.request_stop();
+    runner_.join();
+}
+
+TEST_F(RendererNodeTest, TellsTheCoordinatorOnceOfEachThatItTurnedAway) {
+    CountingCoordinator service;
+    service.unheard = 2;
+    const auto listening = wire::listen({"unix:" + folder_.path("s")}, service).value();
+    wire::Security security;
+    security.gate = std::make_shared<access::Gate>(
+        *access::Tokens::parse("admin admin-0123456789abcdef0123456789\n", "t"));
+    const auto comesWith = [&](const char* authorization) {
+        return security.gate->admit({authorization, {}, access::Door::Grpc}, "10.0.0.1",
+                                    access::Role::Admin);
+    };
+    EXPECT_FALSE(comesWith("").ok());  // before it has registered
+    startNode(false, security);
+    EXPECT_TRUE(eventually([&] { return service.noTokens == 1; }));
+    for (int i = 0; i < 3; ++i) EXPECT_FALSE(comesWith("Bearer wrong").ok());
+    EXPECT_TRUE(eventually([&] { return service.wrongTokens == 3; })) << service.wrongTokens;
+    const int heartbeats = service.heartbeats;
+    EXPECT_TRUE(eventually([&] { return service.heartbeats >= heartbeats + 5; }));
+    EXPECT_EQ(service.unheard, 0);
+    EXPECT_EQ(service.wrongTokens, 3U);
+    EXPECT_EQ(service.noTokens, 1U);
     runner_.request_stop();
     runner_.join();
 }

@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "access/gate.h"
 #include "tests/support/json.h"
 
 namespace eyrie::observe {
@@ -109,6 +110,33 @@ TEST(Metrics, TellsCallsAndOperationsByTheirEnds) {
     EXPECT_THAT(text, HasSubstr("eyrie_operations_total{result=\"done\"} 1\n"));
     EXPECT_THAT(text, HasSubstr("eyrie_operations_total{result=\"failed\"} 2\n"));
     EXPECT_THAT(text, HasSubstr("eyrie_operations_total{result=\"cancelled\"} 1\n"));
+}
+
+TEST(Metrics, TellsWhoWasTurnedAwayAtWhichDoor) {
+    Metrics metrics;
+    access::Refusals refusals{7, 5, 2, 1, 3};
+    metrics.turnedAway(access::Door::Grpc, refusals);
+    refusals.handshakes = 4;
+    metrics.turnedAway(access::Door::Grpc, refusals);                           // so far
+    for (int i = 0; i < 2; ++i) metrics.turnedAwayByRenderer({1, 3, 1, 0, 5});  // since then
+    metrics.handshakeFailed();
+    const std::string text = scraped(metrics);
+    const auto expectCount = [&](const std::string& door, const std::string& reason, int count) {
+        EXPECT_THAT(text, HasSubstr("eyrie_peers_refused_total{door=\"" + door + "\",reason=\"" +
+                                    reason + "\"} " + std::to_string(count) + "\n"));
+    };
+    expectCount("grpc", "no_token", 7);
+    expectCount("grpc", "wrong_token", 3);
+    expectCount("grpc", "too_many_wrong", 2);
+    expectCount("grpc", "forbidden", 1);
+    expectCount("grpc", "handshake", 4);
+    expectCount("renderer", "no_token", 2);
+    expectCount("renderer", "wrong_token", 4);
+    expectCount("renderer", "too_many_wrong", 2);
+    expectCount("renderer", "forbidden", 0);
+    expectCount("renderer", "handshake", 10);
+    expectCount("http", "no_token", 0);
+    expectCount("http", "handshake", 1);
 }
 
 TEST(Metrics, ForgetsRenderersThatAreGone) {
