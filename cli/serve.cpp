@@ -207,6 +207,9 @@ void addServe(CLI::App& app, Run& run) {
         "  eyrie serve https://data.example/dem.eyt\n"
         "  eyrie serve scene.json --listen 0.0.0.0:8080 --token-file tokens\n"
         "  eyrie serve scan.ply --config powerwall.eqc\n"
+        "  eyrie serve scan.ply --grpc 0.0.0.0:9090 --tls-cert viz.crt --tls-key viz.key \\\n"
+        "      --tls-ca ca.crt\n"
+        "With --tls-ca who calls at --grpc has to show a certificate of that authority.\n"
         "Ctrl-C ends it.");
     command->callback([options, &run] { run = [options] { return serve(*options); }; });
 }

@@ -25,7 +25,7 @@ std::optional<std::string> whyHandshakeFailed(std::string_view error);
 /// either end of a connection, and chttp2_server.cc's, at ours, which counts it. Neither names the
 /// peer. But before the second gRPC has shut the connection down, and has not yet closed it: whose
 /// is shut then is the peer, or one of several. Another gRPC may word it otherwise; then nothing
-/// is counted, and GrpcTls.CountsAndTellsOfEveryPeerThatDoesNotGetIn fails.
+/// is counted, and GrpcHandshakes.* fail. docs/decisions/0090-handshakes-in-grpcs-log.md
 ///
 /// All functions may be called from any thread.
 class HandshakeLog {
