@@ -122,20 +122,20 @@ TEST_P(GrpcHandshakes, AreCountedOfEveryPeerThatIsRefusedAndOfNoOther) {
     {
         tcp::socket socket = connect();
         asio::write(socket, asio::buffer(std::string("PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n")));
-        EXPECT_TRUE(becomes(1)) << "in the clear";
+        ASSERT_TRUE(becomes(1)) << "in the clear";
     }
     EXPECT_FALSE(getsIn({"", "", authority_.file()}));
-    EXPECT_TRUE(becomes(2)) << "shows no certificate";
+    ASSERT_TRUE(becomes(2)) << "shows no certificate";
     access::TlsFiles foreign = other_.issue("client");
     foreign.authority = authority_.file();
     EXPECT_FALSE(getsIn(foreign));
-    EXPECT_TRUE(becomes(3)) << "shows one of another authority";
+    ASSERT_TRUE(becomes(3)) << "shows one of another authority";
     EXPECT_FALSE(getsIn(authority_.issue("old", {.validToSeconds = -1800})));
-    EXPECT_TRUE(becomes(4)) << "shows one that has expired";
+    ASSERT_TRUE(becomes(4)) << "shows one that has expired";
     access::TlsFiles disbelieving = authority_.issue("client");
     disbelieving.authority = other_.file();
     EXPECT_FALSE(getsIn(disbelieving));
-    EXPECT_TRUE(becomes(5)) << "does not believe the server's, and says so";
+    ASSERT_TRUE(becomes(5)) << "does not believe the server's, and says so";
     EXPECT_TRUE(getsIn(authority_.issue("client")));
     EXPECT_EQ(failedSoFar() - before, 5U);
 }
