@@ -220,6 +220,7 @@ private:
         for (const Frame& frame : compound.inputFrames)
             own.inputFrames.push_back({nameOf(frame), false, &frame});
         own.tasks = tasksOf(compound, own);
+        warnOfUnusedFrames(compound);
         if (own.tasks.draw)
             addSights(own);
     }
@@ -264,6 +265,19 @@ private:
             own.eyes.isEmpty())
             return {};
         return tasks;
+    }
+
+    /// Frames whose tasks somebody left out.
+    void warnOfUnusedFrames(const Compound& compound) {
+        const auto warn = [this](const std::vector<Frame>& frames, const char* what) {
+            for (const Frame& frame : frames) findings_.warning(frame.place, what);
+        };
+        if (compound.tasks && !compound.tasks->assemble)
+            warn(compound.inputFrames,
+                 "the compound's task has no ASSEMBLE: the inputframe has no effect");
+        if (compound.tasks && !compound.tasks->readback)
+            warn(compound.outputFrames,
+                 "the compound's task has no READBACK: the outputframe stays empty");
     }
 
     bool isChannelOfAncestor(const ResolvedCompound& own) const {

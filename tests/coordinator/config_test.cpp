@@ -293,6 +293,25 @@ TEST(EqcWarnings, NameQueuesThatNobodyMakesOrTakes) {
               "draws all of its part\n");
 }
 
+TEST(EqcWarnings, NameFramesThatTheTasksLeaveOut) {
+    const auto found = [](const std::string& ofWhole, const std::string& ofPart) {
+        return describe(
+            Read(withCompounds("compound { channel ( segment 0 view 0 ) " + ofWhole +
+                               "\n compound { channel \"b\" " + ofPart +
+                               " outputframe { name \"f\" } }\n inputframe { name \"f\" } }"))
+                .findings,
+            "f");
+    };
+    EXPECT_EQ(found("task [ CLEAR ASSEMBLE ]", "task [ CLEAR DRAW READBACK ]"), "");
+    EXPECT_EQ(found("", ""), "");
+    EXPECT_EQ(
+        found("task [ CLEAR ]", ""),
+        "f:3:2: warning: the compound's task has no ASSEMBLE: the inputframe has no effect\n");
+    EXPECT_EQ(
+        found("", "task [ CLEAR DRAW ]"),
+        "f:2:45: warning: the compound's task has no READBACK: the outputframe stays empty\n");
+}
+
 TEST(EqcWarnings, SayInWhichFramesNothingIsDrawn) {
     const auto found = [](const std::string& children) {
         return describe(
