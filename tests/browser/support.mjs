@@ -154,12 +154,14 @@ export class Browser {
   /** Waits until nothing more will be drawn. */
   async settled() {
     for (;;) {
-      await this.until(() => window.eyrie?.exact === true);
+      await this.until(() => window.eyrie?.exact === true && !window.eyrie.waitingMilliseconds);
       await this.eased();
-      // The picture before a change is at rest, too, until the first one after it comes.
+      // The picture before a change is at rest, too, until the page has sent it.
       const before = await this.page.evaluate(() => window.eyrie.frameNumber);
       await this.page.waitForTimeout(250);
-      const after = await this.page.evaluate(() => window.eyrie.exact && window.eyrie.frameNumber);
+      const after = await this.page.evaluate(
+        () => window.eyrie.exact && !window.eyrie.waitingMilliseconds && window.eyrie.frameNumber,
+      );
       if (after === before) return;
     }
   }
