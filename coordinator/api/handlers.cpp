@@ -40,7 +40,6 @@ void Handlers::note(std::string_view name, const absl::Status& status) const {
                         absl::IsInternal(status) || absl::IsUnknown(status);
     if (!isOurs)
         return;
-    const std::lock_guard lock(toldMutex_);
     if (told_.isDue(fmt::format("{} {}", name, static_cast<int>(status.code())),
                     access::RareWarnings::Clock::now()))
         spdlog::warn("{} cannot be answered: {}; more such within a minute are not told", name,

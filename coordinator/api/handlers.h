@@ -4,7 +4,6 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <stop_token>
 #include <string>
 #include <string_view>
@@ -86,8 +85,7 @@ private:
 
     QuotaKeeper& quotas_;
     const observe::SharedTelemetry telemetry_;
-    mutable std::mutex toldMutex_;
-    mutable access::RareWarnings told_;  ///< guarded by toldMutex_
+    mutable access::RareWarnings told_;
     std::map<std::string, Handler, std::less<>> table_;
     std::map<std::string, Opener, std::less<>> streams_;
 };

@@ -42,7 +42,6 @@ absl::Status QuotaKeeper::counted(observe::Quota quota, absl::Status status) con
     if (telemetry_ != nullptr)
         telemetry_->metrics.overQuota(quota);
     const std::string name(observe::nameOf(quota));
-    const std::lock_guard lock(toldMutex_);
     if (told_.isDue(name, access::RareWarnings::Clock::now()))
         spdlog::warn(
             "a call is refused by the quota '{}': {}; more such within a minute "

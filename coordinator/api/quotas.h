@@ -79,8 +79,7 @@ private:
     const Quotas quotas_;
     const observe::SharedTelemetry telemetry_;
     CallRate rate_;
-    mutable std::mutex toldMutex_;
-    mutable access::RareWarnings told_;  ///< guarded by toldMutex_
+    mutable access::RareWarnings told_;
 };
 
 }  // namespace eyrie::api

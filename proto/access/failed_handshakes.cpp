@@ -11,11 +11,8 @@ std::optional<std::string> FailedHandshakes::warning(const std::optional<std::st
                                                      std::string_view reason,
                                                      Clock::time_point now) {
     const std::string who = address.value_or("a peer that has hung up");
-    {
-        const std::lock_guard lock(mutex_);
-        if (!warnings_.isDue(who, now))
-            return std::nullopt;
-    }
+    if (!warnings_.isDue(who, now))
+        return std::nullopt;
     return fmt::format(
         "no encrypted connection with {}: {}; more from there within a minute are not told", who,
         printable(reason));

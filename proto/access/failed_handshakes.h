@@ -3,7 +3,6 @@
 
 #include <atomic>
 #include <cstdint>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -33,7 +32,6 @@ public:
 
 private:
     std::atomic<std::uint64_t> count_{0};
-    std::mutex mutex_;  ///< guards warnings_
     RareWarnings warnings_;
 };
 
