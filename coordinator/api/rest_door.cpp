@@ -224,7 +224,7 @@ RestAnswer RestDoor::answer(const RestRequest& request) const {
     return changes(found.route->rest) ? change(request, found) : call(request, found);
 }
 
-RestAnswer RestDoor::call(const RestRequest& request, const FoundRoute& found, bool isNoted) const {
+RestDoor::Made RestDoor::make(const RestRequest& request, const FoundRoute& found) const {
     const auto asked = newMessage(found.route->call->input_type());
     const auto made = newMessage(found.route->call->output_type());
     const v1::Rest& rest = found.route->rest;
@@ -234,14 +234,18 @@ RestAnswer RestDoor::call(const RestRequest& request, const FoundRoute& found, b
     if (status.ok())
         status = handlers_.handle(found.route->call->name(), *asked, *made,
                                   {request.stop, asText, &room});
-    if (isNoted)
-        handlers_.note(found.route->call->name(), status);
     if (!status.ok())
-        return problem(status, httpStatusOf(status.code()), asked->GetDescriptor());
+        return {status, problem(status, httpStatusOf(status.code()), asked->GetDescriptor())};
     RestAnswer answer = asText ? jsonAnswer(*made, rest, room) : bytesOf(made, rest.bytes(), room);
     if (rest.method() == "GET")
         tag(request, answer);
-    return answer;
+    return {status, std::move(answer)};
+}
+
+RestAnswer RestDoor::call(const RestRequest& request, const FoundRoute& found) const {
+    Made made = make(request, found);
+    handlers_.note(found.route->call->name(), made.status);
+    return std::move(made.answer);
 }
 
 RestAnswer RestDoor::change(const RestRequest& request, const FoundRoute& found) const {
@@ -272,7 +276,7 @@ std::string RestDoor::tagAt(const RestRequest& change) const {
         findRoute(request.method, std::string_view(request.target).substr(kPrefix.size()));
     if (found.route == nullptr)
         return "";
-    const RestAnswer answer = call(request, found, false);  // nobody has asked for it
+    const RestAnswer answer = make(request, found).answer;  // of which nobody is told
     const auto isTag = [](const auto& header) { return header.first == "ETag"; };
     const auto tag = std::ranges::find_if(answer.headers, isTag);
     return tag == answer.headers.end() ? "" : tag->second;

@@ -60,7 +60,13 @@ public:
     std::optional<RestAnswer> refusal(std::string_view address) const;
 
 private:
-    RestAnswer call(const RestRequest& request, const FoundRoute& found, bool isNoted = true) const;
+    /// What a call has made, and how it ended.
+    struct Made {
+        absl::Status status;
+        RestAnswer answer;
+    };
+    Made make(const RestRequest& request, const FoundRoute& found) const;
+    RestAnswer call(const RestRequest& request, const FoundRoute& found) const;
     RestAnswer change(const RestRequest& request, const FoundRoute& found) const;
     RestAnswer stream(const RestRequest& request, const FoundRoute& found,
                       google::protobuf::Message& asked) const;
