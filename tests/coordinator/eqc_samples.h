@@ -13,13 +13,22 @@
 #include "coordinator/config/eqc_reader.h"
 #include "coordinator/config/resolved.h"
 
-/// Equalizer's own example files.
+/// Equalizer's own example files, and made ones.
 namespace eyrie::config {
 
 inline std::string contents(const std::filesystem::path& path) {
     std::ifstream in(path, std::ios::binary);
     EXPECT_TRUE(in) << path << " is missing";
     return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// A configuration with one channel of 640 x 480, one view, and these compounds.
+inline std::string withCompounds(const std::string& compounds) {
+    return "config { appNode { pipe { window { viewport [ 0 0 640 480 ]"
+           " channel { name \"a\" } channel { name \"b\" } } } }"
+           " observer {} layout { view { observer 0 } }"
+           " canvas { layout 0 wall {} segment { channel \"a\" } } " +
+           compounds + " }";
 }
 
 struct Read {
@@ -45,6 +54,15 @@ inline std::vector<std::string> samples() {
             names.push_back(entry.path().filename().string());
     std::ranges::sort(names);
     return names;
+}
+
+inline std::string firstError(const std::string& text) {
+    const Read read(text);
+    for (const Finding& finding : read.findings.all())
+        if (finding.kind == Finding::Kind::Error)
+            return std::to_string(finding.place.line) + ":" + std::to_string(finding.place.column) +
+                   " " + finding.message;
+    return "none";
 }
 
 }  // namespace eyrie::config

@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is said of configurations that are wrong, or have no effect.
+#include <set>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "eqc_samples.h"
+
+namespace eyrie::config {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(EqcErrors, AreAllFoundWithLineAndColumn) {
+    const Read read(
+        "config\n"
+        "{\n"
+        "    latency -1\n"
+        "    appNode { pipe { device x window { channel { name 5 } } } }\n"
+        "    layout { view { observer \"none\" mode SIDE } }\n"
+        "}\n");
+    EXPECT_EQ(describe(read.findings, "f"),
+              "f:3:5: error: 'latency' is -1; expected a whole number from 0 to 1000\n"
+              "f:4:22: error: 'device' is x; expected a whole number from 0 to 1000000000\n"
+              "f:4:50: error: 'name' is 5; expected a text in quotes\n"
+              "f:5:30: error: no observer named \"none\" is defined before this\n"
+              "f:5:37: error: 'mode' is SIDE; expected MONO or STEREO\n");
+}
+
+TEST(EqcErrors, NameWhatIsOpenClosedOrStray) {
+    EXPECT_THAT(firstError("config { appNode {"), HasSubstr("1:18 what opens here"));
+    EXPECT_THAT(firstError("config { } }"), HasSubstr("1:12 '}' closes nothing"));
+    EXPECT_THAT(firstError("config { name \"x\n }"), HasSubstr("1:15 no '\"' ends"));
+    EXPECT_THAT(firstError("config { @ }"), HasSubstr("1:10 the byte 0x40"));
+    EXPECT_THAT(firstError("config { latency }"), HasSubstr("1:10 'latency' has no value"));
+    EXPECT_THAT(firstError("config { { } }"), HasSubstr("'{' belongs to no keyword"));
+    EXPECT_THAT(firstError("config { layout { view { viewport [ 0 0 1 } } }"),
+                HasSubstr("expected [ x y width height ]"));
+    EXPECT_THAT(firstError(""), HasSubstr("there is no config"));
+    EXPECT_THAT(firstError("#Equalizer 2.0 ascii\nconfig {}"), HasSubstr("version 2.0"));
+}
+
+TEST(EqcErrors, AreFoundHoweverDeepBlocksLie) {
+    std::string deep = "config ";
+    for (int i = 0; i < 100'000; ++i) deep += "{ compound ";
+    EXPECT_THAT(firstError(deep), HasSubstr("blocks within each other"));
+}
+
+TEST(EqcErrors, AreImpossibleShares) {
+    for (const auto& [compound, message] : std::vector<std::pair<std::string, std::string>>{
+             {"range [ .5 .2 ]", "0 <= begin <= end <= 1"},
+             {"range [ 0 2 ]", "0 <= begin <= end <= 1"},
+             {"viewport [ 0 0 2 1 ]", "a part of [ 0 0 1 1 ]"},
+             {"viewport [ 0 0 0 1 ]", "a width and a height above 0"},
+             {"pixel [ 2 0 2 1 ]", "x < width"},
+             {"subpixel [ 4 4 ]", "index < count"},
+             {"zoom [ 0 1 ]", "above 0"},
+             {"period 2 phase 2", "phase 2 of a period of 2"},
+             {"channel \"c\"", "no channel named \"c\""},
+             {"channel ( segment 4 )", "no segment 4: 1 are defined"},
+             {"channel ( view \"v\" )", "no view named \"v\""},
+             {"} layout {} compound { channel ( layout 1 )", "first segment or view of what has"},
+             {"wall { bottom_left [ 0 0 0 ] bottom_right [ 1 0 0 ] top_left [ 1 1 0 ] }",
+              "right angle"},
+             {"projection { distance 0 }", "above 0"},
+             {"load_equalizer { damping 2 }", "from 0 to 1"},
+             {"load_equalizer { boundary 1.5 }", "a share from 0 to 1"},
+             {"load_equalizer { resistance [ -1 2 ] }", "2 whole numbers"},
+             {"load_equalizer { assemble_only_limit 0 }", "above 0"},
+             {"tile_equalizer { size 1.5 }", "a share above 0, 1 at most"},
+             {"tile_equalizer { size [ 0 4 ] }", "a pixel or more"},
+             {"DFR_equalizer { framerate 0 }", "above 0"}})
+        EXPECT_THAT(firstError(withCompounds("compound { " + compound + " }")), HasSubstr(message))
+            << compound;
+}
+
+TEST(EqcErrors, AreEyesThatAreNotBeforeTheirWall) {
+    EXPECT_THAT(firstError("config { appNode { pipe { window { channel { name \"a\" } } } }"
+                           " observer { eye_cyclop [ 0 0 -2 ] } layout { view { observer 0 } }"
+                           " canvas { layout 0 wall {} segment { channel \"a\" } } }"),
+                HasSubstr("not before the wall"));
+}
+
+TEST(EqcWarnings, SayWhatHasNoEffect) {
+    const Read read(withCompounds("nonsense 5 compound { inputframe { name \"x\" } }"));
+    EXPECT_FALSE(read.findings.hasErrors());
+    const std::string text = describe(read.findings, "f");
+    EXPECT_THAT(text, HasSubstr("'nonsense' means nothing in a config"));
+    EXPECT_THAT(text, HasSubstr("no outputframe of this compound tree is named \"x\""));
+    EXPECT_THAT(describe(sample("1-pipe.eqc").findings, "f"),
+                HasSubstr("on screen only: 'EQ_WINDOW_IATTR_HINT_FULLSCREEN'"));
+}
+
+/// Every setting of a configuration, wherever it stands.
+std::vector<Attribute> settingsOf(const Configuration& configuration) {
+    std::vector<Attribute> all;
+    const auto add = [&all](const Attributes& some) {
+        all.insert(all.end(), some.begin(), some.end());
+    };
+    add(configuration.globals);
+    add(configuration.attributes);
+    for (const Layout& layout : configuration.layouts)
+        for (const View& view : layout.views) add(view.attributes);
+    for (const Node& node : configuration.nodes) {
+        add(node.attributes);
+        for (const Pipe& pipe : node.pipes) {
+            add(pipe.attributes);
+            for (const Window& window : pipe.windows) {
+                add(window.attributes);
+                for (const Channel& channel : window.channels) add(channel.attributes);
+            }
+        }
+    }
+    return all;
+}
+
+/// As it is written.
+std::string written(const Attribute& setting) {
+    std::string text = setting.name;
+    if (const auto* number = std::get_if<std::int64_t>(&setting.value))
+        text += " " + std::to_string(*number);
+    if (const auto* words = std::get_if<Attribute::Words>(&setting.value))
+        for (const std::string& word : words->words) text += " " + word;
+    return text;
+}
+
+bool isFound(const Findings& findings, const Attribute& setting) {
+    return std::ranges::any_of(findings.all(), [&](const Finding& each) {
+        return each.place.line == setting.place.line && each.place.column == setting.place.column &&
+               each.message.starts_with("'" + setting.name + "' has no effect here: ");
+    });
+}
+
+TEST(EqcWarnings, AreOfEverySettingOfEqualizersFilesThatHasNoEffect) {
+    const std::set<std::string> withEffect = {"eye_base", "EQ_CONFIG_FATTR_EYE_BASE",
+                                              "EQ_COMPOUND_IATTR_STEREO_MODE",
+                                              "EQ_COMPOUND_IATTR_STEREO_ANAGLYPH_LEFT_MASK",
+                                              "EQ_COMPOUND_IATTR_STEREO_ANAGLYPH_RIGHT_MASK"};
+    const std::set<std::string> soAnyway = {"EQ_CONNECTION_IATTR_TYPE TCPIP",
+                                            "EQ_PIPE_IATTR_HINT_AFFINITY AUTO",
+                                            "EQ_PIPE_IATTR_HINT_THREAD ON",
+                                            "EQ_WINDOW_IATTR_HINT_DRAWABLE FBO",
+                                            "EQ_WINDOW_IATTR_HINT_STEREO OFF",
+                                            "EQ_WINDOW_IATTR_PLANES_ALPHA 8",
+                                            "EQ_WINDOW_IATTR_PLANES_COLOR 8",
+                                            "EQ_WINDOW_IATTR_PLANES_DEPTH 24",
+                                            "hint_doublebuffer AUTO",
+                                            "hint_drawable FBO",
+                                            "hint_stereo AUTO",
+                                            "planes_alpha 4",
+                                            "planes_color 4",
+                                            "planes_depth 16",
+                                            "planes_depth ON",
+                                            "planes_samples OFF",
+                                            "planes_stencil OFF"};
+    std::set<std::string> silent;
+    for (const std::string& name : samples()) {
+        const Read read = sample(name);
+        for (const Attribute& each : settingsOf(read.configuration)) {
+            const bool isSaid = isFound(read.findings, each);
+            EXPECT_FALSE(isSaid && withEffect.contains(each.name)) << name << ": " << each.name;
+            if (!isSaid && !withEffect.contains(each.name))
+                silent.insert(written(each));
+        }
+    }
+    EXPECT_EQ(silent, soAnyway);
+}
+
+TEST(EqcWarnings, OfWhatHasNoEffectComeLastAndOnceForAllPlaces) {
+    const Read read(
+        "config {\n"
+        " appNode { pipe { device 1 window { attributes { planes_samples 4 }\n"
+        "  channel { name \"a\" attributes { dump_image \"x\" } } } }\n"
+        "  pipe { device 2 window { attributes { planes_samples 8 } channel {} } }\n"
+        "  pipe { device 3 window { attributes { hint_fullscreen ON } channel {} } } }\n"
+        " nonsense 1 }");
+    EXPECT_EQ(
+        describe(read.findings, "f"),
+        "f:6:2: warning: 'nonsense' means nothing in a config and is left out\n"
+        "f:2:19: note: 'device' has no effect here: `eyrie renderer --device` says what a renderer "
+        "draws on (here and in 2 more places)\n"
+        "f:2:50: note: 'planes_samples' has no effect here: a channel draws one sample a pixel; "
+        "compounds with `subpixel` draw more (here and in 1 more place)\n"
+        "f:3:35: note: 'dump_image' has no effect here: `eyrie render --config` writes pictures\n"
+        "f:5:41: on screen only: 'hint_fullscreen' has no effect here: there is no screen\n");
+}
+
+TEST(EqcWarnings, AreNotOfSettingsThatAskForWhatIsSoAnyway) {
+    const auto found = [](const std::string& attributes) {
+        return describe(Read("config { appNode { pipe { window { attributes { " + attributes +
+                             " } channel {} } } } }")
+                            .findings,
+                        "f");
+    };
+    for (const char* asItIs :
+         {"planes_samples OFF", "planes_samples 1", "planes_samples AUTO", "planes_color 8",
+          "planes_alpha ON", "planes_depth 24", "planes_stencil OFF", "hint_drawable FBO",
+          "hint_stereo OFF", "hint_opengl_major 3", "hint_core_profile ON", "hint_statistics ON"})
+        EXPECT_EQ(found(asItIs), "");
+    for (const char* other : {"planes_samples 2", "planes_color RGBA16F", "planes_color 10",
+                              "planes_depth 64", "planes_stencil ON", "hint_drawable pbuffer",
+                              "hint_drawable OFF", "hint_stereo QUAD", "hint_opengl_major 5",
+                              "hint_core_profile OFF", "hint_statistics NICEST", "hint_width 640"})
+        EXPECT_THAT(found(other), HasSubstr("note: '")) << other;
+}
+
+TEST(EqcWarnings, AreNotLostAmongManyNotes) {
+    std::string pipes;
+    for (std::size_t i = 0; i <= Findings::kMost; ++i) pipes += "pipe { device 1 }";
+    EXPECT_THAT(describe(Read("config { node { " + pipes + " } nonsense 1 }").findings, "f"),
+                HasSubstr("'nonsense' means nothing"));
+}
+
+TEST(EqcWarnings, NameQueuesThatNobodyMakesOrTakes) {
+    const Read read(withCompounds(
+        "compound { channel ( segment 0 view 0 )\n outputtiles { name \"q\" size [ 64 64 ] }\n"
+        " compound { inputtiles { name \"q\" } }\n"
+        " compound { channel \"b\" inputtiles { name \"Q\" } outputframe { name \"b\" } }\n"
+        " outputtiles { name \"unused\" size [ 64 64 ] } inputframe { name \"b\" } }"));
+    EXPECT_EQ(describe(read.findings, "f"),
+              "f:5:2: warning: nobody takes the outputtiles \"unused\"\n"
+              "f:4:25: warning: no outputtiles of this compound tree are named \"Q\": the compound "
+              "draws all of its part\n");
+}
+
+TEST(EqcWarnings, NameFramesThatTheTasksLeaveOut) {
+    const auto found = [](const std::string& ofWhole, const std::string& ofPart) {
+        return describe(
+            Read(withCompounds("compound { channel ( segment 0 view 0 ) " + ofWhole +
+                               "\n compound { channel \"b\" " + ofPart +
+                               " outputframe { name \"f\" } }\n inputframe { name \"f\" } }"))
+                .findings,
+            "f");
+    };
+    EXPECT_EQ(found("task [ CLEAR ASSEMBLE ]", "task [ CLEAR DRAW READBACK ]"), "");
+    EXPECT_EQ(found("", ""), "");
+    EXPECT_EQ(
+        found("task [ CLEAR ]", ""),
+        "f:3:2: warning: the compound's task has no ASSEMBLE: the inputframe has no effect\n");
+    EXPECT_EQ(
+        found("", "task [ CLEAR DRAW ]"),
+        "f:2:45: warning: the compound's task has no READBACK: the outputframe stays empty\n");
+}
+
+TEST(EqcWarnings, SayInWhichFramesNothingIsDrawn) {
+    const auto found = [](const std::string& children) {
+        return describe(
+            Read(withCompounds("compound { channel ( segment 0 view 0 )\n" + children + " }"))
+                .findings,
+            "f");
+    };
+    const std::string b = "outputframe { name \"f\" } channel \"b\"";
+    const std::string taken = "inputframe { name \"f\" }";
+    EXPECT_EQ(found("compound { period 3 phase 0 } compound { period 3 phase 1 }"),
+              "f:1:204: warning: nothing draws the picture in 1 of 3 frames, such as that of phase "
+              "2: it is background then\n");
+    EXPECT_EQ(found("compound { period 3 phase 0 } compound { period 3 phase 1 } compound { period "
+                    "3 phase 2 }"),
+              "");
+    EXPECT_THAT(found("compound { period 2 phase 1 compound { period 3 phase 0 } } compound { "
+                      "period 6 phase 2 }"),
+                HasSubstr("in 4 of 6 frames, such as that of phase 0"));
+    EXPECT_EQ(found("compound { period 2 phase 0 } compound { viewport [ 0 0 .5 1 ] }"), "");
+    EXPECT_EQ(found("compound { period 2 phase 0 " + b + " } compound { period 2 phase 1 " + b +
+                    " } " + taken),
+              "");
+}
+
+TEST(EqcWarnings, NameBothPlacesOfANameThatTwoThingsHave) {
+    const Read read(
+        "config {\n node { name \"n\" pipe { name \"p\" window { channel { name \"c\" }\n"
+        "  channel { name \"c\" } } } }\n node { name \"n\" }\n"
+        " layout { view { name \"v\" } view { name \"v\" } }\n layout { view { name \"v\" } } }");
+    EXPECT_EQ(describe(read.findings, "f"),
+              "f:4:2: warning: another node is named \"n\" already, at 2:2; the name finds that\n"
+              "f:3:3: warning: another channel is named \"c\" already, at 2:43; the name finds "
+              "that\n"
+              "f:5:29: warning: another view is named \"v\" already, at 5:11; the name finds "
+              "that\n");
+}
+
+TEST(EqcWarnings, SayThatALayoutIsOnItsCanvasAlready) {
+    const Read read(
+        "config { node { pipe { window { channel { name \"a\" } } } } layout { view {} }"
+        " canvas { layout 0 layout OFF layout 0 segment { channel \"a\" } } }");
+    EXPECT_THAT(describe(read.findings, "f"), HasSubstr("layout 0 is on the canvas already"));
+    EXPECT_EQ(read.resolved.destinations.size(), 1U);
+}
+
+TEST(EqcErrors, AreMoreStatementsThanAnyFileHas) {
+    std::string nodes;
+    for (std::size_t i = 0; i <= kMostStatements; ++i) nodes += "node{}";
+    EXPECT_THAT(firstError("config{" + nodes + "}"), HasSubstr("more than 200000 statements"));
+}
+
+TEST(EqcErrors, AreMorePairsOfViewsAndSegmentsThanCanBeShown) {
+    std::string views;
+    std::string segments;
+    for (int i = 0; i < 200; ++i) {
+        views += "view {}";
+        segments += "segment { channel \"a\" }";
+    }
+    EXPECT_THAT(firstError("config { node { pipe { window { channel { name \"a\" } } } } layout {" +
+                           views + "} canvas { layout 0 " + segments + "} }"),
+                HasSubstr("more than 20000 pairs"));
+}
+
+}  // namespace
+}  // namespace eyrie::config
