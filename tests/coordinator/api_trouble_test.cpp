@@ -45,10 +45,10 @@ TEST_F(ApiTrouble, OfTheServerIsToldOnceAndCountedEachTime) {
                   grpc::StatusCode::UNAVAILABLE);
     }
     EXPECT_EQ(failed("UNAVAILABLE"), 6);
-    EXPECT_EQ(log.lines(), 1U) << log.text();
+    EXPECT_EQ(log.lines(), 1) << log.text();
     EXPECT_THAT(log.text(), HasSubstr("ListFlights cannot be answered: the data folder cannot be"));
     EXPECT_EQ(ask("PUT", "/flights/a", kFlight).status, 503);
-    EXPECT_EQ(log.lines(), 2U) << log.text();
+    EXPECT_EQ(log.lines(), 2) << log.text();
 }
 
 TEST_F(ApiTrouble, OfCallersIsToldToThemAndCounted) {
@@ -67,7 +67,7 @@ TEST_F(ApiTrouble, OfCallersIsToldToThemAndCounted) {
     EXPECT_EQ(failed("INVALID_ARGUMENT"), 4);
     EXPECT_EQ(ask("GET", "/flights/none").status, 404);
     EXPECT_EQ(failed("NOT_FOUND"), 1);
-    EXPECT_EQ(log.lines(), 0U) << log.text();
+    EXPECT_EQ(log.lines(), 0) << log.text();
 }
 
 TEST_F(ApiTrouble, IsNotWhatADoorAsksByItself) {
@@ -95,7 +95,7 @@ TEST_F(ApiTrouble, OfOperationsIsToldAndCounted) {
         [&] { return ask("GET", "/operations/one").body->find("FAILED") != std::string::npos; }));
     EXPECT_EQ(count(R"(eyrie_operations_total{result="failed"})"), 1);
     EXPECT_EQ(count(R"(eyrie_operations_total{result="done"})"), 0);
-    EXPECT_EQ(log.lines(), 1U) << log.text();
+    EXPECT_EQ(log.lines(), 1) << log.text();
     EXPECT_THAT(log.text(), HasSubstr("operation one, of a.eyt, has failed: ./a.eyt: cannot be "
                                       "written: No space left on device"));
 }
@@ -105,7 +105,7 @@ TEST_F(ApiTrouble, BeyondAQuotaIsToldOnceOfEach) {
     const test::CapturedLog log;
     for (int i = 0; i < 3; ++i) EXPECT_EQ(ask("GET", "/image?width=20&height=10").status, 400);
     EXPECT_EQ(refusals("image"), 3);
-    EXPECT_EQ(log.lines(), 1U) << log.text();
+    EXPECT_EQ(log.lines(), 1) << log.text();
     EXPECT_THAT(log.text(), HasSubstr("is refused by the quota 'image': "));
 }
 

@@ -125,13 +125,13 @@ TEST_F(RegistryTest, TheRefusedAreListedWithTheReasonForAMinute) {
 TEST_F(RegistryTest, OneThatIsRefusedAgainAndAgainIsToldToTheLogOnce) {
     const test::CapturedLog log;
     for (int i = 0; i < 5; ++i) registry_.refuse("a:1", {}, "too old", kStart + seconds(i));
-    EXPECT_EQ(log.lines(), 1U) << log.text();
+    EXPECT_EQ(log.lines(), 1) << log.text();
     registry_.refuse("a:1", {}, "too new", kStart + seconds(5));
     registry_.refuse("a:2", {}, "too old", kStart + seconds(5));
-    EXPECT_EQ(log.lines(), 3U) << log.text();
+    EXPECT_EQ(log.lines(), 3) << log.text();
     registry_.expire(kStart + seconds(70));
     registry_.refuse("a:1", {}, "too new", kStart + seconds(70));
-    EXPECT_EQ(log.lines(), 4U) << log.text();
+    EXPECT_EQ(log.lines(), 4) << log.text();
 }
 
 TEST_F(RegistryTest, ARefusalTakesNobodysPlace) {

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is in deploy/ fits the program: its options, and its version.
-#include <fstream>
-#include <iterator>
 #include <regex>
 #include <set>
 #include <string>
@@ -10,6 +8,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/support/program.h"
+#include "tests/support/source_text.h"
 
 namespace eyrie {
 namespace {
@@ -18,10 +17,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-std::string textOf(const std::string& name) {
-    std::ifstream file(EYRIE_SOURCE_DIR "/deploy/" + name);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
+std::string textOf(const std::string& name) { return test::sourceText("deploy/" + name); }
 
 /// "--listen" and so on; what is said of them in comments counts as well.
 std::set<std::string> optionsIn(const std::string& text) {

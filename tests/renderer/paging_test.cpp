@@ -6,21 +6,19 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <vector>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
-#include <spdlog/sinks/ostream_sink.h>
 
-#include "fabric/log.h"
 #include "renderer/gl/debug_output.h"
 #include "renderer/import/terrain_import.h"
 #include "renderer/import/terrain_synth.h"
 #include "renderer/renderer.h"
 #include "renderer/terrain/eyt_format.h"
 #include "tests/renderer/sample_scene.h"
+#include "tests/support/captured_log.h"
 
 namespace eyrie {
 namespace {
@@ -35,28 +33,6 @@ using terrain::TileId;
 constexpr int kWidth = 640;
 constexpr int kHeight = 360;
 constexpr auto kPatience = std::chrono::seconds(30);
-
-/// Catches what is logged while it lives.
-class Log {
-public:
-    Log() : before_(spdlog::default_logger()) {
-        spdlog::set_default_logger(std::make_shared<spdlog::logger>(
-            "test", std::make_shared<spdlog::sinks::ostream_sink_mt>(text_)));
-    }
-    ~Log() { spdlog::set_default_logger(before_); }
-
-    int count(const std::string& part) const {
-        const std::string text = text_.str();
-        int times = 0;
-        for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
-            ++times;
-        return times;
-    }
-
-private:
-    std::ostringstream text_;
-    std::shared_ptr<spdlog::logger> before_;
-};
 
 class Paging : public testing::Test {
 protected:
@@ -206,7 +182,7 @@ protected:
 class WithheldPages : public Paging, public testing::WithParamInterface<int> {};
 
 TEST_P(WithheldPages, LeaveNoHoleWhereLevelsJump) {
-    const Log log;
+    const test::CapturedLog log;
     const int jump = GetParam();
     withhold(jump, 2 * jump > quadtree().levels());
     const auto intact = open(scene_.objects[0].path);
@@ -231,7 +207,7 @@ TEST_P(WithheldPages, LeaveNoHoleWhereLevelsJump) {
 INSTANTIATE_TEST_SUITE_P(Jumps, WithheldPages, testing::Values(2, 3, 5));
 
 TEST_F(Paging, TilesWhoseNormalsCannotBeReadAreNotDrawn) {
-    const Log log;
+    const test::CapturedLog log;
     withholdLevel(quadtree().normalLevel());
     const auto renderer = open(copy_);
     const auto intact = open(scene_.objects[0].path);
@@ -310,7 +286,7 @@ TEST_F(Paging, ACorruptPageIsDrawnAsItsAncestorAndNamedOnce) {
     const ChannelResult whole =
         draw(*open(scene_.objects[0].path), camera, Completeness::Complete, 0.1);
     flip(page);
-    const Log log;
+    const test::CapturedLog log;
     const auto renderer = open(copy_);
     const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(700);
     while (std::chrono::steady_clock::now() < end)  // it is tried again meanwhile

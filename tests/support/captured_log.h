@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
-#include <cstddef>
 #include <memory>
 #include <sstream>
 #include <string>
@@ -25,10 +23,14 @@ public:
     CapturedLog& operator=(const CapturedLog&) = delete;
 
     std::string text() const { return text_.str(); }
-    std::size_t lines() const {
+    int count(const std::string& part) const {
         const std::string all = text();
-        return static_cast<std::size_t>(std::count(all.begin(), all.end(), '\n'));
+        int times = 0;
+        for (auto at = all.find(part); at != std::string::npos; at = all.find(part, at + 1))
+            ++times;
+        return times;
     }
+    int lines() const { return count("\n"); }
 
 private:
     std::ostringstream text_;

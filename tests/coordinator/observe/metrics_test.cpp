@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordinator/observe/metrics.h"
 
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <regex>
 #include <set>
@@ -12,6 +10,7 @@
 
 #include "access/gate.h"
 #include "tests/support/json.h"
+#include "tests/support/source_text.h"
 
 namespace eyrie::observe {
 namespace {
@@ -19,11 +18,6 @@ namespace {
 using testing::Contains;
 using testing::HasSubstr;
 using testing::Not;
-
-std::string textOf(const std::string& path) {
-    std::ifstream file(EYRIE_SOURCE_DIR "/" + path);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
 
 std::string scraped(Metrics& metrics) {
     return metrics.text({{"ready", 2}, {"dead", 0}}, {{"renderer-0-1", true}});
@@ -150,7 +144,7 @@ TEST(Metrics, ForgetsRenderersThatAreGone) {
 }
 
 TEST(Metrics, EachHasAPlaceInTheDocumentation) {
-    const std::string documentation = textOf("docs/operations.md");
+    const std::string documentation = test::sourceText("docs/operations.md");
     for (const std::string& name : families())
         EXPECT_THAT(documentation, HasSubstr("`" + name + "`"));
     for (int stage = 0; stage <= static_cast<int>(kLastStage); ++stage)
@@ -160,7 +154,7 @@ TEST(Metrics, EachHasAPlaceInTheDocumentation) {
 
 TEST(Metrics, TheDashboardAsksForNothingElse) {
     std::vector<std::string> queries;
-    collectQueries(test::parseJson(textOf("deploy/grafana/eyrie.json")), queries);
+    collectQueries(test::parseJson(test::sourceText("deploy/grafana/eyrie.json")), queries);
     ASSERT_GT(queries.size(), 8u);
     const std::set<std::string> known = families();
     const std::regex word("\\b(?:eyrie|process)_\\w+");

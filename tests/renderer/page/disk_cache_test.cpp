@@ -169,7 +169,7 @@ TEST_F(DiskCacheTest, AFolderThatCannotBeWrittenIsNoErrorAndSaidOnce) {
     DiskCache cache(fs::path(file) / "cache", 1 << 20);
     for (int i = 0; i < 5; ++i) cache.store(key(i), part(i));
     EXPECT_FALSE(has(cache, 1));
-    EXPECT_EQ(log.lines(), 1U);
+    EXPECT_EQ(log.lines(), 1);
 }
 
 TEST_F(DiskCacheTest, AFullDiskIsNoErrorAndLeavesNoHalfOfAPart) {
