@@ -35,15 +35,18 @@ inline constexpr std::chrono::duration<double, std::milli> kUploadTime{3};
 
 /// One LOD node of a frame's cut.
 struct Piece {
-    std::uint32_t index = 0;   ///< the drawable's own name for it, valid until the next cut
-    double rangePosition = 0;  ///< where it starts in the drawable's share [0, 1) of the data
-    fabric::Box bounds;        ///< object space, metres
-    bool isNode = true;        ///< false for what is drawn beside the nodes
-    /// About: what leaving it out saves.
+    std::uint32_t index = 0;  ///< the drawable's own name for it, valid until the next cut
+    /// Where it starts in the drawable's part [0, 1) of the view's work; of what starts before the
+    /// channel's range and reaches into it, where that begins.
+    double rangePosition = 0;
+    fabric::Box bounds;  ///< object space, metres
+    bool isNode = true;  ///< false for what is drawn beside the nodes
+    /// About: what leaving it out saves. Of a mesh those that are drawn, from firstTriangle on.
     std::uint64_t triangles = 0;
     bool hasBlended = false;   ///< parts of it belong to Layer::Blended
     std::uint32_t points = 0;  ///< that it is drawn as, in place of triangles
     double pointRadiusPixels = 0;
+    std::uint32_t firstTriangle = 0;
 };
 
 /// What is drawn at one time: all that hides what is behind it, and then what lets it through.
@@ -53,13 +56,16 @@ enum class Layer { Opaque, Blended };
 struct CutRequest {
     const lod::ObjectView& view;     ///< the whole view, from the object
     const fabric::Frustum& channel;  ///< the part that the channel looks through; same axes
-    fabric::Range range;             ///< the share of the view's pieces that it draws
+    fabric::Range range;             ///< the share of the view's work that it draws
     double tauPixels = 1;
     fabric::Completeness completeness = fabric::Completeness::Complete;
     double exaggeration = 1;       ///< of terrain; `view` holds it already
     bool wantsPageBounds = false;  ///< pieces for them, beside the nodes
-    std::stop_token stop = {};     ///< ends the wait for what a complete cut needs
-    ViewTurn turn = {};            ///< of `view`
+    /// Whether ranges may meet within a piece, each drawing its triangles on one side: where no
+    /// other object's pieces come between these in the order of the range.
+    bool mayCutPieces = false;
+    std::stop_token stop = {};  ///< ends the wait for what a complete cut needs
+    ViewTurn turn = {};         ///< of `view`
 };
 
 /// What a drawable shows of itself in one channel.

@@ -35,19 +35,29 @@ private:
 
 }  // namespace
 
-void drawIndices(const DeviceNode& node, GLsizei first, GLsizei count, GLsizei fronts) {
+IndexRun IndexRun::within(const Piece& piece) const {
+    const auto begin = static_cast<GLsizei>(3 * piece.firstTriangle);
+    const auto end = begin + static_cast<GLsizei>(3 * piece.triangles);
+    IndexRun part;
+    part.first = std::max(first, begin);
+    part.count = std::max(std::min(first + count, end) - part.first, 0);
+    part.fronts = std::clamp(first + fronts - part.first, 0, part.count);
+    return part;
+}
+
+void drawIndices(const DeviceNode& node, const IndexRun& run) {
     const auto draw = [&node](GLsizei from, GLsizei indices) {
         glDrawElements(GL_TRIANGLES, indices, GL_UNSIGNED_SHORT,
                        reinterpret_cast<const void*>(
                            node.indexOffset + from * static_cast<GLsizei>(sizeof(std::uint16_t))));
     };
-    if (fronts > 0) {
+    if (run.fronts > 0) {
         glEnable(GL_CULL_FACE);
-        draw(first, fronts);
+        draw(run.first, run.fronts);
         glDisable(GL_CULL_FACE);
     }
-    if (fronts < count)
-        draw(first + fronts, count - fronts);
+    if (run.fronts < run.count)
+        draw(run.first + run.fronts, run.count - run.fronts);
 }
 
 bool mayHideBacks(const fabric::Box& bounds, const FrameState& frame,
@@ -68,21 +78,22 @@ bool mayHideBacks(const fabric::Box& bounds, const FrameState& frame,
 
 /// Where lids cover much of a piece, all of it is drawn at once: vertices are a quarter of the
 /// time.
-void HiddenBacks::draw(const DeviceNode& node, const Piece& piece, GLsizei first, GLsizei count,
-                       GLsizei fronts, bool isOneSided) const {
+void HiddenBacks::draw(const DeviceNode& node, const Piece& piece, const IndexRun& run,
+                       bool isOneSided) const {
+    const IndexRun bothSides{run.first, run.count, 0};
     if (!areAny_)
-        return drawIndices(node, first, count, 0);
+        return drawIndices(node, bothSides);
     if (isOneSided)
-        return drawIndices(node, first, count, count);
+        return drawIndices(node, {run.first, run.count, run.count});
     const fabric::PixelViewport pixels = lids_.before(piece.bounds);
     if (pixels.area() > lids_.pixelsOf(piece.bounds).area() / 2)
-        return drawIndices(node, first, count, 0);
-    drawIndices(node, first, count, fronts);
+        return drawIndices(node, bothSides);
+    drawIndices(node, run);
     const fabric::PixelViewport seen = fabric::intersection(pixels, part_);
-    if (fronts == 0 || seen.isEmpty())
+    if (run.fronts == 0 || seen.isEmpty())
         return;
     const BacksOnly state(seen, part_);
-    drawIndices(node, first, fronts, 0);
+    drawIndices(node, {run.first, run.fronts, 0});
 }
 
 }  // namespace eyrie::draw

@@ -14,8 +14,17 @@
 /// Backs of a mesh's triangles that nobody sees (docs/errors.md, back faces).
 namespace eyrie::draw {
 
-/// `count` indices from `first` on, the first `fronts` of them without the culled side.
-void drawIndices(const DeviceNode& node, GLsizei first, GLsizei count, GLsizei fronts);
+/// Indices of a node.
+struct IndexRun {
+    GLsizei first = 0;
+    GLsizei count = 0;
+    GLsizei fronts = 0;  ///< the first of them, of whose triangles the culled side is not seen
+
+    /// Those of them that belong to a piece that may be a part of the node.
+    IndexRun within(const Piece& piece) const;
+};
+
+void drawIndices(const DeviceNode& node, const IndexRun& run);
 
 /// Whether a picture may go without them. From inside its bounds a surface may well be seen from
 /// behind, as may what the near plane cuts open; and lines have no sides.
@@ -30,10 +39,10 @@ public:
                 const fabric::PixelViewport& part)
         : areAny_(areAny), lids_(lids, view), part_(part) {}
 
-    /// `count` indices of the piece from `first` on. The backs of the first `fronts` are seen
-    /// through lids only, or, where `isOneSided`, not even there.
-    void draw(const DeviceNode& node, const Piece& piece, GLsizei first, GLsizei count,
-              GLsizei fronts, bool isOneSided) const;
+    /// The backs of the run's fronts are seen through lids only, or, where `isOneSided`, not even
+    /// there.
+    void draw(const DeviceNode& node, const Piece& piece, const IndexRun& run,
+              bool isOneSided) const;
 
 private:
     bool areAny_;

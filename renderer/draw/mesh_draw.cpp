@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <utility>
 
@@ -13,12 +12,10 @@
 #include "fabric/status.h"
 #include "renderer/draw/box_lines.h"
 #include "renderer/draw/hidden_backs.h"
-#include "renderer/draw/mesh_cut.h"
+#include "renderer/draw/mesh_choice.h"
 #include "renderer/draw/mesh_paging.h"
 #include "renderer/draw/mesh_textures.h"
 #include "renderer/draw/object_program.h"
-#include "renderer/draw/prefetch.h"
-#include "renderer/draw/tau_choice.h"
 #include "renderer/draw/tint.h"
 #include "renderer/gl/object.h"
 #include "renderer/mesh/eym_format.h"
@@ -37,33 +34,6 @@ std::uint32_t packedSrgb(const fabric::Vec3& linear) {
     return byte(linear.x) | byte(linear.y) << 8 | byte(linear.z) << 16 | 0xFF000000U;
 }
 
-/// For Prefetch::nodes.
-struct NodeTree {
-    using Node = std::uint32_t;
-
-    const mesh::EymFile& file;
-    double tauPixels;
-    bool mayBePoints;
-
-    Node root() const { return 0; }
-    fabric::Box bounds(Node node) const { return file.bounds(node); }
-    double errorMetres(Node node) const {
-        const mesh::Node& at = file.nodes()[node];
-        if (at.isOfPoints() && mayBePoints)
-            return std::max(at.errorMetres * std::max(tauPixels / kMostPointPixels, 1.0),
-                            double{at.farthestMetres()});
-        return at.indexCount > 0 ? at.farthestMetres() : std::numeric_limits<double>::infinity();
-    }
-    template <typename Visit>
-    void forEachChild(Node node, const Visit& visit) const {
-        const mesh::Node& at = file.nodes()[node];
-        if (at.isLeaf())
-            return;
-        visit(static_cast<Node>(at.left));
-        visit(static_cast<Node>(at.right));
-    }
-};
-
 class MeshDrawable : public Drawable {
 public:
     MeshDrawable(const fabric::SceneObject& object, MeshPrograms& programs,
@@ -78,7 +48,7 @@ public:
           objectFromLattice_(file_->lattice().objectFromLattice()),
           textures_(std::move(textures)),
           points_(pointPrograms, *file_, object),
-          paging_(std::move(paging)) {
+          choice_(file_, object, std::move(paging)) {
         defineVertexFormat();
     }
 
@@ -90,31 +60,24 @@ public:
         return pick::meshSurface(object, file_);
     }
 
-    std::uint64_t viewTriangles(const CutRequest& request) override;
-    Cut selectCut(const CutRequest& request) override;
+    std::uint64_t viewTriangles(const CutRequest& request) override {
+        return choice_.viewTriangles(request);
+    }
+    Cut selectCut(const CutRequest& request) override { return choice_.select(request); }
     double errorPixels(const CutRequest&, occlusion::HiddenGround*) override {
-        return errorPixels_;
+        return choice_.errorPixels();
     }
     absl::Status draw(std::span<const Piece> pieces, const FrameState& frame,
                       fabric::FrameStatistics& statistics) override;
     fabric::FileLights lights() const override { return file_->lights(); }
     MemoryUse memory() const override {
-        MemoryUse use = paging_->memory();
+        MemoryUse use = choice_.memory();
         use.deviceBytes += textures_.bytes();
         return use;
     }
 
 private:
-    /// Points are lit as their triangles, but do not know which way these face.
-    bool mayBePoints() const { return !singleSided_; }
     void defineVertexFormat();
-    MeshCut cutNow(const lod::ObjectView& view, double tauPixels) const;
-    const MeshCut& cutAt(int step, const CutRequest& request);
-    std::vector<NeededItem> itemsOf(const MeshCut& cut) const;
-    std::uint64_t countMissing(const MeshCut& cut) const;
-    page::HostPages::Loads reach(const CutRequest& request, double tauPixels);
-    std::uint64_t costOf(const CutNode& node) const;
-    bool hasBlended(std::uint32_t node) const;
     void source(const DeviceNode& node) const;
     void bind(const FrameState& frame) const;
     void use(const Program& program, const FrameState& frame) const;
@@ -131,8 +94,8 @@ private:
                                 fabric::FrameStatistics& statistics);
     absl::Status drawPoints(const Piece& piece, const FrameState& frame,
                             fabric::FrameStatistics& statistics);
-    void drawRange(const DeviceNode& node, GLsizei first, const mesh::MaterialRange& range,
-                   const Piece& piece, const HiddenBacks& backs) const;
+    void drawMaterial(const DeviceNode& node, const IndexRun& run, const mesh::Material& material,
+                      const Piece& piece, const HiddenBacks& backs) const;
 
     MeshPrograms& programs_;
     fabric::Mat4 worldFromObject_;
@@ -142,14 +105,10 @@ private:
     std::vector<fabric::Box> lids_;
     fabric::Mat4 objectFromLattice_;
     MeshTextures textures_;
-    double errorPixels_ = 0;  ///< of the last cut
     gl::VertexArray vertexArray_;
     MeshPoints points_;
     BoxLines boxLines_;
-    std::unique_ptr<MeshPaging> paging_;
-    PerView<Prefetch> prefetch_;
-    TauChoice tau_;
-    std::map<int, MeshCut> cuts_;  ///< of this view and tau, by step
+    MeshChoice choice_;
 };
 
 void MeshDrawable::defineVertexFormat() {
@@ -157,123 +116,6 @@ void MeshDrawable::defineVertexFormat() {
     Program::kPackedNormal.define(vertexArray_);
     Program::kPackedColour.define(vertexArray_, file_->hasColours());
     Program::kPackedPlace.define(vertexArray_, file_->hasTextures());
-}
-
-MeshCut MeshDrawable::cutNow(const lod::ObjectView& view, double tauPixels) const {
-    return cutOf(
-        *file_, view, tauPixels, [this](std::uint32_t node) { return paging_->isResident(node); },
-        mayBePoints());
-}
-
-const MeshCut& MeshDrawable::cutAt(int step, const CutRequest& request) {
-    const auto known = cuts_.find(step);
-    if (known != cuts_.end())
-        return known->second;
-    const double tauPixels = request.tauPixels * page::TauLadder::factor(step);
-    return cuts_.emplace(step, cutNow(request.view, tauPixels)).first->second;
-}
-
-/// With what may stand in, whatever of it is there.
-std::vector<NeededItem> MeshDrawable::itemsOf(const MeshCut& cut) const {
-    std::vector<NeededItem> items;
-    for (const auto* nodes : {&cut.wanted, &cut.between, &cut.above})
-        for (const CutNode& node : *nodes)
-            if (const std::uint64_t bytes = paging_->bytesOf(node.node); bytes > 0)
-                items.push_back({node.node, bytes});
-    return items;
-}
-
-std::uint64_t MeshDrawable::countMissing(const MeshCut& cut) const {
-    return static_cast<std::uint64_t>(std::ranges::count_if(
-        cut.wanted, [this](const CutNode& node) { return !paging_->isResident(node.node); }));
-}
-
-/// Waits for every page that can be read; what stands in for one that cannot is waited for, too.
-page::HostPages::Loads MeshDrawable::reach(const CutRequest& request, double tauPixels) {
-    const auto start = page::HostPages::Clock::now();
-    const auto readable = [&] {
-        return cutOf(
-                   *file_, request.view, tauPixels,
-                   [&](std::uint32_t node) { return paging_->mayCome(node, start); }, mayBePoints())
-            .drawn;
-    };
-    page::HostPages::Loads loaded;
-    page::HostPages::Loads round;
-    std::vector<CutNode> needed = readable();
-    while (paging_->reach(needed, request.turn, round, request.stop) &&
-           !request.stop.stop_requested()) {
-        loaded.add(round);
-        if (round.hasFailed)
-            needed = readable();
-        round = {};
-    }
-    loaded.add(round);
-    return loaded;
-}
-
-/// In triangles: a point takes about as long as one.
-std::uint64_t MeshDrawable::costOf(const CutNode& node) const {
-    return node.points > 0 ? node.points : file_->nodes()[node.node].indexCount / 3;
-}
-
-std::uint64_t MeshDrawable::viewTriangles(const CutRequest& request) {
-    std::uint64_t triangles = 0;
-    const MeshCut cut = cutOf(
-        *file_, request.view, request.tauPixels, [](std::uint32_t) { return true; }, mayBePoints());
-    for (const CutNode& node : cut.wanted) triangles += costOf(node);
-    return triangles;
-}
-
-Cut MeshDrawable::selectCut(const CutRequest& request) {
-    cuts_.clear();
-    const page::TauLadder::Choice choice = tau_.choose(
-        request,
-        [&](const lod::ObjectView& view, double tauPixels, int step) {
-            return itemsOf(&view == &request.view ? cutAt(step, request) : cutNow(view, tauPixels));
-        },
-        paging_->roomBytes());
-    const double tauPixels = request.tauPixels * page::TauLadder::factor(choice.step);
-    Prefetch& prefetch = prefetch_.of(request.turn);
-    prefetch.follow(request.view.view(), worldFromObject_, Prefetch::Clock::now());
-    MeshPaging::Progress progress;
-    if (request.completeness == fabric::Completeness::Complete) {
-        progress.hasUploaded = countMissing(cutAt(choice.step, request)) > 0;
-        progress.loaded = reach(request, tauPixels);
-    } else {
-        progress = paging_->approach(cutAt(choice.step, request), request.turn, [&] {
-            return prefetch.nodes(NodeTree{*file_, tauPixels, mayBePoints()}, tauPixels,
-                                  paging_->latency());
-        });
-    }
-    if (progress.hasUploaded)
-        cuts_.erase(choice.step);
-    const MeshCut& drawn = cutAt(choice.step, request);
-
-    Cut cut;
-    cut.pagesLoaded = progress.loaded.pages;
-    cut.bytesLoaded = progress.loaded.bytes;
-    cut.pagesMissing = countMissing(drawn);
-    if (cut.pagesMissing > 0)
-        cut.pagesFailed = static_cast<std::uint64_t>(
-            std::ranges::count_if(drawn.wanted, [this](const CutNode& node) {
-                return !paging_->isResident(node.node) && paging_->isFailing(node.node);
-            }));
-    cut.isComplete = cut.pagesMissing == 0 && choice.isLowest;
-    errorPixels_ = drawn.errorPixels();
-    const auto total = static_cast<double>(file_->triangleCount());
-    for (const CutNode& one : drawn.drawn) {
-        const mesh::Node& node = file_->nodes()[one.node];
-        cut.pieces.push_back({one.node, static_cast<double>(node.triangleBegin) / total,
-                              file_->bounds(one.node), true, costOf(one), hasBlended(one.node),
-                              one.points, one.pointPixels});
-    }
-    return cut;
-}
-
-bool MeshDrawable::hasBlended(std::uint32_t node) const {
-    return std::ranges::any_of(file_->ranges(node), [this](const mesh::MaterialRange& range) {
-        return file_->materials()[range.material].isBlended();
-    });
 }
 
 void MeshDrawable::source(const DeviceNode& node) const {
@@ -327,8 +169,7 @@ void MeshDrawable::colour(const Piece& piece, const FrameState& frame) const {
 
 absl::Status MeshDrawable::drawPoints(const Piece& piece, const FrameState& frame,
                                       fabric::FrameStatistics& statistics) {
-    RETURN_IF_ERROR(
-        points_.draw(piece, *paging_->node(piece.index), colourOf(piece, frame), frame));
+    RETURN_IF_ERROR(points_.draw(piece, *choice_.node(piece.index), colourOf(piece, frame), frame));
     statistics.points += piece.points;
     return absl::OkStatus();
 }
@@ -347,7 +188,7 @@ absl::Status MeshDrawable::drawWhole(std::span<const Piece> pieces, const FrameS
     const HiddenBacks backs(mayHideBacks(bounds(), frame, worldFromObject_), lids_, view,
                             frame.part);
     for (const Piece& piece : pieces) {
-        const DeviceNode* node = paging_->node(piece.index);
+        const DeviceNode* node = choice_.node(piece.index);
         const auto fronts = static_cast<GLsizei>(file_->nodes()[piece.index].frontIndexCount);
         if (piece.points > 0) {
             RETURN_IF_ERROR(drawPoints(piece, frame, statistics));
@@ -355,7 +196,8 @@ absl::Status MeshDrawable::drawWhole(std::span<const Piece> pieces, const FrameS
         } else {
             source(*node);
             colour(piece, frame);
-            backs.draw(*node, piece, 0, node->indexCount, fronts, singleSided_);
+            const IndexRun all{0, node->indexCount, fronts};
+            backs.draw(*node, piece, all.within(piece), singleSided_);
             statistics.triangles += piece.triangles;
         }
         if (frame.look.tileBounds) {
@@ -368,22 +210,21 @@ absl::Status MeshDrawable::drawWhole(std::span<const Piece> pieces, const FrameS
 }
 
 /// Of what is blended the far sides first: right by itself where a piece is convex.
-void MeshDrawable::drawRange(const DeviceNode& node, GLsizei first,
-                             const mesh::MaterialRange& range, const Piece& piece,
-                             const HiddenBacks& backs) const {
-    const mesh::Material& material = file_->materials()[range.material];
-    const auto count = static_cast<GLsizei>(range.indexCount);
+void MeshDrawable::drawMaterial(const DeviceNode& node, const IndexRun& run,
+                                const mesh::Material& material, const Piece& piece,
+                                const HiddenBacks& backs) const {
+    const IndexRun oneSide{run.first, run.count, run.count};
     if (material.isBlended() && !material.isOneSided()) {
         glCullFace(GL_FRONT);
-        drawIndices(node, first, count, count);
+        drawIndices(node, oneSide);
         glCullFace(GL_BACK);
     }
     if (material.isBlended() || material.isOneSided()) {
-        drawIndices(node, first, count, count);
+        drawIndices(node, oneSide);
         return;
     }
     const bool hasOneSide = singleSided_ && !material.isTwoSided() && !material.isSeeThrough();
-    backs.draw(node, piece, first, count, static_cast<GLsizei>(range.frontIndexCount), hasOneSide);
+    backs.draw(node, piece, run, hasOneSide);
 }
 
 /// Uses the program that draws a material.
@@ -421,7 +262,7 @@ absl::Status MeshDrawable::drawByMaterial(std::span<const Piece> pieces, const F
     bind(frame);
     glVertexAttribI4ui(Program::kPackedColour.location, uniformColour_, 0, 0, 0);
     for (const Piece& piece : pieces) {
-        const DeviceNode& node = *paging_->node(piece.index);
+        const DeviceNode& node = *choice_.node(piece.index);
         if (piece.points == 0) {
             source(node);
         } else if (frame.layer == Layer::Opaque) {
@@ -432,12 +273,15 @@ absl::Status MeshDrawable::drawByMaterial(std::span<const Piece> pieces, const F
         GLsizei first = 0;
         for (const mesh::MaterialRange& range : file_->ranges(piece.index)) {
             const mesh::Material& material = file_->materials()[range.material];
-            if (material.isBlended() == (frame.layer == Layer::Blended)) {
+            const IndexRun all{first, static_cast<GLsizei>(range.indexCount),
+                               static_cast<GLsizei>(range.frontIndexCount)};
+            const IndexRun run = all.within(piece);
+            if (material.isBlended() == (frame.layer == Layer::Blended) && run.count > 0) {
                 RETURN_IF_ERROR(prepare(material, frame, prepared));
-                drawRange(node, first, range, piece, backs);
-                statistics.triangles += range.indexCount / 3;
+                drawMaterial(node, run, material, piece, backs);
+                statistics.triangles += static_cast<std::uint64_t>(run.count / 3);
             }
-            first += static_cast<GLsizei>(range.indexCount);
+            first += all.count;
         }
         if (hasBoxes) {
             boxLines_.draw(piece.bounds, levelColour(levelOf(piece.index)));

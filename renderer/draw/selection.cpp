@@ -63,6 +63,9 @@ Selection selectPieces(std::span<const OpenObject> objects, const lod::TaskViews
     // A cut that was frozen is brought whole: this view may see all of it.
     const lod::View cutView = cutViewOf(look, task, views.whole);
     const fabric::Frustum& cutChannel = look.cutCamera ? cutView.frustum : channel;
+    std::uint32_t shown = 0;
+    for (std::uint32_t i = 0; i < objects.size(); ++i) shown += look.hidden.contains(i) ? 0 : 1;
+    const bool isAlone = shown == 1;
     for (std::uint32_t i = 0; i < objects.size(); ++i) {
         const fabric::Mat4& worldFromObject =
             selection.worldFromObject.emplace_back(drawnWorldFromObject(objects[i].object, look));
@@ -72,7 +75,7 @@ Selection selectPieces(std::span<const OpenObject> objects, const lod::TaskViews
         const lod::ObjectView cutObjectView(cutView, worldFromObject);
         const Cut cut = objects[i].drawable->selectCut(
             {cutObjectView, cutChannel, task.range, frameData.tauPixels, task.completeness,
-             look.exaggeration, look.pageBounds, stop, turn});
+             look.exaggeration, look.pageBounds, isAlone, stop, turn});
         addTo(statistics, cut);
         const bool hasLayers =
             look.objects.shadingOf(i, frameData.shading) != fabric::Shading::Wireframe;

@@ -112,8 +112,8 @@ struct Node {
     glm::uvec3 boxMax{0U};   ///< lies inside its parent's
     std::int32_t left = -1;  ///< its own index plus one; -1 in a leaf
     std::int32_t right = -1;
-    /// The full-resolution triangles it stands for, in depth-first order. triangleBegin over the
-    /// file's triangleCount is its position in the range [0, 1).
+    /// The full-resolution triangles it stands for, in depth-first order: the order in which pieces
+    /// are drawn, and in which ranges share them out.
     std::uint64_t triangleBegin = 0;
     std::uint64_t triangleEnd = 0;
     std::uint64_t pageOffset = 0;    ///< from the file's start; of what is drawn

@@ -40,8 +40,7 @@ struct KdNode {
     bool operator==(const KdNode&) const = default;
 };
 
-/// Each triangle is in exactly one leaf. triangleBegin over the triangle count is where a node
-/// starts in the mesh's range [0, 1).
+/// Each triangle is in exactly one leaf.
 struct KdTree {
     std::vector<KdNode> nodes;         ///< empty when there are no triangles
     std::vector<std::uint32_t> order;  ///< triangle indices, leaf after leaf

@@ -75,16 +75,16 @@ protected:
     /// Of a renderer that lives alone on this thread. From `distance` radii away along x, which
     /// fill the picture at about 2.
     static ChannelResult render(Renderer& renderer, double distance, double tauPixels,
-                                Completeness completeness) {
+                                Completeness completeness, const fabric::Range& range = {}) {
         const fabric::Box box = mesh::EymFile::open(path("coded.eym"))->bounds();
         fabric::Camera camera;
         camera.eye = box.centre() + fabric::Vec3(0.5 * glm::length(box.size()) * distance, 0, 0);
         camera.target = box.centre();
-        return render(renderer, camera, tauPixels, completeness);
+        return render(renderer, camera, tauPixels, completeness, range);
     }
 
     static ChannelResult render(Renderer& renderer, const fabric::Camera& camera, double tauPixels,
-                                Completeness completeness) {
+                                Completeness completeness, const fabric::Range& range = {}) {
         fabric::FrameData frame;
         frame.camera = camera;
         frame.tauPixels = tauPixels;
@@ -93,25 +93,44 @@ protected:
         task.viewHeight = kHeight;
         task.pixelViewport = {0, 0, kWidth, kHeight};
         task.completeness = completeness;
+        task.range = range;
         task.wantsDepth = true;
         const auto result = renderer.render(frame, task);
         EXPECT_TRUE(result.ok()) << result.status();
         return result.ok() ? *result : ChannelResult{};
     }
 
+    static std::uint64_t differing(const fabric::Image& a, const fabric::Image& b) {
+        std::uint64_t count = 0;
+        for (std::size_t i = 0; i < a.depth.size(); ++i)
+            count += (a.depth[i] > 0) != (b.depth[i] > 0) ? 1 : 0;
+        return count;
+    }
     /// Pixels that one of the pictures covers and the other does not.
     static std::uint64_t differing(const ChannelResult& a, const ChannelResult& b) {
-        const auto depthOf = [](const ChannelResult& result) {
-            fabric::Image whole = fabric::makeImage({0, 0, kWidth, kHeight}, {}, true);
-            fabric::paste(result.image, whole);
-            return whole.depth;
-        };
-        const std::vector<float> first = depthOf(a);
-        const std::vector<float> second = depthOf(b);
-        std::uint64_t count = 0;
-        for (std::size_t i = 0; i < first.size(); ++i)
-            count += (first[i] > 0) != (second[i] > 0) ? 1 : 0;
-        return count;
+        return differing(wholeOf(a), wholeOf(b));
+    }
+
+    /// Without its background.
+    static fabric::Image wholeOf(const ChannelResult& result) {
+        fabric::Image whole = fabric::makeImage({0, 0, kWidth, kHeight}, {}, true);
+        fabric::paste(result.image, whole);
+        for (std::size_t i = 0; i < whole.depth.size(); ++i)
+            if (whole.depth[i] == 0)
+                whole.colour[i] = {};
+        return whole;
+    }
+
+    /// What is nearer of the two pictures, pixel by pixel; of ties the first.
+    static fabric::Image composed(const ChannelResult& a, const ChannelResult& b) {
+        fabric::Image image = wholeOf(a);
+        const fabric::Image other = wholeOf(b);
+        for (std::size_t i = 0; i < image.depth.size(); ++i)
+            if (other.depth[i] > image.depth[i]) {
+                image.depth[i] = other.depth[i];
+                image.colour[i] = other.colour[i];
+            }
+        return image;
     }
 
     static std::unique_ptr<test::TemporaryFolder> folder_;
@@ -222,6 +241,44 @@ TEST_F(MeshPaging, AQuarterOfTheMemoryRaisesTauAndIsKept) {
     }
     const auto again = render(*renderer, 2.2, 0.05, Completeness::Complete);
     EXPECT_EQ(again.statistics.pagesLoaded, 0U);  // it has come to rest
+}
+
+/// Two renderers that draw a half each.
+TEST_F(MeshPaging, ARendererHoldsWhatItsRangeDraws) {
+    constexpr double kTau = 0.05;
+    const auto plenty = open(path("coded.eym"));
+    const ChannelResult all = render(*plenty, 2.2, kTau, Completeness::Complete);
+    std::vector<ChannelResult> halves;
+    std::uint64_t triangles = 0;
+    for (const fabric::Range& range : {fabric::Range{0, 0.5}, fabric::Range{0.5, 1}}) {
+        const auto renderer = open(path("coded.eym"));
+        halves.push_back(render(*renderer, 2.2, kTau, Completeness::Complete, range));
+        EXPECT_TRUE(halves.back().statistics.complete);
+        EXPECT_LE(halves.back().statistics.tauAchievedPixels, kTau);
+        EXPECT_NEAR(static_cast<double>(halves.back().statistics.triangles),
+                    0.5 * static_cast<double>(all.statistics.triangles), 2);
+        EXPECT_LT(renderer->memory().deviceBytes, plenty->memory().deviceBytes * 6 / 10);
+        triangles += halves.back().statistics.triangles;
+    }
+    EXPECT_EQ(triangles, all.statistics.triangles);
+    EXPECT_TRUE(composed(halves[0], halves[1]) == wholeOf(all));
+}
+
+TEST_F(MeshPaging, RangesLeaveNoHoleWhereOneOfTheirRenderersLacksPages) {
+    const auto file = mesh::EymFile::open(path("coded.eym"));
+    std::set<std::uint32_t> leaves;
+    for (std::uint32_t node = 0; node < file->nodes().size(); ++node)
+        if (file->nodes()[node].isLeaf())
+            leaves.insert(node);
+    const ChannelResult all = render(*open(path("coded.eym")), 2.2, 0.01, Completeness::Complete);
+    for (const double cut : {0.1, 0.3, 0.5, 0.8}) {
+        const auto sound = open(path("coded.eym"));
+        const auto lacking = open(damaged(leaves));
+        const ChannelResult first = render(*sound, 2.2, 0.01, Completeness::Complete, {0, cut});
+        const ChannelResult second = render(*lacking, 2.2, 0.01, Completeness::Complete, {cut, 1});
+        EXPECT_FALSE(second.statistics.complete);
+        EXPECT_LT(differing(composed(first, second), wholeOf(all)), kWidth) << cut;
+    }
 }
 
 /// At one half of the ball and at the other: with less on the device than both need, and with

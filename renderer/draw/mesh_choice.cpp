@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderer/draw/mesh_choice.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace eyrie::draw {
+namespace {
+
+/// For Prefetch::nodes.
+struct NodeTree {
+    using Node = std::uint32_t;
+
+    const mesh::EymFile& file;
+    double tauPixels;
+    bool mayBePoints;
+
+    Node root() const { return 0; }
+    fabric::Box bounds(Node node) const { return file.bounds(node); }
+    double errorMetres(Node node) const {
+        const mesh::Node& at = file.nodes()[node];
+        if (at.isOfPoints() && mayBePoints)
+            return std::max(at.errorMetres * std::max(tauPixels / kMostPointPixels, 1.0),
+                            double{at.farthestMetres()});
+        return at.indexCount > 0 ? at.farthestMetres() : std::numeric_limits<double>::infinity();
+    }
+    template <typename Visit>
+    void forEachChild(Node node, const Visit& visit) const {
+        const mesh::Node& at = file.nodes()[node];
+        if (at.isLeaf())
+            return;
+        visit(static_cast<Node>(at.left));
+        visit(static_cast<Node>(at.right));
+    }
+};
+
+}  // namespace
+
+MeshChoice::MeshChoice(std::shared_ptr<const mesh::EymFile> file, const fabric::SceneObject& object,
+                       std::unique_ptr<MeshPaging> paging)
+    : file_(std::move(file)),
+      worldFromObject_(object.worldFromObject),
+      mayBePoints_(!object.singleSided),
+      paging_(std::move(paging)) {}
+
+MeshCut MeshChoice::wantedOf(const lod::ObjectView& view, double tauPixels) const {
+    return cutOf(
+        *file_, view, tauPixels, [](std::uint32_t) { return true; }, mayBePoints_);
+}
+
+const MeshCut& MeshChoice::wantedAt(int step, const CutRequest& request) {
+    const auto known = wanted_.find(step);
+    if (known != wanted_.end())
+        return known->second;
+    const double tauPixels = request.tauPixels * page::TauLadder::factor(step);
+    return wanted_.emplace(step, wantedOf(request.view, tauPixels)).first->second;
+}
+
+/// What of a view falls to the channel, drawn by what is there.
+MeshCut MeshChoice::cutNow(int step, const CutRequest& request, const NodeShares& shares) {
+    MeshCut cut = wantedAt(step, request);
+    shares.keepNeeded(cut);
+    if (countMissing(cut) == 0)
+        return cut;
+    const double tauPixels = request.tauPixels * page::TauLadder::factor(step);
+    cut = cutOf(
+        *file_, request.view, tauPixels,
+        [&](std::uint32_t node) { return paging_->isResident(node) || !shares.isNeeded(node); },
+        mayBePoints_);
+    shares.keepNeeded(cut);
+    return cut;
+}
+
+/// With all that may stand in.
+std::vector<NeededItem> MeshChoice::itemsOf(const MeshCut& wanted) const {
+    std::vector<NeededItem> items;
+    for (const auto* nodes : {&wanted.wanted, &wanted.above})
+        for (const CutNode& node : *nodes)
+            if (const std::uint64_t bytes = paging_->bytesOf(node.node); bytes > 0)
+                items.push_back({node.node, bytes});
+    return items;
+}
+
+std::uint64_t MeshChoice::countMissing(const MeshCut& cut) const {
+    return static_cast<std::uint64_t>(std::ranges::count_if(
+        cut.wanted, [this](const CutNode& node) { return !paging_->isResident(node.node); }));
+}
+
+/// Waits for every page that can be read; what stands in for one that cannot is waited for, too.
+page::HostPages::Loads MeshChoice::reach(const CutRequest& request, double tauPixels,
+                                         const NodeShares& shares) {
+    const auto start = page::HostPages::Clock::now();
+    const auto readable = [&] {
+        MeshCut cut = cutOf(
+            *file_, request.view, tauPixels,
+            [&](std::uint32_t node) {
+                return paging_->mayCome(node, start) || !shares.isNeeded(node);
+            },
+            mayBePoints_);
+        shares.keepNeeded(cut);
+        return std::move(cut.drawn);
+    };
+    page::HostPages::Loads loaded;
+    page::HostPages::Loads round;
+    std::vector<CutNode> needed = readable();
+    while (paging_->reach(needed, request.turn, round, request.stop) &&
+           !request.stop.stop_requested()) {
+        loaded.add(round);
+        if (round.hasFailed)
+            needed = readable();
+        round = {};
+    }
+    loaded.add(round);
+    return loaded;
+}
+
+/// In triangles: a point takes about as long as one.
+std::uint64_t MeshChoice::costOf(const CutNode& node) const {
+    return node.points > 0 ? node.points : file_->nodes()[node.node].indexCount / 3;
+}
+
+std::uint64_t MeshChoice::viewTriangles(const CutRequest& request) const {
+    std::uint64_t triangles = 0;
+    for (const CutNode& node : wantedOf(request.view, request.tauPixels).wanted)
+        triangles += costOf(node);
+    return triangles;
+}
+
+/// Waits for what a complete cut needs.
+MeshPaging::Progress MeshChoice::load(const CutRequest& request, double tauPixels,
+                                      const NodeShares& shares, const MeshCut& drawn) {
+    Prefetch& prefetch = prefetch_.of(request.turn);
+    prefetch.follow(request.view.view(), worldFromObject_, Prefetch::Clock::now());
+    if (request.completeness == fabric::Completeness::Complete) {
+        const bool isMissing = countMissing(drawn) > 0;
+        return {reach(request, tauPixels, shares), isMissing};
+    }
+    return paging_->approach(drawn, request.turn, [&] {
+        return prefetch.nodes(NodeTree{*file_, tauPixels, mayBePoints_}, tauPixels,
+                              paging_->latency());
+    });
+}
+
+std::vector<Piece> MeshChoice::piecesOf(const MeshCut& drawn, const NodeShares& shares) const {
+    std::vector<Piece> pieces;
+    for (const CutNode& one : drawn.drawn) {
+        const NodePart part = shares.partOf(one);
+        if (one.points == 0 && part.triangles == 0)
+            continue;  // its triangles are too few for all ranges that meet in it
+        pieces.push_back({one.node, part.rangePosition, file_->bounds(one.node), true,
+                          one.points > 0 ? one.points : part.triangles, hasBlended(one.node),
+                          one.points, one.pointPixels, part.firstTriangle});
+    }
+    return pieces;
+}
+
+Cut MeshChoice::select(const CutRequest& request) {
+    wanted_.clear();
+    const page::TauLadder::Choice choice = tau_.choose(
+        request,
+        [&](const lod::ObjectView& view, double tauPixels, int step) {
+            return itemsOf(&view == &request.view ? wantedAt(step, request)
+                                                  : wantedOf(view, tauPixels));
+        },
+        paging_->roomBytes());
+    const double tauPixels = request.tauPixels * page::TauLadder::factor(choice.step);
+    const NodeShares shares(
+        *file_, wantedAt(0, request).wanted, request,
+        [this](const CutNode& node) { return costOf(node); },
+        [this](std::uint32_t node) { return hasBlended(node); });
+    MeshCut drawn = cutNow(choice.step, request, shares);
+    const MeshPaging::Progress progress = load(request, tauPixels, shares, drawn);
+    if (progress.hasUploaded)
+        drawn = cutNow(choice.step, request, shares);
+
+    Cut cut;
+    cut.pagesLoaded = progress.loaded.pages;
+    cut.bytesLoaded = progress.loaded.bytes;
+    cut.pagesMissing = countMissing(drawn);
+    if (cut.pagesMissing > 0)
+        cut.pagesFailed = static_cast<std::uint64_t>(
+            std::ranges::count_if(drawn.wanted, [this](const CutNode& node) {
+                return !paging_->isResident(node.node) && paging_->isFailing(node.node);
+            }));
+    cut.isComplete = cut.pagesMissing == 0 && choice.isLowest;
+    errorPixels_ = drawn.errorPixels();
+    cut.pieces = piecesOf(drawn, shares);
+    return cut;
+}
+
+bool MeshChoice::hasBlended(std::uint32_t node) const {
+    return std::ranges::any_of(file_->ranges(node), [this](const mesh::MaterialRange& range) {
+        return file_->materials()[range.material].isBlended();
+    });
+}
+
+}  // namespace eyrie::draw
