@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "renderer/draw/node_work.h"
+
 namespace eyrie::draw {
 namespace {
 
@@ -115,15 +117,11 @@ page::HostPages::Loads MeshChoice::reach(const CutRequest& request, double tauPi
     return loaded;
 }
 
-/// In triangles: a point takes about as long as one.
-std::uint64_t MeshChoice::costOf(const CutNode& node) const {
-    return node.points > 0 ? node.points : file_->nodes()[node.node].indexCount / 3;
-}
-
+/// A point counts as a triangle.
 std::uint64_t MeshChoice::viewTriangles(const CutRequest& request) const {
     std::uint64_t triangles = 0;
     for (const CutNode& node : wantedOf(request.view, request.tauPixels).wanted)
-        triangles += costOf(node);
+        triangles += node.points > 0 ? node.points : file_->nodes()[node.node].indexCount / 3;
     return triangles;
 }
 
@@ -165,10 +163,9 @@ Cut MeshChoice::select(const CutRequest& request) {
         },
         paging_->roomBytes());
     const double tauPixels = request.tauPixels * page::TauLadder::factor(choice.step);
-    const NodeShares shares(
-        *file_, wantedAt(0, request).wanted, request,
-        [this](const CutNode& node) { return costOf(node); },
-        [this](std::uint32_t node) { return hasBlended(node); });
+    const std::vector<CutNode>& asked = wantedAt(0, request).wanted;
+    const NodeShares shares(*file_, asked, workOf(*file_, request.view, asked), request,
+                            [this](std::uint32_t node) { return hasBlended(node); });
     MeshCut drawn = cutNow(choice.step, request, shares);
     const MeshPaging::Progress progress = load(request, tauPixels, shares, drawn);
     if (progress.hasUploaded)

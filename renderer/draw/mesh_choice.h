@@ -44,7 +44,6 @@ private:
     MeshPaging::Progress load(const CutRequest& request, double tauPixels, const NodeShares& shares,
                               const MeshCut& drawn);
     std::vector<Piece> piecesOf(const MeshCut& drawn, const NodeShares& shares) const;
-    std::uint64_t costOf(const CutNode& node) const;
     bool hasBlended(std::uint32_t node) const;
 
     const std::shared_ptr<const mesh::EymFile> file_;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace eyrie::draw {
 namespace {
@@ -16,27 +17,22 @@ std::uint32_t trianglesBefore(double position, const fabric::Range& node, std::u
 }  // namespace
 
 NodeShares::NodeShares(const mesh::EymFile& file, std::span<const CutNode> wanted,
-                       const CutRequest& request, const Cost& costOf, const NodeTest& hasBlended)
+                       std::span<const double> work, const CutRequest& request,
+                       const NodeTest& hasBlended)
     : file_(file), range_(request.range) {
-    const auto costAtLeastOne = [&](const CutNode& node) {
-        return std::max<std::uint64_t>(costOf(node), 1);
-    };
-    std::uint64_t total = 0;
-    for (const CutNode& node : wanted) total += costAtLeastOne(node);
-    const auto placeOf = [total](std::uint64_t before) {
-        return static_cast<double>(before) / static_cast<double>(total);
-    };
+    const double total = std::accumulate(work.begin(), work.end(), 0.0);
     shares_.reserve(wanted.size());
     neededBefore_.reserve(wanted.size() + 1);
     neededBefore_.push_back(0);
-    std::uint64_t before = 0;
-    for (const CutNode& node : wanted) {
-        const double begin = placeOf(before);
-        before += costAtLeastOne(node);
+    double before = 0;
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+        const CutNode& node = wanted[i];
+        const double begin = before / total;
+        before += work[i];
         const bool isBlended = hasBlended(node.node);
         const Share share{node.node,
                           file.nodes()[node.node].triangleEnd,
-                          {begin, placeOf(before)},
+                          {begin, before / total},
                           request.mayCutPieces && node.points == 0 && !isBlended};
         shares_.push_back(share);
         const bool isNeeded = isBlended || fallsToChannel(share);

@@ -30,14 +30,13 @@ struct NodePart {
 /// stands in for a node that is missing is drawn by each channel that the node falls to.
 class NodeShares {
 public:
-    /// Work is counted in triangles.
-    using Cost = std::function<std::uint64_t(const CutNode&)>;
     using NodeTest = std::function<bool(std::uint32_t)>;
 
-    /// `wanted`: MeshCut::wanted of `request.view` at `request.tauPixels`. Nodes that `hasBlended`
-    /// fall to every channel, beside the range that they start in.
+    /// `wanted`: MeshCut::wanted of `request.view` at `request.tauPixels`, of which each node takes
+    /// as much of the work as `work` says, above 0 and times anything. Nodes that `hasBlended` fall
+    /// to every channel, beside the range that they start in.
     NodeShares(const mesh::EymFile& file, std::span<const CutNode> wanted,
-               const CutRequest& request, const Cost& costOf, const NodeTest& hasBlended);
+               std::span<const double> work, const CutRequest& request, const NodeTest& hasBlended);
 
     /// Whether it is one of the wanted nodes that fall to the channel, or above or below one.
     bool isNeeded(std::uint32_t node) const;

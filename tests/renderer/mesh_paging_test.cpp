@@ -250,17 +250,18 @@ TEST_F(MeshPaging, ARendererHoldsWhatItsRangeDraws) {
     const ChannelResult all = render(*plenty, 2.2, kTau, Completeness::Complete);
     std::vector<ChannelResult> halves;
     std::uint64_t triangles = 0;
+    std::uint64_t bytes = 0;
     for (const fabric::Range& range : {fabric::Range{0, 0.5}, fabric::Range{0.5, 1}}) {
         const auto renderer = open(path("coded.eym"));
         halves.push_back(render(*renderer, 2.2, kTau, Completeness::Complete, range));
         EXPECT_TRUE(halves.back().statistics.complete);
         EXPECT_LE(halves.back().statistics.tauAchievedPixels, kTau);
-        EXPECT_NEAR(static_cast<double>(halves.back().statistics.triangles),
-                    0.5 * static_cast<double>(all.statistics.triangles), 2);
-        EXPECT_LT(renderer->memory().deviceBytes, plenty->memory().deviceBytes * 6 / 10);
+        EXPECT_LT(renderer->memory().deviceBytes, plenty->memory().deviceBytes * 8 / 10);
+        bytes += renderer->memory().deviceBytes;
         triangles += halves.back().statistics.triangles;
     }
     EXPECT_EQ(triangles, all.statistics.triangles);
+    EXPECT_LT(bytes, plenty->memory().deviceBytes * 12 / 10);  // a node and the root twice
     EXPECT_TRUE(composed(halves[0], halves[1]) == wholeOf(all));
 }
 

@@ -2,8 +2,10 @@
 #include "renderer/draw/node_shares.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <random>
 #include <utility>
@@ -12,6 +14,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "renderer/draw/node_work.h"
 #include "renderer/import/mesh_import.h"
 #include "renderer/import/mesh_synth.h"
 #include "tests/support/ladders.h"
@@ -67,8 +70,8 @@ protected:
 
     NodeShares sharesOf(const MeshCut& wanted, const CutRequest& request,
                         const NodeShares::NodeTest& hasBlended = kNone) const {
-        return {*file_, wanted.wanted, request,
-                [this](const CutNode& node) { return costOf(node); }, hasBlended};
+        return {*file_, wanted.wanted, workOf(*file_, request.view, wanted.wanted), request,
+                hasBlended};
     }
 
     static CutRequest requestOf(const lod::ObjectView& view, double begin, double end,
@@ -162,24 +165,26 @@ TEST_P(NodeSharesOf, AViewAreAsLargeAsTheirRanges) {
     for (int i = 0; i < 100; ++i) {
         const lod::ObjectView view = randomView();
         const MeshCut wanted = wantedOf(view, 0.5);
-        std::uint64_t all = 0;
-        std::uint64_t most = 1;
-        for (const CutNode& node : wanted.wanted) {
-            all += costOf(node);
-            most = std::max(most, costOf(node));
-        }
+        const std::vector<double> work = workOf(*file_, view, wanted.wanted);
+        const double all = std::accumulate(work.begin(), work.end(), 0.0);
+        const double most = work.empty() ? 0 : std::ranges::max(work);
         for (const bool mayCutPieces : {true, false}) {
             const CutRequest request = requestOf(view, 0.25, 0.75, mayCutPieces);
             const NodeShares shares = sharesOf(wanted, request);
-            MeshCut mine = wanted;
-            shares.keepNeeded(mine);
-            double work = 0;
-            for (const CutNode& node : mine.drawn)
-                work += static_cast<double>(node.points > 0 ? node.points
-                                                            : shares.partOf(node).triangles);
-            // Points are not cut, and small nodes count as one triangle.
-            const double grain = mayCutPieces && GetParam() ? 2 : 2 * static_cast<double>(most);
-            EXPECT_NEAR(work, 0.5 * static_cast<double>(all), grain);
+            double mine = 0;
+            for (std::size_t k = 0; k < work.size(); ++k) {
+                const CutNode& node = wanted.wanted[k];
+                if (!shares.isNeeded(node.node))
+                    continue;
+                const double part = node.points > 0
+                                        ? 1
+                                        : static_cast<double>(shares.partOf(node).triangles) /
+                                              static_cast<double>(costOf(node));
+                mine += part * work[k];
+            }
+            // Points are not cut; a triangle more or less is a few of its node's work.
+            const double grain = mayCutPieces && GetParam() ? 10 : 2 * most;
+            EXPECT_NEAR(mine, 0.5 * all, grain);
         }
     }
 }
@@ -228,6 +233,36 @@ TEST_P(NodeSharesOf, AViewWithBlendedNodesFallToAllOfThem) {
             EXPECT_EQ(shares.partOf(node).firstTriangle, 0U);
         }
     }
+}
+
+TEST_P(NodeSharesOf, AViewCountsWhatIsSeenForMoreThanWhatIsHidden) {
+    const fabric::Box box = file_->bounds();
+    const double radius = 0.5 * glm::length(box.size());
+    fabric::Camera camera;
+    camera.target = box.centre();
+    camera.eye = box.centre() + fabric::Vec3(4 * radius, 0, 0);
+    camera.up = {0, 0, 1};
+    const lod::ObjectView view(lod::View(camera, 640, 360), fabric::Mat4(1.0));
+    const MeshCut wanted = wantedOf(view, 0.1);
+    const std::vector<double> work = workOf(*file_, view, wanted.wanted);
+    ASSERT_EQ(work.size(), wanted.wanted.size());
+    std::size_t front = 0;
+    std::size_t back = 0;
+    for (std::size_t i = 0; i < work.size(); ++i) {
+        const double perTriangle = work[i] / static_cast<double>(costOf(wanted.wanted[i]));
+        EXPECT_GE(perTriangle, 1);
+        EXPECT_LE(perTriangle, 5);
+        const fabric::Box bounds = file_->bounds(wanted.wanted[i].node);
+        const double towards = (bounds.centre() - box.centre()).x / radius;
+        if (!GetParam() || std::abs(towards) < 0.3)
+            continue;
+        ++(towards > 0 ? front : back);
+        if (towards > 0)
+            EXPECT_EQ(perTriangle, 5);
+        else
+            EXPECT_LT(perTriangle, 2.5);
+    }
+    EXPECT_TRUE(!GetParam() || (front > 0 && back > 0));
 }
 
 INSTANTIATE_TEST_SUITE_P(, NodeSharesOf, testing::Values(true, false),
