@@ -104,8 +104,7 @@ void addCoordinator(CLI::App& app, Run& run) {
         ->type_name("DIR");
     addProgramOptions(*command, options->programs);
     addQuotaOptions(*command, options->quotas);
-    command->add_flag("--grpc-reflection", options->grpcReflection,
-                      "Let gRPC tools ask which calls there are");
+    addReflectionOption(*command, options->grpcReflection);
     addConfigOptions(*command, options->config);
     addDoorOptions(*command, options->door);
     addPeerOptions(*command, options->door);

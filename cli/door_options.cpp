@@ -71,6 +71,11 @@ void addPeerOptions(CLI::App& command, DoorOptions& options) {
         ->type_name("NAME");
 }
 
+CLI::Option* addReflectionOption(CLI::App& command, bool& reflection) {
+    return command.add_flag("--grpc-reflection", reflection,
+                            "Let gRPC tools ask which calls there are");
+}
+
 absl::StatusOr<Doors> doorsOf(const DoorOptions& options) {
     Doors doors;
     doors.insecure = options.insecure;

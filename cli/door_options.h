@@ -28,6 +28,9 @@ void addDoorOptions(CLI::App& command, DoorOptions& options);
 /// Between processes: --tls-ca, --tls-name.
 void addPeerOptions(CLI::App& command, DoorOptions& options);
 
+/// --grpc-reflection.
+CLI::Option* addReflectionOption(CLI::App& command, bool& reflection);
+
 /// What the options come to, read and checked.
 struct Doors {
     std::shared_ptr<access::Gate> gate;   ///< null: no token file

@@ -41,6 +41,7 @@ struct Options {
     std::vector<std::string> data;
     std::string listen = "127.0.0.1:8080";
     std::string grpc;  ///< empty: nowhere
+    bool grpcReflection = false;
     std::string dataFolder;
     CacheOptions cache;
     TileDecoding decoding = TileDecoding::Auto;
@@ -110,6 +111,7 @@ absl::StatusOr<coordinator::CoordinatorOptions> settingsOf(const Options& option
         RETURN_IF_ERROR(fabric::withContext(wire::checkAddress(options.grpc), "--grpc"));
         RETURN_IF_ERROR(checkGrpcDoor(doors, options.grpc, "--grpc"));
         settings.grpcAddresses = {options.grpc};
+        settings.grpcReflection = options.grpcReflection;
         settings.security = doors.security;
     }
     ASSIGN_OR_RETURN(settings.configuration, configurationOf(options.config, options.quiet));
@@ -178,6 +180,7 @@ void addServe(CLI::App& app, Run& run) {
         ->add_option("--grpc", options->grpc,
                      "Where programs call by gRPC; port 0: any free one [nowhere]")
         ->type_name("HOST:PORT|unix:/PATH");
+    addReflectionOption(*command, options->grpcReflection)->needs("--grpc");
     command
         ->add_option("--renderers", options->renderers,
                      "Renderer processes [as many as the layouts that --config shows use, at any "

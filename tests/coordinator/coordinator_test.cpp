@@ -10,11 +10,6 @@
 #include <thread>
 
 #include <gmock/gmock.h>
-#include <grpcpp/client_context.h>
-#include <grpcpp/completion_queue.h>
-#include <grpcpp/create_channel.h>
-#include <grpcpp/generic/generic_stub.h>
-#include <grpcpp/security/credentials.h>
 
 #include "layered_scene.h"
 #include "service/renderer_node.h"
@@ -22,6 +17,7 @@
 #include "tests/support/identifier.h"
 #include "tests/support/json.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/told_services.h"
 
 namespace eyrie::coordinator {
 namespace {
@@ -224,47 +220,17 @@ TEST(Coordinator, TellsHowToStartARenderer) {
                 testing::HasSubstr("--coordinator " + coordinator->grpcAddresses()[1]));
 }
 
-/// What a tool is told that asks for the list of services, and how that ends. Written by hand, as
-/// grpc.reflection.v1alpha has it: Debian has no header of it.
-std::pair<grpc::StatusCode, std::string> servicesToldAt(const std::string& address) {
-    grpc::GenericStub stub(grpc::CreateChannel(address, grpc::InsecureChannelCredentials()));
-    grpc::ClientContext context;
-    context.set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(30));
-    grpc::CompletionQueue queue;
-    void* tag = nullptr;
-    bool isDone = false;
-    const auto await = [&] { return queue.Next(&tag, &isDone) && isDone; };
-    const auto call = stub.PrepareCall(
-        &context, "/grpc.reflection.v1alpha.ServerReflection/ServerReflectionInfo", &queue);
-    call->StartCall(nullptr);
-    await();
-    const grpc::Slice listServices(std::string("\x3a\x00", 2));  // field 7, ""
-    call->WriteLast(grpc::ByteBuffer(&listServices, 1), grpc::WriteOptions(), nullptr);
-    await();
-    grpc::ByteBuffer answer;
-    call->Read(&answer, nullptr);
-    std::string told;
-    std::vector<grpc::Slice> slices;
-    if (await() && answer.Dump(&slices).ok())
-        for (const grpc::Slice& slice : slices)
-            told.append(reinterpret_cast<const char*>(slice.begin()), slice.size());
-    grpc::Status status;
-    call->Finish(&status, nullptr);
-    await();
-    return {status.error_code(), told};
-}
-
 TEST(Coordinator, TellsToolsItsCallsOnlyWhereItIsToDoSo) {
     const test::TemporaryFolder folder;
     CoordinatorOptions options = optionsFor(folder, "2D");
     {
         const auto silent = Coordinator::start(options).value();
-        EXPECT_EQ(servicesToldAt(silent->grpcAddresses()[0]).first,
+        EXPECT_EQ(test::servicesToldAt(silent->grpcAddresses()[0]).first,
                   grpc::StatusCode::UNIMPLEMENTED);
     }
     options.grpcReflection = true;
     const auto coordinator = Coordinator::start(options).value();
-    const auto [code, told] = servicesToldAt(coordinator->grpcAddresses()[0]);
+    const auto [code, told] = test::servicesToldAt(coordinator->grpcAddresses()[0]);
     EXPECT_EQ(code, grpc::StatusCode::OK);
     EXPECT_THAT(told, testing::HasSubstr("eyrie.v1.CoordinatorService"));
 }

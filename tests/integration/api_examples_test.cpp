@@ -21,6 +21,7 @@
 #include "tests/support/http_client.h"
 #include "tests/support/program.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/told_services.h"
 #include "tests/support/viewer_client.h"
 
 namespace eyrie {
@@ -41,7 +42,7 @@ protected:
         server_ = new test::Process(
             test::eyrieCommand({"serve", EYRIE_SOURCE_DIR "/demo/scene.json", "--listen",
                                 "127.0.0.1:0", "--renderers", "2", "--data", folder_->path("data"),
-                                "--grpc", "127.0.0.1:0"}),
+                                "--grpc", "127.0.0.1:0", "--grpc-reflection"}),
             {"XDG_CACHE_HOME=" + folder_->path("cache")});
         ASSERT_TRUE(server_->waitForOutput("Eyrie is at http://", seconds(120)) &&
                     server_->waitForOutput("/\n", seconds(1)))
@@ -127,6 +128,12 @@ private:
     std::unique_ptr<test::ViewerClient> client_;
     std::jthread reading_;
 };
+
+TEST_F(ApiExamples, GrpcToolsMayAskWhichCallsThereAre) {
+    const auto [code, told] = test::servicesToldAt(grpcAddress());
+    EXPECT_EQ(code, grpc::StatusCode::OK);
+    EXPECT_THAT(told, HasSubstr("eyrie.v1.CoordinatorService"));
+}
 
 TEST_F(ApiExamples, EveryCallAnswersAsDocumented) {
     const Somebody somebody(port(), "example");
