@@ -265,6 +265,23 @@ TEST_F(MeshPaging, ARendererHoldsWhatItsRangeDraws) {
     EXPECT_TRUE(composed(halves[0], halves[1]) == wholeOf(all));
 }
 
+/// As equalizers move ranges, and the camera what lies in them.
+TEST_F(MeshPaging, WhatOtherRangesDrawComesWhenOnesOwnIsThere) {
+    constexpr double kTau = 0.05;
+    const auto renderer = open(path("coded.eym"));
+    const auto end = std::chrono::steady_clock::now() + kPatience;
+    for (int quiet = 0; quiet < 10 && std::chrono::steady_clock::now() < end;) {
+        const ChannelResult first =
+            render(*renderer, 2.2, kTau, Completeness::Interactive, {0, 0.5});
+        const bool isQuiet = first.statistics.complete && first.statistics.pagesLoaded == 0;
+        quiet = isQuiet ? quiet + 1 : 0;
+    }
+    const ChannelResult second = render(*renderer, 2.2, kTau, Completeness::Interactive, {0.5, 1});
+    EXPECT_TRUE(second.statistics.complete);
+    EXPECT_EQ(second.statistics.pagesLoaded, 0U);
+    EXPECT_GT(second.statistics.triangles, 0U);
+}
+
 TEST_F(MeshPaging, RangesLeaveNoHoleWhereOneOfTheirRenderersLacksPages) {
     const auto file = mesh::EymFile::open(path("coded.eym"));
     std::set<std::uint32_t> leaves;
