@@ -6,9 +6,9 @@
 
 namespace eyrie::fabric {
 
-/// A share [begin, end) of a view's work, both in [0, 1], in the order of the data: what a
-/// sort-last (DB) channel draws. What cannot be cut belongs to the one range that contains its
-/// start.
+/// A share [begin, end) of the work of a view, or of an object in it, both in [0, 1], in the order
+/// of the data: what a sort-last (DB) channel draws. What cannot be cut belongs to the one range
+/// that contains its start.
 struct Range {
     double begin = 0;
     double end = 1;

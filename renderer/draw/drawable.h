@@ -36,8 +36,8 @@ inline constexpr std::chrono::duration<double, std::milli> kUploadTime{3};
 /// One LOD node of a frame's cut.
 struct Piece {
     std::uint32_t index = 0;  ///< the drawable's own name for it, valid until the next cut
-    /// Where it starts in the drawable's part [0, 1) of the view's work; of what starts before the
-    /// channel's range and reaches into it, where that begins.
+    /// Where it starts in the object's work [0, 1); of what starts before the channel's range and
+    /// reaches into it, where that begins.
     double rangePosition = 0;
     fabric::Box bounds;  ///< object space, metres
     bool isNode = true;  ///< false for what is drawn beside the nodes
@@ -56,16 +56,13 @@ enum class Layer { Opaque, Blended };
 struct CutRequest {
     const lod::ObjectView& view;     ///< the whole view, from the object
     const fabric::Frustum& channel;  ///< the part that the channel looks through; same axes
-    fabric::Range range;             ///< the share of the view's work that it draws
+    fabric::Range range;             ///< the share of the object's work that it draws
     double tauPixels = 1;
     fabric::Completeness completeness = fabric::Completeness::Complete;
     double exaggeration = 1;       ///< of terrain; `view` holds it already
     bool wantsPageBounds = false;  ///< pieces for them, beside the nodes
-    /// Whether ranges may meet within a piece, each drawing its triangles on one side: where no
-    /// other object's pieces come between these in the order of the range.
-    bool mayCutPieces = false;
-    std::stop_token stop = {};  ///< ends the wait for what a complete cut needs
-    ViewTurn turn = {};         ///< of `view`
+    std::stop_token stop = {};     ///< ends the wait for what a complete cut needs
+    ViewTurn turn = {};            ///< of `view`
 };
 
 /// What a drawable shows of itself in one channel.
@@ -118,6 +115,11 @@ public:
     /// are there. About: what it decides is only how well to draw. Followed by selectCut() for the
     /// same view.
     virtual std::uint64_t viewTriangles(const CutRequest& request) = 0;
+
+    /// About how long drawing all takes that the view shows of the object, in a unit that is the
+    /// same for all objects and, for the same files and view, on every machine. Followed by
+    /// selectCut() for the same view.
+    virtual double viewWork(const CutRequest& request) = 0;
 
     /// Chooses what stands for the object in a channel. Complete cuts of one view and range are the
     /// same whatever the channel, so the channels of a frame fit together; they wait for what has

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "renderer/draw/node_work.h"
@@ -153,8 +154,12 @@ std::vector<Piece> MeshChoice::piecesOf(const MeshCut& drawn, const NodeShares& 
     return pieces;
 }
 
+double MeshChoice::viewWork(const CutRequest& request) {
+    const std::vector<double> work = workOf(*file_, request.view, wantedAt(0, request).wanted);
+    return std::accumulate(work.begin(), work.end(), 0.0);
+}
+
 Cut MeshChoice::select(const CutRequest& request) {
-    wanted_.clear();
     const page::TauLadder::Choice choice = tau_.choose(
         request,
         [&](const lod::ObjectView& view, double tauPixels, int step) {
@@ -164,7 +169,10 @@ Cut MeshChoice::select(const CutRequest& request) {
         paging_->roomBytes());
     const double tauPixels = request.tauPixels * page::TauLadder::factor(choice.step);
     const std::vector<CutNode>& asked = wantedAt(0, request).wanted;
-    const NodeShares shares(*file_, asked, workOf(*file_, request.view, asked), request,
+    // How much of the whole a node is decides nothing where all is drawn.
+    const std::vector<double> work = request.range.isWhole() ? std::vector<double>(asked.size(), 1)
+                                                             : workOf(*file_, request.view, asked);
+    const NodeShares shares(*file_, asked, work, request,
                             [this](std::uint32_t node) { return hasBlended(node); });
     MeshCut drawn = cutNow(choice.step, request, shares);
     const MeshPaging::Progress progress = load(request, tauPixels, shares, drawn);
@@ -183,6 +191,7 @@ Cut MeshChoice::select(const CutRequest& request) {
     cut.isComplete = cut.pagesMissing == 0 && choice.isLowest;
     errorPixels_ = drawn.errorPixels();
     cut.pieces = piecesOf(drawn, shares);
+    wanted_.clear();
     return cut;
 }
 

@@ -26,6 +26,7 @@ public:
 
     /// Drawable's.
     std::uint64_t viewTriangles(const CutRequest& request) const;
+    double viewWork(const CutRequest& request);
     Cut select(const CutRequest& request);
     double errorPixels() const { return errorPixels_; }
     MemoryUse memory() const { return paging_->memory(); }
@@ -53,8 +54,9 @@ private:
     const std::unique_ptr<MeshPaging> paging_;
     PerView<Prefetch> prefetch_;
     TauChoice tau_;
-    std::map<int, MeshCut> wanted_;  ///< by this view, whatever is there, by step
-    double errorPixels_ = 0;         ///< of the last cut
+    /// By the view that is about to be drawn, whatever is there, by step.
+    std::map<int, MeshCut> wanted_;
+    double errorPixels_ = 0;  ///< of the last cut
 };
 
 }  // namespace eyrie::draw

@@ -63,6 +63,7 @@ public:
     std::uint64_t viewTriangles(const CutRequest& request) override {
         return choice_.viewTriangles(request);
     }
+    double viewWork(const CutRequest& request) override { return choice_.viewWork(request); }
     Cut selectCut(const CutRequest& request) override { return choice_.select(request); }
     double errorPixels(const CutRequest&, occlusion::HiddenGround*) override {
         return choice_.errorPixels();

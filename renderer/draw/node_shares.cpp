@@ -8,7 +8,7 @@
 namespace eyrie::draw {
 namespace {
 
-/// How many of so many triangles of a node come before a place in the view's work.
+/// How many of so many triangles of a node come before a place in the mesh's work.
 std::uint32_t trianglesBefore(double position, const fabric::Range& node, std::uint32_t all) {
     const double share = (position - node.begin) / (node.end - node.begin);
     return static_cast<std::uint32_t>(std::lround(std::clamp(share, 0.0, 1.0) * all));
@@ -33,7 +33,7 @@ NodeShares::NodeShares(const mesh::EymFile& file, std::span<const CutNode> wante
         const Share share{node.node,
                           file.nodes()[node.node].triangleEnd,
                           {begin, before / total},
-                          request.mayCutPieces && node.points == 0 && !isBlended};
+                          node.points == 0 && !isBlended};
         shares_.push_back(share);
         const bool isNeeded = isBlended || fallsToChannel(share);
         neededBefore_.push_back(neededBefore_.back() + (isNeeded ? 1 : 0));

@@ -22,8 +22,8 @@ struct NodePart {
 };
 
 /// Which nodes of a view's cut, and what of them, fall to a channel: its range is a share of the
-/// view's work, in the order of the data. So ranges of the same length have about as much to draw
-/// from wherever one looks.
+/// mesh's work in the view, in the order of the data. So ranges of the same length have about as
+/// much to draw from wherever one looks.
 ///
 /// Every channel of a frame reckons with the same cut, the one that keeps the tau that was asked
 /// for, whatever memory it has and whatever has arrived; so their shares meet exactly, and what
@@ -50,7 +50,7 @@ private:
     struct Share {
         std::uint32_t node;
         std::uint64_t triangleEnd;  ///< mesh::Node's
-        fabric::Range range;        ///< its own, of the view's work
+        fabric::Range range;        ///< its own, of the mesh's work
         bool mayBeCut;              ///< several channels draw some of its triangles each
     };
     /// The first and the end of those that a node is one of, or above or below.

@@ -12,9 +12,6 @@ namespace {
 
 /// Of what the nodes cover together, each way.
 constexpr int kCells = 32;
-/// What the pixels of a triangle that is seen take, of what is done for any (llvmpipe, scans at tau
-/// 1: docs/benchmarks/farm.md).
-constexpr double kPixels = 4;
 
 /// A node's box on the screen.
 struct Silhouette {
@@ -86,7 +83,7 @@ std::vector<double> workOf(const mesh::EymFile& file, const lod::ObjectView& vie
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         const std::uint32_t triangles = file.nodes()[nodes[i].node].indexCount / 3;
         const double elements = nodes[i].points > 0 ? nodes[i].points : triangles;
-        work.push_back(elements * (1 + kPixels * cells.shareSeen(silhouettes[i])));
+        work.push_back(elements * (1 + (kWorkOfSeen - 1) * cells.shareSeen(silhouettes[i])));
     }
     return work;
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <numeric>
 
 namespace eyrie::draw {
 namespace {
@@ -27,6 +28,41 @@ void sortBackToFront(std::vector<OrderedPiece>& pieces, const lod::View& view,
     };
     std::stable_sort(pieces.begin(), pieces.end(),
                      [&](const auto& a, const auto& b) { return height(a) < height(b); });
+}
+
+/// What of each object's work falls to the channel. Of the view's work objects have a share each,
+/// one after the other; every channel of a frame comes to the same.
+std::vector<fabric::Range> rangesOf(std::span<const OpenObject> objects, const lod::View& view,
+                                    const fabric::FrameData& frameData,
+                                    const fabric::ChannelTask& task) {
+    std::vector<fabric::Range> ranges(objects.size());
+    if (task.range.isWhole())
+        return ranges;
+    const fabric::Look& look = frameData.look;
+    std::vector<double> work(objects.size(), 0.0);
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+        if (look.hidden.contains(i))
+            continue;
+        const lod::ObjectView objectView(view, drawnWorldFromObject(objects[i].object, look));
+        work[i] = objects[i].drawable->viewWork({.view = objectView,
+                                                 .channel = view.frustum,
+                                                 .range = {},
+                                                 .tauPixels = frameData.tauPixels,
+                                                 .exaggeration = look.exaggeration});
+    }
+    const double total = std::accumulate(work.begin(), work.end(), 0.0);
+    double before = 0;
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+        const auto inObject = [&](double place) {
+            if (place <= 0 || place >= 1)
+                return place <= 0 ? 0.0 : 1.0;
+            const double beyond = place * total - before;
+            return work[i] > 0 ? std::clamp(beyond / work[i], 0.0, 1.0) : beyond > 0 ? 1.0 : 0.0;
+        };
+        ranges[i] = {inObject(task.range.begin), inObject(task.range.end)};
+        before += work[i];
+    }
+    return ranges;
 }
 
 }  // namespace
@@ -63,9 +99,7 @@ Selection selectPieces(std::span<const OpenObject> objects, const lod::TaskViews
     // A cut that was frozen is brought whole: this view may see all of it.
     const lod::View cutView = cutViewOf(look, task, views.whole);
     const fabric::Frustum& cutChannel = look.cutCamera ? cutView.frustum : channel;
-    std::uint32_t shown = 0;
-    for (std::uint32_t i = 0; i < objects.size(); ++i) shown += look.hidden.contains(i) ? 0 : 1;
-    const bool isAlone = shown == 1;
+    const std::vector<fabric::Range> ranges = rangesOf(objects, cutView, frameData, task);
     for (std::uint32_t i = 0; i < objects.size(); ++i) {
         const fabric::Mat4& worldFromObject =
             selection.worldFromObject.emplace_back(drawnWorldFromObject(objects[i].object, look));
@@ -74,13 +108,13 @@ Selection selectPieces(std::span<const OpenObject> objects, const lod::TaskViews
         const lod::ObjectView objectView(views.drawn, worldFromObject);
         const lod::ObjectView cutObjectView(cutView, worldFromObject);
         const Cut cut = objects[i].drawable->selectCut(
-            {cutObjectView, cutChannel, task.range, frameData.tauPixels, task.completeness,
-             look.exaggeration, look.pageBounds, isAlone, stop, turn});
+            {cutObjectView, cutChannel, ranges[i], frameData.tauPixels, task.completeness,
+             look.exaggeration, look.pageBounds, stop, turn});
         addTo(statistics, cut);
         const bool hasLayers =
             look.objects.shadingOf(i, frameData.shading) != fabric::Shading::Wireframe;
         for (const Piece& piece : cut.pieces) {
-            const bool isInRange = task.range.contains(piece.rangePosition);
+            const bool isInRange = ranges[i].contains(piece.rangePosition);
             const bool isBlended = piece.hasBlended && hasLayers;
             if ((!isInRange && !isBlended) || !objectView.isVisible(piece.bounds, channel))
                 continue;
@@ -93,9 +127,6 @@ Selection selectPieces(std::span<const OpenObject> objects, const lod::TaskViews
                     enclosing(selection.covered, objectView.coveredPixels(piece.bounds));
         }
     }
-    std::stable_sort(pieces.begin(), pieces.end(), [](const auto& a, const auto& b) {
-        return a.piece.rangePosition < b.piece.rangePosition;
-    });
     sortBackToFront(selection.blended, views.drawn, selection.worldFromObject);
     selection.covered = intersection(selection.covered, task.pixelViewport);
     return selection;

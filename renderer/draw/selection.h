@@ -38,9 +38,9 @@ struct Selection {
     fabric::PixelViewport covered;
 };
 
-/// The pieces of all objects that fall to the task, in the order of their place in the range.
-/// Every channel of a frame draws in that order, so where depths tie the lower range wins in one
-/// channel as it does in compositing.
+/// The pieces of all objects that fall to the task, object after object, of each in the order of
+/// their place in its range. Every channel of a frame draws in that order, so where depths tie the
+/// lower range wins in one channel as it does in compositing.
 ///
 /// What is blended falls to every range: of the channels that are composited, that which has the
 /// nearest opaque surface of a pixel wins, and has to have drawn all that is in front of it.

@@ -10,6 +10,7 @@
 #include "fabric/status.h"
 #include "renderer/draw/box_lines.h"
 #include "renderer/draw/needed_tiles.h"
+#include "renderer/draw/node_work.h"
 #include "renderer/draw/object_program.h"
 #include "renderer/draw/page_bounds.h"
 #include "renderer/draw/prefetch.h"
@@ -105,6 +106,10 @@ public:
     }
 
     std::uint64_t viewTriangles(const CutRequest& request) override;
+    /// All as if it were seen.
+    double viewWork(const CutRequest& request) override {
+        return kWorkOfSeen * static_cast<double>(viewTriangles(request));
+    }
     Cut selectCut(const CutRequest& request) override;
     double errorPixels(const CutRequest& request, occlusion::HiddenGround* hidden) override {
         return TerrainError(index(), *paging_, needed_, request, hidden).pixels(drawn_);

@@ -265,6 +265,31 @@ TEST_F(MeshPaging, ARendererHoldsWhatItsRangeDraws) {
     EXPECT_TRUE(composed(halves[0], halves[1]) == wholeOf(all));
 }
 
+/// Objects have shares of the view's work one after the other, as they are drawn in one channel.
+TEST_F(MeshPaging, OfTwoObjectsAtOnePlaceTheFirstIsSeenWhereverRangesMeet) {
+    fabric::Scene scene;
+    for (const fabric::Vec3& colour : {fabric::Vec3(1, 0, 0), fabric::Vec3(0, 1, 0)})
+        scene.objects.push_back({.name = "ball",
+                                 .kind = fabric::ObjectKind::Mesh,
+                                 .path = path("coded.eym"),
+                                 .colour = colour});
+    const auto renderer = Renderer::create({}).value();
+    ASSERT_TRUE(renderer->openScene(scene).ok());
+    const ChannelResult all = render(*renderer, 2.2, 1, Completeness::Complete);
+    const fabric::Image expected = wholeOf(all);
+    EXPECT_TRUE(std::ranges::all_of(expected.colour, [](const fabric::Rgba& pixel) {
+        return pixel.g <= pixel.r;
+    })) << "the second shows";
+    for (const double cut : {0.1, 0.3, 0.5, 0.51, 0.8}) {
+        const ChannelResult first = render(*renderer, 2.2, 1, Completeness::Complete, {0, cut});
+        const ChannelResult second = render(*renderer, 2.2, 1, Completeness::Complete, {cut, 1});
+        EXPECT_TRUE(composed(first, second) == expected) << cut;
+        EXPECT_NEAR(static_cast<double>(first.statistics.triangles),
+                    cut * static_cast<double>(all.statistics.triangles),
+                    0.25 * static_cast<double>(all.statistics.triangles));
+    }
+}
+
 /// As equalizers move ranges, and the camera what lies in them.
 TEST_F(MeshPaging, WhatOtherRangesDrawComesWhenOnesOwnIsThere) {
     constexpr double kTau = 0.05;

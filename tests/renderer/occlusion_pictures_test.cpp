@@ -151,7 +151,7 @@ TEST_P(OcclusionPictures, AreTheSameInEveryPartAndRangeDrawnInTurn) {
         for (const ChannelTask& task : {left, right, near, far})
             hidden += hiddenIn(*renderer_, frame, task, "frame " + std::to_string(i));
     }
-    EXPECT_GT(hidden, 12U);
+    EXPECT_GE(hidden, 6U) << "parts and ranges should have something to hide";
 }
 
 TEST_P(OcclusionPictures, AreTheSameForEveryLook) {

@@ -74,12 +74,8 @@ protected:
                 hasBlended};
     }
 
-    static CutRequest requestOf(const lod::ObjectView& view, double begin, double end,
-                                bool mayCutPieces) {
-        return {.view = view,
-                .channel = view.view().frustum,
-                .range = {begin, end},
-                .mayCutPieces = mayCutPieces};
+    static CutRequest requestOf(const lod::ObjectView& view, double begin, double end) {
+        return {.view = view, .channel = view.view().frustum, .range = {begin, end}};
     }
 
     MeshCut wantedOf(const lod::ObjectView& view, double tauPixels) const {
@@ -127,12 +123,11 @@ TEST_P(NodeSharesOf, AViewAreDrawnOnceInTheOrderOfTheWhole) {
     for (int i = 0; i < 300; ++i) {
         const lod::ObjectView view = randomView();
         const MeshCut wanted = wantedOf(view, std::exp2(i % 9 - 3));
-        const bool mayCutPieces = i % 2 == 0;
         const std::vector<double> cuts = randomCuts();
         std::vector<std::pair<std::uint32_t, std::uint32_t>> drawn;  // node, triangle
         std::vector<std::uint32_t> points;
         for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
-            const CutRequest request = requestOf(view, cuts[k], cuts[k + 1], mayCutPieces);
+            const CutRequest request = requestOf(view, cuts[k], cuts[k + 1]);
             const NodeShares shares = sharesOf(wanted, request);
             MeshCut mine = wanted;
             shares.keepNeeded(mine);
@@ -168,24 +163,21 @@ TEST_P(NodeSharesOf, AViewAreAsLargeAsTheirRanges) {
         const std::vector<double> work = workOf(*file_, view, wanted.wanted);
         const double all = std::accumulate(work.begin(), work.end(), 0.0);
         const double most = work.empty() ? 0 : std::ranges::max(work);
-        for (const bool mayCutPieces : {true, false}) {
-            const CutRequest request = requestOf(view, 0.25, 0.75, mayCutPieces);
-            const NodeShares shares = sharesOf(wanted, request);
-            double mine = 0;
-            for (std::size_t k = 0; k < work.size(); ++k) {
-                const CutNode& node = wanted.wanted[k];
-                if (!shares.isNeeded(node.node))
-                    continue;
-                const double part = node.points > 0
-                                        ? 1
-                                        : static_cast<double>(shares.partOf(node).triangles) /
-                                              static_cast<double>(costOf(node));
-                mine += part * work[k];
-            }
-            // Points are not cut; a triangle more or less is a few of its node's work.
-            const double grain = mayCutPieces && GetParam() ? 10 : 2 * most;
-            EXPECT_NEAR(mine, 0.5 * all, grain);
+        const CutRequest request = requestOf(view, 0.25, 0.75);
+        const NodeShares shares = sharesOf(wanted, request);
+        double mine = 0;
+        for (std::size_t k = 0; k < work.size(); ++k) {
+            const CutNode& node = wanted.wanted[k];
+            if (!shares.isNeeded(node.node))
+                continue;
+            const double part = node.points > 0
+                                    ? 1
+                                    : static_cast<double>(shares.partOf(node).triangles) /
+                                          static_cast<double>(costOf(node));
+            mine += part * work[k];
         }
+        // Points are not cut; a triangle more or less at either end.
+        EXPECT_NEAR(mine, 0.5 * all, GetParam() ? 2 * kWorkOfSeen : 2 * most);
     }
 }
 
@@ -199,7 +191,7 @@ TEST_P(NodeSharesOf, AViewLeaveNoGapsWhereNodesAreMissing) {
         const double drawnTau = std::exp2(i % 9 - 3 + i % 3);  // one may have less memory
         const std::vector<double> cuts = randomCuts();
         for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
-            const CutRequest request = requestOf(view, cuts[k], cuts[k + 1], i % 2 == 0);
+            const CutRequest request = requestOf(view, cuts[k], cuts[k + 1]);
             const NodeShares shares = sharesOf(wanted, request);
             std::map<std::uint32_t, bool> isThere{{0, true}};
             MeshCut mine = cutOf(*file_, view, drawnTau, [&](std::uint32_t node) {
@@ -222,12 +214,12 @@ TEST_P(NodeSharesOf, AViewWithBlendedNodesFallToAllOfThem) {
     const MeshCut wanted = wantedOf(view, 0.5);
     const NodeShares::NodeTest all = [](std::uint32_t) { return true; };
     for (const double begin : {0.0, 0.25, 0.5, 0.75}) {
-        const CutRequest request = requestOf(view, begin, begin + 0.25, true);
+        const CutRequest request = requestOf(view, begin, begin + 0.25);
         const NodeShares shares = sharesOf(wanted, request, all);
         MeshCut mine = wanted;
         shares.keepNeeded(mine);
         ASSERT_EQ(mine.drawn.size(), wanted.drawn.size());
-        const NodeShares whole = sharesOf(wanted, requestOf(view, 0, 1, true), all);
+        const NodeShares whole = sharesOf(wanted, requestOf(view, 0, 1), all);
         for (const CutNode& node : mine.drawn) {
             EXPECT_EQ(shares.partOf(node).rangePosition, whole.partOf(node).rangePosition);
             EXPECT_EQ(shares.partOf(node).firstTriangle, 0U);
@@ -251,14 +243,14 @@ TEST_P(NodeSharesOf, AViewCountsWhatIsSeenForMoreThanWhatIsHidden) {
     for (std::size_t i = 0; i < work.size(); ++i) {
         const double perTriangle = work[i] / static_cast<double>(costOf(wanted.wanted[i]));
         EXPECT_GE(perTriangle, 1);
-        EXPECT_LE(perTriangle, 5);
+        EXPECT_LE(perTriangle, kWorkOfSeen);
         const fabric::Box bounds = file_->bounds(wanted.wanted[i].node);
         const double towards = (bounds.centre() - box.centre()).x / radius;
         if (!GetParam() || std::abs(towards) < 0.3)
             continue;
         ++(towards > 0 ? front : back);
         if (towards > 0)
-            EXPECT_EQ(perTriangle, 5);
+            EXPECT_EQ(perTriangle, kWorkOfSeen);
         else
             EXPECT_LT(perTriangle, 2.5);
     }
