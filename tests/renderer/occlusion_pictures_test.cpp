@@ -138,7 +138,7 @@ TEST_P(OcclusionPictures, AreTheSameAlongAFlightWithTurnsAndHardCuts) {
 
 TEST_P(OcclusionPictures, AreTheSameInEveryPartAndRangeDrawnInTurn) {
     std::uint64_t hidden = 0;
-    for (int i = 0; i < 12; ++i) {
+    for (int i = 0; i < 24; ++i) {
         const FrameData frame = onTheWay(0.2 + 0.003 * i);
         ChannelTask left = wholeView();
         left.pixelViewport = {0, 0, 131 + i, kHeight};
@@ -151,7 +151,7 @@ TEST_P(OcclusionPictures, AreTheSameInEveryPartAndRangeDrawnInTurn) {
         for (const ChannelTask& task : {left, right, near, far})
             hidden += hiddenIn(*renderer_, frame, task, "frame " + std::to_string(i));
     }
-    EXPECT_GE(hidden, 6U) << "parts and ranges should have something to hide";
+    EXPECT_GT(hidden, 12U);
 }
 
 TEST_P(OcclusionPictures, AreTheSameForEveryLook) {
