@@ -16,9 +16,13 @@ public:
     explicit NeededTiles(const terrain::EytIndex& index)
         : index_(index), positions_(index.quadtree.tileCount(), kNotNeeded) {}
 
-    /// `wanted` is the cut of `request.view`. The range is a share of its visible tiles, by
-    /// triangles: every channel of a frame wants the same cut, so their shares meet exactly.
-    void assign(const terrain::TerrainCut& wanted, const CutRequest& request);
+    /// `wanted` is the cut of `request.view`, and `asked` the one for the tau that was asked for,
+    /// which may be finer where memory binds. The range is a share of the visible tiles of `asked`,
+    /// by triangles: that is the same for every channel of a frame, whatever memory its share of
+    /// the view needs, so shares meet exactly. A coarser tile falls to each channel that one of the
+    /// tiles it stands for falls to.
+    void assign(const terrain::TerrainCut& wanted, const terrain::TerrainCut& asked,
+                const CutRequest& request);
 
     bool contains(const terrain::TileId& tile) const { return position(tile) != kNotNeeded; }
     /// Where its first needed leaf starts in the range [0, 1), or kNotNeeded.
@@ -34,6 +38,8 @@ public:
     static constexpr double kNotNeeded = -1;
 
 private:
+    void clear(std::vector<terrain::TileId>& tiles);
+    void mark(terrain::TileId tile, double position, std::vector<terrain::TileId>& marked);
     void add(const terrain::TileId& leaf, double position);
 
     const terrain::EytIndex& index_;

@@ -187,7 +187,7 @@ const TerrainDrawable::Wanted& TerrainDrawable::wantedAt(double tauPixels,
 std::vector<NeededItem> TerrainDrawable::itemsOf(const lod::ObjectView& view,
                                                  const terrain::TerrainCut& cut,
                                                  double texelPixels) {
-    needed_.assign(cut, {view, view.view().frustum, {}, 1, {}});
+    needed_.assign(cut, cut, {view, view.view().frustum, {}, 1, {}});
     std::vector<NeededItem> items;
     for (const auto* tiles : {&needed_.leaves(), &needed_.inner()})
         for (const terrain::TileId& tile : *tiles)
@@ -218,7 +218,7 @@ Cut TerrainDrawable::selectCut(const CutRequest& request) {
         paging_->roomBytes());
     const double tauPixels = request.tauPixels * page::TauLadder::factor(choice.step);
     const Wanted& wanted = wantedAt(tauPixels, request.view);
-    needed_.assign(wanted.cut, request);
+    needed_.assign(wanted.cut, wantedAt(request.tauPixels, request.view).cut, request);
     Prefetch& prefetch = prefetch_.of(request.turn);
     prefetch.follow(request.view.view(),
                     fabric::exaggerated(worldFromObject_, request.exaggeration),

@@ -115,7 +115,7 @@ protected:
     }
 
     ChannelResult draw(Renderer& renderer, const Camera& camera, Completeness completeness,
-                       double tau = 1) {
+                       double tau = 1, const fabric::Range& range = {}) {
         fabric::FrameData frame;
         frame.camera = camera;
         frame.tauPixels = tau;
@@ -125,6 +125,7 @@ protected:
         task.pixelViewport = {0, 0, kWidth, kHeight};
         task.wantsDepth = true;
         task.completeness = completeness;
+        task.range = range;
         auto result = renderer.render(frame, task);
         EXPECT_TRUE(result.ok()) << result.status();
         if (!result.ok())
@@ -205,6 +206,35 @@ TEST_P(WithheldPages, LeaveNoHoleWhereLevelsJump) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Jumps, WithheldPages, testing::Values(2, 3, 5));
+
+/// Renderers of one frame raise tau each by its own, the more the larger their range.
+TEST_F(Paging, RangesMeetWhereMemoryBinds) {
+    RendererOptions options;
+    {
+        const auto plenty = open(scene_.objects[0].path);
+        draw(*plenty, lookingDown(3), Completeness::Complete);
+        options.memoryBytes = plenty->memory().deviceBytes * 4 / 10;
+    }
+    int apart = 0;
+    for (const double cut : {0.2, 0.3, 0.5, 0.9}) {
+        const auto one = open(scene_.objects[0].path, options);
+        const auto two = open(scene_.objects[0].path, options);
+        for (int i = 0; i < 9; ++i) {
+            const Camera camera = lookingDown(i);
+            ChannelResult first = draw(*one, camera, Completeness::Complete, 0.5, {0, cut});
+            const ChannelResult second = draw(*two, camera, Completeness::Complete, 0.5, {cut, 1});
+            apart +=
+                first.statistics.tauAchievedPixels > 2 * second.statistics.tauAchievedPixels ||
+                        second.statistics.tauAchievedPixels > 2 * first.statistics.tauAchievedPixels
+                    ? 1
+                    : 0;
+            for (std::size_t p = 0; p < first.image.depth.size(); ++p)
+                first.image.depth[p] = std::max(first.image.depth[p], second.image.depth[p]);
+            EXPECT_EQ(uncovered(first.image), 0U) << cut << ", view " << i;
+        }
+    }
+    EXPECT_GT(apart, 3) << "they should have reached errors of their own";
+}
 
 TEST_F(Paging, TilesWhoseNormalsCannotBeReadAreNotDrawn) {
     const test::CapturedLog log;
