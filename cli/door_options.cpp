@@ -73,7 +73,7 @@ void addPeerOptions(CLI::App& command, DoorOptions& options) {
 
 CLI::Option* addReflectionOption(CLI::App& command, bool& reflection) {
     return command.add_flag("--grpc-reflection", reflection,
-                            "Let gRPC tools ask which calls there are");
+                            "Let gRPC tools ask which calls there are, without a token");
 }
 
 absl::StatusOr<Doors> doorsOf(const DoorOptions& options) {
