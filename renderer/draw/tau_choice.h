@@ -20,7 +20,7 @@ class TauChoice {
 public:
     /// `itemsOf(view, tauPixels, step)` says what a whole view needs at a step of the ladder, which
     /// makes what was asked for `tauPixels`; `view` is `request.view` itself or another's. What a
-    /// channel needs is judged by its share, so that the channels of a frame choose the same step.
+    /// channel needs is judged by its share: channels with equal shares choose the same step.
     /// Views that are all drawn once more, or one that is waited for, get the lowest that fits.
     template <typename Items>
     page::TauLadder::Choice choose(const CutRequest& request, const Items& itemsOf,
