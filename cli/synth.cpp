@@ -32,6 +32,7 @@ struct Options {
     std::uint64_t size = 0;
     std::uint64_t seed = 1;
     std::string from;
+    double roughness = import::kScanRoughness;
     int subdivisions = 0;
     double displacementMetres = 0;
     std::string out;
@@ -80,7 +81,7 @@ absl::Status synthTerrain(const Options& options) {
 absl::StatusOr<import::TriangleMesh> makeMesh(const Options& options,
                                               const import::ImportControl& control) {
     if (options.from.empty())
-        return import::synthesizeMesh(options.size, options.seed);
+        return import::synthesizeMesh(options.size, options.seed, options.roughness);
     ASSIGN_OR_RETURN(import::TriangleMesh source, import::readMesh(options.from, control));
     RETURN_IF_ERROR(control.check());
     ASSIGN_OR_RETURN(import::TriangleMesh mesh,
@@ -93,6 +94,9 @@ absl::StatusOr<import::TriangleMesh> makeMesh(const Options& options,
 absl::Status synthMesh(const Options& options) {
     if ((options.size == 0) == options.from.empty())
         return absl::InvalidArgumentError("expected either --size or --from; name one");
+    if (!std::isfinite(options.roughness))
+        return absl::InvalidArgumentError(
+            fmt::format("--roughness is {}; expected a number from 0 to 0.5", options.roughness));
     if (!std::isfinite(options.displacementMetres))
         return absl::InvalidArgumentError(
             fmt::format("--displace is {}; expected a length in metres, such as 0.001",
@@ -151,8 +155,17 @@ void addSynth(CLI::App& app, Run& run) {
     const Kind mesh = addKind(*synth, "mesh", "A closed bumpy ball, or a mesh made larger", run,
                               synthMesh, 8, static_cast<double>(import::kMaxSyntheticTriangles),
                               "Triangles of the ball, about");
-    mesh.command->add_option("--from", mesh.options->from, "Mesh to take instead of the ball")
-        ->type_name("FILE");
+    CLI::Option* const from =
+        mesh.command->add_option("--from", mesh.options->from, "Mesh to take instead of the ball")
+            ->type_name("FILE");
+    mesh.command
+        ->add_option("--roughness", mesh.options->roughness,
+                     fmt::format("How high the ball's bumps are beside those of twice their width; "
+                                 "{} is as steep at every size, which simplifies badly",
+                                 import::kEvenRoughness))
+        ->check(CLI::Range(0.0, 0.5))
+        ->capture_default_str()
+        ->excludes(from);
     mesh.command
         ->add_option("--subdivide", mesh.options->subdivisions,
                      "Times to cut each of its triangles into four")

@@ -97,8 +97,14 @@ class Lab:
                          "--quiet")
 
     def ball(self, triangles):
-        """Noise down to single triangles: nothing of it simplifies easily."""
+        """As steep at every size, down to single triangles: nothing of it simplifies easily."""
         name = f"ball{triangles}.ply"
+        return self.made(name, self.eyrie, "synth", "mesh", "--size", triangles, "--roughness", 0.48,
+                         "--seed", 1, "-o", name, "--quiet")
+
+    def smooth_ball(self, triangles):
+        """As scans simplify."""
+        name = f"smooth{triangles}.ply"
         return self.made(name, self.eyrie, "synth", "mesh", "--size", triangles, "--seed", 1, "-o",
                          name, "--quiet")
 

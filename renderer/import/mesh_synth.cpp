@@ -26,7 +26,6 @@ using fabric::Vec3;
 
 constexpr double kBaseFrequency = 1.7;   // bumps a radius
 constexpr double kBaseAmplitude = 0.28;  // of the radius
-constexpr double kGain = 0.48;           // amplitude from octave to octave
 constexpr double kMinRadius = 0.2;       // the ball never turns inside out
 
 /// S. Vigna's splitmix64.
@@ -62,14 +61,14 @@ double gradientNoise(const Vec3& p, std::uint64_t seed) {
     return sum;
 }
 
-double radius(const Vec3& direction, int octaves, std::uint64_t seed) {
+double radius(const Vec3& direction, double roughness, int octaves, std::uint64_t seed) {
     double height = 0;
     double amplitude = kBaseAmplitude;
     double frequency = kBaseFrequency;
     for (int octave = 0; octave < octaves; ++octave) {
         const std::uint64_t octaveSeed = scramble(seed + static_cast<std::uint64_t>(octave));
         height += amplitude * gradientNoise(direction * frequency, octaveSeed);
-        amplitude *= kGain;
+        amplitude *= roughness;
         frequency *= 2;
     }
     return std::max(1.0 + height, kMinRadius);
@@ -179,7 +178,7 @@ std::vector<std::array<std::uint32_t, 3>> addMiddles(TriangleMesh& mesh) {
 
 }  // namespace
 
-TriangleMesh synthesizeMesh(std::uint64_t triangles, std::uint64_t seed) {
+TriangleMesh synthesizeMesh(std::uint64_t triangles, std::uint64_t seed, double roughness) {
     const auto wanted =
         static_cast<double>(std::clamp<std::uint64_t>(triangles, 8, kMaxSyntheticTriangles));
     const auto n = static_cast<std::uint64_t>(std::lround(std::sqrt(wanted / 8)));
@@ -191,7 +190,7 @@ TriangleMesh synthesizeMesh(std::uint64_t triangles, std::uint64_t seed) {
         for (std::uint64_t i = 0; i < sphere.size(ring); ++i) {
             const Vec3 direction = sphere.direction(ring, i);
             mesh.positions[sphere.first(ring) + i] =
-                Vec3(glm::vec3(direction * radius(direction, octaves, seed)));
+                Vec3(glm::vec3(direction * radius(direction, roughness, octaves, seed)));
         }
     });
     mesh.triangles.reserve(8 * n * n);

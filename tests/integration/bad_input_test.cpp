@@ -309,6 +309,10 @@ TEST_F(BadInput, UnknownCommandsAndOptionsAreRefused) {
         expectRefused({"serve", bad(missing), "--listen", "127.0.0.1:0"}, {missing});
     expectRefused({"coordinator", bad("nowhere.eym"), "--listen", "127.0.0.1:0"}, {"nowhere.eym"});
     expectRefused({"synth", "mesh", "--size", "-5", "-o", bad("out.ply")}, {"--size"});
+    for (const char* roughness : {"nan", "-0.1", "0.6"})
+        expectRefused(
+            {"synth", "mesh", "--size", "100", "--roughness", roughness, "-o", bad("out.ply")},
+            {"--roughness"});
     expectRefused({"synth", "terrain", "--size", "0", "-o", bad("out.tif")}, {"--size"});
     for (const char* metres : {"nan", "inf", "-1"})
         expectRefused({"synth", "mesh", "--from", good_->path("ball.ply"), "--displace", metres,

@@ -66,6 +66,30 @@ TEST(MeshSynth, HasBumpsButKeepsItsMiddle) {
     EXPECT_LT(most, 2);
 }
 
+/// Of two triangles that meet at an edge, how far their normals are apart on average, in radians.
+double meanBend(const TriangleMesh& mesh) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, fabric::Vec3> normals;
+    for (const auto& t : mesh.triangles)
+        for (std::size_t i = 0; i < 3; ++i)
+            normals[{t[i], t[(i + 1) % 3]}] =
+                glm::normalize(glm::cross(mesh.positions[t[1]] - mesh.positions[t[0]],
+                                          mesh.positions[t[2]] - mesh.positions[t[0]]));
+    double sum = 0;
+    for (const auto& [edge, normal] : normals)
+        sum += std::acos(std::min(glm::dot(normal, normals[{edge.second, edge.first}]), 1.0));
+    return sum / static_cast<double>(normals.size());
+}
+
+TEST(MeshSynth, BendsLessWhereItIsLessRoughAndAsMuchAtEverySizeWhereItIsEven) {
+    const auto bend = [](std::uint64_t triangles, double roughness) {
+        return meanBend(synthesizeMesh(triangles, 7, roughness));
+    };
+    EXPECT_LT(bend(40000, 0), bend(40000, kScanRoughness));
+    EXPECT_LT(bend(40000, kScanRoughness), bend(40000, kEvenRoughness));
+    EXPECT_NEAR(bend(40000, kEvenRoughness), bend(10000, kEvenRoughness), 0.02);
+    EXPECT_LT(bend(40000, kScanRoughness), 0.75 * bend(10000, kScanRoughness));
+}
+
 TEST(Subdivide, CutsEachTriangleIntoFourAndKeepsTheSurface) {
     const TriangleMesh source = synthesizeMesh(200, 7);
     const auto fine = subdivide(source, 2);
