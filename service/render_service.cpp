@@ -125,8 +125,7 @@ grpc::ServerUnaryReactor* RenderService::SetFrameData(grpc::CallbackServerContex
 
 grpc::ServerWriteReactor<v1::RenderChannelResponse>* RenderService::RenderChannel(
     grpc::CallbackServerContext* context, const v1::RenderChannelRequest* request) {
-    ++replies_;
-    auto* reply = new ChannelReplyStream(*context, [this] { --replies_; });
+    auto* reply = new ChannelReplyStream(*context, slots_);
     absl::Status status = wire::admit(security_, *context);
     if (status.ok())
         status = startDrawing(*request, *reply);
@@ -137,8 +136,7 @@ grpc::ServerWriteReactor<v1::RenderChannelResponse>* RenderService::RenderChanne
 
 grpc::ServerWriteReactor<v1::RunProgramResponse>* RenderService::RunProgram(
     grpc::CallbackServerContext* context, const v1::RunProgramRequest* request) {
-    ++replies_;
-    auto* reply = new ProgramReplyStream(*context, [this] { --replies_; });
+    auto* reply = new ProgramReplyStream(*context, slots_);
     absl::Status status = wire::admit(security_, *context);
     if (status.ok())
         status = startProgram(*request, deadlineOf(*context), *reply);
@@ -175,17 +173,10 @@ grpc::ServerUnaryReactor* RenderService::Pick(grpc::CallbackServerContext* conte
     return reactor;
 }
 
-absl::Status RenderService::checkReplies() const {
-    if (replies_ > kMaxReplies)
-        return absl::ResourceExhaustedError(fmt::format(
-            "{} channels are being drawn or sent already; read those first", kMaxReplies));
-    return absl::OkStatus();
-}
-
 absl::Status RenderService::startDrawing(const v1::RenderChannelRequest& request,
                                          ChannelReplyStream& reply) {
     const auto received = ChannelStory::Clock::now();
-    RETURN_IF_ERROR(checkReplies());
+    RETURN_IF_ERROR(slots_.check());
     ASSIGN_OR_RETURN(const fabric::ChannelTask task, wire::fromMessage(request.task()));
     if (request.has_frame_data()) {
         ASSIGN_OR_RETURN(const fabric::FrameData sent, wire::fromMessage(request.frame_data()));
@@ -204,7 +195,7 @@ absl::Status RenderService::startDrawing(const v1::RenderChannelRequest& request
 absl::Status RenderService::startProgram(const v1::RunProgramRequest& request,
                                          Exchange::Clock::time_point deadline,
                                          ProgramReplyStream& reply) {
-    RETURN_IF_ERROR(checkReplies());
+    RETURN_IF_ERROR(slots_.check());
     ASSIGN_OR_RETURN(fabric::ChannelProgram program, wire::fromMessage(request.program()));
     ASSIGN_OR_RETURN(const wire::PixelEncoding encoding, wire::fromMessage(request.encoding()));
     return exchange_.start(std::move(program), deadline, reply.cancellation(),

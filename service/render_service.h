@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <atomic>
-
 #include "eyrie/v1/render_service.grpc.pb.h"
 #include "service/exchange.h"
 #include "service/frame_data_history.h"
@@ -17,9 +15,6 @@ namespace eyrie::service {
 /// and to run programs, for threads of their own.
 class RenderService final : public v1::RenderService::CallbackService {
 public:
-    /// Pictures drawn or being sent at once: bounds the memory that slow readers can hold.
-    static constexpr int kMaxReplies = 16;
-
     /// `thread` outlives the service.
     explicit RenderService(GlThread& thread, const wire::Security& security = {})
         : thread_(thread), security_(security), exchange_(thread, frameData_, security) {}
@@ -44,7 +39,6 @@ private:
     using ChannelReplyStream = ReplyStream<v1::RenderChannelResponse>;
     using ProgramReplyStream = ReplyStream<v1::RunProgramResponse>;
 
-    absl::Status checkReplies() const;
     absl::Status startDrawing(const v1::RenderChannelRequest& request, ChannelReplyStream& reply);
     absl::Status startProgram(const v1::RunProgramRequest& request,
                               Exchange::Clock::time_point deadline, ProgramReplyStream& reply);
@@ -56,7 +50,7 @@ private:
     fabric::Rgba background_;   ///< of the scene that is open; the GL thread's
     FrameDataHistory frameData_;
     Exchange exchange_;
-    std::atomic<int> replies_{0};
+    ReplySlots slots_;
 };
 
 }  // namespace eyrie::service

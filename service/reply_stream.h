@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <functional>
+#include <cstddef>
 #include <memory>
 #include <stop_token>
 #include <string>
@@ -11,6 +11,7 @@
 #include <grpcpp/server_context.h>
 #include <grpcpp/support/server_callback.h>
 
+#include "service/reply_slots.h"
 #include "wire/status.h"
 
 namespace eyrie::service {
@@ -35,9 +36,11 @@ public:
 template <typename Message>
 class ReplyStream final : public grpc::ServerWriteReactor<Message> {
 public:
-    /// Calls `onGone` when the answer has left or was given up.
-    ReplyStream(grpc::CallbackServerContext& context, std::function<void()> onGone)
-        : context_(context), onGone_(std::move(onGone)) {}
+    /// Takes one of `slots`, which outlive it.
+    ReplyStream(grpc::CallbackServerContext& context, ReplySlots& slots)
+        : context_(context), slots_(slots) {
+        slots_.open();
+    }
 
     /// True once nobody waits for the answer any more.
     bool isCancelled() const { return cancelled_.stop_requested(); }
@@ -54,36 +57,44 @@ public:
         source_ = std::move(source);
         writeNext();
     }
-    void fail(const absl::Status& status) { this->Finish(wire::toGrpc(status)); }
+    void fail(const absl::Status& status) { finish(wire::toGrpc(status)); }
 
     void OnWriteDone(bool ok) override {
-        if (source_->isDone())
+        if (source_ == nullptr)
             return;  // Finish was called with the last one.
         if (!ok || isCancelled())
-            this->Finish(grpc::Status::CANCELLED);
+            finish(grpc::Status::CANCELLED);
         else
             writeNext();
     }
     void OnCancel() override { cancelled_.request_stop(); }
     void OnDone() override {
-        onGone_();
+        slots_.close(lastBytes_);
         delete this;
     }
 
 private:
     void writeNext() {
         source_->next(message_);
-        if (source_->isDone())
-            this->StartWriteAndFinish(&message_, {}, grpc::Status::OK);
-        else
-            this->StartWrite(&message_);
+        if (!source_->isDone())
+            return this->StartWrite(&message_);
+        source_ = nullptr;
+        lastBytes_ = message_.ByteSizeLong();
+        slots_.leave(lastBytes_);  // first: a reader may ask for more as soon as it has this
+        this->StartWriteAndFinish(&message_, {}, grpc::Status::OK);
+    }
+    void finish(const grpc::Status& status) {
+        source_ = nullptr;
+        slots_.leave(lastBytes_);
+        this->Finish(status);
     }
 
     grpc::CallbackServerContext& context_;
-    std::function<void()> onGone_;
+    ReplySlots& slots_;
     std::stop_source cancelled_;
-    std::unique_ptr<MessageSource<Message>> source_;
+    std::unique_ptr<MessageSource<Message>> source_;  ///< of the messages after this one
     Message message_;
+    std::size_t lastBytes_ = 0;
 };
 
 }  // namespace eyrie::service

@@ -366,7 +366,7 @@ TEST_F(RenderServerTest, ACallGivenUpBeforeItsTurnIsNotDrawn) {
 
 TEST_F(RenderServerTest, AReaderThatGoesAwayMidPictureHoldsNothingUp) {
     ASSERT_TRUE(renderer_->setFrameData(frameData(), soon()).ok());
-    for (int i = 0; i < 3 * RenderService::kMaxReplies; ++i) {
+    for (int i = 0; i < 3 * ReplySlots::kMaxOpen; ++i) {
         v1::RenderChannelRequest request;
         *request.mutable_task() = wire::toMessage(task(2000, 1300, true));
         grpc::ClientContext context;
@@ -385,7 +385,7 @@ TEST_F(RenderServerTest, ReadersThatNeverReadAreBounded) {
     *request.mutable_task() = wire::toMessage(task(2000, 1300, true));
     std::vector<std::unique_ptr<grpc::ClientContext>> contexts;
     std::vector<std::unique_ptr<grpc::ClientReader<v1::RenderChannelResponse>>> idle;
-    for (int i = 0; i < RenderService::kMaxReplies; ++i) {
+    for (int i = 0; i < ReplySlots::kMaxOpen; ++i) {
         contexts.push_back(std::make_unique<grpc::ClientContext>());
         idle.push_back(stub_->RenderChannel(contexts.back().get(), request));
         idle.back()->WaitForInitialMetadata();
