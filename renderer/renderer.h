@@ -54,7 +54,8 @@ struct RendererMemory {
 
 /// Draws channel tasks without a window: the only header of the library that outsiders include.
 ///
-/// Belongs to the thread that created it: create, use and destroy it there. Knows no network.
+/// Belongs to the thread that created it: create, use and destroy it there. Several of one thread
+/// take turns. Knows no network.
 class Renderer {
 public:
     /// FailedPrecondition when this machine offers no EGL device with OpenGL 4.5, saying what was

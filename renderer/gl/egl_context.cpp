@@ -149,6 +149,11 @@ absl::StatusOr<std::unique_ptr<EglContext>> EglContext::create(int device) {
 
 EglContext::EglContext(void* display, void* context) : display_(display), context_(context) {}
 
+void EglContext::makeCurrent() const {
+    if (eglGetCurrentContext() != context_)
+        eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_);
+}
+
 EglContext::~EglContext() {
     eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     eglDestroyContext(display_, context_);

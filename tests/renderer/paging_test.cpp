@@ -236,6 +236,18 @@ TEST_F(Paging, RangesMeetWhereMemoryBinds) {
     EXPECT_GT(apart, 3) << "they should have reached errors of their own";
 }
 
+TEST_F(Paging, RenderersOfOneThreadTakeTurns) {
+    const auto one = open(scene_.objects[0].path);
+    const ChannelResult before = draw(*one, lookingDown(1), Completeness::Complete);
+    {
+        const auto two = open(scene_.objects[0].path);
+        draw(*two, lookingDown(2), Completeness::Complete);
+        draw(*one, lookingDown(3), Completeness::Complete);
+        EXPECT_TRUE(draw(*two, lookingDown(1), Completeness::Complete).image == before.image);
+    }
+    EXPECT_TRUE(draw(*one, lookingDown(1), Completeness::Complete).image == before.image);
+}
+
 TEST_F(Paging, TilesWhoseNormalsCannotBeReadAreNotDrawn) {
     const test::CapturedLog log;
     withholdLevel(quadtree().normalLevel());

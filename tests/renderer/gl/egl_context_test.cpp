@@ -45,6 +45,23 @@ TEST_F(EglContextTest, CanBeOpenedAgainAfterItWasClosed) {
     }
 }
 
+TEST_F(EglContextTest, OfSeveralOnOneThreadTheOneThatWasMadeCurrentIs) {
+    const auto one = EglContext::create(-1);
+    ASSERT_TRUE(one.ok()) << one.status();
+    const Buffer buffer;
+    {
+        const auto two = EglContext::create(-1);
+        ASSERT_TRUE(two.ok()) << two.status();
+        EXPECT_FALSE(glIsBuffer(buffer.id()));
+        (*one)->makeCurrent();
+        EXPECT_TRUE(glIsBuffer(buffer.id()));
+        (*two)->makeCurrent();
+        EXPECT_FALSE(glIsBuffer(buffer.id()));
+    }
+    (*one)->makeCurrent();
+    EXPECT_TRUE(glIsBuffer(buffer.id()));
+}
+
 TEST_F(EglContextTest, FramebufferClearsAndReadsOnlyItsPart) {
     auto context = EglContext::create(-1);
     ASSERT_TRUE(context.ok()) << context.status();
