@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -45,19 +44,14 @@ IndexRun IndexRun::within(const Piece& piece) const {
     return part;
 }
 
-void drawIndices(const DeviceNode& node, const IndexRun& run) {
-    const auto draw = [&node](GLsizei from, GLsizei indices) {
-        glDrawElements(GL_TRIANGLES, indices, GL_UNSIGNED_SHORT,
-                       reinterpret_cast<const void*>(
-                           node.indexOffset + from * static_cast<GLsizei>(sizeof(std::uint16_t))));
-    };
+void drawIndices(const SeenTriangles& triangles, const IndexRun& run) {
     if (run.fronts > 0) {
         glEnable(GL_CULL_FACE);
-        draw(run.first, run.fronts);
+        triangles.draw(run.first, run.fronts);
         glDisable(GL_CULL_FACE);
     }
     if (run.fronts < run.count)
-        draw(run.first + run.fronts, run.count - run.fronts);
+        triangles.draw(run.first + run.fronts, run.count - run.fronts);
 }
 
 bool mayHideBacks(const fabric::Box& bounds, const FrameState& frame,
@@ -78,22 +72,22 @@ bool mayHideBacks(const fabric::Box& bounds, const FrameState& frame,
 
 /// Where lids cover much of a piece, all of it is drawn at once: vertices are a quarter of the
 /// time.
-void HiddenBacks::draw(const DeviceNode& node, const Piece& piece, const IndexRun& run,
+void HiddenBacks::draw(const SeenTriangles& triangles, const Piece& piece, const IndexRun& run,
                        bool isOneSided) const {
     const IndexRun bothSides{run.first, run.count, 0};
     if (!areAny_)
-        return drawIndices(node, bothSides);
+        return drawIndices(triangles, bothSides);
     if (isOneSided)
-        return drawIndices(node, {run.first, run.count, run.count});
+        return drawIndices(triangles, {run.first, run.count, run.count});
     const fabric::PixelViewport pixels = lids_.before(piece.bounds);
     if (pixels.area() > lids_.pixelsOf(piece.bounds).area() / 2)
-        return drawIndices(node, bothSides);
-    drawIndices(node, run);
+        return drawIndices(triangles, bothSides);
+    drawIndices(triangles, run);
     const fabric::PixelViewport seen = fabric::intersection(pixels, part_);
     if (run.fronts == 0 || seen.isEmpty())
         return;
     const BacksOnly state(seen, part_);
-    drawIndices(node, {run.first, run.fronts, 0});
+    drawIndices(triangles, {run.first, run.fronts, 0});
 }
 
 }  // namespace eyrie::draw

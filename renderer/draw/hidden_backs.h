@@ -6,8 +6,8 @@
 #include "fabric/box.h"
 #include "fabric/viewport.h"
 #include "renderer/draw/drawable.h"
-#include "renderer/draw/mesh_paging.h"
 #include "renderer/draw/seen_lids.h"
+#include "renderer/draw/seen_triangles.h"
 #include "renderer/gl/object.h"
 #include "renderer/lod/view.h"
 
@@ -24,7 +24,7 @@ struct IndexRun {
     IndexRun within(const Piece& piece) const;
 };
 
-void drawIndices(const DeviceNode& node, const IndexRun& run);
+void drawIndices(const SeenTriangles& triangles, const IndexRun& run);
 
 /// Whether a picture may go without them. From inside its bounds a surface may well be seen from
 /// behind, as may what the near plane cuts open; and lines have no sides.
@@ -41,7 +41,7 @@ public:
 
     /// The backs of the run's fronts are seen through lids only, or, where `isOneSided`, not even
     /// there.
-    void draw(const DeviceNode& node, const Piece& piece, const IndexRun& run,
+    void draw(const SeenTriangles& triangles, const Piece& piece, const IndexRun& run,
               bool isOneSided) const;
 
 private:

@@ -95,8 +95,10 @@ private:
                                 fabric::FrameStatistics& statistics);
     absl::Status drawPoints(const Piece& piece, const FrameState& frame,
                             fabric::FrameStatistics& statistics);
-    void drawMaterial(const DeviceNode& node, const IndexRun& run, const mesh::Material& material,
-                      const Piece& piece, const HiddenBacks& backs) const;
+    void drawMaterial(const SeenTriangles& triangles, const IndexRun& run,
+                      const mesh::Material& material, const Piece& piece,
+                      const HiddenBacks& backs) const;
+    SeenTriangles seenOf(const Piece& piece, const SeenBoxes& seen);
 
     MeshPrograms& programs_;
     fabric::Mat4 worldFromObject_;
@@ -175,6 +177,10 @@ absl::Status MeshDrawable::drawPoints(const Piece& piece, const FrameState& fram
     return absl::OkStatus();
 }
 
+SeenTriangles MeshDrawable::seenOf(const Piece& piece, const SeenBoxes& seen) {
+    return {*choice_.node(piece.index), piece.bounds, file_->lattice(), seen};
+}
+
 absl::Status MeshDrawable::drawWhole(std::span<const Piece> pieces, const FrameState& frame,
                                      fabric::FrameStatistics& statistics) {
     Program::Variant variant{variantFor(frame, worldFromObject_), {}};
@@ -188,6 +194,7 @@ absl::Status MeshDrawable::drawWhole(std::span<const Piece> pieces, const FrameS
     const lod::ObjectView view(frame.view, worldFromObject_);
     const HiddenBacks backs(mayHideBacks(bounds(), frame, worldFromObject_), lids_, view,
                             frame.part);
+    const SeenBoxes seen(view, frame);
     for (const Piece& piece : pieces) {
         const DeviceNode* node = choice_.node(piece.index);
         const auto fronts = static_cast<GLsizei>(file_->nodes()[piece.index].frontIndexCount);
@@ -198,7 +205,7 @@ absl::Status MeshDrawable::drawWhole(std::span<const Piece> pieces, const FrameS
             source(*node);
             colour(piece, frame);
             const IndexRun all{0, node->indexCount, fronts};
-            backs.draw(*node, piece, all.within(piece), singleSided_);
+            backs.draw(seenOf(piece, seen), piece, all.within(piece), singleSided_);
             statistics.triangles += piece.triangles;
         }
         if (frame.look.tileBounds) {
@@ -211,21 +218,21 @@ absl::Status MeshDrawable::drawWhole(std::span<const Piece> pieces, const FrameS
 }
 
 /// Of what is blended the far sides first: right by itself where a piece is convex.
-void MeshDrawable::drawMaterial(const DeviceNode& node, const IndexRun& run,
+void MeshDrawable::drawMaterial(const SeenTriangles& triangles, const IndexRun& run,
                                 const mesh::Material& material, const Piece& piece,
                                 const HiddenBacks& backs) const {
     const IndexRun oneSide{run.first, run.count, run.count};
     if (material.isBlended() && !material.isOneSided()) {
         glCullFace(GL_FRONT);
-        drawIndices(node, oneSide);
+        drawIndices(triangles, oneSide);
         glCullFace(GL_BACK);
     }
     if (material.isBlended() || material.isOneSided()) {
-        drawIndices(node, oneSide);
+        drawIndices(triangles, oneSide);
         return;
     }
     const bool hasOneSide = singleSided_ && !material.isTwoSided() && !material.isSeeThrough();
-    backs.draw(node, piece, run, hasOneSide);
+    backs.draw(triangles, piece, run, hasOneSide);
 }
 
 /// Uses the program that draws a material.
@@ -257,6 +264,7 @@ absl::Status MeshDrawable::drawByMaterial(std::span<const Piece> pieces, const F
     const lod::ObjectView view(frame.view, worldFromObject_);
     const HiddenBacks backs(mayHideBacks(bounds(), frame, worldFromObject_), lids_, view,
                             frame.part);
+    const SeenBoxes seen(view, frame);
     const bool hasBoxes = frame.look.tileBounds && frame.layer == Layer::Opaque;
     if (hasBoxes)
         RETURN_IF_ERROR(boxLines_.begin(frame.view, worldFromObject_));
@@ -271,6 +279,7 @@ absl::Status MeshDrawable::drawByMaterial(std::span<const Piece> pieces, const F
             bind(frame);
             glVertexAttribI4ui(Program::kPackedColour.location, uniformColour_, 0, 0, 0);
         }
+        const SeenTriangles triangles = seenOf(piece, seen);
         GLsizei first = 0;
         for (const mesh::MaterialRange& range : file_->ranges(piece.index)) {
             const mesh::Material& material = file_->materials()[range.material];
@@ -279,7 +288,7 @@ absl::Status MeshDrawable::drawByMaterial(std::span<const Piece> pieces, const F
             const IndexRun run = all.within(piece);
             if (material.isBlended() == (frame.layer == Layer::Blended) && run.count > 0) {
                 RETURN_IF_ERROR(prepare(material, frame, prepared));
-                drawMaterial(node, run, material, piece, backs);
+                drawMaterial(triangles, run, material, piece, backs);
                 statistics.triangles += static_cast<std::uint64_t>(run.count / 3);
             }
             first += all.count;

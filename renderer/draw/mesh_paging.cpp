@@ -26,6 +26,7 @@ DeviceNode upload(const mesh::NodeGeometry& geometry) {
     node.placeOffset = offsetOf(geometry.textureCoordinates);
     node.indexOffset = offsetOf(geometry.indices);
     node.indexCount = static_cast<GLsizei>(geometry.indices.size());
+    node.blocks = mesh::triangleBlocks(geometry);
     glNamedBufferStorage(node.buffer.id(), static_cast<GLsizeiptr>(geometry.block.size()),
                          geometry.block.data(), 0);
     return node;

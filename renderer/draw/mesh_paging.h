@@ -17,6 +17,7 @@
 #include "renderer/draw/view_turns.h"
 #include "renderer/gl/object.h"
 #include "renderer/mesh/eym_format.h"
+#include "renderer/mesh/triangle_blocks.h"
 #include "renderer/page/host_pages.h"
 #include "renderer/page/resident_set.h"
 
@@ -30,6 +31,7 @@ struct DeviceNode {
     GLintptr placeOffset = 0;  ///< of texture coordinates
     GLintptr indexOffset = 0;
     GLsizei indexCount = 0;
+    std::vector<mesh::TriangleBlock> blocks;
 };
 
 /// Limits in bytes of what one mesh holds; they hold at all times.

@@ -14,6 +14,7 @@
 #include "renderer/draw/object_program.h"
 #include "renderer/draw/page_bounds.h"
 #include "renderer/draw/prefetch.h"
+#include "renderer/draw/seen_boxes.h"
 #include "renderer/draw/tau_choice.h"
 #include "renderer/draw/terrain_ahead.h"
 #include "renderer/draw/terrain_error.h"
@@ -42,42 +43,17 @@ constexpr double kElevationBands = 5;               ///< of effects/terrain.effe
 /// Where memory is short, texels grow as tau does.
 double texelPixels(int step) { return terrain::kTexelPixels * page::TauLadder::factor(step); }
 
-/// What a channel sees of a tile, as far as that is known at little cost.
-class SeenBlocks {
-public:
-    SeenBlocks(const lod::ObjectView& view, const FrameState& frame)
-        : view_(view),
-          channel_(frame.channel),
-          isKnown_(frame.shading != fabric::Shading::Wireframe) {}
-
-    /// Calls `draw` with those stretches of `tile`'s part `part` that may be seen, in their order.
-    template <typename Draw>
-    void forEach(const terrain::EytIndex& index, const terrain::TileId& id, const DeviceTile& tile,
-                 int part, const Draw& draw) const {
-        const terrain::IndexRange& range = tile.parts[static_cast<std::size_t>(part)];
-        auto block =
-            std::ranges::lower_bound(tile.blocks, range.first, {}, &terrain::TriangleBlock::first);
-        for (; block != tile.blocks.end() && block->first < range.first + range.count; ++block)
-            if (sees(terrain::bounds(index, id, *block)))
-                draw(terrain::IndexRange{block->first, block->count});
-    }
-
-    /// Not so for certain of what reaches the edge of the view, and maybe beyond.
-    bool seesAll(const fabric::Box& bounds) const {
-        const fabric::PixelViewport pixels = view_.coveredPixels(bounds);
-        const fabric::PixelViewport inside{1, 1, view_.view().width - 2, view_.view().height - 2};
-        return !isKnown_ || (channel_.contains(pixels) && inside.contains(pixels));
-    }
-
-private:
-    bool sees(const fabric::Box& bounds) const {
-        return !intersection(view_.coveredPixels(bounds), channel_).isEmpty();
-    }
-
-    const lod::ObjectView& view_;
-    const fabric::PixelViewport channel_;
-    const bool isKnown_;
-};
+/// Calls `draw` with those stretches of `tile`'s part `part` that may be seen, in their order.
+template <typename Draw>
+void forEachSeen(const SeenBoxes& seen, const terrain::EytIndex& index, const terrain::TileId& id,
+                 const DeviceTile& tile, int part, const Draw& draw) {
+    const terrain::IndexRange& range = tile.parts[static_cast<std::size_t>(part)];
+    auto block =
+        std::ranges::lower_bound(tile.blocks, range.first, {}, &terrain::TriangleBlock::first);
+    for (; block != tile.blocks.end() && block->first < range.first + range.count; ++block)
+        if (seen.sees(terrain::bounds(index, id, *block)))
+            draw(terrain::IndexRange{block->first, block->count});
+}
 
 class TerrainDrawable : public Drawable {
 public:
@@ -146,7 +122,7 @@ private:
                                                     PicturePrograms& programs);
     void useNormals(const TerrainEffect& program, const terrain::TileId& tile);
     std::uint64_t drawTile(const TerrainEffect& program, const terrain::TileChoice& choice,
-                           const DeviceTile& tile, const SeenBlocks& seen);
+                           const DeviceTile& tile, const SeenBoxes& seen);
 
     TerrainPrograms& programs_;
     fabric::Mat4 worldFromObject_;
@@ -298,7 +274,7 @@ void TerrainDrawable::useNormals(const TerrainEffect& program, const terrain::Ti
 /// triangles of all of that.
 std::uint64_t TerrainDrawable::drawTile(const TerrainEffect& program,
                                         const terrain::TileChoice& choice, const DeviceTile& tile,
-                                        const SeenBlocks& seen) {
+                                        const SeenBoxes& seen) {
     const terrain::TileId& id = choice.id;
     program.tileOrigin({id.x * terrain::Quadtree::side(id.level),
                         id.y * terrain::Quadtree::side(id.level), tile.baseHeight});
@@ -336,7 +312,7 @@ std::uint64_t TerrainDrawable::drawTile(const TerrainEffect& program,
         if (isAllSeen)
             add(range);
         else
-            seen.forEach(index(), id, tile, part, add);
+            forEachSeen(seen, index(), id, tile, part, add);
     }
     if (!runCounts_.empty())
         glMultiDrawElements(GL_TRIANGLES, runCounts_.data(), GL_UNSIGNED_SHORT, runOffsets_.data(),
@@ -368,7 +344,7 @@ absl::Status TerrainDrawable::draw(std::span<const Piece> pieces, const FrameSta
     leaveOutBacks(frame);
     const lod::ObjectView view(frame.view,
                                fabric::exaggerated(worldFromObject_, frame.look.exaggeration));
-    const SeenBlocks seen(view, frame);
+    const SeenBoxes seen(view, frame);
     for (const Piece& piece : pieces) {
         if (!piece.isNode) {
             boxLines_.draw(piece.bounds, kPageColour);
