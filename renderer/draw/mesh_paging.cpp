@@ -15,7 +15,17 @@
 namespace eyrie::draw {
 namespace {
 
-DeviceNode upload(const mesh::NodeGeometry& geometry) {
+/// A page, and what is made of it by whoever reads it.
+struct LoadedNode {
+    explicit LoadedNode(mesh::NodeGeometry read)
+        : geometry(std::move(read)), blocks(mesh::triangleBlocks(geometry)) {}
+
+    mesh::NodeGeometry geometry;
+    std::vector<mesh::TriangleBlock> blocks;
+};
+
+DeviceNode upload(const LoadedNode& loaded) {
+    const mesh::NodeGeometry& geometry = loaded.geometry;
     const auto offsetOf = [&geometry](const auto& array) {
         return static_cast<GLintptr>(reinterpret_cast<const std::byte*>(array.data()) -
                                      geometry.block.data());
@@ -26,7 +36,7 @@ DeviceNode upload(const mesh::NodeGeometry& geometry) {
     node.placeOffset = offsetOf(geometry.textureCoordinates);
     node.indexOffset = offsetOf(geometry.indices);
     node.indexCount = static_cast<GLsizei>(geometry.indices.size());
-    node.blocks = mesh::triangleBlocks(geometry);
+    node.blocks = loaded.blocks;
     glNamedBufferStorage(node.buffer.id(), static_cast<GLsizeiptr>(geometry.block.size()),
                          geometry.block.data(), 0);
     return node;
@@ -40,7 +50,7 @@ std::uint64_t hostBytes(const mesh::EymFile& file, std::uint32_t node) {
 page::Loader::Load loadFrom(std::shared_ptr<const mesh::EymFile> file) {
     return [file = std::move(file)](std::uint32_t node) -> absl::StatusOr<page::Loaded> {
         ASSIGN_OR_RETURN(mesh::NodeGeometry geometry, file->geometry(node));
-        return page::Loaded{std::make_shared<const mesh::NodeGeometry>(std::move(geometry)),
+        return page::Loaded{std::make_shared<const LoadedNode>(std::move(geometry)),
                             hostBytes(*file, node)};
     };
 }
@@ -53,9 +63,9 @@ page::PageFacts factsOf(const std::shared_ptr<const mesh::EymFile>& file) {
 std::unique_ptr<DeviceNode> uploadRoot(const mesh::EymFile& file) {
     if (!file.nodes()[0].hasGeometry())
         return nullptr;
-    const absl::StatusOr<mesh::NodeGeometry> geometry = file.geometry(0);
+    absl::StatusOr<mesh::NodeGeometry> geometry = file.geometry(0);
     if (geometry.ok())
-        return std::make_unique<DeviceNode>(upload(*geometry));
+        return std::make_unique<DeviceNode>(upload(LoadedNode(*std::move(geometry))));
     const std::string_view message(geometry.status().message().data(),
                                    geometry.status().message().size());
     spdlog::warn("{}; finer data stand in for it", message);
@@ -153,9 +163,8 @@ bool MeshPaging::upload(std::chrono::duration<double> time) {
         const std::uint64_t bytes = bytesOf(missing.node);
         if (page == nullptr || !items_.makeRoom(bytes, missing.rank))
             return false;
-        items_.insert(missing.node,
-                      draw::upload(*static_cast<const mesh::NodeGeometry*>(page->get())), bytes,
-                      missing.rank);
+        items_.insert(missing.node, draw::upload(*static_cast<const LoadedNode*>(page->get())),
+                      bytes, missing.rank);
         hasUploaded = true;
         return true;
     });

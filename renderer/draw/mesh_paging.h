@@ -120,7 +120,7 @@ private:
     std::uint64_t rankedBytes_ = 0;
     ViewClaims claims_;
     bool hasWishes_ = false;  ///< the loader may hold something for this
-    page::HostPages pages_;   ///< mesh::NodeGeometry; last: its loads use the file
+    page::HostPages pages_;   ///< read nodes; last: its loads use the file
 };
 
 }  // namespace eyrie::draw

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <set>
+#include <thread>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -300,11 +301,16 @@ TEST_F(MeshPaging, WhatOtherRangesDrawComesWhenOnesOwnIsThere) {
             render(*renderer, 2.2, kTau, Completeness::Interactive, {0, 0.5});
         const bool isQuiet = first.statistics.complete && first.statistics.pagesLoaded == 0;
         quiet = isQuiet ? quiet + 1 : 0;
+        if (isQuiet)  // a page may take longer than a frame
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
     EXPECT_LT(std::chrono::steady_clock::now(), end);
-    const ChannelResult second = render(*renderer, 2.2, kTau, Completeness::Interactive, {0.5, 1});
+    ChannelResult second;
+    do {  // a frame brings as much to the device as it has time for
+        second = render(*renderer, 2.2, kTau, Completeness::Interactive, {0.5, 1});
+        EXPECT_EQ(second.statistics.pagesLoaded, 0U);
+    } while (!second.statistics.complete && std::chrono::steady_clock::now() < end);
     EXPECT_TRUE(second.statistics.complete);
-    EXPECT_EQ(second.statistics.pagesLoaded, 0U);
     EXPECT_GT(second.statistics.triangles, 0U);
 }
 
