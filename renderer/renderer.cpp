@@ -91,7 +91,7 @@ std::shared_ptr<const std::vector<fabric::GroundGrid>> groundOf(
 class Renderer::Impl {
 public:
     static absl::StatusOr<std::unique_ptr<Impl>> create(const RendererOptions& options);
-    ~Impl() { context_->makeCurrent(); }  // everything below goes with it
+    ~Impl() { context_->makeCurrent().IgnoreError(); }  // what is below goes with the context
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
 
@@ -218,7 +218,7 @@ absl::StatusOr<std::unique_ptr<draw::Drawable>> Renderer::Impl::openObject(
 }
 
 absl::StatusOr<fabric::SceneInfo> Renderer::Impl::openScene(const fabric::Scene& scene) {
-    context_->makeCurrent();
+    RETURN_IF_ERROR(context_->makeCurrent());
     RETURN_IF_ERROR(fabric::validate(scene));
     std::vector<draw::OpenObject> objects;
     std::vector<std::unique_ptr<const pick::Surface>> surfaces;
@@ -424,7 +424,7 @@ absl::Status Renderer::Impl::measureStages(const draw::Selection& selection, con
 absl::StatusOr<fabric::ChannelResult> Renderer::Impl::render(const fabric::FrameData& asked,
                                                              const fabric::ChannelTask& task,
                                                              const fabric::Delivery& delivery) {
-    context_->makeCurrent();
+    RETURN_IF_ERROR(context_->makeCurrent());
     const std::stop_token& stop = delivery.stop;
     if (!scene_)
         return absl::FailedPreconditionError("no scene is open; open one before rendering");

@@ -85,7 +85,7 @@ private:
     }
     void finish(const grpc::Status& status) {
         source_ = nullptr;
-        slots_.leave(lastBytes_);
+        slots_.leave(0);
         this->Finish(status);
     }
 

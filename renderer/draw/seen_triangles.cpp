@@ -6,27 +6,33 @@
 
 namespace eyrie::draw {
 
-SeenTriangles::SeenTriangles(const DeviceNode& node, const fabric::Box& bounds,
-                             const mesh::Lattice& lattice, const SeenBoxes& seen)
-    : node_(node) {
-    if (seen.seesAll(bounds)) {
-        runs_.push_back({0, node.indexCount});
-        return;
-    }
-    for (const mesh::TriangleBlock& block : node.blocks) {
+std::vector<SeenRun> seenRuns(std::span<const mesh::TriangleBlock> blocks,
+                              const mesh::Lattice& lattice, const SeenBoxes& seen) {
+    std::vector<SeenRun> runs;
+    for (const mesh::TriangleBlock& block : blocks) {
         if (!seen.sees({lattice.metres(block.bounds.min), lattice.metres(block.bounds.max)}))
             continue;
         const auto first = static_cast<GLsizei>(block.first);
-        if (runs_.empty() || runs_.back().end != first)
-            runs_.push_back({first, first});
-        runs_.back().end += static_cast<GLsizei>(block.count);
+        if (runs.empty() || runs.back().end != first)
+            runs.push_back({first, first});
+        runs.back().end += static_cast<GLsizei>(block.count);
     }
+    return runs;
+}
+
+SeenTriangles::SeenTriangles(const DeviceNode& node, const fabric::Box& bounds,
+                             const mesh::Lattice& lattice, const SeenBoxes& seen)
+    : node_(node) {
+    if (seen.seesAll(bounds))
+        runs_.push_back({0, node.indexCount});
+    else
+        runs_ = seenRuns(node.blocks, lattice, seen);
 }
 
 void SeenTriangles::draw(GLsizei first, GLsizei count) const {
     std::vector<GLsizei> counts;
     std::vector<const void*> offsets;
-    for (const Run& run : runs_) {
+    for (const SeenRun& run : runs_) {
         const GLsizei begin = std::max(first, run.first);
         const GLsizei end = std::min(first + count, run.end);
         if (begin >= end)

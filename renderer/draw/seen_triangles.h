@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "renderer/draw/mesh_paging.h"
@@ -8,6 +9,16 @@
 #include "renderer/mesh/lattice.h"
 
 namespace eyrie::draw {
+
+/// Indices that follow each other in a node's list.
+struct SeenRun {
+    GLsizei first = 0;
+    GLsizei end = 0;
+};
+
+/// Those of the blocks of which a channel may see something; none touches the next.
+std::vector<SeenRun> seenRuns(std::span<const mesh::TriangleBlock> blocks,
+                              const mesh::Lattice& lattice, const SeenBoxes& seen);
 
 /// The triangles of a node of which a channel may see something: all of them where all of the node
 /// is in the channel, else those of some of its blocks (mesh::TriangleBlock).
@@ -21,13 +32,8 @@ public:
     void draw(GLsizei first, GLsizei count) const;
 
 private:
-    struct Run {
-        GLsizei first = 0;  ///< in the index list
-        GLsizei end = 0;
-    };
-
     const DeviceNode& node_;
-    std::vector<Run> runs_;  ///< none touches the next
+    std::vector<SeenRun> runs_;
 };
 
 }  // namespace eyrie::draw

@@ -149,9 +149,14 @@ absl::StatusOr<std::unique_ptr<EglContext>> EglContext::create(int device) {
 
 EglContext::EglContext(void* display, void* context) : display_(display), context_(context) {}
 
-void EglContext::makeCurrent() const {
-    if (eglGetCurrentContext() != context_)
-        eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_);
+absl::Status EglContext::makeCurrent() const {
+    if (eglGetCurrentContext() == context_ ||
+        eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_TRUE)
+        return absl::OkStatus();
+    return absl::InternalError(
+        fmt::format("the renderer's OpenGL context cannot be made current (0x{:x}); start the "
+                    "renderer again",
+                    eglGetError()));
 }
 
 EglContext::~EglContext() {

@@ -24,8 +24,8 @@ public:
 
     const fabric::DeviceInfo& device() const { return device_; }
 
-    /// Does nothing where it is.
-    void makeCurrent() const;
+    /// Does nothing where it is. Errors: Internal, what EGL says.
+    absl::Status makeCurrent() const;
 
 private:
     EglContext(void* display, void* context);

@@ -53,12 +53,12 @@ TEST_F(EglContextTest, OfSeveralOnOneThreadTheOneThatWasMadeCurrentIs) {
         const auto two = EglContext::create(-1);
         ASSERT_TRUE(two.ok()) << two.status();
         EXPECT_FALSE(glIsBuffer(buffer.id()));
-        (*one)->makeCurrent();
+        ASSERT_TRUE((*one)->makeCurrent().ok());
         EXPECT_TRUE(glIsBuffer(buffer.id()));
-        (*two)->makeCurrent();
+        ASSERT_TRUE((*two)->makeCurrent().ok());
         EXPECT_FALSE(glIsBuffer(buffer.id()));
     }
-    (*one)->makeCurrent();
+    ASSERT_TRUE((*one)->makeCurrent().ok());
     EXPECT_TRUE(glIsBuffer(buffer.id()));
 }
 
