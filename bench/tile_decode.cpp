@@ -52,7 +52,7 @@ absl::StatusOr<std::vector<PageBytes>> loadPages(const terrain::EytFile& file, s
 /// One way, over all pages.
 struct Way {
     const char* name;
-    const draw::TileDecoder* decoder;
+    draw::TileDecoder* decoder;
     draw::DecodeCost least;
     Seconds leastReading{0};
 
@@ -105,7 +105,7 @@ absl::Status run(const std::string& path, int rounds, std::size_t count) {
     ASSIGN_OR_RETURN(const auto context, gl::EglContext::create(-1));
     ASSIGN_OR_RETURN(const auto file, terrain::EytFile::open(path));
     ASSIGN_OR_RETURN(const std::vector<PageBytes> pages, loadPages(*file, count));
-    ASSIGN_OR_RETURN(const draw::TileDecoder decoder, draw::TileDecoder::create());
+    ASSIGN_OR_RETURN(draw::TileDecoder decoder, draw::TileDecoder::create());
     RETURN_IF_ERROR(draw::measureDecode(pages.front(), &decoder).status());  // compiles
     std::vector<Way> ways = {{"CPU", nullptr, {}, {}}, {"CPU and GPU", &decoder, {}, {}}};
     for (int round = 0; round < rounds; ++round)

@@ -28,7 +28,7 @@ struct DecodeCost {
 /// Decodes `bytes` once and waits for the device. A null `decoder`: on the CPU. Errors: those of
 /// Page::decode. GL thread.
 absl::StatusOr<DecodeCost> measureDecode(std::span<const std::uint32_t> bytes,
-                                         const TileDecoder* decoder);
+                                         TileDecoder* decoder);
 
 /// Which of the two ways a renderer takes, for all its terrains and as long as it lives. GL thread.
 class DecodeChoice {
@@ -39,11 +39,11 @@ public:
     /// decides, before any frame of it is drawn: in some tens of milliseconds, on llvmpipe in up to
     /// some hundreds. Valid as long as this.
     /// Errors: FailedPrecondition, where Gpu was asked for and cannot be had.
-    absl::StatusOr<const TileDecoder*> decoderFor(const terrain::EytFile& file);
+    absl::StatusOr<TileDecoder*> decoderFor(const terrain::EytFile& file);
 
 private:
     void measure(const terrain::EytFile& file);
-    const TileDecoder* chosen() const { return decoder_ ? &*decoder_ : nullptr; }
+    TileDecoder* chosen() { return decoder_ ? &*decoder_ : nullptr; }
 
     TileDecoding asked_;
     bool isChosen_ = false;

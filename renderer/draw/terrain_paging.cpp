@@ -35,7 +35,7 @@ page::Loader::Load loadFrom(std::shared_ptr<const terrain::EytFile> file, const 
         };
 }
 
-terrain::PageForm formFor(const TileDecoder* decoder) {
+terrain::PageForm formFor(TileDecoder* decoder) {
     return decoder == nullptr ? terrain::PageForm::Drawable : terrain::PageForm::Outlines;
 }
 
@@ -43,7 +43,7 @@ terrain::PageForm formFor(const TileDecoder* decoder) {
 
 absl::StatusOr<std::unique_ptr<TerrainPaging>> TerrainPaging::open(
     std::shared_ptr<const terrain::EytFile> file, page::Loader& loader, const TerrainMemory& limits,
-    TextureFormat format, const TileDecoder* decoder) {
+    TextureFormat format, TileDecoder* decoder) {
     const terrain::EytIndex& index = file->index();
     const TileId top = index.quadtree.top();
     ASSIGN_OR_RETURN(const std::shared_ptr<const terrain::Page> page,
@@ -68,13 +68,15 @@ absl::StatusOr<std::unique_ptr<TerrainPaging>> TerrainPaging::open(
     std::unique_ptr<TerrainPaging> paging(
         new TerrainPaging(std::move(file), loader, limits, format, decoder, topBytes));
     paging->top_ = std::make_unique<DeviceTile>(geometry, decoder);
+    if (decoder != nullptr)
+        decoder->publish();
     paging->topTexture_ = std::move(topTexture);
     return paging;
 }
 
 TerrainPaging::TerrainPaging(std::shared_ptr<const terrain::EytFile> file, page::Loader& loader,
                              const TerrainMemory& limits, TextureFormat format,
-                             const TileDecoder* decoder, std::uint64_t topBytes)
+                             TileDecoder* decoder, std::uint64_t topBytes)
     : file_(std::move(file)),
       index_(file_->index()),
       names_(index_, format),
@@ -193,6 +195,8 @@ bool TerrainPaging::upload(duration<double> time) {
         hasUploaded = true;
         return true;
     });
+    if (decoder_ != nullptr)
+        decoder_->publish();  // all are still there: what came first ranks first
     return hasUploaded;
 }
 

@@ -46,7 +46,7 @@ public:
     /// reading its page; ResourceExhausted when the limits hold no page of `file`.
     static absl::StatusOr<std::unique_ptr<TerrainPaging>> open(
         std::shared_ptr<const terrain::EytFile> file, page::Loader& loader,
-        const TerrainMemory& limits, TextureFormat format, const TileDecoder* decoder);
+        const TerrainMemory& limits, TextureFormat format, TileDecoder* decoder);
 
     using Prefetch = std::function<std::vector<TerrainItem>()>;
 
@@ -102,7 +102,7 @@ private:
     using Clock = std::chrono::steady_clock;
 
     TerrainPaging(std::shared_ptr<const terrain::EytFile> file, page::Loader& loader,
-                  const TerrainMemory& limits, TextureFormat format, const TileDecoder* decoder,
+                  const TerrainMemory& limits, TextureFormat format, TileDecoder* decoder,
                   std::uint64_t topBytes);
 
     struct RankedItem {
@@ -153,7 +153,7 @@ private:
     const std::shared_ptr<const terrain::EytFile> file_;
     const terrain::EytIndex& index_;
     const TerrainItems names_;
-    const TileDecoder* const decoder_;
+    TileDecoder* const decoder_;
     std::unique_ptr<DeviceTile> top_;
     std::unique_ptr<DeviceTexture> topTexture_;  ///< null: it has none
     page::ResidentSet<std::uint32_t, std::variant<DeviceTile, DeviceTexture>> items_;  // by key

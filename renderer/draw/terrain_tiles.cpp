@@ -53,7 +53,7 @@ std::size_t partError(const terrain::EytIndex& index, const terrain::TileId& id,
 
 }  // namespace
 
-DeviceTile::DeviceTile(const terrain::TileGeometry& geometry, const TileDecoder* decoder)
+DeviceTile::DeviceTile(const terrain::TileGeometry& geometry, TileDecoder* decoder)
     : indexOffset(static_cast<GLintptr>(geometry.wordBytes())),
       vertexStride(4 * geometry.wordsPerVertex),
       parts(geometry.parts),
@@ -62,11 +62,11 @@ DeviceTile::DeviceTile(const terrain::TileGeometry& geometry, const TileDecoder*
       heightMultiplier(geometry.heightMultiplier) {
     const auto words = static_cast<GLsizeiptr>(geometry.wordBytes());
     const auto indices = static_cast<GLsizeiptr>(geometry.indexBytes());
+    const GLsizeiptr bytes = words + (indices + 3) / 4 * 4;
     if (!geometry.isEmpty())
-        glNamedBufferStorage(buffer.id(), words + (indices + 3) / 4 * 4, nullptr,
-                             GL_DYNAMIC_STORAGE_BIT);
+        glNamedBufferStorage(buffer.id(), bytes, nullptr, GL_DYNAMIC_STORAGE_BIT);
     if (!geometry.outline.empty()) {
-        decoder->decode(geometry.outline, buffer);
+        decoder->decode(geometry.outline, buffer, static_cast<std::size_t>(bytes));
     } else if (!geometry.isEmpty()) {
         glNamedBufferSubData(buffer.id(), 0, words, geometry.words.data());
         glNamedBufferSubData(buffer.id(), words, indices, geometry.indices.data());

@@ -18,9 +18,9 @@ namespace eyrie::draw {
 /// its normal map. Either may be empty: without triangles there is nothing in the buffer, and tiles
 /// below Quadtree::normalLevel() are drawn with an ancestor's map. GL thread.
 struct DeviceTile {
-    /// Copies `geometry`, or has `decoder` make it from its outline. Precondition: one of the two.
-    explicit DeviceTile(const terrain::TileGeometry& geometry,
-                        const TileDecoder* decoder = nullptr);
+    /// Copies `geometry`, or has `decoder` make it from its outline, to be there when that
+    /// publishes. Precondition: one of the two.
+    explicit DeviceTile(const terrain::TileGeometry& geometry, TileDecoder* decoder = nullptr);
 
     gl::Buffer buffer;
     std::optional<gl::Texture2D> normalMap;

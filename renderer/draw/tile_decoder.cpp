@@ -14,10 +14,18 @@ namespace {
 
 /// What renderer/effects/tile_decode.effect declares; OpenGL 4.5 promises all of it.
 constexpr GLint kInvocations = 256;
-constexpr GLint kBuffers = 3;
+constexpr GLint kBuffers = 4;
 
-constexpr GLsizeiptr kScratchBytes =
+constexpr std::size_t kScratchBytes =
     2 * sizeof(std::uint32_t) * (terrain::kMaxTileCells + 1) * (terrain::kMaxTileCells + 1);
+/// Two pages' tiles: more than a processor has cores, and few enough for the scratch they take.
+constexpr std::size_t kSideBySide = 2 * terrain::kPageTiles * terrain::kPageTiles;
+
+template <typename T>
+void fill(const gl::Buffer& buffer, const std::vector<T>& values) {
+    glNamedBufferStorage(buffer.id(), static_cast<GLsizeiptr>(values.size() * sizeof(T)),
+                         values.data(), 0);
+}
 
 absl::Status checkLimit(GLenum name, const char* text, GLint needed) {
     GLint limit = 0;
@@ -42,21 +50,51 @@ absl::StatusOr<TileDecoder> TileDecoder::create() {
 }
 
 TileDecoder::TileDecoder(effects::TileDecodeEffect effect) : effect_(std::move(effect)) {
-    glNamedBufferStorage(scratch_.id(), kScratchBytes, nullptr, 0);
+    glNamedBufferStorage(scratch_.id(), kSideBySide * kScratchBytes, nullptr, 0);
 }
 
-void TileDecoder::decode(std::span<const std::uint32_t> outline, const gl::Buffer& tile) const {
-    const gl::Buffer input;  // the driver keeps it as long as the work needs it
-    glNamedBufferStorage(input.id(), static_cast<GLsizeiptr>(outline.size_bytes()), outline.data(),
-                         0);
-    const std::array<GLuint, kBuffers> buffers = {input.id(), tile.id(), scratch_.id()};
+void TileDecoder::decode(std::span<const std::uint32_t> outline, const gl::Buffer& tile,
+                         std::size_t bytes) {
+    if (places_.size() == kSideBySide)
+        publish();
+    const std::size_t words = bytes / sizeof(std::uint32_t);
+    places_.push_back({static_cast<std::uint32_t>(outlines_.size()),
+                       static_cast<std::uint32_t>(madeWords_), static_cast<std::uint32_t>(words)});
+    tiles_.push_back(tile.id());
+    outlines_.insert(outlines_.end(), outline.begin(), outline.end());
+    madeWords_ += words;
+}
+
+void TileDecoder::publish() {
+    if (places_.empty())
+        return;
+    // The driver keeps buffers as long as the work needs them.
+    const gl::Buffer places;
+    const gl::Buffer outlines;
+    const gl::Buffer made;
+    fill(places, places_);
+    fill(outlines, outlines_);
+    glNamedBufferStorage(made.id(), static_cast<GLsizeiptr>(madeWords_ * sizeof(std::uint32_t)),
+                         nullptr, 0);
+    const std::array<GLuint, kBuffers> buffers = {places.id(), outlines.id(), made.id(),
+                                                  scratch_.id()};
     glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, 0, kBuffers, buffers.data());
     effect_.use();
-    glDispatchCompute(1, 1, 1);
-    // For the next tile, which takes the same scratch, and for what draws or reads this one.
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT |
-                    GL_ELEMENT_ARRAY_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+    glDispatchCompute(static_cast<GLuint>(places_.size()), 1, 1);
     glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, 0, kBuffers, nullptr);
+    // For the copies, and for the tiles that take the same scratch next.
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
+    for (std::size_t k = 0; k < places_.size(); ++k) {
+        const auto bytes = [](std::uint32_t words) {
+            return static_cast<GLsizeiptr>(words * sizeof(std::uint32_t));
+        };
+        glCopyNamedBufferSubData(made.id(), tiles_[k], bytes(places_[k].tile), 0,
+                                 bytes(places_[k].tileWords));
+    }
+    places_.clear();
+    tiles_.clear();
+    outlines_.clear();
+    madeWords_ = 0;
 }
 
 }  // namespace eyrie::draw

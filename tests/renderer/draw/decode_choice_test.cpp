@@ -113,7 +113,7 @@ TEST_F(DecodeChoiceTest, TakesWhatIsAskedFor) {
     const auto context = gl::EglContext::create(-1).value();
     EXPECT_EQ(DecodeChoice(TileDecoding::Cpu).decoderFor(*file()).value(), nullptr);
     DecodeChoice gpu(TileDecoding::Gpu);
-    const TileDecoder* decoder = gpu.decoderFor(*file()).value();
+    TileDecoder* decoder = gpu.decoderFor(*file()).value();
     EXPECT_NE(decoder, nullptr);
     EXPECT_EQ(gpu.decoderFor(*file()).value(), decoder);
 }
@@ -121,13 +121,13 @@ TEST_F(DecodeChoiceTest, TakesWhatIsAskedFor) {
 TEST_F(DecodeChoiceTest, KeepsWhatWasMeasured) {
     const auto context = gl::EglContext::create(-1).value();
     DecodeChoice choice(TileDecoding::Auto);
-    const TileDecoder* first = choice.decoderFor(*file()).value();
+    TileDecoder* const first = choice.decoderFor(*file()).value();
     for (int k = 0; k < 3; ++k) EXPECT_EQ(choice.decoderFor(*file()).value(), first);
 }
 
 TEST_F(DecodeChoiceTest, CountsWhatBothWaysDecodeAlike) {
     const auto context = gl::EglContext::create(-1).value();
-    const auto decoder = TileDecoder::create().value();
+    auto decoder = TileDecoder::create().value();
     const auto open = file();
     const auto bytes = open->readPageBytes(0).value();
     const auto cpu = draw::measureDecode(bytes, nullptr).value();
