@@ -25,6 +25,7 @@
 #include "renderer/draw/selection.h"
 #include "renderer/draw/terrain_draw.h"
 #include "renderer/draw/view_turns.h"
+#include "renderer/gl/debug_output.h"
 #include "renderer/gl/egl_context.h"
 #include "renderer/gl/framebuffer.h"
 #include "renderer/lod/view.h"
@@ -278,9 +279,9 @@ double Renderer::Impl::errorPixels(const lod::TaskViews& views, const fabric::Fr
         const fabric::Mat4 worldFromObject = draw::drawnWorldFromObject(open.object, look);
         const lod::ObjectView objectView(views.whole, worldFromObject);
         const lod::ObjectView drawnView(views.drawn, worldFromObject);
-        occlusion::HiddenGround hidden(drawnView, covered, [this](const auto& part, auto& depth) {
-            framebuffer_.readDepth(part, depth);
-        });
+        occlusion::HiddenGround hidden(
+            drawnView, covered, [this](const auto& part) { return framebuffer_.depth(part); },
+            device().software ? occlusion::Reading::ByParts : occlusion::Reading::AllAtOnce);
         const double pixels =
             open.drawable->errorPixels({objectView, channel, task.range, frameData.tauPixels,
                                         task.completeness, look.exaggeration, look.pageBounds},
@@ -456,6 +457,7 @@ absl::StatusOr<fabric::ChannelResult> Renderer::Impl::render(const fabric::Frame
 
     const auto readStart = Clock::now();
     result.image = readBack(selection.covered, task.wantsDepth, delivery);
+    RETURN_IF_ERROR(gl::takeGlError());
     statistics.milliseconds.readback = millisecondsSince(readStart);
     const auto errorStart = Clock::now();
     statistics.tauAchievedPixels = errorPixels(views, frameData, task, selection.covered);

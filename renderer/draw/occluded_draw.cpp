@@ -124,8 +124,7 @@ absl::Status OccludedDraw::drawLooking(const ChannelDraw& channel,
 }
 
 void OccludedDraw::remember(const ChannelDraw& channel, occlusion::ChannelMemory& memory) {
-    channel.framebuffer.readDepth(channel.covered, depth_);
-    memory.pyramid.build(channel.covered, depth_);
+    memory.pyramid.build(channel.covered, channel.framebuffer.depth(channel.covered));
     memory.view = channel.view;
     memory.isFresh = true;
 }

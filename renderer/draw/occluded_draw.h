@@ -78,7 +78,6 @@ private:
 
     occlusion::ChannelMemories memories_;
     gl::AnySampleQuery anyTie_;
-    std::vector<float> depth_;  ///< of the first pass
 };
 
 }  // namespace eyrie::draw

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include <GL/glew.h>
+#include <fmt/format.h>
 
 #include "fabric/log.h"
 
@@ -29,6 +30,28 @@ void GLAPIENTRY onMessage(GLenum source, GLenum type, GLuint, GLenum severity, G
 }  // namespace
 
 void setOnGlError(OnGlError action) { onGlError = action; }
+
+absl::Status takeGlError() {
+    const GLenum first = glGetError();
+    if (first == GL_NO_ERROR)
+        return absl::OkStatus();
+    constexpr int kMost = 16;  // a context that is lost reports one for ever
+    GLenum error = first;
+    for (int i = 0; i < kMost && error != GL_NO_ERROR && error != GL_OUT_OF_MEMORY; ++i)
+        error = glGetError();
+    if (error == GL_OUT_OF_MEMORY)
+        return absl::ResourceExhaustedError(
+            "the device has no memory left for this picture; allow less (--memory of eyrie "
+            "renderer), "
+            "or draw a smaller one");
+    return absl::InternalError(
+        fmt::format("OpenGL reports error 0x{:x} while a picture was drawn, which may be wrong; "
+                    "the log may say "
+                    "more",
+                    first));
+}
+
+bool wantsDebugContext() { return onGlError == OnGlError::Abort; }
 
 void installDebugOutput() {
     glEnable(GL_DEBUG_OUTPUT);

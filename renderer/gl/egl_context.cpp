@@ -74,15 +74,15 @@ EGLContext makeContext(EGLDisplay display, std::string& why) {
     EGLConfig config = nullptr;
     EGLint count = 0;
     eglChooseConfig(display, kConfig.data(), &config, 1, &count);
-    constexpr std::array kContext = {EGL_CONTEXT_MAJOR_VERSION,
-                                     4,
-                                     EGL_CONTEXT_MINOR_VERSION,
-                                     5,
-                                     EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                     EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                     EGL_CONTEXT_OPENGL_DEBUG,
-                                     EGL_TRUE,
-                                     EGL_NONE};
+    const std::array kContext = {EGL_CONTEXT_MAJOR_VERSION,
+                                 4,
+                                 EGL_CONTEXT_MINOR_VERSION,
+                                 5,
+                                 EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                 EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                 EGL_CONTEXT_OPENGL_DEBUG,
+                                 wantsDebugContext() ? EGL_TRUE : EGL_FALSE,
+                                 EGL_NONE};
     const EGLContext context = eglCreateContext(display, count > 0 ? config : EGL_NO_CONFIG_KHR,
                                                 EGL_NO_CONTEXT, kContext.data());
     if (context == EGL_NO_CONTEXT)

@@ -8,6 +8,19 @@
 
 namespace eyrie::gl {
 
+MappedDepth::MappedDepth(std::size_t pixels) : pixels_(pixels) {
+    constexpr GLbitfield kUse = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
+    const auto bytes = static_cast<GLsizeiptr>(pixels * sizeof(float));
+    glNamedBufferStorage(buffer_.id(), bytes, nullptr, kUse | GL_CLIENT_STORAGE_BIT);
+    mapped_ = static_cast<const float*>(glMapNamedBufferRange(buffer_.id(), 0, bytes, kUse));
+    if (mapped_ == nullptr)
+        nothing_.resize(pixels);
+}
+
+std::span<const float> MappedDepth::first(std::size_t pixels) {
+    return {mapped_ == nullptr ? nothing_.data() : mapped_, pixels};
+}
+
 absl::Status Framebuffer::resize(int width, int height) {
     if (width <= width_ && height <= height_)
         return absl::OkStatus();
@@ -67,13 +80,18 @@ void Framebuffer::read(const fabric::PixelViewport& part, const fabric::PixelRoo
                      room.depth);
 }
 
-void Framebuffer::readDepth(const fabric::PixelViewport& part, std::vector<float>& depth) {
-    depth.resize(static_cast<std::size_t>(part.area()));
+std::span<const float> Framebuffer::depth(const fabric::PixelViewport& part) {
     if (part.isEmpty())
-        return;
+        return {};
+    const auto pixels = static_cast<std::size_t>(part.area());
+    if (!depths_ || depths_->size() < pixels)
+        depths_.emplace(pixels);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_.id());
-    glReadPixels(part.x, part.y, part.width, part.height, GL_DEPTH_COMPONENT, GL_FLOAT,
-                 depth.data());
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, depths_->id());
+    glReadPixels(part.x, part.y, part.width, part.height, GL_DEPTH_COMPONENT, GL_FLOAT, nullptr);
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+    glFinish();
+    return depths_->first(pixels);
 }
 
 }  // namespace eyrie::gl

@@ -94,8 +94,13 @@ void HiddenGround::Rect::add(const Vec2& p) {
     high = glm::max(high, p);
 }
 
-HiddenGround::HiddenGround(const lod::ObjectView& view, const PixelViewport& drawn, ReadDepth read)
-    : view_(view), drawn_(drawn), read_(std::move(read)), eye_(view.objectFromView()[3]) {
+HiddenGround::HiddenGround(const lod::ObjectView& view, const PixelViewport& drawn, ReadDepth read,
+                           Reading reading)
+    : view_(view),
+      drawn_(drawn),
+      read_(std::move(read)),
+      reading_(reading),
+      eye_(view.objectFromView()[3]) {
     const Vec3 up(view.viewFromObject()[2]);
     up_ = {up.x, up.y, -up.z};
     const auto horizontal = [&](const Vec3& direction) {
@@ -214,8 +219,9 @@ void HiddenGround::look(const PixelViewport& part) {
     if (seen_.contains(part))
         return;
     pixelsRead_ += part.area();
-    seen_ = pixelsRead_ > drawn_.area() / 4 ? drawn_ : part;
-    read_(seen_, depth_);
+    const bool isMuch = pixelsRead_ > drawn_.area() / 4;
+    seen_ = isMuch || reading_ == Reading::AllAtOnce ? drawn_ : part;
+    depth_ = read_(seen_);
 }
 
 template <typename Visit>

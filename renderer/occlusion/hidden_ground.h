@@ -4,7 +4,6 @@
 #include <functional>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "fabric/box.h"
 #include "fabric/viewport.h"
@@ -13,8 +12,12 @@
 namespace eyrie::occlusion {
 
 /// Reads the reversed depths (fabric::Frustum) of a rectangle of a finished picture: rows from the
-/// bottom up.
-using ReadDepth = std::function<void(const fabric::PixelViewport& part, std::vector<float>& depth)>;
+/// bottom up, there until the next call.
+using ReadDepth = std::function<std::span<const float>(const fabric::PixelViewport& part)>;
+
+/// How depths are best read: of a GPU, which takes as long for some hundred pixels as for 150,000,
+/// those of all the picture, once some are asked for.
+enum class Reading { ByParts, AllAtOnce };
 
 /// Which ground nobody sees, neither in a picture of a terrain nor in one of its source, because
 /// nearer ground is in front of it in both.
@@ -33,7 +36,8 @@ class HiddenGround {
 public:
     /// `view` is the one that is drawn, `drawn` the part of it that the picture shows. Keeps a
     /// reference to `view`.
-    HiddenGround(const lod::ObjectView& view, const fabric::PixelViewport& drawn, ReadDepth read);
+    HiddenGround(const lod::ObjectView& view, const fabric::PixelViewport& drawn, ReadDepth read,
+                 Reading reading = Reading::ByParts);
 
     /// The pixels that cover what lies within `bounds` (object space) in a picture that promises
     /// `pixels` (lod::View::step) or less, so that nobody sees it, drawn or of the source. Nothing
@@ -71,6 +75,7 @@ private:
     const lod::ObjectView& view_;
     const fabric::PixelViewport drawn_;
     const ReadDepth read_;
+    const Reading reading_;
     fabric::Vec2 eye_;        ///< object space
     fabric::Vec3 up_;         ///< the object's z axis in the view, (x, y, depth)
     fabric::Vec2 lowerLeft_;  ///< of the view: object x and y per metre of depth
@@ -79,7 +84,7 @@ private:
     fabric::Vec2 shape_;  ///< of the pixels that errors are counted in: the shorter side is 1
     std::int64_t pixelsRead_ = 0;
     fabric::PixelViewport seen_;  ///< whose depths are here
-    std::vector<float> depth_;
+    std::span<const float> depth_;
 };
 
 }  // namespace eyrie::occlusion

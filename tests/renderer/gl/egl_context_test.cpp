@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/gl/egl_context.h"
 
+#include <memory>
+#include <string>
+
 #include <gtest/gtest.h>
 
 #include "renderer/gl/debug_output.h"
@@ -83,6 +86,52 @@ TEST_F(EglContextTest, ShaderErrorsNameTheShader) {
                                          {"good.frag.glsl", "#version 450 core\nvoid main() {}"});
     ASSERT_FALSE(program.ok());
     EXPECT_NE(std::string(program.status().message()).find("bad.vert.glsl"), std::string::npos);
+}
+
+/// As users' contexts are: errors are there to be asked for, not only where a driver reports them.
+class GlErrorTest : public testing::Test {
+protected:
+    void SetUp() override {
+        setOnGlError(OnGlError::Log);
+        context_ = EglContext::create(-1).value();
+    }
+    void TearDown() override {
+        context_.reset();
+        setOnGlError(OnGlError::Abort);
+    }
+
+private:
+    std::unique_ptr<EglContext> context_;
+};
+
+TEST_F(GlErrorTest, IsTakenOnce) {
+    EXPECT_TRUE(takeGlError().ok());
+    glEnable(GL_RGBA8);
+    glEnable(GL_RGBA8);
+    const absl::Status error = takeGlError();
+    EXPECT_EQ(error.code(), absl::StatusCode::kInternal);
+    EXPECT_NE(std::string(error.message()).find("0x500"), std::string::npos) << error;
+    EXPECT_TRUE(takeGlError().ok());
+}
+
+TEST_F(GlErrorTest, SaysThatTheDeviceHasNoMemory) {
+    const Buffer buffer;
+    constexpr GLsizeiptr kMoreThanAnyDeviceHas = GLsizeiptr{1} << 50;
+    glNamedBufferStorage(buffer.id(), kMoreThanAnyDeviceHas, nullptr, 0);
+    const absl::Status error = takeGlError();
+    EXPECT_EQ(error.code(), absl::StatusCode::kResourceExhausted) << error;
+}
+
+TEST_F(GlErrorTest, OnlyTestsHaveADebugContext) {
+    const auto isDebug = [] {
+        GLint flags = 0;
+        glGetIntegerv(GL_CONTEXT_FLAGS, &flags);
+        return (flags & GL_CONTEXT_FLAG_DEBUG_BIT) != 0;
+    };
+    EXPECT_FALSE(isDebug());
+    setOnGlError(OnGlError::Abort);
+    const auto context = EglContext::create(-1).value();
+    EXPECT_TRUE(isDebug());
 }
 
 }  // namespace

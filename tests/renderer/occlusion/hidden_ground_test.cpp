@@ -170,17 +170,23 @@ public:
     bool isRaster() const { return views_.drawn.step != Vec2(1); }
 
     /// The part [x, x + width) x [y, y + height) of a picture that shows `drawn` only.
-    HiddenGround ground(const PixelViewport& drawn = {0, 0, kWidth, kHeight}) const {
+    HiddenGround ground(const PixelViewport& drawn = {0, 0, kWidth, kHeight},
+                        Reading reading = Reading::ByParts) const {
         return {
-            view_, drawn, [this, drawn](const PixelViewport& part, std::vector<float>& depth) {
+            view_, drawn,
+            [this, drawn, reading, depth = std::vector<float>()](
+                const PixelViewport& part) mutable -> std::span<const float> {
                 EXPECT_TRUE(drawn.contains(part));
+                EXPECT_TRUE(reading == Reading::ByParts || (part == drawn && depth.empty()));
                 depth.clear();
                 for (int y = part.y; y < part.y + part.height; ++y)
                     for (int x = part.x; x < part.x + part.width; ++x)
                         depth.push_back(static_cast<float>(
                             fabric::kNearMetres /
                             (metresPerUnit_ * depth_[static_cast<std::size_t>(y * kWidth + x)])));
-            }};
+                return depth;
+            },
+            reading};
     }
 
     bool showsAnyOf(const Box& patch) const {
@@ -333,18 +339,38 @@ RC_GTEST_PROP(HiddenGround, IsNoMoreInAPartOfThePictureThanInTheWhole, (unsigned
     }
 }
 
+RC_GTEST_PROP(HiddenGround, IsTheSameHoweverDepthsAreRead, (unsigned seed)) {
+    Dice dice(seed);
+    const Scene scene(dice);
+    const Picture picture(scene, dice);
+    const PixelViewport drawn{static_cast<int>(dice.in(0, 20)), static_cast<int>(dice.in(0, 20)),
+                              kWidth - 20, kHeight - 20};
+    HiddenGround byParts = picture.ground(drawn);
+    HiddenGround atOnce = picture.ground(drawn, Reading::AllAtOnce);
+    for (int n = 0; n < 40; ++n) {
+        const Box patch = patchOf(scene, static_cast<int>(dice.in(0, kPosts - 3)),
+                                  static_cast<int>(dice.in(0, kPosts - 3)), 2);
+        const auto cover = atOnce.coverOf(patch, picture.promised());
+        RC_ASSERT(byParts.coverOf(patch, picture.promised()) == cover);
+        if (cover)
+            RC_ASSERT(byParts.reachOf(*cover) == atOnce.reachOf(*cover));
+    }
+}
+
 /// A wall of pixels 100 m ahead up to a height of the picture, sky above; looking along +x.
 class Wall {
 public:
     explicit Wall(int rows)
         : view_(lod::View(camera(), kWidth, kHeight), Mat4(1.0)),
           ground(view_, {0, 0, kWidth, kHeight},
-                 [rows](const PixelViewport& part, std::vector<float>& depth) {
+                 [rows, depth = std::vector<float>()](
+                     const PixelViewport& part) mutable -> std::span<const float> {
                      depth.clear();
                      for (int y = part.y; y < part.y + part.height; ++y)
                          for (int x = 0; x < part.width; ++x)
                              depth.push_back(
                                  y < rows ? static_cast<float>(fabric::kNearMetres / 100) : 0.0F);
+                     return depth;
                  }) {}
 
     /// A box that reaches up to a row of the picture, seen from (0, 0, 0).
