@@ -22,7 +22,8 @@ namespace {
 struct Case {
     const char* file;
     std::vector<std::string> shown = {};
-    /// Interleaved pixels are rastered in pictures of their own, whose vertices snap elsewhere.
+    /// Interleaved pixels are rastered in pictures of their own, whose vertices snap elsewhere: 13 of
+    /// 57,600 on llvmpipe, 56 on an H100.
     std::size_t mayDiffer = 0;
 };
 
@@ -113,7 +114,7 @@ INSTANTIATE_TEST_SUITE_P(Of, ConfigPictures,
                          testing::Values(Case{"4-node.2D.eqc"}, Case{"4-window.DB.bs.eqc"},
                                          Case{"4-window.DB.stream.eqc"}, Case{"2-pipe.DB.ds.eqc"},
                                          Case{"2-node.tile.eqc"},
-                                         Case{"7-window.DB.PIXEL.eqc", {}, 20},
+                                         Case{"7-window.DB.PIXEL.eqc", {}, 80},
                                          Case{"3-window.EYE.anaglyph.eqc"},
                                          Case{"3-channel.cave.eqc", {"--segment", "1"}},
                                          Case{"8-window.wall.lb.eqc"}),

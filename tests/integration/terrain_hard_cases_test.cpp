@@ -210,14 +210,15 @@ TEST(HardCase4, CliffsCombsAndSpikesKeepThePromise) {
 }
 
 /// Hard case 5. A plane needs four triangles a tile (corners and centre), and every depth is that
-/// of the plane, to what is left of a float after the vertex transform.
+/// of the plane, to what is left of a float after the vertex transform: less than 0.001 pixels on
+/// llvmpipe, 0.0014 on an H100.
 TEST(HardCase5, PlanesHaveFourTrianglesATileAndNoNoise) {
     for (const GridKind kind : {GridKind::Flat, GridKind::Plane}) {
         Scene scene(test::hardGrid(kind, 257, 257, 1));
         for (const terrain::TileRecord& tile : scene.index().tiles) EXPECT_EQ(tile.triangles, 4U);
         for (const Camera& camera : camerasAround(scene.index().bounds())) {
             const truth::PromiseKept kept = scene.hold(test::name(kind), camera);
-            EXPECT_LE(kept.measured.maxPixels, kept.promisedPixels + 0.001);
+            EXPECT_LE(kept.measured.maxPixels, kept.promisedPixels + 0.002);
             EXPECT_LE(kept.promisedPixels, kind == GridKind::Flat ? 0 : 0.1);
         }
     }
