@@ -383,7 +383,7 @@ absl::StatusOr<std::unique_ptr<Drawable>> openTerrain(
     const fabric::SceneObject& object, std::shared_ptr<const terrain::EytFile> file,
     TerrainPrograms& programs, page::Loader& loader, const TerrainMemory& limits,
     TextureFormat format, DecodeChoice& decoding) {
-    ASSIGN_OR_RETURN(TileDecoder* decoder, decoding.decoderFor(*file));
+    ASSIGN_OR_RETURN(TileDecoder * decoder, decoding.decoderFor(*file));
     ASSIGN_OR_RETURN(std::unique_ptr<TerrainPaging> paging,
                      TerrainPaging::open(file, loader, limits, format, decoder));
     return std::make_unique<TerrainDrawable>(object, programs, std::move(file), std::move(paging));
