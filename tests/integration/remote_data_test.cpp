@@ -57,6 +57,7 @@ protected:
         const test::Outcome outcome = eyrie(arguments);
         EXPECT_EQ(outcome.exit, (test::Exit{0, 0})) << outcome.errors;
         EXPECT_EQ(outcome.errors.find("incomplete"), std::string::npos) << outcome.errors;
+        EXPECT_EQ(outcome.errors.find(" 0 triangles"), std::string::npos) << outcome.errors;
         return textOf(out) + textOf(depth);
     }
 
@@ -67,7 +68,7 @@ protected:
     static std::unique_ptr<test::Nginx> nginx_;
     test::TemporaryFolder folder_;
     std::string camera_ =
-        R"({"eye":[9000,-3000,6000],"target":[9000,9000,0],"up":[0,0,1],"fovyDegrees":45})";
+        R"({"eye":[509000,5197000,6000],"target":[509000,5209000,0],"up":[0,0,1],"fovyDegrees":45})";
 };
 
 std::unique_ptr<test::TemporaryFolder> RemoteData::data_;
