@@ -6,7 +6,9 @@
 // with fewer bytes, and keep what it got, the file's size and whether it exists in caches of the
 // process. So pages are read with PRead, which asks the server each time and keeps nothing, and
 // files are opened after what GDAL remembers of them was dropped. PRead says how many bytes came
-// but not why there are no more: opening the file once more does.
+// but not why there are no more: opening the file once more does. Of an error that an object store
+// answers GDAL passes on the text, which is each store's own, and the status only to who debugs it.
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <chrono>
@@ -44,7 +46,18 @@ constexpr std::array kSettings = {
     Setting{"GDAL_HTTP_MAX_RETRY", "0"},
     // Opening a file would list its folder.
     Setting{"GDAL_DISABLE_READDIR_ON_OPEN", "EMPTY_DIR"},
+    // GdalScope alone hears it.
+    Setting{"CPL_DEBUG", "ON"},
 };
+
+/// The number after the last `mark`, 0 without one.
+int numberAfter(std::string_view text, std::string_view mark) {
+    const std::size_t at = text.rfind(mark);
+    int number = 0;
+    if (at != std::string_view::npos)
+        std::from_chars(text.data() + at + mark.size(), text.data() + text.size(), number);
+    return number;
+}
 
 /// Sets up GDAL for this thread while it lives, and catches what GDAL would print. What the user
 /// has set stays as it is.
@@ -74,26 +87,22 @@ public:
         const char* vsi = VSIGetLastErrorNo() != 0 ? VSIGetLastErrorMsg() : "";
         return *vsi != '\0' ? std::string(vsi) : error_;
     }
+    /// The HTTP status of the last answer when a file was opened, 0 without one.
+    int httpStatus() const { return httpStatus_; }
 
 private:
     static void CPL_STDCALL note(CPLErr severity, CPLErrorNum, const char* message) {
         auto& self = *static_cast<GdalScope*>(CPLGetErrorHandlerUserData());
         if (severity >= CE_Failure && self.error_.empty())
             self.error_ = message;
+        if (const int status = severity == CE_Debug ? numberAfter(message, "response_code=") : 0)
+            self.httpStatus_ = status;
     }
 
     std::array<bool, kSettings.size()> isSet_{};
     std::string error_;
+    int httpStatus_ = 0;
 };
-
-/// The number after `mark`, 0 without one.
-int numberAfter(const std::string& text, std::string_view mark) {
-    const std::size_t at = text.find(mark);
-    int number = 0;
-    if (at != std::string::npos)
-        std::from_chars(text.data() + at + mark.size(), text.data() + text.size(), number);
-    return number;
-}
 
 absl::Status unavailable(const std::string& url, const std::string& why) {
     return absl::UnavailableError(
@@ -107,20 +116,51 @@ absl::Status rangesRefused(const std::string& url) {
                     url));
 }
 
+/// Where GDAL looks for what whoever may read `url` has.
+std::string_view credentialsFor(std::string_view url) {
+    const auto isOf = [url](std::string_view system) { return url.find(system) != url.npos; };
+    if (isOf("/vsis3"))
+        return "AWS_ACCESS_KEY_ID and AWS_SECRET_ACCESS_KEY (of temporary ones AWS_SESSION_TOKEN, "
+               "too), or AWS_NO_SIGN_REQUEST=YES for public data";
+    if (isOf("/vsigs"))
+        return "GOOGLE_APPLICATION_CREDENTIALS, or GS_ACCESS_KEY_ID and GS_SECRET_ACCESS_KEY";
+    if (isOf("/vsiaz"))
+        return "AZURE_STORAGE_CONNECTION_STRING, or AZURE_STORAGE_ACCOUNT and "
+               "AZURE_STORAGE_ACCESS_KEY";
+    if (isOf("http:") || isOf("https:"))
+        return "GDAL_HTTP_USERPWD=USER:PASSWORD";
+    return "see GDAL's documentation of this file system";
+}
+
+absl::Status denied(const std::string& url, int http, const std::string& said) {
+    const std::string answer =
+        said.starts_with("HTTP ") ? said : fmt::format("HTTP {}: {}", http, said);
+    const std::string why = http == 0 ? fmt::format("access needs credentials ({})", said)
+                                      : fmt::format("the server denies access ({})", answer);
+    return absl::PermissionDeniedError(
+        fmt::format("{}: {}; correct the address, or set credentials in the environment: {}", url,
+                    why, credentialsFor(url)));
+}
+
+/// Object stores answer 400, too, where a token has expired or is somebody else's.
+bool isDenial(int http, int vsi) {
+    if (vsi == VSIE_AWSAccessDenied || vsi == VSIE_AWSInvalidCredentials ||
+        vsi == VSIE_AWSSignatureDoesNotMatch)
+        return true;
+    return http == 401 || http == 403 || http == 407 || (http == 400 && vsi == VSIE_AWSError);
+}
+
 /// Why a file could not be opened, of what GDAL said.
-absl::Status whyNotOpen(const std::string& url, const std::string& said) {
-    const int http = numberAfter(said, "HTTP response code: ");
+absl::Status whyNotOpen(const std::string& url, const GdalScope& gdal) {
+    const std::string said = gdal.said();
+    const int http = std::max(gdal.httpStatus(), numberAfter(said, "HTTP response code: "));
     const int vsi = VSIGetLastErrorNo();
     if (http == 404 || http == 410 || vsi == VSIE_AWSObjectNotFound ||
         vsi == VSIE_AWSBucketNotFound)
         return absl::NotFoundError(
             fmt::format("{}: the server has no such file ({}); correct the address", url, said));
-    if (http == 401 || http == 403 || http == 407 || vsi == VSIE_AWSAccessDenied ||
-        vsi == VSIE_AWSInvalidCredentials || vsi == VSIE_AWSSignatureDoesNotMatch)
-        return absl::PermissionDeniedError(
-            fmt::format("{}: the server does not let it be read ({}); set the credentials as "
-                        "GDAL's documentation of this file system says",
-                        url, said));
+    if (isDenial(http, vsi))
+        return denied(url, http, said);
     if (said.empty())
         return absl::NotFoundError(fmt::format("{}: there is no such file", url));
     return unavailable(url, said);
@@ -138,7 +178,7 @@ absl::StatusOr<Handle> openAnew(const std::string& url) {
     VSICurlPartialClearCache(name.c_str());
     VSILFILE* file = VSIFOpenEx2L(name.c_str(), "rb", TRUE, nullptr);
     if (file == nullptr)
-        return whyNotOpen(url, gdal.said());
+        return whyNotOpen(url, gdal);
     return Handle(reinterpret_cast<VSIVirtualHandle*>(file), CloseFile());
 }
 
