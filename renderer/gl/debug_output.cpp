@@ -42,12 +42,10 @@ absl::Status takeGlError() {
     if (error == GL_OUT_OF_MEMORY)
         return absl::ResourceExhaustedError(
             "the device has no memory left for this picture; allow less (--memory of eyrie "
-            "renderer), "
-            "or draw a smaller one");
+            "renderer), or draw a smaller one");
     return absl::InternalError(
-        fmt::format("OpenGL reports error 0x{:x} while a picture was drawn, which may be wrong; "
-                    "the log may say "
-                    "more",
+        fmt::format("OpenGL reports error 0x{:x} while a picture was drawn; it may be wrong, and "
+                    "is not shown; the log may say more",
                     first));
 }
 

@@ -1,36 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstddef>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include <absl/status/status.h>
 
 #include "fabric/delivery.h"
 #include "fabric/image.h"
+#include "renderer/gl/mapped_depth.h"
 #include "renderer/gl/object.h"
 
 namespace eyrie::gl {
-
-/// Memory of the host that the device copies depths to: on a GPU in a third of the time that it
-/// takes to memory of ours, and all of a picture's in that of six pixels'.
-class MappedDepth {
-public:
-    explicit MappedDepth(std::size_t pixels);
-
-    std::size_t size() const { return pixels_; }
-    GLuint id() const { return buffer_.id(); }
-    /// What is there once the device has finished: nothing, infinitely far, if it has no memory.
-    std::span<const float> first(std::size_t pixels);
-
-private:
-    Buffer buffer_;
-    std::size_t pixels_;
-    const float* mapped_;
-    std::vector<float> nothing_;
-};
 
 /// Colour (RGBA8) and reversed depth (32-bit float) of one view.
 ///

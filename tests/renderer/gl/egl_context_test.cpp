@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -77,6 +78,28 @@ TEST_F(EglContextTest, FramebufferClearsAndReadsOnlyItsPart) {
     EXPECT_EQ(image.colour[4 * 64 + 8], (fabric::Rgba{200, 100, 50, 255}));
     EXPECT_EQ(image.colour[4 * 64 + 24], (fabric::Rgba{1, 2, 3, 255}));
     EXPECT_EQ(image.depth[5 * 64 + 9], 0.0F);
+}
+
+TEST_F(EglContextTest, DepthsOfAnyPartAreThoseOfThePicture) {
+    const auto context = EglContext::create(-1).value();
+    Framebuffer framebuffer;
+    ASSERT_TRUE(framebuffer.resize(40, 30).ok());
+    for (int part = 0; part < 4; ++part) {  // each quarter has a depth of its own
+        framebuffer.begin(40, 30, {20 * (part % 2), 15 * (part / 2), 20, 15}, {});
+        glClearDepth(0.125 * (part + 1));
+        glClear(GL_DEPTH_BUFFER_BIT);
+    }
+    const fabric::Image whole = framebuffer.read({0, 0, 40, 30}, true);
+    EXPECT_EQ(whole.depth.front(), 0.125F);
+    EXPECT_EQ(whole.depth.back(), 0.5F);
+    EXPECT_TRUE(framebuffer.depth({5, 5, 0, 0}).empty());
+    // Smaller and larger ones than there was memory for.
+    for (const fabric::PixelViewport& part :
+         {fabric::PixelViewport{18, 13, 4, 4}, {0, 0, 40, 30}, {19, 0, 2, 30}}) {
+        const auto depth = framebuffer.depth(part);
+        EXPECT_EQ(std::vector<float>(depth.begin(), depth.end()),
+                  framebuffer.read(part, true).depth);
+    }
 }
 
 TEST_F(EglContextTest, ShaderErrorsNameTheShader) {
