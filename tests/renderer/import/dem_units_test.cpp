@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rasters whose heights are in units and above datums of their own, as one terrain in metres.
+#include <cstdint>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/renderer/import/dem_mosaic_fixture.h"
+
+namespace eyrie::import {
+namespace {
+
+using test::DemMosaic;
+using testing::HasSubstr;
+
+TEST_F(DemMosaic, TurnsEachRastersOwnUnitToMetres) {
+    const std::string metres = write({.west = 500000, .north = 5200100, .height = constant(100)});
+    const std::string feet =
+        write({.west = 500100, .north = 5200100, .height = constant(1000), .unit = "ft"});
+    const std::string scaled =
+        write({.west = 500200, .north = 5200100, .height = constant(7), .scale = 3});
+    const auto dem = test::readDems({metres, feet, scaled});
+    ASSERT_TRUE(dem.ok()) << dem.status();
+    EXPECT_FLOAT_EQ(dem->grid.at(5, 5), 100);
+    EXPECT_FLOAT_EQ(dem->grid.at(15, 5), 304.8F);
+    EXPECT_FLOAT_EQ(dem->grid.at(25, 5), 21);
+}
+
+constexpr double kFeetPerMetre = 3937.0 / 1200;  // of US survey feet, EPSG:6360's
+
+TEST_F(DemMosaic, HeightsInFeetByTheirCrsAreMetresAfterAReprojectionToo) {
+    const std::string degrees = write({.crs = "EPSG:4269+6360",
+                                       .west = -123,
+                                       .north = 47,
+                                       .pixel = 0.001,
+                                       .columns = 20,
+                                       .rows = 20,
+                                       .height = constant(100 * kFeetPerMetre)});
+    const auto dem = test::readDems({degrees});
+    ASSERT_TRUE(dem.ok()) << dem.status();
+    EXPECT_NEAR(dem->grid.at(dem->grid.columns / 2, dem->grid.rows / 2), 100, 1e-3);
+    EXPECT_THAT(dem->notes, testing::Contains(HasSubstr("US survey foot")));
+}
+
+TEST_F(DemMosaic, JoinsHeightsInFeetByTheirCrsToThoseInMetres) {
+    const std::string metres = write(
+        {.crs = "EPSG:26910+5703", .west = 500000, .north = 5200100, .height = constant(100)});
+    for (const double pixel : {10, 11}) {  // on the grid of the other, and resampled
+        const std::string feet = write({.crs = "EPSG:26910+6360",
+                                        .west = 500100,
+                                        .north = 5200100,
+                                        .pixel = pixel,
+                                        .height = constant(100 * kFeetPerMetre)});
+        const auto dem = test::readDems({metres, feet});
+        ASSERT_TRUE(dem.ok()) << dem.status();
+        EXPECT_GE(dem->grid.columns, 20);
+        for (std::int32_t i = 0; i < 20; ++i) EXPECT_NEAR(dem->grid.at(i, 5), 100, 1e-3) << i;
+        EXPECT_THAT(dem->notes, testing::Not(testing::Contains(HasSubstr("vertical datum"))));
+    }
+}
+
+/// ENVI keeps the CRS, but has no place for a band's unit.
+TEST_F(DemMosaic, TakesTheUnitOfHeightsFromTheCrsWhereTheBandHasNone) {
+    const std::string path = write({.crs = "EPSG:26910+6360",
+                                    .driver = "ENVI",
+                                    .west = 500000,
+                                    .north = 5200100,
+                                    .height = constant(100 * kFeetPerMetre)});
+    const auto dem = test::readDems({path});
+    ASSERT_TRUE(dem.ok()) << dem.status();
+    EXPECT_NEAR(dem->grid.at(5, 5), 100, 1e-3);
+    EXPECT_THAT(dem->notes, testing::Contains(HasSubstr("vertical unit of its CRS")));
+}
+
+TEST_F(DemMosaic, TellsOfVerticalDatumsThatDiffer) {
+    const std::string navd88 =
+        write({.crs = "EPSG:26910+5703", .west = 500000, .north = 5200100, .height = constant(1)});
+    const std::string egm96 =
+        write({.crs = "EPSG:26910+5773", .west = 500105, .north = 5200100, .height = constant(2)});
+    const auto dem = test::readDems({navd88, egm96});
+    ASSERT_TRUE(dem.ok()) << dem.status();
+    EXPECT_EQ(dem->grid.at(5, 5), 1);
+    EXPECT_EQ(dem->grid.at(15, 5), 2);
+    EXPECT_THAT(dem->notes, testing::Contains(testing::AllOf(HasSubstr("vertical datum"),
+                                                             HasSubstr(navd88), HasSubstr(egm96))));
+}
+
+}  // namespace
+}  // namespace eyrie::import
