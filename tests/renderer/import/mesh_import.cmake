@@ -6,7 +6,10 @@ eyrie_test(ply_files_test LABEL unit LINK eyrie::mesh_import)
 eyrie_test(polygon_test LABEL unit LINK eyrie::mesh_import)
 eyrie_test(weld_test LABEL unit LINK eyrie::mesh_import)
 eyrie_test(pack_mesh_test LABEL unit LINK eyrie::mesh_import TBB::tbb)
-eyrie_test(mesh_import_test LABEL unit LINK eyrie::mesh_import TBB::tbb)
+eyrie_test(mesh_import_test LABEL unit
+           SOURCES mesh_edges_test.cpp mesh_import_test.cpp mesh_memory_test.cpp mesh_parts_test.cpp
+                   mesh_precision_test.cpp
+           LINK eyrie::mesh_import TBB::tbb)
 eyrie_test(mesh_synth_test LABEL unit LINK eyrie::mesh_import TBB::tbb)
 eyrie_test(reading_process_test LABEL unit LINK eyrie::mesh_import)
 eyrie_test(assimp_formats_test LABEL unit LINK eyrie::mesh_import assimp::assimp)
