@@ -11,8 +11,8 @@ eyrie_test(shared_session_test LABEL unit LINK eyrie::http eyrie::test_viewer)
 eyrie_test(http_server_test LABEL unit
            SOURCES http_server_test.cpp origin_test.cpp request_target_test.cpp viewer_connection_test.cpp
            LINK eyrie::http eyrie::jpeg eyrie::proto Boost::headers Threads::Threads)
-eyrie_test(http_access_test LABEL unit LINK eyrie::http eyrie::jpeg eyrie::test_certificates
-                                            Boost::headers OpenSSL::SSL Threads::Threads)
+eyrie_test(http_access_test LABEL unit SOURCES http_access_test.cpp http_limits_test.cpp https_test.cpp
+           LINK eyrie::http eyrie::jpeg eyrie::test_certificates Boost::headers OpenSSL::SSL Threads::Threads)
 if(EYRIE_SANITIZE MATCHES thread)
     target_compile_options(http_server_test PRIVATE -Wno-tsan)  # as in coordinator/http.cmake
     target_compile_options(http_access_test PRIVATE -Wno-tsan)
