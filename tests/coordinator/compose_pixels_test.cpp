@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures of pixels that are others' means, or stand for several: subpixels and zooms.
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "composed_pictures.h"
+#include "coordinator/compound/compose.h"
+#include "coordinator/compound/jitter.h"
+#include "coordinator/compound/plan.h"
+#include "layered_scene.h"
+
+namespace eyrie::compound {
+namespace {
+
+using coordinator::LayeredScene;
+
+RC_GTEST_PROP(Compose, SubpixelsAreTheMeanOfPicturesAtTheJittersPlaces, (std::uint32_t seed)) {
+    const LayeredScene scene(seed);
+    const int count = *rc::gen::inRange(2, 8);
+    std::vector<config::Compound> children;
+    for (int i = 0; i < count; ++i) {
+        children.push_back(source(static_cast<std::size_t>(i)));
+        children.back().subpixel = {i, count};
+    }
+    // Put together in any order, and the first perhaps on the destination's own channel.
+    if (*rc::gen::arbitrary<bool>())
+        children[0].outputFrames.clear();
+    if (*rc::gen::arbitrary<bool>())
+        std::swap(children[0], children[1]);
+    const auto got = pictures(withChildren(children), wholeCanvas(), scene);
+    RC_ASSERT(got.size() == 1U);
+
+    const fabric::PixelViewport area{0, 0, kSize.width, kSize.height};
+    std::vector<int> sums(static_cast<std::size_t>(area.area()), 0);
+    for (int i = 0; i < count; ++i) {
+        fabric::ChannelTask task{0, 0, area.width, area.height, area, {}, false};
+        task.raster = fabric::Raster{area.width, area.height, jitter(i, count), {1, 1}};
+        if (const auto plan = makePlan(withChildren({}), wholeCanvas()); plan.ok())
+            task.sight = plan->draws.front().task.sight;
+        fabric::Image sample = fabric::makeImage(area, LayeredScene::kBackground, false);
+        fabric::paste(scene.draw(task).image, sample);
+        for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += sample.colour[k].r;
+    }
+    for (std::size_t k = 0; k < sums.size(); ++k)
+        RC_ASSERT(got[0].colour[k].r == (2 * sums[k] + count) / (2 * count));
+}
+
+TEST(Compose, ZoomedByHalfEachPixelStandsForFour) {
+    config::Compound half = source(1);
+    half.zoom = {.5, .5};
+    PlanRequest request = wholeCanvas();
+    request.outputs[0].size = config::PixelSize{40, 24};
+    const LayeredScene scene(3);
+    const auto plan = makePlan(withChildren({half}), request);
+    ASSERT_TRUE(plan.ok());
+    ASSERT_EQ(plan->draws.size(), 1U);
+    const fabric::ChannelTask& task = plan->draws[0].task;
+    EXPECT_EQ(task.raster, (fabric::Raster{20, 12, {0, 0}, {2, 2}}));
+    EXPECT_EQ(task.viewWidth, 40);
+    fabric::Image small = fabric::makeImage(task.pixelViewport, LayeredScene::kBackground, false);
+    fabric::paste(scene.draw(task).image, small);
+    const auto got = composePictures(*plan, {small}, LayeredScene::kBackground);
+    for (std::size_t y = 0; y < 24; ++y)
+        for (std::size_t x = 0; x < 40; ++x)
+            ASSERT_EQ(got[0].colour[y * 40 + x], small.colour[y / 2 * 20 + x / 2]);
+}
+
+TEST(Compose, ZoomedByTwoEachPixelIsTheMeanOfFour) {
+    config::Compound twice = source(1);
+    twice.zoom = {2, 2};
+    const LayeredScene scene(3);
+    const auto plan = makePlan(withChildren({twice}), wholeCanvas());
+    ASSERT_TRUE(plan.ok());
+    const fabric::ChannelTask& task = plan->draws[0].task;
+    fabric::Image large = fabric::makeImage(task.pixelViewport, LayeredScene::kBackground, false);
+    fabric::paste(scene.draw(task).image, large);
+    ASSERT_EQ(large.area.width, 82);
+    const auto got = composePictures(*plan, {large}, LayeredScene::kBackground);
+    for (std::size_t y = 0; y < 23; ++y)
+        for (std::size_t x = 0; x < 41; ++x) {
+            const std::size_t at = 2 * y * 82 + 2 * x;
+            const int sum = large.colour[at].r + large.colour[at + 1].r + large.colour[at + 82].r +
+                            large.colour[at + 83].r;
+            ASSERT_EQ(got[0].colour[y * 41 + x].r, (sum + 2) / 4) << x << " " << y;
+        }
+}
+
+}  // namespace
+}  // namespace eyrie::compound
