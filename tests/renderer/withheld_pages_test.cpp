@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+// Terrain whose pages cannot be read.
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "renderer/import/terrain_import.h"
+#include "renderer/import/terrain_synth.h"
+#include "renderer/renderer.h"
+#include "renderer/terrain/eyt_format.h"
+#include "tests/renderer/paging_fixture.h"
+#include "tests/support/captured_log.h"
+
+namespace eyrie {
+namespace {
+
+using fabric::Camera;
+using fabric::ChannelResult;
+using fabric::Completeness;
+using fabric::Vec3;
+using terrain::TileId;
+using test::Paging;
+
+class WithheldPages : public Paging, public testing::WithParamInterface<int> {};
+
+TEST_P(WithheldPages, LeaveNoHoleWhereLevelsJump) {
+    const test::CapturedLog log;
+    const int jump = GetParam();
+    withhold(jump, 2 * jump > quadtree().levels());
+    const auto intact = open(scene_.objects[0].path);
+    const auto withheld = open(copy_);
+    for (int i = 0; i < 9; ++i) {
+        const ChannelResult whole = draw(*intact, lookingDown(i), Completeness::Complete, 0.25);
+        EXPECT_TRUE(whole.statistics.complete);
+        EXPECT_EQ(uncovered(whole.image), 0U) << "the test wants terrain everywhere";
+        const ChannelResult coarse = draw(*withheld, lookingDown(i), Completeness::Complete, 0.25);
+        EXPECT_EQ(uncovered(coarse.image), 0U) << "looking down, camera " << i;
+        EXPECT_FALSE(coarse.statistics.complete);
+        EXPECT_GT(coarse.statistics.pagesMissing, 0U);
+        EXPECT_GE(coarse.statistics.pagesFailed, 1U);
+        EXPECT_GT(coarse.statistics.tauAchievedPixels, whole.statistics.tauAchievedPixels);
+        EXPECT_EQ(
+            holesBelowTerrain(draw(*withheld, lookingAhead(i), Completeness::Complete, 0.25).image),
+            0U)
+            << "looking ahead, camera " << i;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Jumps, WithheldPages, testing::Values(2, 3, 5));
+
+TEST_F(Paging, TilesWhoseNormalsCannotBeReadAreNotDrawn) {
+    const test::CapturedLog log;
+    withholdLevel(quadtree().normalLevel());
+    const auto renderer = open(copy_);
+    const auto intact = open(scene_.objects[0].path);
+    for (int i = 0; i < 4; ++i) {
+        const ChannelResult whole = draw(*intact, lookingDown(i), Completeness::Complete, 0.1);
+        for (const Completeness completeness :
+             {Completeness::Complete, Completeness::Interactive}) {
+            const ChannelResult result = draw(*renderer, lookingDown(i), completeness, 0.1);
+            EXPECT_EQ(uncovered(result.image), 0U);
+            EXPECT_FALSE(result.statistics.complete);
+            EXPECT_GE(result.statistics.pagesFailed, 1U);
+            EXPECT_LT(result.statistics.triangles, whole.statistics.triangles);
+        }
+    }
+}
+
+/// A hill 33 posts wide in the midst of nodata, where only the finest level can draw it: its
+/// normals are those of a tile that has no triangles.
+TEST_F(Paging, ATileIsDrawnWhereTheOneWithItsNormalsIsNot) {
+    terrain::HeightGrid grid = import::synthesizeTerrain(300, 7);
+    for (std::int32_t j = 0; j < grid.rows; ++j)
+        for (std::int32_t i = 0; i < grid.columns; ++i)
+            if (std::min(i, j) < 32 || std::max(i, j) > 64 || i + j == 128)
+                grid.row(j)[i] = terrain::kNodata;
+    import::GridHeightSource posts(grid);
+    import::TerrainImportOptions options;
+    options.errorMetres = 1e6;  // leaves the outline of the data as it is
+    ASSERT_TRUE(import::importTerrain(posts, {"hill", "", 0}, copy_, options, {}).ok());
+    const auto file = terrain::EytFile::open(copy_);
+    ASSERT_TRUE(file.ok());
+    const terrain::EytIndex& index = (*file)->index();
+    ASSERT_GT(index.tile({0, 1, 1}).triangles, 0U);
+    ASSERT_EQ(index.tile({2, 0, 0}).triangles, 0U);
+    Camera camera;
+    camera.target = index.bounds({0, 1, 1}).centre();
+    camera.eye = camera.target + Vec3(0, 0, 3000);
+    camera.up = {0, 1, 0};
+    const ChannelResult whole = draw(*open(copy_), camera, Completeness::Complete);
+    EXPECT_TRUE(whole.statistics.complete);
+    EXPECT_GT(whole.statistics.triangles, 0U);
+    EXPECT_LT(uncovered(whole.image), whole.image.depth.size());
+    EXPECT_EQ(different(converge(*open(copy_), camera).image, whole.image), 0U);
+}
+
+TEST_F(Paging, ACorruptPageIsDrawnAsItsAncestorAndNamedOnce) {
+    const TileId seen{0, quadtree().tilesX(0) / 2, quadtree().tilesY(0) / 2};
+    const std::uint32_t page = quadtree().pageIndex(seen);
+    Camera camera;
+    camera.target = file_->index().bounds(seen).centre();
+    camera.eye = camera.target + Vec3(0, 0, 2000);
+    camera.up = {0, 1, 0};
+    const ChannelResult whole =
+        draw(*open(scene_.objects[0].path), camera, Completeness::Complete, 0.1);
+    flip(page);
+    const test::CapturedLog log;
+    const auto renderer = open(copy_);
+    const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(700);
+    while (std::chrono::steady_clock::now() < end)  // it is tried again meanwhile
+        for (const Completeness completeness :
+             {Completeness::Complete, Completeness::Interactive}) {
+            const ChannelResult result = draw(*renderer, camera, completeness, 0.1);
+            EXPECT_FALSE(result.statistics.complete);
+            EXPECT_EQ(result.statistics.pagesFailed, 1U);
+            EXPECT_EQ(uncovered(result.image), 0U);
+            EXPECT_GT(result.statistics.tauAchievedPixels, whole.statistics.tauAchievedPixels);
+        }
+    EXPECT_EQ(log.count(fmt::format("page {}:", page)), 1);
+    flip(page);
+    const auto deadline = std::chrono::steady_clock::now() + kPatience;
+    ChannelResult result;
+    while (!result.statistics.complete || result.image.depth.empty()) {
+        ASSERT_LT(std::chrono::steady_clock::now(), deadline) << "the page is readable again";
+        result = draw(*renderer, camera, Completeness::Interactive, 0.1);
+    }
+    EXPECT_EQ(different(result.image, whole.image), 0U);
+    EXPECT_EQ(log.count("can be read again"), 1);
+}
+
+TEST_F(Paging, ATopPageThatCannotBeReadKeepsTheSceneFromOpening) {
+    flip(quadtree().pageIndex(quadtree().top()));
+    auto renderer = Renderer::create({});
+    ASSERT_TRUE(renderer.ok());
+    fabric::Scene scene = scene_;
+    scene.objects[0].path = copy_;
+    EXPECT_TRUE(absl::IsDataLoss((*renderer)->openScene(scene).status()));
+}
+
+}  // namespace
+}  // namespace eyrie
