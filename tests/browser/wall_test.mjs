@@ -26,6 +26,26 @@ async function swapped(page, after) {
 
 const exact = (page) => page.waitForFunction(() => window.eyrie?.exact === true, null, patience);
 
+/** Waits for the exact picture of the leader's canvas as it is now: without its panel it is wider. */
+async function settled(leader, watcher) {
+  await leader.waitForFunction(
+    () => {
+      const { width, height } = document.querySelector("#view").getBoundingClientRect();
+      const picture = window.eyrie;
+      return picture.exact && Math.abs(picture.width / picture.height - width / height) < 0.01;
+    },
+    null,
+    patience,
+  );
+  const size = await leader.evaluate(() => [window.eyrie.width, window.eyrie.height]);
+  await watcher.waitForFunction(
+    ([width, height]) =>
+      window.eyrie.exact && window.eyrie.width === width && window.eyrie.height === height,
+    size,
+    patience,
+  );
+}
+
 // ---- The judge's own walls and rays: three corners of each, as fake_server.cpp has them.
 const walls = {
   left: {
@@ -106,7 +126,10 @@ await run("wall", async (browser, started) => {
   const at = (url, query) => new URL(`/?session=corner&${query}`, url).href;
   await left.goto(at(server.url, "segment=left"));
   await says(left, "1 viewer · you lead");
-  const right = await browser.openAnother(at(link.url, "role=watch&segment=right&eye=right"));
+  // As large as the first: pictures have the leader's size, and none of them is to be cropped.
+  const right = await browser.openAnother(at(link.url, "role=watch&segment=right&eye=right"), {
+    viewport: left.viewportSize(),
+  });
   await says(left, "2 viewers · you lead · 2 screens together");
   await says(right, "2 viewers · you watch · 2 screens together");
   check(true, "both know that they are shown together");
@@ -144,6 +167,7 @@ await run("wall", async (browser, started) => {
   check((await hash(left)) !== (await hash(right)), "and each shows its own wall");
 
   for (const page of [left, right]) await page.click("#panel-toggle");
+  await settled(left, right);
   for (const [x, y] of placesOn(JSON.parse(await camera(left)), 0, walls.left)) {
     const picked = await pickAt(left, walls.left, 0, x, y);
     check(picked.isRight, `what is clicked at is picked through the wall, ${picked.text}`);
