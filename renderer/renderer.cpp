@@ -158,6 +158,9 @@ private:
     /// What the last frame drew, one after the other: some of it more than once.
     std::vector<draw::OccludedDraw::Pieces> drawn_;
     std::optional<fabric::Scene> scene_;
+    /// What the device had no memory for stays missing, and no error tells so again: until a scene
+    /// is opened every picture fails with this.
+    absl::Status incomplete_;
     std::uint64_t indexBytes_ = 0;  ///< of its terrains
     std::vector<draw::OpenObject> objects_;
     std::shared_ptr<const pick::Picker> picker_;
@@ -247,6 +250,7 @@ absl::StatusOr<fabric::SceneInfo> Renderer::Impl::openScene(const fabric::Scene&
     }
     info.ground = groundOf(objects);
     indexBytes_ = indexBytes;
+    incomplete_ = absl::OkStatus();
     scene_ = scene;
     objects_ = std::move(objects);
     picker_ = std::make_shared<const pick::Picker>(std::move(surfaces));
@@ -429,6 +433,7 @@ absl::StatusOr<fabric::ChannelResult> Renderer::Impl::render(const fabric::Frame
     const std::stop_token& stop = delivery.stop;
     if (!scene_)
         return absl::FailedPreconditionError("no scene is open; open one before rendering");
+    RETURN_IF_ERROR(incomplete_);
     RETURN_IF_ERROR(validateTask(asked, task));
     RETURN_IF_ERROR(unlessStopped(stop));
     fabric::ChannelResult result;
@@ -457,11 +462,12 @@ absl::StatusOr<fabric::ChannelResult> Renderer::Impl::render(const fabric::Frame
 
     const auto readStart = Clock::now();
     result.image = readBack(selection.covered, task.wantsDepth, delivery);
-    RETURN_IF_ERROR(gl::takeGlError());
     statistics.milliseconds.readback = millisecondsSince(readStart);
     const auto errorStart = Clock::now();
     statistics.tauAchievedPixels = errorPixels(views, frameData, task, selection.covered);
     statistics.milliseconds.cull += millisecondsSince(errorStart);
+    if (absl::Status met = gl::takeGlError(); !met.ok())
+        return absl::IsResourceExhausted(met) ? incomplete_ = std::move(met) : met;
     statistics.milliseconds.total = millisecondsSince(start);
     if (task.measuresStages)
         RETURN_IF_ERROR(

@@ -218,7 +218,7 @@ TEST(HardCase5, PlanesHaveFourTrianglesATileAndNoNoise) {
         for (const terrain::TileRecord& tile : scene.index().tiles) EXPECT_EQ(tile.triangles, 4U);
         for (const Camera& camera : camerasAround(scene.index().bounds())) {
             const truth::PromiseKept kept = scene.hold(test::name(kind), camera);
-            EXPECT_LE(kept.measured.maxPixels, kept.promisedPixels + 0.002);
+            EXPECT_LE(kept.measured.maxPixels, kept.promisedPixels + 0.001);
             EXPECT_LE(kept.promisedPixels, kind == GridKind::Flat ? 0 : 0.1);
         }
     }
