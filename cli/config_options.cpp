@@ -10,6 +10,7 @@
 
 #include "cli/compound_names.h"
 #include "cli/configuration_file.h"
+#include "cli/options/one_of.h"
 #include "coordinator/compound/plan_check.h"
 #include "coordinator/config/findings.h"
 #include "coordinator/config/one_channel.h"
@@ -52,7 +53,7 @@ CLI::Option* addConfigFile(CLI::App& command, ConfigOptions& options) {
 void addConfigOptions(CLI::App& command, ConfigOptions& options) {
     CLI::Option* const file = addConfigFile(command, options);
     command.add_option("--compound", options.compound, kCompoundHelp)
-        ->check(CLI::IsMember(compoundNames()).description(""))
+        ->check(oneOf(namesOf(compoundNames())))
         ->type_name("2D|DB|DB-static|direct-send|DB-2D")
         ->excludes(file);
 }
@@ -74,7 +75,7 @@ void addScreenOptions(CLI::App& command, ConfigOptions& options) {
                     "Which of its layouts it shows, by name or position [the first]")
         ->type_name("NAME");
     command.add_option("--eye", options.shown.eye, "What one eye sees [what the view shows]")
-        ->transform(CLI::CheckedTransformer(kEyes).description(""))
+        ->transform(valueOf(kEyes))
         ->type_name("left|right|cyclop");
 }
 
@@ -86,7 +87,7 @@ void addShownOptions(CLI::App& command, ConfigOptions& options) {
     command
         .add_option("--stereo", options.shown.stereo,
                     "How two eyes are put into one picture [as the configuration says]")
-        ->transform(CLI::CheckedTransformer(kStereo).description(""))
+        ->transform(valueOf(kStereo))
         ->type_name("anaglyph|side-by-side|top-bottom");
     command.add_flag("--one-channel", options.oneChannel,
                      "Draw each destination by its own channel, without compounds: what every "

@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "cli/options/one_of.h"
 #include "renderer/tile_decoding.h"
 
 namespace eyrie::cli {
@@ -28,7 +29,7 @@ inline void addDecodeOption(CLI::App& command, TileDecoding& decoding) {
     command
         .add_option("--decode", decoding,
                     "What makes terrain's vertices; auto: what a measurement finds faster [auto]")
-        ->transform(CLI::CheckedTransformer(decodeNames()).description(""))
+        ->transform(valueOf(decodeNames()))
         ->type_name("auto|cpu|gpu");
 }
 

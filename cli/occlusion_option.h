@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "cli/options/one_of.h"
 #include "fabric/frame_data.h"
 
 namespace eyrie::cli {
@@ -29,7 +30,7 @@ inline void addOcclusionOption(CLI::App& command, fabric::Occlusion& occlusion) 
     command
         .add_option("--occlusion", occlusion,
                     "Leave out what is hidden; the picture is the same [auto: where it pays]")
-        ->transform(CLI::CheckedTransformer(occlusionModes()).description(""))
+        ->transform(valueOf(occlusionModes()))
         ->type_name("auto|on|off");
 }
 

@@ -19,6 +19,7 @@
 #include "cli/flight_video.h"
 #include "cli/image_files.h"
 #include "cli/occlusion_option.h"
+#include "cli/options/one_of.h"
 #include "cli/picture_bands.h"
 #include "cli/picture_source.h"
 #include "cli/renderer_processes.h"
@@ -276,7 +277,7 @@ void addLookOptions(CLI::App& command, Options& options) {
         {"flat", fabric::Shading::Flat},
         {"wireframe", fabric::Shading::Wireframe}};
     command.add_option("--shading", options.shading, "How surfaces are drawn [smooth]")
-        ->transform(CLI::CheckedTransformer(kShadings).description(""))
+        ->transform(valueOf(kShadings))
         ->type_name("smooth|gouraud|flat|wireframe");
     command
         .add_option("--look", options.look,

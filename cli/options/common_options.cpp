@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/options/common_options.h"
 
-#include <set>
+#include "cli/options/one_of.h"
 
 namespace eyrie::cli {
 namespace {
@@ -9,8 +9,6 @@ namespace {
 constexpr const char* kGroup = "Every command";
 
 void addTo(CLI::App& command, CommonOptions& options) {
-    static const std::set<std::string> kFormats = {"text", "json"};
-    static const std::set<std::string> kLevels = {"trace", "debug", "info", "warn", "error", "off"};
     command
         .add_option("--options", options.file,
                     "A file of options, TOML or INI: for what neither the command line says nor "
@@ -22,12 +20,12 @@ void addTo(CLI::App& command, CommonOptions& options) {
                   "Print every option, its value and where that came from, and end")
         ->group(kGroup);
     command.add_option("--log-format", options.logFormat, "Of the log: text, or JSON, one a line")
-        ->check(CLI::IsMember(kFormats).description(""))
+        ->check(oneOf({"text", "json"}))
         ->type_name("text|json")
         ->capture_default_str()
         ->group(kGroup);
     command.add_option("--log-level", options.logLevel, "The least that is logged [info]")
-        ->check(CLI::IsMember(kLevels).description(""))
+        ->check(oneOf({"trace", "debug", "info", "warn", "error", "off"}))
         ->type_name("trace|debug|info|warn|error|off")
         ->group(kGroup);
 }
