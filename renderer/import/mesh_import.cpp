@@ -13,6 +13,7 @@
 #include <oneapi/tbb/parallel_invoke.h>
 
 #include "fabric/status.h"
+#include "renderer/import/joined_meshes.h"
 #include "renderer/import/mesh_import_parts.h"
 #include "renderer/import/mesh_reader.h"
 #include "renderer/import/ply_reader.h"

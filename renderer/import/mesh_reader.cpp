@@ -5,7 +5,6 @@
 #include <array>
 #include <filesystem>
 #include <iterator>
-#include <limits>
 #include <optional>
 #include <string_view>
 #include <system_error>
@@ -60,65 +59,6 @@ std::string_view textOf(const mesh::MappedFile& file) {
 
 bool looksLikePly(std::string_view text) {
     return text.starts_with("ply") && text.size() > 3 && (text[3] == '\n' || text[3] == '\r');
-}
-
-/// Adds the materials of `part`; what has none is plain.
-absl::Status appendMaterials(TriangleMesh& whole, TriangleMesh& part, const std::string& path) {
-    if (whole.materials.empty() && part.materials.empty())
-        return absl::OkStatus();
-    if (whole.materials.empty())
-        whole.materials.emplace_back();
-    whole.materialOf.resize(whole.positions.size(), 0);
-    part.materialOf.resize(part.positions.size(), 0);
-    if (part.materials.empty())
-        part.materials.emplace_back();
-    std::vector<std::uint16_t> numberOf;
-    for (mesh::Material material : part.materials) {
-        if (material.hasImage())
-            material.image += static_cast<std::int32_t>(whole.images.size());
-        const auto known = std::find(whole.materials.begin(), whole.materials.end(), material);
-        numberOf.push_back(static_cast<std::uint16_t>(known - whole.materials.begin()));
-        if (known == whole.materials.end())
-            whole.materials.push_back(material);
-    }
-    if (whole.materials.size() > mesh::kMaxMaterials)
-        return absl::InvalidArgumentError(fmt::format(
-            "{}: with it the mesh has more than {} materials; import the files in parts", path,
-            mesh::kMaxMaterials));
-    for (const std::uint16_t material : part.materialOf)
-        whole.materialOf.push_back(numberOf[material]);
-    for (mesh::Image& image : part.images) whole.images.push_back(std::move(image));
-    return absl::OkStatus();
-}
-
-/// Adds `part` to `whole`, which has colours, normals and materials as soon as one of them does.
-absl::Status append(TriangleMesh& whole, TriangleMesh part, const std::string& path) {
-    const std::size_t first = whole.positions.size();
-    if (first + part.positions.size() >= std::numeric_limits<std::uint32_t>::max())
-        return absl::InvalidArgumentError(fmt::format(
-            "{}: with it the mesh has more than 2^32 vertices; import the files in parts", path));
-    const std::size_t count = first + part.positions.size();
-    const auto join = [&](auto& to, const auto& from, const auto& otherwise) {
-        if (to.empty() && from.empty())
-            return;
-        to.resize(first, otherwise);
-        to.insert(to.end(), from.begin(), from.end());
-        to.resize(count, otherwise);
-    };
-    join(whole.normals, part.normals, glm::vec3(0));
-    join(whole.colours, part.colours, kPlainColour);
-    join(whole.textureCoordinates, part.textureCoordinates, glm::vec2(0));
-    RETURN_IF_ERROR(appendMaterials(whole, part, path));
-    whole.positions.insert(whole.positions.end(), part.positions.begin(), part.positions.end());
-    for (auto triangle : part.triangles) {
-        for (std::uint32_t& corner : triangle) corner += static_cast<std::uint32_t>(first);
-        whole.triangles.push_back(triangle);
-    }
-    fabric::append(whole.lights, part.lights);
-    whole.droppedFaces += part.droppedFaces;
-    for (const std::string& note : part.notes)
-        whole.notes.push_back(fmt::format("{}: {}", path, note));
-    return absl::OkStatus();
 }
 
 /// Names of files that `text` mentions: what follows `mark`, up to one of `ends`.
@@ -203,14 +143,6 @@ absl::StatusOr<TriangleMesh> parseMesh(std::string_view text, const std::string&
 
 }  // namespace
 
-ImportControl shareOf(const ImportControl& control, std::size_t file, std::size_t count) {
-    return {[&control, file, count](std::string_view stage, double fraction) {
-                control.report(stage,
-                               (static_cast<double>(file) + fraction) / static_cast<double>(count));
-            },
-            control.stop};
-}
-
 bool isPly(const std::string& path) {
     const auto file = mesh::MappedFile::open(path);
     return file.ok() && (looksLikePly(textOf(*file)) || endsWith(path, ".ply"));
@@ -246,20 +178,6 @@ absl::StatusOr<TriangleMesh> readMesh(const std::string& path, const ImportContr
     RETURN_IF_ERROR(loadTextures(mesh, path, control));
     limitLights(mesh);
     return mesh;
-}
-
-absl::StatusOr<TriangleMesh> readMeshes(std::span<const std::string> paths,
-                                        const ImportControl& control, const MeshReading& reading) {
-    if (paths.size() == 1)
-        return readMesh(paths.front(), control, reading);
-    TriangleMesh whole;
-    for (std::size_t i = 0; i < paths.size(); ++i) {
-        ASSIGN_OR_RETURN(TriangleMesh part,
-                         readMesh(paths[i], shareOf(control, i, paths.size()), reading));
-        RETURN_IF_ERROR(append(whole, std::move(part), paths[i]));
-    }
-    limitLights(whole);
-    return whole;
 }
 
 absl::StatusOr<std::uint64_t> meshSourceHash(std::span<const std::string> paths) {

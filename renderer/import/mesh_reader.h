@@ -37,22 +37,11 @@ struct MeshReading {
 absl::StatusOr<TriangleMesh> readMesh(const std::string& path, const ImportControl& control = {},
                                       const MeshReading& reading = {});
 
-/// Reads several into one, in this order. Where only some have colours, the others are of
-/// kPlainColour; where only some have materials, the others have a plain one. Notes begin with
-/// their file's name where there are several. Precondition: there is one. Errors: those of
-/// readMesh; InvalidArgument (more than 2^32 vertices).
-absl::StatusOr<TriangleMesh> readMeshes(std::span<const std::string> paths,
-                                        const ImportControl& control = {},
-                                        const MeshReading& reading = {});
-
 /// Whether readMesh takes a file for PLY.
 bool isPly(const std::string& path);
 
 /// What vertices are coloured without colours of their own, beside others that have some.
 inline constexpr fabric::Rgba kPlainColour{204, 204, 204, 255};
-
-/// Reports one file's progress as a share of that of all.
-ImportControl shareOf(const ImportControl& control, std::size_t file, std::size_t count);
 
 /// Of the bytes of all files that a mesh is read from: `paths`, and the buffers, material files and
 /// textures that files of OBJ, glTF, AC3D, PLY and .jdn name, as far as they exist. One file

@@ -5,6 +5,7 @@
 #include <bit>
 #include <limits>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include <absl/status/status.h>
@@ -17,6 +18,15 @@
 
 namespace eyrie::import {
 namespace {
+
+/// Reports one file's progress as a share of that of all, which are read one by one.
+ImportControl shareOf(const ImportControl& control, std::size_t file, std::size_t count) {
+    return {[&control, file, count](std::string_view stage, double fraction) {
+                control.report(stage,
+                               (static_cast<double>(file) + fraction) / static_cast<double>(count));
+            },
+            control.stop};
+}
 
 absl::StatusOr<MeshSpool> emptySpool(const std::string& outPath) {
     ASSIGN_OR_RETURN(auto positions, RowFile<fabric::Vec3>::create(outPath));

@@ -4,6 +4,8 @@
 #include <bit>
 #include <tuple>
 
+#include <oneapi/tbb/parallel_sort.h>
+
 namespace eyrie::mesh {
 namespace {
 
@@ -55,7 +57,7 @@ std::optional<std::vector<Edge>> edgesLeftOver(const PackedMesh& mesh, std::size
     });
     if (edges.size() > most)
         return std::nullopt;
-    std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
+    oneapi::tbb::parallel_sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
         return std::tuple(a.ends(), a.from, a.fromVertex, a.toVertex, a.triangle) <
                std::tuple(b.ends(), b.from, b.fromVertex, b.toVertex, b.triangle);
     });

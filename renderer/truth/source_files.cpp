@@ -10,6 +10,7 @@
 
 #include "fabric/status.h"
 #include "renderer/import/dem_source.h"
+#include "renderer/import/joined_meshes.h"
 #include "renderer/import/mesh_reader.h"
 #include "renderer/import/ply_reader.h"
 

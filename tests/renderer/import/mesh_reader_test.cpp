@@ -27,27 +27,6 @@ constexpr const char* kJdn =
     "Number of Materials = 0\nNumber of Objects = 1\nMaterial ID = 0\nNum Vertices = 3\n"
     "Num Faces = 1\nVert = 0 0 0\nVert = 1 0 0\nVert = 0 1 0\nFace = 0 1 2\n";
 
-TEST(MeshReader, JoinsFilesOfDifferentFormatsInTheirOrder) {
-    const test::TemporaryFolder folder;
-    test::writeFile(folder.file("a.ply"),
-                    test::plyOf(test::tetrahedron(), test::Encoding::LittleEndian));
-    test::writeFile(folder.file("b.OBJ"), kObj);
-    test::writeFile(folder.file("m.mtl"), kMtl);
-    test::writeFile(folder.file("c.jdn"), kJdn);
-    const std::vector<std::string> paths = {folder.file("a.ply"), folder.file("b.OBJ"),
-                                            folder.file("c.jdn")};
-    const auto mesh = readMeshes(paths);
-    ASSERT_TRUE(mesh.ok()) << mesh.status();
-    ASSERT_EQ(mesh->triangles.size(), 6U);
-    ASSERT_EQ(mesh->colours.size(), mesh->positions.size());
-    const auto& [a, b, c] = mesh->triangles[4];
-    EXPECT_EQ(mesh->positions[a], fabric::Vec3(5, 0, 0));
-    EXPECT_EQ(mesh->colours[a], (fabric::Rgba{255, 0, 0, 255}));
-    EXPECT_EQ(mesh->colours[0], (fabric::Rgba{204, 204, 204, 255}));
-    EXPECT_EQ(mesh->positions[mesh->triangles[5][1]], fabric::Vec3(1, 0, 0));
-    EXPECT_TRUE(mesh->notes.size() == 1 && mesh->notes[0].starts_with(paths[2]));
-}
-
 TEST(MeshReader, BelievesTheContentMoreThanTheName) {
     const test::TemporaryFolder folder;
     test::writeFile(folder.file("ply.stl"),
@@ -55,16 +34,6 @@ TEST(MeshReader, BelievesTheContentMoreThanTheName) {
     test::writeFile(folder.file("jdn.obj"), kJdn);
     EXPECT_EQ(readMesh(folder.file("ply.stl"))->triangles.size(), 4U);
     EXPECT_EQ(readMesh(folder.file("jdn.obj"))->triangles.size(), 1U);
-}
-
-TEST(MeshReader, NamesTheFileThatCannotBeRead) {
-    const test::TemporaryFolder folder;
-    test::writeFile(folder.file("a.ply"), test::plyOf(test::tetrahedron(), test::Encoding::Ascii));
-    test::writeFile(folder.file("b.obj"), "nothing\n");
-    const std::vector<std::string> paths = {folder.file("a.ply"), folder.file("b.obj")};
-    const auto mesh = readMeshes(paths);
-    EXPECT_EQ(mesh.status().code(), absl::StatusCode::kInvalidArgument);
-    EXPECT_THAT(std::string(mesh.status().message()), HasSubstr("b.obj"));
 }
 
 TEST(MeshReader, SaysWhatUnpacksAMeshThatIsPacked) {
@@ -267,25 +236,6 @@ TEST(MeshReader, NamesMaterialFilesThatAreMissing) {
     EXPECT_THAT(mesh->notes, testing::ElementsAre(HasSubstr("1 of 1 material files are missing, "
                                                             "and what they define is plain: "
                                                             "'m.mtl'")));
-}
-
-TEST(MeshReader, JoinsMaterialsOfFiles) {
-    const test::TemporaryFolder folder;
-    test::writeFile(folder.file("a.ply"),
-                    test::plyOf(test::tetrahedron(), test::Encoding::LittleEndian));
-    test::writeFile(folder.file("m.obj"), kTexturedObj);
-    test::writeFile(folder.file("m.mtl"), kTexturedMtl);
-    test::writeFile(folder.file("tiles.tga"), test::tgaOf(1, 1, {{9, 8, 7, 255}}));
-    const std::vector<std::string> paths = {folder.file("a.ply"), folder.file("m.obj"),
-                                            folder.file("m.obj")};
-    const auto mesh = readMeshes(paths);
-    ASSERT_TRUE(mesh.ok()) << mesh.status();
-    ASSERT_EQ(mesh->materialOf.size(), mesh->positions.size());
-    ASSERT_EQ(mesh->textureCoordinates.size(), mesh->positions.size());
-    ASSERT_EQ(mesh->images.size(), 2U);
-    EXPECT_EQ(mesh->materials[mesh->materialOf[0]], mesh::Material());
-    const std::uint32_t last = mesh->triangles[mesh->triangles.size() - 4][0];
-    EXPECT_EQ(mesh->materials[mesh->materialOf[last]], (mesh::Material{.image = 1}));
 }
 
 TEST(MeshSourceHash, IsThatOfALoneFileAndCountsItsCompany) {
