@@ -28,6 +28,23 @@ glm::dmat3 matrixOf(const aiUVTransform& transform) {
     return scale * turn * shift;
 }
 
+/// KHR_texture_transform: scaled, turned counter-clockwise as one sees it, then shifted, v
+/// downwards. Assimp has its turn the other way round and its shift such that both are right
+/// around the middle of the texture, v upwards: that is undone.
+glm::dmat3 gltfMatrixOf(const aiUVTransform& transform) {
+    const double c = std::cos(-double{transform.mRotation});
+    const double s = std::sin(-double{transform.mRotation});
+    const double x = transform.mScaling.x;
+    const double y = transform.mScaling.y;
+    const double u = transform.mTranslation.x - x / 2 * (1 - c + s);
+    const double v = 1 - y + y / 2 * (c + s - 1) - transform.mTranslation.y;
+    const glm::dmat3 upsideDown(1, 0, 0, 0, -1, 0, 0, 1, 1);
+    const glm::dmat3 scale(x, 0, 0, 0, y, 0, 0, 0, 1);
+    const glm::dmat3 turn(c, -s, 0, s, c, 0, 0, 0, 1);
+    const glm::dmat3 shift(1, 0, 0, 0, 1, 0, u, v, 1);
+    return upsideDown * shift * turn * scale * upsideDown;
+}
+
 /// Texels that are not coded, which none of the formats has in use, are left out.
 TextureSource embedded(const aiTexture& texture, const char* name) {
     TextureSource source{name, {}, 0};
@@ -64,8 +81,8 @@ float cutoffOf(const aiMaterial& material) {
 
 }  // namespace
 
-AssimpMaterials::AssimpMaterials(const aiScene& scene, bool texturesReplaceColours)
-    : scene_(scene), texturesReplaceColours_(texturesReplaceColours) {
+AssimpMaterials::AssimpMaterials(const aiScene& scene, const AssimpFormat& format)
+    : scene_(scene), format_(format) {
     const std::span materials(scene.mMaterials, scene.mNumMaterials);
     hasSides_ = std::ranges::any_of(
         materials, [](const aiMaterial* material) { return sidesOf(*material) == 2; });
@@ -93,7 +110,7 @@ std::int32_t AssimpMaterials::readTexture(const aiMaterial& material, Entry& ent
         return -1;  // Quake's formats name none
     aiUVTransform transform;
     if (material.Get(AI_MATKEY_UVTRANSFORM_DIFFUSE(0), transform) == AI_SUCCESS)
-        entry.placeFromSource = matrixOf(transform);
+        entry.placeFromSource = format_.isGltf() ? gltfMatrixOf(transform) : matrixOf(transform);
     const aiTexture* own = scene_.GetEmbeddedTexture(path.C_Str());
     TextureSource source =
         own != nullptr ? embedded(*own, path.C_Str()) : TextureSource{path.C_Str(), {}, 0};
@@ -131,7 +148,7 @@ AssimpMaterials::Entry AssimpMaterials::read(const aiMaterial& material) {
     if (mode == AlphaMode::Unknown)
         drawn.flags |= kAlphaByImage;
     const bool isBlack = entry.colour.r == 0 && entry.colour.g == 0 && entry.colour.b == 0;
-    if (texturesReplaceColours_ || isBlack)
+    if (format_.texturesReplaceColours || isBlack)
         drawn.flags |= kReplacesColour;
     entry.number = number(drawn);
     return entry;

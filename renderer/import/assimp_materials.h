@@ -9,15 +9,15 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 
+#include "renderer/import/assimp_reader.h"
 #include "renderer/import/triangle_mesh.h"
 
 namespace eyrie::import {
 
-/// The materials of an Assimp scene as TriangleMesh has them. The scene outlives this.
+/// The materials of an Assimp scene as TriangleMesh has them. Scene and format outlive this.
 class AssimpMaterials {
 public:
-    /// `texturesReplaceColours`: see AssimpFormat.
-    AssimpMaterials(const aiScene& scene, bool texturesReplaceColours);
+    AssimpMaterials(const aiScene& scene, const AssimpFormat& format);
 
     /// Whether any mesh has a material that is more than a colour.
     bool areAny() const { return materials_.size() > 1; }
@@ -52,7 +52,7 @@ private:
     std::uint16_t number(const mesh::Material& material);
 
     const aiScene& scene_;
-    bool texturesReplaceColours_;
+    const AssimpFormat& format_;
     /// Where a scene says of some materials that they have two sides, those of which it says that
     /// they have not are seen from one only: outlines are such hulls, turned inside out. Where it
     /// says that of all, it means nothing by it.

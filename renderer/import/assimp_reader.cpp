@@ -31,6 +31,7 @@
 #include "renderer/import/assimp_materials.h"
 #include "renderer/import/assimp_values.h"
 #include "renderer/import/gltf_extensions.h"
+#include "renderer/import/gltf_unpacking.h"
 #include "renderer/import/polygon.h"
 #include "renderer/mesh/mapped_file.h"
 
@@ -106,7 +107,7 @@ double metresPerUnitOf(const aiScene& scene, const AssimpFormat& format,
 class SceneMeshes {
 public:
     SceneMeshes(const aiScene& scene, const AssimpFormat& format)
-        : scene_(scene), format_(format), materials_(scene, format.texturesReplaceColours) {
+        : scene_(scene), format_(format), materials_(scene, format) {
         for (unsigned int i = 0; i < scene.mNumMeshes; ++i) {
             const aiMesh& mesh = *scene.mMeshes[i];
             hasNormals_ = hasNormals_ || mesh.mNormals != nullptr;
@@ -292,13 +293,9 @@ absl::StatusOr<TriangleMesh> SceneMeshes::gather() {
     return std::move(result_);
 }
 
-bool isGltf(const AssimpFormat& format) {
-    return format.extension == ".gltf" || format.extension == ".glb";
-}
-
 /// What Assimp is known to get wrong in a file, for TriangleMesh::notes.
 std::vector<std::string> caveats(std::span<const std::byte> bytes, const AssimpFormat& format) {
-    if (isGltf(format))
+    if (format.isGltf())
         return gltfCaveats(bytes);
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     const bool isPlaced = text.find("\nloc ") != std::string_view::npos ||
@@ -328,15 +325,15 @@ std::string withFirstTextures(std::span<const std::byte> bytes) {
     return kept;
 }
 
-const aiScene* parse(Assimp::Importer& importer, const std::string& path,
-                     const AssimpFormat& format) {
-    if (!format.extension.starts_with(".ac"))
-        return importer.ReadFile(path, 0);
-    const absl::StatusOr<mesh::MappedFile> file = mesh::MappedFile::open(path);
-    if (!file.ok())
-        return importer.ReadFile(path, 0);
-    const std::string text = withFirstTextures(file->bytes());
-    return importer.ReadFileFromMemory(text.data(), text.size(), 0, "ac");
+/// What Assimp reads instead of a file that it would take for something else; nothing for others.
+absl::StatusOr<std::string> instead(const std::string& path, const AssimpFormat& format) {
+    const bool isAc = format.extension.starts_with(".ac");
+    if (!isAc && !format.isGltf())
+        return "";
+    ASSIGN_OR_RETURN(const mesh::MappedFile file, mesh::MappedFile::open(path));
+    if (isAc)
+        return withFirstTextures(file.bytes());
+    return isGltfPacked(file.bytes()) ? unpackGltf(file.bytes(), path) : "";
 }
 
 absl::StatusOr<TriangleMesh> read(const std::string& path, const AssimpFormat& format) {
@@ -344,7 +341,11 @@ absl::StatusOr<TriangleMesh> read(const std::string& path, const AssimpFormat& f
         Assimp::Importer importer;
         importer.SetPropertyInteger(AI_CONFIG_IMPORT_MD3_HANDLE_MULTIPART, 0);  // this file alone
         importer.SetPropertyInteger(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, 1);  // none made of bones
-        const aiScene* scene = parse(importer, path, format);
+        ASSIGN_OR_RETURN(const std::string text, instead(path, format));
+        const aiScene* scene = text.empty()
+                                   ? importer.ReadFile(path, 0)
+                                   : importer.ReadFileFromMemory(text.data(), text.size(), 0,
+                                                                 format.isGltf() ? "glb" : "ac");
         if (scene != nullptr)
             return SceneMeshes(*scene, format).gather();
         const std::string why = importer.GetErrorString();
@@ -383,7 +384,7 @@ absl::StatusOr<TriangleMesh> readWithAssimp(const std::string& path, const Readi
     const AssimpFormat* format = findAssimpFormat(path);
     if (format == nullptr)
         return absl::InvalidArgumentError(fmt::format("{}: is of no format known here", path));
-    if (isGltf(*format))
+    if (format->isGltf())
         if (const absl::Status readable = checkGltfExtensions(file.bytes()); !readable.ok())
             return fabric::withContext(readable, path);
     control.report("reading", 0);

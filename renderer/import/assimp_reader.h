@@ -20,6 +20,8 @@ struct AssimpFormat {
     bool hasLinearColours;  ///< not as displayed (sRGB)
     /// Where a material has a texture, it stands for the diffuse colour; otherwise both multiply.
     bool texturesReplaceColours;
+
+    bool isGltf() const { return extension == ".gltf" || extension == ".glb"; }
 };
 std::span<const AssimpFormat> assimpFormats();
 

@@ -3,28 +3,15 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
-#include <cstring>
 #include <string_view>
 
 #include <fmt/format.h>
 
 #include "access/printable.h"
+#include "renderer/import/gltf_chunks.h"
 
 namespace eyrie::import {
 namespace {
-
-/// The JSON of a .gltf, or that of a .glb, which is its first chunk.
-std::string_view jsonOf(std::span<const std::byte> bytes) {
-    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    constexpr std::size_t kLengthAt = 12;
-    constexpr std::size_t kJsonAt = 20;
-    if (!text.starts_with("glTF") || text.size() < kJsonAt)
-        return text;
-    std::uint32_t length = 0;
-    std::memcpy(&length, text.data() + kLengthAt, sizeof length);
-    return text.substr(kJsonAt, length);
-}
 
 std::string_view afterSpace(std::string_view text) {
     return text.substr(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
@@ -63,38 +50,41 @@ std::vector<std::string> namesAt(std::string_view json, std::string_view key) {
 bool isRead(std::string_view extension) {
     constexpr std::array kPrefixes = {"KHR_materials_", "KHR_texture_", "EXT_texture_",
                                       "MSFT_texture_"};
-    return extension == "KHR_draco_mesh_compression" || extension == "KHR_lights_punctual" ||
+    constexpr std::array kNames = {"KHR_draco_mesh_compression", "KHR_lights_punctual",
+                                   "KHR_mesh_quantization", "EXT_meshopt_compression"};
+    return std::ranges::count(kNames, extension) > 0 ||
            std::ranges::any_of(kPrefixes,
                                [&](const char* prefix) { return extension.starts_with(prefix); });
 }
 
 absl::Status notRead(std::string_view extension) {
-    const bool isPacked =
-        extension == "KHR_mesh_quantization" || extension.ends_with("_meshopt_compression");
-    return absl::InvalidArgumentError(fmt::format(
-        "requires the glTF extension '{}', which is not read; export it without{}",
-        access::printable(extension),
-        isPacked ? ", with floats, plain or compressed by Draco (of gltfpack: -noq, without -c)"
-                 : ""));
+    const bool isPacked = extension.ends_with("_meshopt_compression");
+    return absl::InvalidArgumentError(
+        fmt::format("requires the glTF extension '{}', which is not read; export it without{}",
+                    access::printable(extension),
+                    isPacked ? ", with EXT_meshopt_compression, or compressed by Draco" : ""));
 }
 
 }  // namespace
 
 absl::Status checkGltfExtensions(std::span<const std::byte> bytes) {
-    const std::string_view json = jsonOf(bytes);
+    const std::string_view json = gltfChunksOf(bytes).json;
     for (const std::string& extension : namesAt(json, "extensionsRequired"))
         if (!isRead(extension))
             return notRead(extension);
-    // A file that has it must require it, and is wrong in every coordinate where it does not.
-    const std::vector<std::string> used = namesAt(json, "extensionsUsed");
-    if (std::ranges::find(used, "KHR_mesh_quantization") != used.end())
-        return notRead("KHR_mesh_quantization");
     return absl::OkStatus();
+}
+
+bool isGltfPacked(std::span<const std::byte> bytes) {
+    const std::vector<std::string> used = namesAt(gltfChunksOf(bytes).json, "extensionsUsed");
+    return std::ranges::any_of(used, [](const std::string& extension) {
+        return extension == "KHR_mesh_quantization" || extension == "EXT_meshopt_compression";
+    });
 }
 
 std::vector<std::string> gltfCaveats(std::span<const std::byte> bytes) {
     std::vector<std::string> caveats;
-    for (const std::string& extension : namesAt(jsonOf(bytes), "extensionsUsed")) {
+    for (const std::string& extension : namesAt(gltfChunksOf(bytes).json, "extensionsUsed")) {
         if (extension == "CESIUM_RTC")
             caveats.emplace_back(
                 "left out the centre that its coordinates are relative to (CESIUM_RTC): it is put "

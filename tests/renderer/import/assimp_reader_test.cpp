@@ -376,6 +376,34 @@ TEST(AssimpReader, TakesMaterialsAndImagesThatAreInTheFile) {
     EXPECT_EQ(mesh->textureCoordinates[mesh->triangles[0][1]], glm::vec2(0, 1)) << "v down";
 }
 
+TEST(AssimpReader, PlacesTexturesAsGltfTransformsThem) {
+    const test::TemporaryFolder folder;
+    const auto placed = [&](const std::string& transform) {
+        std::string text = kTexturedGltf;
+        const std::string plain = R"("baseColorTexture":{"index":0)";
+        text.insert(text.find(plain) + plain.size(),
+                    R"(,"extensions":{"KHR_texture_transform":)" + transform + "}");
+        text.insert(1, R"("extensionsUsed":["KHR_texture_transform"],)");
+        test::writeFile(folder.file("m.gltf"), text);
+        const auto mesh = readWithAssimp(folder.file("m.gltf"));
+        EXPECT_TRUE(mesh.ok()) << mesh.status();
+        std::vector<glm::vec2> places;
+        for (const std::uint32_t vertex : mesh->triangles.at(0))
+            places.push_back(mesh->textureCoordinates.at(vertex));
+        return places;
+    };
+    // Of (0, 0), (0, 1) and (0, 0), v down: the floats that the triangle's corners begin with.
+    const auto plain = placed("{}");
+    EXPECT_THAT(plain, ElementsAre(glm::vec2(0, 0), glm::vec2(0, 1), glm::vec2(0, 0)));
+    const auto moved = placed(R"({"offset":[0.25,0.5],"scale":[3,16]})");
+    EXPECT_LT(glm::distance(moved[0], glm::vec2(0.25, 0.5)), 1e-5);
+    EXPECT_LT(glm::distance(moved[1], glm::vec2(0.25, 16.5)), 1e-5);
+    // A quarter turn, counter-clockwise as one sees it: what was below goes to the right.
+    const auto turned = placed(R"({"rotation":1.5707963,"offset":[2,0],"scale":[1,3]})");
+    EXPECT_LT(glm::distance(turned[0], glm::vec2(2, 0)), 1e-5);
+    EXPECT_LT(glm::distance(turned[1], glm::vec2(5, 0)), 1e-5);
+}
+
 TEST(AssimpReader, TakesTheFirstOfARaceTracksTextures) {
     const test::TemporaryFolder folder;
     test::writeFile(folder.file("m.acc"),

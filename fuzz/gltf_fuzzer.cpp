@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// glTF of any bytes: a .glb in which nothing is left to unpack, or a message.
+#include <cstdint>
+#include <cstdlib>
+#include <span>
+
+#include "renderer/import/gltf_unpacking.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    using namespace eyrie::import;
+    const auto bytes = std::as_bytes(std::span(data, size));
+    const auto glb = unpackGltf(bytes, "fuzzed.gltf");
+    if (!glb.ok())
+        return 0;
+    const auto again = unpackGltf(std::as_bytes(std::span(*glb)), "fuzzed.gltf");
+    if (!again.ok() || *again != *glb)
+        std::abort();
+    return 0;
+}
