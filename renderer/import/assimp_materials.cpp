@@ -28,6 +28,21 @@ glm::dmat3 matrixOf(const aiUVTransform& transform) {
     return scale * turn * shift;
 }
 
+/// That of glTF's KHR_texture_transform: scaled, turned counter-clockwise as seen with v downwards,
+/// and shifted. Assimp hands on another shift, which makes up for a turn about the middle that its
+/// own step does not make; here it is taken back.
+glm::dmat3 gltfMatrixOf(const aiUVTransform& transform) {
+    const glm::dvec2 scale(transform.mScaling.x, transform.mScaling.y);
+    const double c = std::cos(-double{transform.mRotation});
+    const double s = std::sin(-double{transform.mRotation});
+    const glm::dvec2 offset(transform.mTranslation.x - scale.x * (1 - c + s) / 2,
+                            scale.y * (s + c - 1) / 2 + 1 - scale.y - transform.mTranslation.y);
+    const glm::dmat3 downFromDown(scale.x * c, -scale.x * s, 0, scale.y * s, scale.y * c, 0,
+                                  offset.x, offset.y, 1);
+    const glm::dmat3 flip(1, 0, 0, 0, -1, 0, 0, 1, 1);
+    return flip * downFromDown * flip;
+}
+
 /// Texels that are not coded, which none of the formats has in use, are left out.
 TextureSource embedded(const aiTexture& texture, const char* name) {
     TextureSource source{name, {}, 0};
@@ -93,7 +108,9 @@ std::int32_t AssimpMaterials::readTexture(const aiMaterial& material, Entry& ent
         return -1;  // Quake's formats name none
     aiUVTransform transform;
     if (material.Get(AI_MATKEY_UVTRANSFORM_DIFFUSE(0), transform) == AI_SUCCESS)
-        entry.placeFromSource = matrixOf(transform);
+        entry.placeFromSource = alphaModeOf(material) != AlphaMode::Unknown
+                                    ? gltfMatrixOf(transform)
+                                    : matrixOf(transform);
     const aiTexture* own = scene_.GetEmbeddedTexture(path.C_Str());
     TextureSource source =
         own != nullptr ? embedded(*own, path.C_Str()) : TextureSource{path.C_Str(), {}, 0};
@@ -103,6 +120,7 @@ std::int32_t AssimpMaterials::readTexture(const aiMaterial& material, Entry& ent
     const auto number = static_cast<std::int32_t>(known - textures_.begin());
     if (known == textures_.end())
         textures_.push_back(std::move(source));
+    mirrored_ += std::ranges::count(modes, aiTextureMapMode_Mirror) > 0 ? 1 : 0;
     return number;
 }
 
@@ -176,6 +194,11 @@ void AssimpMaterials::moveTo(TriangleMesh& mesh) {
             "{} of {} materials have no opacity at all, and nobody would see them: they "
             "are taken for opaque",
             takenForOpaque_, entries_.size()));
+    if (mirrored_ > 0)
+        mesh.notes.push_back(
+            fmt::format("textures of {} materials ought to be mirrored where they repeat, and "
+                        "repeat as they are",
+                        mirrored_));
     if (!areAny())
         return;
     mesh.materials = std::move(materials_);

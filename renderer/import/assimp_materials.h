@@ -59,6 +59,7 @@ private:
     bool hasSides_;
     /// Exporters disagree on whether 0 is opaque or nothing; but for glTF's it is opaque.
     std::size_t takenForOpaque_ = 0;
+    std::size_t mirrored_ = 0;  ///< materials whose texture is to be mirrored where it repeats
     std::vector<Entry> entries_;
     std::vector<mesh::Material> materials_{mesh::Material()};
     std::vector<TextureSource> textures_;

@@ -8,12 +8,14 @@
 #include <exception>
 #include <filesystem>
 #include <limits>
+#include <memory>
 #include <new>
 #include <system_error>
 #include <utility>
 #include <vector>
 
 #include <absl/status/status.h>
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/Importer.hpp>
 #include <assimp/config.h>
 #include <assimp/material.h>
@@ -32,6 +34,7 @@
 #include "renderer/import/assimp_values.h"
 #include "renderer/import/gltf_extensions.h"
 #include "renderer/import/polygon.h"
+#include "renderer/import/uri_name.h"
 #include "renderer/mesh/mapped_file.h"
 
 namespace eyrie::import {
@@ -328,6 +331,21 @@ std::string withFirstTextures(std::span<const std::byte> bytes) {
     return kept;
 }
 
+/// Files as glTF's URIs name them, which Assimp takes for plain names.
+class UriFiles : public Assimp::DefaultIOSystem {
+public:
+    bool Exists(const char* name) const override {
+        return DefaultIOSystem::Exists(name) ||
+               DefaultIOSystem::Exists(withoutPercents(name).c_str());
+    }
+
+    Assimp::IOStream* Open(const char* name, const char* mode) override {
+        return DefaultIOSystem::Exists(name)
+                   ? DefaultIOSystem::Open(name, mode)
+                   : DefaultIOSystem::Open(withoutPercents(name).c_str(), mode);
+    }
+};
+
 const aiScene* parse(Assimp::Importer& importer, const std::string& path,
                      const AssimpFormat& format) {
     if (!format.extension.starts_with(".ac"))
@@ -344,6 +362,8 @@ absl::StatusOr<TriangleMesh> read(const std::string& path, const AssimpFormat& f
         Assimp::Importer importer;
         importer.SetPropertyInteger(AI_CONFIG_IMPORT_MD3_HANDLE_MULTIPART, 0);  // this file alone
         importer.SetPropertyInteger(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, 1);  // none made of bones
+        if (isGltf(format))
+            importer.SetIOHandler(std::make_unique<UriFiles>().release());  // which it deletes
         const aiScene* scene = parse(importer, path, format);
         if (scene != nullptr)
             return SceneMeshes(*scene, format).gather();

@@ -3,41 +3,16 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
-#include <cstring>
 #include <string_view>
 
 #include <fmt/format.h>
 
 #include "access/printable.h"
+#include "renderer/import/gltf_json.h"
+#include "renderer/import/gltf_places.h"
 
 namespace eyrie::import {
 namespace {
-
-/// The JSON of a .gltf, or that of a .glb, which is its first chunk.
-std::string_view jsonOf(std::span<const std::byte> bytes) {
-    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    constexpr std::size_t kLengthAt = 12;
-    constexpr std::size_t kJsonAt = 20;
-    if (!text.starts_with("glTF") || text.size() < kJsonAt)
-        return text;
-    std::uint32_t length = 0;
-    std::memcpy(&length, text.data() + kLengthAt, sizeof length);
-    return text.substr(kJsonAt, length);
-}
-
-std::string_view afterSpace(std::string_view text) {
-    return text.substr(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
-}
-
-/// Takes `mark` from the front of `text`, spaces before it included, or nothing.
-bool take(std::string_view& text, char mark) {
-    const std::string_view rest = afterSpace(text);
-    if (!rest.starts_with(mark))
-        return false;
-    text = rest.substr(1);
-    return true;
-}
 
 /// The strings of the array that follows `key` and a colon. Extensions' names have no escapes.
 std::vector<std::string> namesAt(std::string_view json, std::string_view key) {
@@ -81,7 +56,7 @@ absl::Status notRead(std::string_view extension) {
 }  // namespace
 
 absl::Status checkGltfExtensions(std::span<const std::byte> bytes) {
-    const std::string_view json = jsonOf(bytes);
+    const std::string_view json = gltfJsonOf(bytes);
     for (const std::string& extension : namesAt(json, "extensionsRequired"))
         if (!isRead(extension))
             return notRead(extension);
@@ -94,7 +69,12 @@ absl::Status checkGltfExtensions(std::span<const std::byte> bytes) {
 
 std::vector<std::string> gltfCaveats(std::span<const std::byte> bytes) {
     std::vector<std::string> caveats;
-    for (const std::string& extension : namesAt(jsonOf(bytes), "extensionsUsed")) {
+    const std::string_view json = gltfJsonOf(bytes);
+    if (hasWholeTexturePlaces(json))
+        caveats.emplace_back(
+            "textures lie wrong where their coordinates are whole numbers (TEXCOORD of "
+            "componentType 5121 or 5123), which are not read: export it with floats");
+    for (const std::string& extension : namesAt(json, "extensionsUsed")) {
         if (extension == "CESIUM_RTC")
             caveats.emplace_back(
                 "left out the centre that its coordinates are relative to (CESIUM_RTC): it is put "

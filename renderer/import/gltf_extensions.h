@@ -16,7 +16,7 @@ namespace eyrie::import {
 absl::Status checkGltfExtensions(std::span<const std::byte> bytes);
 
 /// What a file uses that moves or repeats what it shows, without requiring it, and is left out
-/// here: for TriangleMesh::notes.
+/// here, and what of it is taken wrong: for TriangleMesh::notes.
 std::vector<std::string> gltfCaveats(std::span<const std::byte> bytes);
 
 }  // namespace eyrie::import

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include <assimp/light.h>
@@ -374,6 +376,82 @@ TEST(AssimpReader, TakesMaterialsAndImagesThatAreInTheFile) {
     EXPECT_EQ(mesh->colours[mesh->triangles[0][0]], (fabric::Rgba{255, 255, 255, 102}));
     EXPECT_EQ(mesh->colours[mesh->triangles[2][0]], (fabric::Rgba{255, 0, 0, 255})) << "opaque";
     EXPECT_EQ(mesh->textureCoordinates[mesh->triangles[0][1]], glm::vec2(0, 1)) << "v down";
+}
+
+/// kTexturedGltf with something else in a place.
+std::string texturedGltf(std::string_view from, std::string_view to) {
+    std::string text = kTexturedGltf;
+    return text.replace(text.find(from), from.size(), to);
+}
+
+/// Where the point at u = 1 or v = 1 of a texture comes to by a KHR_texture_transform, v downwards.
+glm::vec2 transformedPlace(std::string_view transform, bool isV) {
+    const test::TemporaryFolder folder;
+    std::string text = texturedGltf(
+        R"("baseColorTexture":{"index":0})",
+        fmt::format(
+            R"("baseColorTexture":{{"index":0,"extensions":{{"KHR_texture_transform":{{{}}}}}}})",
+            transform));
+    text.insert(1, R"("extensionsUsed":["KHR_texture_transform"],)");
+    const std::string_view places = R"("count":3,"type":"VEC2")";
+    if (!isV)  // the floats are 0 0 0 1 0 0 from the first, and 0 0 1 0 0 0 from the second
+        text.insert(text.find(places), R"("byteOffset":4,)");
+    test::writeFile(folder.file("m.gltf"), text);
+    const auto mesh = readWithAssimp(folder.file("m.gltf"));
+    EXPECT_TRUE(mesh.ok()) << mesh.status();
+    return mesh.ok() ? mesh->textureCoordinates[mesh->triangles[0][1]] : glm::vec2(0);
+}
+
+void expectTransform(std::string_view transform, glm::vec2 ofU, glm::vec2 ofV) {
+    SCOPED_TRACE(transform);
+    const glm::vec2 u = transformedPlace(transform, false);
+    const glm::vec2 v = transformedPlace(transform, true);
+    EXPECT_LT(glm::distance(u, ofU), 1e-6F) << u.x << ", " << u.y;
+    EXPECT_LT(glm::distance(v, ofV), 1e-6F) << v.x << ", " << v.y;
+}
+
+/// The second and third are the examples of the extension's own text: the lower left quarter of an
+/// image, turned clockwise, and an image upside down.
+TEST(AssimpReader, PutsTexturesWhereAGltfsTransformsDo) {
+    expectTransform("", {1, 0}, {0, 1});
+    expectTransform(R"("offset":[0,1],"rotation":1.57079632679,"scale":[0.5,0.5])", {0, 0.5F},
+                    {0.5F, 1});
+    expectTransform(R"("offset":[0,1],"scale":[1,-1])", {1, 1}, {0, 0});
+    expectTransform(R"("scale":[0.5,0.25])", {0.5F, 0}, {0, 0.25F});
+    expectTransform(R"("offset":[0.1,0.2],"rotation":0.52359877559,"scale":[2,3])",
+                    {1.8320508F, -0.8F}, {1.6F, 2.7980762F});
+}
+
+TEST(AssimpReader, SaysThatTexturesAreNotMirrored) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.gltf"), texturedGltf(R"("wrapT":10497)", R"("wrapT":33648)"));
+    const auto mesh = readWithAssimp(folder.file("m.gltf"));
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    EXPECT_THAT(mesh->notes,
+                ElementsAre(HasSubstr("textures of 3 materials ought to be mirrored")));
+}
+
+constexpr const char* kGltfWithABuffer =
+    R"({{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0}}],
+"meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}}}}]}}],
+"accessors":[{{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3",
+"min":[0,0,0],"max":[1,1,0]}}],"bufferViews":[{{"buffer":0,"byteLength":36}}],
+"buffers":[{{"byteLength":36,"uri":"{}"}}]}})";
+
+TEST(AssimpReader, FindsBuffersOfAGltfByUriAndByPlainName) {
+    const test::TemporaryFolder folder;
+    std::string corners(36, '\0');
+    corners.replace(14, 2, "\x80\x3F").replace(30, 2, "\x80\x3F");  // of 1, 0 and 0, 1
+    for (const auto& [uri, file] : {std::pair("a%20%C3%A4.bin", "a \xC3\xA4.bin"),
+                                    {"b c.bin", "b c.bin"},
+                                    {"d%20e.bin", "d%20e.bin"},
+                                    {"100%.bin", "100%.bin"}}) {
+        test::writeFile(folder.file(file), corners);
+        test::writeFile(folder.file("m.gltf"), fmt::format(kGltfWithABuffer, uri));
+        const auto mesh = readWithAssimp(folder.file("m.gltf"));
+        ASSERT_TRUE(mesh.ok()) << uri << ": " << mesh.status();
+        EXPECT_NEAR(test::area(*mesh), 0.5, 1e-12) << uri;
+    }
 }
 
 TEST(AssimpReader, TakesTheFirstOfARaceTracksTextures) {

@@ -88,6 +88,25 @@ TEST(GltfExtensions, ThatMoveOrRepeatMeshesAreToldOfWhereTheyAreLeftOut) {
         ElementsAre(HasSubstr("CESIUM_RTC"), HasSubstr("EXT_mesh_gpu_instancing")));
 }
 
+std::string placedBy(int componentType) {
+    return fmt::format(
+        R"({{"meshes":[{{"primitives":[{{"attributes":{{"POSITION":0,"TEXCOORD_0" : 1}}}}]}}],
+"accessors":[{{"componentType":5126,"name":"}}]\"{{","min":[0]}}, {{"componentType": {}}},
+{{"componentType":5123}}]}})",
+        componentType);
+}
+
+TEST(GltfCaveats, TellOfTextureCoordinatesThatAreWholeNumbers) {
+    EXPECT_THAT(gltfCaveats(bytesOf(placedBy(5126))), IsEmpty());
+    EXPECT_THAT(gltfCaveats(bytesOf(placedBy(5123))), ElementsAre(HasSubstr("TEXCOORD")));
+    EXPECT_THAT(gltfCaveats(bytesOf(glbOf(placedBy(5121)))), ElementsAre(HasSubstr("TEXCOORD")));
+    for (std::string_view file :
+         {R"({"TEXCOORD_)", R"({"TEXCOORD_0":)", R"({"TEXCOORD_0":18446744073709551615})",
+          R"({"TEXCOORD_0":0,"accessors":[{)", R"({"TEXCOORD_0":0,"accessors":}]})",
+          R"({"TEXCOORD_0":1,"accessors":[{"componentType":5123}]})"})
+        EXPECT_THAT(gltfCaveats(bytesOf(file)), IsEmpty()) << file;
+}
+
 TEST(GltfExtensions, AreLookedAtBeforeAFileIsRead) {
     const test::TemporaryFolder folder;
     test::writeFile(folder.file("m.gltf"), requiring(R"("KHR_mesh_quantization")"));
