@@ -33,6 +33,7 @@
 #include "renderer/import/assimp_materials.h"
 #include "renderer/import/assimp_values.h"
 #include "renderer/import/gltf_extensions.h"
+#include "renderer/import/obj_textures.h"
 #include "renderer/import/polygon.h"
 #include "renderer/import/uri_name.h"
 #include "renderer/mesh/mapped_file.h"
@@ -346,15 +347,28 @@ public:
     }
 };
 
+std::string_view textOf(const mesh::MappedFile& file) {
+    const auto bytes = file.bytes();
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
 const aiScene* parse(Assimp::Importer& importer, const std::string& path,
                      const AssimpFormat& format) {
-    if (!format.extension.starts_with(".ac"))
+    const bool isAc3d = format.extension.starts_with(".ac");
+    const bool isObj = format.extension == ".obj";
+    if (!isAc3d && !isObj)
         return importer.ReadFile(path, 0);
     const absl::StatusOr<mesh::MappedFile> file = mesh::MappedFile::open(path);
     if (!file.ok())
         return importer.ReadFile(path, 0);
-    const std::string text = withFirstTextures(file->bytes());
-    return importer.ReadFileFromMemory(text.data(), text.size(), 0, "ac");
+    if (isAc3d) {
+        const std::string text = withFirstTextures(file->bytes());
+        return importer.ReadFileFromMemory(text.data(), text.size(), 0, "ac");
+    }
+    const aiScene* scene = importer.ReadFile(path, 0);
+    if (scene != nullptr)
+        applyObjTextures(path, textOf(*file), *scene);
+    return scene;
 }
 
 absl::StatusOr<TriangleMesh> read(const std::string& path, const AssimpFormat& format) {

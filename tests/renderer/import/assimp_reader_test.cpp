@@ -18,6 +18,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/import/assimp_lights.h"
+#include "renderer/import/obj_textures.h"
 #include "tests/renderer/import/mesh_text.h"
 #include "tests/renderer/mesh/temporary_folder.h"
 
@@ -452,6 +453,38 @@ TEST(AssimpReader, FindsBuffersOfAGltfByUriAndByPlainName) {
         ASSERT_TRUE(mesh.ok()) << uri << ": " << mesh.status();
         EXPECT_NEAR(test::area(*mesh), 0.5, 1e-12) << uri;
     }
+}
+
+TEST(AssimpReader, ScalesAndShiftsTexturesOfAnObjAsItsMaterialsSay) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.obj"),
+                    "mtllib m.mtl\r\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n"
+                    "usemtl my wall\nf 1/1 2/2 3/3\n");
+    const auto expect = [&](const std::string& mapKd, glm::vec2 ofU, glm::vec2 ofV) {
+        SCOPED_TRACE(mapKd);
+        test::writeFile(folder.file("m.mtl"), "newmtl my wall\r\nKd 1 1 1\r\n" + mapKd + "\r\n");
+        const auto mesh = readWithAssimp(folder.file("m.obj"));
+        ASSERT_TRUE(mesh.ok()) << mesh.status();
+        ASSERT_EQ(mesh->textures.size(), 1U);
+        EXPECT_EQ(mesh->textures[0].name, "a wall.png");
+        const auto& [origin, u, v] = mesh->triangles[0];
+        const auto& places = mesh->textureCoordinates;
+        EXPECT_LT(glm::distance(places[u], ofU), 1e-6F) << places[u].x << ", " << places[u].y;
+        EXPECT_LT(glm::distance(places[v], ofV), 1e-6F) << places[v].x << ", " << places[v].y;
+    };
+    // v goes up in the file and down here.
+    expect("map_Kd a wall.png", {1, 1}, {0, 0});
+    expect("map_Kd -s 2 3 1 -o 0.25 0.5 0 a wall.png", {2.25F, 0.5F}, {0.25F, -2.5F});
+    expect("map_Kd -s 2 3 a wall.png", {2, 1}, {0, -2});
+    expect("map_Kd -o 0.25 -clamp off -mm 0 1 -t 1 1 1 a wall.png", {1.25F, 1}, {0.25F, 0});
+}
+
+TEST(ObjTextures, KeepNamesThatLookLikeNumbersOrOptions) {
+    EXPECT_EQ(parseMapKd("-s 2 2 2"), (ObjTexture{"2", {2, 2}}));
+    EXPECT_EQ(parseMapKd(" -s 2 3.png "), (ObjTexture{"3.png", {2, 1}}));
+    EXPECT_EQ(parseMapKd("-my texture.png"), (ObjTexture{"-my texture.png"}));
+    EXPECT_EQ(parseMapKd("-o"), ObjTexture());
+    EXPECT_EQ(parseMapKd(""), ObjTexture());
 }
 
 TEST(AssimpReader, TakesTheFirstOfARaceTracksTextures) {

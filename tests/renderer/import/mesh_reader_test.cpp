@@ -306,6 +306,10 @@ TEST(MeshSourceHash, IsThatOfALoneFileAndCountsItsCompany) {
     const std::uint64_t untextured = *meshSourceHash(paths);
     test::writeFile(folder.file("m.png"), "a");
     EXPECT_NE(untextured, *meshSourceHash(paths));
+    test::writeFile(folder.file("m.mtl"), "newmtl red\nmap_Kd -s 2 2 2 m.png\n");
+    const std::uint64_t scaled = *meshSourceHash(paths);
+    test::writeFile(folder.file("m.png"), "b");
+    EXPECT_NE(scaled, *meshSourceHash(paths));
 }
 
 TEST(MeshSourceHash, CountsTexturesOfPly) {
