@@ -35,6 +35,7 @@
 #include "renderer/import/gltf_extensions.h"
 #include "renderer/import/obj_textures.h"
 #include "renderer/import/polygon.h"
+#include "renderer/import/stl_length.h"
 #include "renderer/import/uri_name.h"
 #include "renderer/mesh/mapped_file.h"
 
@@ -423,6 +424,9 @@ absl::StatusOr<TriangleMesh> readWithAssimp(const std::string& path, const Readi
     control.report("reading", 0);
     auto result = readInOwnProcess([&] { return read(path, *format); }, limits, control);
     control.report("reading", 1);
+    if (absl::IsInvalidArgument(result.status()) && format->extension == ".stl")
+        if (const auto wrong = wrongLengthOfStl(file.bytes()))  // of which Assimp knows nothing
+            return absl::InvalidArgumentError(fmt::format("{}: {}", path, *wrong));
     if (!result.ok())
         return fabric::withContext(result.status(), path);
     for (std::string& caveat : caveats(file.bytes(), *format))

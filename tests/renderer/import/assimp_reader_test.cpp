@@ -527,6 +527,22 @@ TEST(AssimpReader, MultipliesVertexColoursAndLeavesBlankOnesOut) {
     EXPECT_TRUE(readWithAssimp(folder.file("plain.obj"))->colours.empty());
 }
 
+TEST(AssimpReader, SaysHowLongABinaryStlOughtToBe) {
+    const test::TemporaryFolder folder;
+    for (const std::string header : {"made by hand", "solid made by hand"}) {
+        std::string file = header + std::string(84 + 2 * 50 - header.size(), '\0');
+        file[80] = 2;
+        file[84 + 26] = file[84 + 40] = '\x40';  // corners at 0 0 0, 2 0 0 and 0 2 0, and no others
+        test::writeFile(folder.file("m.stl"), file);
+        EXPECT_TRUE(readWithAssimp(folder.file("m.stl")).ok()) << header;
+        test::writeFile(folder.file("m.stl"), file.substr(0, 150));
+        EXPECT_THAT(std::string(readWithAssimp(folder.file("m.stl")).status().message()),
+                    HasSubstr("m.stl: its header counts 2 triangles, which take 184 bytes, and it "
+                              "has 150; it is cut off"))
+            << header;
+    }
+}
+
 TEST(AssimpReader, TellsMissingFilesFromBadOnes) {
     const test::TemporaryFolder folder;
     EXPECT_EQ(readWithAssimp(folder.file("no.obj")).status().code(), absl::StatusCode::kNotFound);
