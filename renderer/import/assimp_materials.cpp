@@ -71,6 +71,24 @@ int sidesOf(const aiMaterial& material) {
     return material.Get(AI_MATKEY_TWOSIDED, isTwoSided) != AI_SUCCESS ? 0 : isTwoSided != 0 ? 2 : 1;
 }
 
+std::string textureName(const aiMaterial& material, aiTextureType type, unsigned int index) {
+    aiString path;
+    return material.GetTexture(type, index, &path) == AI_SUCCESS ? path.C_Str() : "";
+}
+
+/// Whether a material has a texture of `type` besides the one of its diffuse colour. Formats that
+/// know opacity by the alpha of that name it twice.
+bool hasOtherTexture(const aiMaterial& material, aiTextureType type) {
+    if (type == aiTextureType_DIFFUSE || type == aiTextureType_BASE_COLOR)
+        return false;
+    const std::string diffuse = textureName(material, aiTextureType_DIFFUSE, 0);
+    for (unsigned int i = 0; i < material.GetTextureCount(type); ++i)
+        if (const std::string name = textureName(material, type, i);
+            !name.empty() && name != diffuse)
+            return true;
+    return false;
+}
+
 float cutoffOf(const aiMaterial& material) {
     float cutoff = 0.5F;
     material.Get(AI_MATKEY_GLTF_ALPHACUTOFF, cutoff);
@@ -84,7 +102,10 @@ AssimpMaterials::AssimpMaterials(const aiScene& scene, bool texturesReplaceColou
     const std::span materials(scene.mMaterials, scene.mNumMaterials);
     hasSides_ = std::ranges::any_of(
         materials, [](const aiMaterial* material) { return sidesOf(*material) == 2; });
-    for (const aiMaterial* material : materials) entries_.push_back(read(*material));
+    for (const aiMaterial* material : materials) {
+        entries_.push_back(read(*material));
+        countLeftOut(*material);
+    }
 }
 
 /// Beyond what can be told apart all are plain.
@@ -122,6 +143,14 @@ std::int32_t AssimpMaterials::readTexture(const aiMaterial& material, Entry& ent
         textures_.push_back(std::move(source));
     mirrored_ += std::ranges::count(modes, aiTextureMapMode_Mirror) > 0 ? 1 : 0;
     return number;
+}
+
+void AssimpMaterials::countLeftOut(const aiMaterial& material) {
+    bool isAny = false;
+    for (int type = aiTextureType_NONE; type <= AI_TEXTURE_TYPE_MAX; ++type)
+        isAny = isAny || hasOtherTexture(material, static_cast<aiTextureType>(type));
+    withOthers_ += isAny ? 1 : 0;
+    withOpacity_ += hasOtherTexture(material, aiTextureType_OPACITY) ? 1 : 0;
 }
 
 AssimpMaterials::Entry AssimpMaterials::read(const aiMaterial& material) {
@@ -194,6 +223,16 @@ void AssimpMaterials::moveTo(TriangleMesh& mesh) {
             "{} of {} materials have no opacity at all, and nobody would see them: they "
             "are taken for opaque",
             takenForOpaque_, entries_.size()));
+    if (withOthers_ > 0)
+        mesh.notes.push_back(fmt::format(
+            "left out the textures of {} materials that are of something else than the diffuse "
+            "colour{}",
+            withOthers_,
+            withOpacity_ > 0
+                ? fmt::format(", among them the opacity of {}: what these make holes in has none; "
+                              "give the opacity as the alpha of the colour's image",
+                              withOpacity_)
+                : ""));
     if (mirrored_ > 0)
         mesh.notes.push_back(
             fmt::format("textures of {} materials ought to be mirrored where they repeat, and "

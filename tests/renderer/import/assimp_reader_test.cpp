@@ -479,6 +479,26 @@ TEST(AssimpReader, ScalesAndShiftsTexturesOfAnObjAsItsMaterialsSay) {
     expect("map_Kd -o 0.25 -clamp off -mm 0 1 -t 1 1 1 a wall.png", {1.25F, 1}, {0.25F, 0});
 }
 
+TEST(AssimpReader, SaysWhichTexturesItLeavesOut) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.obj"),
+                    "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n"
+                    "usemtl leaf\nf 1/1 2/2 3/3\nusemtl wall\nf 2/2 1/1 3/3\n");
+    const auto notesOf = [&](const std::string& ofLeaf, const std::string& ofWall) {
+        test::writeFile(folder.file("m.mtl"), "newmtl leaf\nmap_Kd a.png\n" + ofLeaf +
+                                                  "newmtl wall\nmap_Kd b.png\n" + ofWall);
+        return readWithAssimp(folder.file("m.obj"))->notes;
+    };
+    EXPECT_THAT(notesOf("", ""), testing::IsEmpty());
+    EXPECT_THAT(notesOf("map_d a.png\n", ""), testing::IsEmpty()) << "the alpha of the same image";
+    EXPECT_THAT(notesOf("", "map_Bump c.png\nmap_Ks d.png\n"),
+                ElementsAre(testing::AllOf(HasSubstr("left out the textures of 1 materials"),
+                                           testing::Not(HasSubstr("opacity")))));
+    EXPECT_THAT(notesOf("map_d c.png\n", "map_Bump c.png\n"),
+                ElementsAre(testing::AllOf(HasSubstr("left out the textures of 2 materials"),
+                                           HasSubstr("opacity of 1"))));
+}
+
 TEST(ObjTextures, KeepNamesThatLookLikeNumbersOrOptions) {
     EXPECT_EQ(parseMapKd("-s 2 2 2"), (ObjTexture{"2", {2, 2}}));
     EXPECT_EQ(parseMapKd(" -s 2 3.png "), (ObjTexture{"3.png", {2, 1}}));
