@@ -58,6 +58,7 @@ void printJson(const MeshImportChoices& choices, const import::MeshImportReport&
         .number("stepMetres", made.stepMetres)
         .number("errorMetres", made.errorMetres)
         .objects("simplified", levelsJson(made))
+        .texts("notes", notesOf(made))
         .number("seconds", made.seconds.total);
     if (!tuning.tried.empty())
         json.objects("tuned", tuningJson(tuning));

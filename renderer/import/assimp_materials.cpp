@@ -28,21 +28,19 @@ glm::dmat3 matrixOf(const aiUVTransform& transform) {
     return scale * turn * shift;
 }
 
-/// KHR_texture_transform: scaled, turned counter-clockwise as one sees it, then shifted, v
-/// downwards. Assimp has its turn the other way round and its shift such that both are right
-/// around the middle of the texture, v upwards: that is undone.
+/// That of glTF's KHR_texture_transform: scaled, turned counter-clockwise as seen with v downwards,
+/// and shifted. Assimp hands on another shift, which makes up for a turn about the middle that its
+/// own step does not make; here it is taken back.
 glm::dmat3 gltfMatrixOf(const aiUVTransform& transform) {
+    const glm::dvec2 scale(transform.mScaling.x, transform.mScaling.y);
     const double c = std::cos(-double{transform.mRotation});
     const double s = std::sin(-double{transform.mRotation});
-    const double x = transform.mScaling.x;
-    const double y = transform.mScaling.y;
-    const double u = transform.mTranslation.x - x / 2 * (1 - c + s);
-    const double v = 1 - y + y / 2 * (c + s - 1) - transform.mTranslation.y;
-    const glm::dmat3 upsideDown(1, 0, 0, 0, -1, 0, 0, 1, 1);
-    const glm::dmat3 scale(x, 0, 0, 0, y, 0, 0, 0, 1);
-    const glm::dmat3 turn(c, -s, 0, s, c, 0, 0, 0, 1);
-    const glm::dmat3 shift(1, 0, 0, 0, 1, 0, u, v, 1);
-    return upsideDown * shift * turn * scale * upsideDown;
+    const glm::dvec2 offset(transform.mTranslation.x - scale.x * (1 - c + s) / 2,
+                            scale.y * (s + c - 1) / 2 + 1 - scale.y - transform.mTranslation.y);
+    const glm::dmat3 downFromDown(scale.x * c, -scale.x * s, 0, scale.y * s, scale.y * c, 0,
+                                  offset.x, offset.y, 1);
+    const glm::dmat3 flip(1, 0, 0, 0, -1, 0, 0, 1, 1);
+    return flip * downFromDown * flip;
 }
 
 /// Texels that are not coded, which none of the formats has in use, are left out.
@@ -73,6 +71,24 @@ int sidesOf(const aiMaterial& material) {
     return material.Get(AI_MATKEY_TWOSIDED, isTwoSided) != AI_SUCCESS ? 0 : isTwoSided != 0 ? 2 : 1;
 }
 
+std::string textureName(const aiMaterial& material, aiTextureType type, unsigned int index) {
+    aiString path;
+    return material.GetTexture(type, index, &path) == AI_SUCCESS ? path.C_Str() : "";
+}
+
+/// Whether a material has a texture of `type` besides the one of its diffuse colour. Formats that
+/// know opacity by the alpha of that name it twice.
+bool hasOtherTexture(const aiMaterial& material, aiTextureType type) {
+    if (type == aiTextureType_DIFFUSE || type == aiTextureType_BASE_COLOR)
+        return false;
+    const std::string diffuse = textureName(material, aiTextureType_DIFFUSE, 0);
+    for (unsigned int i = 0; i < material.GetTextureCount(type); ++i)
+        if (const std::string name = textureName(material, type, i);
+            !name.empty() && name != diffuse)
+            return true;
+    return false;
+}
+
 float cutoffOf(const aiMaterial& material) {
     float cutoff = 0.5F;
     material.Get(AI_MATKEY_GLTF_ALPHACUTOFF, cutoff);
@@ -86,7 +102,10 @@ AssimpMaterials::AssimpMaterials(const aiScene& scene, const AssimpFormat& forma
     const std::span materials(scene.mMaterials, scene.mNumMaterials);
     hasSides_ = std::ranges::any_of(
         materials, [](const aiMaterial* material) { return sidesOf(*material) == 2; });
-    for (const aiMaterial* material : materials) entries_.push_back(read(*material));
+    for (const aiMaterial* material : materials) {
+        entries_.push_back(read(*material));
+        countLeftOut(*material);
+    }
 }
 
 /// Beyond what can be told apart all are plain.
@@ -120,7 +139,16 @@ std::int32_t AssimpMaterials::readTexture(const aiMaterial& material, Entry& ent
     const auto number = static_cast<std::int32_t>(known - textures_.begin());
     if (known == textures_.end())
         textures_.push_back(std::move(source));
+    mirrored_ += std::ranges::count(modes, aiTextureMapMode_Mirror) > 0 ? 1 : 0;
     return number;
+}
+
+void AssimpMaterials::countLeftOut(const aiMaterial& material) {
+    bool isAny = false;
+    for (int type = aiTextureType_NONE; type <= AI_TEXTURE_TYPE_MAX; ++type)
+        isAny = isAny || hasOtherTexture(material, static_cast<aiTextureType>(type));
+    withOthers_ += isAny ? 1 : 0;
+    withOpacity_ += hasOtherTexture(material, aiTextureType_OPACITY) ? 1 : 0;
 }
 
 AssimpMaterials::Entry AssimpMaterials::read(const aiMaterial& material) {
@@ -193,6 +221,21 @@ void AssimpMaterials::moveTo(TriangleMesh& mesh) {
             "{} of {} materials have no opacity at all, and nobody would see them: they "
             "are taken for opaque",
             takenForOpaque_, entries_.size()));
+    if (withOthers_ > 0)
+        mesh.notes.push_back(fmt::format(
+            "left out the textures of {} materials that are of something else than the diffuse "
+            "colour{}",
+            withOthers_,
+            withOpacity_ > 0
+                ? fmt::format(", among them the opacity of {}: what these make holes in has none; "
+                              "give the opacity as the alpha of the colour's image",
+                              withOpacity_)
+                : ""));
+    if (mirrored_ > 0)
+        mesh.notes.push_back(
+            fmt::format("textures of {} materials ought to be mirrored where they repeat, and "
+                        "repeat as they are",
+                        mirrored_));
     if (!areAny())
         return;
     mesh.materials = std::move(materials_);

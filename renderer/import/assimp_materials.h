@@ -48,6 +48,7 @@ private:
 
     const Entry* find(const aiMesh& mesh) const;
     Entry read(const aiMaterial& material);
+    void countLeftOut(const aiMaterial& material);
     std::int32_t readTexture(const aiMaterial& material, Entry& entry);
     std::uint16_t number(const mesh::Material& material);
 
@@ -59,6 +60,9 @@ private:
     bool hasSides_;
     /// Exporters disagree on whether 0 is opaque or nothing; but for glTF's it is opaque.
     std::size_t takenForOpaque_ = 0;
+    std::size_t withOthers_ = 0;   ///< materials with textures that are left out
+    std::size_t withOpacity_ = 0;  ///< of these, those where one is the opacity
+    std::size_t mirrored_ = 0;     ///< materials whose texture is to be mirrored where it repeats
     std::vector<Entry> entries_;
     std::vector<mesh::Material> materials_{mesh::Material()};
     std::vector<TextureSource> textures_;

@@ -8,12 +8,14 @@
 #include <exception>
 #include <filesystem>
 #include <limits>
+#include <memory>
 #include <new>
 #include <system_error>
 #include <utility>
 #include <vector>
 
 #include <absl/status/status.h>
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/Importer.hpp>
 #include <assimp/config.h>
 #include <assimp/material.h>
@@ -32,7 +34,10 @@
 #include "renderer/import/assimp_values.h"
 #include "renderer/import/gltf_extensions.h"
 #include "renderer/import/gltf_unpacking.h"
+#include "renderer/import/obj_textures.h"
 #include "renderer/import/polygon.h"
+#include "renderer/import/stl_length.h"
+#include "renderer/import/uri_name.h"
 #include "renderer/mesh/mapped_file.h"
 
 namespace eyrie::import {
@@ -325,15 +330,49 @@ std::string withFirstTextures(std::span<const std::byte> bytes) {
     return kept;
 }
 
-/// What Assimp reads instead of a file that it would take for something else; nothing for others.
-absl::StatusOr<std::string> instead(const std::string& path, const AssimpFormat& format) {
-    const bool isAc = format.extension.starts_with(".ac");
-    if (!isAc && !format.isGltf())
-        return "";
-    ASSIGN_OR_RETURN(const mesh::MappedFile file, mesh::MappedFile::open(path));
-    if (isAc)
+/// Files as glTF's URIs name them, which Assimp takes for plain names.
+class UriFiles : public Assimp::DefaultIOSystem {
+public:
+    bool Exists(const char* name) const override {
+        return DefaultIOSystem::Exists(name) ||
+               DefaultIOSystem::Exists(withoutPercents(name).c_str());
+    }
+
+    Assimp::IOStream* Open(const char* name, const char* mode) override {
+        return DefaultIOSystem::Exists(name)
+                   ? DefaultIOSystem::Open(name, mode)
+                   : DefaultIOSystem::Open(withoutPercents(name).c_str(), mode);
+    }
+};
+
+std::string_view textOf(const mesh::MappedFile& file) {
+    const auto bytes = file.bytes();
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+/// What Assimp reads instead of a file that it would take for another; nothing for others.
+absl::StatusOr<std::optional<std::string>> instead(const mesh::MappedFile& file,
+                                                   const std::string& path,
+                                                   const AssimpFormat& format) {
+    if (format.extension.starts_with(".ac"))
         return withFirstTextures(file.bytes());
-    return isGltfPacked(file.bytes()) ? unpackGltf(file.bytes(), path) : "";
+    if (format.isGltf())
+        return unpackGltf(file.bytes(), path);
+    return std::nullopt;
+}
+
+/// Null with the importer's own message where it cannot.
+absl::StatusOr<const aiScene*> parse(Assimp::Importer& importer, const std::string& path,
+                                     const AssimpFormat& format) {
+    ASSIGN_OR_RETURN(const mesh::MappedFile file, mesh::MappedFile::open(path));
+    ASSIGN_OR_RETURN(const std::optional<std::string> text, instead(file, path, format));
+    if (text)
+        return importer.ReadFileFromMemory(text->data(), text->size(), 0,
+                                           format.isGltf() ? "glb" : "ac");
+    const aiScene* scene = importer.ReadFile(path, 0);
+    if (scene != nullptr && format.extension == ".obj")
+        applyObjTextures(path, textOf(file), *scene);
+    return scene;
 }
 
 absl::StatusOr<TriangleMesh> read(const std::string& path, const AssimpFormat& format) {
@@ -341,11 +380,9 @@ absl::StatusOr<TriangleMesh> read(const std::string& path, const AssimpFormat& f
         Assimp::Importer importer;
         importer.SetPropertyInteger(AI_CONFIG_IMPORT_MD3_HANDLE_MULTIPART, 0);  // this file alone
         importer.SetPropertyInteger(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, 1);  // none made of bones
-        ASSIGN_OR_RETURN(const std::string text, instead(path, format));
-        const aiScene* scene = text.empty()
-                                   ? importer.ReadFile(path, 0)
-                                   : importer.ReadFileFromMemory(text.data(), text.size(), 0,
-                                                                 format.isGltf() ? "glb" : "ac");
+        if (format.isGltf())
+            importer.SetIOHandler(std::make_unique<UriFiles>().release());  // which it deletes
+        ASSIGN_OR_RETURN(const aiScene* scene, parse(importer, path, format));
         if (scene != nullptr)
             return SceneMeshes(*scene, format).gather();
         const std::string why = importer.GetErrorString();
@@ -390,6 +427,9 @@ absl::StatusOr<TriangleMesh> readWithAssimp(const std::string& path, const Readi
     control.report("reading", 0);
     auto result = readInOwnProcess([&] { return read(path, *format); }, limits, control);
     control.report("reading", 1);
+    if (absl::IsInvalidArgument(result.status()) && format->extension == ".stl")
+        if (const auto wrong = wrongLengthOfStl(file.bytes()))  // of which Assimp knows nothing
+            return absl::InvalidArgumentError(fmt::format("{}: {}", path, *wrong));
     if (!result.ok())
         return fabric::withContext(result.status(), path);
     for (std::string& caveat : caveats(file.bytes(), *format))

@@ -75,13 +75,6 @@ absl::Status checkGltfExtensions(std::span<const std::byte> bytes) {
     return absl::OkStatus();
 }
 
-bool isGltfPacked(std::span<const std::byte> bytes) {
-    const std::vector<std::string> used = namesAt(gltfChunksOf(bytes).json, "extensionsUsed");
-    return std::ranges::any_of(used, [](const std::string& extension) {
-        return extension == "KHR_mesh_quantization" || extension == "EXT_meshopt_compression";
-    });
-}
-
 std::vector<std::string> gltfCaveats(std::span<const std::byte> bytes) {
     std::vector<std::string> caveats;
     for (const std::string& extension : namesAt(gltfChunksOf(bytes).json, "extensionsUsed")) {

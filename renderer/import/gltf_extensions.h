@@ -14,10 +14,6 @@ namespace eyrie::import {
 /// takes what it knows. Errors: InvalidArgument, which names the extension and how to do without.
 absl::Status checkGltfExtensions(std::span<const std::byte> bytes);
 
-/// Whether Assimp takes a file for another than it is, integers for the bits of floats, until
-/// unpackGltf (gltf_unpacking.h) has been at it.
-bool isGltfPacked(std::span<const std::byte> bytes);
-
 /// What a file uses that moves or repeats what it shows, without requiring it, and is left out
 /// here: for TriangleMesh::notes.
 std::vector<std::string> gltfCaveats(std::span<const std::byte> bytes);

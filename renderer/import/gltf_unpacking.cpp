@@ -117,9 +117,9 @@ std::size_t componentsOf(const std::string& type) {
     return found == kTypes.end() ? 0 : static_cast<std::size_t>(found - kTypes.begin()) + 1;
 }
 
-/// Of vertices: places, normals, colours and the like, not numbers of joints.
+/// What Assimp takes for floats; it knows that colours need not be.
 bool isGeometry(std::string_view attribute) {
-    constexpr std::array kNames = {"POSITION", "NORMAL", "TANGENT", "TEXCOORD_", "COLOR_"};
+    constexpr std::array kNames = {"POSITION", "NORMAL", "TANGENT", "TEXCOORD_"};
     return std::ranges::any_of(kNames,
                                [&](const char* name) { return attribute.starts_with(name); });
 }
@@ -200,7 +200,7 @@ class Unpacking {
 public:
     explicit Unpacking(const std::string& path) : path_(path) {}
 
-    absl::StatusOr<std::string> run(const GltfChunks& chunks);
+    absl::StatusOr<std::optional<std::string>> run(const GltfChunks& chunks);
 
 private:
     absl::Status readBuffer(const Json& buffer, std::size_t index);
@@ -209,7 +209,9 @@ private:
                                                         std::string_view where) const;
     absl::Status unpackView(Json& view, std::size_t index);
     absl::Status toFloats(Json& accessor, std::string_view where);
+    void lookForGeometry();
     void lookForGeometry(const Json& attributes);
+    bool isNeeded() const;
     void addView(const Json& view, std::span<const std::byte> bytes);
     std::span<const std::byte> bytesOfView(std::size_t index) const;
 
@@ -345,25 +347,46 @@ absl::Status Unpacking::toFloats(Json& accessor, std::string_view where) {
     return absl::OkStatus();
 }
 
-absl::StatusOr<std::string> Unpacking::run(const GltfChunks& chunks) {
-    const auto isNear = [](int depth, Json::parse_event_t, Json&) { return depth < kDeepest; };
-    root_ = Json::parse(chunks.json, isNear, false);
-    if (!root_.is_object())
-        return wrong("its JSON", "is damaged");
-    for (const char* list : {"buffers", "bufferViews", "accessors", "meshes"})
-        if (!root_.contains(list) || !root_[list].is_array())
-            root_[list] = Json::array();
-    for (const Json& buffer : root_["buffers"])
-        RETURN_IF_ERROR(readBuffer(buffer, buffers_.size()));
-    if (!buffers_.empty() && buffers_[0].empty())
-        buffers_[0].assign(chunks.binary.begin(), chunks.binary.end());
-    for (Json& view : root_["bufferViews"]) RETURN_IF_ERROR(unpackView(view, views_.size()));
+void Unpacking::lookForGeometry() {
     isGeometry_.resize(root_["accessors"].size());
     for (const Json& mesh : root_["meshes"])
         for (const Json& primitive : at(mesh, "primitives")) {
             lookForGeometry(at(primitive, "attributes"));
             for (const Json& target : at(primitive, "targets")) lookForGeometry(target);
         }
+}
+
+/// Whether anything is packed, or of integers that Assimp takes for floats.
+bool Unpacking::isNeeded() const {
+    const auto isPacked = [](const Json& view) {
+        return !at(at(view, "extensions"), kCompression).is_null();
+    };
+    if (std::ranges::any_of(at(root_, "bufferViews"), isPacked))
+        return true;
+    for (std::size_t i = 0; i < isGeometry_.size(); ++i)
+        if (const Json& accessor = at(root_, "accessors")[i];
+            isGeometry_[i] && !at(accessor, "bufferView").is_null() &&
+            at(accessor, "componentType") != kFloat)
+            return true;
+    return false;
+}
+
+absl::StatusOr<std::optional<std::string>> Unpacking::run(const GltfChunks& chunks) {
+    const auto isNear = [](int depth, Json::parse_event_t, Json&) { return depth < kDeepest; };
+    root_ = Json::parse(chunks.json, isNear, false);
+    if (!root_.is_object())
+        return std::nullopt;
+    for (const char* list : {"buffers", "bufferViews", "accessors", "meshes"})
+        if (!root_.contains(list) || !root_[list].is_array())
+            root_[list] = Json::array();
+    lookForGeometry();
+    if (!isNeeded())
+        return std::nullopt;
+    for (const Json& buffer : root_["buffers"])
+        RETURN_IF_ERROR(readBuffer(buffer, buffers_.size()));
+    if (!buffers_.empty() && buffers_[0].empty())
+        buffers_[0].assign(chunks.binary.begin(), chunks.binary.end());
+    for (Json& view : root_["bufferViews"]) RETURN_IF_ERROR(unpackView(view, views_.size()));
     for (std::size_t i = 0; i < isGeometry_.size(); ++i)
         if (Json& accessor = root_["accessors"][i];
             isGeometry_[i] || at(accessor, "normalized") == true)
@@ -377,7 +400,8 @@ absl::StatusOr<std::string> Unpacking::run(const GltfChunks& chunks) {
 
 }  // namespace
 
-absl::StatusOr<std::string> unpackGltf(std::span<const std::byte> bytes, const std::string& path) {
+absl::StatusOr<std::optional<std::string>> unpackGltf(std::span<const std::byte> bytes,
+                                                      const std::string& path) {
     try {
         return Unpacking(path).run(gltfChunksOf(bytes));
     } catch (const Json::exception& error) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -9,14 +10,16 @@
 
 namespace eyrie::import {
 
-/// A .gltf or .glb whose vertices are integers (KHR_mesh_quantization) and whose buffers are
-/// meshoptimizer's (EXT_meshopt_compression), as gltfpack writes them, as a .glb of plain floats
-/// that needs neither: for Assimp, which knows neither. Coordinates are what the integers say,
-/// exactly for up to 24 bits; images keep their names.
+/// A .gltf or .glb whose vertices are integers (KHR_mesh_quantization, and texture coordinates
+/// without it) or whose buffers are meshoptimizer's (EXT_meshopt_compression), as gltfpack writes
+/// them, as a .glb of plain floats that needs neither: for Assimp, which takes integers for the
+/// bits of floats. Coordinates are what the integers say, exactly for up to 24 bits; images keep
+/// their names. Nothing for a file that Assimp takes as it is, or for what is no JSON.
 ///
 /// Buffers that are files are looked for where `path` is. Morph targets and animations stay as they
 /// are, unpacked. Errors: InvalidArgument (no sound glTF, with what is wrong; a buffer that is not
 /// there; more than 64 times the bytes that it is packed in).
-absl::StatusOr<std::string> unpackGltf(std::span<const std::byte> bytes, const std::string& path);
+absl::StatusOr<std::optional<std::string>> unpackGltf(std::span<const std::byte> bytes,
+                                                      const std::string& path);
 
 }  // namespace eyrie::import

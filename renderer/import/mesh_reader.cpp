@@ -16,6 +16,7 @@
 #include "fabric/status.h"
 #include "renderer/import/assimp_reader.h"
 #include "renderer/import/jdn_reader.h"
+#include "renderer/import/obj_textures.h"
 #include "renderer/import/ply_reader.h"
 #include "renderer/import/source_lights.h"
 #include "renderer/import/texture_files.h"
@@ -114,7 +115,10 @@ absl::StatusOr<std::vector<std::string>> namesIn(const std::string& path) {
         kMentions, [&](const Mention& mention) { return endsWith(path, mention.ending); });
     if (kind == kMentions.end())
         return std::vector<std::string>();
-    return mentionedFiles(text, kind->mark, kind->ends);
+    std::vector<std::string> names = mentionedFiles(text, kind->mark, kind->ends);
+    if (endsWith(path, ".mtl"))
+        for (std::string& name : names) name = parseMapKd(name).name;
+    return names;
 }
 
 /// Adds the files that the one at `path` names, as far as they exist, and what those name.

@@ -27,6 +27,7 @@
 #include "fabric/status.h"
 #include "renderer/import/reading_process.h"
 #include "renderer/import/sgi_image.h"
+#include "renderer/import/uri_name.h"
 #include "renderer/mesh/image_codec.h"
 #include "renderer/mesh/mapped_file.h"
 
@@ -228,9 +229,8 @@ void mergeMaterials(TriangleMesh& mesh) {
         mesh.textureCoordinates.clear();
 }
 
-}  // namespace
-
-std::string findTexture(const std::string& name, const std::string& path) {
+/// The file that `name` means as it stands.
+std::string findAsNamed(const std::string& name, const std::string& path) {
     std::string plain = name;
     std::replace(plain.begin(), plain.end(), '\\', '/');
     const fs::path folder = fs::path(path).parent_path();
@@ -247,6 +247,14 @@ std::string findTexture(const std::string& name, const std::string& path) {
             isFile(entry.path()))
             return entry.path().string();
     return {};
+}
+
+}  // namespace
+
+std::string findTexture(const std::string& name, const std::string& path) {
+    std::string found = findAsNamed(name, path);
+    const std::string plain = withoutPercents(name);
+    return found.empty() && plain != name ? findAsNamed(plain, path) : found;
 }
 
 absl::Status loadTextures(TriangleMesh& mesh, const std::string& path,

@@ -14,7 +14,7 @@ namespace eyrie::import {
 /// TriangleMesh::images, in a process of its own (reading_process.h): PNG, JPEG, TGA, BMP, GIF, PSD
 /// and what else stb_image knows, and SGI's, up to mesh::kMaxImageSide a side. Names may have
 /// backslashes; files that are not where they are named are looked for beside the source by their
-/// last part, then without regard to case.
+/// last part, then without regard to case, then as URIs have it, with %20 for a space.
 ///
 /// An image that is missing, damaged or too large is counted in the notes, the first with its name
 /// and the reason; its materials have their colour alone. Where a material of kReplacesColour has

@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include "cli/import/mesh_report.h"
+
 namespace eyrie::cli {
 namespace {
 
@@ -37,6 +39,15 @@ TEST(ImportNotes, WarnOfBordersBeyondFourTenthsAndOfNothingElse) {
     EXPECT_THAT(notesOf(reportOf({{400, 0}, {0, 830}})), IsEmpty());
     EXPECT_THAT(notesOf(reportOf({{120, 0}, {437, 0}, {410, 0}})),
                 ElementsAre(HasSubstr("44 % of the vertices of level 2 stay because nodes meet")));
+}
+
+TEST(ImportNotes, AreInTheJsonOfAnImport) {
+    import::MeshImportReport made;
+    made.notes = {"1 of 1 textures cannot be read"};
+    testing::internal::CaptureStdout();
+    printJson({}, made, {});
+    EXPECT_THAT(testing::internal::GetCapturedStdout(),
+                HasSubstr(R"("notes": ["1 of 1 textures cannot be read"])"));
 }
 
 }  // namespace eyrie::cli

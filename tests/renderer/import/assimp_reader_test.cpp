@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include <assimp/light.h>
@@ -16,6 +18,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/import/assimp_lights.h"
+#include "renderer/import/obj_textures.h"
 #include "tests/renderer/import/mesh_text.h"
 #include "tests/renderer/mesh/temporary_folder.h"
 
@@ -376,32 +379,132 @@ TEST(AssimpReader, TakesMaterialsAndImagesThatAreInTheFile) {
     EXPECT_EQ(mesh->textureCoordinates[mesh->triangles[0][1]], glm::vec2(0, 1)) << "v down";
 }
 
-TEST(AssimpReader, PlacesTexturesAsGltfTransformsThem) {
+/// kTexturedGltf with something else in a place.
+std::string texturedGltf(std::string_view from, std::string_view to) {
+    std::string text = kTexturedGltf;
+    return text.replace(text.find(from), from.size(), to);
+}
+
+/// Where the point at u = 1 or v = 1 of a texture comes to by a KHR_texture_transform, v downwards.
+glm::vec2 transformedPlace(std::string_view transform, bool isV) {
     const test::TemporaryFolder folder;
-    const auto placed = [&](const std::string& transform) {
-        std::string text = kTexturedGltf;
-        const std::string plain = R"("baseColorTexture":{"index":0)";
-        text.insert(text.find(plain) + plain.size(),
-                    R"(,"extensions":{"KHR_texture_transform":)" + transform + "}");
-        text.insert(1, R"("extensionsUsed":["KHR_texture_transform"],)");
-        test::writeFile(folder.file("m.gltf"), text);
+    std::string text = texturedGltf(
+        R"("baseColorTexture":{"index":0})",
+        fmt::format(
+            R"("baseColorTexture":{{"index":0,"extensions":{{"KHR_texture_transform":{{{}}}}}}})",
+            transform));
+    text.insert(1, R"("extensionsUsed":["KHR_texture_transform"],)");
+    const std::string_view places = R"("count":3,"type":"VEC2")";
+    if (!isV)  // the floats are 0 0 0 1 0 0 from the first, and 0 0 1 0 0 0 from the second
+        text.insert(text.find(places), R"("byteOffset":4,)");
+    test::writeFile(folder.file("m.gltf"), text);
+    const auto mesh = readWithAssimp(folder.file("m.gltf"));
+    EXPECT_TRUE(mesh.ok()) << mesh.status();
+    return mesh.ok() ? mesh->textureCoordinates[mesh->triangles[0][1]] : glm::vec2(0);
+}
+
+void expectTransform(std::string_view transform, glm::vec2 ofU, glm::vec2 ofV) {
+    SCOPED_TRACE(transform);
+    const glm::vec2 u = transformedPlace(transform, false);
+    const glm::vec2 v = transformedPlace(transform, true);
+    EXPECT_LT(glm::distance(u, ofU), 1e-6F) << u.x << ", " << u.y;
+    EXPECT_LT(glm::distance(v, ofV), 1e-6F) << v.x << ", " << v.y;
+}
+
+/// The second and third are the examples of the extension's own text: the lower left quarter of an
+/// image, turned clockwise, and an image upside down.
+TEST(AssimpReader, PutsTexturesWhereAGltfsTransformsDo) {
+    expectTransform("", {1, 0}, {0, 1});
+    expectTransform(R"("offset":[0,1],"rotation":1.57079632679,"scale":[0.5,0.5])", {0, 0.5F},
+                    {0.5F, 1});
+    expectTransform(R"("offset":[0,1],"scale":[1,-1])", {1, 1}, {0, 0});
+    expectTransform(R"("scale":[0.5,0.25])", {0.5F, 0}, {0, 0.25F});
+    expectTransform(R"("offset":[0.1,0.2],"rotation":0.52359877559,"scale":[2,3])",
+                    {1.8320508F, -0.8F}, {1.6F, 2.7980762F});
+}
+
+TEST(AssimpReader, SaysThatTexturesAreNotMirrored) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.gltf"), texturedGltf(R"("wrapT":10497)", R"("wrapT":33648)"));
+    const auto mesh = readWithAssimp(folder.file("m.gltf"));
+    ASSERT_TRUE(mesh.ok()) << mesh.status();
+    EXPECT_THAT(mesh->notes,
+                ElementsAre(HasSubstr("textures of 3 materials ought to be mirrored")));
+}
+
+constexpr const char* kGltfWithABuffer =
+    R"({{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0}}],
+"meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}}}}]}}],
+"accessors":[{{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3",
+"min":[0,0,0],"max":[1,1,0]}}],"bufferViews":[{{"buffer":0,"byteLength":36}}],
+"buffers":[{{"byteLength":36,"uri":"{}"}}]}})";
+
+TEST(AssimpReader, FindsBuffersOfAGltfByUriAndByPlainName) {
+    const test::TemporaryFolder folder;
+    std::string corners(36, '\0');
+    corners.replace(14, 2, "\x80\x3F").replace(30, 2, "\x80\x3F");  // of 1, 0 and 0, 1
+    for (const auto& [uri, file] : {std::pair("a%20%C3%A4.bin", "a \xC3\xA4.bin"),
+                                    {"b c.bin", "b c.bin"},
+                                    {"d%20e.bin", "d%20e.bin"},
+                                    {"100%.bin", "100%.bin"}}) {
+        test::writeFile(folder.file(file), corners);
+        test::writeFile(folder.file("m.gltf"), fmt::format(kGltfWithABuffer, uri));
         const auto mesh = readWithAssimp(folder.file("m.gltf"));
-        EXPECT_TRUE(mesh.ok()) << mesh.status();
-        std::vector<glm::vec2> places;
-        for (const std::uint32_t vertex : mesh->triangles.at(0))
-            places.push_back(mesh->textureCoordinates.at(vertex));
-        return places;
+        ASSERT_TRUE(mesh.ok()) << uri << ": " << mesh.status();
+        EXPECT_NEAR(test::area(*mesh), 0.5, 1e-12) << uri;
+    }
+}
+
+TEST(AssimpReader, ScalesAndShiftsTexturesOfAnObjAsItsMaterialsSay) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.obj"),
+                    "mtllib m.mtl\r\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n"
+                    "usemtl my wall\nf 1/1 2/2 3/3\n");
+    const auto expect = [&](const std::string& mapKd, glm::vec2 ofU, glm::vec2 ofV) {
+        SCOPED_TRACE(mapKd);
+        test::writeFile(folder.file("m.mtl"), "newmtl my wall\r\nKd 1 1 1\r\n" + mapKd + "\r\n");
+        const auto mesh = readWithAssimp(folder.file("m.obj"));
+        ASSERT_TRUE(mesh.ok()) << mesh.status();
+        ASSERT_EQ(mesh->textures.size(), 1U);
+        EXPECT_EQ(mesh->textures[0].name, "a wall.png");
+        const auto& [origin, u, v] = mesh->triangles[0];
+        const auto& places = mesh->textureCoordinates;
+        EXPECT_LT(glm::distance(places[u], ofU), 1e-6F) << places[u].x << ", " << places[u].y;
+        EXPECT_LT(glm::distance(places[v], ofV), 1e-6F) << places[v].x << ", " << places[v].y;
     };
-    // Of (0, 0), (0, 1) and (0, 0), v down: the floats that the triangle's corners begin with.
-    const auto plain = placed("{}");
-    EXPECT_THAT(plain, ElementsAre(glm::vec2(0, 0), glm::vec2(0, 1), glm::vec2(0, 0)));
-    const auto moved = placed(R"({"offset":[0.25,0.5],"scale":[3,16]})");
-    EXPECT_LT(glm::distance(moved[0], glm::vec2(0.25, 0.5)), 1e-5);
-    EXPECT_LT(glm::distance(moved[1], glm::vec2(0.25, 16.5)), 1e-5);
-    // A quarter turn, counter-clockwise as one sees it: what was below goes to the right.
-    const auto turned = placed(R"({"rotation":1.5707963,"offset":[2,0],"scale":[1,3]})");
-    EXPECT_LT(glm::distance(turned[0], glm::vec2(2, 0)), 1e-5);
-    EXPECT_LT(glm::distance(turned[1], glm::vec2(5, 0)), 1e-5);
+    // v goes up in the file and down here.
+    expect("map_Kd a wall.png", {1, 1}, {0, 0});
+    expect("map_Kd -s 2 3 1 -o 0.25 0.5 0 a wall.png", {2.25F, 0.5F}, {0.25F, -2.5F});
+    expect("map_Kd -s 2 3 a wall.png", {2, 1}, {0, -2});
+    expect("map_Kd -o 0.25 -clamp off -mm 0 1 -t 1 1 1 a wall.png", {1.25F, 1}, {0.25F, 0});
+}
+
+TEST(AssimpReader, SaysWhichTexturesItLeavesOut) {
+    const test::TemporaryFolder folder;
+    test::writeFile(folder.file("m.obj"),
+                    "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n"
+                    "usemtl leaf\nf 1/1 2/2 3/3\nusemtl wall\nf 2/2 1/1 3/3\n");
+    const auto notesOf = [&](const std::string& ofLeaf, const std::string& ofWall) {
+        test::writeFile(folder.file("m.mtl"), "newmtl leaf\nmap_Kd a.png\n" + ofLeaf +
+                                                  "newmtl wall\nmap_Kd b.png\n" + ofWall);
+        return readWithAssimp(folder.file("m.obj"))->notes;
+    };
+    EXPECT_THAT(notesOf("", ""), testing::IsEmpty());
+    EXPECT_THAT(notesOf("map_d a.png\n", ""), testing::IsEmpty()) << "the alpha of the same image";
+    EXPECT_THAT(notesOf("", "map_Bump c.png\nmap_Ks d.png\n"),
+                ElementsAre(testing::AllOf(HasSubstr("left out the textures of 1 materials"),
+                                           testing::Not(HasSubstr("opacity")))));
+    EXPECT_THAT(notesOf("map_d c.png\n", "map_Bump c.png\n"),
+                ElementsAre(testing::AllOf(HasSubstr("left out the textures of 2 materials"),
+                                           HasSubstr("opacity of 1"))));
+}
+
+TEST(ObjTextures, KeepNamesThatLookLikeNumbersOrOptions) {
+    EXPECT_EQ(parseMapKd("-s 2 2 2"), (ObjTexture{"2", {2, 2}}));
+    EXPECT_EQ(parseMapKd(" -s 2 3.png "), (ObjTexture{"3.png", {2, 1}}));
+    EXPECT_EQ(parseMapKd("-my texture.png"), (ObjTexture{"-my texture.png"}));
+    EXPECT_EQ(parseMapKd("-o"), ObjTexture());
+    EXPECT_EQ(parseMapKd(""), ObjTexture());
 }
 
 TEST(AssimpReader, TakesTheFirstOfARaceTracksTextures) {
@@ -442,6 +545,22 @@ TEST(AssimpReader, MultipliesVertexColoursAndLeavesBlankOnesOut) {
     EXPECT_EQ(mesh->colours[0], (fabric::Rgba{128, 128, 0, 255}));
     test::writeFile(folder.file("plain.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     EXPECT_TRUE(readWithAssimp(folder.file("plain.obj"))->colours.empty());
+}
+
+TEST(AssimpReader, SaysHowLongABinaryStlOughtToBe) {
+    const test::TemporaryFolder folder;
+    for (const std::string header : {"made by hand", "solid made by hand"}) {
+        std::string file = header + std::string(84 + 2 * 50 - header.size(), '\0');
+        file[80] = 2;
+        file[84 + 26] = file[84 + 40] = '\x40';  // corners at 0 0 0, 2 0 0 and 0 2 0, and no others
+        test::writeFile(folder.file("m.stl"), file);
+        EXPECT_TRUE(readWithAssimp(folder.file("m.stl")).ok()) << header;
+        test::writeFile(folder.file("m.stl"), file.substr(0, 150));
+        EXPECT_THAT(std::string(readWithAssimp(folder.file("m.stl")).status().message()),
+                    HasSubstr("m.stl: its header counts 2 triangles, which take 184 bytes, and it "
+                              "has 150; it is cut off"))
+            << header;
+    }
 }
 
 TEST(AssimpReader, TellsMissingFilesFromBadOnes) {

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/import/sgi_image.h"
+#include "renderer/import/texture_files.h"
 #include "renderer/mesh/eym_format.h"
 #include "tests/renderer/import/ply_text.h"
 #include "tests/renderer/import/tga_text.h"
@@ -255,6 +256,10 @@ TEST(MeshSourceHash, IsThatOfALoneFileAndCountsItsCompany) {
     const std::uint64_t untextured = *meshSourceHash(paths);
     test::writeFile(folder.file("m.png"), "a");
     EXPECT_NE(untextured, *meshSourceHash(paths));
+    test::writeFile(folder.file("m.mtl"), "newmtl red\nmap_Kd -s 2 2 2 m.png\n");
+    const std::uint64_t scaled = *meshSourceHash(paths);
+    test::writeFile(folder.file("m.png"), "b");
+    EXPECT_NE(scaled, *meshSourceHash(paths));
 }
 
 TEST(MeshSourceHash, CountsTexturesOfPly) {
@@ -277,6 +282,18 @@ TEST(MeshSourceHash, CountsBuffersOfGltf) {
     const std::uint64_t before = *meshSourceHash(paths);
     test::writeFile(folder.file("m.bin"), "b");
     EXPECT_NE(before, *meshSourceHash(paths));
+}
+
+TEST(FindTexture, TakesNamesAsTheyStandBeforeItTakesThemForUris) {
+    const test::TemporaryFolder folder;
+    const std::string source = folder.file("m.gltf");
+    test::writeFile(folder.file("a b.png"), "");
+    EXPECT_EQ(findTexture("a%20b.png", source), folder.file("a b.png"));
+    EXPECT_EQ(findTexture("maps/A%20b.PNG", source), folder.file("a b.png"));
+    test::writeFile(folder.file("a%20b.png"), "");
+    EXPECT_EQ(findTexture("a%20b.png", source), folder.file("a%20b.png"));
+    for (const char* name : {"a%2", "a%", "a%zzb.png", "a%00 b.png", "%2f", "a%2Gb.png"})
+        EXPECT_EQ(findTexture(name, source), "") << name;
 }
 
 TEST(MeshSource, IsToldByItsName) {
