@@ -277,7 +277,7 @@ private:
     /// The finest raster's grid, resampled if need be.
     absl::Status chooseGrid() {
         const DemFile& finest = files_[order_.front()];
-        wkt_ = crs_ ? metricWktOf(crs_.get()) : "";
+        wkt_ = crs_ ? wktOf(crs_.get()) : "";
         if (isNorthUp(finest)) {
             grid_ = gridOf(finest.reference);
             return absl::OkStatus();
@@ -451,7 +451,7 @@ private:
             notes_.push_back(caveat_);
         return DemSource{
             std::make_unique<LayeredSource>(std::move(layers), reference, all.columns, all.rows),
-            wkt_, 0, std::move(notes_)};
+            crs_ ? metricWktOf(crs_.get()) : "", 0, std::move(notes_)};
     }
 
     std::vector<DemFile> files_;
@@ -461,7 +461,7 @@ private:
     SpatialReference crs_;
     double aroundTheEarth_ = 0;  ///< LocalProjection::aroundTheEarth
     std::string caveat_;         ///< of the CRS, for people
-    std::string wkt_;
+    std::string wkt_;            ///< of `crs_`, in whose units `grid_` is
     PixelGrid grid_;
     std::optional<PixelBox> extent_;  ///< of all that have been placed
     std::vector<std::string> notes_;
