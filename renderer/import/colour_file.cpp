@@ -79,7 +79,8 @@ absl::StatusOr<ColourRule> colourRule(const std::string& path, GDALDataset& data
                                          "into them with gdal_translate -ot Byte -scale",
                                          GDALGetDataTypeName(type)));
     rule.palette = first->GetColorTable();
-    rule.hasMask = rule.alpha == 0 && (first->GetMaskFlags() & GMF_PER_DATASET) != 0;
+    const int mask = first->GetMaskFlags();
+    rule.hasMask = rule.alpha == 0 && mask != GMF_ALL_VALID && mask != GMF_NODATA;
     for (std::size_t c = 0; c < 3; ++c) {
         int isSet = 0;
         const double value = dataset.GetRasterBand(rule.colours[c])->GetNoDataValue(&isSet);

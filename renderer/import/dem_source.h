@@ -37,8 +37,8 @@ struct DemSource {
 /// named last. What none covers is nodata.
 ///
 /// Each raster's own scale, offset and foot units (the band's or, where it has none, those of its
-/// CRS's heights) are applied; vertical datums are left as they are, with a note where they differ.
-/// Nodata: the band's tag, its mask,
+/// CRS's heights) are applied; vertical datums are left as they are, with a note where they differ,
+/// and so are values whose CRS is of depths. Nodata: the band's tag, its mask or an alpha band,
 /// NaN, infinities, magnitudes from 1e30, and -32768 in 16-bit rasters; what of this the file does
 /// not itself call nodata is among the posts' findings.
 ///

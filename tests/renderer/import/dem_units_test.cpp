@@ -118,6 +118,23 @@ TEST_F(DemMosaic, BringsOthersToAGridInFeet) {
     }
 }
 
+/// As of BAGs, whose elevations are below zero all the same.
+TEST_F(DemMosaic, TellsThatValuesAreHeightsWhereTheCrsIsOfDepths) {
+    const std::string heights = write(
+        {.crs = "EPSG:26910+5715", .west = 500000, .north = 5200100, .height = constant(-30)});
+    const std::string depths = write({.crs = "EPSG:26910+5715",
+                                      .west = 500000,
+                                      .north = 5200100,
+                                      .height = constant(30),
+                                      .scale = -1});
+    for (const std::string& path : {heights, depths}) {
+        const auto dem = test::readDem(path);
+        ASSERT_TRUE(dem.ok()) << dem.status();
+        EXPECT_EQ(dem->grid.at(5, 5), -30);
+        EXPECT_THAT(dem->notes, testing::Contains(HasSubstr("gdal_translate -a_scale -1")));
+    }
+}
+
 TEST_F(DemMosaic, TellsOfVerticalDatumsThatDiffer) {
     const std::string navd88 =
         write({.crs = "EPSG:26910+5703", .west = 500000, .north = 5200100, .height = constant(1)});

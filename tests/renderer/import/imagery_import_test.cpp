@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <fstream>
 
+#include <fmt/format.h>
 #include <gdal_priv.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -394,6 +395,40 @@ TEST_F(ImageryImport, ReadsGreyPalettesAnd16Bits) {
             *file, 10, [&](double, double) { return kind.expected; }, 4);
         EXPECT_FALSE(std::ifstream(path + ".aux.xml").good()) << "nothing is written beside it";
     }
+}
+
+TEST_F(ImageryImport, LeavesHolesWhereABandsOwnMaskHides) {
+    const std::string path = write(over(290, 290, 10, [](double, double) {
+        return Rgba{10, 200, 30, 255};
+    }));
+    const auto band = [](int number, const char* more) {
+        return fmt::format(
+            "<VRTRasterBand dataType=\"Byte\" band=\"{}\">{}<SimpleSource>"
+            "<SourceFilename relativeToVRT=\"1\">picture.tif</SourceFilename>"
+            "<SourceBand>{}</SourceBand></SimpleSource></VRTRasterBand>",
+            number, more, number);
+    };
+    // The picture's north, 19 of its 38 rows.
+    const char* const kMask =
+        "<MaskBand><VRTRasterBand dataType=\"Byte\"><SimpleSource>"
+        "<SourceFilename relativeToVRT=\"1\">picture.tif</SourceFilename><SourceBand>2</SourceBand>"
+        "<SrcRect xOff=\"0\" yOff=\"0\" xSize=\"37\" ySize=\"19\"/>"
+        "<DstRect xOff=\"0\" yOff=\"0\" xSize=\"37\" ySize=\"19\"/>"
+        "</SimpleSource></VRTRasterBand></MaskBand>";
+    const std::string masked = folder_.path("masked.vrt");
+    std::ofstream(masked) << "<VRTDataset rasterXSize=\"37\" rasterYSize=\"37\">"
+                          << "<SRS>EPSG:32633</SRS><GeoTransform>"
+                          << fmt::format("{}, 10, 0, {}, 0, -10", kWest - 40, kSouth + 330)
+                          << "</GeoTransform>" << band(1, kMask) << band(2, kMask) << band(3, kMask)
+                          << "</VRTDataset>";
+    const auto file = imported(test::slope(30, 30, 10), {masked});
+    ASSERT_NE(file, nullptr);
+    expectColours(
+        *file, 10,
+        [](double, double y) {
+            return y > kSouth + 140 ? Rgba{10, 200, 30, 255} : Rgba{0, 0, 0, 0};
+        },
+        4);
 }
 
 TEST_F(ImageryImport, BesideTheTerrainIsAnError) {
