@@ -48,7 +48,7 @@ std::array<int, 3> colourBands(GDALDataset& dataset, int alpha) {
     return colours >= 3 ? std::array{1, 2, 3} : std::array{1, 1, 1};
 }
 
-/// The largest value that 16-bit bands hold, by their tag or by a look at them.
+/// The largest value that bands of other than 8 bits hold, by their tag or by a look at them.
 absl::StatusOr<double> brightest(const std::string& path, GDALDataset& dataset,
                                  const std::array<int, 3>& bands) {
     double most = 0;
@@ -87,7 +87,8 @@ absl::StatusOr<ColourRule> colourRule(const std::string& path, GDALDataset& data
         if (isSet != 0)
             rule.nodata[c] = value;
     }
-    if (type != GDT_Byte && rule.palette == nullptr) {
+    const bool isNarrow = first->GetMetadataItem("NBITS", "IMAGE_STRUCTURE") != nullptr;
+    if ((type != GDT_Byte || isNarrow) && rule.palette == nullptr) {
         ASSIGN_OR_RETURN(const double most, brightest(path, dataset, rule.colours));
         rule.bytePerValue = 255 / most;
         notes.push_back(fmt::format("{}: values of 0 to {} turned to 8 bits", path, most));
@@ -253,6 +254,7 @@ absl::StatusOr<ColourFile> openColourFile(const std::string& path, QuietGdal& gd
     ColourFile file;
     file.path = path;
     ASSIGN_OR_RETURN(Dataset dataset, openRaster(path, "a picture such as a GeoTIFF", gdal));
+    RETURN_IF_ERROR(checkPlace(path, dataset.get()));
     ASSIGN_OR_RETURN(const ColourRule rule,
                      colourRule(path, *GDALDataset::FromHandle(dataset.get()), file.notes));
     std::array<double, 6> t{};

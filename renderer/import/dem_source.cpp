@@ -214,8 +214,10 @@ private:
         for (const DemFile& file : files_) {
             if (!file.isGeoreferenced)
                 return invalid(file.path,
-                               "is not georeferenced, so it cannot be laid beside "
-                               "others; give it a georeference (gdal_edit.py)");
+                               fmt::format("is not georeferenced, so it cannot be {}; give it a "
+                                           "georeference (gdal_edit.py)",
+                                           files_.size() > 1 ? "laid beside others"
+                                                             : "brought from degrees to metres"));
             if ((file.crs == nullptr) != (files_.front().crs == nullptr))
                 return invalid(file.path,
                                fmt::format("{} a CRS, unlike {}; set the right one (gdal_edit.py "

@@ -45,8 +45,9 @@ struct DemSource {
 /// Reports as "checking" while it reads the files for their hash, unless that is in `hashFolder`
 /// (fileHash; empty: there is none). Errors, naming file and field:
 /// NotFound, InvalidArgument (no raster, not heights, less than 2 x 2 posts, no usable
-/// georeference, not to be brought together), ResourceExhausted (more posts than an .eyt holds).
-/// Posts that cannot be read are DataLoss. Nothing is printed, no file is written.
+/// georeference or one by control points, not to be brought together), ResourceExhausted (more
+/// posts than an .eyt holds). Posts that cannot be read are DataLoss. Nothing is printed, no
+/// file is written.
 absl::StatusOr<DemSource> openDems(const std::vector<std::string>& paths,
                                    const ImportControl& control,
                                    const std::string& hashFolder = "");

@@ -240,6 +240,40 @@ TEST_F(DemSource, LeavesOpenWhereAnAlphaBandIsZero) {
     EXPECT_EQ(dem->grid.at(1, 1), 1);
 }
 
+TEST_F(DemSource, RefusesWhatSaysWhereItIsWithoutAGeotransform) {
+    constexpr auto kInvalid = absl::StatusCode::kInvalidArgument;
+    expectRefused(virtualRaster("<GCPList Projection=\"EPSG:32632\">"
+                                "<GCP Id=\"1\" Pixel=\"0\" Line=\"0\" X=\"500000\" Y=\"5000000\"/>"
+                                "</GCPList>",
+                                ""),
+                  kInvalid, "ground control points");
+    expectRefused(
+        virtualRaster("<Metadata domain=\"RPC\"><MDI key=\"LINE_OFF\">1</MDI></Metadata>", ""),
+        kInvalid, "gdalwarp -rpc");
+    expectRefused(virtualRaster("<Metadata domain=\"GEOLOCATION\"><MDI key=\"X_BAND\">1</MDI>"
+                                "</Metadata>",
+                                ""),
+                  kInvalid, "gdalwarp -geoloc");
+    expectRefused(virtualRaster("<SRS dataAxisToSRSAxisMapping=\"2,1\">EPSG:4326</SRS>", ""),
+                  kInvalid, "brought from degrees to metres");
+}
+
+TEST_F(DemSource, NamesARasterOfAnArchiveOfSeveralFiles) {
+    const std::string archive = folder_.path("several.zip");
+    const std::string grid = "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2\n3 4\n";
+    GDALAllRegister();
+    for (const auto& [name, text] :
+         {std::pair<const char*, std::string>{"readme.txt", "About it."}, {"dem/1.asc", grid}}) {
+        VSILFILE* const file = VSIFOpenL(("/vsizip/" + archive + "/" + name).c_str(), "wb");
+        ASSERT_NE(file, nullptr);
+        VSIFWriteL(text.data(), 1, text.size(), file);
+        VSIFCloseL(file);
+    }
+    const std::string inside = "/vsizip/" + archive + "/dem/1.asc";
+    expectRefused(archive, absl::StatusCode::kInvalidArgument, "such as " + inside);
+    EXPECT_TRUE(test::readDem(inside).ok());
+}
+
 TEST_F(DemSource, RefusesWhatIsNoRaster) {
     expectRefused(folder_.path("none.tif"), absl::StatusCode::kNotFound, "no such file");
     expectRefused(written("text.tif", "not a raster at all"), absl::StatusCode::kInvalidArgument,

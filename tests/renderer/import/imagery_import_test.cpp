@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <memory>
 
 #include <fmt/format.h>
 #include <gdal_priv.h>
@@ -353,14 +354,17 @@ TEST_F(ImageryImport, StretchesAPictureWithoutAPlaceOverTheWholeTerrain) {
     EXPECT_LE(difference(image.at(high, low), {200, 40, 0, 255}), kTolerance) << "south-east";
 }
 
-TEST_F(ImageryImport, ReadsGreyPalettesAnd16Bits) {
+TEST_F(ImageryImport, ReadsGreyPalettesAndOtherThan8Bits) {
     struct Kind {
         const char* name;
         GDALDataType type;
         int bands;
         Rgba expected;
     };
+    std::unique_ptr<char*, decltype(&CSLDestroy)> fourBits(CSLAddString(nullptr, "NBITS=4"),
+                                                           &CSLDestroy);
     for (const Kind& kind : {Kind{"grey", GDT_Byte, 1, {77, 77, 77, 255}},
+                             Kind{"narrow", GDT_Byte, 1, {170, 170, 170, 255}},
                              Kind{"palette", GDT_Byte, 1, {10, 200, 30, 255}},
                              Kind{"deep", GDT_UInt16, 3, {77, 128, 255, 255}}}) {
         const std::string path = folder_.path(std::string(kind.name) + ".tif");
@@ -368,7 +372,8 @@ TEST_F(ImageryImport, ReadsGreyPalettesAnd16Bits) {
             GDALAllRegister();
             const GDALDatasetUniquePtr file(
                 GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
-                    path.c_str(), 40, 40, kind.bands, kind.type, nullptr));
+                    path.c_str(), 40, 40, kind.bands, kind.type,
+                    std::string_view(kind.name) == "narrow" ? fourBits.get() : nullptr));
             std::array<double, 6> transform{kWest - 50, 10, 0, kSouth + 350, 0, -10};
             file->SetGeoTransform(transform.data());
             OGRSpatialReference crs;
@@ -381,7 +386,7 @@ TEST_F(ImageryImport, ReadsGreyPalettesAnd16Bits) {
                 file->GetRasterBand(1)->SetColorTable(&table);
                 file->GetRasterBand(1)->Fill(3);
             } else if (kind.type == GDT_Byte) {
-                file->GetRasterBand(1)->Fill(77);
+                file->GetRasterBand(1)->Fill(std::string_view(kind.name) == "narrow" ? 10 : 77);
             } else {
                 file->GetRasterBand(1)->Fill(77 * 16);
                 file->GetRasterBand(2)->Fill(128 * 16);
@@ -429,6 +434,20 @@ TEST_F(ImageryImport, LeavesHolesWhereABandsOwnMaskHides) {
             return y > kSouth + 140 ? Rgba{10, 200, 30, 255} : Rgba{0, 0, 0, 0};
         },
         4);
+}
+
+TEST_F(ImageryImport, WithoutAGeotransformSaysHowItIsToBeBroughtToOne) {
+    write(over(290, 290, 10, waves(100)));
+    std::ofstream(folder_.path("points.vrt"))
+        << "<VRTDataset rasterXSize=\"37\" rasterYSize=\"37\"><GCPList Projection=\"EPSG:32633\">"
+           "<GCP Id=\"1\" Pixel=\"0\" Line=\"0\" X=\"500000\" Y=\"5000000\"/></GCPList>"
+           "<VRTRasterBand dataType=\"Byte\" band=\"1\"><SimpleSource>"
+           "<SourceFilename relativeToVRT=\"1\">picture.tif</SourceFilename>"
+           "<SourceBand>1</SourceBand></SimpleSource></VRTRasterBand></VRTDataset>";
+    const absl::Status status = importError(test::slope(30, 30, 10), {folder_.path("points.vrt")});
+    EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
+    EXPECT_THAT(status.ToString(), HasSubstr("ground control points"));
+    EXPECT_THAT(status.ToString(), HasSubstr("gdalwarp"));
 }
 
 TEST_F(ImageryImport, BesideTheTerrainIsAnError) {
