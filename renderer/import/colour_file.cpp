@@ -124,10 +124,11 @@ protected:
 
 class ColourDataset : public GDALDataset {
 public:
-    ColourDataset(Dataset source, const ColourRule& rule)
+    /// Its first `columns`.
+    ColourDataset(Dataset source, int columns, const ColourRule& rule)
         : source_(std::move(source)), rule_(rule) {
         GDALDataset& from = *GDALDataset::FromHandle(source_.get());
-        nRasterXSize = from.GetRasterXSize();
+        nRasterXSize = columns;
         nRasterYSize = from.GetRasterYSize();
         for (int band = 1; band <= kBands; ++band)
             SetBand(band, new ColourBand(this, band, *from.GetRasterBand(rule.colours[0])));
@@ -213,7 +214,7 @@ ColourBand::ColourBand(ColourDataset* owner, int number, const GDALRasterBand& s
     poDS = owner;
     nBand = number;
     eDataType = GDT_Byte;
-    nRasterXSize = const_cast<GDALRasterBand&>(shape).GetXSize();
+    nRasterXSize = owner->GetRasterXSize();
     nRasterYSize = const_cast<GDALRasterBand&>(shape).GetYSize();
     const_cast<GDALRasterBand&>(shape).GetBlockSize(&nBlockXSize, &nBlockYSize);
     constexpr std::int64_t kMostValues = 1 << 22;
@@ -264,9 +265,15 @@ absl::StatusOr<ColourFile> openColourFile(const std::string& path, QuietGdal& gd
         return invalid(path,
                        "its geotransform is not finite or has no area; set another "
                        "(gdal_edit.py -a_ullr)");
-    if (const OGRSpatialReferenceH crs = GDALGetSpatialRef(dataset.get()))
+    const OGRSpatialReferenceH crs = GDALGetSpatialRef(dataset.get());
+    if (crs != nullptr)
         file.crs.reset(OSRClone(crs));
-    file.dataset.reset(GDALDataset::ToHandle(new ColourDataset(std::move(dataset), rule)));
+    Georeference reference{{t[0], t[3]}, {t[1], t[4]}, {t[2], t[5]}};
+    int columns = GDALGetRasterXSize(dataset.get());
+    cutToOneTurn(file.isGeoreferenced ? crs : nullptr, reference, columns);
+    file.dataset.reset(GDALDataset::ToHandle(new ColourDataset(std::move(dataset), columns, rule)));
+    if (file.isGeoreferenced)
+        GDALSetGeoTransform(file.dataset.get(), geoTransform(reference).data());
     return file;
 }
 

@@ -308,6 +308,7 @@ absl::StatusOr<DemFile> openDemFile(const std::string& path, QuietGdal& gdal,
     ASSIGN_OR_RETURN(file.reference, georeferenceOf(path, dataset.get(), file.notes));
     if (crs != nullptr)
         file.crs.reset(OSRClone(crs));
+    cutToOneTurn(crs, file.reference, file.columns);
     ASSIGN_OR_RETURN(file.hash, rasterHash(path, dataset.get(), hashFolder));
     const auto impossible = std::make_shared<std::optional<ImpossibleHeight>>();
     file.impossible = impossible;

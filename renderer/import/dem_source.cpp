@@ -303,20 +303,24 @@ private:
     };
 
     absl::StatusOr<Suggested> suggestedFor(const DemFile& file) {
-        ASSIGN_OR_RETURN(const Dataset dataset,
-                         reprojected(file.dataset.get(), file.path, wkt_, gdal_));
+        const bool isAround = isAroundTheEarth(file.dataset.get());
+        std::optional<double> meridian;
+        if (isAround && aroundTheEarth_ > 0)
+            meridian = OSRGetNormProjParm(crs_.get(), SRS_PP_CENTRAL_MERIDIAN, 0, nullptr);
+        const Dataset outline = outlineOf(file.dataset.get(), meridian);
+        ASSIGN_OR_RETURN(const Dataset dataset, reprojected(outline.get(), file.path, wkt_, gdal_));
         std::array<double, 6> t{};
         GDALGetGeoTransform(dataset.get(), t.data());
         Suggested suggested{{{t[0], t[3]}, {t[1], t[4]}, {t[2], t[5]}},
                             GDALGetRasterXSize(dataset.get()),
                             GDALGetRasterYSize(dataset.get())};
-        if (!isAroundTheEarth(file.dataset.get()))
+        if (!isAround)
             return suggested;
-        if (aroundTheEarth_ > 0) {
-            // GDAL looks at places 17 degrees apart, and a rim may lie between two of them.
+        if (meridian) {
             suggested.reference.origin.x = -aroundTheEarth_ / 2;
             suggested.columns =
                 static_cast<int>(std::lround(aroundTheEarth_ / suggested.reference.perColumn.x));
+            suggested.reference.perColumn.x = aroundTheEarth_ / suggested.columns;
         } else if (const double coarser = postsAtRim(file) / suggested.reference.perColumn.x;
                    coarser > 1) {
             // And for posts as many on the map's diagonal as on the raster's, which is unrolled.

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <memory>
+#include <utility>
 
 #include <fmt/format.h>
 #include <gdal_priv.h>
@@ -280,55 +281,59 @@ TEST_F(HardCase26, APictureAroundThePoleCoversEveryTexel) {
 }
 
 /// Both of all longitudes, the elevations from one degree farther west: one of the picture's rims
-/// lies at the western end of the terrain and not, as the other, at its eastern one.
+/// lies at the western end of the terrain and not, as the other, at its eastern one. The second
+/// picture is of more than 360 degrees, by a rounding, and from Greenwich.
 TEST_F(HardCase26, APictureOfTheEarthCoversATerrainOfTheEarth) {
     GDALAllRegister();
-    {
-        const GDALDatasetUniquePtr dem(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
-            folder_.path("earth.tif").c_str(), 180, 90, 1, GDT_Float32, nullptr));
-        std::array<double, 6> transform{-181, 2, 0, 90, 0, -2};
-        OGRSpatialReference degrees;
-        degrees.importFromEPSG(4326);
-        dem->SetGeoTransform(transform.data());
-        dem->SetSpatialRef(&degrees);
-        dem->GetRasterBand(1)->Fill(100);
-    }
-    const auto colour = [](double longitude, double latitude) {
-        const auto wave = [](double degrees) {
-            return static_cast<std::uint8_t>(128 + 90 * std::sin(degrees * M_PI / 180));
-        };
-        return Rgba{wave(longitude), wave(2 * latitude), wave(longitude + 90), 255};
-    };
-    import::TerrainImportOptions options;
-    options.imagery = {write({.epsg = 4326,
-                              .west = -180,
-                              .north = 90,
-                              .pixel = 1,
-                              .columns = 360,
-                              .rows = 180,
-                              .colour = colour})};
-    const std::string out = folder_.path("earth.eyt");
-    const auto report = import::importTerrain({folder_.path("earth.tif")}, out, options, {});
-    ASSERT_TRUE(report.ok()) << report.status();
-    const auto file = *terrain::EytFile::open(out);
-    const test::TexelImage image = test::wholeLevel(*file, 0);
-    constexpr double kMetresPerDegree = 6378137 * M_PI / 180;
-    const fabric::Mat4& place = file->index().objectFromLattice;
-    const double texel = file->index().imagery->pyramid.texelPosts(0);
-    int open = 0, wrong = 0;
-    for (std::int64_t j = 0; j < image.height; ++j)
-        for (std::int64_t i = 0; i < image.width; ++i) {
-            const double x = place[3].x + place[0].x * (static_cast<double>(i) + 0.5) * texel;
-            const double y = place[3].y + place[1].y * (static_cast<double>(j) + 0.5) * texel;
-            const double longitude = x / kMetresPerDegree - 1;
-            const double latitude = y / kMetresPerDegree;
-            if (longitude > 178 || latitude > 89)
-                continue;
-            open += image.at(i, j).a == 0 ? 1 : 0;
-            wrong += difference(image.at(i, j), colour(longitude, latitude)) > kTolerance ? 1 : 0;
+    for (const auto& [west, pixel] : {std::pair(-180.0, 1.0), std::pair(0.0, 1 + 1e-12)}) {
+        {
+            const GDALDatasetUniquePtr dem(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
+                folder_.path("earth.tif").c_str(), 180, 90, 1, GDT_Float32, nullptr));
+            std::array<double, 6> transform{-181, 2, 0, 90, 0, -2};
+            OGRSpatialReference degrees;
+            degrees.importFromEPSG(4326);
+            dem->SetGeoTransform(transform.data());
+            dem->SetSpatialRef(&degrees);
+            dem->GetRasterBand(1)->Fill(100);
         }
-    EXPECT_EQ(open, 0) << "of " << image.texels.size();
-    EXPECT_EQ(wrong, 0) << "of " << image.texels.size();
+        const auto colour = [](double longitude, double latitude) {
+            const auto wave = [](double degrees) {
+                return static_cast<std::uint8_t>(128 + 90 * std::sin(degrees * M_PI / 180));
+            };
+            return Rgba{wave(longitude), wave(2 * latitude), wave(longitude + 90), 255};
+        };
+        import::TerrainImportOptions options;
+        options.imagery = {write({.epsg = 4326,
+                                  .west = west,
+                                  .north = 90,
+                                  .pixel = pixel,
+                                  .columns = 360,
+                                  .rows = 180,
+                                  .colour = colour})};
+        const std::string out = folder_.path("earth.eyt");
+        const auto report = import::importTerrain({folder_.path("earth.tif")}, out, options, {});
+        ASSERT_TRUE(report.ok()) << report.status();
+        const auto file = *terrain::EytFile::open(out);
+        const test::TexelImage image = test::wholeLevel(*file, 0);
+        constexpr double kMetresPerDegree = 6378137 * M_PI / 180;
+        const fabric::Mat4& place = file->index().objectFromLattice;
+        const double texel = file->index().imagery->pyramid.texelPosts(0);
+        int open = 0, wrong = 0;
+        for (std::int64_t j = 0; j < image.height; ++j)
+            for (std::int64_t i = 0; i < image.width; ++i) {
+                const double x = place[3].x + place[0].x * (static_cast<double>(i) + 0.5) * texel;
+                const double y = place[3].y + place[1].y * (static_cast<double>(j) + 0.5) * texel;
+                const double longitude = x / kMetresPerDegree - 1;
+                const double latitude = y / kMetresPerDegree;
+                if (longitude > 178 || latitude > 89)
+                    continue;
+                open += image.at(i, j).a == 0 ? 1 : 0;
+                wrong +=
+                    difference(image.at(i, j), colour(longitude, latitude)) > kTolerance ? 1 : 0;
+            }
+        EXPECT_EQ(open, 0) << "of " << image.texels.size();
+        EXPECT_EQ(wrong, 0) << "of " << image.texels.size();
+    }
 }
 
 TEST_F(ImageryImport, StretchesAPictureWithoutAPlaceOverTheWholeTerrain) {
