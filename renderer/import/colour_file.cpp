@@ -48,7 +48,7 @@ std::array<int, 3> colourBands(GDALDataset& dataset, int alpha) {
     return colours >= 3 ? std::array{1, 2, 3} : std::array{1, 1, 1};
 }
 
-/// The largest value that 16-bit bands hold, by their tag or by a look at them.
+/// The largest value that bands of other than 8 bits hold, by their tag or by a look at them.
 absl::StatusOr<double> brightest(const std::string& path, GDALDataset& dataset,
                                  const std::array<int, 3>& bands) {
     double most = 0;
@@ -79,14 +79,16 @@ absl::StatusOr<ColourRule> colourRule(const std::string& path, GDALDataset& data
                                          "into them with gdal_translate -ot Byte -scale",
                                          GDALGetDataTypeName(type)));
     rule.palette = first->GetColorTable();
-    rule.hasMask = rule.alpha == 0 && (first->GetMaskFlags() & GMF_PER_DATASET) != 0;
+    const int mask = first->GetMaskFlags();
+    rule.hasMask = rule.alpha == 0 && mask != GMF_ALL_VALID && mask != GMF_NODATA;
     for (std::size_t c = 0; c < 3; ++c) {
         int isSet = 0;
         const double value = dataset.GetRasterBand(rule.colours[c])->GetNoDataValue(&isSet);
         if (isSet != 0)
             rule.nodata[c] = value;
     }
-    if (type != GDT_Byte && rule.palette == nullptr) {
+    const bool isNarrow = first->GetMetadataItem("NBITS", "IMAGE_STRUCTURE") != nullptr;
+    if ((type != GDT_Byte || isNarrow) && rule.palette == nullptr) {
         ASSIGN_OR_RETURN(const double most, brightest(path, dataset, rule.colours));
         rule.bytePerValue = 255 / most;
         notes.push_back(fmt::format("{}: values of 0 to {} turned to 8 bits", path, most));
@@ -122,10 +124,11 @@ protected:
 
 class ColourDataset : public GDALDataset {
 public:
-    ColourDataset(Dataset source, const ColourRule& rule)
+    /// Its first `columns`.
+    ColourDataset(Dataset source, int columns, const ColourRule& rule)
         : source_(std::move(source)), rule_(rule) {
         GDALDataset& from = *GDALDataset::FromHandle(source_.get());
-        nRasterXSize = from.GetRasterXSize();
+        nRasterXSize = columns;
         nRasterYSize = from.GetRasterYSize();
         for (int band = 1; band <= kBands; ++band)
             SetBand(band, new ColourBand(this, band, *from.GetRasterBand(rule.colours[0])));
@@ -211,7 +214,7 @@ ColourBand::ColourBand(ColourDataset* owner, int number, const GDALRasterBand& s
     poDS = owner;
     nBand = number;
     eDataType = GDT_Byte;
-    nRasterXSize = const_cast<GDALRasterBand&>(shape).GetXSize();
+    nRasterXSize = owner->GetRasterXSize();
     nRasterYSize = const_cast<GDALRasterBand&>(shape).GetYSize();
     const_cast<GDALRasterBand&>(shape).GetBlockSize(&nBlockXSize, &nBlockYSize);
     constexpr std::int64_t kMostValues = 1 << 22;
@@ -252,6 +255,7 @@ absl::StatusOr<ColourFile> openColourFile(const std::string& path, QuietGdal& gd
     ColourFile file;
     file.path = path;
     ASSIGN_OR_RETURN(Dataset dataset, openRaster(path, "a picture such as a GeoTIFF", gdal));
+    RETURN_IF_ERROR(checkPlace(path, dataset.get()));
     ASSIGN_OR_RETURN(const ColourRule rule,
                      colourRule(path, *GDALDataset::FromHandle(dataset.get()), file.notes));
     std::array<double, 6> t{};
@@ -261,9 +265,15 @@ absl::StatusOr<ColourFile> openColourFile(const std::string& path, QuietGdal& gd
         return invalid(path,
                        "its geotransform is not finite or has no area; set another "
                        "(gdal_edit.py -a_ullr)");
-    if (const OGRSpatialReferenceH crs = GDALGetSpatialRef(dataset.get()))
+    const OGRSpatialReferenceH crs = GDALGetSpatialRef(dataset.get());
+    if (crs != nullptr)
         file.crs.reset(OSRClone(crs));
-    file.dataset.reset(GDALDataset::ToHandle(new ColourDataset(std::move(dataset), rule)));
+    Georeference reference{{t[0], t[3]}, {t[1], t[4]}, {t[2], t[5]}};
+    int columns = GDALGetRasterXSize(dataset.get());
+    cutToOneTurn(file.isGeoreferenced ? crs : nullptr, reference, columns);
+    file.dataset.reset(GDALDataset::ToHandle(new ColourDataset(std::move(dataset), columns, rule)));
+    if (file.isGeoreferenced)
+        GDALSetGeoTransform(file.dataset.get(), geoTransform(reference).data());
     return file;
 }
 

@@ -19,6 +19,7 @@ namespace {
 
 /// What a pixel value has to go through to be metres.
 struct ValueRule {
+    bool isSignedByte = false;  ///< GDAL before 3.7 reads these as 0 to 255
     std::optional<float> nodata;
     bool lowestIsNodata = false;  ///< -32768, in 16-bit rasters, said or not
     double scale = 1;
@@ -94,6 +95,16 @@ double metresPerUnit(GDALRasterBandH band, OGRSpatialReferenceH crs,
     return metres;
 }
 
+/// Whether its vertical axis points down. That tells nothing of a file's values: BAGs of NOAA, and
+/// what is made of them, have such a CRS and elevations below zero. `crs` may be null.
+bool isDepth(OGRSpatialReferenceH crs) {
+    if (crs == nullptr || (OSRIsCompound(crs) == 0 && OSRIsVertical(crs) == 0))
+        return false;
+    OGRAxisOrientation axis = OAO_Other;
+    OSRGetAxis(crs, "VERT_CS", 0, &axis);
+    return axis == OAO_Down;
+}
+
 absl::StatusOr<ValueRule> valueRule(const std::string& path, GDALRasterBandH band,
                                     OGRSpatialReferenceH crs, std::vector<std::string>& notes) {
     ValueRule rule;
@@ -102,6 +113,8 @@ absl::StatusOr<ValueRule> valueRule(const std::string& path, GDALRasterBandH ban
     if (isSet != 0)
         rule.nodata = static_cast<float>(nodata);
     rule.lowestIsNodata = GDALGetRasterDataType(band) == GDT_Int16;
+    const char* const pixelType = GDALGetMetadataItem(band, "PIXELTYPE", "IMAGE_STRUCTURE");
+    rule.isSignedByte = pixelType != nullptr && EQUAL(pixelType, "SIGNEDBYTE");
     const double scale = GDALGetRasterScale(band, &isSet);
     const double offset = GDALGetRasterOffset(band, &isSet);
     if (!std::isfinite(scale) || !std::isfinite(offset) || scale == 0)
@@ -109,6 +122,10 @@ absl::StatusOr<ValueRule> valueRule(const std::string& path, GDALRasterBandH ban
                                          "and the scale not 0",
                                          scale, offset));
     const double unit = metresPerUnit(band, crs, notes);
+    if (isDepth(crs))
+        notes.emplace_back(
+            "its CRS is of depths, but values are taken for heights, upward, as most such files "
+            "have them; if they count downward, say so first (gdal_translate -a_scale -1)");
     rule.scale = scale * unit;
     rule.offset = offset * unit;
     return rule;
@@ -141,25 +158,37 @@ absl::StatusOr<Georeference> georeferenceOf(const std::string& path, GDALDataset
     return Georeference{{t[0], t[3]}, {t[1], t[4]}, {t[2], t[5]}};
 }
 
+/// What says which of a band's pixels have heights, beside its values; null: nothing does.
+GDALRasterBand* maskOf(GDALDataset& dataset, GDALRasterBand& heights) {
+    const int flags = heights.GetMaskFlags();
+    if (flags != GMF_ALL_VALID && flags != GMF_NODATA)
+        return heights.GetMaskBand();
+    // gdalwarp -dstalpha makes bands of the heights' type, which GDAL itself takes for no mask.
+    for (int band = 2; band <= dataset.GetRasterCount(); ++band)
+        if (dataset.GetRasterBand(band)->GetColorInterpretation() == GCI_AlphaBand)
+            return dataset.GetRasterBand(band);
+    return nullptr;
+}
+
 /// The heights of another dataset's first band, turned to metres block by block.
 class HeightBand : public GDALRasterBand {
 public:
     using Impossible = std::shared_ptr<std::optional<ImpossibleHeight>>;
 
-    HeightBand(GDALDataset* owner, GDALRasterBand* source, const ValueRule& rule,
-               Impossible impossible)
-        : source_(source), rule_(rule), impossible_(std::move(impossible)) {
+    /// `mask` is 0 where there is no height; null: there is none.
+    HeightBand(GDALDataset* owner, int columns, GDALRasterBand* source, GDALRasterBand* mask,
+               const ValueRule& rule, Impossible impossible)
+        : source_(source), mask_(mask), rule_(rule), impossible_(std::move(impossible)) {
         poDS = owner;
         nBand = 1;
         eDataType = GDT_Float32;
-        nRasterXSize = source->GetXSize();
+        nRasterXSize = columns;
         nRasterYSize = source->GetYSize();
         source->GetBlockSize(&nBlockXSize, &nBlockYSize);
         constexpr std::int64_t kMostValues = 1 << 22;
         if (nBlockXSize < 1 || nBlockYSize < 1 ||
             std::int64_t{nBlockXSize} * nBlockYSize > kMostValues)
             nBlockXSize = nBlockYSize = 512;
-        hasMask_ = (source->GetMaskFlags() & (GMF_PER_DATASET | GMF_ALPHA)) != 0;
     }
 
     double GetNoDataValue(int* isSet) override {
@@ -179,12 +208,12 @@ protected:
         if (source_->RasterIO(GF_Read, i, j, columns, rows, heights, columns, rows, GDT_Float32,
                               sizeof(float), line, nullptr) != CE_None)
             return CE_Failure;
-        if (hasMask_ && !readMask(i, j, columns, rows))
+        if (mask_ != nullptr && !readMask(i, j, columns, rows))
             return CE_Failure;
         for (int v = 0; v < rows; ++v)
             for (int u = 0; u < columns; ++u) {
                 float& height = heights[v * std::ptrdiff_t{nBlockXSize} + u];
-                height = hasMask_ && mask_[static_cast<std::size_t>(v * columns + u)] == 0
+                height = mask_ != nullptr && valid_[static_cast<std::size_t>(v * columns + u)] == 0
                              ? terrain::kNodata
                              : heightOf(height, i + u, j + v);
             }
@@ -193,12 +222,14 @@ protected:
 
 private:
     bool readMask(int i, int j, int columns, int rows) {
-        mask_.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
-        return source_->GetMaskBand()->RasterIO(GF_Read, i, j, columns, rows, mask_.data(), columns,
-                                                rows, GDT_Byte, 0, 0, nullptr) == CE_None;
+        valid_.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+        return mask_->RasterIO(GF_Read, i, j, columns, rows, valid_.data(), columns, rows, GDT_Byte,
+                               0, 0, nullptr) == CE_None;
     }
 
     float heightOf(float value, int column, int row) {
+        if (rule_.isSignedByte && value > 127)
+            value -= 256;
         if (isSaidToBeNodata(value, rule_))
             return terrain::kNodata;
         if (isPossible(value, rule_))
@@ -209,25 +240,30 @@ private:
     }
 
     GDALRasterBand* source_;
+    GDALRasterBand* mask_;
     ValueRule rule_;
     Impossible impossible_;
-    bool hasMask_ = false;
-    std::vector<unsigned char> mask_;
+    std::vector<unsigned char> valid_;
 };
 
 class HeightDataset : public GDALDataset {
 public:
-    HeightDataset(Dataset source, const ValueRule& rule, HeightBand::Impossible impossible)
-        : source_(std::move(source)) {
+    /// Its first `columns`, which lie as `reference` says.
+    HeightDataset(Dataset source, const Georeference& reference, int columns, const ValueRule& rule,
+                  HeightBand::Impossible impossible)
+        : source_(std::move(source)), transform_(geoTransform(reference)) {
         GDALDataset* const dataset = GDALDataset::FromHandle(source_.get());
-        nRasterXSize = dataset->GetRasterXSize();
+        nRasterXSize = columns;
         nRasterYSize = dataset->GetRasterYSize();
-        SetBand(1, new HeightBand(this, dataset->GetRasterBand(1), rule, std::move(impossible)));
+        GDALRasterBand* const heights = dataset->GetRasterBand(1);
+        SetBand(1, new HeightBand(this, columns, heights, maskOf(*dataset, *heights), rule,
+                                  std::move(impossible)));
     }
     ~HeightDataset() override { FlushCache(true); }
 
     CPLErr GetGeoTransform(double* transform) override {
-        return GDALGetGeoTransform(source_.get(), transform);
+        std::copy(transform_.begin(), transform_.end(), transform);
+        return CE_None;
     }
     const OGRSpatialReference* GetSpatialRef() const override {
         return GDALDataset::FromHandle(source_.get())->GetSpatialRef();
@@ -235,6 +271,7 @@ public:
 
 private:
     Dataset source_;
+    std::array<double, 6> transform_;
 };
 
 }  // namespace
@@ -263,6 +300,7 @@ absl::StatusOr<DemFile> openDemFile(const std::string& path, QuietGdal& gdal,
     if (GDALGetRasterCount(dataset.get()) > 1)
         file.notes.push_back(
             fmt::format("band 1 of {} taken for heights", GDALGetRasterCount(dataset.get())));
+    RETURN_IF_ERROR(checkPlace(path, dataset.get()));
     const OGRSpatialReferenceH crs = GDALGetSpatialRef(dataset.get());
     ASSIGN_OR_RETURN(const ValueRule rule, valueRule(path, band, crs, file.notes));
     std::array<double, 6> ignored{};
@@ -270,11 +308,12 @@ absl::StatusOr<DemFile> openDemFile(const std::string& path, QuietGdal& gdal,
     ASSIGN_OR_RETURN(file.reference, georeferenceOf(path, dataset.get(), file.notes));
     if (crs != nullptr)
         file.crs.reset(OSRClone(crs));
+    cutToOneTurn(crs, file.reference, file.columns);
     ASSIGN_OR_RETURN(file.hash, rasterHash(path, dataset.get(), hashFolder));
     const auto impossible = std::make_shared<std::optional<ImpossibleHeight>>();
     file.impossible = impossible;
-    file.dataset.reset(
-        GDALDataset::ToHandle(new HeightDataset(std::move(dataset), rule, impossible)));
+    file.dataset.reset(GDALDataset::ToHandle(
+        new HeightDataset(std::move(dataset), file.reference, file.columns, rule, impossible)));
     return file;
 }
 

@@ -214,8 +214,10 @@ private:
         for (const DemFile& file : files_) {
             if (!file.isGeoreferenced)
                 return invalid(file.path,
-                               "is not georeferenced, so it cannot be laid beside "
-                               "others; give it a georeference (gdal_edit.py)");
+                               fmt::format("is not georeferenced, so it cannot be {}; give it a "
+                                           "georeference (gdal_edit.py)",
+                                           files_.size() > 1 ? "laid beside others"
+                                                             : "brought from degrees to metres"));
             if ((file.crs == nullptr) != (files_.front().crs == nullptr))
                 return invalid(file.path,
                                fmt::format("{} a CRS, unlike {}; set the right one (gdal_edit.py "
@@ -277,7 +279,7 @@ private:
     /// The finest raster's grid, resampled if need be.
     absl::Status chooseGrid() {
         const DemFile& finest = files_[order_.front()];
-        wkt_ = crs_ ? metricWktOf(crs_.get()) : "";
+        wkt_ = crs_ ? wktOf(crs_.get()) : "";
         if (isNorthUp(finest)) {
             grid_ = gridOf(finest.reference);
             return absl::OkStatus();
@@ -301,20 +303,24 @@ private:
     };
 
     absl::StatusOr<Suggested> suggestedFor(const DemFile& file) {
-        ASSIGN_OR_RETURN(const Dataset dataset,
-                         reprojected(file.dataset.get(), file.path, wkt_, gdal_));
+        const bool isAround = isAroundTheEarth(file.dataset.get());
+        std::optional<double> meridian;
+        if (isAround && aroundTheEarth_ > 0)
+            meridian = OSRGetNormProjParm(crs_.get(), SRS_PP_CENTRAL_MERIDIAN, 0, nullptr);
+        const Dataset outline = outlineOf(file.dataset.get(), meridian);
+        ASSIGN_OR_RETURN(const Dataset dataset, reprojected(outline.get(), file.path, wkt_, gdal_));
         std::array<double, 6> t{};
         GDALGetGeoTransform(dataset.get(), t.data());
         Suggested suggested{{{t[0], t[3]}, {t[1], t[4]}, {t[2], t[5]}},
                             GDALGetRasterXSize(dataset.get()),
                             GDALGetRasterYSize(dataset.get())};
-        if (!isAroundTheEarth(file.dataset.get()))
+        if (!isAround)
             return suggested;
-        if (aroundTheEarth_ > 0) {
-            // GDAL looks at places 17 degrees apart, and a rim may lie between two of them.
+        if (meridian) {
             suggested.reference.origin.x = -aroundTheEarth_ / 2;
             suggested.columns =
                 static_cast<int>(std::lround(aroundTheEarth_ / suggested.reference.perColumn.x));
+            suggested.reference.perColumn.x = aroundTheEarth_ / suggested.columns;
         } else if (const double coarser = postsAtRim(file) / suggested.reference.perColumn.x;
                    coarser > 1) {
             // And for posts as many on the map's diagonal as on the raster's, which is unrolled.
@@ -451,7 +457,7 @@ private:
             notes_.push_back(caveat_);
         return DemSource{
             std::make_unique<LayeredSource>(std::move(layers), reference, all.columns, all.rows),
-            wkt_, 0, std::move(notes_)};
+            crs_ ? metricWktOf(crs_.get()) : "", 0, std::move(notes_)};
     }
 
     std::vector<DemFile> files_;
@@ -461,7 +467,7 @@ private:
     SpatialReference crs_;
     double aroundTheEarth_ = 0;  ///< LocalProjection::aroundTheEarth
     std::string caveat_;         ///< of the CRS, for people
-    std::string wkt_;
+    std::string wkt_;            ///< of `crs_`, in whose units `grid_` is
     PixelGrid grid_;
     std::optional<PixelBox> extent_;  ///< of all that have been placed
     std::vector<std::string> notes_;

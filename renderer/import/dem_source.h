@@ -27,7 +27,7 @@ struct DemSource {
 /// Posts are pixel centres. One raster in a projected CRS, or none, keeps its grid, rotation
 /// included, with units turned to metres. A geographic one is reprojected to what suits
 /// its size and place (local_projection.h; the UTM zone of its centre up to 30 degrees),
-/// bilinearly, at the spacing GDAL suggests.
+/// bilinearly, at the spacing GDAL suggests; of more than 360 degrees what goes on is left out.
 ///
 /// Several are laid over each other: the CRS is that of the finest projected one, or what
 /// suits all of them where all are geographic, the short way round; the grid is that of the
@@ -37,16 +37,17 @@ struct DemSource {
 /// named last. What none covers is nodata.
 ///
 /// Each raster's own scale, offset and foot units (the band's or, where it has none, those of its
-/// CRS's heights) are applied; vertical datums are left as they are, with a note where they differ.
-/// Nodata: the band's tag, its mask,
+/// CRS's heights) are applied; vertical datums are left as they are, with a note where they differ,
+/// and so are values whose CRS is of depths. Nodata: the band's tag, its mask or an alpha band,
 /// NaN, infinities, magnitudes from 1e30, and -32768 in 16-bit rasters; what of this the file does
 /// not itself call nodata is among the posts' findings.
 ///
 /// Reports as "checking" while it reads the files for their hash, unless that is in `hashFolder`
 /// (fileHash; empty: there is none). Errors, naming file and field:
 /// NotFound, InvalidArgument (no raster, not heights, less than 2 x 2 posts, no usable
-/// georeference, not to be brought together), ResourceExhausted (more posts than an .eyt holds).
-/// Posts that cannot be read are DataLoss. Nothing is printed, no file is written.
+/// georeference or one by control points, not to be brought together), ResourceExhausted (more
+/// posts than an .eyt holds). Posts that cannot be read are DataLoss. Nothing is printed, no
+/// file is written.
 absl::StatusOr<DemSource> openDems(const std::vector<std::string>& paths,
                                    const ImportControl& control,
                                    const std::string& hashFolder = "");

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderer/import/dem_warp.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <cpl_string.h>
@@ -60,6 +64,31 @@ absl::StatusOr<Dataset> warped(GDALDatasetH heights, const std::string& name,
 }
 
 }  // namespace
+
+Dataset outlineOf(GDALDatasetH heights, std::optional<double> meridian) {
+    const int columns = GDALGetRasterXSize(heights);
+    const int rows = GDALGetRasterYSize(heights);
+    Dataset outline(
+        GDALCreate(GDALGetDriverByName("VRT"), "", columns, rows, 1, GDT_Float32, nullptr));
+    std::array<double, 6> t{};
+    GDALGetGeoTransform(heights, t.data());
+    const OGRSpatialReferenceH crs = GDALGetSpatialRef(heights);
+    const double last = t[3] + t[5] * rows;
+    constexpr double kPole = 90;
+    if (crs != nullptr && OSRIsGeographic(crs) != 0 && t[4] == 0 &&
+        std::max(std::abs(t[3]), std::abs(last)) > kPole) {
+        t[3] = std::clamp(t[3], -kPole, kPole);
+        t[5] = (std::clamp(last, -kPole, kPole) - t[3]) / rows;
+    }
+    if (meridian) {
+        constexpr double kNearlyATurn = 360 * (1 - 1e-9);
+        t[1] = std::copysign(std::min(std::abs(t[1]), kNearlyATurn / columns), t[1]);
+        t[0] = *meridian - t[1] * columns / 2;
+    }
+    GDALSetGeoTransform(outline.get(), t.data());
+    GDALSetSpatialRef(outline.get(), crs);
+    return outline;
+}
 
 absl::StatusOr<Dataset> reprojected(GDALDatasetH heights, const std::string& name,
                                     const std::string& targetWkt, QuietGdal& gdal) {

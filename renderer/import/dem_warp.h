@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include <absl/status/statusor.h>
@@ -25,6 +26,15 @@ struct PixelBox {
     int columns = 0;
     int rows = 0;
 };
+
+/// A raster without pixels that lies as `heights` does, for GDAL to suggest a grid for.
+///
+/// It ends at the poles: grids with posts on them reach half a post farther, where GDAL finds no
+/// place, and it would suggest a grid for what is left when it looks at each twentieth. One of all
+/// longitudes lies around `meridian`, if that is given, the middle of a map of all longitudes: a
+/// corner on the map's rim could come to lie on either side, and posts are as dense as corners are
+/// apart.
+Dataset outlineOf(GDALDatasetH heights, std::optional<double> meridian);
 
 /// A lazily computed reprojection of a raster of heights in metres, which must outlive it: to the
 /// grid that GDAL suggests, or to `box` of `grid`. `name` is for messages.

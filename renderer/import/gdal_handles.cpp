@@ -61,6 +61,18 @@ std::string metricWktOf(OGRSpatialReferenceH reference) {
     return wktOf(metric.get());
 }
 
+void cutToOneTurn(OGRSpatialReferenceH crs, Georeference& reference, int& columns) {
+    constexpr double kTurn = 360;
+    const double pixel = std::abs(reference.perColumn.x);
+    if (crs == nullptr || OSRIsGeographic(crs) == 0 || reference.perColumn.y != 0 ||
+        pixel * columns <= kTurn)
+        return;
+    constexpr double kPixelsOfRounding = 1e-3;
+    columns = std::max(1, static_cast<int>(kTurn / pixel + kPixelsOfRounding));
+    if (pixel * columns > kTurn)
+        reference.perColumn.x = std::copysign(kTurn / columns, reference.perColumn.x);
+}
+
 bool isSameCrs(OGRSpatialReferenceH a, OGRSpatialReferenceH b) {
     return (a == nullptr && b == nullptr) || (a != nullptr && b != nullptr && OSRIsSame(a, b) != 0);
 }

@@ -66,6 +66,11 @@ std::string metricWktOf(OGRSpatialReferenceH reference);
 /// Null: none.
 bool isSameCrs(OGRSpatialReferenceH a, OGRSpatialReferenceH b);
 
+/// Cuts a raster in degrees, which has so many columns, to 360 of them. What goes on repeats its
+/// first ones; and where a raster is wider, be it by a rounding, GDAL's warper knows each longitude
+/// by one name only: of one from 0 it would leave out all that is -180 to 0 elsewhere.
+void cutToOneTurn(OGRSpatialReferenceH crs, Georeference& reference, int& columns);
+
 /// Latitude beyond which UTM ends and polar stereographic, for all longitudes, begins.
 inline constexpr double kUtmLimitDegrees = 84;
 

@@ -26,12 +26,30 @@ void allowManyOpenFiles() {
     setrlimit(RLIMIT_NOFILE, &limit);
 }
 
+/// A raster among the files of a .zip, by a name that openRaster takes; "": there is none.
+std::string rasterInside(const std::string& path) {
+    const std::string archive = gdalPath(path);
+    if (!archive.starts_with("/vsizip/"))
+        return "";
+    const std::unique_ptr<char*, Releaser<CSLDestroy>> names(VSIReadDirRecursive(archive.c_str()));
+    for (char** name = names.get(); name != nullptr && *name != nullptr; ++name) {
+        std::string file = fmt::format("{}/{}", archive, *name);
+        if (GDALIdentifyDriverEx(file.c_str(), GDAL_OF_RASTER, nullptr, nullptr) != nullptr)
+            return file;
+    }
+    return "";
+}
+
 absl::Status cannotBeOpened(const std::string& path, const char* wanted, QuietGdal& gdal) {
     RETURN_IF_ERROR(checkOpenFiles(path));
     const std::string error = gdal.takeError();
     if (VSIStatBufL status; VSIStatL(path.c_str(), &status) != 0)
         return absl::NotFoundError(
             fmt::format("{}: no such file, or not readable ({})", path, error));
+    if (const std::string inside = rasterInside(path); !inside.empty())
+        return invalid(path, fmt::format("holds more than one file; name the raster that is meant, "
+                                         "such as {}",
+                                         inside));
     return invalid(path, fmt::format("is no raster that GDAL {} reads ({}); give {}",
                                      GDALVersionInfo("RELEASE_NAME"), error, wanted));
 }
@@ -63,6 +81,24 @@ absl::StatusOr<Dataset> openRaster(const std::string& path, const char* wanted, 
                                          first ? fmt::format(", such as {}", first) : ""));
     }
     return dataset;
+}
+
+absl::Status checkPlace(const std::string& path, GDALDatasetH raster) {
+    std::array<double, 6> ignored{};
+    if (GDALGetGeoTransform(raster, ignored.data()) == CE_None)
+        return absl::OkStatus();
+    const auto needsWarp = [&](const char* what, const char* option) {
+        return invalid(path, fmt::format("says where it is by {}, not by a geotransform; bring it "
+                                         "to a grid first (gdalwarp{})",
+                                         what, option));
+    };
+    if (GDALGetGCPCount(raster) > 0)
+        return needsWarp("ground control points", "");
+    if (GDALGetMetadata(raster, "RPC") != nullptr)
+        return needsWarp("rational polynomials (RPC)", " -rpc");
+    if (GDALGetMetadata(raster, "GEOLOCATION") != nullptr)
+        return needsWarp("arrays of coordinates (GEOLOCATION)", " -geoloc");
+    return absl::OkStatus();
 }
 
 absl::Status checkOpenFiles(const std::string& path) {

@@ -20,6 +20,10 @@ std::string gdalPath(const std::string& path);
 /// of checkOpenFiles.
 absl::StatusOr<Dataset> openRaster(const std::string& path, const char* wanted, QuietGdal& gdal);
 
+/// InvalidArgument, naming the remedy, for a raster without a geotransform that says in another way
+/// where it is: taken for one that is nowhere it would come to lie in a wrong place.
+absl::Status checkPlace(const std::string& path, GDALDatasetH raster);
+
 /// ResourceExhausted, with `path` to blame, when this process can open no more files: to be asked
 /// when something could not be opened.
 absl::Status checkOpenFiles(const std::string& path);

@@ -5,7 +5,9 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <utility>
 
+#include <cpl_vsi.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -187,6 +189,89 @@ TEST_F(DemSource, ReadsTheLowest16BitValueAsNodata) {
     const auto hole = test::readDem(std::string(kSharedData) + "hard/dem/N44E005_big_hole.tif.gz");
     ASSERT_TRUE(hole.ok()) << hole.status();
     for (const float h : hole->grid.heights) ASSERT_TRUE(std::isnan(h) || h > -100) << h;
+}
+
+/// As GDAL before 3.7 tells bytes that are signed.
+TEST_F(DemSource, ReadsSignedBytesAsSuch) {
+    const std::string source = asciiGrid(3, 2, "0 1 127 128 214 255");
+    const auto dem = test::readDem(
+        written("signed.vrt",
+                "<VRTDataset rasterXSize=\"3\" rasterYSize=\"2\">"
+                "<VRTRasterBand dataType=\"Byte\" band=\"1\"><NoDataValue>-42</NoDataValue>"
+                "<Metadata domain=\"IMAGE_STRUCTURE\"><MDI key=\"PIXELTYPE\">SIGNEDBYTE</MDI>"
+                "</Metadata><SimpleSource><SourceFilename relativeToVRT=\"0\">" +
+                    source +
+                    "</SourceFilename><SourceBand>1</SourceBand></SimpleSource>"
+                    "</VRTRasterBand></VRTDataset>"));
+    ASSERT_TRUE(dem.ok()) << dem.status();
+    EXPECT_EQ(dem->grid.at(0, 0), -128);
+    EXPECT_TRUE(std::isnan(dem->grid.at(1, 0)));
+    EXPECT_EQ(dem->grid.at(2, 0), -1);
+    EXPECT_EQ(dem->grid.at(2, 1), 127);
+}
+
+/// The source as its own mask: the one post of 0 is none.
+TEST_F(DemSource, LeavesOpenWhatABandsOwnMaskHides) {
+    const auto dem = test::readDem(
+        virtualRaster("",
+                      "<MaskBand><VRTRasterBand dataType=\"Byte\"><SimpleSource>"
+                      "<SourceFilename relativeToVRT=\"1\">grid.asc</SourceFilename>"
+                      "<SourceBand>1</SourceBand></SimpleSource></VRTRasterBand></MaskBand>"));
+    ASSERT_TRUE(dem.ok()) << dem.status();
+    EXPECT_TRUE(std::isnan(dem->grid.at(0, 1)));
+    EXPECT_EQ(dem->grid.at(1, 1), 1);
+    EXPECT_EQ(dem->grid.at(2, 0), 5);
+}
+
+/// As gdalwarp -dstalpha writes it: of floats, which GDAL's own masks leave out.
+TEST_F(DemSource, LeavesOpenWhereAnAlphaBandIsZero) {
+    const std::string source =
+        "<SimpleSource><SourceFilename relativeToVRT=\"0\">" + asciiGrid(3, 2, "0 1 2 3 4 5") +
+        "</SourceFilename><SourceBand>1</SourceBand></SimpleSource></VRTRasterBand>";
+    const auto dem = test::readDem(written("alpha.vrt",
+                                           "<VRTDataset rasterXSize=\"3\" rasterYSize=\"2\">"
+                                           "<VRTRasterBand dataType=\"Float32\" band=\"1\">" +
+                                               source +
+                                               "<VRTRasterBand dataType=\"Float32\" band=\"2\">"
+                                               "<ColorInterp>Alpha</ColorInterp>" +
+                                               source + "</VRTDataset>"));
+    ASSERT_TRUE(dem.ok()) << dem.status();
+    EXPECT_TRUE(std::isnan(dem->grid.at(0, 1)));
+    EXPECT_EQ(dem->grid.at(1, 1), 1);
+}
+
+TEST_F(DemSource, RefusesWhatSaysWhereItIsWithoutAGeotransform) {
+    constexpr auto kInvalid = absl::StatusCode::kInvalidArgument;
+    expectRefused(virtualRaster("<GCPList Projection=\"EPSG:32632\">"
+                                "<GCP Id=\"1\" Pixel=\"0\" Line=\"0\" X=\"500000\" Y=\"5000000\"/>"
+                                "</GCPList>",
+                                ""),
+                  kInvalid, "ground control points");
+    expectRefused(
+        virtualRaster("<Metadata domain=\"RPC\"><MDI key=\"LINE_OFF\">1</MDI></Metadata>", ""),
+        kInvalid, "gdalwarp -rpc");
+    expectRefused(virtualRaster("<Metadata domain=\"GEOLOCATION\"><MDI key=\"X_BAND\">1</MDI>"
+                                "</Metadata>",
+                                ""),
+                  kInvalid, "gdalwarp -geoloc");
+    expectRefused(virtualRaster("<SRS dataAxisToSRSAxisMapping=\"2,1\">EPSG:4326</SRS>", ""),
+                  kInvalid, "brought from degrees to metres");
+}
+
+TEST_F(DemSource, NamesARasterOfAnArchiveOfSeveralFiles) {
+    const std::string archive = folder_.path("several.zip");
+    const std::string grid = "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2\n3 4\n";
+    GDALAllRegister();
+    for (const auto& [name, text] :
+         {std::pair<const char*, std::string>{"readme.txt", "About it."}, {"dem/1.asc", grid}}) {
+        VSILFILE* const file = VSIFOpenL(("/vsizip/" + archive + "/" + name).c_str(), "wb");
+        ASSERT_NE(file, nullptr);
+        VSIFWriteL(text.data(), 1, text.size(), file);
+        VSIFCloseL(file);
+    }
+    const std::string inside = "/vsizip/" + archive + "/dem/1.asc";
+    expectRefused(archive, absl::StatusCode::kInvalidArgument, "such as " + inside);
+    EXPECT_TRUE(test::readDem(inside).ok());
 }
 
 TEST_F(DemSource, RefusesWhatIsNoRaster) {

@@ -73,6 +73,68 @@ TEST_F(DemMosaic, TakesTheUnitOfHeightsFromTheCrsWhereTheBandHasNone) {
     EXPECT_THAT(dem->notes, testing::Contains(HasSubstr("vertical unit of its CRS")));
 }
 
+/// The finest one's CRS is in feet, and the others are on no grid of its, of its CRS or of one in
+/// metres. Heights tell where a post is, in metres of the CRS in feet.
+TEST_F(DemMosaic, BringsOthersToAGridInFeet) {
+    const char* const kFeet = "EPSG:2263";
+    const char* const kMetres = "EPSG:32118";  // the same projection
+    const auto ramp = [](double x, double y) { return (x - 300000) / 10 + (y - 60000) / 20; };
+    const auto rampInFeet = [&](double x, double y) {
+        return ramp(x / kFeetPerMetre, y / kFeetPerMetre);
+    };
+    const std::string fine = write({.crs = kFeet,
+                                    .west = 1'000'000,
+                                    .north = 200'000,
+                                    .pixel = 20,
+                                    .columns = 50,
+                                    .rows = 50,
+                                    .height = rampInFeet});
+    const std::string inFeet = write({.crs = kFeet,
+                                      .west = 1'000'990,
+                                      .north = 200'000,
+                                      .pixel = 33,
+                                      .columns = 30,
+                                      .rows = 30,
+                                      .height = rampInFeet});
+    const std::string inMetres = write({.crs = kMetres,
+                                        .west = 305'101,
+                                        .north = 60'960,
+                                        .pixel = 11,
+                                        .columns = 30,
+                                        .rows = 30,
+                                        .height = ramp});
+    for (const std::string& coarse : {inFeet, inMetres}) {
+        const auto dem = test::readDems({fine, coarse});
+        ASSERT_TRUE(dem.ok()) << dem.status();
+        const auto& grid = dem->grid;
+        ASSERT_GE(grid.columns, 95) << coarse;
+        ASSERT_LE(grid.columns, 110) << coarse;
+        for (std::int32_t i = 0; i < 90; ++i) {
+            const fabric::Vec2 at = grid.origin + grid.perColumn * static_cast<double>(i) +
+                                    grid.perRow * static_cast<double>(grid.rows - 20);
+            EXPECT_NEAR(grid.at(i, grid.rows - 20), ramp(at.x, at.y), 0.02) << coarse << ' ' << i;
+        }
+        EXPECT_THAT(dem->crsWkt, HasSubstr("in metres"));
+    }
+}
+
+/// As of BAGs, whose elevations are below zero all the same.
+TEST_F(DemMosaic, TellsThatValuesAreHeightsWhereTheCrsIsOfDepths) {
+    const std::string heights = write(
+        {.crs = "EPSG:26910+5715", .west = 500000, .north = 5200100, .height = constant(-30)});
+    const std::string depths = write({.crs = "EPSG:26910+5715",
+                                      .west = 500000,
+                                      .north = 5200100,
+                                      .height = constant(30),
+                                      .scale = -1});
+    for (const std::string& path : {heights, depths}) {
+        const auto dem = test::readDem(path);
+        ASSERT_TRUE(dem.ok()) << dem.status();
+        EXPECT_EQ(dem->grid.at(5, 5), -30);
+        EXPECT_THAT(dem->notes, testing::Contains(HasSubstr("gdal_translate -a_scale -1")));
+    }
+}
+
 TEST_F(DemMosaic, TellsOfVerticalDatumsThatDiffer) {
     const std::string navd88 =
         write({.crs = "EPSG:26910+5703", .west = 500000, .north = 5200100, .height = constant(1)});

@@ -4,7 +4,10 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <memory>
+#include <utility>
 
+#include <fmt/format.h>
 #include <gdal_priv.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -278,55 +281,59 @@ TEST_F(HardCase26, APictureAroundThePoleCoversEveryTexel) {
 }
 
 /// Both of all longitudes, the elevations from one degree farther west: one of the picture's rims
-/// lies at the western end of the terrain and not, as the other, at its eastern one.
+/// lies at the western end of the terrain and not, as the other, at its eastern one. The second
+/// picture is of more than 360 degrees, by a rounding, and from Greenwich.
 TEST_F(HardCase26, APictureOfTheEarthCoversATerrainOfTheEarth) {
     GDALAllRegister();
-    {
-        const GDALDatasetUniquePtr dem(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
-            folder_.path("earth.tif").c_str(), 180, 90, 1, GDT_Float32, nullptr));
-        std::array<double, 6> transform{-181, 2, 0, 90, 0, -2};
-        OGRSpatialReference degrees;
-        degrees.importFromEPSG(4326);
-        dem->SetGeoTransform(transform.data());
-        dem->SetSpatialRef(&degrees);
-        dem->GetRasterBand(1)->Fill(100);
-    }
-    const auto colour = [](double longitude, double latitude) {
-        const auto wave = [](double degrees) {
-            return static_cast<std::uint8_t>(128 + 90 * std::sin(degrees * M_PI / 180));
-        };
-        return Rgba{wave(longitude), wave(2 * latitude), wave(longitude + 90), 255};
-    };
-    import::TerrainImportOptions options;
-    options.imagery = {write({.epsg = 4326,
-                              .west = -180,
-                              .north = 90,
-                              .pixel = 1,
-                              .columns = 360,
-                              .rows = 180,
-                              .colour = colour})};
-    const std::string out = folder_.path("earth.eyt");
-    const auto report = import::importTerrain({folder_.path("earth.tif")}, out, options, {});
-    ASSERT_TRUE(report.ok()) << report.status();
-    const auto file = *terrain::EytFile::open(out);
-    const test::TexelImage image = test::wholeLevel(*file, 0);
-    constexpr double kMetresPerDegree = 6378137 * M_PI / 180;
-    const fabric::Mat4& place = file->index().objectFromLattice;
-    const double texel = file->index().imagery->pyramid.texelPosts(0);
-    int open = 0, wrong = 0;
-    for (std::int64_t j = 0; j < image.height; ++j)
-        for (std::int64_t i = 0; i < image.width; ++i) {
-            const double x = place[3].x + place[0].x * (static_cast<double>(i) + 0.5) * texel;
-            const double y = place[3].y + place[1].y * (static_cast<double>(j) + 0.5) * texel;
-            const double longitude = x / kMetresPerDegree - 1;
-            const double latitude = y / kMetresPerDegree;
-            if (longitude > 178 || latitude > 89)
-                continue;
-            open += image.at(i, j).a == 0 ? 1 : 0;
-            wrong += difference(image.at(i, j), colour(longitude, latitude)) > kTolerance ? 1 : 0;
+    for (const auto& [west, pixel] : {std::pair(-180.0, 1.0), std::pair(0.0, 1 + 1e-12)}) {
+        {
+            const GDALDatasetUniquePtr dem(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
+                folder_.path("earth.tif").c_str(), 180, 90, 1, GDT_Float32, nullptr));
+            std::array<double, 6> transform{-181, 2, 0, 90, 0, -2};
+            OGRSpatialReference degrees;
+            degrees.importFromEPSG(4326);
+            dem->SetGeoTransform(transform.data());
+            dem->SetSpatialRef(&degrees);
+            dem->GetRasterBand(1)->Fill(100);
         }
-    EXPECT_EQ(open, 0) << "of " << image.texels.size();
-    EXPECT_EQ(wrong, 0) << "of " << image.texels.size();
+        const auto colour = [](double longitude, double latitude) {
+            const auto wave = [](double degrees) {
+                return static_cast<std::uint8_t>(128 + 90 * std::sin(degrees * M_PI / 180));
+            };
+            return Rgba{wave(longitude), wave(2 * latitude), wave(longitude + 90), 255};
+        };
+        import::TerrainImportOptions options;
+        options.imagery = {write({.epsg = 4326,
+                                  .west = west,
+                                  .north = 90,
+                                  .pixel = pixel,
+                                  .columns = 360,
+                                  .rows = 180,
+                                  .colour = colour})};
+        const std::string out = folder_.path("earth.eyt");
+        const auto report = import::importTerrain({folder_.path("earth.tif")}, out, options, {});
+        ASSERT_TRUE(report.ok()) << report.status();
+        const auto file = *terrain::EytFile::open(out);
+        const test::TexelImage image = test::wholeLevel(*file, 0);
+        constexpr double kMetresPerDegree = 6378137 * M_PI / 180;
+        const fabric::Mat4& place = file->index().objectFromLattice;
+        const double texel = file->index().imagery->pyramid.texelPosts(0);
+        int open = 0, wrong = 0;
+        for (std::int64_t j = 0; j < image.height; ++j)
+            for (std::int64_t i = 0; i < image.width; ++i) {
+                const double x = place[3].x + place[0].x * (static_cast<double>(i) + 0.5) * texel;
+                const double y = place[3].y + place[1].y * (static_cast<double>(j) + 0.5) * texel;
+                const double longitude = x / kMetresPerDegree - 1;
+                const double latitude = y / kMetresPerDegree;
+                if (longitude > 178 || latitude > 89)
+                    continue;
+                open += image.at(i, j).a == 0 ? 1 : 0;
+                wrong +=
+                    difference(image.at(i, j), colour(longitude, latitude)) > kTolerance ? 1 : 0;
+            }
+        EXPECT_EQ(open, 0) << "of " << image.texels.size();
+        EXPECT_EQ(wrong, 0) << "of " << image.texels.size();
+    }
 }
 
 TEST_F(ImageryImport, StretchesAPictureWithoutAPlaceOverTheWholeTerrain) {
@@ -352,14 +359,17 @@ TEST_F(ImageryImport, StretchesAPictureWithoutAPlaceOverTheWholeTerrain) {
     EXPECT_LE(difference(image.at(high, low), {200, 40, 0, 255}), kTolerance) << "south-east";
 }
 
-TEST_F(ImageryImport, ReadsGreyPalettesAnd16Bits) {
+TEST_F(ImageryImport, ReadsGreyPalettesAndOtherThan8Bits) {
     struct Kind {
         const char* name;
         GDALDataType type;
         int bands;
         Rgba expected;
     };
+    std::unique_ptr<char*, decltype(&CSLDestroy)> fourBits(CSLAddString(nullptr, "NBITS=4"),
+                                                           &CSLDestroy);
     for (const Kind& kind : {Kind{"grey", GDT_Byte, 1, {77, 77, 77, 255}},
+                             Kind{"narrow", GDT_Byte, 1, {170, 170, 170, 255}},
                              Kind{"palette", GDT_Byte, 1, {10, 200, 30, 255}},
                              Kind{"deep", GDT_UInt16, 3, {77, 128, 255, 255}}}) {
         const std::string path = folder_.path(std::string(kind.name) + ".tif");
@@ -367,7 +377,8 @@ TEST_F(ImageryImport, ReadsGreyPalettesAnd16Bits) {
             GDALAllRegister();
             const GDALDatasetUniquePtr file(
                 GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
-                    path.c_str(), 40, 40, kind.bands, kind.type, nullptr));
+                    path.c_str(), 40, 40, kind.bands, kind.type,
+                    std::string_view(kind.name) == "narrow" ? fourBits.get() : nullptr));
             std::array<double, 6> transform{kWest - 50, 10, 0, kSouth + 350, 0, -10};
             file->SetGeoTransform(transform.data());
             OGRSpatialReference crs;
@@ -380,7 +391,7 @@ TEST_F(ImageryImport, ReadsGreyPalettesAnd16Bits) {
                 file->GetRasterBand(1)->SetColorTable(&table);
                 file->GetRasterBand(1)->Fill(3);
             } else if (kind.type == GDT_Byte) {
-                file->GetRasterBand(1)->Fill(77);
+                file->GetRasterBand(1)->Fill(std::string_view(kind.name) == "narrow" ? 10 : 77);
             } else {
                 file->GetRasterBand(1)->Fill(77 * 16);
                 file->GetRasterBand(2)->Fill(128 * 16);
@@ -394,6 +405,54 @@ TEST_F(ImageryImport, ReadsGreyPalettesAnd16Bits) {
             *file, 10, [&](double, double) { return kind.expected; }, 4);
         EXPECT_FALSE(std::ifstream(path + ".aux.xml").good()) << "nothing is written beside it";
     }
+}
+
+TEST_F(ImageryImport, LeavesHolesWhereABandsOwnMaskHides) {
+    const std::string path = write(over(290, 290, 10, [](double, double) {
+        return Rgba{10, 200, 30, 255};
+    }));
+    const auto band = [](int number, const char* more) {
+        return fmt::format(
+            "<VRTRasterBand dataType=\"Byte\" band=\"{}\">{}<SimpleSource>"
+            "<SourceFilename relativeToVRT=\"1\">picture.tif</SourceFilename>"
+            "<SourceBand>{}</SourceBand></SimpleSource></VRTRasterBand>",
+            number, more, number);
+    };
+    // The picture's north, 19 of its 38 rows.
+    const char* const kMask =
+        "<MaskBand><VRTRasterBand dataType=\"Byte\"><SimpleSource>"
+        "<SourceFilename relativeToVRT=\"1\">picture.tif</SourceFilename><SourceBand>2</SourceBand>"
+        "<SrcRect xOff=\"0\" yOff=\"0\" xSize=\"37\" ySize=\"19\"/>"
+        "<DstRect xOff=\"0\" yOff=\"0\" xSize=\"37\" ySize=\"19\"/>"
+        "</SimpleSource></VRTRasterBand></MaskBand>";
+    const std::string masked = folder_.path("masked.vrt");
+    std::ofstream(masked) << "<VRTDataset rasterXSize=\"37\" rasterYSize=\"37\">"
+                          << "<SRS>EPSG:32633</SRS><GeoTransform>"
+                          << fmt::format("{}, 10, 0, {}, 0, -10", kWest - 40, kSouth + 330)
+                          << "</GeoTransform>" << band(1, kMask) << band(2, kMask) << band(3, kMask)
+                          << "</VRTDataset>";
+    const auto file = imported(test::slope(30, 30, 10), {masked});
+    ASSERT_NE(file, nullptr);
+    expectColours(
+        *file, 10,
+        [](double, double y) {
+            return y > kSouth + 140 ? Rgba{10, 200, 30, 255} : Rgba{0, 0, 0, 0};
+        },
+        4);
+}
+
+TEST_F(ImageryImport, WithoutAGeotransformSaysHowItIsToBeBroughtToOne) {
+    write(over(290, 290, 10, waves(100)));
+    std::ofstream(folder_.path("points.vrt"))
+        << "<VRTDataset rasterXSize=\"37\" rasterYSize=\"37\"><GCPList Projection=\"EPSG:32633\">"
+           "<GCP Id=\"1\" Pixel=\"0\" Line=\"0\" X=\"500000\" Y=\"5000000\"/></GCPList>"
+           "<VRTRasterBand dataType=\"Byte\" band=\"1\"><SimpleSource>"
+           "<SourceFilename relativeToVRT=\"1\">picture.tif</SourceFilename>"
+           "<SourceBand>1</SourceBand></SimpleSource></VRTRasterBand></VRTDataset>";
+    const absl::Status status = importError(test::slope(30, 30, 10), {folder_.path("points.vrt")});
+    EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
+    EXPECT_THAT(status.ToString(), HasSubstr("ground control points"));
+    EXPECT_THAT(status.ToString(), HasSubstr("gdalwarp"));
 }
 
 TEST_F(ImageryImport, BesideTheTerrainIsAnError) {

@@ -171,6 +171,37 @@ TEST_F(HardCase26, WideLandsHaveEveryPlaceWhereProjHasIt) {
     }
 }
 
+/// Grids with posts on the poles, and on the meridian where they begin, twice, reach half a pixel
+/// beyond both; others do by a rounding. Pixels of a degree, see below.
+TEST_F(HardCase26, GridsBeyondThePolesAndATurnHaveAllOfTheEarth) {
+    struct Case {
+        double west, north, pixel;
+        int columns, rows;
+    };
+    for (const Case& one : {Case{-180.5, 90.5, 1, 361, 181}, Case{-0.5, 90.5, 1, 361, 181},
+                            Case{0, 90, 1 + 1e-12, 360, 180}}) {
+        const auto dem = test::readDem(write({.epsg = kDegrees,
+                                              .west = one.west,
+                                              .north = one.north,
+                                              .pixel = one.pixel,
+                                              .columns = one.columns,
+                                              .rows = one.rows,
+                                              .height = deep}));
+        ASSERT_TRUE(dem.ok()) << dem.status();
+        EXPECT_THAT(dem->crsWkt, HasSubstr("Equidistant cylindrical"));
+        EXPECT_EQ(dem->grid.columns, 360);
+        EXPECT_EQ(dem->grid.rows, 180);
+        const Checked found = check(*dem, fromCrs(dem->crsWkt), [&](const Place& at) {
+            const double turns = std::floor((at.longitude - one.west) / 360);
+            const double east = at.longitude - one.west - 360 * turns;
+            return east > 1 && east < 359 && std::abs(at.latitude) < 89.2;
+        });
+        EXPECT_GT(found.posts, 63000);
+        EXPECT_EQ(found.open, 0) << one.west;
+        EXPECT_LE(found.worst, 26);
+    }
+}
+
 /// Pixels of a degree and of two, from a degree farther west: where the finer raster is open, the
 /// coarser one is interpolated, which leaves 16 times what half a degree does.
 TEST_F(HardCase26, TwoRastersOfTheEarthFillEachOther) {
