@@ -13,6 +13,7 @@
 #include "cli/options/one_of.h"
 #include "coordinator/compound/plan_check.h"
 #include "coordinator/config/findings.h"
+#include "coordinator/config/named.h"
 #include "coordinator/config/one_channel.h"
 #include "coordinator/frame/active_configuration.h"
 #include "fabric/status.h"
@@ -27,16 +28,24 @@ using compound::Stereo;
 absl::Status showLayout(const ConfigOptions& options, config::Configuration& configuration) {
     if (options.layout.empty())
         return absl::OkStatus();
-    config::ConfigurationState state = config::initialState(configuration);
-    const std::string canvas = options.shown.canvas.empty() ? "0" : options.shown.canvas;
-    RETURN_IF_ERROR(fabric::withContext(
-        config::switchLayout(configuration, state, canvas, options.layout), "--layout"));
-    for (std::size_t i = 0; i < configuration.canvases.size(); ++i) {
-        auto& layouts = configuration.canvases[i].layouts;
-        const auto shown = std::ranges::find(layouts, state.layouts[i]);
-        if (shown != layouts.end())
-            std::rotate(layouts.begin(), shown, shown + 1);
+    auto& canvases = configuration.canvases;
+    std::size_t canvas = 0;
+    if (!options.shown.canvas.empty()) {
+        const auto found = config::findNamed(canvases, "canvas", options.shown.canvas);
+        RETURN_IF_ERROR(fabric::withContext(found.status(), "--canvas"));
+        canvas = *found;
     }
+    config::ConfigurationState state = config::initialState(configuration);
+    RETURN_IF_ERROR(
+        fabric::withContext(config::switchLayout(configuration, state,
+                                                 config::called(canvases, canvas), options.layout),
+                            "--layout"));
+    auto& layouts = canvases[canvas].layouts;
+    const auto shown = std::ranges::find(layouts, state.layouts[canvas]);
+    if (shown != layouts.end())
+        std::rotate(layouts.begin(), shown, shown + 1);
+    else  // OFF, which every canvas can be
+        layouts.insert(layouts.begin(), state.layouts[canvas]);
     return absl::OkStatus();
 }
 

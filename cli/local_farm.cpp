@@ -35,6 +35,7 @@ LocalFarm::LocalFarm(TemporaryFolder folder, std::unique_ptr<coordinator::Coordi
       coordinator_(std::move(coordinator)) {}
 
 void LocalFarm::startRenderers(int count) {
+    started_ = count;
     renderers_ = std::make_unique<RendererProcesses>(
         RendererProcessesOptions{count, coordinator_->grpcAddresses().front(), hardwareDevices(),
                                  cache_, decoding_},
@@ -48,6 +49,24 @@ absl::Status LocalFarm::check() const {
         "no renderer can work on this machine; each has said why above");
 }
 
+/// One of ours that is refused, such as for data that it cannot open, stays so until others are
+/// asked for. Those of other machines come and go.
+absl::Status LocalFarm::checkEnough(int count, std::ptrdiff_t alive,
+                                    const coordinator::Status& status) const {
+    const auto isRefused = [ours = folder_.socket("")](const coordinator::RendererStatus& one) {
+        return one.condition == coordinator::RendererCondition::Refused &&
+               one.address.starts_with(ours);
+    };
+    const auto& all = status.renderers;
+    if (alive >= count || std::ranges::count_if(all, isRefused) + alive < started_)
+        return absl::OkStatus();
+    const auto first = std::ranges::find_if(all, isRefused);
+    if (first == all.end())
+        return absl::OkStatus();
+    return absl::FailedPreconditionError(
+        fmt::format("{} renderer can draw this: {}", alive == 0 ? "no" : "not every", first->why));
+}
+
 absl::Status LocalFarm::awaitRenderers(int count, std::chrono::milliseconds limit,
                                        const std::stop_token& stop) {
     const auto deadline = std::chrono::steady_clock::now() + limit;
@@ -58,6 +77,7 @@ absl::Status LocalFarm::awaitRenderers(int count, std::chrono::milliseconds limi
             std::ranges::count_if(status.renderers, [](const auto& one) { return one.isAlive(); });
         if (alive >= count && status.problem.empty())
             return absl::OkStatus();
+        RETURN_IF_ERROR(checkEnough(count, alive, status));
         if (stop.stop_requested())
             return absl::CancelledError("stopped");
         if (std::chrono::steady_clock::now() >= deadline)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <memory>
 #include <stop_token>
 
@@ -35,7 +36,8 @@ public:
     void setRenderers(int count) { renderers_->setCount(count); }
 
     /// Waits until `count` renderers are there and frames can be had. Errors: FailedPrecondition
-    /// (none can work here; they have said why), DeadlineExceeded (with what is amiss), Cancelled.
+    /// (none can work here, they have said why; or too few can draw this, with why),
+    /// DeadlineExceeded (with what is amiss), Cancelled.
     absl::Status awaitRenderers(int count, std::chrono::milliseconds limit,
                                 const std::stop_token& stop);
 
@@ -46,11 +48,15 @@ private:
     LocalFarm(TemporaryFolder folder, std::unique_ptr<coordinator::Coordinator> coordinator,
               CacheOptions cache, TileDecoding decoding);
 
+    absl::Status checkEnough(int count, std::ptrdiff_t alive,
+                             const coordinator::Status& status) const;
+
     TemporaryFolder folder_;
     const CacheOptions cache_;
     const TileDecoding decoding_;
     std::unique_ptr<coordinator::Coordinator> coordinator_;
     std::unique_ptr<RendererProcesses> renderers_;
+    int started_ = 0;
 };
 
 }  // namespace eyrie::cli

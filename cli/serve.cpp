@@ -145,7 +145,7 @@ absl::Status serve(const Options& options) {
     farm->startRenderers(count.of(shown));
     const absl::Status ready = farm->awaitRenderers(1, kFirstRendererLimit, stop.token());
     RETURN_IF_ERROR(farm->check());
-    if (absl::IsDeadlineExceeded(ready))
+    if (!ready.ok() && !absl::IsCancelled(ready))
         spdlog::warn("{}", std::string_view(ready.message().data(), ready.message().size()));
     if (stop.token().stop_requested())
         return absl::OkStatus();

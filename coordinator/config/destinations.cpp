@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -139,6 +140,10 @@ private:
 
     void addCanvas(std::size_t index) {
         const Canvas& canvas = configuration_.canvases[index];
+        if (canvas.segments.empty() || canvas.layouts.empty())
+            findings_.warning(canvas.place,
+                              fmt::format("a canvas without {} shows nothing",
+                                          canvas.segments.empty() ? "segment" : "layout"));
         std::vector<bool> has(configuration_.layouts.size(), false);
         for (std::size_t i = 0; i < canvas.layouts.size(); ++i) {
             const std::optional<std::size_t>& layout = canvas.layouts[i];
@@ -163,9 +168,30 @@ private:
             return findings_.error(
                 configuration_.canvases[canvas].place,
                 fmt::format("views and segments would meet in more than {} pairs", kMostPairs));
-        for (std::size_t view = 0; view < views; ++view)
+        if (views == 0)
+            findings_.warning(configuration_.layouts[layout].place,
+                              "a layout without view shows nothing");
+        for (std::size_t view = 0; view < views; ++view) {
+            const std::size_t first = found_.size();
             for (std::size_t segment = 0; segment < segments; ++segment)
                 add({canvas, segment, layout, view}, isShown);
+            warnOfUnseen(configuration_.layouts[layout].views[view],
+                         std::span(found_).subspan(first));
+        }
+    }
+
+    /// Of a view whose eyes none of its segments has.
+    void warnOfUnseen(const View& view, std::span<const Destination> destinations) {
+        if (destinations.empty() || std::ranges::any_of(destinations, [](const Destination& each) {
+                return !each.eyes.isEmpty();
+            }))
+            return;
+        findings_.warning(
+            view.place,
+            fmt::format("no segment of the canvas shows the view: for its mode {} that has to have "
+                        "the eye {}",
+                        view.isStereo ? "STEREO" : "MONO",
+                        view.isStereo ? "LEFT or RIGHT" : "CYCLOP"));
     }
 
     void add(const DestinationIndex& index, bool isShown) {

@@ -87,8 +87,7 @@ public:
         }
         if (form == Form::List ? isIgnored() : isIgnored() || open_.size() == kMostNesting) {
             if (form != Form::List && ignored_++ == 0 && count_ <= kMostStatements)
-                findings_.error(place,
-                                fmt::format("more than {} blocks within each other", kMostNesting));
+                tooDeep(form, place);
             return;
         }
         Statement* last = lastStatement();
@@ -132,7 +131,7 @@ public:
         statements().back() = std::move(done);
     }
 
-    std::vector<Statement> finish() {
+    EqcText finish() {
         isInList_ = false;
         while (!open_.empty()) {
             const Open& open = open_.back();
@@ -141,14 +140,20 @@ public:
             close(open.statement.form, '}', open.place);
         }
         checkLast();
-        return std::move(root_);
+        return std::move(text_);
     }
 
     void error(const Place& place, std::string message) {
         findings_.error(place, std::move(message));
     }
 
-    std::string version;
+    /// Of the first line that says it: others are comments, such as what a file once was.
+    void version(std::string number, Place place) {
+        if (text_.version.empty()) {
+            text_.version = std::move(number);
+            text_.versionPlace = std::move(place);
+        }
+    }
 
 private:
     struct Open {
@@ -160,8 +165,13 @@ private:
     void tooMany(const Place& place) {
         findings_.error(place, fmt::format("more than {} statements", kMostStatements));
     }
+    void tooDeep(Form form, const Place& place) {
+        findings_.error(place, fmt::format("more than {} blocks within each other", kMostNesting));
+        if (Statement* const last = lastStatement(); last != nullptr && last->form == Form::Missing)
+            last->form = form;
+    }
     std::vector<Statement>& statements() {
-        return open_.empty() ? root_ : open_.back().statement.statements;
+        return open_.empty() ? text_.statements : open_.back().statement.statements;
     }
     Statement* lastStatement() { return statements().empty() ? nullptr : &statements().back(); }
     void checkLast() {
@@ -171,7 +181,7 @@ private:
     }
 
     Findings& findings_;
-    std::vector<Statement> root_;
+    EqcText text_;
     std::vector<Open> open_;   ///< blocks, outermost first; their statements still being gathered
     std::size_t ignored_ = 0;  ///< blocks deeper than kMostNesting
     std::size_t count_ = 0;    ///< statements
@@ -193,6 +203,20 @@ void addNumber(const In& in, Builder& builder, Scalar::Kind kind) {
     builder.scalar(std::move(scalar));
 }
 
+/// "1.2" of a line "#Equalizer 1.2 ascii".
+std::string versionIn(std::string_view line) {
+    const std::size_t begin = line.find_first_of("0123456789");
+    return std::string(line.substr(begin, line.find_first_not_of("0123456789.", begin) - begin));
+}
+
+std::string strayMessage(char byte) {
+    if (byte == '/')
+        return "'/' means nothing here; comments begin with # or //";
+    if (byte > ' ' && byte <= '~')
+        return fmt::format("'{}' means nothing here", byte);
+    return fmt::format("the byte {:#04x} means nothing here", static_cast<unsigned char>(byte));
+}
+
 template <typename Rule>
 struct Action : tao::pegtl::nothing<Rule> {};
 
@@ -204,7 +228,7 @@ struct Action : tao::pegtl::nothing<Rule> {};
             STATEMENT;                                      \
         }                                                   \
     };
-EYRIE_ACTION(VersionNumber, builder.version = in.string())
+EYRIE_ACTION(VersionLine, builder.version(versionIn(in.string_view()), placeOf(in)))
 EYRIE_ACTION(Open, builder.open(Form::Block, '{', placeOf(in)))
 EYRIE_ACTION(Close, builder.close(Form::Block, '}', placeOf(in)))
 EYRIE_ACTION(OpenList, builder.open(Form::List, '[', placeOf(in)))
@@ -219,9 +243,7 @@ EYRIE_ACTION(Text, builder.scalar({Scalar::Kind::Text, std::string(in.begin() + 
 EYRIE_ACTION(Character, builder.scalar({Scalar::Kind::Character,
                                         std::string(in.begin() + 1, in.end() - 1), 0, placeOf(in)}))
 EYRIE_ACTION(UnendedText, builder.error(placeOf(in), "no '\"' ends the text that begins here"))
-EYRIE_ACTION(Stray,
-             builder.error(placeOf(in), fmt::format("the byte {:#04x} means nothing here",
-                                                    static_cast<unsigned char>(*in.begin()))))
+EYRIE_ACTION(Stray, builder.error(placeOf(in), strayMessage(*in.begin())))
 #undef EYRIE_ACTION
 
 }  // namespace
@@ -232,13 +254,13 @@ EqcText parseEqc(std::string_view text, Findings& findings) {
             {}, fmt::format("{} bytes; a configuration has at most {}", text.size(), kLongestText));
         return {};
     }
+    constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+    if (text.starts_with(kByteOrderMark))  // as editors of Windows write
+        text.remove_prefix(kByteOrderMark.size());
     tao::pegtl::memory_input input(text.data(), text.data() + text.size(), "");
     Builder builder(findings);
     tao::pegtl::parse<rules::File, Action>(input, builder);
-    EqcText result;
-    result.statements = builder.finish();
-    result.version = std::move(builder.version);
-    return result;
+    return builder.finish();
 }
 
 }  // namespace eyrie::config

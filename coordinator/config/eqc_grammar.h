@@ -46,6 +46,7 @@ struct Statement {
 struct EqcText {
     std::string version = {};  ///< "1.2" of "#Equalizer 1.2 ascii"; empty without such a line
     std::vector<Statement> statements = {};
+    Place versionPlace = {};
 };
 
 /// Blocks within blocks, statements, and longest text, bytes, that are read, of any form.

@@ -109,8 +109,9 @@ Configuration readStatements(const EqcText& statements, Findings& findings) {
     configuration.version = statements.version;
     if (!configuration.version.empty() &&
         std::ranges::find(kVersions, configuration.version) == kVersions.end())
-        findings.error({}, fmt::format("the file is of version {}; 1.0, 1.1 and 1.2 are read",
-                                       configuration.version));
+        findings.error(statements.versionPlace,
+                       fmt::format("the file is of version {}; 1.0, 1.1 and 1.2 are read",
+                                   configuration.version));
     ValueReader reader(findings);
     FileReader(reader, configuration).read(statements.statements);
     warnOfSameNames(configuration, findings);

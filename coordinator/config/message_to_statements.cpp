@@ -211,6 +211,7 @@ EqcText toStatements(const v1::Configuration& message, Findings& findings) {
     Statement config{"config"};
     server.form = config.form = Form::Block;
     EqcText text{message.version()};
+    text.versionPlace.field = "version";
     for (Statement& each : Writer(findings).write(message, "", kWithinServerAndConfig)) {
         if (each.keyword == "global")
             text.statements.push_back(std::move(each));

@@ -12,14 +12,13 @@
 
 namespace eyrie::config {
 
-/// "left", 1, "right": names, positions where there are none.
+/// "left", "1", "right": names, positions where there are none.
 template <typename T>
 std::string namesOf(const std::vector<T>& things) {
     std::string names;
     for (std::size_t i = 0; i < things.size(); ++i)
-        names += fmt::format(
-            "{}{}", i == 0 ? "" : ", ",
-            things[i].name.empty() ? fmt::format("{}", i) : fmt::format("\"{}\"", things[i].name));
+        names += fmt::format("{}\"{}\"", i == 0 ? "" : ", ",
+                             things[i].name.empty() ? fmt::format("{}", i) : things[i].name);
     return names.empty() ? "none" : names;
 }
 

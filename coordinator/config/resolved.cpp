@@ -72,6 +72,7 @@ public:
             const std::size_t first = resolved_.compounds.size();
             visit(root, nullptr);
             matchFrames(first);
+            warnOfUnshown(root, first);
             warnOfQueueNames(std::span(resolved_.compounds).subspan(first), findings_);
         }
         for (std::size_t i = 0; i < served_.size(); ++i)
@@ -317,6 +318,17 @@ private:
         add(own.eyes.cyclop, Eye::Cyclop, places.cyclop);
         add(own.eyes.left, Eye::Left, places.left);
         add(own.eyes.right, Eye::Right, places.right);
+    }
+
+    /// Of a tree that only draws into channels, as files of Equalizer 1.0 do, where views show
+    /// others.
+    void warnOfUnshown(const Compound& root, std::size_t first) {
+        const auto tree = std::span(resolved_.compounds).subspan(first);
+        if (std::ranges::none_of(
+                tree, [](const ResolvedCompound& each) { return each.destination.has_value(); }))
+            findings_.warning(root.place,
+                              "nothing of this compound tree is shown: none of its channels is a "
+                              "view's, as in channel ( canvas 0 segment 0 layout 0 view 0 )");
     }
 
     /// Names count within one tree; of several output frames with one name at one time, the first.

@@ -21,9 +21,9 @@ std::string layoutsOf(const Configuration& configuration, const Canvas& canvas) 
     std::string names;
     for (const std::optional<std::size_t>& layout : canvas.layouts)
         if (layout)
-            names += configuration.layouts[*layout].name.empty()
-                         ? fmt::format("{}, ", *layout)
-                         : fmt::format("\"{}\", ", configuration.layouts[*layout].name);
+            names += fmt::format("\"{}\", ", configuration.layouts[*layout].name.empty()
+                                                 ? fmt::format("{}", *layout)
+                                                 : configuration.layouts[*layout].name);
     return names + "OFF";
 }
 

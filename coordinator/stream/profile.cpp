@@ -2,18 +2,26 @@
 #include "coordinator/stream/profile.h"
 
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
+
+#include "fabric/camera.h"
 
 namespace eyrie::stream {
 
 absl::Status validate(const ProfileLine& line) {
-    for (const double one : {line.from.x, line.from.y, line.to.x, line.to.y})
-        if (!std::isfinite(one))
-            return absl::InvalidArgumentError("an end of the profile is not finite");
+    constexpr double kMost = fabric::kMaxCoordinateMetres;
+    for (const auto& [field, metres] : {std::pair("from.x", line.from.x),
+                                        {"from.y", line.from.y},
+                                        {"to.x", line.to.x},
+                                        {"to.y", line.to.y}})
+        if (!(std::abs(metres) <= kMost))
+            return absl::InvalidArgumentError(fmt::format(
+                "{} is {:g} metres; it must be from {:g} to {:g}", field, metres, -kMost, kMost));
     if (line.samples < 2 || line.samples > kMaxSamples)
-        return absl::InvalidArgumentError(fmt::format(
-            "the profile has {} samples; it must have 2 to {}", line.samples, kMaxSamples));
+        return absl::InvalidArgumentError(
+            fmt::format("samples is {}; it must be 2 to {}", line.samples, kMaxSamples));
     return absl::OkStatus();
 }
 

@@ -21,7 +21,8 @@ struct ProfileLine {
 
 inline constexpr int kMaxSamples = 512;
 
-/// InvalidArgument, naming the field, unless the ends are finite and the number is in its range.
+/// InvalidArgument, naming the field, unless the ends are within fabric::kMaxCoordinateMetres and
+/// the number is in its range.
 absl::Status validate(const ProfileLine& line);
 
 /// Asks what lies topmost at sample `index` of `line`, by looking straight down from above all of a

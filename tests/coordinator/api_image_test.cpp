@@ -177,7 +177,13 @@ TEST_F(Rest, ProfilesHaveTheirSamples) {
         send("POST", "/profile", R"({"from":{"x":1},"to":{"x":2},"samples":5})");
     ASSERT_EQ(answer.status, 200) << *answer.body;
     EXPECT_EQ(member(json(answer), "samples").list_value().values_size(), 5);
-    expectProblem(send("POST", "/profile", R"({"samples":513})"), 400, "INVALID_ARGUMENT");
+    for (const auto& [body, field] : {std::pair(R"({"samples":513})", "samples"),
+                                      std::pair(R"({"to":{"y":1e16},"samples":2})", "to.y"),
+                                      std::pair(R"({"from":{"x":"NaN"},"samples":2})", "from.x")}) {
+        const RestAnswer refused = send("POST", "/profile", body);
+        expectProblem(refused, 400, "INVALID_ARGUMENT");
+        EXPECT_EQ(text(refused, "field"), field);
+    }
 }
 
 }  // namespace

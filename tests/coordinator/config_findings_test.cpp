@@ -33,19 +33,42 @@ TEST(EqcErrors, NameWhatIsOpenClosedOrStray) {
     EXPECT_THAT(firstError("config { appNode {"), HasSubstr("1:18 what opens here"));
     EXPECT_THAT(firstError("config { } }"), HasSubstr("1:12 '}' closes nothing"));
     EXPECT_THAT(firstError("config { name \"x\n }"), HasSubstr("1:15 no '\"' ends"));
-    EXPECT_THAT(firstError("config { @ }"), HasSubstr("1:10 the byte 0x40"));
+    EXPECT_THAT(firstError("config { @ }"), HasSubstr("1:10 '@' means nothing here"));
+    EXPECT_THAT(firstError("config { \x01 }"), HasSubstr("1:10 the byte 0x01"));
+    EXPECT_THAT(firstError("config { /* x */ }"), HasSubstr("comments begin with # or //"));
     EXPECT_THAT(firstError("config { latency }"), HasSubstr("1:10 'latency' has no value"));
     EXPECT_THAT(firstError("config { { } }"), HasSubstr("'{' belongs to no keyword"));
     EXPECT_THAT(firstError("config { layout { view { viewport [ 0 0 1 } } }"),
                 HasSubstr("expected [ x y width height ]"));
     EXPECT_THAT(firstError(""), HasSubstr("there is no config"));
-    EXPECT_THAT(firstError("#Equalizer 2.0 ascii\nconfig {}"), HasSubstr("version 2.0"));
+    EXPECT_THAT(firstError("\n #Equalizer 2.0 ascii\nconfig {}"), HasSubstr("2:2 the file is of "
+                                                                            "version 2.0"));
 }
 
 TEST(EqcErrors, AreFoundHoweverDeepBlocksLie) {
     std::string deep = "config ";
     for (int i = 0; i < 100'000; ++i) deep += "{ compound ";
     EXPECT_THAT(firstError(deep), HasSubstr("blocks within each other"));
+
+    std::string closed = "config { ";
+    for (int i = 0; i < 100; ++i) closed += "compound { ";
+    const Read read(closed + std::string(101, '}'));
+    EXPECT_EQ(read.findings.errors(), 1U) << describe(read.findings, "f");
+}
+
+TEST(EqcText, HasTheVersionOfItsHeaderNotOfComments) {
+    EXPECT_EQ(Read("#Equalizer 2.1 configuration of our cave\nconfig {}").configuration.version,
+              "");
+    EXPECT_EQ(Read("#Equalizer 1.2 ascii\n#Equalizer 1.0 had no canvases\n"
+                   "#Equalizer 1.1 ascii\nconfig {}")
+                  .configuration.version,
+              "1.2");
+}
+
+TEST(EqcText, MayBeginWithAByteOrderMark) {
+    const Read read("\xef\xbb\xbf#Equalizer 1.1 ascii\nconfig {}");
+    EXPECT_EQ(describe(read.findings, "f"), "");
+    EXPECT_EQ(read.configuration.version, "1.1");
 }
 
 TEST(EqcErrors, AreImpossibleShares) {
@@ -91,6 +114,34 @@ TEST(EqcWarnings, SayWhatHasNoEffect) {
     EXPECT_THAT(text, HasSubstr("no outputframe of this compound tree is named \"x\""));
     EXPECT_THAT(describe(sample("1-pipe.eqc").findings, "f"),
                 HasSubstr("on screen only: 'EQ_WINDOW_IATTR_HINT_FULLSCREEN'"));
+}
+
+TEST(EqcWarnings, SayWhatShowsNothing) {
+    const std::string node = "config { appNode { pipe { window { channel { name \"a\" } } } } ";
+    const auto shown = [&node](const std::string& mode, const std::string& eyes) {
+        return node + "layout { view { mode " + mode + " } } canvas { layout 0 segment { channel " +
+               "\"a\" } segment { channel \"a\" eye [ " + eyes + " ] } } }";
+    };
+    const auto alone = [&node](const std::string& mode, const std::string& eyes) {
+        return node + "layout { view { mode " + mode + " } } canvas { layout 0 segment { channel " +
+               "\"a\" eye [ " + eyes + " ] } } }";
+    };
+    const auto found = [](const std::string& text) { return describe(Read(text).findings, "f"); };
+    EXPECT_THAT(found(node + "layout { view {} } canvas { layout 0 } }"),
+                HasSubstr("f:1:82: warning: a canvas without segment shows nothing\n"));
+    EXPECT_THAT(found(node + "canvas { segment { channel \"a\" } } }"),
+                HasSubstr("a canvas without layout shows nothing"));
+    EXPECT_THAT(found(node + "layout {} canvas { layout 0 segment { channel \"a\" } } }"),
+                HasSubstr("f:1:63: warning: a layout without view shows nothing\n"));
+    EXPECT_THAT(found(alone("MONO", "LEFT RIGHT")),
+                HasSubstr("f:1:72: warning: no segment of the canvas shows the view: for its mode "
+                          "MONO that has to have the eye CYCLOP\n"));
+    EXPECT_THAT(found(alone("STEREO", "CYCLOP")), HasSubstr("the eye LEFT or RIGHT"));
+    EXPECT_EQ(found(shown("MONO", "LEFT RIGHT")), "") << "the other segment does";
+    EXPECT_EQ(found(alone("STEREO", "LEFT")), "");
+    EXPECT_EQ(found(withCompounds("compound { channel \"a\" compound { channel \"b\" } }")),
+              "f:1:204: warning: nothing of this compound tree is shown: none of its channels is a "
+              "view's, as in channel ( canvas 0 segment 0 layout 0 view 0 )\n");
 }
 
 /// Every setting of a configuration, wherever it stands.

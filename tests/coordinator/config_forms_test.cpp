@@ -159,7 +159,7 @@ TEST(ConfigurationJson, IsRefusedByFieldAsTextIsByLine) {
                     [{"viewport": [0, 0, 1]}]}]}], "observers": [{"eyeLeft": [1, "NaN", 0]}],
                     "layouts": [{"views": [{"observer": {"name": "x"}, "mode": 7}]}],
                     "canvases": [{"segments": [{"channel": {"position": {"node": 3}}}]}]})"),
-        "f: error: the file is of version 2.0; 1.0, 1.1 and 1.2 are read\n"
+        "f:version: error: the file is of version 2.0; 1.0, 1.1 and 1.2 are read\n"
         "f:latency: error: 'latency' is -1; expected a whole number from 0 to 1000\n"
         "f:nodes[0].pipes[0].device: error: 'device' is -1; expected a whole number from 0 to "
         "1000000000\n"

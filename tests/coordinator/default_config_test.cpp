@@ -139,7 +139,7 @@ TEST(ConfigurationState, ShowsTheLayoutThatIsSwitchedTo) {
               "canvas \"0\" has no layout called \"3D\"; there are \"2D\", \"Simple\", \"DB "
               "static\", \"DB dynamic\", \"direct-send\", \"DB-2D\", OFF");
     EXPECT_EQ(messageOf(switchLayout(made, state, "wall", "2D")),
-              "no canvas is called \"wall\"; there are 0");
+              "no canvas is called \"wall\"; there are \"0\"");
     EXPECT_EQ(state, before);
 }
 
@@ -181,7 +181,7 @@ TEST(ConfigurationState, MovesHeadsRigidlyOnly) {
          {fabric::Mat4(0), glm::scale(turned, {2, 1, 1}), glm::scale(turned, {-1, 1, 1}),
           fabric::Mat4(std::nan("")), glm::translate(turned, {1e9, 0, 0})})
         EXPECT_THAT(messageOf(setHead(made, state, "0", wrong)), HasSubstr("rotation and place"));
-    EXPECT_THAT(messageOf(setHead(made, state, "me", turned)), HasSubstr("there are 0"));
+    EXPECT_THAT(messageOf(setHead(made, state, "me", turned)), HasSubstr("there are \"0\""));
     EXPECT_EQ(state.heads.at(0), turned);
 }
 

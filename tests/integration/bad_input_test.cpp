@@ -390,6 +390,15 @@ TEST_F(BadInput, DamagedDataFilesAreRefusedAndNeverCrash) {
     }
 }
 
+TEST_F(BadInput, RenderersThatCannotOpenTheDataAreNotWaitedFor) {
+    const auto whole = test::readFile(good("ball.eym"));
+    ASSERT_TRUE(whole.ok()) << whole.status();
+    const std::string file = folder_.write("ball.eym", whole->substr(0, whole->size() / 2));
+    expectRefused({"render", file, "--camera", good("camera.json"), "--size", "32x32",
+                   "--renderers", "2", "-o", bad("out.png")},
+                  {"renderer can draw this", "ball.eym"}, kWorkFailed);
+}
+
 TEST_F(BadInput, WithoutEglRenderSaysWhatToInstall) {
     expectRefused({"render", good("ball.eym"), "--camera", good("camera.json"), "--size", "32x32",
                    "-o", bad("out.png")},

@@ -9,6 +9,7 @@
 #include <string>
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/support/identifier.h"
@@ -18,6 +19,9 @@
 
 namespace eyrie {
 namespace {
+
+using testing::HasSubstr;
+using testing::Not;
 
 struct Case {
     const char* file;
@@ -229,6 +233,28 @@ TEST_F(ConfigPictures, WhatIsNotThereIsNamed) {
     EXPECT_NE(outcome.exit, (test::Exit{0, 0}));
     EXPECT_NE(outcome.errors.find("no segment is called \"attic\"; there are"), std::string::npos)
         << outcome.errors;
+}
+
+TEST_F(ConfigPictures, LayoutsAreSwitchedOnTheCanvasThatIsSeen) {
+    const std::string file = folder_->path("canvases.eqc");
+    std::ofstream(file) << R"(config {
+        appNode { pipe { window { viewport [ 0 0 64 64 ] channel { name "a" } } } }
+        layout { name "x" view {} } layout { name "y" view {} }
+        canvas { name "first" layout "x" layout "y" segment { channel "a" } }
+        canvas { name "0" layout "x" segment { channel "a" } } })";
+    const auto rendered = [&](const std::vector<std::string>& options) {
+        std::vector<std::string> arguments = {"render",   folder_->path("ball.eym"),
+                                              "--camera", folder_->path("cam.json"),
+                                              "--config", file,
+                                              "--size",   "64x64",
+                                              "-o",       folder_->path("out.png")};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        return test::eyrie(arguments).errors;
+    };
+    EXPECT_THAT(rendered({"--layout", "y"}), Not(HasSubstr("no layout"))) << "of the first";
+    EXPECT_THAT(rendered({"--layout", "OFF"}), HasSubstr(" 0 triangles"));
+    EXPECT_THAT(rendered({"--layout", "x", "--canvas", "third"}),
+                HasSubstr("--canvas: no canvas is called \"third\""));
 }
 
 }  // namespace
